@@ -1,0 +1,19 @@
+"""Exceptions raised by seacrane; each message names the object, the value and the fix."""
+
+from __future__ import annotations
+
+
+class SeacraneError(Exception):
+    """Base of every exception that seacrane raises on purpose."""
+
+
+class SceneError(SeacraneError, ValueError):
+    """A scene, or one of its elements, contradicts itself or holds a value out of range."""
+
+
+class FileFormatError(SeacraneError, ValueError):
+    """A file is truncated, malformed or of an unknown kind."""
+
+
+class SimulationError(SeacraneError, RuntimeError):
+    """A run could not be continued; the message says which state, when, and what to try."""
