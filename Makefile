@@ -1,0 +1,111 @@
+# make demo     the paper's figures and report in out/demo
+# make test     everything that CI checks: lint, types, formatting, C++ tests (plain and sanitized), Python tests
+# make build    the package in .venv, rebuilt only where something changed
+# make nightly  longer tests;  make bench  benchmarks;  make stubs  python/seacrane/_core.pyi
+# make format   formats C++ and Python;  make clean  removes what was built (not .venv);  make distclean  all
+#
+# All of them install what is missing: system packages (apt, with sudo when needed) and .venv.
+SHELL := /bin/bash
+.SHELLFLAGS := -euo pipefail -c
+.DELETE_ON_ERROR:
+.DEFAULT_GOAL := build
+.PHONY: demo test build nightly bench stubs format clean distclean lint cpp-test cpp-sanitize python-test \
+        system-packages FORCE
+
+ifndef PYTHON
+PYTHON := $(shell .ci/find-python)
+endif
+JOBS ?= $(shell nproc 2>/dev/null || echo 2)
+BIN := .venv/bin
+PIP := $(BIN)/python -m pip --disable-pip-version-check
+STAMPS := build/stamps
+PACKAGE_BUILD := build/package
+SANITIZE_BUILD := build/sanitize
+CPP_FILES = $(shell find cpp -name '*.hpp' -o -name '*.cpp')
+export CMAKE_BUILD_PARALLEL_LEVEL ?= $(JOBS)
+
+system-packages:
+	@.ci/system-packages $(PYTHON)
+
+# A new environment may hold another interpreter: what was compiled for the old one goes.
+$(BIN)/python: | system-packages
+	rm -rf .venv $(PACKAGE_BUILD)
+	$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 10) and "seacrane needs Python 3.10 or newer, this is " + sys.version.split()[0])'
+	$(PYTHON) -m venv .venv
+
+# The stamps of what is inside .venv live inside it, so that they vanish with it.
+.venv/.installed-run: pyproject.toml .ci/requirements.py $(BIN)/python
+	$(BIN)/python .ci/requirements.py build run > .venv/requirements-run.txt
+	$(PIP) install -q -r .venv/requirements-run.txt
+	touch $@
+.venv/.installed-dev: .venv/.installed-run
+	$(BIN)/python .ci/requirements.py build run dev bench > .venv/requirements-dev.txt
+	$(PIP) install -q -r .venv/requirements-dev.txt
+	touch $@
+
+# The list changes when a file appears or goes; its members' dates tell of edits.
+SOURCES = $(shell find cpp/seacrane cpp/bindings cpp/CMakeLists.txt cmake python/seacrane CMakeLists.txt \
+                  pyproject.toml README.md LICENSE -type f -not -path '*/__pycache__/*' | LC_ALL=C sort)
+$(STAMPS)/sources.txt: FORCE
+	@mkdir -p $(@D)
+	@printf '%s\n' $(SOURCES) > $@.new
+	@cmp -s $@.new $@ && rm $@.new || mv $@.new $@
+
+.venv/.installed-seacrane: .venv/.installed-run $(STAMPS)/sources.txt $(SOURCES) | system-packages
+	$(PIP) install -q --no-deps --no-build-isolation . -Cbuild-dir=$(PACKAGE_BUILD) \
+	  -Ccmake.define.SEACRANE_WERROR=ON -Ccmake.define.SEACRANE_TESTS=ON
+	touch $@
+
+build: .venv/.installed-seacrane
+
+demo: build
+	$(BIN)/seacrane paper --out out/demo
+	@echo
+	@echo "figures and data: $(CURDIR)/out/demo/figure_*.png, figure_*.csv"
+	@echo "report:           $(CURDIR)/out/demo/report.html"
+
+lint: .venv/.installed-dev
+	$(BIN)/ruff check .
+	$(BIN)/mypy
+	$(BIN)/clang-format --dry-run --Werror $(CPP_FILES)
+
+# The package's build folder already holds the compiled core: only the tests themselves are added.
+cpp-test: build
+	cmake --build $(PACKAGE_BUILD) --target seacrane_tests
+	ctest --test-dir $(PACKAGE_BUILD) --output-on-failure --no-tests=error -j $(JOBS)
+
+cpp-sanitize: system-packages
+	cmake -S . -B $(SANITIZE_BUILD) -G Ninja -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS=-O1 \
+	  -DSEACRANE_PYTHON=OFF -DSEACRANE_TESTS=ON -DSEACRANE_SANITIZE=address,undefined
+	cmake --build $(SANITIZE_BUILD) --target seacrane_tests
+	ctest --test-dir $(SANITIZE_BUILD) --output-on-failure --no-tests=error -j $(JOBS)
+
+python-test: build .venv/.installed-dev
+	$(BIN)/python -m pytest -n $(JOBS) --dist worksteal $(PYTEST_ARGS)
+
+test:
+	$(MAKE) --no-print-directory lint
+	$(MAKE) --no-print-directory cpp-test
+	$(MAKE) --no-print-directory cpp-sanitize
+	$(MAKE) --no-print-directory python-test
+
+nightly: build .venv/.installed-dev
+	$(BIN)/python -m pytest -m nightly $(PYTEST_ARGS)
+	$(MAKE) --no-print-directory bench
+
+bench: build .venv/.installed-dev
+	$(BIN)/python benchmarks/run.py
+
+stubs: build .venv/.installed-dev
+	$(BIN)/python -m pybind11_stubgen seacrane._core --output-dir build/stubs --exit-code
+	cp build/stubs/seacrane/_core.pyi python/seacrane/_core.pyi
+
+format: .venv/.installed-dev
+	$(BIN)/ruff check --fix .
+	$(BIN)/ruff format .
+	$(BIN)/clang-format -i $(CPP_FILES)
+
+clean:
+	rm -rf build out .pytest_cache .mypy_cache .ruff_cache .hypothesis .venv/.installed-seacrane
+distclean: clean
+	rm -rf .venv

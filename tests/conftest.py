@@ -1,0 +1,31 @@
+"""Fixtures shared by all tests."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+import pytest
+
+# Before anything imports pyplot; child processes started by a test inherit it.
+os.environ["MPLBACKEND"] = "Agg"
+
+REPOSITORY = Path(__file__).resolve().parents[1]
+
+
+@pytest.fixture(scope="session")
+def repository() -> Path:
+    """Root of the source tree."""
+    return REPOSITORY
+
+
+@pytest.fixture(scope="session")
+def shared() -> Path:
+    """Folder with the real ships' files: the one SEACRANE_SHARED names, else ``../shared``."""
+    named = os.environ.get("SEACRANE_SHARED")
+    if named and not Path(named).is_dir():
+        pytest.fail(f"SEACRANE_SHARED={named} is not a folder: correct or unset it")
+    folder = Path(named) if named else REPOSITORY.parent / "shared"
+    if not folder.is_dir():
+        pytest.skip(f"shared data folder absent: no {folder}; set SEACRANE_SHARED to it")
+    return folder

@@ -1,0 +1,63 @@
+"""The installed package: complete, typed, quick to import, and with a stub that matches its module."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from importlib import metadata, resources
+from pathlib import Path
+
+
+def run_python(code: str) -> str:
+    """Standard output of a fresh interpreter that runs `code`."""
+    finished = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
+    assert finished.returncode == 0, finished.stderr
+    return finished.stdout
+
+
+def test_package_is_installed_not_imported_from_the_source_tree(repository: Path) -> None:
+    located = Path(run_python("import seacrane; print(seacrane.__file__)").strip())
+    assert not located.is_relative_to(repository / "python")
+
+
+def test_import_leaves_the_heavy_libraries_alone() -> None:
+    loaded = run_python("import seacrane, sys; print(*(name for name in sys.modules if '.' not in name))").split()
+    assert "seacrane" in loaded
+    assert not {"scipy", "xarray", "matplotlib", "pandas", "h5netcdf", "netCDF4", "tqdm"} & set(loaded)
+
+
+def test_type_information_ships() -> None:
+    package = resources.files("seacrane")
+    assert (package / "py.typed").is_file()
+    assert (package / "_core.pyi").is_file()
+
+
+def test_every_source_file_is_installed(repository: Path) -> None:
+    source = repository / "python" / "seacrane"
+    installed = Path(str(resources.files("seacrane")))
+    for path in sorted(source.rglob("*")):
+        if path.is_file() and "__pycache__" not in path.parts and path.suffix != ".so":
+            copy = installed / path.relative_to(source)
+            assert copy.is_file(), f"{path.relative_to(repository)} is not in the installed package"
+            assert copy.read_bytes() == path.read_bytes(), f"{copy} is stale: run `make build`"
+
+
+def test_committed_stub_is_what_the_module_generates(repository: Path, tmp_path: Path) -> None:
+    command = [sys.executable, "-m", "pybind11_stubgen", "seacrane._core", "--output-dir", str(tmp_path)]
+    finished = subprocess.run([*command, "--exit-code"], capture_output=True, text=True, check=False)
+    assert finished.returncode == 0, finished.stdout + finished.stderr
+    generated = (tmp_path / "seacrane" / "_core.pyi").read_text(encoding="utf-8")
+    committed = (repository / "python" / "seacrane" / "_core.pyi").read_text(encoding="utf-8")
+    assert committed == generated, "python/seacrane/_core.pyi is out of date: run `make stubs` and commit it"
+
+
+def test_command_line_entry_point() -> None:
+    (entry,) = metadata.entry_points(group="console_scripts", name="seacrane")
+    assert entry.value == "seacrane.cli:main"
+    assert callable(entry.load())
+
+
+def test_run_time_requirements_exclude_solvers_and_development_tools() -> None:
+    always = [line for line in metadata.requires("seacrane") or [] if "extra ==" not in line]
+    names = {line.split(">")[0].split("<")[0].split("=")[0].strip() for line in always}
+    assert names == {"numpy", "scipy", "xarray", "h5netcdf", "matplotlib", "tqdm"}
