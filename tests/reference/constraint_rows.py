@@ -1,0 +1,197 @@
+"""Constraint equations by kind, each vectorised over its instances.
+
+Every row is c(q) - nu(t) = 0 with D v = nudot and D a = gamma + nuddot, v stacked as (velocity of the centre
+of mass, angular velocity), both inertial, body after body (paper eqs. 3, 7, 8). Kinds: `coincide` (two points,
+three rows), `perpendicular` (two body-fixed vectors), `slide` (distance along a vector fixed in the first
+body), `distance` (between two points), `spin` (angle about an axis), `attitude` (a yaw-pitch-roll angle).
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from .kinematics import BodyVectors, VectorMotion
+from .reference_curves import ReferenceCurve
+from .rotation import (
+    Array,
+    angle_rate_matrix,
+    angle_rate_matrix_derivative,
+    cross,
+    dot,
+    skew,
+    yaw_pitch_roll,
+)
+
+KINDS = ("coincide", "perpendicular", "slide", "distance", "spin", "attitude")
+ROWS_PER_KIND = {"coincide": 3}
+
+
+@dataclass
+class RowValues:
+    """Residual (m), rate residual (m), matrix D (m, n + 1, 6) with the ground last, and right side gamma (m)."""
+
+    residual: Array
+    rate: Array
+    matrix: Array
+    gamma: Array
+
+
+@dataclass
+class Driver:
+    """Row whose coordinate follows a curve."""
+
+    row: int
+    curve: ReferenceCurve
+    is_angle: bool
+
+
+@dataclass
+class ConstraintRows:
+    """All rows of a system. Add them joint by joint, then `freeze`."""
+
+    bodies: int
+    vectors: BodyVectors
+    count: int = 0
+    row_joint: list[int] = field(default_factory=list)
+    row_second: list[int] = field(default_factory=list)
+    drivers: list[Driver] = field(default_factory=list)
+    entries: dict[str, list[tuple[float, ...]]] = field(default_factory=lambda: {kind: [] for kind in KINDS})
+
+    def add(self, kind: str, joint: int, first: int, second: int, *data: float) -> int:
+        """Append an instance; `data` are vector indices then constants (see `freeze`). Returns its first row."""
+        row, height = self.count, ROWS_PER_KIND.get(kind, 1)
+        self.entries[kind].append((row, first, second, *data))
+        self.row_joint += [joint] * height
+        self.row_second += [second] * height
+        self.count += height
+        return row
+
+    def drive(self, row: int, curve: ReferenceCurve, *, is_angle: bool) -> None:
+        """Let the coordinate of a row follow a curve; the row then belongs to no joint's reaction."""
+        self.row_joint[row] = -1
+        self.drivers.append(Driver(row, curve, is_angle))
+
+    def freeze(self) -> None:
+        """Turn the lists into index arrays."""
+        self.index = {
+            kind: np.array([e[:6] for e in entries], dtype=float).astype(int).T if entries else None
+            for kind, entries in self.entries.items()
+        }
+        self.constant = {kind: np.array([e[-1] for e in entries]) for kind, entries in self.entries.items()}
+        self.joint_of_row = np.array(self.row_joint, dtype=int)
+        self.second_of_row = np.array(self.row_second, dtype=int)
+
+    def evaluate(self, t: float, x: VectorMotion) -> RowValues:
+        """Evaluate all rows at time t."""
+        out = RowValues(
+            np.zeros(self.count),
+            np.zeros(self.count),
+            np.zeros((self.count, self.bodies + 1, 6)),
+            np.zeros(self.count),
+        )
+        for kind, fill in (
+            ("coincide", _coincide),
+            ("perpendicular", _perpendicular),
+            ("slide", _slide),
+            ("distance", _distance),
+            ("spin", _spin),
+        ):
+            index = self.index[kind]
+            if index is not None:
+                fill(out, x, index, self.constant[kind])
+        for row, _, body, motion in self.entries["attitude"]:
+            _attitude(out, x, int(row), int(body), int(motion))
+        self._apply_drivers(t, out)
+        flat = out.matrix[:, :-1].reshape(self.count, 6 * self.bodies)
+        out.rate += flat @ x.motion.twists()
+        return out
+
+    def _apply_drivers(self, t: float, out: RowValues) -> None:
+        for driver in self.drivers:
+            value, rate, acceleration = driver.curve(t)
+            residual = out.residual[driver.row] - value
+            out.residual[driver.row] = wrap(residual) if driver.is_angle else residual
+            out.rate[driver.row] -= rate
+            out.gamma[driver.row] += acceleration
+
+    def driver_rates(self, t: float) -> Array:
+        """Prescribed rates (number of drivers)."""
+        return np.array([driver.curve(t)[1] for driver in self.drivers])
+
+
+def wrap(angle: float) -> float:
+    """The same angle within (-pi, pi]."""
+    return math.remainder(angle, 2.0 * math.pi)
+
+
+Index = np.ndarray[tuple[int, int], np.dtype[np.int_]]
+
+
+def _coincide(out: RowValues, x: VectorMotion, index: Index, _: Array) -> None:
+    row, first, second, i1, i2 = index[:5]
+    rows = row[:, None] + np.arange(3)
+    out.residual[rows] = x.point(i2) - x.point(i1)
+    out.matrix[rows, first[:, None], :3] = -np.eye(3)
+    out.matrix[rows, second[:, None], :3] = np.eye(3)
+    out.matrix[rows, first[:, None], 3:] = skew(x.g[i1])
+    out.matrix[rows, second[:, None], 3:] = -skew(x.g[i2])
+    out.gamma[rows] = x.bias[i1] - x.bias[i2]
+
+
+def _perpendicular(out: RowValues, x: VectorMotion, index: Index, _: Array) -> None:
+    row, first, second, i1, i2 = index[:5]
+    g1, g2 = x.g[i1], x.g[i2]
+    normal = cross(g2, g1)
+    out.residual[row] = dot(g1, g2)
+    out.matrix[row, first, 3:] = -normal
+    out.matrix[row, second, 3:] = normal
+    out.gamma[row] = -(dot(x.bias[i1], g2) + 2.0 * dot(x.rate[i1], x.rate[i2]) + dot(g1, x.bias[i2]))
+
+
+def _slide(out: RowValues, x: VectorMotion, index: Index, constant: Array) -> None:
+    row, first, second, i1, i2, axis = index
+    a = x.g[axis]
+    d, rate = x.point(i2) - x.point(i1), x.point_velocity(i2) - x.point_velocity(i1)
+    out.residual[row] = dot(a, d) - constant
+    out.matrix[row, first, :3] = -a
+    out.matrix[row, first, 3:] = cross(a, d) - cross(x.g[i1], a)
+    out.matrix[row, second, :3] = a
+    out.matrix[row, second, 3:] = cross(x.g[i2], a)
+    out.gamma[row] = -(
+        dot(x.bias[axis], d) + 2.0 * dot(x.rate[axis], rate) + dot(a, x.bias[i2] - x.bias[i1])
+    )
+
+
+def _distance(out: RowValues, x: VectorMotion, index: Index, length: Array) -> None:
+    row, first, second, i1, i2 = index[:5]
+    d, rate = x.point(i2) - x.point(i1), x.point_velocity(i2) - x.point_velocity(i1)
+    e = d / length[:, None]
+    out.residual[row] = 0.5 * (dot(d, e) - length)
+    out.matrix[row, first, :3] = -e
+    out.matrix[row, first, 3:] = -cross(x.g[i1], e)
+    out.matrix[row, second, :3] = e
+    out.matrix[row, second, 3:] = cross(x.g[i2], e)
+    out.gamma[row] = -dot(rate, rate) / length - dot(e, x.bias[i2] - x.bias[i1])
+
+
+def _spin(out: RowValues, x: VectorMotion, index: Index, start: Array) -> None:
+    row, first, second, axis, t1, t2 = index
+    a = x.g[axis]
+    out.residual[row] = start + np.arctan2(dot(a, cross(x.g[t1], x.g[t2])), dot(x.g[t1], x.g[t2]))
+    out.matrix[row, first, 3:] = -a
+    out.matrix[row, second, 3:] = a
+    out.gamma[row] = -dot(x.motion.w[second] - x.motion.w[first], x.rate[axis])
+
+
+def _attitude(out: RowValues, x: VectorMotion, row: int, body: int, motion: int) -> None:
+    angles = yaw_pitch_roll(x.motion.rotation[body])
+    w = x.motion.w[body]
+    matrix = angle_rate_matrix(angles[1], angles[2])
+    _, pitch_rate, yaw_rate = matrix @ w
+    derivative = angle_rate_matrix_derivative(angles[1], angles[2], pitch_rate, yaw_rate)
+    out.residual[row] = angles[motion - 3]
+    out.matrix[row, body, 3:] = matrix[motion - 3]
+    out.gamma[row] = -float(derivative[motion - 3] @ w)
