@@ -52,8 +52,8 @@ $(STAMPS)/sources.txt: FORCE
 	@cmp -s $@.new $@ && rm $@.new || mv $@.new $@
 
 .venv/.installed-seacrane: .venv/.installed-run $(STAMPS)/sources.txt $(SOURCES) | system-packages
-	$(PIP) install -q --no-deps --no-build-isolation . -Cbuild-dir=$(PACKAGE_BUILD) \
-	  -Ccmake.define.SEACRANE_WERROR=ON -Ccmake.define.SEACRANE_TESTS=ON
+	SKBUILD_BUILD_DIR=$(PACKAGE_BUILD) SKBUILD_CMAKE_DEFINE='SEACRANE_WERROR=ON;SEACRANE_TESTS=ON' \
+	  $(PIP) install -q --no-deps --no-build-isolation .
 	touch $@
 
 build: .venv/.installed-seacrane
