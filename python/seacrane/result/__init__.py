@@ -1,0 +1,7 @@
+"""What a run recorded: named arrays, their dimensions and units, files and datasets."""
+
+from seacrane.result.atomic import atomic_write
+from seacrane.result.channels import AXES, CHANNELS, MOTIONS, Channel
+from seacrane.result.result import Result
+
+__all__ = ["AXES", "CHANNELS", "MOTIONS", "Channel", "Result", "atomic_write"]

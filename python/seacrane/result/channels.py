@@ -1,0 +1,71 @@
+"""What may be recorded: dimensions, unit and description of every channel, in one table."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from types import MappingProxyType
+
+AXES = ("x", "y", "z")
+MOTIONS = ("surge", "sway", "heave", "roll", "pitch", "yaw")
+QUATERNION = ("w", "x", "y", "z")
+
+
+@dataclass(frozen=True, kw_only=True)
+class Channel:
+    """Dimensions, unit and description of one recorded quantity."""
+
+    dims: tuple[str, ...]
+    unit: str
+    long_name: str
+
+
+def _channel(dims: str, unit: str, long_name: str) -> Channel:
+    return Channel(dims=("time", *dims.split()), unit=unit, long_name=long_name)
+
+
+_SIX = "m (surge, sway, heave), rad (roll, pitch, yaw)"
+_WRENCH = "N (surge, sway, heave), N m (roll, pitch, yaw)"
+
+CHANNELS: Mapping[str, Channel] = MappingProxyType(
+    {
+        "position": _channel("body axis", "m", "centre of mass, inertial frame"),
+        "velocity": _channel("body axis", "m/s", "velocity of the centre of mass, inertial frame"),
+        "angular_velocity": _channel("body axis", "rad/s", "angular velocity, inertial frame"),
+        "quaternion": _channel("body wxyz", "1", "orientation, scalar first, body to inertial"),
+        "euler_xyz": _channel("body axis", "rad", "XYZ Euler angles, R = Rx Ry Rz, body to inertial"),
+        "vessel_motion": _channel(
+            "motion", _SIX, "vessel's reference point from rest, and yaw-pitch-roll angles"
+        ),
+        "stroke": _channel("cylinder", "m", "cylinder stroke, extension positive"),
+        "stroke_rate": _channel("cylinder", "m/s", "rate of the cylinder stroke"),
+        "cylinder_force": _channel("cylinder", "N", "actuator force of the cylinder, positive pushes"),
+        "slew_angle": _channel("", "rad", "slew angle, king relative to tower"),
+        "slew_torque": _channel("", "N m", "actuator torque of the slew drive, on the king"),
+        "link_tension": _channel("", "N", "tension of the link between crane tip and payload"),
+        "reaction_force": _channel(
+            "joint axis", "N", "constraint force on the second body, inertial frame, at the joint point"
+        ),
+        "reaction_moment": _channel(
+            "joint axis", "N m", "constraint moment on the second body, inertial frame, at the joint point"
+        ),
+        "wave_elevation": _channel("", "m", "undisturbed wave elevation at the inertial origin"),
+        "wave_force": _channel("motion", _WRENCH, "wave load on the vessel at its reference point"),
+        "constraint_error": _channel("", "m or rad", "largest absolute constraint residual"),
+        "constraint_rate_error": _channel("", "m/s or rad/s", "largest absolute velocity residual"),
+        "constraint_error_before_projection": _channel(
+            "", "m or rad", "largest absolute residual before projection since the last output"
+        ),
+        "energy_balance": _channel(
+            "", "J", "mechanical energy change minus work of all non-conservative loads"
+        ),
+        "absolute_work": _channel("", "J", "integral of the absolute power of the non-conservative loads"),
+    }
+)
+
+
+def attributes(name: str) -> dict[str, str]:
+    """`units` and `long_name` of a channel, or of `time`."""
+    if name == "time":
+        return {"units": "s", "long_name": "time since the start of the run"}
+    return {"units": CHANNELS[name].unit, "long_name": CHANNELS[name].long_name}

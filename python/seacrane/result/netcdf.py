@@ -1,0 +1,62 @@
+"""Results as NetCDF4 files."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from seacrane.errors import FileFormatError
+from seacrane.result.channels import CHANNELS, attributes
+
+if TYPE_CHECKING:
+    from seacrane.result.result import Result
+
+
+def write_netcdf(path: Path, result: Result) -> None:
+    """Write a result under exactly this name."""
+    import netCDF4
+
+    with netCDF4.Dataset(path, "w", format="NETCDF4") as file:
+        file.setncatts({**result.stats, "interrupted": int(result.interrupted)})
+        file.createDimension("time", result.time.size)
+        file.createVariable("time", "f8", ("time",))[:] = result.time
+        for dim, names in result.coords.items():
+            file.createDimension(dim, len(names))
+            file.createVariable(dim, str, (dim,))[:] = np.array(names, dtype=object)
+        for name, array in result.channels.items():
+            variable = file.createVariable(name, "f8", CHANNELS[name].dims, compression="zlib", complevel=1)
+            variable[:] = array
+        for name in ("time", *result.channels):
+            file[name].setncatts(attributes(name))
+
+
+def read_arrays(path: Path) -> dict[str, Any]:
+    """Everything in a result's file, as the arguments of `Result.from_arrays`."""
+    import netCDF4
+
+    with netCDF4.Dataset(path, "r") as file:
+        file.set_auto_mask(False)
+        if "time" not in file.variables:
+            raise FileFormatError(f"{path} has no variable 'time'; it is not a seacrane result")
+        stats = {name: file.getncattr(name) for name in file.ncattrs()}
+        interrupted = bool(stats.pop("interrupted", 0))
+        names = {
+            dim: [str(name) for name in file[dim][:]]
+            for dim in ("body", "joint", "cylinder")
+            if dim in file.variables
+        }
+        return {
+            "time": file["time"][:],
+            "arrays": {
+                name: variable[:]
+                for name, variable in file.variables.items()
+                if name != "time" and name not in file.dimensions
+            },
+            "bodies": names.get("body", ()),
+            "joints": names.get("joint", ()),
+            "cylinders": names.get("cylinder", ()),
+            "stats": stats,
+            "interrupted": interrupted,
+        }

@@ -1,0 +1,324 @@
+"""The recorded channels of one run: named read-only arrays, their coordinates, and the run's counters."""
+
+from __future__ import annotations
+
+import json
+import math
+import os
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from types import MappingProxyType
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from seacrane.errors import FileFormatError, SeacraneError
+from seacrane.result.atomic import atomic_write
+from seacrane.result.channels import AXES, CHANNELS, MOTIONS, QUATERNION, attributes
+from seacrane.result.netcdf import read_arrays, write_netcdf
+
+if TYPE_CHECKING:
+    import xarray
+
+Array = NDArray[np.float64]
+Stat = str | int | float
+
+ALWAYS_STATED = [
+    "seacrane_version",
+    "scene",
+    "formulation",
+    "integrator",
+    "settings",
+    "simulated_s",
+    "wall_s",
+    "evaluations",
+    "steps",
+    "rejected_steps",
+    "states",
+    "coordinates",
+    "constraints",
+    "degrees_of_freedom",
+    "compiled_coordinates",
+    "compiled_constraints",
+    "fastest_mode_per_s",
+]
+STATED_WITH_WAVES = ("seed", "realised_hs", "wave_components")
+
+
+def _checked_array(name: str, values: Any, shape: tuple[int, ...], interrupted: bool) -> Array:
+    """The values as a read-only float64 array of the stated shape."""
+    array = np.asarray(values, dtype=np.float64)
+    if array.shape != shape:
+        raise ValueError(f"channel {name!r} has shape {array.shape}; its dimensions ask for {shape}")
+    if not interrupted and not np.isfinite(array).all():
+        first = int(np.argwhere(~np.isfinite(array.reshape(len(array), -1)).all(axis=1))[0, 0])
+        raise ValueError(
+            f"channel {name!r} is not finite at output {first} of a finished run; "
+            "leave out a channel that is not defined for the scene"
+        )
+    array.setflags(write=False)
+    return array
+
+
+def _checked_time(values: Any) -> Array:
+    time = np.asarray(values, dtype=np.float64)
+    if time.ndim != 1 or not time.size:
+        raise ValueError(f"time has shape {time.shape}; a result needs a vector of at least one output time")
+    if not np.isfinite(time).all() or np.any(np.diff(time) <= 0):
+        raise ValueError("time must be finite and strictly increasing")
+    time.setflags(write=False)
+    return time
+
+
+def _checked_names(dim: str, names: Sequence[str]) -> tuple[str, ...]:
+    names = tuple(str(name) for name in names)
+    if len(set(names)) != len(names):
+        twice = sorted({name for name in names if names.count(name) > 1})
+        raise ValueError(f"{dim} names must differ; given more than once: {', '.join(twice)}")
+    return names
+
+
+def _checked_stats(stats: Mapping[str, Any], waves: bool) -> dict[str, Stat]:
+    """Plain strings, integers and floats; what is None is left out; `settings` may be a mapping."""
+    plain: dict[str, Stat] = {}
+    for name, value in stats.items():
+        if value is None:
+            continue
+        if name == "settings" and isinstance(value, Mapping):
+            value = json.dumps(dict(value), sort_keys=True, allow_nan=False)
+        if isinstance(value, np.generic):
+            value = value.item()
+        if isinstance(value, bool):
+            value = int(value)
+        if not isinstance(value, (str, int, float)):
+            raise ValueError(f"stat {name!r} is a {type(value).__name__}; give a string or a number")
+        if isinstance(value, float) and not math.isfinite(value):
+            raise ValueError(f"stat {name!r} is {value}; leave out what is not defined")
+        plain[name] = value
+    needed = [*ALWAYS_STATED, *(STATED_WITH_WAVES if waves else ())]
+    missing = [name for name in needed if name not in plain]
+    if missing:
+        raise ValueError(f"stats lack {', '.join(missing)}; every result states them")
+    return plain
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Result:
+    """What one run recorded. Build it with `Result.from_arrays`, or read it with `Result.load`.
+
+    Attributes
+    ----------
+    time : ndarray, shape (n,)
+        Output times, s; read-only.
+    channels : mapping of str to ndarray
+        Recorded channels by the names of `CHANNELS`; time is the first axis; read-only, SI units and
+        radians. Only what the scene has is present.
+    dims : mapping of str to tuple of str
+        Dimension names of each channel.
+    coords : mapping of str to tuple of str
+        Names along every dimension but time: `body`, `joint`, `cylinder`, `axis`, `motion`, `wxyz`.
+    stats : mapping of str to str, int or float
+        Version, settings and counters of the run: the attributes of the saved file.
+    interrupted : bool
+        True if the run was stopped before its end; it then holds the outputs up to that moment.
+    """
+
+    time: Array
+    channels: Mapping[str, Array]
+    coords: Mapping[str, tuple[str, ...]]
+    stats: Mapping[str, Stat]
+    interrupted: bool = False
+    dims: Mapping[str, tuple[str, ...]] = field(init=False)
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "channels", MappingProxyType(dict(self.channels)))
+        object.__setattr__(self, "coords", MappingProxyType(dict(self.coords)))
+        object.__setattr__(self, "stats", MappingProxyType(dict(self.stats)))
+        object.__setattr__(self, "dims", MappingProxyType({n: CHANNELS[n].dims for n in self.channels}))
+
+    def __reduce__(self) -> tuple[Any, ...]:  # read-only mapping views cannot be pickled themselves
+        parts = (self.time, dict(self.channels), dict(self.coords), dict(self.stats), self.interrupted)
+        return _rebuild, parts
+
+    @classmethod
+    def from_arrays(
+        cls,
+        *,
+        time: Any,
+        arrays: Mapping[str, Any],
+        bodies: Sequence[str] = (),
+        joints: Sequence[str] = (),
+        cylinders: Sequence[str] = (),
+        stats: Mapping[str, Any],
+        interrupted: bool = False,
+    ) -> Result:
+        """Check and wrap the arrays that the run loop filled.
+
+        Parameters
+        ----------
+        time : array_like, shape (n,)
+            Output times, s, strictly increasing.
+        arrays : mapping of str to array_like
+            Channels by the names of `CHANNELS`. Arrays of float64 are taken over without a copy and
+            made read-only; the caller must not write to them through another view.
+        bodies, joints, cylinders : sequence of str
+            Names along these dimensions, in the order of the arrays.
+        stats : mapping
+            Attributes (`ALWAYS_STATED`, and `STATED_WITH_WAVES` when waves were recorded); values that
+            are None are left out, `settings` may be a mapping.
+        interrupted : bool
+            True if the run did not reach its end; only then may channels hold values that are not finite.
+
+        Raises
+        ------
+        ValueError
+            For an unknown channel, a wrong shape, a value that is not finite in a finished run, names
+            given twice, or a missing stat.
+        """
+        checked_time = _checked_time(time)
+        coords = {
+            "body": _checked_names("body", bodies),
+            "joint": _checked_names("joint", joints),
+            "cylinder": _checked_names("cylinder", cylinders),
+            "axis": AXES,
+            "motion": MOTIONS,
+            "wxyz": QUATERNION,
+        }
+        channels = {}
+        for name, values in arrays.items():
+            if name not in CHANNELS:
+                raise ValueError(f"channel {name!r} is unknown; choose from {', '.join(CHANNELS)}")
+            shape = (checked_time.size, *(len(coords[dim]) for dim in CHANNELS[name].dims[1:]))
+            channels[name] = _checked_array(name, values, shape, interrupted)
+        used = {dim for name in channels for dim in CHANNELS[name].dims}
+        return cls(
+            time=checked_time,
+            channels=channels,
+            coords={dim: names for dim, names in coords.items() if dim in used},
+            stats=_checked_stats(stats, waves="wave_elevation" in channels),
+            interrupted=bool(interrupted),
+        )
+
+    def __getitem__(self, name: str) -> Array:
+        """The channel of that name; the error lists what was recorded."""
+        try:
+            return self.channels[name]
+        except KeyError:
+            known = ", ".join(self.channels) or "nothing"
+            raise KeyError(f"no channel {name!r} in this result; it holds {known}") from None
+
+    def select(self, channel: str, /, **names: str) -> Array:
+        """A channel at named coordinates, as a read-only view.
+
+        Parameters
+        ----------
+        channel : str
+            Channel name.
+        **names : str
+            One name per dimension to pick, for instance ``body="payload", axis="z"``.
+
+        Returns
+        -------
+        ndarray
+            The channel without the picked dimensions; unit as in `CHANNELS`.
+
+        Raises
+        ------
+        KeyError
+            If the channel was not recorded.
+        ValueError
+            For a dimension the channel has not, or a name it does not hold.
+        """
+        array = self[channel]
+        dims = self.dims[channel]
+        for dim in names:
+            if dim not in dims[1:]:
+                raise ValueError(f"channel {channel!r} has dimensions {dims}, not {dim!r}")
+        index: list[Any] = [slice(None)] * len(dims)
+        for dim, name in names.items():
+            if name not in self.coords[dim]:
+                raise ValueError(
+                    f"no {dim} {name!r} in this result; choose from {', '.join(self.coords[dim])}"
+                )
+            index[dims.index(dim)] = self.coords[dim].index(name)
+        picked: Array = array[tuple(index)]
+        return picked
+
+    def to_xarray(self) -> xarray.Dataset:
+        """The result as a dataset with named coordinates, units and descriptions (copies the arrays)."""
+        import xarray
+
+        variables = {
+            name: (CHANNELS[name].dims, array.copy(), attributes(name))
+            for name, array in self.channels.items()
+        }
+        coords: dict[str, Any] = {"time": ("time", self.time.copy(), attributes("time"))}
+        coords.update({dim: list(names) for dim, names in self.coords.items()})
+        return xarray.Dataset(variables, coords, {**self.stats, "interrupted": int(self.interrupted)})
+
+    def save(self, path: str | os.PathLike[str]) -> Path:
+        """Write the result as NetCDF4: complete under its name, or not at all.
+
+        Parameters
+        ----------
+        path : path
+            Target file; its folder must exist. An older file of that name is replaced.
+
+        Returns
+        -------
+        Path
+            The file written.
+
+        Raises
+        ------
+        OSError
+            If it cannot be written (no such folder, no permission, disk full); the older file stays.
+        """
+        path = Path(path)
+        with atomic_write(path) as draft:
+            try:
+                write_netcdf(draft, self)
+            except RuntimeError as error:  # the HDF5 library's failures to write arrive as RuntimeError
+                raise OSError(f"the NetCDF library reports: {error}") from error
+        return path
+
+    @classmethod
+    def load(cls, path: str | os.PathLike[str]) -> Result:
+        """Read a result that `save` wrote.
+
+        Parameters
+        ----------
+        path : path
+            NetCDF4 file.
+
+        Returns
+        -------
+        Result
+            With the same arrays, bit for bit.
+
+        Raises
+        ------
+        FileNotFoundError
+            If there is no such file.
+        FileFormatError
+            If it is not a NetCDF file, or not one of this kind.
+        """
+        path = Path(path)
+        if not path.is_file():
+            raise FileNotFoundError(f"no result file {path}")
+        try:
+            return cls.from_arrays(**read_arrays(path))
+        except (OSError, RuntimeError, ValueError) as error:
+            if isinstance(error, SeacraneError):
+                raise
+            raise FileFormatError(f"{path} is not a seacrane result: {error}") from error
+
+
+def _rebuild(
+    time: Array, channels: dict[str, Array], coords: dict[str, Any], stats: dict[str, Stat], interrupted: bool
+) -> Result:
+    for array in (time, *channels.values()):
+        array.setflags(write=False)
+    return Result(time=time, channels=channels, coords=coords, stats=stats, interrupted=interrupted)

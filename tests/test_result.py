@@ -1,0 +1,399 @@
+"""Results: the schema of DESIGN.md, read-only arrays, files that return bit for bit, refusals."""
+
+from __future__ import annotations
+
+import dataclasses
+import json
+import pickle
+import subprocess
+import sys
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from seacrane.errors import FileFormatError
+from seacrane.result import CHANNELS, Result
+
+BODIES = [
+    "vessel",
+    "tower",
+    "king",
+    "main_barrel",
+    "main_rod",
+    "main_jib",
+    "knuckle_barrel",
+    "knuckle_rod",
+    "knuckle_jib",
+    "payload",
+]
+JOINTS = ["deck", "A", "B", "C", "D", "E", "F", "G", "main_cylinder", "knuckle_cylinder", "link"]
+CYLINDERS = ["main", "knuckle"]
+SLEW_END = 45.0
+
+# Centres of mass at the start (x forward, y port, z up; m): a crane of 390 t, its jib pointing aft.
+MASSES = np.array([14000e3, 100e3, 115e3, 13e3, 9e3, 77e3, 14e3, 9e3, 53e3, 10e3])
+START = np.array(
+    [
+        (0, 0, 3),
+        (33, 10, 15),
+        (33, 10, 25),
+        (30, 10, 28),
+        (27, 10, 31),
+        (22, 10, 30),
+        (18, 10, 33),
+        (14, 10, 34),
+        (9, 10, 30),
+        (4, 10, 14),
+    ],
+    dtype=float,
+)
+
+
+def smooth_step(t: np.ndarray, end: float = SLEW_END) -> np.ndarray:
+    """Quintic from 0 to 1 between 0 and `end`."""
+    u = np.clip(t / end, 0, 1)
+    return u**3 * (10 - 15 * u + 6 * u**2)
+
+
+def crane_run(
+    *,
+    payload: bool = True,
+    waves: bool = True,
+    memory: bool = True,
+    heel: float = 0.02,
+    oscillation: float = 0.0,
+    scene: str = "case2",
+    dt: float = 0.1,
+    t_end: float = 100.0,
+) -> dict[str, Any]:
+    """Arguments for `Result.from_arrays`: a rigid ship in a regular sea whose crane swings out in 45 s.
+
+    Every body follows the ship as a rigid body, and the crane turns about the slew axis, so poses, rates,
+    strokes and angles belong to one motion; `oscillation` adds case 3's 5 s movement after 50 s.
+    """
+    from scipy.spatial.transform import Rotation
+
+    t = np.arange(0, t_end + dt / 2, dt)
+    names = BODIES if payload else BODIES[:-1]
+    joints = JOINTS if payload else JOINTS[:-1]
+    omega, lag = 2 * np.pi / 8, 0.0 if memory else 0.6
+    size = 1.0 if memory else 1.3
+    swing = smooth_step(t)
+    five = oscillation * np.where(t > 50, np.cos(2 * np.pi * t / 5), 0)
+    motion = np.column_stack(
+        [
+            0.10 * size * np.cos(omega * t - lag) + 0.01 * five,
+            0.12 * size * np.cos(omega * t - 0.4 - lag) + 0.30 * five,
+            0.50 * size * np.cos(omega * t - 0.8 - lag) + 0.05 * five,
+            0.02 * size * np.cos(omega * t - 1.1 - lag) - heel * swing + 0.02 * five,
+            0.01 * size * np.cos(omega * t + 0.3 - lag),
+            0.003 * size * np.cos(omega * t + 1.0 - lag) + 0.01 * np.gradient(swing, t) * (heel > 0),
+        ]
+    )
+    slew = -np.pi / 2 * swing
+    ship = Rotation.from_euler("ZYX", motion[:, [5, 4, 3]])
+    crane = ship * Rotation.from_euler("z", slew[:, None])
+    pivot = np.array([33.0, 10.0, 0.0])
+    position, velocity = np.empty((2, t.size, len(names), 3))
+    angular = np.empty((t.size, len(names), 3))
+    quaternion = np.empty((t.size, len(names), 4))
+    euler = np.empty((t.size, len(names), 3))
+    for i, name in enumerate(names):
+        turning = name not in ("vessel", "tower")
+        rotation = crane if turning else ship
+        arm = Rotation.from_euler("z", slew[:, None]).apply(START[i] - pivot) + pivot if turning else START[i]
+        position[:, i] = motion[:, :3] + ship.apply(arm)
+        velocity[:, i] = np.gradient(position[:, i], t, axis=0)
+        quaternion[:, i] = np.roll(rotation.as_quat(), 1, axis=1)
+        euler[:, i] = rotation.as_euler("XYZ")
+        angular[:-1, i] = (rotation[1:] * rotation[:-1].inv()).as_rotvec() / dt
+        angular[-1, i] = angular[-2, i]
+    stroke = np.outer(2 * swing, [1, 1]) + five[:, None]
+    weight = 9.80665 * MASSES[: len(names)]
+    reaction = np.zeros((t.size, len(joints), 3))
+    reaction[:, :, 2] = weight[1:].sum()
+    arrays = {
+        "position": position,
+        "velocity": velocity,
+        "angular_velocity": angular,
+        "quaternion": quaternion,
+        "euler_xyz": euler,
+        "vessel_motion": motion,
+        "stroke": stroke,
+        "stroke_rate": np.gradient(stroke, t, axis=0),
+        "cylinder_force": 2e6 + 1e5 * stroke,
+        "slew_angle": slew,
+        "slew_torque": 115e3 * 16 * np.gradient(np.gradient(slew, t), t),
+        "reaction_force": reaction,
+        "reaction_moment": 0.1 * np.roll(reaction, 1, axis=2),
+        "constraint_error": 1e-12 * (1 + np.abs(np.sin(t))),
+        "constraint_rate_error": 1e-12 * (1 + np.abs(np.cos(t))),
+        "constraint_error_before_projection": 1e-7 * (1 + np.abs(np.sin(t))),
+        "energy_balance": 20 * np.sin(0.1 * t),
+        "absolute_work": 1e7 * t,
+    }
+    if payload:
+        arrays["link_tension"] = 10e3 * (9.80665 + 0.1 * np.cos(omega * t))
+    stats: dict[str, Any] = {
+        "seacrane_version": "0.1.0",
+        "scene": scene,
+        "formulation": "redundant",
+        "integrator": "dopri5",
+        "settings": {"relative_tolerance": 1e-6, "memory": "per-pair" if memory else "none"},
+        "simulated_s": t_end,
+        "wall_s": 0.25 if memory else 0.2,
+        "evaluations": 12000,
+        "steps": 2000,
+        "rejected_steps": 3,
+        "states": 186 if memory else 140,
+        "coordinates": 6 * len(names),
+        "constraints": 46 if payload else 45,
+        "degrees_of_freedom": 14 if payload else 9,
+        "compiled_coordinates": 6 * len(names),
+        "compiled_constraints": 46 if payload else 45,
+        "fastest_mode_per_s": 18.0,
+    }
+    if waves:
+        arrays["wave_elevation"] = np.cos(omega * t)
+        arrays["wave_force"] = np.outer(np.cos(omega * t), [1e5, 2e5, 1e7, 1e7, 1e8, 1e6])
+        stats |= {"seed": 7, "realised_hs": 2.0, "wave_components": 200}
+    return {
+        "time": t,
+        "arrays": arrays,
+        "bodies": names,
+        "joints": joints,
+        "cylinders": CYLINDERS,
+        "stats": stats,
+    }
+
+
+def crane_result(**changes: Any) -> Result:
+    return Result.from_arrays(**crane_run(**changes))
+
+
+def vessel_result(*, memory: bool = True, t_end: float = 100.0, dt: float = 0.1) -> Result:
+    """The vessel alone in the same sea: no crane, so no stroke, slew, link or reaction."""
+    run = crane_run(payload=False, memory=memory, heel=0.0, scene="vessel", t_end=t_end, dt=dt)
+    absent = [
+        "stroke",
+        "stroke_rate",
+        "cylinder_force",
+        "slew_angle",
+        "slew_torque",
+        "reaction_force",
+        "reaction_moment",
+    ]
+    arrays = {name: array for name, array in run["arrays"].items() if name not in absent}
+    for name in ("position", "velocity", "angular_velocity", "quaternion", "euler_xyz"):
+        arrays[name] = arrays[name][:, :1].copy()
+    counts = {"coordinates": 6, "constraints": 0, "degrees_of_freedom": 6}
+    counts |= {f"compiled_{name}": counts[name] for name in ("coordinates", "constraints")}
+    return Result.from_arrays(time=run["time"], arrays=arrays, bodies=["vessel"], stats=run["stats"] | counts)
+
+
+@pytest.fixture
+def run() -> dict[str, Any]:
+    return crane_run(t_end=5.0)
+
+
+def test_every_channel_of_the_design_is_described() -> None:
+    assert set(crane_run(t_end=1.0)["arrays"]) == set(CHANNELS)
+    for name, channel in CHANNELS.items():
+        assert channel.dims[0] == "time", name
+        assert channel.unit and channel.long_name, name
+
+
+def test_a_result_holds_only_what_the_scene_has() -> None:
+    alone = vessel_result(t_end=2.0)
+    assert set(alone.coords) == {"body", "axis", "motion", "wxyz"}
+    assert "link_tension" not in alone.channels
+    calm = Result.from_arrays(**crane_run(waves=False, payload=False, t_end=2.0))
+    assert not {"wave_elevation", "wave_force", "link_tension"} & set(calm.channels)
+    assert "seed" not in calm.stats
+
+
+def test_arrays_and_mappings_cannot_be_changed(run: dict[str, Any]) -> None:
+    result = Result.from_arrays(**run)
+    with pytest.raises(ValueError, match="read-only"):
+        result.time[0] = 1
+    for array in result.channels.values():
+        with pytest.raises(ValueError, match="read-only"):
+            array[0] = 1
+    with pytest.raises(TypeError):
+        result.channels["stroke"] = result.time  # type: ignore[index]
+    with pytest.raises(dataclasses.FrozenInstanceError):
+        result.interrupted = True  # type: ignore[misc]
+
+
+def test_select_picks_by_name(run: dict[str, Any]) -> None:
+    result = Result.from_arrays(**run)
+    height = result.select("position", body="payload", axis="z")
+    np.testing.assert_array_equal(height, run["arrays"]["position"][:, 9, 2])
+    assert not height.flags.writeable
+    assert result.select("reaction_force", joint="A").shape == (result.time.size, 3)
+    with pytest.raises(ValueError, match=r"no body 'payloat'.*choose from vessel"):
+        result.select("position", body="payloat")
+    with pytest.raises(ValueError, match="not 'joint'"):
+        result.select("position", joint="A")
+    with pytest.raises(KeyError, match="no channel 'heave'"):
+        result.select("heave")
+
+
+@pytest.mark.parametrize("backend", ["own reader", "xarray"])
+def test_a_saved_file_returns_bit_for_bit(run: dict[str, Any], tmp_path: Path, backend: str) -> None:
+    result = Result.from_arrays(**run)
+    path = result.save(tmp_path / "case2.nc")
+    if backend == "own reader":
+        again = Result.load(path)
+        assert again.dims == result.dims and again.coords == result.coords
+        assert dict(again.stats) == dict(result.stats)
+        assert {k: type(v) for k, v in again.stats.items()} == {k: type(v) for k, v in result.stats.items()}
+        values = {"time": again.time, **again.channels}
+    else:
+        import xarray
+
+        with xarray.open_dataset(path, engine="netcdf4", decode_times=False) as file:
+            dataset = file.load()
+        assert list(dataset.body.values) == BODIES and list(dataset.motion.values)[3] == "roll"
+        assert json.loads(dataset.attrs["settings"])["relative_tolerance"] == 1e-6
+        values = {"time": dataset.time.values, **{name: dataset[name].values for name in result.channels}}
+    np.testing.assert_array_equal(values.pop("time"), result.time)
+    assert set(values) == set(result.channels)
+    for name, array in values.items():
+        assert array.dtype == np.float64
+        np.testing.assert_array_equal(array, result[name], err_msg=name)
+
+
+def test_the_dataset_names_units_and_coordinates(run: dict[str, Any], tmp_path: Path) -> None:
+    result = Result.from_arrays(**run)
+    dataset = result.to_xarray()
+    for name in ("time", *result.channels):
+        assert dataset[name].attrs["units"] and dataset[name].attrs["long_name"], name
+    assert dataset["vessel_motion"].sel(motion="heave").dims == ("time",)
+    np.testing.assert_array_equal(
+        dataset["cylinder_force"].sel(cylinder="knuckle"), result.select("cylinder_force", cylinder="knuckle")
+    )
+    dataset["stroke"][0] = 5.0
+    assert result["stroke"][0, 0] == 0.0, "the dataset is a copy"
+
+
+def test_time_is_the_first_variable_of_the_file(run: dict[str, Any], tmp_path: Path) -> None:
+    import netCDF4
+
+    with netCDF4.Dataset(Result.from_arrays(**run).save(tmp_path / "r.nc")) as file:
+        assert next(iter(file.variables)) == "time"
+        assert file["quaternion"].dimensions == ("time", "body", "wxyz")
+        assert file.data_model == "NETCDF4"
+
+
+def test_an_interrupted_result_says_so_in_its_file(run: dict[str, Any], tmp_path: Path) -> None:
+    result = Result.from_arrays(**run, interrupted=True)
+    assert Result.load(result.save(tmp_path / "r.nc")).interrupted
+    assert result.to_xarray().attrs["interrupted"] == 1
+
+
+def test_a_result_passes_between_processes(run: dict[str, Any]) -> None:
+    result = Result.from_arrays(**run)
+    again = pickle.loads(pickle.dumps(result))
+    assert again.stats == result.stats and again.coords == result.coords
+    np.testing.assert_array_equal(again["position"], result["position"])
+    assert not again["position"].flags.writeable and not again.time.flags.writeable
+
+
+def without(mapping: dict[str, Any], name: str) -> dict[str, Any]:
+    return {key: value for key, value in mapping.items() if key != name}
+
+
+BAD_INPUT = {
+    "unknown channel": (lambda r: r["arrays"].update(heave=r["time"]), "'heave' is unknown"),
+    "wrong shape": (
+        lambda r: r["arrays"].update(stroke=r["arrays"]["stroke"].T),
+        r"'stroke' has shape \(2, 51\)",
+    ),
+    "not a number in a finished run": (
+        lambda r: r["arrays"]["stroke"].__setitem__((3, 1), np.nan),
+        "'stroke' is not finite at output 3",
+    ),
+    "infinite in a finished run": (
+        lambda r: r["arrays"]["slew_angle"].__setitem__(4, np.inf),
+        "'slew_angle' is not finite at output 4",
+    ),
+    "time going back": (lambda r: r["time"].__setitem__(2, 0.0), "strictly increasing"),
+    "no output at all": (lambda r: r.update(time=np.empty(0)), "at least one output time"),
+    "a body named twice": (lambda r: r.update(bodies=["vessel", "vessel"]), "more than once: vessel"),
+    "a counter missing": (lambda r: r.update(stats=without(r["stats"], "steps")), "stats lack steps"),
+    "waves without their height": (
+        lambda r: r["stats"].update(realised_hs=None),
+        "stats lack realised_hs",
+    ),
+    "a counter not finite": (lambda r: r["stats"].update(wall_s=np.nan), "'wall_s' is nan"),
+    "a counter of no plain kind": (lambda r: r["stats"].update(steps=[1]), "'steps' is a list"),
+}
+
+
+@pytest.mark.parametrize("case", BAD_INPUT)
+def test_refuses(run: dict[str, Any], case: str) -> None:
+    change, message = BAD_INPUT[case]
+    change(run)
+    with pytest.raises(ValueError, match=message):
+        Result.from_arrays(**run)
+
+
+def test_an_interrupted_run_may_hold_what_stopped_it(run: dict[str, Any]) -> None:
+    run["arrays"]["slew_torque"][-1] = np.nan
+    assert np.isnan(Result.from_arrays(**run, interrupted=True)["slew_torque"][-1])
+
+
+def test_loading_names_the_file_that_is_no_result(run: dict[str, Any], tmp_path: Path) -> None:
+    with pytest.raises(FileNotFoundError, match=r"no result file .*absent\.nc"):
+        Result.load(tmp_path / "absent.nc")
+    (tmp_path / "text.nc").write_text("time,heave\n")
+    with pytest.raises(FileFormatError, match=r"text\.nc is not a seacrane result"):
+        Result.load(tmp_path / "text.nc")
+    whole = Result.from_arrays(**run).save(tmp_path / "whole.nc").read_bytes()
+    for share in (0.1, 0.5, 0.9):
+        (tmp_path / "cut.nc").write_bytes(whole[: int(share * len(whole))])
+        with pytest.raises(FileFormatError, match=r"cut\.nc"):
+            Result.load(tmp_path / "cut.nc")
+
+
+def test_a_foreign_netcdf_file_is_refused(tmp_path: Path) -> None:
+    import netCDF4
+
+    with netCDF4.Dataset(tmp_path / "other.nc", "w") as file:
+        file.createDimension("time", 2)
+        file.createVariable("temperature", "f8", ("time",))[:] = [1, 2]
+    with pytest.raises(FileFormatError, match=r"other\.nc has no variable 'time'"):
+        Result.load(tmp_path / "other.nc")
+
+
+def test_saving_where_there_is_no_folder_leaves_nothing(run: dict[str, Any], tmp_path: Path) -> None:
+    with pytest.raises(OSError, match=r"could not write .*r\.nc: there is no folder"):
+        Result.from_arrays(**run).save(tmp_path / "absent" / "r.nc")
+    assert not list(tmp_path.iterdir())
+
+
+FULL_DISK = """
+import resource, sys
+sys.path.insert(0, {here!r})
+from test_result import crane_result
+result = crane_result(t_end=50.0)
+resource.setrlimit(resource.RLIMIT_FSIZE, (20_000, 20_000))  # writes beyond 20 kB fail as on a full disk
+try:
+    result.save({target!r})
+except OSError as error:
+    print("refused:", error)
+"""
+
+
+def test_a_full_disk_gives_a_clear_error_and_keeps_the_older_file(tmp_path: Path) -> None:
+    target = tmp_path / "r.nc"
+    target.write_text("an older file")
+    script = FULL_DISK.format(here=str(Path(__file__).parent), target=str(target))
+    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=False)
+    assert f"refused: could not write {target}" in done.stdout, done.stdout + done.stderr
+    assert "MB free" in done.stdout
+    assert target.read_text() == "an older file"
+    assert list(tmp_path.iterdir()) == [target]
