@@ -52,6 +52,7 @@ $(STAMPS)/sources.txt: FORCE
 	@cmp -s $@.new $@ && rm $@.new || mv $@.new $@
 
 .venv/.installed-seacrane: .venv/.installed-run $(STAMPS)/sources.txt $(SOURCES) | system-packages
+	@echo "building seacrane: a few minutes the first time, seconds afterwards"
 	SKBUILD_BUILD_DIR=$(PACKAGE_BUILD) SKBUILD_CMAKE_DEFINE='SEACRANE_WERROR=ON;SEACRANE_TESTS=ON' \
 	  $(PIP) install -q --no-deps --no-build-isolation .
 	touch $@
