@@ -1,0 +1,93 @@
+#include "seacrane/integrate/error_norm.hpp"
+
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+#include "seacrane/integrate/integration_error.hpp"
+
+namespace seacrane {
+namespace {
+
+std::vector<double> spread(const std::vector<double>& absolute, std::size_t size) {
+  if (absolute.size() == size) return absolute;
+  if (absolute.size() == 1) return std::vector<double>(size, absolute.front());
+  throw std::invalid_argument("absolute_tolerance holds " + std::to_string(absolute.size()) +
+                              " values; give one, or one for each of the " + std::to_string(size) +
+                              " state components");
+}
+
+}  // namespace
+
+ErrorNorm::ErrorNorm(const Tolerances& tolerances, std::size_t size)
+    : relative_(tolerances.relative), absolute_(spread(tolerances.absolute, size)) {
+  if (!(relative_ >= 0.0 && relative_ < 1.0)) {
+    throw std::invalid_argument("relative_tolerance is " + std::to_string(relative_) +
+                                "; give a value from 0 to below 1");
+  }
+  std::size_t included = 0;
+  for (std::size_t i = 0; i < size; ++i) {
+    if (!(absolute_[i] > 0.0)) {
+      throw std::invalid_argument("absolute_tolerance of state component " + std::to_string(i) + " is " +
+                                  std::to_string(absolute_[i]) +
+                                  "; give a positive value, infinity to leave the component out");
+    }
+    if (std::isfinite(absolute_[i])) ++included;
+  }
+  if (included == 0) {
+    throw std::invalid_argument("absolute_tolerance leaves every state component out of the error norm");
+  }
+  inverse_count_ = 1.0 / static_cast<double>(included);
+  weight_scale_ = std::sqrt(static_cast<double>(size) * inverse_count_);
+}
+
+double ErrorNorm::norm(const double* vector, const double* y) const {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < absolute_.size(); ++i) {
+    const double ratio = vector[i] / (absolute_[i] + relative_ * std::abs(y[i]));
+    sum += ratio * ratio;
+  }
+  return std::sqrt(sum * inverse_count_);
+}
+
+double ErrorNorm::distance(const double* a, const double* b) const {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < absolute_.size(); ++i) {
+    const double ratio = (a[i] - b[i]) / (absolute_[i] + relative_ * std::abs(a[i]));
+    sum += ratio * ratio;
+  }
+  return std::sqrt(sum * inverse_count_);
+}
+
+void ErrorNorm::weights(const double* y, double* w) const {
+  for (std::size_t i = 0; i < absolute_.size(); ++i) {
+    w[i] = weight_scale_ / (absolute_[i] + relative_ * std::abs(y[i]));
+  }
+}
+
+double ErrorNorm::typical(std::size_t i) const {
+  // An absolute tolerance is usually chosen as the relative one times the size that matters.
+  if (!std::isfinite(absolute_[i]) || relative_ == 0.0) return 1.0;
+  return absolute_[i] / relative_;
+}
+
+bool all_finite(const double* values, std::size_t size) {
+  // 0 * x is 0 for finite x and NaN otherwise; independent sums let the compiler use vector registers.
+  double sum[4] = {0.0, 0.0, 0.0, 0.0};
+  std::size_t i = 0;
+  for (; i + 4 <= size; i += 4) {
+    for (std::size_t j = 0; j < 4; ++j) sum[j] += 0.0 * values[i + j];
+  }
+  for (; i < size; ++i) sum[0] += 0.0 * values[i];
+  return (sum[0] + sum[1]) + (sum[2] + sum[3]) == 0.0;
+}
+
+std::size_t first_non_finite(const double* values, std::size_t size) {
+  for (std::size_t i = 0; i < size; ++i) {
+    if (!std::isfinite(values[i])) return i;
+  }
+  return IntegrationError::no_component;
+}
+
+}  // namespace seacrane

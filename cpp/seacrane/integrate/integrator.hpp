@@ -1,0 +1,116 @@
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "seacrane/integrate/error_norm.hpp"
+#include "seacrane/integrate/integration_error.hpp"
+
+namespace seacrane {
+
+/// What a run has cost so far; never set back by reset().
+struct Counters {
+  long steps = 0;
+  long rejected_steps = 0;
+  long evaluations = 0;
+  long jacobians = 0;
+  long newton_iterations = 0;
+  long projections = 0;
+  long restarts = 0;
+};
+
+struct IntegratorOptions {
+  std::string name = "dopri5";
+  double relative_tolerance = 1e-6;
+  /// One value, or one per state component; infinity leaves a component out of the error norm.
+  std::vector<double> absolute_tolerance = {1e-8};
+  /// Step of the fixed-step methods (s); 0 is the method's own default.
+  double fixed_step = 0.0;
+  /// Longest step (s); 0 is no limit.
+  double max_step = 0.0;
+  /// First step of the adaptive methods (s); 0 lets the method choose.
+  double initial_step = 0.0;
+
+  Tolerances tolerances() const { return {relative_tolerance, absolute_tolerance}; }
+};
+
+/// A quantity whose change of sign is an event.
+using EventFunction = std::function<double(double t, const double* y)>;
+
+/// Steps a System through time. One object belongs to one run.
+class Integrator {
+ public:
+  Integrator(std::string name, std::size_t size);
+  virtual ~Integrator() = default;
+  Integrator(const Integrator&) = delete;
+  Integrator& operator=(const Integrator&) = delete;
+
+  const std::string& name() const { return name_; }
+  std::size_t size() const { return state_.size(); }
+
+  virtual void init(double t0, const double* y0) = 0;
+  /// Takes one internal step, never beyond t_limit; a step that reaches it lands on it exactly. Does
+  /// nothing when t_limit is time(). After an exception time() and state() are those before the call.
+  virtual void step(double t_limit) = 0;
+
+  double time() const { return time_; }
+  /// Start of the last step; time() right after init, reset and load.
+  double previous_time() const { return previous_time_; }
+  /// State at time(), projected where the method projects.
+  const double* state() const { return state_.data(); }
+  /// State at previous_time(), projected likewise.
+  const double* previous_state() const { return previous_state_.data(); }
+
+  /// Dense output of the last step at t in [previous_time(), time()]; not projected.
+  virtual void interpolate(double t, double* y) const = 0;
+
+  /// Goes on from a new state: drops what is kept of the derivative's past.
+  virtual void reset(double t, const double* y) = 0;
+  virtual Counters counters() const = 0;
+  /// Order of the method; the highest one for a method of variable order.
+  virtual int order() const = 0;
+  virtual bool is_adaptive() const = 0;
+
+  /// What load() needs to go on. The own one-step methods then continue bit for bit; the SUNDIALS methods
+  /// keep time and state only (no public call saves their history), so load() restarts them.
+  virtual std::vector<double> save() const = 0;
+  virtual void load(std::span<const double> saved) = 0;
+
+  /// Time in the last step at which `event` changes sign, to rounding, on the side where it has changed;
+  /// nothing when its sign at time() is that at previous_time(). An event that is zero at the start of the
+  /// step has been found by the step before. Of several events in one step it finds one.
+  std::optional<double> locate(const EventFunction& event);
+
+ protected:
+  /// Sets time and state, with an empty last step. Throws std::invalid_argument on non-finite values.
+  void set_state(double t, const double* y);
+  /// Throws std::invalid_argument unless t_limit is finite and not before time().
+  void check_limit(double t_limit) const;
+  /// t, moved by rounding into the last step. Throws std::invalid_argument when t lies outside.
+  double inside_last_step(double t) const;
+
+  double time_ = 0.0;
+  double previous_time_ = 0.0;
+  std::vector<double> state_;
+  std::vector<double> previous_state_;
+
+ private:
+  std::string name_;
+  std::vector<double> event_state_;
+};
+
+/// Throws std::invalid_argument on a step size that is negative or not finite.
+void check_step_sizes(const IntegratorOptions& options);
+
+/// Below this step size time cannot be told from its neighbours any more.
+double smallest_step(double t);
+
+/// Length of the next step when `proposed` is wanted and `remaining` is left: all that is left when the
+/// proposal covers it, and half of it where a full step would leave a sliver.
+double limited_step(double proposed, double remaining);
+
+}  // namespace seacrane

@@ -1,0 +1,142 @@
+#include "seacrane/integrate/one_step.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+namespace seacrane {
+namespace {
+
+/// Error memory of a controller that has not seen a step yet (Hairer, Norsett, Wanner, code DOPRI5).
+constexpr double fresh_error_memory = 1e-4;
+/// Largest projection, in the error norm, after which the derivative is kept.
+constexpr double kept_correction = 1e-2;
+/// Time, step size, error memory, and whether the derivative is known.
+constexpr std::size_t saved_scalars = 4;
+
+}  // namespace
+
+OneStepIntegrator::OneStepIntegrator(std::string name, System& system, const IntegratorOptions& options)
+    : Integrator(std::move(name), system.size()),
+      system_(system),
+      norm_(options.tolerances(), system.size()),
+      start_derivative_(system.size()),
+      end_state_(system.size()),
+      end_derivative_(system.size()),
+      error_memory_(fresh_error_memory),
+      refreshed_(system.size()),
+      candidate_(system.size()),
+      initial_step_(options.initial_step) {
+  check_step_sizes(options);
+}
+
+void OneStepIntegrator::init(double t0, const double* y0) {
+  set_state(t0, y0);
+  counters_ = Counters{};
+  step_ = initial_step_;
+  error_memory_ = fresh_error_memory;
+  next_start_ = NextStart::missing;
+}
+
+void OneStepIntegrator::reset(double t, const double* y) {
+  // The step size is kept: it is right wherever the new state resembles the old, and cheap to correct.
+  set_state(t, y);
+  error_memory_ = fresh_error_memory;
+  next_start_ = NextStart::missing;
+  ++counters_.restarts;
+}
+
+void OneStepIntegrator::evaluate(double t, const double* y, double* ydot) const {
+  ++counters_.evaluations;
+  system_.derivative(t, y, ydot);
+}
+
+void OneStepIntegrator::fail(double h, std::size_t component, const std::string& reason) const {
+  throw IntegrationError(name(), time_, h, component, reason);
+}
+
+void OneStepIntegrator::begin_step() {
+  previous_time_ = time_;
+  std::copy(state_.begin(), state_.end(), previous_state_.begin());
+  switch (next_start_) {
+    case NextStart::at_start:
+      return;
+    case NextStart::at_end:
+      start_derivative_.swap(end_derivative_);
+      break;
+    case NextStart::refreshed:
+      start_derivative_.swap(refreshed_);
+      break;
+    case NextStart::missing:
+      evaluate(time_, state_.data(), start_derivative_.data());
+      break;
+  }
+  next_start_ = NextStart::at_start;
+  if (all_finite(start_derivative_.data(), size())) return;
+  next_start_ = NextStart::missing;
+  fail(step_, first_non_finite(start_derivative_.data(), size()),
+       "the derivative at the start of the step is not finite");
+}
+
+void OneStepIntegrator::accept(double t_end) {
+  std::copy(end_state_.begin(), end_state_.end(), candidate_.begin());
+  NextStart next = NextStart::at_end;
+  if (system_.has_projection()) {
+    ++counters_.projections;
+    if (system_.project(t_end, candidate_.data(), true)) {
+      const double correction = norm_.distance(candidate_.data(), end_state_.data());
+      if (!std::isfinite(correction)) {
+        fail(t_end - time_, first_non_finite(candidate_.data(), size()), "the projected state is not finite");
+      }
+      if (correction > kept_correction) {
+        evaluate(t_end, candidate_.data(), refreshed_.data());
+        next = NextStart::refreshed;
+      }
+    }
+  }
+  // Nothing below can throw, so a failed step leaves time and state as they were.
+  previous_state_.swap(state_);
+  state_.swap(candidate_);
+  previous_time_ = time_;
+  time_ = t_end;
+  next_start_ = next;
+  ++counters_.steps;
+}
+
+const std::vector<double>& OneStepIntegrator::next_derivative() const {
+  switch (next_start_) {
+    case NextStart::at_end:
+      return end_derivative_;
+    case NextStart::refreshed:
+      return refreshed_;
+    default:
+      return start_derivative_;
+  }
+}
+
+std::vector<double> OneStepIntegrator::save() const {
+  const bool known = next_start_ != NextStart::missing;
+  std::vector<double> saved = {time_, step_, error_memory_, known ? 1.0 : 0.0};
+  saved.reserve(saved_scalars + 2 * size());
+  saved.insert(saved.end(), state_.begin(), state_.end());
+  const std::vector<double>& derivative = next_derivative();
+  saved.insert(saved.end(), derivative.begin(), derivative.end());
+  return saved;
+}
+
+void OneStepIntegrator::load(std::span<const double> saved) {
+  if (saved.size() != saved_scalars + 2 * size()) {
+    throw std::invalid_argument(name() + ": the saved integrator state holds " +
+                                std::to_string(saved.size()) + " values, this system needs " +
+                                std::to_string(saved_scalars + 2 * size()));
+  }
+  set_state(saved[0], saved.data() + saved_scalars);
+  step_ = saved[1];
+  error_memory_ = saved[2];
+  next_start_ = saved[3] != 0.0 ? NextStart::at_start : NextStart::missing;
+  const double* derivative = saved.data() + saved_scalars + size();
+  std::copy_n(derivative, size(), start_derivative_.data());
+}
+
+}  // namespace seacrane

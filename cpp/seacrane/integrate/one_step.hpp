@@ -1,0 +1,61 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "seacrane/integrate/integrator.hpp"
+#include "seacrane/integrate/system.hpp"
+
+namespace seacrane {
+
+/// What the own explicit one-step methods share: the derivative handed from the end of a step to the start
+/// of the next, projection, and saving.
+///
+/// A step ends with f(t + h, y) at the raw end state y; the system then projects y, using what it has just
+/// factorised. The next step starts from the projected state but keeps that derivative. Why the order is
+/// kept: in one step of a method of order p the constraints drift by O(h^(p+1)), so the kept derivative is
+/// wrong by O(h^(p+1)) and the next step by h times that, one power below its own local error. Where the
+/// correction is not small against the tolerances (a step far too long, a start off the manifold) the
+/// derivative is evaluated again.
+class OneStepIntegrator : public Integrator {
+ public:
+  OneStepIntegrator(std::string name, System& system, const IntegratorOptions& options);
+
+  void init(double t0, const double* y0) override;
+  void reset(double t, const double* y) override;
+  Counters counters() const override { return counters_; }
+  std::vector<double> save() const override;
+  void load(std::span<const double> saved) override;
+
+ protected:
+  /// Makes start_derivative_ hold the derivative at time() and empties the last step.
+  void begin_step();
+  /// Ends the step: end_state_ and end_derivative_, the raw result at t_end, become the present state.
+  void accept(double t_end);
+  void evaluate(double t, const double* y, double* ydot) const;
+  [[noreturn]] void fail(double h, std::size_t component, const std::string& reason) const;
+
+  System& system_;
+  ErrorNorm norm_;
+  // Mutable because dense output may need an evaluation of its own.
+  mutable Counters counters_;
+  /// Derivatives at both ends and raw end state of the last step: what dense output is made of.
+  std::vector<double> start_derivative_;
+  std::vector<double> end_state_;
+  std::vector<double> end_derivative_;
+  /// Step size to try next (s, 0: not chosen yet) and error of the last step, for the step size control.
+  double step_ = 0.0;
+  double error_memory_;
+
+ private:
+  enum class NextStart { missing, at_start, at_end, refreshed };
+
+  const std::vector<double>& next_derivative() const;
+
+  NextStart next_start_ = NextStart::missing;
+  std::vector<double> refreshed_;
+  std::vector<double> candidate_;
+  double initial_step_;
+};
+
+}  // namespace seacrane

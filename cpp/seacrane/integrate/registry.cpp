@@ -1,0 +1,48 @@
+#include "seacrane/integrate/registry.hpp"
+
+#include <stdexcept>
+
+// The one list of integrators: the name a user gives, and the function of the method's own file that makes
+// it. A new method is added here and nowhere else.
+#define SEACRANE_INTEGRATORS(entry)                                                  \
+  entry("rk4", make_rk4) entry("dopri5", make_dopri5) entry("ark-erk", make_ark_erk) \
+      entry("cvode-adams", make_cvode_adams) entry("cvode-bdf", make_cvode_bdf) entry("ida", make_ida)
+
+namespace seacrane {
+
+#define SEACRANE_DECLARE(name, make) \
+  std::unique_ptr<Integrator> make(System&, ResidualSystem*, const IntegratorOptions&);
+SEACRANE_INTEGRATORS(SEACRANE_DECLARE)
+#undef SEACRANE_DECLARE
+
+namespace {
+
+struct Entry {
+  const char* name;
+  std::unique_ptr<Integrator> (*make)(System&, ResidualSystem*, const IntegratorOptions&);
+};
+
+#define SEACRANE_LIST(name, make) Entry{name, make},
+constexpr Entry entries[] = {SEACRANE_INTEGRATORS(SEACRANE_LIST)};
+#undef SEACRANE_LIST
+
+}  // namespace
+
+std::unique_ptr<Integrator> make_integrator(System& system, ResidualSystem* residual,
+                                            const IntegratorOptions& options) {
+  std::string known;
+  for (const Entry& entry : entries) {
+    if (options.name == entry.name) return entry.make(system, residual, options);
+    known += known.empty() ? "" : ", ";
+    known += entry.name;
+  }
+  throw std::invalid_argument("unknown integrator \"" + options.name + "\"; choose one of " + known);
+}
+
+std::vector<std::string> integrator_names() {
+  std::vector<std::string> names;
+  for (const Entry& entry : entries) names.emplace_back(entry.name);
+  return names;
+}
+
+}  // namespace seacrane

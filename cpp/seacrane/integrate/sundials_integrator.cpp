@@ -1,0 +1,174 @@
+#include "seacrane/integrate/sundials_integrator.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <utility>
+
+namespace seacrane {
+namespace {
+
+constexpr double epsilon = std::numeric_limits<double>::epsilon();
+
+void add(Counters& sum, const Counters& part) {
+  sum.steps += part.steps;
+  sum.rejected_steps += part.rejected_steps;
+  sum.newton_iterations += part.newton_iterations;
+}
+
+}  // namespace
+
+SundialsIntegrator::SundialsIntegrator(std::string name, System& system, const IntegratorOptions& options,
+                                       std::size_t solved_size)
+    : Integrator(std::move(name), system.size()),
+      system_(system),
+      options_(options),
+      context_(sundials::create_context(messages_)),
+      solution_(solved_size),
+      solution_vector_(sundials::view(solution_, context_)),
+      errors_(solved_size),
+      weights_(solved_size),
+      errors_vector_(sundials::view(errors_, context_)),
+      weights_vector_(sundials::view(weights_, context_)) {
+  if (!context_) throw std::runtime_error("SUNDIALS could not create its context");
+  check_step_sizes(options);
+}
+
+void SundialsIntegrator::init(double t0, const double* y0) {
+  set_state(t0, y0);
+  counters_ = before_restart_ = Counters{};
+  started_ = false;
+  must_restart_ = true;
+  carried_ = false;
+}
+
+void SundialsIntegrator::reset(double t, const double* y) {
+  set_state(t, y);
+  ++counters_.restarts;
+  must_restart_ = true;
+  carried_ = false;
+}
+
+Counters SundialsIntegrator::counters() const {
+  Counters all = counters_;
+  add(all, before_restart_);
+  if (started_) add(all, solver_counters());
+  return all;
+}
+
+std::vector<double> SundialsIntegrator::save() const {
+  std::vector<double> saved = {time_};
+  saved.insert(saved.end(), state_.begin(), state_.end());
+  return saved;
+}
+
+void SundialsIntegrator::load(std::span<const double> saved) {
+  if (saved.size() != 1 + size()) {
+    throw std::invalid_argument(name() + ": the saved integrator state holds " +
+                                std::to_string(saved.size()) + " values, this system needs " +
+                                std::to_string(1 + size()));
+  }
+  reset(saved[0], saved.data() + 1);
+}
+
+void SundialsIntegrator::step(double t_limit) {
+  check_limit(t_limit);
+  if (t_limit == time_) return;
+  const double before = time_;
+  previous_time_ = time_;
+  previous_state_ = state_;
+  carried_ = t_limit - time_ <= 64.0 * epsilon * std::max(std::abs(time_), std::abs(t_limit));
+  if (carried_) {
+    // The solvers refuse such a step; over it the state changes by rounding only.
+    time_ = t_limit;
+    must_restart_ = true;
+    return;
+  }
+  pending_ = nullptr;
+  bad_component_ = IntegrationError::no_component;
+  messages_.last_error.clear();
+  try {
+    if (must_restart_) {
+      if (started_) add(before_restart_, solver_counters());
+      started_ = false;
+      restart();
+      started_ = true;
+      must_restart_ = false;
+    } else {
+      prepare_step();
+    }
+    const double reached = advance(t_limit);
+    if (reached < t_limit && reached - before < smallest_step(reached)) {
+      messages_.last_error = "the step size has collapsed";
+      fail("step");
+    }
+    time_ = reached;
+  } catch (...) {
+    previous_time_ = before;
+    state_ = previous_state_;
+    must_restart_ = true;
+    throw;
+  }
+}
+
+void SundialsIntegrator::interpolate(double t, double* y) const {
+  t = inside_last_step(t);
+  if (carried_ || must_restart_ || previous_time_ == time_) {
+    std::copy(state_.begin(), state_.end(), y);
+    return;
+  }
+  dense_output(t, y);
+}
+
+int SundialsIntegrator::check_finite(const double* values, std::size_t size) {
+  if (all_finite(values, size)) return 0;
+  bad_component_ = first_non_finite(values, size);
+  return 1;
+}
+
+int SundialsIntegrator::evaluate(double t, const double* y, double* ydot) {
+  return guarded([&] {
+    ++counters_.evaluations;
+    system_.derivative(t, y, ydot);
+    return check_finite(ydot, size());
+  });
+}
+
+std::size_t SundialsIntegrator::dominant_component() const {
+  if (bad_component_ != IntegrationError::no_component) return bad_component_;
+  if (!error_estimates(errors_vector_.get(), weights_vector_.get())) return IntegrationError::no_component;
+  std::size_t worst = IntegrationError::no_component;
+  double largest = 0.0;
+  for (std::size_t i = 0; i < errors_.size(); ++i) {
+    const double ratio = std::abs(errors_[i]) * weights_[i];
+    if (ratio > largest) {
+      largest = ratio;
+      worst = i;
+    }
+  }
+  return worst;
+}
+
+void SundialsIntegrator::fail(const std::string& call) const {
+  if (pending_) std::rethrow_exception(std::exchange(pending_, nullptr));
+  std::string reason = messages_.last_error.empty() ? call + " failed" : messages_.last_error;
+  if (bad_component_ != IntegrationError::no_component) reason = "the derivative is not finite; " + reason;
+  throw IntegrationError(name(), time_, attempted_step(), dominant_component(), reason);
+}
+
+void SundialsIntegrator::require(int flag, const char* call) const {
+  if (flag >= 0) return;
+  throw std::runtime_error(name() + ": " + call + " failed with flag " + std::to_string(flag) +
+                           (messages_.last_error.empty() ? "" : ": " + messages_.last_error));
+}
+
+double difference_increment(double y, double step_change, double typical) {
+  const double scale = std::max({std::abs(y), std::abs(step_change), typical});
+  const double increment = std::sqrt(epsilon) * scale;
+  // Towards where the solution goes, and exactly representable as a difference.
+  const double moved = y + (step_change < 0.0 ? -increment : increment);
+  return moved - y;
+}
+
+}  // namespace seacrane
