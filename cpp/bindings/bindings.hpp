@@ -1,0 +1,15 @@
+#pragma once
+
+#include <pybind11/eigen.h>
+#include <pybind11/functional.h>
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+namespace py = pybind11;
+
+void bind_curve(py::module_& m);
+void bind_elements(py::module_& m);
+void bind_sea(py::module_& m);
+void bind_model(py::module_& m);
+void bind_simulation(py::module_& m);

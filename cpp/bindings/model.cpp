@@ -1,0 +1,198 @@
+#include "seacrane/model/model.hpp"
+
+#include "bindings.hpp"
+#include "seacrane/dynamics/redundant.hpp"
+#include "seacrane/run/recording.hpp"
+
+using namespace seacrane;
+using Array = py::array_t<double, py::array::c_style | py::array::forcecast>;
+
+namespace {
+
+std::shared_ptr<Model> compile_scene(
+    std::string name, double gravity, const std::string& orientation, double baumgarte, double length_scale,
+    std::vector<BodyDescription> bodies, std::vector<JointDescription> joints, std::vector<DriverDescription> drivers,
+    std::vector<ActuatorDescription> actuators, std::vector<PointForceDescription> point_forces,
+    std::vector<SpringDescription> springs, std::vector<ForceTableDescription> force_tables,
+    std::vector<FunctionForceDescription> function_forces, std::vector<VesselDescription> vessels,
+    std::vector<WaveLoadDescription> wave_loads, const std::vector<std::pair<std::string, std::string>>& coordinates) {
+  SceneDescription scene;
+  scene.name = std::move(name);
+  scene.gravity = gravity;
+  if (orientation != "quaternion" && orientation != "euler_xyz") {
+    throw std::invalid_argument("scene '" + scene.name + "': orientation '" + orientation +
+                                "' is unknown; choose 'quaternion' or 'euler_xyz'");
+  }
+  scene.orientation = orientation == "quaternion" ? Orientation::quaternion : Orientation::euler_xyz;
+  scene.baumgarte = baumgarte;
+  scene.length_scale = length_scale;
+  scene.bodies = std::move(bodies);
+  scene.joints = std::move(joints);
+  scene.drivers = std::move(drivers);
+  scene.actuators = std::move(actuators);
+  scene.point_forces = std::move(point_forces);
+  scene.springs = std::move(springs);
+  scene.force_tables = std::move(force_tables);
+  scene.function_forces = std::move(function_forces);
+  scene.vessels = std::move(vessels);
+  scene.wave_loads = std::move(wave_loads);
+  for (const auto& [joint, coordinate] : coordinates) scene.coordinates.push_back({joint, coordinate});
+  return std::const_pointer_cast<Model>(compile(scene));
+}
+
+py::dict assembly_report(const Model& m) {
+  const AssemblyReport& a = m.assembly;
+  py::dict out;
+  out["largest_translation_m"] = a.largest_translation;
+  out["largest_rotation_rad"] = a.largest_rotation;
+  out["most_moved_body"] = a.most_moved;
+  out["residual_before"] = a.residual_before;
+  out["residual_after"] = a.residual_after;
+  out["rate_residual_after"] = a.rate_residual_after;
+  out["largest_velocity_change"] = a.velocity_change;
+  out["rank"] = a.rank;
+  out["condition"] = a.condition;
+  return out;
+}
+
+/// Evaluates a model at single states, for tests, linearisation and timing.
+class Evaluator {
+ public:
+  explicit Evaluator(std::shared_ptr<Model> model) : model_(std::move(model)), system_(model_) {}
+
+  Array derivative(double t, const Array& y) {
+    Array out(check(y));
+    system_.derivative(t, y.data(), out.mutable_data());
+    return out;
+  }
+  Array project(double t, const Array& y) {
+    Array out(check(y));
+    std::copy_n(y.data(), y.size(), out.mutable_data());
+    system_.project(t, out.mutable_data(), false);
+    return out;
+  }
+  std::pair<double, double> residual(double t, const Array& y) {
+    check(y);
+    const ConstraintResidual r = system_.residual(t, y.data());
+    return {r.position, r.rate};
+  }
+  double energy(double t, const Array& y) {
+    check(y);
+    return system_.energy(t, y.data());
+  }
+  /// Mass matrix, constraint Jacobian, gamma, loads, acceleration and multipliers of eq (9), dense.
+  py::dict terms(double t, const Array& y) {
+    std::vector<double> rate(static_cast<std::size_t>(check(y)));
+    system_.derivative(t, y.data(), rate.data());
+    const int n = 6 * model_->body_count(), rows = model_->rows();
+    MatXd mass = MatXd::Zero(n, n), d = MatXd::Zero(rows, n);
+    VecXd gamma(rows), phi(rows), load(n), acceleration(n);
+    for (int b = 0; b < model_->body_count(); ++b) {
+      mass.block<6, 6>(6 * b, 6 * b) = system_.mass_matrix(b);
+      load.segment<6>(6 * b) = system_.loads()[static_cast<std::size_t>(b)];
+      acceleration.segment<6>(6 * b) = system_.acceleration()[static_cast<std::size_t>(b)];
+    }
+    for (std::size_t e = 0; e < model_->elements.size(); ++e) {
+      const ElementModel& el = model_->elements[e];
+      const RowBlock<double>& block = system_.blocks()[e];
+      if (el.first * 6 < n) d.block(el.row, 6 * el.first, el.rows, 6) = block.d[0].topRows(el.rows);
+      if (el.second * 6 < n) d.block(el.row, 6 * el.second, el.rows, 6) = block.d[1].topRows(el.rows);
+      gamma.segment(el.row, el.rows) = block.gamma.head(el.rows);
+      phi.segment(el.row, el.rows) = block.phi.head(el.rows);
+    }
+    py::dict out;
+    out["mass"] = mass;
+    out["jacobian"] = d;
+    out["gamma"] = gamma;
+    out["phi"] = phi;
+    out["load"] = load;
+    out["acceleration"] = acceleration;
+    out["multipliers"] = VecXd(Eigen::Map<const VecXd>(system_.multipliers().data(), rows));
+    return out;
+  }
+  /// Runs the evaluation `count` times; the caller takes the time.
+  void repeat(double t, const Array& y, long count, double dt) {
+    std::vector<double> rate(static_cast<std::size_t>(check(y)));
+    py::gil_scoped_release release;
+    for (long i = 0; i < count; ++i) system_.derivative(t + static_cast<double>(i) * dt, y.data(), rate.data());
+  }
+  py::dict time_parts(double t, const Array& y, long count) {
+    check(y);
+    py::dict out;
+    for (const auto& [name, ns] : system_.time_parts(t, y.data(), count)) out[name.c_str()] = ns;
+    return out;
+  }
+
+ private:
+  py::ssize_t check(const Array& y) const {
+    if (y.ndim() != 1 || y.size() != model_->layout.size) {
+      throw std::invalid_argument("state: has " + std::to_string(y.size()) + " values, the model needs " +
+                                  std::to_string(model_->layout.size));
+    }
+    return y.size();
+  }
+  std::shared_ptr<Model> model_;
+  RedundantSystem system_;
+};
+
+void bind_evaluator(py::module_& m) {
+  py::class_<Evaluator>(m, "Evaluator", "Evaluates a compiled model at single states (t in s, y as Model.initial_state).")
+      .def(py::init<std::shared_ptr<Model>>(), py::arg("model"))
+      .def("derivative", &Evaluator::derivative, py::arg("t"), py::arg("y"), "dy/dt, a new array.")
+      .def("project", &Evaluator::project, py::arg("t"), py::arg("y"), "y on the constraints, a new array.")
+      .def("residual", &Evaluator::residual, py::arg("t"), py::arg("y"),
+           "Largest constraint residuals (position in m or rad, rate per s).")
+      .def("energy", &Evaluator::energy, py::arg("t"), py::arg("y"), "Mechanical energy, J.")
+      .def("terms", &Evaluator::terms, py::arg("t"), py::arg("y"),
+           "Dense mass, jacobian, gamma, phi, load, acceleration, multipliers of eq (9).")
+      .def("repeat", &Evaluator::repeat, py::arg("t"), py::arg("y"), py::arg("count"), py::arg("dt") = 0.0,
+           "Evaluates `count` times, advancing t by dt; for timing.")
+      .def("time_parts", &Evaluator::time_parts, py::arg("t"), py::arg("y"), py::arg("count") = 2000,
+           "Nanoseconds per evaluation by part.");
+}
+
+}  // namespace
+
+void bind_model(py::module_& m) {
+  py::class_<Model, std::shared_ptr<Model>>(m, "Model", "A compiled scene: immutable, shareable between threads.")
+      .def_property_readonly("name", [](const Model& x) { return x.description.name; })
+      .def_property_readonly("bodies", [](const Model& x) {
+        std::vector<std::string> out;
+        for (const auto& b : x.bodies) out.push_back(b.name);
+        return out;
+      })
+      .def_property_readonly("elements", [](const Model& x) {
+        std::vector<std::tuple<std::string, std::string, int, bool>> out;
+        for (const auto& e : x.elements) out.emplace_back(e.name, e.kind, e.rows, e.unique_reaction);
+        return out;
+      }, "(name, kind, rows, whether the reaction is unique) of joints, then drivers.")
+      .def_property_readonly("coordinates", [](const Model& x) { return 6 * x.body_count(); })
+      .def_property_readonly("constraints", &Model::rows)
+      .def_property_readonly("degrees_of_freedom", [](const Model& x) {
+        return 6 * x.body_count() - (x.rows() == 0 ? 0 : x.assembly.rank);
+      })
+      .def_property_readonly("states", [](const Model& x) { return x.layout.size; })
+      .def_property_readonly("memory_states", [](const Model& x) { return x.layout.work - x.layout.memory; })
+      .def_property_readonly("slots", [](const Model& x) { return x.slot_count; })
+      .def_property_readonly("breakpoints", [](const Model& x) { return x.breakpoints; }, "s")
+      .def_property_readonly("redundant", [](const Model& x) { return x.assembly.redundant; },
+                             "Names of elements whose reactions are not unique.")
+      .def_property_readonly("assembly", &assembly_report)
+      .def_property_readonly("paper_kinematics", [](const Model& x) { return x.paper_kinematics; })
+      .def_property_readonly("baumgarte", [](const Model& x) { return x.description.baumgarte; })
+      .def_property_readonly("initial_state", [](const Model& x) {
+        return Array(static_cast<py::ssize_t>(x.initial_state.size()), x.initial_state.data());
+      }, "Consistent start (copy): poses, twists, memory states, work.")
+      .def_property_readonly("scale", [](const Model& x) {
+        return Array(static_cast<py::ssize_t>(x.scale.size()), x.scale.data());
+      }, "Typical magnitude per state (copy); infinity: outside the error norm.")
+      .def("pose_index", [](const Model& x, int body) { return x.layout.pose(body); }, py::arg("body"))
+      .def("twist_index", [](const Model& x, int body) { return x.layout.twist(body); }, py::arg("body"))
+      .def("channel_names", &channel_names, py::arg("defaults_only") = true);
+  m.def("compile", &compile_scene, py::kw_only(), py::arg("name"), py::arg("gravity"), py::arg("orientation"),
+        py::arg("baumgarte"), py::arg("length_scale"), py::arg("bodies"), py::arg("joints"), py::arg("drivers"),
+        py::arg("actuators"), py::arg("point_forces"), py::arg("springs"), py::arg("force_tables"),
+        py::arg("function_forces"), py::arg("vessels"), py::arg("wave_loads"), py::arg("coordinates"),
+        "Checks and compiles a scene; seacrane.Scene.compile() calls it. Raises SceneError.");
+  bind_evaluator(m);
+}

@@ -1,0 +1,38 @@
+#include <exception>
+
+#include "bindings.hpp"
+#include "seacrane/integrate/integration_error.hpp"
+#include "seacrane/model/validate.hpp"
+
+namespace {
+
+/// C++ exceptions become the classes of seacrane.errors.
+void translate(std::exception_ptr pointer) {
+  const auto raise = [](const char* name, const char* what) {
+    const py::object type = py::module_::import("seacrane.errors").attr(name);
+    PyErr_SetString(type.ptr(), what);
+  };
+  try {
+    if (pointer) std::rethrow_exception(pointer);
+  } catch (const seacrane::SceneError& error) {
+    raise("SceneError", error.what());
+  } catch (const std::invalid_argument& error) {
+    raise("SceneError", error.what());
+  } catch (const seacrane::IntegrationError& error) {
+    raise("SimulationError", error.what());
+  } catch (const std::domain_error& error) {
+    raise("SimulationError", error.what());
+  }
+}
+
+}  // namespace
+
+PYBIND11_MODULE(_core, m) {
+  m.doc() = "Compiled core of seacrane: descriptions, compiled model, stepping loop. SI units, radians.";
+  py::register_exception_translator(&translate);
+  bind_curve(m);
+  bind_sea(m);
+  bind_elements(m);
+  bind_model(m);
+  bind_simulation(m);
+}

@@ -1,0 +1,98 @@
+#include "seacrane/run/simulation.hpp"
+
+#include "bindings.hpp"
+
+using namespace seacrane;
+using Array = py::array_t<double, py::array::c_style | py::array::forcecast>;
+
+namespace {
+
+Array to_array(const std::vector<double>& v) { return Array(static_cast<py::ssize_t>(v.size()), v.data()); }
+
+std::vector<double> to_vector(const Array& a) { return {a.data(), a.data() + a.size()}; }
+
+/// Asks Python for Ctrl-C and reports progress; called every 20 ms of wall time.
+bool ask_python(double time, const py::object& progress) {
+  py::gil_scoped_acquire acquire;
+  if (PyErr_CheckSignals() != 0) {
+    PyErr_Clear();
+    return false;
+  }
+  if (!progress.is_none()) progress(time);
+  return true;
+}
+
+py::dict channels(const Simulation& s) {
+  const Recording& r = s.recording();
+  const auto rows = static_cast<py::ssize_t>(r.count());
+  py::dict out;
+  out["time"] = to_array(r.times());
+  for (const Channel& c : r.channels()) {
+    std::vector<py::ssize_t> shape{rows};
+    for (std::size_t n : c.shape) shape.push_back(static_cast<py::ssize_t>(n));
+    Array values(shape);
+    double* target = values.mutable_data();
+    for (py::ssize_t i = 0; i < rows; ++i) {
+      const double* row = r.rows().data() + static_cast<std::size_t>(i) * r.width() + c.offset;
+      target = std::copy_n(row, c.size, target);
+    }
+    out[c.name.c_str()] = values;
+  }
+  return out;
+}
+
+py::dict statistics(const Simulation& s) {
+  const RunStatistics r = s.statistics();
+  py::dict out;
+  out["steps"] = r.counters.steps;
+  out["rejected_steps"] = r.counters.rejected_steps;
+  out["evaluations"] = r.counters.evaluations;
+  out["jacobians"] = r.counters.jacobians;
+  out["newton_iterations"] = r.counters.newton_iterations;
+  out["projections"] = r.counters.projections;
+  out["restarts"] = r.counters.restarts;
+  out["dense_solves"] = r.dense_solves;
+  out["wall_s"] = r.wall_seconds;
+  out["states"] = s.state_size();
+  return out;
+}
+
+}  // namespace
+
+void bind_simulation(py::module_& m) {
+  py::class_<State>(m, "State", "Time (s), state values and inputs of a run; a copy is a checkpoint.")
+      .def(py::init([](double time, const Array& values, const Array& inputs) {
+             return State{time, to_vector(values), to_vector(inputs)};
+           }),
+           py::kw_only(), py::arg("time"), py::arg("values"), py::arg("inputs"))
+      .def_property_readonly("time", [](const State& s) { return s.time; })
+      .def_property_readonly("values", [](const State& s) { return to_array(s.values); }, "copy")
+      .def_property_readonly("inputs", [](const State& s) { return to_array(s.inputs); }, "copy");
+  m.def("initial_state", [](const std::shared_ptr<Model>& model) { return initial_state(*model); }, py::arg("model"));
+  m.def("integrator_names", &integrator_names);
+  py::class_<Simulation>(m, "Simulation", "One run of a model: advance(), inputs, recorded channels. Not for several threads.")
+      .def(py::init([](const std::shared_ptr<Model>& model, const State& start, std::string integrator, double rtol,
+                       double dt, double max_step, const Array& output_times, std::set<std::string> names) {
+             RunOptions options;
+             options.integrator = std::move(integrator);
+             options.tolerance = rtol;
+             options.fixed_step = dt;
+             options.max_step = max_step;
+             options.output_times = to_vector(output_times);
+             options.channels = std::move(names);
+             return std::make_unique<Simulation>(model, start, std::move(options));
+           }),
+           py::kw_only(), py::arg("model"), py::arg("start"), py::arg("integrator"), py::arg("rtol"), py::arg("dt"),
+           py::arg("max_step"), py::arg("output_times"), py::arg("channels"))
+      .def("advance", [](Simulation& s, double t_end, const py::object& progress) {
+        py::gil_scoped_release release;
+        return s.advance(t_end, [&](double time) { return ask_python(time, progress); });
+      }, py::arg("t_end"), py::arg("progress") = py::none(),
+           "Steps to t_end (s) without the GIL; returns False when Ctrl-C stopped it. progress(time) is called now and then.")
+      .def_property_readonly("time", &Simulation::time)
+      .def_property_readonly("state", &Simulation::state, "copy")
+      .def("set_inputs", [](Simulation& s, const Array& slots) { s.set_inputs(to_vector(slots)); }, py::arg("slots"),
+           "Sets the zero-order-held inputs from now on.")
+      .def("channels", &channels, "Recorded arrays by name, time first (copies).")
+      .def("statistics", &statistics);
+}

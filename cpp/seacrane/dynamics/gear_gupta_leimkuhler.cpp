@@ -1,0 +1,82 @@
+#include "seacrane/dynamics/gear_gupta_leimkuhler.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace seacrane {
+namespace {
+
+std::size_t idx(int i) { return static_cast<std::size_t>(i); }
+
+}  // namespace
+
+GearGuptaLeimkuhler::GearGuptaLeimkuhler(RedundantSystem& system) : system_(&system) {
+  const Model& m = system.model();
+  differential_.assign(idx(m.layout.size + 2 * m.rows()), 0.0);
+  std::fill_n(differential_.begin(), m.layout.size, 1.0);
+  rate_.assign(idx(m.layout.size), 0.0);
+  load_.assign(idx(m.body_count()) + 1, Vec6d::Zero());
+  correction_ = load_;
+}
+
+void GearGuptaLeimkuhler::residual(double t, const double* y, const double* ydot, double* r) {
+  const Model& m = system_->model();
+  const StateLayout& s = m.layout;
+  const double* lambda = y + s.size;
+  const double* mu = lambda + m.rows();
+  system_->evaluate_terms(t, y, rate_.data());
+  system_->multiplier_load(lambda, load_);
+  system_->multiplier_load(mu, correction_);
+  for (int b = 0; b < m.body_count(); ++b) {
+    const BodyModel& body = m.bodies[idx(b)];
+    const BodyKinematics<double>& k = system_->bodies()[idx(b)];
+    const double inertia = body.inertia.trace() / 3.0;
+    const Vec3d shift = correction_[idx(b)].head<3>() / body.mass, turn = correction_[idx(b)].tail<3>() / inertia;
+    const double* pose = y + s.pose(b);
+    double* r_pose = r + s.pose(b);
+    const double* pose_rate = ydot + s.pose(b);
+    view<3>(r_pose) = view<3>(pose_rate) - k.velocity - shift;
+    const Vec3d omega = k.angular_velocity + turn;
+    if (s.pose_size == 7) {
+      view<4>(r_pose + 3) = view<4>(pose_rate + 3) -
+                                      quaternion_rate<double>(view<4>(pose + 3), omega);
+    } else {
+      view<3>(r_pose + 3) = view<3>(pose_rate + 3) -
+                                      euler_xyz_rate<double>(view<3>(pose + 3), omega);
+    }
+    Vec6d balance = system_->mass_matrix(b) * view<6>(ydot + s.twist(b)) -
+                    system_->loads()[idx(b)] - load_[idx(b)];
+    balance.head<3>() /= body.mass;
+    balance.tail<3>() /= inertia;
+    view<6>(r + s.twist(b)) = balance;
+  }
+  for (int i = s.memory; i < s.work; ++i) r[i] = ydot[i] - rate_[idx(i)];
+  for (std::size_t e = m.elements.size() - m.drivers.size(); e < m.elements.size(); ++e) {
+    system_->add_driver_power(lambda[m.elements[e].row] * system_->blocks()[e].nu[0]);
+  }
+  r[s.work] = ydot[s.work] - system_->power();
+  r[s.work + 1] = ydot[s.work + 1] - system_->absolute_power();
+  double* r_rate = r + s.size;
+  double* r_position = r_rate + m.rows();
+  system_->rate_residual(y, r_rate);
+  for (std::size_t e = 0; e < m.elements.size(); ++e) {
+    for (int i = 0; i < m.elements[e].rows; ++i) {
+      r_position[m.elements[e].row + i] = system_->blocks()[e].phi[i];
+    }
+  }
+}
+
+void GearGuptaLeimkuhler::expand(double t, const double* ode_state, double* y, double* ydot) {
+  const Model& m = system_->model();
+  std::fill_n(y, size(), 0.0);
+  std::fill_n(ydot, size(), 0.0);
+  std::copy_n(ode_state, m.layout.size, y);
+  system_->derivative(t, ode_state, ydot);
+  std::copy_n(system_->multipliers().data(), m.rows(), y + m.layout.size);
+}
+
+void GearGuptaLeimkuhler::contract(double /*t*/, const double* y, double* ode_state) const {
+  std::copy_n(y, system_->model().layout.size, ode_state);
+}
+
+}  // namespace seacrane

@@ -1,0 +1,41 @@
+#pragma once
+
+#include "seacrane/dynamics/joint_coordinate.hpp"
+#include "seacrane/dynamics/loads/load.hpp"
+#include "seacrane/math/curve.hpp"
+
+namespace seacrane {
+
+/// State feedback on a joint coordinate: force = feed_forward + stiffness (reference - q) +
+/// damping (reference rate - q rate), along the coordinate, on both bodies; N or N m.
+struct Actuator {
+  CoordinateData coordinate;
+  double stiffness = 0.0, damping = 0.0, feed_forward = 0.0;
+  Curve reference;
+  int slot = 0;  // inputs: [force added, reference added]
+
+  template <class T>
+  T force(const LoadInput<T>& in, const CoordinateRow<T>& row) const {
+    const auto& ka = in.bodies[coordinate.joint.first];
+    const auto& kb = in.bodies[coordinate.joint.second];
+    const CurveValue ref = reference.at(in.time, in.curve_limit);
+    const T error = T(ref.value + in.slots[slot + 1]) - row.value;
+    const T wrapped = coordinate.kind == CoordinateKind::angle ? wrap_angle<T>(error) : error;
+    return T(feed_forward + in.slots[slot]) + T(stiffness) * wrapped +
+           T(damping) * (T(ref.rate) - coordinate_rate<T>(row, ka, kb));
+  }
+
+  template <class T>
+  void apply(const LoadInput<T>& in, LoadSum<T>& out) const {
+    const int a = coordinate.joint.first, b = coordinate.joint.second;
+    const CoordinateRow<T> row = evaluate_coordinate<T>(coordinate, in.bodies[a], in.bodies[b]);
+    const T f = force(in, row);
+    out.wrench[a].force += row.da.template head<3>() * f;
+    out.wrench[a].moment += row.da.template tail<3>() * f;
+    out.wrench[b].force += row.db.template head<3>() * f;
+    out.wrench[b].moment += row.db.template tail<3>() * f;
+    out.add_power(f * coordinate_rate<T>(row, in.bodies[a], in.bodies[b]));
+  }
+};
+
+}  // namespace seacrane

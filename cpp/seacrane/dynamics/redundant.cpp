@@ -1,0 +1,426 @@
+#include "seacrane/dynamics/redundant.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+#include "seacrane/dynamics/constraints.hpp"
+#include "seacrane/hydro/paper_kinematics.hpp"
+
+namespace seacrane {
+namespace {
+
+/// S_ii / L_ii^2 beyond which the Schur complement has lost six digits and pivoted LU takes over.
+constexpr double kConditionLimit = 1e6;
+constexpr double kRedundantCondition = 1e11;
+constexpr int kDenseLimit = 1500;  // unknowns; above it the dense fall-back would not be affordable
+constexpr double kProjectionTolerance = 1e-13;
+constexpr int kProjectionIterations = 12;
+constexpr double kEulerLimit = 1e-3;  // |cos(phi_y)|
+
+std::size_t idx(int i) { return static_cast<std::size_t>(i); }
+
+void add_transpose(const RowBlock<double>& block, int side, int rows, const double* lambda, Vec6d& out) {
+  for (int r = 0; r < rows; ++r) out += block.d[side].row(r).transpose() * lambda[r];
+}
+
+}  // namespace
+
+RedundantSystem::RedundantSystem(std::shared_ptr<const Model> model)
+    : model_(std::move(model)), slots_(idx(model_->slot_count), 0.0) {
+  const Model& m = *model_;
+  const auto bodies = idx(m.body_count()), elements = m.elements.size(), rows = idx(m.rows());
+  bodies_.assign(bodies + 1, BodyKinematics<double>::ground());
+  wrench_.resize(bodies + 1);
+  inertia_.resize(bodies);
+  for (auto* vectors : {&bias_, &load_, &acceleration_, &impulse_}) vectors->assign(bodies + 1, Vec6d::Zero());
+  frames_.assign(m.vessels.size(), YawFrame<double>(BodyKinematics<double>::ground()));
+  blocks_.resize(elements);
+  over_mass_.assign(2 * elements, Mat6d::Zero());
+  mass_.assign(bodies, Mat6d::Zero());
+  values_.assign(m.schur.value_count(), 0.0);
+  for (auto* values : {&lambda_, &gamma_, &residual_}) values->assign(rows, 0.0);
+  wave_force_.assign(m.wave_loads.size(), Vec6d::Zero());
+  wave_elevation_.assign(m.wave_loads.size(), 0.0);
+  for (const WaveLoad& wave : m.wave_loads) {
+    wave_blocks_.push_back(wave.table ? wave.table->make_block() : WaveTableBlock());
+  }
+  if (6 * m.body_count() + m.rows() <= kDenseLimit) dense_.emplace(m.body_count(), m.rows());
+  if (m.redundant) minimum_norm_.emplace(m.body_count(), m.rows());
+}
+
+void RedundantSystem::read_state(double t, const double* y) {
+  const Model& m = *model_;
+  for (int b = 0; b < m.body_count(); ++b) {
+    BodyKinematics<double>& k = bodies_[idx(b)];
+    const double* pose = y + m.layout.pose(b);
+    const double* twist = y + m.layout.twist(b);
+    k.position = view<3>(pose);
+    if (m.description.orientation == Orientation::quaternion) {
+      k.rotation = rotation_from_quaternion<double>(view<4>(pose + 3));
+    } else {
+      k.rotation = rotation_from_euler_xyz<double>(view<3>(pose + 3));
+      if (std::abs(std::cos(pose[4])) < kEulerLimit) {
+        throw std::domain_error("body '" + m.bodies[idx(b)].name + "': Euler angle phi_y is " +
+                                std::to_string(pose[4] * 180.0 / 3.14159265358979323846) + " deg at t = " +
+                                std::to_string(t) + " s, where XYZ angles are singular; use orientation='quaternion'");
+      }
+    }
+    k.velocity = view<3>(twist);
+    k.angular_velocity = view<3>(twist + 3);
+  }
+  for (std::size_t v = 0; v < m.vessels.size(); ++v) {
+    frames_[v] = YawFrame<double>(bodies_[idx(m.vessels[v].body)]);
+  }
+}
+
+void RedundantSystem::evaluate_inertia() {
+  const Model& m = *model_;
+  for (int b = 0; b < m.body_count(); ++b) {
+    const BodyModel& body = m.bodies[idx(b)];
+    const BodyKinematics<double>& k = bodies_[idx(b)];
+    if (body.vessel < 0) {
+      bias_[idx(b)] = compact_inertia(body, k, inertia_[idx(b)]);
+    } else {
+      const auto v = idx(body.vessel);
+      bias_[idx(b)] = vessel_inertia(body, m.vessels[v], k, frames_[v], inertia_[idx(b)]);
+    }
+  }
+}
+
+void RedundantSystem::evaluate_rows(double t) {
+  evaluate_constraints(*model_, t, curve_limit_, bodies_.data(), blocks_.data());
+}
+
+void RedundantSystem::apply_hydrodynamics(double t, const LoadInput<double>& input, const double* y,
+                                          double* ydot, LoadSum<double>& sum) {
+  const Model& m = *model_;
+  for (std::size_t v = 0; v < m.vessels.size(); ++v) {
+    const Vessel& vessel = m.vessels[v];
+    const double* x = y + vessel.memory_offset;
+    double* x_rate = ydot + vessel.memory_offset;
+    if (m.paper_kinematics) {
+      const auto b = idx(vessel.body);
+      const PaperVessel paper(m.bodies[b], vessel, bodies_[b], x, x_rate);
+      mass_[b] = paper.mass;
+      wrench_[b].force += paper.load.head<3>();
+      wrench_[b].moment += paper.load.tail<3>();
+    } else {
+      vessel.apply<double>(input, frames_[v], x, x_rate, sum);
+    }
+  }
+  for (std::size_t i = 0; i < m.wave_loads.size(); ++i) {
+    const WaveLoad& wave = m.wave_loads[i];
+    double load[7];
+    if (wave.table) {
+      wave.table->evaluate(t, wave_blocks_[i], load);
+    } else {
+      wave.exact->evaluate(t, load);
+    }
+    const Vec6d force = view<6>(load);
+    wave_elevation_[i] = load[6];
+    const YawFrame<double>& frame = frames_[idx(wave.vessel)];
+    wave_force_[i] = force;
+    const Vec6d inertial = m.paper_kinematics ? force : frame.to_inertial(force);
+    wrench_[idx(wave.body)].force += inertial.head<3>();
+    wrench_[idx(wave.body)].moment += inertial.tail<3>();
+    sum.add_power(force.dot(frame.twist));
+  }
+}
+
+void RedundantSystem::evaluate_loads(double t, const double* y, double* ydot) {
+  const Model& m = *model_;
+  for (auto& w : wrench_) w = Wrench<double>();
+  const LoadInput<double> input = load_input(t);
+  LoadSum<double> sum{wrench_.data()};
+  for (const auto& load : m.gravity) load.apply<double>(input, sum);
+  for (const auto& load : m.actuators) load.apply<double>(input, sum);
+  for (const auto& load : m.point_forces) load.apply<double>(input, sum);
+  for (const auto& load : m.springs) load.apply<double>(input, sum);
+  for (const auto& load : m.force_tables) load.apply<double>(input, sum);
+  for (const auto& load : m.function_forces) load.apply(input, sum);
+  apply_hydrodynamics(t, input, y, ydot, sum);
+  power_ = sum.power;
+  absolute_power_ = sum.absolute_power;
+  for (int b = 0; b < m.body_count(); ++b) {
+    Vec6d& load = load_[idx(b)];
+    load << wrench_[idx(b)].force, wrench_[idx(b)].moment;
+    // The paper's vessel carries its velocity terms in its own load.
+    if (!(m.paper_kinematics && m.bodies[idx(b)].vessel >= 0)) load -= bias_[idx(b)];
+  }
+}
+
+Mat6d RedundantSystem::mass_matrix(int body) const {
+  const Model& m = *model_;
+  const BodyModel& b = m.bodies[idx(body)];
+  if (b.vessel >= 0) return m.paper_kinematics ? mass_[idx(body)] : inertia_[idx(body)].mass;
+  return rigid_mass_matrix(b, bodies_[idx(body)].rotation);
+}
+
+void RedundantSystem::factor() {
+  const Model& m = *model_;
+  for (std::size_t e = 0; e < m.elements.size(); ++e) {
+    const ElementModel& element = m.elements[e];
+    if (element.rows == 0) continue;
+    if (element.first < m.body_count()) {
+      rows_over_mass(inertia_[idx(element.first)], blocks_[e].d[0], over_mass_[2 * e]);
+    }
+    if (element.second < m.body_count()) {
+      rows_over_mass(inertia_[idx(element.second)], blocks_[e].d[1], over_mass_[2 * e + 1]);
+    }
+  }
+  if (minimum_norm_) {
+    solver_ = Solver::minimum_norm;
+    minimum_norm_->factor(m.elements, blocks_.data(), over_mass_.data());
+    return;
+  }
+  m.schur.assemble(blocks_.data(), over_mass_.data(), values_.data());
+  const double condition = m.schur.factor(values_.data());
+  solver_ = Solver::block_schur;
+  if (condition > kConditionLimit && dense_) solver_ = Solver::dense_lu;
+  if (m.paper_kinematics) solver_ = Solver::dense_lu;
+}
+
+void RedundantSystem::solve_multipliers(double* x) {
+  if (solver_ == Solver::minimum_norm) {
+    minimum_norm_->solve(x);
+  } else {
+    model_->schur.solve(values_.data(), x);
+  }
+}
+
+void RedundantSystem::multiplier_load(const double* lambda, std::vector<Vec6d>& out) const {
+  const Model& m = *model_;
+  for (auto& load : out) load.setZero();
+  for (std::size_t e = 0; e < m.elements.size(); ++e) {
+    const ElementModel& element = m.elements[e];
+    add_transpose(blocks_[e], 0, element.rows, lambda + element.row, out[idx(element.first)]);
+    add_transpose(blocks_[e], 1, element.rows, lambda + element.row, out[idx(element.second)]);
+  }
+}
+
+void RedundantSystem::solve_acceleration() {
+  const Model& m = *model_;
+  const double beta = m.description.baumgarte;
+  for (std::size_t e = 0; e < m.elements.size(); ++e) {
+    const ElementModel& element = m.elements[e];
+    const RowBlock<double>& block = blocks_[e];
+    for (int r = 0; r < element.rows; ++r) {
+      double g = block.gamma[r];
+      if (beta > 0.0) g -= beta * beta * block.phi[r] + 2.0 * beta * residual_[idx(element.row + r)];
+      gamma_[idx(element.row + r)] = g;
+    }
+  }
+  if (solver_ == Solver::dense_lu) {
+    ++dense_solves_;
+    for (int b = 0; b < m.body_count(); ++b) mass_[idx(b)] = mass_matrix(b);
+    dense_->solve(m.elements, blocks_.data(), mass_.data(), load_.data(), gamma_.data(), acceleration_.data(),
+                  lambda_.data());
+    return;
+  }
+  for (int b = 0; b < m.body_count(); ++b) acceleration_[idx(b)] = solve_inertia(inertia_[idx(b)], load_[idx(b)]);
+  acceleration_.back().setZero();
+  lambda_ = gamma_;
+  for (std::size_t e = 0; e < m.elements.size(); ++e) {
+    const ElementModel& element = m.elements[e];
+    if (element.rows == 0) continue;
+    const Vec6d free = blocks_[e].d[0] * acceleration_[idx(element.first)] +
+                       blocks_[e].d[1] * acceleration_[idx(element.second)];
+    for (int r = 0; r < element.rows; ++r) lambda_[idx(element.row + r)] -= free[r];
+  }
+  solve_multipliers(lambda_.data());
+  multiplier_load(lambda_.data(), impulse_);
+  for (int b = 0; b < m.body_count(); ++b) {
+    acceleration_[idx(b)] += solve_inertia(inertia_[idx(b)], impulse_[idx(b)]);
+  }
+}
+
+double RedundantSystem::position_residual() const {
+  double largest = 0.0;
+  for (std::size_t e = 0; e < blocks_.size(); ++e) {
+    for (int r = 0; r < model_->elements[e].rows; ++r) {
+      const double v = std::abs(blocks_[e].phi[r]);
+      if (!(v <= largest)) largest = v;
+    }
+  }
+  return largest;
+}
+
+double RedundantSystem::rate_residual(const double* y, double* out) const {
+  const Model& m = *model_;
+  double largest = 0.0;
+  for (std::size_t e = 0; e < m.elements.size(); ++e) {
+    const ElementModel& element = m.elements[e];
+    if (element.rows == 0) continue;
+    Vec6d rate = -blocks_[e].nu;
+    if (element.first < m.body_count()) {
+      rate += blocks_[e].d[0] * view<6>(y + m.layout.twist(element.first));
+    }
+    if (element.second < m.body_count()) {
+      rate += blocks_[e].d[1] * view<6>(y + m.layout.twist(element.second));
+    }
+    for (int r = 0; r < element.rows; ++r) {
+      out[element.row + r] = rate[r];
+      const double v = std::abs(rate[r]);
+      if (!(v <= largest)) largest = v;
+    }
+  }
+  return largest;
+}
+
+void RedundantSystem::write_rates(const double* y, double* ydot) {
+  const Model& m = *model_;
+  for (int b = 0; b < m.body_count(); ++b) {
+    const BodyKinematics<double>& k = bodies_[idx(b)];
+    double* pose = ydot + m.layout.pose(b);
+    const double* angles = y + m.layout.pose(b) + 3;
+    view<3>(pose) = k.velocity;
+    if (m.description.orientation == Orientation::quaternion) {
+      view<4>(pose + 3) =
+          quaternion_rate<double>(view<4>(angles), k.angular_velocity);
+    } else {
+      view<3>(pose + 3) = euler_xyz_rate<double>(view<3>(angles), k.angular_velocity);
+    }
+    view<6>(ydot + m.layout.twist(b)) = acceleration_[idx(b)];
+  }
+  // Drivers do work lambda nu on the system.
+  for (std::size_t e = m.elements.size() - m.drivers.size(); e < m.elements.size(); ++e) {
+    add_driver_power(lambda_[idx(m.elements[e].row)] * blocks_[e].nu[0]);
+  }
+  ydot[m.layout.work] = power_;
+  ydot[m.layout.work + 1] = absolute_power_;
+}
+
+void RedundantSystem::add_driver_power(double power) {
+  power_ += power;
+  absolute_power_ += std::abs(power);
+}
+
+void RedundantSystem::evaluate_terms(double t, const double* y, double* ydot) {
+  read_state(t, y);
+  evaluate_inertia();
+  evaluate_rows(t);
+  evaluate_loads(t, y, ydot);
+}
+
+void RedundantSystem::derivative(double t, const double* y, double* ydot) {
+  evaluate_terms(t, y, ydot);
+  if (model_->description.baumgarte > 0.0) rate_residual(y, residual_.data());
+  factor();
+  solve_acceleration();
+  write_rates(y, ydot);
+}
+
+void RedundantSystem::move_poses(double* y) {
+  const Model& m = *model_;
+  for (int b = 0; b < m.body_count(); ++b) {
+    const Vec6d step = solve_inertia(inertia_[idx(b)], impulse_[idx(b)]);
+    double* pose = y + m.layout.pose(b);
+    view<3>(pose) -= step.head<3>();
+    const Vec3d turn = -step.tail<3>();
+    if (m.description.orientation == Orientation::quaternion) {
+      auto q = view<4>(pose + 3);
+      q = rotate_quaternion(turn, q);
+    } else {
+      auto phi = view<3>(pose + 3);
+      phi += euler_xyz_rate<double>(phi, turn);
+    }
+  }
+}
+
+void RedundantSystem::move_twists(double* y) {
+  for (int b = 0; b < model_->body_count(); ++b) {
+    view<6>(y + model_->layout.twist(b)) -= solve_inertia(inertia_[idx(b)], impulse_[idx(b)]);
+  }
+}
+
+bool RedundantSystem::project(double t, double* y, bool evaluated_here) {
+  const Model& m = *model_;
+  if (m.rows() == 0) return false;
+  if (!evaluated_here) {
+    read_state(t, y);
+    evaluate_inertia();
+    evaluate_rows(t);
+    factor();
+  }
+  double worst = position_residual();
+  before_projection_ = std::max(before_projection_, worst);
+  bool changed = false;
+  for (int i = 0; worst > kProjectionTolerance && i < kProjectionIterations; ++i) {
+    for (std::size_t e = 0; e < m.elements.size(); ++e) {
+      for (int r = 0; r < m.elements[e].rows; ++r) residual_[idx(m.elements[e].row + r)] = blocks_[e].phi[r];
+    }
+    solve_multipliers(residual_.data());
+    multiplier_load(residual_.data(), impulse_);
+    move_poses(y);
+    changed = true;
+    read_state(t, y);
+    evaluate_rows(t);
+    if (i >= 2) {  // the frozen factorisation converges too slowly
+      evaluate_inertia();
+      factor();
+    }
+    const double next = position_residual();
+    if (!(next < 0.5 * worst) && next < 1e-11) break;  // rounding
+    worst = next;
+  }
+  for (int i = 0; i < kProjectionIterations; ++i) {
+    const double rate = rate_residual(y, residual_.data());
+    if (!(rate > kProjectionTolerance)) break;
+    solve_multipliers(residual_.data());
+    multiplier_load(residual_.data(), impulse_);
+    move_twists(y);
+    changed = true;
+    if (i >= 2 && rate < 1e-11) break;
+  }
+  return changed;
+}
+
+ConstraintResidual RedundantSystem::residual(double t, const double* y) {
+  read_state(t, y);
+  evaluate_rows(t);
+  return {position_residual(), rate_residual(y, residual_.data())};
+}
+
+ConstraintRank RedundantSystem::rank(double t, const double* y) {
+  read_state(t, y);
+  evaluate_inertia();
+  evaluate_rows(t);
+  factor();
+  const Model& m = *model_;
+  ConstraintRank out;
+  m.schur.assemble(blocks_.data(), over_mass_.data(), values_.data());
+  out.condition = m.schur.factor(values_.data());
+  if (minimum_norm_) {
+    out.rank = minimum_norm_->factor(m.elements, blocks_.data(), over_mass_.data());
+    out.null_space = minimum_norm_->null_space();
+  } else {
+    out.rank = m.rows() - (out.condition > kRedundantCondition ? 1 : 0);
+  }
+  return out;
+}
+
+double RedundantSystem::take_residual_before_projection() {
+  const double out = before_projection_;
+  before_projection_ = 0.0;
+  return out;
+}
+
+double RedundantSystem::energy(double t, const double* y) {
+  const Model& m = *model_;
+  read_state(t, y);
+  evaluate_inertia();
+  const LoadInput<double> input = load_input(t);
+  double sum = 0.0;
+  for (int b = 0; b < m.body_count(); ++b) {
+    auto v = view<6>(y + m.layout.twist(b));
+    sum += 0.5 * v.dot(mass_matrix(b) * v);
+  }
+  for (const auto& load : m.gravity) sum += load.potential(input);
+  for (const auto& load : m.springs) sum += load.potential(input);
+  for (const auto& vessel : m.vessels) sum += vessel.potential(bodies_[idx(vessel.body)]);
+  return sum;
+}
+
+}  // namespace seacrane

@@ -1,0 +1,117 @@
+#pragma once
+
+#include <limits>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "seacrane/dynamics/dense_kkt.hpp"
+#include "seacrane/dynamics/inertia.hpp"
+#include "seacrane/integrate/system.hpp"
+#include "seacrane/model/model.hpp"
+
+namespace seacrane {
+
+/// Largest absolute residuals of all constraints.
+struct ConstraintResidual {
+  double position = 0.0, rate = 0.0;
+};
+
+/// Rank of D at one state, a basis of ker(D^T) (empty for large systems) and the largest S_ii / L_ii^2.
+struct ConstraintRank {
+  int rank = 0;
+  MatXd null_space;
+  double condition = 0.0;
+};
+
+/// The paper's formulation, eqs (5)-(9), (32)-(35): every body with six velocities, every joint with
+/// multipliers. Holds the scratch of one run; the Model stays untouched.
+class RedundantSystem final : public System {
+ public:
+  explicit RedundantSystem(std::shared_ptr<const Model> model);
+
+  std::size_t size() const override { return static_cast<std::size_t>(model_->layout.size); }
+  void derivative(double t, const double* y, double* ydot) override;
+  bool project(double t, double* y, bool evaluated_here) override;
+  bool has_projection() const override { return true; }
+
+  const Model& model() const { return *model_; }
+  void set_inputs(const std::vector<double>& slots) { slots_ = slots; }
+  /// End of the present smooth stretch of the reference curves, see Curve::at.
+  void set_curve_limit(double time) { curve_limit_ = time; }
+
+  ConstraintResidual residual(double t, const double* y);
+  ConstraintRank rank(double t, const double* y);
+  /// Nanoseconds per evaluation by part, each repeated `count` times at (t, y).
+  std::vector<std::pair<std::string, double>> time_parts(double t, const double* y, long count);
+  /// Largest residual seen by project() before it corrected anything, since the last call.
+  double take_residual_before_projection();
+  /// Kinetic energy (added mass included) plus potential energy of gravity, springs and restoring.
+  double energy(double t, const double* y);
+
+  // What the last derivative() computed.
+  const std::vector<BodyKinematics<double>>& bodies() const { return bodies_; }
+  const std::vector<Vec6d>& acceleration() const { return acceleration_; }
+  const std::vector<double>& multipliers() const { return lambda_; }
+  const std::vector<RowBlock<double>>& blocks() const { return blocks_; }
+  const Vec6d& wave_force(std::size_t load) const { return wave_force_[load]; }
+  double wave_elevation(std::size_t load) const { return wave_elevation_[load]; }
+  LoadInput<double> load_input(double t) const { return {t, curve_limit_, bodies_.data(), slots_.data()}; }
+  const std::vector<BodyInertia>& inertia() const { return inertia_; }
+  /// Loads minus velocity terms per body, and the mass matrix: M vdot = load + D^T lambda.
+  const std::vector<Vec6d>& loads() const { return load_; }
+  Mat6d mass_matrix(int body) const;
+  long dense_solves() const { return dense_solves_; }
+
+  /// Kinematics, inertia, rows and loads at (t, y) without solving, for the residual form.
+  void evaluate_terms(double t, const double* y, double* ydot);
+  void multiplier_load(const double* lambda, std::vector<Vec6d>& out) const;
+  /// D v - nu by row, with the rows last evaluated; returns the largest magnitude.
+  double rate_residual(const double* y, double* out) const;
+  /// Power of the loads without potential, drivers included, and the sum of its absolute parts.
+  double power() const { return power_; }
+  double absolute_power() const { return absolute_power_; }
+  void add_driver_power(double power);
+
+ private:
+  enum class Solver { block_schur, dense_lu, minimum_norm };
+
+  void read_state(double t, const double* y);
+  void evaluate_inertia();
+  void evaluate_rows(double t);
+  void evaluate_loads(double t, const double* y, double* ydot);
+  void apply_hydrodynamics(double t, const LoadInput<double>& input, const double* y, double* ydot,
+                           LoadSum<double>& sum);
+  void factor();
+  void solve_multipliers(double* x);
+  void solve_acceleration();
+  void write_rates(const double* y, double* ydot);
+  double position_residual() const;
+  void move_poses(double* y);
+  void move_twists(double* y);
+
+  std::shared_ptr<const Model> model_;
+  std::vector<double> slots_;
+  double curve_limit_ = std::numeric_limits<double>::infinity();
+  std::vector<BodyKinematics<double>> bodies_;
+  std::vector<Wrench<double>> wrench_;
+  std::vector<BodyInertia> inertia_;
+  std::vector<Vec6d> bias_, load_, acceleration_, impulse_;
+  std::vector<YawFrame<double>> frames_;
+  std::vector<RowBlock<double>> blocks_;
+  std::vector<Mat6d> over_mass_, mass_;
+  std::vector<double> values_, lambda_, gamma_, residual_;
+  std::vector<Vec6d> wave_force_;
+  std::vector<double> wave_elevation_;
+  std::vector<WaveTableBlock> wave_blocks_;
+  std::optional<DenseKkt> dense_;
+  std::optional<MinimumNormSolver> minimum_norm_;
+  Solver solver_ = Solver::block_schur;
+  double power_ = 0.0, absolute_power_ = 0.0;
+  double before_projection_ = 0.0;
+  long dense_solves_ = 0;
+};
+
+}  // namespace seacrane

@@ -1,0 +1,166 @@
+#pragma once
+
+#include <cmath>
+
+#include "seacrane/dynamics/loads/load.hpp"
+#include "seacrane/hydro/memory.hpp"
+#include "seacrane/math/rotation.hpp"
+
+namespace seacrane {
+
+/// The frame that follows yaw: psi of yaw-pitch-roll angles; the twist and its components in it.
+template <class T>
+struct YawFrame {
+  T roll, pitch, yaw, cos_pitch, tan_pitch, yaw_rate;
+  Mat3<T> rotation;  // yaw frame to inertial
+  Vec6<T> twist;     // in the yaw frame
+
+  explicit YawFrame(const BodyKinematics<T>& k) {
+    using std::cos, std::sin, std::sqrt;
+    const Vec3<T> angles = roll_pitch_yaw<T>(k.rotation);
+    roll = angles[0];
+    pitch = angles[1];
+    yaw = angles[2];
+    cos_pitch = cos(pitch);
+    tan_pitch = sin(pitch) / cos_pitch;
+    rotation = rotation_about_z<T>(cos(yaw), sin(yaw));
+    twist.template head<3>() = rotation.transpose() * k.velocity;
+    twist.template tail<3>() = rotation.transpose() * k.angular_velocity;
+    yaw_rate = twist[5] + tan_pitch * twist[3];
+  }
+
+  T roll_rate() const { return twist[3] / cos_pitch; }
+  T pitch_rate() const { return twist[4]; }
+
+  /// 6 x 6 in the yaw frame to inertial axes.
+  Mat6<T> to_inertial(const Mat6d& a) const {
+    Mat6<T> out;
+    for (int i = 0; i < 6; i += 3) {
+      for (int j = 0; j < 6; j += 3) {
+        out.template block<3, 3>(i, j) =
+            rotation * a.block<3, 3>(i, j).template cast<T>() * rotation.transpose();
+      }
+    }
+    return out;
+  }
+
+  Vec6<T> to_inertial(const Vec6<T>& w) const {
+    Vec6<T> out;
+    out.template head<3>() = rotation * w.template head<3>();
+    out.template tail<3>() = rotation * w.template tail<3>();
+    return out;
+  }
+
+  /// Moment whose power is -(roll_load roll' + pitch_load pitch' + yaw_load yaw'): exact gradient of a
+  /// potential in the three angles, so that restoring conserves energy.
+  Vec3<T> moment_of(const T& roll_load, const T& pitch_load, const T& yaw_load) const {
+    return {-(roll_load / cos_pitch + yaw_load * tan_pitch), -pitch_load, -yaw_load};
+  }
+};
+
+/// Linear hydrodynamics of one vessel about its reference point (its state point).
+struct Vessel {
+  int body = 0;
+  Mat6d added_mass;
+  Mat6d linear_damping;
+  Vec6d quadratic_damping;
+  Mat3d restoring;  // heave, roll, pitch
+  Vec3d mooring_stiffness, mooring_damping;  // surge, sway, yaw
+  Vec3d mean_position;
+  double mean_yaw = 0.0;
+  Memory memory;
+  int memory_offset = 0;  // in the state vector
+
+  /// -R A d/dt(R^T v) = -(R A R^T) vdot - bias: bias of the added mass, inertial axes.
+  template <class T>
+  Vec6<T> added_mass_bias(const YawFrame<T>& f) const {
+    // d/dt(R^T) v = -psi' e_z x (R^T v)
+    Vec6<T> turning;
+    turning << f.yaw_rate * f.twist[1], -f.yaw_rate * f.twist[0], T(0), f.yaw_rate * f.twist[4],
+        -f.yaw_rate * f.twist[3], T(0);
+    const Vec6<T> in_yaw_frame = added_mass.cast<T>() * turning;
+    return f.to_inertial(in_yaw_frame);
+  }
+
+  /// Displacement (surge, sway, heave) from the mean position, in axes of the mean heading.
+  template <class T>
+  Vec3<T> displacement(const BodyKinematics<T>& k) const {
+    const Mat3<T> mean = rotation_about_z<T>(T(std::cos(mean_yaw)), T(std::sin(mean_yaw)));
+    return mean.transpose() * (k.position - mean_position.cast<T>());
+  }
+
+  template <class T>
+  Vec3<T> angles_from_mean(const YawFrame<T>& f) const {
+    return {f.roll, f.pitch, wrap_angle<T>(f.yaw - T(mean_yaw))};
+  }
+
+  template <class T>
+  void apply(const LoadInput<T>& in, const YawFrame<T>& f, const T* x, T* x_rate, LoadSum<T>& out) const {
+    const auto& k = in.bodies[body];
+    damp(f, out);
+    restore(f, k, out);
+    if (memory.states() > 0) remember(f, x, x_rate, out);
+  }
+
+  double potential(const BodyKinematics<double>& k) const {
+    const YawFrame<double> f(k);
+    const Vec3d angles = angles_from_mean(f), shift = displacement(k);
+    const Vec3d eta(shift[2], angles[0], angles[1]);
+    return 0.5 * (eta.dot(restoring * eta) + mooring_stiffness[0] * shift[0] * shift[0] +
+                  mooring_stiffness[1] * shift[1] * shift[1] + mooring_stiffness[2] * angles[2] * angles[2]);
+  }
+
+ private:
+  template <class T>
+  void damp(const YawFrame<T>& f, LoadSum<T>& out) const {
+    using std::abs;
+    const Vec6<T> linear = linear_damping.cast<T>() * f.twist;
+    Vec6<T> quadratic;
+    for (int i = 0; i < 6; ++i) {
+      const T u = f.twist[i];
+      quadratic[i] = T(quadratic_damping[i]) * (u < T(0) ? -u : u) * u;
+    }
+    const Vec6<T> sum = linear + quadratic;
+    const Vec6<T> load = -sum;
+    add(f, load, out);
+    out.add_power(-f.twist.dot(sum));
+  }
+
+  template <class T>
+  void restore(const YawFrame<T>& f, const BodyKinematics<T>& k, LoadSum<T>& out) const {
+    const Vec3<T> angles = angles_from_mean(f), shift = displacement(k);
+    const Vec3<T> eta(shift[2], angles[0], angles[1]);
+    const Vec3<T> load = restoring.cast<T>() * eta;
+    const T yaw_spring = T(mooring_stiffness[2]) * angles[2];
+    const Vec3<T> moment = f.rotation * f.moment_of(load[1], load[2], yaw_spring);
+    // Springs and dampers of surge and sway act along the axes of the mean heading.
+    const Mat3<T> mean = rotation_about_z<T>(T(std::cos(mean_yaw)), T(std::sin(mean_yaw)));
+    const Vec3<T> rate = mean.transpose() * k.velocity;
+    const Vec3<T> spring(-T(mooring_stiffness[0]) * shift[0], -T(mooring_stiffness[1]) * shift[1], -load[0]);
+    const Vec3<T> damper(-T(mooring_damping[0]) * rate[0], -T(mooring_damping[1]) * rate[1], T(0));
+    const Vec3<T> force = mean * (spring + damper);
+    const T yaw_damper = T(mooring_damping[2]) * f.yaw_rate;
+    const Vec3<T> yaw_moment = f.rotation * f.moment_of(T(0), T(0), yaw_damper);
+    out.wrench[body].force += force;
+    out.wrench[body].moment += moment + yaw_moment;
+    out.add_power(damper.dot(rate) - yaw_damper * f.yaw_rate);
+  }
+
+  template <class T>
+  void remember(const YawFrame<T>& f, const T* x, T* x_rate, LoadSum<T>& out) const {
+    Vec6<T> mu = Vec6<T>::Zero();
+    memory.evaluate<T>(f.twist, x, x_rate, mu);
+    const Vec6<T> load = -mu;
+    add(f, load, out);
+    out.add_power(-f.twist.dot(mu));
+  }
+
+  template <class T>
+  void add(const YawFrame<T>& f, const Vec6<T>& load, LoadSum<T>& out) const {
+    const Vec6<T> w = f.to_inertial(load);
+    out.wrench[body].force += w.template head<3>();
+    out.wrench[body].moment += w.template tail<3>();
+  }
+};
+
+}  // namespace seacrane

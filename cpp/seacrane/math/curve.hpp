@@ -1,0 +1,47 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <limits>
+#include <vector>
+
+namespace seacrane {
+
+struct CurveValue {
+  double value = 0.0, rate = 0.0, acceleration = 0.0;
+};
+
+/// A reference curve of time: pieces of a quintic polynomial plus one cosine, each from its start on.
+/// Before the first start the first value is held at rest.
+class Curve {
+ public:
+  struct Piece {
+    double start = 0.0;
+    std::array<double, 6> coefficients{};  // of (t - start)^k
+    double amplitude = 0.0, omega = 0.0, phase = 0.0;
+  };
+
+  Curve() : pieces_(1) {}
+  explicit Curve(std::vector<Piece> pieces);
+
+  static Curve constant(double value);
+  /// From `from` at t0 to `to` at t1 with zero rate and acceleration at both ends, held afterwards.
+  static Curve quintic(double t0, double t1, double from, double to);
+  /// offset + amplitude cos(omega (t - start) + phase).
+  static Curve harmonic(double start, double offset, double amplitude, double omega, double phase);
+
+  /// This curve until `time`, `next` afterwards.
+  Curve then(double time, const Curve& next) const;
+
+  /// Pieces that start at or after `before` are not used yet: a step that ends at a breakpoint sees
+  /// the limit from the left in all its stages.
+  CurveValue at(double t, double before = std::numeric_limits<double>::infinity()) const;
+  const std::vector<Piece>& pieces() const { return pieces_; }
+  /// Times where value, rate or acceleration jumps: integration restarts there.
+  std::vector<double> breakpoints() const;
+
+ private:
+  std::vector<Piece> pieces_;
+};
+
+}  // namespace seacrane

@@ -1,0 +1,163 @@
+#include "seacrane/model/assembly.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <queue>
+#include <set>
+
+#include "seacrane/dynamics/redundant.hpp"
+#include "seacrane/model/validate.hpp"
+
+namespace seacrane {
+namespace {
+
+constexpr double kClosed = 1e-9;    // m, rad: a loop open by more than this is contradictory
+constexpr int kRestarts = 6;        // of the projection's own Newton iterations
+constexpr int kDenseRows = 600;     // above, redundancy is told from the Cholesky pivots alone
+
+std::size_t idx(int i) { return static_cast<std::size_t>(i); }
+
+double largest(const ElementModel& e, const Vec6d& phi) {
+  return e.rows == 0 ? 0.0 : phi.head(e.rows).cwiseAbs().maxCoeff();
+}
+
+/// Joints on the way from `from` to `to` that does not use element `without`; empty when there is none.
+std::vector<std::string> path(const Model& m, int from, int to, std::size_t without) {
+  std::vector<int> came_by(idx(m.body_count()) + 1, -2);
+  came_by[idx(from)] = -1;
+  std::queue<int> open({from});
+  while (!open.empty() && came_by[idx(to)] == -2) {
+    const int b = open.front();
+    open.pop();
+    for (std::size_t e = 0; e < m.elements.size(); ++e) {
+      const ElementModel& element = m.elements[e];
+      if (e == without || element.rows == 0 || element.driver) continue;
+      if (element.first != b && element.second != b) continue;
+      const int next = element.first == b ? element.second : element.first;
+      if (came_by[idx(next)] != -2) continue;
+      came_by[idx(next)] = static_cast<int>(e);
+      open.push(next);
+    }
+  }
+  std::vector<std::string> names;
+  if (came_by[idx(to)] == -2) return names;
+  for (int b = to; b != from;) {
+    const ElementModel& e = m.elements[idx(came_by[idx(b)])];
+    names.push_back(e.name);
+    b = e.first == b ? e.second : e.first;
+  }
+  return names;
+}
+
+[[noreturn]] void report_open(const Model& m, const RedundantSystem& system) {
+  std::size_t worst = 0;
+  double gap = 0.0;
+  std::string names;
+  for (std::size_t e = 0; e < m.elements.size(); ++e) {
+    const double r = largest(m.elements[e], system.blocks()[e].phi);
+    if (r > kClosed) {
+      names += (names.empty() ? "'" : ", '") + m.elements[e].name + "' (" + to_text(r) + ")";
+    }
+    if (r > gap || !std::isfinite(r)) {
+      gap = r;
+      worst = e;
+    }
+  }
+  const ElementModel& element = m.elements[worst];
+  std::string loop = "'" + element.name + "'";
+  for (const auto& name : path(m, element.first, element.second, worst)) loop += " - '" + name + "'";
+  throw SceneError("joint '" + element.name + "': the loop " + loop + " does not close, " + to_text(gap) +
+                   " m or rad are left at best; contradictory: " + names +
+                   ". Correct their points, axes, lengths or drivers, or the described poses");
+}
+
+/// Rows like u . w = 0 also hold with an axis turned by 180 deg: that is another assembly.
+void check_branch(const Model& m, const RedundantSystem& system) {
+  for_each_joint_type([&]<class Type>(std::size_t kind) {
+    if (!Type::parallel_axes) return;
+    for (const JointData& j : m.joints[kind]) {
+      const Mat3d a = system.bodies()[idx(j.first)].rotation * j.first_axes;
+      const Mat3d b = system.bodies()[idx(j.second)].rotation * j.second_axes;
+      const bool flipped = a.col(2).dot(b.col(2)) < 0.0 ||
+                           (Type::aligned_axes && a.col(0).dot(b.col(0)) < 0.0);
+      if (flipped) {
+        throw SceneError("joint '" + m.elements[idx(j.element)].name +
+                         "': closes only with its axes turned by 180 deg; correct the axes of its frames");
+      }
+    }
+  });
+}
+
+void report_moves(const Model& m, const std::vector<double>& before, AssemblyReport& out) {
+  const auto rotation = [&](const std::vector<double>& y, int b) {
+    const double* pose = &y[idx(m.layout.pose(b))] + 3;
+    return m.layout.pose_size == 7 ? rotation_from_quaternion<double>(view<4>(pose))
+                                   : rotation_from_euler_xyz<double>(view<3>(pose));
+  };
+  double most = 0.0;
+  for (int b = 0; b < m.body_count(); ++b) {
+    const auto p0 = view<3>(&before[idx(m.layout.pose(b))]), p1 = view<3>(&m.initial_state[idx(m.layout.pose(b))]);
+    const double moved = (p1 - p0).norm();
+    const Mat3d turn = rotation(m.initial_state, b) * rotation(before, b).transpose();
+    const Vec3d axis(turn(2, 1) - turn(1, 2), turn(0, 2) - turn(2, 0), turn(1, 0) - turn(0, 1));
+    const double turned = std::atan2(0.5 * axis.norm(), 0.5 * (turn.trace() - 1.0));
+    out.largest_translation = std::max(out.largest_translation, moved);
+    out.largest_rotation = std::max(out.largest_rotation, turned);
+    if (moved + turned > most) {
+      most = moved + turned;
+      out.most_moved = m.bodies[idx(b)].name;
+    }
+    const auto v0 = view<6>(&before[idx(m.layout.twist(b))]), v1 = view<6>(&m.initial_state[idx(m.layout.twist(b))]);
+    out.velocity_change = std::max(out.velocity_change, (v1 - v0).cwiseAbs().maxCoeff());
+  }
+}
+
+void mark_redundant(Model& m, const MatXd& null_space) {
+  for (auto& e : m.elements) {
+    if (e.rows == 0) continue;
+    e.unique_reaction = null_space.cols() == 0 || null_space.middleRows(e.row, e.rows).norm() < 1e-7;
+    if (!e.unique_reaction) m.assembly.redundant.push_back(e.name);
+  }
+}
+
+}  // namespace
+
+void assemble(Model& model) {
+  if (model.rows() == 0) return;
+  AssemblyReport& report = model.assembly;
+  const std::vector<double> before = model.initial_state;
+  std::vector<double>& y = model.initial_state;
+  const bool dense = model.rows() <= kDenseRows;
+  // The Newton steps are minimum-norm while the rank is unknown.
+  model.redundant = dense;
+  const std::shared_ptr<const Model> view(&model, [](const Model*) {});
+  RedundantSystem system(view);
+  report.residual_before = system.residual(0.0, y.data()).position;
+  for (int i = 0; i < kRestarts; ++i) {
+    ++report.iterations;
+    system.project(0.0, y.data(), false);
+    if (system.residual(0.0, y.data()).position < 1e-12) break;
+  }
+  const ConstraintResidual after = system.residual(0.0, y.data());
+  report.residual_after = after.position;
+  report.rate_residual_after = after.rate;
+  if (!(after.position <= kClosed)) report_open(model, system);
+  check_branch(model, system);
+  if (!(after.rate <= kClosed)) {
+    throw SceneError("scene '" + model.description.name + "': the joints' prescribed rates contradict each other, " +
+                     to_text(after.rate) + " m/s or rad/s are left; check the drivers' curves at the start");
+  }
+  report_moves(model, before, report);
+  const auto [rank, null_space, condition] = system.rank(0.0, y.data());
+  report.rank = rank;
+  report.condition = condition;
+  model.redundant = rank < model.rows();
+  if (model.redundant && !dense) {
+    throw SceneError("scene '" + model.description.name + "': has redundant joints (S_ii/L_ii^2 = " +
+                     to_text(condition) + ") and more than " + std::to_string(kDenseRows) +
+                     " constraints; remove the redundant ones");
+  }
+  if (model.redundant) mark_redundant(model, null_space);
+}
+
+}  // namespace seacrane

@@ -1,0 +1,263 @@
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <set>
+
+#include "seacrane/model/assembly.hpp"
+#include "seacrane/model/model.hpp"
+#include "seacrane/model/validate.hpp"
+
+namespace seacrane {
+namespace {
+
+constexpr double kRotationScale = 0.1;  // rad, of absolute tolerances: 1 m at a lever of 10 m
+
+std::size_t idx(int i) { return static_cast<std::size_t>(i); }
+
+class Compiler {
+ public:
+  explicit Compiler(const SceneDescription& scene) : scene_(scene) { model_.description = scene; }
+
+  Model run() {
+    bodies();
+    joints();
+    drivers();
+    loads();
+    vessels();
+    layout();
+    start();
+    breakpoints();
+    return std::move(model_);
+  }
+
+ private:
+  int body(const std::string& name) const {
+    return name == kGround ? static_cast<int>(scene_.bodies.size()) : index_.at(name);
+  }
+  Vec3d from_state_point(int b, const Vec3d& point) const {
+    return b < model_.body_count() ? Vec3d(point - model_.bodies[idx(b)].state_point) : point;
+  }
+
+  void bodies() {
+    std::map<std::string, int> vessel_on;
+    for (std::size_t v = 0; v < scene_.vessels.size(); ++v) vessel_on[scene_.vessels[v].body] = static_cast<int>(v);
+    for (const auto& d : scene_.bodies) {
+      BodyModel b;
+      b.name = d.name;
+      b.mass = d.mass;
+      b.inertia = d.inertia;
+      b.inverse_inertia = d.inertia.inverse();
+      const auto vessel = vessel_on.find(d.name);
+      b.vessel = vessel == vessel_on.end() ? -1 : vessel->second;
+      b.state_point = b.vessel < 0 ? d.center_of_mass : Vec3d::Zero();
+      b.center_of_mass = d.center_of_mass - b.state_point;
+      index_[d.name] = static_cast<int>(model_.bodies.size());
+      // The vessel's restoring matrix carries its own weight and buoyancy.
+      if (d.gravity && b.vessel < 0) {
+        model_.gravity.push_back({index_[d.name], d.mass * scene_.gravity, b.center_of_mass});
+      }
+      model_.bodies.push_back(b);
+    }
+  }
+
+  JointData joint_data(const JointDescription& d) const {
+    JointData j;
+    j.first = body(d.first);
+    j.second = body(d.second);
+    j.first_point = from_state_point(j.first, d.first_frame.point);
+    j.second_point = from_state_point(j.second, d.second_frame.point);
+    j.first_axes = d.first_frame.axes;
+    j.second_axes = d.second_frame.axes;
+    j.length = d.length;
+    return j;
+  }
+
+  void joints() {
+    for (const auto& d : scene_.joints) {
+      JointData j = joint_data(d);
+      j.element = static_cast<int>(model_.elements.size());
+      joint_index_[d.name] = j.element;
+      ElementModel e;
+      e.name = d.name;
+      e.kind = d.kind;
+      e.first = j.first;
+      e.second = j.second;
+      e.first_point = j.first_point;
+      e.second_point = j.second_point;
+      for_each_joint_type([&]<class Type>(std::size_t kind) {
+        if (d.kind != Type::kind) return;
+        e.rows = Type::rows;
+        model_.joints[kind].push_back(j);
+      });
+      model_.elements.push_back(e);
+    }
+  }
+
+  CoordinateData coordinate(const CoordinateDescription& d) const {
+    static const std::map<std::string, CoordinateKind> kinds = {
+        {"angle", CoordinateKind::angle}, {"displacement", CoordinateKind::displacement},
+        {"x", CoordinateKind::x},         {"y", CoordinateKind::y},
+        {"z", CoordinateKind::z},         {"roll", CoordinateKind::roll},
+        {"pitch", CoordinateKind::pitch}, {"yaw", CoordinateKind::yaw}};
+    return {joint_data(scene_.joints[idx(joint_index_.at(d.joint))]), kinds.at(d.coordinate)};
+  }
+
+  void drivers() {
+    for (const auto& d : scene_.drivers) {
+      DriverData driver{coordinate(d.coordinate), d.curve, static_cast<int>(model_.elements.size())};
+      ElementModel e;
+      e.name = d.name;
+      e.kind = "driver";
+      e.rows = 1;
+      e.driver = true;
+      e.first = driver.coordinate.joint.first;
+      e.second = driver.coordinate.joint.second;
+      e.first_point = driver.coordinate.joint.first_point;
+      e.second_point = driver.coordinate.joint.second_point;
+      model_.elements.push_back(e);
+      model_.drivers.push_back(driver);
+    }
+    std::vector<GraphNode> nodes;
+    for (const auto& e : model_.elements) nodes.push_back({e.rows, e.first, e.second});
+    model_.schur = BlockSchur(nodes, model_.body_count());
+    for (std::size_t e = 0; e < nodes.size(); ++e) model_.elements[e].row = model_.schur.row(static_cast<int>(e));
+  }
+
+  int slots(int count) {
+    const int first = model_.slot_count;
+    model_.slot_count += count;
+    return first;
+  }
+
+  void loads() {
+    for (const auto& d : scene_.actuators) {
+      model_.actuators.push_back(
+          {coordinate(d.coordinate), d.stiffness, d.damping, d.feed_forward, d.reference, slots(2)});
+    }
+    for (const auto& d : scene_.point_forces) {
+      const int b = body(d.body);
+      model_.point_forces.push_back({b, from_state_point(b, d.point), d.force, d.body_axes, slots(3)});
+    }
+    for (const auto& d : scene_.springs) {
+      const int a = body(d.first), b = body(d.second);
+      model_.springs.push_back({a, b, from_state_point(a, d.first_point), from_state_point(b, d.second_point),
+                                d.stiffness, d.damping, d.natural_length, d.lengths, d.forces});
+    }
+    for (const auto& d : scene_.force_tables) {
+      const int b = body(d.body);
+      model_.force_tables.push_back({b, from_state_point(b, d.point), d.times, d.wrenches});
+    }
+    for (const auto& d : scene_.function_forces) {
+      const int b = body(d.body);
+      model_.function_forces.push_back({b, from_state_point(b, Vec3d::Zero()), d.function, d.parameters});
+    }
+    for (const auto& d : scene_.coordinates) model_.coordinates.push_back(coordinate(d));
+  }
+
+  void vessels() {
+    for (const auto& d : scene_.vessels) {
+      Vessel v;
+      v.body = body(d.body);
+      v.added_mass = d.added_mass;
+      v.linear_damping = d.linear_damping;
+      v.quadratic_damping = d.quadratic_damping;
+      v.restoring = d.restoring.block<3, 3>(2, 2);
+      v.mooring_stiffness = d.mooring_stiffness;
+      v.mooring_damping = d.mooring_damping;
+      try {
+        v.memory = Memory(d.memory);
+      } catch (const std::invalid_argument& error) {
+        throw SceneError("vessel '" + d.name + "': " + error.what());
+      }
+      const BodyDescription& start = scene_.bodies[idx(v.body)];
+      v.mean_position = start.position;
+      v.mean_yaw = roll_pitch_yaw<double>(rotation_from_quaternion<double>(start.quaternion))[2];
+      model_.paper_kinematics = d.kinematics == VesselKinematics::paper;
+      model_.vessels.push_back(v);
+    }
+    for (const auto& d : scene_.wave_loads) {
+      const int b = body(d.body);
+      model_.wave_loads.push_back({b, model_.bodies[idx(b)].vessel, d.exact, d.table});
+    }
+  }
+
+  void layout() {
+    StateLayout& s = model_.layout;
+    s.bodies = model_.body_count();
+    s.pose_size = scene_.orientation == Orientation::quaternion ? 7 : 6;
+    s.velocity = s.pose_size * s.bodies;
+    s.memory = s.velocity + 6 * s.bodies;
+    s.work = s.memory;
+    for (auto& v : model_.vessels) {
+      v.memory_offset = s.work;
+      s.work += v.memory.states();
+    }
+    s.size = s.work + 2;
+    scales();
+  }
+
+  void scales() {
+    const StateLayout& s = model_.layout;
+    const double length = scene_.length_scale;
+    std::vector<double>& scale = model_.scale;
+    scale.assign(idx(s.size), std::numeric_limits<double>::infinity());  // work: not in the error norm
+    for (int b = 0; b < s.bodies; ++b) {
+      for (int i = 0; i < s.pose_size; ++i) scale[idx(s.pose(b) + i)] = i < 3 ? length : kRotationScale;
+      for (int i = 0; i < 6; ++i) scale[idx(s.twist(b) + i)] = i < 3 ? length : kRotationScale;
+    }
+    for (std::size_t v = 0; v < model_.vessels.size(); ++v) {
+      int i = model_.vessels[v].memory_offset;
+      for (const auto& block : scene_.vessels[v].memory) {
+        for (Eigen::Index k = 0; k < block.a.rows(); ++k) {
+          scale[idx(i++)] = block.state_scale.size() ? block.state_scale[k] : 1.0;
+        }
+      }
+    }
+  }
+
+  void start() {
+    const StateLayout& s = model_.layout;
+    std::vector<double>& y = model_.initial_state;
+    y.assign(idx(s.size), 0.0);
+    for (int b = 0; b < s.bodies; ++b) {
+      const BodyDescription& d = scene_.bodies[idx(b)];
+      const Vec4d q = d.quaternion.normalized();
+      const Mat3d r = rotation_from_quaternion<double>(q);
+      const Vec3d lever = r * model_.bodies[idx(b)].state_point;
+      view<3>(&y[idx(s.pose(b))]) = d.position + lever;
+      if (s.pose_size == 7) {
+        view<4>(&y[idx(s.pose(b) + 3)]) = q;
+      } else {
+        view<3>(&y[idx(s.pose(b) + 3)]) = euler_xyz_from_rotation(r);
+      }
+      view<3>(&y[idx(s.twist(b))]) = d.velocity + d.angular_velocity.cross(lever);
+      view<3>(&y[idx(s.twist(b) + 3)]) = d.angular_velocity;
+    }
+  }
+
+  void breakpoints() {
+    std::set<double> times;
+    for (const auto& d : model_.drivers)
+      for (double t : d.curve.breakpoints()) times.insert(t);
+    for (const auto& a : model_.actuators)
+      for (double t : a.reference.breakpoints()) times.insert(t);
+    model_.breakpoints.assign(times.begin(), times.end());
+  }
+
+  const SceneDescription& scene_;
+  Model model_;
+  std::map<std::string, int> index_, joint_index_;
+};
+
+}  // namespace
+
+std::shared_ptr<const Model> compile(const SceneDescription& scene) {
+  validate(scene);
+  auto model = std::make_shared<Model>(Compiler(scene).run());
+  assemble(*model);
+  return model;
+}
+
+}  // namespace seacrane

@@ -1,0 +1,136 @@
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "seacrane/hydro/memory.hpp"
+#include "seacrane/math/curve.hpp"
+#include "seacrane/math/types.hpp"
+#include "seacrane/sea/wave_load.hpp"
+
+/// What the user writes, one value type per kind of element. Names refer to other elements; "ground"
+/// is the inertial frame. Every description is checked by its own validate().
+namespace seacrane {
+
+inline constexpr const char* kGround = "ground";
+
+struct BodyDescription {
+  std::string name;
+  double mass = 0.0;
+  Mat3d inertia = Mat3d::Zero();          // about the centre of mass, body axes
+  Vec3d center_of_mass = Vec3d::Zero();   // from the body origin, body axes
+  Vec3d position = Vec3d::Zero();         // of the body origin, inertial frame
+  Vec4d quaternion = {1, 0, 0, 0};        // body to inertial
+  Vec3d velocity = Vec3d::Zero();         // of the body origin, inertial frame
+  Vec3d angular_velocity = Vec3d::Zero();  // inertial frame
+  bool gravity = true;
+};
+
+/// A joint frame on a body: a point and axes in body coordinates; the joint axis is z.
+struct Frame {
+  Vec3d point = Vec3d::Zero();
+  Mat3d axes = Mat3d::Identity();
+};
+
+struct JointDescription {
+  std::string name, kind, first, second;
+  Frame first_frame, second_frame;
+  double length = 0.0;  // of a distance joint
+};
+
+/// One coordinate of a joint: second body relative to first, in the first body's joint frame.
+/// revolute, cylindrical: "angle"; prismatic, cylindrical: "displacement"; free: "x y z roll pitch yaw".
+struct CoordinateDescription {
+  std::string joint, coordinate;
+};
+
+struct DriverDescription {
+  std::string name;
+  CoordinateDescription coordinate;
+  Curve curve;
+};
+
+struct ActuatorDescription {
+  std::string name;
+  CoordinateDescription coordinate;
+  double stiffness = 0.0, damping = 0.0, feed_forward = 0.0;
+  Curve reference;
+};
+
+struct PointForceDescription {
+  std::string name, body;
+  Vec3d point = Vec3d::Zero();  // body coordinates
+  Vec3d force = Vec3d::Zero();  // inertial or body axes
+  bool body_axes = false;
+};
+
+struct SpringDescription {
+  std::string name, first, second;
+  Vec3d first_point = Vec3d::Zero(), second_point = Vec3d::Zero();
+  double stiffness = 0.0, damping = 0.0, natural_length = 0.0;
+  std::vector<double> lengths, forces;  // tabulated tension over length, instead of stiffness
+};
+
+struct ForceTableDescription {
+  std::string name, body;
+  Vec3d point = Vec3d::Zero();
+  std::vector<double> times;
+  std::vector<Vec6d> wrenches;  // inertial axes, moments about the point
+};
+
+/// void f(double t, const double state[13], const double* parameters, double wrench[6]):
+/// state = position, quaternion, velocity, angular velocity of the body origin; wrench about it, inertial axes.
+using ForceFunction = void (*)(double, const double*, const double*, double*);
+
+struct FunctionForceDescription {
+  std::string name, body;
+  ForceFunction function = nullptr;
+  std::vector<double> parameters;
+};
+
+enum class VesselKinematics { yaw_following, paper };
+
+/// Linear hydrodynamics of a vessel about its body origin (the reference point), see DESIGN "Vessel".
+struct VesselDescription {
+  std::string name, body;
+  Mat6d added_mass = Mat6d::Zero();
+  Mat6d linear_damping = Mat6d::Zero();
+  Vec6d quadratic_damping = Vec6d::Zero();
+  Mat6d restoring = Mat6d::Zero();         // heave, roll, pitch block only
+  Vec3d mooring_stiffness = Vec3d::Zero();  // surge, sway (N/m), yaw (N m/rad), about the start
+  Vec3d mooring_damping = Vec3d::Zero();
+  std::vector<StateSpaceBlock> memory;
+  VesselKinematics kinematics = VesselKinematics::yaw_following;
+};
+
+struct WaveLoadDescription {
+  std::string name, body;
+  std::shared_ptr<const ExactWaveLoad> exact;
+  std::shared_ptr<const WaveTable> table;  // used instead of the exact sum when set
+};
+
+enum class Orientation { quaternion, euler_xyz };
+
+struct SceneDescription {
+  std::string name = "scene";
+  double gravity = 9.80665;
+  Orientation orientation = Orientation::quaternion;
+  double baumgarte = 0.0;  // 1/s, critically damped; 0: none
+  double length_scale = 1.0;  // m: scales absolute tolerances
+  std::vector<BodyDescription> bodies;
+  std::vector<JointDescription> joints;
+  std::vector<DriverDescription> drivers;
+  std::vector<ActuatorDescription> actuators;
+  std::vector<PointForceDescription> point_forces;
+  std::vector<SpringDescription> springs;
+  std::vector<ForceTableDescription> force_tables;
+  std::vector<FunctionForceDescription> function_forces;
+  std::vector<VesselDescription> vessels;
+  std::vector<WaveLoadDescription> wave_loads;
+  std::vector<CoordinateDescription> coordinates;  // joint coordinates to record
+};
+
+}  // namespace seacrane

@@ -1,0 +1,104 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "seacrane/dynamics/block_schur.hpp"
+#include "seacrane/dynamics/joints/registry.hpp"
+#include "seacrane/dynamics/loads/actuator.hpp"
+#include "seacrane/dynamics/loads/force_table.hpp"
+#include "seacrane/dynamics/loads/function_force.hpp"
+#include "seacrane/dynamics/loads/gravity.hpp"
+#include "seacrane/dynamics/loads/point_force.hpp"
+#include "seacrane/dynamics/loads/spring_damper.hpp"
+#include "seacrane/hydro/vessel.hpp"
+#include "seacrane/model/description.hpp"
+
+namespace seacrane {
+
+/// Inertia of a compiled body about its state point: the centre of mass, or, with hydrodynamics, the
+/// vessel's reference point, where the 6 x 6 added mass lives.
+struct BodyModel {
+  std::string name;
+  double mass = 0.0;
+  Mat3d inertia;            // about the centre of mass, body axes
+  Mat3d inverse_inertia;
+  Vec3d center_of_mass;     // from the state point, body axes
+  Vec3d state_point;        // from the body origin, body axes
+  int vessel = -1;          // index of the vessel element on this body
+};
+
+struct ElementModel {
+  std::string name, kind;
+  int rows = 0, first = 0, second = 0;  // first, second: body indices, ground = body count
+  int row = 0;                          // of its multipliers
+  bool driver = false;
+  bool unique_reaction = true;
+  Vec3d first_point, second_point;      // from the state points, body axes
+};
+
+struct WaveLoad {
+  int body = 0;
+  int vessel = -1;
+  std::shared_ptr<const ExactWaveLoad> exact;
+  std::shared_ptr<const WaveTable> table;
+};
+
+/// Where things stand in the state vector.
+struct StateLayout {
+  int bodies = 0;
+  int pose_size = 7;  // 3 + quaternion, or 3 + XYZ Euler angles
+  int velocity = 0, memory = 0, work = 0, size = 0;
+
+  int pose(int body) const { return pose_size * body; }
+  int twist(int body) const { return velocity + 6 * body; }
+};
+
+/// What compiling found out about the start.
+struct AssemblyReport {
+  double largest_translation = 0.0, largest_rotation = 0.0;  // of any body, m and rad
+  std::string most_moved;
+  double residual_before = 0.0, residual_after = 0.0, rate_residual_after = 0.0;
+  double velocity_change = 0.0;
+  int iterations = 0;
+  int rank = 0;
+  double condition = 0.0;  // largest S_ii / L_ii^2
+  std::vector<std::string> redundant;  // elements whose reactions are not unique
+};
+
+/// Immutable: topology, parameters, curves. One Model serves many threads; every run has its own State
+/// and workspace.
+struct Model {
+  SceneDescription description;
+  std::vector<BodyModel> bodies;
+  JointsByKind joints;
+  std::vector<DriverData> drivers;
+  std::vector<ElementModel> elements;  // joints in the order described, then drivers
+  BlockSchur schur;
+  std::vector<Gravity> gravity;
+  std::vector<Actuator> actuators;
+  std::vector<PointForce> point_forces;
+  std::vector<SpringDamper> springs;
+  std::vector<ForceTable> force_tables;
+  std::vector<FunctionForce> function_forces;
+  std::vector<Vessel> vessels;
+  std::vector<WaveLoad> wave_loads;
+  std::vector<CoordinateData> coordinates;
+  int slot_count = 0;
+  StateLayout layout;
+  std::vector<double> scale;  // typical magnitude per state component; infinity: not in the error norm
+  std::vector<double> breakpoints;
+  std::vector<double> initial_state;
+  AssemblyReport assembly;
+  bool redundant = false;        // rank of D below its rows
+  bool paper_kinematics = false;
+  double curve_end = 0.0;
+
+  int body_count() const { return static_cast<int>(bodies.size()); }
+  int rows() const { return schur.rows(); }
+};
+
+std::shared_ptr<const Model> compile(const SceneDescription& scene);
+
+}  // namespace seacrane

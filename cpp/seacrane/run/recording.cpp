@@ -1,0 +1,201 @@
+#include "seacrane/run/recording.hpp"
+
+#include <algorithm>
+#include <cstring>
+
+namespace seacrane {
+namespace {
+
+std::size_t idx(int i) { return static_cast<std::size_t>(i); }
+
+struct Offer {
+  const char* name;
+  std::vector<std::size_t> shape;
+  bool by_default;
+};
+
+std::size_t joint_count(const Model& m) { return m.elements.size() - m.drivers.size(); }
+
+/// The one list of channels; what a scene does not hold is left out.
+std::vector<Offer> offers(const Model& m) {
+  const std::size_t n = m.bodies.size();
+  std::vector<Offer> out = {{"position", {n, 3}, true},        {"velocity", {n, 3}, true},
+                            {"angular_velocity", {n, 3}, true}, {"quaternion", {n, 4}, true},
+                            {"euler_xyz", {n, 3}, true},        {"acceleration", {n, 3}, false},
+                            {"angular_acceleration", {n, 3}, false}};
+  if (!m.vessels.empty()) out.push_back({"vessel_motion", {6}, true});
+  if (!m.coordinates.empty()) {
+    out.push_back({"coordinate", {m.coordinates.size()}, true});
+    out.push_back({"coordinate_rate", {m.coordinates.size()}, true});
+  }
+  if (!m.actuators.empty()) out.push_back({"actuator_force", {m.actuators.size()}, true});
+  if (!m.drivers.empty()) out.push_back({"driver_force", {m.drivers.size()}, true});
+  if (joint_count(m) > 0) {
+    out.push_back({"reaction_force", {joint_count(m), 3}, true});
+    out.push_back({"reaction_moment", {joint_count(m), 3}, true});
+  }
+  if (!m.wave_loads.empty()) {
+    out.push_back({"wave_elevation", {}, true});
+    out.push_back({"wave_force", {6}, true});
+  }
+  out.push_back({"constraint_error", {}, true});
+  out.push_back({"constraint_rate_error", {}, true});
+  out.push_back({"constraint_error_before_projection", {}, true});
+  if (!m.paper_kinematics) {
+    out.push_back({"energy_balance", {}, true});
+    out.push_back({"absolute_work", {}, true});
+  }
+  return out;
+}
+
+/// Where the reaction of a joint is taken: the second body's point, or the first's where the joint slides.
+Vec3d joint_point(const ElementModel& e, const std::vector<BodyKinematics<double>>& bodies) {
+  const bool on_first = e.kind == Prismatic::kind || e.kind == Cylindrical::kind || e.kind == Planar::kind;
+  const BodyKinematics<double>& k = bodies[idx(on_first ? e.first : e.second)];
+  return k.position + k.rotation * (on_first ? e.first_point : e.second_point);
+}
+
+}  // namespace
+
+std::vector<std::string> channel_names(const Model& model, bool defaults_only) {
+  std::vector<std::string> names;
+  for (const Offer& offer : offers(model)) {
+    if (offer.by_default || !defaults_only) names.emplace_back(offer.name);
+  }
+  return names;
+}
+
+Recording::Recording(const Model& model, const std::set<std::string>& names, std::size_t capacity)
+    : model_(&model) {
+  for (const Offer& offer : offers(model)) {
+    if (names.count(offer.name) == 0) continue;
+    Channel channel{offer.name, offer.shape, width_, 1};
+    for (std::size_t n : offer.shape) channel.size *= n;
+    width_ += channel.size;
+    channels_.push_back(channel);
+  }
+  row_.assign(width_, 0.0);
+  rows_.reserve(width_ * capacity);
+  times_.reserve(capacity);
+}
+
+double* Recording::slot(const char* name) {
+  for (const Channel& channel : channels_) {
+    if (channel.name == name) return row_.data() + channel.offset;
+  }
+  return nullptr;
+}
+
+void Recording::write_bodies(RedundantSystem& system) {
+  double* position = slot("position");
+  double* velocity = slot("velocity");
+  double* angular = slot("angular_velocity");
+  double* euler = slot("euler_xyz");
+  double* acceleration = slot("acceleration");
+  double* angular_acceleration = slot("angular_acceleration");
+  for (int b = 0; b < model_->body_count(); ++b) {
+    const BodyKinematics<double>& k = system.bodies()[idx(b)];
+    const Vec3d lever = k.rotation * model_->bodies[idx(b)].center_of_mass;
+    const Vec3d &w = k.angular_velocity, turning = w.cross(lever);
+    const Vec6d& a = system.acceleration()[idx(b)];
+    if (position) view<3>(position + 3 * b) = k.position + lever;
+    if (velocity) view<3>(velocity + 3 * b) = k.velocity + turning;
+    if (angular) view<3>(angular + 3 * b) = w;
+    if (euler) view<3>(euler + 3 * b) = euler_xyz_from_rotation(k.rotation);
+    if (angular_acceleration) view<3>(angular_acceleration + 3 * b) = a.tail<3>();
+    if (acceleration) {
+      view<3>(acceleration + 3 * b) = a.head<3>() + Vec3d(a.tail<3>()).cross(lever) + w.cross(turning);
+    }
+  }
+}
+
+void Recording::write_quaternions(const RedundantSystem& system) {
+  double* out = slot("quaternion");
+  if (!out) return;
+  const bool first = last_quaternion_.empty();
+  if (first) last_quaternion_.resize(model_->bodies.size());
+  for (int b = 0; b < model_->body_count(); ++b) {
+    Vec4d q = quaternion_from_rotation(system.bodies()[idx(b)].rotation);
+    if (!first && q.dot(last_quaternion_[idx(b)]) < 0.0) q = -q;  // q and -q are the same orientation
+    last_quaternion_[idx(b)] = q;
+    view<4>(out + 4 * b) = q;
+  }
+}
+
+void Recording::write_vessel(const RedundantSystem& system) {
+  if (double* out = slot("vessel_motion")) {
+    const Vessel& vessel = model_->vessels.front();
+    const BodyKinematics<double>& k = system.bodies()[idx(vessel.body)];
+    view<3>(out) = vessel.displacement(k);
+    view<3>(out + 3) = vessel.angles_from_mean(YawFrame<double>(k));
+  }
+  if (double* out = slot("wave_elevation")) *out = system.wave_elevation(0);
+  if (double* out = slot("wave_force")) view<6>(out) = system.wave_force(0);
+}
+
+void Recording::write_joint_coordinates(double t, const RedundantSystem& system) {
+  const auto& bodies = system.bodies();
+  double* value = slot("coordinate");
+  double* rate = slot("coordinate_rate");
+  if (value || rate) {
+    for (std::size_t i = 0; i < model_->coordinates.size(); ++i) {
+      const CoordinateData& c = model_->coordinates[i];
+      const auto &ka = bodies[idx(c.joint.first)], &kb = bodies[idx(c.joint.second)];
+      const CoordinateRow<double> row = evaluate_coordinate<double>(c, ka, kb);
+      if (value) value[i] = row.value;
+      if (rate) rate[i] = coordinate_rate<double>(row, ka, kb);
+    }
+  }
+  if (double* out = slot("actuator_force")) {
+    const LoadInput<double> input = system.load_input(t);
+    for (const Actuator& a : model_->actuators) {
+      const JointData& j = a.coordinate.joint;
+      *out++ = a.force<double>(input, evaluate_coordinate<double>(a.coordinate, bodies[idx(j.first)],
+                                                                   bodies[idx(j.second)]));
+    }
+  }
+  if (double* out = slot("driver_force")) {
+    for (std::size_t e = joint_count(*model_); e < model_->elements.size(); ++e) {
+      *out++ = system.multipliers()[idx(model_->elements[e].row)];
+    }
+  }
+}
+
+void Recording::write_reactions(const RedundantSystem& system) {
+  double* force = slot("reaction_force");
+  double* moment = slot("reaction_moment");
+  if (!force && !moment) return;
+  for (std::size_t e = 0; e < joint_count(*model_); ++e) {
+    const ElementModel& element = model_->elements[e];
+    const bool second_is_ground = element.second == model_->body_count();
+    const int side = second_is_ground ? 0 : 1, body = second_is_ground ? element.first : element.second;
+    Vec6d load = Vec6d::Zero();
+    const RowBlock<double>& block = system.blocks()[e];
+    for (int r = 0; r < element.rows; ++r) {
+      load += block.d[side].row(r).transpose() * system.multipliers()[idx(element.row + r)];
+    }
+    if (second_is_ground) load = -load;
+    const Vec3d f = load.head<3>();
+    const Vec3d arm = joint_point(element, system.bodies()) - system.bodies()[idx(body)].position;
+    if (force) view<3>(force + 3 * e) = f;
+    if (moment) view<3>(moment + 3 * e) = Vec3d(load.tail<3>()) - arm.cross(f);
+  }
+}
+
+void Recording::append(double t, const double* y, RedundantSystem& system, const ConstraintResidual& after,
+                       double before, double energy_balance) {
+  write_bodies(system);
+  write_quaternions(system);
+  write_vessel(system);
+  write_joint_coordinates(t, system);
+  write_reactions(system);
+  if (double* out = slot("constraint_error")) *out = after.position;
+  if (double* out = slot("constraint_rate_error")) *out = after.rate;
+  if (double* out = slot("constraint_error_before_projection")) *out = before;
+  if (double* out = slot("energy_balance")) *out = energy_balance;
+  if (double* out = slot("absolute_work")) *out = y[model_->layout.work + 1];
+  times_.push_back(t);
+  rows_.insert(rows_.end(), row_.begin(), row_.end());
+}
+
+}  // namespace seacrane

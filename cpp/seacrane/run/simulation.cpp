@@ -1,0 +1,176 @@
+#include "seacrane/run/simulation.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+namespace seacrane {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+constexpr std::chrono::milliseconds kAskInterval{20};
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+IntegratorOptions integrator_options(const Model& model, const RunOptions& run) {
+  if (!(run.tolerance > 0.0) || !std::isfinite(run.tolerance)) {
+    throw std::invalid_argument("rtol is " + std::to_string(run.tolerance) + "; give a positive number, e.g. 1e-6");
+  }
+  IntegratorOptions out;
+  out.name = run.integrator;
+  out.relative_tolerance = 0.0;
+  out.absolute_tolerance = model.scale;
+  for (double& value : out.absolute_tolerance) value *= run.tolerance;
+  out.fixed_step = run.fixed_step;
+  out.max_step = run.max_step;
+  return out;
+}
+
+}  // namespace
+
+State initial_state(const Model& model) {
+  return {0.0, model.initial_state, std::vector<double>(static_cast<std::size_t>(model.slot_count), 0.0)};
+}
+
+Simulation::Simulation(std::shared_ptr<const Model> model, State start, RunOptions options)
+    : model_(std::move(model)),
+      options_(std::move(options)),
+      system_(model_),
+      residual_(system_),
+      integrator_(make_integrator(system_, &residual_, integrator_options(*model_, options_))),
+      recording_(*model_, options_.channels, options_.output_times.size()),
+      inputs_(start.inputs),
+      output_state_(start.values),
+      rate_(start.values.size(), 0.0) {
+  if (start.values.size() != static_cast<std::size_t>(model_->layout.size)) {
+    throw std::invalid_argument("state: has " + std::to_string(start.values.size()) + " values, the model needs " +
+                                std::to_string(model_->layout.size));
+  }
+  for (double v : start.values) {
+    if (!std::isfinite(v)) throw std::invalid_argument("state: holds a value that is not finite");
+  }
+  system_.set_inputs(inputs_);
+  system_.project(start.time, start.values.data(), false);
+  system_.take_residual_before_projection();
+  next_stop(start.time);
+  start_energy_ = system_.energy(start.time, start.values.data());
+  start_work_ = start.values[static_cast<std::size_t>(model_->layout.work)];
+  integrator_->init(start.time, start.values.data());
+  while (next_output_ < options_.output_times.size() && options_.output_times[next_output_] < start.time) {
+    ++next_output_;
+  }
+  record_until(start.time);
+}
+
+double Simulation::next_stop(double t_end) {
+  const auto& stops = model_->breakpoints;
+  while (next_breakpoint_ < stops.size() && stops[next_breakpoint_] <= integrator_->time()) ++next_breakpoint_;
+  const double stop = next_breakpoint_ < stops.size() ? stops[next_breakpoint_]
+                                                      : std::numeric_limits<double>::infinity();
+  system_.set_curve_limit(stop);
+  return std::min(stop, t_end);
+}
+
+void Simulation::record(double t, double* y) {
+  system_.project(t, y, false);
+  const double before = system_.take_residual_before_projection();
+  const double energy = model_->paper_kinematics ? 0.0 : system_.energy(t, y);
+  const ConstraintResidual after = system_.residual(t, y);
+  system_.derivative(t, y, rate_.data());
+  const double work = y[model_->layout.work] - start_work_;
+  recording_.append(t, y, system_, after, before, energy - start_energy_ - work);
+}
+
+void Simulation::record_until(double t) {
+  const auto& times = options_.output_times;
+  while (next_output_ < times.size() && times[next_output_] <= t) {
+    const double at = times[next_output_++];
+    if (at >= t) {
+      std::copy_n(integrator_->state(), output_state_.size(), output_state_.data());
+    } else {
+      integrator_->interpolate(at, output_state_.data());
+    }
+    record(at, output_state_.data());
+  }
+}
+
+std::string Simulation::describe(std::size_t component) const {
+  static const char* axis[] = {"x", "y", "z"};
+  const StateLayout& s = model_->layout;
+  const int i = static_cast<int>(component);
+  if (i < s.velocity) {
+    const int k = i % s.pose_size;
+    return std::string(k < 3 ? "position " : "orientation ") + (k < 3 ? axis[k] : std::to_string(k - 3)) +
+           " of body '" + model_->bodies[static_cast<std::size_t>(i / s.pose_size)].name + "'";
+  }
+  if (i < s.memory) {
+    const int k = (i - s.velocity) % 6;
+    return std::string(k < 3 ? "velocity " : "angular velocity ") + axis[k % 3] + " of body '" +
+           model_->bodies[static_cast<std::size_t>((i - s.velocity) / 6)].name + "'";
+  }
+  return i < s.work ? "memory state " + std::to_string(i - s.memory) : "the work integral";
+}
+
+void Simulation::step(double limit) {
+  try {
+    integrator_->step(limit);
+  } catch (const IntegrationError& error) {
+    std::string text = error.what();
+    if (error.component() != IntegrationError::no_component &&
+        error.component() < static_cast<std::size_t>(model_->layout.size)) {
+      text += " (component " + std::to_string(error.component()) + " is the " + describe(error.component()) + ")";
+    }
+    throw IntegrationError(error.method(), error.time(), error.step_size(), error.component(), text);
+  }
+}
+
+bool Simulation::advance(double t_end, const std::function<bool(double)>& keep_going) {
+  if (!std::isfinite(t_end)) throw std::invalid_argument("t_end is not finite");
+  const auto start = Clock::now();
+  auto asked = start;
+  bool going = true;
+  while (going && integrator_->time() < t_end) {
+    const double limit = next_stop(t_end);
+    step(limit);
+    record_until(integrator_->time());
+    if (integrator_->time() >= limit && limit < t_end) {
+      // A curve jumps here: go on from the other side with a fresh derivative.
+      next_stop(t_end);
+      std::copy_n(integrator_->state(), output_state_.size(), output_state_.data());
+      system_.project(limit, output_state_.data(), false);
+      integrator_->reset(limit, output_state_.data());
+    }
+    if (Clock::now() - asked > kAskInterval) {
+      wall_seconds_ += seconds_since(asked);
+      going = !keep_going || keep_going(integrator_->time());
+      asked = Clock::now();
+    }
+  }
+  wall_seconds_ += seconds_since(asked);
+  return integrator_->time() >= t_end;
+}
+
+void Simulation::set_inputs(const std::vector<double>& slots) {
+  if (slots.size() != inputs_.size()) {
+    throw std::invalid_argument("inputs: " + std::to_string(slots.size()) + " values given, the model has " +
+                                std::to_string(inputs_.size()) + " slots");
+  }
+  inputs_ = slots;
+  system_.set_inputs(inputs_);
+  std::copy_n(integrator_->state(), output_state_.size(), output_state_.data());
+  integrator_->reset(integrator_->time(), output_state_.data());
+}
+
+State Simulation::state() const {
+  return {integrator_->time(), {integrator_->state(), integrator_->state() + model_->layout.size}, inputs_};
+}
+
+RunStatistics Simulation::statistics() const {
+  return {integrator_->counters(), system_.dense_solves(), wall_seconds_};
+}
+
+}  // namespace seacrane

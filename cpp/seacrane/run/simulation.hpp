@@ -1,0 +1,77 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "seacrane/dynamics/gear_gupta_leimkuhler.hpp"
+#include "seacrane/dynamics/redundant.hpp"
+#include "seacrane/integrate/registry.hpp"
+#include "seacrane/run/recording.hpp"
+
+namespace seacrane {
+
+struct RunOptions {
+  std::string integrator = "dopri5";
+  double tolerance = 1e-6;  // times the scale of each state: absolute, so that results don't depend on the origin
+  double fixed_step = 0.0;  // s, fixed-step methods; 0: the method's default
+  double max_step = 0.0;    // s; 0: no limit
+  std::vector<double> output_times;  // increasing, from the start on
+  std::set<std::string> channels;
+};
+
+/// Everything that changes during a run; a copy is a checkpoint.
+struct State {
+  double time = 0.0;
+  std::vector<double> values;  // poses, twists, memory states, work; see StateLayout
+  std::vector<double> inputs;  // zero-order-held slots
+};
+
+State initial_state(const Model& model);
+
+struct RunStatistics {
+  Counters counters;
+  long dense_solves = 0;
+  double wall_seconds = 0.0;  // inside advance()
+};
+
+/// One run of one Model: steps, lands on breakpoints, records at the times asked for.
+class Simulation {
+ public:
+  Simulation(std::shared_ptr<const Model> model, State start, RunOptions options);
+
+  /// Steps to t_end. `keep_going` is asked every 20 ms of wall time; false stops the run after the step
+  /// at hand. Returns whether t_end was reached.
+  bool advance(double t_end, const std::function<bool(double time)>& keep_going);
+
+  double time() const { return integrator_->time(); }
+  State state() const;
+  const Recording& recording() const { return recording_; }
+  RunStatistics statistics() const;
+  /// Sets the inputs from the present time on and restarts the derivative's history.
+  void set_inputs(const std::vector<double>& slots);
+  int state_size() const { return model_->layout.size; }
+
+ private:
+  double next_stop(double t_end);
+  void record_until(double t);
+  void record(double t, double* y);
+  void step(double limit);
+  std::string describe(std::size_t component) const;
+
+  std::shared_ptr<const Model> model_;
+  RunOptions options_;
+  RedundantSystem system_;
+  GearGuptaLeimkuhler residual_;
+  std::unique_ptr<Integrator> integrator_;
+  Recording recording_;
+  std::vector<double> inputs_;
+  std::size_t next_output_ = 0, next_breakpoint_ = 0;
+  std::vector<double> output_state_, rate_;
+  double start_energy_ = 0.0, start_work_ = 0.0;
+  double wall_seconds_ = 0.0;
+};
+
+}  // namespace seacrane
