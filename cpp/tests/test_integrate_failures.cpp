@@ -1,0 +1,203 @@
+#include <doctest/doctest.h>
+
+#include <stdexcept>
+
+#include "test_integrate_problems.hpp"
+
+namespace seacrane::test {
+namespace {
+
+struct Custom : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// y' = f(t, y) of one unknown in both forms.
+class Scalar final : public ResidualSystem {
+ public:
+  using Function = std::function<double(double, double)>;
+  explicit Scalar(Function f)
+      : f_(std::move(f)),
+        explicit_form(1, [this](double t, const double* y, double* ydot) { ydot[0] = f_(t, y[0]); }) {}
+  std::size_t size() const override { return 1; }
+  void residual(double t, const double* y, const double* ydot, double* r) override {
+    r[0] = ydot[0] - f_(t, y[0]);
+  }
+  std::span<const double> differential() const override { return differential_; }
+  void expand(double t, const double* state, double* y, double* ydot) override {
+    y[0] = state[0];
+    ydot[0] = f_(t, y[0]);
+  }
+  void contract(double, const double* y, double* state) const override { state[0] = y[0]; }
+
+ private:
+  Function f_;
+  std::array<double, 1> differential_ = {1.0};
+
+ public:
+  FunctionSystem explicit_form;
+};
+
+void run_counted(Integrator& integrator, double t_end) {
+  for (int i = 0; integrator.time() < t_end; ++i) {
+    REQUIRE(i < 100000);
+    integrator.step(t_end);
+    REQUIRE(std::isfinite(integrator.state()[0]));
+  }
+}
+
+}  // namespace
+
+TEST_CASE("a solution that blows up ends in an IntegrationError, not in a NaN or a hang") {
+  for (const std::string& name : integrator_names()) {
+    CAPTURE(name);
+    Scalar scalar([](double, double y) { return y * y; });
+    const auto integrator = make_integrator(scalar.explicit_form, &scalar, with_tolerance(name, 1e-6));
+    const double y0 = 1.0;
+    integrator->init(0.0, &y0);
+    try {
+      run_counted(*integrator, 2.0);
+      FAIL("no error at the pole");
+    } catch (const IntegrationError& error) {
+      MESSAGE(std::string(error.what()));
+      CHECK(error.method() == name);
+      CHECK(error.component() == 0);
+      if (integrator->is_adaptive()) {
+        CHECK(error.time() == doctest::Approx(1.0).epsilon(1e-3));
+        CHECK(std::abs(error.step_size()) < 1e-3);
+      }
+      CHECK(std::string(error.what()).find(name) != std::string::npos);
+      CHECK(std::isfinite(integrator->state()[0]));
+    }
+  }
+}
+
+TEST_CASE("an exception of the system reaches the caller, also through C, and the run can go on") {
+  for (const std::string& name : integrator_names()) {
+    CAPTURE(name);
+    bool broken = true;
+    Scalar scalar([&](double t, double y) {
+      if (broken && t > 0.5) throw Custom("the sea is gone");
+      return -y;
+    });
+    const auto integrator = make_integrator(scalar.explicit_form, &scalar, with_tolerance(name, 1e-8));
+    const double y0 = 1.0;
+    integrator->init(0.0, &y0);
+    CHECK_THROWS_WITH_AS(run_counted(*integrator, 1.0), "the sea is gone", Custom);
+    CHECK(integrator->time() <= 0.5);
+    CHECK(integrator->state()[0] == doctest::Approx(std::exp(-integrator->time())).epsilon(1e-6));
+    double y = 0.0;
+    integrator->interpolate(integrator->time(), &y);
+    CHECK(y == integrator->state()[0]);
+    broken = false;
+    run_counted(*integrator, 1.0);
+    CHECK(integrator->state()[0] == doctest::Approx(std::exp(-1.0)).epsilon(1e-6));
+  }
+}
+
+TEST_CASE("an exception of the projection reaches the caller and leaves the step undone") {
+  class Breaking final : public System {
+   public:
+    std::size_t size() const override { return 1; }
+    void derivative(double, const double* y, double* ydot) override { ydot[0] = -y[0]; }
+    bool has_projection() const override { return true; }
+    bool project(double t, double* y, bool) override {
+      if (t > 0.5) {
+        y[0] = 99.0;
+        throw Custom("no way back");
+      }
+      return false;
+    }
+  } system;
+  for (const std::string name : {"rk4", "dopri5", "ark-erk", "cvode-bdf"}) {
+    CAPTURE(name);
+    const auto integrator = make_integrator(system, nullptr, with_tolerance(name, 1e-8));
+    const double y0 = 1.0;
+    integrator->init(0.0, &y0);
+    CHECK_THROWS_AS(run_counted(*integrator, 1.0), Custom);
+    CHECK(integrator->time() <= 0.5);
+    CHECK(integrator->state()[0] == doctest::Approx(std::exp(-integrator->time())).epsilon(1e-6));
+  }
+}
+
+TEST_CASE("a derivative that is not finite beyond a border makes adaptive methods shorten the step") {
+  // Square root of a falling height: y = (1 - t/2)^2 until t = 2; a long step looks below zero.
+  for (const std::string name : {"dopri5", "ark-erk", "cvode-adams", "cvode-bdf", "ida"}) {
+    CAPTURE(name);
+    int outside = 0;
+    Scalar scalar([&](double, double y) {
+      if (y < 0.0) ++outside;
+      return -std::sqrt(y);
+    });
+    IntegratorOptions options = with_tolerance(name, 1e-6);
+    options.initial_step = 1.7;
+    options.absolute_tolerance = {1e-3};
+    const auto integrator = make_integrator(scalar.explicit_form, &scalar, options);
+    const double y0 = 1.0;
+    integrator->init(0.0, &y0);
+    run_counted(*integrator, 1.5);
+    CHECK(integrator->state()[0] == doctest::Approx(0.0625).epsilon(0.05));
+    MESSAGE(name, " looked outside ", outside, " times");
+  }
+}
+
+TEST_CASE("a derivative that is never finite stops every method with its component") {
+  for (const std::string& name : integrator_names()) {
+    CAPTURE(name);
+    Scalar scalar([](double t, double) { return t < 0.25 ? 1.0 : std::numeric_limits<double>::quiet_NaN(); });
+    const auto integrator = make_integrator(scalar.explicit_form, &scalar, with_tolerance(name, 1e-6));
+    const double y0 = 0.0;
+    integrator->init(0.0, &y0);
+    try {
+      run_counted(*integrator, 1.0);
+      FAIL("no error");
+    } catch (const IntegrationError& error) {
+      MESSAGE(std::string(error.what()));
+      CHECK(error.component() == 0);
+      CHECK(error.time() <= 0.25);
+      CHECK(error.time() > 0.2);
+    }
+  }
+}
+
+TEST_CASE("options and calls that make no sense are refused with a reason") {
+  FunctionSystem system = smooth_system();
+  IntegratorOptions options;
+  options.name = "euler";
+  CHECK_THROWS_WITH_AS(make_integrator(system, nullptr, options),
+                       "unknown integrator \"euler\"; choose one of rk4, dopri5, ark-erk, cvode-adams, "
+                       "cvode-bdf, ida",
+                       std::invalid_argument);
+  CHECK_THROWS_AS(make_integrator(system, nullptr, with_tolerance("ida", 1e-6)), std::invalid_argument);
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const double infinity = std::numeric_limits<double>::infinity();
+  for (const std::string name : {"rk4", "dopri5", "ark-erk", "cvode-adams", "cvode-bdf"}) {
+    CAPTURE(name);
+    const auto refused = [&](auto change) {
+      IntegratorOptions bad = with_tolerance(name, 1e-6);
+      change(bad);
+      CHECK_THROWS_AS(make_integrator(system, nullptr, bad), std::invalid_argument);
+    };
+    refused([&](IntegratorOptions& o) { o.relative_tolerance = -1e-6; });
+    refused([&](IntegratorOptions& o) { o.relative_tolerance = nan; });
+    refused([&](IntegratorOptions& o) { o.absolute_tolerance = {}; });
+    refused([&](IntegratorOptions& o) { o.absolute_tolerance = {1e-6, 1e-6}; });
+    refused([&](IntegratorOptions& o) { o.absolute_tolerance = {1e-6, 0.0, 1e-6}; });
+    refused([&](IntegratorOptions& o) { o.absolute_tolerance = {infinity}; });
+    refused([&](IntegratorOptions& o) { o.fixed_step = -0.1; });
+    refused([&](IntegratorOptions& o) { o.max_step = nan; });
+    refused([&](IntegratorOptions& o) { o.initial_step = infinity; });
+
+    const auto integrator = make_integrator(system, nullptr, with_tolerance(name, 1e-6));
+    const double bad_state[3] = {1.0, nan, 1.0};
+    CHECK_THROWS_AS(integrator->init(0.0, bad_state), std::invalid_argument);
+    integrator->init(0.0, smooth_solution(0.0).data());
+    CHECK_THROWS_AS(integrator->step(-1.0), std::invalid_argument);
+    CHECK_THROWS_AS(integrator->step(nan), std::invalid_argument);
+    integrator->step(1.0);
+    double y[3];
+    CHECK_THROWS_AS(integrator->interpolate(integrator->time() + 0.1, y), std::invalid_argument);
+    CHECK_THROWS_AS(integrator->interpolate(-0.1, y), std::invalid_argument);
+  }
+}
+
+}  // namespace seacrane::test
