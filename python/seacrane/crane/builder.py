@@ -1,0 +1,366 @@
+"""Bodies and joints of a knuckle-boom crane, ready to be added to a scene."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from types import MappingProxyType
+from typing import Any, Protocol
+
+import numpy as np
+import numpy.typing as npt
+
+from seacrane.crane import data_file, statics
+from seacrane.crane.geometry import BODIES, CraneGeometry, plane_axes
+from seacrane.crane.mass_properties import MassProperties, combine
+from seacrane.errors import SceneError
+
+Array = npt.NDArray[np.float64]
+Vector = tuple[float, float, float]
+
+FOOT: Vector = (33.0, 10.0, 10.0)
+"""Crane foot V seen from {0} in the paper's vessel: 33 m forward, 10 m to port, 10 m above."""
+
+
+class SceneLike(Protocol):
+    """What `KnuckleBoomCrane.add_to` needs of a scene; points and axes are inertial."""
+
+    def add_body(self, *, name: str, mass: float, inertia: Any, center_of_mass: Any, position: Any,
+                 quaternion: Any) -> Any: ...  # fmt: skip
+
+    def add_joint(self, *, kind: str, name: str, first: str, second: str, **geometry: Any) -> Any: ...
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class BodyRecord:
+    """A body of the crane or its payload.
+
+    Attributes
+    ----------
+    name : str
+    mass : float
+        kg.
+    inertia : ndarray, shape (3, 3)
+        About the centre of mass, body axes, kg m2.
+    center_of_mass : ndarray, shape (3,)
+        From the body origin, body axes, m.
+    position : ndarray, shape (3,)
+        Body origin in the vessel frame, m.
+    quaternion : ndarray, shape (4,)
+        Scalar first, body to vessel frame.
+    """
+
+    name: str
+    mass: float
+    inertia: Array
+    center_of_mass: Array
+    position: Array
+    quaternion: Array
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class JointRecord:
+    """A joint of the crane; points and axes in the vessel frame at the described pose, None where unused.
+
+    Attributes
+    ----------
+    name, kind, first, second : str
+    point : ndarray, shape (3,)
+        Joint point, m; for "distance" the point on the first body.
+    second_point : ndarray, shape (3,), or None
+        Point on the second body of a "distance" joint.
+    axis : ndarray, shape (3,), or None
+        Joint axis; for "universal" the axis fixed on the first body.
+    second_axis : ndarray, shape (3,), or None
+        Axis of a "universal" joint fixed on the second body.
+    length : float or None
+        Of a "distance" joint, m.
+    """
+
+    name: str
+    kind: str
+    first: str
+    second: str
+    point: Array
+    second_point: Array | None = None
+    axis: Array | None = None
+    second_axis: Array | None = None
+    length: float | None = None
+
+
+@dataclass(frozen=True, kw_only=True)
+class Payload:
+    """A uniform box hanging on a link of constant length from the crane tip, attached at its top's centroid.
+
+    Attributes
+    ----------
+    mass : float
+        kg.
+    size : (float, float, float)
+        Edges along body x, y and z, m.
+    link_length : float
+        Tip to the centroid of the top, m.
+    """
+
+    mass: float = 10.0e3
+    size: Vector = (6.0, 6.0, 4.0)
+    link_length: float = 8.0
+
+    def __post_init__(self) -> None:
+        values = {"mass": self.mass, "link_length": self.link_length}
+        values |= {f"size[{index}]": edge for index, edge in enumerate(self.size)}
+        for name, value in values.items():
+            if not (math.isfinite(value) and value > 0.0):
+                raise SceneError(f"payload: {name} is {value!r}; it must be finite and greater than zero.")
+
+    @property
+    def inertia(self) -> Array:
+        """About the centre of mass, body axes, shape (3, 3), kg m2."""
+        x, y, z = (edge**2 for edge in self.size)
+        return np.diag([y + z, z + x, x + y]) * (self.mass / 12.0)
+
+
+def _vector(name: str, value: Vector | Array) -> Array:
+    vector = np.array(value, dtype=float)
+    if vector.shape != (3,) or not np.all(np.isfinite(vector)):
+        raise SceneError(f"crane: {name} is {value!r}; give three finite numbers (x, y, z) in m.")
+    return vector
+
+
+def _slew_pitch_quaternion(theta: float, pitch: float) -> Array:
+    """Quaternion of Rz(theta) Ry(pitch), scalar first."""
+    cz, sz, cy, sy = (f(a / 2.0) for a in (theta, pitch) for f in (math.cos, math.sin))
+    return np.array([cz * cy, -sz * sy, cz * sy, sz * cy])
+
+
+@dataclass(frozen=True, eq=False)
+class KnuckleBoomCrane:
+    """A knuckle-boom crane: data, kinematics and mass properties. Make one with `load`.
+
+    Attributes
+    ----------
+    data : CraneData
+    geometry : CraneGeometry
+    mass_properties : mapping of body name to MassProperties
+        Body axes; computed from the members' shapes.
+    """
+
+    data: data_file.CraneData
+    geometry: CraneGeometry = field(init=False)
+    mass_properties: Mapping[str, MassProperties] = field(init=False)
+
+    def __post_init__(self) -> None:
+        members = self.data.members()
+        properties = {name: combine(members[name], plane_axes(name)) for name in BODIES}
+        object.__setattr__(self, "geometry", CraneGeometry(self.data))
+        object.__setattr__(self, "mass_properties", MappingProxyType(properties))
+
+    @classmethod
+    def load(cls, path: str | Path | None = None) -> KnuckleBoomCrane:
+        """Read a crane data file; without a path, the 250 t crane that comes with seacrane.
+
+        Raises
+        ------
+        FileFormatError
+            The file is malformed or describes a crane that cannot work; the message names the item.
+        """
+        return cls(data_file.load(path))
+
+    @property
+    def mass(self) -> float:
+        """Mass of the eight bodies, kg."""
+        return math.fsum(item.mass for item in self.mass_properties.values())
+
+    def center_of_mass(
+        self, *, foot: Vector = FOOT, theta: float = 0.0, s1: float = 0.0, s2: float = 0.0
+    ) -> Array:
+        """Common centre of mass of the eight bodies in the vessel frame, shape (3,), m."""
+        center = statics.center_of_mass(self.geometry, self.mass_properties, theta=theta, s1=s1, s2=s2)
+        return _vector("foot", foot) + center
+
+    def static_cylinder_forces(
+        self,
+        *,
+        s1: float,
+        s2: float,
+        payload_mass: float = 0.0,
+        gravity: float = statics.STANDARD_GRAVITY,
+    ) -> Array:
+        """Forces of the main and the knuckle cylinder at rest on a level base, N, positive when they push.
+
+        See `seacrane.crane.statics.static_cylinder_forces`.
+        """
+        return statics.static_cylinder_forces(
+            self.geometry, self.mass_properties, s1=s1, s2=s2, payload_mass=payload_mass, gravity=gravity
+        )
+
+    def bodies(
+        self, *, foot: Vector = FOOT, theta: float = 0.0, s1: float = 0.0, s2: float = 0.0
+    ) -> list[BodyRecord]:
+        """The eight bodies at a pose, from the tower to the knuckle jib.
+
+        Parameters
+        ----------
+        foot : (float, float, float)
+            Crane foot in the vessel frame, m.
+        theta, s1, s2 : float
+            Slew angle, rad; strokes, m.
+
+        Raises
+        ------
+        SceneError
+            A value is not finite, or a stroke is out of range.
+        """
+        origin = _vector("foot", foot)
+        pose = self.geometry.pose(theta=theta, s1=s1, s2=s2)
+        pitch = self.geometry.plane_pose(s1=s1, s2=s2).pitch()
+        records = []
+        for name in BODIES:
+            item = self.mass_properties[name]
+            slew = 0.0 if name == "tower" else theta
+            records.append(
+                BodyRecord(
+                    name=name,
+                    mass=item.mass,
+                    inertia=item.inertia.copy(),
+                    center_of_mass=item.center_of_mass.copy(),
+                    position=origin + pose[name][0],
+                    quaternion=_slew_pitch_quaternion(slew, pitch[name]),
+                )
+            )
+        return records
+
+    def payload_body(
+        self,
+        payload: Payload,
+        *,
+        foot: Vector = FOOT,
+        theta: float = 0.0,
+        s1: float = 0.0,
+        s2: float = 0.0,
+    ) -> BodyRecord:
+        """The payload hanging at rest under the tip, its frame at its centre, parallel to the vessel's."""
+        tip = _vector("foot", foot) + self.geometry.tip(theta=theta, s1=s1, s2=s2)
+        drop = payload.link_length + payload.size[2] / 2.0
+        return BodyRecord(
+            name="payload",
+            mass=payload.mass,
+            inertia=payload.inertia,
+            center_of_mass=np.zeros(3),
+            position=tip - np.array([0.0, 0.0, drop]),
+            quaternion=np.array([1.0, 0.0, 0.0, 0.0]),
+        )
+
+    def joints(
+        self,
+        *,
+        foot: Vector = FOOT,
+        theta: float = 0.0,
+        s1: float = 0.0,
+        s2: float = 0.0,
+        base: str = "vessel",
+        payload: Payload | None = None,
+    ) -> list[JointRecord]:
+        """The ten joints of the crane at a pose, and the payload's link as the eleventh.
+
+        The angle of A is the slew angle; the angles of C and F grow as the jibs rise; the displacements of
+        the prismatic joints grow with the strokes. All are zero at the pose described here.
+
+        Parameters
+        ----------
+        foot, theta, s1, s2
+            As `bodies`.
+        base : str
+            Body the tower is welded to.
+        payload : Payload or None
+        """
+        origin = _vector("foot", foot)
+        points = self.geometry.points(theta=theta, s1=s1, s2=s2)
+        p = {name: origin + point for name, point in points.items()}
+        pose = self.geometry.pose(theta=theta, s1=s1, s2=s2)
+        axes = {name: pose[name][1] @ plane_axes(name) for name in ("main_barrel", "knuckle_barrel")}
+        (main_along, main_above), (knuckle_along, knuckle_above) = (axis.T for axis in axes.values())
+        up, pivot = np.array([0.0, 0.0, 1.0]), pose["king"][1][:, 1]
+
+        def joint(name: str, kind: str, first: str, second: str, point: Array, **extra: Any) -> JointRecord:
+            copies: dict[str, Any] = {key: np.array(value) for key, value in extra.items()}
+            return JointRecord(name=name, kind=kind, first=first, second=second, point=point.copy(), **copies)
+
+        records = [
+            joint("deck", "weld", base, "tower", origin),
+            joint("A", "revolute", "tower", "king", p["A"], axis=up),
+            joint("B", "universal", "king", "main_barrel", p["B"], axis=pivot, second_axis=main_above),
+            joint("C", "revolute", "king", "main_jib", p["C"], axis=pivot),
+            joint("D", "spherical", "main_rod", "main_jib", p["D"]),
+            joint("E", "universal", "main_jib", "knuckle_barrel", p["E"], axis=pivot,
+                  second_axis=knuckle_above),
+            joint("F", "revolute", "main_jib", "knuckle_jib", p["F"], axis=pivot),
+            joint("G", "spherical", "knuckle_rod", "knuckle_jib", p["G"]),
+            joint("main_cylinder", "prismatic", "main_barrel", "main_rod", p["B"], axis=main_along),
+            joint("knuckle_cylinder", "prismatic", "knuckle_barrel", "knuckle_rod", p["E"],
+                  axis=knuckle_along),
+        ]  # fmt: skip
+        if payload is not None:
+            records.append(_link(p["tip"], payload))
+        return records
+
+    def add_to(
+        self,
+        scene: SceneLike,
+        *,
+        base: str = "vessel",
+        foot: Vector = FOOT,
+        theta: float = 0.0,
+        s1: float = 0.0,
+        s2: float = 0.0,
+        payload: Payload | None = None,
+    ) -> None:
+        """Add the crane, and a payload hanging at rest, to a scene.
+
+        Parameters
+        ----------
+        scene : Scene
+        base : str
+            Body that carries the crane ("ground" for a fixed base). A vessel must be described with its body
+            frame on the inertial frame, because poses and joints are given in the vessel frame.
+        foot, theta, s1, s2
+            As `bodies`.
+        payload : Payload or None
+        """
+        place: dict[str, Any] = {"foot": foot, "theta": theta, "s1": s1, "s2": s2}
+        records = self.bodies(**place)
+        if payload is not None:
+            records.append(self.payload_body(payload, **place))
+        for body in records:
+            scene.add_body(
+                name=body.name,
+                mass=body.mass,
+                inertia=body.inertia,
+                center_of_mass=body.center_of_mass,
+                position=body.position,
+                quaternion=body.quaternion,
+            )
+        for joint in self.joints(**place, base=base, payload=payload):
+            scene.add_joint(
+                kind=joint.kind, name=joint.name, first=joint.first, second=joint.second, **_used(joint)
+            )
+
+
+def _link(tip: Array, payload: Payload) -> JointRecord:
+    top = tip - np.array([0.0, 0.0, payload.link_length])
+    return JointRecord(
+        name="link",
+        kind="distance",
+        first="knuckle_jib",
+        second="payload",
+        point=tip.copy(),
+        second_point=top,
+        length=payload.link_length,
+    )
+
+
+def _used(joint: JointRecord) -> dict[str, Any]:
+    names = ("point", "second_point", "axis", "second_axis", "length")
+    return {name: getattr(joint, name) for name in names if getattr(joint, name) is not None}
