@@ -1,0 +1,110 @@
+"""Closed-form inertias of tubes and boxes against numerical integration over their volume."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import numpy.typing as npt
+import pytest
+
+from seacrane.crane import BODIES, Box, KnuckleBoomCrane, Tube
+from seacrane.crane.geometry import plane_axes
+from seacrane.crane.mass_properties import combine
+
+Array = npt.NDArray[np.float64]
+NODES, WEIGHTS = np.polynomial.legendre.leggauss(4)  # exact for the polynomials met here
+
+
+def interval(low: float, high: float) -> tuple[Array, Array]:
+    return (low + high) / 2.0 + (high - low) / 2.0 * NODES, (high - low) / 2.0 * WEIGHTS
+
+
+def box_section(width: float, depth: float) -> tuple[Array, Array]:
+    """Points (across, normal) of a rectangle and their share of its area."""
+    y, wy = interval(-width / 2.0, width / 2.0)
+    n, wn = interval(-depth / 2.0, depth / 2.0)
+    points = np.array([(a, b) for a in y for b in n])
+    return points, np.array([a * b for a in wy for b in wn])
+
+
+def section(member: Tube | Box) -> tuple[Array, Array]:
+    if isinstance(member, Tube):
+        r, wr = interval(member.inner_diameter / 2.0, member.outer_diameter / 2.0)
+        angles = np.arange(16) * math.tau / 16.0  # the trapezium rule is exact for low harmonics
+        points = np.array([(q * math.cos(a), q * math.sin(a)) for q in r for a in angles])
+        return points, np.array([w * q * math.tau / 16.0 for q, w in zip(r, wr, strict=True) for _ in angles])
+    points, weights = box_section(member.width, member.depth)
+    if member.wall > 0.0:
+        hole, taken = box_section(member.width - 2.0 * member.wall, member.depth - 2.0 * member.wall)
+        points, weights = np.vstack([points, hole]), np.concatenate([weights, -taken])
+    return points, weights
+
+
+def cloud(member: Tube | Box, plane: Array) -> tuple[Array, Array]:
+    """Quadrature points of a member in body axes, and their masses."""
+    start, end = np.array(member.start), np.array(member.end)
+    axis = (end - start) / np.linalg.norm(end - start)
+    normal = np.array([-axis[1], axis[0]])
+    along, w_along = interval(0.0, float(np.linalg.norm(end - start)))
+    flat, w_flat = section(member)
+    points, masses = [], []
+    for x, wx in zip(along, w_along, strict=True):
+        for (across, height), wf in zip(flat, w_flat, strict=True):
+            in_plane = start + x * axis + height * normal
+            points.append(plane @ in_plane + np.array([0.0, across, 0.0]))
+            masses.append(wx * wf)
+    weights = np.array(masses)
+    return np.array(points), weights * (member.mass / weights.sum())
+
+
+def integrate(members: tuple[Tube | Box, ...], plane: Array) -> tuple[float, Array, Array]:
+    parts = [cloud(member, plane) for member in members]
+    points, masses = np.vstack([p for p, _ in parts]), np.concatenate([m for _, m in parts])
+    mass = float(masses.sum())
+    centre = masses @ points / mass
+    arms = points - centre
+    second = np.einsum("i,ij,ik->jk", masses, arms, arms)
+    return mass, centre, np.trace(second) * np.eye(3) - second
+
+
+SHAPES = {
+    "tube": Tube(
+        name="t", mass=7.0, start=(1.0, 2.0), end=(4.0, 3.0), outer_diameter=2.0, inner_diameter=1.2
+    ),
+    "solid cylinder": Tube(
+        name="c", mass=3.0, start=(0.0, 0.0), end=(0.0, 5.0), outer_diameter=0.6, inner_diameter=0.0
+    ),
+    "box": Box(name="b", mass=5.0, start=(-1.0, 0.5), end=(2.0, -3.0), width=1.5, depth=0.7, wall=0.0),
+    "hollow box": Box(name="h", mass=4.0, start=(0.0, 0.0), end=(6.0, 1.0), width=1.5, depth=2.5, wall=0.2),
+}
+
+
+@pytest.mark.parametrize("shape", SHAPES)
+@pytest.mark.parametrize("body", ["main_jib", "main_rod", "knuckle_jib"])
+def test_shape_against_quadrature(shape: str, body: str) -> None:
+    plane = plane_axes(body)
+    got = combine([SHAPES[shape]], plane)
+    mass, centre, inertia = integrate((SHAPES[shape],), plane)
+    assert got.mass == pytest.approx(mass, rel=1e-12)
+    np.testing.assert_allclose(got.center_of_mass, centre, atol=1e-12)
+    np.testing.assert_allclose(got.inertia, inertia, atol=1e-11)
+
+
+@pytest.mark.parametrize("body", BODIES)
+def test_crane_bodies_against_quadrature(body: str) -> None:
+    crane = KnuckleBoomCrane.load()
+    got = crane.mass_properties[body]
+    mass, centre, inertia = integrate(crane.data.members()[body], plane_axes(body))
+    assert got.mass == pytest.approx(mass, rel=1e-12)
+    np.testing.assert_allclose(got.center_of_mass, centre, atol=1e-10)
+    np.testing.assert_allclose(got.inertia, inertia, rtol=1e-10, atol=1e-9 * np.trace(inertia))
+
+
+@pytest.mark.parametrize("body", BODIES)
+def test_inertia_is_that_of_a_possible_body(body: str) -> None:
+    inertia = KnuckleBoomCrane.load().mass_properties[body].inertia
+    np.testing.assert_array_equal(inertia, inertia.T)
+    moments = np.linalg.eigvalsh(inertia)
+    assert moments[0] > 0.0
+    assert moments[0] + moments[1] >= moments[2] * (1.0 - 1e-12)
