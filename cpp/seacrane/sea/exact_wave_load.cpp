@@ -1,0 +1,112 @@
+#include "seacrane/sea/exact_wave_load.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <cstring>
+#include <utility>
+
+#include "seacrane/sea/require.hpp"
+#include "seacrane/sea/sincos.hpp"
+
+namespace seacrane {
+namespace {
+
+const char* const object = "wave load";
+
+void check(const WaveComponents& waves, const Eigen::Ref<const Eigen::MatrixXcd>& transfer) {
+  const auto rows = static_cast<Eigen::Index>(waves.size());
+  sea::require(transfer.rows() == rows && transfer.cols() == 6, object, "shape of transfer",
+               sea::pair_text(transfer.rows(), transfer.cols()),
+               "give one row per wave component and six columns, " + sea::pair_text<Eigen::Index>(rows, 6));
+  for (Eigen::Index i = 0; i < rows; ++i) {
+    for (Eigen::Index j = 0; j < 6; ++j) {
+      const std::complex<double> x = transfer(i, j);
+      if (std::isfinite(x.real()) && std::isfinite(x.imag())) continue;
+      sea::require(false, object, "transfer" + sea::pair_text(i, j), x,
+                   "give finite force per metre of wave amplitude");
+    }
+  }
+}
+
+void check(const WavePoint& point, const char* name) {
+  sea::require(std::isfinite(point.x) && std::isfinite(point.y), object, name,
+               sea::pair_text(point.x, point.y), "give finite x and y in m");
+}
+
+}  // namespace
+
+ExactWaveLoad::ExactWaveLoad(WaveComponents waves, const Eigen::Ref<const Eigen::MatrixXcd>& transfer,
+                             WavePoint position, WavePoint elevation_point)
+    : waves_(std::move(waves)) {
+  check(waves_, transfer);
+  check(position, "position");
+  check(elevation_point, "elevation_point");
+  for (std::size_t i = 0; i < waves_.size(); ++i) {
+    const double a = waves_.amplitude()[i];
+    const std::complex<double> at_vessel = std::polar(a, waves_.phase_at(i, position.x, position.y));
+    Coefficients c{};
+    const auto set = [&c](std::size_t channel, std::complex<double> p) {
+      c.real[channel / 2][channel % 2] = p.real();
+      c.imaginary[channel / 2][channel % 2] = p.imag();
+    };
+    for (std::size_t j = 0; j < 6; ++j) {
+      set(j, at_vessel * transfer(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)));
+    }
+    set(6, std::polar(a, waves_.phase_at(i, elevation_point.x, elevation_point.y)));
+    coefficients_.push_back(c);
+    largest_omega_ = std::max(largest_omega_, waves_.omega()[i]);
+  }
+}
+
+template <std::size_t orders>
+void ExactWaveLoad::sum(double t, double (&out)[orders][lanes]) const {
+  constexpr std::size_t chunk = 64;  // sines and cosines held on the stack
+  double sine[chunk], cosine[chunk];
+  Pack sums[orders][packs] = {};
+  for (std::size_t first = 0; first < coefficients_.size(); first += chunk) {
+    const std::size_t count = std::min(chunk, coefficients_.size() - first);
+    const double* omega = waves_.omega().data() + first;
+    sea::sincos_of(omega, count, largest_omega_, t, sine, cosine);
+    for (std::size_t i = 0; i < count; ++i) {
+      const Coefficients& c = coefficients_[first + i];
+      double re = cosine[i], im = -sine[i];
+      for (std::size_t k = 0; k < orders; ++k) {
+        for (std::size_t p = 0; p < packs; ++p) sums[k][p] += c.real[p] * re + c.imaginary[p] * im;
+        // d/dt of (cos, -sin) is omega (-sin, -cos).
+        const double turned = -omega[i] * re;
+        re = omega[i] * im;
+        im = turned;
+      }
+    }
+  }
+  for (std::size_t k = 0; k < orders; ++k) std::memcpy(out[k], sums[k], sizeof(sums[k]));
+}
+
+void ExactWaveLoad::evaluate(double t, double* out) const {
+  double sums[1][lanes];
+  sum(t, sums);
+  std::copy_n(sums[0], wave_channels, out);
+}
+
+void ExactWaveLoad::evaluate(double t, double* value, double* rate, double* acceleration) const {
+  double sums[3][lanes];
+  sum(t, sums);
+  std::copy_n(sums[0], wave_channels, value);
+  std::copy_n(sums[1], wave_channels, rate);
+  std::copy_n(sums[2], wave_channels, acceleration);
+}
+
+WaveChannels ExactWaveLoad::magnitude(int order) const {
+  WaveChannels sum{};
+  for (std::size_t i = 0; i < coefficients_.size(); ++i) {
+    const double factor = std::pow(waves_.omega()[i], order);
+    for (std::size_t j = 0; j < wave_channels; ++j) {
+      sum[j] +=
+          factor * std::hypot(coefficients_[i].real[j / 2][j % 2], coefficients_[i].imaginary[j / 2][j % 2]);
+    }
+  }
+  return sum;
+}
+
+}  // namespace seacrane

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include "seacrane/sea/wave_components.hpp"
+
+namespace seacrane {
+
+/// What a wave load delivers: three forces (N), three moments (N m), and the wave elevation (m).
+inline constexpr std::size_t wave_channels = 7;
+using WaveChannels = std::array<double, wave_channels>;
+
+struct WavePoint {
+  double x = 0.0, y = 0.0;  // m, inertial frame
+};
+
+/// First-order wave load of a vessel at its mean position as the sum over all components,
+/// F_j(t) = Re sum_i a_i X_ij exp(i (omega_i t + phase_i - k_i (x cos b_i + y sin b_i))), in the axes and
+/// about the reference point of the transfer X. Immutable, so that threads can share it; nothing is allocated
+/// after construction. A sum of n terms carries a rounding error of a few 1e-16 (1 + omega t) sum |a X|.
+class ExactWaveLoad {
+ public:
+  /// X: one row per component, six columns, N/m and N m/m, time factor exp(+i omega t). `position` is where
+  /// the phase of X refers to; the elevation is that at `elevation_point`.
+  ExactWaveLoad(WaveComponents waves, const Eigen::Ref<const Eigen::MatrixXcd>& transfer,
+                WavePoint position = {}, WavePoint elevation_point = {});
+
+  /// out[0..5]: load; out[6]: elevation.
+  void evaluate(double t, double* out) const;
+  /// Value, first and second derivative in time, seven each.
+  void evaluate(double t, double* value, double* rate, double* acceleration) const;
+
+  const WaveComponents& waves() const { return waves_; }
+  /// sum_i |a_i X_ij| omega_i^order per channel: no |d^order F_j / dt^order| ever exceeds it.
+  WaveChannels magnitude(int order) const;
+
+ private:
+  static constexpr std::size_t lanes = 8;  // channels, padded to whole packs
+  static constexpr std::size_t packs = lanes / 2;
+  // Two doubles in one register of every 64-bit processor; gcc and clang spell it alike.
+  using Pack = double __attribute__((vector_size(16)));
+  struct Coefficients {
+    Pack real[packs], imaginary[packs];
+  };
+  template <std::size_t orders>
+  void sum(double t, double (&out)[orders][lanes]) const;
+
+  WaveComponents waves_;
+  std::vector<Coefficients> coefficients_;
+  double largest_omega_ = 0.0;
+};
+
+}  // namespace seacrane
