@@ -1,5 +1,7 @@
 #include <doctest/doctest.h>
+#include <unistd.h>
 
+#include <cstdio>
 #include <stdexcept>
 
 #include "test_integrate_problems.hpp"
@@ -69,6 +71,37 @@ TEST_CASE("a solution that blows up ends in an IntegrationError, not in a NaN or
       CHECK(std::isfinite(integrator->state()[0]));
     }
   }
+}
+
+TEST_CASE("a failing solver prints nothing") {
+  std::FILE* const caught = std::tmpfile();
+  REQUIRE(caught != nullptr);
+  std::fflush(nullptr);
+  const int kept_out = dup(STDOUT_FILENO);
+  const int kept_err = dup(STDERR_FILENO);
+  dup2(fileno(caught), STDOUT_FILENO);
+  dup2(fileno(caught), STDERR_FILENO);
+  int failures = 0;
+  for (const std::string& name : integrator_names()) {
+    Scalar scalar([](double, double y) { return y * y; });
+    const auto integrator = make_integrator(scalar.explicit_form, &scalar, with_tolerance(name, 1e-6));
+    const double y0 = 1.0;
+    integrator->init(0.0, &y0);
+    try {
+      run_counted(*integrator, 2.0);
+    } catch (const IntegrationError&) {
+      ++failures;
+    }
+  }
+  std::fflush(nullptr);
+  const off_t printed = lseek(fileno(caught), 0, SEEK_END);
+  dup2(kept_out, STDOUT_FILENO);
+  dup2(kept_err, STDERR_FILENO);
+  close(kept_out);
+  close(kept_err);
+  std::fclose(caught);
+  CHECK(failures == static_cast<int>(integrator_names().size()));
+  CHECK(printed == 0);
 }
 
 TEST_CASE("an exception of the system reaches the caller, also through C, and the run can go on") {

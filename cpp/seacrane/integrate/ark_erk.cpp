@@ -70,12 +70,17 @@ void ArkodeExplicit::create() {
 
 void ArkodeExplicit::restart() {
   solution_ = state_;
-  if (!memory_) {
-    create();
+  if (memory_) {
+    require(ERKStepReInit(memory_.get(), derivative, time_, solution_vector_.get()), "ERKStepReInit");
+    require(SEACRANE_ERK(SetInitStep)(memory_.get(), options_.initial_step), "SetInitStep");
     return;
   }
-  require(ERKStepReInit(memory_.get(), derivative, time_, solution_vector_.get()), "ERKStepReInit");
-  require(SEACRANE_ERK(SetInitStep)(memory_.get(), options_.initial_step), "SetInitStep");
+  try {
+    create();
+  } catch (...) {
+    memory_.reset();
+    throw;
+  }
 }
 
 void ArkodeExplicit::prepare_step() {

@@ -163,7 +163,10 @@ void DormandPrince::step(double t_limit) {
   for (bool cut_before = false;; cut_before = true) {
     // A step cut short by a hard stop may be as short as it likes; only the wish itself can collapse.
     if (step_ < smallest_step(time_)) {
-      fail(step_, dominant_component(step_), "the step size has collapsed");
+      const bool finite = bad_component_ == IntegrationError::no_component;
+      fail(step_, dominant_component(step_),
+           finite ? "the step size has collapsed"
+                  : "the step size has collapsed: the derivative is not finite");
     }
     const double h = limited_step(step_, remaining);
     const double t_end = h == remaining ? t_limit : time_ + h;
