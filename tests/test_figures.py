@@ -1,0 +1,315 @@
+"""The paper's figures: axes and signs, the data behind every panel, poses, and the findings as numbers."""
+
+from __future__ import annotations
+
+import csv
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from test_result import BODIES, crane_result, crane_run, smooth_step, vessel_result
+
+from seacrane.figures import (
+    Line,
+    Panel,
+    PaperRuns,
+    Sheet,
+    box_lines,
+    crane_skeleton,
+    overview_sheet,
+    paper_findings,
+    paper_motion,
+    plot_overview,
+    save_figure,
+    save_paper_figures,
+    save_pose_figure,
+    save_sheet,
+)
+from seacrane.figures.findings import amplitude_at, slew_stop
+from seacrane.figures.pose import complete_skeleton, posed_lines, rotation_matrix, wire_line
+from seacrane.result import MOTIONS, Result
+
+PNG = b"\x89PNG\r\n\x1a\n"
+
+
+def image_size(path: Path) -> tuple[int, int]:
+    head = path.read_bytes()[:24]
+    assert head[:8] == PNG, path
+    return int.from_bytes(head[16:20], "big"), int.from_bytes(head[20:24], "big")
+
+
+def read_csv(path: Path) -> tuple[list[str], np.ndarray]:
+    with path.open(newline="", encoding="utf-8") as file:
+        names, *rows = csv.reader(file)
+    return names, np.array(rows, float)
+
+
+def posed_case2(*, dt: float = 1.0) -> Result:
+    """Case 2 with the shipped crane's own geometry on a ship that floats still."""
+    from seacrane.crane import KnuckleBoomCrane, Payload
+
+    crane, payload = KnuckleBoomCrane.load(), Payload()
+    run = crane_run(heel=0.0, dt=dt)
+    still = np.zeros_like(run["arrays"]["vessel_motion"])
+    position, quaternion = run["arrays"]["position"], run["arrays"]["quaternion"]
+    position[:, 0], quaternion[:, 0] = (0, 0, 3), (1, 0, 0, 0)
+    for i, share in enumerate(smooth_step(run["time"])):
+        pose = {"theta": -np.pi / 2 * share, "s1": 2 * share, "s2": 2 * share}
+        for record in [*crane.bodies(**pose), crane.payload_body(payload, **pose)]:
+            body = BODIES.index(record.name)
+            quaternion[i, body] = record.quaternion
+            position[i, body] = record.position + rotation_matrix(record.quaternion) @ record.center_of_mass
+    run["arrays"] |= {"vessel_motion": still}
+    return Result.from_arrays(**run)
+
+
+@pytest.fixture(scope="module")
+def runs() -> PaperRuns:
+    return PaperRuns(
+        vessel=vessel_result(),
+        vessel_without_memory=vessel_result(memory=False),
+        case1=crane_result(payload=False, heel=0.015, scene="case1"),
+        case2=crane_result(heel=0.02),
+        case3=crane_result(payload=False, heel=0.015, oscillation=0.5, scene="case3"),
+    )
+
+
+@pytest.fixture(scope="module")
+def drawn(runs: PaperRuns, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("figures")
+    pictures = save_paper_figures(runs=runs, folder=folder)
+    assert list(pictures) == list(range(3, 11))
+    return folder
+
+
+def test_eight_figures_and_their_data_are_written(drawn: Path) -> None:
+    expected = {f"figure_{number:02d}.{kind}" for number in range(3, 11) for kind in ("png", "csv")}
+    assert {path.name for path in drawn.iterdir()} == expected
+    for path in drawn.glob("*.png"):
+        width, height = image_size(path)
+        assert width > 800 and height > 300, path.name
+
+
+@pytest.mark.parametrize(
+    ("motion", "factor"),
+    [("surge", -1), ("sway", -1), ("heave", 1), ("roll", -57.29578), ("pitch", -57.29578), ("yaw", 57.29578)],
+)
+def test_motions_are_turned_into_the_papers_axes(runs: PaperRuns, motion: str, factor: float) -> None:
+    ours = runs.case2["vessel_motion"][:, MOTIONS.index(motion)]
+    np.testing.assert_allclose(paper_motion(runs.case2, motion), factor * ours, rtol=1e-7)
+
+
+def test_the_papers_roll_is_the_rotation_of_the_turned_axes() -> None:
+    from scipy.spatial.transform import Rotation
+
+    yaw, pitch, roll = 0.2, -0.1, 0.05
+    half_turn = Rotation.from_euler("z", np.pi)
+    turned = half_turn * Rotation.from_euler("ZYX", [yaw, pitch, roll]) * half_turn.inv()
+    np.testing.assert_allclose(turned.as_euler("ZYX"), [yaw, -pitch, -roll], atol=1e-15)
+
+
+def test_figure_3_data_hold_all_six_motions_of_both_runs(runs: PaperRuns, drawn: Path) -> None:
+    names, numbers = read_csv(drawn / "figure_03.csv")
+    assert names[:3] == ["time [s]", "surge, with memory [m]", "surge, without memory [m]"]
+    assert names[-1] == "yaw, without memory [deg]" and len(names) == 13
+    np.testing.assert_allclose(numbers[:, 0], runs.vessel.time, rtol=1e-9)
+    np.testing.assert_allclose(
+        numbers[:, 8], paper_motion(runs.vessel_without_memory, "roll"), rtol=1e-9, atol=1e-12
+    )
+
+
+def test_figure_7_data_hold_strokes_and_slew_angle(runs: PaperRuns, drawn: Path) -> None:
+    names, numbers = read_csv(drawn / "figure_07.csv")
+    assert names == ["time [s]", "stroke 1 [m]", "stroke 2 [m]", "slew angle [deg]"]
+    np.testing.assert_allclose(numbers[-1, 3], -90, atol=1e-9)
+    euler = runs.case3.select("euler_xyz", axis="z")
+    phi = np.unwrap(euler[:, BODIES.index("king")] - euler[:, BODIES.index("tower")])
+    np.testing.assert_allclose(numbers[:, 3], np.rad2deg(phi), atol=1e-6)
+
+
+def test_figure_10_is_the_difference_of_two_heaves(runs: PaperRuns, drawn: Path) -> None:
+    _, numbers = read_csv(drawn / "figure_10.csv")
+    late = numbers[:, 0] > 50
+    np.testing.assert_allclose(numbers[~late, 1], 0, atol=1e-12)
+    np.testing.assert_allclose(numbers[late, 1], 0.025 * np.cos(2 * np.pi * numbers[late, 0] / 5), atol=1e-9)
+
+
+def test_runs_of_different_output_times_are_refused(runs: PaperRuns, tmp_path: Path) -> None:
+    short = vessel_result(t_end=60.0)
+    odd = PaperRuns(
+        vessel=runs.vessel,
+        vessel_without_memory=short,
+        case1=runs.case1,
+        case2=runs.case2,
+        case3=runs.case3,
+    )
+    with pytest.raises(ValueError, match="different times: 1001 outputs to 100 s, 601 outputs to 60 s"):
+        save_paper_figures(runs=odd, folder=tmp_path)
+    assert not list(tmp_path.iterdir())
+
+
+def test_a_line_of_the_wrong_length_is_refused() -> None:
+    line = Line(label="short", values=np.zeros(3))
+    panel = Panel(quantity="heave", unit="m", lines=(line,))
+    with pytest.raises(ValueError, match="'short' of panel 'heave' has 3 values over 5 of time"):
+        Sheet(title="t", caption="c", abscissa=np.arange(5.0), panels=(panel,))
+
+
+def test_the_picture_shows_the_lines_of_its_table(tmp_path: Path) -> None:
+    from seacrane.figures import draw
+
+    time = np.linspace(0, 1, 11)
+    lines = (Line(label="a", values=time**2), Line(label="b", values=-time))
+    sheet = Sheet(
+        title="t",
+        caption="c",
+        abscissa=time,
+        panels=(Panel(quantity="heave", unit="m", lines=lines),),
+    )
+    (axes,) = draw(sheet).axes
+    for drawn_line, line in zip(axes.lines, lines, strict=True):
+        np.testing.assert_array_equal(drawn_line.get_ydata(), line.values)
+    assert axes.get_ylabel() == "heave [m]" and axes.get_xlabel() == "time [s]"
+    names, numbers = read_csv(save_sheet(sheet, tmp_path, "square").image.with_suffix(".csv"))
+    assert names == ["time [s]", "heave, a [m]", "heave, b [m]"]
+    np.testing.assert_allclose(numbers[:, 1], time**2, rtol=1e-9)
+
+
+@pytest.mark.parametrize("output", [0, -1], ids=["initial", "final"])
+def test_the_cranes_lines_meet_at_its_joints(output: int) -> None:
+    """Lines that share a joint share its point in every pose, up to the figure's own rounding."""
+    result, skeleton = posed_case2(), crane_skeleton()
+    lines: dict[str, Any] = {}
+    for body, number, points in posed_lines(result, skeleton, output):
+        lines[f"{body}{number}"] = points
+    jib, knuckle, king = lines["main_jib1"], lines["knuckle_jib1"], lines["king0"]
+    for first, second in [
+        (king[1], jib[0]),  # C
+        (king[2], lines["main_barrel0"][0]),  # B
+        (jib[1], lines["main_rod0"][0]),  # D
+        (jib[2], lines["knuckle_barrel0"][0]),  # E
+        (jib[3], knuckle[0]),  # F
+        (knuckle[1], lines["knuckle_rod0"][0]),  # G
+        (lines["tower0"][1], king[0]),  # A
+    ]:
+        np.testing.assert_allclose(first, second, atol=1e-9)
+
+
+@pytest.mark.parametrize("output", [0, -1], ids=["initial", "final"])
+def test_the_wire_is_as_long_as_the_link(output: int) -> None:
+    result = posed_case2()
+    wire = wire_line(result, complete_skeleton(result, crane_skeleton()), output)
+    assert wire is not None
+    assert np.linalg.norm(wire[1] - wire[0]) == pytest.approx(8.0, abs=1e-9)
+
+
+def test_the_payload_moves_from_aft_to_port_in_the_papers_axes(tmp_path: Path) -> None:
+    picture = save_pose_figure(result=posed_case2(), folder=tmp_path, skeleton=crane_skeleton())
+    assert picture.data is not None
+    with picture.data.open(newline="") as file:
+        rows = list(csv.DictReader(file))
+    centre = {
+        pose: np.mean(
+            [
+                [float(row[axis]) for axis in ("x aft [m]", "y starboard [m]", "z up [m]")]
+                for row in rows
+                if row["pose"] == pose and row["body"] == "payload"
+            ],
+            axis=0,
+        )
+        for pose in ("initial", "final")
+    }
+    foot = np.array([-33.0, -10.0])  # forward and to port
+    assert centre["initial"][0] > foot[0] + 5 and centre["initial"][1] == pytest.approx(foot[1], abs=3)
+    assert centre["final"][1] < -12.5 - 3, "the payload hangs clear of the ship's port side"
+    image_size(picture.image)
+
+
+def test_the_hull_is_drawn_on_the_waterline_about_the_reference_point() -> None:
+    result = posed_case2()
+    lines = complete_skeleton(result, crane_skeleton())
+    hull = np.vstack([line for body, _, line in posed_lines(result, lines, 0) if body == "vessel"])
+    np.testing.assert_allclose(hull.min(axis=0), [-57.5, -12.5, -6.4], atol=1e-12)
+    np.testing.assert_allclose(hull.max(axis=0), [57.5, 12.5, 10.0], atol=1e-12)
+
+
+def test_a_box_has_twelve_edges_of_its_size() -> None:
+    lines = box_lines((6.0, 6.0, 4.0))
+    lengths = np.concatenate([np.linalg.norm(np.diff(line, axis=0), axis=1) for line in lines])
+    assert sorted(lengths) == [4.0] * 4 + [6.0] * 8
+
+
+@pytest.mark.parametrize(
+    ("skeleton", "message"),
+    [
+        ({"mast": [np.zeros((2, 3))]}, "skeleton names mast"),
+        ({"king": [np.zeros(3)]}, r"a line of 'king' has shape \(3,\)"),
+        ({"king": [np.full((2, 3), np.nan)]}, "finite points"),
+    ],
+)
+def test_a_wrong_skeleton_is_refused(skeleton: dict[str, Any], message: str) -> None:
+    with pytest.raises(ValueError, match=message):
+        complete_skeleton(posed_case2(dt=10.0), skeleton)
+
+
+@pytest.mark.parametrize("angle", [0.0, 0.3, -2.0])
+def test_rotation_matrix_agrees_with_scipy(angle: float) -> None:
+    from scipy.spatial.transform import Rotation
+
+    rotation = Rotation.from_rotvec(angle * np.array([0.6, -0.48, 0.64]))
+    x, y, z, w = rotation.as_quat()
+    np.testing.assert_allclose(rotation_matrix(np.array([w, x, y, z])), rotation.as_matrix(), atol=1e-15)
+
+
+def test_the_overview_shows_what_was_recorded(tmp_path: Path) -> None:
+    full = {panel.quantity for panel in overview_sheet(crane_result(t_end=5.0)).panels}
+    alone = {panel.quantity for panel in overview_sheet(vessel_result(t_end=5.0)).panels}
+    assert {"stroke", "link tension", "joint force", "payload position"} <= full
+    assert alone == {"vessel", "wave elevation", "vessel position", "energy balance"}
+    image_size(save_figure(plot_overview(crane_result(t_end=5.0)), tmp_path / "overview.png"))
+
+
+def test_an_overview_of_nothing_is_refused() -> None:
+    run = crane_run(t_end=1.0, waves=False)
+    run["arrays"] = {"constraint_error": run["arrays"]["constraint_error"]}
+    with pytest.raises(ValueError, match="constraint_error has nothing to plot"):
+        plot_overview(Result.from_arrays(**run))
+
+
+def test_the_findings_measure_what_the_runs_contain(runs: PaperRuns) -> None:
+    found = {item.finding.split(" ")[0]: item for item in paper_findings(runs)}
+    assert found["Case"].verdict == "reproduced"
+    assert "sway 0.15 m" in found["Case"].number and "heave 0.025 m" in found["Case"].number
+    assert found["Fluid"].verdict == "reproduced"
+    assert "case 1 +0.859 deg, case 2 +1.146 deg" in found["The"].number
+    assert found["Leaving"].verdict == "measured" and "time x 1.25" in found["Leaving"].number
+
+
+def test_findings_are_denied_when_the_runs_do_not_show_them() -> None:
+    same = vessel_result()
+    quiet = crane_result(payload=False, heel=0.0, scene="case1")
+    runs = PaperRuns(
+        vessel=same,
+        vessel_without_memory=same,
+        case1=quiet,
+        case2=crane_result(heel=0.0),
+        case3=crane_result(payload=False, heel=0.0, scene="case3"),
+    )
+    verdicts = [item.verdict for item in paper_findings(runs)]
+    assert verdicts == ["not reproduced", "measured", *["not reproduced"] * 5]
+
+
+@pytest.mark.parametrize("amplitude", [0.0, 1e-3, 2.0])
+def test_the_amplitude_of_one_period_is_separated_from_the_waves(amplitude: float) -> None:
+    time = np.arange(0, 100.05, 0.1)
+    values = amplitude * np.cos(2 * np.pi * time / 5 + 0.7) + 0.3 + 0.01 * time
+    assert amplitude_at(time, values, period=5, start=50) == pytest.approx(amplitude, abs=1e-12)
+    with pytest.raises(ValueError, match="less than two periods of 5 s follow 95 s"):
+        amplitude_at(time, values, period=5, start=95)
+
+
+def test_the_end_of_the_slew_is_found() -> None:
+    stop = slew_stop(crane_result(t_end=100.0))
+    assert 40.0 < stop < 45.0
+    assert abs(smooth_step(np.array([stop]))[0] - 1) <= 1e-3
