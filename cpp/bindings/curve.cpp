@@ -58,7 +58,7 @@ the unit of what the curve drives (m or rad), times in s. Immutable.)")
       .def("then", &Curve::then, py::kw_only(), py::arg("time"), py::arg("curve"),
            "This curve until `time`, the other one afterwards (at its own clock).")
       .def("evaluate", &evaluate, py::arg("times"), "Values, rates and accelerations, shape (n, 3), at times (n,) in s.")
-      .def_property_readonly("breakpoints", &Curve::breakpoints,
+      .def_property_readonly("breakpoints", [](const Curve& c) { return c.breakpoints(); },
                              "Times (s) where value, rate or acceleration jumps.")
       .def("to_pieces", [](const Curve& c) {
         py::list starts, coefficients, cosines;

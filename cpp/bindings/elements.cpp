@@ -69,12 +69,12 @@ void bind_drives(py::module_& m) {
   Class<A>(m, "Actuator", "State feedback on a joint coordinate q: feed_forward + stiffness (reference - q) + damping "
                           "(reference rate - q rate), N (N/m, N s/m) or N m (N m/rad, N m s/rad).")
       .def(py::init([](std::string name, std::string joint, std::string coordinate, double stiffness, double damping,
-                       double feed_forward, Curve reference) {
-             return A{std::move(name), {std::move(joint), std::move(coordinate)}, stiffness, damping, feed_forward,
-                      std::move(reference)};
+                       Curve feed_forward, Curve reference) {
+             return A{std::move(name), {std::move(joint), std::move(coordinate)}, stiffness, damping,
+                      std::move(feed_forward), std::move(reference)};
            }),
            py::kw_only(), py::arg("name"), py::arg("joint"), py::arg("coordinate"), py::arg("stiffness") = 0.0,
-           py::arg("damping") = 0.0, py::arg("feed_forward") = 0.0, py::arg("reference") = Curve::constant(0.0))
+           py::arg("damping") = 0.0, py::arg("feed_forward") = Curve::constant(0.0), py::arg("reference") = Curve::constant(0.0))
       .def_property_readonly("name", [](const A& d) { return d.name; })
       .def_property_readonly("joint", [](const A& d) { return d.coordinate.joint; })
       .def_property_readonly("coordinate", [](const A& d) { return d.coordinate.coordinate; })

@@ -22,8 +22,7 @@ bool ask_python(double time, const py::object& progress) {
   return true;
 }
 
-py::dict channels(const Simulation& s) {
-  const Recording& r = s.recording();
+py::dict channels(const Recording& r) {
   const auto rows = static_cast<py::ssize_t>(r.count());
   py::dict out;
   out["time"] = to_array(r.times());
@@ -93,6 +92,8 @@ void bind_simulation(py::module_& m) {
       .def_property_readonly("state", &Simulation::state, "copy")
       .def("set_inputs", [](Simulation& s, const Array& slots) { s.set_inputs(to_vector(slots)); }, py::arg("slots"),
            "Sets the zero-order-held inputs from now on.")
-      .def("channels", &channels, "Recorded arrays by name, time first (copies).")
+      .def("channels", [](const Simulation& s) { return channels(s.recording()); }, "Recorded arrays by name, time first (copies).")
+      .def("snapshot", [](Simulation& s) { return channels(s.snapshot()); },
+           "All channels at the present time, arrays of one row.")
       .def("statistics", &statistics);
 }

@@ -24,7 +24,7 @@ CurveValue evaluate(const Curve::Piece& p, double t) {
   return out;
 }
 
-bool jumps(double a, double b) { return std::abs(a - b) > 1e-9 * (1.0 + std::abs(a) + std::abs(b)); }
+bool jumps(double a, double b) { return std::abs(a - b) > 1e-7 * (1.0 + std::abs(a) + std::abs(b)); }
 
 }  // namespace
 
@@ -117,12 +117,12 @@ CurveValue Curve::at(double t, double before) const {
   return evaluate(*(next - 1), t);
 }
 
-std::vector<double> Curve::breakpoints() const {
+std::vector<double> Curve::breakpoints(int derivatives) const {
   std::vector<double> out;
   const auto check = [&](const CurveValue& before, const Piece& p) {
     const CurveValue after = evaluate(p, p.start);
-    if (jumps(before.value, after.value) || jumps(before.rate, after.rate) ||
-        jumps(before.acceleration, after.acceleration)) {
+    if (jumps(before.value, after.value) || (derivatives > 0 && jumps(before.rate, after.rate)) ||
+        (derivatives > 1 && jumps(before.acceleration, after.acceleration))) {
       out.push_back(p.start);
     }
   };

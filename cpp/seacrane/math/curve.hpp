@@ -37,8 +37,9 @@ class Curve {
   /// the limit from the left in all its stages.
   CurveValue at(double t, double before = std::numeric_limits<double>::infinity()) const;
   const std::vector<Piece>& pieces() const { return pieces_; }
-  /// Times where value, rate or acceleration jumps: integration restarts there.
-  std::vector<double> breakpoints() const;
+  /// Times where the value or one of its first `derivatives` (0 to 2) derivatives jumps: integration
+  /// restarts there.
+  std::vector<double> breakpoints(int derivatives = 2) const;
 
  private:
   std::vector<Piece> pieces_;

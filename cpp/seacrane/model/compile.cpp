@@ -241,8 +241,10 @@ class Compiler {
     std::set<double> times;
     for (const auto& d : model_.drivers)
       for (double t : d.curve.breakpoints()) times.insert(t);
-    for (const auto& a : model_.actuators)
-      for (double t : a.reference.breakpoints()) times.insert(t);
+    for (const auto& a : model_.actuators) {
+      for (double t : a.reference.breakpoints(1)) times.insert(t);
+      for (double t : a.feed_forward.breakpoints(0)) times.insert(t);
+    }
     model_.breakpoints.assign(times.begin(), times.end());
   }
 

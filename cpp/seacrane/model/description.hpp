@@ -56,8 +56,8 @@ struct DriverDescription {
 struct ActuatorDescription {
   std::string name;
   CoordinateDescription coordinate;
-  double stiffness = 0.0, damping = 0.0, feed_forward = 0.0;
-  Curve reference;
+  double stiffness = 0.0, damping = 0.0;
+  Curve feed_forward, reference;
 };
 
 struct PointForceDescription {

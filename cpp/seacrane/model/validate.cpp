@@ -232,7 +232,6 @@ void check_drives(const SceneDescription& scene, const std::map<std::string, std
     check_coordinate(c, a.coordinate, joints);
     c.not_negative("stiffness", a.stiffness);
     c.not_negative("damping", a.damping);
-    c.finite("feed_forward", a.feed_forward);
   }
   for (const auto& d : scene.coordinates) check_coordinate(Check("recorded coordinate", d.joint), d, joints);
 }

@@ -16,6 +16,12 @@ struct Offer {
 
 std::size_t joint_count(const Model& m) { return m.elements.size() - m.drivers.size(); }
 
+std::size_t distance_count(const Model& m) {
+  std::size_t count = 0;
+  for (const ElementModel& e : m.elements) count += e.kind == Distance::kind;
+  return count;
+}
+
 /// The one list of channels; what a scene does not hold is left out.
 std::vector<Offer> offers(const Model& m) {
   const std::size_t n = m.bodies.size();
@@ -34,6 +40,7 @@ std::vector<Offer> offers(const Model& m) {
     out.push_back({"reaction_force", {joint_count(m), 3}, true});
     out.push_back({"reaction_moment", {joint_count(m), 3}, true});
   }
+  if (distance_count(m) > 0) out.push_back({"tension", {distance_count(m)}, true});
   if (!m.wave_loads.empty()) {
     out.push_back({"wave_elevation", {}, true});
     out.push_back({"wave_force", {6}, true});
@@ -162,6 +169,11 @@ void Recording::write_joint_coordinates(double t, const RedundantSystem& system)
 }
 
 void Recording::write_reactions(const RedundantSystem& system) {
+  if (double* out = slot("tension")) {
+    for (const ElementModel& e : model_->elements) {
+      if (e.kind == Distance::kind) *out++ = -system.multipliers()[idx(e.row)];
+    }
+  }
   double* force = slot("reaction_force");
   double* moment = slot("reaction_moment");
   if (!force && !moment) return;

@@ -75,14 +75,14 @@ double Simulation::next_stop(double t_end) {
   return std::min(stop, t_end);
 }
 
-void Simulation::record(double t, double* y) {
+void Simulation::write(double t, double* y, Recording& out) {
   system_.project(t, y, false);
   const double before = system_.take_residual_before_projection();
   const double energy = model_->paper_kinematics ? 0.0 : system_.energy(t, y);
   const ConstraintResidual after = system_.residual(t, y);
   system_.derivative(t, y, rate_.data());
   const double work = y[model_->layout.work] - start_work_;
-  recording_.append(t, y, system_, after, before, energy - start_energy_ - work);
+  out.append(t, y, system_, after, before, energy - start_energy_ - work);
 }
 
 void Simulation::record_until(double t) {
@@ -94,7 +94,7 @@ void Simulation::record_until(double t) {
     } else {
       integrator_->interpolate(at, output_state_.data());
     }
-    record(at, output_state_.data());
+    write(at, output_state_.data(), recording_);
   }
 }
 
@@ -163,6 +163,14 @@ void Simulation::set_inputs(const std::vector<double>& slots) {
   system_.set_inputs(inputs_);
   std::copy_n(integrator_->state(), output_state_.size(), output_state_.data());
   integrator_->reset(integrator_->time(), output_state_.data());
+}
+
+Recording Simulation::snapshot() {
+  const std::vector<std::string> names = channel_names(*model_, false);
+  Recording out(*model_, {names.begin(), names.end()}, 1);
+  std::copy_n(integrator_->state(), output_state_.size(), output_state_.data());
+  write(integrator_->time(), output_state_.data(), out);
+  return out;
 }
 
 State Simulation::state() const {

@@ -48,6 +48,8 @@ class Simulation {
 
   double time() const { return integrator_->time(); }
   State state() const;
+  /// One row of all channels the model offers, at the present time.
+  Recording snapshot();
   const Recording& recording() const { return recording_; }
   RunStatistics statistics() const;
   /// Sets the inputs from the present time on and restarts the derivative's history.
@@ -57,7 +59,7 @@ class Simulation {
  private:
   double next_stop(double t_end);
   void record_until(double t);
-  void record(double t, double* y);
+  void write(double t, double* y, Recording& out);
   void step(double limit);
   std::string describe(std::size_t component) const;
 

@@ -10,8 +10,8 @@ namespace seacrane {
 /// damping (reference rate - q rate), along the coordinate, on both bodies; N or N m.
 struct Actuator {
   CoordinateData coordinate;
-  double stiffness = 0.0, damping = 0.0, feed_forward = 0.0;
-  Curve reference;
+  double stiffness = 0.0, damping = 0.0;
+  Curve feed_forward, reference;
   int slot = 0;  // inputs: [force added, reference added]
 
   template <class T>
@@ -21,7 +21,7 @@ struct Actuator {
     const CurveValue ref = reference.at(in.time, in.curve_limit);
     const T error = T(ref.value + in.slots[slot + 1]) - row.value;
     const T wrapped = coordinate.kind == CoordinateKind::angle ? wrap_angle<T>(error) : error;
-    return T(feed_forward + in.slots[slot]) + T(stiffness) * wrapped +
+    return T(feed_forward.at(in.time, in.curve_limit).value + in.slots[slot]) + T(stiffness) * wrapped +
            T(damping) * (T(ref.rate) - coordinate_rate<T>(row, ka, kb));
   }
 

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+
+namespace seacrane {
+
+/// An explicit first-order system y' = f(t, y), possibly living on a manifold.
+///
+/// One virtual call per evaluation of the whole right-hand side, none per component. Implementations
+/// keep their scratch memory, so a System belongs to one run; they allocate nothing after construction.
+class System {
+ public:
+  virtual ~System() = default;
+
+  virtual std::size_t size() const = 0;
+
+  /// Writes f(t, y). May throw; a non-finite result makes adaptive integrators reject the trial step.
+  virtual void derivative(double t, const double* y, double* ydot) = 0;
+
+  /// Moves y onto the invariant manifold of time t (mass metric). `evaluated_here` says that the last
+  /// call of derivative() was at exactly this (t, y), so that its factorisation can be used again.
+  /// Returns true when y changed by more than rounding (the caller then refreshes what it keeps of f).
+  virtual bool project(double /*t*/, double* /*y*/, bool /*evaluated_here*/) { return false; }
+
+  /// False when project() never changes y; integrators then skip it.
+  virtual bool has_projection() const { return false; }
+};
+
+/// A fully implicit system F(t, y, y') = 0, for IDA (Gear-Gupta-Leimkuhler stabilised index 2).
+class ResidualSystem {
+ public:
+  virtual ~ResidualSystem() = default;
+  virtual std::size_t size() const = 0;
+  virtual void residual(double t, const double* y, const double* ydot, double* r) = 0;
+  /// 1 for differential, 0 for algebraic components.
+  virtual std::span<const double> differential() const = 0;
+  /// Maps an ODE state (layout of System) to consistent (y, ydot) of this system, and back.
+  virtual void expand(double t, const double* ode_state, double* y, double* ydot) = 0;
+  virtual void contract(double t, const double* y, double* ode_state) const = 0;
+};
+
+}  // namespace seacrane

@@ -1,0 +1,74 @@
+"""Offshore crane, payload and vessel moving together in waves.
+
+Describe a `Scene`, `simulate` it, look at the `Result`. SI units, radians; x forward, y to port, z up.
+"""
+
+from __future__ import annotations
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+from seacrane import errors
+
+if TYPE_CHECKING:
+    from seacrane import cases, crane, hydro
+    from seacrane._core import Curve, Evaluator, Frame, Model, State, StateSpaceBlock, VesselHydrodynamics
+    from seacrane.balance import Balance, balance, driven, inverse_dynamics, reflected_inertia
+    from seacrane.curves import spline_curve
+    from seacrane.errors import FileFormatError, SceneError, SeacraneError, SimulationError
+    from seacrane.hydro import HydroDatabase, load_database
+    from seacrane.linearise import fastest_mode, jacobian
+    from seacrane.result import Result
+    from seacrane.scene import Scene, Waves
+    from seacrane.simulation import Run, SampledController, simulate
+    from seacrane.version import __version__
+
+_HOME = {
+    "Balance": "balance",
+    "Curve": "_core",
+    "Evaluator": "_core",
+    "FileFormatError": "errors",
+    "Frame": "_core",
+    "HydroDatabase": "hydro",
+    "Model": "_core",
+    "Result": "result",
+    "Run": "simulation",
+    "SampledController": "simulation",
+    "Scene": "scene",
+    "SceneError": "errors",
+    "SeacraneError": "errors",
+    "SimulationError": "errors",
+    "State": "_core",
+    "StateSpaceBlock": "_core",
+    "VesselHydrodynamics": "_core",
+    "Waves": "scene",
+    "__version__": "version",
+    "balance": "balance",
+    "driven": "balance",
+    "fastest_mode": "linearise",
+    "inverse_dynamics": "balance",
+    "jacobian": "linearise",
+    "load_database": "hydro",
+    "reflected_inertia": "balance",
+    "simulate": "simulation",
+    "spline_curve": "curves",
+}
+_MODULES = ("cases", "crane", "hydro")
+
+__all__ = ["errors", *_HOME, *_MODULES]  # noqa: PLE0604, RUF100
+
+
+def __getattr__(name: str) -> Any:
+    """Names are imported when they are used, so that `import seacrane` stays fast."""
+    if name in _HOME:
+        value = getattr(import_module(f"seacrane.{_HOME[name]}"), name)
+    elif name in _MODULES:
+        value = import_module(f"seacrane.{name}")
+    else:
+        raise AttributeError(f"module 'seacrane' has no attribute {name!r}")
+    globals()[name] = value
+    return value
+
+
+def __dir__() -> list[str]:
+    return sorted({*globals(), *__all__})

@@ -1,0 +1,54 @@
+"""From the core's generic channels to the names that results carry."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+if TYPE_CHECKING:
+    from seacrane.scene import Scene
+
+Array = NDArray[np.float64]
+CYLINDERS = {"main": "main_cylinder", "knuckle": "knuckle_cylinder"}
+SLEW = "A"
+LINK = "link"
+
+
+def _drive_load(scene: Scene, arrays: dict[str, Array], joint: str, coordinate: str) -> Array | None:
+    """Load along a joint coordinate: what its actuators and its driver apply together."""
+    loads = []
+    for table, channel in ((scene.actuators, "actuator_force"), (scene.drivers, "driver_force")):
+        for i, element in enumerate(table.values()):
+            if (element.joint, element.coordinate) == (joint, coordinate) and channel in arrays:
+                loads.append(arrays[channel][:, i])
+    return sum(loads[1:], loads[0].copy()) if loads else None
+
+
+def _recorded(scene: Scene, joint: str) -> int | None:
+    joints = [recorded for recorded, _ in scene.recorded.values()]
+    return joints.index(joint) if joint in joints else None
+
+
+def named_channels(scene: Scene, arrays: dict[str, Array]) -> dict[str, Array]:
+    """Adds stroke, stroke_rate, cylinder_force, slew_angle, slew_torque and link_tension of a crane."""
+    out = dict(arrays)
+    cylinders = [joint for joint in CYLINDERS.values() if joint in scene.joints]
+    places = [_recorded(scene, joint) for joint in cylinders]
+    if cylinders and "coordinate" in arrays and None not in places:
+        out["stroke"] = arrays["coordinate"][:, places]
+        out["stroke_rate"] = arrays["coordinate_rate"][:, places]
+    loads = [_drive_load(scene, arrays, joint, "displacement") for joint in cylinders]
+    if loads and all(load is not None for load in loads):
+        out["cylinder_force"] = np.column_stack([load for load in loads if load is not None])
+    slew = _recorded(scene, SLEW)
+    if slew is not None and "coordinate" in arrays:
+        out["slew_angle"] = np.unwrap(arrays["coordinate"][:, slew])
+    torque = _drive_load(scene, arrays, SLEW, "angle") if SLEW in scene.joints else None
+    if torque is not None:
+        out["slew_torque"] = torque
+    links = [name for name, joint in scene.joints.items() if joint.kind == "distance"]
+    if LINK in links and "tension" in arrays:
+        out["link_tension"] = arrays["tension"][:, links.index(LINK)]
+    return {name: np.ascontiguousarray(values) for name, values in out.items()}

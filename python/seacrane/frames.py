@@ -1,0 +1,58 @@
+"""Small rotations helpers: quaternions, Euler angles and joint axes."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from seacrane.errors import SceneError
+
+Array = NDArray[np.float64]
+
+
+def rotation_matrix(quaternion: Any) -> Array:
+    """Body-to-inertial matrices (..., 3, 3) of quaternions (..., 4), scalar first."""
+    q = np.asarray(quaternion, dtype=float)
+    w, x, y, z = np.moveaxis(q / np.linalg.norm(q, axis=-1, keepdims=True), -1, 0)
+    rows = [
+        [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
+        [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
+        [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
+    ]
+    matrix: Array = np.stack([np.stack(row, axis=-1) for row in rows], axis=-2)
+    return matrix
+
+
+def _direction(what: str, value: Any) -> Array:
+    try:
+        vector = np.asarray(value, dtype=float)
+    except (TypeError, ValueError) as error:
+        raise SceneError(f"{what} is {value!r}; give three numbers") from error
+    length = np.linalg.norm(vector) if vector.shape == (3,) else np.nan
+    if not np.isfinite(length) or length == 0.0:
+        raise SceneError(f"{what} is {value!r}; give three finite numbers, not all zero")
+    return vector / float(length)
+
+
+def axes_along(what: str, axis: Any) -> Array:
+    """Right-handed axes (columns) with z along `axis`; x is as near as can be to a coordinate axis."""
+    z = _direction(what, axis)
+    nearest = np.zeros(3)
+    nearest[np.argmin(np.abs(z))] = 1.0
+    x = nearest - z * (z @ nearest)
+    x /= np.linalg.norm(x)
+    return np.column_stack([x, np.cross(z, x), z])
+
+
+def axes_across(what: str, first_axis: Array, axis: Any) -> Array:
+    """Axes of the second side of a universal joint: z along `axis`, which must be perpendicular to the first."""
+    z = _direction(what, axis)
+    slope = float(abs(z @ first_axis))
+    if slope > 0.1:
+        raise SceneError(
+            f"{what} is {np.degrees(np.arccos(min(slope, 1.0))):.1f} deg from the first axis; "
+            "the axes of a universal joint are perpendicular"
+        )
+    return axes_along(what, axis)

@@ -1,0 +1,277 @@
+"""`HydroDatabase`: the frequency-domain hydrodynamics of one vessel, in one convention."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, fields
+from os import PathLike
+from typing import TYPE_CHECKING, Any, Literal
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from seacrane.hydro.interpolation import spline_weights
+from seacrane.hydro.memory_model import MemoryModel
+
+if TYPE_CHECKING:
+    import xarray
+
+    from seacrane.hydro.check import CheckRow
+
+FloatArray = NDArray[np.float64]
+ComplexArray = NDArray[np.complex128]
+
+MOTIONS = ("surge", "sway", "heave", "roll", "pitch", "yaw")
+PORT_STARBOARD = np.array([1.0, -1.0, 1.0, -1.0, 1.0, -1.0])
+LARGEST_HEADING_GAP = np.radians(45.0)
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class AdditionalMatrices:
+    """Frequency-dependent terms that are not radiation, kept apart by cause (roll tanks, for example).
+
+    ``added_mass``, ``damping``, ``restoring`` are (n, 6, 6) at the database's frequencies.
+    """
+
+    cause: str
+    added_mass: FloatArray
+    damping: FloatArray
+    restoring: FloatArray
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class RollDamping:
+    """Roll damping of a file that tabulates it by frequency.
+
+    ``linear`` (n,) in N m s/rad, ``quadratic`` (n,) in N m s2/rad2, ``linearised`` (m, n) in N m s/rad: what the
+    quadratic part amounts to at the wave amplitude ``linearised_amplitude`` (m; None when not known).
+    """
+
+    linear: FloatArray
+    quadratic: FloatArray
+    linearised: FloatArray
+    linearised_amplitude: float | None = None
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class HydroDatabase:
+    """Frequency-domain hydrodynamics of one vessel; immutable, every array read-only.
+
+    Convention: x forward, y port, z up; all matrices, forces and motions about the reference point that ``origin``
+    describes, which is also where the incident wave has zero phase; ``exp(+i omega t)``; ``heading`` is the
+    direction waves travel to, from +x towards +y. Forces per metre of wave amplitude (N/m, N m/m). SI, radians.
+
+    Attributes
+    ----------
+    omega : (n,) frequencies in rad/s, increasing and positive.
+    heading : (m,) in rad, increasing, within [0, 2 pi).
+    added_mass, damping : (n, 6, 6) radiation only.
+    infinite_frequency_added_mass, zero_frequency_added_mass : (6, 6), or None when not known.
+    restoring, mass_matrix : (6, 6).
+    force : (m, n, 6) complex wave excitation.
+    motion_rao : (m, n, 6) complex motions as the source gives them, or None.
+    linear_damping : (6, 6) damping beside radiation, the same at all frequencies.
+    quadratic_damping : (6,) coefficients of v |v| beside radiation.
+    roll_damping : roll damping tabulated by frequency, or None.
+    additional : further matrices by cause.
+    rho, g, depth, speed : kg/m3, m/s2, m (inf: deep), m/s.
+    length, breadth, draught : m.
+    trusted_band : (low, high) in rad/s between which the source vouches for its numbers.
+    port_starboard_symmetric : whether headings may be mirrored.
+    memory : fitted radiation memory, or None.
+    origin, source, name : text.
+    """
+
+    name: str
+    omega: FloatArray
+    heading: FloatArray
+    added_mass: FloatArray
+    damping: FloatArray
+    restoring: FloatArray
+    mass_matrix: FloatArray
+    force: ComplexArray
+    length: float
+    breadth: float
+    draught: float
+    origin: str
+    source: str
+    rho: float = 1025.0
+    g: float = 9.81
+    depth: float = float("inf")
+    speed: float = 0.0
+    infinite_frequency_added_mass: FloatArray | None = None
+    zero_frequency_added_mass: FloatArray | None = None
+    motion_rao: ComplexArray | None = None
+    linear_damping: FloatArray = field(default_factory=lambda: np.zeros((6, 6)))
+    quadratic_damping: FloatArray = field(default_factory=lambda: np.zeros(6))
+    roll_damping: RollDamping | None = None
+    additional: tuple[AdditionalMatrices, ...] = ()
+    trusted_band: tuple[float, float] | None = None
+    port_starboard_symmetric: bool = True
+    memory: MemoryModel | None = None
+
+    def __post_init__(self) -> None:
+        n, m = np.size(self.omega), np.size(self.heading)
+        for part in (self, self.roll_damping, *self.additional):
+            if part is not None:
+                _freeze(part, n, m, self.name)
+        _check_increasing(self.name, "omega", self.omega, low=0.0, high=np.inf)
+        _check_increasing(self.name, "heading", self.heading, low=-1e-12, high=2.0 * np.pi)
+        for name in ("rho", "g", "depth", "length", "breadth", "draught"):
+            value = float(getattr(self, name))
+            if not value > 0.0:
+                raise ValueError(f"database {self.name!r}: {name} is {value}; give a positive number")
+        if np.any(np.linalg.eigvalsh(0.5 * (self.mass_matrix + self.mass_matrix.T)) <= 0.0):
+            raise ValueError(f"database {self.name!r}: the mass matrix is not positive definite; check mass and inertia")
+        if self.trusted_band is not None and not 0.0 <= self.trusted_band[0] < self.trusted_band[1]:
+            raise ValueError(f"database {self.name!r}: trusted_band {self.trusted_band} is not (low, high) in rad/s")
+
+    def force_at(
+        self, omega: ArrayLike, heading: ArrayLike, *, outside: Literal["error", "zero"] = "error"
+    ) -> ComplexArray:
+        """Complex wave excitation per metre of amplitude, by cubic splines in frequency and heading.
+
+        Parameters
+        ----------
+        omega, heading : rad/s and rad, broadcast against each other; headings wrap, and are mirrored where the
+            vessel is port-starboard symmetric.
+        outside : what to do with frequencies beyond the database: ``"error"``, or ``"zero"`` (they carry no load).
+
+        Returns
+        -------
+        (..., 6) N/m and N m/m, a new array.
+
+        Raises
+        ------
+        ValueError : a frequency outside the range (unless ``outside="zero"``), a value that is not finite, or a
+            heading in a gap of more than 45 degrees between the database's headings.
+        """
+        wanted_omega, wanted_heading = np.broadcast_arrays(np.asarray(omega, float), np.asarray(heading, float))
+        shape = wanted_omega.shape
+        w, b = wanted_omega.ravel(), wanted_heading.ravel()
+        if not (np.all(np.isfinite(w)) and np.all(np.isfinite(b))):
+            raise ValueError(f"database {self.name!r}: frequencies and headings must be finite numbers")
+        slack = 1e-9 * self.omega[-1]
+        beyond = (w < self.omega[0] - slack) | (w > self.omega[-1] + slack)
+        if outside == "error" and np.any(beyond):
+            raise ValueError(
+                f"database {self.name!r}: omega = {w[beyond][0]:.6g} rad/s is outside {self.omega[0]:.6g} to "
+                f"{self.omega[-1]:.6g} rad/s; narrow the sea's band, or pass outside='zero'"
+            )
+        in_frequency = spline_weights(self.omega, np.clip(w, self.omega[0], self.omega[-1]))
+        circle, table = self.full_circle()
+        in_heading = self._heading_weights(circle, b)
+        by_heading = (in_heading @ table.reshape(len(circle), -1)).reshape(len(b), len(self.omega), 6)
+        force = np.einsum("qn,qnd->qd", in_frequency, by_heading)
+        force[beyond] = 0.0
+        return np.asarray(force.reshape(*shape, 6))
+
+    def full_circle(self) -> tuple[FloatArray, ComplexArray]:
+        """Headings (k,) within [0, 2 pi) with the mirrored ones added, and their forces (k, n, 6), new arrays."""
+        heading, force = self.heading, self.force
+        if self.port_starboard_symmetric:
+            mirrored = np.mod(-self.heading, 2.0 * np.pi)
+            distance = np.abs(np.angle(np.exp(1j * (mirrored[:, None] - self.heading))))
+            new = distance.min(axis=1) > 1e-6
+            heading = np.concatenate([heading, mirrored[new]])
+            force = np.concatenate([force, self.force[new] * PORT_STARBOARD])
+        order = np.argsort(heading)
+        return heading[order], force[order]
+
+    def _heading_weights(self, circle: FloatArray, heading: FloatArray) -> FloatArray:
+        """Weights (q, k) of the periodic spline over the headings; stored headings are exact in any case."""
+        gaps = np.diff(np.append(circle, circle[0] + 2.0 * np.pi))
+        if gaps.max() <= LARGEST_HEADING_GAP:
+            return spline_weights(circle, heading, period=2.0 * np.pi)
+        distance = np.abs(np.angle(np.exp(1j * (heading[:, None] - circle))))
+        nearest = distance.argmin(axis=1)
+        off = distance[np.arange(len(heading)), nearest] > 1e-6
+        if np.any(off):
+            raise ValueError(
+                f"database {self.name!r}: heading {np.degrees(heading[off][0]):.6g} deg is not among the stored ones "
+                f"and their largest gap is {np.degrees(gaps.max()):.3g} deg; a gap above 45 deg is not interpolated"
+            )
+        return np.eye(len(circle))[nearest]
+
+    def check(self) -> list[CheckRow]:
+        """Self-check: closure, symmetry, damping, natural periods, memory; see `seacrane.hydro.check`."""
+        from seacrane.hydro.check import check_database
+
+        return check_database(self)
+
+    def save(self, path: str | PathLike[str]) -> None:
+        """Write everything, the memory model included, to a NetCDF file, atomically and without loss."""
+        from seacrane.hydro.netcdf import save_database
+
+        save_database(self, path)
+
+    @staticmethod
+    def load(path: str | PathLike[str]) -> HydroDatabase:
+        """Read a file written by `save`.
+
+        Raises
+        ------
+        seacrane.errors.FileFormatError : the file is not one of ours, or is damaged.
+        """
+        from seacrane.hydro.netcdf import load_database_file
+
+        return load_database_file(path)
+
+    def to_xarray(self) -> xarray.Dataset:
+        """The arrays as a labelled dataset (copies), complex values kept complex; needs xarray."""
+        from seacrane.hydro.netcdf import to_xarray
+
+        return to_xarray(self)
+
+
+_SHAPES = {
+    "omega": "n",
+    "heading": "m",
+    "added_mass": "nij",
+    "damping": "nij",
+    "infinite_frequency_added_mass": "ij",
+    "zero_frequency_added_mass": "ij",
+    "mass_matrix": "ij",
+    "force": "mni",
+    "motion_rao": "mni",
+    "linear_damping": "ij",
+    "quadratic_damping": "i",
+    "linear": "n",
+    "quadratic": "n",
+    "linearised": "mn",
+}
+
+
+def _freeze(part: Any, n: int, m: int, name: str) -> None:
+    """Replace every array of ``part`` by a finite, read-only copy of the right shape and type."""
+    sizes = {"n": n, "m": m, "i": 6, "j": 6}
+    for entry in fields(part):
+        value = getattr(part, entry.name)
+        letters = _SHAPES.get(entry.name)
+        if entry.name == "restoring":
+            letters = "ij" if isinstance(part, HydroDatabase) else "nij"
+        if letters is None or value is None:
+            continue
+        wanted = tuple(sizes[letter] for letter in letters)
+        array = np.array(value, dtype=complex if letters == "mni" else float)
+        if array.shape != wanted:
+            raise ValueError(f"database {name!r}: {entry.name} has shape {array.shape}; {wanted} is needed")
+        if not np.all(np.isfinite(array)):
+            where = tuple(int(i) for i in np.argwhere(~np.isfinite(array))[0])
+            raise ValueError(f"database {name!r}: {entry.name}{list(where)} is {array[where]}; give finite numbers")
+        array.setflags(write=False)
+        object.__setattr__(part, entry.name, array)
+
+
+def _check_increasing(name: str, what: str, values: FloatArray, *, low: float, high: float) -> None:
+    """Raise unless ``values`` are strictly increasing and inside (low, high)."""
+    if values.size == 0:
+        raise ValueError(f"database {name!r}: {what} is empty; give at least one value")
+    steps = np.flatnonzero(np.diff(values) <= 0.0)
+    if steps.size:
+        i = int(steps[0])
+        raise ValueError(
+            f"database {name!r}: {what} is not strictly increasing: {values[i]:.6g} then {values[i + 1]:.6g} at index "
+            f"{i + 1}; sort it and drop duplicates"
+        )
+    if not (values[0] > low and values[-1] < high):
+        raise ValueError(f"database {name!r}: {what} spans {values[0]:.6g} to {values[-1]:.6g}, outside ({low}, {high})")

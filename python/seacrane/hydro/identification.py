@@ -1,0 +1,242 @@
+"""Frequency-domain identification of one retardation function as a stable rational function.
+
+Model, with ``s = i omega``::
+
+    B(omega) + i omega A(omega) = N(s) / P(s) + s A_inf + K_0 / s
+
+``P`` has degree n and is a product of factors ``s^2 + q1 s + q0`` (and ``s + p`` for odd n) with positive
+coefficients, so that every model tried is stable by construction and none is ever reflected. ``N`` has degree
+n - 1 (the retardation function starts at a finite value) and, for radiation, a zero at s = 0 (no net drift force).
+``N``, and ``A_inf`` and ``K_0`` where they are unknown, enter linearly and are eliminated by least squares at every
+step of a Gauss-Newton search over the factors (variable projection: Golub & Pereyra 1973; for ships compare
+Perez & Fossen 2009, doi 10.4173/mic.2009.1.1).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+FloatArray = NDArray[np.float64]
+ComplexArray = NDArray[np.complex128]
+
+OUTSIDE_WEIGHT = 0.2
+AUDIT_WEIGHT = 3.0
+NATURAL_FREQUENCY_RANGE = (0.03, 4.0)
+DAMPING_RATIO_RANGE = (0.01, 1.2)
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class RationalFit:
+    """Coefficients, highest power first: ``numerator`` (n,), ``denominator`` (n + 1,); fit quality as R2."""
+
+    numerator: FloatArray
+    denominator: FloatArray
+    added_mass_infinite: float
+    static_stiffness: float
+    r2_added_mass: float
+    r2_damping: float
+    r2_added_mass_all: float
+    r2_damping_all: float
+    cost: float
+
+    @property
+    def order(self) -> int:
+        """Number of states."""
+        return len(self.denominator) - 1
+
+    def damping(self, omega: FloatArray) -> FloatArray:
+        """Real part of the retardation function at ``omega`` (n,)."""
+        s = 1j * omega
+        return np.asarray((np.polyval(self.numerator, s) / np.polyval(self.denominator, s)).real)
+
+    @property
+    def worst(self) -> float:
+        """The smaller R2 of the trusted band."""
+        return min(self.r2_added_mass, self.r2_damping)
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class IdentificationData:
+    """One entry's data: ``omega``, ``added_mass``, ``damping`` (n,), ``trusted`` (n,) bool, and what is known.
+
+    ``dissipation_limit`` gives, at any frequencies, the (low, high) between which the fitted damping is to stay:
+    above zero on the diagonal, within the geometric mean of the fitted diagonals elsewhere.
+    """
+
+    omega: FloatArray
+    added_mass: FloatArray
+    damping: FloatArray
+    trusted: NDArray[np.bool_]
+    added_mass_infinite: float | None
+    zero_at_origin: bool = True
+    static_stiffness: bool = False
+    dissipation_limit: Callable[[FloatArray], tuple[FloatArray, FloatArray]] | None = None
+
+
+def fit_lowest_order(data: IdentificationData, *, r2: float, orders: range) -> RationalFit:
+    """Fit of the lowest order whose A *and* B reach ``r2`` over the trusted band, else the best one found."""
+    best: RationalFit | None = None
+    start: list[FloatArray] = []
+    for order in orders:
+        fit, parameters = fit_order(data, order=order, starts=start)
+        start = [parameters]
+        if best is None or fit.worst > best.worst:
+            best = fit
+        if fit.worst >= r2:
+            return fit
+    if best is None:
+        raise ValueError(f"no order to try in {orders}")
+    return best
+
+
+def fit_order(
+    data: IdentificationData, *, order: int, starts: list[FloatArray]
+) -> tuple[RationalFit, FloatArray]:
+    """Best fit of one order over several starting points; ``starts`` are parameters of lower orders to grow from."""
+    from scipy.optimize import least_squares
+
+    problem = _Problem(data, order)
+    low, high = problem.bounds()
+    best: tuple[float, FloatArray] | None = None
+    for guess in problem.starting_points(starts):
+        inside = np.clip(guess, low + 1e-6, high - 1e-6)
+        found = least_squares(problem.residual, inside, bounds=(low, high), method="trf", xtol=1e-10, max_nfev=60)
+        if best is None or found.cost < best[0]:
+            best = (float(found.cost), found.x)
+    assert best is not None
+    return problem.result(best[1], best[0]), best[1]
+
+
+class _Problem:
+    """Least-squares problem of one order: parameters are log natural frequencies and log damping ratios."""
+
+    def __init__(self, data: IdentificationData, order: int) -> None:
+        self.data, self.order = data, order
+        self.pairs, self.real = divmod(order, 2)
+        inside = data.trusted
+        weight = np.where(inside, 1.0, OUTSIDE_WEIGHT)
+        self.scale_a = weight / _spread(data.added_mass[inside])
+        self.scale_b = weight / _spread(data.damping[inside])
+        known = data.added_mass_infinite
+        self.target = np.concatenate(
+            [data.damping * self.scale_b, (data.added_mass - (known or 0.0)) * self.scale_a]
+        )
+        s = 1j * data.omega
+        first = 1 if data.zero_at_origin else 0
+        self.powers = np.stack([s**k for k in range(first, order)], axis=1)
+        self.extra = self._extra_columns()
+        self.audit = np.geomspace(0.02, 50.0, 80)
+        self.audit_powers = np.stack([(1j * self.audit) ** k for k in range(first, order)], axis=1)
+        if data.dissipation_limit is not None:
+            self.audit_low, self.audit_high = data.dissipation_limit(self.audit)
+
+    def _extra_columns(self) -> FloatArray:
+        """Columns of A_inf and K_0 where they are unknown."""
+        zero = np.zeros_like(self.data.omega)
+        columns = []
+        if self.data.added_mass_infinite is None:
+            columns.append(np.concatenate([zero, self.scale_a]))
+        if self.data.static_stiffness:
+            columns.append(np.concatenate([zero, -self.scale_a / self.data.omega**2]))
+        return np.stack(columns, axis=1) if columns else np.zeros((2 * len(zero), 0))
+
+    def bounds(self) -> tuple[FloatArray, FloatArray]:
+        """Box of the parameters: natural frequencies, then damping ratios, then the real pole."""
+        frequency, ratio = np.log(NATURAL_FREQUENCY_RANGE), np.log(DAMPING_RATIO_RANGE)
+        kinds = [frequency] * self.pairs + [ratio] * self.pairs + [frequency] * self.real
+        box = np.array(kinds)
+        return box[:, 0], box[:, 1]
+
+    def starting_points(self, lower: list[FloatArray]) -> list[FloatArray]:
+        """Spread poles at two damping ratios, and the lower order's poles with one more factor."""
+        low, high = self.data.omega[self.data.trusted][[0, -1]]
+        low = max(low, 0.4)
+        spread = np.log(np.geomspace(low, 0.9 * high, self.pairs + 2)[1:-1])
+        middle = [0.5 * np.log(low * high)] * self.real
+        points = [np.concatenate([spread, np.full(self.pairs, np.log(z)), middle]) for z in (0.15, 0.5)]
+        for known in lower:
+            pairs, real = divmod(len(known), 2)
+            if self.pairs == pairs:  # one real pole more
+                points += [np.append(known, np.log(p)) for p in (0.5, 1.5)]
+            elif self.pairs == pairs + 1 and real:  # the real pole becomes a pair
+                w = known[-1]
+                points.append(np.concatenate([known[:pairs], [w], known[pairs : 2 * pairs], [np.log(0.9)]]))
+        return points
+
+    def denominator(self, parameters: FloatArray) -> FloatArray:
+        """Coefficients (order + 1,), highest power first."""
+        polynomial = np.ones(1)
+        for i in range(self.pairs):
+            w, z = np.exp(parameters[i]), np.exp(parameters[self.pairs + i])
+            polynomial = np.convolve(polynomial, [1.0, 2.0 * z * w, w * w])
+        if self.real:
+            polynomial = np.convolve(polynomial, [1.0, np.exp(parameters[-1])])
+        return polynomial
+
+    def _columns(self, denominator: FloatArray) -> FloatArray:
+        s = 1j * self.data.omega
+        basis = self.powers / np.polyval(denominator, s)[:, None]
+        damping = basis.real * self.scale_b[:, None]
+        added_mass = basis.imag / self.data.omega[:, None] * self.scale_a[:, None]
+        return np.hstack([np.vstack([damping, added_mass]), self.extra])
+
+    def _coefficients(self, columns: FloatArray) -> FloatArray:
+        size = np.linalg.norm(columns, axis=0)
+        size[size == 0.0] = 1.0
+        return np.asarray(np.linalg.lstsq(columns / size, self.target, rcond=1e-12)[0] / size)
+
+    def residual(self, parameters: FloatArray) -> FloatArray:
+        """Weighted misfit of B and A; for diagonal entries also the fitted damping's dips below zero."""
+        denominator = self.denominator(parameters)
+        columns = self._columns(denominator)
+        coefficients = self._coefficients(columns)
+        misfit = columns @ coefficients - self.target
+        if self.data.dissipation_limit is None:
+            return misfit
+        count = self.powers.shape[1]
+        damping = (self.audit_powers @ coefficients[:count] / np.polyval(denominator, 1j * self.audit)).real
+        excess = np.maximum(damping - self.audit_high, 0.0) + np.minimum(damping - self.audit_low, 0.0)
+        return np.concatenate([misfit, AUDIT_WEIGHT * self.scale_b.max() * excess])
+
+    def result(self, parameters: FloatArray, cost: float) -> RationalFit:
+        """Coefficients and R2 of one set of parameters."""
+        data = self.data
+        denominator = self.denominator(parameters)
+        coefficients = self._coefficients(self._columns(denominator))
+        count = self.powers.shape[1]
+        extra = list(coefficients[count:])
+        infinite = extra.pop(0) if data.added_mass_infinite is None else data.added_mass_infinite
+        stiffness = extra.pop(0) if data.static_stiffness else 0.0
+        numerator = np.zeros(self.order)
+        numerator[:count] = coefficients[:count][::-1]
+        kernel = np.polyval(numerator, 1j * data.omega) / np.polyval(denominator, 1j * data.omega)
+        added_mass = infinite + kernel.imag / data.omega - stiffness / data.omega**2
+        inside = data.trusted
+        return RationalFit(
+            numerator=numerator,
+            denominator=denominator,
+            added_mass_infinite=float(infinite),
+            static_stiffness=float(stiffness),
+            r2_added_mass=r_squared(data.added_mass[inside], added_mass[inside]),
+            r2_damping=r_squared(data.damping[inside], kernel.real[inside]),
+            r2_added_mass_all=r_squared(data.added_mass, added_mass),
+            r2_damping_all=r_squared(data.damping, kernel.real),
+            cost=cost,
+        )
+
+
+def r_squared(data: FloatArray, model: FloatArray) -> float:
+    """Coefficient of determination, 1 minus the misfit's variance over the data's."""
+    total = float(np.sum((data - data.mean()) ** 2))
+    if total == 0.0:
+        return 1.0 if np.array_equal(data, model) else -np.inf
+    return 1.0 - float(np.sum((data - model) ** 2)) / total
+
+
+def _spread(values: FloatArray) -> float:
+    """Root of the sum of squared deviations, the unit in which 1 - R2 is the squared misfit."""
+    return float(np.sqrt(np.sum((values - values.mean()) ** 2))) or 1.0

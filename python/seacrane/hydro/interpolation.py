@@ -1,0 +1,84 @@
+"""Cubic splines as weight matrices: one small solve per set of knots, any number of complex tables after it."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+FloatArray = NDArray[np.float64]
+
+
+def spline_weights(knots: FloatArray, query: FloatArray, *, period: float | None = None) -> FloatArray:
+    """Weights (q, n) such that ``weights @ values`` is the cubic spline through ``values`` at ``query``.
+
+    Parameters
+    ----------
+    knots : (n,) strictly increasing abscissae; for a periodic spline all within one period.
+    query : (q,) abscissae inside the knots' range (anywhere for a periodic spline).
+    period : length of the period; None gives a not-a-knot spline (a lower polynomial below four knots).
+
+    Notes
+    -----
+    Second derivatives follow from continuity of the first (de Boor, A Practical Guide to Splines, ch. IV).
+    """
+    if period is not None:
+        x = np.concatenate([knots[-1:] - period, knots, knots[:1] + period])
+        where = knots[0] + np.mod(query - knots[0], period)
+        curvature = _periodic_curvature(knots, period)
+        n = len(knots)
+        wrap = np.concatenate([[n - 1], np.arange(n), [0]])
+        return _evaluate(x, where, np.eye(n)[wrap], curvature[wrap])
+    if len(knots) < 4:
+        return _polynomial_weights(knots, query)
+    return _evaluate(knots, query, np.eye(len(knots)), _not_a_knot_curvature(knots))
+
+
+def _evaluate(x: FloatArray, query: FloatArray, value: FloatArray, curvature: FloatArray) -> FloatArray:
+    """Piecewise cubic from values and second derivatives at the knots (rows of ``value`` and ``curvature``)."""
+    i = np.clip(np.searchsorted(x, query, side="right") - 1, 0, len(x) - 2)
+    h = x[i + 1] - x[i]
+    right = (query - x[i]) / h
+    left = 1.0 - right
+    bend_left = (left**3 - left) * h**2 / 6.0
+    bend_right = (right**3 - right) * h**2 / 6.0
+    linear = left[:, None] * value[i] + right[:, None] * value[i + 1]
+    return np.asarray(linear + bend_left[:, None] * curvature[i] + bend_right[:, None] * curvature[i + 1])
+
+
+def _not_a_knot_curvature(x: FloatArray) -> FloatArray:
+    """Matrix (n, n) from values to second derivatives with continuous third derivative next to both ends."""
+    n = len(x)
+    h = np.diff(x)
+    left, right = np.zeros((n, n)), np.zeros((n, n))
+    for i in range(1, n - 1):
+        left[i, i - 1 : i + 2] = h[i - 1], 2.0 * (h[i - 1] + h[i]), h[i]
+        right[i, i - 1 : i + 2] = 6.0 / h[i - 1], -6.0 / h[i - 1] - 6.0 / h[i], 6.0 / h[i]
+    left[0, :3] = h[1], -h[0] - h[1], h[0]
+    left[-1, -3:] = h[-1], -h[-1] - h[-2], h[-2]
+    return np.asarray(np.linalg.solve(left, right))
+
+
+def _periodic_curvature(x: FloatArray, period: float) -> FloatArray:
+    """Matrix (n, n) from values to second derivatives of the periodic spline."""
+    n = len(x)
+    h = np.diff(np.append(x, x[0] + period))
+    left, right = np.zeros((n, n)), np.zeros((n, n))
+    for i in range(n):
+        before, after = (i - 1) % n, (i + 1) % n
+        left[i, i] += 2.0 * (h[before] + h[i])
+        left[i, before] += h[before]
+        left[i, after] += h[i]
+        right[i, i] -= 6.0 / h[before] + 6.0 / h[i]
+        right[i, before] += 6.0 / h[before]
+        right[i, after] += 6.0 / h[i]
+    return np.asarray(np.linalg.solve(left, right))
+
+
+def _polynomial_weights(x: FloatArray, query: FloatArray) -> FloatArray:
+    """Lagrange weights of the polynomial through one to three knots."""
+    weights = np.ones((len(query), len(x)))
+    for i in range(len(x)):
+        for j in range(len(x)):
+            if j != i:
+                weights[:, i] *= (query - x[j]) / (x[i] - x[j])
+    return weights

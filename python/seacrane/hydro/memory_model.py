@@ -1,0 +1,152 @@
+"""`MemoryModel`: linear state-space models of the fluid's memory, as blocks from velocities to loads."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, fields
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+FloatArray = NDArray[np.float64]
+ComplexArray = NDArray[np.complex128]
+
+RADIATION = "radiation"
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class MemoryBlock:
+    """One model ``x' = A x + B v``, ``mu = C x + D v``; the load on the vessel is ``-mu``.
+
+    ``v`` holds the velocities (m/s, rad/s) of the motions ``inputs``, ``mu`` the loads (N, N m) along the motions
+    ``outputs``, both counted from 0 (surge) to 5 (yaw). States are scaled to the size of the output;
+    ``state_scale`` (k,) is the largest amplitude each state takes when the inputs oscillate with 0.1 m/s
+    (translations) or 0.01 rad/s (rotations) at any one frequency: a basis for absolute tolerances.
+    """
+
+    cause: str
+    outputs: NDArray[np.int64]
+    inputs: NDArray[np.int64]
+    A: FloatArray
+    B: FloatArray
+    C: FloatArray
+    D: FloatArray
+    state_scale: FloatArray
+
+    def __post_init__(self) -> None:
+        k, p, m = len(self.A), len(self.outputs), len(self.inputs)
+        shapes = {"A": (k, k), "B": (k, m), "C": (p, k), "D": (p, m), "state_scale": (k,)}
+        for name in ("outputs", "inputs", *shapes):
+            array = np.array(getattr(self, name), dtype=np.int64 if name in ("outputs", "inputs") else float)
+            if name in shapes and array.shape != shapes[name]:
+                raise ValueError(f"memory block {self.cause!r}: {name} has shape {array.shape}, not {shapes[name]}")
+            if not np.all(np.isfinite(array)):
+                raise ValueError(f"memory block {self.cause!r}: {name} holds a value that is not finite")
+            array.setflags(write=False)
+            object.__setattr__(self, name, array)
+        if np.any(np.concatenate([self.outputs, self.inputs]) // 6 != 0):
+            raise ValueError(f"memory block {self.cause!r}: outputs and inputs count motions from 0 to 5")
+
+    @property
+    def poles(self) -> ComplexArray:
+        """Eigenvalues of A, rad/s."""
+        return np.asarray(np.linalg.eigvals(self.A), dtype=complex)
+
+    def transfer(self, omega: FloatArray) -> ComplexArray:
+        """``C (i omega - A)^-1 B + D`` at ``omega`` (n,), as (n, outputs, inputs)."""
+        resolvent = 1j * omega[:, None, None] * np.eye(len(self.A)) - self.A
+        states = np.linalg.solve(resolvent, np.broadcast_to(self.B.astype(complex), (len(omega), *self.B.shape)))
+        return np.asarray(self.C @ states + self.D)
+
+
+@dataclass(frozen=True, kw_only=True)
+class FitRow:
+    """How well one entry's model follows the data: R2 over the trusted band, and over all frequencies."""
+
+    cause: str
+    output: int
+    input: int
+    order: int
+    r2_added_mass: float
+    r2_damping: float
+    r2_added_mass_all: float
+    r2_damping_all: float
+    slowest_decay: float
+    fastest_pole: float
+    accepted: bool
+
+
+@dataclass(frozen=True, kw_only=True)
+class Passivity:
+    """Smallest eigenvalue of the fitted damping matrix, scaled by the square roots of the largest diagonals.
+
+    Negative values mean that the joint model can feed energy into some motion at ``omega`` (rad/s). ``in_band`` is
+    the same over the trusted band alone.
+    """
+
+    minimum: float
+    omega: float
+    in_band: float
+    in_band_omega: float
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class MemoryModel:
+    """Radiation memory (and that of additional causes) as state-space blocks.
+
+    Attributes
+    ----------
+    blocks : the models; their loads add up.
+    added_mass : (6, 6) infinite-frequency added mass that belongs to the radiation blocks.
+    additional_added_mass, additional_stiffness : (6, 6) instantaneous parts of the additional causes.
+    band : (low, high) rad/s over which the fits were judged.
+    r2 : the R2 asked for.
+    rows : quality of each fit.
+    passivity : of the radiation blocks together.
+    """
+
+    blocks: tuple[MemoryBlock, ...]
+    added_mass: FloatArray
+    additional_added_mass: FloatArray
+    additional_stiffness: FloatArray
+    band: tuple[float, float]
+    r2: float
+    rows: tuple[FitRow, ...]
+    passivity: Passivity
+
+    def __post_init__(self) -> None:
+        for entry in fields(self):
+            if entry.name in ("added_mass", "additional_added_mass", "additional_stiffness"):
+                array = np.array(getattr(self, entry.name), dtype=float)
+                if array.shape != (6, 6) or not np.all(np.isfinite(array)):
+                    raise ValueError(f"memory model: {entry.name} must be a finite (6, 6) matrix")
+                array.setflags(write=False)
+                object.__setattr__(self, entry.name, array)
+
+    @property
+    def states(self) -> int:
+        """Number of states of all blocks."""
+        return sum(len(block.A) for block in self.blocks)
+
+    def transfer(self, omega: ArrayLike, *, cause: str = RADIATION) -> ComplexArray:
+        """Retardation function ``K(i omega)`` of one cause at ``omega`` (n,), as (n, 6, 6) complex."""
+        w = np.atleast_1d(np.asarray(omega, dtype=float))
+        total = np.zeros((len(w), 6, 6), dtype=complex)
+        for block in self.blocks:
+            if block.cause == cause:
+                total[:, block.outputs[:, None], block.inputs] += block.transfer(w)
+        return total
+
+    def frequency_response(self, omega: ArrayLike) -> tuple[FloatArray, FloatArray]:
+        """Fitted radiation added mass and damping, each (n, 6, 6), at positive frequencies ``omega`` (n,)."""
+        w = np.atleast_1d(np.asarray(omega, dtype=float))
+        kernel = self.transfer(w)
+        return self.added_mass + kernel.imag / w[:, None, None], kernel.real
+
+    def additional_response(self, omega: ArrayLike) -> tuple[FloatArray, FloatArray]:
+        """Fitted added mass and damping (n, 6, 6) of all other causes, their stiffness counted as added mass."""
+        w = np.atleast_1d(np.asarray(omega, dtype=float))[:, None, None]
+        kernel = np.zeros((len(w), 6, 6), dtype=complex)
+        for cause in {block.cause for block in self.blocks} - {RADIATION}:
+            kernel += self.transfer(w[:, 0, 0], cause=cause)
+        added_mass = self.additional_added_mass + kernel.imag / w - self.additional_stiffness / w**2
+        return added_mass, kernel.real

@@ -1,0 +1,35 @@
+"""The linearised right-hand side of a compiled model at one state."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from seacrane import _core
+
+Array = NDArray[np.float64]
+LARGEST = 1500  # states; beyond, the dense eigenvalue problem takes longer than most runs
+
+
+def jacobian(model: _core.Model, *, state: Array | None = None, time: float = 0.0) -> Array:
+    """Central differences of dy/dt, shape (n, n), in the state variables of the model (work left out)."""
+    y = np.array(model.initial_state if state is None else state, dtype=float)
+    scale = np.array(model.scale)
+    kept = np.flatnonzero(np.isfinite(scale))
+    evaluator = _core.Evaluator(model)
+    out = np.empty((kept.size, kept.size))
+    for column, i in enumerate(kept):
+        step = 1e-6 * scale[i]
+        high, low = y.copy(), y.copy()
+        high[i] += step
+        low[i] -= step
+        difference = evaluator.derivative(time, high) - evaluator.derivative(time, low)
+        out[:, column] = difference[kept] / (2.0 * step)
+    return out
+
+
+def fastest_mode(model: _core.Model) -> float | None:
+    """Largest |eigenvalue| (1/s) at the start; None for models too large for a dense problem."""
+    if model.states > LARGEST:
+        return None
+    return float(np.max(np.abs(np.linalg.eigvals(jacobian(model)))))

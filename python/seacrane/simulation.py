@@ -1,0 +1,297 @@
+"""simulate(): compile a scene, run the C++ loop, return a Result."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from seacrane import _core
+from seacrane.errors import SceneError, SimulationError
+from seacrane.scene import Scene
+from seacrane.version import __version__
+
+if TYPE_CHECKING:
+    from seacrane.result import Result
+
+Array = NDArray[np.float64]
+Snapshot = Mapping[str, Array]
+BAUMGARTE_OF_ADAMS = 5.0  # 1/s: cvode-adams cannot project
+
+
+@dataclass(frozen=True, kw_only=True)
+class SampledController:
+    """A Python controller called at its own period, between integration steps.
+
+    Attributes
+    ----------
+    period : float
+        s.
+    function : callable
+        function(time, measured) -> {input: value}: `measured` maps channel names to arrays of the present
+        instant, inputs are "<actuator>.force" (N or N m), "<actuator>.reference" (m or rad) and
+        "<point force>.force" (3 values, N). Inputs are held until the next call.
+    """
+
+    period: float
+    function: Callable[[float, Snapshot], Mapping[str, Any]]
+
+    def __post_init__(self) -> None:
+        if not (np.isfinite(self.period) and self.period > 0.0):
+            raise SceneError(f"controller: period is {self.period} s; make it positive")
+
+
+def _slots(scene: Scene) -> dict[str, slice]:
+    """Places of the inputs, in the order in which the core numbers them."""
+    out: dict[str, slice] = {}
+    at = 0
+    for name in scene.actuators:
+        out[f"{name}.force"], out[f"{name}.reference"] = slice(at, at + 1), slice(at + 1, at + 2)
+        at += 2
+    for name in scene.point_forces:
+        out[f"{name}.force"] = slice(at, at + 3)
+        at += 3
+    return out
+
+
+def _output_times(t_start: float, t_end: float, dt_out: float) -> Array:
+    for name, value in (("t_end", t_end), ("dt_out", dt_out)):
+        if not np.isfinite(value):
+            raise SceneError(f"{name} is {value}; give a finite number of seconds")
+    if t_end < t_start:
+        raise SceneError(f"t_end is {t_end} s, before the start at {t_start} s")
+    if dt_out <= 0.0:
+        raise SceneError(f"dt_out is {dt_out} s; make it positive")
+    count = int(np.floor((t_end - t_start) / dt_out * (1.0 + 1e-12))) + 1
+    times = t_start + dt_out * np.arange(count)
+    return np.append(times, t_end) if t_end - times[-1] > 1e-9 * dt_out else np.minimum(times, t_end)
+
+
+class Run:
+    """One run of a compiled scene, to be advanced piece by piece.
+
+    Parameters
+    ----------
+    scene : Scene
+    model : Model, optional
+        The compiled scene, to save compiling it again.
+    t_end, dt_out, integrator, rtol, dt, max_step, channels, start
+        As `simulate`.
+    """
+
+    def __init__(
+        self,
+        scene: Scene,
+        *,
+        t_end: float,
+        dt_out: float = 0.1,
+        integrator: str = "dopri5",
+        rtol: float = 1e-6,
+        dt: float = 0.0,
+        max_step: float = 0.0,
+        channels: Sequence[str] | None = None,
+        start: _core.State | None = None,
+        model: _core.Model | None = None,
+    ) -> None:
+        if integrator == "cvode-adams" and scene.baumgarte == 0.0 and scene.joints:
+            scene, model = scene.copy(baumgarte=BAUMGARTE_OF_ADAMS), None
+        self.scene = scene
+        self.model = scene.compile() if model is None else model
+        known = self.model.channel_names(defaults_only=False)
+        wanted = self.model.channel_names() if channels is None else list(channels)
+        for name in wanted:
+            if name not in known:
+                raise SceneError(f"channel {name!r} is unknown to this scene; it offers: {', '.join(known)}")
+        self.start = _core.initial_state(self.model) if start is None else start
+        self.t_end = float(t_end)
+        self.settings = {
+            "t_end": float(t_end), "dt_out": float(dt_out), "rtol": float(rtol), "dt": float(dt),
+            "max_step": float(max_step), "orientation": scene.orientation, "baumgarte": scene.baumgarte,
+            **scene.notes,
+        }  # fmt: skip
+        self.integrator = integrator
+        self.core = _core.Simulation(
+            model=self.model, start=self.start, integrator=integrator, rtol=float(rtol), dt=float(dt),
+            max_step=float(max_step), output_times=_output_times(self.start.time, self.t_end, float(dt_out)),
+            channels=set(wanted),
+        )  # fmt: skip
+        self.interrupted = False
+
+    def advance(self, t_end: float, progress: Callable[[float], None] | None = None) -> bool:
+        """Step to t_end (s); False when Ctrl-C stopped it."""
+        if not self.core.advance(float(t_end), progress):
+            self.interrupted = True
+        return not self.interrupted
+
+    def measure(self) -> dict[str, Array]:
+        """All channels at the present instant, by the names of a result."""
+        arrays = self.core.snapshot()
+        named = self._channels(arrays)
+        return {name: values[0] for name, values in named.items()}
+
+    def set_inputs(self, values: Mapping[str, Any]) -> None:
+        """Set inputs by name from now on; see `SampledController`."""
+        places = _slots(self.scene)
+        slots = np.array(self.core.state.inputs)
+        for name, value in values.items():
+            if name not in places:
+                raise SceneError(f"input {name!r} is unknown; this scene has: {', '.join(places) or 'none'}")
+            new = np.atleast_1d(np.asarray(value, dtype=float))
+            if new.shape != slots[places[name]].shape or not np.isfinite(new).all():
+                raise SceneError(
+                    f"input {name!r} is {value!r}; give {slots[places[name]].size} finite number(s)"
+                )
+            slots[places[name]] = new
+        self.core.set_inputs(slots)
+
+    def _channels(self, arrays: dict[str, Array]) -> dict[str, Array]:
+        from seacrane.channel_names import named_channels
+
+        return named_channels(self.scene, {k: v for k, v in arrays.items() if k != "time"})
+
+    def result(self) -> Result:
+        """What has been recorded so far."""
+        from seacrane.linearise import fastest_mode
+        from seacrane.result import Result
+
+        arrays = self.core.channels()
+        statistics = self.core.statistics()
+        scene, model = self.scene, self.model
+        sea = {} if scene.waves is None else dict(scene.waves.information)
+        stats = {
+            "seacrane_version": __version__,
+            "scene": scene.name,
+            "formulation": "redundant",
+            "integrator": self.integrator,
+            "settings": self.settings,
+            "simulated_s": self.core.time - self.start.time,
+            "coordinates": model.coordinates,
+            "constraints": model.constraints,
+            "degrees_of_freedom": model.degrees_of_freedom,
+            "compiled_coordinates": model.coordinates,
+            "compiled_constraints": model.constraints,
+            "memory_states": model.memory_states,
+            "fastest_mode_per_s": fastest_mode(model),
+            **statistics,
+            **sea,
+        }
+        return Result.from_arrays(
+            time=arrays["time"],
+            arrays=self._channels(arrays),
+            bodies=list(scene.bodies),
+            joints=list(scene.joints),
+            cylinders=[role for role in ("main", "knuckle") if f"{role}_cylinder" in scene.joints],
+            coordinates=list(scene.recorded),
+            actuators=list(scene.actuators),
+            drivers=list(scene.drivers),
+            links=[name for name, joint in scene.joints.items() if joint.kind == "distance"],
+            stats=stats,
+            interrupted=self.interrupted,
+        )
+
+
+def _progress(t_start: float, t_end: float, wanted: bool) -> tuple[Callable[[float], None] | None, Callable[[], None]]:
+    if not wanted:
+        return None, lambda: None
+    from tqdm.auto import tqdm
+
+    bar = tqdm(total=round(t_end - t_start, 3), unit="s", desc="simulated")
+    return (lambda time: bar.update(round(time - t_start - bar.n, 3)) and None), bar.close
+
+
+def simulate(
+    scene: Scene,
+    *,
+    t_end: float = 100.0,
+    dt_out: float = 0.1,
+    integrator: str = "dopri5",
+    rtol: float = 1e-6,
+    dt: float = 0.0,
+    max_step: float = 0.0,
+    formulation: str = "auto",
+    channels: Sequence[str] | None = None,
+    controllers: Sequence[SampledController] = (),
+    start: _core.State | None = None,
+    progress: bool = False,
+) -> Result:
+    """Simulate a scene and return its recorded channels.
+
+    Parameters
+    ----------
+    scene : Scene
+    t_end : float
+        End time, s.
+    dt_out : float
+        Output interval, s. Outputs are interpolated, projected, then evaluated; they never shorten steps.
+    integrator : str
+        "dopri5" (default), "rk4", "ark-erk", "cvode-adams", "cvode-bdf" or "ida".
+    rtol : float
+        Local error per step over the scale of each state (1 m, 0.1 rad, 1 m/s, 0.1 rad/s times
+        `scene.length_scale` for lengths): absolute, so that results do not depend on where the origin is.
+    dt : float
+        Step of fixed-step methods, s; 0 takes the method's default.
+    max_step : float
+        Longest step, s; 0 sets no limit.
+    formulation : str
+        "redundant", the paper's; "auto" takes it.
+    channels : sequence of str, optional
+        What to record; default: all default channels of the scene.
+    controllers : sequence of SampledController
+        Called at their periods from the start on.
+    start : State, optional
+        Where to go on from; default: the assembled start of the scene.
+    progress : bool
+        Show a progress bar.
+
+    Returns
+    -------
+    Result
+        With `interrupted` set, and the outputs until then, when Ctrl-C stopped the run.
+
+    Raises
+    ------
+    SceneError
+        For a scene or setting that makes no sense.
+    SimulationError
+        When the integration cannot go on; it says where, when and what to try.
+    """
+    if formulation not in ("auto", "redundant"):
+        raise SceneError(f"formulation {formulation!r} is not available; choose 'auto' or 'redundant'")
+    run = Run(
+        scene, t_end=t_end, dt_out=dt_out, integrator=integrator, rtol=rtol, dt=dt, max_step=max_step,
+        channels=channels, start=start,
+    )  # fmt: skip
+    report, close = _progress(run.start.time, t_end, progress)
+    try:
+        _advance(run, t_end, controllers, report)
+    finally:
+        close()
+    return run.result()
+
+
+def _advance(
+    run: Run, t_end: float, controllers: Sequence[SampledController], report: Callable[[float], None] | None
+) -> None:
+    due = [run.start.time for _ in controllers]
+    while True:
+        now = run.core.time
+        called: dict[str, Any] = {}
+        for i, controller in enumerate(controllers):
+            if due[i] <= now and now < t_end:
+                called.update(_call(controller, now, run))
+                due[i] = run.start.time + controller.period * (round((now - run.start.time) / controller.period) + 1)
+        if called:
+            run.set_inputs(called)
+        stop = min([t_end, *due])
+        if not run.advance(stop, report) or stop >= t_end:
+            return
+
+
+def _call(controller: SampledController, now: float, run: Run) -> Mapping[str, Any]:
+    try:
+        return controller.function(now, run.measure())
+    except Exception as error:
+        raise SimulationError(f"controller: raised {type(error).__name__} at t = {now:.6g} s: {error}") from error
