@@ -27,7 +27,7 @@ WaveComponents sea_state(long count = 200) {
   return realise(Spectrum::jonswap(2.0, 8.0), o);
 }
 
-/// Any smooth-free transfer: random complex numbers of the size of a ship's.
+/// Random complex numbers of the size of a ship's transfer: nothing smooth to hide an error.
 Eigen::MatrixXcd transfer_of(std::size_t count) {
   Eigen::MatrixXcd x(static_cast<Eigen::Index>(count), 6);
   for (Eigen::Index i = 0; i < x.rows(); ++i) {
