@@ -32,11 +32,18 @@ CHANNELS: Mapping[str, Channel] = MappingProxyType(
         "position": _channel("body axis", "m", "centre of mass, inertial frame"),
         "velocity": _channel("body axis", "m/s", "velocity of the centre of mass, inertial frame"),
         "angular_velocity": _channel("body axis", "rad/s", "angular velocity, inertial frame"),
+        "acceleration": _channel("body axis", "m/s2", "acceleration of the centre of mass, inertial frame"),
+        "angular_acceleration": _channel("body axis", "rad/s2", "angular acceleration, inertial frame"),
         "quaternion": _channel("body wxyz", "1", "orientation, scalar first, body to inertial"),
         "euler_xyz": _channel("body axis", "rad", "XYZ Euler angles, R = Rx Ry Rz, body to inertial"),
         "vessel_motion": _channel(
             "motion", _SIX, "vessel's reference point from rest, and yaw-pitch-roll angles"
         ),
+        "coordinate": _channel("joint_coordinate", "m or rad", "joint coordinate, second body to first"),
+        "coordinate_rate": _channel("joint_coordinate", "m/s or rad/s", "rate of the joint coordinate"),
+        "actuator_force": _channel("actuator", "N or N m", "load of the actuator along its coordinate"),
+        "driver_force": _channel("driver", "N or N m", "load of the driver along its coordinate"),
+        "tension": _channel("link", "N", "tension of the constant-distance link"),
         "stroke": _channel("cylinder", "m", "cylinder stroke, extension positive"),
         "stroke_rate": _channel("cylinder", "m/s", "rate of the cylinder stroke"),
         "cylinder_force": _channel("cylinder", "N", "actuator force of the cylinder, positive pushes"),

@@ -13,6 +13,17 @@ from seacrane.result.channels import CHANNELS, attributes
 if TYPE_CHECKING:
     from seacrane.result.result import Result
 
+# Dimensions whose names belong to the scene, and the arguments of `Result.from_arrays` that take them.
+NAMED = {
+    "body": "bodies",
+    "joint": "joints",
+    "cylinder": "cylinders",
+    "joint_coordinate": "coordinates",
+    "actuator": "actuators",
+    "driver": "drivers",
+    "link": "links",
+}
+
 
 def write_netcdf(path: Path, result: Result) -> None:
     """Write a result under exactly this name."""
@@ -42,11 +53,6 @@ def read_arrays(path: Path) -> dict[str, Any]:
             raise FileFormatError(f"{path} has no variable 'time'; it is not a seacrane result")
         stats = {name: file.getncattr(name) for name in file.ncattrs()}
         interrupted = bool(stats.pop("interrupted", 0))
-        names = {
-            dim: [str(name) for name in file[dim][:]]
-            for dim in ("body", "joint", "cylinder")
-            if dim in file.variables
-        }
         return {
             "time": file["time"][:],
             "arrays": {
@@ -54,9 +60,11 @@ def read_arrays(path: Path) -> dict[str, Any]:
                 for name, variable in file.variables.items()
                 if name != "time" and name not in file.dimensions
             },
-            "bodies": names.get("body", ()),
-            "joints": names.get("joint", ()),
-            "cylinders": names.get("cylinder", ()),
+            **{
+                argument: [str(name) for name in file[dim][:]]
+                for dim, argument in NAMED.items()
+                if dim in file.variables
+            },
             "stats": stats,
             "interrupted": interrupted,
         }

@@ -44,7 +44,6 @@ ALWAYS_STATED = [
     "compiled_constraints",
     "fastest_mode_per_s",
 ]
-STATED_WITH_WAVES = ("seed", "realised_hs", "wave_components")
 
 
 def _checked_array(name: str, values: Any, shape: tuple[int, ...], interrupted: bool) -> Array:
@@ -80,7 +79,7 @@ def _checked_names(dim: str, names: Sequence[str]) -> tuple[str, ...]:
     return names
 
 
-def _checked_stats(stats: Mapping[str, Any], waves: bool) -> dict[str, Stat]:
+def _checked_stats(stats: Mapping[str, Any]) -> dict[str, Stat]:
     """Plain strings, integers and floats; what is None is left out; `settings` may be a mapping."""
     plain: dict[str, Stat] = {}
     for name, value in stats.items():
@@ -94,11 +93,10 @@ def _checked_stats(stats: Mapping[str, Any], waves: bool) -> dict[str, Stat]:
             value = int(value)
         if not isinstance(value, (str, int, float)):
             raise ValueError(f"stat {name!r} is a {type(value).__name__}; give a string or a number")
-        if isinstance(value, float) and not math.isfinite(value):
-            raise ValueError(f"stat {name!r} is {value}; leave out what is not defined")
+        if isinstance(value, float) and math.isnan(value):
+            raise ValueError(f"stat {name!r} is not a number; leave out what is not defined")
         plain[name] = value
-    needed = [*ALWAYS_STATED, *(STATED_WITH_WAVES if waves else ())]
-    missing = [name for name in needed if name not in plain]
+    missing = [name for name in ALWAYS_STATED if name not in plain]
     if missing:
         raise ValueError(f"stats lack {', '.join(missing)}; every result states them")
     return plain
@@ -118,7 +116,8 @@ class Result:
     dims : mapping of str to tuple of str
         Dimension names of each channel.
     coords : mapping of str to tuple of str
-        Names along every dimension but time: `body`, `joint`, `cylinder`, `axis`, `motion`, `wxyz`.
+        Names along every dimension but time: `body`, `joint`, `cylinder`, `axis`, `motion`, `wxyz`,
+        `joint_coordinate`, `actuator`, `driver`, `link`; only those in use.
     stats : mapping of str to str, int or float
         Version, settings and counters of the run: the attributes of the saved file.
     interrupted : bool
@@ -151,6 +150,10 @@ class Result:
         bodies: Sequence[str] = (),
         joints: Sequence[str] = (),
         cylinders: Sequence[str] = (),
+        coordinates: Sequence[str] = (),
+        actuators: Sequence[str] = (),
+        drivers: Sequence[str] = (),
+        links: Sequence[str] = (),
         stats: Mapping[str, Any],
         interrupted: bool = False,
     ) -> Result:
@@ -163,11 +166,12 @@ class Result:
         arrays : mapping of str to array_like
             Channels by the names of `CHANNELS`. Arrays of float64 are taken over without a copy and
             made read-only; the caller must not write to them through another view.
-        bodies, joints, cylinders : sequence of str
-            Names along these dimensions, in the order of the arrays.
+        bodies, joints, cylinders, coordinates, actuators, drivers, links : sequence of str
+            Names along the dimensions `body`, `joint`, `cylinder`, `joint_coordinate`, `actuator`, `driver`
+            and `link`, in the order of the arrays.
         stats : mapping
-            Attributes (`ALWAYS_STATED`, and `STATED_WITH_WAVES` when waves were recorded); values that
-            are None are left out, `settings` may be a mapping.
+            Attributes, at least `ALWAYS_STATED`; values that are None are left out, `settings` may be a
+            mapping.
         interrupted : bool
             True if the run did not reach its end; only then may channels hold values that are not finite.
 
@@ -178,14 +182,17 @@ class Result:
             given twice, or a missing stat.
         """
         checked_time = _checked_time(time)
-        coords = {
-            "body": _checked_names("body", bodies),
-            "joint": _checked_names("joint", joints),
-            "cylinder": _checked_names("cylinder", cylinders),
-            "axis": AXES,
-            "motion": MOTIONS,
-            "wxyz": QUATERNION,
+        named = {
+            "body": bodies,
+            "joint": joints,
+            "cylinder": cylinders,
+            "joint_coordinate": coordinates,
+            "actuator": actuators,
+            "driver": drivers,
+            "link": links,
         }
+        coords = {dim: _checked_names(dim, names) for dim, names in named.items()}
+        coords |= {"axis": AXES, "motion": MOTIONS, "wxyz": QUATERNION}
         channels = {}
         for name, values in arrays.items():
             if name not in CHANNELS:
@@ -197,7 +204,7 @@ class Result:
             time=checked_time,
             channels=channels,
             coords={dim: names for dim, names in coords.items() if dim in used},
-            stats=_checked_stats(stats, waves="wave_elevation" in channels),
+            stats=_checked_stats(stats),
             interrupted=bool(interrupted),
         )
 
