@@ -325,6 +325,12 @@ def test_an_interrupted_result_says_so_in_its_file(run: dict[str, Any], tmp_path
     assert result.to_xarray().attrs["interrupted"] == 1
 
 
+def test_a_result_prints_in_one_line(run: dict[str, Any]) -> None:
+    assert repr(Result.from_arrays(**run)) == "<Result of 'case2': 51 outputs to 5 s, 21 channels>"
+    run = crane_run(t_end=5.0, waves=False)
+    assert repr(Result.from_arrays(**run, interrupted=True)).endswith("19 channels, interrupted>")
+
+
 @pytest.mark.parametrize("seed", [0, 2**63 - 1, 2**64 - 1])
 def test_large_seeds_and_an_endless_repeat_period_are_kept(
     run: dict[str, Any], tmp_path: Path, seed: int

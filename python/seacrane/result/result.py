@@ -102,7 +102,7 @@ def _checked_stats(stats: Mapping[str, Any]) -> dict[str, Stat]:
     return plain
 
 
-@dataclass(frozen=True, kw_only=True, eq=False)
+@dataclass(frozen=True, kw_only=True, eq=False, repr=False)
 class Result:
     """What one run recorded. Build it with `Result.from_arrays`, or read it with `Result.load`.
 
@@ -136,6 +136,13 @@ class Result:
         object.__setattr__(self, "coords", MappingProxyType(dict(self.coords)))
         object.__setattr__(self, "stats", MappingProxyType(dict(self.stats)))
         object.__setattr__(self, "dims", MappingProxyType({n: CHANNELS[n].dims for n in self.channels}))
+
+    def __repr__(self) -> str:
+        stopped = ", interrupted" if self.interrupted else ""
+        return (
+            f"<Result of {self.stats['scene']!r}: {self.time.size} outputs to {self.time[-1]:g} s, "
+            f"{len(self.channels)} channels{stopped}>"
+        )
 
     def __reduce__(self) -> tuple[Any, ...]:  # read-only mapping views cannot be pickled themselves
         parts = (self.time, dict(self.channels), dict(self.coords), dict(self.stats), self.interrupted)
