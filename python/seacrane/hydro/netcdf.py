@@ -123,7 +123,7 @@ def to_xarray(database: HydroDatabase) -> xarray.Dataset:
 def _write(file: Any, database: HydroDatabase) -> None:
     file.format, file.format_version, file.convention = FORMAT, FORMAT_VERSION, CONVENTION
     for name in (*_TEXTS, *_NUMBERS):
-        setattr(file, name, getattr(database, name))
+        file.setncattr(name, getattr(database, name))
     file.port_starboard_symmetric = int(database.port_starboard_symmetric)
     if database.trusted_band is not None:
         file.trusted_band = np.array(database.trusted_band, dtype=float)
@@ -187,8 +187,8 @@ def _put(group: Any, name: str, value: Any, dimensions: tuple[str, ...]) -> Any:
 
 
 def _read(file: Any) -> HydroDatabase:
-    values: dict[str, Any] = {name: str(getattr(file, name)) for name in _TEXTS}
-    values |= {name: float(getattr(file, name)) for name in _NUMBERS}
+    values: dict[str, Any] = {name: str(file.getncattr(name)) for name in _TEXTS}
+    values |= {name: float(file.getncattr(name)) for name in _NUMBERS}
     for name in _ARRAYS:
         if name in file.variables:
             values[name] = _get(file, name)

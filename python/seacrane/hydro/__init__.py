@@ -1,0 +1,80 @@
+"""Hydrodynamics of the vessel: databases, their readers and self-check, fluid memory."""
+
+from __future__ import annotations
+
+from functools import cache
+from importlib.resources import files
+from os import PathLike
+from pathlib import Path
+
+from seacrane.errors import FileFormatError
+from seacrane.hydro.check import CheckRow, memory_rows
+from seacrane.hydro.database import AdditionalMatrices, HydroDatabase, RollDamping
+from seacrane.hydro.memory import fit_memory
+from seacrane.hydro.memory_model import FitRow, MemoryBlock, MemoryModel, Passivity
+from seacrane.hydro.motion import motion_response, natural_frequency
+from seacrane.hydro.vessel import (
+    MemoryFitWarning,
+    RigidPart,
+    RollDampingWarning,
+    VesselParameters,
+    rigid_mass_matrix,
+    vessel_parameters,
+)
+from seacrane.hydro.veres import find_stem, read_veres
+
+__all__ = [
+    "AdditionalMatrices",
+    "CheckRow",
+    "FitRow",
+    "HydroDatabase",
+    "MemoryBlock",
+    "MemoryFitWarning",
+    "MemoryModel",
+    "Passivity",
+    "RigidPart",
+    "RollDamping",
+    "RollDampingWarning",
+    "VesselParameters",
+    "fit_memory",
+    "load_database",
+    "memory_rows",
+    "motion_response",
+    "natural_frequency",
+    "read_veres",
+    "rigid_mass_matrix",
+    "shipped_database",
+    "vessel_parameters",
+]
+
+SUPPORTED = "a seacrane NetCDF file (.nc), or a ShipX/VERES folder, stem or file (.re7 with .re8 and .re1)"
+
+
+def load_database(path: str | PathLike[str]) -> HydroDatabase:
+    """Read a hydrodynamic database of any supported kind: our NetCDF, or ShipX/VERES (folder, stem or file).
+
+    Raises
+    ------
+    FileFormatError : nothing readable at ``path``; the message names the file, the line where there is one, and
+        the supported kinds.
+    """
+    source = Path(path)
+    if source.is_file() and source.suffix.lower() in (".nc", ".nc4"):
+        return HydroDatabase.load(source)
+    if source.is_dir() or _is_veres(source):
+        return read_veres(source)
+    problem = "not of a known kind" if source.exists() else "no such file"
+    raise FileFormatError(f"{source}: {problem}; supported: {SUPPORTED}")
+
+
+def _is_veres(path: Path) -> bool:
+    """Whether a .re7 or .re8 file belongs to the stem of ``path``."""
+    stem = find_stem(path)
+    names = [stem.name + suffix for suffix in (".re7", ".RE7", ".re8", ".RE8")]
+    return any((stem.parent / name).is_file() for name in names)
+
+
+@cache
+def shipped_database() -> HydroDatabase:
+    """The database of the 115 m hull that comes with the package, memory model included (immutable, read once)."""
+    return HydroDatabase.load(Path(str(files("seacrane") / "data" / "hull_115.nc")))

@@ -1,0 +1,46 @@
+"""Linear stability of the vessel together with its memory."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from seacrane.hydro.memory_model import MemoryModel
+from seacrane.hydro.vessel import vessel_parameters
+
+if TYPE_CHECKING:
+    from seacrane.hydro.database import HydroDatabase
+
+FloatArray = NDArray[np.float64]
+
+
+def largest_growth_rate(database: HydroDatabase, model: MemoryModel) -> float:
+    """Largest real part (1/s) among the eigenvalues of the freely floating vessel with its memory.
+
+    Positions of motions without restoring (surge, sway, yaw) are left out of the state: nothing depends on them, and
+    they would add eigenvalues of zero. A positive value means that motions grow from nothing.
+    """
+    return float(np.linalg.eigvals(_system(database, model)).real.max())
+
+
+def _system(database: HydroDatabase, model: MemoryModel) -> FloatArray:
+    vessel = vessel_parameters(database, memory=model)
+    inverse = np.linalg.inv(database.mass_matrix + vessel.added_mass)
+    held = np.flatnonzero(np.any(vessel.restoring != 0.0, axis=0))
+    p, total = len(held), len(held) + 6 + model.states
+    system = np.zeros((total, total))
+    velocity = slice(p, p + 6)
+    system[np.arange(p), p + held] = 1.0
+    system[velocity, :p] = -inverse @ vessel.restoring[:, held]
+    system[velocity, velocity] = -inverse @ vessel.linear_damping
+    start = p + 6
+    for block in model.blocks:
+        states = slice(start, start + len(block.A))
+        system[states, states] = block.A
+        system[states, p + block.inputs] = block.B
+        system[velocity, states] = -inverse[:, block.outputs] @ block.C
+        system[velocity, p + block.inputs] -= inverse[:, block.outputs] @ block.D
+        start += len(block.A)
+    return system

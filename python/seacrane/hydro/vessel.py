@@ -1,0 +1,174 @@
+"""`vessel_parameters`: what the time domain needs of a database, as plain arrays."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from seacrane.hydro.memory import fit_memory
+from seacrane.hydro.memory_model import MemoryModel
+from seacrane.hydro.motion import natural_frequency
+
+if TYPE_CHECKING:
+    from seacrane.hydro.database import HydroDatabase
+
+FloatArray = NDArray[np.float64]
+
+
+class RollDampingWarning(UserWarning):
+    """The vessel has no roll damping beside radiation: its roll at resonance has no converged answer."""
+
+
+class MemoryFitWarning(UserWarning):
+    """A memory model does not follow the data as closely as was asked."""
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class RigidPart:
+    """A rigid part about its own centre: ``mass`` (kg), ``position`` (3,) of its centre (m) from the database's
+    reference point, ``inertia`` (3, 3) about its centre (kg m2), all in the vessel's axes."""
+
+    mass: float
+    position: FloatArray
+    inertia: FloatArray
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class VesselParameters:
+    """Vessel of the time domain; reference point, axes and signs as in `HydroDatabase`.
+
+    Attributes
+    ----------
+    mass : kg. centre_of_mass : (3,) m from the reference point. inertia : (3, 3) kg m2 about the centre of mass.
+    added_mass : (6, 6) at infinite frequency, additional causes included.
+    linear_damping : (6, 6) and quadratic_damping : (6,), beside radiation.
+    restoring : (6, 6), with the static stiffness of additional causes (roll tanks).
+    memory : radiation and additional memory; None when it was asked to leave it out.
+    """
+
+    mass: float
+    centre_of_mass: FloatArray
+    inertia: FloatArray
+    added_mass: FloatArray
+    linear_damping: FloatArray
+    quadratic_damping: FloatArray
+    restoring: FloatArray
+    memory: MemoryModel | None
+
+
+def vessel_parameters(
+    database: HydroDatabase, *, memory: MemoryModel | None = None, take_out: Sequence[RigidPart] = ()
+) -> VesselParameters:
+    """Parameters of the vessel without the parts that the scene models as bodies of their own.
+
+    Parameters
+    ----------
+    database : hydrodynamics; its own fitted memory is used, else one is fitted here.
+    memory : a fit to use in place of it.
+    take_out : parts that the database's mass and restoring include and the scene models itself (a crane): their
+        mass and inertia leave the mass matrix and their weight leaves the restoring (C44 and C55 grow by
+        m g z, C46 and C56 lose theirs; buoyancy stays as it is).
+
+    Returns
+    -------
+    VesselParameters : roll damping tabulated by frequency enters as linear + quadratic, both taken at the roll
+        natural frequency (the linearised column belongs to the frequency domain).
+
+    Warns
+    -----
+    RollDampingWarning, MemoryFitWarning
+
+    Raises
+    ------
+    ValueError : what is left after taking parts out has no positive mass or inertia.
+    """
+    model = memory or database.memory or fit_memory(database=database)
+    for row in model.rows:
+        if not row.accepted:
+            warnings.warn(
+                f"database {database.name!r}: memory of entry {row.output + 1}{row.input + 1} ({row.cause}) follows "
+                f"added mass with R2 = {row.r2_added_mass:.3f} and damping with {row.r2_damping:.3f}, {model.r2} was asked; "
+                "motions that depend on it carry that error",
+                MemoryFitWarning,
+                stacklevel=2,
+            )
+    mass_matrix, restoring = database.mass_matrix.copy(), database.restoring.copy()
+    for part in take_out:
+        mass_matrix -= rigid_mass_matrix(part.mass, np.asarray(part.position, float), np.asarray(part.inertia, float))
+        restoring -= _weight_restoring(part.mass * database.g, np.asarray(part.position, float))
+    restoring += sum(part.restoring[0] for part in database.additional) + model.additional_stiffness
+    linear, quadratic = database.linear_damping.copy(), database.quadratic_damping.copy()
+    _add_roll_damping(database, linear, quadratic)
+    mass, centre, inertia = _split_mass_matrix(mass_matrix, database.name)
+    return VesselParameters(
+        mass=mass,
+        centre_of_mass=centre,
+        inertia=inertia,
+        added_mass=model.added_mass + model.additional_added_mass,
+        linear_damping=linear,
+        quadratic_damping=quadratic,
+        restoring=restoring,
+        memory=model,
+    )
+
+
+def rigid_mass_matrix(mass: float, centre: FloatArray, inertia: FloatArray) -> FloatArray:
+    """Mass matrix (6, 6) about the reference point, equation (12) of the paper for any centre of mass."""
+    cross = _cross(centre)
+    matrix = np.zeros((6, 6))
+    matrix[:3, :3] = mass * np.eye(3)
+    matrix[:3, 3:] = -mass * cross
+    matrix[3:, :3] = mass * cross
+    matrix[3:, 3:] = inertia - mass * cross @ cross
+    return matrix
+
+
+def _cross(v: FloatArray) -> FloatArray:
+    return np.array([[0.0, -v[2], v[1]], [v[2], 0.0, -v[0]], [-v[1], v[0], 0.0]])
+
+
+def _weight_restoring(weight: float, position: FloatArray) -> FloatArray:
+    """Share of a weight (N) at ``position`` in the restoring matrix about the reference point."""
+    x, y, z = position
+    c = np.zeros((6, 6))
+    c[3, 3] = c[4, 4] = -weight * z
+    c[3, 5], c[4, 5] = weight * x, weight * y
+    return c
+
+
+def _split_mass_matrix(matrix: FloatArray, name: str) -> tuple[float, FloatArray, FloatArray]:
+    """Mass, centre of mass and inertia about it."""
+    mass = float(np.trace(matrix[:3, :3]) / 3.0)
+    if mass <= 0.0:
+        raise ValueError(f"database {name!r}: {mass:.6g} kg are left after taking parts out; take out less")
+    lever = 0.5 * (matrix[3:, :3] - matrix[:3, 3:]) / mass
+    centre = np.array([lever[2, 1], lever[0, 2], lever[1, 0]])
+    cross = _cross(centre)
+    inertia = 0.5 * (matrix[3:, 3:] + matrix[3:, 3:].T) + mass * cross @ cross
+    if np.any(np.linalg.eigvalsh(inertia) <= 0.0):
+        raise ValueError(
+            f"database {name!r}: the inertia about the centre of mass has eigenvalues {np.linalg.eigvalsh(inertia)}; "
+            "check the mass matrix, or take out less"
+        )
+    return mass, centre, inertia
+
+
+def _add_roll_damping(database: HydroDatabase, linear: FloatArray, quadratic: FloatArray) -> None:
+    """Add the tabulated roll damping at the roll natural frequency; warn when roll has none at all."""
+    resonance = natural_frequency(database, 3)
+    if database.roll_damping is not None:
+        at = resonance if resonance is not None else float(np.median(database.omega))
+        linear[3, 3] += float(np.interp(at, database.omega, database.roll_damping.linear))
+        quadratic[3] += float(np.interp(at, database.omega, database.roll_damping.quadratic))
+    if linear[3, 3] == 0.0 and quadratic[3] == 0.0:
+        warnings.warn(
+            f"database {database.name!r}: no roll damping beside radiation; roll at resonance will be far too large. Add "
+            "linear_damping or quadratic_damping for roll",
+            RollDampingWarning,
+            stacklevel=3,
+        )
