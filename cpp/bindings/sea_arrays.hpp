@@ -1,0 +1,34 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <stdexcept>
+#include <vector>
+
+#include "bindings.hpp"
+#include "seacrane/sea/exact_wave_load.hpp"
+
+using Doubles = py::array_t<double, py::array::c_style | py::array::forcecast>;
+
+/// f(t, seven channels) at every time; the first `width` channels from `first` on are kept. The result has
+/// the shape of `times`, followed by `width` unless it is one.
+template <class Function>
+py::array_t<double> at_times(const Doubles& times, std::size_t first, std::size_t width, const Function& f) {
+  std::vector<py::ssize_t> shape(times.shape(), times.shape() + times.ndim());
+  if (width > 1) shape.push_back(static_cast<py::ssize_t>(width));
+  py::array_t<double> out(shape);
+  const double* t = times.data();
+  double* target = out.mutable_data();
+  const py::ssize_t count = times.size();
+  const py::gil_scoped_release release;
+  for (py::ssize_t i = 0; i < count; ++i) {
+    if (!std::isfinite(t[i])) throw std::invalid_argument("wave load: a time is not finite; give times in s");
+    double channels[seacrane::wave_channels];
+    f(t[i], channels);
+    target = std::copy_n(channels + first, width, target);
+  }
+  return out;
+}
+
+void bind_wave_load(py::module_& m);
