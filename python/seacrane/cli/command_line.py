@@ -1,0 +1,140 @@
+"""Arguments of every command, and what the shell is told about success and failure."""
+
+from __future__ import annotations
+
+import argparse
+import os
+import sys
+from collections.abc import Sequence
+from importlib import import_module
+from typing import Any, NoReturn
+
+FAILED, MISUSED, INTERRUPTED = 1, 2, 130
+DESCRIPTION = "Offshore crane, payload and vessel moving together in waves."
+SCENE_HELP = "case1, case2, case3, vessel (the vessel alone in waves), or a scene file (data only)"
+PATH_HELP = "a file or folder of any supported kind: a VERES folder or its common stem, or a NetCDF file"
+
+
+class _Parser(argparse.ArgumentParser):
+    """Says what is wrong in one line."""
+
+    def error(self, message: str) -> NoReturn:
+        self.exit(MISUSED, f"{self.prog}: {message} (see {self.prog} --help)\n")
+
+
+def build_parser() -> argparse.ArgumentParser:
+    """The parser of all commands; `command` holds the module that runs one."""
+    parser = _Parser(prog="seacrane", description=DESCRIPTION)
+    parser.add_argument("--version", action="store_true", help="print the version and stop")
+    commands = parser.add_subparsers(dest="command", metavar="COMMAND", parser_class=_Parser)
+    _add_run(commands)
+    _add_paper(commands)
+    _add_report(commands)
+    _add_hydro(commands)
+    return parser
+
+
+def _add_run(commands: Any) -> None:
+    text = "simulate a scene and write DIR/<scene>.nc"
+    run = commands.add_parser("run", help=text, description=text)
+    run.add_argument(
+        "scene", metavar="SCENE", help=f"{SCENE_HELP}, or a .py script defining scene(), which is executed"
+    )
+    run.add_argument("--out", metavar="DIR", required=True, help="folder to write to; made if absent")
+    run.add_argument("--t-end", metavar="S", type=float, help="end time, s")
+    run.add_argument("--dt-out", metavar="S", type=float, help="output interval, s")
+    run.add_argument(
+        "--integrator", metavar="NAME", help="rk4, dopri5, ark-erk, cvode-adams, cvode-bdf or ida"
+    )
+    run.add_argument("--rtol", metavar="X", type=float, help="relative tolerance of adaptive integrators")
+    run.add_argument("--dt", metavar="S", type=float, help="step of fixed-step integrators, s")
+    run.add_argument("--formulation", choices=("redundant", "recursive", "auto"), help="equations of motion")
+    run.add_argument("--progress", action="store_true", help="show a progress bar")
+    case = run.add_argument_group("the built-in cases", "these choose the vessel and the sea of a named case")
+    case.add_argument(
+        "--memory", choices=("per-pair", "passive", "convolution", "none"), help="fluid memory of the vessel"
+    )
+    case.add_argument("--hs", metavar="M", type=float, help="significant wave height, m")
+    case.add_argument("--tp", metavar="S", type=float, help="peak period, s")
+    case.add_argument(
+        "--wave-direction-deg",
+        metavar="D",
+        type=float,
+        help="direction the waves travel to, deg, from forward towards port: 0 following, 180 head seas",
+    )
+    case.add_argument("--seed", metavar="N", type=int, help="seed of the wave realisation")
+    case.add_argument("--database", metavar="PATH", help=f"the vessel's hydrodynamics: {PATH_HELP}")
+
+
+def _add_paper(commands: Any) -> None:
+    text = "compute the paper's cases: figures 3 to 10, the data behind every panel, and report.html"
+    paper = commands.add_parser("paper", help=text, description=text)
+    paper.add_argument("--out", metavar="DIR", required=True, help="folder to write to; made if absent")
+
+
+def _add_report(commands: Any) -> None:
+    text = "print what the compiled model of a scene holds"
+    report = commands.add_parser("report", help=text, description=text)
+    report.add_argument("scene", metavar="SCENE", help=SCENE_HELP)
+    report.add_argument("--json", action="store_true", help="print JSON instead of tables")
+
+
+def _add_hydro(commands: Any) -> None:
+    text = "read a hydrodynamic database and print the verdict table of its self-check"
+    hydro = commands.add_parser("hydro", help=text, description=text)
+    hydro.add_argument("path", metavar="PATH", help=PATH_HELP)
+    hydro.add_argument("--json", action="store_true", help="print JSON instead of a table")
+    hydro.add_argument("--out", metavar="DIR", help="also plot the database into this folder; made if absent")
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run a command; errors become one line on standard error.
+
+    Parameters
+    ----------
+    arguments : sequence of str, optional
+        What follows the program's name; the process's own arguments if None.
+
+    Returns
+    -------
+    int
+        Exit status: 0 done, 1 failed, 2 wrong arguments (then raised as SystemExit), 130 interrupted.
+    """
+    parser = build_parser()
+    chosen = parser.parse_args(arguments)
+    if chosen.version:
+        from seacrane.version import __version__
+
+        print(__version__)
+        return 0
+    if chosen.command is None:
+        parser.print_help(sys.stderr)
+        return MISUSED
+    return _run_command(chosen)
+
+
+def _run_command(chosen: argparse.Namespace) -> int:
+    try:
+        status: int = import_module(f"seacrane.cli.{chosen.command}_command").run(chosen)
+        sys.stdout.flush()
+        return status
+    except KeyboardInterrupt:
+        return _complain(chosen, "interrupted", INTERRUPTED)
+    except BrokenPipeError:  # the reader of our output has left: nothing more to say, nor a place to say it
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return FAILED
+    except Exception as error:
+        return _complain(chosen, explain(error), FAILED)
+
+
+def _complain(chosen: argparse.Namespace, text: str, status: int) -> int:
+    print(f"seacrane {chosen.command}: {text}", file=sys.stderr)
+    return status
+
+
+def explain(error: Exception) -> str:
+    """One line about an error; the kind of error is named where its text was not written for users."""
+    text = " ".join(str(error.args[0] if isinstance(error, KeyError) and error.args else error).split())
+    if isinstance(error, (ValueError, OSError)) or type(error).__module__.startswith("seacrane."):
+        return text or type(error).__name__
+    return f"unexpected {type(error).__name__}: {text}"

@@ -1,0 +1,54 @@
+"""``seacrane run``: simulate one scene and save what it recorded."""
+
+from __future__ import annotations
+
+import argparse
+from typing import TYPE_CHECKING
+
+from seacrane.cli.command_line import INTERRUPTED
+from seacrane.cli.output_folder import output_folder
+from seacrane.cli.scene_source import load_scene
+
+if TYPE_CHECKING:
+    from seacrane.result import Result
+
+SETTINGS = ("t_end", "dt_out", "integrator", "rtol", "dt", "formulation")
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Simulate, save and summarise; 130 if the run was interrupted."""
+    name, scene = load_scene(arguments.scene, arguments, scripts=True)
+    folder = output_folder(arguments.out)
+    from seacrane.simulation import simulate
+
+    given = {setting: getattr(arguments, setting) for setting in SETTINGS}
+    settings = {setting: value for setting, value in given.items() if value is not None}
+    result = simulate(scene, progress=arguments.progress, **settings)
+    path = result.save(folder / f"{name}.nc")
+    print(summary(result))
+    print(f"saved {path}")
+    return INTERRUPTED if result.interrupted else 0
+
+
+def summary(result: Result) -> str:
+    """What a run cost and how well it kept its invariants, in a few lines."""
+    from seacrane.report import energy_closure, speed, worst
+
+    stats = result.stats
+    fast = speed(result)
+    pace = f" ({fast:.0f} times real time)" if fast is not None else ""
+    lines = [
+        f"{stats['scene']}: {float(stats['simulated_s']):g} s in {float(stats['wall_s']):.3g} s{pace}, "
+        f"{stats['integrator']}, {stats['formulation']}",
+        f"steps {stats['steps']} ({stats['rejected_steps']} rejected), evaluations {stats['evaluations']}, "
+        f"states {stats['states']}",
+    ]
+    error = worst(result, "constraint_error")
+    if error is not None:
+        lines.append(f"worst constraint error {error:.2g} m or rad")
+    balance, closure = worst(result, "energy_balance"), energy_closure(result)
+    if balance is not None and closure is not None:
+        lines.append(f"worst energy balance {balance:.3g} J, {closure:.2g} of the absolute work")
+    if result.interrupted:
+        lines.append(f"interrupted: outputs end at {result.time[-1]:g} s")
+    return "\n".join(lines)

@@ -1,0 +1,109 @@
+"""A scene from what the user names: a built-in case, a data file, or a script."""
+
+from __future__ import annotations
+
+import argparse
+import contextlib
+import runpy
+import sys
+import traceback
+from collections.abc import Iterator
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from seacrane.errors import SceneError
+
+if TYPE_CHECKING:
+    from seacrane.scene import Scene
+
+CASES = ("case1", "case2", "case3", "vessel")
+CASE_OPTIONS = ("memory", "hs", "tp", "wave_direction_deg", "seed", "database")
+
+
+def load_scene(source: str, options: argparse.Namespace, *, scripts: bool) -> tuple[str, Scene]:
+    """The scene, and the name of its files.
+
+    Parameters
+    ----------
+    source : str
+        Name of a case, or path of a scene file or script.
+    options : Namespace
+        May hold `CASE_OPTIONS`; those that are None or absent keep the case's own values.
+    scripts : bool
+        Whether a script may be executed.
+
+    Raises
+    ------
+    SceneError
+        If there is no such scene, a script may not run or fails, or options do not apply.
+    """
+    given = {name: getattr(options, name, None) for name in CASE_OPTIONS}
+    given = {name: value for name, value in given.items() if value is not None}
+    if source in CASES:
+        return source, _built_in(source, given)
+    path = Path(source)
+    if given:
+        names = ", ".join(f"--{name.replace('_', '-')}" for name in given)
+        raise SceneError(f"{names} applies to the built-in cases only; set it inside {path.name}")
+    if not path.is_file():
+        raise SceneError(f"no scene {source!r}: it is neither one of {', '.join(CASES)} nor a file")
+    if path.suffix == ".py":
+        if not scripts:
+            raise SceneError(f"{path.name} is a script, and only `seacrane run` executes scripts")
+        return path.stem, run_script(path)
+    from seacrane.scene import Scene
+
+    return path.stem, Scene.load(path)
+
+
+def _built_in(name: str, options: dict[str, Any]) -> Scene:
+    from seacrane import cases
+
+    scene: Scene = getattr(cases, name)(**options)
+    return scene
+
+
+def run_script(path: Path) -> Scene:
+    """What the script's function ``scene()`` returns.
+
+    Raises
+    ------
+    SceneError
+        If the script fails (with its line), defines no ``scene()``, or returns something else.
+    """
+    from seacrane.scene import Scene
+
+    try:
+        with _importable(path.resolve().parent):
+            function = runpy.run_path(str(path), run_name="seacrane_scene").get("scene")
+            if not callable(function):
+                raise SceneError(f"{path.name} defines no function scene(); add one that returns a Scene")
+            scene = function()
+    except (Exception, SystemExit) as error:
+        line = _line_in(path, error)
+        if line is None and isinstance(error, SceneError):
+            raise
+        place = f"{path.name} line {line}" if line else path.name
+        raise SceneError(f"{place}: {type(error).__name__}: {error}") from error
+    if not isinstance(scene, Scene):
+        raise SceneError(f"scene() of {path.name} returns a {type(scene).__name__}; return a seacrane.Scene")
+    return scene
+
+
+@contextlib.contextmanager
+def _importable(folder: Path) -> Iterator[None]:
+    """Lets a script import what lies beside it, as `python script.py` would."""
+    sys.path.insert(0, str(folder))
+    try:
+        yield
+    finally:
+        with contextlib.suppress(ValueError):
+            sys.path.remove(str(folder))
+
+
+def _line_in(path: Path, error: BaseException) -> int | None:
+    if isinstance(error, SyntaxError):
+        return error.lineno
+    frames = traceback.extract_tb(error.__traceback__)
+    lines = [frame.lineno for frame in frames if frame.filename == str(path)]
+    return lines[-1] if lines else None
