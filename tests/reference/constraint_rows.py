@@ -1,9 +1,10 @@
 """Constraint equations by kind, each vectorised over its instances.
 
 Every row is c(q) - nu(t) = 0 with D v = nudot and D a = gamma + nuddot, v stacked as (velocity of the centre
-of mass, angular velocity), both inertial, body after body (paper eqs. 3, 7, 8). Kinds: `coincide` (two points,
-three rows), `perpendicular` (two body-fixed vectors), `slide` (distance along a vector fixed in the first
-body), `distance` (between two points), `spin` (angle about an axis), `attitude` (a yaw-pitch-roll angle).
+of mass, angular velocity), both inertial, body after body (paper eqs. 3, 7, 8). Kinds: `coincide` (two
+points, three rows), `perpendicular` (two body-fixed vectors), `slide` (distance along a vector fixed in
+the first body), `distance` (between two points), `spin` (angle about an axis), `attitude` (a
+yaw-pitch-roll angle).
 """
 
 from __future__ import annotations
@@ -13,7 +14,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from .kinematics import BodyVectors, VectorMotion
+from .kinematics import BodyVectors, Indices, VectorMotion
 from .reference_curves import ReferenceCurve
 from .rotation import (
     Array,
@@ -31,7 +32,9 @@ ROWS_PER_KIND = {"coincide": 3}
 
 @dataclass
 class RowValues:
-    """Residual (m), rate residual (m), matrix D (m, n + 1, 6) with the ground last, and right side gamma (m)."""
+    """Residual (m), rate residual (m), matrix D (m, n + 1, 6) with the ground last, and right side gamma
+    (m).
+    """
 
     residual: Array
     rate: Array
@@ -61,7 +64,9 @@ class ConstraintRows:
     entries: dict[str, list[tuple[float, ...]]] = field(default_factory=lambda: {kind: [] for kind in KINDS})
 
     def add(self, kind: str, joint: int, first: int, second: int, *data: float) -> int:
-        """Append an instance; `data` are vector indices then constants (see `freeze`). Returns its first row."""
+        """Append an instance; `data` are vector indices then constants (see `freeze`). Returns its first
+        row.
+        """
         row, height = self.count, ROWS_PER_KIND.get(kind, 1)
         self.entries[kind].append((row, first, second, *data))
         self.row_joint += [joint] * height
@@ -127,7 +132,7 @@ def wrap(angle: float) -> float:
     return math.remainder(angle, 2.0 * math.pi)
 
 
-Index = np.ndarray[tuple[int, int], np.dtype[np.int_]]
+Index = Indices
 
 
 def _coincide(out: RowValues, x: VectorMotion, index: Index, _: Array) -> None:
@@ -160,9 +165,7 @@ def _slide(out: RowValues, x: VectorMotion, index: Index, constant: Array) -> No
     out.matrix[row, first, 3:] = cross(a, d) - cross(x.g[i1], a)
     out.matrix[row, second, :3] = a
     out.matrix[row, second, 3:] = cross(x.g[i2], a)
-    out.gamma[row] = -(
-        dot(x.bias[axis], d) + 2.0 * dot(x.rate[axis], rate) + dot(a, x.bias[i2] - x.bias[i1])
-    )
+    out.gamma[row] = -(dot(x.bias[axis], d) + 2.0 * dot(x.rate[axis], rate) + dot(a, x.bias[i2] - x.bias[i1]))
 
 
 def _distance(out: RowValues, x: VectorMotion, index: Index, length: Array) -> None:

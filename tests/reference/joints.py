@@ -33,7 +33,8 @@ class Joint:
     """A joint of the compiled system.
 
     `p1`, `p2` are the body-vector indices of its point on either body, `axis` that of its axis on the first
-    body, `t1`, `t2` those of the perpendicular vectors on either body that measure its angle; -1 if it has none.
+    body, `t1`, `t2` those of the perpendicular vectors on either body that measure its angle; -1 if it has
+    none.
     """
 
     name: str
@@ -108,22 +109,22 @@ def add_joint(
     elif kind == "universal":
         a1, a2 = unit(record["axis"], f"{name} axis"), unit(record["second_axis"], f"{name} second_axis")
         if abs(float(a1 @ a2)) > SMALL:
-            raise ValueError(f"joint {name!r}: axis . second_axis = {a1 @ a2:.3g}; they must be perpendicular")
+            raise ValueError(
+                f"joint {name!r}: axis . second_axis = {a1 @ a2:.3g}; they must be perpendicular"
+            )
         rows.add("perpendicular", index, first, second, on(first, a1), on(second, a2))
     elif kind in ("revolute", "prismatic", "cylindrical", "planar"):
         a = unit(record["axis"], f"{name} axis")
         b1, b2 = perpendicular_pair(a)
         axis, t1, t2 = on(first, a), on(first, b1), on(second, b1)
-        u2, a2 = on(first, b2), on(second, a)
-        rows.add("perpendicular", index, first, second, t1, a2)
-        rows.add("perpendicular", index, first, second, u2, a2)
+        u2, along = on(first, b2), on(second, a)
+        rows.add("perpendicular", index, first, second, t1, along)
+        rows.add("perpendicular", index, first, second, u2, along)
         if kind == "prismatic":
             rows.add("perpendicular", index, first, second, u2, t2)
         if kind in ("prismatic", "cylindrical"):
             for across, direction in ((t1, b1), (u2, b2)):
-                rows.add(
-                    "slide", index, first, second, p1, p2, across, float(direction @ (other - point))
-                )
+                rows.add("slide", index, first, second, p1, p2, across, float(direction @ (other - point)))
         if kind == "planar":
             rows.add("slide", index, first, second, p1, p2, axis, float(a @ (other - point)))
     coordinate = float(record.get("coordinate", 0.0))
@@ -140,12 +141,21 @@ def body_index(name: Any, bodies: Mapping[str, int], owner: str) -> int:
 
 
 def add_driver(
-    joint: Joint, motion: str | None, curve: ReferenceCurve, start: Motion, vectors: BodyVectors, rows: ConstraintRows
+    joint: Joint,
+    motion: str | None,
+    curve: ReferenceCurve,
+    start: Motion,
+    vectors: BodyVectors,
+    rows: ConstraintRows,
 ) -> None:
-    """Prescribe the coordinate of a revolute or prismatic joint, or one motion of a free joint to the ground."""
+    """Prescribe the coordinate of a revolute or prismatic joint, or one motion of a free joint to the
+    ground.
+    """
     first, second = joint.first, joint.second
     if joint.kind == "revolute":
-        row = rows.add("spin", joint.index, first, second, joint.axis, joint.t1, joint.t2, joint.coordinate_start)
+        row = rows.add(
+            "spin", joint.index, first, second, joint.axis, joint.t1, joint.t2, joint.coordinate_start
+        )
         rows.drive(row, curve, is_angle=True)
     elif joint.kind == "prismatic":
         offset = start_extension(joint, start, vectors) - joint.coordinate_start
@@ -153,7 +163,9 @@ def add_driver(
         rows.drive(row, curve, is_angle=False)
     elif joint.kind == "free" and motion in MOTIONS:
         if first != len(start.r) - 1:
-            raise ValueError(f"driver of {joint.name!r}: the first body of a driven free joint must be the ground")
+            raise ValueError(
+                f"driver of {joint.name!r}: the first body of a driven free joint must be the ground"
+            )
         k = MOTIONS.index(motion)
         if k < 3:
             axis = vectors.add(first, start.rotation[first], np.eye(3)[k])
@@ -163,8 +175,8 @@ def add_driver(
         rows.drive(row, curve, is_angle=k >= 3)
     else:
         raise ValueError(
-            f"driver of {joint.name!r} ({joint.kind}, motion {motion!r}): drive a revolute or prismatic joint, "
-            f"or a free one with motion one of {list(MOTIONS)}"
+            f"driver of {joint.name!r} ({joint.kind}, motion {motion!r}): drive a revolute or prismatic "
+            f"joint, or a free one with motion one of {list(MOTIONS)}"
         )
 
 

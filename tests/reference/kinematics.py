@@ -5,9 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from .rotation import Array, cross
+
+Indices = NDArray[np.int_]
 
 
 @dataclass
@@ -66,18 +68,20 @@ class BodyVectors:
 
 @dataclass
 class VectorMotion:
-    """Inertial components g (k, 3), their rates, and their second derivatives without angular acceleration."""
+    """Inertial components g (k, 3), their rates, and their second derivatives without angular
+    acceleration.
+    """
 
     motion: Motion
-    owner: np.ndarray[tuple[int], np.dtype[np.int_]]
+    owner: Indices
     g: Array
     rate: Array
     bias: Array
 
-    def point(self, index: Array | int) -> Array:
+    def point(self, index: Indices | int) -> Array:
         """Inertial position of centre of mass plus vector."""
         return np.asarray(self.motion.r[self.owner[index]] + self.g[index])
 
-    def point_velocity(self, index: Array | int) -> Array:
+    def point_velocity(self, index: Indices | int) -> Array:
         """Inertial velocity of that point."""
         return np.asarray(self.motion.v[self.owner[index]] + self.rate[index])

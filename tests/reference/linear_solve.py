@@ -25,17 +25,27 @@ def solve_full_rank(mass: Array, rows: Array, force: Array, gamma: Array) -> tup
 def solve_redundant(
     mass: Array, rows: Array, force: Array, gamma: Array, rcond: float
 ) -> tuple[Array, Array]:
-    """Least constraint (Gauss) by singular values: unique a; of all multipliers those of least norm (SI)."""
+    """Least constraint (Gauss) by singular values: unique a; of all multipliers those of least norm (SI).
+
+    Rows count as dependent below `rcond` times the largest singular value, with rows of unit length in the
+    mass metric. A mechanism passing a singular position needs it well above the drift: a constraint error
+    c splits the branches there by sqrt(c), and a solver that resolves the gap turns into the other branch.
+    """
     factor = np.linalg.cholesky(mass)
     whitened = np.linalg.solve(factor, rows.T)
+    e = 1.0 / np.linalg.norm(whitened, axis=0)
     free = np.linalg.solve(factor, force)
-    u, sigma, vt = np.linalg.svd(whitened, full_matrices=False)
-    keep = sigma > rcond * sigma[0]
-    u, sigma, vt = u[:, keep], sigma[keep], vt[keep]
-    # whitened = u sigma vt, so the constraint reads vt^T sigma u^T a = gamma
-    along = (vt @ gamma) / sigma - u.T @ free
+    u, sigma, vt = np.linalg.svd(whitened * e)
+    count = int(np.sum(sigma > rcond * sigma[0]))
+    u, sigma, null, vt = u[:, :count], sigma[:count], vt[count:], vt[:count]
+    # whitened e = u sigma vt, so the constraint reads vt^T sigma u^T a = e gamma
+    along = (vt @ (e * gamma)) / sigma - u.T @ free
     acceleration = np.linalg.solve(factor.T, free + u @ along)
-    return acceleration, vt.T @ (along / sigma)
+    multipliers = e * (vt.T @ (along / sigma))
+    kernel = (null * e).T
+    if kernel.size:
+        multipliers -= kernel @ np.linalg.lstsq(kernel, multipliers, rcond=None)[0]
+    return acceleration, multipliers
 
 
 def rank(mass: Array, rows: Array, rcond: float = 1e-10) -> int:

@@ -66,7 +66,9 @@ def cosine(mean: float, amplitude: float, period: float, phase: float = 0.0) -> 
 def sequence(switch: list[float], pieces: list[ReferenceCurve]) -> ReferenceCurve:
     """Piece k from time switch[k-1] (included) to switch[k]."""
     if len(pieces) != len(switch) + 1 or sorted(switch) != list(switch):
-        raise ValueError(f"sequence with switch times {switch} needs them rising and one more piece than times")
+        raise ValueError(
+            f"sequence with switch times {switch} needs them rising and one more piece than times"
+        )
     breaks = sorted({*switch, *(b for piece in pieces for b in piece.breaks)})
     return ReferenceCurve(lambda t: pieces[bisect.bisect_right(switch, t)](t), tuple(breaks))
 

@@ -12,7 +12,9 @@ Array = NDArray[np.float64]
 
 
 def cross(a: NDArray[Any], b: NDArray[Any]) -> NDArray[Any]:
-    """Cross product over the last axis (broadcasting; several times faster than `np.cross` on small arrays)."""
+    """Cross product over the last axis (broadcasting; several times faster than `np.cross` on small
+    arrays).
+    """
     a0, a1, a2 = a[..., 0], a[..., 1], a[..., 2]
     b0, b1, b2 = b[..., 0], b[..., 1], b[..., 2]
     return np.stack([a1 * b2 - a2 * b1, a2 * b0 - a0 * b2, a0 * b1 - a1 * b0], axis=-1)
@@ -65,7 +67,8 @@ def matrix_from_quaternion(quaternion: ArrayLike) -> Array:
 
 
 def quaternions_from_matrices(matrices: Array) -> Array:
-    """Quaternions (time, body, 4) of matrices (time, body, 3, 3), continuous in sign along time, w >= 0 first.
+    """Quaternions (time, body, 4) of matrices (time, body, 3, 3), continuous in sign along time, w >= 0
+    first.
 
     The quaternion is the eigenvector of the largest eigenvalue of Bar-Itzhack's symmetric 4x4 matrix.
     """

@@ -1,4 +1,6 @@
-"""Integration in time: SciPy's `solve_ivp` on the index-1 form, projected between intervals and at outputs."""
+"""Integration in time: SciPy's `solve_ivp` on the index-1 form, projected between intervals and at
+outputs.
+"""
 
 from __future__ import annotations
 
@@ -76,8 +78,8 @@ def simulate(
     (k, joints, 3), `multipliers` (k, m), `driver_load` (k, drivers), `actuator_load` (k, actuators),
     `coordinate`, `coordinate_rate` (k, revolute and sliding joints), `constraint_error`,
     `constraint_rate_error`, `constraint_error_before_projection`, `energy`, `energy_balance`,
-    `absolute_work` (k); with a vessel `vessel_motion`, `wave_force`, `memory_force` (k, 6) and `memory_state`;
-    `names` (dict of lists) and `stats` (dict of counters).
+    `absolute_work` (k); with a vessel `vessel_motion`, `wave_force`, `memory_force` (k, 6) and
+    `memory_state`; `names` (dict of lists) and `stats` (dict of counters).
 
     Raises
     ------

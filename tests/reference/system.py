@@ -1,7 +1,7 @@
 """Rigid bodies, joints, forces and one vessel from plain records; accelerations and multipliers by eq. (35).
 
-Schema of `System.from_records` (JSON types; SI, radians; every point and axis is given in the inertial frame in
-the start pose; "ground" or null is the fixed ground):
+Schema of `System.from_records` (JSON types; SI, radians; every point and axis is given in the inertial
+frame in the start pose; "ground" or null is the fixed ground):
 
 ``gravity``        [gx, gy, gz], default [0, 0, -9.81]; not applied to the vessel's body
 ``bodies``         list of {name, mass, inertia (3x3 about the centre of mass, body axes), position (centre of
@@ -9,21 +9,24 @@ the start pose; "ground" or null is the fixed ground):
                    gravity? (false: no weight)}
 ``joints``         list of {kind, name, first, second, point, axis?, second_axis?, second_point?, length?,
                    coordinate? (value at the start, default 0)}; kinds: weld revolute prismatic cylindrical
-                   universal spherical planar distance free. `point` is the point on the first body and, unless
-                   `second_point` is given, on the second too. universal: `axis` is fixed on the first body,
-                   `second_axis` on the second. planar: `axis` is the normal, fixed on the first body. distance:
-                   from `point` to `second_point`, `length` defaulting to their distance at the start
+                   universal spherical planar distance free. `point` is the point on the first body and,
+                   unless `second_point` is given, on the second too. universal: `axis` is fixed on the
+                   first body, `second_axis` on the second. planar: `axis` is the normal, fixed on the
+                   first body. distance: from `point` to `second_point`, `length` defaulting to their
+                   distance at the start
 ``drivers``        list of {joint, motion? (free joints: surge sway heave roll pitch yaw; the position of
                    `point` in the inertial frame and yaw-pitch-roll angles), reference (curve)}
-``actuators``      list of {joint, stiffness, damping, feedforward, reference (curve)}; the load on the second body
-                   along (about) the axis is stiffness (ref - s) + damping (refdot - sdot) + feedforward
+``actuators``      list of {joint, stiffness, damping, feedforward, reference (curve)}; the load on the
+                   second body along (about) the axis is stiffness (ref - s) + damping (refdot - sdot) +
+                   feedforward
 ``springs``        list of {first, second, first_point, second_point, stiffness, damping, rest_length}
 ``point_forces``   list of {body, point, force ([fx, fy, fz] in the inertial frame, or a function of time)}
-``vessel``         {body, reference_point (default origin), rest_position (default reference_point), added_mass,
-                   damping, restoring (6x6 at the reference point, yaw-following frame), quadratic_roll_damping,
-                   station_keeping {stiffness [kx, ky, kpsi], damping [...]}, constant_load (6, yaw-following),
-                   memory {A, B, C, D} or {blocks: [{inputs, outputs, A, B, C, D?}]} (0-based motions),
-                   waves {omega (k), force_real (k, 6), force_imag (k, 6)}: F(t) = Re sum F_k exp(i omega_k t)}
+``vessel``         {body, reference_point (default origin), rest_position (default reference_point),
+                   added_mass, damping, restoring (6x6 at the reference point, yaw-following frame),
+                   quadratic_roll_damping, station_keeping {stiffness [kx, ky, kpsi], damping [...]},
+                   constant_load (6, yaw-following), memory {A, B, C, D} or {blocks: [{inputs, outputs, A,
+                   B, C, D?}]} (0-based motions), waves {omega (k), force_real (k, 6), force_imag (k, 6)}:
+                   F(t) = Re sum F_k exp(i omega_k t)}
 
 Curves are described in `reference_curves`. Unknown keys are refused.
 """
@@ -46,8 +49,7 @@ from .rotation import Array, cross, dot, matrix_from_quaternion, nearest_rotatio
 from .vessel import Vessel, VesselLoads, WaveLoads
 
 KEYS = {"gravity", "bodies", "joints", "drivers", "actuators", "springs", "point_forces", "vessel"}
-DYNAMICS_RCOND = 1e-11
-PROJECTION_RCOND = 1e-5
+RCOND = 1e-4  # for redundant systems only: see `solve_redundant`
 
 
 @dataclass(frozen=True)
@@ -98,7 +100,9 @@ class System:
             joint = by_name[record["joint"]]
             curve = reference_curves.from_record(record["reference"])
             add_driver(joint, record.get("motion"), curve, self.start, self.vectors, self.rows)
-            self.driver_names.append(record["joint"] + (f".{record['motion']}" if record.get("motion") else ""))
+            self.driver_names.append(
+                record["joint"] + (f".{record['motion']}" if record.get("motion") else "")
+            )
         self.coordinates = JointCoordinates(self.joints, self.start, self.vectors)
         self.actuators = Actuators(records.get("actuators", []), by_name, self.coordinates)
         self.springs = Springs(records.get("springs", []), index, self.start, self.vectors)
@@ -206,7 +210,7 @@ class System:
             power += vessel.power
             memory_rate = vessel.memory_rate
 
-        acceleration, multipliers = self.solve(mass, values, wrench[:-1].ravel(), values.gamma, DYNAMICS_RCOND)
+        acceleration, multipliers = self.solve(mass, values, wrench[:-1].ravel(), values.gamma, RCOND)
         for driver, rate in zip(self.rows.drivers, self.rows.driver_rates(t), strict=True):
             power += multipliers[driver.row] * rate
         return Evaluation(
@@ -218,13 +222,15 @@ class System:
     ) -> tuple[Array, Array]:
         """Solve eq. (35) for one right-hand side."""
         if not self.rows.count:
-            return np.linalg.solve(mass, force), np.zeros(0)
+            return np.asarray(np.linalg.solve(mass, force), dtype=float), np.zeros(0)
         if self.redundant:
             return solve_redundant(mass, self.matrix(values), force, gamma, rcond)
         return solve_full_rank(mass, self.matrix(values), force, gamma)
 
     def reactions(self, e: Evaluation) -> tuple[Array, Array]:
-        """Constraint force and moment (joints, 3) on the second body, inertial frame, at the joint's point."""
+        """Constraint force and moment (joints, 3) on the second body, inertial frame, at the joint's
+        point.
+        """
         count = len(self.joints)
         wrench = np.zeros((count + 1, 6))
         rows = np.arange(self.rows.count)
@@ -245,7 +251,9 @@ class System:
         return np.array([e.multipliers[d.row] for d in self.rows.drivers])
 
     def project(self, t: float, motion: Motion, memory: Array) -> Motion:
-        """Nearest motion, in the mass metric, that satisfies the constraints on position and velocity level."""
+        """Nearest motion, in the mass metric, that satisfies the constraints on position and velocity
+        level.
+        """
         out = motion.copy()
         out.rotation[:-1] = nearest_rotation(out.rotation[:-1])
         if not self.rows.count:
@@ -260,13 +268,13 @@ class System:
             if error < 1e-13 or error > 0.5 * best:
                 break
             best = error
-            step, _l = self.solve(mass, values, zero, -values.residual, PROJECTION_RCOND)
+            step, _l = self.solve(mass, values, zero, -values.residual, RCOND)
             self._displace(out, step)
         if not error < 1e-7:
             joint = int(self.rows.joint_of_row[int(np.argmax(np.abs(values.residual)))])
             worst = self.joint_names[joint] if joint >= 0 else "driver"
             raise ValueError(f"joint {worst!r} does not close at t = {t} s: residual {error:.3g} m or rad")
-        correction, _l = self.solve(mass, values, zero, -values.rate, PROJECTION_RCOND)
+        correction, _l = self.solve(mass, values, zero, -values.rate, RCOND)
         step = correction.reshape(-1, 6)
         out.v[:-1] += step[:, :3]
         out.w[:-1] += step[:, 3:]

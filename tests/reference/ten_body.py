@@ -1,7 +1,7 @@
 """Records of a ten-body knuckle-boom crane on a vessel with two cylinder loops and a payload.
 
-The topology is the paper's; masses follow its list, the geometry is this file's own (any plausible one serves).
-The crane stands at (33, 10, 10) m from the vessel's reference point, jibs pointing aft at the start.
+The topology is the paper's; masses follow its list, the geometry is this file's own (any plausible one
+serves). The crane stands at (33, 10, 10) m from the vessel's reference point, jibs pointing aft at the start.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ BASE = np.array([33.0, 10.0, 10.0])
 AFT = np.array([-1.0, 0.0, 0.0])
 UP = np.array([0.0, 0.0, 1.0])
 PIVOT_AXIS = [0.0, 1.0, 0.0]
-MAIN_ANGLE, KNUCKLE_ANGLE = math.radians(42.0), math.radians(-50.0)
+MAIN_ANGLE, KNUCKLE_ANGLE = math.radians(18.0), math.radians(-70.0)
 MAIN_LENGTH, KNUCKLE_LENGTH, LINK = 23.0, 14.5, 8.0
 
 
@@ -54,18 +54,18 @@ def body(name: str, mass: float, start: Array, end: Array, radius: float) -> dic
 def points() -> dict[str, Array]:
     """Joint points A to G, the tip, and the slew axis at the start, inertial frame."""
     a = BASE + 8.0 * UP
-    c = BASE + 16.0 * UP + 1.0 * AFT
+    c = BASE + 17.0 * UP + 1.0 * AFT
     main, knuckle = direction(MAIN_ANGLE), direction(KNUCKLE_ANGLE)
     f = c + MAIN_LENGTH * main
     return {
         "deck": BASE,
         "A": a,
-        "B": BASE + 10.5 * UP + 3.0 * AFT,
+        "B": BASE + 9.0 * UP + 2.5 * AFT,
         "C": c,
-        "D": c + 9.0 * main - 1.0 * normal(MAIN_ANGLE),
-        "E": c + 13.0 * main + 1.5 * normal(MAIN_ANGLE),
+        "D": c + 10.0 * main - 1.0 * normal(MAIN_ANGLE),
+        "E": c + 13.0 * main - 1.5 * normal(MAIN_ANGLE),
         "F": f,
-        "G": f + 3.0 * knuckle + 2.2 * normal(KNUCKLE_ANGLE),
+        "G": f + 3.5 * knuckle - 2.0 * normal(KNUCKLE_ANGLE),
         "tip": f + KNUCKLE_LENGTH * knuckle,
     }
 
@@ -105,11 +105,11 @@ def crane_joints(p: dict[str, Array], base: str | None) -> list[dict[str, Any]]:
         along = (p[high] - p[low]) / np.linalg.norm(p[high] - p[low])
         across = np.cross(PIVOT_AXIS, along)
         out += [
-            joint("universal", low, carrier, f"{name}_barrel", low, axis=PIVOT_AXIS, second_axis=across.tolist()),
-            joint("spherical", high, f"{name}_rod", load, high),
             joint(
-                "prismatic", f"{name}_cylinder", f"{name}_barrel", f"{name}_rod", low, axis=along.tolist()
+                "universal", low, carrier, f"{name}_barrel", low, axis=PIVOT_AXIS, second_axis=across.tolist()
             ),
+            joint("spherical", high, f"{name}_rod", load, high),
+            joint("prismatic", f"{name}_cylinder", f"{name}_barrel", f"{name}_rod", low, axis=along.tolist()),
         ]
     return out
 
@@ -174,7 +174,9 @@ def vessel_records() -> tuple[dict[str, Any], dict[str, Any]]:
 
 
 def memory_record() -> dict[str, Any]:
-    """Passive pairs of states K(t) = k exp(-a t) (cos b t - (a/b) sin b t), whose damping is never negative."""
+    """Passive pairs of states K(t) = k exp(-a t) (cos b t - (a/b) sin b t), whose damping is never
+    negative.
+    """
     blocks = []
     decay, frequency = 0.35, 0.9
     a = np.array([[-decay, frequency], [-frequency, -decay]])
@@ -197,7 +199,9 @@ def wave_record(count: int = 40, seed: int = 7) -> dict[str, Any]:
 
 
 def records(*, payload: bool = True, vessel: bool = True, case: int | None = None) -> dict[str, Any]:
-    """Scene without actuators; with a case number (1 to 3), balanced and controlled as the paper describes."""
+    """Scene without actuators; with a case number (1 to 3), balanced and controlled as the paper
+    describes.
+    """
     p = points()
     bodies, joints = crane_bodies(p), crane_joints(p, "vessel" if vessel else None)
     out: dict[str, Any] = {"gravity": [0.0, 0.0, -9.81]}

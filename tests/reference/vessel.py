@@ -7,13 +7,12 @@ u = P^T V, the load on the reference point is
 
     x' = Am x + Bm u,   mu = Cm x + Dm u.
 
-Restoring is -grad of 1/2 eta^T C eta, eta = (0, 0, heave, roll, pitch, 0) from rest with yaw-pitch-roll angles;
-station keeping -grad of 1/2 (kx x^2 + ky y^2 + kpsi psi^2) with dampers on the rates of x, y and psi.
+Restoring is -grad of 1/2 eta^T C eta, eta = (0, 0, heave, roll, pitch, 0) from rest with yaw-pitch-roll
+angles; station keeping -grad of 1/2 (kx x^2 + ky y^2 + kpsi psi^2) with dampers on the rates of x, y and psi.
 """
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
@@ -42,7 +41,9 @@ class MemoryModel:
 
     @classmethod
     def from_record(cls, record: Mapping[str, Any] | None) -> MemoryModel:
-        """Full matrices A, B, C, D, or blocks with 0-based `inputs` and `outputs` that are placed and summed."""
+        """Full matrices A, B, C, D, or blocks with 0-based `inputs` and `outputs` that are placed and
+        summed.
+        """
         if not record:
             return cls.none()
         blocks = record.get("blocks")
@@ -70,9 +71,7 @@ class MemoryModel:
         n, m = len(self.a), len(other.a)
         a = np.zeros((n + m, n + m))
         a[:n, :n], a[n:, n:] = self.a, other.a
-        return MemoryModel(
-            a, np.vstack([self.b, other.b]), np.hstack([self.c, other.c]), self.d + other.d
-        )
+        return MemoryModel(a, np.vstack([self.b, other.b]), np.hstack([self.c, other.c]), self.d + other.d)
 
     def transfer(self, omega: float) -> np.ndarray[Any, np.dtype[np.complex128]]:
         """Complex retardation function K(i omega) (6, 6)."""
@@ -81,11 +80,15 @@ class MemoryModel:
 
 
 def waves_from_record(record: Mapping[str, Any] | None) -> WaveLoads | None:
-    """Loads t -> Re sum_k F_k exp(i omega_k t) (6), F_k = force_real + i force_imag including the amplitude."""
+    """Loads t -> Re sum_k F_k exp(i omega_k t) (6), F_k = force_real + i force_imag including the
+    amplitude.
+    """
     if not record:
         return None
     omega = np.asarray(record["omega"], dtype=float)
-    amplitude = np.asarray(record["force_real"], dtype=float) + 1j * np.asarray(record["force_imag"], dtype=float)
+    amplitude = np.asarray(record["force_real"], dtype=float) + 1j * np.asarray(
+        record["force_imag"], dtype=float
+    )
     if amplitude.shape != (len(omega), 6):
         raise ValueError(f"waves: force has shape {amplitude.shape}, needs ({len(omega)}, 6)")
     transposed = np.ascontiguousarray(amplitude.T)
@@ -126,7 +129,9 @@ class Vessel:
         stiff = self.restoring.copy()
         stiff[2:5, 2:5] = 0.0
         if np.any(stiff) or not np.allclose(self.restoring, self.restoring.T):
-            raise ValueError("vessel restoring: must be symmetric, with entries in heave, roll and pitch only")
+            raise ValueError(
+                "vessel restoring: must be symmetric, with entries in heave, roll and pitch only"
+            )
         self.quadratic_roll = float(record.get("quadratic_roll_damping", 0.0))
         station = record.get("station_keeping") or {}
         self.station_stiffness = np.asarray(station.get("stiffness", [0.0] * 3), dtype=float)

@@ -1,0 +1,235 @@
+"""Mechanisms with one degree of freedom in one coordinate: 3D slider-crank and planar four-bar.
+
+With generalised inertia m(q) = sum m p'.p' + w'.J w' (' by q) the motion obeys m q'' + 1/2 dm/dq qdot^2 =
+Q - dV/dq.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from .classic import Link, integrate
+from .jets import Jet
+from .rotation import Array
+
+JetVector = list[Jet]
+
+
+@dataclass(frozen=True)
+class Moving:
+    """Kinematics of one body along q: centre of mass p, p', p''; rotation and w = dR/dq R^T as vectors w,
+    w'.
+    """
+
+    mass: float
+    inertia: Array
+    p: JetVector
+    axes: list[JetVector]
+
+    def terms(self) -> tuple[float, float, Array, Array, Array]:
+        """(m(q), 1/2 dm/dq, p, p', w) with the inertia given in body axes."""
+        p, p1, p2 = (np.array([getattr(c, k) for c in self.p]) for k in ("f", "d", "dd"))
+        r, r1, r2 = (np.array([[getattr(c, k) for c in a] for a in self.axes]).T for k in ("f", "d", "dd"))
+        spin, spin_rate = r.T @ r1, r1.T @ r1 + r.T @ r2  # S(w) in body axes and its derivative by q
+        w = np.array([spin[2, 1], spin[0, 2], spin[1, 0]])
+        antisymmetric = 0.5 * (spin_rate - spin_rate.T)
+        w1 = np.array([antisymmetric[2, 1], antisymmetric[0, 2], antisymmetric[1, 0]])
+        momentum = self.inertia @ w
+        return (
+            float(self.mass * p1 @ p1 + w @ momentum),
+            float(self.mass * p1 @ p2 + w1 @ momentum),
+            p,
+            p1,
+            r @ w,
+        )
+
+
+Kinematics = Callable[[Jet], list[Moving]]
+
+
+@dataclass(frozen=True)
+class SingleCoordinate:
+    """Mechanism given by the motion of its bodies along one coordinate, under gravity and a constant load
+    on it.
+    """
+
+    kinematics: Kinematics
+    gravity: Array
+    load: float = 0.0
+
+    def simulate(self, times: ArrayLike, q: float, rate: float) -> tuple[Array, Array]:
+        """Coordinate and rate (k)."""
+        y = integrate(lambda _, s: [s[1], self.acceleration(s[0], s[1])], [q, rate], times)
+        return y[:, 0], y[:, 1]
+
+    def acceleration(self, q: float, rate: float) -> float:
+        inertia = slope = force = 0.0
+        for body in self.kinematics(Jet(q, 1.0)):
+            m, half_slope, _, p1, _ = body.terms()
+            inertia, slope = inertia + m, slope + half_slope
+            force += body.mass * float(self.gravity @ p1)
+        return (self.load + force - slope * rate * rate) / inertia
+
+    def poses(self, q: ArrayLike) -> tuple[Array, Array]:
+        """Centres of mass (k, bodies, 3) and rotation matrices (k, bodies, 3, 3)."""
+        states = [self.kinematics(Jet(float(value), 1.0)) for value in np.asarray(q, dtype=float)]
+        positions = [[[c.f for c in body.p] for body in state] for state in states]
+        rotations = [[[[c.f for c in a] for a in body.axes] for body in state] for state in states]
+        return np.array(positions), np.array(rotations).transpose(0, 1, 3, 2)
+
+    def energy(self, q: float, rate: float) -> float:
+        """Kinetic plus potential energy, without the load's work."""
+        total = 0.0
+        for body in self.kinematics(Jet(q, 1.0)):
+            m, _, p, _, _ = body.terms()
+            total += 0.5 * m * rate * rate - body.mass * float(self.gravity @ p)
+        return total
+
+
+def add(a: JetVector, b: JetVector) -> JetVector:
+    return [x + y for x, y in zip(a, b, strict=True)]
+
+
+def scale(a: JetVector, factor: Jet | float) -> JetVector:
+    return [x * factor for x in a]
+
+
+def inner(a: JetVector, b: JetVector) -> Jet:
+    return sum((x * y for x, y in zip(a, b, strict=True)), Jet(0.0))
+
+
+def outer_product(a: JetVector, b: JetVector) -> JetVector:
+    """Vector (cross) product."""
+    return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+
+
+def fixed(values: Sequence[float] | Array) -> JetVector:
+    return [Jet(float(v)) for v in values]
+
+
+@dataclass(frozen=True)
+class SliderCrank:
+    """Spatial slider-crank: crank on the x axis, rod on a spherical joint, universal joint on a slider
+    along x.
+
+    The crank pin is at (0, a cos q, a sin q) + pivot; the slider's point at (s, 0, 0). The rod's body axes
+    are its direction e from pin to slider, then n = (y axis x e)/|.|, then e x n; the universal joint's
+    axes are the y axis (on the slider) and n (on the rod), so n stays perpendicular to y. Rod centre of
+    mass: midpoint.
+    """
+
+    crank: Link
+    pivot: tuple[float, float, float]
+    rod_mass: float
+    rod_length: float
+    rod_inertia: tuple[float, float, float]
+    slider_mass: float
+
+    def kinematics(self, q: Jet) -> list[Moving]:
+        """Crank, rod, slider; the crank's body axes are x, then along the crank, then their product."""
+        c, s, zero = q.cos(), q.sin(), Jet(0.0)
+        along = [zero, c, s]
+        pivot = fixed(self.pivot)
+        pin = add(pivot, scale(along, self.crank.length))
+        reach = self.rod_length**2 - pin[1] * pin[1] - pin[2] * pin[2]
+        end = [pin[0] + reach.sqrt(), zero, zero]
+        e = scale(add(end, scale(pin, -1.0)), 1.0 / self.rod_length)
+        n = outer_product(fixed([0.0, 1.0, 0.0]), e)
+        n = scale(n, inner(n, n).sqrt().reciprocal())
+        crank_axes = [fixed([1.0, 0.0, 0.0]), along, [zero, -s, c]]
+        return [
+            Moving(
+                self.crank.mass,
+                np.diag([self.crank.inertia] * 3),
+                add(pivot, scale(along, self.crank.center)),
+                crank_axes,
+            ),
+            Moving(
+                self.rod_mass,
+                np.diag(self.rod_inertia),
+                scale(add(pin, end), 0.5),
+                [e, n, outer_product(e, n)],
+            ),
+            Moving(self.slider_mass, np.eye(3), end, [fixed(row) for row in np.eye(3)]),
+        ]
+
+    def mechanism(self, gravity: Sequence[float] = (0.0, 0.0, -9.81), load: float = 0.0) -> SingleCoordinate:
+        return SingleCoordinate(self.kinematics, np.asarray(gravity, dtype=float), load)
+
+
+@dataclass(frozen=True)
+class ChangePointFourBar:
+    """Planar four-bar in the x-y plane with a + d = b + c, through its flat (singular) position at q = pi.
+
+    Crank a at the origin, coupler b, rocker c at (d, 0, 0). With f^2 = a^2 + d^2 - 2 a d cos q the elbow
+    height h obeys 4 f^2 h^2 = [(b+c)^2 - f^2] [f^2 - (b-c)^2], whose first factor is exactly 4 a d
+    cos^2(q/2): taking the signed root 2 sqrt(a d) cos(q/2) gives the branch that is smooth through the
+    flat position, period 4 pi. For a parallelogram (a = c, b = d) the second factor is 4 a d sin^2(q/2),
+    and its signed root is used too; with a = b = c = d use q away from 0, where crank and rocker pins
+    coincide with each other's pivots.
+    """
+
+    crank: Link
+    coupler: Link
+    rocker: Link
+    ground: float
+
+    def __post_init__(self) -> None:
+        a, b, c, d = self.crank.length, self.coupler.length, self.rocker.length, self.ground
+        if not math.isclose(a + d, b + c, rel_tol=1e-12):
+            raise ValueError(f"four-bar a={a}, b={b}, c={c}, d={d}: a change point needs a + d = b + c")
+        if not self.parallelogram and not abs(a - d) > abs(b - c):
+            raise ValueError(
+                f"four-bar a={a}, b={b}, c={c}, d={d}: needs |a - d| > |b - c| or a parallelogram"
+            )
+
+    @property
+    def parallelogram(self) -> bool:
+        return math.isclose(self.crank.length, self.rocker.length) and math.isclose(
+            self.coupler.length, self.ground
+        )
+
+    def kinematics(self, q: Jet) -> list[Moving]:
+        """Crank, coupler, rocker, each with its first body axis along the link (from its pivot or the
+        crank pin).
+        """
+        a, b, c, d = self.crank.length, self.coupler.length, self.rocker.length, self.ground
+        zero = Jet(0.0)
+        crank = [q.cos(), q.sin(), zero]
+        pin = scale(crank, a)
+        to_pivot = add(fixed([d, 0.0, 0.0]), scale(pin, -1.0))
+        square = inner(to_pivot, to_pivot)
+        half = q * 0.5
+        first = half.cos() * (2.0 * math.sqrt(a * d))
+        if self.parallelogram:
+            second = half.sin() * (2.0 * math.sqrt(a * d))
+        else:
+            second = (square - (b - c) ** 2).sqrt()
+        along = (square + b * b - c * c) / (2.0 * square)
+        height = first * second / (2.0 * square)
+        # elbow = pin + along (pivot - pin) + height (pivot - pin) turned by a quarter
+        turned = [-to_pivot[1], to_pivot[0], zero]
+        elbow = add(pin, add(scale(to_pivot, along), scale(turned, height)))
+        coupler = scale(add(elbow, scale(pin, -1.0)), 1.0 / b)
+        rocker = scale(add(elbow, fixed([-d, 0.0, 0.0])), 1.0 / c)
+        return [
+            planar(self.crank, fixed([0.0, 0.0, 0.0]), crank),
+            planar(self.coupler, pin, coupler),
+            planar(self.rocker, fixed([d, 0.0, 0.0]), rocker),
+        ]
+
+    def mechanism(self, gravity: Sequence[float] = (0.0, 0.0, 0.0), load: float = 0.0) -> SingleCoordinate:
+        return SingleCoordinate(self.kinematics, np.asarray(gravity, dtype=float), load)
+
+
+def planar(link: Link, pivot: JetVector, along: JetVector) -> Moving:
+    """A link turning in the x-y plane."""
+    across = [-along[1], along[0], Jet(0.0)]
+    inertia = np.diag([link.inertia, link.inertia, link.inertia])
+    axes = [along, across, fixed([0.0, 0.0, 1.0])]
+    return Moving(link.mass, inertia, add(pivot, scale(along, link.center)), axes)
