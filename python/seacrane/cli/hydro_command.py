@@ -19,9 +19,12 @@ def run(arguments: argparse.Namespace) -> int:
     rows: list[dict[str, Any]] = [{name: getattr(row, name) for name in COLUMNS} for row in database.check()]
     print(to_json(rows) if arguments.json else _as_text(rows))
     if arguments.out is not None:
+        from seacrane.hydro import fit_memory
         from seacrane.hydro_figures import save_hydro_figures
 
-        pictures = save_hydro_figures(database=database, folder=output_folder(arguments.out))
+        folder = output_folder(arguments.out)
+        memory = database.memory or fit_memory(database=database)
+        pictures = save_hydro_figures(database=database, folder=folder, memory=memory)
         if not arguments.json:
             print("\n".join(f"saved {picture.image}" for picture in pictures))
     return 0

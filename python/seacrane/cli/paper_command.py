@@ -25,11 +25,11 @@ T_END, DT_OUT = 100.0, 0.1
 TITLE = "Offshore crane and vessel in waves: the lift cases of Landsverk, Zhou and Hovland"
 SUMMARY = (
     "The vessel alone in waves, with and without fluid memory, and three cases of its crane swinging out to "
-    "port: without payload (case 1), with a payload of 10 t (case 2), and with cylinders that oscillate with a "
-    "5 s period from 50 s on (case 3).",
-    "The paper publishes no data and leaves parts of its model open; masses, geometry, hull, sea and control are "
-    "our choices within what it states. The findings below compare numbers of these runs with what it says in "
-    "words.",
+    "port: without payload (case 1), with a payload of 10 t (case 2), and with cylinders that oscillate with "
+    "a 5 s period from 50 s on (case 3).",
+    "The paper publishes no data and leaves parts of its model open; masses, geometry, hull, sea and control "
+    "are our choices within what it states. The findings below compare numbers of these runs with what it "
+    "says in words.",
 )
 
 
@@ -55,7 +55,7 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def _simulate(name: str) -> Result:
-    from seacrane import cases
+    import seacrane.cases as cases
     from seacrane.simulation import simulate
 
     case, options = RUNS[name]
@@ -82,7 +82,7 @@ def draw(runs: dict[str, Result], folder: Path) -> tuple[list[Picture], list[Fin
 def _write_report(
     folder: Path, runs: dict[str, Result], pictures: list[Picture], findings: list[Finding]
 ) -> Path:
-    from seacrane import cases
+    import seacrane.cases as cases
     from seacrane.report import write_report
 
     return write_report(

@@ -57,7 +57,7 @@ def load_scene(source: str, options: argparse.Namespace, *, scripts: bool) -> tu
 
 
 def _built_in(name: str, options: dict[str, Any]) -> Scene:
-    from seacrane import cases
+    import seacrane.cases as cases
 
     scene: Scene = getattr(cases, name)(**options)
     return scene

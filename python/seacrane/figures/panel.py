@@ -118,11 +118,15 @@ def draw(sheet: Sheet) -> Figure:
         _draw_panel(cell, panel, sheet.abscissa, legend=not shared)
     for cell in cells[len(sheet.panels) :]:
         cell.set_visible(False)
-    for cell in grid[-1]:
-        cell.set_xlabel(f"{sheet.abscissa_name} [{sheet.abscissa_unit}]")
+    for column in grid.T:
+        lowest = [cell for cell in column if cell.get_visible()][-1:]
+        for cell in lowest:
+            cell.set_xlabel(f"{sheet.abscissa_name} [{sheet.abscissa_unit}]")
+            cell.tick_params(labelbottom=True)
     if shared and any(labels[0]):
         handles, names = cells[0].get_legend_handles_labels()
-        figure.legend(handles, names, loc="outside lower center", ncols=len(names), fontsize=9, frameon=False)
+        columns = min(6, len(names))
+        figure.legend(handles, names, loc="outside lower center", ncols=columns, fontsize=9, frameon=False)
     figure.suptitle(sheet.title, fontsize=11)
     return figure
 
