@@ -13,6 +13,7 @@ from seacrane.hydro.database import AdditionalMatrices, HydroDatabase, RollDampi
 from seacrane.hydro.memory import fit_memory
 from seacrane.hydro.memory_model import FitRow, MemoryBlock, MemoryModel, Passivity
 from seacrane.hydro.motion import motion_response, natural_frequency
+from seacrane.hydro.veres import find_stem, read_veres
 from seacrane.hydro.vessel import (
     MemoryFitWarning,
     RigidPart,
@@ -21,7 +22,6 @@ from seacrane.hydro.vessel import (
     rigid_mass_matrix,
     vessel_parameters,
 )
-from seacrane.hydro.veres import find_stem, read_veres
 
 __all__ = [
     "AdditionalMatrices",
@@ -55,8 +55,8 @@ def load_database(path: str | PathLike[str]) -> HydroDatabase:
 
     Raises
     ------
-    FileFormatError : nothing readable at ``path``; the message names the file, the line where there is one, and
-        the supported kinds.
+    FileFormatError : nothing readable at ``path``; the message names the file, the line where there is one,
+        and the supported kinds.
     """
     source = Path(path)
     if source.is_file() and source.suffix.lower() in (".nc", ".nc4"):
@@ -76,5 +76,5 @@ def _is_veres(path: Path) -> bool:
 
 @cache
 def shipped_database() -> HydroDatabase:
-    """The database of the 115 m hull that comes with the package, memory model included (immutable, read once)."""
+    """The database of the 115 m hull that comes with the package, memory included; read once, immutable."""
     return HydroDatabase.load(Path(str(files("seacrane") / "data" / "hull_115.nc")))

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane.hydro.memory_model import MemoryModel
-from seacrane.hydro.vessel import vessel_parameters
+from seacrane.hydro.vessel import time_domain_vessel
 
 if TYPE_CHECKING:
     from seacrane.hydro.database import HydroDatabase
@@ -19,14 +19,14 @@ FloatArray = NDArray[np.float64]
 def largest_growth_rate(database: HydroDatabase, model: MemoryModel) -> float:
     """Largest real part (1/s) among the eigenvalues of the freely floating vessel with its memory.
 
-    Positions of motions without restoring (surge, sway, yaw) are left out of the state: nothing depends on them, and
-    they would add eigenvalues of zero. A positive value means that motions grow from nothing.
+    Positions of motions without restoring (surge, sway, yaw) are left out of the state: nothing depends on
+    them, and they would add eigenvalues of zero. A positive value means that motions grow from nothing.
     """
     return float(np.linalg.eigvals(_system(database, model)).real.max())
 
 
 def _system(database: HydroDatabase, model: MemoryModel) -> FloatArray:
-    vessel = vessel_parameters(database, memory=model)
+    vessel = time_domain_vessel(database, memory=model)
     inverse = np.linalg.inv(database.mass_matrix + vessel.added_mass)
     held = np.flatnonzero(np.any(vessel.restoring != 0.0, axis=0))
     p, total = len(held), len(held) + 6 + model.states

@@ -42,8 +42,8 @@ class AdditionalMatrices:
 class RollDamping:
     """Roll damping of a file that tabulates it by frequency.
 
-    ``linear`` (n,) in N m s/rad, ``quadratic`` (n,) in N m s2/rad2, ``linearised`` (m, n) in N m s/rad: what the
-    quadratic part amounts to at the wave amplitude ``linearised_amplitude`` (m; None when not known).
+    ``linear`` (n,) in N m s/rad, ``quadratic`` (n,) in N m s2/rad2, ``linearised`` (m, n) in N m s/rad: what
+    the quadratic part amounts to at the wave amplitude ``linearised_amplitude`` (m; None when not known).
     """
 
     linear: FloatArray
@@ -56,9 +56,10 @@ class RollDamping:
 class HydroDatabase:
     """Frequency-domain hydrodynamics of one vessel; immutable, every array read-only.
 
-    Convention: x forward, y port, z up; all matrices, forces and motions about the reference point that ``origin``
-    describes, which is also where the incident wave has zero phase; ``exp(+i omega t)``; ``heading`` is the
-    direction waves travel to, from +x towards +y. Forces per metre of wave amplitude (N/m, N m/m). SI, radians.
+    Convention: x forward, y port, z up; all matrices, forces and motions about the reference point that
+    ``origin`` describes, which is also where the incident wave has zero phase; ``exp(+i omega t)``;
+    ``heading`` is the direction waves travel to, from +x towards +y. Forces per metre of wave amplitude (N/m,
+    N m/m). SI, radians.
 
     Attributes
     ----------
@@ -121,9 +122,13 @@ class HydroDatabase:
             if not value > 0.0:
                 raise ValueError(f"database {self.name!r}: {name} is {value}; give a positive number")
         if np.any(np.linalg.eigvalsh(0.5 * (self.mass_matrix + self.mass_matrix.T)) <= 0.0):
-            raise ValueError(f"database {self.name!r}: the mass matrix is not positive definite; check mass and inertia")
+            raise ValueError(
+                f"database {self.name!r}: the mass matrix is not positive definite; check mass and inertia"
+            )
         if self.trusted_band is not None and not 0.0 <= self.trusted_band[0] < self.trusted_band[1]:
-            raise ValueError(f"database {self.name!r}: trusted_band {self.trusted_band} is not (low, high) in rad/s")
+            raise ValueError(
+                f"database {self.name!r}: trusted_band {self.trusted_band} is not (low, high) in rad/s"
+            )
 
     def force_at(
         self, omega: ArrayLike, heading: ArrayLike, *, outside: Literal["error", "zero"] = "error"
@@ -132,9 +137,10 @@ class HydroDatabase:
 
         Parameters
         ----------
-        omega, heading : rad/s and rad, broadcast against each other; headings wrap, and are mirrored where the
-            vessel is port-starboard symmetric.
-        outside : what to do with frequencies beyond the database: ``"error"``, or ``"zero"`` (they carry no load).
+        omega, heading : rad/s and rad, broadcast against each other; headings wrap, and are mirrored where
+            the vessel is port-starboard symmetric.
+        outside : what to do with frequencies beyond the database: ``"error"``, or ``"zero"`` (they carry no
+            load).
 
         Returns
         -------
@@ -142,10 +148,12 @@ class HydroDatabase:
 
         Raises
         ------
-        ValueError : a frequency outside the range (unless ``outside="zero"``), a value that is not finite, or a
-            heading in a gap of more than 45 degrees between the database's headings.
+        ValueError : a frequency outside the range (unless ``outside="zero"``), a value that is not finite, or
+            a heading in a gap of more than 45 degrees between the database's headings.
         """
-        wanted_omega, wanted_heading = np.broadcast_arrays(np.asarray(omega, float), np.asarray(heading, float))
+        wanted_omega, wanted_heading = np.broadcast_arrays(
+            np.asarray(omega, float), np.asarray(heading, float)
+        )
         shape = wanted_omega.shape
         w, b = wanted_omega.ravel(), wanted_heading.ravel()
         if not (np.all(np.isfinite(w)) and np.all(np.isfinite(b))):
@@ -166,7 +174,7 @@ class HydroDatabase:
         return np.asarray(force.reshape(*shape, 6))
 
     def full_circle(self) -> tuple[FloatArray, ComplexArray]:
-        """Headings (k,) within [0, 2 pi) with the mirrored ones added, and their forces (k, n, 6), new arrays."""
+        """Headings (k,) within [0, 2 pi), the mirrored ones added, and their forces (k, n, 6); new arrays."""
         heading, force = self.heading, self.force
         if self.port_starboard_symmetric:
             mirrored = np.mod(-self.heading, 2.0 * np.pi)
@@ -187,10 +195,11 @@ class HydroDatabase:
         off = distance[np.arange(len(heading)), nearest] > 1e-6
         if np.any(off):
             raise ValueError(
-                f"database {self.name!r}: heading {np.degrees(heading[off][0]):.6g} deg is not among the stored ones "
-                f"and their largest gap is {np.degrees(gaps.max()):.3g} deg; a gap above 45 deg is not interpolated"
+                f"database {self.name!r}: heading {np.degrees(heading[off][0]):.6g} deg is not among the "
+                f"stored ones, whose largest gap is {np.degrees(gaps.max()):.3g} deg; above 45 deg "
+                "nothing is interpolated"
             )
-        return np.eye(len(circle))[nearest]
+        return np.asarray(np.eye(len(circle))[nearest])
 
     def check(self) -> list[CheckRow]:
         """Self-check: closure, symmetry, damping, natural periods, memory; see `seacrane.hydro.check`."""
@@ -257,7 +266,9 @@ def _freeze(part: Any, n: int, m: int, name: str) -> None:
             raise ValueError(f"database {name!r}: {entry.name} has shape {array.shape}; {wanted} is needed")
         if not np.all(np.isfinite(array)):
             where = tuple(int(i) for i in np.argwhere(~np.isfinite(array))[0])
-            raise ValueError(f"database {name!r}: {entry.name}{list(where)} is {array[where]}; give finite numbers")
+            raise ValueError(
+                f"database {name!r}: {entry.name}{list(where)} is {array[where]}; give finite numbers"
+            )
         array.setflags(write=False)
         object.__setattr__(part, entry.name, array)
 
@@ -270,8 +281,11 @@ def _check_increasing(name: str, what: str, values: FloatArray, *, low: float, h
     if steps.size:
         i = int(steps[0])
         raise ValueError(
-            f"database {name!r}: {what} is not strictly increasing: {values[i]:.6g} then {values[i + 1]:.6g} at index "
+            f"database {name!r}: {what} is not strictly increasing: {values[i]:.6g} then {values[i + 1]:.6g} "
+            "at index "
             f"{i + 1}; sort it and drop duplicates"
         )
     if not (values[0] > low and values[-1] < high):
-        raise ValueError(f"database {name!r}: {what} spans {values[0]:.6g} to {values[-1]:.6g}, outside ({low}, {high})")
+        raise ValueError(
+            f"database {name!r}: {what} spans {values[0]:.6g} to {values[-1]:.6g}, outside ({low}, {high})"
+        )

@@ -6,10 +6,10 @@ Model, with ``s = i omega``::
 
 ``P`` has degree n and is a product of factors ``s^2 + q1 s + q0`` (and ``s + p`` for odd n) with positive
 coefficients, so that every model tried is stable by construction and none is ever reflected. ``N`` has degree
-n - 1 (the retardation function starts at a finite value) and, for radiation, a zero at s = 0 (no net drift force).
-``N``, and ``A_inf`` and ``K_0`` where they are unknown, enter linearly and are eliminated by least squares at every
-step of a Gauss-Newton search over the factors (variable projection: Golub & Pereyra 1973; for ships compare
-Perez & Fossen 2009, doi 10.4173/mic.2009.1.1).
+n - 1 (the retardation function starts at a finite value) and, for radiation, a zero at s = 0 (no net drift
+force). ``N``, and ``A_inf`` and ``K_0`` where they are unknown, enter linearly and are eliminated by least
+squares at every step of a Gauss-Newton search over the factors (variable projection: Golub & Pereyra 1973;
+for ships compare Perez & Fossen 2009, doi 10.4173/mic.2009.1.1).
 """
 
 from __future__ import annotations
@@ -61,10 +61,10 @@ class RationalFit:
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class IdentificationData:
-    """One entry's data: ``omega``, ``added_mass``, ``damping`` (n,), ``trusted`` (n,) bool, and what is known.
+    """One entry's data (n,), which of them are ``trusted`` (n,) bool, and what is known beside them.
 
-    ``dissipation_limit`` gives, at any frequencies, the (low, high) between which the fitted damping is to stay:
-    above zero on the diagonal, within the geometric mean of the fitted diagonals elsewhere.
+    ``dissipation_limit`` gives, at any frequencies, the (low, high) between which the fitted damping is to
+    stay: above zero on the diagonal, within the geometric mean of the fitted diagonals elsewhere.
     """
 
     omega: FloatArray
@@ -96,7 +96,7 @@ def fit_lowest_order(data: IdentificationData, *, r2: float, orders: range) -> R
 def fit_order(
     data: IdentificationData, *, order: int, starts: list[FloatArray]
 ) -> tuple[RationalFit, FloatArray]:
-    """Best fit of one order over several starting points; ``starts`` are parameters of lower orders to grow from."""
+    """Best fit of one order over several starts, among them ``starts``, parameters of lower orders."""
     from scipy.optimize import least_squares
 
     problem = _Problem(data, order)
@@ -104,7 +104,9 @@ def fit_order(
     best: tuple[float, FloatArray] | None = None
     for guess in problem.starting_points(starts):
         inside = np.clip(guess, low + 1e-6, high - 1e-6)
-        found = least_squares(problem.residual, inside, bounds=(low, high), method="trf", xtol=1e-10, max_nfev=60)
+        found = least_squares(
+            problem.residual, inside, bounds=(low, high), method="trf", xtol=1e-10, max_nfev=60
+        )
         if best is None or found.cost < best[0]:
             best = (float(found.cost), found.x)
     assert best is not None
@@ -196,11 +198,11 @@ class _Problem:
         coefficients = self._coefficients(columns)
         misfit = columns @ coefficients - self.target
         if self.data.dissipation_limit is None:
-            return misfit
+            return np.asarray(misfit)
         count = self.powers.shape[1]
         damping = (self.audit_powers @ coefficients[:count] / np.polyval(denominator, 1j * self.audit)).real
         excess = np.maximum(damping - self.audit_high, 0.0) + np.minimum(damping - self.audit_low, 0.0)
-        return np.concatenate([misfit, AUDIT_WEIGHT * self.scale_b.max() * excess])
+        return np.asarray(np.concatenate([misfit, AUDIT_WEIGHT * self.scale_b.max() * excess]))
 
     def result(self, parameters: FloatArray, cost: float) -> RationalFit:
         """Coefficients and R2 of one set of parameters."""

@@ -1,4 +1,4 @@
-"""Cubic splines as weight matrices: one small solve per set of knots, any number of complex tables after it."""
+"""Cubic splines as weight matrices: one small solve per set of knots serves any number of tables."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ def spline_weights(knots: FloatArray, query: FloatArray, *, period: float | None
 
 
 def _evaluate(x: FloatArray, query: FloatArray, value: FloatArray, curvature: FloatArray) -> FloatArray:
-    """Piecewise cubic from values and second derivatives at the knots (rows of ``value`` and ``curvature``)."""
+    """Piecewise cubic from the knots' values and second derivatives (rows of both matrices)."""
     i = np.clip(np.searchsorted(x, query, side="right") - 1, 0, len(x) - 2)
     h = x[i + 1] - x[i]
     right = (query - x[i]) / h

@@ -34,12 +34,12 @@ def fit_memory(
     ----------
     database : added mass and damping, made symmetric here.
     band : (low, high) in rad/s over which R2 is judged; default: the database's trusted band, else all of it.
-    r2 : coefficient of determination that added mass *and* damping of every entry shall reach; the lowest order
-        that reaches it is taken. An entry that does not reach it at any order keeps its best model, and its row
-        says ``accepted=False``.
-    infinite_frequency : whether each entry's infinite-frequency added mass is estimated with its model, or taken
-        from the database. A panel code's value carries the error of its mesh at wavelengths the mesh cannot
-        resolve, and forcing it on the model costs states and puts poles beyond the data.
+    r2 : coefficient of determination that added mass *and* damping of every entry shall reach; the lowest
+        order that reaches it is taken. An entry that does not reach it at any order keeps its best model, and
+        its row says ``accepted=False``.
+    infinite_frequency : whether each entry's infinite-frequency added mass is estimated with its model, or
+        taken from the database. A panel code's value carries the error of its mesh at wavelengths the mesh
+        cannot resolve, and forcing it on the model costs states and puts poles beyond the data.
 
     Returns
     -------
@@ -52,9 +52,9 @@ def fit_memory(
 
     Notes
     -----
-    Entries whose damping and whose variation of added mass stay below 1e-6 of the geometric mean of their diagonals
-    are dropped. Additional matrices (roll tanks) get a static stiffness and a model of their own, in which the
-    retardation function need not vanish at zero frequency.
+    Entries whose damping and whose variation of added mass stay below 1e-6 of the geometric mean of their
+    diagonals are dropped. Additional matrices (roll tanks) get a static stiffness and a model of their own,
+    in which the retardation function need not vanish at zero frequency.
     """
     if not 0.0 < r2 < 1.0:
         raise ValueError(f"r2 is {r2}; give a number between 0 and 1")
@@ -62,13 +62,14 @@ def fit_memory(
     trusted = (database.omega >= low - 1e-9) & (database.omega <= high + 1e-9)
     if trusted.sum() < 8:
         raise ValueError(
-            f"database {database.name!r}: the band {low:.4g} to {high:.4g} rad/s holds {trusted.sum()} frequencies; "
-            "widen it to eight or more"
+            f"database {database.name!r}: the band {low:.4g} to {high:.4g} rad/s holds {trusted.sum()} "
+            "frequencies; widen it to eight or more"
         )
     known = database.infinite_frequency_added_mass if infinite_frequency == "known" else None
     if infinite_frequency == "known" and known is None:
         raise ValueError(
-            f"database {database.name!r} has no infinite-frequency added mass; pass infinite_frequency='estimated'"
+            f"database {database.name!r} has no infinite-frequency added mass; pass "
+            "infinite_frequency='estimated'"
         )
     blocks, rows, added_mass = _fit_radiation(database, known, trusted, r2)
     extra_mass, stiffness = np.zeros((6, 6)), np.zeros((6, 6))
@@ -154,7 +155,9 @@ def _dissipation_limit(
             return np.zeros_like(omega), np.full_like(omega, np.inf)
         bound = np.zeros_like(omega)
         if (j, j) in fits and (k, k) in fits:
-            bound = np.sqrt(np.maximum(fits[j, j].damping(omega), 0.0) * np.maximum(fits[k, k].damping(omega), 0.0))
+            bound = np.sqrt(
+                np.maximum(fits[j, j].damping(omega), 0.0) * np.maximum(fits[k, k].damping(omega), 0.0)
+            )
         return -bound, bound
 
     return limit
@@ -171,7 +174,9 @@ def _entries(added_mass: FloatArray, damping: FloatArray, omega: FloatArray) -> 
                 yield j, k
 
 
-def _keep_constant_entries(infinite: FloatArray, added_mass: FloatArray, blocks: list[MemoryBlock]) -> FloatArray:
+def _keep_constant_entries(
+    infinite: FloatArray, added_mass: FloatArray, blocks: list[MemoryBlock]
+) -> FloatArray:
     """Entries without memory keep their (constant) added mass."""
     fitted = {(int(block.outputs[0]), int(block.inputs[0])) for block in blocks}
     kept = infinite.copy()
@@ -207,7 +212,7 @@ def _append(
 
 
 def joint_passivity(blocks: list[MemoryBlock], damping: FloatArray, band: tuple[float, float]) -> Passivity:
-    """Smallest scaled eigenvalue of the radiation blocks' damping, from 1e-3 to 1e3 rad/s and over ``band``."""
+    """Smallest scaled eigenvalue of the radiation blocks' damping, 1e-3 to 1e3 rad/s, and over ``band``."""
     radiation = [block for block in blocks if block.cause == RADIATION]
     everywhere = np.geomspace(1e-3, 1e3, 4001)
     inside = np.linspace(*band, 1001)

@@ -17,8 +17,8 @@ RADIATION = "radiation"
 class MemoryBlock:
     """One model ``x' = A x + B v``, ``mu = C x + D v``; the load on the vessel is ``-mu``.
 
-    ``v`` holds the velocities (m/s, rad/s) of the motions ``inputs``, ``mu`` the loads (N, N m) along the motions
-    ``outputs``, both counted from 0 (surge) to 5 (yaw). States are scaled to the size of the output;
+    ``v`` holds the velocities (m/s, rad/s) of the motions ``inputs``, ``mu`` the loads (N, N m) along the
+    motions ``outputs``, both counted from 0 (surge) to 5 (yaw). States are scaled to the size of the output;
     ``state_scale`` (k,) is the largest amplitude each state takes when the inputs oscillate with 0.1 m/s
     (translations) or 0.01 rad/s (rotations) at any one frequency: a basis for absolute tolerances.
     """
@@ -38,7 +38,9 @@ class MemoryBlock:
         for name in ("outputs", "inputs", *shapes):
             array = np.array(getattr(self, name), dtype=np.int64 if name in ("outputs", "inputs") else float)
             if name in shapes and array.shape != shapes[name]:
-                raise ValueError(f"memory block {self.cause!r}: {name} has shape {array.shape}, not {shapes[name]}")
+                raise ValueError(
+                    f"memory block {self.cause!r}: {name} has shape {array.shape}, not {shapes[name]}"
+                )
             if not np.all(np.isfinite(array)):
                 raise ValueError(f"memory block {self.cause!r}: {name} holds a value that is not finite")
             array.setflags(write=False)
@@ -54,7 +56,9 @@ class MemoryBlock:
     def transfer(self, omega: FloatArray) -> ComplexArray:
         """``C (i omega - A)^-1 B + D`` at ``omega`` (n,), as (n, outputs, inputs)."""
         resolvent = 1j * omega[:, None, None] * np.eye(len(self.A)) - self.A
-        states = np.linalg.solve(resolvent, np.broadcast_to(self.B.astype(complex), (len(omega), *self.B.shape)))
+        states = np.linalg.solve(
+            resolvent, np.broadcast_to(self.B.astype(complex), (len(omega), *self.B.shape))
+        )
         return np.asarray(self.C @ states + self.D)
 
 
@@ -79,8 +83,8 @@ class FitRow:
 class Passivity:
     """Smallest eigenvalue of the fitted damping matrix, scaled by the square roots of the largest diagonals.
 
-    Negative values mean that the joint model can feed energy into some motion at ``omega`` (rad/s). ``in_band`` is
-    the same over the trusted band alone.
+    Negative values mean that the joint model can feed energy into some motion at ``omega`` (rad/s).
+    ``in_band`` is the same over the trusted band alone.
     """
 
     minimum: float
@@ -143,7 +147,7 @@ class MemoryModel:
         return self.added_mass + kernel.imag / w[:, None, None], kernel.real
 
     def additional_response(self, omega: ArrayLike) -> tuple[FloatArray, FloatArray]:
-        """Fitted added mass and damping (n, 6, 6) of all other causes, their stiffness counted as added mass."""
+        """Fitted added mass and damping (n, 6, 6) of all other causes, stiffness counted as added mass."""
         w = np.atleast_1d(np.asarray(omega, dtype=float))[:, None, None]
         kernel = np.zeros((len(w), 6, 6), dtype=complex)
         for cause in {block.cause for block in self.blocks} - {RADIATION}:

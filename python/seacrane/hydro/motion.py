@@ -19,10 +19,10 @@ def motion_response(
 ) -> ComplexArray:
     """Motions (m, n, 6) per metre of wave amplitude, at the database's headings and frequencies.
 
-    Solves ``(-w^2 (M + A + A_add) + i w (B + B_add + B_lin + B_roll) + C + C_add) X = F``, the roll damping being
-    the linear plus the linearised one where the source tabulates them. ``added_mass`` and ``damping`` (n, 6, 6), when
-    given, take the place of A and B *and* of the additional A, B and C: that is how a fitted memory is judged.
-    The database's quadratic damping is left out.
+    Solves ``(-w^2 (M + A + A_add) + i w (B + B_add + B_lin + B_roll) + C + C_add) X = F``, the roll damping
+    being the linear plus the linearised one where the source tabulates them. ``added_mass`` and ``damping``
+    (n, 6, 6), when given, take the place of A and B *and* of the additional A, B and C: that is how a fitted
+    memory is judged. The database's quadratic damping is left out.
     """
     w = database.omega[:, None, None]
     if added_mass is None or damping is None:
@@ -31,7 +31,11 @@ def motion_response(
         restoring = database.restoring + sum(part.restoring for part in database.additional)
     else:
         restoring = database.restoring
-    dynamic = -(w**2) * (database.mass_matrix + added_mass) + 1j * w * (damping + database.linear_damping) + restoring
+    dynamic: ComplexArray = np.asarray(
+        -(w**2) * (database.mass_matrix + added_mass)
+        + 1j * w * (damping + database.linear_damping)
+        + restoring
+    )
     by_heading = np.broadcast_to(dynamic, (len(database.heading), *dynamic.shape)).copy()
     if database.roll_damping is not None:
         roll = database.roll_damping.linear + database.roll_damping.linearised

@@ -80,7 +80,8 @@ def load_database_file(path: str | PathLike[str]) -> HydroDatabase:
             file.set_auto_mask(False)
             if getattr(file, "format", None) != FORMAT:
                 raise FileFormatError(
-                    f"{source}: a NetCDF file, but not a seacrane hydrodynamic database; save one with HydroDatabase.save"
+                    f"{source}: a NetCDF file, but not a seacrane hydrodynamic database; save one with "
+                    "HydroDatabase.save"
                 )
             if int(file.format_version) > FORMAT_VERSION:
                 raise FileFormatError(
@@ -91,7 +92,9 @@ def load_database_file(path: str | PathLike[str]) -> HydroDatabase:
     except FileFormatError:
         raise
     except (OSError, RuntimeError, LookupError, AttributeError, TypeError, ValueError) as error:
-        raise FileFormatError(f"{source}: damaged hydrodynamic database ({error}); fetch or save it again") from error
+        raise FileFormatError(
+            f"{source}: damaged hydrodynamic database ({error}); fetch or save it again"
+        ) from error
 
 
 def to_xarray(database: HydroDatabase) -> xarray.Dataset:
@@ -109,7 +112,11 @@ def to_xarray(database: HydroDatabase) -> xarray.Dataset:
             variables[key] = (("omega", *_MATRIX), np.array(getattr(part, name)), {"cause": part.cause})
     if database.roll_damping is not None:
         for name, dimensions in _ROLL.items():
-            variables[f"roll_damping_{name}"] = (dimensions, np.array(getattr(database.roll_damping, name)), {})
+            variables[f"roll_damping_{name}"] = (
+                dimensions,
+                np.array(getattr(database.roll_damping, name)),
+                {},
+            )
     coordinates = {
         "omega": ("omega", np.array(database.omega), {"units": "rad/s"}),
         "heading": ("heading", np.array(database.heading), {"units": "rad"}),
@@ -127,7 +134,13 @@ def _write(file: Any, database: HydroDatabase) -> None:
     file.port_starboard_symmetric = int(database.port_starboard_symmetric)
     if database.trusted_band is not None:
         file.trusted_band = np.array(database.trusted_band, dtype=float)
-    sizes = {"omega": len(database.omega), "heading": len(database.heading), "motion": 6, "motion_of": 6, "reim": 2}
+    sizes = {
+        "omega": len(database.omega),
+        "heading": len(database.heading),
+        "motion": 6,
+        "motion_of": 6,
+        "reim": 2,
+    }
     for name, size in sizes.items():
         file.createDimension(name, size)
     for name, (dimensions, unit) in _ARRAYS.items():
@@ -170,7 +183,9 @@ def _write_memory(group: Any, model: MemoryModel) -> None:
     for entry in fields(FitRow):
         if entry.name != "cause":
             kind = float if entry.type == "float" else np.int64
-            _put(group, f"row_{entry.name}", np.array([row[entry.name] for row in rows], dtype=kind), ("row",))
+            _put(
+                group, f"row_{entry.name}", np.array([row[entry.name] for row in rows], dtype=kind), ("row",)
+            )
 
 
 def _put(group: Any, name: str, value: Any, dimensions: tuple[str, ...]) -> Any:
@@ -235,7 +250,9 @@ def _read_memory(group: Any) -> MemoryModel:
             parts[name] = flat[name][start[name] : end].reshape(shape)
             start[name] = end
         blocks.append(MemoryBlock(cause=cause, **parts))
-    columns = {entry.name: _get(group, f"row_{entry.name}") for entry in fields(FitRow) if entry.name != "cause"}
+    columns = {
+        entry.name: _get(group, f"row_{entry.name}") for entry in fields(FitRow) if entry.name != "cause"
+    }
     row_causes = str(group.row_cause).split("\n") if len(columns["order"]) else []
     rows = [
         FitRow(cause=cause, **{name: _plain(name, column[i]) for name, column in columns.items()})

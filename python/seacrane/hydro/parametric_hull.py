@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -15,8 +16,8 @@ class ParametricHull:
     """Hull with a parallel midbody, parabolic entrance, raised run with transom, rounded bilge.
 
     Sections are superellipses ``(y / b(x))^p + (-z / d(x))^p = 1`` between the half breadth ``b`` and the
-    local draught ``d``. Over the entrance ``b`` falls parabolically to a vertical stem; over the run ``b`` and
-    ``d`` fall parabolically to the transom's fractions. Axes: x forward, y port, z up, x = 0 at
+    local draught ``d``. Over the entrance ``b`` falls parabolically to a vertical stem; over the run ``b``
+    and ``d`` fall parabolically to the transom's fractions. Axes: x forward, y port, z up, x = 0 at
     ``origin_from_transom`` forward of the transom, z = 0 on the still waterline. SI units.
     """
 
@@ -44,12 +45,14 @@ class ParametricHull:
     def _end_parameters(self, x: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Fractions (0 midbody side, 1 end) along the entrance and along the run."""
         from_transom = np.asarray(x, dtype=float) + self.origin_from_transom
-        entrance = np.clip((from_transom - self.length + self.entrance_length) / self.entrance_length, 0.0, 1.0)
+        entrance = np.clip(
+            (from_transom - self.length + self.entrance_length) / self.entrance_length, 0.0, 1.0
+        )
         run = np.clip(1.0 - from_transom / self.run_length, 0.0, 1.0)
         return entrance, run
 
     def section(self, x: float, count: int) -> FloatArray:
-        """Points (count + 1, 2) of y, z (m) on the port half section, waterline to keel, equal in arc length."""
+        """Points (count + 1, 2) of y, z (m) on the port half section, waterline to keel, evenly spaced."""
         angle = np.linspace(0.0, 0.5 * np.pi, 2001)
         power = 2.0 / self.section_exponent
         station = np.array([x])
@@ -89,7 +92,8 @@ class ParametricHull:
 
         Raises
         ------
-        ValueError : no entrance length between 5 % of the length and the whole length ahead of the run encloses it.
+        ValueError : no entrance length between 5 % of the length and the whole length ahead of the run
+            encloses it.
         """
         low, high = 0.05 * self.length, self.length - self.run_length
 
@@ -99,7 +103,8 @@ class ParametricHull:
 
         if excess(low) < 0.0 or excess(high) > 0.0:
             raise ValueError(
-                f"ParametricHull: volume {volume} m3 is out of reach for length {self.length}, breadth {self.breadth}, "
+                f"ParametricHull: volume {volume} m3 is out of reach for length {self.length}, breadth "
+                f"{self.breadth}, "
                 f"draught {self.draught} m; change the volume or the section exponent"
             )
         entrance = _bisect(excess, low, high)
@@ -110,7 +115,7 @@ class ParametricHull:
 
 @dataclass(frozen=True, kw_only=True)
 class Hydrostatics:
-    """Volume (m3), centre of buoyancy (3,) m, waterplane area (m2), its first x moment (m3), second moments (m4)."""
+    """Volume (m3), centre of buoyancy (3,) m, waterplane area (m2) and its first and second moments."""
 
     volume: float
     centre_of_buoyancy: FloatArray
@@ -120,7 +125,7 @@ class Hydrostatics:
     waterplane_inertia_pitch: float
 
     def restoring(self, *, rho: float, g: float, centre_of_gravity_z: float) -> FloatArray:
-        """Restoring matrix (6, 6) of a freely floating hull, mass = rho * volume, equations (13)-(16) of the paper."""
+        """Restoring matrix (6, 6) of the freely floating hull, equations (13)-(16) of the paper."""
         weight = rho * g * self.volume
         lever = self.centre_of_buoyancy[2] - centre_of_gravity_z
         c = np.zeros((6, 6))
@@ -157,17 +162,17 @@ def panel_hydrostatics(panels: FloatArray) -> Hydrostatics:
 
 
 def _transom_panels(edge: FloatArray) -> FloatArray:
-    """Cap (2 * girth - 2, 4, 3) closing the transom's half section ``edge`` (girth + 1, 3), in vertical strips."""
+    """Cap (2 * girth - 2, 4, 3) of the transom, ``edge`` (girth + 1, 3) its half section; upright strips."""
     top = edge * np.array([1.0, 1.0, 0.0])
     strips = np.stack([top[1:-1], edge[1:-1], edge[2:], top[2:]], axis=1)
-    strips[0, 0], strips[0, 1] = edge[0], edge[1]  # the side's own strip would be a sliver: joined to its neighbour
+    # The outermost strip would be a sliver: it is joined to its neighbour.
+    strips[0, 0], strips[0, 1] = edge[0], edge[1]
     starboard = (strips * np.array([1.0, -1.0, 1.0]))[:, [0, 3, 2, 1]]
     return np.concatenate([strips, starboard])
 
 
-def _bisect(function: object, low: float, high: float) -> float:
+def _bisect(function: Callable[[float], float], low: float, high: float) -> float:
     """Root of a continuous function with a sign change between ``low`` and ``high``, to rounding."""
-    assert callable(function)
     sign = function(low) > 0.0
     while (middle := 0.5 * (low + high)) not in (low, high):
         low, high = (middle, high) if (function(middle) > 0.0) == sign else (low, middle)

@@ -17,8 +17,8 @@ def realise(
 ) -> MemoryBlock:
     """Memory block of a strictly proper, stable ``numerator / denominator`` (highest power first).
 
-    The companion form is balanced (equal, diagonal Gramians: Moore 1981), then all states are multiplied by the
-    norm of the output row, which makes a state as large as the load it stands for.
+    The companion form is balanced (equal, diagonal Gramians: Moore 1981), then all states are multiplied by
+    the norm of the output row, which makes a state as large as the load it stands for.
 
     Raises
     ------
@@ -29,7 +29,9 @@ def realise(
     order = len(denominator) - 1
     poles = np.roots(denominator)
     if np.any(poles.real >= 0.0):
-        raise ValueError(f"memory block {output + 1}{input + 1}: unstable pole {poles[np.argmax(poles.real)]:.4g} 1/s")
+        raise ValueError(
+            f"memory block {output + 1}{input + 1}: unstable pole {poles[np.argmax(poles.real)]:.4g} 1/s"
+        )
     gain = float(np.abs(numerator).max()) or 1.0
     a = np.zeros((order, order))
     a[0] = -denominator[1:] / denominator[0]

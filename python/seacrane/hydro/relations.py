@@ -22,8 +22,8 @@ TAIL_EXPONENT = 3.0
 def damping_from_forces(database: HydroDatabase) -> FloatArray | None:
     """Radiation damping (n, 6, 6) from the exciting forces, or None where the headings do not close.
 
-    Energy radiated to all directions, with Haskind's relation in deep water (Newman 1977, Marine Hydrodynamics,
-    section 6.18): ``B_jk = omega^3 / (4 pi rho g^3) integral Re(X_j conj(X_k)) d beta``.
+    Energy radiated to all directions, with Haskind's relation in deep water (Newman 1977, Marine
+    Hydrodynamics, section 6.18): ``B_jk = omega^3 / (4 pi rho g^3) integral Re(X_j conj(X_k)) d beta``.
     """
     if np.isfinite(database.depth) or database.speed != 0.0:
         return None
@@ -42,7 +42,8 @@ def infinite_added_mass_from_damping(database: HydroDatabase) -> FloatArray:
     """Infinite-frequency added mass (6, 6) that the damping implies, averaged over the trusted band.
 
     Kramers-Kronig (Ogilvie 1964) with the pole subtracted:
-    ``A(w) - A_inf = 2 / pi integral_0^inf (B(v) - B(w)) / (v^2 - w^2) dv``. Beyond the data B falls as ``v^-3``.
+    ``A(w) - A_inf = 2 / pi integral_0^inf (B(v) - B(w)) / (v^2 - w^2) dv``. Beyond the data B falls as
+    ``v^-3``.
     """
     low, high = database.trusted_band or (database.omega[0], database.omega[-1])
     high = min(high, 0.8 * float(database.omega[-1]))  # closer to the end the assumed tail would decide

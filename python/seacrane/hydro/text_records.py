@@ -21,7 +21,9 @@ class TextRecords:
         try:
             self._lines = path.read_bytes().decode("latin-1").splitlines()
         except OSError as error:
-            raise FileFormatError(f"{path}: cannot be read ({error.strerror}); check the path and its rights") from error
+            raise FileFormatError(
+                f"{path}: cannot be read ({error.strerror}); check the path and its rights"
+            ) from error
         self._next = 0
 
     def error(self, message: str) -> FileFormatError:
@@ -46,10 +48,11 @@ class TextRecords:
         """Raise unless ``count`` more lines are there, before anything is allocated for them."""
         left = len(self._lines) - self._next
         if left < count:
-            missing = f"{count} more lines follow from {reason}, {left} are there; the file is truncated or its counts wrong"
-            if left > 0:
-                self._next = len(self._lines)
-            raise self.error(missing)
+            self._next = len(self._lines)
+            raise self.error(
+                f"{count} more lines follow from {reason}, but {left} are there; the file is truncated "
+                "or its counts are wrong"
+            )
 
     def numbers(self, count: int, what: str) -> list[float]:
         """Next line as ``count`` finite numbers."""

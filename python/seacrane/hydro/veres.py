@@ -1,8 +1,9 @@
 """Reader of ShipX/VERES results: ``.re7`` (matrices), ``.re8`` (excitation), ``.re1`` (motions).
 
-File axes are x aft, y starboard, z up; heading 0 is head sea; time factor exp(+i omega t); LCG positive aft of
-midship; everything refers to the motion point (xmtn aft of midship, centreline, zmtn above the baseline), which is
-also where waves have zero phase. To ours: diag(-1, -1, 1, -1, -1, 1), and direction = heading + 180 degrees.
+File axes are x aft, y starboard, z up; heading 0 is head sea; time factor exp(+i omega t); LCG positive aft
+of midship; everything refers to the motion point (xmtn aft of midship, centreline, zmtn above the baseline),
+which is also where waves have zero phase. To ours: diag(-1, -1, 1, -1, -1, 1), and direction = heading + 180
+degrees.
 """
 
 from __future__ import annotations
@@ -46,7 +47,7 @@ class _Header:
 
 @dataclass(frozen=True)
 class _Matrices:
-    """Contents of a .re7 file in its own axes: blocks (headings, frequencies, 6 kinds, 6, 6), roll (.., .., 3)."""
+    """Contents of a .re7 file in its own axes: ``blocks`` (headings, frequencies, 6 kinds, 6, 6)."""
 
     header: _Header
     title: str
@@ -72,13 +73,13 @@ class _Transfer:
 def read_veres(path: str | PathLike[str]) -> HydroDatabase:
     """Read the VERES results at ``path``: a folder that holds one set, the common stem, or one of the files.
 
-    Needs ``.re7`` and ``.re8``; ``.re1`` adds the motion transfer functions, against which `check` compares. One
-    speed, zero. The trusted band is the range between 0.3 and 2.6 rad/s that the files cover.
+    Needs ``.re7`` and ``.re8``; ``.re1`` adds the motion transfer functions, against which `check` compares.
+    One speed, zero. The trusted band is the range between 0.3 and 2.6 rad/s that the files cover.
 
     Raises
     ------
-    FileFormatError : a file is missing, truncated, inconsistent with the others, or of a forward speed; the message
-        names the file and, where there is one, the line.
+    FileFormatError : a file is missing, truncated, inconsistent with the others, or of a forward speed; the
+        message names the file and, where there is one, the line.
     """
     stem = find_stem(Path(path))
     re7, re8, re1 = (_sibling(stem, suffix) for suffix in (".re7", ".re8", ".re1"))
@@ -107,7 +108,9 @@ def find_stem(path: Path) -> Path:
         stems = sorted({file.with_suffix("") for file in path.iterdir() if file.suffix.lower() == ".re7"})
         if len(stems) != 1:
             found = ", ".join(stem.name for stem in stems) or "none"
-            raise FileFormatError(f"{path}: one .re7 file is needed in a VERES folder, found: {found}; give the stem")
+            raise FileFormatError(
+                f"{path}: one .re7 file is needed in a VERES folder, found: {found}; give the stem"
+            )
         return stems[0]
     return path.with_suffix("") if path.suffix.lower() in (".re1", ".re2", ".re7", ".re8", ".hyd") else path
 
@@ -128,15 +131,20 @@ def _read_header(records: TextRecords, *, versioned: bool) -> tuple[str, _Header
     if versioned:
         marker = records.peek()
         if len(marker) != 2 or marker[0] != "-1":
-            raise records.error("a version line '-1 2' is needed: only version 2 of .re7 is read; export it again")
+            raise records.error(
+                "a version line '-1 2' is needed: only version 2 of .re7 is read; export it again"
+            )
         _, version = records.integers(2, "version line")
         if version != 2:
             raise records.error(f"version {version} of .re7 is not known, only version 2; export it again")
-    speeds, headings, frequencies, dofs = records.integers(4, "numbers of speeds, headings, frequencies, motions")
+    speeds, headings, frequencies, dofs = records.integers(
+        4, "numbers of speeds, headings, frequencies, motions"
+    )
     if dofs != 6 or min(speeds, headings, frequencies) < 1:
         raise records.error(
-            f"counts {speeds} {headings} {frequencies} {dofs}: at least one speed, heading and frequency, and six "
-            "motions are needed"
+            f"counts {speeds} {headings} {frequencies} {dofs}: at least one speed, heading and frequency, "
+            "and "
+            "six motions are needed"
         )
     if speeds != 1:
         raise records.error(f"{speeds} speeds in the file; this reader takes files of the single speed zero")
@@ -194,7 +202,9 @@ def _one_omega(records: TextRecords, omega: FloatArray) -> FloatArray:
     """The frequencies, which every heading has to repeat."""
     if np.any(omega != omega[0]):
         heading = int(np.argwhere(np.any(omega != omega[0], axis=1))[0, 0])
-        raise FileFormatError(f"{records.path}: frequencies of heading number {heading + 1} differ from those of the first")
+        raise FileFormatError(
+            f"{records.path}: frequencies of heading number {heading + 1} differ from those of the first"
+        )
     return np.asarray(omega[0])
 
 
@@ -213,7 +223,9 @@ def _check_same(path: Path, transfer: _Transfer, matrices: _Matrices) -> None:
 
 def _convert(stem: Path, matrices: _Matrices, force: _Transfer, motion: _Transfer | None) -> HydroDatabase:
     """The database in our conventions."""
-    added_mass, added_mass_add, damping, damping_add, restoring, restoring_add = np.moveaxis(matrices.blocks, 2, 0)
+    added_mass, added_mass_add, damping, damping_add, restoring, restoring_add = np.moveaxis(
+        matrices.blocks, 2, 0
+    )
     first = matrices.blocks[:1]
     scale = np.abs(first).max(axis=(0, 1), keepdims=True) + 1e-300
     if np.any(np.abs(matrices.blocks - first) > 1e-5 * scale):
@@ -262,8 +274,13 @@ def _convert(stem: Path, matrices: _Matrices, force: _Transfer, motion: _Transfe
         length=head.length,
         breadth=head.breadth,
         draught=head.draught,
-        origin=f"motion point of the files: {x_aft:g} m aft of midship, on the centreline, {z:g} m above the baseline",
-        source=f"ShipX/VERES files {stem.name}.re7, .re8{'' if motion is None else ', .re1'}: {matrices.title}",
+        origin=(
+            f"motion point of the files: {x_aft:g} m aft of midship, on the centreline, {z:g} m above the "
+            "baseline"
+        ),
+        source=(
+            f"ShipX/VERES files {stem.name}.re7, .re8{'' if motion is None else ', .re1'}: {matrices.title}"
+        ),
         trusted_band=_trusted(omega),
         port_starboard_symmetric=True,
     )

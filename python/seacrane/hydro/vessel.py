@@ -30,8 +30,8 @@ class MemoryFitWarning(UserWarning):
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class RigidPart:
-    """A rigid part about its own centre: ``mass`` (kg), ``position`` (3,) of its centre (m) from the database's
-    reference point, ``inertia`` (3, 3) about its centre (kg m2), all in the vessel's axes."""
+    """A rigid part about its own centre: ``mass`` (kg), ``position`` (3,) of its centre (m) from the
+    database's reference point, ``inertia`` (3, 3) about its centre (kg m2), all in the vessel's axes."""
 
     mass: float
     position: FloatArray
@@ -44,11 +44,12 @@ class VesselParameters:
 
     Attributes
     ----------
-    mass : kg. centre_of_mass : (3,) m from the reference point. inertia : (3, 3) kg m2 about the centre of mass.
+    mass : kg. centre_of_mass : (3,) m from the reference point. inertia : (3, 3) kg m2 about the centre of
+        mass.
     added_mass : (6, 6) at infinite frequency, additional causes included.
     linear_damping : (6, 6) and quadratic_damping : (6,), beside radiation.
     restoring : (6, 6), with the static stiffness of additional causes (roll tanks).
-    memory : radiation and additional memory; None when it was asked to leave it out.
+    memory : of radiation and additional causes.
     """
 
     mass: float
@@ -58,7 +59,7 @@ class VesselParameters:
     linear_damping: FloatArray
     quadratic_damping: FloatArray
     restoring: FloatArray
-    memory: MemoryModel | None
+    memory: MemoryModel
 
 
 def vessel_parameters(
@@ -70,14 +71,14 @@ def vessel_parameters(
     ----------
     database : hydrodynamics; its own fitted memory is used, else one is fitted here.
     memory : a fit to use in place of it.
-    take_out : parts that the database's mass and restoring include and the scene models itself (a crane): their
-        mass and inertia leave the mass matrix and their weight leaves the restoring (C44 and C55 grow by
-        m g z, C46 and C56 lose theirs; buoyancy stays as it is).
+    take_out : parts that the database's mass and restoring include and the scene models itself (a crane):
+        their mass and inertia leave the mass matrix and their weight leaves the restoring (C44 and C55 grow
+        by m g z, C46 and C56 lose theirs; buoyancy stays as it is).
 
     Returns
     -------
-    VesselParameters : roll damping tabulated by frequency enters as linear + quadratic, both taken at the roll
-        natural frequency (the linearised column belongs to the frequency domain).
+    VesselParameters : roll damping tabulated by frequency enters as linear + quadratic, both taken at the
+        roll natural frequency (the linearised column belongs to the frequency domain).
 
     Warns
     -----
@@ -87,19 +88,21 @@ def vessel_parameters(
     ------
     ValueError : what is left after taking parts out has no positive mass or inertia.
     """
+    vessel = time_domain_vessel(database, memory=memory, take_out=take_out)
+    _warn(database, vessel)
+    return vessel
+
+
+def time_domain_vessel(
+    database: HydroDatabase, *, memory: MemoryModel | None = None, take_out: Sequence[RigidPart] = ()
+) -> VesselParameters:
+    """`vessel_parameters` without its warnings."""
     model = memory or database.memory or fit_memory(database=database)
-    for row in model.rows:
-        if not row.accepted:
-            warnings.warn(
-                f"database {database.name!r}: memory of entry {row.output + 1}{row.input + 1} ({row.cause}) follows "
-                f"added mass with R2 = {row.r2_added_mass:.3f} and damping with {row.r2_damping:.3f}, {model.r2} was asked; "
-                "motions that depend on it carry that error",
-                MemoryFitWarning,
-                stacklevel=2,
-            )
     mass_matrix, restoring = database.mass_matrix.copy(), database.restoring.copy()
     for part in take_out:
-        mass_matrix -= rigid_mass_matrix(part.mass, np.asarray(part.position, float), np.asarray(part.inertia, float))
+        mass_matrix -= rigid_mass_matrix(
+            part.mass, np.asarray(part.position, float), np.asarray(part.inertia, float)
+        )
         restoring -= _weight_restoring(part.mass * database.g, np.asarray(part.position, float))
     restoring += sum(part.restoring[0] for part in database.additional) + model.additional_stiffness
     linear, quadratic = database.linear_damping.copy(), database.quadratic_damping.copy()
@@ -152,23 +155,37 @@ def _split_mass_matrix(matrix: FloatArray, name: str) -> tuple[float, FloatArray
     inertia = 0.5 * (matrix[3:, 3:] + matrix[3:, 3:].T) + mass * cross @ cross
     if np.any(np.linalg.eigvalsh(inertia) <= 0.0):
         raise ValueError(
-            f"database {name!r}: the inertia about the centre of mass has eigenvalues {np.linalg.eigvalsh(inertia)}; "
+            f"database {name!r}: the inertia about the centre of mass has eigenvalues "
+            f"{np.linalg.eigvalsh(inertia)}; "
             "check the mass matrix, or take out less"
         )
     return mass, centre, inertia
 
 
 def _add_roll_damping(database: HydroDatabase, linear: FloatArray, quadratic: FloatArray) -> None:
-    """Add the tabulated roll damping at the roll natural frequency; warn when roll has none at all."""
+    """Add the tabulated roll damping at the roll natural frequency."""
     resonance = natural_frequency(database, 3)
     if database.roll_damping is not None:
         at = resonance if resonance is not None else float(np.median(database.omega))
         linear[3, 3] += float(np.interp(at, database.omega, database.roll_damping.linear))
         quadratic[3] += float(np.interp(at, database.omega, database.roll_damping.quadratic))
-    if linear[3, 3] == 0.0 and quadratic[3] == 0.0:
+
+
+def _warn(database: HydroDatabase, vessel: VesselParameters) -> None:
+    """Name fits that miss their aim, and a roll without damping."""
+    for row in vessel.memory.rows:
+        if not row.accepted:
+            warnings.warn(
+                f"database {database.name!r}: memory of entry {row.output + 1}{row.input + 1} ({row.cause}) "
+                f"follows added mass with R2 = {row.r2_added_mass:.3f} and damping with {row.r2_damping:.3f}, "
+                f"{vessel.memory.r2} was asked; motions that depend on it carry that error",
+                MemoryFitWarning,
+                stacklevel=3,
+            )
+    if vessel.linear_damping[3, 3] == 0.0 and vessel.quadratic_damping[3] == 0.0:
         warnings.warn(
-            f"database {database.name!r}: no roll damping beside radiation; roll at resonance will be far too large. Add "
-            "linear_damping or quadratic_damping for roll",
+            f"database {database.name!r}: no roll damping beside radiation; roll at resonance will be far "
+            "too large. Add linear_damping or quadratic_damping for roll",
             RollDampingWarning,
             stacklevel=3,
         )

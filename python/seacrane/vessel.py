@@ -1,0 +1,152 @@
+"""A vessel from a hydrodynamic database, and a sea on it, in a scene."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from seacrane import _core
+from seacrane.errors import SceneError
+from seacrane.scene import Scene, Waves
+
+if TYPE_CHECKING:
+    from seacrane.hydro import HydroDatabase
+
+MOORING_PERIOD = 200.0  # s, of surge, sway and yaw (PAPER, "station keeping")
+MOORING_DAMPING = 0.1  # of critical
+MEMORY = ("per-pair", "none")
+
+
+def add_vessel(
+    scene: Scene,
+    database: HydroDatabase,
+    *,
+    name: str = "vessel",
+    memory: str = "per-pair",
+    kinematics: str = "yaw_following",
+    mooring_period: float | None = MOORING_PERIOD,
+    mooring_damping: float = MOORING_DAMPING,
+) -> None:
+    """Add a vessel with its body frame on the inertial frame: origin at the database's reference point.
+
+    Parameters
+    ----------
+    scene : Scene
+    database : HydroDatabase
+        Hydrodynamics of the vessel without the bodies that the scene models itself.
+    name : str
+        Of the body and of its hydrodynamics.
+    memory : str
+        "per-pair": fluid memory as one state-space model per pair of motions, eqs (28)-(31). "none": without
+        radiation damping, as the paper does for comparison.
+    kinematics : str
+        "yaw_following" (default) or "paper", eqs (17)-(31).
+    mooring_period : float or None
+        Natural period (s) of soft linear station keeping in surge, sway and yaw; None: no mooring.
+    mooring_damping : float
+        Its damping as a fraction of critical.
+
+    Raises
+    ------
+    SceneError
+        For a memory model that this version does not have.
+    """
+    from seacrane.hydro import vessel_parameters
+
+    if memory not in MEMORY:
+        raise SceneError(f"memory {memory!r} is not available in this version; choose {' or '.join(MEMORY)}")
+    parameters = vessel_parameters(database)
+    scene.add_body(
+        name=name,
+        mass=parameters.mass,
+        inertia=parameters.inertia,
+        center_of_mass=parameters.centre_of_mass,
+    )
+    heavy = parameters.mass * np.array([1.0, 1.0, 0.0]) + np.diag(parameters.added_mass)[[0, 1, 5]]
+    heavy[2] += parameters.inertia[2, 2] + parameters.mass * float(np.sum(parameters.centre_of_mass[:2] ** 2))
+    omega = 0.0 if mooring_period is None else 2.0 * np.pi / mooring_period
+    scene.add_vessel(
+        body=name,
+        added_mass=parameters.added_mass,
+        linear_damping=parameters.linear_damping,
+        quadratic_damping=parameters.quadratic_damping,
+        restoring=parameters.restoring,
+        mooring_stiffness=heavy * omega**2,
+        mooring_damping=2.0 * mooring_damping * omega * heavy,
+        memory=_blocks(parameters.memory) if memory == "per-pair" else [],
+        kinematics=kinematics,
+    )
+    scene.notes.update(database=database.name, memory=memory, kinematics=kinematics)
+
+
+def _blocks(model: Any) -> list[_core.StateSpaceBlock]:
+    return [
+        _core.StateSpaceBlock(
+            inputs=[int(i) for i in block.inputs],
+            outputs=[int(i) for i in block.outputs],
+            a=block.A,
+            b=block.B,
+            c=block.C,
+            d=block.D,
+            state_scale=block.state_scale,
+        )
+        for block in (model.blocks if model is not None else ())
+    ]
+
+
+def add_sea(
+    scene: Scene,
+    database: HydroDatabase,
+    *,
+    vessel: str = "vessel",
+    hs: float = 2.0,
+    tp: float = 8.0,
+    gamma: float = 3.3,
+    direction_deg: float = 135.0,
+    seed: int = 1,
+    count: int = 200,
+    relative_bound: float = 1e-9,
+) -> None:
+    """Add a long-crested JONSWAP sea and its force-RAO loads on the vessel, phase at the mean position.
+
+    Parameters
+    ----------
+    scene : Scene
+    database : HydroDatabase
+        Whose force transfer is used.
+    vessel : str
+        Body of the vessel.
+    hs, tp, gamma : float
+        Significant wave height (m), peak period (s), peakedness; hs = 0 leaves the sea out.
+    direction_deg : float
+        Direction of travel, deg from +x (following sea) towards +y (port).
+    seed, count : int
+        Of the realisation; see `seacrane._core.realise_waves`.
+    relative_bound : float
+        Error bound of the load table over the sum of component magnitudes; 0: exact sum in every evaluation.
+    """
+    if hs == 0.0:
+        scene.waves = None
+        return
+    spectrum = _core.jonswap(hs=hs, tp=tp, gamma=gamma)
+    components = _core.realise_waves(spectrum, seed=seed, direction=np.radians(direction_deg), count=count)
+    omega = np.array(components.omega)
+    repeat = components.repeat_period()
+    scene.waves = Waves(
+        body=vessel,
+        omega=omega,
+        amplitude=np.array(components.amplitude),
+        phase=np.array(components.phase),
+        direction=np.array(components.direction),
+        transfer=np.asarray(database.force_at(omega, np.radians(direction_deg)), dtype=complex).reshape(-1, 6),
+        relative_bound=relative_bound,
+        information={
+            "seed": seed,
+            "realised_hs": float(components.realised_hs),
+            "wave_components": int(omega.size),
+            "repeat_period_s": float(repeat.time),
+            "repeat_found": int(repeat.found),
+        },
+    )
+    scene.notes.update(hs=hs, tp=tp, gamma=gamma, wave_direction_deg=direction_deg, waves_relative_bound=relative_bound)
