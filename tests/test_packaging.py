@@ -44,8 +44,9 @@ def test_every_source_file_is_installed(repository: Path) -> None:
 
 
 def test_committed_stub_is_what_the_module_generates(repository: Path, tmp_path: Path) -> None:
+    options = ["--exit-code", "--ignore-invalid-expressions", r"<seacrane\._core\.\w+ object at 0x[0-9a-f]+>"]
     command = [sys.executable, "-m", "pybind11_stubgen", "seacrane._core", "--output-dir", str(tmp_path)]
-    finished = subprocess.run([*command, "--exit-code"], capture_output=True, text=True, check=False)
+    finished = subprocess.run([*command, *options], capture_output=True, text=True, check=False)
     assert finished.returncode == 0, finished.stdout + finished.stderr
     generated = (tmp_path / "seacrane" / "_core.pyi").read_text(encoding="utf-8")
     committed = (repository / "python" / "seacrane" / "_core.pyi").read_text(encoding="utf-8")

@@ -1,0 +1,783 @@
+"""
+Compiled core of seacrane: descriptions, compiled model, stepping loop. SI units, radians.
+"""
+from __future__ import annotations
+import collections.abc
+import numpy
+import numpy.typing
+import typing
+__all__: list[str] = ['Actuator', 'Body', 'Curve', 'Driver', 'Evaluator', 'ExactWaveLoad', 'ForceTable', 'Frame', 'FunctionForce', 'Joint', 'Model', 'PointForce', 'RepeatPeriod', 'Simulation', 'Spectrum', 'Spring', 'State', 'StateSpaceBlock', 'VesselHydrodynamics', 'WaveComponents', 'WaveLoads', 'WaveTable', 'compile', 'initial_state', 'integrator_names', 'jonswap', 'philox_uniform', 'pierson_moskowitz', 'realise_waves']
+class Curve:
+    """
+    A reference as a function of time: pieces of quintic polynomials plus one cosine each.
+    
+    Before its first piece a curve holds its first value at rest; the last piece goes on for ever. Values are in
+    the unit of what the curve drives (m or rad), times in s. Immutable.
+    """
+    @staticmethod
+    def constant(*, value: typing.SupportsFloat | typing.SupportsIndex) -> Curve:
+        """
+        One value at all times.
+        """
+    @staticmethod
+    def harmonic(*, start_time: typing.SupportsFloat | typing.SupportsIndex = 0.0, offset: typing.SupportsFloat | typing.SupportsIndex = 0.0, amplitude: typing.SupportsFloat | typing.SupportsIndex, omega: typing.SupportsFloat | typing.SupportsIndex, phase: typing.SupportsFloat | typing.SupportsIndex = 0.0) -> Curve:
+        """
+        offset + amplitude cos(omega (t - start_time) + phase), omega in rad/s.
+        """
+    @staticmethod
+    def pieces(*, starts: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], coefficients: collections.abc.Sequence[typing.Annotated[collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(6)"]], cosines: collections.abc.Sequence[typing.Annotated[collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(3)"]] = []) -> Curve:
+        """
+        Pieces from their start times on: coefficients (n, 6) of powers of (t - start), cosines (n, 3) of amplitude, omega, phase.
+        """
+    @staticmethod
+    def quintic(*, start_time: typing.SupportsFloat | typing.SupportsIndex, end_time: typing.SupportsFloat | typing.SupportsIndex, start: typing.SupportsFloat | typing.SupportsIndex, end: typing.SupportsFloat | typing.SupportsIndex) -> Curve:
+        """
+        From `start` at `start_time` to `end` at `end_time`, at rest with zero acceleration at both ends, held before and after. Raises SceneError when the times do not increase.
+        """
+    def evaluate(self, times: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        Values, rates and accelerations, shape (n, 3), at times (n,) in s.
+        """
+    def then(self, *, time: typing.SupportsFloat | typing.SupportsIndex, curve: Curve) -> Curve:
+        """
+        This curve until `time`, the other one afterwards (at its own clock).
+        """
+    def to_pieces(self) -> dict:
+        """
+        The arguments of Curve.pieces() that make this curve.
+        """
+    @property
+    def breakpoints(self) -> list[float]:
+        """
+        Times (s) where value, rate or acceleration jumps.
+        """
+class Spectrum:
+    """
+    One-sided wave spectrum S(omega) in m2 s/rad, normalised by quadrature to hs^2 / 16. Made by `jonswap` or `pierson_moskowitz`.
+    """
+    def __repr__(self) -> str:
+        ...
+    def density(self, omega: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> typing.Any:
+        """
+        S(omega) in m2 s/rad for frequencies in rad/s, any shape; zero for omega <= 0.
+        """
+    def energy(self, *, omega_min: typing.SupportsFloat | typing.SupportsIndex = 0.0, omega_max: typing.SupportsFloat | typing.SupportsIndex = ...) -> float:
+        """
+        Integral of S between two frequencies, m2.
+        """
+    def moment(self, order: typing.SupportsInt | typing.SupportsIndex) -> float:
+        """
+        Integral of omega^order S over all frequencies, order -4 to 3.
+        """
+    def steepness(self, *, gravity: typing.SupportsFloat | typing.SupportsIndex = 9.80665) -> float:
+        """
+        hs over the deep-water wave length of the peak period, hs / (g tp^2 / 2 pi).
+        """
+    @property
+    def gamma(self) -> float:
+        """
+        Peak enhancement; 1 for Pierson-Moskowitz.
+        """
+    @property
+    def hs(self) -> float:
+        """
+        Significant wave height, m.
+        """
+    @property
+    def name(self) -> str:
+        ...
+    @property
+    def peak_omega(self) -> float:
+        """
+        Peak frequency, rad/s.
+        """
+    @property
+    def tp(self) -> float:
+        """
+        Peak period, s.
+        """
+class RepeatPeriod:
+    """
+    Answer of `WaveComponents.repeat_period`.
+    """
+    def __repr__(self) -> str:
+        ...
+    @property
+    def found(self) -> bool:
+        """
+        Whether the sea repeats at `time`.
+        """
+    @property
+    def time(self) -> float:
+        """
+        First repeat, or the proven lower bound of it, s.
+        """
+class WaveComponents:
+    """
+    Regular waves whose sum is the sea; immutable.
+    
+    Elevation = sum a cos(omega t - k (x cos b + y sin b) + phase), inertial frame (x forward, y port), b the
+    direction of travel from +x towards +y. Arrays are read-only views of shape (components,).
+    
+    Parameters
+    ----------
+    omega : array_like, shape (n,)
+        Frequencies, rad/s, above zero.
+    amplitude, phase, direction : float or array_like, shape (n,)
+        m, rad, rad.
+    depth : float
+        Water depth, m; infinity for deep water. Wavenumbers follow from omega^2 = g k tanh(k depth).
+    gravity : float
+        m/s2.
+    
+    Raises
+    ------
+    ValueError
+        A value is not finite or out of range, or the lengths differ.
+    """
+    def __init__(self, *, omega: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], amplitude: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], phase: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] = 0.0, direction: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] = 0.0, depth: typing.SupportsFloat | typing.SupportsIndex = ..., gravity: typing.SupportsFloat | typing.SupportsIndex = 9.80665) -> None:
+        ...
+    def __len__(self) -> int:
+        ...
+    def __repr__(self) -> str:
+        ...
+    def autocorrelation(self, lag: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> typing.Any:
+        """
+        Autocorrelation coefficient of the elevation at one point, for lags in s, any shape.
+        """
+    def elevation(self, times: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], *, x: typing.SupportsFloat | typing.SupportsIndex = 0.0, y: typing.SupportsFloat | typing.SupportsIndex = 0.0) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        Wave elevation (m) at one point (m, inertial frame), shape of `times` (s).
+        """
+    def repeat_period(self, horizon: typing.SupportsFloat | typing.SupportsIndex = 10800.0) -> RepeatPeriod:
+        """
+        First time after the initial decay at which the autocorrelation is 0.99 again, s; `found` is False when it is proven that there is none before `horizon`.
+        """
+    @property
+    def amplitude(self) -> numpy.ndarray:
+        """
+        m
+        """
+    @property
+    def depth(self) -> float:
+        """
+        m
+        """
+    @property
+    def direction(self) -> numpy.ndarray:
+        """
+        rad, travelling to
+        """
+    @property
+    def gravity(self) -> float:
+        """
+        m/s2
+        """
+    @property
+    def m0(self) -> float:
+        """
+        sum a^2 / 2, m2.
+        """
+    @property
+    def mean_period(self) -> float:
+        """
+        Mean zero-upcrossing period 2 pi sqrt(m0 / m2), s.
+        """
+    @property
+    def omega(self) -> numpy.ndarray:
+        """
+        rad/s
+        """
+    @property
+    def phase(self) -> numpy.ndarray:
+        """
+        rad
+        """
+    @property
+    def realised_hs(self) -> float:
+        """
+        4 sqrt(m0) of the amplitudes, m: no sampling scatter.
+        """
+    @property
+    def wavenumber(self) -> numpy.ndarray:
+        """
+        rad/m
+        """
+class ExactWaveLoad:
+    """
+    First-order wave load of a vessel at its mean position, summed over all components; immutable.
+    
+    F_j(t) = Re sum_i a_i X_ij exp(i (omega_i t + phase_i - k_i (x cos b_i + y sin b_i))), in the axes and about the
+    reference point of the transfer.
+    
+    Parameters
+    ----------
+    waves : WaveComponents
+    transfer : array_like of complex, shape (components, 6)
+        X: N/m and N m/m, time factor exp(+i omega t), phase referring to `position`. Copied.
+    position : tuple of float
+        x, y of the phase reference of X, m, inertial frame.
+    elevation_point : tuple of float, optional
+        x, y where the elevation is taken, m; `position` by default.
+    
+    Raises
+    ------
+    ValueError
+        A wrong shape or a value that is not finite.
+    """
+    def __init__(self, waves: WaveComponents, *, transfer: typing.Annotated[numpy.typing.ArrayLike, numpy.complex128], position: tuple[typing.SupportsFloat | typing.SupportsIndex, typing.SupportsFloat | typing.SupportsIndex] = (0.0, 0.0), elevation_point: tuple[typing.SupportsFloat | typing.SupportsIndex, typing.SupportsFloat | typing.SupportsIndex] | None = None) -> None:
+        ...
+    def __repr__(self) -> str:
+        ...
+    def elevation(self, times: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        Wave elevation (m) at the elevation point, shape of `times` (s).
+        """
+    def evaluate(self, times: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], *, derivative: typing.SupportsInt | typing.SupportsIndex = 0) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        Forces (N) and moments (N m) at times (s): shape times.shape + (6,). `derivative` 1 or 2 gives the time derivatives of that order.
+        """
+    def magnitude(self, order: typing.SupportsInt | typing.SupportsIndex = 0) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        sum |a X_ij| omega^order, shape (6,): no time derivative of that order exceeds it.
+        """
+    @property
+    def waves(self) -> WaveComponents:
+        """
+        The components (a copy).
+        """
+class WaveTable:
+    """
+    A wave load by quintic Hermite interpolation on a global time grid; immutable.
+    
+    |table - exact| <= step^6 / 46080 sum |a X_ij| omega^6 at any time (Hermite remainder), plus rounding. Knots are
+    computed when a run reaches them and held in a ring of fixed size: constant memory for any duration.
+    
+    Parameters
+    ----------
+    load : ExactWaveLoad
+    relative_bound : float
+        The bound over sum |a X_ij|, 1e-14 to 1e-2; it sets the step. The default 1e-9 is about 1e-8 of a load's
+        standard deviation with 200 components.
+    
+    Raises
+    ------
+    ValueError
+        `relative_bound` is out of range.
+    """
+    def __init__(self, load: ExactWaveLoad, *, relative_bound: typing.SupportsFloat | typing.SupportsIndex = 1e-09) -> None:
+        ...
+    def __repr__(self) -> str:
+        ...
+    def elevation(self, times: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        Wave elevation (m) at the elevation point, shape of `times` (s).
+        """
+    def evaluate(self, times: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        Forces (N) and moments (N m) at times (s): shape times.shape + (6,).
+        """
+    @property
+    def elevation_error_bound(self) -> float:
+        """
+        The same, m.
+        """
+    @property
+    def error_bound(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        Bound of |table - exact| per motion, N and N m, shape (6,).
+        """
+    @property
+    def step(self) -> float:
+        """
+        Distance of the knots, s.
+        """
+class Body:
+    """
+    A rigid body: inertia (3, 3) in kg m2 about the centre of mass in body axes, pose of the body origin in the inertial frame, quaternion (w, x, y, z) body to inertial. Immutable.
+    """
+    def __init__(self, *, name: str, mass: typing.SupportsFloat | typing.SupportsIndex, inertia: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 3]"], center_of_mass: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ..., position: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ..., quaternion: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[4, 1]"] = ..., velocity: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ..., angular_velocity: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ..., gravity: bool = True) -> None:
+        ...
+    @property
+    def angular_velocity(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
+        """
+        rad/s (copy)
+        """
+    @property
+    def center_of_mass(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
+        """
+        m, body axes (copy)
+        """
+    @property
+    def gravity(self) -> bool:
+        """
+        whether weight acts on it
+        """
+    @property
+    def inertia(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 3]"]:
+        """
+        kg m2, about the centre of mass (copy)
+        """
+    @property
+    def mass(self) -> float:
+        """
+        kg
+        """
+    @property
+    def name(self) -> str:
+        ...
+    @property
+    def position(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
+        """
+        m, inertial frame (copy)
+        """
+    @property
+    def quaternion(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[4, 1]"]:
+        """
+        w, x, y, z (copy)
+        """
+    @property
+    def velocity(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
+        """
+        m/s, inertial frame (copy)
+        """
+class Frame:
+    """
+    A joint frame: a point (m) and axes (3, 3, columns; z is the joint axis) in body coordinates.
+    """
+    def __init__(self, *, point: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ..., axes: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 3]"] = ...) -> None:
+        ...
+    @property
+    def axes(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 3]"]:
+        ...
+    @property
+    def point(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
+        ...
+class Joint:
+    """
+    A joint between two bodies ('ground' is the inertial frame); may close a loop. Kinds: weld, revolute, prismatic, cylindrical, universal, spherical, planar, distance, free.
+    """
+    def __init__(self, *, name: str, kind: str, first: str, second: str, first_frame: Frame, second_frame: Frame, length: typing.SupportsFloat | typing.SupportsIndex = 0.0) -> None:
+        ...
+    @property
+    def first(self) -> str:
+        ...
+    @property
+    def first_frame(self) -> Frame:
+        ...
+    @property
+    def kind(self) -> str:
+        ...
+    @property
+    def length(self) -> float:
+        """
+        m, distance joints
+        """
+    @property
+    def name(self) -> str:
+        ...
+    @property
+    def second(self) -> str:
+        ...
+    @property
+    def second_frame(self) -> Frame:
+        ...
+class Driver:
+    """
+    Prescribes a joint coordinate (m or rad) as a function of time.
+    """
+    def __init__(self, *, name: str, joint: str, coordinate: str, curve: Curve) -> None:
+        ...
+    @property
+    def coordinate(self) -> str:
+        ...
+    @property
+    def curve(self) -> Curve:
+        ...
+    @property
+    def joint(self) -> str:
+        ...
+    @property
+    def name(self) -> str:
+        ...
+class Actuator:
+    """
+    State feedback on a joint coordinate q: feed_forward + stiffness (reference - q) + damping (reference rate - q rate), N (N/m, N s/m) or N m (N m/rad, N m s/rad).
+    """
+    def __init__(self, *, name: str, joint: str, coordinate: str, stiffness: typing.SupportsFloat | typing.SupportsIndex = 0.0, damping: typing.SupportsFloat | typing.SupportsIndex = 0.0, feed_forward: typing.SupportsFloat | typing.SupportsIndex = 0.0, reference: Curve = ...) -> None:
+        ...
+    @property
+    def coordinate(self) -> str:
+        ...
+    @property
+    def damping(self) -> float:
+        ...
+    @property
+    def feed_forward(self) -> float:
+        ...
+    @property
+    def joint(self) -> str:
+        ...
+    @property
+    def name(self) -> str:
+        ...
+    @property
+    def reference(self) -> Curve:
+        ...
+    @property
+    def stiffness(self) -> float:
+        ...
+class PointForce:
+    """
+    A constant force (N) at a body-fixed point (m, body coordinates), in inertial or body axes.
+    """
+    def __init__(self, *, name: str, body: str, point: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], force: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], body_axes: bool = False) -> None:
+        ...
+    @property
+    def body(self) -> str:
+        ...
+    @property
+    def body_axes(self) -> bool:
+        ...
+    @property
+    def force(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
+        ...
+    @property
+    def name(self) -> str:
+        ...
+    @property
+    def point(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
+        ...
+class Spring:
+    """
+    Tension between two body-fixed points: stiffness (N/m) times elongation, or a table of tension (N) over length (m), plus damping (N s/m) times the rate of length.
+    """
+    def __init__(self, *, name: str, first: str, second: str, first_point: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], second_point: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], stiffness: typing.SupportsFloat | typing.SupportsIndex = 0.0, damping: typing.SupportsFloat | typing.SupportsIndex = 0.0, natural_length: typing.SupportsFloat | typing.SupportsIndex = 0.0, lengths: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex] = [], forces: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex] = []) -> None:
+        ...
+    @property
+    def name(self) -> str:
+        ...
+class ForceTable:
+    """
+    Force and moment (n, 6), N and N m, inertial axes, about a body-fixed point, over times (n,) in s; linear in between, held outside.
+    """
+    def __init__(self, *, name: str, body: str, point: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], times: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], wrenches: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, 6]"]) -> None:
+        ...
+    @property
+    def name(self) -> str:
+        ...
+class FunctionForce:
+    """
+    A C function called in every evaluation, by its address (numba.cfunc(...).address): void f(double t, const double* state13, const double* parameters, double* wrench6); state: position, quaternion, velocity, angular velocity of the body origin; inertial axes.
+    """
+    def __init__(self, *, name: str, body: str, address: typing.SupportsInt | typing.SupportsIndex, parameters: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex] = []) -> None:
+        ...
+    @property
+    def name(self) -> str:
+        ...
+class StateSpaceBlock:
+    """
+    Fluid memory x' = A x + B u, mu = C x + D u between motions 0 (surge) ... 5 (yaw), eqs (29)-(30).
+    """
+    def __init__(self, *, inputs: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex], outputs: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex], a: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, n]"], b: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, n]"], c: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, n]"], d: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, n]"], state_scale: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, 1]"] = ...) -> None:
+        ...
+    @property
+    def a(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]:
+        ...
+    @property
+    def b(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]:
+        ...
+    @property
+    def c(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]:
+        ...
+    @property
+    def d(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]:
+        ...
+    @property
+    def inputs(self) -> list[int]:
+        ...
+    @property
+    def outputs(self) -> list[int]:
+        ...
+    @property
+    def state_scale(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]:
+        ...
+class VesselHydrodynamics:
+    """
+    Linear hydrodynamics of a body about its origin (the reference point): added mass, damping and restoring (6, 6), quadratic damping (6,), mooring stiffness and damping of surge, sway, yaw (3,), memory blocks. kinematics: 'yaw_following' (default) or 'paper', eqs (17)-(31).
+    """
+    def __init__(self, *, name: str, body: str, added_mass: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[6, 6]"] = ..., linear_damping: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[6, 6]"] = ..., quadratic_damping: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[6, 1]"] = ..., restoring: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[6, 6]"] = ..., mooring_stiffness: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ..., mooring_damping: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ..., memory: collections.abc.Sequence[StateSpaceBlock] = [], kinematics: str = 'yaw_following') -> None:
+        ...
+    @property
+    def added_mass(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[6, 6]"]:
+        ...
+    @property
+    def body(self) -> str:
+        ...
+    @property
+    def kinematics(self) -> str:
+        ...
+    @property
+    def linear_damping(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[6, 6]"]:
+        ...
+    @property
+    def memory(self) -> list[StateSpaceBlock]:
+        ...
+    @property
+    def mooring_damping(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
+        ...
+    @property
+    def mooring_stiffness(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
+        ...
+    @property
+    def name(self) -> str:
+        ...
+    @property
+    def quadratic_damping(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[6, 1]"]:
+        ...
+    @property
+    def restoring(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[6, 6]"]:
+        ...
+class WaveLoads:
+    """
+    Wave loads on a vessel from its force RAOs: an exact sum, or a table of it with a stated error bound.
+    """
+    def __init__(self, *, name: str, body: str, exact: ExactWaveLoad, table: WaveTable = None) -> None:
+        ...
+    @property
+    def name(self) -> str:
+        ...
+class Model:
+    """
+    A compiled scene: immutable, shareable between threads.
+    """
+    def channel_names(self, defaults_only: bool = True) -> list[str]:
+        ...
+    def pose_index(self, body: typing.SupportsInt | typing.SupportsIndex) -> int:
+        ...
+    def twist_index(self, body: typing.SupportsInt | typing.SupportsIndex) -> int:
+        ...
+    @property
+    def assembly(self) -> dict:
+        ...
+    @property
+    def baumgarte(self) -> float:
+        ...
+    @property
+    def bodies(self) -> list[str]:
+        ...
+    @property
+    def breakpoints(self) -> list[float]:
+        """
+        s
+        """
+    @property
+    def constraints(self) -> int:
+        ...
+    @property
+    def coordinates(self) -> int:
+        ...
+    @property
+    def degrees_of_freedom(self) -> int:
+        ...
+    @property
+    def elements(self) -> list[tuple[str, str, int, bool]]:
+        """
+        (name, kind, rows, whether the reaction is unique) of joints, then drivers.
+        """
+    @property
+    def initial_state(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        Consistent start (copy): poses, twists, memory states, work.
+        """
+    @property
+    def memory_states(self) -> int:
+        ...
+    @property
+    def name(self) -> str:
+        ...
+    @property
+    def paper_kinematics(self) -> bool:
+        ...
+    @property
+    def redundant(self) -> list[str]:
+        """
+        Names of elements whose reactions are not unique.
+        """
+    @property
+    def scale(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        Typical magnitude per state (copy); infinity: outside the error norm.
+        """
+    @property
+    def slots(self) -> int:
+        ...
+    @property
+    def states(self) -> int:
+        ...
+class Evaluator:
+    """
+    Evaluates a compiled model at single states (t in s, y as Model.initial_state).
+    """
+    def __init__(self, model: Model) -> None:
+        ...
+    def derivative(self, t: typing.SupportsFloat | typing.SupportsIndex, y: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        dy/dt, a new array.
+        """
+    def energy(self, t: typing.SupportsFloat | typing.SupportsIndex, y: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> float:
+        """
+        Mechanical energy, J.
+        """
+    def project(self, t: typing.SupportsFloat | typing.SupportsIndex, y: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        y on the constraints, a new array.
+        """
+    def repeat(self, t: typing.SupportsFloat | typing.SupportsIndex, y: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], count: typing.SupportsInt | typing.SupportsIndex, dt: typing.SupportsFloat | typing.SupportsIndex = 0.0) -> None:
+        """
+        Evaluates `count` times, advancing t by dt; for timing.
+        """
+    def residual(self, t: typing.SupportsFloat | typing.SupportsIndex, y: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> tuple[float, float]:
+        """
+        Largest constraint residuals (position in m or rad, rate per s).
+        """
+    def terms(self, t: typing.SupportsFloat | typing.SupportsIndex, y: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> dict:
+        """
+        Dense mass, jacobian, gamma, phi, load, acceleration, multipliers of eq (9).
+        """
+    def time_parts(self, t: typing.SupportsFloat | typing.SupportsIndex, y: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], count: typing.SupportsInt | typing.SupportsIndex = 2000) -> dict:
+        """
+        Nanoseconds per evaluation by part.
+        """
+class State:
+    """
+    Time (s), state values and inputs of a run; a copy is a checkpoint.
+    """
+    def __init__(self, *, time: typing.SupportsFloat | typing.SupportsIndex, values: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], inputs: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> None:
+        ...
+    @property
+    def inputs(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        copy
+        """
+    @property
+    def time(self) -> float:
+        ...
+    @property
+    def values(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        copy
+        """
+class Simulation:
+    """
+    One run of a model: advance(), inputs, recorded channels. Not for several threads.
+    """
+    def __init__(self, *, model: Model, start: State, integrator: str, rtol: typing.SupportsFloat | typing.SupportsIndex, dt: typing.SupportsFloat | typing.SupportsIndex, max_step: typing.SupportsFloat | typing.SupportsIndex, output_times: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], channels: collections.abc.Set[str]) -> None:
+        ...
+    def advance(self, t_end: typing.SupportsFloat | typing.SupportsIndex, progress: typing.Any = None) -> bool:
+        """
+        Steps to t_end (s) without the GIL; returns False when Ctrl-C stopped it. progress(time) is called now and then.
+        """
+    def channels(self) -> dict:
+        """
+        Recorded arrays by name, time first (copies).
+        """
+    def set_inputs(self, slots: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> None:
+        """
+        Sets the zero-order-held inputs from now on.
+        """
+    def statistics(self) -> dict:
+        ...
+    @property
+    def state(self) -> State:
+        """
+        copy
+        """
+    @property
+    def time(self) -> float:
+        ...
+def compile(*, name: str, gravity: typing.SupportsFloat | typing.SupportsIndex, orientation: str, baumgarte: typing.SupportsFloat | typing.SupportsIndex, length_scale: typing.SupportsFloat | typing.SupportsIndex, bodies: collections.abc.Sequence[Body], joints: collections.abc.Sequence[Joint], drivers: collections.abc.Sequence[Driver], actuators: collections.abc.Sequence[Actuator], point_forces: collections.abc.Sequence[PointForce], springs: collections.abc.Sequence[Spring], force_tables: collections.abc.Sequence[ForceTable], function_forces: collections.abc.Sequence[FunctionForce], vessels: collections.abc.Sequence[VesselHydrodynamics], wave_loads: collections.abc.Sequence[WaveLoads], coordinates: collections.abc.Sequence[tuple[str, str]]) -> Model:
+    """
+    Checks and compiles a scene; seacrane.Scene.compile() calls it. Raises SceneError.
+    """
+def initial_state(model: Model) -> State:
+    ...
+def integrator_names() -> list[str]:
+    ...
+def jonswap(*, hs: typing.SupportsFloat | typing.SupportsIndex, tp: typing.SupportsFloat | typing.SupportsIndex, gamma: typing.SupportsFloat | typing.SupportsIndex = 3.3) -> Spectrum:
+    """
+    JONSWAP spectrum.
+    
+    Parameters
+    ----------
+    hs : float
+        Significant wave height, m.
+    tp : float
+        Peak period, s.
+    gamma : float
+        Peak enhancement, at least 1. The width is 0.07 below and 0.09 above the peak.
+    
+    Raises
+    ------
+    ValueError
+        A parameter is not finite or out of range.
+    
+    Notes
+    -----
+    Hasselmann et al., Deutsche Hydrographische Zeitschrift A8 (12), 1973. Normalised by quadrature.
+    """
+def philox_uniform(*, seed: typing.Any, stream: typing.Any, index: typing.Any) -> float:
+    """
+    Uniform number in (0, 1) by Philox4x32-10 (Salmon et al., SC11, 2011): key = seed, counter = index + 2^64 stream; the first two output words, lowest first, shifted right by 11, made odd, times 2^-53.
+    """
+def pierson_moskowitz(*, hs: typing.SupportsFloat | typing.SupportsIndex, tp: typing.SupportsFloat | typing.SupportsIndex) -> Spectrum:
+    """
+    Pierson-Moskowitz spectrum, in its form for a given significant wave height and peak period.
+    
+    Parameters
+    ----------
+    hs : float
+        Significant wave height, m.
+    tp : float
+        Peak period, s.
+    
+    Raises
+    ------
+    ValueError
+        A parameter is not finite or not above zero.
+    
+    Notes
+    -----
+    W. J. Pierson and L. Moskowitz, J. Geophys. Res. 69 (24), 1964.
+    """
+def realise_waves(spectrum: Spectrum, *, seed: typing.Any, direction: typing.SupportsFloat | typing.SupportsIndex, count: typing.Any = 200, omega_min: typing.SupportsFloat | typing.SupportsIndex | None = None, omega_max: typing.SupportsFloat | typing.SupportsIndex | None = None, depth: typing.SupportsFloat | typing.SupportsIndex = ..., gravity: typing.SupportsFloat | typing.SupportsIndex = 9.80665) -> WaveComponents:
+    """
+    Long-crested sea with deterministic amplitudes and jittered frequencies.
+    
+    The frequency range is cut into `count` bins of one width. Component i has exactly the energy of bin i, a
+    frequency placed uniformly within it and a uniform phase; both from Philox4x32-10 with the seed as key,
+    streams 0 and 1, index i (`philox_uniform`). Energy outside the range is left out and not made up for: see
+    `realised_hs`.
+    
+    Parameters
+    ----------
+    spectrum : Spectrum
+    seed : int
+        0 to 2^64 - 1. The same seed gives the same waves; the random bits are the same on every platform, the
+        derived numbers up to the rounding of its mathematical library.
+    direction : float
+        Where the waves travel to, rad, from +x (forward) towards +y (port).
+    count : int
+        Number of components.
+    omega_min, omega_max : float, optional
+        Range, rad/s. By default min(0.3, peak / 2) to max(2.5, 3 peak): the realised hs is then within 1 %.
+    depth : float
+        Water depth, m.
+    gravity : float
+        m/s2.
+    
+    Raises
+    ------
+    ValueError
+        A parameter is not finite or out of range.
+    """
