@@ -76,7 +76,7 @@ cpp-test: build
 	ctest --test-dir $(PACKAGE_BUILD) --output-on-failure --no-tests=error -j $(JOBS)
 
 cpp-sanitize: system-packages
-	cmake -S . -B $(SANITIZE_BUILD) -G Ninja -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS=-O1 \
+	cmake -S . -B $(SANITIZE_BUILD) -G Ninja -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG='-O1 -g1' \
 	  -DSEACRANE_PYTHON=OFF -DSEACRANE_TESTS=ON -DSEACRANE_SANITIZE=address,undefined
 	cmake --build $(SANITIZE_BUILD) --target seacrane_tests
 	ctest --test-dir $(SANITIZE_BUILD) --output-on-failure --no-tests=error -j $(JOBS)

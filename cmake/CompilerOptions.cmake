@@ -8,7 +8,7 @@ if(SEACRANE_NATIVE)
 endif()
 if(SEACRANE_SANITIZE)
   target_compile_options(seacrane_options INTERFACE
-    -fsanitize=${SEACRANE_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer -g)
+    -fsanitize=${SEACRANE_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
   target_link_options(seacrane_options INTERFACE -fsanitize=${SEACRANE_SANITIZE})
 endif()
 
