@@ -22,6 +22,7 @@ RUNS: dict[str, tuple[str, dict[str, Any]]] = {
     "case3": ("case3", {}),
 }
 T_END, DT_OUT = 100.0, 0.1
+REPEATS = 5  # a single wall time of some hundredths of a second says little about cost
 TITLE = "Offshore crane and vessel in waves: the lift cases of Landsverk, Zhou and Hovland"
 SUMMARY = (
     "The vessel alone in waves, with and without fluid memory, and three cases of its crane swinging out to "
@@ -29,7 +30,7 @@ SUMMARY = (
     "a 5 s period from 50 s on (case 3).",
     "The paper publishes no data and leaves parts of its model open; masses, geometry, hull, sea and control "
     "are our choices within what it states. The findings below compare numbers of these runs with what it "
-    "says in words.",
+    "says in words. Every run is made {repeats} times, and its wall time is the least of them.",
 )
 
 
@@ -55,11 +56,18 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def _simulate(name: str) -> Result:
+    """The quickest of equal runs, or the first that is interrupted."""
     import seacrane.cases as cases
     from seacrane.simulation import simulate
 
     case, options = RUNS[name]
-    return simulate(getattr(cases, case)(**options), t_end=T_END, dt_out=DT_OUT)
+    scene = getattr(cases, case)(**options)
+    results = []
+    for _ in range(REPEATS):
+        results.append(simulate(scene, t_end=T_END, dt_out=DT_OUT))
+        if results[-1].interrupted:
+            return results[-1]
+    return min(results, key=lambda result: float(result.stats["wall_s"]))
 
 
 def _pace(result: Result) -> str:
@@ -88,7 +96,7 @@ def _write_report(
     return write_report(
         folder / "report.html",
         title=TITLE,
-        summary=SUMMARY,
+        summary=[text.format(repeats=REPEATS) for text in SUMMARY],
         runs=runs,
         pictures=pictures,
         scene={f"case 2, {section}": rows for section, rows in cases.case2().report().items()},

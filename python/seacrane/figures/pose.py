@@ -162,7 +162,7 @@ def draw_poses(result: Result, skeleton: Skeleton) -> Figure:
         if wire is not None:
             axes.plot(*wire.T, color="black", linewidth=1.0, label="link")
         axes.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]), zlim=(low[2], high[2]))
-        axes.set_box_aspect(high - low, zoom=1.0)
+        axes.set_box_aspect(high - low, zoom=0.96)
         axes.view_init(elev=20, azim=-60)
         axes.set(xlabel="x aft [m]", ylabel="y starboard [m]", zlabel="z up [m]")
         axes.tick_params(labelsize=7)
