@@ -133,7 +133,7 @@ def test_out_must_be_a_folder(tmp_path: Path) -> None:
 @pytest.fixture(scope="module")
 def lift(tmp_path_factory: pytest.TempPathFactory) -> tuple[subprocess.CompletedProcess[str], Path]:
     folder = tmp_path_factory.mktemp("lift") / "deep" / "out"
-    return seacrane("run", "case2", "--out", folder, "--t-end", "5", "--dt-out", "0.5"), folder
+    return command_line("run", "case2", "--out", folder, "--t-end", "5", "--dt-out", "0.5"), folder
 
 
 def test_a_run_writes_its_file_and_a_summary(
