@@ -1,7 +1,7 @@
 """Compute the shipped hydrodynamic database with Capytaine: ``python tools/make_database.py``.
 
-A development tool: needs Capytaine 3, which the package itself never imports. Everything that is not the hull or
-the numerical grid is converted to the conventions of seacrane (exp(+i omega t); x forward, y port, z up).
+A development tool: needs Capytaine 3, which the package itself never imports. Everything that is not the hull
+or the numerical grid is converted to the conventions of seacrane (exp(+i omega t); x forward, y port, z up).
 """
 
 from __future__ import annotations
@@ -16,6 +16,7 @@ import capytaine
 import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
+
 from seacrane.hydro.database import HydroDatabase
 from seacrane.hydro.memory import fit_memory
 from seacrane.hydro.motion import natural_frequency
@@ -30,7 +31,8 @@ MASS = 14.0e6
 GM_TRANSVERSE = 3.0
 ROLL_DAMPING_FRACTION = 0.05
 TRUSTED_BAND = (0.3, 2.5)
-STATIONS, GIRTH = 64, 10
+STATIONS, GIRTH = 56, 20
+LID_PANEL_RADIUS = 1.5
 MOTIONS = ["Surge", "Sway", "Heave", "Roll", "Pitch", "Yaw"]
 HULL = ParametricHull(
     length=115.0,
@@ -64,7 +66,9 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     root = Path(__file__).resolve().parents[1]
     parser.add_argument("--out", type=Path, default=root / "python" / "seacrane" / "data" / "hull_115.nc")
-    parser.add_argument("--raw", type=Path, help="keep Capytaine's solution here, and reuse it when it is there")
+    parser.add_argument(
+        "--raw", type=Path, help="keep Capytaine's solution here, and reuse it when it is there"
+    )
     arguments = parser.parse_args()
     hull = HULL.scaled_to_volume(MASS / RHO, stations=STATIONS, girth=GIRTH)
     panels = hull.panels(stations=STATIONS, girth=GIRTH)
@@ -81,7 +85,9 @@ def solve_or_reuse(panels: FloatArray, raw: Path | None) -> Solution:
     """Solve, or read what an earlier run of this script kept."""
     if raw is not None and raw.exists():
         with np.load(raw) as stored:
-            return Solution(**{name: stored[name] if stored[name].ndim else int(stored[name]) for name in stored})
+            return Solution(
+                **{name: stored[name] if stored[name].ndim else int(stored[name]) for name in stored}
+            )
     solution = solve(panels)
     if raw is not None:
         with raw.open("wb") as file:
@@ -90,26 +96,31 @@ def solve_or_reuse(panels: FloatArray, raw: Path | None) -> Solution:
 
 
 def solve(panels: FloatArray) -> Solution:
-    """Radiation and diffraction of the fixed-origin hull with a lid against irregular frequencies."""
+    """Radiation and diffraction of the hull, with a lid against irregular frequencies."""
     logging.getLogger("capytaine").setLevel(logging.ERROR)
     vertices = panels.reshape(-1, 3)
     mesh = capytaine.Mesh(vertices=vertices, faces=np.arange(len(vertices)).reshape(-1, 4), name="hull_115")
-    lid = mesh.generate_lid()
+    lid = mesh.generate_lid(faces_max_radius=LID_PANEL_RADIUS)
     dofs = capytaine.rigid_body_dofs(rotation_center=(0.0, 0.0, 0.0))
     body = capytaine.FloatingBody(mesh=mesh, lid_mesh=lid, dofs=dofs, name="hull_115")
-    common = {"water_depth": [np.inf], "rho": [RHO], "g": G}
-    limits = np.array([0.0, np.inf])
-    radiation = xr.Dataset(coords={"omega": np.concatenate([OMEGA, limits]), "radiating_dof": MOTIONS, **common})
-    diffraction = xr.Dataset(coords={"omega": OMEGA, "wave_direction": HEADING, **common})
-    solver = capytaine.BEMSolver()
-    radiated = solver.fill_dataset(radiation, body, progress_bar=False).squeeze()
-    diffracted = solver.fill_dataset(diffraction, body, progress_bar=False).squeeze()
-    added_mass = radiated.added_mass.transpose("omega", "influenced_dof", "radiating_dof")
-    damping = radiated.radiation_damping.transpose("omega", "influenced_dof", "radiating_dof")
-    added_mass = added_mass.sel(influenced_dof=MOTIONS, radiating_dof=MOTIONS)
-    damping = damping.sel(influenced_dof=MOTIONS, radiating_dof=MOTIONS, omega=OMEGA)
-    force = diffracted.diffraction_force + diffracted.Froude_Krylov_force
-    force = force.transpose("wave_direction", "omega", "influenced_dof").sel(influenced_dof=MOTIONS)
+    limits = np.array([0.0, np.inf])  # diffraction is undefined there: Capytaine leaves it out
+    wanted = xr.Dataset(
+        coords={
+            "omega": np.concatenate([OMEGA, limits]),
+            "radiating_dof": MOTIONS,
+            "wave_direction": HEADING,
+            "water_depth": [np.inf],
+            "rho": [RHO],
+            "g": G,
+        }
+    )
+    solved = capytaine.BEMSolver().fill_dataset(wanted, body, progress_bar=False).squeeze()
+    order = ("omega", "influenced_dof", "radiating_dof")
+    by_name = {"influenced_dof": MOTIONS, "radiating_dof": MOTIONS}
+    added_mass = solved.added_mass.transpose(*order).sel(by_name)
+    damping = solved.radiation_damping.transpose(*order).sel(by_name).sel(omega=OMEGA)
+    force = (solved.diffraction_force + solved.Froude_Krylov_force).sel(omega=OMEGA, influenced_dof=MOTIONS)
+    force = force.transpose("wave_direction", "omega", "influenced_dof")
     return Solution(
         added_mass=added_mass.sel(omega=OMEGA).values,
         added_mass_zero=added_mass.sel(omega=0.0).values,
@@ -122,12 +133,14 @@ def solve(panels: FloatArray) -> Solution:
 
 
 def assemble(hull: ParametricHull, hydrostatics: Hydrostatics, solution: Solution) -> HydroDatabase:
-    """The database: symmetrised matrices and forces, mass and restoring of the hull alone, added roll damping."""
+    """The database: symmetrised results, mass and restoring of the hull alone, added roll damping."""
     raw = (solution.added_mass, solution.damping, solution.added_mass_zero, solution.added_mass_infinite)
     added_mass, damping, zero, infinite = (symmetrised(matrix) for matrix in raw)
     removed = max(asymmetry(solution.added_mass), asymmetry(solution.damping))
     force, noise = symmetrised_force(solution.force)
-    metacentre = hydrostatics.centre_of_buoyancy[2] + hydrostatics.waterplane_inertia_roll / hydrostatics.volume
+    metacentre = (
+        hydrostatics.centre_of_buoyancy[2] + hydrostatics.waterplane_inertia_roll / hydrostatics.volume
+    )
     centre_z = float(metacentre - GM_TRANSVERSE)
     restoring = hydrostatics.restoring(rho=RHO, g=G, centre_of_gravity_z=centre_z)
     gyration = np.array([0.36 * hull.breadth, 0.25 * hull.length, 0.25 * hull.length])
@@ -155,9 +168,12 @@ def assemble(hull: ParametricHull, hydrostatics: Hydrostatics, solution: Solutio
             f"tools/make_database.py (sha256 {script}) with Capytaine {capytaine.__version__}; {hull}; "
             f"{solution.hull_panels} hull and {solution.lid_panels} lid panels; volume of the panel mesh "
             f"{hydrostatics.volume:.6f} m3; centre of gravity {centre_z:.6f} m above the waterline for GM_T "
-            f"{GM_TRANSVERSE} m; matrices made symmetric, which removed up to {removed:.4f} of the geometric mean of "
-            f"the largest diagonals; motions that port-starboard symmetry forbids set to zero, which removed up to "
-            f"{noise:.1e} of the largest force; linear roll damping of {ROLL_DAMPING_FRACTION} of critical added in "
+            f"{GM_TRANSVERSE} m; matrices made symmetric, which removed up to {removed:.4f} of the geometric "
+            "mean of "
+            "the largest diagonals; motions that port-starboard symmetry forbids set to zero, which removed "
+            "up to "
+            f"{noise:.1e} of the largest force; linear roll damping of {ROLL_DAMPING_FRACTION} of critical "
+            "added in "
             "linear_damping"
         ),
     )
@@ -178,7 +194,8 @@ def asymmetry(matrix: FloatArray) -> float:
 
 
 def symmetrised_force(force: ComplexArray) -> tuple[ComplexArray, float]:
-    """Forces (m, n, 6) with sway, roll and yaw zero in head and following seas, and the relative size removed."""
+    """Forces (m, n, 6) with sway, roll and yaw zero in head and following seas, and the relative size
+    removed."""
     clean = force.copy()
     ends = [0, len(HEADING) - 1]
     clean[np.ix_(ends, range(len(OMEGA)), [1, 3, 5])] = 0.0

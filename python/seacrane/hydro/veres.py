@@ -238,7 +238,7 @@ def _convert(stem: Path, matrices: _Matrices, force: _Transfer, motion: _Transfe
     head, x_aft, z = matrices.header, *matrices.motion_point
 
     def of_frequency(block: FloatArray) -> FloatArray:
-        return np.asarray(block[0][by_omega] * BOTH_SIDES)
+        return np.asarray(block[0][by_omega] * BOTH_SIDES + 0.0)  # + 0.0: no negative zeros
 
     def of_wave(values: ComplexArray) -> ComplexArray:
         return np.asarray(values[by_heading][:, by_omega] * TO_OURS)
@@ -258,8 +258,8 @@ def _convert(stem: Path, matrices: _Matrices, force: _Transfer, motion: _Transfe
         heading=direction[by_heading],
         added_mass=of_frequency(added_mass),
         damping=of_frequency(damping),
-        restoring=restoring[0, 0] * BOTH_SIDES,
-        mass_matrix=matrices.mass * BOTH_SIDES,
+        restoring=restoring[0, 0] * BOTH_SIDES + 0.0,
+        mass_matrix=matrices.mass * BOTH_SIDES + 0.0,
         force=of_wave(force.values),
         motion_rao=None if motion is None else of_wave(motion.values),
         roll_damping=RollDamping(
