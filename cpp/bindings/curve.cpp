@@ -39,35 +39,43 @@ py::array_t<double> evaluate(const Curve& curve, const py::array_t<double, py::a
 }  // namespace
 
 void bind_curve(py::module_& m) {
-  py::class_<Curve>(m, "Curve", R"(A reference as a function of time: pieces of quintic polynomials plus one cosine each.
+  py::class_<Curve>(m, "Curve",
+                    R"(A reference as a function of time: pieces of quintic polynomials plus one cosine each.
 
 Before its first piece a curve holds its first value at rest; the last piece goes on for ever. Values are in
 the unit of what the curve drives (m or rad), times in s. Immutable.)")
       .def_static("constant", &Curve::constant, py::kw_only(), py::arg("value"), "One value at all times.")
-      .def_static("quintic", &Curve::quintic, py::kw_only(), py::arg("start_time"), py::arg("end_time"),
-                  py::arg("start"), py::arg("end"),
-                  "From `start` at `start_time` to `end` at `end_time`, at rest with zero acceleration at both "
-                  "ends, held before and after. Raises SceneError when the times do not increase.")
-      .def_static("harmonic", &Curve::harmonic, py::kw_only(), py::arg("start_time") = 0.0, py::arg("offset") = 0.0,
-                  py::arg("amplitude"), py::arg("omega"), py::arg("phase") = 0.0,
+      .def_static(
+          "quintic", &Curve::quintic, py::kw_only(), py::arg("start_time"), py::arg("end_time"),
+          py::arg("start"), py::arg("end"),
+          "From `start` at `start_time` to `end` at `end_time`, at rest with zero acceleration at both "
+          "ends, held before and after. Raises SceneError when the times do not increase.")
+      .def_static("harmonic", &Curve::harmonic, py::kw_only(), py::arg("start_time") = 0.0,
+                  py::arg("offset") = 0.0, py::arg("amplitude"), py::arg("omega"), py::arg("phase") = 0.0,
                   "offset + amplitude cos(omega (t - start_time) + phase), omega in rad/s.")
-      .def_static("pieces", &from_pieces, py::kw_only(), py::arg("starts"), py::arg("coefficients"),
-                  py::arg("cosines") = std::vector<std::array<double, 3>>{},
-                  "Pieces from their start times on: coefficients (n, 6) of powers of (t - start), cosines (n, 3) "
-                  "of amplitude, omega, phase.")
+      .def_static(
+          "pieces", &from_pieces, py::kw_only(), py::arg("starts"), py::arg("coefficients"),
+          py::arg("cosines") = std::vector<std::array<double, 3>>{},
+          "Pieces from their start times on: coefficients (n, 6) of powers of (t - start), cosines (n, 3) "
+          "of amplitude, omega, phase.")
       .def("then", &Curve::then, py::kw_only(), py::arg("time"), py::arg("curve"),
            "This curve until `time`, the other one afterwards (at its own clock).")
-      .def("evaluate", &evaluate, py::arg("times"), "Values, rates and accelerations, shape (n, 3), at times (n,) in s.")
-      .def_property_readonly("breakpoints", [](const Curve& c) { return c.breakpoints(); },
-                             "Times (s) where value, rate or acceleration jumps.")
-      .def("to_pieces", [](const Curve& c) {
-        py::list starts, coefficients, cosines;
-        for (const auto& p : c.pieces()) {
-          starts.append(p.start);
-          coefficients.append(py::cast(p.coefficients));
-          cosines.append(py::cast(std::array<double, 3>{p.amplitude, p.omega, p.phase}));
-        }
-        return py::dict(py::arg("starts") = starts, py::arg("coefficients") = coefficients,
-                        py::arg("cosines") = cosines);
-      }, "The arguments of Curve.pieces() that make this curve.");
+      .def("evaluate", &evaluate, py::arg("times"),
+           "Values, rates and accelerations, shape (n, 3), at times (n,) in s.")
+      .def_property_readonly(
+          "breakpoints", [](const Curve& c) { return c.breakpoints(); },
+          "Times (s) where value, rate or acceleration jumps.")
+      .def(
+          "to_pieces",
+          [](const Curve& c) {
+            py::list starts, coefficients, cosines;
+            for (const auto& p : c.pieces()) {
+              starts.append(p.start);
+              coefficients.append(py::cast(p.coefficients));
+              cosines.append(py::cast(std::array<double, 3>{p.amplitude, p.omega, p.phase}));
+            }
+            return py::dict(py::arg("starts") = starts, py::arg("coefficients") = coefficients,
+                            py::arg("cosines") = cosines);
+          },
+          "The arguments of Curve.pieces() that make this curve.");
 }

@@ -11,11 +11,12 @@ namespace {
 
 std::shared_ptr<Model> compile_scene(
     std::string name, double gravity, const std::string& orientation, double baumgarte, double length_scale,
-    std::vector<BodyDescription> bodies, std::vector<JointDescription> joints, std::vector<DriverDescription> drivers,
-    std::vector<ActuatorDescription> actuators, std::vector<PointForceDescription> point_forces,
-    std::vector<SpringDescription> springs, std::vector<ForceTableDescription> force_tables,
-    std::vector<FunctionForceDescription> function_forces, std::vector<VesselDescription> vessels,
-    std::vector<WaveLoadDescription> wave_loads, const std::vector<std::pair<std::string, std::string>>& coordinates) {
+    std::vector<BodyDescription> bodies, std::vector<JointDescription> joints,
+    std::vector<DriverDescription> drivers, std::vector<ActuatorDescription> actuators,
+    std::vector<PointForceDescription> point_forces, std::vector<SpringDescription> springs,
+    std::vector<ForceTableDescription> force_tables, std::vector<FunctionForceDescription> function_forces,
+    std::vector<VesselDescription> vessels, std::vector<WaveLoadDescription> wave_loads,
+    const std::vector<std::pair<std::string, std::string>>& coordinates) {
   SceneDescription scene;
   scene.name = std::move(name);
   scene.gravity = gravity;
@@ -114,10 +115,14 @@ class Evaluator {
   void repeat(double t, const Array& y, long count, double dt) {
     std::vector<double> rate(static_cast<std::size_t>(check(y)));
     py::gil_scoped_release release;
-    for (long i = 0; i < count; ++i) system_.derivative(t + static_cast<double>(i) * dt, y.data(), rate.data());
+    for (long i = 0; i < count; ++i)
+      system_.derivative(t + static_cast<double>(i) * dt, y.data(), rate.data());
   }
   py::dict time_parts(double t, const Array& y, long count) {
     check(y);
+    if (count < 1) {
+      throw std::invalid_argument("time_parts: count is " + std::to_string(count) + "; give at least 1");
+    }
     py::dict out;
     for (const auto& [name, ns] : system_.time_parts(t, y.data(), count)) out[name.c_str()] = ns;
     return out;
@@ -136,8 +141,9 @@ class Evaluator {
 };
 
 void bind_evaluator(py::module_& m) {
-  py::class_<Evaluator>(m, "Evaluator", "Evaluates a compiled model at single states (t in s, y as Model.initial_state).")
-      .def(py::init<std::shared_ptr<Model>>(), py::arg("model"))
+  py::class_<Evaluator>(m, "Evaluator",
+                        "Evaluates a compiled model at single states (t in s, y as Model.initial_state).")
+      .def(py::init<std::shared_ptr<Model>>(), py::arg("model").none(false))
       .def("derivative", &Evaluator::derivative, py::arg("t"), py::arg("y"), "dy/dt, a new array.")
       .def("project", &Evaluator::project, py::arg("t"), py::arg("y"), "y on the constraints, a new array.")
       .def("residual", &Evaluator::residual, py::arg("t"), py::arg("y"),
@@ -154,45 +160,59 @@ void bind_evaluator(py::module_& m) {
 }  // namespace
 
 void bind_model(py::module_& m) {
-  py::class_<Model, std::shared_ptr<Model>>(m, "Model", "A compiled scene: immutable, shareable between threads.")
+  py::class_<Model, std::shared_ptr<Model>>(m, "Model",
+                                            "A compiled scene: immutable, shareable between threads.")
       .def_property_readonly("name", [](const Model& x) { return x.description.name; })
-      .def_property_readonly("bodies", [](const Model& x) {
-        std::vector<std::string> out;
-        for (const auto& b : x.bodies) out.push_back(b.name);
-        return out;
-      })
-      .def_property_readonly("elements", [](const Model& x) {
-        std::vector<std::tuple<std::string, std::string, int, bool>> out;
-        for (const auto& e : x.elements) out.emplace_back(e.name, e.kind, e.rows, e.unique_reaction);
-        return out;
-      }, "(name, kind, rows, whether the reaction is unique) of joints, then drivers.")
+      .def_property_readonly("bodies",
+                             [](const Model& x) {
+                               std::vector<std::string> out;
+                               for (const auto& b : x.bodies) out.push_back(b.name);
+                               return out;
+                             })
+      .def_property_readonly(
+          "elements",
+          [](const Model& x) {
+            std::vector<std::tuple<std::string, std::string, int, bool>> out;
+            for (const auto& e : x.elements) out.emplace_back(e.name, e.kind, e.rows, e.unique_reaction);
+            return out;
+          },
+          "(name, kind, rows, whether the reaction is unique) of joints, then drivers.")
       .def_property_readonly("coordinates", [](const Model& x) { return 6 * x.body_count(); })
       .def_property_readonly("constraints", &Model::rows)
-      .def_property_readonly("degrees_of_freedom", [](const Model& x) {
-        return 6 * x.body_count() - (x.rows() == 0 ? 0 : x.assembly.rank);
-      })
+      .def_property_readonly(
+          "degrees_of_freedom",
+          [](const Model& x) { return 6 * x.body_count() - (x.rows() == 0 ? 0 : x.assembly.rank); })
       .def_property_readonly("states", [](const Model& x) { return x.layout.size; })
       .def_property_readonly("memory_states", [](const Model& x) { return x.layout.work - x.layout.memory; })
       .def_property_readonly("slots", [](const Model& x) { return x.slot_count; })
-      .def_property_readonly("breakpoints", [](const Model& x) { return x.breakpoints; }, "s")
-      .def_property_readonly("redundant", [](const Model& x) { return x.assembly.redundant; },
-                             "Names of elements whose reactions are not unique.")
+      .def_property_readonly(
+          "breakpoints", [](const Model& x) { return x.breakpoints; }, "s")
+      .def_property_readonly(
+          "redundant", [](const Model& x) { return x.assembly.redundant; },
+          "Names of elements whose reactions are not unique.")
       .def_property_readonly("assembly", &assembly_report)
       .def_property_readonly("paper_kinematics", [](const Model& x) { return x.paper_kinematics; })
       .def_property_readonly("baumgarte", [](const Model& x) { return x.description.baumgarte; })
-      .def_property_readonly("initial_state", [](const Model& x) {
-        return Array(static_cast<py::ssize_t>(x.initial_state.size()), x.initial_state.data());
-      }, "Consistent start (copy): poses, twists, memory states, work.")
-      .def_property_readonly("scale", [](const Model& x) {
-        return Array(static_cast<py::ssize_t>(x.scale.size()), x.scale.data());
-      }, "Typical magnitude per state (copy); infinity: outside the error norm.")
-      .def("pose_index", [](const Model& x, int body) { return x.layout.pose(body); }, py::arg("body"))
-      .def("twist_index", [](const Model& x, int body) { return x.layout.twist(body); }, py::arg("body"))
+      .def_property_readonly(
+          "initial_state",
+          [](const Model& x) {
+            return Array(static_cast<py::ssize_t>(x.initial_state.size()), x.initial_state.data());
+          },
+          "Consistent start (copy): poses, twists, memory states, work.")
+      .def_property_readonly(
+          "scale",
+          [](const Model& x) { return Array(static_cast<py::ssize_t>(x.scale.size()), x.scale.data()); },
+          "Typical magnitude per state (copy); infinity: outside the error norm.")
+      .def(
+          "pose_index", [](const Model& x, int body) { return x.layout.pose(body); }, py::arg("body"))
+      .def(
+          "twist_index", [](const Model& x, int body) { return x.layout.twist(body); }, py::arg("body"))
       .def("channel_names", &channel_names, py::arg("defaults_only") = true);
   m.def("compile", &compile_scene, py::kw_only(), py::arg("name"), py::arg("gravity"), py::arg("orientation"),
-        py::arg("baumgarte"), py::arg("length_scale"), py::arg("bodies"), py::arg("joints"), py::arg("drivers"),
-        py::arg("actuators"), py::arg("point_forces"), py::arg("springs"), py::arg("force_tables"),
-        py::arg("function_forces"), py::arg("vessels"), py::arg("wave_loads"), py::arg("coordinates"),
+        py::arg("baumgarte"), py::arg("length_scale"), py::arg("bodies"), py::arg("joints"),
+        py::arg("drivers"), py::arg("actuators"), py::arg("point_forces"), py::arg("springs"),
+        py::arg("force_tables"), py::arg("function_forces"), py::arg("vessels"), py::arg("wave_loads"),
+        py::arg("coordinates"),
         "Checks and compiles a scene; seacrane.Scene.compile() calls it. Raises SceneError.");
   bind_evaluator(m);
 }

@@ -11,10 +11,12 @@ Array to_array(const std::vector<double>& v) { return Array(static_cast<py::ssiz
 
 std::vector<double> to_vector(const Array& a) { return {a.data(), a.data() + a.size()}; }
 
-/// Asks Python for Ctrl-C and reports progress; called every 20 ms of wall time.
+/// Asks Python for Ctrl-C and reports progress; called every 20 ms of wall time. What another signal's
+/// handler raises is passed on.
 bool ask_python(double time, const py::object& progress) {
   py::gil_scoped_acquire acquire;
   if (PyErr_CheckSignals() != 0) {
+    if (PyErr_ExceptionMatches(PyExc_KeyboardInterrupt) == 0) throw py::error_already_set();
     PyErr_Clear();
     return false;
   }
@@ -65,13 +67,19 @@ void bind_simulation(py::module_& m) {
            }),
            py::kw_only(), py::arg("time"), py::arg("values"), py::arg("inputs"))
       .def_property_readonly("time", [](const State& s) { return s.time; })
-      .def_property_readonly("values", [](const State& s) { return to_array(s.values); }, "copy")
-      .def_property_readonly("inputs", [](const State& s) { return to_array(s.inputs); }, "copy");
-  m.def("initial_state", [](const std::shared_ptr<Model>& model) { return initial_state(*model); }, py::arg("model"));
+      .def_property_readonly(
+          "values", [](const State& s) { return to_array(s.values); }, "copy")
+      .def_property_readonly(
+          "inputs", [](const State& s) { return to_array(s.inputs); }, "copy");
+  m.def(
+      "initial_state", [](const std::shared_ptr<Model>& model) { return initial_state(*model); },
+      py::arg("model").none(false));
   m.def("integrator_names", &integrator_names);
-  py::class_<Simulation>(m, "Simulation", "One run of a model: advance(), inputs, recorded channels. Not for several threads.")
-      .def(py::init([](const std::shared_ptr<Model>& model, const State& start, std::string integrator, double rtol,
-                       double dt, double max_step, const Array& output_times, std::set<std::string> names) {
+  py::class_<Simulation>(m, "Simulation",
+                         "One run of a model: advance(), inputs, recorded channels. Not for several threads.")
+      .def(py::init([](const std::shared_ptr<Model>& model, const State& start, std::string integrator,
+                       double rtol, double dt, double max_step, const Array& output_times,
+                       std::set<std::string> names) {
              RunOptions options;
              options.integrator = std::move(integrator);
              options.tolerance = rtol;
@@ -81,19 +89,27 @@ void bind_simulation(py::module_& m) {
              options.channels = std::move(names);
              return std::make_unique<Simulation>(model, start, std::move(options));
            }),
-           py::kw_only(), py::arg("model"), py::arg("start"), py::arg("integrator"), py::arg("rtol"), py::arg("dt"),
-           py::arg("max_step"), py::arg("output_times"), py::arg("channels"))
-      .def("advance", [](Simulation& s, double t_end, const py::object& progress) {
-        py::gil_scoped_release release;
-        return s.advance(t_end, [&](double time) { return ask_python(time, progress); });
-      }, py::arg("t_end"), py::arg("progress") = py::none(),
-           "Steps to t_end (s) without the GIL; returns False when Ctrl-C stopped it. progress(time) is called now and then.")
+           py::kw_only(), py::arg("model").none(false), py::arg("start"), py::arg("integrator"), py::arg("rtol"),
+           py::arg("dt"), py::arg("max_step"), py::arg("output_times"), py::arg("channels"))
+      .def(
+          "advance",
+          [](Simulation& s, double t_end, const py::object& progress) {
+            py::gil_scoped_release release;
+            return s.advance(t_end, [&](double time) { return ask_python(time, progress); });
+          },
+          py::arg("t_end"), py::arg("progress") = py::none(),
+          "Steps to t_end (s) without the GIL; returns False when Ctrl-C stopped it. progress(time) is "
+          "called now and then.")
       .def_property_readonly("time", &Simulation::time)
       .def_property_readonly("state", &Simulation::state, "copy")
-      .def("set_inputs", [](Simulation& s, const Array& slots) { s.set_inputs(to_vector(slots)); }, py::arg("slots"),
-           "Sets the zero-order-held inputs from now on.")
-      .def("channels", [](const Simulation& s) { return channels(s.recording()); }, "Recorded arrays by name, time first (copies).")
-      .def("snapshot", [](Simulation& s) { return channels(s.snapshot()); },
-           "All channels at the present time, arrays of one row.")
+      .def(
+          "set_inputs", [](Simulation& s, const Array& slots) { s.set_inputs(to_vector(slots)); },
+          py::arg("slots"), "Sets the zero-order-held inputs from now on.")
+      .def(
+          "channels", [](const Simulation& s) { return channels(s.recording()); },
+          "Recorded arrays by name, time first (copies).")
+      .def(
+          "snapshot", [](Simulation& s) { return channels(s.snapshot()); },
+          "All channels at the present time, arrays of one row.")
       .def("statistics", &statistics);
 }

@@ -55,7 +55,40 @@ _HOME = {
 }
 _MODULES = ("cases", "crane", "hydro")
 
-__all__ = ["errors", *_HOME, *_MODULES]  # noqa: PLE0604, RUF100
+__all__ = [
+    "Balance",
+    "Curve",
+    "Evaluator",
+    "FileFormatError",
+    "Frame",
+    "HydroDatabase",
+    "Model",
+    "Result",
+    "Run",
+    "SampledController",
+    "Scene",
+    "SceneError",
+    "SeacraneError",
+    "SimulationError",
+    "State",
+    "StateSpaceBlock",
+    "VesselHydrodynamics",
+    "Waves",
+    "__version__",
+    "balance",
+    "cases",
+    "crane",
+    "driven",
+    "errors",
+    "fastest_mode",
+    "hydro",
+    "inverse_dynamics",
+    "jacobian",
+    "load_database",
+    "reflected_inertia",
+    "simulate",
+    "spline_curve",
+]
 
 
 def __getattr__(name: str) -> Any:

@@ -404,7 +404,7 @@ class Actuator:
     """
     State feedback on a joint coordinate q: feed_forward + stiffness (reference - q) + damping (reference rate - q rate), N (N/m, N s/m) or N m (N m/rad, N m s/rad).
     """
-    def __init__(self, *, name: str, joint: str, coordinate: str, stiffness: typing.SupportsFloat | typing.SupportsIndex = 0.0, damping: typing.SupportsFloat | typing.SupportsIndex = 0.0, feed_forward: typing.SupportsFloat | typing.SupportsIndex = 0.0, reference: Curve = ...) -> None:
+    def __init__(self, *, name: str, joint: str, coordinate: str, stiffness: typing.SupportsFloat | typing.SupportsIndex = 0.0, damping: typing.SupportsFloat | typing.SupportsIndex = 0.0, feed_forward: Curve = ..., reference: Curve = ...) -> None:
         ...
     @property
     def coordinate(self) -> str:
@@ -413,7 +413,7 @@ class Actuator:
     def damping(self) -> float:
         ...
     @property
-    def feed_forward(self) -> float:
+    def feed_forward(self) -> Curve:
         ...
     @property
     def joint(self) -> str:
@@ -455,7 +455,34 @@ class Spring:
     def __init__(self, *, name: str, first: str, second: str, first_point: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], second_point: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], stiffness: typing.SupportsFloat | typing.SupportsIndex = 0.0, damping: typing.SupportsFloat | typing.SupportsIndex = 0.0, natural_length: typing.SupportsFloat | typing.SupportsIndex = 0.0, lengths: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex] = [], forces: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex] = []) -> None:
         ...
     @property
+    def damping(self) -> float:
+        ...
+    @property
+    def first(self) -> str:
+        ...
+    @property
+    def first_point(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
+        ...
+    @property
+    def forces(self) -> list[float]:
+        ...
+    @property
+    def lengths(self) -> list[float]:
+        ...
+    @property
     def name(self) -> str:
+        ...
+    @property
+    def natural_length(self) -> float:
+        ...
+    @property
+    def second(self) -> str:
+        ...
+    @property
+    def second_point(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
+        ...
+    @property
+    def stiffness(self) -> float:
         ...
 class ForceTable:
     """
@@ -464,13 +491,28 @@ class ForceTable:
     def __init__(self, *, name: str, body: str, point: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], times: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], wrenches: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, 6]"]) -> None:
         ...
     @property
+    def body(self) -> str:
+        ...
+    @property
     def name(self) -> str:
+        ...
+    @property
+    def point(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
+        ...
+    @property
+    def times(self) -> list[float]:
+        ...
+    @property
+    def wrenches(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]:
         ...
 class FunctionForce:
     """
     A C function called in every evaluation, by its address (numba.cfunc(...).address): void f(double t, const double* state13, const double* parameters, double* wrench6); state: position, quaternion, velocity, angular velocity of the body origin; inertial axes.
     """
     def __init__(self, *, name: str, body: str, address: typing.SupportsInt | typing.SupportsIndex, parameters: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex] = []) -> None:
+        ...
+    @property
+    def body(self) -> str:
         ...
     @property
     def name(self) -> str:
@@ -685,6 +727,10 @@ class Simulation:
     def set_inputs(self, slots: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> None:
         """
         Sets the zero-order-held inputs from now on.
+        """
+    def snapshot(self) -> dict:
+        """
+        All channels at the present time, arrays of one row.
         """
     def statistics(self) -> dict:
         ...

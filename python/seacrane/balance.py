@@ -64,9 +64,15 @@ def _hold(scene: Scene, body: str, motions: Mapping[str, _core.Curve]) -> None:
 def _multipliers(model: _core.Model, names: Sequence[str], *, time: float, state: Array) -> Array:
     """Loads of drivers at one state."""
     run = _core.Simulation(
-        model=model, start=_core.State(time=time, values=state, inputs=np.zeros(model.slots)), integrator="rk4",
-        rtol=1e-6, dt=0.0, max_step=0.0, output_times=np.array([time]), channels={"driver_force"},
-    )  # fmt: skip
+        model=model,
+        start=_core.State(time=time, values=state, inputs=np.zeros(model.slots)),
+        integrator="rk4",
+        rtol=1e-6,
+        dt=0.0,
+        max_step=0.0,
+        output_times=np.array([time]),
+        channels={"driver_force"},
+    )
     loads = run.channels()["driver_force"][0]
     drivers = [name for name, kind, _, _ in model.elements if kind == "driver"]
     return np.array([loads[drivers.index(name)] for name in names])
@@ -91,8 +97,8 @@ def balance(scene: Scene) -> Balance:
     if abs(terms["acceleration"][worst]) > 1e-6:
         body = model.bodies[worst // 6]
         raise SceneError(
-            f"body {body!r}: accelerates by {terms['acceleration'][worst]:.3g} (m/s2 or rad/s2) with all driven "
-            "coordinates held; describe it at its rest pose"
+            f"body {body!r}: accelerates by {terms['acceleration'][worst]:.3g} (m/s2 or rad/s2) with all "
+            "driven coordinates held; describe it at its rest pose"
         )
     wrench = None
     for vessel in scene.vessels.values():
@@ -143,7 +149,9 @@ def driven(scene: Scene, *, references: Mapping[str, _core.Curve] | None = None)
     chosen = {name: actuator.reference for name, actuator in scene.actuators.items()}
     for name, curve in (references or {}).items():
         if name not in chosen:
-            raise SceneError(f"actuator {name!r} does not exist; this scene has {', '.join(chosen) or 'none'}")
+            raise SceneError(
+                f"actuator {name!r} does not exist; this scene has {', '.join(chosen) or 'none'}"
+            )
         chosen[name] = curve
     out = scene.copy(actuators={})
     for name, actuator in scene.actuators.items():
@@ -186,7 +194,9 @@ def inverse_dynamics(
         If the prescribed motions leave a degree of freedom open: use `driven` and `simulate` for that.
     """
     out = driven(scene, references=references).copy(waves=None)
-    motions = {vessel.body: {m: _core.Curve.constant(value=0.0) for m in SIX} for vessel in scene.vessels.values()}
+    motions = {
+        vessel.body: {m: _core.Curve.constant(value=0.0) for m in SIX} for vessel in scene.vessels.values()
+    }
     motions |= {body: dict(curves) for body, curves in (body_motion or {}).items()}
     for body, curves in motions.items():
         if body not in scene.bodies:
@@ -200,7 +210,10 @@ def inverse_dynamics(
         )
     names = [_driver_name(name) for name in scene.actuators]
     names += [f"{body}.motion.{motion}" for body, curves in motions.items() for motion in curves]
-    labels = [*scene.actuators, *(f"{body}.{motion}" for body, curves in motions.items() for motion in curves)]
+    labels = [
+        *scene.actuators,
+        *(f"{body}.{motion}" for body, curves in motions.items() for motion in curves),
+    ]
     instants = np.atleast_1d(np.asarray(times, dtype=float))
     rows = _follow(model, names, instants)
     return {label: rows[:, i].copy() for i, label in enumerate(labels)}
@@ -216,7 +229,9 @@ def _follow(model: _core.Model, names: Sequence[str], times: Array) -> Array:
             state = evaluator.project(float(intermediate), state)
         residual, _ = evaluator.residual(float(time), state)
         if residual > 1e-8:
-            raise SceneError(f"the prescribed motion cannot be assembled at t = {time:.6g} s: {residual:.3g} m or rad open")
+            raise SceneError(
+                f"the prescribed motion cannot be assembled at t = {time:.6g} s: {residual:.3g} m or rad open"
+            )
         now = float(time)
         rows.append(_multipliers(model, names, time=now, state=state))
     return np.array(rows)
@@ -234,7 +249,9 @@ def reflected_inertia(scene: Scene) -> dict[str, float]:
     for name in scene.actuators:
         loads = []
         for acceleration in (0.0, 1.0):
-            curve = _core.Curve.pieces(starts=[0.0], coefficients=[[0.0, 0.0, 0.5 * acceleration, 0.0, 0.0, 0.0]])
+            curve = _core.Curve.pieces(
+                starts=[0.0], coefficients=[[0.0, 0.0, 0.5 * acceleration, 0.0, 0.0, 0.0]]
+            )
             held = _locked(scene.copy())
             held.drivers.pop(_driver_name(name))
             actuator = scene.actuators[name]
@@ -242,6 +259,8 @@ def reflected_inertia(scene: Scene) -> dict[str, float]:
                 joint=actuator.joint, coordinate=actuator.coordinate, curve=curve, name=_driver_name(name)
             )
             model = held.compile()
-            loads.append(_multipliers(model, [_driver_name(name)], time=0.0, state=np.array(model.initial_state))[0])
+            loads.append(
+                _multipliers(model, [_driver_name(name)], time=0.0, state=np.array(model.initial_state))[0]
+            )
         out[name] = float(loads[1] - loads[0])
     return out

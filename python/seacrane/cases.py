@@ -40,8 +40,11 @@ def _database(database: str | os.PathLike[str] | HydroDatabase | None) -> HydroD
 
 @lru_cache(maxsize=4)
 def _gains() -> dict[str, tuple[float, float]]:
-    """Stiffness and damping of each actuator: NATURAL_FREQUENCY and DAMPING_RATIO on the inertia it feels at
-    case 2's final pose with the payload attached, the others locked and the vessel held."""
+    """Stiffness and damping of each actuator.
+
+    NATURAL_FREQUENCY and DAMPING_RATIO on the inertia it feels at case 2's final pose with the payload
+    attached, the others locked and the vessel held.
+    """
     scene = Scene(name="case 2, final pose")
     KnuckleBoomCrane.load().add_to(
         scene, base="ground", theta=SLEW_END, s1=STROKE_END, s2=STROKE_END, payload=Payload()

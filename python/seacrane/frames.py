@@ -47,7 +47,7 @@ def axes_along(what: str, axis: Any) -> Array:
 
 
 def axes_across(what: str, first_axis: Array, axis: Any) -> Array:
-    """Axes of the second side of a universal joint: z along `axis`, which must be perpendicular to the first."""
+    """Axes of the second side of a universal joint: z along `axis`, perpendicular to the first axis."""
     z = _direction(what, axis)
     slope = float(abs(z @ first_axis))
     if slope > 0.1:

@@ -10,8 +10,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane import _core
+from seacrane.checked import flag_of, name_of, number_of, numbers_of, shaped_of, text_of, vector_of
 from seacrane.errors import SceneError
-from seacrane.frames import axes_along, axes_across, rotation_matrix
+from seacrane.frames import axes_across, axes_along, rotation_matrix
 
 if TYPE_CHECKING:
     import os
@@ -37,6 +38,8 @@ class Waves:
         Mean position (x, y), m, where the phase is taken.
     relative_bound : float
         Bound on the table's interpolation error over the sum of component magnitudes; 0 sums exactly.
+    depth : float
+        Water depth, m, for the wavenumbers.
     information : mapping
         What is reported of the sea (seed, realised Hs, repeat period).
     """
@@ -49,18 +52,28 @@ class Waves:
     transfer: NDArray[np.complex128]
     position: tuple[float, float] = (0.0, 0.0)
     relative_bound: float = 1e-9
+    depth: float = float("inf")
     information: Mapping[str, Any] = field(default_factory=dict)
 
     def compile(self) -> _core.WaveLoads:
         """The loads for the compiled core; raises SceneError for shapes or values that make no sense."""
-        waves = _core.WaveComponents(
-            omega=self.omega, amplitude=self.amplitude, phase=self.phase, direction=self.direction
-        )
-        exact = _core.ExactWaveLoad(
-            waves=waves, transfer=self.transfer, position=self.position, elevation_point=self.position
-        )
-        table = _core.WaveTable(load=exact, relative_bound=self.relative_bound) if self.relative_bound else None
-        return _core.WaveLoads(name="waves", body=self.body, exact=exact, table=table)
+        try:
+            waves = _core.WaveComponents(
+                omega=self.omega,
+                amplitude=self.amplitude,
+                phase=self.phase,
+                direction=self.direction,
+                depth=self.depth,
+            )
+            exact = _core.ExactWaveLoad(
+                waves=waves, transfer=self.transfer, position=self.position, elevation_point=self.position
+            )
+            table = None
+            if self.relative_bound:
+                table = _core.WaveTable(load=exact, relative_bound=self.relative_bound)
+        except (TypeError, ValueError) as error:
+            raise SceneError(f"waves on {self.body!r}: {error}") from error
+        return _core.WaveLoads(name="waves", body=text_of("waves: body", self.body), exact=exact, table=table)
 
 
 @dataclass(kw_only=True)
@@ -142,18 +155,18 @@ class Scene:
         SceneError
             For a duplicate name or a value that is not of that shape; values are checked at compile().
         """
-        tensor = _numbers(f"body {name!r}: inertia", inertia)
+        tensor = numbers_of(f"body {name!r}: inertia", inertia)
         tensor = np.diag(tensor) if tensor.shape == (3,) else tensor
         body = _core.Body(
-            name=name,
-            mass=float(mass),
-            inertia=_shaped(f"body {name!r}: inertia", tensor, (3, 3)),
-            center_of_mass=_shaped(f"body {name!r}: center_of_mass", center_of_mass, (3,)),
-            position=_shaped(f"body {name!r}: position", position, (3,)),
-            quaternion=_shaped(f"body {name!r}: quaternion", quaternion, (4,)),
-            velocity=_shaped(f"body {name!r}: velocity", velocity, (3,)),
-            angular_velocity=_shaped(f"body {name!r}: angular_velocity", angular_velocity, (3,)),
-            gravity=gravity,
+            name=name_of("body", name),
+            mass=number_of(f"body {name!r}: mass", mass),
+            inertia=shaped_of(f"body {name!r}: inertia", tensor, (3, 3)),
+            center_of_mass=shaped_of(f"body {name!r}: center_of_mass", center_of_mass, (3,)),
+            position=shaped_of(f"body {name!r}: position", position, (3,)),
+            quaternion=shaped_of(f"body {name!r}: quaternion", quaternion, (4,)),
+            velocity=shaped_of(f"body {name!r}: velocity", velocity, (3,)),
+            angular_velocity=shaped_of(f"body {name!r}: angular_velocity", angular_velocity, (3,)),
+            gravity=flag_of(f"body {name!r}: gravity", gravity),
         )
         inserted: _core.Body = self._insert("body", self.bodies, body)
         return inserted
@@ -161,14 +174,16 @@ class Scene:
     def _pose(self, joint: str, body: str) -> tuple[Array, Array]:
         if body == GROUND:
             return np.zeros(3), np.eye(3)
-        if body not in self.bodies:
+        if text_of(f"joint {joint!r}: body", body) not in self.bodies:
             raise SceneError(f"joint {joint!r}: there is no body {body!r}; add it first")
         described = self.bodies[body]
+        if not np.linalg.norm(described.quaternion) > 0.0:
+            raise SceneError(f"body {body!r}: quaternion is {described.quaternion.tolist()}; normalise it")
         return described.position, rotation_matrix(described.quaternion)
 
     def _frame(self, joint: str, body: str, point: Any, axes: Array) -> _core.Frame:
         position, rotation = self._pose(joint, body)
-        where = _shaped(f"joint {joint!r}: point", point, (3,))
+        where = shaped_of(f"joint {joint!r}: point", point, (3,))
         return _core.Frame(point=rotation.T @ (where - position), axes=rotation.T @ axes)
 
     def add_joint(
@@ -215,8 +230,21 @@ class Scene:
         ------
         SceneError
         """
+        name_of("joint", name)
+        text_of(f"joint {name!r}: kind", kind)
+        for key, value, owner in (
+            ("length", length, "distance"),
+            ("second_point", second_point, "distance"),
+            ("second_axis", second_axis, "universal"),
+        ):
+            if value is not None and kind != owner:
+                raise SceneError(
+                    f"joint {name!r}: {key} belongs to a {owner} joint, this one is {kind}; leave it out"
+                )
         if (first_frame is None) != (second_frame is None):
-            raise SceneError(f"joint {name!r}: has one frame only; give first_frame and second_frame, or neither")
+            raise SceneError(
+                f"joint {name!r}: has one frame only; give first_frame and second_frame, or neither"
+            )
         if first_frame is None or second_frame is None:
             at = self._pose(name, second)[0] if point is None else point
             along = axes_along(f"joint {name!r}: axis", (0.0, 0.0, 1.0) if axis is None else axis)
@@ -224,22 +252,32 @@ class Scene:
             if second_axis is not None:
                 across = axes_across(f"joint {name!r}: second_axis", along[:, 2], second_axis)
             elif kind == "universal":
-                raise SceneError(f"joint {name!r}: a universal joint needs second_axis, fixed on the second body")
+                raise SceneError(
+                    f"joint {name!r}: a universal joint needs second_axis, fixed on the second body"
+                )
             other = at if second_point is None else second_point
             first_frame = self._frame(name, first, at, along)
             second_frame = self._frame(name, second, other, across)
             if kind == "distance" and length is None:
                 if second_point is None:
-                    raise SceneError(f"joint {name!r}: a distance joint needs second_point, or frames and length")
-                length = float(np.linalg.norm(np.asarray(other, dtype=float) - np.asarray(at, dtype=float)))
+                    raise SceneError(
+                        f"joint {name!r}: a distance joint needs second_point, or frames and length"
+                    )
+                between = shaped_of(f"joint {name!r}: second_point", other, (3,)) - np.asarray(
+                    at, dtype=float
+                )
+                length = float(np.linalg.norm(between))
+        for frame in (first_frame, second_frame):
+            if not isinstance(frame, _core.Frame):
+                raise SceneError(f"joint {name!r}: a frame is {frame!r}; give a seacrane.Frame")
         joint = _core.Joint(
             kind=kind,
             name=name,
-            first=first,
-            second=second,
+            first=text_of(f"joint {name!r}: first", first),
+            second=text_of(f"joint {name!r}: second", second),
             first_frame=first_frame,
             second_frame=second_frame,
-            length=0.0 if length is None else float(length),
+            length=0.0 if length is None else number_of(f"joint {name!r}: length", length),
         )
         inserted: _core.Joint = self._insert("joint", self.joints, joint)
         return inserted
@@ -253,7 +291,9 @@ class Scene:
         "x y z roll pitch yaw" of a free joint.
         """
         coordinate = self._coordinate("driver", joint, coordinate)
-        name = name or f"{joint}.{coordinate}"
+        name = name_of("driver", name or f"{joint}.{coordinate}")
+        if not isinstance(curve, _core.Curve):
+            raise SceneError(f"driver {name!r}: curve is {curve!r}; give a seacrane.Curve")
         driver = _core.Driver(name=name, joint=joint, coordinate=coordinate, curve=curve)
         inserted: _core.Driver = self._insert("driver", self.drivers, driver)
         return inserted
@@ -275,14 +315,16 @@ class Scene:
         with N/m and N s/m, or N m with N m/rad and N m s/rad. `feed_forward` and `reference` are numbers or
         curves of time. Inputs "<name>.force" and "<name>.reference" add to them during a run.
         """
+        coordinate = self._coordinate("actuator", joint, coordinate)
+        name = name_of("actuator", name or joint)
         actuator = _core.Actuator(
-            name=name or joint,
+            name=name,
             joint=joint,
-            coordinate=self._coordinate("actuator", joint, coordinate),
-            stiffness=float(stiffness),
-            damping=float(damping),
-            feed_forward=_curve(feed_forward),
-            reference=_curve(reference),
+            coordinate=coordinate,
+            stiffness=number_of(f"actuator {name!r}: stiffness", stiffness),
+            damping=number_of(f"actuator {name!r}: damping", damping),
+            feed_forward=_curve(f"actuator {name!r}: feed_forward", feed_forward),
+            reference=_curve(f"actuator {name!r}: reference", reference),
         )
         inserted: _core.Actuator = self._insert("actuator", self.actuators, actuator)
         return inserted
@@ -293,11 +335,11 @@ class Scene:
         """A constant force (N) at a point of a body (m, body coordinates), in inertial axes or, with
         `body_axes`, turning with the body. Input "<name>.force" (3 values) adds to it during a run."""
         element = _core.PointForce(
-            name=name,
-            body=body,
-            point=_shaped(f"point force {name!r}: point", point, (3,)),
-            force=_shaped(f"point force {name!r}: force", force, (3,)),
-            body_axes=body_axes,
+            name=name_of("point force", name),
+            body=text_of(f"point force {name!r}: body", body),
+            point=shaped_of(f"point force {name!r}: point", point, (3,)),
+            force=shaped_of(f"point force {name!r}: force", force, (3,)),
+            body_axes=flag_of(f"point force {name!r}: body_axes", body_axes),
         )
         inserted: _core.PointForce = self._insert("point force", self.point_forces, element)
         return inserted
@@ -319,16 +361,16 @@ class Scene:
         """A spring-damper between points of two bodies (m, body coordinates): linear (N/m, N s/m, m), or a
         table of tension `forces` (N) over `lengths` (m)."""
         element = _core.Spring(
-            name=name,
-            first=first,
-            second=second,
-            first_point=_shaped(f"spring {name!r}: first_point", first_point, (3,)),
-            second_point=_shaped(f"spring {name!r}: second_point", second_point, (3,)),
-            stiffness=float(stiffness),
-            damping=float(damping),
-            natural_length=float(natural_length),
-            lengths=[float(v) for v in lengths],
-            forces=[float(v) for v in forces],
+            name=name_of("spring", name),
+            first=text_of(f"spring {name!r}: first", first),
+            second=text_of(f"spring {name!r}: second", second),
+            first_point=shaped_of(f"spring {name!r}: first_point", first_point, (3,)),
+            second_point=shaped_of(f"spring {name!r}: second_point", second_point, (3,)),
+            stiffness=number_of(f"spring {name!r}: stiffness", stiffness),
+            damping=number_of(f"spring {name!r}: damping", damping),
+            natural_length=number_of(f"spring {name!r}: natural_length", natural_length),
+            lengths=vector_of(f"spring {name!r}: lengths", lengths),
+            forces=vector_of(f"spring {name!r}: forces", forces),
         )
         inserted: _core.Spring = self._insert("spring", self.springs, element)
         return inserted
@@ -338,14 +380,14 @@ class Scene:
     ) -> _core.ForceTable:
         """Force and moment `loads` (n, 6) in N and N m, inertial axes, about a point of the body (m, body
         coordinates), over `times` (n,) in s: linear in between, held outside."""
-        rows = _numbers(f"force table {name!r}: loads", loads)
+        rows = numbers_of(f"force table {name!r}: loads", loads)
         if rows.ndim != 2 or rows.shape[1] != 6:
             raise SceneError(f"force table {name!r}: loads have shape {rows.shape}; give (n, 6)")
         element = _core.ForceTable(
-            name=name,
-            body=body,
-            point=_shaped(f"force table {name!r}: point", point, (3,)),
-            times=_numbers(f"force table {name!r}: times", times).tolist(),
+            name=name_of("force table", name),
+            body=text_of(f"force table {name!r}: body", body),
+            point=shaped_of(f"force table {name!r}: point", point, (3,)),
+            times=vector_of(f"force table {name!r}: times", times),
             wrenches=rows,
         )
         inserted: _core.ForceTable = self._insert("force table", self.force_tables, element)
@@ -356,31 +398,62 @@ class Scene:
     ) -> _core.FunctionForce:
         """A C function called in every evaluation, by its address (`numba.cfunc(...).address` or a `ctypes`
         pointer): void f(double t, const double* state13, const double* parameters, double* wrench6). State:
-        position, quaternion, velocity, angular velocity of the body origin; wrench about it; inertial axes."""
+        position, quaternion, velocity, angular velocity of the body origin; wrench about it; inertial axes.
+        """
+        if not isinstance(address, int) or not 0 < address < 2**64:
+            raise SceneError(
+                f"function force {name!r}: address is {address!r}; give the address of a C function"
+            )
         element = _core.FunctionForce(
-            name=name, body=body, address=int(address), parameters=[float(v) for v in parameters]
+            name=name_of("function force", name),
+            body=text_of(f"function force {name!r}: body", body),
+            address=address,
+            parameters=vector_of(f"function force {name!r}: parameters", parameters),
         )
         inserted: _core.FunctionForce = self._insert("function force", self.function_forces, element)
         return inserted
 
-    def add_vessel(self, *, body: str, name: str | None = None, **hydrodynamics: Any) -> _core.VesselHydrodynamics:
+    def add_vessel(
+        self, *, body: str, name: str | None = None, **hydrodynamics: Any
+    ) -> _core.VesselHydrodynamics:
         """Linear hydrodynamics of a body about its origin; see `VesselHydrodynamics` for the arguments."""
-        for key, shape in _VESSEL_SHAPES.items():
-            if key in hydrodynamics:
-                hydrodynamics[key] = _shaped(f"vessel {body!r}: {key}", hydrodynamics[key], shape)
-        element = _core.VesselHydrodynamics(name=name or body, body=body, **hydrodynamics)
+        name = name_of("vessel", name or body)
+        for key, value in hydrodynamics.items():
+            what = f"vessel {name!r}: {key}"
+            if key in _VESSEL_SHAPES:
+                hydrodynamics[key] = shaped_of(what, value, _VESSEL_SHAPES[key])
+            elif key == "memory":
+                blocks = list(value) if isinstance(value, Sequence) else [value]
+                if not all(isinstance(block, _core.StateSpaceBlock) for block in blocks):
+                    raise SceneError(f"{what} is {value!r}; give a list of seacrane.StateSpaceBlock")
+            elif key == "kinematics":
+                text_of(what, value)
+            else:
+                known = ", ".join([*_VESSEL_SHAPES, "memory", "kinematics"])
+                raise SceneError(f"{what} is unknown; a vessel takes {known}")
+        element = _core.VesselHydrodynamics(
+            name=name, body=text_of(f"vessel {name!r}: body", body), **hydrodynamics
+        )
         inserted: _core.VesselHydrodynamics = self._insert("vessel", self.vessels, element)
         return inserted
 
-    def record_coordinate(self, *, joint: str, coordinate: str | None = None, name: str | None = None) -> None:
+    def record_coordinate(
+        self, *, joint: str, coordinate: str | None = None, name: str | None = None
+    ) -> None:
         """Record a joint coordinate and its rate under a name (default: the joint's)."""
         coordinate = self._coordinate("recorded coordinate", joint, coordinate)
-        self.recorded[name or joint] = (joint, coordinate)
+        name = name_of("recorded coordinate", name or joint)
+        if self.recorded.get(name, (joint, coordinate)) != (joint, coordinate):
+            raise SceneError(
+                f"recorded coordinate {name!r}: is {'.'.join(self.recorded[name])} already; give another name"
+            )
+        self.recorded[name] = (joint, coordinate)
 
     def _coordinate(self, kind: str, joint: str, coordinate: str | None) -> str:
-        if joint not in self.joints:
+        if text_of(f"{kind}: joint", joint) not in self.joints:
             raise SceneError(f"{kind}: there is no joint {joint!r}; add it first")
-        return coordinate or ("angle" if self.joints[joint].kind == "revolute" else "displacement")
+        usual = "angle" if self.joints[joint].kind == "revolute" else "displacement"
+        return text_of(f"{kind} of joint {joint!r}: coordinate", coordinate or usual)
 
     def compile(self) -> _core.Model:
         """Check everything, close the joints and compile.
@@ -396,11 +469,11 @@ class Scene:
             Names joints that are consistent but redundant: their reactions are minimum-norm, not unique.
         """
         model = _core.compile(
-            name=self.name,
-            gravity=self.gravity,
-            orientation=self.orientation,
-            baumgarte=self.baumgarte,
-            length_scale=self.length_scale,
+            name=name_of("scene", self.name),
+            gravity=number_of(f"scene {self.name!r}: gravity", self.gravity),
+            orientation=text_of(f"scene {self.name!r}: orientation", self.orientation),
+            baumgarte=number_of(f"scene {self.name!r}: baumgarte", self.baumgarte),
+            length_scale=number_of(f"scene {self.name!r}: length_scale", self.length_scale),
             bodies=list(self.bodies.values()),
             joints=list(self.joints.values()),
             drivers=list(self.drivers.values()),
@@ -463,19 +536,10 @@ _VESSEL_SHAPES: dict[str, tuple[int, ...]] = {
 }
 
 
-def _numbers(what: str, value: Any) -> Array:
-    try:
-        return np.asarray(value, dtype=float)
-    except (TypeError, ValueError) as error:
-        raise SceneError(f"{what} is {value!r}; give numbers") from error
-
-
-def _shaped(what: str, value: Any, shape: tuple[int, ...]) -> Array:
-    array = _numbers(what, value)
-    if array.shape != shape:
-        raise SceneError(f"{what} has shape {array.shape}; give {shape}")
-    return array
-
-
-def _curve(value: float | _core.Curve) -> _core.Curve:
-    return value if isinstance(value, _core.Curve) else _core.Curve.constant(value=float(value))
+def _curve(what: str, value: float | _core.Curve) -> _core.Curve:
+    if isinstance(value, _core.Curve):
+        return value
+    number = number_of(what, value)
+    if not np.isfinite(number):
+        raise SceneError(f"{what} is {number}; give a finite number or a curve")
+    return _core.Curve.constant(value=number)

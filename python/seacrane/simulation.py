@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane import _core
+from seacrane.checked import number_of, numbers_of
 from seacrane.errors import SceneError, SimulationError
 from seacrane.scene import Scene
 from seacrane.version import __version__
@@ -19,6 +20,7 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 Snapshot = Mapping[str, Array]
+MOST_OUTPUTS = 1e8
 BAUMGARTE_OF_ADAMS = 5.0  # 1/s: cvode-adams cannot project
 
 
@@ -40,8 +42,18 @@ class SampledController:
     function: Callable[[float, Snapshot], Mapping[str, Any]]
 
     def __post_init__(self) -> None:
-        if not (np.isfinite(self.period) and self.period > 0.0):
-            raise SceneError(f"controller: period is {self.period} s; make it positive")
+        if not number_of("controller: period", self.period) > 0.0 or not np.isfinite(self.period):
+            raise SceneError(f"controller: period is {self.period} s; make it positive and finite")
+        if not callable(self.function):
+            raise SceneError(f"controller: function is {self.function!r}; give a function(time, measured)")
+
+
+def _step(name: str, value: Any) -> float:
+    """A step length in s, 0 for the default."""
+    step = number_of(name, value)
+    if not (np.isfinite(step) and step >= 0.0):
+        raise SceneError(f"{name} is {step} s; give a finite positive number, or 0 for the default")
+    return step
 
 
 def _slots(scene: Scene) -> dict[str, slice]:
@@ -58,13 +70,17 @@ def _slots(scene: Scene) -> dict[str, slice]:
 
 
 def _output_times(t_start: float, t_end: float, dt_out: float) -> Array:
-    for name, value in (("t_end", t_end), ("dt_out", dt_out)):
+    for name, value in (("start time", t_start), ("t_end", t_end), ("dt_out", dt_out)):
         if not np.isfinite(value):
             raise SceneError(f"{name} is {value}; give a finite number of seconds")
     if t_end < t_start:
         raise SceneError(f"t_end is {t_end} s, before the start at {t_start} s")
     if dt_out <= 0.0:
         raise SceneError(f"dt_out is {dt_out} s; make it positive")
+    if (t_end - t_start) / dt_out > MOST_OUTPUTS:
+        raise SceneError(
+            f"dt_out is {dt_out} s: more than {MOST_OUTPUTS:.0e} outputs until {t_end} s; make it longer"
+        )
     count = int(np.floor((t_end - t_start) / dt_out * (1.0 + 1e-12))) + 1
     times = t_start + dt_out * np.arange(count)
     return np.append(times, t_end) if t_end - times[-1] > 1e-9 * dt_out else np.minimum(times, t_end)
@@ -101,12 +117,22 @@ class Run:
         self.scene = scene
         self.model = scene.compile() if model is None else model
         known = self.model.channel_names(defaults_only=False)
+        if channels is not None and (isinstance(channels, str) or not isinstance(channels, Iterable)):
+            raise SceneError(f"channels is {channels!r}; give a list of channel names")
         wanted = self.model.channel_names() if channels is None else list(channels)
         for name in wanted:
             if name not in known:
                 raise SceneError(f"channel {name!r} is unknown to this scene; it offers: {', '.join(known)}")
         self.start = _core.initial_state(self.model) if start is None else start
-        self.t_end = float(t_end)
+        if not isinstance(self.start, _core.State):
+            raise SceneError(f"start is {start!r}; give a seacrane.State")
+        if not isinstance(integrator, str):
+            raise SceneError(
+                f"integrator is {integrator!r}; choose one of {', '.join(_core.integrator_names())}"
+            )
+        t_end, dt_out, rtol = number_of("t_end", t_end), number_of("dt_out", dt_out), number_of("rtol", rtol)
+        dt, max_step = _step("dt", dt), _step("max_step", max_step)
+        self.t_end = t_end
         self.settings = {
             "t_end": float(t_end), "dt_out": float(dt_out), "rtol": float(rtol), "dt": float(dt),
             "max_step": float(max_step), "orientation": scene.orientation, "baumgarte": scene.baumgarte,
@@ -139,7 +165,7 @@ class Run:
         for name, value in values.items():
             if name not in places:
                 raise SceneError(f"input {name!r} is unknown; this scene has: {', '.join(places) or 'none'}")
-            new = np.atleast_1d(np.asarray(value, dtype=float))
+            new = np.atleast_1d(numbers_of(f"input {name!r}", value))
             if new.shape != slots[places[name]].shape or not np.isfinite(new).all():
                 raise SceneError(
                     f"input {name!r} is {value!r}; give {slots[places[name]].size} finite number(s)"
@@ -193,7 +219,9 @@ class Run:
         )
 
 
-def _progress(t_start: float, t_end: float, wanted: bool) -> tuple[Callable[[float], None] | None, Callable[[], None]]:
+def _progress(
+    t_start: float, t_end: float, wanted: bool
+) -> tuple[Callable[[float], None] | None, Callable[[], None]]:
     if not wanted:
         return None, lambda: None
     from tqdm.auto import tqdm
@@ -260,16 +288,27 @@ def simulate(
     """
     if formulation not in ("auto", "redundant"):
         raise SceneError(f"formulation {formulation!r} is not available; choose 'auto' or 'redundant'")
+    controllers = _checked(controllers)
     run = Run(
         scene, t_end=t_end, dt_out=dt_out, integrator=integrator, rtol=rtol, dt=dt, max_step=max_step,
         channels=channels, start=start,
     )  # fmt: skip
-    report, close = _progress(run.start.time, t_end, progress)
+    report, close = _progress(run.start.time, run.t_end, progress)
     try:
-        _advance(run, t_end, controllers, report)
+        _advance(run, run.t_end, controllers, report)
+    except KeyboardInterrupt:  # between two pieces of the loop, or inside a controller
+        run.interrupted = True
     finally:
         close()
     return run.result()
+
+
+def _checked(controllers: Any) -> list[SampledController]:
+    given = list(controllers) if isinstance(controllers, Iterable) else [controllers]
+    for controller in given:
+        if not isinstance(controller, SampledController):
+            raise SceneError(f"controllers holds {controller!r}; give a list of seacrane.SampledController")
+    return given
 
 
 def _advance(
@@ -282,7 +321,7 @@ def _advance(
         for i, controller in enumerate(controllers):
             if due[i] <= now and now < t_end:
                 called.update(_call(controller, now, run))
-                due[i] = run.start.time + controller.period * (round((now - run.start.time) / controller.period) + 1)
+                due[i] = _next_call(controller, now, run.start.time)
         if called:
             run.set_inputs(called)
         stop = min([t_end, *due])
@@ -292,6 +331,21 @@ def _advance(
 
 def _call(controller: SampledController, now: float, run: Run) -> Mapping[str, Any]:
     try:
-        return controller.function(now, run.measure())
+        inputs = controller.function(now, run.measure())
     except Exception as error:
-        raise SimulationError(f"controller: raised {type(error).__name__} at t = {now:.6g} s: {error}") from error
+        raise SimulationError(
+            f"controller: raised {type(error).__name__} at t = {now:.6g} s: {error}"
+        ) from error
+    if not isinstance(inputs, Mapping):
+        raise SimulationError(f"controller: returned {inputs!r} at t = {now:.6g} s; return {{input: value}}")
+    return inputs
+
+
+def _next_call(controller: SampledController, now: float, start: float) -> float:
+    with np.errstate(over="ignore"):
+        after = start + controller.period * (np.round((now - start) / controller.period) + 1.0)
+    if not after > now:
+        raise SceneError(
+            f"controller: period is {controller.period} s, below the resolution of time; make it longer"
+        )
+    return float(after)

@@ -130,7 +130,8 @@ def add_sea(
         scene.waves = None
         return
     spectrum = _core.jonswap(hs=hs, tp=tp, gamma=gamma)
-    components = _core.realise_waves(spectrum, seed=seed, direction=np.radians(direction_deg), count=count)
+    heading = float(np.radians(direction_deg))
+    components = _core.realise_waves(spectrum, seed=seed, direction=heading, count=count)
     omega = np.array(components.omega)
     repeat = components.repeat_period()
     scene.waves = Waves(
@@ -139,7 +140,7 @@ def add_sea(
         amplitude=np.array(components.amplitude),
         phase=np.array(components.phase),
         direction=np.array(components.direction),
-        transfer=np.asarray(database.force_at(omega, np.radians(direction_deg)), dtype=complex).reshape(-1, 6),
+        transfer=np.asarray(database.force_at(omega, heading), dtype=complex).reshape(-1, 6),
         relative_bound=relative_bound,
         information={
             "seed": seed,
@@ -149,4 +150,5 @@ def add_sea(
             "repeat_found": int(repeat.found),
         },
     )
-    scene.notes.update(hs=hs, tp=tp, gamma=gamma, wave_direction_deg=direction_deg, waves_relative_bound=relative_bound)
+    sea = {"hs": hs, "tp": tp, "gamma": gamma, "wave_direction_deg": direction_deg}
+    scene.notes.update(sea, waves_relative_bound=relative_bound)

@@ -86,7 +86,8 @@ void BlockSchur::order(const std::vector<GraphNode>& nodes, const std::vector<st
   for (std::size_t p = 0; p < panels_.size(); ++p) {
     Panel& panel = panels_[p];
     for (int r = 0; r < panel.width; ++r) panel_of_row_[idx(panel.first_row + r)] = static_cast<int>(p);
-    std::sort(below[p].begin(), below[p].end(), [&](int a, int b) { return row_of_[idx(a)] < row_of_[idx(b)]; });
+    std::sort(below[p].begin(), below[p].end(),
+              [&](int a, int b) { return row_of_[idx(a)] < row_of_[idx(b)]; });
     panel.below = below_.size();
     panel.height = panel.width;
     for (int e : below[p]) {

@@ -32,7 +32,8 @@ class MinimumNormSolver {
   MinimumNormSolver(int bodies, int rows);
 
   /// Decomposes S = D M^-1 D^T (`over_mass` holds D M^-1 of each side); returns the rank found.
-  int factor(const std::vector<ElementModel>& elements, const RowBlock<double>* blocks, const Mat6d* over_mass);
+  int factor(const std::vector<ElementModel>& elements, const RowBlock<double>* blocks,
+             const Mat6d* over_mass);
   void solve(double* x) const;
   /// Orthonormal basis of ker(D^T), columns; rows as the multipliers.
   const MatXd& null_space() const { return null_space_; }

@@ -31,21 +31,20 @@ void GearGuptaLeimkuhler::residual(double t, const double* y, const double* ydot
     const BodyModel& body = m.bodies[idx(b)];
     const BodyKinematics<double>& k = system_->bodies()[idx(b)];
     const double inertia = body.inertia.trace() / 3.0;
-    const Vec3d shift = correction_[idx(b)].head<3>() / body.mass, turn = correction_[idx(b)].tail<3>() / inertia;
+    const Vec3d shift = correction_[idx(b)].head<3>() / body.mass,
+                turn = correction_[idx(b)].tail<3>() / inertia;
     const double* pose = y + s.pose(b);
     double* r_pose = r + s.pose(b);
     const double* pose_rate = ydot + s.pose(b);
     view<3>(r_pose) = view<3>(pose_rate) - k.velocity - shift;
     const Vec3d omega = k.angular_velocity + turn;
     if (s.pose_size == 7) {
-      view<4>(r_pose + 3) = view<4>(pose_rate + 3) -
-                                      quaternion_rate<double>(view<4>(pose + 3), omega);
+      view<4>(r_pose + 3) = view<4>(pose_rate + 3) - quaternion_rate<double>(view<4>(pose + 3), omega);
     } else {
-      view<3>(r_pose + 3) = view<3>(pose_rate + 3) -
-                                      euler_xyz_rate<double>(view<3>(pose + 3), omega);
+      view<3>(r_pose + 3) = view<3>(pose_rate + 3) - euler_xyz_rate<double>(view<3>(pose + 3), omega);
     }
-    Vec6d balance = system_->mass_matrix(b) * view<6>(ydot + s.twist(b)) -
-                    system_->loads()[idx(b)] - load_[idx(b)];
+    Vec6d balance =
+        system_->mass_matrix(b) * view<6>(ydot + s.twist(b)) - system_->loads()[idx(b)] - load_[idx(b)];
     balance.head<3>() /= body.mass;
     balance.tail<3>() /= inertia;
     view<6>(r + s.twist(b)) = balance;

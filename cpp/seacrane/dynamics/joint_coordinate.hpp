@@ -83,7 +83,8 @@ CoordinateRow<T> tilt(const JointGeometry<T>& g, CoordinateKind kind) {
   const Vec3<T> axis = g.a * k;
   // d/dt(A^T) (omega_b - omega_a) = -A^T (omega_a x (omega_b - omega_a))
   const T bias = k_rate.dot(w) - axis.dot(cross<T>(g.omega_a, g.omega_b));
-  const T value = kind == CoordinateKind::roll ? angles[0] : (kind == CoordinateKind::pitch ? angles[1] : angles[2]);
+  const T value =
+      kind == CoordinateKind::roll ? angles[0] : (kind == CoordinateKind::pitch ? angles[1] : angles[2]);
   return rotation_row<T>(value, axis, -bias);
 }
 

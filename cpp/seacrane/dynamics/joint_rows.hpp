@@ -14,9 +14,9 @@ inline constexpr int kMaxRows = 6;
 template <class T>
 struct RowBlock {
   Mat6<T> d[2] = {Mat6<T>::Zero(), Mat6<T>::Zero()};  // of the first and the second body
-  Vec6<T> phi = Vec6<T>::Zero();    // position residual, m or rad
-  Vec6<T> gamma = Vec6<T>::Zero();  // right-hand side on acceleration level
-  Vec6<T> nu = Vec6<T>::Zero();     // prescribed rate (drivers)
+  Vec6<T> phi = Vec6<T>::Zero();                      // position residual, m or rad
+  Vec6<T> gamma = Vec6<T>::Zero();                    // right-hand side on acceleration level
+  Vec6<T> nu = Vec6<T>::Zero();                       // prescribed rate (drivers)
 };
 
 /// Fixed data of a joint between compiled bodies a (first) and b (second), points from the state points.
@@ -31,9 +31,9 @@ struct JointData {
 /// What every row needs, computed once per joint.
 template <class T>
 struct JointGeometry {
-  Vec3<T> lever_a, lever_b;  // state point to joint point
+  Vec3<T> lever_a, lever_b;   // state point to joint point
   Vec3<T> d, d_rate, d_bias;  // joint point b minus a, its rate, its acceleration without vdot
-  Mat3<T> a, b;              // joint axes in the inertial frame
+  Mat3<T> a, b;               // joint axes in the inertial frame
   Vec3<T> omega_a, omega_b;
 
   JointGeometry(const JointData& joint, const BodyKinematics<T>& ka, const BodyKinematics<T>& kb)

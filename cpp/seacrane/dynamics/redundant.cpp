@@ -34,7 +34,8 @@ RedundantSystem::RedundantSystem(std::shared_ptr<const Model> model)
   bodies_.assign(bodies + 1, BodyKinematics<double>::ground());
   wrench_.resize(bodies + 1);
   inertia_.resize(bodies);
-  for (auto* vectors : {&bias_, &load_, &acceleration_, &impulse_}) vectors->assign(bodies + 1, Vec6d::Zero());
+  for (auto* vectors : {&bias_, &load_, &acceleration_, &impulse_})
+    vectors->assign(bodies + 1, Vec6d::Zero());
   frames_.assign(m.vessels.size(), YawFrame<double>(BodyKinematics<double>::ground()));
   blocks_.resize(elements);
   over_mass_.assign(2 * elements, Mat6d::Zero());
@@ -63,8 +64,9 @@ void RedundantSystem::read_state(double t, const double* y) {
       k.rotation = rotation_from_euler_xyz<double>(view<3>(pose + 3));
       if (std::abs(std::cos(pose[4])) < kEulerLimit) {
         throw std::domain_error("body '" + m.bodies[idx(b)].name + "': Euler angle phi_y is " +
-                                std::to_string(pose[4] * 180.0 / 3.14159265358979323846) + " deg at t = " +
-                                std::to_string(t) + " s, where XYZ angles are singular; use orientation='quaternion'");
+                                std::to_string(pose[4] * 180.0 / 3.14159265358979323846) +
+                                " deg at t = " + std::to_string(t) +
+                                " s, where XYZ angles are singular; use orientation='quaternion'");
       }
     }
     k.velocity = view<3>(twist);
@@ -219,7 +221,8 @@ void RedundantSystem::solve_acceleration() {
                   lambda_.data());
     return;
   }
-  for (int b = 0; b < m.body_count(); ++b) acceleration_[idx(b)] = solve_inertia(inertia_[idx(b)], load_[idx(b)]);
+  for (int b = 0; b < m.body_count(); ++b)
+    acceleration_[idx(b)] = solve_inertia(inertia_[idx(b)], load_[idx(b)]);
   acceleration_.back().setZero();
   lambda_ = gamma_;
   for (std::size_t e = 0; e < m.elements.size(); ++e) {
@@ -277,8 +280,7 @@ void RedundantSystem::write_rates(const double* y, double* ydot) {
     const double* angles = y + m.layout.pose(b) + 3;
     view<3>(pose) = k.velocity;
     if (m.description.orientation == Orientation::quaternion) {
-      view<4>(pose + 3) =
-          quaternion_rate<double>(view<4>(angles), k.angular_velocity);
+      view<4>(pose + 3) = quaternion_rate<double>(view<4>(angles), k.angular_velocity);
     } else {
       view<3>(pose + 3) = euler_xyz_rate<double>(view<3>(angles), k.angular_velocity);
     }

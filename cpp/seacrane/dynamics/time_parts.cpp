@@ -4,7 +4,8 @@
 
 namespace seacrane {
 
-std::vector<std::pair<std::string, double>> RedundantSystem::time_parts(double t, const double* y, long count) {
+std::vector<std::pair<std::string, double>> RedundantSystem::time_parts(double t, const double* y,
+                                                                        long count) {
   std::vector<double> rate(size());
   std::vector<std::pair<std::string, double>> out;
   const auto measure = [&](const char* name, auto&& part) {

@@ -64,7 +64,7 @@ struct Vessel {
   Mat6d added_mass;
   Mat6d linear_damping;
   Vec6d quadratic_damping;
-  Mat3d restoring;  // heave, roll, pitch
+  Mat3d restoring;                           // heave, roll, pitch
   Vec3d mooring_stiffness, mooring_damping;  // surge, sway, yaw
   Vec3d mean_position;
   double mean_yaw = 0.0;

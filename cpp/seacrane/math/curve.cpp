@@ -90,7 +90,8 @@ Curve Curve::then(double time, const Curve& next) const {
   for (int k = 0; k < 6; ++k) {
     double binomial = 1.0, power = 1.0;
     for (int n = k; n < 6; ++n) {
-      shifted[static_cast<std::size_t>(k)] += binomial * power * q[i].coefficients[static_cast<std::size_t>(n)];
+      shifted[static_cast<std::size_t>(k)] +=
+          binomial * power * q[i].coefficients[static_cast<std::size_t>(n)];
       power *= s;
       binomial = binomial * (n + 1) / (n + 1 - k);
     }
@@ -128,7 +129,8 @@ std::vector<double> Curve::breakpoints(int derivatives) const {
   };
   const CurveValue first = evaluate(pieces_.front(), pieces_.front().start);
   check({first.value, 0.0, 0.0}, pieces_.front());
-  for (std::size_t i = 1; i < pieces_.size(); ++i) check(evaluate(pieces_[i - 1], pieces_[i].start), pieces_[i]);
+  for (std::size_t i = 1; i < pieces_.size(); ++i)
+    check(evaluate(pieces_[i - 1], pieces_[i].start), pieces_[i]);
   return out;
 }
 

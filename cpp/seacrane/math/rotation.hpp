@@ -60,7 +60,7 @@ Mat3<T> rotation_from_euler_xyz(const Vec3<T>& phi) {
   const T cx = cos(phi[0]), sx = sin(phi[0]), cy = cos(phi[1]), sy = sin(phi[1]), cz = cos(phi[2]),
           sz = sin(phi[2]);
   Mat3<T> r;
-  r << cy * cz, -cy * sz, sy,                                 //
+  r << cy * cz, -cy * sz, sy,                                    //
       cx * sz + sx * sy * cz, cx * cz - sx * sy * sz, -sx * cy,  //
       sx * sz - cx * sy * cz, sx * cz + cx * sy * sz, cx * cy;
   return r;
@@ -87,8 +87,8 @@ Mat3<T> euler_xyz_to_omega_rate(const Vec3<T>& phi, const Vec3<T>& rate) {
   using std::cos, std::sin;
   const T cx = cos(phi[0]), sx = sin(phi[0]), cy = cos(phi[1]), sy = sin(phi[1]);
   Mat3<T> e;
-  e << T(0), T(0), cy * rate[1],                                       //
-      T(0), -sx * rate[0], -cx * cy * rate[0] + sx * sy * rate[1],     //
+  e << T(0), T(0), cy * rate[1],                                    //
+      T(0), -sx * rate[0], -cx * cy * rate[0] + sx * sy * rate[1],  //
       T(0), cx * rate[0], -sx * cy * rate[0] - cx * sy * rate[1];
   return e;
 }

@@ -11,9 +11,9 @@
 namespace seacrane {
 namespace {
 
-constexpr double kClosed = 1e-9;    // m, rad: a loop open by more than this is contradictory
-constexpr int kRestarts = 6;        // of the projection's own Newton iterations
-constexpr int kDenseRows = 600;     // above, redundancy is told from the Cholesky pivots alone
+constexpr double kClosed = 1e-9;  // m, rad: a loop open by more than this is contradictory
+constexpr int kRestarts = 6;      // of the projection's own Newton iterations
+constexpr int kDenseRows = 600;   // above, redundancy is told from the Cholesky pivots alone
 
 std::size_t idx(int i) { return static_cast<std::size_t>(i); }
 
@@ -71,6 +71,18 @@ std::vector<std::string> path(const Model& m, int from, int to, std::size_t with
                    ". Correct their points, axes, lengths or drivers, or the described poses");
 }
 
+/// The direction between coincident points is undefined: no Newton step can start from there.
+void check_regular(const Model& m, const RedundantSystem& system) {
+  for (std::size_t e = 0; e < m.elements.size(); ++e) {
+    const int rows = m.elements[e].rows;
+    const RowBlock<double>& block = system.blocks()[e];
+    if (rows == 0 || (block.d[0].topRows(rows).allFinite() && block.d[1].topRows(rows).allFinite())) continue;
+    throw SceneError(std::string(m.elements[e].driver ? "driver" : "joint") + " '" + m.elements[e].name +
+                     "': its direction is undefined at the described poses (its two points coincide, or its "
+                     "angles are singular); describe the bodies elsewhere");
+  }
+}
+
 /// Rows like u . w = 0 also hold with an axis turned by 180 deg: that is another assembly.
 void check_branch(const Model& m, const RedundantSystem& system) {
   for_each_joint_type([&]<class Type>(std::size_t kind) {
@@ -78,8 +90,8 @@ void check_branch(const Model& m, const RedundantSystem& system) {
     for (const JointData& j : m.joints[kind]) {
       const Mat3d a = system.bodies()[idx(j.first)].rotation * j.first_axes;
       const Mat3d b = system.bodies()[idx(j.second)].rotation * j.second_axes;
-      const bool flipped = a.col(2).dot(b.col(2)) < 0.0 ||
-                           (Type::aligned_axes && a.col(0).dot(b.col(0)) < 0.0);
+      const bool flipped =
+          a.col(2).dot(b.col(2)) < 0.0 || (Type::aligned_axes && a.col(0).dot(b.col(0)) < 0.0);
       if (flipped) {
         throw SceneError("joint '" + m.elements[idx(j.element)].name +
                          "': closes only with its axes turned by 180 deg; correct the axes of its frames");
@@ -96,7 +108,8 @@ void report_moves(const Model& m, const std::vector<double>& before, AssemblyRep
   };
   double most = 0.0;
   for (int b = 0; b < m.body_count(); ++b) {
-    const auto p0 = view<3>(&before[idx(m.layout.pose(b))]), p1 = view<3>(&m.initial_state[idx(m.layout.pose(b))]);
+    const auto p0 = view<3>(&before[idx(m.layout.pose(b))]),
+               p1 = view<3>(&m.initial_state[idx(m.layout.pose(b))]);
     const double moved = (p1 - p0).norm();
     const Mat3d turn = rotation(m.initial_state, b) * rotation(before, b).transpose();
     const Vec3d axis(turn(2, 1) - turn(1, 2), turn(0, 2) - turn(2, 0), turn(1, 0) - turn(0, 1));
@@ -107,7 +120,8 @@ void report_moves(const Model& m, const std::vector<double>& before, AssemblyRep
       most = moved + turned;
       out.most_moved = m.bodies[idx(b)].name;
     }
-    const auto v0 = view<6>(&before[idx(m.layout.twist(b))]), v1 = view<6>(&m.initial_state[idx(m.layout.twist(b))]);
+    const auto v0 = view<6>(&before[idx(m.layout.twist(b))]),
+               v1 = view<6>(&m.initial_state[idx(m.layout.twist(b))]);
     out.velocity_change = std::max(out.velocity_change, (v1 - v0).cwiseAbs().maxCoeff());
   }
 }
@@ -133,6 +147,7 @@ void assemble(Model& model) {
   const std::shared_ptr<const Model> view(&model, [](const Model*) {});
   RedundantSystem system(view);
   report.residual_before = system.residual(0.0, y.data()).position;
+  check_regular(model, system);
   for (int i = 0; i < kRestarts; ++i) {
     ++report.iterations;
     system.project(0.0, y.data(), false);
@@ -144,8 +159,9 @@ void assemble(Model& model) {
   if (!(after.position <= kClosed)) report_open(model, system);
   check_branch(model, system);
   if (!(after.rate <= kClosed)) {
-    throw SceneError("scene '" + model.description.name + "': the joints' prescribed rates contradict each other, " +
-                     to_text(after.rate) + " m/s or rad/s are left; check the drivers' curves at the start");
+    throw SceneError("scene '" + model.description.name +
+                     "': the joints' prescribed rates contradict each other, " + to_text(after.rate) +
+                     " m/s or rad/s are left; check the drivers' curves at the start");
   }
   report_moves(model, before, report);
   const auto [rank, null_space, condition] = system.rank(0.0, y.data());
@@ -153,9 +169,9 @@ void assemble(Model& model) {
   report.condition = condition;
   model.redundant = rank < model.rows();
   if (model.redundant && !dense) {
-    throw SceneError("scene '" + model.description.name + "': has redundant joints (S_ii/L_ii^2 = " +
-                     to_text(condition) + ") and more than " + std::to_string(kDenseRows) +
-                     " constraints; remove the redundant ones");
+    throw SceneError("scene '" + model.description.name +
+                     "': has redundant joints (S_ii/L_ii^2 = " + to_text(condition) + ") and more than " +
+                     std::to_string(kDenseRows) + " constraints; remove the redundant ones");
   }
   if (model.redundant) mark_redundant(model, null_space);
 }

@@ -42,7 +42,8 @@ class Compiler {
 
   void bodies() {
     std::map<std::string, int> vessel_on;
-    for (std::size_t v = 0; v < scene_.vessels.size(); ++v) vessel_on[scene_.vessels[v].body] = static_cast<int>(v);
+    for (std::size_t v = 0; v < scene_.vessels.size(); ++v)
+      vessel_on[scene_.vessels[v].body] = static_cast<int>(v);
     for (const auto& d : scene_.bodies) {
       BodyModel b;
       b.name = d.name;
@@ -122,7 +123,8 @@ class Compiler {
     std::vector<GraphNode> nodes;
     for (const auto& e : model_.elements) nodes.push_back({e.rows, e.first, e.second});
     model_.schur = BlockSchur(nodes, model_.body_count());
-    for (std::size_t e = 0; e < nodes.size(); ++e) model_.elements[e].row = model_.schur.row(static_cast<int>(e));
+    for (std::size_t e = 0; e < nodes.size(); ++e)
+      model_.elements[e].row = model_.schur.row(static_cast<int>(e));
   }
 
   int slots(int count) {

@@ -20,11 +20,11 @@ inline constexpr const char* kGround = "ground";
 struct BodyDescription {
   std::string name;
   double mass = 0.0;
-  Mat3d inertia = Mat3d::Zero();          // about the centre of mass, body axes
-  Vec3d center_of_mass = Vec3d::Zero();   // from the body origin, body axes
-  Vec3d position = Vec3d::Zero();         // of the body origin, inertial frame
-  Vec4d quaternion = {1, 0, 0, 0};        // body to inertial
-  Vec3d velocity = Vec3d::Zero();         // of the body origin, inertial frame
+  Mat3d inertia = Mat3d::Zero();           // about the centre of mass, body axes
+  Vec3d center_of_mass = Vec3d::Zero();    // from the body origin, body axes
+  Vec3d position = Vec3d::Zero();          // of the body origin, inertial frame
+  Vec4d quaternion = {1, 0, 0, 0};         // body to inertial
+  Vec3d velocity = Vec3d::Zero();          // of the body origin, inertial frame
   Vec3d angular_velocity = Vec3d::Zero();  // inertial frame
   bool gravity = true;
 };
@@ -82,7 +82,8 @@ struct ForceTableDescription {
 };
 
 /// void f(double t, const double state[13], const double* parameters, double wrench[6]):
-/// state = position, quaternion, velocity, angular velocity of the body origin; wrench about it, inertial axes.
+/// state = position, quaternion, velocity, angular velocity of the body origin; wrench about it, inertial
+/// axes.
 using ForceFunction = void (*)(double, const double*, const double*, double*);
 
 struct FunctionForceDescription {
@@ -99,7 +100,7 @@ struct VesselDescription {
   Mat6d added_mass = Mat6d::Zero();
   Mat6d linear_damping = Mat6d::Zero();
   Vec6d quadratic_damping = Vec6d::Zero();
-  Mat6d restoring = Mat6d::Zero();         // heave, roll, pitch block only
+  Mat6d restoring = Mat6d::Zero();          // heave, roll, pitch block only
   Vec3d mooring_stiffness = Vec3d::Zero();  // surge, sway (N/m), yaw (N m/rad), about the start
   Vec3d mooring_damping = Vec3d::Zero();
   std::vector<StateSpaceBlock> memory;
@@ -118,7 +119,7 @@ struct SceneDescription {
   std::string name = "scene";
   double gravity = 9.80665;
   Orientation orientation = Orientation::quaternion;
-  double baumgarte = 0.0;  // 1/s, critically damped; 0: none
+  double baumgarte = 0.0;     // 1/s, critically damped; 0: none
   double length_scale = 1.0;  // m: scales absolute tolerances
   std::vector<BodyDescription> bodies;
   std::vector<JointDescription> joints;

@@ -22,11 +22,11 @@ namespace seacrane {
 struct BodyModel {
   std::string name;
   double mass = 0.0;
-  Mat3d inertia;            // about the centre of mass, body axes
+  Mat3d inertia;  // about the centre of mass, body axes
   Mat3d inverse_inertia;
-  Vec3d center_of_mass;     // from the state point, body axes
-  Vec3d state_point;        // from the body origin, body axes
-  int vessel = -1;          // index of the vessel element on this body
+  Vec3d center_of_mass;  // from the state point, body axes
+  Vec3d state_point;     // from the body origin, body axes
+  int vessel = -1;       // index of the vessel element on this body
 };
 
 struct ElementModel {
@@ -35,7 +35,7 @@ struct ElementModel {
   int row = 0;                          // of its multipliers
   bool driver = false;
   bool unique_reaction = true;
-  Vec3d first_point, second_point;      // from the state points, body axes
+  Vec3d first_point, second_point;  // from the state points, body axes
 };
 
 struct WaveLoad {
@@ -63,7 +63,7 @@ struct AssemblyReport {
   double velocity_change = 0.0;
   int iterations = 0;
   int rank = 0;
-  double condition = 0.0;  // largest S_ii / L_ii^2
+  double condition = 0.0;              // largest S_ii / L_ii^2
   std::vector<std::string> redundant;  // elements whose reactions are not unique
 };
 
@@ -91,7 +91,7 @@ struct Model {
   std::vector<double> breakpoints;
   std::vector<double> initial_state;
   AssemblyReport assembly;
-  bool redundant = false;        // rank of D below its rows
+  bool redundant = false;  // rank of D below its rows
   bool paper_kinematics = false;
   double curve_end = 0.0;
 

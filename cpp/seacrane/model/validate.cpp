@@ -19,6 +19,8 @@ std::string to_text(double value) {
 
 namespace {
 
+constexpr double kFarthest = 1e7;  // m
+
 /// Checks of one named element; every failure reads "<kind> '<name>': <what>".
 class Check {
  public:
@@ -40,6 +42,14 @@ class Check {
                std::to_string(j) + "); give finite numbers");
         }
       }
+    }
+  }
+  /// The flat frame and its resolution in double precision both end long before this.
+  void near(const char* what, const Vec3d& point) const {
+    finite(what, point);
+    if (!(point.cwiseAbs().maxCoeff() <= kFarthest)) {
+      fail(std::string(what) + " holds " + to_text(point.cwiseAbs().maxCoeff()) +
+           " m; give metres, at most " + to_text(kFarthest));
     }
   }
   void not_negative(const char* what, double v) const {
@@ -76,10 +86,16 @@ void check_body(const BodyDescription& b) {
   const Vec3d moments = Eigen::SelfAdjointEigenSolver<Mat3d>(b.inertia).eigenvalues();
   if (moments[2] > (moments[0] + moments[1]) * (1.0 + 1e-6)) {
     c.fail("inertia has principal moments " + to_text(moments[0]) + ", " + to_text(moments[1]) + ", " +
-           to_text(moments[2]) + " kg m2, the largest above the sum of the others: no mass distribution has that");
+           to_text(moments[2]) +
+           " kg m2, the largest above the sum of the others: no mass distribution has that");
   }
-  c.finite("center_of_mass", b.center_of_mass);
-  c.finite("position", b.position);
+  if (!std::isfinite(1.0 / b.mass) || !std::isfinite(1.0 / moments[0]) ||
+      !std::isfinite(b.mass * kFarthest * kFarthest)) {
+    c.fail("mass " + to_text(b.mass) + " kg or smallest principal moment " + to_text(moments[0]) +
+           " kg m2 is beyond what numbers resolve; correct its units");
+  }
+  c.near("center_of_mass", b.center_of_mass);
+  c.near("position", b.position);
   c.finite("quaternion", b.quaternion);
   if (std::abs(b.quaternion.norm() - 1.0) > 1e-6) {
     c.fail("quaternion has length " + to_text(b.quaternion.norm()) + "; normalise it");
@@ -98,7 +114,7 @@ bool known_kind(const std::string& kind, std::string& all) {
 }
 
 void check_frame(const Check& c, const char* what, const Frame& f) {
-  c.finite(what, f.point);
+  c.near(what, f.point);
   c.finite(what, f.axes);
   if ((f.axes.transpose() * f.axes - Mat3d::Identity()).norm() > 1e-6 || f.axes.determinant() < 0.0) {
     c.fail(std::string(what) + ": axes are not a right-handed orthonormal set");
@@ -145,8 +161,8 @@ void check_spring(const SpringDescription& s, const std::set<std::string>& bodie
   c.body(bodies, s.first, true);
   c.body(bodies, s.second, true);
   if (s.first == s.second) c.fail("joins '" + s.first + "' to itself; name two different bodies");
-  c.finite("first_point", s.first_point);
-  c.finite("second_point", s.second_point);
+  c.near("first_point", s.first_point);
+  c.near("second_point", s.second_point);
   c.not_negative("stiffness", s.stiffness);
   c.not_negative("damping", s.damping);
   c.not_negative("natural_length", s.natural_length);
@@ -164,7 +180,7 @@ void check_spring(const SpringDescription& s, const std::set<std::string>& bodie
 void check_force_table(const ForceTableDescription& f, const std::set<std::string>& bodies) {
   const Check c("force table", f.name);
   c.body(bodies, f.body, false);
-  c.finite("point", f.point);
+  c.near("point", f.point);
   if (f.times.empty() || f.times.size() != f.wrenches.size()) {
     c.fail("has " + std::to_string(f.times.size()) + " times and " + std::to_string(f.wrenches.size()) +
            " wrenches; give as many of both");
@@ -181,7 +197,7 @@ void check_vessel(const VesselDescription& v, const std::set<std::string>& bodie
   c.body(bodies, v.body, false);
   c.positive_definite("added_mass", v.added_mass, true);
   c.finite("linear_damping", v.linear_damping);
-  c.finite("quadratic_damping", v.quadratic_damping);
+  for (int i = 0; i < 6; ++i) c.not_negative("quadratic_damping", v.quadratic_damping[i]);
   c.finite("restoring", v.restoring);
   for (int i = 0; i < 6; ++i) {
     for (int j = 0; j < 6; ++j) {
@@ -192,7 +208,8 @@ void check_vessel(const VesselDescription& v, const std::set<std::string>& bodie
       }
     }
   }
-  if ((v.restoring - v.restoring.transpose()).cwiseAbs().maxCoeff() > 1e-6 * v.restoring.cwiseAbs().maxCoeff()) {
+  if ((v.restoring - v.restoring.transpose()).cwiseAbs().maxCoeff() >
+      1e-6 * v.restoring.cwiseAbs().maxCoeff()) {
     c.fail("restoring is not symmetric; a conservative restoring load has a symmetric matrix");
   }
   for (int i = 0; i < 3; ++i) {
@@ -237,10 +254,16 @@ void check_drives(const SceneDescription& scene, const std::map<std::string, std
 }
 
 void check_loads(const SceneDescription& scene, const std::set<std::string>& bodies) {
+  std::set<std::string> actuators;
+  for (const auto& a : scene.actuators) actuators.insert(a.name);
   for (const auto& f : scene.point_forces) {
     const Check c("point force", f.name);
+    if (actuators.count(f.name)) {
+      c.fail("an actuator has this name too, and both would take the input '" + f.name +
+             ".force'; rename one");
+    }
     c.body(bodies, f.body, false);
-    c.finite("point", f.point);
+    c.near("point", f.point);
     c.finite("force", f.force);
   }
   for (const auto& s : scene.springs) check_spring(s, bodies);
@@ -253,7 +276,8 @@ void check_loads(const SceneDescription& scene, const std::set<std::string>& bod
   std::set<std::string> floating;
   for (const auto& v : scene.vessels) {
     check_vessel(v, bodies);
-    if (!floating.insert(v.body).second) Check("vessel", v.name).fail("body '" + v.body + "' is a vessel already");
+    if (!floating.insert(v.body).second)
+      Check("vessel", v.name).fail("body '" + v.body + "' is a vessel already");
     if (v.kinematics != scene.vessels.front().kinematics) {
       Check("vessel", v.name).fail("kinematics differ from those of '" + scene.vessels.front().name + "'");
     }
@@ -271,7 +295,9 @@ void validate(const SceneDescription& scene) {
   const Check c("scene", scene.name);
   c.finite("gravity", scene.gravity);
   c.not_negative("baumgarte", scene.baumgarte);
-  if (!(scene.length_scale > 0.0)) c.fail("length_scale is " + to_text(scene.length_scale) + " m; make it positive");
+  if (!(scene.length_scale > 0.0) || !std::isfinite(scene.length_scale)) {
+    c.fail("length_scale is " + to_text(scene.length_scale) + " m; make it positive and finite");
+  }
   if (scene.bodies.empty()) c.fail("has no bodies; add at least one");
   unique_names("body", scene.bodies);
   unique_names("joint", scene.joints);

@@ -25,9 +25,12 @@ std::size_t distance_count(const Model& m) {
 /// The one list of channels; what a scene does not hold is left out.
 std::vector<Offer> offers(const Model& m) {
   const std::size_t n = m.bodies.size();
-  std::vector<Offer> out = {{"position", {n, 3}, true},        {"velocity", {n, 3}, true},
-                            {"angular_velocity", {n, 3}, true}, {"quaternion", {n, 4}, true},
-                            {"euler_xyz", {n, 3}, true},        {"acceleration", {n, 3}, false},
+  std::vector<Offer> out = {{"position", {n, 3}, true},
+                            {"velocity", {n, 3}, true},
+                            {"angular_velocity", {n, 3}, true},
+                            {"quaternion", {n, 4}, true},
+                            {"euler_xyz", {n, 3}, true},
+                            {"acceleration", {n, 3}, false},
                             {"angular_acceleration", {n, 3}, false}};
   if (!m.vessels.empty()) out.push_back({"vessel_motion", {6}, true});
   if (!m.coordinates.empty()) {
@@ -157,8 +160,8 @@ void Recording::write_joint_coordinates(double t, const RedundantSystem& system)
     const LoadInput<double> input = system.load_input(t);
     for (const Actuator& a : model_->actuators) {
       const JointData& j = a.coordinate.joint;
-      *out++ = a.force<double>(input, evaluate_coordinate<double>(a.coordinate, bodies[idx(j.first)],
-                                                                   bodies[idx(j.second)]));
+      *out++ = a.force<double>(
+          input, evaluate_coordinate<double>(a.coordinate, bodies[idx(j.first)], bodies[idx(j.second)]));
     }
   }
   if (double* out = slot("driver_force")) {

@@ -6,19 +6,24 @@
 #include <limits>
 #include <stdexcept>
 
+#include "seacrane/model/validate.hpp"
+
 namespace seacrane {
 namespace {
 
 using Clock = std::chrono::steady_clock;
 constexpr std::chrono::milliseconds kAskInterval{20};
+constexpr double kLargestTolerance = 0.1;  // beyond, an error estimate of one step means nothing
+constexpr double kStartClosed = 1e-6;      // m, rad: a start state open by more is of another scene
 
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
 IntegratorOptions integrator_options(const Model& model, const RunOptions& run) {
-  if (!(run.tolerance > 0.0) || !std::isfinite(run.tolerance)) {
-    throw std::invalid_argument("rtol is " + std::to_string(run.tolerance) + "; give a positive number, e.g. 1e-6");
+  if (!(run.tolerance > 0.0) || !(run.tolerance <= kLargestTolerance)) {
+    throw std::invalid_argument("rtol is " + to_text(run.tolerance) +
+                                "; give a positive number up to 0.1, e.g. 1e-6");
   }
   IntegratorOptions out;
   out.name = run.integrator;
@@ -47,14 +52,20 @@ Simulation::Simulation(std::shared_ptr<const Model> model, State start, RunOptio
       output_state_(start.values),
       rate_(start.values.size(), 0.0) {
   if (start.values.size() != static_cast<std::size_t>(model_->layout.size)) {
-    throw std::invalid_argument("state: has " + std::to_string(start.values.size()) + " values, the model needs " +
-                                std::to_string(model_->layout.size));
+    throw std::invalid_argument("state: has " + std::to_string(start.values.size()) +
+                                " values, the model needs " + std::to_string(model_->layout.size));
   }
   for (double v : start.values) {
     if (!std::isfinite(v)) throw std::invalid_argument("state: holds a value that is not finite");
   }
+  check_inputs(inputs_);
   system_.set_inputs(inputs_);
   system_.project(start.time, start.values.data(), false);
+  const double open = system_.residual(start.time, start.values.data()).position;
+  if (!(open <= kStartClosed)) {
+    throw std::invalid_argument("state: leaves joints or drivers open by " + to_text(open) +
+                                " m or rad; give a state of this scene at its own time");
+  }
   system_.take_residual_before_projection();
   next_stop(start.time);
   start_energy_ = system_.energy(start.time, start.values.data());
@@ -68,9 +79,10 @@ Simulation::Simulation(std::shared_ptr<const Model> model, State start, RunOptio
 
 double Simulation::next_stop(double t_end) {
   const auto& stops = model_->breakpoints;
-  while (next_breakpoint_ < stops.size() && stops[next_breakpoint_] <= integrator_->time()) ++next_breakpoint_;
-  const double stop = next_breakpoint_ < stops.size() ? stops[next_breakpoint_]
-                                                      : std::numeric_limits<double>::infinity();
+  while (next_breakpoint_ < stops.size() && stops[next_breakpoint_] <= integrator_->time())
+    ++next_breakpoint_;
+  const double stop =
+      next_breakpoint_ < stops.size() ? stops[next_breakpoint_] : std::numeric_limits<double>::infinity();
   system_.set_curve_limit(stop);
   return std::min(stop, t_end);
 }
@@ -119,10 +131,10 @@ void Simulation::step(double limit) {
   try {
     integrator_->step(limit);
   } catch (const IntegrationError& error) {
-    std::string text = error.what();
+    std::string text = error.reason();
     if (error.component() != IntegrationError::no_component &&
         error.component() < static_cast<std::size_t>(model_->layout.size)) {
-      text += " (component " + std::to_string(error.component()) + " is the " + describe(error.component()) + ")";
+      text += ", worst in the " + describe(error.component());
     }
     throw IntegrationError(error.method(), error.time(), error.step_size(), error.component(), text);
   }
@@ -154,11 +166,18 @@ bool Simulation::advance(double t_end, const std::function<bool(double)>& keep_g
   return integrator_->time() >= t_end;
 }
 
-void Simulation::set_inputs(const std::vector<double>& slots) {
-  if (slots.size() != inputs_.size()) {
+void Simulation::check_inputs(const std::vector<double>& slots) const {
+  if (slots.size() != static_cast<std::size_t>(model_->slot_count)) {
     throw std::invalid_argument("inputs: " + std::to_string(slots.size()) + " values given, the model has " +
-                                std::to_string(inputs_.size()) + " slots");
+                                std::to_string(model_->slot_count) + " slots");
   }
+  for (double v : slots) {
+    if (!std::isfinite(v)) throw std::invalid_argument("inputs: hold a value that is not finite");
+  }
+}
+
+void Simulation::set_inputs(const std::vector<double>& slots) {
+  check_inputs(slots);
   inputs_ = slots;
   system_.set_inputs(inputs_);
   std::copy_n(integrator_->state(), output_state_.size(), output_state_.data());

@@ -15,9 +15,10 @@ namespace seacrane {
 
 struct RunOptions {
   std::string integrator = "dopri5";
-  double tolerance = 1e-6;  // times the scale of each state: absolute, so that results don't depend on the origin
-  double fixed_step = 0.0;  // s, fixed-step methods; 0: the method's default
-  double max_step = 0.0;    // s; 0: no limit
+  double tolerance =
+      1e-6;  // times the scale of each state: absolute, so that results don't depend on the origin
+  double fixed_step = 0.0;           // s, fixed-step methods; 0: the method's default
+  double max_step = 0.0;             // s; 0: no limit
   std::vector<double> output_times;  // increasing, from the start on
   std::set<std::string> channels;
 };
@@ -61,6 +62,7 @@ class Simulation {
   void record_until(double t);
   void write(double t, double* y, Recording& out);
   void step(double limit);
+  void check_inputs(const std::vector<double>& slots) const;
   std::string describe(std::size_t component) const;
 
   std::shared_ptr<const Model> model_;

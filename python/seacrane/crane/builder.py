@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from types import MappingProxyType
-from typing import Any, Protocol
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import numpy.typing as npt
@@ -17,20 +17,14 @@ from seacrane.crane.geometry import BODIES, CraneGeometry, plane_axes
 from seacrane.crane.mass_properties import MassProperties, combine
 from seacrane.errors import SceneError
 
+if TYPE_CHECKING:
+    from seacrane.scene import Scene
+
 Array = npt.NDArray[np.float64]
 Vector = tuple[float, float, float]
 
 FOOT: Vector = (33.0, 10.0, 10.0)
 """Crane foot V seen from {0} in the paper's vessel: 33 m forward, 10 m to port, 10 m above."""
-
-
-class SceneLike(Protocol):
-    """What `KnuckleBoomCrane.add_to` needs of a scene; points and axes are inertial."""
-
-    def add_body(self, *, name: str, mass: float, inertia: Any, center_of_mass: Any, position: Any,
-                 quaternion: Any) -> Any: ...  # fmt: skip
-
-    def add_joint(self, *, kind: str, name: str, first: str, second: str, **geometry: Any) -> Any: ...
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -308,7 +302,7 @@ class KnuckleBoomCrane:
 
     def add_to(
         self,
-        scene: SceneLike,
+        scene: Scene,
         *,
         base: str = "vessel",
         foot: Vector = FOOT,

@@ -12,9 +12,7 @@ struct Free {
   static constexpr bool aligned_axes = false;   // x axes too
 
   template <class T>
-  static void evaluate(const JointGeometry<T>& /*g*/, const JointData& /*joint*/, RowBlock<T>& /*out*/) {
-
-  }
+  static void evaluate(const JointGeometry<T>& /*g*/, const JointData& /*joint*/, RowBlock<T>& /*out*/) {}
 };
 
 }  // namespace seacrane

@@ -9,7 +9,7 @@ struct Planar {
   static constexpr const char* kind = "planar";
   static constexpr int rows = 3;
   static constexpr bool parallel_axes = true;  // z axes point the same way
-  static constexpr bool aligned_axes = false;   // x axes too
+  static constexpr bool aligned_axes = false;  // x axes too
 
   template <class T>
   static void evaluate(const JointGeometry<T>& g, const JointData& /*joint*/, RowBlock<T>& out) {

@@ -29,7 +29,8 @@ template <class F>
 constexpr void for_each_joint_type(F&& f) {
   [&]<std::size_t... I>(std::index_sequence<I...>) {
     (f.template operator()<std::tuple_element_t<I, JointTypes>>(I), ...);
-  }(std::make_index_sequence<kJointKinds>{});
+  }
+  (std::make_index_sequence<kJointKinds>{});
 }
 
 /// Joints of one kind side by side, evaluated with one dispatch per kind.

@@ -31,7 +31,8 @@ struct ForceTable {
                   moment = w.template tail<3>();
     out.wrench[body].add(force, lever);
     out.wrench[body].moment += moment;
-    out.add_power(force.dot(k.velocity + cross<T>(k.angular_velocity, lever)) + moment.dot(k.angular_velocity));
+    out.add_power(force.dot(k.velocity + cross<T>(k.angular_velocity, lever)) +
+                  moment.dot(k.angular_velocity));
   }
 };
 

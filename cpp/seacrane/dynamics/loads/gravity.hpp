@@ -7,7 +7,7 @@ namespace seacrane {
 /// Weight of one body at its centre of mass; z is up.
 struct Gravity {
   int body = 0;
-  double weight = 0.0;  // N
+  double weight = 0.0;   // N
   Vec3d center_of_mass;  // from the state point, body axes
 
   template <class T>

@@ -20,7 +20,8 @@ struct SpringDamper {
   void apply(const LoadInput<T>& in, LoadSum<T>& out) const {
     using std::sqrt;
     const auto &ka = in.bodies[first], &kb = in.bodies[second];
-    const Vec3<T> lever_a = ka.rotation * first_point.cast<T>(), lever_b = kb.rotation * second_point.cast<T>();
+    const Vec3<T> lever_a = ka.rotation * first_point.cast<T>(),
+                  lever_b = kb.rotation * second_point.cast<T>();
     const Vec3<T> d = kb.position + lever_b - ka.position - lever_a;
     const T length = sqrt(d.dot(d));
     if (!(length > T(0))) return;  // coincident points: no direction
