@@ -18,11 +18,14 @@ LINK = "link"
 
 def _drive_load(scene: Scene, arrays: dict[str, Array], joint: str, coordinate: str) -> Array | None:
     """Load along a joint coordinate: what its actuators and its driver apply together."""
-    loads = []
-    for table, channel in ((scene.actuators, "actuator_force"), (scene.drivers, "driver_force")):
-        for i, element in enumerate(table.values()):
-            if (element.joint, element.coordinate) == (joint, coordinate) and channel in arrays:
-                loads.append(arrays[channel][:, i])
+    actuators = [(actuator.joint, actuator.coordinate) for actuator in scene.actuators.values()]
+    drivers = [(driver.joint, driver.coordinate) for driver in scene.drivers.values()]
+    loads = [
+        arrays[channel][:, i]
+        for channel, places in (("actuator_force", actuators), ("driver_force", drivers))
+        for i, place in enumerate(places)
+        if place == (joint, coordinate) and channel in arrays
+    ]
     return sum(loads[1:], loads[0].copy()) if loads else None
 
 
@@ -36,9 +39,10 @@ def named_channels(scene: Scene, arrays: dict[str, Array]) -> dict[str, Array]:
     out = dict(arrays)
     cylinders = [joint for joint in CYLINDERS.values() if joint in scene.joints]
     places = [_recorded(scene, joint) for joint in cylinders]
-    if cylinders and "coordinate" in arrays and None not in places:
-        out["stroke"] = arrays["coordinate"][:, places]
-        out["stroke_rate"] = arrays["coordinate_rate"][:, places]
+    columns = [place for place in places if place is not None]
+    if cylinders and "coordinate" in arrays and len(columns) == len(cylinders):
+        out["stroke"] = arrays["coordinate"][:, columns]
+        out["stroke_rate"] = arrays["coordinate_rate"][:, columns]
     loads = [_drive_load(scene, arrays, joint, "displacement") for joint in cylinders]
     if loads and all(load is not None for load in loads):
         out["cylinder_force"] = np.column_stack([load for load in loads if load is not None])
