@@ -85,42 +85,23 @@ def simulate(
     ------
     RuntimeError if the integrator gives up; ValueError for bad times or a start that does not close.
     """
-    from scipy.integrate import solve_ivp
-
-    wanted = np.asarray(times, dtype=float)
-    if wanted.ndim != 1 or not len(wanted) or np.any(np.diff(wanted) <= 0.0):
-        raise ValueError("times must be a rising one-dimensional array")
-    if wanted[0] < 0.0 or wanted[-1] > t_end:
-        raise ValueError(f"times span {wanted[0]} to {wanted[-1]} s, outside 0 to t_end = {t_end} s")
+    wanted = checked_times(times, t_end)
     began = clock.perf_counter()
     layout = Layout(len(system.mass), system.memory_states)
     memory = np.zeros(layout.memory) if memory_start is None else np.asarray(memory_start, dtype=float)
     motion = system.project(0.0, system.start, memory)
     y = layout.pack(motion, memory, np.zeros(2))
-    energy = system.evaluate(0.0, motion, memory).energy
-    recorder = Recorder(system, layout, energy)
+    recorder = Recorder(system, layout, system.evaluate(0.0, motion, memory).energy)
     if wanted[0] == 0.0:
         recorder.record(0.0, y)
 
     atol_vector = layout.tolerance(0.01 * rtol if atol is None else atol)
+    settings = {"method": method, "rtol": rtol, "atol": atol_vector, "max_step": max_step}
     evaluations = steps = 0
-    step: float | None = None
+    step = math.inf
     stops = interval_ends(t_end, projection_interval, system.breaks)
     for t_start, t_stop in zip([0.0, *stops[:-1]], stops, strict=True):
-        before = np.nextafter(t_stop, -math.inf)
-        solution = solve_ivp(
-            lambda t, state, last=before: derivative(system, layout, min(t, last), state),
-            (t_start, t_stop),
-            y,
-            method=method,
-            rtol=rtol,
-            atol=atol_vector,
-            max_step=max_step,
-            dense_output=True,
-            first_step=None if step is None else min(step, t_stop - t_start),
-        )
-        if not solution.success:
-            raise RuntimeError(f"integration stopped at t = {solution.t[-1]} s: {solution.message}")
+        solution = advance(system, layout, (t_start, t_stop), y, step, settings)
         evaluations += solution.nfev
         steps += len(solution.t) - 1
         if len(solution.t) > 2:
@@ -139,6 +120,42 @@ def simulate(
         "rank": system.rank,
     }
     return result
+
+
+def checked_times(times: ArrayLike, t_end: float) -> Array:
+    """Output times as an array, refused if they do not rise or leave [0, t_end]."""
+    wanted = np.asarray(times, dtype=float)
+    if wanted.ndim != 1 or not len(wanted) or np.any(np.diff(wanted) <= 0.0):
+        raise ValueError("times must be a rising one-dimensional array")
+    if wanted[0] < 0.0 or wanted[-1] > t_end:
+        raise ValueError(f"times span {wanted[0]} to {wanted[-1]} s, outside 0 to t_end = {t_end} s")
+    return wanted
+
+
+def advance(
+    system: System,
+    layout: Layout,
+    interval: tuple[float, float],
+    y: Array,
+    step: float,
+    settings: dict[str, Any],
+) -> Any:
+    """Integrate one interval with dense output; curves are read from its own side of its end."""
+    from scipy.integrate import solve_ivp
+
+    length = interval[1] - interval[0]
+    last = np.nextafter(interval[1], -math.inf)
+    solution = solve_ivp(
+        lambda t, state: derivative(system, layout, min(t, last), state),
+        interval,
+        y,
+        dense_output=True,
+        first_step=min(step, length) if math.isfinite(step) else None,
+        **settings,
+    )
+    if not solution.success:
+        raise RuntimeError(f"integration stopped at t = {solution.t[-1]} s: {solution.message}")
+    return solution
 
 
 def interval_ends(t_end: float, interval: float, breaks: list[float]) -> list[float]:

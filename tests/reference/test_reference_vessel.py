@@ -219,6 +219,15 @@ def test_kernel_and_damping_are_a_transform_pair() -> None:
     assert np.all(np.diagonal(damping, axis1=1, axis2=2) >= -1e-6 * np.max(damping))
 
 
+def test_kernel_of_linear_damping_is_exact_on_a_coarse_grid() -> None:
+    """B = w up to 1 rad/s in a single interval: K = 2/pi (sin t / t + (cos t - 1) / t^2)."""
+    damping = np.zeros((2, 6, 6))
+    damping[1, 2, 2] = 1.0
+    times = np.array([1e-6, 0.02, 0.7, 3.0, 40.0])
+    exact = 2.0 / np.pi * (np.sin(times) / times - 0.5 * np.sinc(0.5 * times / np.pi) ** 2)
+    np.testing.assert_allclose(kernel_of_damping(times, [0.0, 1.0], damping)[:, 2, 2], exact, rtol=1e-9)
+
+
 def test_a_block_of_several_motions_is_placed_where_it_belongs() -> None:
     rng = np.random.default_rng(2)
     a, b, c = -np.eye(3), rng.normal(size=(3, 2)), rng.normal(size=(2, 3))
