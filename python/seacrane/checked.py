@@ -1,0 +1,67 @@
+"""Values from outside turned into what the core takes, or a SceneError that names object, value and fix."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from seacrane.errors import SceneError
+
+Array = NDArray[np.float64]
+
+
+def text_of(what: str, value: Any) -> str:
+    """A printable text; may be empty."""
+    if not isinstance(value, str) or not value.isprintable():
+        raise SceneError(f"{what} is {value!r}; give a name, a printable text")
+    return value
+
+
+def name_of(kind: str, value: Any) -> str:
+    """A printable text that is not empty."""
+    if not text_of(f"{kind}: name", value):
+        raise SceneError(f"{kind}: name is empty; give every element a name")
+    return str(value)
+
+
+def flag_of(what: str, value: Any) -> bool:
+    """A truth value, nothing that merely counts as one."""
+    if not isinstance(value, (bool, np.bool_)):
+        raise SceneError(f"{what} is {value!r}; give True or False")
+    return bool(value)
+
+
+def number_of(what: str, value: Any) -> float:
+    """A float; not a text that reads like one."""
+    try:
+        if isinstance(value, (str, bytes)):
+            raise TypeError
+        return float(value)
+    except (TypeError, ValueError, OverflowError) as error:
+        raise SceneError(f"{what} is {value!r}; give a number") from error
+
+
+def vector_of(what: str, value: Any) -> list[float]:
+    """A list of floats from a one-dimensional array_like."""
+    array = numbers_of(what, value)
+    if array.ndim != 1:
+        raise SceneError(f"{what} has shape {array.shape}; give one row of numbers")
+    return [float(v) for v in array]
+
+
+def numbers_of(what: str, value: Any) -> Array:
+    """An array of floats of any shape."""
+    try:
+        return np.asarray(value, dtype=float)
+    except (TypeError, ValueError, OverflowError) as error:
+        raise SceneError(f"{what} is {value!r}; give numbers") from error
+
+
+def shaped_of(what: str, value: Any, shape: tuple[int, ...]) -> Array:
+    """An array of floats of one shape."""
+    array = numbers_of(what, value)
+    if array.shape != shape:
+        raise SceneError(f"{what} has shape {array.shape}; give {shape}")
+    return array

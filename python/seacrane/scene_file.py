@@ -1,0 +1,367 @@
+"""Scene files: a scene as JSON. Data only; reading one runs no code and takes bounded memory.
+
+A file is an object with "format", "version" and one entry per field of `Scene`; elements are lists of
+objects with the arguments of the core's classes, in the order in which they were added. SI units, radians,
+the frames of `Scene`. Numbers are written with as many digits as it takes to read back the same double.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+import os
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from seacrane import _core
+from seacrane.errors import FileFormatError, SceneError
+from seacrane.result.atomic import atomic_write
+from seacrane.scene import Scene, Waves
+from seacrane.scene_node import Node
+
+FORMAT = "seacrane scene"
+VERSION = 1
+INFINITE = "$infinite"  # its value is the sign
+LARGEST_FILE = 32 * 2**20  # bytes; JSON takes up to 25 times its size in memory when it is parsed
+
+_FRAME = {"point": (3,), "axes": (3, 3)}
+_ARRAYS: dict[str, dict[str, tuple[int, ...]]] = {
+    "bodies": {
+        "inertia": (3, 3),
+        "center_of_mass": (3,),
+        "position": (3,),
+        "quaternion": (4,),
+        "velocity": (3,),
+        "angular_velocity": (3,),
+    },
+    "point_forces": {"point": (3,), "force": (3,)},
+    "springs": {"first_point": (3,), "second_point": (3,), "lengths": (-1,), "forces": (-1,)},
+    "force_tables": {"point": (3,), "times": (-1,), "wrenches": (-1, 6)},
+    "vessels": {
+        "added_mass": (6, 6),
+        "linear_damping": (6, 6),
+        "quadratic_damping": (6,),
+        "restoring": (6, 6),
+        "mooring_stiffness": (3,),
+        "mooring_damping": (3,),
+    },
+    "waves": {"omega": (-1,), "amplitude": (-1,), "phase": (-1,), "direction": (-1,), "position": (2,)},
+}
+_NUMBERS = {
+    "bodies": ("mass",),
+    "joints": ("length",),
+    "actuators": ("stiffness", "damping"),
+    "springs": ("stiffness", "damping", "natural_length"),
+}
+_TEXTS = {
+    "bodies": ("name",),
+    "joints": ("name", "kind", "first", "second"),
+    "drivers": ("name", "joint", "coordinate"),
+    "actuators": ("name", "joint", "coordinate"),
+    "point_forces": ("name", "body"),
+    "springs": ("name", "first", "second"),
+    "force_tables": ("name", "body"),
+    "vessels": ("name", "body", "kinematics"),
+}
+_FLAGS = {"bodies": ("gravity",), "point_forces": ("body_axes",)}
+_CURVES = {"drivers": ("curve",), "actuators": ("feed_forward", "reference")}
+_FRAMES = {"joints": ("first_frame", "second_frame")}
+_ADD = {
+    "bodies": "add_body",
+    "joints": "add_joint",
+    "drivers": "add_driver",
+    "actuators": "add_actuator",
+    "point_forces": "add_point_force",
+    "springs": "add_spring",
+    "force_tables": "add_force_table",
+    "vessels": "add_vessel",
+}
+_SETTINGS = ("gravity", "baumgarte", "length_scale")
+
+
+def save_scene(scene: Scene, path: str | os.PathLike[str]) -> None:
+    """Write a scene to a file, complete or not at all.
+
+    Parameters
+    ----------
+    scene : Scene
+    path : path-like
+        Replaced if it exists; its folder must exist.
+
+    Raises
+    ------
+    SceneError
+        If the scene holds a C function, a number that is not finite or a note that is not plain data, or is
+        too large to be read back.
+    OSError
+        If the file cannot be written.
+    """
+    if scene.function_forces:
+        raise SceneError(
+            f"function force {next(iter(scene.function_forces))!r}: a scene file holds data only; add "
+            "C functions in the script that loads the scene"
+        )
+    try:
+        text = json.dumps(_described(scene), indent=1, allow_nan=False)
+        _scene(Node(json.loads(text), f"scene {scene.name!r}"))
+    except SceneError:
+        raise
+    except FileFormatError as error:
+        raise SceneError(str(error)) from error
+    except RecursionError as error:
+        raise SceneError(f"scene {scene.name!r}: its notes contain themselves; give plain data") from error
+    except ValueError as error:
+        raise SceneError(f"scene {scene.name!r}: {error}; every number must be finite") from error
+    data = (text + "\n").encode("ascii")
+    if len(data) > LARGEST_FILE:
+        raise SceneError(
+            f"scene {scene.name!r}: takes {len(data)} bytes, above {LARGEST_FILE}; shorten its tables"
+        )
+    with atomic_write(Path(path)) as draft:
+        draft.write_bytes(data)
+
+
+def load_scene(path: str | os.PathLike[str]) -> Scene:
+    """Read a scene that `save_scene` wrote; values and names are as they were, to the last bit.
+
+    Parameters
+    ----------
+    path : path-like
+
+    Returns
+    -------
+    Scene
+        Not compiled: what only the whole scene shows (loops that do not close) comes with `Scene.compile`.
+
+    Raises
+    ------
+    FileFormatError
+        Naming the file and the line (malformed JSON) or the entry (a value that is missing, unknown, of the
+        wrong type or out of range).
+    OSError
+        If the file cannot be read.
+    """
+    place = Path(path).name
+    root = Node(_parse(Path(path)), place)
+    if not isinstance(root.value, dict) or root.value.get("format") != FORMAT:
+        raise FileFormatError(f'{place}: is not a scene file; it has no "format": "{FORMAT}" at its top')
+    version = root.at("version").whole()
+    if version != VERSION:
+        raise FileFormatError(f"{place}: is of version {version}; this seacrane reads version {VERSION}")
+    fields = ("format", "version", "name", "orientation", *_SETTINGS, *_ADD, "waves", "recorded", "notes")
+    root.expect(fields)
+    return _scene(root)
+
+
+def _scene(root: Node) -> Scene:
+    scene = Scene(
+        name=root.at("name").text(),
+        orientation=root.at("orientation").text(),
+        **{key: root.at(key).number() for key in _SETTINGS},
+    )
+    for kind in _ADD:
+        for node in root.at(kind).items():
+            _add(scene, kind, node)
+    for node in root.at("recorded").items():
+        node.expect(("name", "joint", "coordinate"))
+        with node.scene_errors():
+            scene.record_coordinate(**{key: node.at(key).text() for key in ("name", "joint", "coordinate")})
+    waves = root.at("waves")
+    if waves.value is not None:
+        scene.waves = _waves(waves)
+    scene.notes.update(_notes_back(root.at("notes")))
+    return scene
+
+
+def _parse(path: Path) -> Any:
+    with path.open("rb") as file:
+        data = file.read(LARGEST_FILE + 1)
+    if len(data) > LARGEST_FILE:
+        raise FileFormatError(f"{path.name}: is larger than {LARGEST_FILE} bytes, which no scene file is")
+    try:
+        return json.loads(data.decode("utf-8"), object_pairs_hook=_unique, parse_constant=_no_constant)
+    except json.JSONDecodeError as error:
+        raise FileFormatError(
+            f"{path.name} line {error.lineno}, column {error.colno}: {error.msg}; truncated or malformed JSON"
+        ) from error
+    except UnicodeDecodeError as error:
+        line = data.count(b"\n", 0, error.start) + 1
+        raise FileFormatError(f"{path.name} line {line}: byte {error.start} is not UTF-8 text") from error
+    except RecursionError as error:
+        raise FileFormatError(f"{path.name}: is nested too deeply to be a scene file") from error
+    except ValueError as error:
+        raise FileFormatError(f"{path.name}: {error}") from error
+
+
+def _unique(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+    out = dict(pairs)
+    if len(out) != len(pairs):
+        keys = [key for key, _ in pairs]
+        twice = next(key for key in keys if keys.count(key) > 1)
+        raise ValueError(f"key {twice!r} occurs twice in one object; remove one")
+    return out
+
+
+def _no_constant(name: str) -> Any:
+    raise ValueError(f"{name} is not a number; give a finite one")
+
+
+def _described(scene: Scene) -> dict[str, Any]:
+    """The scene as plain data."""
+    out: dict[str, Any] = {
+        "format": FORMAT,
+        "version": VERSION,
+        "name": scene.name,
+        "orientation": scene.orientation,
+    }
+    out |= {key: float(getattr(scene, key)) for key in _SETTINGS}
+    for kind in _ADD:
+        out[kind] = [_element(kind, element) for element in getattr(scene, kind).values()]
+    out["waves"] = None if scene.waves is None else _waves_out(scene.waves)
+    out["recorded"] = [
+        {"name": name, "joint": joint, "coordinate": coordinate}
+        for name, (joint, coordinate) in scene.recorded.items()
+    ]
+    out["notes"] = _plain(f"scene {scene.name!r}: notes", scene.notes)
+    return out
+
+
+def _element(kind: str, element: Any) -> dict[str, Any]:
+    keys = [key for group in (_TEXTS, _NUMBERS, _FLAGS) for key in group.get(kind, ())]
+    out = {key: getattr(element, key) for key in keys}
+    out |= {key: np.asarray(getattr(element, key)).tolist() for key in _ARRAYS.get(kind, {})}
+    out |= {key: getattr(element, key).to_pieces() for key in _CURVES.get(kind, ())}
+    for key in _FRAMES.get(kind, ()):
+        frame = getattr(element, key)
+        out[key] = {part: getattr(frame, part).tolist() for part in _FRAME}
+    if kind == "vessels":
+        out["memory"] = [_block(block) for block in element.memory]
+    return out
+
+
+def _block(block: _core.StateSpaceBlock) -> dict[str, Any]:
+    matrices = {key: getattr(block, key).tolist() for key in ("a", "b", "c", "d", "state_scale")}
+    return {"inputs": list(block.inputs), "outputs": list(block.outputs), **matrices}
+
+
+def _waves_out(waves: Waves) -> dict[str, Any]:
+    transfer = np.asarray(waves.transfer, dtype=complex)
+    out = {"body": waves.body, "relative_bound": float(waves.relative_bound)}
+    out["depth"] = None if waves.depth == math.inf else float(waves.depth)
+    out |= {key: np.asarray(getattr(waves, key), dtype=float).tolist() for key in _ARRAYS["waves"]}
+    out |= {"transfer_real": transfer.real.tolist(), "transfer_imaginary": transfer.imag.tolist()}
+    out["information"] = _plain("waves: information", waves.information)
+    return out
+
+
+def _plain(what: str, value: Any) -> Any:
+    """Notes as JSON data; infinities, for which JSON has no word, as objects."""
+    if isinstance(value, (np.generic, np.ndarray)):
+        value = value.tolist()
+    if isinstance(value, float) and math.isinf(value):
+        return {INFINITE: int(math.copysign(1, value))}
+    if value is None or isinstance(value, (str, bool, int, float)):
+        return value
+    if isinstance(value, Mapping):
+        return {str(key): _plain(f"{what}[{key!r}]", item) for key, item in value.items()}
+    if isinstance(value, Sequence):
+        return [_plain(f"{what}[{i}]", item) for i, item in enumerate(value)]
+    raise SceneError(
+        f"{what} is a {type(value).__name__}; a scene file takes numbers, texts, lists and mappings"
+    )
+
+
+def _notes_back(node: Node) -> dict[str, Any]:
+    if not isinstance(node.value, dict):
+        node.fail("give an object")
+    try:
+        out: dict[str, Any] = _restored(node.value)
+    except RecursionError as error:
+        raise FileFormatError(f"{node.path}: is nested too deeply") from error
+    return out
+
+
+def _restored(value: Any) -> Any:
+    if isinstance(value, dict):
+        if set(value) == {INFINITE} and value[INFINITE] in (1, -1):
+            return math.copysign(math.inf, value[INFINITE])
+        return {key: _restored(item) for key, item in value.items()}
+    return [_restored(item) for item in value] if isinstance(value, list) else value
+
+
+def _add(scene: Scene, kind: str, node: Node) -> None:
+    """Check one element's entries, then add it as a script would."""
+    arrays, curves, frames = _ARRAYS.get(kind, {}), _CURVES.get(kind, ()), _FRAMES.get(kind, ())
+    numbers, texts, flags = _NUMBERS.get(kind, ()), _TEXTS[kind], _FLAGS.get(kind, ())
+    memory = ("memory",) if kind == "vessels" else ()
+    node.expect((*texts, *numbers, *flags, *arrays, *curves, *frames, *memory))
+    arguments: dict[str, Any] = {key: node.at(key).text() for key in texts}
+    arguments |= {key: node.at(key).number() for key in numbers}
+    arguments |= {key: node.at(key).flag() for key in flags}
+    arguments |= {key: node.at(key).array(shape) for key, shape in arrays.items()}
+    arguments |= {key: _curve(node.at(key)) for key in curves}
+    arguments |= {key: _frame(node.at(key)) for key in frames}
+    if memory:
+        arguments["memory"] = [_block_back(block) for block in node.at("memory").items()]
+    if kind == "force_tables":
+        arguments["loads"] = arguments.pop("wrenches")
+    if kind == "joints" and arguments["kind"] != "distance" and arguments["length"] == 0.0:
+        del arguments["length"]
+    with node.scene_errors():
+        getattr(scene, _ADD[kind])(**arguments)
+
+
+def _curve(node: Node) -> _core.Curve:
+    node.expect(("starts", "coefficients", "cosines"))
+    starts, coefficients = node.at("starts").array((-1,)), node.at("coefficients").array((-1, 6))
+    cosines = node.at("cosines").array((-1, 3))
+    with node.scene_errors():
+        return _core.Curve.pieces(
+            starts=starts.tolist(), coefficients=coefficients.tolist(), cosines=cosines.tolist()
+        )
+
+
+def _frame(node: Node) -> _core.Frame:
+    node.expect(tuple(_FRAME))
+    return _core.Frame(**{key: node.at(key).array(shape) for key, shape in _FRAME.items()})
+
+
+def _block_back(node: Node) -> _core.StateSpaceBlock:
+    node.expect(("inputs", "outputs", "a", "b", "c", "d", "state_scale"))
+    inputs = [item.whole() for item in node.at("inputs").items()]
+    outputs = [item.whole() for item in node.at("outputs").items()]
+    states = len(node.at("a").items())
+    return _core.StateSpaceBlock(
+        inputs=inputs,
+        outputs=outputs,
+        a=node.at("a").array((states, states)),
+        b=node.at("b").array((states, len(inputs))),
+        c=node.at("c").array((len(outputs), states)),
+        d=node.at("d").array((len(outputs), len(inputs))),
+        state_scale=node.at("state_scale").array((-1,)),
+    )
+
+
+def _waves(node: Node) -> Waves:
+    arrays = _ARRAYS["waves"]
+    parts = ("transfer_real", "transfer_imaginary")
+    node.expect(("body", "relative_bound", "depth", *arrays, *parts, "information"))
+    depth = node.at("depth")
+    count = len(node.at("omega").items())
+    real, imaginary = (node.at(key).array((count, 6)) for key in parts)
+    transfer = np.empty((count, 6), dtype=complex)
+    transfer.real, transfer.imag = real, imaginary
+    values = {key: node.at(key).array((count,) if shape == (-1,) else shape) for key, shape in arrays.items()}
+    position = values.pop("position").tolist()
+    return Waves(
+        body=node.at("body").text(),
+        transfer=transfer,
+        position=(position[0], position[1]),
+        relative_bound=node.at("relative_bound").number(),
+        depth=math.inf if depth.value is None else depth.number(),
+        information=_notes_back(node.at("information")),
+        **values,
+    )
