@@ -154,5 +154,5 @@ def test_a_poor_fit_is_named() -> None:
     assert base.memory is not None
     poor = dataclasses.replace(base.memory.rows[0], accepted=False, r2_damping=0.8)
     memory = dataclasses.replace(base.memory, rows=(poor, *base.memory.rows[1:]))
-    with pytest.warns(MemoryFitWarning, match=r"entry 11 \(radiation\) .* damping with 0\.800"):
+    with pytest.warns(MemoryFitWarning, match=r"memory 11 \(radiation\) .* damping with 0\.800"):
         vessel_parameters(base, memory=memory)

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane.hydro.coupled import largest_growth_rate
+from seacrane.hydro.memory import FEWEST_FREQUENCIES, fit_memory
 from seacrane.hydro.memory_model import RADIATION, MemoryModel
 from seacrane.hydro.motion import motion_response, natural_frequency
 from seacrane.hydro.relations import damping_from_forces, infinite_added_mass_from_damping
@@ -44,16 +45,20 @@ class CheckRow:
 
 
 def check_database(database: HydroDatabase) -> list[CheckRow]:
-    """All checks that the database's content allows; docs/hydrodynamics.md says what each value means."""
+    """All checks that the database's content allows; docs/hydrodynamics.md says what each value means.
+
+    A database without a memory model has one fitted here, if its band holds enough frequencies.
+    """
     rows = [
         *_closure_rows(database),
         *_matrix_rows(database),
         *_natural_period_rows(database),
         *_relation_rows(database),
     ]
-    if database.memory is not None:
-        rows += memory_rows(database, database.memory)
-    return rows
+    model = database.memory
+    if model is None and np.count_nonzero(_inside_band(database)) >= FEWEST_FREQUENCIES:
+        model = fit_memory(database=database)
+    return rows if model is None else rows + memory_rows(database, model)
 
 
 def memory_rows(database: HydroDatabase, model: MemoryModel) -> list[CheckRow]:

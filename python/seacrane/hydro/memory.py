@@ -19,6 +19,7 @@ FloatArray = NDArray[np.float64]
 
 ORDERS = range(2, 9)
 NEGLIGIBLE = 1e-6
+FEWEST_FREQUENCIES = 8
 
 
 def fit_memory(
@@ -60,7 +61,7 @@ def fit_memory(
         raise ValueError(f"r2 is {r2}; give a number between 0 and 1")
     low, high = band or database.trusted_band or (float(database.omega[0]), float(database.omega[-1]))
     trusted = (database.omega >= low - 1e-9) & (database.omega <= high + 1e-9)
-    if trusted.sum() < 8:
+    if trusted.sum() < FEWEST_FREQUENCIES:
         raise ValueError(
             f"database {database.name!r}: the band {low:.4g} to {high:.4g} rad/s holds {trusted.sum()} "
             "frequencies; widen it to eight or more"

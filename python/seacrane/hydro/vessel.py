@@ -176,7 +176,7 @@ def _warn(database: HydroDatabase, vessel: VesselParameters) -> None:
     for row in vessel.memory.rows:
         if not row.accepted:
             warnings.warn(
-                f"database {database.name!r}: memory of entry {row.output + 1}{row.input + 1} ({row.cause}) follows "
+                f"database {database.name!r}: memory {row.output + 1}{row.input + 1} ({row.cause}) follows "
                 f"added mass with R2 = {row.r2_added_mass:.3f} and damping with {row.r2_damping:.3f}; "
                 f"{vessel.memory.r2} was asked, and motions that depend on it carry that error",
                 MemoryFitWarning,
