@@ -1,0 +1,163 @@
+"""Fluid memory in a run: states against direct convolution of the recorded velocity history."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+from reference.convolution import kernel_of_damping, memory_force
+from reference.vessel import MemoryModel as ReferenceMemory
+
+from seacrane import Scene, cases, simulate
+from seacrane.frames import rotation_matrix
+from seacrane.hydro import shipped_database, vessel_parameters
+from seacrane.hydro.vessel import rigid_mass_matrix
+
+Array = NDArray[np.float64]
+STEP = 0.02  # s
+CHANNELS = ["velocity", "angular_velocity", "quaternion", "acceleration", "angular_acceleration", "vessel_motion",
+            "wave_force"]  # fmt: skip
+
+
+@dataclass(frozen=True, kw_only=True)
+class VesselRun:
+    """Vessel alone in the paper's sea: motion, twist u and u' in the yaw-following frame, wave load (n, 6)."""
+
+    time: Array
+    motion: Array
+    twist: Array
+    twist_rate: Array
+    rotation: Array
+    yaw: Array
+    wave: Array
+
+
+def yaw_matrices(yaw: Array) -> Array:
+    c, s, zero, one = np.cos(yaw), np.sin(yaw), np.zeros_like(yaw), np.ones_like(yaw)
+    return np.array([[c, -s, zero], [s, c, zero], [zero, zero, one]]).transpose(2, 0, 1)
+
+
+def rotate_back(matrix: Array, vectors: Array) -> Array:
+    return np.asarray(np.einsum("tji,tj->ti", matrix, vectors))
+
+
+def run(scene: Scene, t_end: float) -> VesselRun:
+    """Run, and move the recorded motion of the centre of mass to the reference point."""
+    result = simulate(scene, t_end=t_end, dt_out=STEP, rtol=1e-10, channels=CHANNELS)
+    rotation = rotation_matrix(result["quaternion"][:, 0])
+    arm = rotation @ -scene.bodies["vessel"].center_of_mass
+    w, alpha = result["angular_velocity"][:, 0], result["angular_acceleration"][:, 0]
+    velocity = result["velocity"][:, 0] + np.cross(w, arm)
+    acceleration = result["acceleration"][:, 0] + np.cross(alpha, arm) + np.cross(w, np.cross(w, arm))
+    yaw = yaw_matrices(result["vessel_motion"][:, 5])
+    twist = np.hstack([rotate_back(yaw, velocity), rotate_back(yaw, w)])
+    pitch = result["vessel_motion"][:, 4]
+    yaw_rate = twist[:, 5] + np.tan(pitch) * twist[:, 3]
+    turn = np.column_stack([0.0 * yaw_rate, 0.0 * yaw_rate, yaw_rate])
+    rate = np.hstack([rotate_back(yaw, acceleration), rotate_back(yaw, alpha)])
+    rate -= np.hstack([np.cross(turn, twist[:, :3]), np.cross(turn, twist[:, 3:])])
+    return VesselRun(
+        time=result.time,
+        motion=result["vessel_motion"],
+        twist=twist,
+        twist_rate=rate,
+        rotation=rotation,
+        yaw=yaw,
+        wave=result["wave_force"],
+    )
+
+
+@pytest.fixture(scope="module")
+def waves() -> VesselRun:
+    return run(cases.vessel(mooring_period=None), 60.0)
+
+
+def fitted() -> ReferenceMemory:
+    """The fitted blocks side by side, assembled by the reference's own code."""
+    blocks = [
+        {"inputs": b.inputs, "outputs": b.outputs, "A": b.A, "B": b.B, "C": b.C, "D": b.D}
+        for b in vessel_parameters(shipped_database()).memory.blocks
+    ]
+    return ReferenceMemory.from_record({"blocks": blocks})
+
+
+def kernel_on_grid(memory: ReferenceMemory, count: int) -> Array:
+    """K(t) = C exp(A t) B (count, 6, 6) at multiples of STEP, by powers of one matrix exponential."""
+    from scipy.linalg import expm
+
+    step, states = expm(memory.a * STEP), memory.b
+    out = np.empty((count, 6, 6))
+    for i in range(count):
+        out[i] = memory.c @ states
+        states = step @ states
+    return out
+
+
+def radiation_from_balance(waves: VesselRun) -> Array:
+    """Load -(A_inf u' + mu) on the vessel, as what the rigid-body equations leave of the recorded motion."""
+    p = vessel_parameters(shipped_database())
+    center = rotate_back(waves.yaw, waves.rotation @ p.centre_of_mass)
+    w, lever = waves.twist[:, 3:], center
+    roll, pitch = waves.motion[:, 3], waves.motion[:, 4]
+    c = p.restoring[2:5, 2:5]
+    load = np.einsum("ij,tj->ti", c, np.column_stack([waves.motion[:, 2], roll, pitch]))
+    restoring = np.zeros_like(waves.wave)
+    restoring[:, 2], restoring[:, 3], restoring[:, 4] = load[:, 0], load[:, 1] / np.cos(pitch), load[:, 2]
+    body = np.einsum("tji,tjk->tik", waves.yaw, waves.rotation)  # body to yaw frame
+    inertia = body @ p.inertia @ body.transpose(0, 2, 1)
+    turn = np.zeros_like(w)
+    turn[:, 2] = w[:, 2] + np.tan(pitch) * w[:, 0]
+    rate = waves.twist_rate[:, :3] + np.cross(turn, waves.twist[:, :3])
+    alpha = waves.twist_rate[:, 3:] + np.cross(turn, w)
+    force = p.mass * (rate + np.cross(alpha, lever) + np.cross(w, np.cross(w, lever)))
+    spin = np.einsum("tij,tj->ti", inertia, w)
+    moment = np.einsum("tij,tj->ti", inertia, alpha) + np.cross(w, spin) + np.cross(lever, force)
+    rigid = np.hstack([force, moment])
+    return np.asarray(rigid - waves.wave + restoring + waves.twist @ p.linear_damping.T)
+
+
+def test_states_equal_convolution_with_the_fitted_kernel(waves: VesselRun) -> None:
+    """mu(t) = int K(t - tau) u(tau) dtau, K = C exp(A t) B, of the whole recorded history."""
+    memory = fitted()
+    kernel = kernel_on_grid(memory, len(waves.time))
+    mu = memory_force(waves.twist, kernel, STEP)
+    found = -radiation_from_balance(waves) - waves.twist_rate @ vessel_parameters(shipped_database()).added_mass.T
+    size = np.max(np.abs(mu), axis=0)
+    error = np.max(np.abs(found - mu), axis=0) / size
+    np.testing.assert_array_less(error, 3e-5)
+
+
+def test_total_radiation_equals_the_database_within_the_fits_error(waves: VesselRun) -> None:
+    """A_inf u' + int K u with the database's own A_inf and K(t) = 2/pi int B cos(w t) dw.
+
+    The fit states R2 >= 0.99 of added mass and of damping: a root mean square error of sqrt(1 - 0.99) = 10 %.
+    """
+    database = shipped_database()
+    assert database.infinite_frequency_added_mass is not None
+    memory = vessel_parameters(database).memory
+    worst = min(min(row.r2_added_mass, row.r2_damping) for row in memory.rows)
+    stated = np.sqrt(1.0 - worst)
+    assert worst >= 0.99
+    kernel = kernel_of_damping(waves.time, database.omega, database.damping)
+    direct = memory_force(waves.twist, kernel, STEP)
+    direct += waves.twist_rate @ database.infinite_frequency_added_mass.T
+    found = -radiation_from_balance(waves)
+    error = np.sqrt(np.mean((found - direct) ** 2, axis=0) / np.mean(direct**2, axis=0))
+    np.testing.assert_array_less(error, stated)
+
+
+def test_memory_states_count_and_leave() -> None:
+    with_memory, without = cases.vessel().compile(), cases.vessel(memory="none").compile()
+    states = sum(len(block.A) for block in vessel_parameters(shipped_database()).memory.blocks)
+    assert with_memory.memory_states == with_memory.states - without.states == states > 40
+    assert without.memory_states == 0
+
+
+def test_rigid_mass_matrix_of_the_paper() -> None:
+    """Equation (12): the vessel's mass matrix about {0} is that of the database."""
+    p = vessel_parameters(shipped_database())
+    np.testing.assert_allclose(
+        rigid_mass_matrix(p.mass, p.centre_of_mass, p.inertia), shipped_database().mass_matrix, rtol=1e-12, atol=1e-3
+    )
