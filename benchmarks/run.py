@@ -1,0 +1,85 @@
+"""Measures speed, precision, memory and import time: ``python benchmarks/run.py`` (``make bench``).
+
+Prints the tables and writes them, with the work-precision diagram, to ``out/bench``; with ``--publish`` to
+``benchmarks/README.md`` and its picture. One thread; every time is the best of several equal runs.
+"""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+from measure import evaluation, footprint, integrators, rival, scenes, speed
+from measure.machine import machine
+from measure.section import Section
+
+from seacrane.result.atomic import atomic_write
+
+HERE = Path(__file__).resolve().parent
+INTRODUCTION = """# Benchmarks
+
+Written by `benchmarks/run.py --publish`; `make bench` measures again and writes to `out/bench`. Times depend
+on the machine and on what else runs on it, so read the ratios first. One thread throughout; times are CPU
+times of that thread unless they say wall, because other work may share the machine.
+
+That the loop allocates nothing on the heap after its start is counted by C++ tests, not here:
+`cpp/tests/test_allocations_core.cpp`, and `cpp/tests/test_integrate_allocations.cpp` for each integrator.
+
+"""
+PICTURE = "work_precision.png"
+
+
+def sections(folder: Path, *, repeats: int, quick: bool) -> Iterator[Section]:
+    """Every table in turn; draws the work-precision diagram into the folder on the way."""
+    yield speed.speed(repeats=repeats)
+    yield evaluation.whole(repeats=repeats)
+    yield evaluation.parts(repeats=repeats)
+    points, uncertainty = integrators.work_precision(repeats=1 if quick else min(repeats, 3))
+    integrators.figure(points, folder / PICTURE)
+    yield integrators.table(points, uncertainty, repeats=1 if quick else min(repeats, 3))
+    yield rival.rival(repeats=repeats, t_end=5.0 if quick else 100.0)
+    yield footprint.memory(repeats=min(repeats, 3))
+    yield footprint.imports(repeats=repeats)
+    yield scenes.sizes()
+
+
+def document(folder: Path, *, repeats: int, quick: bool, say: Callable[[str], None]) -> str:
+    """All tables as one Markdown text; each is said as soon as it is there."""
+    head = f"{INTRODUCTION}Machine: {machine()}\n"
+    say(head)
+    texts = [head]
+    for section in sections(folder, repeats=repeats, quick=quick):
+        text = section.markdown() + "\n"
+        if section.title.startswith("Integrators"):
+            text += f"\n![Payload error over evaluations and over wall time, per integrator]({PICTURE})\n"
+        say(text)
+        texts.append(text)
+    return "\n".join(texts)
+
+
+def main() -> int:
+    """Measure, print, write; returns the exit status."""
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.add_argument("--publish", action="store_true", help="write into benchmarks/ instead of out/bench")
+    parser.add_argument("--quick", action="store_true", help="fewer repeats, short run of the rival")
+    parser.add_argument("--repeats", type=int, default=9, help="equal runs per measurement, default 9")
+    options = parser.parse_args()
+    repeats = 2 if options.quick else options.repeats
+    if repeats < 1:
+        parser.error(f"--repeats is {options.repeats}; give at least 1")
+    folder = HERE if options.publish else HERE.parent / "out" / "bench"
+    folder.mkdir(parents=True, exist_ok=True)
+    text = document(folder, repeats=repeats, quick=options.quick, say=lambda part: print(part, flush=True))
+    target = folder / "README.md"
+    with atomic_write(target) as draft:
+        draft.write_text(text, encoding="utf-8")
+    print(f"written to {target}", file=sys.stderr)
+    return 0
+
+
+if __name__ == "__main__":
+    raise SystemExit(main())
