@@ -315,3 +315,32 @@ def test_the_end_of_the_slew_is_found_despite_the_controls_ripple() -> None:
     stop = slew_stop(Result.from_arrays(**run))
     assert 36.0 < stop < 45.0
     assert smooth_step(np.array([stop]))[0] == pytest.approx(0.99, abs=6e-3)
+
+
+def test_the_databases_plots_hold_its_numbers(tmp_path: Path) -> None:
+    from seacrane.hydro import motion_response, shipped_database
+    from seacrane.hydro_figures import chosen_headings, save_hydro_figures
+
+    database = shipped_database()
+    pictures = {
+        picture.image.stem: picture for picture in save_hydro_figures(database=database, folder=tmp_path)
+    }
+    assert list(pictures) == ["added_mass", "damping", "wave_force", "motion"]
+    assert database.memory is not None
+    names, numbers = read_csv(tmp_path / "damping.csv")
+    heave = numbers[:, names.index("B33, database [kg/s]")]
+    fitted = numbers[:, names.index("B33, memory model [kg/s]")]
+    np.testing.assert_allclose(numbers[:, 0], database.omega, rtol=1e-9)
+    np.testing.assert_allclose(heave, database.damping[:, 2, 2], rtol=1e-9)
+    np.testing.assert_allclose(
+        fitted, database.memory.frequency_response(database.omega)[1][:, 2, 2], rtol=1e-8
+    )
+    assert not any(name.startswith("B12") for name in names), "symmetry makes it negligible"
+    index = chosen_headings(database)["90 deg"]
+    assert np.rad2deg(database.heading[index]) == pytest.approx(90)
+    names, numbers = read_csv(tmp_path / "motion.csv")
+    roll = np.rad2deg(np.abs(motion_response(database)[index, :, 3]))
+    np.testing.assert_allclose(numbers[:, names.index("|roll|, 90 deg [deg/m]")], roll, rtol=1e-9)
+    names, numbers = read_csv(tmp_path / "wave_force.csv")
+    sway = numbers[:, names.index("|sway force|, 90 deg [N/m]")]
+    np.testing.assert_allclose(sway, np.abs(database.force[index, :, 1]), rtol=1e-9)
