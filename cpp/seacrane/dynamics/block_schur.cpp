@@ -10,8 +10,6 @@ namespace {
 
 constexpr int kChunk = 64;  // rows updated at a time, on the stack
 
-std::size_t idx(int i) { return static_cast<std::size_t>(i); }
-
 std::vector<std::vector<int>> joint_adjacency(const std::vector<GraphNode>& nodes, int body_count) {
   std::vector<std::vector<int>> at_body(idx(body_count));
   for (std::size_t e = 0; e < nodes.size(); ++e) {

@@ -4,12 +4,6 @@
 #include <cmath>
 
 namespace seacrane {
-namespace {
-
-std::size_t idx(int i) { return static_cast<std::size_t>(i); }
-
-}  // namespace
-
 GearGuptaLeimkuhler::GearGuptaLeimkuhler(RedundantSystem& system) : system_(&system) {
   const Model& m = system.model();
   differential_.assign(idx(m.layout.size + 2 * m.rows()), 0.0);

@@ -43,6 +43,8 @@ class RedundantSystem final : public System {
   void set_curve_limit(double time) { curve_limit_ = time; }
 
   ConstraintResidual residual(double t, const double* y);
+  /// As residual(), with the rows that the last evaluation left.
+  ConstraintResidual residual_here(const double* y);
   ConstraintRank rank(double t, const double* y);
   /// Nanoseconds per evaluation by part, each repeated `count` times at (t, y).
   std::vector<std::pair<std::string, double>> time_parts(double t, const double* y, long count);
@@ -50,6 +52,8 @@ class RedundantSystem final : public System {
   double take_residual_before_projection();
   /// Kinetic energy (added mass included) plus potential energy of gravity, springs and restoring.
   double energy(double t, const double* y);
+  /// As energy(), with what the last evaluation left.
+  double energy_here(double t, const double* y) const;
 
   // What the last derivative() computed.
   const std::vector<BodyKinematics<double>>& bodies() const { return bodies_; }

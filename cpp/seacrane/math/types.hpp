@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <cstddef>
 
 namespace seacrane {
 
@@ -23,6 +24,9 @@ using Mat3d = Mat3<double>;
 using Mat6d = Mat6<double>;
 using VecXd = Eigen::VectorXd;
 using MatXd = Eigen::MatrixXd;
+
+/// An int as an index of a standard container.
+constexpr std::size_t idx(int i) { return static_cast<std::size_t>(i); }
 
 /// A fixed-size vector over plain memory.
 template <int N>

@@ -15,8 +15,6 @@ constexpr double kClosed = 1e-9;  // m, rad: a loop open by more than this is co
 constexpr int kRestarts = 6;      // of the projection's own Newton iterations
 constexpr int kDenseRows = 600;   // above, redundancy is told from the Cholesky pivots alone
 
-std::size_t idx(int i) { return static_cast<std::size_t>(i); }
-
 double largest(const ElementModel& e, const Vec6d& phi) {
   return e.rows == 0 ? 0.0 : phi.head(e.rows).cwiseAbs().maxCoeff();
 }

@@ -14,8 +14,6 @@ namespace {
 
 constexpr double kRotationScale = 0.1;  // rad, of absolute tolerances: 1 m at a lever of 10 m
 
-std::size_t idx(int i) { return static_cast<std::size_t>(i); }
-
 class Compiler {
  public:
   explicit Compiler(const SceneDescription& scene) : scene_(scene) { model_.description = scene; }

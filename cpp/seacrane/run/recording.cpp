@@ -6,8 +6,6 @@
 namespace seacrane {
 namespace {
 
-std::size_t idx(int i) { return static_cast<std::size_t>(i); }
-
 struct Offer {
   const char* name;
   std::vector<std::size_t> shape;

@@ -90,9 +90,9 @@ double Simulation::next_stop(double t_end) {
 void Simulation::write(double t, double* y, Recording& out) {
   system_.project(t, y, false);
   const double before = system_.take_residual_before_projection();
-  const double energy = model_->paper_kinematics ? 0.0 : system_.energy(t, y);
-  const ConstraintResidual after = system_.residual(t, y);
   system_.derivative(t, y, rate_.data());
+  const ConstraintResidual after = system_.residual_here(y);
+  const double energy = model_->paper_kinematics ? 0.0 : system_.energy_here(t, y);
   const double work = y[model_->layout.work] - start_work_;
   out.append(t, y, system_, after, before, energy - start_energy_ - work);
 }

@@ -1,0 +1,148 @@
+#include <algorithm>
+#include <cmath>
+
+#include "seacrane/dynamics/redundant.hpp"
+
+/// Drift removal on position and velocity level in the mass metric, and what is left of it.
+namespace seacrane {
+namespace {
+
+constexpr double kProjectionTolerance = 1e-13;
+constexpr int kProjectionIterations = 12;
+constexpr double kRedundantCondition = 1e11;
+
+}  // namespace
+
+double RedundantSystem::position_residual() const {
+  double largest = 0.0;
+  for (std::size_t e = 0; e < blocks_.size(); ++e) {
+    for (int r = 0; r < model_->elements[e].rows; ++r) {
+      const double v = std::abs(blocks_[e].phi[r]);
+      if (!(v <= largest)) largest = v;
+    }
+  }
+  return largest;
+}
+
+double RedundantSystem::rate_residual(const double* y, double* out) const {
+  const Model& m = *model_;
+  double largest = 0.0;
+  for (std::size_t e = 0; e < m.elements.size(); ++e) {
+    const ElementModel& element = m.elements[e];
+    if (element.rows == 0) continue;
+    Vec6d rate = -blocks_[e].nu;
+    if (element.first < m.body_count()) {
+      rate += blocks_[e].d[0] * view<6>(y + m.layout.twist(element.first));
+    }
+    if (element.second < m.body_count()) {
+      rate += blocks_[e].d[1] * view<6>(y + m.layout.twist(element.second));
+    }
+    for (int r = 0; r < element.rows; ++r) {
+      out[element.row + r] = rate[r];
+      const double v = std::abs(rate[r]);
+      if (!(v <= largest)) largest = v;
+    }
+  }
+  return largest;
+}
+
+void RedundantSystem::move_poses(double* y) {
+  const Model& m = *model_;
+  for (int b = 0; b < m.body_count(); ++b) {
+    const Vec6d step = solve_inertia(inertia_[idx(b)], impulse_[idx(b)]);
+    double* pose = y + m.layout.pose(b);
+    view<3>(pose) -= step.head<3>();
+    const Vec3d turn = -step.tail<3>();
+    if (m.description.orientation == Orientation::quaternion) {
+      auto q = view<4>(pose + 3);
+      q = rotate_quaternion(turn, q);
+    } else {
+      auto phi = view<3>(pose + 3);
+      phi += euler_xyz_rate<double>(phi, turn);
+    }
+  }
+}
+
+void RedundantSystem::move_twists(double* y) {
+  for (int b = 0; b < model_->body_count(); ++b) {
+    view<6>(y + model_->layout.twist(b)) -= solve_inertia(inertia_[idx(b)], impulse_[idx(b)]);
+  }
+}
+
+bool RedundantSystem::project(double t, double* y, bool evaluated_here) {
+  const Model& m = *model_;
+  if (m.rows() == 0) return false;
+  if (!evaluated_here) {
+    read_state(t, y);
+    evaluate_inertia();
+    evaluate_rows(t);
+    factor();
+  }
+  double worst = position_residual();
+  before_projection_ = std::max(before_projection_, worst);
+  bool changed = false;
+  for (int i = 0; worst > kProjectionTolerance && i < kProjectionIterations; ++i) {
+    for (std::size_t e = 0; e < m.elements.size(); ++e) {
+      for (int r = 0; r < m.elements[e].rows; ++r) residual_[idx(m.elements[e].row + r)] = blocks_[e].phi[r];
+    }
+    solve_multipliers(residual_.data());
+    multiplier_load(residual_.data(), impulse_);
+    move_poses(y);
+    changed = true;
+    read_state(t, y);
+    evaluate_rows(t);
+    if (i >= 2) {  // the frozen factorisation converges too slowly
+      evaluate_inertia();
+      factor();
+    }
+    const double next = position_residual();
+    if (!(next < 0.5 * worst) && next < 1e-11) break;  // rounding
+    worst = next;
+  }
+  for (int i = 0; i < kProjectionIterations; ++i) {
+    const double rate = rate_residual(y, residual_.data());
+    if (!(rate > kProjectionTolerance)) break;
+    solve_multipliers(residual_.data());
+    multiplier_load(residual_.data(), impulse_);
+    move_twists(y);
+    changed = true;
+    if (i >= 2 && rate < 1e-11) break;
+  }
+  return changed;
+}
+
+ConstraintResidual RedundantSystem::residual(double t, const double* y) {
+  read_state(t, y);
+  evaluate_rows(t);
+  return residual_here(y);
+}
+
+ConstraintResidual RedundantSystem::residual_here(const double* y) {
+  return {position_residual(), rate_residual(y, residual_.data())};
+}
+
+ConstraintRank RedundantSystem::rank(double t, const double* y) {
+  read_state(t, y);
+  evaluate_inertia();
+  evaluate_rows(t);
+  factor();
+  const Model& m = *model_;
+  ConstraintRank out;
+  m.schur.assemble(blocks_.data(), over_mass_.data(), values_.data());
+  out.condition = m.schur.factor(values_.data());
+  if (minimum_norm_) {
+    out.rank = minimum_norm_->factor(m.elements, blocks_.data(), over_mass_.data());
+    out.null_space = minimum_norm_->null_space();
+  } else {
+    out.rank = m.rows() - (out.condition > kRedundantCondition ? 1 : 0);
+  }
+  return out;
+}
+
+double RedundantSystem::take_residual_before_projection() {
+  const double out = before_projection_;
+  before_projection_ = 0.0;
+  return out;
+}
+
+}  // namespace seacrane
