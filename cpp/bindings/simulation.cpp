@@ -89,8 +89,8 @@ void bind_simulation(py::module_& m) {
              options.channels = std::move(names);
              return std::make_unique<Simulation>(model, start, std::move(options));
            }),
-           py::kw_only(), py::arg("model").none(false), py::arg("start"), py::arg("integrator"), py::arg("rtol"),
-           py::arg("dt"), py::arg("max_step"), py::arg("output_times"), py::arg("channels"))
+           py::kw_only(), py::arg("model").none(false), py::arg("start"), py::arg("integrator"),
+           py::arg("rtol"), py::arg("dt"), py::arg("max_step"), py::arg("output_times"), py::arg("channels"))
       .def(
           "advance",
           [](Simulation& s, double t_end, const py::object& progress) {

@@ -69,6 +69,20 @@ std::vector<std::string> path(const Model& m, int from, int to, std::size_t with
                    ". Correct their points, axes, lengths or drivers, or the described poses");
 }
 
+[[noreturn]] void report_rates(const Model& m, const RedundantSystem& system, const double* y) {
+  std::vector<double> rates(idx(m.rows()));
+  const double worst = system.rate_residual(y, rates.data());
+  std::string names;
+  for (const ElementModel& e : m.elements) {
+    double left = 0.0;
+    for (int i = 0; i < e.rows; ++i) left = std::max(left, std::abs(rates[idx(e.row + i)]));
+    if (left > kClosed) names += (names.empty() ? "'" : ", '") + e.name + "' (" + to_text(left) + ")";
+  }
+  throw SceneError("scene '" + m.description.name + "': the prescribed rates contradict each other, " +
+                   to_text(worst) + " m/s or rad/s are left at best; contradictory: " + names +
+                   ". Correct the drivers' curves at the start, or remove a joint");
+}
+
 /// The direction between coincident points is undefined: no Newton step can start from there.
 void check_regular(const Model& m, const RedundantSystem& system) {
   for (std::size_t e = 0; e < m.elements.size(); ++e) {
@@ -157,9 +171,7 @@ void assemble(Model& model) {
   if (!(after.position <= kClosed)) report_open(model, system);
   check_branch(model, system);
   if (!(after.rate <= kClosed)) {
-    throw SceneError("scene '" + model.description.name +
-                     "': the joints' prescribed rates contradict each other, " + to_text(after.rate) +
-                     " m/s or rad/s are left; check the drivers' curves at the start");
+    report_rates(model, system, y.data());
   }
   report_moves(model, before, report);
   const auto [rank, null_space, condition] = system.rank(0.0, y.data());
