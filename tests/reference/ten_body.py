@@ -11,7 +11,6 @@ from typing import Any
 
 import numpy as np
 
-from . import reference_curves
 from .rotation import Array
 
 BASE = np.array([33.0, 10.0, 10.0])
@@ -243,10 +242,12 @@ def controlled(scene: dict[str, Any], case: int) -> dict[str, Any]:
         # a vertical force at (x, y, 0) has the moment (y, -x) lift about the reference point
         point = [-loads["sea.pitch"] / lift, loads["sea.roll"] / lift, 0.0]
         out["point_forces"] = [{"body": "vessel", "point": point, "force": [0.0, 0.0, lift]}]
-    stroke: Any = reference_curves.quintic(0.0, 4.0 if case == 3 else 2.0, 0.0, 45.0)
+    moving = {"kind": "quintic", "start": 0.0, "t_start": 0.0, "t_end": 45.0}
+    slew = {**moving, "end": -0.5 * math.pi}
+    stroke: dict[str, Any] = {**moving, "end": 4.0 if case == 3 else 2.0}
     if case == 3:
-        stroke = reference_curves.sequence([50.0], [stroke, reference_curves.cosine(3.0, 1.0, 5.0)])
-    slew = reference_curves.quintic(0.0, -0.5 * math.pi, 0.0, 45.0)
+        oscillation = {"kind": "cosine", "mean": 3.0, "amplitude": 1.0, "period": 5.0}
+        stroke = {"kind": "sequence", "switch": [50.0], "pieces": [stroke, oscillation]}
     natural, ratio = 2.0 * math.pi * 0.8, 0.8
     out["actuators"] = [
         {

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import json
+
 import numpy as np
 import pytest
 
@@ -38,3 +40,11 @@ def test_differences_refuse_other_times() -> None:
     run = simulate(system, 0.2, [0.1, 0.2], rtol=1e-4)
     with pytest.raises(ValueError, match="different times"):
         differences(run, {"time": [0.1]}, bodies=run["names"]["body"])
+
+
+def test_a_scene_survives_its_json_form() -> None:
+    scene = ten_body.records(case=3)
+    again = json.loads(json.dumps(scene))
+    runs = [simulate(System.from_records(r), 0.3, [0.3], rtol=1e-6) for r in (scene, again)]
+    found = differences(runs[0], runs[1], bodies=runs[1]["names"]["body"], joints=runs[1]["names"]["joint"])
+    assert set(found.values()) == {0.0}

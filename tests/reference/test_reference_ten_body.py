@@ -142,7 +142,7 @@ def test_floating_crane_in_zero_gravity_keeps_its_momentum() -> None:
 
 def test_the_crane_reaches_its_references() -> None:
     system = System.from_records(ten_body.records(vessel=False, payload=False, case=2))
-    out = simulate(system, 60.0, [30.0, 60.0], rtol=1e-6)
+    out = simulate(system, 50.0, [25.0, 50.0], rtol=1e-4)
     names = out["names"]["coordinate"]
     final = dict(zip(names, out["coordinate"][-1], strict=True))
     assert final["A"] == pytest.approx(-0.5 * math.pi, abs=0.01)
@@ -214,7 +214,7 @@ def test_driven_free_joint_follows_six_motions() -> None:
 
 def test_payload_path_converges_with_tolerance() -> None:
     system = System.from_records(ten_body.records(case=2))
-    ends = [simulate(system, 6.0, [6.0], rtol=rtol)["position"][0, -1] for rtol in (1e-3, 1e-7, 1e-10)]
+    ends = [simulate(system, 3.0, [3.0], rtol=rtol)["position"][0, -1] for rtol in (1e-3, 1e-7, 1e-10)]
     errors = [math.sqrt(float(dot(e - ends[-1], e - ends[-1]))) for e in ends[:-1]]
     assert errors[1] < 0.1 * errors[0]
     assert errors[1] < 1e-8
