@@ -40,9 +40,9 @@ def named_channels(scene: Scene, arrays: dict[str, Array]) -> dict[str, Array]:
     cylinders = [joint for joint in CYLINDERS.values() if joint in scene.joints]
     places = [_recorded(scene, joint) for joint in cylinders]
     columns = [place for place in places if place is not None]
-    if cylinders and "coordinate" in arrays and len(columns) == len(cylinders):
-        out["stroke"] = arrays["coordinate"][:, columns]
-        out["stroke_rate"] = arrays["coordinate_rate"][:, columns]
+    for name, channel in (("stroke", "coordinate"), ("stroke_rate", "coordinate_rate")):
+        if cylinders and channel in arrays and len(columns) == len(cylinders):
+            out[name] = arrays[channel][:, columns]
     loads = [_drive_load(scene, arrays, joint, "displacement") for joint in cylinders]
     if loads and all(load is not None for load in loads):
         out["cylinder_force"] = np.column_stack([load for load in loads if load is not None])
