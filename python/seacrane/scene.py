@@ -92,7 +92,7 @@ class Scene:
     baumgarte : float
         Frequency (1/s) of critically damped Baumgarte stabilisation; 0 (default) leaves it to projection.
     length_scale : float
-        m; absolute tolerances are the relative tolerance times this length.
+        Multiplies the lengths (0.1 m, 0.1 m/s) that tolerances refer to; see `simulate`.
     """
 
     name: str = "scene"

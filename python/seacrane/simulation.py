@@ -257,8 +257,8 @@ def simulate(
     integrator : str
         "dopri5" (default), "rk4", "ark-erk", "cvode-adams", "cvode-bdf" or "ida".
     rtol : float
-        Local error per step over the scale of each state (1 m, 0.1 rad, 1 m/s, 0.1 rad/s times
-        `scene.length_scale` for lengths): absolute, so that results do not depend on where the origin is.
+        Local error per step over the scale of each state (0.1 m, 0.01 rad, 0.1 m/s, 0.01 rad/s; lengths
+        times `scene.length_scale`): absolute, so that results do not depend on where the origin is.
     dt : float
         Step of fixed-step methods, s; 0 takes the method's default.
     max_step : float
