@@ -132,7 +132,7 @@ def both() -> tuple[Any, Any, System]:
     scene = quick_case2()
     ours = simulate(scene, t_end=T_END, dt_out=0.5, rtol=1e-11)
     system = reference_system(scene)
-    return ours, simulate_reference(system, T_END, ours.time, rtol=1e-8), system
+    return ours, simulate_reference(system, T_END, ours.time, rtol=1e-9), system
 
 
 def relative(difference: float, values: Array) -> float:
@@ -159,9 +159,9 @@ def test_motion_agrees(both: tuple[Any, Any, System]) -> None:
     names = ("time", "position", "velocity", "angular_velocity", "quaternion", "vessel_motion")
     found = differences(theirs, {n: ours.time if n == "time" else ours[n] for n in names},
                         bodies=list(ours.coords["body"]))  # fmt: skip
-    assert found["position"] < 1e-7
+    assert found["position"] < 1e-8
     assert found["attitude"] < 1e-8
-    assert found["velocity"] < 1e-7
+    assert found["velocity"] < 1e-8
     assert found["angular_velocity"] < 1e-8
     assert found["vessel_motion"] < 1e-8
 
@@ -171,13 +171,13 @@ def test_reactions_agree(both: tuple[Any, Any, System]) -> None:
     channels = {"time": ours.time, **{n: ours[n] for n in ("reaction_force", "reaction_moment")}}
     found = differences(theirs, channels, bodies=list(ours.coords["body"]), joints=list(ours.coords["joint"]))
     for name in ("reaction_force", "reaction_moment"):
-        assert relative(found[name], theirs[name]) < 1e-7
+        assert relative(found[name], theirs[name]) < 1e-8
 
 
 def test_actuators_and_waves_agree(both: tuple[Any, Any, System]) -> None:
     ours, theirs, _ = both
     loads = ours["actuator_force"]
     for k in range(3):
-        assert relative(float(np.max(np.abs(loads[:, k] - theirs["actuator_load"][:, k]))), loads[:, k]) < 1e-7
+        assert relative(float(np.max(np.abs(loads[:, k] - theirs["actuator_load"][:, k]))), loads[:, k]) < 1e-8
     wave = float(np.max(np.abs(ours["wave_force"] - theirs["wave_force"]) / np.max(np.abs(theirs["wave_force"]), axis=0)))
-    assert wave < 1e-7
+    assert wave < 1e-8
