@@ -11,20 +11,21 @@ from typing import TYPE_CHECKING, Any
 from seacrane import errors
 
 if TYPE_CHECKING:
-    from seacrane import cases, crane, hydro
+    from seacrane import cases, crane, hydro, sea
     from seacrane._core import Curve, Evaluator, Frame, Model, State, StateSpaceBlock, VesselHydrodynamics
-    from seacrane.balance import Balance, balance, driven, inverse_dynamics, reflected_inertia
     from seacrane.curves import spline_curve
     from seacrane.errors import FileFormatError, SceneError, SeacraneError, SimulationError
     from seacrane.hydro import HydroDatabase, load_database
+    from seacrane.inverse import Balance, balance, driven, inverse_dynamics, reflected_inertia
     from seacrane.linearise import fastest_mode, jacobian
     from seacrane.result import Result
     from seacrane.scene import Scene, Waves
     from seacrane.simulation import Run, SampledController, simulate
     from seacrane.version import __version__
+    from seacrane.vessel import add_sea, add_vessel
 
 _HOME = {
-    "Balance": "balance",
+    "Balance": "inverse",
     "Curve": "_core",
     "Evaluator": "_core",
     "FileFormatError": "errors",
@@ -43,17 +44,19 @@ _HOME = {
     "VesselHydrodynamics": "_core",
     "Waves": "scene",
     "__version__": "version",
-    "balance": "balance",
-    "driven": "balance",
+    "add_sea": "vessel",
+    "add_vessel": "vessel",
+    "balance": "inverse",
+    "driven": "inverse",
     "fastest_mode": "linearise",
-    "inverse_dynamics": "balance",
+    "inverse_dynamics": "inverse",
     "jacobian": "linearise",
     "load_database": "hydro",
-    "reflected_inertia": "balance",
+    "reflected_inertia": "inverse",
     "simulate": "simulation",
     "spline_curve": "curves",
 }
-_MODULES = ("cases", "crane", "hydro")
+_MODULES = ("cases", "crane", "hydro", "sea")
 
 __all__ = [
     "Balance",
@@ -75,6 +78,8 @@ __all__ = [
     "VesselHydrodynamics",
     "Waves",
     "__version__",
+    "add_sea",
+    "add_vessel",
     "balance",
     "cases",
     "crane",
@@ -86,6 +91,7 @@ __all__ = [
     "jacobian",
     "load_database",
     "reflected_inertia",
+    "sea",
     "simulate",
     "spline_curve",
 ]

@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from seacrane import _core
-from seacrane.balance import balance, reflected_inertia
 from seacrane.crane import FOOT, KnuckleBoomCrane, Payload
+from seacrane.inverse import balance, reflected_inertia
 from seacrane.scene import Scene
 from seacrane.vessel import add_sea, add_vessel
 

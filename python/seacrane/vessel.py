@@ -95,6 +95,14 @@ def _blocks(model: Any) -> list[_core.StateSpaceBlock]:
     ]
 
 
+def _spectrum(name: str, hs: float, tp: float, gamma: float) -> _core.Spectrum:
+    if name == "jonswap":
+        return _core.jonswap(hs=hs, tp=tp, gamma=gamma)
+    if name == "pierson-moskowitz":
+        return _core.pierson_moskowitz(hs=hs, tp=tp)
+    raise SceneError(f"spectrum {name!r} is unknown; choose 'jonswap' or 'pierson-moskowitz'")
+
+
 def add_sea(
     scene: Scene,
     database: HydroDatabase,
@@ -103,12 +111,13 @@ def add_sea(
     hs: float = 2.0,
     tp: float = 8.0,
     gamma: float = 3.3,
+    spectrum: str = "jonswap",
     direction_deg: float = 135.0,
     seed: int = 1,
     count: int = 200,
     relative_bound: float = 1e-9,
 ) -> None:
-    """Add a long-crested JONSWAP sea and its force-RAO loads on the vessel, phase at the mean position.
+    """Add a long-crested sea and its force-RAO loads on the vessel, phase at the mean position.
 
     Parameters
     ----------
@@ -118,7 +127,9 @@ def add_sea(
     vessel : str
         Body of the vessel.
     hs, tp, gamma : float
-        Significant wave height (m), peak period (s), peakedness; hs = 0 leaves the sea out.
+        Significant wave height (m), peak period (s), peakedness of JONSWAP; hs = 0 leaves the sea out.
+    spectrum : str
+        "jonswap" or "pierson-moskowitz".
     direction_deg : float
         Direction of travel, deg from +x (following sea) towards +y (port).
     seed, count : int
@@ -129,9 +140,9 @@ def add_sea(
     if hs == 0.0:
         scene.waves = None
         return
-    spectrum = _core.jonswap(hs=hs, tp=tp, gamma=gamma)
+    density = _spectrum(spectrum, hs, tp, gamma)
     heading = float(np.radians(direction_deg))
-    components = _core.realise_waves(spectrum, seed=seed, direction=heading, count=count)
+    components = _core.realise_waves(density, seed=seed, direction=heading, count=count)
     omega = np.array(components.omega)
     repeat = components.repeat_period()
     scene.waves = Waves(
@@ -150,5 +161,5 @@ def add_sea(
             "repeat_found": int(repeat.found),
         },
     )
-    sea = {"hs": hs, "tp": tp, "gamma": gamma, "wave_direction_deg": direction_deg}
+    sea = {"spectrum": spectrum, "hs": hs, "tp": tp, "gamma": gamma, "wave_direction_deg": direction_deg}
     scene.notes.update(sea, waves_relative_bound=relative_bound)

@@ -47,6 +47,7 @@ __all__ = [
     "vessel_parameters",
 ]
 
+NETCDF = (".nc", ".nc4")
 SUPPORTED = "a seacrane NetCDF file (.nc), or a ShipX/VERES folder, stem or file (.re7 with .re8 and .re1)"
 
 
@@ -59,12 +60,26 @@ def load_database(path: str | PathLike[str]) -> HydroDatabase:
         and the supported kinds.
     """
     source = Path(path)
-    if source.is_file() and source.suffix.lower() in (".nc", ".nc4"):
+    if source.is_dir():
+        return _load_folder(source)
+    if source.is_file() and source.suffix.lower() in NETCDF:
         return HydroDatabase.load(source)
-    if source.is_dir() or _is_veres(source):
+    if _is_veres(source):
         return read_veres(source)
     problem = "not of a known kind" if source.exists() else "no such file"
     raise FileFormatError(f"{source}: {problem}; supported: {SUPPORTED}")
+
+
+def _load_folder(folder: Path) -> HydroDatabase:
+    """The one database that a folder holds."""
+    suffixes = {file.suffix.lower() for file in folder.iterdir()}
+    if suffixes & {".re7", ".re8"}:
+        return read_veres(folder)
+    files = sorted(file for file in folder.iterdir() if file.suffix.lower() in NETCDF)
+    if len(files) == 1:
+        return HydroDatabase.load(files[0])
+    found = "several NetCDF files, name one" if files else "nothing of a known kind"
+    raise FileFormatError(f"{folder}: the folder holds {found}; supported: {SUPPORTED}")
 
 
 def _is_veres(path: Path) -> bool:
