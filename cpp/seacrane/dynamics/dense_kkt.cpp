@@ -2,6 +2,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/QR>
+#include <algorithm>
 #include <cmath>
 
 #include "seacrane/model/model.hpp"
@@ -38,11 +39,14 @@ void DenseKkt::solve(const std::vector<ElementModel>& elements, const RowBlock<d
                      double* lambda) {
   const int bodies = velocities_ / 6, n = velocities_;
   matrix_.setZero();
+  double heaviest = 0.0;
   for (int b = 0; b < bodies; ++b) {
     matrix_.block<6, 6>(6 * b, 6 * b) = mass[b];
     right_.segment<6>(6 * b) = load[b];
-    for (int i = 0; i < 6; ++i) scale_[6 * b + i] = 1.0 / std::sqrt(std::abs(mass[b](i, i)));
+    heaviest = std::max(heaviest, mass[b].diagonal().cwiseAbs().maxCoeff());
   }
+  // One scale for all: a scale per body would make the rows of a light body's joints parallel.
+  scale_.head(n).setConstant(1.0 / std::sqrt(heaviest));
   for (int i = 0; i < rows_; ++i) right_[n + i] = gamma[i];
   for_each_side(elements, bodies, [&](std::size_t e, int side, int body) {
     const ElementModel& element = elements[e];

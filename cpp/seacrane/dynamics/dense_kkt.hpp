@@ -9,7 +9,7 @@ namespace seacrane {
 
 struct ElementModel;
 
-/// Pivoted LU of the whole system (9), scaled by mass: slower than the Schur complement, but accurate
+/// Pivoted LU of the whole system (9), equilibrated: slower than the Schur complement, but accurate
 /// where that loses digits, and the only way for the paper's unsymmetric vessel block.
 class DenseKkt {
  public:
