@@ -1,0 +1,227 @@
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <memory>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "seacrane/dynamics/redundant.hpp"
+#include "seacrane/math/rotation.hpp"
+#include "seacrane/model/model.hpp"
+
+namespace seacrane::test {
+
+/// Numbers in [-1, 1) that are the same on every platform, and what is made of them.
+class Random {
+ public:
+  explicit Random(std::uint64_t seed) : engine_(seed) {}
+  double number() { return std::ldexp(static_cast<double>(engine_() >> 11), -52) - 1.0; }
+  double positive() { return 0.7 + 0.5 * number(); }
+  Vec3d vector() { return {number(), number(), number()}; }
+  Mat3d rotation() {
+    Vec4d q(number(), number(), number(), number());
+    while (q.norm() < 0.1) q = {number(), number(), number(), number()};
+    return rotation_from_quaternion<double>(q);
+  }
+  /// Of three masses on the axes, so that a body of this inertia exists.
+  Mat3d inertia() {
+    const double a = positive(), b = positive(), c = positive();
+    const Mat3d r = rotation();
+    return r * Vec3d(b + c, a + c, a + b).asDiagonal() * r.transpose();
+  }
+  BodyKinematics<double> kinematics() { return {vector(), rotation(), vector(), vector()}; }
+
+ private:
+  std::mt19937_64 engine_;
+};
+
+/// Rotation by the vector `angle`, inertial axes.
+inline Mat3d rotation_by(const Vec3d& angle) {
+  return angle.norm() > 0.0 ? Mat3d(Eigen::AngleAxisd(angle.norm(), angle.normalized())) : Mat3d::Identity();
+}
+
+/// Derivative by five points: error h^4 / 30 of the fifth derivative.
+template <class F>
+auto slope(F&& f, double h = 1e-3) {
+  using Value = decltype(f(h));
+  const Value near = f(h) - f(-h), far = f(2.0 * h) - f(-2.0 * h);
+  return Value((8.0 * near - far) / (12.0 * h));
+}
+
+/// Where a body is after a time at constant twist.
+inline BodyKinematics<double> moved(const BodyKinematics<double>& k, double t) {
+  return {k.position + t * k.velocity, rotation_by(t * k.angular_velocity) * k.rotation, k.velocity,
+          k.angular_velocity};
+}
+
+/// Right-handed axes with z along `z` and x across it.
+inline Mat3d axes_along(const Vec3d& z, const Vec3d& near_x) {
+  Mat3d axes;
+  axes.col(2) = z.normalized();
+  axes.col(1) = z.cross(near_x).normalized();
+  axes.col(0) = axes.col(1).cross(axes.col(2));
+  return axes;
+}
+
+inline BodyDescription body_at(const std::string& name, double mass, const Vec3d& position) {
+  BodyDescription b;
+  b.name = name;
+  b.mass = mass;
+  b.inertia = mass * Vec3d(0.02, 0.03, 0.04).asDiagonal();
+  b.position = position;
+  return b;
+}
+
+/// Frame on a body (default: the ground) from a point and axes in the inertial frame.
+inline Frame frame_on(const SceneDescription& scene, const std::string& name, const Vec3d& point,
+                      const Mat3d& axes) {
+  for (const auto& b : scene.bodies) {
+    if (b.name != name) continue;
+    const Mat3d r = rotation_from_quaternion<double>(b.quaternion);
+    return {r.transpose() * (point - b.position), r.transpose() * axes};
+  }
+  return {point, axes};
+}
+
+inline JointDescription& join(SceneDescription& scene, const std::string& kind, const std::string& name,
+                              const std::string& first, const std::string& second, const Vec3d& point,
+                              const Mat3d& axes = Mat3d::Identity()) {
+  scene.joints.push_back({name, kind, first, second, frame_on(scene, first, point, axes),
+                          frame_on(scene, second, point, axes), 0.0});
+  return scene.joints.back();
+}
+
+/// A spatial slider-crank (one degree of freedom), an arm driven on its slider and a pendulum on a link:
+/// a loop, an actuator, a spring-damper and a driver. `base` carries it.
+inline SceneDescription slider_crank(const std::string& base = kGround) {
+  SceneDescription scene;
+  scene.name = "slider-crank";
+  const Vec3d pivot(0.0, 0.3, 0.2), pin(0.0, 0.8, 0.2);
+  const double rod = 1.5;
+  const Vec3d end(std::sqrt(rod * rod - pin.squaredNorm()), 0.0, 0.0), tip = end + Vec3d(0.0, 0.0, -0.5);
+  if (base != kGround) scene.bodies.push_back(body_at(base, 50.0, Vec3d::Zero()));
+  scene.bodies.push_back(body_at("crank", 2.0, 0.5 * (pivot + pin)));
+  scene.bodies.push_back(body_at("rod", 1.0, 0.5 * (pin + end)));
+  scene.bodies.push_back(body_at("slider", 3.0, end));
+  scene.bodies.push_back(body_at("arm", 0.7, 0.5 * (end + tip)));
+  scene.bodies.push_back(body_at("load", 1.2, tip + Vec3d(0.3, 0.0, -0.4)));
+  const Mat3d along_x = axes_along(Vec3d::UnitX(), Vec3d::UnitY()),
+              along_y = axes_along(Vec3d::UnitY(), Vec3d::UnitX());
+  join(scene, "revolute", "bearing", base, "crank", pivot, along_x);
+  join(scene, "spherical", "pin", "crank", "rod", pin);
+  JointDescription& knee = join(scene, "universal", "knee", "slider", "rod", end, along_y);
+  knee.second_frame = frame_on(scene, "rod", end, axes_along(Vec3d::UnitY().cross(end - pin), end - pin));
+  join(scene, "prismatic", "guide", base, "slider", end, along_x);
+  join(scene, "revolute", "shoulder", "slider", "arm", end, along_y);
+  JointDescription& link = join(scene, "distance", "link", "arm", "load", tip);
+  link.second_frame = frame_on(scene, "load", tip + Vec3d(0.3, 0.0, -0.4), Mat3d::Identity());
+  link.length = 0.5;
+  scene.actuators.push_back(
+      {"drive", {"bearing", "angle"}, 20.0, 3.0, Curve::constant(1.0), Curve::quintic(0.0, 2.0, 0.0, 1.0)});
+  scene.drivers.push_back({"swing", {"shoulder", "angle"}, Curve::harmonic(0.0, -0.2, 0.2, 3.0, 0.0)});
+  SpringDescription spring;
+  spring.name = "spring";
+  spring.first = base;
+  spring.second = "load";
+  spring.first_point = {2.0, 0.5, -1.0};
+  spring.stiffness = 30.0;
+  spring.damping = 0.5;
+  spring.natural_length = 0.8;
+  scene.springs.push_back(spring);
+  scene.coordinates = {{"bearing", "angle"}, {"guide", "displacement"}};
+  return scene;
+}
+
+/// Planar four-bar of two equal cranks and a coupler as long as the ground, in the x-z plane; with
+/// `count` cranks. Its out-of-plane constraints are redundant, and so is each crank after the second.
+inline SceneDescription parallelogram(int count) {
+  SceneDescription scene;
+  scene.name = "parallelogram";
+  const Mat3d along_y = axes_along(Vec3d::UnitY(), Vec3d::UnitX());
+  const Vec3d up(0.3, 0.0, 0.8);
+  scene.bodies.push_back(body_at("coupler", 2.0, Vec3d(1.0, 0.0, 0.0) + up));
+  for (int i = 0; i < count; ++i) {
+    const std::string n = std::to_string(i);
+    const Vec3d foot(2.0 * i / (count - 1), 0.0, 0.0);
+    scene.bodies.push_back(body_at("crank " + n, 1.0, foot + 0.5 * up));
+    join(scene, "revolute", "foot " + n, kGround, "crank " + n, foot, along_y);
+    join(scene, "revolute", "head " + n, "crank " + n, "coupler", foot + up, along_y);
+  }
+  return scene;
+}
+
+/// Makes `body` of a scene a vessel: added mass, damping, restoring, mooring, two memory states, waves.
+inline void make_vessel(SceneDescription& scene, const std::string& body) {
+  VesselDescription v;
+  v.name = body;
+  v.body = body;
+  v.added_mass = 20.0 * Mat6d::Identity();
+  v.added_mass(1, 3) = v.added_mass(3, 1) = 2.0;
+  v.linear_damping = 5.0 * Mat6d::Identity();
+  v.quadratic_damping = Vec6d::Constant(2.0);
+  v.restoring(2, 2) = 900.0;
+  v.restoring(3, 3) = v.restoring(4, 4) = 700.0;
+  v.mooring_stiffness = v.mooring_damping = Vec3d::Constant(10.0);
+  StateSpaceBlock memory;
+  memory.inputs = memory.outputs = {2};
+  memory.a = (MatXd(2, 2) << 0.0, 1.0, -4.0, -1.5).finished();
+  memory.b = (MatXd(2, 1) << 1.0, 0.5).finished();
+  memory.c = (MatXd(1, 2) << 3.0, 6.0).finished();
+  memory.d = MatXd::Zero(1, 1);
+  v.memory.push_back(memory);
+  scene.vessels.push_back(v);
+  const std::vector<double> omega = {0.7, 1.1, 1.6}, amplitude = {0.1, 0.2, 0.1}, phase = {0.1, 1.0, 2.0};
+  Eigen::MatrixXcd transfer(3, 6);
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 6; ++j) transfer(i, j) = {30.0 + 5.0 * j, 10.0 * i - 7.0 * j};
+  }
+  const auto exact = std::make_shared<const ExactWaveLoad>(
+      WaveComponents(omega, amplitude, phase, {0.3, 0.3, 0.3}), transfer);
+  scene.wave_loads.push_back({"waves", body, exact, std::make_shared<const WaveTable>(exact)});
+}
+
+/// Dense D, gamma, mass and load of the last evaluation of a system: eq (9).
+struct DenseTerms {
+  MatXd mass, d;
+  VecXd load, gamma, acceleration, lambda;
+};
+
+inline DenseTerms dense_terms(const RedundantSystem& system) {
+  const Model& m = system.model();
+  const int n = 6 * m.body_count(), rows = m.rows();
+  DenseTerms out{MatXd::Zero(n, n), MatXd::Zero(rows, n), VecXd(n), VecXd(rows), VecXd(n), VecXd(rows)};
+  for (int b = 0; b < m.body_count(); ++b) {
+    const auto i = static_cast<std::size_t>(b);
+    out.mass.block<6, 6>(6 * b, 6 * b) = system.mass_matrix(b);
+    out.load.segment<6>(6 * b) = system.loads()[i];
+    out.acceleration.segment<6>(6 * b) = system.acceleration()[i];
+  }
+  for (std::size_t e = 0; e < m.elements.size(); ++e) {
+    const ElementModel& el = m.elements[e];
+    const RowBlock<double>& block = system.blocks()[e];
+    if (el.first < m.body_count())
+      out.d.block(el.row, 6 * el.first, el.rows, 6) += block.d[0].topRows(el.rows);
+    if (el.second < m.body_count()) {
+      out.d.block(el.row, 6 * el.second, el.rows, 6) += block.d[1].topRows(el.rows);
+    }
+    out.gamma.segment(el.row, el.rows) = block.gamma.head(el.rows);
+  }
+  for (int i = 0; i < rows; ++i) out.lambda[i] = system.multipliers()[static_cast<std::size_t>(i)];
+  return out;
+}
+
+/// The assembled start with random velocities that satisfy the constraints.
+inline std::vector<double> moving_state(RedundantSystem& system, std::uint64_t seed) {
+  std::vector<double> y = system.model().initial_state;
+  Random random(seed);
+  for (int b = 0; b < system.model().body_count(); ++b) {
+    double* v = y.data() + system.model().layout.twist(b);
+    for (int i = 0; i < 6; ++i) v[i] += random.number();
+  }
+  system.project(0.0, y.data(), false);
+  return y;
+}
+
+}  // namespace seacrane::test

@@ -1,0 +1,67 @@
+#include <doctest/doctest.h>
+
+#include "count_allocations.hpp"
+#include "multibody_scenes.hpp"
+#include "seacrane/run/simulation.hpp"
+
+namespace seacrane::test {
+namespace {
+
+std::vector<SceneDescription> scenes() {
+  SceneDescription floating = slider_crank("hull");
+  make_vessel(floating, "hull");
+  SceneDescription light = slider_crank();  // evaluated by dense LU
+  for (auto& b : light.bodies) {
+    if (b.name != "rod") continue;
+    b.mass *= 1e-8;
+    b.inertia *= 1e-8;
+  }
+  SceneDescription euler = slider_crank();
+  euler.orientation = Orientation::euler_xyz;
+  return {slider_crank(), floating, light, euler};
+}
+
+}  // namespace
+
+TEST_CASE("evaluations and projections allocate nothing") {
+  for (const SceneDescription& scene : scenes()) {
+    RedundantSystem system(compile(scene));
+    std::vector<double> y = system.model().initial_state, rate(y.size());
+    system.derivative(0.0, y.data(), rate.data());
+    system.project(0.0, y.data(), true);
+    const long before = allocation_count();
+    for (int i = 0; i < 200; ++i) {
+      const double t = 0.01 * i;
+      system.derivative(t, y.data(), rate.data());
+      for (std::size_t k = 0; k < y.size(); ++k) y[k] += 0.01 * rate[k];
+      system.project(t + 0.01, y.data(), false);
+      system.residual(t, y.data());
+      system.energy(t, y.data());
+    }
+    CHECK(allocation_count() == before);
+  }
+}
+
+TEST_CASE("the run loop allocates nothing after its start: steps, outputs and the end of a curve") {
+  for (const SceneDescription& scene : scenes()) {
+    for (const std::string integrator : {"dopri5", "rk4"}) {
+      CAPTURE(integrator);
+      const auto model = compile(scene);
+      RunOptions options;
+      options.integrator = integrator;
+      options.fixed_step = 0.01;
+      for (int i = 0; i <= 300; ++i) options.output_times.push_back(0.01 * i);
+      for (const auto& name : channel_names(*model, false)) options.channels.insert(name);
+      Simulation run(model, initial_state(*model), options);
+      const std::function<bool(double)> keep_going = [](double) { return true; };
+      run.advance(0.05, keep_going);
+      const long before = allocation_count();
+      run.advance(3.0, keep_going);
+      CHECK(allocation_count() == before);
+      CHECK(run.recording().count() == 301);
+      CHECK((run.statistics().dense_solves > 0) == (model->bodies[1].mass < 1e-6));
+    }
+  }
+}
+
+}  // namespace seacrane::test
