@@ -290,6 +290,16 @@ def test_unknown_files_name_the_supported_kinds(tmp_path: Path) -> None:
         HydroDatabase.load(tmp_path / "absent.nc")
 
 
+def test_a_folder_holds_one_database(tmp_path: Path) -> None:
+    with pytest.raises(FileFormatError, match="nothing of a known kind; supported"):
+        load_database(tmp_path)
+    small().save(tmp_path / "one.nc")
+    assert load_database(tmp_path).name == "small"
+    small().save(tmp_path / "two.nc")
+    with pytest.raises(FileFormatError, match="several NetCDF files, name one"):
+        load_database(tmp_path)
+
+
 def test_to_xarray_is_labelled_and_complete() -> None:
     database = everything()
     dataset = database.to_xarray()
