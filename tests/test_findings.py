@@ -1,0 +1,200 @@
+"""The findings of Landsverk, Zhou & Hovland as numbers, from the runs that their figures show."""
+
+from __future__ import annotations
+
+import re
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from seacrane import Result, cases, simulate
+from seacrane.figures.findings import (
+    OSCILLATION_PERIOD,
+    OSCILLATION_START,
+    amplitude_at,
+    memory_effect,
+    paper_findings,
+    slew_stop,
+)
+from seacrane.figures.paper import PaperRuns
+from seacrane.frames import rotation_matrix
+from seacrane.hydro import shipped_database, vessel_parameters
+from seacrane.hydro.vessel import rigid_mass_matrix
+from seacrane.result import MOTIONS
+
+Array = NDArray[np.float64]
+
+
+@pytest.fixture(scope="module")
+def runs() -> PaperRuns:
+    return PaperRuns(
+        vessel=simulate(cases.vessel()),
+        vessel_without_memory=simulate(cases.vessel(memory="none")),
+        case1=simulate(cases.case1()),
+        case2=simulate(cases.case2()),
+        case3=simulate(cases.case3()),
+    )
+
+
+def rms(values: Array) -> float:
+    return float(np.sqrt(np.mean(np.square(values))))
+
+
+def motion(result: Result, name: str) -> Array:
+    return result.select("vessel_motion", motion=name)
+
+
+def five_seconds(first: Result, second: Result) -> dict[str, float]:
+    """Amplitude of the 5 s component of second minus first over 50 to 100 s, m or rad."""
+    return {
+        name: amplitude_at(
+            first.time, motion(second, name) - motion(first, name), period=OSCILLATION_PERIOD, start=OSCILLATION_START
+        )
+        for name in MOTIONS
+    }
+
+
+def test_every_finding_is_reproduced(runs: PaperRuns) -> None:
+    findings = paper_findings(runs)
+    assert len(findings) == 7
+    assert {f.verdict for f in findings} <= {"reproduced", "measured"}
+    assert [f.finding for f in findings if f.verdict == "measured"] == ["Leaving memory out is cheaper"]
+
+
+def test_all_runs_see_the_same_waves(runs: PaperRuns) -> None:
+    for run in (runs.vessel_without_memory, runs.case1, runs.case2, runs.case3):
+        np.testing.assert_allclose(run["wave_elevation"], runs.vessel["wave_elevation"], atol=1e-9)
+    assert runs.case2.stats["realised_hs"] == pytest.approx(2.0, rel=0.01)
+
+
+def test_memory_changes_the_response_clearly(runs: PaperRuns) -> None:
+    """Figure 3: rms difference over rms, motion by motion; radiation damping is all that heave and pitch have."""
+    change = {}
+    for name in MOTIONS:
+        with_memory, without = motion(runs.vessel, name), motion(runs.vessel_without_memory, name)
+        change[name] = rms(without - with_memory) / rms(with_memory)
+    assert min(change.values()) > 0.1
+    assert min(change["heave"], change["pitch"]) > 1.0
+    printed = dict(re.findall(r"(\w+) (\d+) %", memory_effect(runs).number))
+    assert {name: int(value) for name, value in printed.items()} == {
+        name: round(100 * value) for name, value in change.items()
+    }
+
+
+def test_memory_costs_states_and_evaluations(runs: PaperRuns) -> None:
+    assert runs.vessel.stats["states"] > 3 * runs.vessel_without_memory.stats["states"]
+    assert runs.vessel.stats["memory_states"] > 40 and runs.vessel_without_memory.stats["memory_states"] == 0
+
+
+@pytest.mark.parametrize(("before", "after", "least"), [("vessel", "case1", 10.0), ("case1", "case2", 10.0)])
+def test_crane_and_payload_show_most_in_roll(runs: PaperRuns, before: str, after: str, least: float) -> None:
+    """rms change of roll against pitch and yaw."""
+    a, b = getattr(runs, before), getattr(runs, after)
+    change = {name: rms(motion(b, name) - motion(a, name)) for name in MOTIONS[3:]}
+    assert change["roll"] > least * max(change["pitch"], change["yaw"])
+
+
+def test_yaw_rate_changes_when_the_slew_stops(runs: PaperRuns) -> None:
+    """The hull turns against the slew late in it; when the slew stops it no longer does."""
+    stop = slew_stop(runs.case1)
+    assert 35.0 < stop <= 45.0
+    time = runs.case1.time
+    rate = np.degrees(np.gradient(motion(runs.case1, "yaw") - motion(runs.vessel, "yaw"), time))
+    slewing = float(np.mean(rate[(time > 25.0) & (time < 35.0)]))
+    stopped = float(np.mean(rate[(time > stop) & (time < stop + 20.0)]))
+    assert slewing > 0.005
+    assert stopped < 0.25 * slewing
+
+
+@pytest.fixture(scope="module")
+def adrift() -> Result:
+    """Case 1 in calm water without station keeping: what the slew does to the hull, and nothing else."""
+    return simulate(cases.case1(hs=0.0, mooring_period=None), t_end=400.0, dt_out=0.2, rtol=1e-8)
+
+
+def test_yaw_stops_with_the_slew_on_a_ship_adrift(adrift: Result) -> None:
+    rate = np.degrees(np.gradient(motion(adrift, "yaw"), adrift.time))
+    slewing, after = (adrift.time > 25.0) & (adrift.time < 33.0), adrift.time > 50.0
+    assert np.min(rate[slewing]) > 0.006
+    assert np.max(np.abs(rate[after])) < 0.0006
+    assert np.degrees(motion(adrift, "yaw")[-1]) > 0.1
+
+
+def test_a_ship_adrift_moves_as_momentum_says(adrift: Result) -> None:
+    """Surge, sway and yaw at the end: (M + A(0)) eta + int (momentum of the crane) dt = 0.
+
+    Moments are about the hull's reference point, which may move because the total momentum is zero. Over the
+    whole motion the fluid counts with the added mass of zero frequency.
+    """
+    scene = cases.case1(hs=0.0)
+    momentum = np.zeros((len(adrift.time), 6))
+    origin = adrift["vessel_motion"][:, :3]
+    for k, name in enumerate(adrift.coords["body"]):
+        if name == "vessel":
+            continue
+        body, rotation = scene.bodies[name], rotation_matrix(adrift["quaternion"][:, k])
+        linear = body.mass * adrift["velocity"][:, k]
+        inertia = rotation @ body.inertia @ rotation.transpose(0, 2, 1)
+        momentum[:, :3] += linear
+        momentum[:, 3:] += np.cross(adrift["position"][:, k] - origin, linear)
+        momentum[:, 3:] += np.einsum("tij,tj->ti", inertia, adrift["angular_velocity"][:, k])
+    step = adrift.time[1] - adrift.time[0]
+    moved = step * (np.sum(momentum, axis=0) - 0.5 * (momentum[0] + momentum[-1]))
+    p = vessel_parameters(shipped_database())
+    mass = rigid_mass_matrix(p.mass, p.centre_of_mass, p.inertia) + p.memory.frequency_response([1e-4])[0][0]
+    hull = mass @ adrift["vessel_motion"][-1]
+    np.testing.assert_allclose(hull[:2], -moved[:2], rtol=0.01)
+    # The hull's moment holds products of 4 deg of heel with surge and roll: second order, 3 % of it.
+    turned = mass[5, 5] * motion(adrift, "yaw")[-1]
+    assert abs(hull[5] + moved[5]) < 0.05 * turned
+
+
+def test_five_second_component_of_case_3(runs: PaperRuns) -> None:
+    """Most in sway, roll and heave; hardly in surge; absent from case 1 beyond what the waves put there."""
+    added = five_seconds(runs.case1, runs.case3)
+    assert added["sway"] > 0.02 and added["heave"] > 0.015
+    assert np.degrees(added["roll"]) > 0.5
+    assert added["surge"] < 0.25 * added["sway"]
+    assert added["sway"] > added["heave"] > 3.0 * added["surge"]
+    assert added["roll"] > 10.0 * max(added["pitch"], added["yaw"])
+    without = five_seconds(runs.case1, runs.case2)
+    for name in ("sway", "heave", "roll"):
+        assert added[name] > 5.0 * without[name]
+
+
+def test_figure_10_shows_the_oscillation(runs: PaperRuns) -> None:
+    """Heave of case 3 minus heave of case 1 is mostly the 5 s component once the oscillation runs."""
+    late = runs.case1.time >= 60.0
+    difference = (motion(runs.case3, "heave") - motion(runs.case1, "heave"))[late]
+    amplitude = five_seconds(runs.case1, runs.case3)["heave"]
+    assert amplitude / np.sqrt(2.0) > 0.7 * float(np.std(difference))
+
+
+def test_oscillation_is_what_the_frequency_domain_gives_for_the_decks_load() -> None:
+    """Case 3 in calm water, transient gone: motions at 5 s are Z(i w)^-1 times the deck's load at 5 s."""
+    scene = cases.case3(hs=0.0)
+    run = simulate(scene, t_end=400.0, dt_out=0.05, rtol=1e-8)
+    late = run.time >= 350.0
+    omega = 2.0 * np.pi / OSCILLATION_PERIOD
+    rotation = rotation_matrix(run["quaternion"][late, 0])
+    reaction = run.select("reaction_force", joint="deck")[late]
+    balance = scene.point_forces["balance"]
+    force = balance.force - reaction
+    moment = np.cross(rotation @ balance.point, np.broadcast_to(balance.force, reaction.shape))
+    moment -= run.select("reaction_moment", joint="deck")[late]
+    moment -= np.cross(rotation @ scene.joints["deck"].first_frame.point, reaction)
+    t = run.time[late] - run.time[-1]
+    columns = np.column_stack([np.cos(omega * t), -np.sin(omega * t), np.ones_like(t), t, t**2, t**3])
+    cosine, sine = np.linalg.lstsq(columns, np.hstack([force, moment, run["vessel_motion"][late]]), rcond=None)[0][:2]
+    load, found = (cosine + 1j * sine)[:6], (cosine + 1j * sine)[6:]
+    p = vessel_parameters(shipped_database())
+    added_mass, damping = p.memory.frequency_response([omega])
+    heeled = rotation_matrix(np.mean(run["quaternion"][late, 0], axis=0))
+    center, inertia = heeled @ p.centre_of_mass, heeled @ p.inertia @ heeled.T
+    mass = rigid_mass_matrix(p.mass, center, inertia) + added_mass[0]
+    impedance = -(omega**2) * mass + 1j * omega * (damping[0] + p.linear_damping) + p.restoring
+    expected = np.linalg.solve(impedance, load)
+    error = np.abs(found - expected) / np.abs(expected)
+    np.testing.assert_array_less(error[:5], 0.01)
+    assert np.argmax(np.abs(expected[:3])) == 1 and np.argmax(np.abs(expected[3:])) == 0
