@@ -267,7 +267,7 @@ def _plain(what: str, value: Any) -> Any:
         return value
     if isinstance(value, Mapping):
         return {str(key): _plain(f"{what}[{key!r}]", item) for key, item in value.items()}
-    if isinstance(value, Sequence):
+    if isinstance(value, Sequence) and not isinstance(value, (bytes, bytearray)):
         return [_plain(f"{what}[{i}]", item) for i, item in enumerate(value)]
     raise SceneError(
         f"{what} is a {type(value).__name__}; a scene file takes numbers, texts, lists and mappings"

@@ -1,0 +1,74 @@
+"""Every example runs as a user would run it, prints numbers, leaves a picture only where it is told."""
+
+from __future__ import annotations
+
+import ast
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+FOLDER = Path(__file__).resolve().parents[1] / "examples"
+EXAMPLES = sorted(FOLDER.glob("*.py"))
+NUMBER = r"-?\d+(?:\.\d+)?(?:e[-+]\d+)?"
+
+
+def run(example: Path, folder: Path, *arguments: str) -> str:
+    finished = subprocess.run(
+        [sys.executable, str(example), *arguments],
+        cwd=folder,
+        capture_output=True,
+        text=True,
+        timeout=300,
+        check=False,
+    )
+    assert finished.returncode == 0, finished.stderr
+    assert not finished.stderr, finished.stderr
+    return finished.stdout
+
+
+def test_the_examples_of_the_issue_exist() -> None:
+    names = {path.stem for path in EXAMPLES}
+    assert names >= {
+        "pendulum", "vessel_in_waves", "crane_on_fixed_base", "full_scene_by_hand", "sampled_controller",
+        "which_cylinder_forces",
+    }  # fmt: skip
+
+
+@pytest.mark.parametrize("example", EXAMPLES, ids=lambda path: path.stem)
+def test_example_prints_numbers_and_saves_one_picture(example: Path, tmp_path: Path) -> None:
+    pictures, work = tmp_path / "pictures", tmp_path / "work"
+    pictures.mkdir()
+    work.mkdir()
+    said = run(example, work, str(pictures))
+    assert len(re.findall(NUMBER, said)) >= 3
+    assert "nan" not in said.lower().split()
+    assert [path.name for path in pictures.iterdir()] == [f"{example.stem}.png"]
+    assert (pictures / f"{example.stem}.png").read_bytes().startswith(b"\x89PNG")
+    assert list(work.iterdir()) == []
+
+
+@pytest.mark.parametrize("example", EXAMPLES, ids=lambda path: path.stem)
+def test_example_starts_with_its_idea(example: Path) -> None:
+    idea = ast.get_docstring(ast.parse(example.read_text(encoding="utf-8")))
+    assert idea is not None
+    assert len(idea.splitlines()[0]) > 30
+
+
+def test_without_a_folder_nothing_is_written(tmp_path: Path) -> None:
+    said = run(FOLDER / "pendulum.py", tmp_path)
+    period = float(re.findall(NUMBER, said)[0])
+    # Large swings: T / T0 = 2 K(sin(90 deg / 2)) / pi = 1.18034 (complete elliptic integral).
+    small = float(re.findall(NUMBER, said)[1])
+    assert period / small == pytest.approx(1.18034, rel=2e-4)
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_controller_example_calms_its_load(tmp_path: Path) -> None:
+    free, controlled = (
+        float(line.split()[-2]) for line in run(FOLDER / "sampled_controller.py", tmp_path).splitlines()
+    )
+    assert free > 0.5
+    assert controlled < 0.05 * free

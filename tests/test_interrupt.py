@@ -1,0 +1,186 @@
+"""Ctrl-C returns what was recorded; the loop runs without the interpreter's lock."""
+
+from __future__ import annotations
+
+import json
+import signal
+import subprocess
+import sys
+import threading
+import time
+from itertools import pairwise
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from seacrane import SampledController, Scene, simulate
+
+GENEROUS = 60.0  # s, far above what a return takes, far below what the run would
+LONG = 1e6  # s of simulated time: hours
+
+SETUP = """
+import json, os, signal, sys, threading, time
+from seacrane import SampledController, Scene, cases, simulate
+
+def pendulum():
+    scene = Scene()
+    scene.add_body(name="bob", mass=1.0, inertia=[0.1, 0.1, 0.1], position=(1.0, 0.0, 0.0))
+    scene.add_joint(kind="revolute", name="pin", first="ground", second="bob",
+                    point=(0, 0, 0), axis=(0, 1, 0))
+    scene.add_actuator(name="motor", joint="pin")
+    return scene
+
+def interrupt_soon():
+    started.wait()
+    time.sleep(0.5)  # the run is far past its compilation then, and far from its end
+    os.kill(os.getpid(), signal.SIGINT)
+
+started, more = threading.Event(), None
+scene, waves = pendulum(), cases.case2()
+threading.Thread(target=interrupt_soon, daemon=True).start()
+"""
+REPORT = """
+print(json.dumps({
+    "interrupted": result.interrupted, "outputs": result.time.size, "last": float(result.time[-1]),
+    "rows": len(result["position"]), "more": more,
+}))
+"""
+RUNS = {
+    "loop": "started.set()\nresult = simulate(scene, t_end=1e6, dt_out=10.0)",
+    "with waves": "started.set()\nresult = simulate(waves, t_end=1e6, dt_out=1.0)",
+    "implicit": "started.set()\nresult = simulate(scene, t_end=1e6, dt_out=10.0, integrator='cvode-bdf')",
+    "sampled controller": (
+        "started.set()\n"
+        "tick = SampledController(period=0.05, function=lambda t, m: {'motor.force': 0.1})\n"
+        "result = simulate(scene, t_end=1e6, dt_out=10.0, controllers=[tick])"
+    ),
+    "inside a controller": (
+        "def tick(now, measured):\n"
+        "    if now > 1.0:\n"
+        "        os.kill(os.getpid(), signal.SIGINT)\n"
+        "        time.sleep(10.0)\n"
+        "    return {}\n"
+        "tick = SampledController(period=0.05, function=tick)\n"
+        "result = simulate(scene, t_end=1e6, dt_out=0.1, controllers=[tick])"
+    ),
+    "progress": "started.set()\nresult = simulate(scene, t_end=1e6, dt_out=10.0, progress=True)",
+}
+
+
+def run_script(body: str) -> dict[str, Any]:
+    code = "\n".join([SETUP, body, REPORT])
+    finished = subprocess.run(
+        [sys.executable, "-c", code], capture_output=True, text=True, timeout=GENEROUS, check=False
+    )
+    assert finished.returncode == 0, finished.stderr
+    out: dict[str, Any] = json.loads(finished.stdout.splitlines()[-1])
+    return out
+
+
+@pytest.mark.parametrize("name", RUNS)
+def test_ctrl_c_returns_what_was_recorded(name: str) -> None:
+    told = run_script(RUNS[name])
+    assert told["interrupted"]
+    assert 0.0 < told["last"] < LONG
+    assert told["outputs"] == told["rows"] > 1
+
+
+def test_a_later_run_is_not_touched_by_an_earlier_ctrl_c() -> None:
+    told = run_script(
+        "started.set()\nresult = simulate(scene, t_end=1e6, dt_out=10.0)\n"
+        "after = simulate(scene, t_end=2.0)\n"
+        "more = [after.interrupted, float(after.time[-1])]"
+    )
+    assert told["interrupted"]
+    assert told["more"] == [False, 2.0]
+
+
+def test_an_exception_of_another_signal_is_not_taken_for_ctrl_c() -> None:
+    told = run_script(
+        "def alarm(number, frame):\n    raise TimeoutError('time is up')\n"
+        "signal.signal(signal.SIGALRM, alarm)\nsignal.setitimer(signal.ITIMER_REAL, 0.1)\n"
+        "try:\n    simulate(scene, t_end=1e6, dt_out=10.0)\n"
+        "except TimeoutError as error:\n    more = str(error)\n"
+        "started.set()\nresult = simulate(scene, t_end=1e6, dt_out=10.0)"
+    )
+    assert told["more"] == "time is up"
+    assert told["interrupted"]
+
+
+def test_the_command_line_saves_what_it_has(tmp_path: Path) -> None:
+    command = [sys.executable, "-m", "seacrane", "run", "case1", "--out", str(tmp_path), "--t-end", "1e5"]
+    process = subprocess.Popen([*command, "--progress"], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
+    assert process.stderr is not None
+    said = b""
+    while b"simulated" not in said:  # the bar appears when the loop is about to start
+        piece = process.stderr.read1(4096)
+        assert piece, said
+        said += piece
+    time.sleep(0.5)
+    process.send_signal(signal.SIGINT)
+    process.communicate(timeout=GENEROUS)
+    assert process.returncode != 0  # not a finished run
+    from seacrane import Result
+
+    result = Result.load(tmp_path / "case1.nc")
+    assert result.interrupted
+    assert 0.0 < result.time[-1] < 1e5
+
+
+def ball_on_a_pin() -> Scene:
+    scene = Scene()
+    scene.add_body(name="bob", mass=1.0, inertia=[0.1, 0.1, 0.1], position=(1.0, 0.0, 0.0))
+    scene.add_joint(kind="spherical", name="pin", first="ground", second="bob", point=(0, 0, 0))
+    return scene
+
+
+def test_other_threads_go_on_while_the_loop_runs() -> None:
+    seen: list[int] = []
+    running = threading.Event()
+    counter = 0
+
+    def count() -> None:
+        nonlocal counter
+        running.wait()
+        while running.is_set():
+            counter += 1
+
+    def look(now: float, measured: Any) -> dict[str, float]:
+        seen.append(counter)
+        return {}
+
+    thread = threading.Thread(target=count)
+    thread.start()
+    running.set()
+    # Between two calls of the controller there is only the C++ loop.
+    simulate(
+        ball_on_a_pin(),
+        t_end=4000.0,
+        dt_out=100.0,
+        controllers=[SampledController(period=1000.0, function=look)],
+    )
+    running.clear()
+    thread.join()
+    assert len(seen) == 4
+    assert all(later > earlier + 1000 for earlier, later in pairwise(seen))
+
+
+def test_two_threads_share_one_model_and_agree() -> None:
+    from seacrane import Run
+
+    scene = ball_on_a_pin()
+    model = scene.compile()
+    results: dict[int, Any] = {}
+
+    def work(number: int) -> None:
+        run = Run(scene, t_end=50.0, model=model)
+        assert run.advance(50.0)
+        results[number] = run.result()
+
+    threads = [threading.Thread(target=work, args=(i,)) for i in range(2)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert (results[0]["position"] == results[1]["position"]).all()
