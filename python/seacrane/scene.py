@@ -172,9 +172,9 @@ class Scene:
         return inserted
 
     def _pose(self, joint: str, body: str) -> tuple[Array, Array]:
-        if body == GROUND:
+        if text_of(f"joint {joint!r}: body", body) == GROUND:
             return np.zeros(3), np.eye(3)
-        if text_of(f"joint {joint!r}: body", body) not in self.bodies:
+        if body not in self.bodies:
             raise SceneError(f"joint {joint!r}: there is no body {body!r}; add it first")
         described = self.bodies[body]
         if not np.linalg.norm(described.quaternion) > 0.0:

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <queue>
 #include <set>
+#include <stdexcept>
 
 #include "seacrane/dynamics/redundant.hpp"
 #include "seacrane/model/validate.hpp"
@@ -95,6 +96,20 @@ void check_regular(const Model& m, const RedundantSystem& system) {
   }
 }
 
+void close(Model& m, RedundantSystem& system) {
+  double* y = m.initial_state.data();
+  try {
+    for (int i = 0; i < kRestarts; ++i) {
+      ++m.assembly.iterations;
+      system.project(0.0, y, false);
+      if (system.residual(0.0, y).position < 1e-12) break;
+    }
+  } catch (const std::domain_error& error) {
+    throw SceneError("scene '" + m.description.name +
+                     "': its joints do not close from the described poses; " + error.what());
+  }
+}
+
 /// Rows like u . w = 0 also hold with an axis turned by 180 deg: that is another assembly.
 void check_branch(const Model& m, const RedundantSystem& system) {
   for_each_joint_type([&]<class Type>(std::size_t kind) {
@@ -160,11 +175,7 @@ void assemble(Model& model) {
   RedundantSystem system(view);
   report.residual_before = system.residual(0.0, y.data()).position;
   check_regular(model, system);
-  for (int i = 0; i < kRestarts; ++i) {
-    ++report.iterations;
-    system.project(0.0, y.data(), false);
-    if (system.residual(0.0, y.data()).position < 1e-12) break;
-  }
+  close(model, system);
   const ConstraintResidual after = system.residual(0.0, y.data());
   report.residual_after = after.position;
   report.rate_residual_after = after.rate;
