@@ -1,7 +1,10 @@
-"""Every notebook runs from its first cell to its last, and shows what it promises."""
+"""Notebooks and the scripts of documents run, and show what they promise."""
 
 from __future__ import annotations
 
+import re
+import subprocess
+import sys
 from pathlib import Path
 from typing import Any
 
@@ -9,7 +12,11 @@ import jupytext
 import nbclient
 import pytest
 
-NOTEBOOKS = sorted((Path(__file__).resolve().parents[1] / "notebooks").glob("*.md"))
+REPOSITORY = Path(__file__).resolve().parents[1]
+NOTEBOOKS = sorted((REPOSITORY / "notebooks").glob("*.md"))
+DOCUMENTS = ("README.md", "docs/getting-started.md")
+SCRIPT = re.compile(r"```python\n(?P<script>.*?)```\s+```text\n(?P<output>.*?)```", re.DOTALL)
+NUMBER = re.compile(r"-?\d+\.?\d*")
 
 
 def execute(path: Path, folder: Path) -> Any:
@@ -50,3 +57,27 @@ def test_notebook_runs(path: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPat
 def test_notebook_is_kept_without_outputs(path: Path) -> None:
     assert outputs(jupytext.read(path), "stream") == []
     assert "image/png" not in path.read_text(encoding="utf-8")
+
+
+@pytest.mark.parametrize("name", DOCUMENTS)
+def test_script_of_document_prints_what_it_says(name: str, tmp_path: Path) -> None:
+    """Words exactly; numbers within 5 %, so that a recomputed hull does not rewrite every document."""
+    found = SCRIPT.search((REPOSITORY / name).read_text(encoding="utf-8"))
+    assert found, f"{name} shows no script with its output"
+    command = [sys.executable, "-c", found["script"]]
+    done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=True)
+    assert NUMBER.sub("#", done.stdout) == NUMBER.sub("#", found["output"])
+    printed, shown = (
+        [float(number) for number in NUMBER.findall(text)] for text in (done.stdout, found["output"])
+    )
+    assert printed == pytest.approx(shown, rel=0.05)
+
+
+@pytest.mark.parametrize(
+    "path",
+    [REPOSITORY / "README.md", *sorted((REPOSITORY / "docs").glob("*.md"))],
+    ids=lambda path: path.name,
+)
+def test_pictures_of_documents_exist(path: Path) -> None:
+    pictures = re.findall(r"!\[[^]]*\]\(([^)]+)\)", path.read_text(encoding="utf-8"))
+    assert [picture for picture in pictures if not (path.parent / picture).is_file()] == []
