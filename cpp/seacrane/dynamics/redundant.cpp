@@ -14,7 +14,7 @@ namespace {
 /// S_ii / L_ii^2 beyond which the Schur complement has lost six digits and pivoted LU takes over.
 constexpr double kConditionLimit = 1e6;
 constexpr int kDenseLimit = 1500;     // unknowns; above it the dense fall-back would not be affordable
-constexpr double kEulerLimit = 1e-3;  // |cos(phi_y)|
+constexpr double kEulerLimit = 1e-3;  // cos(phi_y); negative: a step jumped over +-90 deg
 
 void add_transpose(const RowBlock<double>& block, int side, int rows, const double* lambda, Vec6d& out) {
   for (int r = 0; r < rows; ++r) out += block.d[side].row(r).transpose() * lambda[r];
@@ -57,7 +57,7 @@ void RedundantSystem::read_state(double t, const double* y) {
       k.rotation = rotation_from_quaternion<double>(view<4>(pose + 3));
     } else {
       k.rotation = rotation_from_euler_xyz<double>(view<3>(pose + 3));
-      if (std::abs(std::cos(pose[4])) < kEulerLimit) {
+      if (std::cos(pose[4]) < kEulerLimit) {
         throw std::domain_error("body '" + m.bodies[idx(b)].name + "': Euler angle phi_y is " +
                                 std::to_string(pose[4] * 180.0 / 3.14159265358979323846) +
                                 " deg at t = " + std::to_string(t) +
