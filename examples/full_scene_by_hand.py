@@ -1,9 +1,9 @@
-"""Case 2 assembled body by body: vessel, eight crane bodies, payload, controlled cylinders and a sea.
+"""A vessel, a knuckle-boom crane and its payload in waves, assembled body by body and joint by joint.
 
-Nothing here comes from `seacrane.cases`; at the end its case 2 is run too, and the two must agree.
+Points are in the inertial frame, which is the vessel's at the start: x forward, y to port, z up, m. Every
+body starts with its axes along it, its origin at its centre of mass.
 
 Usage: python full_scene_by_hand.py [FOLDER FOR A PICTURE]
-       seacrane run full_scene_by_hand.py --out DIR
 """
 
 import sys
@@ -11,126 +11,97 @@ from pathlib import Path
 
 import numpy as np
 
-from seacrane import Curve, Scene, balance, cases, reflected_inertia, simulate
-from seacrane.crane import KnuckleBoomCrane, Payload
-from seacrane.frames import rotation_matrix
+from seacrane import Curve, Scene, balance, reflected_inertia, simulate
 from seacrane.hydro import shipped_database
 from seacrane.vessel import add_sea, add_vessel
 
-CRANE = KnuckleBoomCrane.load()  # the numbers of the crane data file, with centres of mass and inertias
-PAYLOAD = Payload(mass=10e3, size=(6.0, 6.0, 4.0), link_length=8.0)
-FOOT = (33.0, 10.0, 10.0)  # m, in the vessel: forward, to port, up
-DRIVES = {"slew": "A", "main": "main_cylinder", "knuckle": "knuckle_cylinder"}
-TARGETS = {"slew": -np.pi / 2, "main": 2.0, "knuckle": 2.0}  # rad, m, m; reached after 45 s
+y = 10.0  # m, of the crane's plane
+foot, A, B, C = (33.0, y, 10.0), (33.0, y, 16.5), (28.8, y, 21.1), (32.0, y, 27.8)
+D, E, F, G = (24.3, y, 28.3), (17.9, y, 31.8), (10.0, y, 36.8), (11.5, y, 34.1)
+tip, load = (14.6, y, 22.4), (14.6, y, 14.4)
+
+scene = Scene(name="by hand")
+database = shipped_database()
+add_vessel(scene, database)
+add_sea(scene, database, hs=2.0, tp=8.0, direction_deg=135.0, seed=1)
 
 
-def add_bodies(scene: Scene, **pose: float) -> None:
-    """The crane's eight bodies and the hanging payload, where they stand in a pose of the crane."""
-    payload = CRANE.payload_body(PAYLOAD, foot=FOOT, **pose)
-    for body in [*CRANE.bodies(foot=FOOT, **pose), payload]:
-        scene.add_body(
-            name=body.name,
-            mass=body.mass,
-            inertia=body.inertia,
-            center_of_mass=body.center_of_mass,
-            position=body.position,
-            quaternion=body.quaternion,
-        )
+def beam(name: str, mass: float, start, end, width: float) -> None:
+    """Add a uniform square beam: its inertia follows from its length along `end - start` and its width."""
+    along = np.subtract(end, start)
+    length, one = np.linalg.norm(along), np.eye(3)
+    across = one - np.outer(along, along) / length**2
+    inertia = mass / 12.0 * (length**2 * across + width**2 * (2.0 * one - across))
+    scene.add_body(name=name, mass=mass, inertia=inertia, position=np.add(start, end) / 2.0)
 
 
-def add_joints(scene: Scene, base: str, **pose: float) -> None:
-    """Slew bearing, jib pivots, the two cylinder loops and the link, at the same pose."""
-    p = {name: point + FOOT for name, point in CRANE.geometry.points(**pose).items()}
-    pivot = CRANE.geometry.pose(**pose)["king"][1][:, 1]  # all jib pivots are parallel
-    main, knuckle = p["D"] - p["B"], p["G"] - p["E"]  # the cylinders' lines
-    hook = p["tip"] - [0.0, 0.0, PAYLOAD.link_length]
-
-    def joint(name: str, kind: str, first: str, second: str, point: str, **axes: object) -> None:
-        scene.add_joint(name=name, kind=kind, first=first, second=second, point=p[point], **axes)
-
-    scene.add_joint(name="deck", kind="weld", first=base, second="tower", point=FOOT)
-    joint("A", "revolute", "tower", "king", "A", axis=(0, 0, 1))
-    joint("B", "universal", "king", "main_barrel", "B", axis=pivot, second_axis=np.cross(main, pivot))
-    joint("C", "revolute", "king", "main_jib", "C", axis=pivot)
-    joint("D", "spherical", "main_rod", "main_jib", "D")
-    joint(
-        "E", "universal", "main_jib", "knuckle_barrel", "E", axis=pivot, second_axis=np.cross(knuckle, pivot)
-    )
-    joint("F", "revolute", "main_jib", "knuckle_jib", "F", axis=pivot)
-    joint("G", "spherical", "knuckle_rod", "knuckle_jib", "G")
-    joint("main_cylinder", "prismatic", "main_barrel", "main_rod", "B", axis=main)
-    joint("knuckle_cylinder", "prismatic", "knuckle_barrel", "knuckle_rod", "E", axis=knuckle)
-    joint("link", "distance", "knuckle_jib", "payload", "tip", second_point=hook, length=PAYLOAD.link_length)
+def part(start, end, fraction: float) -> np.ndarray:
+    """The point between two others."""
+    return np.array(start) + fraction * np.subtract(end, start)
 
 
-def inertias() -> dict[str, float]:
-    """What each drive feels at the end of the swing-out, the others locked, on a fixed base."""
-    pose = {"theta": TARGETS["slew"], "s1": TARGETS["main"], "s2": TARGETS["knuckle"]}
-    scene = Scene(name="end of the swing-out")
-    add_bodies(scene, **pose)
-    add_joints(scene, "ground", **pose)
-    for name, joint in DRIVES.items():
-        scene.add_actuator(name=name, joint=joint)
-    return reflected_inertia(scene)
+beam("tower", 100e3, foot, A, 4.5)
+beam("king", 115e3, A, C, 4.0)
+beam("main_barrel", 15e3, B, part(B, D, 0.85), 1.0)
+beam("main_rod", 10e3, part(B, D, 0.15), D, 0.5)
+beam("main_jib", 78e3, C, F, 2.5)
+beam("knuckle_barrel", 13.8e3, E, part(E, G, 0.85), 1.0)
+beam("knuckle_rod", 9.2e3, part(E, G, 0.15), G, 0.5)
+beam("knuckle_jib", 49e3, F, tip, 2.0)
+scene.add_body(name="payload", mass=10e3, inertia=[40e3, 40e3, 60e3], position=load)
 
+across = (0.0, 1.0, 0.0)  # the axis of everything that turns in the crane's plane
+scene.add_joint(kind="weld", name="deck", first="vessel", second="tower", point=foot)
+scene.add_joint(kind="revolute", name="A", first="tower", second="king", point=A, axis=(0, 0, 1))
+scene.add_joint(kind="revolute", name="C", first="king", second="main_jib", point=C, axis=across)
+scene.add_joint(kind="revolute", name="F", first="main_jib", second="knuckle_jib", point=F, axis=across)
+for name, base, driven, low, high in (
+    ("main", "king", "main_jib", B, D),
+    ("knuckle", "main_jib", "knuckle_jib", E, G),
+):
+    axis = np.subtract(high, low)
+    barrel, rod = f"{name}_barrel", f"{name}_rod"
+    scene.add_joint(kind="universal", name=f"{name}_foot", first=base, second=barrel, point=low,
+                    axis=across, second_axis=np.cross(across, axis))  # fmt: skip
+    scene.add_joint(kind="prismatic", name=f"{name}_cylinder", first=barrel, second=rod, point=low, axis=axis)
+    scene.add_joint(kind="spherical", name=f"{name}_head", first=rod, second=driven, point=high)
+scene.add_joint(
+    kind="distance", name="link", first="knuckle_jib", second="payload", point=tip, second_point=load
+)
 
-def scene() -> Scene:
-    """Vessel, crane, payload, sea; drives held by state feedback around their balance loads."""
-    database = shipped_database()
-    out = Scene(name="full_scene_by_hand")
-    add_vessel(out, database, name="vessel", memory="per-pair")
-    add_sea(out, database, hs=2.0, tp=8.0, direction_deg=135.0, seed=1)
-    start = {"theta": 0.0, "s1": 0.0, "s2": 0.0}
-    add_bodies(out, **start)
-    add_joints(out, "vessel", **start)
-    for name, joint in DRIVES.items():
-        out.record_coordinate(joint=joint)
-        out.add_actuator(name=name, joint=joint)
+motions = {"slew": ("A", -np.pi / 2), "main": ("main_cylinder", 2.0), "knuckle": ("knuckle_cylinder", 2.0)}
+for name, (joint, _) in motions.items():
+    scene.record_coordinate(joint=joint)
+    scene.add_actuator(name=name, joint=joint)
+rest, felt = balance(scene), reflected_inertia(scene)
+for name, (joint, end) in motions.items():
+    del scene.actuators[name]  # again, with what was found out
+    scene.add_actuator(
+        name=name, joint=joint, stiffness=25.0 * felt[name], damping=8.0 * felt[name],
+        feed_forward=rest.loads[name],
+        reference=Curve.quintic(start_time=0.0, end_time=45.0, start=0.0, end=end),
+    )  # fmt: skip
+under = (*rest.weight_center[:2], 0.0)
+scene.add_point_force(name="ballast", body="vessel", point=under, force=(0, 0, rest.weight))
 
-    held = balance(out)  # loads that keep it at rest
-    x, y, _ = held.weight_center
-    out.add_point_force(name="balance", body="vessel", point=(x, y, 0.0), force=(0.0, 0.0, held.weight))
-    out.actuators.clear()
-    frequency, damping = 2 * np.pi * 0.8, 0.8
-    for name, inertia in inertias().items():
-        out.add_actuator(
-            name=name,
-            joint=DRIVES[name],
-            stiffness=inertia * frequency**2,
-            damping=2 * damping * frequency * inertia,
-            feed_forward=held.loads[name],
-            reference=Curve.quintic(start_time=0.0, end_time=45.0, start=0.0, end=TARGETS[name]),
-        )
-    return out
+result = simulate(scene, t_end=60.0)
+size = dict(scene.report()["size"])
+print(f"{size['coordinates']} coordinates, {size['constraints']} constraints, {size['states']} states")
+for name in ("main", "knuckle"):
+    print(f"{name} cylinder at rest  {rest.loads[name] / 1e3:.0f} kN")
+print(f"mean heel after the swing-out  {np.degrees(result['vessel_motion'][-100:, 3].mean()):.2f} deg")
+print(
+    f"link tension  {result['link_tension'].min() / 1e3:.1f} to {result['link_tension'].max() / 1e3:.1f} kN"
+)
+print(f"joints stay closed to  {result['constraint_error'].max():.1e} m or rad")
 
+if len(sys.argv) > 1:
+    import matplotlib.pyplot as plt
 
-def main() -> None:
-    """Print the records as numbers, simulate, compare with case 2."""
-    full = scene()
-    print("body                mass [t]   centre of mass in the vessel [m]")
-    for name, body in full.bodies.items():
-        x, y, z = body.position + rotation_matrix(body.quaternion) @ body.center_of_mass
-        print(f"{name:18} {body.mass / 1e3:9.1f}   {x:7.2f} {y:7.2f} {z:7.2f}")
-    for name, drive in full.actuators.items():
-        load = drive.feed_forward.evaluate(np.zeros(1))[0, 0]
-        print(f"{name:8} stiffness {drive.stiffness:.4g}, damping {drive.damping:.4g}, balance {load:.4g}")
-
-    by_hand, ready_made = simulate(full), simulate(cases.case2())
-    apart = np.abs(by_hand["position"] - ready_made["position"]).max()
-    print(f"largest difference from case 2 in 100 s: {apart:.1e} m")
-    if not apart < 1e-6:
-        raise SystemExit("the scene made by hand is not case 2")
-
-    if len(sys.argv) > 1:
-        import matplotlib.pyplot as plt
-
-        figure, axes = plt.subplots()
-        payload = by_hand["position"][:, by_hand.coords["body"].index("payload")]
-        axes.plot(by_hand.time, payload - payload[0], label=["x, forward", "y, to port", "z, up"])
-        axes.set(xlabel="time [s]", ylabel="payload, from its start [m]")
-        axes.legend()
-        figure.savefig(Path(sys.argv[1]) / "full_scene_by_hand.png")
-
-
-if __name__ == "__main__":
-    main()
+    figure, (left, right) = plt.subplots(1, 2, figsize=(10, 4))
+    path = result.select("position", body="payload")
+    left.plot(path[:, 0], path[:, 1])
+    left.set(xlabel="x [m]", ylabel="y [m]", title="payload from above", aspect="equal")
+    right.plot(result.time, np.degrees(result["vessel_motion"][:, 3]))
+    right.set(xlabel="time [s]", ylabel="[deg]", title="roll")
+    figure.savefig(Path(sys.argv[1]) / "full_scene_by_hand.png")

@@ -46,5 +46,5 @@ if len(sys.argv) > 1:
     axes.plot(free.time, tip(free), label="free")
     axes.plot(calmed.time, tip(calmed), label="controlled")
     axes.set(xlabel="time [s]", ylabel="load beside the cart [m]")
-    axes.legend()
-    figure.savefig(Path(sys.argv[1]) / "sampled_controller.png")
+    axes.legend(loc="center left", bbox_to_anchor=(1.0, 0.5))
+    figure.savefig(Path(sys.argv[1]) / "sampled_controller.png", bbox_inches="tight")

@@ -29,5 +29,5 @@ if len(sys.argv) > 1:
     upper.set(ylabel="[m]")
     lower.set(xlabel="time [s]", ylabel="[deg]")
     for axes in (upper, lower):
-        axes.legend(loc="upper right")
-    figure.savefig(Path(sys.argv[1]) / "vessel_in_waves.png")
+        axes.legend(loc="center left", bbox_to_anchor=(1.0, 0.5))
+    figure.savefig(Path(sys.argv[1]) / "vessel_in_waves.png", bbox_inches="tight")
