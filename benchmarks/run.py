@@ -53,7 +53,7 @@ def document(folder: Path, *, repeats: int, quick: bool, say: Callable[[str], No
     for section in sections(folder, repeats=repeats, quick=quick):
         text = section.markdown() + "\n"
         if section.title.startswith("Integrators"):
-            text += f"\n![Payload error over evaluations and over wall time, per integrator]({PICTURE})\n"
+            text += f"\n![Payload error over evaluations and over CPU time, per integrator]({PICTURE})\n"
         say(text)
         texts.append(text)
     return "\n".join(texts)
