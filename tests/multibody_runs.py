@@ -1,0 +1,124 @@
+"""Runs of generic scenes and the mechanisms that several test files share."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from reference.jets import Jet
+from reference.mechanisms import SingleCoordinate, SliderCrank
+
+from seacrane import Curve, Run, Scene
+from seacrane.crane import KnuckleBoomCrane, Payload
+from seacrane.frames import rotation_matrix
+
+Array = NDArray[np.float64]
+ACTUATORS = {"slew": "A", "main": "main_cylinder", "knuckle": "knuckle_cylinder"}
+# Stiffness and damping that give the stiffest coordinate of the crane a frequency of about 5 rad/s.
+GAINS = {"slew": (2.0e9, 6.0e8), "main": (6.0e7, 2.0e7), "knuckle": (2.5e7, 8.0e6)}
+
+
+def record(scene: Scene, t_end: float, *, dt_out: float = 0.05, rtol: float = 1e-8, **settings: Any) -> dict[str, Any]:
+    """All channels of a run, opt-in ones too, and `stats`."""
+    model = scene.compile()
+    run = Run(scene, t_end=t_end, dt_out=dt_out, rtol=rtol, model=model,
+              channels=model.channel_names(defaults_only=False), **settings)  # fmt: skip
+    run.advance(t_end)
+    out: dict[str, Any] = dict(run.core.channels())
+    return out | {"stats": run.core.statistics(), "bodies": list(scene.bodies), "joints": list(scene.joints)}
+
+
+def quaternion_of(matrix: Array) -> Array:
+    """Scalar-first quaternion of a rotation matrix, away from half turns."""
+    w = 0.5 * np.sqrt(max(0.0, 1.0 + np.trace(matrix)))
+    vector = np.array(
+        [matrix[2, 1] - matrix[1, 2], matrix[0, 2] - matrix[2, 0], matrix[1, 0] - matrix[0, 1]]
+    )
+    return np.append(w, vector / (4.0 * w))
+
+
+def quaternion_about(axis: Any, angle: float) -> Array:
+    unit = np.asarray(axis, dtype=float) / np.linalg.norm(axis)
+    return np.append(np.cos(0.5 * angle), np.sin(0.5 * angle) * unit)
+
+
+def ramp(rate: float, start: float = 0.0) -> Curve:
+    """start + rate t."""
+    return Curve.pieces(starts=[-1.0], coefficients=[[start - rate, rate, 0.0, 0.0, 0.0, 0.0]])
+
+
+def add_moving_bodies(
+    scene: Scene, mechanism: SingleCoordinate, names: list[str], q: float, rate: float
+) -> list[Array]:
+    """Adds the bodies of a mechanism at (q, rate); returns their rotation matrices."""
+    rotations = []
+    for name, moving in zip(names, mechanism.kinematics(Jet(q, 1.0)), strict=True):
+        _, _, position, slope, spin = moving.terms()
+        rotation = np.array([[c.f for c in axis] for axis in moving.axes]).T
+        # Any rotation to and from the quaternion: half turns are avoided by the poses chosen.
+        scene.add_body(
+            name=name, mass=moving.mass, inertia=moving.inertia, position=position,
+            quaternion=quaternion_of(rotation), velocity=rate * slope, angular_velocity=rate * spin,
+        )  # fmt: skip
+        rotations.append(rotation)
+    return rotations
+
+
+def slider_crank(crank: SliderCrank, q: float, rate: float, *, gravity: float = 9.81) -> Scene:
+    """The spatial slider-crank of the reference, with every joint in its place."""
+    scene = Scene(name="slider-crank", gravity=gravity)
+    _, rod, _ = add_moving_bodies(scene, crank.mechanism(), ["crank", "rod", "slider"], q, rate)
+    middle = scene.bodies["rod"].position
+    half = 0.5 * crank.rod_length * rod[:, 0]
+    scene.add_joint(kind="revolute", name="shaft", first="ground", second="crank", point=crank.pivot, axis=(1, 0, 0))
+    scene.add_joint(kind="spherical", name="pin", first="crank", second="rod", point=middle - half)
+    scene.add_joint(kind="universal", name="cross", first="slider", second="rod", point=middle + half,
+                    axis=(0, 1, 0), second_axis=rod[:, 1])  # fmt: skip
+    scene.add_joint(kind="prismatic", name="guide", first="ground", second="slider", point=middle + half, axis=(1, 0, 0))
+    return scene
+
+
+def crane_scene(
+    *, base: str = "ground", payload: bool = True, references: dict[str, Curve] | None = None, **pose: float
+) -> Scene:
+    """The shipped crane with its three actuators; on the ground, or on a body of this name added before."""
+    scene = Scene(name="crane on a fixed base")
+    add_crane(scene, base=base, payload=payload, references=references, **pose)
+    return scene
+
+
+def add_crane(
+    scene: Scene, *, base: str, payload: bool, references: dict[str, Curve] | None = None, **pose: float
+) -> None:
+    KnuckleBoomCrane.load().add_to(scene, base=base, payload=Payload() if payload else None, **pose)
+    for name, joint in ACTUATORS.items():
+        stiffness, damping = GAINS[name]
+        scene.add_actuator(name=name, joint=joint, stiffness=stiffness, damping=damping,
+                           reference=(references or {}).get(name, 0.0))  # fmt: skip
+        scene.record_coordinate(joint=joint, name=name)
+
+
+def swing_out(duration: float = 10.0) -> dict[str, Curve]:
+    """References that move everything at once."""
+    ends = {"slew": -1.0, "main": 1.0, "knuckle": 1.5}
+    return {name: Curve.quintic(start_time=0.0, end_time=duration, start=0.0, end=end) for name, end in ends.items()}
+
+
+def world_inertia(scene: Scene, quaternions: Array) -> Array:
+    """R I R^T of all bodies, shape (k, n, 3, 3)."""
+    rotation = rotation_matrix(quaternions)
+    inertia = np.array([body.inertia for body in scene.bodies.values()])
+    return np.asarray(rotation @ inertia @ np.swapaxes(rotation, -1, -2))
+
+
+def masses(scene: Scene) -> Array:
+    return np.array([body.mass for body in scene.bodies.values()])
+
+
+def momentum(scene: Scene, out: dict[str, Any]) -> tuple[Array, Array]:
+    """Linear and angular momentum about the origin, (k, 3)."""
+    m = masses(scene)[:, None]
+    spin = np.einsum("knij,knj->kni", world_inertia(scene, out["quaternion"]), out["angular_velocity"])
+    linear = m * out["velocity"]
+    return linear.sum(axis=1), (spin + np.cross(out["position"], linear)).sum(axis=1)

@@ -1,0 +1,207 @@
+"""Reactions: against the balance of every body, against statics, and as action and reaction."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+from multibody_runs import ACTUATORS, Array, crane_scene, masses, record, slider_crank, swing_out, world_inertia
+from reference.classic import Link
+from reference.mechanisms import SliderCrank
+
+from seacrane import Curve, Scene, driven
+from seacrane.crane import KnuckleBoomCrane, Payload
+from seacrane.frames import rotation_matrix
+
+G = 9.80665
+CRANK = SliderCrank(Link(1.5, 0.08, 0.4, 0.15), (0.0, 0.3, 0.2), 1.2, 1.5, (0.02, 0.25, 0.24), 2.0)
+SLIDING = ("prismatic", "cylindrical", "planar")
+
+
+def joint_points(scene: Scene, out: dict[str, Any]) -> Array:
+    """Where reactions are given, (k, joints, 3): fixed on the first body where the joint slides."""
+    points = []
+    names = list(scene.bodies)
+    rotation = rotation_matrix(out["quaternion"])
+    for joint in scene.joints.values():
+        on_first = joint.kind in SLIDING
+        body, frame = (joint.first, joint.first_frame) if on_first else (joint.second, joint.second_frame)
+        if body == "ground":
+            points.append(np.broadcast_to(frame.point, (len(out["time"]), 3)))
+            continue
+        b, described = names.index(body), scene.bodies[body]
+        points.append(out["position"][:, b] + rotation[:, b] @ (frame.point - described.center_of_mass))
+    return np.stack(points, axis=1)
+
+
+def loads_on_bodies(scene: Scene, out: dict[str, Any]) -> tuple[Array, Array]:
+    """Sum of weight, reactions, actuator and driver loads per body about its centre of mass, (k, n, 3)."""
+    names = list(scene.bodies)
+    count = len(out["time"])
+    force, moment = np.zeros((count, len(names), 3)), np.zeros((count, len(names), 3))
+    force[:, :, 2] -= masses(scene) * scene.gravity
+    points = joint_points(scene, out)
+
+    def add(body: str, f: Array, m: Array, point: Array) -> None:
+        if body == "ground":
+            return
+        b = names.index(body)
+        force[:, b] += f
+        moment[:, b] += m + np.cross(point - out["position"][:, b], f)
+
+    rotation = rotation_matrix(out["quaternion"])
+    for j, joint in enumerate(scene.joints.values()):
+        f, m = out["reaction_force"][:, j], out["reaction_moment"][:, j]
+        add(joint.second, f, m, points[:, j])
+        add(joint.first, -f, -m, points[:, j])
+    for table, channel in ((scene.actuators, "actuator_force"), (scene.drivers, "driver_force")):
+        for i, drive in enumerate(table.values()):
+            j = list(scene.joints).index(drive.joint)
+            joint = scene.joints[drive.joint]
+            axis = np.broadcast_to(joint.first_frame.axes[:, 2], (count, 3))
+            if joint.first != "ground":
+                axis = rotation[:, names.index(joint.first)] @ joint.first_frame.axes[:, 2]
+            along = out[channel][:, i, None] * axis
+            f, m = (along, 0.0 * along) if drive.coordinate == "displacement" else (0.0 * along, along)
+            add(joint.second, f, m, points[:, j])
+            add(joint.first, -f, -m, points[:, j])
+    return force, moment
+
+
+def check_balance(scene: Scene, out: dict[str, Any]) -> None:
+    """m a and d(J w)/dt of every body equal its loads to rounding of the loads that meet there."""
+    force, moment = loads_on_bodies(scene, out)
+    inertia = world_inertia(scene, out["quaternion"])
+    w = out["angular_velocity"]
+    spin = np.einsum("knij,knj->kni", inertia, w)
+    spin_rate = np.einsum("knij,knj->kni", inertia, out["angular_acceleration"]) + np.cross(w, spin)
+    size = np.max(np.abs(out["reaction_force"]))
+    reach = np.max(np.abs(joint_points(scene, out)))
+    np.testing.assert_allclose(masses(scene)[:, None] * out["acceleration"], force, rtol=0.0, atol=1e-9 * size)
+    np.testing.assert_allclose(spin_rate, moment, rtol=0.0, atol=1e-9 * size * reach)
+
+
+@pytest.mark.parametrize("payload", [False, True])
+def test_every_body_of_a_moving_crane_is_in_balance(payload: bool) -> None:
+    scene = crane_scene(payload=payload, references=swing_out(6.0))
+    out = record(scene, 7.0, dt_out=0.25)
+    assert np.max(np.abs(out["acceleration"])) > 0.1
+    check_balance(scene, out)
+
+
+def test_every_body_of_a_driven_crane_is_in_balance() -> None:
+    scene = driven(crane_scene(references=swing_out(6.0)))
+    check_balance(scene, record(scene, 7.0, dt_out=0.25))
+
+
+def test_every_body_of_a_slider_crank_is_in_balance() -> None:
+    scene = slider_crank(CRANK, 0.4, 6.0)
+    scene.add_actuator(joint="shaft", feed_forward=3.0)
+    check_balance(scene, record(scene, 1.0))
+
+
+def all_kinds() -> Scene:
+    """A chain through every joint kind that carries load, hanging from the ground and swinging."""
+    scene = Scene(gravity=G)
+    kinds = ["weld", "revolute", "universal", "cylindrical", "spherical", "prismatic", "planar", "distance"]
+    before = "ground"
+    for i, kind in enumerate(kinds):
+        scene.add_body(name=kind, mass=1.0 + i, inertia=(0.3, 0.4, 0.5), position=(0.4 * i, 0.1 * i, -1.0 * i),
+                       center_of_mass=(0.2, -0.1, -0.5))  # fmt: skip
+        extra: dict[str, Any] = {"axis": (0.3, 1.0, 0.2)}
+        if kind == "universal":
+            extra["second_axis"] = (1.0, -0.3, 0.0)
+        if kind == "distance":
+            extra = {"second_point": (0.4 * i, 0.1 * i, -1.0 * i - 1.0)}
+        scene.add_joint(kind=kind, name=kind, first=before, second=kind, point=(0.4 * i, 0.1 * i, -1.0 * i), **extra)
+        before = kind
+    return scene
+
+
+def test_every_joint_kind_reports_the_load_it_carries() -> None:
+    scene = all_kinds()
+    model = scene.compile()
+    assert model.degrees_of_freedom == 0 + 1 + 2 + 2 + 3 + 1 + 3 + 5
+    out = record(scene, 0.6)
+    assert np.max(np.abs(out["angular_velocity"])) > 0.5
+    check_balance(scene, out)
+
+
+def test_swapping_the_bodies_of_a_joint_turns_its_reaction_round() -> None:
+    scene = all_kinds()
+    other = Scene(gravity=G)
+    other.bodies = dict(scene.bodies)
+    fixed = ("weld", "revolute", "spherical")  # no sliding: the joint point is the same on both bodies
+    for joint in scene.joints.values():
+        swap = joint.name in fixed
+        first, second = (joint.second, joint.first) if swap else (joint.first, joint.second)
+        frames = (joint.second_frame, joint.first_frame) if swap else (joint.first_frame, joint.second_frame)
+        other.add_joint(kind=joint.kind, name=joint.name, first=first, second=second,
+                        length=joint.length if joint.kind == "distance" else None,
+                        first_frame=frames[0], second_frame=frames[1])  # fmt: skip
+    a, b = record(scene, 0.6, rtol=1e-10), record(other, 0.6, rtol=1e-10)
+    for j, name in enumerate(scene.joints):
+        sign = -1.0 if name in fixed else 1.0
+        for channel in ("reaction_force", "reaction_moment"):
+            np.testing.assert_allclose(b[channel][:, j], sign * a[channel][:, j], atol=1e-5)
+
+
+@pytest.mark.parametrize(("s1", "s2"), [(0.0, 0.0), (2.0, 2.0), (3.0, 1.0)])
+@pytest.mark.parametrize("payload", [False, True])
+def test_crane_at_rest_on_a_fixed_base(s1: float, s2: float, payload: bool) -> None:
+    scene = driven(crane_scene(payload=payload, theta=-0.7, s1=s1, s2=s2),
+                   references=dict.fromkeys(ACTUATORS, Curve.constant(value=0.0)))  # fmt: skip
+    out = record(scene, 0.0)
+    assert np.max(np.abs(out["acceleration"])) < 1e-9
+    weight = masses(scene).sum() * G
+    deck = out["joints"].index("deck")
+    np.testing.assert_allclose(out["reaction_force"][0, deck], (0.0, 0.0, weight), rtol=1e-12, atol=1e-9 * weight)
+    # Moments about the foot: the weight acts at the common centre of mass.
+    center = np.average(out["position"][0], axis=0, weights=masses(scene))
+    foot = joint_points(scene, out)[0, deck]
+    overturning = np.cross(center - foot, (0.0, 0.0, -weight))
+    np.testing.assert_allclose(out["reaction_moment"][0, deck], -overturning, atol=1e-9 * weight * 30.0)
+    mass = Payload().mass if payload else 0.0
+    crane = KnuckleBoomCrane.load()
+    expected = crane.static_cylinder_forces(s1=s1, s2=s2, payload_mass=mass, gravity=G)
+    got = out["driver_force"][0]
+    np.testing.assert_allclose(got[1:], expected, rtol=1e-9)
+    np.testing.assert_allclose(got[0], 0.0, atol=1e-6 * weight)  # weight has no moment about the slew axis
+    np.testing.assert_allclose(got[1:], by_moments(scene, out), rtol=1e-9)
+    if payload:
+        np.testing.assert_allclose(out["tension"][0, 0], mass * G, rtol=1e-10)
+
+
+def by_moments(scene: Scene, out: dict[str, Any]) -> Array:
+    """Cylinder forces at rest by hand: moments about C and F, the cylinders' own weight split between pins."""
+    names, joints = list(scene.bodies), list(scene.joints)
+    points = dict(zip(joints, joint_points(scene, out)[0], strict=True))
+    where = dict(zip(names, out["position"][0], strict=True))
+    mass = dict(zip(names, masses(scene), strict=True))
+    king = rotation_matrix(out["quaternion"][0, names.index("king")])
+    across = king[:, 1]  # along the jib pivots
+    down = np.array([0.0, 0.0, -G])
+
+    def about(pivot: Array, body: str) -> float:
+        return float(np.cross(where[body] - pivot, mass[body] * down) @ across)
+
+    def push(foot: Array, head: Array, barrel: str, rod: str, pivot: Array, moment: float) -> float:
+        axis = (head - foot) / np.linalg.norm(head - foot)
+        normal = np.cross(across, axis)
+        own = about(foot, barrel) + about(foot, rod)  # the head's transverse force balances it
+        side = own / float(np.cross(head - foot, normal) @ across)
+        arm = head - pivot
+        axial = -(moment + side * float(np.cross(arm, normal) @ across)) / float(np.cross(arm, axis) @ across)
+        return axial - float(mass[rod] * down @ axis)
+
+    carried = {"knuckle": ["knuckle_jib"], "main": ["main_jib", "knuckle_barrel", "knuckle_rod", "knuckle_jib"]}
+    pivots = {"knuckle": points["F"], "main": points["C"]}
+    pins = {"knuckle": (points["E"], points["G"]), "main": (points["B"], points["D"])}
+    out_forces = []
+    for name in ("main", "knuckle"):
+        moment = sum(about(pivots[name], body) for body in carried[name])
+        if "payload" in mass:
+            moment += about(pivots[name], "payload")
+        out_forces.append(push(*pins[name], f"{name}_barrel", f"{name}_rod", pivots[name], moment))
+    return np.array(out_forces)

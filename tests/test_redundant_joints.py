@@ -1,0 +1,167 @@
+"""Consistent but redundant joints: a warning, the motion of the twin without them, shortest reactions."""
+
+from __future__ import annotations
+
+import warnings
+from typing import Any
+
+import numpy as np
+import pytest
+from multibody_runs import record
+
+from seacrane import Evaluator, Scene
+
+G = 9.80665
+
+
+def door(hinges: list[float], kinds: list[str] | None = None) -> Scene:
+    """A door of 30 kg, 1 m wide, on hinges at these heights on a leaning post, which makes it swing."""
+    scene = Scene(name="door")
+    scene.add_body(name="door", mass=30.0, inertia=(10.0, 12.0, 3.0), position=(0.5, 0.0, 0.0))
+    for i, height in enumerate(hinges):
+        kind = (kinds or ["revolute"] * len(hinges))[i]
+        extra = {} if kind == "spherical" else {"axis": (0.0, 0.0, 1.0)}
+        scene.add_joint(kind=kind, name=f"hinge {i}", first="ground", second="door", point=(0.0, 0.0, height), **extra)
+    scene.add_point_force(name="draught", body="door", point=(0.5, 0.0, 0.0), force=(0.0, 20.0, 0.0), body_axes=True)
+    scene.record_coordinate(joint="hinge 0", coordinate="angle")
+    return scene
+
+
+def test_two_hinges_warn_and_move_like_one() -> None:
+    two = door([-0.8, 0.8])
+    with pytest.warns(UserWarning, match=r"hinge 0, hinge 1 are redundant \(5 more than needed\).*minimum-norm"):
+        out = record(two, 2.0, rtol=1e-9)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        one = record(door([0.0]), 2.0, rtol=1e-9)
+    assert np.ptp(one["coordinate"]) > 1.0
+    for name in ("position", "velocity", "quaternion", "coordinate"):
+        np.testing.assert_allclose(out[name], one[name], atol=1e-7)
+    # Both hinges together carry what the one hinge carries.
+    np.testing.assert_allclose(out["reaction_force"].sum(axis=1), one["reaction_force"][:, 0], atol=1e-6)
+    # Alike hinges at the same distance from the middle share the weight.
+    np.testing.assert_allclose(out["reaction_force"][:, :, 2], 15.0 * G, rtol=1e-7)
+
+
+def test_reactions_of_redundant_joints_are_marked() -> None:
+    scene = door([-0.8, 0.8])
+    scene.add_body(name="knob", mass=0.2, inertia=(1e-3, 1e-3, 1e-3), position=(0.9, 0.0, 0.0))
+    scene.add_joint(kind="weld", name="screw", first="door", second="knob", point=(0.9, 0.0, 0.0))
+    with pytest.warns(UserWarning, match="hinge 0, hinge 1 are"):
+        model = scene.compile()
+    unique = {name: mark for name, _, _, mark in model.elements}
+    assert unique == {"hinge 0": False, "hinge 1": False, "screw": True}
+    assert model.redundant == ["hinge 0", "hinge 1"]
+    assert (model.constraints, model.assembly["rank"], model.degrees_of_freedom) == (16, 11, 1)
+
+
+def test_a_hinge_and_a_ball_hold_one_motion_twice() -> None:
+    """Only the forces along the hinge line are shared; those across it are unique, yet the joints are marked."""
+    scene = door([-0.8, 0.8], ["revolute", "spherical"])
+    with pytest.warns(UserWarning, match=r"\(3 more than needed\)"):
+        out = record(scene, 1.0)
+    # The hinge's moments hold the same two tilts as the ball's forces across: three shared in all.
+    np.testing.assert_allclose(out["reaction_force"][:, :, 2].sum(axis=1), 30.0 * G, rtol=1e-9)
+
+
+def test_multipliers_are_the_shortest_of_all_that_balance() -> None:
+    with pytest.warns(UserWarning, match="redundant"):
+        model = door([-0.8, 0.3]).compile()
+    terms = Evaluator(model).terms(0.0, np.array(model.initial_state))
+    needed = terms["mass"] @ terms["acceleration"] - terms["load"]
+    jacobian = terms["jacobian"]
+    assert np.linalg.matrix_rank(jacobian, tol=1e-9) == 5
+    shortest = np.linalg.pinv(jacobian.T, rcond=1e-9) @ needed
+    np.testing.assert_allclose(jacobian.T @ terms["multipliers"], needed, atol=1e-9 * np.abs(needed).max())
+    np.testing.assert_allclose(terms["multipliers"], shortest, atol=1e-9 * np.abs(shortest).max())
+
+
+def bars(count: int, *, spatial: bool = False) -> Scene:
+    """A parallelogram in the x-z plane; `spatial` joints hold each motion once (for two cranks)."""
+    scene = Scene(name="parallelogram")
+    up = np.array([0.3, 0.0, 0.8])
+    scene.add_body(name="coupler", mass=2.0, inertia=(0.1, 0.7, 0.7), position=np.array([1.0, 0.0, 0.0]) + up)
+    for i in range(count):
+        foot = np.array([2.0 * i / (count - 1), 0.0, 0.0])
+        scene.add_body(name=f"crank {i}", mass=1.0 if i < 2 else 1e-9, position=foot + 0.5 * up,
+                       inertia=np.full(3, 0.06 if i < 2 else 1e-10))  # fmt: skip
+        kinds = ("cylindrical", "spherical") if spatial and i == count - 1 else ("revolute", "revolute")
+        for kind, name, first, second, point in (
+            (kinds[0], f"foot {i}", "ground", f"crank {i}", foot),
+            (kinds[1], f"head {i}", f"crank {i}", "coupler", foot + up),
+        ):
+            extra = {} if kind == "spherical" else {"axis": (0.0, 1.0, 0.0)}
+            scene.add_joint(kind=kind, name=name, first=first, second=second, point=point, **extra)
+    return scene
+
+
+def test_a_planar_parallelogram_moves_like_its_spatial_twin() -> None:
+    twin_scene = bars(2, spatial=True)
+    assert not twin_scene.compile().redundant
+    twin = record(twin_scene, 0.55, rtol=1e-9)  # it would be flat, and singular, at 0.62 s
+    with pytest.warns(UserWarning, match=r"foot 0, head 0, foot 1, head 1 are redundant \(3 more"):
+        planar = record(bars(2), 0.55, rtol=1e-9)
+    assert np.max(np.abs(twin["angular_velocity"])) > 1.0
+    for name in ("position", "velocity", "quaternion"):
+        np.testing.assert_allclose(planar[name], twin[name], atol=1e-7)
+
+
+def extra_bar() -> Scene:
+    scene = bars(2)
+    up = np.array([0.3, 0.0, 0.8])
+    # A massless-to-rounding bar: a distance joint between the middles.
+    scene.add_joint(kind="distance", name="bar", first="ground", second="coupler", point=(1.0, 0.0, 0.0),
+                    second_point=np.array([1.0, 0.0, 0.0]) + up)  # fmt: skip
+    return scene
+
+
+def test_an_extra_bar_changes_no_motion() -> None:
+    with pytest.warns(UserWarning, match=r"bar are redundant \(4 more"):
+        barred = record(extra_bar(), 1.0, rtol=1e-9)
+    with pytest.warns(UserWarning):
+        free = record(bars(2), 1.0, rtol=1e-9)
+    for name in ("position", "velocity", "quaternion"):
+        np.testing.assert_allclose(barred[name], free[name], atol=1e-7)
+    assert np.max(barred["constraint_error"]) < 1e-9
+
+
+VERTICES = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [1, 1, 1], [0, 1, 1], [0, 0, 1]], dtype=float)
+AXES = np.array([[0, 1, 0], [0, 0, 1], [1, 0, 0], [0, 1, 0], [0, 0, 1], [1, 0, 0]], dtype=float)
+
+
+def bricard(last: str) -> Scene:
+    """Bricard's loop of six perpendicular hinges along a cube's edges: mobile, with one row too many."""
+    scene = Scene(name="bricard", gravity=9.81)
+    bodies = ["ground"]
+    for i in range(1, 6):
+        here, there = VERTICES[i], VERTICES[(i + 1) % 6]
+        along = there - here
+        inertia = np.diag(np.full(3, 1.0 / 12.0)) * (1.0 - np.abs(along)) + 1e-3 * np.eye(3)
+        scene.add_body(name=f"rod {i}", mass=1.0, inertia=inertia, position=0.5 * (here + there))
+        bodies.append(f"rod {i}")
+    for i in range(6):
+        first, second = bodies[i - 1] if i > 0 else bodies[5], bodies[i]
+        if i == 1:
+            first = "ground"
+        kind = last if i == 0 else "revolute"
+        scene.add_joint(kind=kind, name=f"hinge {i}", first=first, second=second, point=VERTICES[i], axis=AXES[i])
+    return scene
+
+
+def test_bricard_moves_like_its_twin_with_one_sliding_hinge() -> None:
+    with pytest.warns(UserWarning, match=r"\(1 more than needed\)"):
+        model = bricard("revolute").compile()
+    assert (model.coordinates, model.constraints, model.degrees_of_freedom) == (30, 30, 1)
+    twin = bricard("cylindrical").compile()
+    assert not twin.redundant
+    assert (twin.constraints, twin.degrees_of_freedom) == (29, 1)
+    out: list[dict[str, Any]] = []
+    with pytest.warns(UserWarning):
+        out.append(record(bricard("revolute"), 0.8, rtol=1e-9))
+    out.append(record(bricard("cylindrical"), 0.8, rtol=1e-9))
+    assert np.max(np.linalg.norm(out[0]["position"] - out[0]["position"][0], axis=2)) > 0.5
+    for name in ("position", "velocity", "quaternion"):
+        np.testing.assert_allclose(out[0][name], out[1][name], atol=1e-6)
+    assert np.max(out[0]["constraint_error"]) < 1e-9
+    # Nothing but weight: the energy of the start.
+    assert np.max(np.abs(out[0]["energy_balance"])) < 1e-6 * 9.81
