@@ -19,10 +19,11 @@ if TYPE_CHECKING:
     from seacrane.inverse import Balance, balance, driven, inverse_dynamics, reflected_inertia
     from seacrane.linearise import fastest_mode, jacobian
     from seacrane.result import Result
-    from seacrane.scene import Scene, Waves
+    from seacrane.scene import Scene
     from seacrane.simulation import Run, SampledController, simulate
     from seacrane.version import __version__
     from seacrane.vessel import add_sea, add_vessel
+    from seacrane.waves import Waves
 
 _HOME = {
     "Balance": "inverse",
@@ -42,7 +43,7 @@ _HOME = {
     "State": "_core",
     "StateSpaceBlock": "_core",
     "VesselHydrodynamics": "_core",
-    "Waves": "scene",
+    "Waves": "waves",
     "__version__": "version",
     "add_sea": "vessel",
     "add_vessel": "vessel",

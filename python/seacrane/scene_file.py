@@ -19,8 +19,9 @@ import numpy as np
 from seacrane import _core
 from seacrane.errors import FileFormatError, SceneError
 from seacrane.result.atomic import atomic_write
-from seacrane.scene import Scene, Waves
+from seacrane.scene import Scene
 from seacrane.scene_node import Node
+from seacrane.waves import Waves
 
 FORMAT = "seacrane scene"
 VERSION = 1
@@ -160,7 +161,9 @@ def _scene(root: Node) -> Scene:
     scene = Scene(
         name=root.at("name").text(),
         orientation=root.at("orientation").text(),
-        **{key: root.at(key).number() for key in _SETTINGS},
+        gravity=root.at("gravity").number(),
+        baumgarte=root.at("baumgarte").number(),
+        length_scale=root.at("length_scale").number(),
     )
     for kind in _ADD:
         for node in root.at(kind).items():

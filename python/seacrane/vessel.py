@@ -8,7 +8,8 @@ import numpy as np
 
 from seacrane import _core
 from seacrane.errors import SceneError
-from seacrane.scene import Scene, Waves
+from seacrane.scene import Scene
+from seacrane.waves import Waves
 
 if TYPE_CHECKING:
     from seacrane.hydro import HydroDatabase
