@@ -636,7 +636,17 @@ def test_step_of_a_fixed_step_method_beyond_stability_is_not_silent() -> None:
     scene = pendulum()
     scene.actuators.clear()
     scene.add_actuator(name="stiff", joint="pin", stiffness=1e9)
-    refused(lambda: simulate(scene, t_end=100.0, integrator="rk4", dt=0.5), "rk4", error=SimulationError)
+    refused(lambda: simulate(scene, t_end=100.0, integrator="rk4", dt=0.5), "smaller", error=SimulationError)
+
+
+def test_joints_too_close_together_to_hold_stop_the_run_by_name() -> None:
+    """Two ball joints 0.01 mm apart are a hinge in name only: the run may not go on with open joints."""
+    scene = scene_of_two()
+    scene.add_joint(kind="weld", name="base", first="ground", second="a")
+    for name, height in (("lower", 0.0), ("upper", 1e-5)):
+        scene.add_joint(kind="spherical", name=name, first="a", second="b", point=(0.0, 0.0, height))
+    with pytest.warns(UserWarning, match="redundant"):
+        refused(lambda: simulate(scene, t_end=5.0), "open by", "er'", "nearly depend", error=SimulationError)
 
 
 @pytest.mark.parametrize(
@@ -828,5 +838,5 @@ def test_any_set_of_joints_compiles_and_runs_or_is_refused(
             result = simulate(build(), t_end=0.2, dt_out=0.1)
         except (SceneError, SimulationError):
             return
-    assert result["constraint_error"].max() < 1e-8
+    assert result["constraint_error"].max() <= 1e-6
     assert all(np.isfinite(values).all() for values in result.channels.values())

@@ -14,7 +14,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 constexpr std::chrono::milliseconds kAskInterval{20};
 constexpr double kLargestTolerance = 0.1;  // beyond, an error estimate of one step means nothing
-constexpr double kStartClosed = 1e-6;      // m, rad: a start state open by more is of another scene
+constexpr double kClosed = 1e-6;           // m, rad: a state that projection leaves open by more is none
 
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
@@ -62,7 +62,7 @@ Simulation::Simulation(std::shared_ptr<const Model> model, State start, RunOptio
   system_.set_inputs(inputs_);
   system_.project(start.time, start.values.data(), false);
   const double open = system_.residual(start.time, start.values.data()).position;
-  if (!(open <= kStartClosed)) {
+  if (!(open <= kClosed)) {
     throw std::invalid_argument("state: leaves joints or drivers open by " + to_text(open) +
                                 " m or rad; give a state of this scene at its own time");
   }
@@ -87,11 +87,31 @@ double Simulation::next_stop(double t_end) {
   return std::min(stop, t_end);
 }
 
+void Simulation::report_open(double t) const {
+  double worst = -1.0;
+  std::string name;
+  for (std::size_t e = 0; e < model_->elements.size(); ++e) {
+    const ElementModel& element = model_->elements[e];
+    if (element.rows == 0) continue;
+    const double open = system_.blocks()[e].phi.head(element.rows).cwiseAbs().maxCoeff();
+    if (open > worst || std::isnan(open)) {
+      worst = open;
+      name = element.name;
+    }
+  }
+  throw std::domain_error("joint or driver '" + name + "': is open by " + to_text(worst) +
+                          " m or rad at t = " + to_text(t) +
+                          " s and projection does not close it: the step is too long for the method, or "
+                          "constraints nearly depend on each other there; give a smaller dt or rtol, or move "
+                          "nearly coincident joints apart");
+}
+
 void Simulation::write(double t, double* y, Recording& out) {
   system_.project(t, y, false);
   const double before = system_.take_residual_before_projection();
   system_.derivative(t, y, rate_.data());
   const ConstraintResidual after = system_.residual_here(y);
+  if (!(after.position <= kClosed)) report_open(t);
   const double energy = model_->paper_kinematics ? 0.0 : system_.energy_here(t, y);
   const double work = y[model_->layout.work] - start_work_;
   out.append(t, y, system_, after, before, energy - start_energy_ - work);

@@ -62,6 +62,7 @@ class Simulation {
   void record_until(double t);
   void write(double t, double* y, Recording& out);
   void step(double limit);
+  [[noreturn]] void report_open(double t) const;
   void check_inputs(const std::vector<double>& slots) const;
   std::string describe(std::size_t component) const;
 
