@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -83,7 +84,7 @@ def _elements(scene: Scene) -> Rows:
     rows += [(f"{kind} joints", names) for kind, names in kinds.items()]
     for label, drives in (("drivers", scene.drivers), ("actuators", scene.actuators)):
         rows.append((label, [f"{name} ({d.joint} {d.coordinate})" for name, d in drives.items()]))
-    loads = {
+    loads: dict[str, Mapping[str, Any]] = {
         "point forces": scene.point_forces,
         "force tables": scene.force_tables,
         "C functions": scene.function_forces,
