@@ -83,6 +83,7 @@ class Ida final : public SundialsIntegrator {
   void size_multipliers();
   void project(double t);
   double typical(std::size_t j) const;
+  double multiplier_tolerance() const;
   int fill_weights(const double* y, double* w) const;
   int evaluate_residual(double t, const double* y, const double* ydot, double* r);
   int fill_jacobian(double t, double c, const double* y, const double* ydot, const double* r,
@@ -152,9 +153,22 @@ void Ida::size_multipliers() {
   }
 }
 
+/// Absolute tolerances alone say nothing of the size of multipliers: the tightest one's number then counts
+/// relative to the largest multiplier.
+double Ida::multiplier_tolerance() const {
+  double tolerance = norm_.relative();
+  if (!(tolerance > 0.0)) {
+    tolerance = 1.0;
+    for (const double value : options_.absolute_tolerance) {
+      if (value > 0.0) tolerance = std::min(tolerance, value);
+    }
+  }
+  return std::max(tolerance, std::numeric_limits<double>::epsilon());
+}
+
 int Ida::fill_weights(const double* y, double* w) const {
   norm_.weights(y, w);
-  const double relative = std::max(norm_.relative(), std::numeric_limits<double>::epsilon());
+  const double relative = multiplier_tolerance();
   for (std::size_t i = 0; i < n_; ++i) {
     if (differential_[i] == 0.0 && w[i] == 0.0) w[i] = 1.0 / (relative * (multiplier_size_ + std::abs(y[i])));
   }
