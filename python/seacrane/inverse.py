@@ -225,7 +225,7 @@ def _follow(model: _core.Model, names: Sequence[str], times: Array) -> Array:
     state = np.array(model.initial_state)
     now, rows = 0.0, []
     for time in times:
-        for intermediate in np.linspace(now, time, max(2, int(abs(time - now) / 0.5) + 2))[1:]:
+        for intermediate in np.linspace(now, time, max(2, int(abs(time - now) / 0.05) + 2))[1:]:
             state = evaluator.project(float(intermediate), state)
         residual, _ = evaluator.residual(float(time), state)
         if residual > 1e-8:
