@@ -168,7 +168,10 @@ double Ida::multiplier_tolerance() const {
 
 int Ida::fill_weights(const double* y, double* w) const {
   norm_.weights(y, w);
-  const double relative = multiplier_tolerance();
+  // Index 2: rounding of multipliers grows like 1 / h, while what they do to velocities shrinks like h.
+  const double step = attempted_step(), rounding = 1e3 * std::numeric_limits<double>::epsilon();
+  const double relative =
+      std::max(multiplier_tolerance(), step > 0.0 ? std::min(1e-3, rounding / step) : 1e-3);
   for (std::size_t i = 0; i < n_; ++i) {
     if (differential_[i] == 0.0 && w[i] == 0.0) w[i] = 1.0 / (relative * (multiplier_size_ + std::abs(y[i])));
   }
