@@ -19,11 +19,20 @@ ACTUATORS = {"slew": "A", "main": "main_cylinder", "knuckle": "knuckle_cylinder"
 GAINS = {"slew": (2.0e9, 6.0e8), "main": (6.0e7, 2.0e7), "knuckle": (2.5e7, 8.0e6)}
 
 
-def record(scene: Scene, t_end: float, *, dt_out: float = 0.05, rtol: float = 1e-8, **settings: Any) -> dict[str, Any]:
+def record(
+    scene: Scene, t_end: float, *, dt_out: float = 0.05, rtol: float = 1e-8, **settings: Any
+) -> dict[str, Any]:
     """All channels of a run, opt-in ones too, and `stats`."""
     model = scene.compile()
-    run = Run(scene, t_end=t_end, dt_out=dt_out, rtol=rtol, model=model,
-              channels=model.channel_names(defaults_only=False), **settings)  # fmt: skip
+    run = Run(
+        scene,
+        t_end=t_end,
+        dt_out=dt_out,
+        rtol=rtol,
+        model=model,
+        channels=model.channel_names(defaults_only=False),
+        **settings,
+    )
     run.advance(t_end)
     out: dict[str, Any] = dict(run.core.channels())
     return out | {"stats": run.core.statistics(), "bodies": list(scene.bodies), "joints": list(scene.joints)}
@@ -32,9 +41,7 @@ def record(scene: Scene, t_end: float, *, dt_out: float = 0.05, rtol: float = 1e
 def quaternion_of(matrix: Array) -> Array:
     """Scalar-first quaternion of a rotation matrix, away from half turns."""
     w = 0.5 * np.sqrt(max(0.0, 1.0 + np.trace(matrix)))
-    vector = np.array(
-        [matrix[2, 1] - matrix[1, 2], matrix[0, 2] - matrix[2, 0], matrix[1, 0] - matrix[0, 1]]
-    )
+    vector = np.array([matrix[2, 1] - matrix[1, 2], matrix[0, 2] - matrix[2, 0], matrix[1, 0] - matrix[0, 1]])
     return np.append(w, vector / (4.0 * w))
 
 
@@ -58,9 +65,14 @@ def add_moving_bodies(
         rotation = np.array([[c.f for c in axis] for axis in moving.axes]).T
         # Any rotation to and from the quaternion: half turns are avoided by the poses chosen.
         scene.add_body(
-            name=name, mass=moving.mass, inertia=moving.inertia, position=position,
-            quaternion=quaternion_of(rotation), velocity=rate * slope, angular_velocity=rate * spin,
-        )  # fmt: skip
+            name=name,
+            mass=moving.mass,
+            inertia=moving.inertia,
+            position=position,
+            quaternion=quaternion_of(rotation),
+            velocity=rate * slope,
+            angular_velocity=rate * spin,
+        )
         rotations.append(rotation)
     return rotations
 
@@ -71,11 +83,22 @@ def slider_crank(crank: SliderCrank, q: float, rate: float, *, gravity: float = 
     _, rod, _ = add_moving_bodies(scene, crank.mechanism(), ["crank", "rod", "slider"], q, rate)
     middle = scene.bodies["rod"].position
     half = 0.5 * crank.rod_length * rod[:, 0]
-    scene.add_joint(kind="revolute", name="shaft", first="ground", second="crank", point=crank.pivot, axis=(1, 0, 0))
+    scene.add_joint(
+        kind="revolute", name="shaft", first="ground", second="crank", point=crank.pivot, axis=(1, 0, 0)
+    )
     scene.add_joint(kind="spherical", name="pin", first="crank", second="rod", point=middle - half)
-    scene.add_joint(kind="universal", name="cross", first="slider", second="rod", point=middle + half,
-                    axis=(0, 1, 0), second_axis=rod[:, 1])  # fmt: skip
-    scene.add_joint(kind="prismatic", name="guide", first="ground", second="slider", point=middle + half, axis=(1, 0, 0))
+    scene.add_joint(
+        kind="universal",
+        name="cross",
+        first="slider",
+        second="rod",
+        point=middle + half,
+        axis=(0, 1, 0),
+        second_axis=rod[:, 1],
+    )
+    scene.add_joint(
+        kind="prismatic", name="guide", first="ground", second="slider", point=middle + half, axis=(1, 0, 0)
+    )
     return scene
 
 
@@ -94,15 +117,23 @@ def add_crane(
     KnuckleBoomCrane.load().add_to(scene, base=base, payload=Payload() if payload else None, **pose)
     for name, joint in ACTUATORS.items():
         stiffness, damping = GAINS[name]
-        scene.add_actuator(name=name, joint=joint, stiffness=stiffness, damping=damping,
-                           reference=(references or {}).get(name, 0.0))  # fmt: skip
+        scene.add_actuator(
+            name=name,
+            joint=joint,
+            stiffness=stiffness,
+            damping=damping,
+            reference=(references or {}).get(name, 0.0),
+        )
         scene.record_coordinate(joint=joint, name=name)
 
 
 def swing_out(duration: float = 10.0) -> dict[str, Curve]:
     """References that move everything at once."""
     ends = {"slew": -1.0, "main": 1.0, "knuckle": 1.5}
-    return {name: Curve.quintic(start_time=0.0, end_time=duration, start=0.0, end=end) for name, end in ends.items()}
+    return {
+        name: Curve.quintic(start_time=0.0, end_time=duration, start=0.0, end=end)
+        for name, end in ends.items()
+    }
 
 
 def world_inertia(scene: Scene, quaternions: Array) -> Array:

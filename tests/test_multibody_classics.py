@@ -36,14 +36,22 @@ CHANGE_POINT = ChangePointFourBar(
 def tumbling(rates: tuple[float, float, float], orientation: str = "quaternion") -> Scene:
     q = quaternion_about((1.0, 2.0, -0.5), 0.6)
     scene = Scene(gravity=0.0, orientation=orientation)
-    scene.add_body(name="block", mass=2.0, inertia=INERTIA, quaternion=q, center_of_mass=(0.1, -0.2, 0.3),
-                   angular_velocity=rotation_matrix(q) @ rates)  # fmt: skip
+    scene.add_body(
+        name="block",
+        mass=2.0,
+        inertia=INERTIA,
+        quaternion=q,
+        center_of_mass=(0.1, -0.2, 0.3),
+        angular_velocity=rotation_matrix(q) @ rates,
+    )
     return scene
 
 
 # On either side of w1^2 = w3^2 / 3, where the motion would end on the intermediate axis, and far from it.
 @pytest.mark.parametrize("rates", [(0.865, 0.0, 1.5), (0.867, 0.0, 1.5), (1.5, 0.0, 1.0)])
-def test_free_rotation_conserves_and_follows_the_elliptic_functions(rates: tuple[float, float, float]) -> None:
+def test_free_rotation_conserves_and_follows_the_elliptic_functions(
+    rates: tuple[float, float, float],
+) -> None:
     scene = tumbling(rates)
     out = record(scene, 20.0, rtol=1e-10)
     omega, q = out["angular_velocity"][:, 0], out["quaternion"][:, 0]
@@ -66,8 +74,14 @@ def test_spherical_pendulum(kind: str) -> None:
     scene = Scene(gravity=9.81)
     # On a spherical joint the ball turns with its arm; on a link through its centre it does not turn at all.
     spin = np.cross(start, velocity) / length**2 if turning else np.zeros(3)
-    scene.add_body(name="ball", mass=mass, inertia=[inertia] * 3, position=start, velocity=velocity,
-                   angular_velocity=spin)  # fmt: skip
+    scene.add_body(
+        name="ball",
+        mass=mass,
+        inertia=[inertia] * 3,
+        position=start,
+        velocity=velocity,
+        angular_velocity=spin,
+    )
     second = {} if turning else {"second_point": start}
     scene.add_joint(kind=kind, name="pivot", first="ground", second="ball", point=(0, 0, 0), **second)
     out = record(scene, 5.0, rtol=1e-10)
@@ -88,19 +102,30 @@ def test_double_pendulum() -> None:
     for i, (foot, speed) in enumerate([(np.zeros(3), np.zeros(3)), (elbow, elbow_velocity)]):
         link = links[i]
         scene.add_body(
-            name=f"link {i}", mass=link.mass, inertia=[1.0, link.inertia, 1.0], position=foot,
-            center_of_mass=(0.0, 0.0, -link.center), quaternion=quaternion_about((0, -1, 0), angles[i]),
-            velocity=speed, angular_velocity=(0.0, -rates[i], 0.0),
-        )  # fmt: skip
-    scene.add_joint(kind="revolute", name="top", first="ground", second="link 0", point=(0, 0, 0), axis=(0, -1, 0))
-    scene.add_joint(kind="revolute", name="elbow", first="link 0", second="link 1", point=elbow, axis=(0, -1, 0))
+            name=f"link {i}",
+            mass=link.mass,
+            inertia=[1.0, link.inertia, 1.0],
+            position=foot,
+            center_of_mass=(0.0, 0.0, -link.center),
+            quaternion=quaternion_about((0, -1, 0), angles[i]),
+            velocity=speed,
+            angular_velocity=(0.0, -rates[i], 0.0),
+        )
+    scene.add_joint(
+        kind="revolute", name="top", first="ground", second="link 0", point=(0, 0, 0), axis=(0, -1, 0)
+    )
+    scene.add_joint(
+        kind="revolute", name="elbow", first="link 0", second="link 1", point=elbow, axis=(0, -1, 0)
+    )
     scene.record_coordinate(joint="top")
     scene.record_coordinate(joint="elbow")
     out = record(scene, 3.0, rtol=1e-10)
     expected, expected_rates = double_pendulum(out["time"], links, angles, rates)
     relative = np.unwrap(out["coordinate"], axis=0)  # zero at the described pose
     np.testing.assert_allclose(relative[:, 0] + angles[0], expected[:, 0], atol=1e-7)
-    np.testing.assert_allclose(relative[:, 1], expected[:, 1] - expected[:, 0] - (angles[1] - angles[0]), atol=1e-7)
+    np.testing.assert_allclose(
+        relative[:, 1], expected[:, 1] - expected[:, 0] - (angles[1] - angles[0]), atol=1e-7
+    )
     np.testing.assert_allclose(out["coordinate_rate"][:, 0], expected_rates[:, 0], atol=1e-6)
 
 
@@ -219,5 +244,7 @@ def test_momentum_of_a_thrown_crane_is_that_of_its_start() -> None:
     out = record(scene, 4.0, rtol=1e-9, dt_out=0.5)
     linear, angular = momentum(scene, out)
     for value in (linear, angular):
-        np.testing.assert_allclose(value, np.broadcast_to(value[0], value.shape), atol=1e-7 * np.linalg.norm(value[0]))
+        np.testing.assert_allclose(
+            value, np.broadcast_to(value[0], value.shape), atol=1e-7 * np.linalg.norm(value[0])
+        )
     assert np.linalg.norm(angular[0]) > 1e7

@@ -6,7 +6,16 @@ from typing import Any
 
 import numpy as np
 import pytest
-from multibody_runs import ACTUATORS, Array, crane_scene, masses, record, slider_crank, swing_out, world_inertia
+from multibody_runs import (
+    ACTUATORS,
+    Array,
+    crane_scene,
+    masses,
+    record,
+    slider_crank,
+    swing_out,
+    world_inertia,
+)
 from reference.classic import Link
 from reference.mechanisms import SliderCrank
 
@@ -78,7 +87,9 @@ def check_balance(scene: Scene, out: dict[str, Any]) -> None:
     spin_rate = np.einsum("knij,knj->kni", inertia, out["angular_acceleration"]) + np.cross(w, spin)
     size = np.max(np.abs(out["reaction_force"]))
     reach = np.max(np.abs(joint_points(scene, out)))
-    np.testing.assert_allclose(masses(scene)[:, None] * out["acceleration"], force, rtol=0.0, atol=1e-9 * size)
+    np.testing.assert_allclose(
+        masses(scene)[:, None] * out["acceleration"], force, rtol=0.0, atol=1e-9 * size
+    )
     np.testing.assert_allclose(spin_rate, moment, rtol=0.0, atol=1e-9 * size * reach)
 
 
@@ -107,14 +118,21 @@ def all_kinds() -> Scene:
     kinds = ["weld", "revolute", "universal", "cylindrical", "spherical", "prismatic", "planar", "distance"]
     before = "ground"
     for i, kind in enumerate(kinds):
-        scene.add_body(name=kind, mass=1.0 + i, inertia=(0.3, 0.4, 0.5), position=(0.4 * i, 0.1 * i, -1.0 * i),
-                       center_of_mass=(0.2, -0.1, -0.5))  # fmt: skip
+        scene.add_body(
+            name=kind,
+            mass=1.0 + i,
+            inertia=(0.3, 0.4, 0.5),
+            position=(0.4 * i, 0.1 * i, -1.0 * i),
+            center_of_mass=(0.2, -0.1, -0.5),
+        )
         extra: dict[str, Any] = {"axis": (0.3, 1.0, 0.2)}
         if kind == "universal":
             extra["second_axis"] = (1.0, -0.3, 0.0)
         if kind == "distance":
             extra = {"second_point": (0.4 * i, 0.1 * i, -1.0 * i - 1.0)}
-        scene.add_joint(kind=kind, name=kind, first=before, second=kind, point=(0.4 * i, 0.1 * i, -1.0 * i), **extra)
+        scene.add_joint(
+            kind=kind, name=kind, first=before, second=kind, point=(0.4 * i, 0.1 * i, -1.0 * i), **extra
+        )
         before = kind
     return scene
 
@@ -137,9 +155,15 @@ def test_swapping_the_bodies_of_a_joint_turns_its_reaction_round() -> None:
         swap = joint.name in fixed
         first, second = (joint.second, joint.first) if swap else (joint.first, joint.second)
         frames = (joint.second_frame, joint.first_frame) if swap else (joint.first_frame, joint.second_frame)
-        other.add_joint(kind=joint.kind, name=joint.name, first=first, second=second,
-                        length=joint.length if joint.kind == "distance" else None,
-                        first_frame=frames[0], second_frame=frames[1])  # fmt: skip
+        other.add_joint(
+            kind=joint.kind,
+            name=joint.name,
+            first=first,
+            second=second,
+            length=joint.length if joint.kind == "distance" else None,
+            first_frame=frames[0],
+            second_frame=frames[1],
+        )
     a, b = record(scene, 0.6, rtol=1e-10), record(other, 0.6, rtol=1e-10)
     for j, name in enumerate(scene.joints):
         sign = -1.0 if name in fixed else 1.0
@@ -150,13 +174,17 @@ def test_swapping_the_bodies_of_a_joint_turns_its_reaction_round() -> None:
 @pytest.mark.parametrize(("s1", "s2"), [(0.0, 0.0), (2.0, 2.0), (3.0, 1.0)])
 @pytest.mark.parametrize("payload", [False, True])
 def test_crane_at_rest_on_a_fixed_base(s1: float, s2: float, payload: bool) -> None:
-    scene = driven(crane_scene(payload=payload, theta=-0.7, s1=s1, s2=s2),
-                   references=dict.fromkeys(ACTUATORS, Curve.constant(value=0.0)))  # fmt: skip
+    scene = driven(
+        crane_scene(payload=payload, theta=-0.7, s1=s1, s2=s2),
+        references=dict.fromkeys(ACTUATORS, Curve.constant(value=0.0)),
+    )
     out = record(scene, 0.0)
     assert np.max(np.abs(out["acceleration"])) < 1e-9
     weight = masses(scene).sum() * G
     deck = out["joints"].index("deck")
-    np.testing.assert_allclose(out["reaction_force"][0, deck], (0.0, 0.0, weight), rtol=1e-12, atol=1e-9 * weight)
+    np.testing.assert_allclose(
+        out["reaction_force"][0, deck], (0.0, 0.0, weight), rtol=1e-12, atol=1e-9 * weight
+    )
     # Moments about the foot: the weight acts at the common centre of mass.
     center = np.average(out["position"][0], axis=0, weights=masses(scene))
     foot = joint_points(scene, out)[0, deck]
@@ -174,7 +202,7 @@ def test_crane_at_rest_on_a_fixed_base(s1: float, s2: float, payload: bool) -> N
 
 
 def by_moments(scene: Scene, out: dict[str, Any]) -> Array:
-    """Cylinder forces at rest by hand: moments about C and F, the cylinders' own weight split between pins."""
+    """Cylinder forces at rest by hand: moments about C and F; each cylinder's weight is shared by its pins."""
     names, joints = list(scene.bodies), list(scene.joints)
     points = dict(zip(joints, joint_points(scene, out)[0], strict=True))
     where = dict(zip(names, out["position"][0], strict=True))
@@ -195,7 +223,10 @@ def by_moments(scene: Scene, out: dict[str, Any]) -> Array:
         axial = -(moment + side * float(np.cross(arm, normal) @ across)) / float(np.cross(arm, axis) @ across)
         return axial - float(mass[rod] * down @ axis)
 
-    carried = {"knuckle": ["knuckle_jib"], "main": ["main_jib", "knuckle_barrel", "knuckle_rod", "knuckle_jib"]}
+    carried = {
+        "knuckle": ["knuckle_jib"],
+        "main": ["main_jib", "knuckle_barrel", "knuckle_rod", "knuckle_jib"],
+    }
     pivots = {"knuckle": points["F"], "main": points["C"]}
     pins = {"knuckle": (points["E"], points["G"]), "main": (points["B"], points["D"])}
     out_forces = []

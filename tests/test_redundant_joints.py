@@ -21,15 +21,21 @@ def door(hinges: list[float], kinds: list[str] | None = None) -> Scene:
     for i, height in enumerate(hinges):
         kind = (kinds or ["revolute"] * len(hinges))[i]
         extra = {} if kind == "spherical" else {"axis": (0.0, 0.0, 1.0)}
-        scene.add_joint(kind=kind, name=f"hinge {i}", first="ground", second="door", point=(0.0, 0.0, height), **extra)
-    scene.add_point_force(name="draught", body="door", point=(0.5, 0.0, 0.0), force=(0.0, 20.0, 0.0), body_axes=True)
+        scene.add_joint(
+            kind=kind, name=f"hinge {i}", first="ground", second="door", point=(0.0, 0.0, height), **extra
+        )
+    scene.add_point_force(
+        name="draught", body="door", point=(0.5, 0.0, 0.0), force=(0.0, 20.0, 0.0), body_axes=True
+    )
     scene.record_coordinate(joint="hinge 0", coordinate="angle")
     return scene
 
 
 def test_two_hinges_warn_and_move_like_one() -> None:
     two = door([-0.8, 0.8])
-    with pytest.warns(UserWarning, match=r"hinge 0, hinge 1 are redundant \(5 more than needed\).*minimum-norm"):
+    with pytest.warns(
+        UserWarning, match=r"hinge 0, hinge 1 are redundant \(5 more than needed\).*minimum-norm"
+    ):
         out = record(two, 2.0, rtol=1e-9)
     with warnings.catch_warnings():
         warnings.simplefilter("error")
@@ -56,7 +62,7 @@ def test_reactions_of_redundant_joints_are_marked() -> None:
 
 
 def test_a_hinge_and_a_ball_hold_one_motion_twice() -> None:
-    """Only the forces along the hinge line are shared; those across it are unique, yet the joints are marked."""
+    """The ball adds nothing: three rows that the hinge has already."""
     scene = door([-0.8, 0.8], ["revolute", "spherical"])
     with pytest.warns(UserWarning, match=r"\(3 more than needed\)"):
         out = record(scene, 1.0)
@@ -83,8 +89,12 @@ def bars(count: int, *, spatial: bool = False) -> Scene:
     scene.add_body(name="coupler", mass=2.0, inertia=(0.1, 0.7, 0.7), position=np.array([1.0, 0.0, 0.0]) + up)
     for i in range(count):
         foot = np.array([2.0 * i / (count - 1), 0.0, 0.0])
-        scene.add_body(name=f"crank {i}", mass=1.0 if i < 2 else 1e-9, position=foot + 0.5 * up,
-                       inertia=np.full(3, 0.06 if i < 2 else 1e-10))  # fmt: skip
+        scene.add_body(
+            name=f"crank {i}",
+            mass=1.0 if i < 2 else 1e-9,
+            position=foot + 0.5 * up,
+            inertia=np.full(3, 0.06 if i < 2 else 1e-10),
+        )
         kinds = ("cylindrical", "spherical") if spatial and i == count - 1 else ("revolute", "revolute")
         for kind, name, first, second, point in (
             (kinds[0], f"foot {i}", "ground", f"crank {i}", foot),
@@ -110,8 +120,14 @@ def extra_bar() -> Scene:
     scene = bars(2)
     up = np.array([0.3, 0.0, 0.8])
     # A massless-to-rounding bar: a distance joint between the middles.
-    scene.add_joint(kind="distance", name="bar", first="ground", second="coupler", point=(1.0, 0.0, 0.0),
-                    second_point=np.array([1.0, 0.0, 0.0]) + up)  # fmt: skip
+    scene.add_joint(
+        kind="distance",
+        name="bar",
+        first="ground",
+        second="coupler",
+        point=(1.0, 0.0, 0.0),
+        second_point=np.array([1.0, 0.0, 0.0]) + up,
+    )
     return scene
 
 
@@ -144,7 +160,9 @@ def bricard(last: str) -> Scene:
         if i == 1:
             first = "ground"
         kind = last if i == 0 else "revolute"
-        scene.add_joint(kind=kind, name=f"hinge {i}", first=first, second=second, point=VERTICES[i], axis=AXES[i])
+        scene.add_joint(
+            kind=kind, name=f"hinge {i}", first=first, second=second, point=VERTICES[i], axis=AXES[i]
+        )
     return scene
 
 

@@ -1,0 +1,214 @@
+"""Joint kinds from Python: freedoms, consistent starts, contradictions."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+from multibody_runs import crane_scene, quaternion_about, record
+
+from seacrane import Scene, SceneError
+
+FREEDOMS = {
+    "weld": 0,
+    "revolute": 1,
+    "prismatic": 1,
+    "cylindrical": 2,
+    "universal": 2,
+    "spherical": 3,
+    "planar": 3,
+    "distance": 5,
+    "free": 6,
+}
+
+
+def one_joint(kind: str) -> Scene:
+    scene = Scene(gravity=0.0)
+    scene.add_body(name="box", mass=2.0, inertia=(1.0, 1.5, 2.0), position=(0.3, -0.2, 0.5))
+    extra: dict[str, Any] = {"axis": (0.2, 0.3, 1.0)}
+    if kind == "universal":
+        extra["second_axis"] = (1.0, 0.0, -0.2)
+    if kind == "distance":
+        extra = {"second_point": (0.6, 0.1, 0.5)}
+    scene.add_joint(kind=kind, name="joint", first="ground", second="box", point=(0.0, 0.1, 0.5), **extra)
+    return scene
+
+
+@pytest.mark.parametrize("kind", FREEDOMS)
+def test_each_kind_leaves_its_freedoms(kind: str) -> None:
+    model = one_joint(kind).compile()
+    assert (model.coordinates, model.constraints) == (6, 6 - FREEDOMS[kind])
+    assert model.degrees_of_freedom == FREEDOMS[kind]
+    assert model.assembly["largest_translation_m"] < 1e-12
+
+
+@pytest.mark.parametrize("kind", FREEDOMS)
+def test_a_push_moves_a_body_only_as_its_joint_lets_it(kind: str) -> None:
+    scene = one_joint(kind)
+    scene.add_point_force(name="push", body="box", point=(0.1, 0.4, -0.2), force=(3.0, -2.0, 4.0))
+    out = record(scene, 1.0)
+    moved = np.max(np.abs(out["position"][-1] - out["position"][0]))
+    assert moved < 1e-12 if kind == "weld" else moved > 0.01
+    assert np.max(out["constraint_error"]) < 1e-9
+    assert np.max(out["constraint_rate_error"]) < 1e-9
+    # The push does work; nothing else does.
+    size = float(np.max(out["absolute_work"]))
+    assert np.max(np.abs(out["energy_balance"])) <= 1e-6 * size + 1e-12
+
+
+def test_the_crane_counts_its_freedoms_on_the_ground() -> None:
+    model = crane_scene(payload=True).compile()
+    assert (model.coordinates, model.constraints, model.degrees_of_freedom) == (54, 46, 8)
+    # Ten bodies with a free vessel have six more of each: 60, 46, 14.
+    floating = Scene()
+    floating.add_body(name="vessel", mass=1e7, inertia=(1e9, 1e10, 1e10))
+    from multibody_runs import add_crane
+
+    add_crane(floating, base="vessel", payload=True)
+    model = floating.compile()
+    assert (model.coordinates, model.constraints, model.degrees_of_freedom) == (60, 46, 14)
+    assert not model.redundant
+
+
+def parallelogram(*, offset: float = 0.0, second_length: float = 1.0) -> Scene:
+    """Two cranks and a coupler of 2 m in the x-z plane, spatial joints so that nothing is redundant."""
+    scene = Scene(name="four-bar")
+    scene.add_body(name="left", mass=1.0, inertia=(0.1, 0.1, 0.1), position=(offset, 0.0, 0.5))
+    scene.add_body(name="right", mass=1.0, inertia=(0.1, 0.1, 0.1), position=(2.0, 0.0, 0.5 * second_length))
+    scene.add_body(name="coupler", mass=1.0, inertia=(0.1, 0.1, 0.1), position=(1.0, 0.0, 1.0))
+
+    def frame(x: float, z: float) -> Any:
+        from seacrane import Frame
+
+        return Frame(point=(x, 0.0, z), axes=[[1, 0, 0], [0, 0, 1], [0, -1, 0]])
+
+    scene.add_joint(
+        kind="revolute",
+        name="foot",
+        first="ground",
+        second="left",
+        first_frame=frame(0, 0),
+        second_frame=frame(0, -0.5),
+    )
+    scene.add_joint(
+        kind="revolute",
+        name="knee",
+        first="left",
+        second="coupler",
+        first_frame=frame(0, 0.5),
+        second_frame=frame(-1, 0),
+    )
+    scene.add_joint(
+        kind="spherical",
+        name="elbow",
+        first="coupler",
+        second="right",
+        first_frame=frame(1, 0),
+        second_frame=frame(0, 0.5 * second_length),
+    )
+    scene.add_joint(
+        kind="cylindrical",
+        name="heel",
+        first="ground",
+        second="right",
+        first_frame=frame(2, 0),
+        second_frame=frame(0, -0.5 * second_length),
+    )
+    return scene
+
+
+def test_an_approximate_pose_is_closed_and_reported() -> None:
+    exact, rough = parallelogram().compile(), parallelogram(offset=0.05).compile()
+    assert exact.assembly["largest_translation_m"] < 1e-12
+    report = rough.assembly
+    assert report["residual_before"] == pytest.approx(0.05, rel=1e-6)
+    assert report["residual_after"] < 1e-12
+    assert 0.005 < report["largest_translation_m"] <= 0.06
+    assert report["most_moved_body"] in ("left", "coupler", "right")
+    assert report["rank"] == rough.constraints == 17
+    out = record(parallelogram(offset=0.05), 0.5)
+    assert np.max(out["constraint_error"]) < 1e-9
+    # It hangs on the same joints: the crank's centre stays half a metre from its foot.
+    np.testing.assert_allclose(np.linalg.norm(out["position"][:, 0], axis=1), 0.5, atol=1e-9)
+
+
+def test_velocities_that_tear_a_joint_are_made_consistent() -> None:
+    scene = one_joint("prismatic")
+    body = scene.bodies["box"]
+    scene.bodies.clear()
+    scene.add_body(
+        name="box", mass=2.0, inertia=(1.0, 1.5, 2.0), position=body.position, velocity=(1.0, 0.0, 0.0)
+    )
+    axis = np.array([0.2, 0.3, 1.0]) / np.linalg.norm([0.2, 0.3, 1.0])
+    out = record(scene, 0.1)
+    # The part of the momentum along the guide is kept.
+    np.testing.assert_allclose(
+        out["velocity"][:, 0], np.broadcast_to(axis[0] * axis, (len(out["time"]), 3)), atol=1e-10
+    )
+    assert scene.compile().assembly["largest_velocity_change"] > 0.5
+
+
+def test_an_impossible_pose_names_the_loop_and_its_gap() -> None:
+    with pytest.raises(SceneError) as caught:
+        parallelogram(second_length=9.0).compile()
+    text = str(caught.value)
+    assert "does not close" in text
+    for name in ("foot", "knee", "elbow", "heel"):
+        assert repr(name) in text
+    # 1 m and 2 m of bars reach 9 m - 2 m of ground short of the other's 9 m: 4 m stay open.
+    gap = float(text.split("does not close, ")[1].split(" ")[0])
+    assert 0.5 < gap < 9.0
+
+
+def test_contradicting_joints_are_named() -> None:
+    scene = Scene()
+    scene.add_body(name="box", mass=1.0, inertia=(1, 1, 1))
+    scene.add_joint(
+        kind="distance", name="short", first="ground", second="box", point=(0, 0, 1), second_point=(0, 0, 0)
+    )
+    scene.add_joint(kind="weld", name="bolt", first="ground", second="box")
+
+    scene.add_joint(
+        kind="distance",
+        name="long",
+        first="ground",
+        second="box",
+        point=(0, 0, 1),
+        second_point=(0, 0, 0),
+        length=1.5,
+    )
+    with pytest.raises(SceneError, match=r"'long'.*contradictory") as caught:
+        scene.compile()
+    assert "'short'" in str(caught.value)
+
+
+def test_joint_frames_may_lie_anywhere_on_their_bodies() -> None:
+    """A hinge described by frames swings like the same hinge described by point and axis."""
+    q = quaternion_about((1, 1, 0), 0.7)
+    runs = []
+    for shift in (np.zeros(3), np.array([0.4, -0.3, 0.2])):
+        scene = Scene()
+        from seacrane.frames import rotation_matrix
+
+        scene.add_body(
+            name="flap",
+            mass=3.0,
+            inertia=(0.2, 0.3, 0.4),
+            quaternion=q,
+            position=rotation_matrix(q) @ shift,
+            center_of_mass=np.array([0.5, 0.1, -0.2]) - shift,
+        )
+        scene.add_joint(
+            kind="revolute",
+            name="hinge",
+            first="ground",
+            second="flap",
+            point=(0.1, 0.2, 0.0),
+            axis=(1.0, 0.2, 0.0),
+        )
+        runs.append(record(scene, 1.0, rtol=1e-9))
+    for name in ("position", "quaternion", "reaction_force", "reaction_moment"):
+        np.testing.assert_allclose(
+            runs[0][name], runs[1][name], atol=1e-9 * max(1.0, np.max(np.abs(runs[0][name])))
+        )
