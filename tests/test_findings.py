@@ -47,12 +47,9 @@ def motion(result: Result, name: str) -> Array:
 
 def five_seconds(first: Result, second: Result) -> dict[str, float]:
     """Amplitude of the 5 s component of second minus first over 50 to 100 s, m or rad."""
-    return {
-        name: amplitude_at(
-            first.time, motion(second, name) - motion(first, name), period=OSCILLATION_PERIOD, start=OSCILLATION_START
-        )
-        for name in MOTIONS
-    }
+    settings = {"period": OSCILLATION_PERIOD, "start": OSCILLATION_START}
+    change = {name: motion(second, name) - motion(first, name) for name in MOTIONS}
+    return {name: amplitude_at(first.time, values, **settings) for name, values in change.items()}
 
 
 def test_every_finding_is_reproduced(runs: PaperRuns) -> None:
@@ -69,7 +66,7 @@ def test_all_runs_see_the_same_waves(runs: PaperRuns) -> None:
 
 
 def test_memory_changes_the_response_clearly(runs: PaperRuns) -> None:
-    """Figure 3: rms difference over rms, motion by motion; radiation damping is all that heave and pitch have."""
+    """Figure 3: rms difference over rms; radiation damping is all that heave and pitch have."""
     change = {}
     for name in MOTIONS:
         with_memory, without = motion(runs.vessel, name), motion(runs.vessel_without_memory, name)
@@ -186,7 +183,8 @@ def test_oscillation_is_what_the_frequency_domain_gives_for_the_decks_load() -> 
     moment -= np.cross(rotation @ scene.joints["deck"].first_frame.point, reaction)
     t = run.time[late] - run.time[-1]
     columns = np.column_stack([np.cos(omega * t), -np.sin(omega * t), np.ones_like(t), t, t**2, t**3])
-    cosine, sine = np.linalg.lstsq(columns, np.hstack([force, moment, run["vessel_motion"][late]]), rcond=None)[0][:2]
+    values = np.hstack([force, moment, run["vessel_motion"][late]])
+    cosine, sine = np.linalg.lstsq(columns, values, rcond=None)[0][:2]
     load, found = (cosine + 1j * sine)[:6], (cosine + 1j * sine)[6:]
     p = vessel_parameters(shipped_database())
     added_mass, damping = p.memory.frequency_response([omega])

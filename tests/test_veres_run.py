@@ -1,4 +1,4 @@
-"""A run on a real ship's VERES files: regular waves return the file's own motions within the memory fit's error."""
+"""A run on a real ship's VERES files: regular waves return its motions within the memory fit's error."""
 
 from __future__ import annotations
 
@@ -64,7 +64,7 @@ def test_irregular_run_keeps_its_books(shared: Path) -> None:
 
 @pytest.mark.parametrize(("heading", "frequency"), POINTS)
 def test_regular_wave_returns_the_files_motion(supply: HydroDatabase, heading: int, frequency: int) -> None:
-    """The run is on the frequency-domain solution with the fitted memory; its distance from the file is the fit's."""
+    """The run is on the fitted frequency-domain solution; its distance from the file is the fit's."""
     database = at_file_damping(supply, heading, frequency)
     with warnings.catch_warnings():
         warnings.simplefilter("error")

@@ -35,7 +35,7 @@ def damped(database: HydroDatabase, share: float) -> HydroDatabase:
 
 
 def impedance(database: HydroDatabase, scene: Scene, omega: Array) -> Complex:
-    """-w^2 (M + A(w)) + i w B(w) + C with the *fitted* A and B, station keeping and linear damping (n, 6, 6)."""
+    """-w^2 (M + A(w)) + i w B(w) + C, fitted A and B, station keeping and linear damping (n, 6, 6)."""
     p, vessel = vessel_parameters(database), scene.vessels["vessel"]
     added_mass, damping = p.memory.frequency_response(omega)
     more_mass, more_damping = p.memory.additional_response(omega)
@@ -78,7 +78,9 @@ def complex_amplitude(result: Result, omega: float, *, start: float) -> Complex:
     return np.asarray(cosine + 1j * sine)
 
 
-def steady_state(database: HydroDatabase, scene: Scene, waves: Waves, *, t_end: float) -> tuple[Complex, Complex]:
+def steady_state(
+    database: HydroDatabase, scene: Scene, waves: Waves, *, t_end: float
+) -> tuple[Complex, Complex]:
     """Simulated and expected complex motions in one regular wave."""
     omega = waves.omega[0]
     period = 2.0 * np.pi / omega
@@ -118,7 +120,7 @@ def test_response_stops_being_linear_at_finite_amplitude() -> None:
 
 
 def impulse_response(database: HydroDatabase, scene: Scene, times: Array) -> Array:
-    """Motions (n, 6 motions, 6 started) after a start at the rest pose with unit rates, from the frequency domain.
+    """Motions (n, 6 motions, 6 started) after a start at rest pose with unit rates, by frequency domain.
 
     eta(t) = 2/pi int_0^inf Re[Z(i w)^-1 (M + A_inf) v0] cos(w t) dw; beyond the last frequency the integrand
     is -v0 / w^2 and its integral closed.
@@ -194,7 +196,7 @@ def test_heel_from_a_known_moment(y: float, z: float) -> None:
 
 
 def test_heel_from_a_weight_that_moves() -> None:
-    """A body of 100 t drawn 10 m to port heels the vessel by its moment over C44 less its own weight's height."""
+    """A body of 100 t drawn 10 m to port heels the vessel by its moment over the effective C44."""
     database = damped(shipped_database(), 0.5)
     scene = moored(database)
     mass, height = 100e3, 12.0
