@@ -202,7 +202,7 @@ def test_crane_at_rest_on_a_fixed_base(s1: float, s2: float, payload: bool) -> N
 
 
 def by_moments(scene: Scene, out: dict[str, Any]) -> Array:
-    """Cylinder forces at rest by hand: moments about C and F; each cylinder's weight is shared by its pins."""
+    """Cylinder forces at rest by hand; each cylinder's weight is shared by its pins."""
     names, joints = list(scene.bodies), list(scene.joints)
     points = dict(zip(joints, joint_points(scene, out)[0], strict=True))
     where = dict(zip(names, out["position"][0], strict=True))
