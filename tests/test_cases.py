@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from seacrane import Evaluator, Result, Run, Scene, balance, cases, driven, simulate, spline_curve
 from seacrane.crane import FOOT, KnuckleBoomCrane, Payload
 from seacrane.frames import rotation_matrix
+from seacrane.hydro import shipped_database
 
 Array = NDArray[np.float64]
 G = 9.80665
@@ -184,7 +185,7 @@ def heel_by_hand(payload: Payload | None, theta: float, s1: float, s2: float) ->
 
     start, _ = weight_moments({"theta": 0.0, "s1": 0.0, "s2": 0.0})
     end, high = weight_moments({"theta": theta, "s1": s1, "s2": s2})
-    c44 = cases.vessel().vessels["vessel"].restoring[3, 3]
+    c44 = shipped_database().restoring[3, 3]
     assert 0.7 < 1.0 - high / c44 < 0.8
     return -(end - start) / (c44 - high)
 
