@@ -122,6 +122,7 @@ def table(points: list[Point], uncertainty: float, *, repeats: int) -> Section:
 def figure(points: list[Point], path: Path) -> None:
     """Work-precision diagram: payload error over evaluations and over CPU time."""
     from matplotlib.figure import Figure
+    from matplotlib.ticker import NullFormatter
 
     from seacrane.result.atomic import atomic_write
 
@@ -137,6 +138,7 @@ def figure(points: list[Point], path: Path) -> None:
             if run:
                 axis.loglog(cost, [point.position_error for point in run], "o-", ms=4, label=name)
         axis.set_xlabel(label)
+        axis.xaxis.set_minor_formatter(NullFormatter())
         axis.grid(True, which="both", alpha=0.3)
     axes[0].set_ylabel("largest error of the payload's position, m")
     axes[1].legend(fontsize=8)
