@@ -63,6 +63,18 @@ inline Vec6d solve_inertia(const BodyInertia& inertia, const Vec6d& load) {
   return out;
 }
 
+/// D M1^-1 of six padded rows with the body's inertia divided by its mass: geometry without masses.
+inline void rows_over_shape(const BodyModel& body, const BodyKinematics<double>& k, const Mat6d& d,
+                            Mat6d& dw) {
+  const Vec3d c = k.rotation * body.center_of_mass;
+  const Mat3d angular = body.mass * (k.rotation * body.inverse_inertia * k.rotation.transpose());
+  // Velocity of the state point = that of the centre of mass + c x omega.
+  const Mat3d cross = skew<double>(c);
+  dw.leftCols<3>() = d.leftCols<3>();
+  dw.rightCols<3>() = (d.rightCols<3>() + d.leftCols<3>() * cross) * angular;
+  dw.leftCols<3>() -= dw.rightCols<3>() * cross;
+}
+
 /// D M^-1 of six padded rows.
 inline void rows_over_mass(const BodyInertia& inertia, const Mat6d& d, Mat6d& dw) {
   if (inertia.full) {

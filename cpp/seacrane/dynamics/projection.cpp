@@ -9,7 +9,8 @@ namespace {
 
 constexpr double kProjectionTolerance = 1e-13;
 constexpr int kProjectionIterations = 12;
-constexpr double kRedundantCondition = 1e11;
+constexpr double kRankCut = 3e-6;  // relative singular value of rows that are redundant
+constexpr double kRedundantCondition = 1.0 / (kRankCut * kRankCut);
 
 }  // namespace
 
@@ -46,10 +47,23 @@ double RedundantSystem::rate_residual(const double* y, double* out) const {
   return largest;
 }
 
+/// impulse_ := M^-1 D^T S^-1 residual_, the smallest motion in the mass metric that removes the residual.
+void RedundantSystem::correct() {
+  if (!regular_) {
+    dense_->solve(nullptr, residual_.data(), impulse_.data(), gamma_.data());
+    return;
+  }
+  model_->schur.solve(values_.data(), residual_.data());
+  multiplier_load(residual_.data(), impulse_);
+  for (int b = 0; b < model_->body_count(); ++b) {
+    impulse_[idx(b)] = solve_inertia(inertia_[idx(b)], impulse_[idx(b)]);
+  }
+}
+
 void RedundantSystem::move_poses(double* y) {
   const Model& m = *model_;
   for (int b = 0; b < m.body_count(); ++b) {
-    const Vec6d step = solve_inertia(inertia_[idx(b)], impulse_[idx(b)]);
+    const Vec6d& step = impulse_[idx(b)];
     double* pose = y + m.layout.pose(b);
     view<3>(pose) -= step.head<3>();
     const Vec3d turn = -step.tail<3>();
@@ -65,7 +79,7 @@ void RedundantSystem::move_poses(double* y) {
 
 void RedundantSystem::move_twists(double* y) {
   for (int b = 0; b < model_->body_count(); ++b) {
-    view<6>(y + model_->layout.twist(b)) -= solve_inertia(inertia_[idx(b)], impulse_[idx(b)]);
+    view<6>(y + model_->layout.twist(b)) -= impulse_[idx(b)];
   }
 }
 
@@ -85,8 +99,7 @@ bool RedundantSystem::project(double t, double* y, bool evaluated_here) {
     for (std::size_t e = 0; e < m.elements.size(); ++e) {
       for (int r = 0; r < m.elements[e].rows; ++r) residual_[idx(m.elements[e].row + r)] = blocks_[e].phi[r];
     }
-    solve_multipliers(residual_.data());
-    multiplier_load(residual_.data(), impulse_);
+    correct();
     move_poses(y);
     changed = true;
     read_state(t, y);
@@ -102,8 +115,7 @@ bool RedundantSystem::project(double t, double* y, bool evaluated_here) {
   for (int i = 0; i < kProjectionIterations; ++i) {
     const double rate = rate_residual(y, residual_.data());
     if (!(rate > kProjectionTolerance)) break;
-    solve_multipliers(residual_.data());
-    multiplier_load(residual_.data(), impulse_);
+    correct();
     move_twists(y);
     changed = true;
     if (i >= 2 && rate < 1e-11) break;
@@ -126,15 +138,14 @@ ConstraintRank RedundantSystem::rank(double t, const double* y) {
   evaluate_inertia();
   evaluate_rows(t);
   factor();
-  const Model& m = *model_;
   ConstraintRank out;
-  m.schur.assemble(blocks_.data(), over_mass_.data(), values_.data());
-  out.condition = m.schur.factor(values_.data());
-  if (minimum_norm_) {
-    out.rank = minimum_norm_->factor(m.elements, blocks_.data(), over_mass_.data());
-    out.null_space = minimum_norm_->null_space();
+  out.condition = condition_;
+  const double shape = shape_condition();
+  if (row_space_) {
+    out.rank = row_space_->factor(model_->elements, blocks_.data(), over_shape_.data(), kRankCut);
+    out.null_space = row_space_->null_space();
   } else {
-    out.rank = m.rows() - (out.condition > kRedundantCondition ? 1 : 0);
+    out.rank = model_->rows() - (shape > kRedundantCondition ? 1 : 0);
   }
   return out;
 }

@@ -11,8 +11,13 @@
 namespace seacrane {
 namespace {
 
-/// S_ii / L_ii^2 beyond which the Schur complement has lost six digits and pivoted LU takes over.
-constexpr double kConditionLimit = 1e6;
+/// S_ii / L_ii^2 beyond which the Schur complement has lost five digits and pivoted LU takes over.
+constexpr double kConditionLimit = 1e5;
+/// The same of D M1^-1 D^T, with every mass one: beyond it rows may depend on each other.
+constexpr double kShapeConditionLimit = 1e7;
+/// Relative singular value below which a combination of rows is not enforced. Change-point four-bars pass
+/// their singular position onto the right branch with 1e-4, and lose it with 1e-6.
+constexpr double kSingularCut = 1e-4;
 constexpr int kDenseLimit = 1500;     // unknowns; above it the dense fall-back would not be affordable
 constexpr double kEulerLimit = 1e-3;  // cos(phi_y); negative: a step jumped over +-90 deg
 
@@ -42,8 +47,13 @@ RedundantSystem::RedundantSystem(std::shared_ptr<const Model> model)
   for (const WaveLoad& wave : m.wave_loads) {
     wave_blocks_.push_back(wave.table ? wave.table->make_block() : WaveTableBlock());
   }
-  if (6 * m.body_count() + m.rows() <= kDenseLimit) dense_.emplace(m.body_count(), m.rows());
-  if (m.redundant) minimum_norm_.emplace(m.body_count(), m.rows());
+  over_shape_.assign(2 * elements, Mat6d::Zero());
+  dense_mass_.assign(bodies, Mat6d::Zero());
+  shape_values_.assign(m.schur.value_count(), 0.0);
+  if (6 * m.body_count() + m.rows() <= kDenseLimit) {
+    dense_.emplace(m.body_count(), m.rows());
+    row_space_.emplace(m.body_count(), m.rows());
+  }
 }
 
 void RedundantSystem::read_state(double t, const double* y) {
@@ -149,42 +159,44 @@ void RedundantSystem::evaluate_loads(double t, const double* y, double* ydot) {
 }
 
 Mat6d RedundantSystem::mass_matrix(int body) const {
-  const Model& m = *model_;
-  const BodyModel& b = m.bodies[idx(body)];
-  if (b.vessel >= 0) return m.paper_kinematics ? mass_[idx(body)] : inertia_[idx(body)].mass;
-  return rigid_mass_matrix(b, bodies_[idx(body)].rotation);
+  const bool unsymmetric = model_->paper_kinematics && model_->bodies[idx(body)].vessel >= 0;
+  return unsymmetric ? mass_[idx(body)] : symmetric_mass(body);
 }
 
 void RedundantSystem::factor() {
   const Model& m = *model_;
-  for (std::size_t e = 0; e < m.elements.size(); ++e) {
-    const ElementModel& element = m.elements[e];
-    if (element.rows == 0) continue;
-    if (element.first < m.body_count()) {
-      rows_over_mass(inertia_[idx(element.first)], blocks_[e].d[0], over_mass_[2 * e]);
-    }
-    if (element.second < m.body_count()) {
-      rows_over_mass(inertia_[idx(element.second)], blocks_[e].d[1], over_mass_[2 * e + 1]);
-    }
-  }
-  if (minimum_norm_) {
-    solver_ = Solver::minimum_norm;
-    minimum_norm_->factor(m.elements, blocks_.data(), over_mass_.data());
-    return;
-  }
+  for_each_side(m.elements, m.body_count(), [&](std::size_t e, int side, int body) {
+    rows_over_mass(inertia_[idx(body)], blocks_[e].d[side], over_mass_[2 * e + idx(side)]);
+  });
   m.schur.assemble(blocks_.data(), over_mass_.data(), values_.data());
-  const double condition = m.schur.factor(values_.data());
-  solver_ = Solver::block_schur;
-  if (condition > kConditionLimit && dense_) solver_ = Solver::dense_lu;
-  if (m.paper_kinematics) solver_ = Solver::dense_lu;
+  condition_ = m.schur.factor(values_.data());
+  regular_ = !dense_ || (!m.redundant && condition_ <= kConditionLimit);
+  if (!regular_) factor_dense();
 }
 
-void RedundantSystem::solve_multipliers(double* x) {
-  if (solver_ == Solver::minimum_norm) {
-    minimum_norm_->solve(x);
-  } else {
-    model_->schur.solve(values_.data(), x);
-  }
+double RedundantSystem::shape_condition() {
+  const Model& m = *model_;
+  for_each_side(m.elements, m.body_count(), [&](std::size_t e, int side, int body) {
+    rows_over_shape(m.bodies[idx(body)], bodies_[idx(body)], blocks_[e].d[side],
+                    over_shape_[2 * e + idx(side)]);
+  });
+  m.schur.assemble(blocks_.data(), over_shape_.data(), shape_values_.data());
+  return m.schur.factor(shape_values_.data());
+}
+
+/// Lost digits come from light bodies, where pivoted LU keeps them, or from rows that depend on each
+/// other, in redundant joints or near a singular position: there only the independent ones are enforced.
+void RedundantSystem::factor_dense() {
+  const Model& m = *model_;
+  const bool dependent = shape_condition() > kShapeConditionLimit || m.redundant;
+  if (dependent) row_space_->factor(m.elements, blocks_.data(), over_shape_.data(), kSingularCut);
+  for (int b = 0; b < m.body_count(); ++b) dense_mass_[idx(b)] = symmetric_mass(b);
+  dense_->factor(m.elements, blocks_.data(), dense_mass_.data(), dependent ? &*row_space_ : nullptr);
+}
+
+Mat6d RedundantSystem::symmetric_mass(int body) const {
+  const BodyModel& b = model_->bodies[idx(body)];
+  return b.vessel >= 0 ? inertia_[idx(body)].mass : rigid_mass_matrix(b, bodies_[idx(body)].rotation);
 }
 
 void RedundantSystem::multiplier_load(const double* lambda, std::vector<Vec6d>& out) const {
@@ -209,11 +221,8 @@ void RedundantSystem::solve_acceleration() {
       gamma_[idx(element.row + r)] = g;
     }
   }
-  if (solver_ == Solver::dense_lu) {
-    ++dense_solves_;
-    for (int b = 0; b < m.body_count(); ++b) mass_[idx(b)] = mass_matrix(b);
-    dense_->solve(m.elements, blocks_.data(), mass_.data(), load_.data(), gamma_.data(), acceleration_.data(),
-                  lambda_.data());
+  if (!regular_ || m.paper_kinematics) {
+    solve_dense();
     return;
   }
   for (int b = 0; b < m.body_count(); ++b)
@@ -227,11 +236,22 @@ void RedundantSystem::solve_acceleration() {
                        blocks_[e].d[1] * acceleration_[idx(element.second)];
     for (int r = 0; r < element.rows; ++r) lambda_[idx(element.row + r)] -= free[r];
   }
-  solve_multipliers(lambda_.data());
+  m.schur.solve(values_.data(), lambda_.data());
   multiplier_load(lambda_.data(), impulse_);
   for (int b = 0; b < m.body_count(); ++b) {
     acceleration_[idx(b)] += solve_inertia(inertia_[idx(b)], impulse_[idx(b)]);
   }
+}
+
+void RedundantSystem::solve_dense() {
+  const Model& m = *model_;
+  ++dense_solves_;
+  if (m.paper_kinematics) {
+    for (int b = 0; b < m.body_count(); ++b) dense_mass_[idx(b)] = mass_matrix(b);
+    dense_->factor(m.elements, blocks_.data(), dense_mass_.data(), nullptr);
+  }
+  dense_->solve(load_.data(), gamma_.data(), acceleration_.data(), lambda_.data());
+  if (m.paper_kinematics && !regular_) factor_dense();  // project() corrects in the symmetric metric
 }
 
 void RedundantSystem::write_rates(const double* y, double* ydot) {

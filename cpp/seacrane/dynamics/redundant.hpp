@@ -80,8 +80,6 @@ class RedundantSystem final : public System {
   void add_driver_power(double power);
 
  private:
-  enum class Solver { block_schur, dense_lu, minimum_norm };
-
   void read_state(double t, const double* y);
   void evaluate_inertia();
   void evaluate_rows(double t);
@@ -89,7 +87,11 @@ class RedundantSystem final : public System {
   void apply_hydrodynamics(double t, const LoadInput<double>& input, const double* y, double* ydot,
                            LoadSum<double>& sum);
   void factor();
-  void solve_multipliers(double* x);
+  void factor_dense();
+  void solve_dense();
+  double shape_condition();
+  Mat6d symmetric_mass(int body) const;
+  void correct();
   void solve_acceleration();
   void write_rates(const double* y, double* ydot);
   double position_residual() const;
@@ -111,8 +113,11 @@ class RedundantSystem final : public System {
   std::vector<double> wave_elevation_;
   std::vector<WaveTableBlock> wave_blocks_;
   std::optional<DenseKkt> dense_;
-  std::optional<MinimumNormSolver> minimum_norm_;
-  Solver solver_ = Solver::block_schur;
+  std::optional<RowSpace> row_space_;
+  std::vector<Mat6d> over_shape_, dense_mass_;
+  std::vector<double> shape_values_;
+  double condition_ = 1.0;
+  bool regular_ = true;  // the Schur complement is accurate enough here
   double power_ = 0.0, absolute_power_ = 0.0;
   double before_projection_ = 0.0;
   long dense_solves_ = 0;
