@@ -9,6 +9,9 @@ import pytest
 
 # Before anything imports pyplot; child processes started by a test inherit it.
 os.environ["MPLBACKEND"] = "Agg"
+# Small dense algebra: several BLAS threads in every test worker only get in each other's way.
+for threads in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS"):
+    os.environ.setdefault(threads, "1")
 
 REPOSITORY = Path(__file__).resolve().parents[1]
 

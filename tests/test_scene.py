@@ -260,3 +260,13 @@ def test_integrator_names_are_those_that_run() -> None:
     for name in _core.integrator_names():
         result = simulate(mass_on_rail(feed_forward=2.0), t_end=1.0, integrator=name)
         assert result["coordinate"][-1, 0] == pytest.approx(0.25, rel=1e-4), name
+
+
+def test_channels_of_the_crane_can_be_asked_for_by_their_names() -> None:
+    from seacrane import cases
+
+    wanted = ["slew_angle", "stroke", "cylinder_force", "link_tension"]
+    result = simulate(cases.case2(), t_end=1.0, channels=wanted)
+    assert sorted(result.channels) == sorted(wanted)
+    with pytest.raises(SceneError, match="link_tension"):
+        simulate(cases.case1(), t_end=1.0, channels=["link_tension"])

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
+
+from seacrane.errors import SceneError
 
 if TYPE_CHECKING:
     from seacrane.scene import Scene
@@ -14,6 +17,28 @@ Array = NDArray[np.float64]
 CYLINDERS = {"main": "main_cylinder", "knuckle": "knuckle_cylinder"}
 SLEW = "A"
 LINK = "link"
+CRANE_CHANNELS = {
+    "stroke": ("coordinate",),
+    "stroke_rate": ("coordinate_rate",),
+    "cylinder_force": ("actuator_force", "driver_force"),
+    "slew_angle": ("coordinate",),
+    "slew_torque": ("actuator_force", "driver_force"),
+    "link_tension": ("tension",),
+}
+
+
+def core_channels(wanted: Sequence[str], known: Sequence[str]) -> set[str]:
+    """The core's channels that the wanted ones are made of; raises SceneError for an unknown name."""
+    made_of: set[str] = set()
+    for name in wanted:
+        sources = [source for source in CRANE_CHANNELS.get(name, (name,)) if source in known]
+        if not sources:
+            possible = [crane for crane, parts in CRANE_CHANNELS.items() if set(parts) & set(known)]
+            raise SceneError(
+                f"channel {name!r} is unknown to this scene; it offers: {', '.join([*known, *possible])}"
+            )
+        made_of.update(sources)
+    return made_of
 
 
 def _drive_load(scene: Scene, arrays: dict[str, Array], joint: str, coordinate: str) -> Array | None:

@@ -10,8 +10,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane import _core
+from seacrane.channel_names import core_channels, named_channels
 from seacrane.checked import number_of, numbers_of
 from seacrane.errors import SceneError, SimulationError
+from seacrane.linearise import fastest_mode
 from seacrane.scene import Scene
 from seacrane.version import __version__
 
@@ -120,9 +122,7 @@ class Run:
         if channels is not None and (isinstance(channels, str) or not isinstance(channels, Iterable)):
             raise SceneError(f"channels is {channels!r}; give a list of channel names")
         wanted = self.model.channel_names() if channels is None else list(channels)
-        for name in wanted:
-            if name not in known:
-                raise SceneError(f"channel {name!r} is unknown to this scene; it offers: {', '.join(known)}")
+        self._wanted = None if channels is None else set(wanted)
         self.start = _core.initial_state(self.model) if start is None else start
         if not isinstance(self.start, _core.State):
             raise SceneError(f"start is {start!r}; give a seacrane.State")
@@ -142,8 +142,9 @@ class Run:
         self.core = _core.Simulation(
             model=self.model, start=self.start, integrator=integrator, rtol=float(rtol), dt=float(dt),
             max_step=float(max_step), output_times=_output_times(self.start.time, self.t_end, float(dt_out)),
-            channels=set(wanted),
+            channels=core_channels(wanted, known),
         )  # fmt: skip
+        self._fastest_mode = fastest_mode(self.model)  # before the run, so that Ctrl-C need not wait for it
         self.interrupted = False
 
     def advance(self, t_end: float, progress: Callable[[float], None] | None = None) -> bool:
@@ -174,16 +175,16 @@ class Run:
         self.core.set_inputs(slots)
 
     def _channels(self, arrays: dict[str, Array]) -> dict[str, Array]:
-        from seacrane.channel_names import named_channels
-
         return named_channels(self.scene, {k: v for k, v in arrays.items() if k != "time"})
 
     def result(self) -> Result:
         """What has been recorded so far."""
-        from seacrane.linearise import fastest_mode
         from seacrane.result import Result
 
         arrays = self.core.channels()
+        channels = self._channels(arrays)
+        if self._wanted is not None:
+            channels = {name: values for name, values in channels.items() if name in self._wanted}
         statistics = self.core.statistics()
         scene, model = self.scene, self.model
         sea = {} if scene.waves is None else dict(scene.waves.information)
@@ -200,13 +201,13 @@ class Run:
             "compiled_coordinates": model.coordinates,
             "compiled_constraints": model.constraints,
             "memory_states": model.memory_states,
-            "fastest_mode_per_s": fastest_mode(model),
+            "fastest_mode_per_s": self._fastest_mode,
             **statistics,
             **sea,
         }
         return Result.from_arrays(
             time=arrays["time"],
-            arrays=self._channels(arrays),
+            arrays=channels,
             bodies=list(scene.bodies),
             joints=list(scene.joints),
             cylinders=[role for role in ("main", "knuckle") if f"{role}_cylinder" in scene.joints],
