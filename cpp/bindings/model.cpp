@@ -9,12 +9,24 @@ using Array = py::array_t<double, py::array::c_style | py::array::forcecast>;
 
 namespace {
 
+/// Sorts a description to its kind.
+void add_load(SceneDescription& scene, const py::object& object) {
+  bool known = false;
+  for_each_load_type([&]<class Load>() {
+    using Description = typename Load::Description;
+    if (!py::isinstance<Description>(object)) return;
+    known = true;
+    scene.loads_of<Load>().push_back(object.cast<Description>());
+  });
+  if (!known) {
+    throw std::invalid_argument("load " + py::repr(object).cast<std::string>() + " is of no known kind");
+  }
+}
+
 std::shared_ptr<Model> compile_scene(
     std::string name, double gravity, const std::string& orientation, double baumgarte, double length_scale,
     std::vector<BodyDescription> bodies, std::vector<JointDescription> joints,
-    std::vector<DriverDescription> drivers, std::vector<ActuatorDescription> actuators,
-    std::vector<PointForceDescription> point_forces, std::vector<SpringDescription> springs,
-    std::vector<ForceTableDescription> force_tables, std::vector<FunctionForceDescription> function_forces,
+    std::vector<DriverDescription> drivers, const std::vector<py::object>& loads,
     std::vector<VesselDescription> vessels, std::vector<WaveLoadDescription> wave_loads,
     const std::vector<std::pair<std::string, std::string>>& coordinates) {
   SceneDescription scene;
@@ -30,11 +42,7 @@ std::shared_ptr<Model> compile_scene(
   scene.bodies = std::move(bodies);
   scene.joints = std::move(joints);
   scene.drivers = std::move(drivers);
-  scene.actuators = std::move(actuators);
-  scene.point_forces = std::move(point_forces);
-  scene.springs = std::move(springs);
-  scene.force_tables = std::move(force_tables);
-  scene.function_forces = std::move(function_forces);
+  for (const py::object& load : loads) add_load(scene, load);
   scene.vessels = std::move(vessels);
   scene.wave_loads = std::move(wave_loads);
   for (const auto& [joint, coordinate] : coordinates) scene.coordinates.push_back({joint, coordinate});
@@ -210,8 +218,7 @@ void bind_model(py::module_& m) {
       .def("channel_names", &channel_names, py::arg("defaults_only") = true);
   m.def("compile", &compile_scene, py::kw_only(), py::arg("name"), py::arg("gravity"), py::arg("orientation"),
         py::arg("baumgarte"), py::arg("length_scale"), py::arg("bodies"), py::arg("joints"),
-        py::arg("drivers"), py::arg("actuators"), py::arg("point_forces"), py::arg("springs"),
-        py::arg("force_tables"), py::arg("function_forces"), py::arg("vessels"), py::arg("wave_loads"),
+        py::arg("drivers"), py::arg("loads"), py::arg("vessels"), py::arg("wave_loads"),
         py::arg("coordinates"),
         "Checks and compiles a scene; seacrane.Scene.compile() calls it. Raises SceneError.");
   bind_evaluator(m);

@@ -118,7 +118,7 @@ inline SceneDescription slider_crank(const std::string& base = kGround) {
   JointDescription& link = join(scene, "distance", "link", "arm", "load", tip);
   link.second_frame = frame_on(scene, "load", tip + Vec3d(0.3, 0.0, -0.4), Mat3d::Identity());
   link.length = 0.5;
-  scene.actuators.push_back(
+  scene.loads_of<Actuator>().push_back(
       {"drive", {"bearing", "angle"}, 20.0, 3.0, Curve::constant(1.0), Curve::quintic(0.0, 2.0, 0.0, 1.0)});
   scene.drivers.push_back({"swing", {"shoulder", "angle"}, Curve::harmonic(0.0, -0.2, 0.2, 3.0, 0.0)});
   SpringDescription spring;
@@ -129,7 +129,7 @@ inline SceneDescription slider_crank(const std::string& base = kGround) {
   spring.stiffness = 30.0;
   spring.damping = 0.5;
   spring.natural_length = 0.8;
-  scene.springs.push_back(spring);
+  scene.loads_of<SpringDamper>().push_back(spring);
   scene.coordinates = {{"bearing", "angle"}, {"guide", "displacement"}};
   return scene;
 }

@@ -742,7 +742,7 @@ class Simulation:
     @property
     def time(self) -> float:
         ...
-def compile(*, name: str, gravity: typing.SupportsFloat | typing.SupportsIndex, orientation: str, baumgarte: typing.SupportsFloat | typing.SupportsIndex, length_scale: typing.SupportsFloat | typing.SupportsIndex, bodies: collections.abc.Sequence[Body], joints: collections.abc.Sequence[Joint], drivers: collections.abc.Sequence[Driver], actuators: collections.abc.Sequence[Actuator], point_forces: collections.abc.Sequence[PointForce], springs: collections.abc.Sequence[Spring], force_tables: collections.abc.Sequence[ForceTable], function_forces: collections.abc.Sequence[FunctionForce], vessels: collections.abc.Sequence[VesselHydrodynamics], wave_loads: collections.abc.Sequence[WaveLoads], coordinates: collections.abc.Sequence[tuple[str, str]]) -> Model:
+def compile(*, name: str, gravity: typing.SupportsFloat | typing.SupportsIndex, orientation: str, baumgarte: typing.SupportsFloat | typing.SupportsIndex, length_scale: typing.SupportsFloat | typing.SupportsIndex, bodies: collections.abc.Sequence[Body], joints: collections.abc.Sequence[Joint], drivers: collections.abc.Sequence[Driver], loads: collections.abc.Sequence[typing.Any], vessels: collections.abc.Sequence[VesselHydrodynamics], wave_loads: collections.abc.Sequence[WaveLoads], coordinates: collections.abc.Sequence[tuple[str, str]]) -> Model:
     """
     Checks and compiles a scene; seacrane.Scene.compile() calls it. Raises SceneError.
     """

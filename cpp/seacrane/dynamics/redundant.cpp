@@ -142,11 +142,9 @@ void RedundantSystem::evaluate_loads(double t, const double* y, double* ydot) {
   const LoadInput<double> input = load_input(t);
   LoadSum<double> sum{wrench_.data()};
   for (const auto& load : m.gravity) load.apply<double>(input, sum);
-  for (const auto& load : m.actuators) load.apply<double>(input, sum);
-  for (const auto& load : m.point_forces) load.apply<double>(input, sum);
-  for (const auto& load : m.springs) load.apply<double>(input, sum);
-  for (const auto& load : m.force_tables) load.apply<double>(input, sum);
-  for (const auto& load : m.function_forces) load.apply(input, sum);
+  for_each_load_type([&]<class Load>() {
+    for (const Load& load : std::get<std::vector<Load>>(m.loads)) load.template apply<double>(input, sum);
+  });
   apply_hydrodynamics(t, input, y, ydot, sum);
   power_ = sum.power;
   absolute_power_ = sum.absolute_power;
@@ -311,7 +309,11 @@ double RedundantSystem::energy_here(double t, const double* y) const {
     sum += 0.5 * v.dot(mass_matrix(b) * v);
   }
   for (const auto& load : m.gravity) sum += load.potential(input);
-  for (const auto& load : m.springs) sum += load.potential(input);
+  for_each_load_type([&]<class Load>() {
+    if constexpr (requires(const Load& load) { load.potential(input); }) {
+      for (const Load& load : std::get<std::vector<Load>>(m.loads)) sum += load.potential(input);
+    }
+  });
   for (const auto& vessel : m.vessels) sum += vessel.potential(bodies_[idx(vessel.body)]);
   return sum;
 }

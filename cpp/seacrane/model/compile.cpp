@@ -33,14 +33,31 @@ class Compiler {
     return std::move(model_);
   }
 
- private:
+  // What loads ask for while they are compiled.
   int body(const std::string& name) const {
     return name == kGround ? static_cast<int>(scene_.bodies.size()) : index_.at(name);
   }
+
   Vec3d from_state_point(int b, const Vec3d& point) const {
     return b < model_.body_count() ? Vec3d(point - model_.bodies[idx(b)].state_point) : point;
   }
 
+  CoordinateData coordinate(const CoordinateDescription& d) const {
+    static const std::map<std::string, CoordinateKind> kinds = {
+        {"angle", CoordinateKind::angle}, {"displacement", CoordinateKind::displacement},
+        {"x", CoordinateKind::x},         {"y", CoordinateKind::y},
+        {"z", CoordinateKind::z},         {"roll", CoordinateKind::roll},
+        {"pitch", CoordinateKind::pitch}, {"yaw", CoordinateKind::yaw}};
+    return {joint_data(scene_.joints[idx(joint_index_.at(d.joint))]), kinds.at(d.coordinate)};
+  }
+
+  int slots(int count) {
+    const int first = model_.slot_count;
+    model_.slot_count += count;
+    return first;
+  }
+
+ private:
   void bodies() {
     std::map<std::string, int> vessel_on;
     for (std::size_t v = 0; v < scene_.vessels.size(); ++v)
@@ -97,15 +114,6 @@ class Compiler {
     }
   }
 
-  CoordinateData coordinate(const CoordinateDescription& d) const {
-    static const std::map<std::string, CoordinateKind> kinds = {
-        {"angle", CoordinateKind::angle}, {"displacement", CoordinateKind::displacement},
-        {"x", CoordinateKind::x},         {"y", CoordinateKind::y},
-        {"z", CoordinateKind::z},         {"roll", CoordinateKind::roll},
-        {"pitch", CoordinateKind::pitch}, {"yaw", CoordinateKind::yaw}};
-    return {joint_data(scene_.joints[idx(joint_index_.at(d.joint))]), kinds.at(d.coordinate)};
-  }
-
   void drivers() {
     for (const auto& d : scene_.drivers) {
       DriverData driver{coordinate(d.coordinate), d.curve, static_cast<int>(model_.elements.size())};
@@ -128,34 +136,12 @@ class Compiler {
       model_.elements[e].row = model_.schur.row(static_cast<int>(e));
   }
 
-  int slots(int count) {
-    const int first = model_.slot_count;
-    model_.slot_count += count;
-    return first;
-  }
-
   void loads() {
-    for (const auto& d : scene_.actuators) {
-      model_.actuators.push_back(
-          {coordinate(d.coordinate), d.stiffness, d.damping, d.feed_forward, d.reference, slots(2)});
-    }
-    for (const auto& d : scene_.point_forces) {
-      const int b = body(d.body);
-      model_.point_forces.push_back({b, from_state_point(b, d.point), d.force, d.body_axes, slots(3)});
-    }
-    for (const auto& d : scene_.springs) {
-      const int a = body(d.first), b = body(d.second);
-      model_.springs.push_back({a, b, from_state_point(a, d.first_point), from_state_point(b, d.second_point),
-                                d.stiffness, d.damping, d.natural_length, d.lengths, d.forces});
-    }
-    for (const auto& d : scene_.force_tables) {
-      const int b = body(d.body);
-      model_.force_tables.push_back({b, from_state_point(b, d.point), d.times, d.wrenches});
-    }
-    for (const auto& d : scene_.function_forces) {
-      const int b = body(d.body);
-      model_.function_forces.push_back({b, from_state_point(b, Vec3d::Zero()), d.function, d.parameters});
-    }
+    for_each_load_type([&]<class Load>() {
+      for (const auto& d : std::get<std::vector<typename Load::Description>>(scene_.loads)) {
+        std::get<std::vector<Load>>(model_.loads).push_back(Load::compile(d, *this));
+      }
+    });
     for (const auto& d : scene_.coordinates) model_.coordinates.push_back(coordinate(d));
   }
 
@@ -244,10 +230,11 @@ class Compiler {
     std::set<double> times;
     for (const auto& d : model_.drivers)
       for (double t : d.curve.breakpoints()) times.insert(t);
-    for (const auto& a : model_.actuators) {
-      for (double t : a.reference.breakpoints(1)) times.insert(t);
-      for (double t : a.feed_forward.breakpoints(0)) times.insert(t);
-    }
+    for_each_load_type([&]<class Load>() {
+      if constexpr (requires(const Load& load) { load.collect_breakpoints(times); }) {
+        for (const Load& load : std::get<std::vector<Load>>(model_.loads)) load.collect_breakpoints(times);
+      }
+    });
     model_.breakpoints.assign(times.begin(), times.end());
   }
 

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "seacrane/dynamics/loads/registry.hpp"
 #include "seacrane/hydro/memory.hpp"
 #include "seacrane/math/curve.hpp"
 #include "seacrane/math/types.hpp"
@@ -14,8 +15,6 @@
 /// What the user writes, one value type per kind of element. Names refer to other elements; "ground"
 /// is the inertial frame. Every description is checked by its own validate().
 namespace seacrane {
-
-inline constexpr const char* kGround = "ground";
 
 struct BodyDescription {
   std::string name;
@@ -41,55 +40,10 @@ struct JointDescription {
   double length = 0.0;  // of a distance joint
 };
 
-/// One coordinate of a joint: second body relative to first, in the first body's joint frame.
-/// revolute, cylindrical: "angle"; prismatic, cylindrical: "displacement"; free: "x y z roll pitch yaw".
-struct CoordinateDescription {
-  std::string joint, coordinate;
-};
-
 struct DriverDescription {
   std::string name;
   CoordinateDescription coordinate;
   Curve curve;
-};
-
-struct ActuatorDescription {
-  std::string name;
-  CoordinateDescription coordinate;
-  double stiffness = 0.0, damping = 0.0;
-  Curve feed_forward, reference;
-};
-
-struct PointForceDescription {
-  std::string name, body;
-  Vec3d point = Vec3d::Zero();  // body coordinates
-  Vec3d force = Vec3d::Zero();  // inertial or body axes
-  bool body_axes = false;
-};
-
-struct SpringDescription {
-  std::string name, first, second;
-  Vec3d first_point = Vec3d::Zero(), second_point = Vec3d::Zero();
-  double stiffness = 0.0, damping = 0.0, natural_length = 0.0;
-  std::vector<double> lengths, forces;  // tabulated tension over length, instead of stiffness
-};
-
-struct ForceTableDescription {
-  std::string name, body;
-  Vec3d point = Vec3d::Zero();
-  std::vector<double> times;
-  std::vector<Vec6d> wrenches;  // inertial axes, moments about the point
-};
-
-/// void f(double t, const double state[13], const double* parameters, double wrench[6]):
-/// state = position, quaternion, velocity, angular velocity of the body origin; wrench about it, inertial
-/// axes.
-using ForceFunction = void (*)(double, const double*, const double*, double*);
-
-struct FunctionForceDescription {
-  std::string name, body;
-  ForceFunction function = nullptr;
-  std::vector<double> parameters;
 };
 
 enum class VesselKinematics { yaw_following, paper };
@@ -124,14 +78,16 @@ struct SceneDescription {
   std::vector<BodyDescription> bodies;
   std::vector<JointDescription> joints;
   std::vector<DriverDescription> drivers;
-  std::vector<ActuatorDescription> actuators;
-  std::vector<PointForceDescription> point_forces;
-  std::vector<SpringDescription> springs;
-  std::vector<ForceTableDescription> force_tables;
-  std::vector<FunctionForceDescription> function_forces;
+  LoadDescriptions loads;
   std::vector<VesselDescription> vessels;
   std::vector<WaveLoadDescription> wave_loads;
   std::vector<CoordinateDescription> coordinates;  // joint coordinates to record
+
+  /// Descriptions of one kind of load, such as loads_of<PointForce>().
+  template <class Load>
+  std::vector<typename Load::Description>& loads_of() {
+    return std::get<std::vector<typename Load::Description>>(loads);
+  }
 };
 
 }  // namespace seacrane

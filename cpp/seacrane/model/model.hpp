@@ -6,12 +6,8 @@
 
 #include "seacrane/dynamics/block_schur.hpp"
 #include "seacrane/dynamics/joints/registry.hpp"
-#include "seacrane/dynamics/loads/actuator.hpp"
-#include "seacrane/dynamics/loads/force_table.hpp"
-#include "seacrane/dynamics/loads/function_force.hpp"
 #include "seacrane/dynamics/loads/gravity.hpp"
-#include "seacrane/dynamics/loads/point_force.hpp"
-#include "seacrane/dynamics/loads/spring_damper.hpp"
+#include "seacrane/dynamics/loads/registry.hpp"
 #include "seacrane/hydro/vessel.hpp"
 #include "seacrane/model/description.hpp"
 
@@ -77,11 +73,7 @@ struct Model {
   std::vector<ElementModel> elements;  // joints in the order described, then drivers
   BlockSchur schur;
   std::vector<Gravity> gravity;
-  std::vector<Actuator> actuators;
-  std::vector<PointForce> point_forces;
-  std::vector<SpringDamper> springs;
-  std::vector<ForceTable> force_tables;
-  std::vector<FunctionForce> function_forces;
+  LoadsByKind loads;
   std::vector<Vessel> vessels;
   std::vector<WaveLoad> wave_loads;
   std::vector<CoordinateData> coordinates;
@@ -97,6 +89,7 @@ struct Model {
 
   int body_count() const { return static_cast<int>(bodies.size()); }
   int rows() const { return schur.rows(); }
+  const std::vector<Actuator>& actuators() const { return std::get<std::vector<Actuator>>(loads); }
 };
 
 std::shared_ptr<const Model> compile(const SceneDescription& scene);

@@ -35,7 +35,7 @@ std::vector<Offer> offers(const Model& m) {
     out.push_back({"coordinate", {m.coordinates.size()}, true});
     out.push_back({"coordinate_rate", {m.coordinates.size()}, true});
   }
-  if (!m.actuators.empty()) out.push_back({"actuator_force", {m.actuators.size()}, true});
+  if (!m.actuators().empty()) out.push_back({"actuator_force", {m.actuators().size()}, true});
   if (!m.drivers.empty()) out.push_back({"driver_force", {m.drivers.size()}, true});
   if (joint_count(m) > 0) {
     out.push_back({"reaction_force", {joint_count(m), 3}, true});
@@ -156,7 +156,7 @@ void Recording::write_joint_coordinates(double t, const RedundantSystem& system)
   }
   if (double* out = slot("actuator_force")) {
     const LoadInput<double> input = system.load_input(t);
-    for (const Actuator& a : model_->actuators) {
+    for (const Actuator& a : model_->actuators()) {
       const JointData& j = a.coordinate.joint;
       *out++ = a.force<double>(
           input, evaluate_coordinate<double>(a.coordinate, bodies[idx(j.first)], bodies[idx(j.second)]));

@@ -8,6 +8,7 @@ namespace seacrane {
 struct Cylindrical {
   static constexpr const char* kind = "cylindrical";
   static constexpr int rows = 4;
+  static constexpr const char* coordinates = "angle displacement";
   static constexpr bool parallel_axes = true;  // z axes point the same way
   static constexpr bool aligned_axes = false;  // x axes too
 

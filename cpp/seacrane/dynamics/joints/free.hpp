@@ -8,6 +8,7 @@ namespace seacrane {
 struct Free {
   static constexpr const char* kind = "free";
   static constexpr int rows = 0;
+  static constexpr const char* coordinates = "x y z roll pitch yaw";
   static constexpr bool parallel_axes = false;  // z axes point the same way
   static constexpr bool aligned_axes = false;   // x axes too
 

@@ -8,6 +8,7 @@ namespace seacrane {
 struct Prismatic {
   static constexpr const char* kind = "prismatic";
   static constexpr int rows = 5;
+  static constexpr const char* coordinates = "displacement";
   static constexpr bool parallel_axes = true;  // z axes point the same way
   static constexpr bool aligned_axes = true;   // x axes too
 

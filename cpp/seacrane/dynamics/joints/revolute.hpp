@@ -8,6 +8,7 @@ namespace seacrane {
 struct Revolute {
   static constexpr const char* kind = "revolute";
   static constexpr int rows = 5;
+  static constexpr const char* coordinates = "angle";
   static constexpr bool parallel_axes = true;  // z axes point the same way
   static constexpr bool aligned_axes = false;  // x axes too
 

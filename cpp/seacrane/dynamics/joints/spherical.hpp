@@ -8,6 +8,7 @@ namespace seacrane {
 struct Spherical {
   static constexpr const char* kind = "spherical";
   static constexpr int rows = 3;
+  static constexpr const char* coordinates = "";
   static constexpr bool parallel_axes = false;  // z axes point the same way
   static constexpr bool aligned_axes = false;   // x axes too
 

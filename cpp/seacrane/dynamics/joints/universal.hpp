@@ -8,6 +8,7 @@ namespace seacrane {
 struct Universal {
   static constexpr const char* kind = "universal";
   static constexpr int rows = 4;
+  static constexpr const char* coordinates = "";
   static constexpr bool parallel_axes = false;  // z axes point the same way
   static constexpr bool aligned_axes = false;   // x axes too
 

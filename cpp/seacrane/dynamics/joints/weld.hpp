@@ -8,6 +8,7 @@ namespace seacrane {
 struct Weld {
   static constexpr const char* kind = "weld";
   static constexpr int rows = 6;
+  static constexpr const char* coordinates = "";
   static constexpr bool parallel_axes = true;  // z axes point the same way
   static constexpr bool aligned_axes = true;   // x axes too
 

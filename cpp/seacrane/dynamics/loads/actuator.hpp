@@ -3,16 +3,50 @@
 #include "seacrane/dynamics/joint_coordinate.hpp"
 #include "seacrane/dynamics/loads/load.hpp"
 #include "seacrane/math/curve.hpp"
+#include "seacrane/model/check.hpp"
 
 namespace seacrane {
+
+struct ActuatorDescription {
+  std::string name;
+  CoordinateDescription coordinate;
+  double stiffness = 0.0, damping = 0.0;
+  Curve feed_forward, reference;
+};
 
 /// State feedback on a joint coordinate: force = feed_forward + stiffness (reference - q) +
 /// damping (reference rate - q rate), along the coordinate, on both bodies; N or N m.
 struct Actuator {
+  static constexpr const char* kind = "actuator";
+  using Description = ActuatorDescription;
+
   CoordinateData coordinate;
   double stiffness = 0.0, damping = 0.0;
   Curve feed_forward, reference;
   int slot = 0;  // inputs: [force added, reference added]
+
+  static void check(const Description& d, const Check& c, SceneNames& names) {
+    names.coordinate(c, d.coordinate);
+    names.input(c, kind, d.name);
+    c.not_negative("stiffness", d.stiffness);
+    c.not_negative("damping", d.damping);
+  }
+
+  template <class Context>
+  static Actuator compile(const Description& d, Context& context) {
+    return {context.coordinate(d.coordinate),
+            d.stiffness,
+            d.damping,
+            d.feed_forward,
+            d.reference,
+            context.slots(2)};
+  }
+
+  /// The reference and its rate enter the load, of the feed-forward only the value.
+  void collect_breakpoints(std::set<double>& times) const {
+    for (double t : reference.breakpoints(1)) times.insert(t);
+    for (double t : feed_forward.breakpoints(0)) times.insert(t);
+  }
 
   template <class T>
   T force(const LoadInput<T>& in, const CoordinateRow<T>& row) const {

@@ -4,11 +4,22 @@
 #include <vector>
 
 #include "seacrane/dynamics/loads/load.hpp"
+#include "seacrane/model/check.hpp"
 
 namespace seacrane {
 
+struct ForceTableDescription {
+  std::string name, body;
+  Vec3d point = Vec3d::Zero();
+  std::vector<double> times;
+  std::vector<Vec6d> wrenches;  // inertial axes, moments about the point
+};
+
 /// A wrench tabulated over time (linear between the times, held outside) at a body-fixed point.
 struct ForceTable {
+  static constexpr const char* kind = "force table";
+  using Description = ForceTableDescription;
+
   int body = 0;
   Vec3d point;
   std::vector<double> times;
@@ -21,6 +32,26 @@ struct ForceTable {
     const auto i = static_cast<std::size_t>(next - times.begin()) - 1;
     const double s = (t - times[i]) / (times[i + 1] - times[i]);
     return (1.0 - s) * wrenches[i] + s * wrenches[i + 1];
+  }
+
+  static void check(const Description& d, const Check& c, SceneNames& names) {
+    names.body(c, d.body);
+    c.near("point", d.point);
+    if (d.times.empty() || d.times.size() != d.wrenches.size()) {
+      c.fail("has " + std::to_string(d.times.size()) + " times and " + std::to_string(d.wrenches.size()) +
+             " wrenches; give as many of both");
+    }
+    for (std::size_t i = 0; i < d.times.size(); ++i) {
+      c.finite("times", d.times[i]);
+      c.finite("wrenches", d.wrenches[i]);
+      if (i > 0 && !(d.times[i] > d.times[i - 1])) c.fail("times must increase");
+    }
+  }
+
+  template <class Context>
+  static ForceTable compile(const Description& d, Context& context) {
+    const int b = context.body(d.body);
+    return {b, context.from_state_point(b, d.point), d.times, d.wrenches};
   }
 
   template <class T>

@@ -1,21 +1,50 @@
 #pragma once
 
+#include <string>
+#include <type_traits>
 #include <vector>
 
 #include "seacrane/dynamics/loads/load.hpp"
 #include "seacrane/math/rotation.hpp"
-#include "seacrane/model/description.hpp"
+#include "seacrane/model/check.hpp"
 
 namespace seacrane {
 
+/// void f(double t, const double state[13], const double* parameters, double wrench[6]):
+/// state = position, quaternion, velocity, angular velocity of the body origin; wrench about it, inertial
+/// axes.
+using ForceFunction = void (*)(double, const double*, const double*, double*);
+
+struct FunctionForceDescription {
+  std::string name, body;
+  ForceFunction function = nullptr;
+  std::vector<double> parameters;
+};
+
 /// A user's C function called in every evaluation, see ForceFunction.
 struct FunctionForce {
+  static constexpr const char* kind = "function force";
+  using Description = FunctionForceDescription;
+
   int body = 0;
   Vec3d origin;  // body origin from the state point, body axes
   ForceFunction function = nullptr;
   std::vector<double> parameters;
 
-  void apply(const LoadInput<double>& in, LoadSum<double>& out) const {
+  static void check(const Description& d, const Check& c, SceneNames& names) {
+    names.body(c, d.body);
+    if (d.function == nullptr) c.fail("the function's address is 0; pass a C function pointer");
+  }
+
+  template <class Context>
+  static FunctionForce compile(const Description& d, Context& context) {
+    const int b = context.body(d.body);
+    return {b, context.from_state_point(b, Vec3d::Zero()), d.function, d.parameters};
+  }
+
+  template <class T>
+  void apply(const LoadInput<T>& in, LoadSum<T>& out) const {
+    static_assert(std::is_same_v<T, double>, "a C function knows no other scalar");
     const auto& k = in.bodies[body];
     const Vec3d lever = k.rotation * origin;
     const Vec3d velocity = k.velocity + k.angular_velocity.cross(lever);

@@ -1,16 +1,40 @@
 #pragma once
 
 #include "seacrane/dynamics/loads/load.hpp"
+#include "seacrane/model/check.hpp"
 
 namespace seacrane {
 
+struct PointForceDescription {
+  std::string name, body;
+  Vec3d point = Vec3d::Zero();  // body coordinates
+  Vec3d force = Vec3d::Zero();  // inertial or body axes
+  bool body_axes = false;
+};
+
 /// A force at a body-fixed point, constant in inertial or in body axes; three slots add to it.
 struct PointForce {
+  static constexpr const char* kind = "point force";
+  using Description = PointForceDescription;
+
   int body = 0;
   Vec3d point;  // from the state point, body axes
   Vec3d force;
   bool body_axes = false;
   int slot = 0;
+
+  static void check(const Description& d, const Check& c, SceneNames& names) {
+    names.body(c, d.body);
+    names.input(c, kind, d.name);
+    c.near("point", d.point);
+    c.finite("force", d.force);
+  }
+
+  template <class Context>
+  static PointForce compile(const Description& d, Context& context) {
+    const int b = context.body(d.body);
+    return {b, context.from_state_point(b, d.point), d.force, d.body_axes, context.slots(3)};
+  }
 
   template <class T>
   void apply(const LoadInput<T>& in, LoadSum<T>& out) const {

@@ -5,16 +5,61 @@
 #include <vector>
 
 #include "seacrane/dynamics/loads/load.hpp"
+#include "seacrane/model/check.hpp"
 
 namespace seacrane {
+
+struct SpringDescription {
+  std::string name, first, second;
+  Vec3d first_point = Vec3d::Zero(), second_point = Vec3d::Zero();
+  double stiffness = 0.0, damping = 0.0, natural_length = 0.0;
+  std::vector<double> lengths, forces;  // tabulated tension over length, instead of stiffness
+};
 
 /// Tension between two points: stiffness (length - natural_length), or a table of tension over length
 /// (linear between its points, held outside), plus damping times the rate of length.
 struct SpringDamper {
+  static constexpr const char* kind = "spring";
+  using Description = SpringDescription;
+
   int first = 0, second = 0;
   Vec3d first_point, second_point;  // from the state points, body axes
   double stiffness = 0.0, damping = 0.0, natural_length = 0.0;
   std::vector<double> lengths, forces;
+
+  static void check(const Description& d, const Check& c, SceneNames& names) {
+    names.body(c, d.first, true);
+    names.body(c, d.second, true);
+    if (d.first == d.second) c.fail("joins '" + d.first + "' to itself; name two different bodies");
+    c.near("first_point", d.first_point);
+    c.near("second_point", d.second_point);
+    c.not_negative("stiffness", d.stiffness);
+    c.not_negative("damping", d.damping);
+    c.not_negative("natural_length", d.natural_length);
+    if (d.lengths.size() != d.forces.size() || d.lengths.size() == 1) {
+      c.fail("the table has " + std::to_string(d.lengths.size()) + " lengths and " +
+             std::to_string(d.forces.size()) + " forces; give at least two of each");
+    }
+    for (std::size_t i = 0; i < d.lengths.size(); ++i) {
+      c.finite("lengths", d.lengths[i]);
+      c.finite("forces", d.forces[i]);
+      if (i > 0 && !(d.lengths[i] > d.lengths[i - 1])) c.fail("lengths must increase");
+    }
+  }
+
+  template <class Context>
+  static SpringDamper compile(const Description& d, Context& context) {
+    const int a = context.body(d.first), b = context.body(d.second);
+    return {a,
+            b,
+            context.from_state_point(a, d.first_point),
+            context.from_state_point(b, d.second_point),
+            d.stiffness,
+            d.damping,
+            d.natural_length,
+            d.lengths,
+            d.forces};
+  }
 
   template <class T>
   void apply(const LoadInput<T>& in, LoadSum<T>& out) const {
