@@ -112,7 +112,7 @@ def _assembly(model: _core.Model) -> Rows:
     if model.constraints:
         rows.append(("rank of the constraints", found["rank"]))
         rows.append(("redundant constraints", model.constraints - found["rank"]))
-        rows.append(("condition estimate (largest S_ii / L_ii^2)", found["condition"]))
+        rows.append(("condition estimate (largest S_ii / d_i)", found["condition"]))
     if model.redundant:
         rows.append(("reactions not unique (minimum norm given)", list(model.redundant)))
     return rows

@@ -30,6 +30,46 @@ std::vector<std::vector<int>> joint_adjacency(const std::vector<GraphNode>& node
   return out;
 }
 
+/// L D L^T of one panel, in place: columns keep u = L d, the diagonal 1 / d. Returns the largest S_ii / d_i.
+double factor_panel(double* p, int width, int height, const double* diagonal) {
+  double worst = 1.0;
+  for (int c = 0; c < width; ++c) {
+    double* column = p + c * height;
+    const double pivot = column[c];
+    if (!(pivot > 0.0)) return std::numeric_limits<double>::infinity();
+    const double inverse = 1.0 / pivot;
+    worst = std::max(worst, diagonal[c] * inverse);
+    column[c] = inverse;
+    for (int c2 = c + 1; c2 < width; ++c2) {
+      const double a = column[c2] * inverse;
+      double* target = p + c2 * height;
+      for (int r = c2; r < height; ++r) target[r] -= a * column[r];
+    }
+  }
+  return worst;
+}
+
+/// What a factored panel subtracts from the panels of the rows below it.
+template <int width>
+void update_below(const double* p, int height, const std::size_t* scatter, double* values) {
+  double sum[kChunk];
+  for (int c = width; c < height; ++c) {
+    double a[width];
+    for (int k = 0; k < width; ++k) a[k] = p[k * height + c] * p[k * height + k];
+    // Long panels are walked in chunks that fit the stack buffer.
+    for (int start = c; start < height; start += kChunk) {
+      const int count = std::min(kChunk, height - start);
+      const double* row = p + start;
+      for (int i = 0; i < count; ++i) {
+        double s = 0.0;
+        for (int k = 0; k < width; ++k) s += a[k] * row[k * height + i];
+        sum[i] = s;
+      }
+      for (int i = 0; i < count; ++i) values[*scatter++] -= sum[i];
+    }
+  }
+}
+
 }  // namespace
 
 BlockSchur::BlockSchur(const std::vector<GraphNode>& nodes, int body_count) {
@@ -165,63 +205,69 @@ double BlockSchur::factor(double* values) const {
   const double* diagonal = values + value_count_ - rows_;
   for (const Panel& panel : panels_) {
     double* p = values + panel.values;
-    const int h = panel.height, w = panel.width;
-    for (int c = 0; c < w; ++c) {
-      double* column = p + c * h;
-      const double pivot = column[c];
-      if (!(pivot > 0.0)) return std::numeric_limits<double>::infinity();
-      worst = std::max(worst, diagonal[panel.first_row + c] / pivot);
-      const double scale = 1.0 / std::sqrt(pivot);
-      for (int r = c; r < h; ++r) column[r] *= scale;
-      for (int c2 = c + 1; c2 < w; ++c2) {
-        const double a = column[c2];
-        double* target = p + c2 * h;
-        for (int r = c2; r < h; ++r) target[r] -= a * column[r];
-      }
-    }
+    const double loss = factor_panel(p, panel.width, panel.height, diagonal + panel.first_row);
+    if (!std::isfinite(loss)) return loss;
+    worst = std::max(worst, loss);
     const std::size_t* scatter = scatter_.data() + panel.scatter;
-    double sum[kChunk];
-    for (int c = w; c < h; ++c) {
-      // Long panels are walked in chunks that fit the stack buffer.
-      for (int start = c; start < h; start += kChunk) {
-        const int count = std::min(kChunk, h - start);
-        for (int i = 0; i < count; ++i) sum[i] = 0.0;
-        for (int k = 0; k < w; ++k) {
-          const double a = p[k * h + c];
-          const double* column = p + k * h + start;
-          for (int i = 0; i < count; ++i) sum[i] += a * column[i];
-        }
-        for (int i = 0; i < count; ++i) values[*scatter++] -= sum[i];
-      }
+    switch (panel.width) {
+      case 1:
+        update_below<1>(p, panel.height, scatter, values);
+        break;
+      case 2:
+        update_below<2>(p, panel.height, scatter, values);
+        break;
+      case 3:
+        update_below<3>(p, panel.height, scatter, values);
+        break;
+      case 4:
+        update_below<4>(p, panel.height, scatter, values);
+        break;
+      case 5:
+        update_below<5>(p, panel.height, scatter, values);
+        break;
+      default:
+        update_below<6>(p, panel.height, scatter, values);
     }
   }
   return worst;
 }
 
 void BlockSchur::solve(const double* values, double* x) const {
-  for (const Panel& panel : panels_) {
-    const double* p = values + panel.values;
-    double* own = x + panel.first_row;
-    const int* below = below_.data() + panel.below;
-    for (int c = 0; c < panel.width; ++c) {
-      const double* column = p + c * panel.height;
-      const double v = own[c] / column[c];
-      own[c] = v;
-      for (int r = c + 1; r < panel.width; ++r) own[r] -= column[r] * v;
-      for (int r = panel.width; r < panel.height; ++r) x[below[r - panel.width]] -= column[r] * v;
-    }
-  }
+  for (const Panel& panel : panels_) eliminate(values + panel.values, panel, x);
   for (auto panel = panels_.rbegin(); panel != panels_.rend(); ++panel) {
-    const double* p = values + panel->values;
-    double* own = x + panel->first_row;
-    const int* below = below_.data() + panel->below;
-    for (int c = panel->width - 1; c >= 0; --c) {
-      const double* column = p + c * panel->height;
-      double v = own[c];
-      for (int r = c + 1; r < panel->width; ++r) v -= column[r] * own[r];
-      for (int r = panel->width; r < panel->height; ++r) v -= column[r] * x[below[r - panel->width]];
-      own[c] = v / column[c];
-    }
+    substitute_back(values + panel->values, *panel, x);
+  }
+}
+
+void BlockSchur::eliminate(const double* p, const Panel& panel, double* x) const {
+  const int h = panel.height, w = panel.width;
+  double* own = x + panel.first_row;
+  double v[kMaxRows];
+  for (int c = 0; c < w; ++c) {
+    const double* column = p + c * h;
+    v[c] = own[c] * column[c];
+    for (int r = c + 1; r < w; ++r) own[r] -= column[r] * v[c];
+  }
+  const int* below = below_.data() + panel.below;
+  for (int r = w; r < h; ++r) {
+    double sum = 0.0;
+    for (int c = 0; c < w; ++c) sum += p[c * h + r] * v[c];
+    x[*below++] -= sum;
+  }
+}
+
+void BlockSchur::substitute_back(const double* p, const Panel& panel, double* x) const {
+  const int h = panel.height, w = panel.width;
+  double* own = x + panel.first_row;
+  const int* below = below_.data() + panel.below;
+  for (int r = w; r < h; ++r) {
+    const double known = x[*below++];
+    for (int c = 0; c < w; ++c) own[c] -= p[c * h + r] * known;
+  }
+  for (int c = w - 1; c >= 0; --c) {
+    const double* column = p + c * h;
+    for (int r = c + 1; r < w; ++r) own[c] -= column[r] * own[r];
+    own[c] *= column[c];
   }
 }
 

@@ -12,7 +12,7 @@ struct GraphNode {
   int first = -1, second = -1;  // bodies; `ground` has no inertia and makes no fill
 };
 
-/// Block-sparse Cholesky factorisation of S = D M^-1 D^T along the joint graph: bodies are eliminated
+/// Block-sparse L d L^T factorisation of S = D M^-1 D^T along the joint graph: bodies are eliminated
 /// first, then the joints in minimum-degree order. The pattern is fixed; numbers live in a workspace.
 class BlockSchur {
  public:
@@ -26,7 +26,7 @@ class BlockSchur {
 
   /// Sums S from D of each element and D M^-1 of each side [2 element + side].
   void assemble(const RowBlock<double>* blocks, const Mat6d* over_mass, double* values) const;
-  /// In place; returns the largest S_ii / L_ii^2 (1 for orthogonal constraints), infinity when a pivot
+  /// In place; returns the largest S_ii / d_i (1 for orthogonal constraints), infinity when a pivot
   /// is not positive. The ratio is invariant to the scaling of rows and estimates the lost digits.
   double factor(double* values) const;
   /// x := S^-1 x.
@@ -49,6 +49,8 @@ class BlockSchur {
   void order(const std::vector<GraphNode>& nodes, const std::vector<std::vector<int>>& adjacency);
   void collect_terms(const std::vector<GraphNode>& nodes, int body_count);
   std::size_t entry(int row, int column) const;
+  void eliminate(const double* p, const Panel& panel, double* x) const;
+  void substitute_back(const double* p, const Panel& panel, double* x) const;
 
   int rows_ = 0;
   std::size_t value_count_ = 0;

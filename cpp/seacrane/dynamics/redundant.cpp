@@ -11,7 +11,7 @@
 namespace seacrane {
 namespace {
 
-/// S_ii / L_ii^2 beyond which the Schur complement has lost five digits and pivoted LU takes over.
+/// S_ii / d_i beyond which the Schur complement has lost five digits and pivoted LU takes over.
 constexpr double kConditionLimit = 1e5;
 /// The same of D M1^-1 D^T, with every mass one: beyond it rows may depend on each other.
 constexpr double kShapeConditionLimit = 1e7;

@@ -19,7 +19,7 @@ struct ConstraintResidual {
   double position = 0.0, rate = 0.0;
 };
 
-/// Rank of D at one state, a basis of ker(D^T) (empty for large systems) and the largest S_ii / L_ii^2.
+/// Rank of D at one state, a basis of ker(D^T) (empty for large systems) and the largest S_ii / d_i.
 struct ConstraintRank {
   int rank = 0;
   MatXd null_space;

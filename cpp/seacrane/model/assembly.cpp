@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kClosed = 1e-9;  // m, rad: a loop open by more than this is contradictory
 constexpr int kRestarts = 6;      // of the projection's own Newton iterations
-constexpr int kDenseRows = 600;   // above, redundancy is told from the Cholesky pivots alone
+constexpr int kDenseRows = 600;   // above, redundancy is told from the pivots alone
 
 double largest(const ElementModel& e, const Vec6d& phi) {
   return e.rows == 0 ? 0.0 : phi.head(e.rows).cwiseAbs().maxCoeff();
@@ -191,7 +191,7 @@ void assemble(Model& model) {
   model.redundant = rank < model.rows();
   if (model.redundant && !dense) {
     throw SceneError("scene '" + model.description.name +
-                     "': has redundant joints (S_ii/L_ii^2 = " + to_text(condition) + ") and more than " +
+                     "': has redundant joints (S_ii/d_i = " + to_text(condition) + ") and more than " +
                      std::to_string(kDenseRows) + " constraints; remove the redundant ones");
   }
   if (model.redundant) mark_redundant(model, null_space);

@@ -59,7 +59,7 @@ struct AssemblyReport {
   double velocity_change = 0.0;
   int iterations = 0;
   int rank = 0;
-  double condition = 0.0;              // largest S_ii / L_ii^2
+  double condition = 0.0;              // largest S_ii / d_i
   std::vector<std::string> redundant;  // elements whose reactions are not unique
 };
 
