@@ -69,7 +69,7 @@ def vessel(
     Parameters
     ----------
     memory : str
-        "per-pair" or "none".
+        "per-pair", "passive" or "none".
     kinematics : str
         "yaw_following" or "paper".
     database : path or HydroDatabase, optional

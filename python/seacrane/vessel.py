@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -12,11 +13,11 @@ from seacrane.scene import Scene
 from seacrane.waves import Waves
 
 if TYPE_CHECKING:
-    from seacrane.hydro import HydroDatabase
+    from seacrane.hydro import HydroDatabase, MemoryModel
 
 MOORING_PERIOD = 200.0  # s, of surge, sway and yaw (PAPER, "station keeping")
 MOORING_DAMPING = 0.1  # of critical
-MEMORY = ("per-pair", "none")
+MEMORY = ("per-pair", "passive", "none")
 
 
 def add_vessel(
@@ -39,8 +40,10 @@ def add_vessel(
     name : str
         Of the body and of its hydrodynamics.
     memory : str
-        "per-pair": fluid memory as one state-space model per pair of motions, eqs (28)-(31). "none": without
-        radiation damping, as the paper does for comparison.
+        "per-pair": fluid memory as one state-space model per pair of motions, eqs (28)-(31). "passive": one
+        model per group of coupled motions, proven passive and with fewer states. "none": without radiation
+        damping, as the paper does for comparison. The database's own fitted memory is used where it is of
+        the kind asked for; else one is fitted here, once for each database.
     kinematics : str
         "yaw_following" (default) or "paper", eqs (17)-(31).
     mooring_period : float or None
@@ -57,7 +60,7 @@ def add_vessel(
 
     if memory not in MEMORY:
         raise SceneError(f"memory {memory!r} is not available in this version; choose {' or '.join(MEMORY)}")
-    parameters = vessel_parameters(database)
+    parameters = vessel_parameters(database, memory=None if memory == "none" else _fitted(database, memory))
     scene.add_body(
         name=name,
         mass=parameters.mass,
@@ -75,10 +78,25 @@ def add_vessel(
         restoring=parameters.restoring,
         mooring_stiffness=heavy * omega**2,
         mooring_damping=2.0 * mooring_damping * omega * heavy,
-        memory=_blocks(parameters.memory) if memory == "per-pair" else [],
+        memory=[] if memory == "none" else _blocks(parameters.memory),
         kinematics=kinematics,
     )
     scene.notes.update(database=database.name, memory=memory, kinematics=kinematics)
+
+
+@lru_cache(maxsize=8)
+def _fitted(database: HydroDatabase, kind: str) -> MemoryModel:
+    """The memory of a database, its own if that is of the kind asked for."""
+    from seacrane.hydro import fit_memory
+    from seacrane.hydro.certificate import is_energy_form
+    from seacrane.hydro.memory_model import RADIATION
+
+    own = database.memory
+    if own is not None:
+        joint = all(is_energy_form(block) for block in own.blocks if block.cause == RADIATION)
+        if joint == (kind == "passive"):
+            return own
+    return fit_memory(database=database, kind=kind)
 
 
 def _blocks(model: Any) -> list[_core.StateSpaceBlock]:

@@ -8,10 +8,17 @@ from os import PathLike
 from pathlib import Path
 
 from seacrane.errors import FileFormatError
+from seacrane.hydro.certificate import (
+    PassivityCertificate,
+    PassivityError,
+    passivity_certificate,
+    require_passive,
+)
 from seacrane.hydro.check import CheckRow, memory_rows
 from seacrane.hydro.database import AdditionalMatrices, HydroDatabase, RollDamping
 from seacrane.hydro.memory import fit_memory
 from seacrane.hydro.memory_model import FitRow, MemoryBlock, MemoryModel, Passivity
+from seacrane.hydro.memory_trade import MemoryTradeRow, memory_trade
 from seacrane.hydro.motion import motion_response, natural_frequency
 from seacrane.hydro.veres import find_stem, read_veres
 from seacrane.hydro.vessel import (
@@ -31,7 +38,10 @@ __all__ = [
     "MemoryBlock",
     "MemoryFitWarning",
     "MemoryModel",
+    "MemoryTradeRow",
     "Passivity",
+    "PassivityCertificate",
+    "PassivityError",
     "RigidPart",
     "RollDamping",
     "RollDampingWarning",
@@ -39,9 +49,12 @@ __all__ = [
     "fit_memory",
     "load_database",
     "memory_rows",
+    "memory_trade",
     "motion_response",
     "natural_frequency",
+    "passivity_certificate",
     "read_veres",
+    "require_passive",
     "rigid_mass_matrix",
     "shipped_database",
     "vessel_parameters",

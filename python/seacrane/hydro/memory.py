@@ -1,4 +1,4 @@
-"""`fit_memory`: radiation memory (and that of roll tanks) of a database, one model per entry."""
+"""`fit_memory`: radiation memory (and that of roll tanks) of a database, per entry or per group."""
 
 from __future__ import annotations
 
@@ -8,8 +8,10 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from seacrane.hydro.certificate import require_passive
 from seacrane.hydro.identification import IdentificationData, RationalFit, fit_lowest_order
 from seacrane.hydro.memory_model import RADIATION, FitRow, MemoryBlock, MemoryModel, Passivity
+from seacrane.hydro.passive import fit_passive
 from seacrane.hydro.realisation import realise
 
 if TYPE_CHECKING:
@@ -20,6 +22,7 @@ FloatArray = NDArray[np.float64]
 ORDERS = range(2, 9)
 NEGLIGIBLE = 1e-6
 FEWEST_FREQUENCIES = 8
+KINDS = ("per-pair", "passive")
 
 
 def fit_memory(
@@ -28,8 +31,9 @@ def fit_memory(
     band: tuple[float, float] | None = None,
     r2: float = 0.99,
     infinite_frequency: Literal["estimated", "known"] = "estimated",
+    kind: str = "per-pair",
 ) -> MemoryModel:
-    """Identify the fluid memory of ``database``, one single-input model per entry of the matrices.
+    """Identify the fluid memory of ``database``.
 
     Parameters
     ----------
@@ -41,6 +45,8 @@ def fit_memory(
     infinite_frequency : whether each entry's infinite-frequency added mass is estimated with its model, or
         taken from the database. A panel code's value carries the error of its mesh at wavelengths the mesh
         cannot resolve, and forcing it on the model costs states and puts poles beyond the data.
+    kind : "per-pair", one single-input model per entry of the matrices; or "passive", one model with common
+        poles per group of coupled motions that cannot deliver energy (`passivity_certificate` proves it).
 
     Returns
     -------
@@ -48,15 +54,17 @@ def fit_memory(
 
     Raises
     ------
-    ValueError : a band that holds fewer than eight frequencies, an ``r2`` outside (0, 1), or a known
-        infinite-frequency added mass asked for and not there.
+    ValueError : a band that holds fewer than eight frequencies, an ``r2`` outside (0, 1), another ``kind``,
+        or a known infinite-frequency added mass asked for and not there.
 
     Notes
     -----
     Entries whose damping and whose variation of added mass stay below 1e-6 of the geometric mean of their
     diagonals are dropped. Additional matrices (roll tanks) get a static stiffness and a model of their own,
-    in which the retardation function need not vanish at zero frequency.
+    in which the retardation function need not vanish at zero frequency, always of the per-pair kind.
     """
+    if kind not in KINDS:
+        raise ValueError(f"memory kind {kind!r} is unknown; choose {' or '.join(KINDS)}")
     if not 0.0 < r2 < 1.0:
         raise ValueError(f"r2 is {r2}; give a number between 0 and 1")
     low, high = band or database.trusted_band or (float(database.omega[0]), float(database.omega[-1]))
@@ -72,7 +80,8 @@ def fit_memory(
             f"database {database.name!r} has no infinite-frequency added mass; pass "
             "infinite_frequency='estimated'"
         )
-    blocks, rows, added_mass = _fit_radiation(database, known, trusted, r2)
+    fit = _fit_radiation if kind == "per-pair" else _fit_passive_radiation
+    blocks, rows, added_mass = fit(database, known, trusted, r2)
     extra_mass, stiffness = np.zeros((6, 6)), np.zeros((6, 6))
     for part in database.additional:
         more = _fit_additional(database, part, trusted, r2)
@@ -80,7 +89,7 @@ def fit_memory(
         rows += more[1]
         extra_mass += more[2]
         stiffness += more[3]
-    return MemoryModel(
+    model = MemoryModel(
         blocks=tuple(blocks),
         added_mass=added_mass,
         additional_added_mass=extra_mass,
@@ -90,6 +99,9 @@ def fit_memory(
         rows=tuple(rows),
         passivity=joint_passivity(blocks, database.damping, (float(low), float(high))),
     )
+    if kind == "passive" and any(row.cause == RADIATION for row in rows):
+        require_passive(model)
+    return model
 
 
 def _fit_radiation(
@@ -117,6 +129,26 @@ def _fit_radiation(
     if known is None:
         infinite = _keep_constant_entries(infinite, symmetric_a, blocks)
     return blocks, rows, infinite
+
+
+def _fit_passive_radiation(
+    database: HydroDatabase, known: FloatArray | None, trusted: NDArray[np.bool_], r2: float
+) -> tuple[list[MemoryBlock], list[FitRow], FloatArray]:
+    """The same of the passive kind."""
+    symmetric_a = 0.5 * (database.added_mass + database.added_mass.swapaxes(1, 2))
+    symmetric_b = 0.5 * (database.damping + database.damping.swapaxes(1, 2))
+    blocks, rows, infinite = fit_passive(
+        database=database,
+        added_mass=symmetric_a,
+        damping=symmetric_b,
+        entries=_entries(symmetric_a, symmetric_b, database.omega),
+        known=None if known is None else 0.5 * (known + known.T),
+        trusted=trusted,
+        r2=r2,
+    )
+    if known is not None:
+        return blocks, rows, 0.5 * (known + known.T)
+    return blocks, rows, _keep_constant_entries(infinite, symmetric_a, blocks)
 
 
 def _fit_additional(
@@ -179,7 +211,7 @@ def _keep_constant_entries(
     infinite: FloatArray, added_mass: FloatArray, blocks: list[MemoryBlock]
 ) -> FloatArray:
     """Entries without memory keep their (constant) added mass."""
-    fitted = {(int(block.outputs[0]), int(block.inputs[0])) for block in blocks}
+    fitted = {(int(j), int(k)) for block in blocks for j in block.outputs for k in block.inputs}
     kept = infinite.copy()
     for j in range(6):
         for k in range(6):

@@ -55,7 +55,7 @@ def realise(
         B=b,
         C=c,
         D=np.zeros((1, 1)),
-        state_scale=_largest_states(a, b) * TYPICAL_VELOCITY[input],
+        state_scale=largest_states(a, b) * TYPICAL_VELOCITY[input],
     )
 
 
@@ -65,7 +65,7 @@ def _square_root(gramian: FloatArray) -> FloatArray:
     return np.asarray(vectors * np.sqrt(np.maximum(values, 0.0)))
 
 
-def _largest_states(a: FloatArray, b: FloatArray) -> FloatArray:
+def largest_states(a: FloatArray, b: FloatArray) -> FloatArray:
     """Largest amplitude of every state under a unit harmonic input of any frequency."""
     omega = np.geomspace(1e-2, 1e2, 400)
     resolvent = 1j * omega[:, None, None] * np.eye(len(a)) - a

@@ -1,0 +1,118 @@
+"""`memory_trade`: what each kind and order of memory model costs in states and in error."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from seacrane.hydro.certificate import passivity_certificate
+from seacrane.hydro.check import memory_rows
+from seacrane.hydro.memory import KINDS, fit_memory
+from seacrane.hydro.memory_model import RADIATION, MemoryModel
+
+if TYPE_CHECKING:
+    from seacrane.hydro.database import HydroDatabase
+
+FloatArray = NDArray[np.float64]
+
+TARGETS = (0.9, 0.95, 0.98, 0.99, 0.995)
+
+
+@dataclass(frozen=True, kw_only=True)
+class MemoryTradeRow:
+    """One model: how large it is and how far it is from the data, over the trusted band.
+
+    Attributes
+    ----------
+    kind : "per-pair" or "passive".
+    r2 : the R2 asked for, the largest of those that gave this same model. reached : whether every pair has
+        it.
+    states : of the radiation blocks. additional_states : of other causes (roll tanks).
+    error_kernel : largest over the pairs of the root mean square of the retardation function's misfit
+        ``|K_fit(i w) - K(i w)|`` over that of ``K = B + i w (A - A_inf)``, with the model's A_inf.
+    error_added_mass, error_damping : largest over the pairs of the root mean square misfit over the standard
+        deviation of the data, ``sqrt(1 - R2)``.
+    error_motion : largest difference of any motion by its largest, worst heading; worst_motion names it.
+    passive, margin : of `passivity_certificate`.
+    """
+
+    kind: str
+    r2: float
+    reached: bool
+    states: int
+    additional_states: int
+    error_kernel: float
+    error_added_mass: float
+    error_damping: float
+    error_motion: float
+    worst_motion: str
+    passive: bool
+    margin: float
+
+
+def memory_trade(
+    database: HydroDatabase, *, targets: Sequence[float] = TARGETS, kinds: Sequence[str] = KINDS
+) -> list[MemoryTradeRow]:
+    """Fit every kind to every R2 in ``targets`` and measure the models; equal models appear once.
+
+    Returns
+    -------
+    list of MemoryTradeRow : by kind, then by number of states.
+
+    Raises
+    ------
+    ValueError : as `fit_memory`.
+    """
+    rows: list[MemoryTradeRow] = []
+    for kind in kinds:
+        seen: dict[tuple[float, ...], MemoryTradeRow] = {}
+        for r2 in sorted(targets):
+            row = trade_row(database, fit_memory(database=database, r2=r2, kind=kind), kind=kind)
+            same = (row.states, row.additional_states, round(row.error_kernel, 9), round(row.error_motion, 9))
+            seen[same] = row if row.reached else seen.get(same, row)
+        rows += sorted(seen.values(), key=lambda row: row.states)
+    return rows
+
+
+def trade_row(database: HydroDatabase, model: MemoryModel, *, kind: str) -> MemoryTradeRow:
+    """Errors and size of one model."""
+    radiation = [row for row in model.rows if row.cause == RADIATION]
+    states = sum(len(block.A) for block in model.blocks if block.cause == RADIATION)
+    certificate = passivity_certificate(model)
+    checks = memory_rows(dataclasses.replace(database, memory=None), model)
+    prefix = "memory_motion_"
+    motions = {row.check.removeprefix(prefix): row.value for row in checks if row.check.startswith(prefix)}
+    worst = max(motions, key=lambda name: motions[name])
+    return MemoryTradeRow(
+        kind=kind,
+        r2=model.r2,
+        reached=all(row.accepted for row in radiation),
+        states=states,
+        additional_states=model.states - states,
+        error_kernel=_kernel_error(database, model),
+        error_added_mass=max(float(np.sqrt(max(1.0 - row.r2_added_mass, 0.0))) for row in radiation),
+        error_damping=max(float(np.sqrt(max(1.0 - row.r2_damping, 0.0))) for row in radiation),
+        error_motion=motions[worst],
+        worst_motion=worst,
+        passive=certificate.passive,
+        margin=certificate.margin,
+    )
+
+
+def _kernel_error(database: HydroDatabase, model: MemoryModel) -> float:
+    """Largest relative misfit of K(i w) over the pairs, within the model's band."""
+    low, high = model.band
+    inside = (database.omega >= low - 1e-9) & (database.omega <= high + 1e-9)
+    omega = database.omega[inside]
+    a = 0.5 * (database.added_mass + database.added_mass.swapaxes(1, 2))[inside]
+    b = 0.5 * (database.damping + database.damping.swapaxes(1, 2))[inside]
+    data = b + 1j * omega[:, None, None] * (a - model.added_mass)
+    misfit = model.transfer(omega) - data
+    pairs = [(row.output, row.input) for row in model.rows if row.cause == RADIATION]
+    ratios = [np.linalg.norm(misfit[:, j, k]) / np.linalg.norm(data[:, j, k]) for j, k in pairs]
+    return float(max(ratios))
