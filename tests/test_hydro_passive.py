@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import json
 import warnings
 from pathlib import Path
 
@@ -15,6 +16,7 @@ from scipy.linalg import eig, expm, solve_continuous_lyapunov
 
 from seacrane import Scene, simulate
 from seacrane.cases import case1, vessel
+from seacrane.cli import main
 from seacrane.hydro import (
     HydroDatabase,
     MemoryBlock,
@@ -25,6 +27,7 @@ from seacrane.hydro import (
     load_database,
     memory_rows,
     memory_trade,
+    passive,
     passivity_certificate,
     require_passive,
     shipped_database,
@@ -213,7 +216,7 @@ def block_of(a: Array, b: Array, c: Array) -> MemoryBlock:
     )
 
 
-def test_a_model_that_is_not_passive_is_refused() -> None:
+def test_a_model_that_is_not_passive_is_refused(hull: MemoryModel) -> None:
     """The shipped per-pair model is not (docs): the exception says so and where."""
     database = shipped_database()
     assert database.memory is not None
@@ -221,7 +224,7 @@ def test_a_model_that_is_not_passive_is_refused() -> None:
     assert not certificate.passive and not certificate.energy and certificate.margin < 0.0
     with pytest.raises(PassivityError, match="not passive: its damping is not positive"):
         require_passive(database.memory)
-    assert require_passive(fit_memory(database=database, kind="passive")).passive
+    assert require_passive(hull).passive
 
 
 def test_a_narrow_dip_below_zero_is_found(hull: MemoryModel) -> None:
@@ -345,8 +348,9 @@ def test_a_weak_pair_is_judged_by_the_motions() -> None:
     assert all(row.accepted for row in model.rows)
 
 
-def test_data_that_cannot_be_passive_warn_by_name() -> None:
+def test_data_that_cannot_be_passive_warn_by_name(monkeypatch: pytest.MonkeyPatch) -> None:
     """Pair 35 made larger than its diagonals allow: still a passive model, and a warning with numbers."""
+    monkeypatch.setattr(passive, "MOST_MASSES", 1)
     base = shipped_database()
     damping, added_mass = base.damping.copy(), base.added_mass.copy()
     for j, k in ((2, 4), (4, 2)):
@@ -388,6 +392,16 @@ def test_runs_stay_close_to_the_per_pair_model(case: object) -> None:
     difference = np.sqrt(np.mean((motions[1] - motions[0]) ** 2, axis=0) / np.mean(motions[0] ** 2, axis=0))
     assert np.all(difference < 0.1)
     assert difference.max() > 1e-5
+
+
+def test_the_command_line_takes_it(tmp_path: Path) -> None:
+    arguments = ["run", "vessel", "--memory", "passive", "--t-end", "2", "--out", str(tmp_path)]
+    assert main(arguments) == 0
+    import xarray
+
+    with xarray.open_dataset(tmp_path / "vessel.nc") as data:
+        assert json.loads(data.attrs["settings"])["memory"] == "passive"
+        assert data.attrs["states"] < vessel().compile().states
 
 
 def test_trade_table_is_measured_and_documented(repository: Path) -> None:
