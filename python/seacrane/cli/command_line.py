@@ -12,7 +12,10 @@ from typing import Any, NoReturn
 FAILED, MISUSED, INTERRUPTED = 1, 2, 130
 DESCRIPTION = "Offshore crane, payload and vessel moving together in waves."
 SCENE_HELP = "case1, case2, case3, vessel (the vessel alone in waves), or a scene file (data only)"
-PATH_HELP = "a file or folder of any supported kind: a VERES folder or its common stem, or a NetCDF file"
+PATH_HELP = (
+    "a file or folder of any supported kind: a VERES or WAMIT folder or common stem, or a NetCDF file of "
+    "seacrane or Capytaine"
+)
 
 
 class _Parser(argparse.ArgumentParser):

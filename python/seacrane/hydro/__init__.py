@@ -8,6 +8,7 @@ from os import PathLike
 from pathlib import Path
 
 from seacrane.errors import FileFormatError
+from seacrane.hydro.capytaine import is_capytaine, read_capytaine
 from seacrane.hydro.certificate import (
     PassivityCertificate,
     PassivityError,
@@ -29,9 +30,18 @@ from seacrane.hydro.vessel import (
     rigid_mass_matrix,
     vessel_parameters,
 )
+from seacrane.hydro.wamit import (
+    AssumedDensityWarning,
+    AssumedInertiaWarning,
+    PartialSetWarning,
+    is_wamit,
+    read_wamit,
+)
 
 __all__ = [
     "AdditionalMatrices",
+    "AssumedDensityWarning",
+    "AssumedInertiaWarning",
     "CheckRow",
     "FitRow",
     "HydroDatabase",
@@ -39,6 +49,7 @@ __all__ = [
     "MemoryFitWarning",
     "MemoryModel",
     "MemoryTradeRow",
+    "PartialSetWarning",
     "Passivity",
     "PassivityCertificate",
     "PassivityError",
@@ -53,7 +64,9 @@ __all__ = [
     "motion_response",
     "natural_frequency",
     "passivity_certificate",
+    "read_capytaine",
     "read_veres",
+    "read_wamit",
     "require_passive",
     "rigid_mass_matrix",
     "shipped_database",
@@ -61,11 +74,17 @@ __all__ = [
 ]
 
 NETCDF = (".nc", ".nc4")
-SUPPORTED = "a seacrane NetCDF file (.nc), or a ShipX/VERES folder, stem or file (.re7 with .re8 and .re1)"
+SUPPORTED = (
+    "a NetCDF file (.nc) of seacrane or Capytaine, a ShipX/VERES folder, stem or file (.re7 with .re8 and "
+    ".re1), or a WAMIT folder, stem or file (.1 .3 .hst .out, with .4 and .frc)"
+)
 
 
 def load_database(path: str | PathLike[str]) -> HydroDatabase:
-    """Read a hydrodynamic database of any supported kind: our NetCDF, or ShipX/VERES (folder, stem or file).
+    """Read a hydrodynamic database of any supported kind.
+
+    NetCDF of seacrane or Capytaine (told apart by content), ShipX/VERES or WAMIT (folder, stem or any file of
+    the set).
 
     Raises
     ------
@@ -76,21 +95,33 @@ def load_database(path: str | PathLike[str]) -> HydroDatabase:
     if source.is_dir():
         return _load_folder(source)
     if source.is_file() and source.suffix.lower() in NETCDF:
-        return HydroDatabase.load(source)
+        return _load_netcdf(source)
     if _is_veres(source):
         return read_veres(source)
+    if is_wamit(source):
+        return read_wamit(source)
     problem = "not of a known kind" if source.exists() else "no such file"
     raise FileFormatError(f"{source}: {problem}; supported: {SUPPORTED}")
+
+
+def _load_netcdf(file: Path) -> HydroDatabase:
+    """Capytaine's dataset, or else ours."""
+    return read_capytaine(file) if is_capytaine(file) else HydroDatabase.load(file)
 
 
 def _load_folder(folder: Path) -> HydroDatabase:
     """The one database that a folder holds."""
     suffixes = {file.suffix.lower() for file in folder.iterdir()}
-    if suffixes & {".re7", ".re8"}:
+    veres, wamit = bool(suffixes & {".re7", ".re8"}), is_wamit(folder)
+    if veres and wamit:
+        raise FileFormatError(f"{folder}: the folder holds VERES and WAMIT files; name one of them")
+    if veres:
         return read_veres(folder)
+    if wamit:
+        return read_wamit(folder)
     files = sorted(file for file in folder.iterdir() if file.suffix.lower() in NETCDF)
     if len(files) == 1:
-        return HydroDatabase.load(files[0])
+        return _load_netcdf(files[0])
     found = "several NetCDF files, name one" if files else "nothing of a known kind"
     raise FileFormatError(f"{folder}: the folder holds {found}; supported: {SUPPORTED}")
 

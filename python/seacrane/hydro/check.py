@@ -12,7 +12,11 @@ from seacrane.hydro.coupled import largest_growth_rate
 from seacrane.hydro.memory import FEWEST_FREQUENCIES, fit_memory
 from seacrane.hydro.memory_model import RADIATION, MemoryModel
 from seacrane.hydro.motion import motion_response, natural_frequency
-from seacrane.hydro.relations import damping_from_forces, infinite_added_mass_from_damping
+from seacrane.hydro.relations import (
+    damping_from_forces,
+    infinite_added_mass_from_damping,
+    resolved_by_headings,
+)
 
 if TYPE_CHECKING:
     from seacrane.hydro.database import HydroDatabase
@@ -21,7 +25,6 @@ FloatArray = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
 
 MOTIONS = ("surge", "sway", "heave", "roll", "pitch", "yaw")
-CLOSURE_LIMIT = {"surge": 1e-3, "sway": 1e-3, "heave": 1e-5, "roll": 1e-3, "pitch": 1e-5, "yaw": 1e-3}
 SYMMETRY_LIMIT = 0.03
 DAMPING_LIMIT = -0.01
 FORCE_DAMPING_LIMIT = 0.1
@@ -91,11 +94,13 @@ def memory_rows(database: HydroDatabase, model: MemoryModel) -> list[CheckRow]:
 
 
 def _closure_rows(database: HydroDatabase) -> list[CheckRow]:
-    """Motions solved from A, B, C, F against those of the source, largest error over the largest motion."""
+    """Motions solved from A, B, C, F against those of the source, within the trusted band."""
     if database.motion_rao is None:
         return []
-    errors = motion_errors(database, motion_response(database), database.motion_rao)
-    return [_at_most(f"motion_rao_{name}", errors[i], CLOSURE_LIMIT[name]) for i, name in enumerate(MOTIONS)]
+    solved = motion_response(database)
+    errors = motion_errors(database, solved, database.motion_rao, inside=_inside_band(database))
+    limits = database.motion_rao_limit.tolist()
+    return [_at_most(f"motion_rao_{name}", errors[i], limits[i]) for i, name in enumerate(MOTIONS)]
 
 
 def motion_errors(
@@ -105,15 +110,15 @@ def motion_errors(
     *,
     inside: NDArray[np.bool_] | None = None,
 ) -> FloatArray:
-    """Largest difference (6,) over all frequencies and headings, by the largest motion of its heading.
+    """Largest difference (6,) over the frequencies and headings, by the largest motion of its heading.
 
     Motions that symmetry forbids (sway, roll, yaw in head and following sea, surge in beam sea) are noise in
-    files: headings where a motion stays below 1e-4 of its largest are left out.
+    files: headings where a motion stays below the source's floor, a share of its largest, are left out.
     """
     use = np.ones(len(database.omega), dtype=bool) if inside is None else inside
     largest = np.abs(given[:, use]).max(axis=1)
     error = np.abs(solved - given)[:, use].max(axis=1)
-    counted = largest > 1e-4 * largest.max(axis=0)
+    counted = largest > database.motion_rao_floor * largest.max(axis=0)
     return np.asarray(np.where(counted, error / np.where(counted, largest, 1.0), 0.0).max(axis=0))
 
 
@@ -159,11 +164,11 @@ def _relation_rows(database: HydroDatabase) -> list[CheckRow]:
     rows = []
     radiated = damping_from_forces(database)
     if radiated is not None:
-        inside = _inside_band(database)
+        inside = _inside_band(database) & resolved_by_headings(database)
         strip = _surge_is_missing(database)  # strip theory does not obey the relation: only reported
         for i, name in enumerate(MOTIONS):
             peak = float(np.abs(database.damping[:, i, i]).max())
-            if peak > 0.0:
+            if peak > 0.0 and np.any(inside):
                 error = np.abs(radiated - database.damping)[inside, i, i].max() / peak
                 label = f"damping_from_forces_{name}"
                 rows.append(_info(label, error) if strip else _at_most(label, error, FORCE_DAMPING_LIMIT))

@@ -22,6 +22,7 @@ ComplexArray = NDArray[np.complex128]
 
 MOTIONS = ("surge", "sway", "heave", "roll", "pitch", "yaw")
 PORT_STARBOARD = np.array([1.0, -1.0, 1.0, -1.0, 1.0, -1.0])
+MOTION_RAO_LIMIT = (1e-3, 1e-3, 1e-5, 1e-3, 1e-5, 1e-3)
 LARGEST_HEADING_GAP = np.radians(45.0)
 
 
@@ -70,6 +71,11 @@ class HydroDatabase:
     restoring, mass_matrix : (6, 6).
     force : (m, n, 6) complex wave excitation.
     motion_rao : (m, n, 6) complex motions as the source gives them, or None.
+    motion_rao_limit : (6,) how far motions solved from A, B, C and the forces may be from `motion_rao`, by
+        the largest motion: what the digits and the methods of the source allow. Where its reader states
+        nothing, 1e-5 in heave and pitch, 1e-3 in the rest.
+    motion_rao_floor : (6,) share of its largest over all headings below which a motion of the source is
+        noise.
     linear_damping : (6, 6) damping beside radiation, the same at all frequencies.
     quadratic_damping : (6,) coefficients of v |v| beside radiation.
     roll_damping : roll damping tabulated by frequency, or None.
@@ -102,6 +108,8 @@ class HydroDatabase:
     infinite_frequency_added_mass: FloatArray | None = None
     zero_frequency_added_mass: FloatArray | None = None
     motion_rao: ComplexArray | None = None
+    motion_rao_limit: FloatArray = field(default_factory=lambda: np.array(MOTION_RAO_LIMIT))
+    motion_rao_floor: FloatArray = field(default_factory=lambda: np.full(6, 1e-4))
     linear_damping: FloatArray = field(default_factory=lambda: np.zeros((6, 6)))
     quadratic_damping: FloatArray = field(default_factory=lambda: np.zeros(6))
     roll_damping: RollDamping | None = None
@@ -242,6 +250,8 @@ _SHAPES = {
     "mass_matrix": "ij",
     "force": "mni",
     "motion_rao": "mni",
+    "motion_rao_limit": "i",
+    "motion_rao_floor": "i",
     "linear_damping": "ij",
     "quadratic_damping": "i",
     "linear": "n",

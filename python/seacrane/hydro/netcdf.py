@@ -40,6 +40,8 @@ _ARRAYS: dict[str, tuple[tuple[str, ...], str]] = {
     "quadratic_damping": (("motion",), "N s2/m2, N m s2"),
     "force": (("heading", "omega", "motion"), "N/m, N m/m"),
     "motion_rao": (("heading", "omega", "motion"), "m/m, rad/m"),
+    "motion_rao_limit": (("motion",), "1"),
+    "motion_rao_floor": (("motion",), "1"),
 }
 _ROLL = {"linear": ("omega",), "quadratic": ("omega",), "linearised": ("heading", "omega")}
 _BLOCK_ARRAYS = ("outputs", "inputs", "A", "B", "C", "D", "state_scale")

@@ -17,6 +17,7 @@ FloatArray = NDArray[np.float64]
 HEADINGS = 720
 FINE_POINTS = 6001
 TAIL_EXPONENT = 3.0
+LARGEST_PHASE_STEP = 2.0  # rad between headings: splines through every second or third heading err by 2 %
 
 
 def damping_from_forces(database: HydroDatabase) -> FloatArray | None:
@@ -36,6 +37,17 @@ def damping_from_forces(database: HydroDatabase) -> FloatArray | None:
     product = np.einsum("hnj,hnk->njk", x, x.conj()).real * 2.0 * np.pi / HEADINGS
     factor = database.omega**3 / (4.0 * np.pi * database.rho * database.g**3)
     return np.asarray(factor[:, None, None] * product)
+
+
+def resolved_by_headings(database: HydroDatabase) -> NDArray[np.bool_]:
+    """Frequencies (n,) whose force pattern the headings resolve, in deep water.
+
+    The force from an end of the ship turns by up to ``k L / 2`` radians of phase per radian of heading.
+    """
+    circle, _ = database.full_circle()
+    gap = np.diff(np.append(circle, circle[0] + 2.0 * np.pi)).max()
+    phase = gap * database.omega**2 / database.g * database.length / 2.0
+    return np.asarray(phase <= LARGEST_PHASE_STEP)
 
 
 def infinite_added_mass_from_damping(database: HydroDatabase) -> FloatArray:

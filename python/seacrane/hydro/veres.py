@@ -27,6 +27,7 @@ BOTH_SIDES = np.outer(TO_OURS, TO_OURS)
 ADDITIONAL_CAUSE = "roll tanks and other additional matrices"
 LINEARISED_AMPLITUDE = 5.0  # m, the wave amplitude of the files' linearised roll damping
 HEADER_LINES = 6
+CLOSURE_LIMIT = np.array([1e-3, 1e-3, 1e-5, 1e-3, 1e-5, 1e-3])  # of eight digits
 
 
 @dataclass(frozen=True)
@@ -262,6 +263,7 @@ def _convert(stem: Path, matrices: _Matrices, force: _Transfer, motion: _Transfe
         mass_matrix=matrices.mass * BOTH_SIDES + 0.0,
         force=of_wave(force.values),
         motion_rao=None if motion is None else of_wave(motion.values),
+        motion_rao_limit=CLOSURE_LIMIT,
         roll_damping=RollDamping(
             linear=roll[0, :, 0],
             quadratic=roll[0, :, 1],
