@@ -249,11 +249,9 @@ def _force(path: Path, dataset: xarray.Dataset) -> ComplexArray:
 
 
 def _complex(path: Path, dataset: xarray.Dataset, name: str, dimensions: tuple[str, ...]) -> ComplexArray:
-    """A complex variable, whole or as re and im along the dimension ``complex``."""
+    """A complex variable from its parts re and im along the dimension ``complex``."""
     if "wave_direction" not in dataset[name].dims:
         dataset = dataset.assign({name: dataset[name].expand_dims("wave_direction")})
-    if np.iscomplexobj(dataset[name].values):
-        return np.asarray(_variable(path, dataset, name, dimensions).values, dtype=complex)
     values = _variable(path, dataset, name, (*dimensions, "complex"))
     labels = [str(label) for label in values["complex"].values] if "complex" in values.coords else []
     if sorted(labels) != ["im", "re"]:

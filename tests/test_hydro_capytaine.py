@@ -1,0 +1,264 @@
+"""Capytaine reader: the shipped hull written in Capytaine's layout, a fresh Capytaine run, damaged files."""
+
+from __future__ import annotations
+
+import json
+import logging
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+import xarray
+
+from seacrane.cli import main
+from seacrane.errors import FileFormatError
+from seacrane.hydro import HydroDatabase, load_database, read_capytaine, shipped_database
+from seacrane.hydro.relations import damping_from_forces
+
+ORDER = [4, 1, 5, 0, 3, 2]  # Capytaine's users may name their degrees of freedom in any order
+NAMES = np.array(["Surge", "Sway", "Heave", "Roll", "Pitch", "Yaw"])
+OMEGA = slice(5, 40, 5)
+HEADING = slice(None, None, 3)
+
+
+def in_file(matrices: np.ndarray) -> np.ndarray:
+    """Matrices (..., 6, 6) in the order of the file."""
+    return matrices[..., ORDER, :][..., ORDER]
+
+
+def layout(centre: tuple[float, float, float] = (0.0, 0.0, 0.0)) -> xarray.Dataset:
+    """Part of the shipped hull as Capytaine writes it; ``centre``: the reference point in the mesh."""
+    base = shipped_database()
+    omega, direction = base.omega[OMEGA], base.heading[HEADING]
+    zero, infinite = base.zero_frequency_added_mass, base.infinite_frequency_added_mass
+    assert zero is not None and infinite is not None
+    added_mass = np.concatenate([infinite[None], base.added_mass[OMEGA][::-1], zero[None]])
+    nothing = np.zeros((1, 6, 6))
+    damping = np.concatenate([nothing, base.damping[OMEGA][::-1], nothing])
+    along = centre[0] * np.cos(direction) + centre[1] * np.sin(direction)
+    at_mesh_origin = np.exp(-1j * np.outer(along, omega**2 / base.g))[:, :, None]
+    force = np.conj(base.force[HEADING, OMEGA] * at_mesh_origin)[:, ::-1, ORDER].swapaxes(0, 1)
+    undefined = np.full((1, len(direction), 6), np.nan + 1j * np.nan)
+    excitation = np.concatenate([undefined, force, undefined])
+    part = 0.3 * excitation + 1e3
+
+    def waves(values: np.ndarray) -> tuple[tuple[str, ...], np.ndarray]:
+        dimensions = ("complex", "omega", "wave_direction", "influenced_dof")
+        return dimensions, np.stack([values.real, values.imag])
+
+    matrix = ("influenced_dof", "radiating_dof")
+    return xarray.Dataset(
+        {
+            "added_mass": (("omega", *matrix), in_file(added_mass)),
+            "radiation_damping": (("omega", *matrix), in_file(damping)),
+            "Froude_Krylov_force": waves(part),
+            "diffraction_force": waves(excitation - part),
+            "excitation_force": waves(excitation),
+            "inertia_matrix": (matrix, in_file(base.mass_matrix)),
+            "hydrostatic_stiffness": (matrix, in_file(base.restoring)),
+        },
+        {
+            "omega": np.concatenate([[np.inf], omega[::-1], [0.0]]),
+            "wave_direction": direction,
+            "influenced_dof": NAMES[ORDER],
+            "radiating_dof": NAMES[ORDER],
+            "rho": base.rho,
+            "g": base.g,
+            "water_depth": np.inf,
+            "forward_speed": 0.0,
+            "body": "hull",
+            "rotation_center": ("space_coordinate", np.array(centre)),
+            "complex": ["re", "im"],
+        },
+        {"capytaine_version": "3.0.0"},
+    )
+
+
+def read(dataset: xarray.Dataset, folder: Path, **given: Any) -> HydroDatabase:
+    """The dataset by way of a file."""
+    dataset.to_netcdf(folder / "hull.nc", engine="netcdf4")
+    return read_capytaine(folder / "hull.nc", **given)
+
+
+@pytest.mark.parametrize("centre", [(0.0, 0.0, 0.0), (55.3, -2.0, 0.0)])
+def test_the_shipped_hull_comes_back(centre: tuple[float, float, float], tmp_path: Path) -> None:
+    base, found = shipped_database(), read(layout(centre), tmp_path)
+    assert np.array_equal(found.omega, base.omega[OMEGA])
+    assert np.array_equal(found.heading, base.heading[HEADING])
+    for name in ("added_mass", "damping"):
+        assert np.array_equal(getattr(found, name), getattr(base, name)[OMEGA])
+    for name in ("infinite_frequency_added_mass", "zero_frequency_added_mass", "restoring", "mass_matrix"):
+        assert np.array_equal(getattr(found, name), getattr(base, name))
+    scale = np.abs(base.force).max(axis=(0, 1))
+    assert np.all(np.abs(found.force - base.force[HEADING, OMEGA]) <= 1e-12 * scale)
+    assert (found.rho, found.g, found.depth, found.speed) == (base.rho, base.g, np.inf, 0.0)
+    assert found.port_starboard_symmetric == (centre[1] == 0.0)
+    assert "Capytaine 3.0.0" in found.source and "hull" in found.source
+    assert found.motion_rao is None
+    assert 0.8 * base.length < found.length < base.length
+    assert found.length * found.breadth * found.draught == pytest.approx(base.mass_matrix[0, 0] / base.rho)
+
+
+def test_excitation_alone_will_do(tmp_path: Path) -> None:
+    dataset = layout().drop_vars(["Froude_Krylov_force", "diffraction_force"])
+    found = read(dataset, tmp_path)
+    assert found.force == pytest.approx(shipped_database().force[HEADING, OMEGA], rel=1e-12)
+
+
+def test_full_circle_of_directions(tmp_path: Path) -> None:
+    """Directions between -pi and pi, and 2 pi beside 0."""
+    dataset = layout()
+    twice = xarray.concat(
+        [
+            dataset,
+            dataset.isel(wave_direction=[3]).assign_coords(wave_direction=[-0.5]),
+            dataset.isel(wave_direction=[0]).assign_coords(wave_direction=[2.0 * np.pi]),
+        ],
+        dim="wave_direction",
+        data_vars="minimal",
+        coords="minimal",
+        compat="override",
+        join="outer",
+    )
+    found = read(twice, tmp_path)
+    assert len(found.heading) == dataset.sizes["wave_direction"] + 1
+    assert found.heading[-1] == pytest.approx(2.0 * np.pi - 0.5)
+    assert np.array_equal(found.force[-1], found.force[3])
+
+
+def test_finite_depth_wavenumber(tmp_path: Path) -> None:
+    """In 20 m of water the phase between mesh origin and centre follows omega^2 = g k tanh(k h)."""
+    shallow, deep = layout((40.0, 0.0, 0.0)), layout()
+    for dataset in (shallow, deep):
+        dataset["water_depth"] = 20.0
+        for name in ("Froude_Krylov_force", "diffraction_force"):
+            dataset[name] = deep[name]
+    turned = read(shallow, tmp_path).force[0, :, 2] / read(deep, tmp_path).force[0, :, 2]
+    omega = shipped_database().omega[OMEGA]
+    k = np.angle(turned[0]) / 40.0
+    assert shipped_database().g * k * np.tanh(20.0 * k) == pytest.approx(omega[0] ** 2, rel=1e-9)
+
+
+def test_parameters_of_one_value_and_dofs_with_a_body(tmp_path: Path) -> None:
+    dataset = layout().drop_vars(["water_depth", "rho"])
+    study = dataset.expand_dims({"water_depth": [np.inf], "rho": [1025.0]})
+    names = [f"hull__{name}" for name in study["radiating_dof"].values]
+    found = read(study.assign_coords(radiating_dof=names, influenced_dof=names), tmp_path)
+    assert np.array_equal(found.added_mass, shipped_database().added_mass[OMEGA])
+
+
+def test_matrices_given_by_the_caller(tmp_path: Path) -> None:
+    base, dataset = shipped_database(), layout().drop_vars(["inertia_matrix", "hydrostatic_stiffness"])
+    with pytest.raises(FileFormatError, match=r"inertia_matrix is missing; set body\.inertia_matrix"):
+        read(dataset, tmp_path)
+    with pytest.raises(FileFormatError, match=r"hydrostatic_stiffness is missing; .* pass restoring"):
+        read(dataset, tmp_path, mass_matrix=base.mass_matrix)
+    found = read(dataset, tmp_path, mass_matrix=base.mass_matrix, restoring=base.restoring)
+    assert np.array_equal(found.restoring, base.restoring)
+
+
+@pytest.mark.parametrize(
+    ("damage", "message"),
+    [
+        (lambda d: d.drop_vars("added_mass"), "not a seacrane|added_mass is missing"),
+        (lambda d: d.drop_vars("radiation_damping"), "variable radiation_damping is missing"),
+        (lambda d: d.drop_vars("rho"), "rho is missing"),
+        (lambda d: d.drop_vars(["excitation_force", "diffraction_force"]), "neither excitation_force nor"),
+        (lambda d: d.drop_vars("complex"), "parts .* re and im along complex"),
+        (lambda d: d.assign_coords(forward_speed=2.5), "forward_speed is 2.5 m/s"),
+        (lambda d: d.assign_coords(wave_direction=d.wave_direction * 57.3), "reaches 180.* radians"),
+        (lambda d: d.isel(radiating_dof=[0, 1, 2]), "radiating_dof holds .* six rigid motions"),
+        (lambda d: d.assign_coords(influenced_dof=list("abcdef")), "influenced_dof holds a, b"),
+        (
+            lambda d: d.assign_coords(radiating_dof=[f"{i % 2}__{n}" for i, n in enumerate(NAMES)]),
+            "several bodies",
+        ),
+        (lambda d: d.isel(omega=[0, -1]), "no finite positive frequency"),
+        (lambda d: d.isel(omega=[1, 1, 2]), "repeated, negative or undefined"),
+        (lambda d: d.assign(added_mass=d.added_mass * np.nan), r"added_mass\[0, 0, 0\] is nan"),
+        (lambda d: d.assign(added_mass=d.added_mass.isel(omega=0, drop=True)), "added_mass has dimensions"),
+        (lambda d: d.assign(diffraction_force=d.diffraction_force * np.nan), "force.* is .*nan"),
+        (lambda d: d.assign(hydrostatic_stiffness=-d.hydrostatic_stiffness), "C33 = -"),
+        (lambda d: d.drop_vars("rho").expand_dims(rho=[1000.0, 1025.0]), "rho has 2 values"),
+        (lambda d: d.expand_dims(trim=[0.0, 1.0]), "depends on trim"),
+    ],
+)
+def test_damage_is_named(damage: Any, message: str, tmp_path: Path) -> None:
+    with pytest.raises(FileFormatError, match=rf"hull\.nc: .*({message})"):
+        read(damage(layout()), tmp_path)
+
+
+def test_files_that_cannot_be_opened(tmp_path: Path) -> None:
+    with pytest.raises(FileFormatError, match=r"none\.nc: no such file"):
+        read_capytaine(tmp_path / "none.nc")
+    layout().to_netcdf(tmp_path / "hull.nc", engine="netcdf4")
+    whole = (tmp_path / "hull.nc").read_bytes()
+    for part in (0.0, 0.2, 0.6, 0.95):
+        (tmp_path / "cut.nc").write_bytes(whole[: int(part * len(whole))])
+        with pytest.raises(FileFormatError, match=r"cut\.nc"):
+            read_capytaine(tmp_path / "cut.nc")
+        with pytest.raises(FileFormatError, match=r"cut\.nc"):
+            load_database(tmp_path / "cut.nc")
+
+
+def test_told_apart_from_our_own_files(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    layout().to_netcdf(tmp_path / "hull.nc", engine="netcdf4")
+    assert "Capytaine" in load_database(tmp_path).source
+    assert main(["hydro", str(tmp_path / "hull.nc"), "--json"]) == 0
+    rows = {row["check"]: row for row in json.loads(capsys.readouterr().out)}
+    assert rows["symmetry_damping"]["verdict"] == "pass"
+    load_database(tmp_path / "hull.nc").save(tmp_path / "ours.nc")
+    assert np.array_equal(
+        load_database(tmp_path / "ours.nc").force, load_database(tmp_path / "hull.nc").force
+    )
+
+
+@pytest.fixture(scope="module")
+def barge(tmp_path_factory: pytest.TempPathFactory) -> Any:
+    """Solves a barge centred at ``x``, ``y`` of the mesh; reads the file that Capytaine itself writes."""
+    capytaine = pytest.importorskip("capytaine", reason="capytaine absent: pip install .[hydro]")
+    folder = tmp_path_factory.mktemp("capytaine")
+    logging.getLogger("capytaine").setLevel(logging.ERROR)
+
+    def solve(x: float, y: float) -> HydroDatabase:
+        centre = (x, y, 0.0)
+        mesh = capytaine.mesh_parallelepiped(size=(24.0, 8.0, 4.0), center=centre, resolution=(12, 4, 4))
+        body = capytaine.FloatingBody(
+            mesh=mesh.immersed_part(),
+            dofs=capytaine.rigid_body_dofs(rotation_center=centre),
+            center_of_mass=(x, y, 0.5),
+            name="barge",
+        )
+        body.inertia_matrix = body.compute_rigid_body_inertia()
+        body.hydrostatic_stiffness = body.compute_hydrostatic_stiffness()
+        study = xarray.Dataset(
+            coords={
+                "omega": [0.6, 0.9, 1.2, 1.5],
+                "wave_direction": np.radians(np.arange(0.0, 181.0, 15.0)),
+                "radiating_dof": list(body.dofs),
+            }
+        )
+        dataset = capytaine.BEMSolver().fill_dataset(study, [body], progress_bar=False)
+        path = folder / f"barge_{x:g}_{y:g}.nc"
+        capytaine.export_dataset(path, dataset)
+        return load_database(path)
+
+    return solve
+
+
+def test_a_fresh_capytaine_run(barge: Any) -> None:
+    """Energy relation (signs of the couplings included), long waves, and a mesh placed elsewhere."""
+    found, moved = barge(0.0, 0.0), barge(30.0, -10.0)
+    assert found.port_starboard_symmetric
+    assert (found.length, found.breadth, found.draught) == pytest.approx((24.0, 8.0, 2.0), rel=0.05)
+    radiated = damping_from_forces(found)
+    assert radiated is not None
+    peak = np.sqrt(np.diagonal(found.damping, axis1=1, axis2=2).max(axis=0))
+    assert np.all(np.abs(radiated - found.damping) <= 0.08 * np.outer(peak, peak))  # a coarse mesh
+    for j, k in ((0, 4), (1, 3)):  # without couplings the line above would say nothing about signs
+        assert np.abs(found.damping[:, j, k]).max() > 0.3 * peak[j] * peak[k]
+    assert found.force[0, 0, 2].real == pytest.approx(found.restoring[2, 2], rel=0.25)
+    scale = np.abs(found.force).max(axis=(0, 1))
+    assert np.all(np.abs(moved.force - found.force) <= 1e-4 * scale)
+    assert np.all(np.abs(moved.added_mass - found.added_mass) <= 1e-4 * np.abs(found.added_mass).max())
