@@ -19,9 +19,13 @@ from seacrane.hydro import (
     AssumedInertiaWarning,
     HydroDatabase,
     PartialSetWarning,
+    fit_memory,
     load_database,
     read_wamit,
+    rigid_mass_matrix,
+    vessel_parameters,
 )
+from seacrane.result import Result
 
 MOTIONS = ("surge", "sway", "heave", "roll", "pitch", "yaw")
 
@@ -161,6 +165,26 @@ def test_command_line(tanker: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["hydro", str(tanker / "tanker"), "--json"]) == 0
     rows = {row["check"]: row for row in json.loads(capsys.readouterr().out)}
     assert rows["motion_rao_heave"]["verdict"] == "pass"
+
+
+def test_vessel_of_the_time_domain_keeps_the_inertia(database: HydroDatabase) -> None:
+    """The file's yaw inertia exceeds roll + pitch, and M26 is missing: the sum with added mass stays."""
+    memory = fit_memory(database=database)
+    vessel = vessel_parameters(database, memory=memory)
+    moments = np.linalg.eigvalsh(vessel.inertia)
+    assert 0.98 * (moments[0] + moments[1]) < moments[2] < moments[0] + moments[1]
+    rigid = rigid_mass_matrix(vessel.mass, vessel.centre_of_mass, vessel.inertia)
+    total = rigid + vessel.added_mass - memory.added_mass
+    scale = np.sqrt(np.diagonal(database.mass_matrix))
+    assert np.all(np.abs(total - database.mass_matrix) <= 1e-12 * np.outer(scale, scale))
+
+
+def test_a_run_on_the_tanker(tanker: Path, tmp_path: Path) -> None:
+    out = tmp_path / "out"
+    arguments = ["run", "vessel", "--database", str(tanker), "--t-end", "4", "--hs", "2", "--tp", "10"]
+    assert main([*arguments, "--out", str(out)]) == 0
+    heave = Result.load(out / "vessel.nc").channels["vessel_motion"][:, 2]
+    assert np.all(np.isfinite(heave)) and 1e-4 < np.abs(heave).max() < 1.0
 
 
 def test_first_form_of_frc(copy: Path, database: HydroDatabase) -> None:

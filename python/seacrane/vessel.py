@@ -6,6 +6,7 @@ from functools import lru_cache
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from seacrane import _core
 from seacrane.errors import SceneError
@@ -75,13 +76,24 @@ def add_vessel(
         added_mass=parameters.added_mass,
         linear_damping=parameters.linear_damping,
         quadratic_damping=parameters.quadratic_damping,
-        restoring=parameters.restoring,
+        restoring=_without_yaw(parameters.restoring),
         mooring_stiffness=heavy * omega**2,
         mooring_damping=2.0 * mooring_damping * omega * heavy,
         memory=[] if memory == "none" else _blocks(parameters.memory),
         kinematics=kinematics,
     )
     scene.notes.update(database=database.name, memory=memory, kinematics=kinematics)
+
+
+def _without_yaw(restoring: NDArray[np.float64]) -> NDArray[np.float64]:
+    """The restoring matrix without C46 and C56 (a new array).
+
+    About fixed axes these turn a residual trim or heel moment with the ship (WAMIT: m g x_G - rho g V x_B);
+    in the frame that follows yaw, where restoring acts here, that moment does not depend on yaw.
+    """
+    kept = restoring.copy()
+    kept[3:5, 5] = 0.0
+    return kept
 
 
 @lru_cache(maxsize=8)

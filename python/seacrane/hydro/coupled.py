@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane.hydro.memory_model import MemoryModel
-from seacrane.hydro.vessel import time_domain_vessel
+from seacrane.hydro.vessel import rigid_mass_matrix, time_domain_vessel
 
 if TYPE_CHECKING:
     from seacrane.hydro.database import HydroDatabase
@@ -27,7 +27,8 @@ def largest_growth_rate(database: HydroDatabase, model: MemoryModel) -> float:
 
 def _system(database: HydroDatabase, model: MemoryModel) -> FloatArray:
     vessel = time_domain_vessel(database, memory=model)
-    inverse = np.linalg.inv(database.mass_matrix + vessel.added_mass)
+    rigid = rigid_mass_matrix(vessel.mass, vessel.centre_of_mass, vessel.inertia)
+    inverse = np.linalg.inv(rigid + vessel.added_mass)
     held = np.flatnonzero(np.any(vessel.restoring != 0.0, axis=0))
     p, total = len(held), len(held) + 6 + model.states
     system = np.zeros((total, total))

@@ -19,6 +19,8 @@ if TYPE_CHECKING:
 
 FloatArray = NDArray[np.float64]
 
+RIGID_TOLERANCE = 1e-5
+
 
 class RollDampingWarning(UserWarning):
     """The vessel has no roll damping beside radiation: its roll at resonance has no converged answer."""
@@ -46,7 +48,8 @@ class VesselParameters:
     ----------
     mass : kg. centre_of_mass : (3,) m from the reference point. inertia : (3, 3) kg m2 about the centre of
         mass.
-    added_mass : (6, 6) at infinite frequency, additional causes included.
+    added_mass : (6, 6) at infinite frequency, with additional causes and with what the source's mass matrix
+        holds beyond a rigid body.
     linear_damping : (6, 6) and quadratic_damping : (6,), beside radiation.
     restoring : (6, 6), with the static stiffness of additional causes (roll tanks).
     memory : of radiation and additional causes.
@@ -108,11 +111,12 @@ def time_domain_vessel(
     linear, quadratic = database.linear_damping.copy(), database.quadratic_damping.copy()
     _add_roll_damping(database, linear, quadratic)
     mass, centre, inertia = _split_mass_matrix(mass_matrix, database.name)
+    rest = _not_of_a_rigid_body(mass_matrix, rigid_mass_matrix(mass, centre, inertia))
     return VesselParameters(
         mass=mass,
         centre_of_mass=centre,
         inertia=inertia,
-        added_mass=model.added_mass + model.additional_added_mass,
+        added_mass=model.added_mass + model.additional_added_mass + rest,
         linear_damping=linear,
         quadratic_damping=quadratic,
         restoring=restoring,
@@ -159,7 +163,29 @@ def _split_mass_matrix(matrix: FloatArray, name: str) -> tuple[float, FloatArray
             f"{np.linalg.eigvalsh(inertia)}; "
             "check the mass matrix, or take out less"
         )
-    return mass, centre, inertia
+    return mass, centre, _of_a_mass_distribution(inertia)
+
+
+def _of_a_mass_distribution(inertia: FloatArray) -> FloatArray:
+    """The inertia with its largest principal moment cut to the sum of the others, which no body exceeds."""
+    moments, axes = np.linalg.eigh(inertia)
+    excess = moments[2] - moments[0] - moments[1]
+    if excess <= 0.0:
+        return inertia
+    cut = excess + 1e-6 * moments[2]  # clear of the round-off of whoever checks it again
+    return np.asarray(inertia - cut * np.outer(axes[:, 2], axes[:, 2]))
+
+
+def _not_of_a_rigid_body(matrix: FloatArray, rigid: FloatArray) -> FloatArray:
+    """What a mass matrix (6, 6) holds beyond a rigid body, as added mass, so that the sum stays as given.
+
+    Zero up to the digits of files. Measured or rounded matrices break the rules of a mass distribution: the
+    WAMIT tanker has a yaw inertia above the sum of roll and pitch, and M35 without its M26.
+    """
+    rest = 0.5 * (matrix + matrix.T) - rigid
+    scale = np.sqrt(np.abs(np.diagonal(matrix)))
+    small = np.abs(rest) <= RIGID_TOLERANCE * np.outer(scale, scale)
+    return np.zeros((6, 6)) if np.all(small) else rest
 
 
 def _add_roll_damping(database: HydroDatabase, linear: FloatArray, quadratic: FloatArray) -> None:
