@@ -15,9 +15,19 @@ if TYPE_CHECKING:
     from seacrane._core import Curve, Evaluator, Frame, Model, State, StateSpaceBlock, VesselHydrodynamics
     from seacrane.curves import spline_curve
     from seacrane.errors import FileFormatError, SceneError, SeacraneError, SimulationError
+    from seacrane.frequency_domain import (
+        ResponseStatistics,
+        SummedResponse,
+        motion_rao,
+        response_statistics,
+        response_summed,
+    )
     from seacrane.hydro import HydroDatabase, load_database
     from seacrane.inverse import Balance, balance, driven, inverse_dynamics, reflected_inertia
+    from seacrane.linear_system import LinearModel, linear_model
     from seacrane.linearise import fastest_mode, jacobian
+    from seacrane.modal_analysis import NaturalModes, natural_modes
+    from seacrane.rest_state import equilibrium
     from seacrane.result import Result
     from seacrane.scene import Scene
     from seacrane.simulation import Run, SampledController, simulate
@@ -32,7 +42,10 @@ _HOME = {
     "FileFormatError": "errors",
     "Frame": "_core",
     "HydroDatabase": "hydro",
+    "LinearModel": "linear_system",
     "Model": "_core",
+    "NaturalModes": "modal_analysis",
+    "ResponseStatistics": "frequency_domain",
     "Result": "result",
     "Run": "simulation",
     "SampledController": "simulation",
@@ -42,6 +55,7 @@ _HOME = {
     "SimulationError": "errors",
     "State": "_core",
     "StateSpaceBlock": "_core",
+    "SummedResponse": "frequency_domain",
     "VesselHydrodynamics": "_core",
     "Waves": "waves",
     "__version__": "version",
@@ -49,11 +63,17 @@ _HOME = {
     "add_vessel": "vessel",
     "balance": "inverse",
     "driven": "inverse",
+    "equilibrium": "rest_state",
     "fastest_mode": "linearise",
     "inverse_dynamics": "inverse",
     "jacobian": "linearise",
+    "linear_model": "linear_system",
     "load_database": "hydro",
+    "motion_rao": "frequency_domain",
+    "natural_modes": "modal_analysis",
     "reflected_inertia": "inverse",
+    "response_statistics": "frequency_domain",
+    "response_summed": "frequency_domain",
     "simulate": "simulation",
     "spline_curve": "curves",
 }
@@ -66,7 +86,10 @@ __all__ = [
     "FileFormatError",
     "Frame",
     "HydroDatabase",
+    "LinearModel",
     "Model",
+    "NaturalModes",
+    "ResponseStatistics",
     "Result",
     "Run",
     "SampledController",
@@ -76,6 +99,7 @@ __all__ = [
     "SimulationError",
     "State",
     "StateSpaceBlock",
+    "SummedResponse",
     "VesselHydrodynamics",
     "Waves",
     "__version__",
@@ -85,13 +109,19 @@ __all__ = [
     "cases",
     "crane",
     "driven",
+    "equilibrium",
     "errors",
     "fastest_mode",
     "hydro",
     "inverse_dynamics",
     "jacobian",
+    "linear_model",
     "load_database",
+    "motion_rao",
+    "natural_modes",
     "reflected_inertia",
+    "response_statistics",
+    "response_summed",
     "sea",
     "simulate",
     "spline_curve",

@@ -1,0 +1,143 @@
+"""Minimal coordinates about a state at rest: null space of the constraints, rotations as small vectors."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from seacrane import _core
+from seacrane.errors import SceneError
+
+Array = NDArray[np.float64]
+NEUTRAL = 1e-6  # 1/s2: a weaker stiffness over mass (a period beyond 6283 s) counts as none
+POSE_STEP = 1e-3  # m and rad
+TWIST_STEP = 1e-3  # m/s and rad/s
+
+
+class Terms:
+    """Accelerations of a model at one time, over poses moved by small displacements and rotations."""
+
+    def __init__(self, model: _core.Model, *, time: float) -> None:
+        self.model = model
+        self.time = time
+        self.evaluator = _core.Evaluator(model)
+        self.bodies = len(model.bodies)
+        self.twists = slice(model.twist_index(0), model.twist_index(0) + 6 * self.bodies)
+        self.memory = slice(self.twists.stop, self.twists.stop + model.memory_states)
+
+    def checked(self, values: Array) -> Array:
+        """The values, if there are as many finite ones as the model has states."""
+        if values.shape != (self.model.states,) or not np.all(np.isfinite(values)):
+            raise SceneError(
+                f"state: holds {values.size} values, scene {self.model.name!r} needs {self.model.states} "
+                "finite ones; give a state of this scene"
+            )
+        return values
+
+    def moved(self, values: Array, *, displacement: Array, twist: Array | float = 0.0) -> Array:
+        """State with bodies moved: (6 n) translations (m) and rotation vectors (rad), inertial axes."""
+        y = np.array(values)
+        for body, (shift, rotation) in enumerate(displacement.reshape(-1, 2, 3)):
+            at = self.model.pose_index(body)
+            y[at : at + 3] += shift
+            y[at + 3 : at + 7] = _turned(y[at + 3 : at + 7], rotation)
+        y[self.twists] += twist
+        return y
+
+    def rates(self, values: Array) -> Array:
+        """Accelerations (6 n), then rates of the memory states."""
+        rate = self.evaluator.derivative(self.time, values)
+        return np.concatenate([rate[self.twists], rate[self.memory]])
+
+    def acceleration(self, values: Array) -> Array:
+        """Accelerations (6 n), inertial axes, m/s2 and rad/s2."""
+        return np.asarray(self.evaluator.derivative(self.time, values)[self.twists])
+
+
+def _turned(quaternion: Array, rotation: Array) -> Array:
+    """exp(rotation) applied after a quaternion (w, x, y, z)."""
+    half = 0.5 * rotation
+    angle = float(np.linalg.norm(half))
+    w, v = np.cos(angle), half * np.sinc(angle / np.pi)
+    scalar, vector = quaternion[0], quaternion[1:]
+    return np.append(w * scalar - v @ vector, w * vector + scalar * v + np.cross(v, vector))
+
+
+@dataclass(frozen=True, kw_only=True)
+class ReducedCoordinates:
+    """Orthonormal basis (6 n, degrees of freedom) of what the constraints allow at one state."""
+
+    terms: Terms
+    values: Array
+    basis: Array
+
+    @classmethod
+    def at(cls, terms: Terms, values: Array) -> ReducedCoordinates:
+        """Of the null space of the constraint Jacobian D (paper eq. 4) at a state."""
+        jacobian = terms.evaluator.terms(terms.time, values)["jacobian"]
+        basis = np.eye(6 * terms.bodies)
+        if jacobian.size:
+            _, _, vt = np.linalg.svd(jacobian)
+            basis = vt[vt.shape[0] - terms.model.degrees_of_freedom :].T
+        return cls(terms=terms, values=values, basis=basis)
+
+    @property
+    def size(self) -> int:
+        """Degrees of freedom."""
+        return int(self.basis.shape[1])
+
+    def pose_columns(self) -> Array:
+        """d(accelerations, memory rates) / d(coordinates): central differences of fourth order."""
+        columns = []
+        for direction in self.basis.T:
+            near, far = (
+                self._difference(displacement=step * direction) / (2.0 * step)
+                for step in (POSE_STEP, 2.0 * POSE_STEP)
+            )
+            columns.append((4.0 * near - far) / 3.0)
+        return self._stacked(columns)
+
+    def twist_columns(self) -> Array:
+        """d(accelerations, memory rates) / d(speeds).
+
+        Loads are linear, quadratic, or u |u| in the speeds: 2 D(h) - D(2h) of the central differences D
+        keeps the linear part alone.
+        """
+        columns = []
+        for direction in self.basis.T:
+            near, far = (
+                self._difference(twist=step * direction) / (2.0 * step)
+                for step in (TWIST_STEP, 2.0 * TWIST_STEP)
+            )
+            columns.append(2.0 * near - far)
+        return self._stacked(columns)
+
+    def memory_columns(self) -> Array:
+        """d(accelerations, memory rates) / d(memory states), which is linear."""
+        terms = self.terms
+        scale = np.array(terms.model.scale)
+        columns = []
+        for i in range(terms.memory.start, terms.memory.stop):
+            step = float(scale[i]) if np.isfinite(scale[i]) else 1.0
+            high, low = np.array(self.values), np.array(self.values)
+            high[i] += step
+            low[i] -= step
+            columns.append((terms.rates(high) - terms.rates(low)) / (2.0 * step))
+        return self._stacked(columns)
+
+    def stiffness(self) -> Array:
+        """d(acceleration) / d(coordinates) in the coordinates, (dof, dof), 1/s2."""
+        return np.asarray(self.basis.T @ self.pose_columns()[: 6 * self.terms.bodies])
+
+    def _difference(self, *, displacement: Array | float = 0.0, twist: Array | float = 0.0) -> Array:
+        terms, y, still = self.terms, self.values, np.zeros(6 * self.terms.bodies)
+        move, speed = still + displacement, still + twist
+        high = terms.moved(y, displacement=move, twist=speed)
+        low = terms.moved(y, displacement=-move, twist=-speed)
+        return terms.rates(high) - terms.rates(low)
+
+    def _stacked(self, columns: list[Array]) -> Array:
+        rows = 6 * self.terms.bodies + self.terms.model.memory_states
+        return np.column_stack(columns) if columns else np.zeros((rows, 0))
