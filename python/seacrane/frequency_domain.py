@@ -23,6 +23,7 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 UNDAMPED = 1e-6  # damping ratio below which the variance of a resonance has no meaning
+BROAD = 0.2  # damping ratio above which the even grid resolves a resonance
 GRID = 1500  # frequencies over the band of the database
 GRID_OF_MODE = 120  # more on either side of each resonance
 
@@ -275,7 +276,7 @@ def _frequencies(linear: LinearModel, low: float, high: float) -> Array:
     modes = natural_modes(linear)
     parts = [np.linspace(low, high, GRID)]
     for i, value in enumerate(modes.eigenvalues):
-        if not low < value.imag < high:
+        if not low < value.imag < high or modes.damping_ratio[i] > BROAD:
             continue
         if modes.damping_ratio[i] < UNDAMPED:
             warnings.warn(

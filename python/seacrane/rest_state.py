@@ -20,6 +20,7 @@ MOST_STEPS = 100
 DAMPING = 0.03  # 1/m and 1/rad, of the accelerations that are left
 STAGE = 5.0  # s of the references between two rest states on the way to a later time
 MOST_STAGES = 200
+FOLLOW = 0.05  # s between projections on drivers
 
 
 def held(scene: Scene, *, time: float = 0.0) -> Scene:
@@ -87,8 +88,20 @@ def equilibrium(scene: Scene, *, state: _core.State | None = None, time: float =
     stages = np.linspace(0.0, end, min(int(np.ceil(end / STAGE)), MOST_STAGES) + 1)
     found = _rest(scene, 0.0, None)
     for stage in stages[1:]:
-        found = _rest(scene, float(stage), np.array(found.values))
+        found = _rest(scene, float(stage), _followed(scene, found, float(stage)))
     return found
+
+
+def _followed(scene: Scene, state: _core.State, time: float) -> Array:
+    """Poses led along the drivers to a later time; projection takes only small steps."""
+    values = np.array(state.values)
+    if not scene.drivers:
+        return values
+    model = scene.copy(waves=None, orientation="quaternion", baumgarte=0.0).compile()
+    evaluator = _core.Evaluator(model)
+    for instant in np.linspace(state.time, time, int(np.ceil((time - state.time) / FOLLOW)) + 1)[1:]:
+        values = evaluator.project(float(instant), values)
+    return values
 
 
 def state_values(scene: Scene, state: Any) -> Array:
