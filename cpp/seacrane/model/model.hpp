@@ -85,7 +85,6 @@ struct Model {
   AssemblyReport assembly;
   bool redundant = false;  // rank of D below its rows
   bool paper_kinematics = false;
-  double curve_end = 0.0;
 
   int body_count() const { return static_cast<int>(bodies.size()); }
   int rows() const { return schur.rows(); }
