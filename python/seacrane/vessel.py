@@ -56,11 +56,18 @@ def add_vessel(
     ------
     SceneError
         For a memory model that this version does not have.
+
+    Warns
+    -----
+    WaterMismatchWarning
+        The scene's gravity is not the database's; `vessel_parameters` has warnings of its own.
     """
     from seacrane.hydro import vessel_parameters
+    from seacrane.hydro.data_warnings import warn_of_water
 
     if memory not in MEMORY:
         raise SceneError(f"memory {memory!r} is not available in this version; choose {' or '.join(MEMORY)}")
+    warn_of_water(database, gravity=scene.gravity)
     parameters = vessel_parameters(database, memory=None if memory == "none" else _fitted(database, memory))
     scene.add_body(
         name=name,

@@ -3,10 +3,14 @@
 from __future__ import annotations
 
 import argparse
-from typing import Any
+import dataclasses
+from typing import TYPE_CHECKING, Any
 
 from seacrane.cli.output_folder import output_folder
 from seacrane.cli.tables import text_table, to_json
+
+if TYPE_CHECKING:
+    from seacrane.hydro import HydroDatabase
 
 COLUMNS = ("check", "value", "limit", "verdict")
 
@@ -15,19 +19,25 @@ def run(arguments: argparse.Namespace) -> int:
     """Print the verdict table; a failing verdict is a finding about the file, not an error of ours."""
     from seacrane.hydro import load_database
 
-    database = load_database(arguments.path)
+    database = _with_memory(load_database(arguments.path))
     rows: list[dict[str, Any]] = [{name: getattr(row, name) for name in COLUMNS} for row in database.check()]
     print(to_json(rows) if arguments.json else _as_text(rows))
     if arguments.out is not None:
-        from seacrane.hydro import fit_memory
         from seacrane.hydro_figures import save_hydro_figures
 
-        folder = output_folder(arguments.out)
-        memory = database.memory or fit_memory(database=database)
-        pictures = save_hydro_figures(database=database, folder=folder, memory=memory)
+        pictures = save_hydro_figures(database=database, folder=output_folder(arguments.out))
         if not arguments.json:
             print("\n".join(f"saved {picture.image}" for picture in pictures))
     return 0
+
+
+def _with_memory(database: HydroDatabase) -> HydroDatabase:
+    """The database with its memory, fitted here once where it holds none and has frequencies for it."""
+    from seacrane.hydro.memory import enough_frequencies, fit_memory
+
+    if database.memory is not None or not enough_frequencies(database):
+        return database
+    return dataclasses.replace(database, memory=fit_memory(database=database))
 
 
 def _as_text(rows: list[dict[str, Any]]) -> str:

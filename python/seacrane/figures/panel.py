@@ -23,6 +23,7 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 
 COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9", "#E69F00", "#000000")  # Okabe and Ito
+SHADE = "#EEF3F8"
 DOTS_PER_INCH = 130
 
 
@@ -57,6 +58,8 @@ class Sheet:
         Shared by all lines, in `abscissa_unit`.
     columns : int
         Panels side by side; they fill column by column.
+    shaded : (float, float) or None
+        Range of the abscissa that is shaded in every panel, as `caption` explains.
     """
 
     title: str
@@ -66,6 +69,7 @@ class Sheet:
     abscissa_name: str = "time"
     abscissa_unit: str = "s"
     columns: int = 1
+    shaded: tuple[float, float] | None = None
 
     def __post_init__(self) -> None:
         for panel in self.panels:
@@ -116,6 +120,9 @@ def draw(sheet: Sheet) -> Figure:
     shared = len(labels) > 1 and len(set(labels)) == 1
     for cell, panel in zip(cells, sheet.panels, strict=False):
         _draw_panel(cell, panel, sheet.abscissa, legend=not shared)
+        if sheet.shaded is not None:
+            low, high = np.clip(sheet.shaded, sheet.abscissa[0], sheet.abscissa[-1])
+            cell.axvspan(low, high, color=SHADE, linewidth=0.0, zorder=0)
     for cell in cells[len(sheet.panels) :]:
         cell.set_visible(False)
     for column in grid.T:
@@ -134,7 +141,9 @@ def draw(sheet: Sheet) -> Figure:
 def _draw_panel(cell: Axes, panel: Panel, abscissa: Array, *, legend: bool) -> None:
     for line in panel.lines:
         colour = COLOURS[line.colour % len(COLOURS)]
-        cell.plot(abscissa, line.values, line.style, color=colour, label=line.label, linewidth=1.1)
+        cell.plot(
+            abscissa, line.values, line.style, color=colour, label=line.label, linewidth=1.1, markersize=4
+        )
     cell.set_ylabel(f"{panel.quantity} [{panel.unit}]")
     cell.margins(x=0)
     cell.grid(True, linewidth=0.4, alpha=0.6)

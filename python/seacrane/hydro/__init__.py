@@ -16,12 +16,15 @@ from seacrane.hydro.certificate import (
     require_passive,
 )
 from seacrane.hydro.check import CheckRow, memory_rows
+from seacrane.hydro.data_warnings import DampingWarning, HeadingGapWarning, WaterMismatchWarning, warn_of_data
 from seacrane.hydro.database import AdditionalMatrices, HydroDatabase, RollDamping
 from seacrane.hydro.drift import DriftCoefficients
-from seacrane.hydro.memory import fit_memory
+from seacrane.hydro.memory import InfiniteFrequencyWarning, fit_memory
+from seacrane.hydro.memory_audit import MemoryMismatchWarning, NonPassiveMemoryWarning
 from seacrane.hydro.memory_model import FitRow, MemoryBlock, MemoryModel, Passivity
 from seacrane.hydro.memory_trade import MemoryTradeRow, memory_trade
 from seacrane.hydro.motion import motion_response, natural_frequency
+from seacrane.hydro.transform import QuadraticDampingWarning
 from seacrane.hydro.veres import find_stem, read_veres
 from seacrane.hydro.vessel import (
     MemoryFitWarning,
@@ -44,21 +47,28 @@ __all__ = [
     "AssumedDensityWarning",
     "AssumedInertiaWarning",
     "CheckRow",
+    "DampingWarning",
     "DriftCoefficients",
     "FitRow",
+    "HeadingGapWarning",
     "HydroDatabase",
+    "InfiniteFrequencyWarning",
     "MemoryBlock",
     "MemoryFitWarning",
+    "MemoryMismatchWarning",
     "MemoryModel",
     "MemoryTradeRow",
+    "NonPassiveMemoryWarning",
     "PartialSetWarning",
     "Passivity",
     "PassivityCertificate",
     "PassivityError",
+    "QuadraticDampingWarning",
     "RigidPart",
     "RollDamping",
     "RollDampingWarning",
     "VesselParameters",
+    "WaterMismatchWarning",
     "fit_memory",
     "load_database",
     "memory_rows",
@@ -92,8 +102,17 @@ def load_database(path: str | PathLike[str]) -> HydroDatabase:
     ------
     FileFormatError : nothing readable at ``path``; the message names the file, the line where there is one,
         and the supported kinds.
+
+    Warns
+    -----
+    DampingWarning, HeadingGapWarning, WaterMismatchWarning : what was read will give wrong motions.
     """
-    source = Path(path)
+    database = _load(Path(path))
+    warn_of_data(database)
+    return database
+
+
+def _load(source: Path) -> HydroDatabase:
     if source.is_dir():
         return _load_folder(source)
     if source.is_file() and source.suffix.lower() in NETCDF:

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane.hydro.coupled import largest_growth_rate
-from seacrane.hydro.memory import FEWEST_FREQUENCIES, fit_memory
+from seacrane.hydro.memory import enough_frequencies, fit_memory
 from seacrane.hydro.memory_model import RADIATION, MemoryModel
 from seacrane.hydro.motion import motion_response, natural_frequency
 from seacrane.hydro.relations import (
@@ -59,7 +59,7 @@ def check_database(database: HydroDatabase) -> list[CheckRow]:
         *_relation_rows(database),
     ]
     model = database.memory
-    if model is None and np.count_nonzero(_inside_band(database)) >= FEWEST_FREQUENCIES:
+    if model is None and enough_frequencies(database):
         model = fit_memory(database=database)
     return rows if model is None else rows + memory_rows(database, model)
 

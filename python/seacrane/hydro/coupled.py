@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane.hydro.memory_model import MemoryModel
-from seacrane.hydro.vessel import rigid_mass_matrix, time_domain_vessel
+from seacrane.hydro.vessel import VesselParameters, rigid_mass_matrix, time_domain_vessel
 
 if TYPE_CHECKING:
     from seacrane.hydro.database import HydroDatabase
@@ -22,11 +22,17 @@ def largest_growth_rate(database: HydroDatabase, model: MemoryModel) -> float:
     Positions of motions without restoring (surge, sway, yaw) are left out of the state: nothing depends on
     them, and they would add eigenvalues of zero. A positive value means that motions grow from nothing.
     """
-    return float(np.linalg.eigvals(_system(database, model)).real.max())
+    return growth_rate(time_domain_vessel(database, memory=model))
 
 
-def _system(database: HydroDatabase, model: MemoryModel) -> FloatArray:
-    vessel = time_domain_vessel(database, memory=model)
+def growth_rate(vessel: VesselParameters) -> float:
+    """The same of a vessel of the time domain, whose memory it holds."""
+    return float(np.linalg.eigvals(free_vessel_system(vessel)).real.max())
+
+
+def free_vessel_system(vessel: VesselParameters) -> FloatArray:
+    """Matrix of ``x' = S x``: positions of motions with restoring, all six velocities, memory states."""
+    model = vessel.memory
     rigid = rigid_mass_matrix(vessel.mass, vessel.centre_of_mass, vessel.inertia)
     inverse = np.linalg.inv(rigid + vessel.added_mass)
     held = np.flatnonzero(np.any(vessel.restoring != 0.0, axis=0))

@@ -9,22 +9,28 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from seacrane.hydro.data_warnings import LARGEST_HEADING_GAP
 from seacrane.hydro.drift import DriftCoefficients
+from seacrane.hydro.heading_circle import PORT_STARBOARD, both_sides, largest_gap
 from seacrane.hydro.interpolation import spline_weights
 from seacrane.hydro.memory_model import MemoryModel
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     import xarray
+    from matplotlib.figure import Figure
 
     from seacrane.hydro.check import CheckRow
+    from seacrane.hydro.selection import Choice
 
 FloatArray = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
 
+__all__ = ["MOTIONS", "PORT_STARBOARD", "AdditionalMatrices", "HydroDatabase", "RollDamping"]
+
 MOTIONS = ("surge", "sway", "heave", "roll", "pitch", "yaw")
-PORT_STARBOARD = np.array([1.0, -1.0, 1.0, -1.0, 1.0, -1.0])
 MOTION_RAO_LIMIT = (1e-3, 1e-3, 1e-5, 1e-3, 1e-5, 1e-3)
-LARGEST_HEADING_GAP = np.radians(45.0)
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -186,20 +192,16 @@ class HydroDatabase:
 
     def full_circle(self) -> tuple[FloatArray, ComplexArray]:
         """Headings (k,) within [0, 2 pi), the mirrored ones added, and their forces (k, n, 6); new arrays."""
-        heading, force = self.heading, self.force
-        if self.port_starboard_symmetric:
-            mirrored = np.mod(-self.heading, 2.0 * np.pi)
-            distance = np.abs(np.angle(np.exp(1j * (mirrored[:, None] - self.heading))))
-            new = distance.min(axis=1) > 1e-6
-            heading = np.concatenate([heading, mirrored[new]])
-            force = np.concatenate([force, self.force[new] * PORT_STARBOARD])
-        order = np.argsort(heading)
-        return heading[order], force[order]
+        if not self.port_starboard_symmetric:
+            return self.heading.copy(), self.force.copy()
+        heading, source, mirrored = both_sides(self.heading)
+        parity = np.where(mirrored[:, None], PORT_STARBOARD, 1.0)
+        return heading, self.force[source] * parity[:, None, :]
 
     def _heading_weights(self, circle: FloatArray, heading: FloatArray) -> FloatArray:
         """Weights (q, k) of the periodic spline over the headings; stored headings are exact in any case."""
-        gaps = np.diff(np.append(circle, circle[0] + 2.0 * np.pi))
-        if gaps.max() <= LARGEST_HEADING_GAP:
+        gap = largest_gap(circle)
+        if gap <= LARGEST_HEADING_GAP + 1e-9:
             return spline_weights(circle, heading, period=2.0 * np.pi)
         distance = np.abs(np.angle(np.exp(1j * (heading[:, None] - circle))))
         nearest = distance.argmin(axis=1)
@@ -207,10 +209,100 @@ class HydroDatabase:
         if np.any(off):
             raise ValueError(
                 f"database {self.name!r}: heading {np.degrees(heading[off][0]):.6g} deg is not among the "
-                f"stored ones, whose largest gap is {np.degrees(gaps.max()):.3g} deg; above 45 deg "
+                f"stored ones, whose largest gap is {np.degrees(gap):.3g} deg; above 45 deg "
                 "nothing is interpolated"
             )
         return np.asarray(np.eye(len(circle))[nearest])
+
+    def at(self, point: ArrayLike, *, phase_origin: bool = True, net_lift: float = 0.0) -> HydroDatabase:
+        """The same vessel about another reference point; nothing is fitted or interpolated anew.
+
+        Matrices, forces, motions, limits of the added mass, restoring, drift and the memory model (with the
+        same states) are moved exactly. Damping tabulated by frequency acts on roll alone and stays; the time
+        domain takes it at the uncoupled roll frequency, which is another one about another point.
+
+        Parameters
+        ----------
+        point : (3,) the new point in m from the present one, vessel's axes. Off the centreline the headings
+            of both sides are written out, as no side of that point mirrors the other.
+        phase_origin : whether waves have zero phase at the new point from now on, as everything that takes a
+            database expects: forces and motions are multiplied by ``exp(+i k (x cos b + y sin b))`` with the
+            wavenumber of the database's depth. False keeps the phases of waves at the old point, which
+            `origin` then says: for comparison with other codes.
+        net_lift : N, buoyancy minus weight at rest. Zero for a vessel that floats by itself: its restoring
+            moves like any matrix. Else C44, C55, C46 and C56 gain what that load does as it turns with the
+            ship.
+
+        Warns
+        -----
+        seacrane.hydro.QuadraticDampingWarning : quadratic damping of a translation cannot be moved.
+
+        Raises
+        ------
+        ValueError : the point is not three finite numbers.
+        """
+        from seacrane.hydro.transform import moved_database
+
+        return moved_database(self, point, phase_origin=phase_origin, net_lift=net_lift)
+
+    def mirror(self) -> HydroDatabase:
+        """The vessel with port and starboard exchanged: sway, roll, yaw and headings change their signs.
+
+        Memory and drift are mirrored too. Mirroring twice gives the database back; for a symmetric vessel
+        the mirrored headings are the other side of the same `full_circle`.
+        """
+        from seacrane.hydro.transform import mirrored_database
+
+        return mirrored_database(self)
+
+    def select(
+        self,
+        *,
+        omega: Choice = None,
+        heading: Choice = None,
+        every: int = 1,
+        every_heading: int = 1,
+    ) -> HydroDatabase:
+        """Some of the frequencies and headings, with the stored values as they are.
+
+        Parameters
+        ----------
+        omega : a tuple (low, high) in rad/s, ends included; or indices: a list, an integer array, a slice.
+        heading : a tuple (low, high) in rad, which may cross 2 pi (-0.5, 0.5); or indices.
+        every, every_heading : keep every n-th of what is selected.
+
+        Returns
+        -------
+        HydroDatabase : the trusted band is cut to the frequencies left. A memory model is kept while all
+            frequencies are, and dropped with the first one: it belongs to all the data it was fitted to.
+            Drift coefficients have frequencies and headings of their own, and stay.
+
+        Raises
+        ------
+        ValueError : nothing is left, nothing of the trusted band is left, or a choice is no range or index.
+        """
+        from seacrane.hydro.selection import selected_database
+
+        return selected_database(self, omega, heading, every, every_heading)
+
+    def plot(self, what: str | Sequence[str] | None = None) -> dict[str, Figure]:
+        """Figures by name: added_mass, damping, retardation, wave_force, motion; needs matplotlib.
+
+        Parameters
+        ----------
+        what : a name or several; None draws all. Fitted curves are those of `memory`, where there is one.
+
+        Returns
+        -------
+        dict of matplotlib.figure.Figure : they belong to no window; ``savefig`` writes one.
+
+        Raises
+        ------
+        ValueError : a name that is not among the figures.
+        """
+        from seacrane.hydro_figures import hydro_figures
+
+        return hydro_figures(database=self, what=what)
 
     def check(self) -> list[CheckRow]:
         """Self-check: closure, symmetry, damping, natural periods, memory; see `seacrane.hydro.check`."""

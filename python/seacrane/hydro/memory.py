@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from seacrane.caller import warn_caller
 from seacrane.hydro.certificate import require_passive
 from seacrane.hydro.identification import IdentificationData, RationalFit, fit_lowest_order
 from seacrane.hydro.memory_model import RADIATION, FitRow, MemoryBlock, MemoryModel, Passivity
@@ -23,6 +24,10 @@ ORDERS = range(2, 9)
 NEGLIGIBLE = 1e-6
 FEWEST_FREQUENCIES = 8
 KINDS = ("per-pair", "passive")
+
+
+class InfiniteFrequencyWarning(UserWarning):
+    """No infinite-frequency added mass to compare with: an error of its estimate is a wrong mass always."""
 
 
 def fit_memory(
@@ -52,6 +57,11 @@ def fit_memory(
     -------
     MemoryModel : symmetric entries (j, k) and (k, j) share one fit but have a block each.
 
+    Warns
+    -----
+    InfiniteFrequencyWarning : the added mass at infinite frequency is estimated, and the database has none to
+        compare the estimate with.
+
     Raises
     ------
     ValueError : a band that holds fewer than eight frequencies, an ``r2`` outside (0, 1), another ``kind``,
@@ -80,6 +90,13 @@ def fit_memory(
             f"database {database.name!r} has no infinite-frequency added mass; pass "
             "infinite_frequency='estimated'"
         )
+    if database.infinite_frequency_added_mass is None:
+        warn_caller(
+            f"database {database.name!r} has no infinite-frequency added mass: it is estimated from "
+            f"frequencies up to {database.omega[-1]:.3g} rad/s, and an error in it is a wrong mass in every "
+            "acceleration. Look at the rows memory_motion_* of database.check()",
+            InfiniteFrequencyWarning,
+        )
     fit = _fit_radiation if kind == "per-pair" else _fit_passive_radiation
     blocks, rows, added_mass = fit(database, known, trusted, r2)
     extra_mass, stiffness = np.zeros((6, 6)), np.zeros((6, 6))
@@ -104,6 +121,13 @@ def fit_memory(
     return model
 
 
+def enough_frequencies(database: HydroDatabase) -> bool:
+    """Whether the trusted band holds enough frequencies for `fit_memory` without a band of its own."""
+    low, high = database.trusted_band or (0.0, np.inf)
+    inside = (database.omega >= low - 1e-9) & (database.omega <= high + 1e-9)
+    return bool(np.count_nonzero(inside) >= FEWEST_FREQUENCIES)
+
+
 def _fit_radiation(
     database: HydroDatabase, known: FloatArray | None, trusted: NDArray[np.bool_], r2: float
 ) -> tuple[list[MemoryBlock], list[FitRow], FloatArray]:
@@ -114,7 +138,7 @@ def _fit_radiation(
     infinite = np.zeros((6, 6)) if known is None else 0.5 * (known + known.T)
     symmetric_a = 0.5 * (database.added_mass + database.added_mass.swapaxes(1, 2))
     symmetric_b = 0.5 * (database.damping + database.damping.swapaxes(1, 2))
-    for j, k in _entries(symmetric_a, symmetric_b, database.omega):
+    for j, k in entries_with_memory(symmetric_a, symmetric_b, database.omega):
         data = IdentificationData(
             omega=database.omega,
             added_mass=symmetric_a[:, j, k],
@@ -127,7 +151,7 @@ def _fit_radiation(
         infinite[j, k] = infinite[k, j] = fit.added_mass_infinite
         _append(blocks, rows, fit, j, k, cause=RADIATION, r2=r2)
     if known is None:
-        infinite = _keep_constant_entries(infinite, symmetric_a, blocks)
+        infinite = _keep_constantentries_with_memory(infinite, symmetric_a, blocks)
     return blocks, rows, infinite
 
 
@@ -141,14 +165,14 @@ def _fit_passive_radiation(
         database=database,
         added_mass=symmetric_a,
         damping=symmetric_b,
-        entries=_entries(symmetric_a, symmetric_b, database.omega),
+        entries=entries_with_memory(symmetric_a, symmetric_b, database.omega),
         known=None if known is None else 0.5 * (known + known.T),
         trusted=trusted,
         r2=r2,
     )
     if known is not None:
         return blocks, rows, 0.5 * (known + known.T)
-    return blocks, rows, _keep_constant_entries(infinite, symmetric_a, blocks)
+    return blocks, rows, _keep_constantentries_with_memory(infinite, symmetric_a, blocks)
 
 
 def _fit_additional(
@@ -161,7 +185,7 @@ def _fit_additional(
     mass, stiffness = np.zeros((6, 6)), np.zeros((6, 6))
     symmetric_a = 0.5 * (part.added_mass + part.added_mass.swapaxes(1, 2))
     symmetric_b = 0.5 * (part.damping + part.damping.swapaxes(1, 2))
-    for j, k in _entries(symmetric_a, symmetric_b, database.omega):
+    for j, k in entries_with_memory(symmetric_a, symmetric_b, database.omega):
         data = IdentificationData(
             omega=database.omega,
             added_mass=symmetric_a[:, j, k],
@@ -196,7 +220,9 @@ def _dissipation_limit(
     return limit
 
 
-def _entries(added_mass: FloatArray, damping: FloatArray, omega: FloatArray) -> Iterator[tuple[int, int]]:
+def entries_with_memory(
+    added_mass: FloatArray, damping: FloatArray, omega: FloatArray
+) -> Iterator[tuple[int, int]]:
     """Entries (j <= k) with any memory, judged against the geometric mean of their diagonals."""
     variation = np.ptp(added_mass, axis=0) * float(np.mean(omega)) + np.abs(damping).max(axis=0)
     diagonal = np.sqrt(np.diag(variation))
@@ -207,7 +233,7 @@ def _entries(added_mass: FloatArray, damping: FloatArray, omega: FloatArray) -> 
                 yield j, k
 
 
-def _keep_constant_entries(
+def _keep_constantentries_with_memory(
     infinite: FloatArray, added_mass: FloatArray, blocks: list[MemoryBlock]
 ) -> FloatArray:
     """Entries without memory keep their (constant) added mass."""

@@ -140,6 +140,21 @@ class MemoryModel:
                 total[:, block.outputs[:, None], block.inputs] += block.transfer(w)
         return total
 
+    def impulse_response(self, time: ArrayLike, *, cause: str = RADIATION) -> FloatArray:
+        """Retardation function ``K(t) = C exp(A t) B`` of one cause at ``time`` (n,) in s, as (n, 6, 6).
+
+        What passes through D without delay is left out: it is an impulse at zero.
+        """
+        from scipy.linalg import expm
+
+        t = np.atleast_1d(np.asarray(time, dtype=float))
+        total = np.zeros((len(t), 6, 6))
+        for block in self.blocks:
+            if block.cause == cause and len(block.A):
+                states = expm(block.A * t[:, None, None]) @ block.B
+                total[:, block.outputs[:, None], block.inputs] += block.C @ states
+        return total
+
     def frequency_response(self, omega: ArrayLike) -> tuple[FloatArray, FloatArray]:
         """Fitted radiation added mass and damping, each (n, 6, 6), at positive frequencies ``omega`` (n,)."""
         w = np.atleast_1d(np.asarray(omega, dtype=float))

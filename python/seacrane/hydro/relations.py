@@ -1,4 +1,4 @@
-"""Relations that exact linear hydrodynamics obeys: damping from wave forces, added mass from damping."""
+"""Relations of exact linear hydrodynamics: damping from wave forces, added mass and memory from damping."""
 
 from __future__ import annotations
 
@@ -17,6 +17,7 @@ FloatArray = NDArray[np.float64]
 HEADINGS = 720
 FINE_POINTS = 6001
 TAIL_EXPONENT = 3.0
+TAIL_REACH, TAIL_POINTS = 30.0, 400
 LARGEST_PHASE_STEP = 2.0  # rad between headings: splines through every second or third heading err by 2 %
 
 
@@ -82,3 +83,29 @@ def _dispersion_integral(database: HydroDatabase, index: int) -> FloatArray:
     beyond = np.geomspace(end, 100.0 * end, 2001)
     tail = np.trapezoid((end / beyond) ** TAIL_EXPONENT / (beyond**2 - w**2), beyond)
     return np.asarray(2.0 / np.pi * (body + table[-1] * tail))
+
+
+def retardation_from_damping(database: HydroDatabase, time: FloatArray) -> FloatArray:
+    """Retardation functions (t, 6, 6) at ``time`` (t,) in s, from the damping alone.
+
+    ``K(t) = 2 / pi integral_0^inf B(w) cos(w t) dw`` (Ogilvie 1964), exact for the damping joined by straight
+    lines, from zero at zero frequency and with a tail ``w^-3`` beyond the trusted band, up to `TAIL_REACH`
+    times its end.
+    """
+    high = np.inf if database.trusted_band is None else database.trusted_band[1]
+    kept = max(1, int(np.count_nonzero(database.omega <= high + 1e-9)))
+    end = float(database.omega[kept - 1])
+    tail = np.geomspace(end, TAIL_REACH * end, TAIL_POINTS)[1:]
+    omega = np.concatenate([[0.0], database.omega[:kept], tail])
+    fall = ((end / tail) ** TAIL_EXPONENT)[:, None, None]
+    last = database.damping[kept - 1]
+    damping = np.concatenate([np.zeros((1, 6, 6)), database.damping[:kept], last * fall])
+    slope = np.diff(damping, axis=0) / np.diff(omega)[:, None, None]
+    late = np.asarray(time, dtype=float) * end > 1e-6
+    t = np.where(late, time, 1.0)[:, None]
+    bends = np.diff(np.cos(omega * t), axis=1) / t**2
+    kernel = np.einsum("ts,sjk->tjk", bends, slope) + np.einsum(
+        "t,jk->tjk", np.sin(omega[-1] * t[:, 0]) / t[:, 0], damping[-1]
+    )
+    kernel[~late] = np.trapezoid(damping, omega, axis=0)
+    return np.asarray(2.0 / np.pi * kernel)

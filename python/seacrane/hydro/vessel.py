@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
@@ -10,7 +9,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from seacrane.caller import warn_caller
+from seacrane.hydro.data_warnings import warn_of_damping
 from seacrane.hydro.memory import fit_memory
+from seacrane.hydro.memory_audit import warn_of_lost_passivity, warn_of_mismatch
 from seacrane.hydro.memory_model import MemoryModel
 from seacrane.hydro.motion import natural_frequency
 
@@ -85,7 +87,7 @@ def vessel_parameters(
 
     Warns
     -----
-    RollDampingWarning, MemoryFitWarning
+    RollDampingWarning, MemoryFitWarning, MemoryMismatchWarning, NonPassiveMemoryWarning, DampingWarning
 
     Raises
     ------
@@ -198,20 +200,28 @@ def _add_roll_damping(database: HydroDatabase, linear: FloatArray, quadratic: Fl
 
 
 def _warn(database: HydroDatabase, vessel: VesselParameters) -> None:
-    """Name fits that miss their aim, and a roll without damping."""
+    """Name fits that miss their aim, a memory of other data or that delivers energy, and roll damping."""
     for row in vessel.memory.rows:
         if not row.accepted:
-            warnings.warn(
+            warn_caller(
                 f"database {database.name!r}: memory {row.output + 1}{row.input + 1} ({row.cause}) follows "
                 f"added mass with R2 = {row.r2_added_mass:.3f} and damping with {row.r2_damping:.3f}; "
                 f"{vessel.memory.r2} was asked, and motions that depend on it carry that error",
                 MemoryFitWarning,
-                stacklevel=3,
             )
+    warn_of_damping(database)
+    warn_of_mismatch(database, vessel.memory)
+    warn_of_lost_passivity(database, vessel)
     if vessel.linear_damping[3, 3] == 0.0 and vessel.quadratic_damping[3] == 0.0:
-        warnings.warn(
+        warn_caller(
             f"database {database.name!r}: no roll damping beside radiation; roll at resonance will be far "
             "too large. Add linear_damping or quadratic_damping for roll",
             RollDampingWarning,
-            stacklevel=3,
+        )
+    elif database.roll_damping is not None and natural_frequency(database, 3) is None:
+        warn_caller(
+            f"database {database.name!r}: roll resonance lies outside {database.omega[0]:.4g} to "
+            f"{database.omega[-1]:.4g} rad/s; the tabulated roll damping is taken in the middle of the "
+            "table, and roll near its resonance is off by as much as the damping varies",
+            RollDampingWarning,
         )
