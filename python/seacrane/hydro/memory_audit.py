@@ -23,6 +23,7 @@ LOST_R2 = 0.05
 FEWEST_FREQUENCIES = 8
 SCALED_DAMPING_LIMIT = -0.05
 GROWTH_LIMIT = 1e-6  # 1/s, a factor e in eleven days: above the round-off of eigenvalues at zero
+ROUNDING = 1e-9
 AUDIT = np.geomspace(2e-2, 2e1, 201)
 
 
@@ -117,8 +118,8 @@ def warn_of_lost_passivity(database: HydroDatabase, vessel: VesselParameters) ->
     """Warn where the radiation memory can feed a motion, beyond what fits per pair usually leave.
 
     Where the smallest eigenvalue of the fitted damping, scaled by the largest diagonals of the data, is below
-    -5 %, or where it is negative and the floating vessel, whose restoring is stable, has an eigenvalue that
-    grows with this memory.
+    -5 %, or where it is negative and the floating vessel, whose restoring and linear damping alone keep it at
+    rest, has an eigenvalue that grows with this memory.
     """
     from seacrane.hydro.coupled import growth_rate
 
@@ -126,9 +127,7 @@ def warn_of_lost_passivity(database: HydroDatabase, vessel: VesselParameters) ->
     minimum, at = _smallest_damping(database, model)
     if minimum >= 0.0:
         return
-    stiffness = vessel.restoring[2:5, 2:5]
-    stable = np.linalg.eigvalsh(0.5 * (stiffness + stiffness.T))[0] > 0.0
-    growth = growth_rate(vessel) if stable else 0.0
+    growth = growth_rate(vessel) if _calm_without_memory(vessel) else 0.0
     if minimum < SCALED_DAMPING_LIMIT or growth > GROWTH_LIMIT:
         grows = (
             f", and motions of the free vessel grow with {growth:.2g} 1/s" if growth > GROWTH_LIMIT else ""
@@ -139,6 +138,14 @@ def warn_of_lost_passivity(database: HydroDatabase, vessel: VesselParameters) ->
             "still water; use fit_memory(kind='passive')",
             NonPassiveMemoryWarning,
         )
+
+
+def _calm_without_memory(vessel: VesselParameters) -> bool:
+    """Whether restoring and linear damping cannot be what makes a motion grow."""
+    stiffness, damping = vessel.restoring[2:5, 2:5], vessel.linear_damping
+    lowest = np.linalg.eigvalsh(0.5 * (damping + damping.T))[0]
+    stable = np.linalg.eigvalsh(0.5 * (stiffness + stiffness.T))[0] > 0.0
+    return bool(stable and lowest >= -ROUNDING * np.abs(damping).max())
 
 
 def _smallest_damping(database: HydroDatabase, model: MemoryModel) -> tuple[float, float]:
