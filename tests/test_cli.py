@@ -355,7 +355,7 @@ def test_hydro_prints_its_verdicts(shared: Path, tmp_path: Path) -> None:
     for motion in ("surge", "sway", "heave", "roll", "pitch", "yaw"):
         assert verdicts[f"motion_rao_{motion}"] == "pass"
     names = {path.name for path in (tmp_path / "plots").iterdir()}
-    plots = {"added_mass", "damping", "wave_force", "motion"}
+    plots = {"added_mass", "damping", "retardation", "wave_force", "motion"}
     assert names == {f"{plot}.{kind}" for plot in plots for kind in ("png", "csv")}
 
 

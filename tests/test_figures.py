@@ -325,7 +325,7 @@ def test_the_databases_plots_hold_its_numbers(tmp_path: Path) -> None:
     pictures = {
         picture.image.stem: picture for picture in save_hydro_figures(database=database, folder=tmp_path)
     }
-    assert list(pictures) == ["added_mass", "damping", "wave_force", "motion"]
+    assert list(pictures) == ["added_mass", "damping", "retardation", "wave_force", "motion"]
     assert database.memory is not None
     names, numbers = read_csv(tmp_path / "damping.csv")
     heave = numbers[:, names.index("B33, database [kg/s]")]

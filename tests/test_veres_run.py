@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from test_vessel import complex_amplitude, impedance, regular_wave
 
 from seacrane import Scene, cases, load_database, simulate
-from seacrane.hydro import HydroDatabase, vessel_parameters
+from seacrane.hydro import HydroDatabase, InfiniteFrequencyWarning, vessel_parameters
 from seacrane.hydro.database import RollDamping
 from seacrane.hydro.motion import motion_response
 
@@ -68,6 +68,7 @@ def test_regular_wave_returns_the_files_motion(supply: HydroDatabase, heading: i
     database = at_file_damping(supply, heading, frequency)
     with warnings.catch_warnings():
         warnings.simplefilter("error")
+        warnings.simplefilter("ignore", InfiniteFrequencyWarning)
         scene = cases.vessel(database=database, hs=0.0, mooring_period=None)
     found = simulated_rao(database, scene, heading, frequency)
     assert supply.motion_rao is not None
