@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from functools import lru_cache
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -87,6 +88,7 @@ def warn_of_mismatch(database: HydroDatabase, model: MemoryModel) -> None:
         )
 
 
+@lru_cache(maxsize=8)  # both are immutable, and every scene of a study asks
 def _mismatch(database: HydroDatabase, model: MemoryModel) -> str:
     causes = {part.cause for part in database.additional}
     modelled = {row.cause for row in model.rows} - {RADIATION}
@@ -148,6 +150,7 @@ def _calm_without_memory(vessel: VesselParameters) -> bool:
     return bool(stable and lowest >= -ROUNDING * np.abs(damping).max())
 
 
+@lru_cache(maxsize=8)
 def _smallest_damping(database: HydroDatabase, model: MemoryModel) -> tuple[float, float]:
     """Smallest scaled eigenvalue and its rad/s: what the model states, or what an audit finds below it."""
     peak = np.sqrt(np.maximum(np.diagonal(database.damping, axis1=1, axis2=2).max(axis=0), 0.0))
