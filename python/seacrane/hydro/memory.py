@@ -122,10 +122,10 @@ def fit_memory(
 
 
 def enough_frequencies(database: HydroDatabase) -> bool:
-    """Whether the trusted band holds enough frequencies for `fit_memory` without a band of its own."""
+    """Whether `fit_memory` has data: no forward speed, and eight frequencies in the trusted band."""
     low, high = database.trusted_band or (0.0, np.inf)
     inside = (database.omega >= low - 1e-9) & (database.omega <= high + 1e-9)
-    return bool(np.count_nonzero(inside) >= FEWEST_FREQUENCIES)
+    return bool(database.speed == 0.0 and np.count_nonzero(inside) >= FEWEST_FREQUENCIES)
 
 
 def _fit_radiation(
