@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, field
 from os import PathLike
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from seacrane.hydro.data_warnings import LARGEST_HEADING_GAP
+from seacrane.hydro.database_arrays import check_increasing, freeze
 from seacrane.hydro.drift import DriftCoefficients
 from seacrane.hydro.heading_circle import PORT_STARBOARD, both_sides, largest_gap
 from seacrane.hydro.interpolation import spline_weights
@@ -131,9 +132,9 @@ class HydroDatabase:
         n, m = np.size(self.omega), np.size(self.heading)
         for part in (self, self.roll_damping, *self.additional):
             if part is not None:
-                _freeze(part, n, m, self.name)
-        _check_increasing(self.name, "omega", self.omega, low=0.0, high=np.inf)
-        _check_increasing(self.name, "heading", self.heading, low=-1e-12, high=2.0 * np.pi)
+                freeze(part, n, m, self.name, restoring="ij" if part is self else "nij")
+        check_increasing(self.name, "omega", self.omega, low=0.0, high=np.inf)
+        check_increasing(self.name, "heading", self.heading, low=-1e-12, high=2.0 * np.pi)
         for name in ("rho", "g", "depth", "length", "breadth", "draught"):
             value = float(getattr(self, name))
             if not value > 0.0:
@@ -333,64 +334,3 @@ class HydroDatabase:
         from seacrane.hydro.netcdf import to_xarray
 
         return to_xarray(self)
-
-
-_SHAPES = {
-    "omega": "n",
-    "heading": "m",
-    "added_mass": "nij",
-    "damping": "nij",
-    "infinite_frequency_added_mass": "ij",
-    "zero_frequency_added_mass": "ij",
-    "mass_matrix": "ij",
-    "force": "mni",
-    "motion_rao": "mni",
-    "motion_rao_limit": "i",
-    "motion_rao_floor": "i",
-    "linear_damping": "ij",
-    "quadratic_damping": "i",
-    "linear": "n",
-    "quadratic": "n",
-    "linearised": "mn",
-}
-
-
-def _freeze(part: Any, n: int, m: int, name: str) -> None:
-    """Replace every array of ``part`` by a finite, read-only copy of the right shape and type."""
-    sizes = {"n": n, "m": m, "i": 6, "j": 6}
-    for entry in fields(part):
-        value = getattr(part, entry.name)
-        letters = _SHAPES.get(entry.name)
-        if entry.name == "restoring":
-            letters = "ij" if isinstance(part, HydroDatabase) else "nij"
-        if letters is None or value is None:
-            continue
-        wanted = tuple(sizes[letter] for letter in letters)
-        array = np.array(value, dtype=complex if letters == "mni" else float)
-        if array.shape != wanted:
-            raise ValueError(f"database {name!r}: {entry.name} has shape {array.shape}; {wanted} is needed")
-        if not np.all(np.isfinite(array)):
-            where = tuple(int(i) for i in np.argwhere(~np.isfinite(array))[0])
-            raise ValueError(
-                f"database {name!r}: {entry.name}{list(where)} is {array[where]}; give finite numbers"
-            )
-        array.setflags(write=False)
-        object.__setattr__(part, entry.name, array)
-
-
-def _check_increasing(name: str, what: str, values: FloatArray, *, low: float, high: float) -> None:
-    """Raise unless ``values`` are strictly increasing and inside (low, high)."""
-    if values.size == 0:
-        raise ValueError(f"database {name!r}: {what} is empty; give at least one value")
-    steps = np.flatnonzero(np.diff(values) <= 0.0)
-    if steps.size:
-        i = int(steps[0])
-        raise ValueError(
-            f"database {name!r}: {what} is not strictly increasing: {values[i]:.6g} then {values[i + 1]:.6g} "
-            "at index "
-            f"{i + 1}; sort it and drop duplicates"
-        )
-    if not (values[0] > low and values[-1] < high):
-        raise ValueError(
-            f"database {name!r}: {what} spans {values[0]:.6g} to {values[-1]:.6g}, outside ({low}, {high})"
-        )
