@@ -14,6 +14,7 @@ from hypothesis import strategies as st
 from seacrane.errors import FileFormatError
 from seacrane.hydro import (
     AdditionalMatrices,
+    DriftCoefficients,
     HydroDatabase,
     RollDamping,
     load_database,
@@ -74,6 +75,9 @@ def everything() -> HydroDatabase:
         depth=100.0,
         port_starboard_symmetric=False,
         memory=shipped_database().memory,
+        drift=DriftCoefficients(
+            heading=np.radians([0.0, 90.0]), omega=base.omega[:5], coefficient=rng.normal(size=(2, 5, 6))
+        ),
     )
 
 
@@ -188,6 +192,24 @@ def test_an_unsymmetric_vessel_is_not_mirrored() -> None:
 def test_bad_input_names_the_object(changes: dict[str, Any], message: str) -> None:
     with pytest.raises(ValueError, match=message):
         small(**changes)
+
+
+@pytest.mark.parametrize(
+    ("changes", "message"),
+    [
+        ({"heading": [0.0, 7.0]}, "heading must rise"),
+        ({"heading": [1.0, 1.0]}, "heading must rise"),
+        ({"omega": [0.0, 0.4, 0.5]}, "omega must be positive"),
+        ({"omega": [0.3, 0.4, np.nan]}, r"omega\[2\] is not finite"),
+        ({"coefficient": np.zeros((2, 3, 3))}, r"coefficient has shape \(2, 3, 3\); \(2, 3, 6\)"),
+        ({"omega": [], "coefficient": np.zeros((2, 0, 6))}, "shape"),
+    ],
+)
+def test_bad_drift_coefficients_are_named(changes: dict[str, Any], message: str) -> None:
+    good = {"heading": [0.0, 1.0], "omega": [0.3, 0.4, 0.5], "coefficient": np.zeros((2, 3, 6))}
+    assert not DriftCoefficients(**good).coefficient.flags.writeable
+    with pytest.raises(ValueError, match=message):
+        DriftCoefficients(**(good | changes))
 
 
 def test_arrays_are_read_only_copies() -> None:

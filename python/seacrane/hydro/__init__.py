@@ -17,6 +17,7 @@ from seacrane.hydro.certificate import (
 )
 from seacrane.hydro.check import CheckRow, memory_rows
 from seacrane.hydro.database import AdditionalMatrices, HydroDatabase, RollDamping
+from seacrane.hydro.drift import DriftCoefficients
 from seacrane.hydro.memory import fit_memory
 from seacrane.hydro.memory_model import FitRow, MemoryBlock, MemoryModel, Passivity
 from seacrane.hydro.memory_trade import MemoryTradeRow, memory_trade
@@ -43,6 +44,7 @@ __all__ = [
     "AssumedDensityWarning",
     "AssumedInertiaWarning",
     "CheckRow",
+    "DriftCoefficients",
     "FitRow",
     "HydroDatabase",
     "MemoryBlock",

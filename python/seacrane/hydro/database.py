@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from seacrane.hydro.drift import DriftCoefficients
 from seacrane.hydro.interpolation import spline_weights
 from seacrane.hydro.memory_model import MemoryModel
 
@@ -85,6 +86,7 @@ class HydroDatabase:
     trusted_band : (low, high) in rad/s between which the source vouches for its numbers.
     port_starboard_symmetric : whether headings may be mirrored.
     memory : fitted radiation memory, or None.
+    drift : mean second-order wave loads, or None.
     origin, source, name : text.
     """
 
@@ -117,6 +119,7 @@ class HydroDatabase:
     trusted_band: tuple[float, float] | None = None
     port_starboard_symmetric: bool = True
     memory: MemoryModel | None = None
+    drift: DriftCoefficients | None = None
 
     def __post_init__(self) -> None:
         n, m = np.size(self.omega), np.size(self.heading)

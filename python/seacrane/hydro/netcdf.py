@@ -13,6 +13,7 @@ import numpy as np
 
 from seacrane.errors import FileFormatError
 from seacrane.hydro.database import MOTIONS, AdditionalMatrices, HydroDatabase, RollDamping
+from seacrane.hydro.drift import DriftCoefficients
 from seacrane.hydro.memory_model import FitRow, MemoryBlock, MemoryModel, Passivity
 
 if TYPE_CHECKING:
@@ -44,6 +45,11 @@ _ARRAYS: dict[str, tuple[tuple[str, ...], str]] = {
     "motion_rao_floor": (("motion",), "1"),
 }
 _ROLL = {"linear": ("omega",), "quadratic": ("omega",), "linearised": ("heading", "omega")}
+_DRIFT: dict[str, tuple[tuple[str, ...], str]] = {
+    "heading": (("heading",), "rad"),
+    "omega": (("omega",), "rad/s"),
+    "coefficient": (("heading", "omega", "motion"), "N/m2, N m/m2"),
+}
 _BLOCK_ARRAYS = ("outputs", "inputs", "A", "B", "C", "D", "state_scale")
 _MODEL_MATRICES = ("added_mass", "additional_added_mass", "additional_stiffness")
 
@@ -160,6 +166,12 @@ def _write(file: Any, database: HydroDatabase) -> None:
             group.linearised_amplitude = float(database.roll_damping.linearised_amplitude)
         for name, dimensions in _ROLL.items():
             _put(group, name, getattr(database.roll_damping, name), dimensions)
+    if database.drift is not None:
+        group = file.createGroup("drift")
+        group.createDimension("heading", len(database.drift.heading))
+        group.createDimension("omega", len(database.drift.omega))
+        for name, (dimensions, unit) in _DRIFT.items():
+            _put(group, name, getattr(database.drift, name), dimensions).units = unit
     if database.memory is not None:
         _write_memory(file.createGroup("memory"), database.memory)
 
@@ -227,6 +239,7 @@ def _read(file: Any) -> HydroDatabase:
         ),
         roll_damping=_read_roll(groups["roll_damping"]) if "roll_damping" in groups else None,
         memory=_read_memory(groups["memory"]) if "memory" in groups else None,
+        drift=_read_drift(groups["drift"]) if "drift" in groups else None,
     )
 
 
@@ -236,6 +249,10 @@ def _read_roll(group: Any) -> RollDamping:
         **{name: _get(group, name) for name in _ROLL},
         linearised_amplitude=None if amplitude is None else float(amplitude),
     )
+
+
+def _read_drift(group: Any) -> DriftCoefficients:
+    return DriftCoefficients(**{name: _get(group, name) for name in _DRIFT})
 
 
 def _read_memory(group: Any) -> MemoryModel:
