@@ -23,7 +23,9 @@ def run(arguments: argparse.Namespace) -> int:
         from seacrane.hydro_figures import save_hydro_figures
 
         folder = output_folder(arguments.out)
-        memory = database.memory or fit_memory(database=database)
+        memory = database.memory
+        if memory is None and database.speed == 0.0:
+            memory = fit_memory(database=database)
         pictures = save_hydro_figures(database=database, folder=folder, memory=memory)
         if not arguments.json:
             print("\n".join(f"saved {picture.image}" for picture in pictures))

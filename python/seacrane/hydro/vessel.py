@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from seacrane.hydro.encounter import require_zero_speed
 from seacrane.hydro.memory import fit_memory
 from seacrane.hydro.memory_model import MemoryModel
 from seacrane.hydro.motion import natural_frequency
@@ -89,7 +90,8 @@ def vessel_parameters(
 
     Raises
     ------
-    ValueError : what is left after taking parts out has no positive mass or inertia.
+    ValueError : what is left after taking parts out has no positive mass or inertia, or the database is of
+        a forward speed.
     """
     vessel = time_domain_vessel(database, memory=memory, take_out=take_out)
     _warn(database, vessel)
@@ -100,6 +102,7 @@ def time_domain_vessel(
     database: HydroDatabase, *, memory: MemoryModel | None = None, take_out: Sequence[RigidPart] = ()
 ) -> VesselParameters:
     """`vessel_parameters` without its warnings."""
+    require_zero_speed(database)
     model = memory or database.memory or fit_memory(database=database)
     mass_matrix, restoring = database.mass_matrix.copy(), database.restoring.copy()
     for part in take_out:
