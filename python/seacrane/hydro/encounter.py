@@ -59,8 +59,8 @@ def require_zero_speed(database: HydroDatabase) -> None:
     """
     if database.speed != 0.0:
         raise ValueError(
-            f"database {database.name!r}: forward speed {database.speed:g} m/s; memory and time domain are for "
-            "zero speed: read the database with speed=0"
+            f"database {database.name!r}: forward speed {database.speed:g} m/s; memory and the time "
+            "domain are for zero speed: read the database with speed=0"
         )
 
 

@@ -41,6 +41,7 @@ DRIFT_MOTIONS = [0, 1, 5]
 ADDITIONAL_CAUSE = "roll tanks and other additional matrices"
 LINEARISED_AMPLITUDE = 5.0  # m, the wave amplitude of the files' linearised roll damping
 CLOSURE_LIMIT = np.array([1e-3, 1e-3, 1e-5, 1e-3, 1e-5, 1e-3])  # of eight digits
+SPEED_CLOSURE_LIMIT = np.full(6, 1e-2)  # interpolated in encounter frequency
 BAND = (0.3, 2.6)  # rad/s
 AGREEMENT = 0.02  # between headings at one encounter frequency, of the geometric mean of the diagonals
 DRIFT_DIGITS = 1e-4  # .re2 gives frequencies and headings in four and two decimals
@@ -143,7 +144,7 @@ def _convert(found: VeresSet, speed: float) -> HydroDatabase:
         mass_matrix=found.matrices.mass * BOTH_SIDES + 0.0,
         force=of_wave(force),
         motion_rao=None if motion is None else of_wave(motion),
-        motion_rao_limit=CLOSURE_LIMIT,
+        motion_rao_limit=CLOSURE_LIMIT if speed == 0.0 else SPEED_CLOSURE_LIMIT,
         roll_damping=RollDamping(
             linear=tables.roll[:, 0],
             quadratic=tables.roll[:, 1],
