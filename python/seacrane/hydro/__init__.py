@@ -26,6 +26,7 @@ from seacrane.hydro.orcaflex import read_orcaflex
 from seacrane.hydro.reader_warnings import (
     AssumedDensityWarning,
     AssumedInertiaWarning,
+    AssumedSymmetryWarning,
     EncounterFrequencyWarning,
     HydrostaticsWarning,
     PartialSetWarning,
@@ -48,6 +49,7 @@ __all__ = [
     "AdditionalMatrices",
     "AssumedDensityWarning",
     "AssumedInertiaWarning",
+    "AssumedSymmetryWarning",
     "CheckRow",
     "DriftCoefficients",
     "EncounterFrequencyWarning",

@@ -7,11 +7,9 @@ phase: a wave of zero phase at r from there is ahead by ``k . r``.
 
 from __future__ import annotations
 
-import warnings
 from dataclasses import dataclass
 from os import PathLike
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -20,6 +18,7 @@ from seacrane.errors import FileFormatError
 from seacrane.hydro.database import HydroDatabase
 from seacrane.hydro.encounter import wavenumber
 from seacrane.hydro.equivalent_box import equivalent_box
+from seacrane.hydro.mafredo_file import read_mafredo
 from seacrane.hydro.orcaflex_model import KILO, Raos, VesselType, read_vessel_type
 from seacrane.hydro.reader_warnings import AssumedDensityWarning, PartialSetWarning, warn_caller
 from seacrane.hydro.vessel import rigid_mass_matrix
@@ -36,7 +35,6 @@ MIRRORS = {
     "yz plane": (False, True),
     "xz and yz planes": (True, True),
 }  # port against starboard, bow against stern
-MAFREDO_SYMMETRY = ("None", "xz plane", "yz plane", "xz and yz planes", "Circular")
 SAME_FREQUENCY = 1e-6
 MOTION_LIMIT = np.full(6, 1e-3)
 
@@ -78,7 +76,7 @@ def read_orcaflex(
 
     Parameters
     ----------
-    path : the file. ``.yml`` needs PyYAML, ``.dhyd`` MaFreDo (``pip install seacrane[orcaflex]``).
+    path : the file. ``.yml`` needs PyYAML (``pip install seacrane[orcaflex]``).
     mass_matrix, restoring : (6, 6) in SI about the reference origin; they take the place of mass, inertia and
         hydrostatic stiffness of a ``.yml`` file, and are needed for ``.dhyd``, which holds neither.
     vessel_type, draught : names, needed where a model holds several.
@@ -92,6 +90,7 @@ def read_orcaflex(
     Warns
     -----
     AssumedDensityWarning : no density in the file and none given.
+    AssumedSymmetryWarning : a ``.dhyd`` file of an old version, which does not name its symmetry.
     PartialSetWarning : matrices and load RAOs are not given at the same frequencies, or displacement RAOs on
         another grid.
 
@@ -205,41 +204,20 @@ def _same_grid(a: Raos, b: Raos) -> bool:
 
 
 def _mafredo(path: Path, rho: float | None) -> _Source:
-    """A ``.dhyd`` file through the library that writes it; loads lag behind the crest, in kN."""
-    try:
-        from mafredo import Hyddb1
-    except ImportError:
-        raise FileFormatError(
-            f"{path}: .dhyd files need MaFreDo; install it with pip install 'seacrane[orcaflex]'"
-        ) from None
-    try:
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore", UserWarning)  # guesses of symmetry, checked here
-            data = Hyddb1.create_from(str(path))
-        matrices = [
-            np.asarray(array.transpose("omega", "influenced_dof", "radiating_dof").values, dtype=float)
-            for array in (data._mass, data._damping)
-        ]
-        omegas = [np.asarray(array.omega.values, float) for array in (data._mass, data._damping)]
-        headings, load_omega, force = _mafredo_loads(data)
-        symmetry, place = MAFREDO_SYMMETRY[data.symmetry.value], np.array([*data.phase_origin, 0.0])
-    except (OSError, RuntimeError, LookupError, AttributeError, TypeError, ValueError) as error:
-        raise FileFormatError(
-            f"{path}: cannot be read as a MaFreDo database ({str(error)[:200]}); write it again"
-        ) from error
-    if not np.array_equal(omegas[0], omegas[1]):
-        raise FileFormatError(f"{path}: added mass and damping have different frequencies; write it again")
+    """A ``.dhyd`` file about the point that all of it refers to."""
+    data = read_mafredo(path)
+    shift = _shift(data.phase_origin, data.load_omega, data.heading_deg, np.inf)
     return _Source(
         name=path.stem,
         source=f"MaFreDo file {path.name}",
         origin="reference point of the MaFreDo database",
-        symmetry=symmetry,
-        omega=omegas[0],
-        added_mass=matrices[0] * KILO,
-        damping=matrices[1] * KILO,
-        heading_deg=headings,
-        load_omega=load_omega,
-        force=np.conj(force) * KILO * _shift(place, load_omega, headings, np.inf),
+        symmetry=data.symmetry,
+        omega=data.omega,
+        added_mass=data.added_mass * KILO,
+        damping=data.damping * KILO,
+        heading_deg=data.heading_deg,
+        load_omega=data.load_omega,
+        force=np.conj(data.force) * KILO * shift,
         motion=None,
         mass_matrix=None,
         restoring=None,
@@ -249,21 +227,6 @@ def _mafredo(path: Path, rho: float | None) -> _Source:
         depth=np.inf,
         length=None,
     )
-
-
-def _mafredo_loads(data: Any) -> tuple[FloatArray, FloatArray, ComplexArray]:
-    """Headings (m,) in deg, frequencies (n,) and loads (m, n, 6), lagging."""
-    parts = []
-    for motion in range(6):
-        rao = data.force_rao(motion)
-        table = (rao["amplitude"] * np.exp(1j * rao["phase"])).transpose("wave_direction", "omega")
-        parts.append(np.asarray(table.values, dtype=complex))
-        if not np.array_equal(rao.omega, data.force_rao(0).omega):
-            raise ValueError("motions have different frequencies")
-        if not np.array_equal(rao.wave_directions, data.force_rao(0).wave_directions):
-            raise ValueError("motions have different wave directions")
-    first = data.force_rao(0)
-    return np.asarray(first.wave_directions, float), np.asarray(first.omega, float), np.stack(parts, axis=-1)
 
 
 def _database(

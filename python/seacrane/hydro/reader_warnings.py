@@ -16,6 +16,10 @@ class AssumedInertiaWarning(UserWarning):
     """The source holds no mass matrix: displaced mass and usual radii of gyration decide the motions."""
 
 
+class AssumedSymmetryWarning(UserWarning):
+    """The source does not name its symmetry: loads from the other side, or none, follow from a guess."""
+
+
 class PartialSetWarning(UserWarning):
     """Files of a set cover different periods, headings or speeds: only the common ones are read."""
 
