@@ -48,15 +48,18 @@ ZERO = (0.0, 0.0, 0.0)
 
 @pytest.fixture(scope="module")
 def hull() -> HydroDatabase:
-    """Every fifth frequency of the shipped hull, 13 headings, with motions solved from it."""
+    """Every ninth frequency of the shipped hull, 13 headings, with motions solved from it.
+
+    Its roll damping beside radiation becomes "other damping".
+    """
     base = shipped_database()
     part = dataclasses.replace(
         base,
-        omega=base.omega[3::5],
+        omega=base.omega[3::9],
         heading=base.heading[::3],
-        added_mass=base.added_mass[3::5],
-        damping=base.damping[3::5],
-        force=base.force[::3, 3::5],
+        added_mass=base.added_mass[3::9],
+        damping=base.damping[3::9],
+        force=base.force[::3, 3::9],
         g=G,
         memory=None,
     )
@@ -153,8 +156,8 @@ def model(
             {"AMDPeriodOrFrequency": float(p), ADDED_MASS: moved(a / 1e3), DAMPING: moved(b / 1e3)}
             for p, a, b in zip(periods(omega), *tables, strict=True)
         ],
-        "OtherDampingOrigin": list(reference),
-        "OtherLinearDamping": [0.0] * 6,
+        "OtherDampingOrigin": [0.0, 0.0, 0.0],
+        "OtherLinearDamping": plain(np.diag(hull.linear_damping) / 1e3),
         "OtherQuadraticDamping": [0.0] * 6,
     }
     return {
@@ -257,8 +260,8 @@ def test_units_of_rotations_do_not_touch_loads(hull: HydroDatabase, tmp_path: Pa
     assert_same(found, hull)
     assert found.motion_rao is not None and hull.motion_rao is not None
     assert np.abs(found.motion_rao - hull.motion_rao).max() < 1e-9
-    ratio = np.abs(mafredo_in_our_terms(path, hull)[0, 3]) / np.abs(found.force[0, 3])
-    assert ratio[[0, 2]] == pytest.approx(1.0)
+    other = np.abs(mafredo_in_our_terms(path, hull)[4, 3]) / np.abs(found.force[4, 3])
+    assert other[:3] == pytest.approx(1.0)
 
 
 @pytest.mark.parametrize(
@@ -298,13 +301,13 @@ def test_directions_of_travel_and_signs_against_physics(hull: HydroDatabase, tmp
     found = read_orcaflex(write(tmp_path, model(hull, event="zero up-crossing", phase=(25.0, 0.0, 0.0))))
     radiated = damping_from_forces(found)
     assert radiated is not None
-    inside = found.omega < 1.4
+    inside = found.omega < 1.2  # as far as 15 degrees between headings resolve the loads
     for i in range(6):
         peak = found.damping[:, i, i].max()
         assert np.abs(radiated - found.damping)[inside, i, i].max() < 0.05 * peak
     head = int(np.argmin(np.abs(found.heading - np.pi)))
     lift = found.force[head, 0]
-    assert lift[2] == pytest.approx(found.restoring[2, 2], rel=0.15)
+    assert lift[2] == pytest.approx(found.restoring[2, 2], rel=0.2)
     slope = -1j * found.omega[0] ** 2 / G  # of Re exp(i(wt + k x)): pitch, bow down, against d zeta / dx
     assert (lift[4] / found.restoring[4, 4] / slope).real > 0.5
 
@@ -514,7 +517,7 @@ def alter(document: dict[str, Any], place: str, value: Any) -> None:
             [[1.0, 2.0], [1.0] * 3, [1.0] * 3],
             r"\[1\]: 3 numbers are expected, found 2",
         ),
-        ("draught/" + STIFFNESS, [[0.0] * 3] * 3, "C33 = 0"),
+        ("draught/" + STIFFNESS, [[0.0] * 3 for _ in range(3)], "C33 = 0"),
         ("draught/" + INERTIA, "none", "a list is expected"),
         ("draught/ReferenceOrigin", [1.0, 2.0], "ReferenceOrigin: 3 numbers are expected"),
         ("draught/FrequencyDependentAddedMassAndDamping", None, "one body with the method"),
@@ -528,9 +531,9 @@ def alter(document: dict[str, Any], place: str, value: Any) -> None:
     ],
 )
 def test_alterations_are_named(
-    place: str, value: Any, message: str, hull: HydroDatabase, tmp_path: Path
+    place: str, value: Any, message: str, small_model: dict[str, Any], tmp_path: Path
 ) -> None:
-    document = model(hull)
+    document = copy.deepcopy(small_model)
     alter(document, place, value)
     path = write(tmp_path, document)
     with warnings.catch_warnings(), pytest.raises(FileFormatError, match=rf"ship\.yml.*({message})"):
@@ -570,8 +573,8 @@ def test_a_file_that_is_no_text(tmp_path: Path) -> None:
 
 
 @pytest.fixture(scope="module")
-def small(hull: HydroDatabase) -> str:
-    """Three frequencies and three directions, without displacement RAOs."""
+def small_model(hull: HydroDatabase) -> dict[str, Any]:
+    """Three frequencies and three directions."""
     part = dataclasses.replace(
         hull,
         omega=hull.omega[:3],
@@ -581,7 +584,13 @@ def small(hull: HydroDatabase) -> str:
         force=hull.force[:3, :3],
         motion_rao=hull.force[:3, :3],
     )
-    document = model(part)
+    return model(part)
+
+
+@pytest.fixture(scope="module")
+def small(small_model: dict[str, Any]) -> str:
+    """The small model without displacement RAOs, as text."""
+    document = copy.deepcopy(small_model)
     del document["VesselTypes"][0]["Draughts"][0]["DisplacementRAOs"]
     return text_of(document)
 

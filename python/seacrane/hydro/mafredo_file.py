@@ -1,8 +1,8 @@
 """MaFreDo's NetCDF form (``.dhyd``) of added mass, damping and wave loads: te, kN, phases that lag.
 
-Groups ``mass`` and ``damping`` hold one array by omega, radiating_dof and influenced_dof; ``Surge`` to ``Yaw``
-hold real and imaginary part of the loads by omega and wave_direction (deg, of travel); ``info`` the symmetry
-and the phase origin, forward and to port of the point that loads and matrices refer to.
+Groups ``mass`` and ``damping`` hold one array by omega, radiating_dof and influenced_dof; ``Surge`` to
+``Yaw`` real and imaginary part of the loads by omega and wave_direction (deg, of travel); ``info`` the
+symmetry and the phase origin, forward and to port of the point that loads and matrices refer to.
 """
 
 from __future__ import annotations
@@ -140,8 +140,8 @@ def _symmetry(path: Path, info: Any, heading_deg: FloatArray) -> str:
     one_side = bool(np.all(np.mod(heading_deg, 360.0) <= 180.0 + WHOLE))
     guess = "xz plane" if one_side else "None"
     warn_caller(
-        f"{path}: does not say which symmetry the vessel has; with directions up to {heading_deg.max():g} deg "
-        f"{guess!r} is taken, and loads from the other side follow from that guess",
+        f"{path}: does not say which symmetry the vessel has; with directions up to {heading_deg.max():g} "
+        f"deg {guess!r} is taken, and loads from the other side follow from that guess",
         AssumedSymmetryWarning,
     )
     return guess
