@@ -207,6 +207,8 @@ def _mafredo(path: Path, rho: float | None) -> _Source:
     """A ``.dhyd`` file about the point that all of it refers to."""
     data = read_mafredo(path)
     shift = _shift(data.phase_origin, data.load_omega, data.heading_deg, np.inf)
+    with np.errstate(invalid="ignore"):  # what is not finite is named later, if it is used at all
+        force = np.conj(data.force) * KILO * shift
     return _Source(
         name=path.stem,
         source=f"MaFreDo file {path.name}",
@@ -217,7 +219,7 @@ def _mafredo(path: Path, rho: float | None) -> _Source:
         damping=data.damping * KILO,
         heading_deg=data.heading_deg,
         load_omega=data.load_omega,
-        force=np.conj(data.force) * KILO * shift,
+        force=force,
         motion=None,
         mass_matrix=None,
         restoring=None,
