@@ -24,8 +24,20 @@ from seacrane.hydro.memory_audit import MemoryMismatchWarning, NonPassiveMemoryW
 from seacrane.hydro.memory_model import FitRow, MemoryBlock, MemoryModel, Passivity
 from seacrane.hydro.memory_trade import MemoryTradeRow, memory_trade
 from seacrane.hydro.motion import motion_response, natural_frequency
+from seacrane.hydro.orcaflex import read_orcaflex
+from seacrane.hydro.reader_warnings import (
+    AssumedDensityWarning,
+    AssumedInertiaWarning,
+    AssumedSymmetryWarning,
+    EncounterFrequencyWarning,
+    HydrostaticsWarning,
+    PartialSetWarning,
+    SeveralSpeedsWarning,
+)
 from seacrane.hydro.transform import QuadraticDampingWarning
-from seacrane.hydro.veres import find_stem, read_veres
+from seacrane.hydro.veres import read_veres
+from seacrane.hydro.veres_hydrostatics import Hydrostatics, read_hydrostatics
+from seacrane.hydro.veres_set import find_stem, veres_speeds
 from seacrane.hydro.vessel import (
     MemoryFitWarning,
     RigidPart,
@@ -34,24 +46,22 @@ from seacrane.hydro.vessel import (
     rigid_mass_matrix,
     vessel_parameters,
 )
-from seacrane.hydro.wamit import (
-    AssumedDensityWarning,
-    AssumedInertiaWarning,
-    PartialSetWarning,
-    is_wamit,
-    read_wamit,
-)
+from seacrane.hydro.wamit import is_wamit, read_wamit
 
 __all__ = [
     "AdditionalMatrices",
     "AssumedDensityWarning",
     "AssumedInertiaWarning",
+    "AssumedSymmetryWarning",
     "CheckRow",
     "DampingWarning",
     "DriftCoefficients",
+    "EncounterFrequencyWarning",
     "FitRow",
     "HeadingGapWarning",
     "HydroDatabase",
+    "Hydrostatics",
+    "HydrostaticsWarning",
     "InfiniteFrequencyWarning",
     "MemoryBlock",
     "MemoryFitWarning",
@@ -67,8 +77,10 @@ __all__ = [
     "RigidPart",
     "RollDamping",
     "RollDampingWarning",
+    "SeveralSpeedsWarning",
     "VesselParameters",
     "WaterMismatchWarning",
+    "available_speeds",
     "fit_memory",
     "load_database",
     "memory_rows",
@@ -77,6 +89,8 @@ __all__ = [
     "natural_frequency",
     "passivity_certificate",
     "read_capytaine",
+    "read_hydrostatics",
+    "read_orcaflex",
     "read_veres",
     "read_wamit",
     "require_passive",
@@ -86,65 +100,114 @@ __all__ = [
 ]
 
 NETCDF = (".nc", ".nc4")
+ORCAFLEX = (".yml", ".yaml", ".dhyd")
 SUPPORTED = (
-    "a NetCDF file (.nc) of seacrane or Capytaine, a ShipX/VERES folder, stem or file (.re7 with .re8 and "
-    ".re1), or a WAMIT folder, stem or file (.1 .3 .hst .out, with .4 and .frc)"
+    "a NetCDF file (.nc) of seacrane or Capytaine, a ShipX/VERES folder, stem or file (.re7 with .re8, .re1, "
+    ".re2, .hyd), a WAMIT folder, stem or file (.1 .3 .hst .out, with .4 and .frc), or an OrcaFlex model "
+    "(.yml) or MaFreDo file (.dhyd)"
 )
 
 
-def load_database(path: str | PathLike[str]) -> HydroDatabase:
+def load_database(path: str | PathLike[str], *, speed: float | None = None) -> HydroDatabase:
     """Read a hydrodynamic database of any supported kind.
 
     NetCDF of seacrane or Capytaine (told apart by content), ShipX/VERES or WAMIT (folder, stem or any file of
-    the set).
+    the set), OrcaFlex (a text model, or MaFreDo's form).
+
+    Parameters
+    ----------
+    path : file, folder or stem.
+    speed : forward speed in m/s, for VERES files that hold several (`available_speeds`); by default the one
+        nearest to zero.
 
     Raises
     ------
-    FileFormatError : nothing readable at ``path``; the message names the file, the line where there is one,
-        and the supported kinds.
+    FileFormatError : nothing readable at ``path``, or not of that speed; the message names the file, the line
+        where there is one, and the supported kinds.
 
     Warns
     -----
     DampingWarning, HeadingGapWarning, WaterMismatchWarning : what was read will give wrong motions.
     """
-    database = _load(Path(path))
+    database = _load(Path(path), speed)
     warn_of_data(database)
     return database
 
 
-def _load(source: Path) -> HydroDatabase:
+def _load(source: Path, speed: float | None) -> HydroDatabase:
+    kind = _kind(source)
+    if kind == "veres":
+        return read_veres(source, speed=speed)
+    database = _READERS[kind](_only_file(source))
+    if speed is not None and abs(database.speed - speed) > 1e-9:
+        raise FileFormatError(f"{source}: of {database.speed:g} m/s, not of speed {speed:g} m/s")
+    return database
+
+
+def available_speeds(path: str | PathLike[str]) -> tuple[float, ...]:
+    """Forward speeds in m/s, rising, that `load_database` can read at ``path``.
+
+    Raises
+    ------
+    FileFormatError : as `load_database`.
+    """
+    source = Path(path)
+    kind = _kind(source)
+    if kind == "veres":
+        return veres_speeds(source)
+    return (HydroDatabase.load(_only_file(source)).speed,) if kind == "seacrane" else (0.0,)
+
+
+def _kind(source: Path) -> str:
+    """Name of the reader for ``source``, a key of ``_READERS`` or "veres"."""
     if source.is_dir():
-        return _load_folder(source)
-    if source.is_file() and source.suffix.lower() in NETCDF:
-        return _load_netcdf(source)
+        return _kind_of_folder(source)
+    suffix = source.suffix.lower()
+    if source.is_file() and suffix in NETCDF:
+        return "capytaine" if is_capytaine(source) else "seacrane"
+    if source.is_file() and suffix in ORCAFLEX:
+        return "orcaflex"
     if _is_veres(source):
-        return read_veres(source)
+        return "veres"
     if is_wamit(source):
-        return read_wamit(source)
+        return "wamit"
     problem = "not of a known kind" if source.exists() else "no such file"
     raise FileFormatError(f"{source}: {problem}; supported: {SUPPORTED}")
 
 
-def _load_netcdf(file: Path) -> HydroDatabase:
-    """Capytaine's dataset, or else ours."""
-    return read_capytaine(file) if is_capytaine(file) else HydroDatabase.load(file)
-
-
-def _load_folder(folder: Path) -> HydroDatabase:
-    """The one database that a folder holds."""
+def _kind_of_folder(folder: Path) -> str:
+    """Name of the reader for the one database that a folder holds."""
     suffixes = {file.suffix.lower() for file in folder.iterdir()}
     veres, wamit = bool(suffixes & {".re7", ".re8"}), is_wamit(folder)
     if veres and wamit:
         raise FileFormatError(f"{folder}: the folder holds VERES and WAMIT files; name one of them")
-    if veres:
-        return read_veres(folder)
-    if wamit:
-        return read_wamit(folder)
-    files = sorted(file for file in folder.iterdir() if file.suffix.lower() in NETCDF)
-    if len(files) == 1:
-        return _load_netcdf(files[0])
-    found = "several NetCDF files, name one" if files else "nothing of a known kind"
-    raise FileFormatError(f"{folder}: the folder holds {found}; supported: {SUPPORTED}")
+    if veres or wamit:
+        return "veres" if veres else "wamit"
+    return _kind(_only_file(folder))
+
+
+def _only_file(source: Path) -> Path:
+    """The one file of a kind that stands alone in a folder; anything but a folder of such as it is."""
+    if not source.is_dir() or is_wamit(source):
+        return source
+    for suffixes in (NETCDF, ORCAFLEX):
+        files = sorted(
+            file for file in source.iterdir() if file.is_file() and file.suffix.lower() in suffixes
+        )
+        if len(files) == 1:
+            return files[0]
+        if files:
+            names = ", ".join(file.name for file in files[:5])
+            raise FileFormatError(f"{source}: the folder holds several files ({names}), name one of them")
+    raise FileFormatError(f"{source}: the folder holds nothing of a known kind; supported: {SUPPORTED}")
+
+
+_READERS = {
+    "seacrane": HydroDatabase.load,
+    "capytaine": read_capytaine,
+    "wamit": read_wamit,
+    "orcaflex": read_orcaflex,
+}
 
 
 def _is_veres(path: Path) -> bool:

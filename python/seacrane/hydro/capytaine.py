@@ -16,6 +16,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from seacrane.errors import FileFormatError
 from seacrane.hydro.database import PORT_STARBOARD, HydroDatabase
+from seacrane.hydro.dispersion import wavenumber
 from seacrane.hydro.equivalent_box import equivalent_box
 
 if TYPE_CHECKING:
@@ -272,19 +273,7 @@ def _phase_at(
 ) -> ComplexArray:
     """Factor (m, n, 1) that gives waves of zero phase at the centre: exp(+i k (x cos b + y sin b))."""
     along = centre[0] * np.cos(direction) + centre[1] * np.sin(direction)
-    return np.asarray(np.exp(1j * np.outer(along, _wavenumber(omega, g, depth))))[:, :, None]
-
-
-def _wavenumber(omega: FloatArray, g: float, depth: float) -> FloatArray:
-    """k (n,) of omega^2 = g k tanh(k h), by Newton's method from the deep or shallow limit."""
-    k = omega**2 / g
-    if np.isinf(depth):
-        return k
-    k = np.maximum(k, omega / np.sqrt(g * depth))
-    for _ in range(50):
-        t = np.tanh(k * depth)
-        k = k - (g * k * t - omega**2) / (g * t + g * k * depth * (1.0 - t**2))
-    return np.asarray(k)
+    return np.asarray(np.exp(1j * np.outer(along, wavenumber(omega, g=g, depth=depth))))[:, :, None]
 
 
 def _limit(matrices: FloatArray, where: NDArray[np.bool_]) -> FloatArray | None:

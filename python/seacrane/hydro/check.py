@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane.hydro.coupled import largest_growth_rate
+from seacrane.hydro.encounter import encounter_frequency, inside_table
 from seacrane.hydro.memory import enough_frequencies, fit_memory
 from seacrane.hydro.memory_model import RADIATION, MemoryModel
 from seacrane.hydro.motion import motion_response, natural_frequency
@@ -50,7 +51,8 @@ class CheckRow:
 def check_database(database: HydroDatabase) -> list[CheckRow]:
     """All checks that the database's content allows; docs/hydrodynamics.md says what each value means.
 
-    A database without a memory model has one fitted here, if its band holds enough frequencies.
+    A database without a memory model has one fitted here, if its band holds enough frequencies and its speed
+    is zero.
     """
     rows = [
         *_closure_rows(database),
@@ -59,6 +61,8 @@ def check_database(database: HydroDatabase) -> list[CheckRow]:
         *_relation_rows(database),
     ]
     model = database.memory
+    if database.speed != 0.0:
+        return rows
     if model is None and enough_frequencies(database):
         model = fit_memory(database=database)
     return rows if model is None else rows + memory_rows(database, model)
@@ -94,11 +98,18 @@ def memory_rows(database: HydroDatabase, model: MemoryModel) -> list[CheckRow]:
 
 
 def _closure_rows(database: HydroDatabase) -> list[CheckRow]:
-    """Motions solved from A, B, C, F against those of the source, within the trusted band."""
+    """Motions solved from A, B, C, F against those of the source, within the trusted band.
+
+    At forward speed frequencies of waves and of encounter have to be within it.
+    """
     if database.motion_rao is None:
         return []
     solved = motion_response(database)
-    errors = motion_errors(database, solved, database.motion_rao, inside=_inside_band(database))
+    inside = np.broadcast_to(_inside_band(database), solved.shape[:2])
+    if database.speed != 0.0:
+        encounter = np.abs(encounter_frequency(database))
+        inside = inside & inside_table(database.omega, encounter) & _inside_band(database, encounter)
+    errors = motion_errors(database, solved, database.motion_rao, inside=inside)
     limits = database.motion_rao_limit.tolist()
     return [_at_most(f"motion_rao_{name}", errors[i], limits[i]) for i, name in enumerate(MOTIONS)]
 
@@ -112,26 +123,34 @@ def motion_errors(
 ) -> FloatArray:
     """Largest difference (6,) over the frequencies and headings, by the largest motion of its heading.
 
+    ``inside`` (n,) or (m, n) says which count.
+
     Motions that symmetry forbids (sway, roll, yaw in head and following sea, surge in beam sea) are noise in
     files: headings where a motion stays below the source's floor, a share of its largest, are left out.
     """
-    use = np.ones(len(database.omega), dtype=bool) if inside is None else inside
-    largest = np.abs(given[:, use]).max(axis=1)
-    error = np.abs(solved - given)[:, use].max(axis=1)
+    use = np.broadcast_to(True if inside is None else inside, given.shape[:2])[:, :, None]
+    largest = np.where(use, np.abs(given), 0.0).max(axis=1)
+    error = np.where(use, np.abs(solved - given), 0.0).max(axis=1)
     counted = largest > database.motion_rao_floor * largest.max(axis=0)
     return np.asarray(np.where(counted, error / np.where(counted, largest, 1.0), 0.0).max(axis=0))
 
 
 def _matrix_rows(database: HydroDatabase) -> list[CheckRow]:
-    """Symmetry of A and B, semi-definite B, missing surge terms."""
+    """Symmetry of A and B, semi-definite B, missing surge terms; without limits at forward speed.
+
+    Speed couples heave and pitch, sway and yaw with opposite signs (Salvesen, Tuck and Faltinsen 1970).
+    """
     rows = []
+    moving = database.speed != 0.0
     for name, matrix in (("added_mass", database.added_mass), ("damping", database.damping)):
         scale = np.sqrt(np.abs(np.diagonal(matrix, axis1=1, axis2=2)).max(axis=0))
         product = np.outer(scale, scale)
         skew = np.abs(matrix - matrix.swapaxes(1, 2)).max(axis=0)
         asymmetry = np.where(product > 0.0, skew / np.where(product > 0.0, product, 1.0), 0.0).max()
-        rows.append(_at_most(f"symmetry_{name}", float(asymmetry), SYMMETRY_LIMIT))
-    rows.append(_at_least("damping_smallest_eigenvalue", _smallest_damping(database.damping), DAMPING_LIMIT))
+        label = f"symmetry_{name}"
+        rows.append(_info(label, asymmetry) if moving else _at_most(label, float(asymmetry), SYMMETRY_LIMIT))
+    label, smallest = "damping_smallest_eigenvalue", _smallest_damping(database.damping)
+    rows.append(_info(label, smallest) if moving else _at_least(label, smallest, DAMPING_LIMIT))
     rows.append(_info("surge_terms_missing", float(_surge_is_missing(database))))
     return rows
 
@@ -200,9 +219,10 @@ def _memory_motion_rows(database: HydroDatabase, model: MemoryModel) -> list[Che
     return [_info(f"memory_motion_{name}", errors[i]) for i, name in enumerate(MOTIONS)]
 
 
-def _inside_band(database: HydroDatabase) -> NDArray[np.bool_]:
+def _inside_band(database: HydroDatabase, omega: FloatArray | None = None) -> NDArray[np.bool_]:
     low, high = database.trusted_band or (0.0, np.inf)
-    return np.asarray((database.omega >= low - 1e-9) & (database.omega <= high + 1e-9))
+    omega = database.omega if omega is None else omega
+    return np.asarray((omega >= low - 1e-9) & (omega <= high + 1e-9))
 
 
 def _against_range(database: HydroDatabase, difference: FloatArray) -> float:

@@ -88,7 +88,10 @@ class HydroDatabase:
     quadratic_damping : (6,) coefficients of v |v| beside radiation.
     roll_damping : roll damping tabulated by frequency, or None.
     additional : further matrices by cause.
-    rho, g, depth, speed : kg/m3, m/s2, m (inf: deep), m/s.
+    rho, g, depth : kg/m3, m/s2, m (inf: deep).
+    speed : forward speed in m/s. Where it is not zero, `added_mass`, `damping`, `additional` and the linear
+        and quadratic `roll_damping` are functions of the encounter frequency, given at the values of `omega`;
+        forces, motions and everything else stay by wave frequency. The time domain takes zero speed only.
     length, breadth, draught : m.
     trusted_band : (low, high) in rad/s between which the source vouches for its numbers.
     port_starboard_symmetric : whether headings may be mirrored.
@@ -139,6 +142,8 @@ class HydroDatabase:
             value = float(getattr(self, name))
             if not value > 0.0:
                 raise ValueError(f"database {self.name!r}: {name} is {value}; give a positive number")
+        if not np.isfinite(self.speed):
+            raise ValueError(f"database {self.name!r}: speed is {self.speed}; give a finite number in m/s")
         if np.any(np.linalg.eigvalsh(0.5 * (self.mass_matrix + self.mass_matrix.T)) <= 0.0):
             raise ValueError(
                 f"database {self.name!r}: the mass matrix is not positive definite; check mass and inertia"

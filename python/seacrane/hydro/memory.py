@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from seacrane.caller import warn_caller
 from seacrane.hydro.certificate import require_passive
+from seacrane.hydro.encounter import require_zero_speed
 from seacrane.hydro.identification import IdentificationData, RationalFit, fit_lowest_order
 from seacrane.hydro.memory_model import RADIATION, FitRow, MemoryBlock, MemoryModel, Passivity
 from seacrane.hydro.passive import fit_passive
@@ -65,7 +66,7 @@ def fit_memory(
     Raises
     ------
     ValueError : a band that holds fewer than eight frequencies, an ``r2`` outside (0, 1), another ``kind``,
-        or a known infinite-frequency added mass asked for and not there.
+        a known infinite-frequency added mass asked for and not there, or a database of a forward speed.
 
     Notes
     -----
@@ -73,6 +74,7 @@ def fit_memory(
     diagonals are dropped. Additional matrices (roll tanks) get a static stiffness and a model of their own,
     in which the retardation function need not vanish at zero frequency, always of the per-pair kind.
     """
+    require_zero_speed(database)
     if kind not in KINDS:
         raise ValueError(f"memory kind {kind!r} is unknown; choose {' or '.join(KINDS)}")
     if not 0.0 < r2 < 1.0:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
@@ -37,6 +38,11 @@ class TextRecords:
             raise self.error("the file ends here, too early; it is truncated")
         self._next += 1
         return self._lines[self._next - 1]
+
+    def rest(self) -> Iterator[str]:
+        """The lines that are left, as they are."""
+        while self._next < len(self._lines):
+            yield self.text()
 
     def peek(self) -> list[str]:
         """Words of the next line, which stays."""

@@ -1,9 +1,10 @@
-"""Reader of ShipX/VERES results: ``.re7`` (matrices), ``.re8`` (excitation), ``.re1`` (motions).
+"""Reader of ShipX/VERES results: ``.re7`` (matrices), ``.re8`` (excitation), ``.re1`` (motions), ``.re2``
+(drift), ``.hyd`` (hydrostatics).
 
 File axes are x aft, y starboard, z up; heading 0 is head sea; time factor exp(+i omega t); LCG positive aft
 of midship; everything refers to the motion point (xmtn aft of midship, centreline, zmtn above the baseline),
 which is also where waves have zero phase. To ours: diag(-1, -1, 1, -1, -1, 1), and direction = heading + 180
-degrees.
+degrees. Drift coefficients: surge and sway by rho g B^2 / L, yaw by rho g B^2, per squared amplitude.
 """
 
 from __future__ import annotations
@@ -15,264 +16,147 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from seacrane.caller import warn_caller
 from seacrane.errors import FileFormatError
 from seacrane.hydro.database import AdditionalMatrices, HydroDatabase, RollDamping
-from seacrane.hydro.text_records import TextRecords
+from seacrane.hydro.drift import DriftCoefficients
+from seacrane.hydro.encounter import one_function
+from seacrane.hydro.reader_warnings import EncounterFrequencyWarning, HydrostaticsWarning
+from seacrane.hydro.veres_files import DriftAtSpeed, DriftFile, MatricesAtSpeed, TransferAtSpeed
+from seacrane.hydro.veres_hydrostatics import Loading, contradictions, read_hydrostatics
+from seacrane.hydro.veres_set import (
+    VeresSet,
+    at_speed,
+    choose_speed,
+    find_stem,
+    other_run,
+    read_set,
+    sibling,
+)
 
 FloatArray = NDArray[np.float64]
-ComplexArray = NDArray[np.complex128]
 
 TO_OURS = np.array([-1.0, -1.0, 1.0, -1.0, -1.0, 1.0])
 BOTH_SIDES = np.outer(TO_OURS, TO_OURS)
+DRIFT_MOTIONS = [0, 1, 5]
 ADDITIONAL_CAUSE = "roll tanks and other additional matrices"
 LINEARISED_AMPLITUDE = 5.0  # m, the wave amplitude of the files' linearised roll damping
-HEADER_LINES = 6
 CLOSURE_LIMIT = np.array([1e-3, 1e-3, 1e-5, 1e-3, 1e-5, 1e-3])  # of eight digits
+SPEED_CLOSURE_LIMIT = np.full(6, 1e-2)  # interpolated in encounter frequency
+BAND = (0.3, 2.6)  # rad/s
+AGREEMENT = 0.02  # between headings at one encounter frequency, of the geometric mean of the diagonals
+DRIFT_DIGITS = 1e-4  # .re2 gives frequencies and headings in four and two decimals
+HEADING_DIGITS = 6e-3
 
 
-@dataclass(frozen=True)
-class _Header:
-    """What the first lines of .re1, .re7 and .re8 share."""
+@dataclass(frozen=True, eq=False)
+class _Tables:
+    """The matrices at one speed as functions of frequency (of encounter), in our axes, frequencies rising."""
 
-    rho: float
-    g: float
-    length: float
-    breadth: float
-    draught: float
-    lcg_aft: float
-    vcg: float
-    speeds: int
-    headings: int
-    frequencies: int
-
-
-@dataclass(frozen=True)
-class _Matrices:
-    """Contents of a .re7 file in its own axes: ``blocks`` (headings, frequencies, 6 kinds, 6, 6)."""
-
-    header: _Header
-    title: str
-    mass: FloatArray
-    motion_point: tuple[float, float]
-    heading: FloatArray
-    omega: FloatArray
-    blocks: FloatArray
+    added_mass: FloatArray
+    damping: FloatArray
+    additional: AdditionalMatrices
     roll: FloatArray
 
 
-@dataclass(frozen=True)
-class _Transfer:
-    """Contents of a .re1 or .re8 file in its own axes: values (headings, frequencies, 6)."""
-
-    header: _Header
-    motion_point: tuple[float, float]
-    heading: FloatArray
-    omega: FloatArray
-    values: ComplexArray
-
-
-def read_veres(path: str | PathLike[str]) -> HydroDatabase:
+def read_veres(path: str | PathLike[str], *, speed: float | None = None) -> HydroDatabase:
     """Read the VERES results at ``path``: a folder that holds one set, the common stem, or one of the files.
 
-    Needs ``.re7`` and ``.re8``; ``.re1`` adds the motion transfer functions, against which `check` compares.
-    One speed, zero. The trusted band is the range between 0.3 and 2.6 rad/s that the files cover.
+    Needs ``.re7`` (version 1 or 2) and ``.re8``; ``.re1`` adds the motion transfer functions, against which
+    `check` compares; ``.re2`` the drift coefficients; ``.hyd`` is compared with the matrices.
+
+    Parameters
+    ----------
+    path : folder, stem or file.
+    speed : which forward speed of the set, m/s; by default the one nearest to zero.
+
+    Returns
+    -------
+    HydroDatabase : the trusted band is the range between 0.3 and 2.6 rad/s that the files cover. At forward
+        speed the matrices are functions of the encounter frequency: those of a beam sea, where encounter and
+        wave frequency are the same, else those of all headings joined.
+
+    Warns
+    -----
+    SeveralSpeedsWarning : the set holds several speeds and ``speed`` is not given.
+    PartialSetWarning : a speed is not in every file.
+    EncounterFrequencyWarning : at forward speed the headings do not agree on one function of the encounter
+        frequency, or do not cover the files' range.
+    HydrostaticsWarning : ``.hyd`` contradicts the matrices.
 
     Raises
     ------
-    FileFormatError : a file is missing, truncated, inconsistent with the others, or of a forward speed; the
+    FileFormatError : a file is missing, truncated, inconsistent with the others, or without that speed; the
         message names the file and, where there is one, the line.
     """
-    stem = find_stem(Path(path))
-    re7, re8, re1 = (_sibling(stem, suffix) for suffix in (".re7", ".re8", ".re1"))
-    for file, suffix in ((re7, ".re7"), (re8, ".re8")):
-        if file is None:
-            raise FileFormatError(f"{stem}{suffix}: no such file; VERES needs .re7 and .re8 of the same stem")
-    assert re7 is not None and re8 is not None
-    matrices = _read_matrices(re7)
-    force = _read_transfer(re8)
-    _check_same(re8, force, matrices)
-    motion = None
-    if re1 is not None:
-        motion = _read_transfer(re1)
-        _check_same(re1, motion, matrices)
+    found = read_set(find_stem(Path(path)))
+    chosen = choose_speed(found, speed)
     try:
-        return _convert(stem, matrices, force, motion)
+        database = _convert(found, chosen)
     except FileFormatError:
         raise
     except ValueError as error:
-        raise FileFormatError(f"{stem}: {error}") from error
+        raise FileFormatError(f"{found.stem}: {error}") from error
+    _check_hydrostatics(found, chosen)
+    return database
 
 
-def find_stem(path: Path) -> Path:
-    """Common stem (folder and name without suffix) of the set of files that ``path`` points to."""
-    if path.is_dir():
-        stems = sorted({file.with_suffix("") for file in path.iterdir() if file.suffix.lower() == ".re7"})
-        if len(stems) != 1:
-            found = ", ".join(stem.name for stem in stems) or "none"
-            raise FileFormatError(
-                f"{path}: one .re7 file is needed in a VERES folder, found: {found}; give the stem"
-            )
-        return stems[0]
-    return path.with_suffix("") if path.suffix.lower() in (".re1", ".re2", ".re7", ".re8", ".hyd") else path
-
-
-def _sibling(stem: Path, suffix: str) -> Path | None:
-    """File of the set with that suffix, in either case."""
-    for name in (stem.name + suffix, stem.name + suffix.upper()):
-        if (stem.parent / name).is_file():
-            return stem.parent / name
-    return None
-
-
-def _read_header(records: TextRecords, *, versioned: bool) -> tuple[str, _Header]:
-    title = [records.text() for _ in range(HEADER_LINES)]
-    rho, g = records.numbers(2, "density and gravity")
-    length, breadth, draught = records.numbers(3, "length, breadth, draught")
-    lcg, vcg = records.numbers(2, "LCG and VCG")
-    if versioned:
-        marker = records.peek()
-        if len(marker) != 2 or marker[0] != "-1":
-            raise records.error(
-                "a version line '-1 2' is needed: only version 2 of .re7 is read; export it again"
-            )
-        _, version = records.integers(2, "version line")
-        if version != 2:
-            raise records.error(f"version {version} of .re7 is not known, only version 2; export it again")
-    speeds, headings, frequencies, dofs = records.integers(
-        4, "numbers of speeds, headings, frequencies, motions"
-    )
-    if dofs != 6 or min(speeds, headings, frequencies) < 1:
-        raise records.error(
-            f"counts {speeds} {headings} {frequencies} {dofs}: at least one speed, heading and frequency, "
-            "and "
-            "six motions are needed"
-        )
-    if speeds != 1:
-        raise records.error(f"{speeds} speeds in the file; this reader takes files of the single speed zero")
-    header = _Header(rho, g, length, breadth, draught, lcg, vcg, speeds, headings, frequencies)
-    return title[0].strip() + "; ship " + title[2].split(":", 1)[-1].strip(), header
-
-
-def _read_motion_point(records: TextRecords) -> tuple[float, float]:
-    speed, _, _, x_aft, z = records.numbers(5, "speed, sinkage, trim, motion point")
-    if speed != 0.0:
-        raise records.error(f"forward speed {speed} m/s: only results of zero speed are read")
-    return x_aft, z
-
-
-def _read_matrices(path: Path) -> _Matrices:
-    records = TextRecords(path)
-    title, header = _read_header(records, versioned=True)
-    m, n = header.headings, header.frequencies
-    records.expect(6 + 1 + m * (1 + n * (1 + 36 + 1)), "the counts in its header")
-    mass = np.array([records.numbers(6, "mass matrix") for _ in range(6)])
-    point = _read_motion_point(records)
-    heading, omega = np.empty(m), np.empty((m, n))
-    blocks, roll = np.empty((m, n, 6, 6, 6)), np.empty((m, n, 3))
-    for h in range(m):
-        (heading[h],) = records.numbers(1, "heading")
-        for k in range(n):
-            (omega[h, k],) = records.numbers(1, "frequency")
-            blocks[h, k] = records.table(36, 6, "A, A_add, B, B_add, C, C_add").reshape(6, 6, 6)
-            roll[h, k] = records.numbers(3, "roll damping")
-    records.finish()
-    return _Matrices(header, title, mass, point, heading, _one_omega(records, omega), blocks, roll)
-
-
-def _read_transfer(path: Path) -> _Transfer:
-    records = TextRecords(path)
-    _, header = _read_header(records, versioned=False)
-    m, n = header.headings, header.frequencies
-    records.expect(1 + m * (1 + n * 7), "the counts in its header")
-    point = _read_motion_point(records)
-    heading, omega = np.empty(m), np.empty((m, n))
-    values = np.empty((m, n, 6), dtype=complex)
-    for h in range(m):
-        (heading[h],) = records.numbers(1, "heading")
-        for k in range(n):
-            (omega[h, k],) = records.numbers(1, "frequency")
-            rows = records.table(6, 3, "motion, real, imaginary part")
-            if not np.array_equal(rows[:, 0], np.arange(1, 7)):
-                raise records.error(f"motions {rows[:, 0].tolist()} where 1 to 6 are expected")
-            values[h, k] = rows[:, 1] + 1j * rows[:, 2]
-    records.finish()
-    return _Transfer(header, point, heading, _one_omega(records, omega), values)
-
-
-def _one_omega(records: TextRecords, omega: FloatArray) -> FloatArray:
-    """The frequencies, which every heading has to repeat."""
-    if np.any(omega != omega[0]):
-        heading = int(np.argwhere(np.any(omega != omega[0], axis=1))[0, 0])
-        raise FileFormatError(
-            f"{records.path}: frequencies of heading number {heading + 1} differ from those of the first"
-        )
-    return np.asarray(omega[0])
-
-
-def _check_same(path: Path, transfer: _Transfer, matrices: _Matrices) -> None:
-    """Raise unless a transfer-function file belongs to the same calculation as the matrices."""
+def _same_grid(path: Path, case: TransferAtSpeed, matrices: MatricesAtSpeed) -> TransferAtSpeed:
+    """The transfer functions, which must be on the grid of the matrices."""
     pairs = {
-        "header (density, gravity, dimensions, counts)": transfer.header == matrices.header,
-        "motion point": transfer.motion_point == matrices.motion_point,
-        "headings": np.array_equal(transfer.heading, matrices.heading),
-        "frequencies": np.array_equal(transfer.omega, matrices.omega),
+        "motion point": case.motion_point == matrices.motion_point,
+        "headings": np.array_equal(case.heading, matrices.heading),
+        "frequencies": np.array_equal(case.omega, matrices.omega),
     }
     for what, same in pairs.items():
         if not same:
-            raise FileFormatError(f"{path}: {what} differ from the .re7 file; use files of one VERES run")
+            raise other_run(path, what)
+    return case
 
 
-def _convert(stem: Path, matrices: _Matrices, force: _Transfer, motion: _Transfer | None) -> HydroDatabase:
+def _convert(found: VeresSet, speed: float) -> HydroDatabase:
     """The database in our conventions."""
-    added_mass, added_mass_add, damping, damping_add, restoring, restoring_add = np.moveaxis(
-        matrices.blocks, 2, 0
-    )
-    first = matrices.blocks[:1]
-    scale = np.abs(first).max(axis=(0, 1), keepdims=True) + 1e-300
-    if np.any(np.abs(matrices.blocks - first) > 1e-5 * scale):
-        raise ValueError("matrices depend on the heading, which zero speed does not allow; check the files")
+    case, head = at_speed(found.matrices.cases, speed), found.matrices.header
+    force = _same_grid(found.force.path, at_speed(found.force.cases, speed), case)
+    motion = None
+    if found.motion is not None:
+        motion = _same_grid(found.motion.path, at_speed(found.motion.cases, speed), case)
+    direction = _direction(case.heading)
+    by_heading, by_omega = np.argsort(direction), np.argsort(case.omega)
+    omega = case.omega[by_omega]
+    tables = _tables(found, case, by_omega)
+    restoring = case.blocks[:, :, 4]
     if np.any(np.abs(restoring - restoring[0, 0]) > 1e-6 * np.abs(restoring).max()):
-        raise ValueError("the restoring matrix depends on the frequency; check the .re7 file")
-    direction = np.mod(np.radians(matrices.heading) + np.pi, 2.0 * np.pi)
-    direction[np.abs(direction - 2.0 * np.pi) < 1e-12] = 0.0
-    by_heading, by_omega = np.argsort(direction), np.argsort(matrices.omega)
-    head, x_aft, z = matrices.header, *matrices.motion_point
-
-    def of_frequency(block: FloatArray) -> FloatArray:
-        return np.asarray(block[0][by_omega] * BOTH_SIDES + 0.0)  # + 0.0: no negative zeros
-
-    def of_wave(values: ComplexArray) -> ComplexArray:
-        return np.asarray(values[by_heading][:, by_omega] * TO_OURS)
-
-    omega = matrices.omega[by_omega]
-    extra = AdditionalMatrices(
-        cause=ADDITIONAL_CAUSE,
-        added_mass=of_frequency(added_mass_add),
-        damping=of_frequency(damping_add),
-        restoring=of_frequency(restoring_add),
-    )
+        raise ValueError("the restoring matrix depends on heading or frequency; check the .re7 file")
+    extra = tables.additional
     present = any(np.any(x != 0.0) for x in (extra.added_mass, extra.damping, extra.restoring))
-    roll = matrices.roll[by_heading][:, by_omega]
+
+    def of_wave(transfer: TransferAtSpeed) -> NDArray[np.complex128]:
+        return np.asarray(transfer.values[by_heading][:, by_omega] * TO_OURS)
+
+    x_aft, z = case.motion_point
     return HydroDatabase(
-        name=stem.name,
+        name=found.stem.name,
         omega=omega,
         heading=direction[by_heading],
-        added_mass=of_frequency(added_mass),
-        damping=of_frequency(damping),
+        added_mass=tables.added_mass,
+        damping=tables.damping,
         restoring=restoring[0, 0] * BOTH_SIDES + 0.0,
-        mass_matrix=matrices.mass * BOTH_SIDES + 0.0,
-        force=of_wave(force.values),
-        motion_rao=None if motion is None else of_wave(motion.values),
-        motion_rao_limit=CLOSURE_LIMIT,
+        mass_matrix=found.matrices.mass * BOTH_SIDES + 0.0,
+        force=of_wave(force),
+        motion_rao=None if motion is None else of_wave(motion),
+        motion_rao_limit=CLOSURE_LIMIT if speed == 0.0 else SPEED_CLOSURE_LIMIT,
         roll_damping=RollDamping(
-            linear=roll[0, :, 0],
-            quadratic=roll[0, :, 1],
-            linearised=roll[:, :, 2],
+            linear=tables.roll[:, 0],
+            quadratic=tables.roll[:, 1],
+            linearised=case.roll[by_heading][:, by_omega, 2],
             linearised_amplitude=LINEARISED_AMPLITUDE,
         ),
         additional=(extra,) if present else (),
+        drift=None if found.drift is None else _drift(found.drift, at_speed(found.drift.cases, speed), case),
         rho=head.rho,
         g=head.g,
+        speed=case.speed,
         length=head.length,
         breadth=head.breadth,
         draught=head.draught,
@@ -280,15 +164,134 @@ def _convert(stem: Path, matrices: _Matrices, force: _Transfer, motion: _Transfe
             f"motion point of the files: {x_aft:g} m aft of midship, on the centreline, {z:g} m above the "
             "baseline"
         ),
-        source=(
-            f"ShipX/VERES files {stem.name}.re7, .re8{'' if motion is None else ', .re1'}: {matrices.title}"
-        ),
+        source=f"ShipX/VERES files {found.stem.name} ({_names(found)}): {found.matrices.title}",
         trusted_band=_trusted(omega),
         port_starboard_symmetric=True,
     )
 
 
+def _names(found: VeresSet) -> str:
+    return ", ".join(file.path.suffix.lower() for file in found.files())
+
+
+def _direction(heading_deg: FloatArray) -> FloatArray:
+    """Directions of travel in [0, 2 pi) of the files' headings."""
+    direction = np.mod(np.radians(heading_deg) + np.pi, 2.0 * np.pi)
+    direction[np.abs(direction - 2.0 * np.pi) < 1e-12] = 0.0
+    return np.asarray(direction)
+
+
+def _tables(found: VeresSet, case: MatricesAtSpeed, by_omega: NDArray[np.intp]) -> _Tables:
+    """The matrices as functions of the frequency of encounter alone."""
+    omega = case.omega[by_omega]
+    ours = case.blocks[:, by_omega] * BOTH_SIDES + 0.0  # + 0.0: no negative zeros
+    roll = case.roll[:, by_omega, :2]
+    if case.speed == 0.0:
+        scale = np.abs(ours[:1]).max(axis=(0, 1), keepdims=True) + 1e-300
+        if np.any(np.abs(ours - ours[:1]) > 1e-5 * scale):
+            raise ValueError(
+                "matrices depend on the heading, which zero speed does not allow; check the files"
+            )
+        blocks, roll = ours[0], roll[0]
+    else:
+        blocks, roll = _of_encounter(found, case, ours, roll, omega)
+    added_mass, added_mass_add, damping, damping_add, _, restoring_add = np.moveaxis(blocks, 1, 0)
+    extra = AdditionalMatrices(
+        cause=ADDITIONAL_CAUSE, added_mass=added_mass_add, damping=damping_add, restoring=restoring_add
+    )
+    return _Tables(added_mass, damping, extra, roll)
+
+
+def _of_encounter(
+    found: VeresSet, case: MatricesAtSpeed, blocks: FloatArray, roll: FloatArray, omega: FloatArray
+) -> tuple[FloatArray, FloatArray]:
+    """Blocks (n, 6, 6, 6) and roll damping (n, 2) from those of every heading, with warnings."""
+    m, n = blocks.shape[:2]
+    along = np.cos(np.radians(case.heading))
+    along[np.abs(along) < 1e-12] = 0.0
+    encounter = omega + case.speed / found.matrices.header.g * np.outer(along, omega**2)
+    flat = np.concatenate([blocks.reshape(m, n, -1), roll], axis=2)
+    joined = one_function(flat, omega=omega, encounter=encounter, band=_trusted(omega) or (0.0, np.inf))
+    _warn_of_range(found.stem, case.speed, joined.known, omega)
+    _warn_of_disagreement(found.stem, case.speed, blocks, joined.difference[:-2].reshape(6, 6, 6))
+    return joined.values[:, :-2].reshape(n, 6, 6, 6), joined.values[:, -2:]
+
+
+def _warn_of_range(stem: Path, speed: float, known: tuple[float, float], omega: FloatArray) -> None:
+    if known[0] > omega[0] * (1.0 + 1e-9) or known[1] < omega[-1] * (1.0 - 1e-9):
+        warn_caller(
+            f"{stem}: at {speed:g} m/s the headings cover encounter frequencies {known[0]:.4g} to "
+            f"{known[1]:.4g} rad/s of {omega[0]:.4g} to {omega[-1]:.4g}; the end values are held beyond, and "
+            "motions there follow from that guess. Add a beam sea to the VERES run",
+            EncounterFrequencyWarning,
+        )
+
+
+def _warn_of_disagreement(stem: Path, speed: float, blocks: FloatArray, difference: FloatArray) -> None:
+    peak = np.sqrt(np.abs(np.diagonal(blocks, axis1=3, axis2=4)).max(axis=(0, 1)))  # (kinds, 6)
+    scale = peak[:, :, None] * peak[:, None, :]
+    relative = np.where(scale > 0.0, difference / np.where(scale > 0.0, scale, 1.0), 0.0)
+    if relative.max() > AGREEMENT:
+        kind, j, k = np.unravel_index(int(relative.argmax()), relative.shape)
+        name = ("A", "A_add", "B", "B_add", "C", "C_add")[int(kind)]
+        warn_caller(
+            f"{stem}: at {speed:g} m/s the headings differ at the same encounter frequency by up to "
+            f"{relative.max():.1%} of the largest diagonals, in {name}{j + 1}{k + 1}; one function is taken "
+            "for all, and motions are off accordingly",
+            EncounterFrequencyWarning,
+        )
+
+
+def _drift(file: DriftFile, case: DriftAtSpeed, matrices: MatricesAtSpeed) -> DriftCoefficients:
+    """Mean loads per squared amplitude in our axes, on the exact grid of the matrices."""
+    for what, rough, exact, digits in (
+        ("headings", case.heading, matrices.heading, HEADING_DIGITS),
+        ("frequencies", case.omega, matrices.omega, DRIFT_DIGITS),
+    ):
+        if len(rough) != len(exact) or np.any(np.abs(rough - exact) > digits):
+            raise other_run(file.path, what)
+    head = file.header
+    force = head.rho * head.g * head.breadth**2
+    scale = force * np.array([1.0 / head.length, 1.0 / head.length, 1.0])
+    direction = _direction(matrices.heading)
+    by_heading, by_omega = np.argsort(direction), np.argsort(matrices.omega)
+    load = np.zeros((*case.values.shape[:2], 6))
+    load[:, :, DRIFT_MOTIONS] = case.values * scale * TO_OURS[DRIFT_MOTIONS]
+    return DriftCoefficients(
+        heading=direction[by_heading],
+        omega=matrices.omega[by_omega],
+        coefficient=load[by_heading][:, by_omega],
+    )
+
+
+def _check_hydrostatics(found: VeresSet, speed: float) -> None:
+    """Warn where the text of ``.hyd`` and the matrices are of different ships or loadings."""
+    path = sibling(found.stem, ".hyd")
+    if path is None:
+        return
+    head, case = found.matrices.header, at_speed(found.matrices.cases, speed)
+    assert head.lcg_aft is not None and head.vcg is not None
+    ship = Loading(
+        mass=found.matrices.mass,
+        restoring=case.blocks[0, 0, 4],
+        lcg_aft=head.lcg_aft,
+        vcg=head.vcg,
+        motion_point=case.motion_point,
+        g=head.g,
+        length=head.length,
+        breadth=head.breadth,
+        draught=head.draught,
+    )
+    different = contradictions(read_hydrostatics(path), ship)
+    if different:
+        warn_caller(
+            f"{path}: contradicts {found.matrices.path.name}: {'; '.join(different)} (SI); the matrices are "
+            "used, and mass, restoring and natural periods may be of another loading",
+            HydrostaticsWarning,
+        )
+
+
 def _trusted(omega: FloatArray) -> tuple[float, float] | None:
     """The part of 0.3 to 2.6 rad/s that the files cover, or None if that is nothing."""
-    low, high = max(0.3, float(omega[0])), min(2.6, float(omega[-1]))
+    low, high = max(BAND[0], float(omega[0])), min(BAND[1], float(omega[-1]))
     return (low, high) if low < high else None

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from seacrane.caller import warn_caller
 from seacrane.hydro.data_warnings import warn_of_damping
+from seacrane.hydro.encounter import require_zero_speed
 from seacrane.hydro.memory import fit_memory
 from seacrane.hydro.memory_audit import warn_of_lost_passivity, warn_of_mismatch
 from seacrane.hydro.memory_model import MemoryModel
@@ -91,7 +92,8 @@ def vessel_parameters(
 
     Raises
     ------
-    ValueError : what is left after taking parts out has no positive mass or inertia.
+    ValueError : what is left after taking parts out has no positive mass or inertia, or the database is of
+        a forward speed.
     """
     vessel = time_domain_vessel(database, memory=memory, take_out=take_out)
     _warn(database, vessel)
@@ -102,6 +104,7 @@ def time_domain_vessel(
     database: HydroDatabase, *, memory: MemoryModel | None = None, take_out: Sequence[RigidPart] = ()
 ) -> VesselParameters:
     """`vessel_parameters` without its warnings."""
+    require_zero_speed(database)
     model = memory or database.memory or fit_memory(database=database)
     mass_matrix, restoring = database.mass_matrix.copy(), database.restoring.copy()
     for part in take_out:

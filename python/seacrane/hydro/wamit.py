@@ -8,7 +8,6 @@ rotations 1/L. Phases in ``.out`` are rounded to degrees and not used.
 
 from __future__ import annotations
 
-import warnings
 from dataclasses import dataclass
 from os import PathLike
 from pathlib import Path
@@ -16,9 +15,15 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from seacrane.caller import warn_caller
 from seacrane.errors import FileFormatError
 from seacrane.hydro.database import HydroDatabase
 from seacrane.hydro.equivalent_box import equivalent_box
+from seacrane.hydro.reader_warnings import (
+    AssumedDensityWarning,
+    AssumedInertiaWarning,
+    PartialSetWarning,
+)
 from seacrane.hydro.vessel import rigid_mass_matrix
 from seacrane.hydro.wamit_control import (
     ForceControl,
@@ -40,18 +45,6 @@ HASKIND_FLOOR = np.array([0.05, 1e-4, 1e-4, 1e-4, 1e-4, 1e-4])  # surge in beam 
 DIFFRACTION_LIMIT = np.full(6, 1e-3)  # the forces of .3 themselves, in seven digits
 PANELS_PER_WAVELENGTH = 8.0
 USUAL_RADII = (0.36, 0.25, 0.25)  # of breadth, length, length
-
-
-class AssumedDensityWarning(UserWarning):
-    """The source holds no water density: 1025 kg/m3 scales every mass, stiffness and force."""
-
-
-class AssumedInertiaWarning(UserWarning):
-    """The source holds no mass matrix: displaced mass and usual radii of gyration decide the motions."""
-
-
-class PartialSetWarning(UserWarning):
-    """Files of a set cover different periods or headings: only the common ones are read."""
 
 
 def read_wamit(path: str | PathLike[str]) -> HydroDatabase:
@@ -219,11 +212,10 @@ def _common(
         dropped = np.setdiff1d(np.concatenate(lists), common)
         if len(dropped):
             names = ", ".join(f"{value:g}" for value in dropped[:5]) + (", ..." if len(dropped) > 5 else "")
-            warnings.warn(
+            warn_caller(
                 f"{stem}: {what} {names} {unit} are not in every file of the set; the {len(common)} common "
                 "ones are read, and nothing is known beyond them",
                 PartialSetWarning,
-                stacklevel=4,
             )
         shared.append(common)
     return shared[0], shared[1]
@@ -256,11 +248,10 @@ class _Picker:
 def _density(stem: Path, listing: Listing, control: ForceControl | None) -> float:
     given = None if control is None else control.rho
     if given is None and listing.rho is None:
-        warnings.warn(
+        warn_caller(
             f"{stem}: neither .frc nor .out holds the water density; 1025 kg/m3 is taken, and every mass, "
             "stiffness and force is proportional to it",
             AssumedDensityWarning,
-            stacklevel=4,
         )
         return USUAL_DENSITY
     if given is not None and listing.rho is not None and abs(given - listing.rho) > 1e-4 * given:
@@ -289,12 +280,11 @@ def _mass_matrix(stem: Path, body: _Body) -> FloatArray:
         centre = control.centre_of_gravity
     length, breadth, _ = body.box
     radii = np.array(USUAL_RADII) * (breadth, length, length)
-    warnings.warn(
+    warn_caller(
         f"{stem}: no mass matrix in .frc; the displaced mass {mass:.6g} kg with radii of gyration of "
         f"{radii[0]:.3g}, {radii[1]:.3g}, {radii[2]:.3g} m (0.36 B, 0.25 L, 0.25 L) is taken, and natural "
         "periods in roll and pitch follow from that guess",
         AssumedInertiaWarning,
-        stacklevel=4,
     )
     return rigid_mass_matrix(mass, centre, np.diag(mass * radii**2))
 
