@@ -1,6 +1,6 @@
 """MaFreDo's ``.dhyd`` files, and MaFreDo as a second reader of OrcaFlex models.
 
-MaFreDo 2026.3 and later need Python 3.12; where it cannot be imported, its tests are skipped, and files of its
+MaFreDo 2026.3.1 and later need Python 3.12; where it cannot be imported, its tests are skipped; files of its
 layout are written here.
 """
 

@@ -283,6 +283,19 @@ def test_common_periods_and_headings(copy: Path, database: HydroDatabase) -> Non
     assert np.array_equal(found.motion_rao, database.motion_rao[kept, 5:])
 
 
+@pytest.mark.parametrize("limit", ["-0.100000E+01", "0.000000E+00"])
+def test_a_limit_of_the_added_mass_is_optional(limit: str, copy: Path, database: HydroDatabase) -> None:
+    """Period -1 is zero frequency, period 0 infinite; without its rows the limit is unknown, not zero."""
+    rows = (copy / "tanker.1").read_text().splitlines(keepends=True)
+    (copy / "tanker.1").write_text("".join(row for row in rows if row.split()[0] != limit))
+    found = read_wamit(copy)
+    names = ["zero_frequency_added_mass", "infinite_frequency_added_mass"]
+    gone, kept = names if limit.startswith("-") else reversed(names)
+    assert getattr(found, gone) is None
+    assert np.array_equal(getattr(found, kept), getattr(database, kept))
+    assert np.array_equal(found.added_mass, database.added_mass)
+
+
 def test_finite_depth_and_upper_case_suffixes(copy: Path) -> None:
     edit(copy / "tanker.out", "Water depth:        infinite ", "Water depth:       55.00000 ")
     (copy / "tanker.3").write_text("period heading i mod pha re im\n" + (copy / "tanker.3").read_text())
