@@ -21,6 +21,7 @@ from seacrane.hydro.memory import fit_memory
 from seacrane.hydro.memory_model import FitRow, MemoryBlock, MemoryModel, Passivity
 from seacrane.hydro.memory_trade import MemoryTradeRow, memory_trade
 from seacrane.hydro.motion import motion_response, natural_frequency
+from seacrane.hydro.retardation import RetardationModel, retardation_functions
 from seacrane.hydro.veres import find_stem, read_veres
 from seacrane.hydro.vessel import (
     MemoryFitWarning,
@@ -53,6 +54,7 @@ __all__ = [
     "Passivity",
     "PassivityCertificate",
     "PassivityError",
+    "RetardationModel",
     "RigidPart",
     "RollDamping",
     "RollDampingWarning",
@@ -68,6 +70,7 @@ __all__ = [
     "read_veres",
     "read_wamit",
     "require_passive",
+    "retardation_functions",
     "rigid_mass_matrix",
     "shipped_database",
     "vessel_parameters",

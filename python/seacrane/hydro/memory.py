@@ -114,7 +114,7 @@ def _fit_radiation(
     infinite = np.zeros((6, 6)) if known is None else 0.5 * (known + known.T)
     symmetric_a = 0.5 * (database.added_mass + database.added_mass.swapaxes(1, 2))
     symmetric_b = 0.5 * (database.damping + database.damping.swapaxes(1, 2))
-    for j, k in _entries(symmetric_a, symmetric_b, database.omega):
+    for j, k in memory_entries(symmetric_a, symmetric_b, database.omega):
         data = IdentificationData(
             omega=database.omega,
             added_mass=symmetric_a[:, j, k],
@@ -141,7 +141,7 @@ def _fit_passive_radiation(
         database=database,
         added_mass=symmetric_a,
         damping=symmetric_b,
-        entries=_entries(symmetric_a, symmetric_b, database.omega),
+        entries=memory_entries(symmetric_a, symmetric_b, database.omega),
         known=None if known is None else 0.5 * (known + known.T),
         trusted=trusted,
         r2=r2,
@@ -161,7 +161,7 @@ def _fit_additional(
     mass, stiffness = np.zeros((6, 6)), np.zeros((6, 6))
     symmetric_a = 0.5 * (part.added_mass + part.added_mass.swapaxes(1, 2))
     symmetric_b = 0.5 * (part.damping + part.damping.swapaxes(1, 2))
-    for j, k in _entries(symmetric_a, symmetric_b, database.omega):
+    for j, k in memory_entries(symmetric_a, symmetric_b, database.omega):
         data = IdentificationData(
             omega=database.omega,
             added_mass=symmetric_a[:, j, k],
@@ -196,7 +196,9 @@ def _dissipation_limit(
     return limit
 
 
-def _entries(added_mass: FloatArray, damping: FloatArray, omega: FloatArray) -> Iterator[tuple[int, int]]:
+def memory_entries(
+    added_mass: FloatArray, damping: FloatArray, omega: FloatArray
+) -> Iterator[tuple[int, int]]:
     """Entries (j <= k) with any memory, judged against the geometric mean of their diagonals."""
     variation = np.ptp(added_mass, axis=0) * float(np.mean(omega)) + np.abs(damping).max(axis=0)
     diagonal = np.sqrt(np.diag(variation))

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from seacrane.hydro.memory import fit_memory
 from seacrane.hydro.memory_model import MemoryModel
 from seacrane.hydro.motion import natural_frequency
+from seacrane.hydro.retardation import RetardationModel
 
 if TYPE_CHECKING:
     from seacrane.hydro.database import HydroDatabase
@@ -52,7 +53,7 @@ class VesselParameters:
         holds beyond a rigid body.
     linear_damping : (6, 6) and quadratic_damping : (6,), beside radiation.
     restoring : (6, 6), with the static stiffness of additional causes (roll tanks).
-    memory : of radiation and additional causes.
+    memory : of radiation and additional causes, as states or as retardation functions.
     """
 
     mass: float
@@ -62,18 +63,21 @@ class VesselParameters:
     linear_damping: FloatArray
     quadratic_damping: FloatArray
     restoring: FloatArray
-    memory: MemoryModel
+    memory: MemoryModel | RetardationModel
 
 
 def vessel_parameters(
-    database: HydroDatabase, *, memory: MemoryModel | None = None, take_out: Sequence[RigidPart] = ()
+    database: HydroDatabase,
+    *,
+    memory: MemoryModel | RetardationModel | None = None,
+    take_out: Sequence[RigidPart] = (),
 ) -> VesselParameters:
     """Parameters of the vessel without the parts that the scene models as bodies of their own.
 
     Parameters
     ----------
     database : hydrodynamics; its own fitted memory is used, else one is fitted here.
-    memory : a fit to use in place of it.
+    memory : a fit, or retardation functions, to use in place of it.
     take_out : parts that the database's mass and restoring include and the scene models itself (a crane):
         their mass and inertia leave the mass matrix and their weight leaves the restoring (C44 and C55 grow
         by m g z, C46 and C56 lose theirs; buoyancy stays as it is).
@@ -97,7 +101,10 @@ def vessel_parameters(
 
 
 def time_domain_vessel(
-    database: HydroDatabase, *, memory: MemoryModel | None = None, take_out: Sequence[RigidPart] = ()
+    database: HydroDatabase,
+    *,
+    memory: MemoryModel | RetardationModel | None = None,
+    take_out: Sequence[RigidPart] = (),
 ) -> VesselParameters:
     """`vessel_parameters` without its warnings."""
     model = memory or database.memory or fit_memory(database=database)
@@ -199,7 +206,7 @@ def _add_roll_damping(database: HydroDatabase, linear: FloatArray, quadratic: Fl
 
 def _warn(database: HydroDatabase, vessel: VesselParameters) -> None:
     """Name fits that miss their aim, and a roll without damping."""
-    for row in vessel.memory.rows:
+    for row in vessel.memory.rows if isinstance(vessel.memory, MemoryModel) else ():
         if not row.accepted:
             warnings.warn(
                 f"database {database.name!r}: memory {row.output + 1}{row.input + 1} ({row.cause}) follows "
