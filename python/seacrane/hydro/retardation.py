@@ -107,7 +107,7 @@ def retardation_functions(
     2 to 6 such that the slope is that of the last points. What this assumption decides of the added mass
     within the band is nearly constant there and so becomes part of A_inf, which is the mean over the band of
     ``A(omega) - Im K(i omega) / omega`` (Ogilvie 1964). Additional matrices (roll tanks) get the same, with a
-    static stiffness beside A_inf: both fitted to the added mass, weighted by omega^2 as its force is.
+    static stiffness beside A_inf: both fitted to the force of the added mass, weighted by the damping.
     """
     if step is None:
         step = min(LONGEST_STEP, PHASE_PER_STEP / float(database.omega[-1]))
@@ -236,10 +236,15 @@ def _additional(
     damping, added_mass = _symmetric(part.damping), _symmetric(part.added_mass)
     kernel = _tapered(cosine_transform(database.omega, damping, tau)[0])
     omega = database.omega[inside]
-    rest = added_mass - transform(kernel, float(tau[1]), database.omega).imag / database.omega[:, None, None]
+    transfer = transform(kernel, float(tau[1]), omega)
+    rest = (added_mass[inside] - transfer.imag / omega[:, None, None]) * omega[:, None, None] ** 2
+    mass, stiffness = np.zeros((6, 6)), np.zeros((6, 6))
     columns = np.stack([omega**2, -np.ones_like(omega)], axis=1)
-    target = (rest[inside] * omega[:, None, None] ** 2).reshape(len(omega), -1)
-    mass, stiffness = np.linalg.lstsq(columns, target, rcond=None)[0].reshape(2, 6, 6)
+    for j, k in np.ndindex(6, 6):
+        strength = np.abs(damping[inside, j, k])
+        weight = strength / strength.max() if strength.any() else np.ones_like(omega)
+        target = rest[:, j, k] * weight
+        mass[j, k], stiffness[j, k] = np.linalg.lstsq(columns * weight[:, None], target, rcond=None)[0]
     return kernel, mass, stiffness
 
 
