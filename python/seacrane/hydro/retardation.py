@@ -120,7 +120,7 @@ def retardation_functions(
     for j, k in memory_entries(added_mass, damping, database.omega):
         active[j, k] = active[k, j] = True
     damping = damping * active
-    tau = step * np.arange(_samples(durations[-1], step))
+    tau: FloatArray = step * np.arange(_samples(durations[-1], step), dtype=float)
     whole, tail_at_zero = cosine_transform(database.omega, damping, tau)
     samples = _shortest(database.omega, damping, whole, step, [_samples(d, step) for d in durations])
     radiation = _tapered(whole[:samples])

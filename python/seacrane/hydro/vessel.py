@@ -206,15 +206,8 @@ def _add_roll_damping(database: HydroDatabase, linear: FloatArray, quadratic: Fl
 
 def _warn(database: HydroDatabase, vessel: VesselParameters) -> None:
     """Name fits that miss their aim, and a roll without damping."""
-    for row in vessel.memory.rows if isinstance(vessel.memory, MemoryModel) else ():
-        if not row.accepted:
-            warnings.warn(
-                f"database {database.name!r}: memory {row.output + 1}{row.input + 1} ({row.cause}) follows "
-                f"added mass with R2 = {row.r2_added_mass:.3f} and damping with {row.r2_damping:.3f}; "
-                f"{vessel.memory.r2} was asked, and motions that depend on it carry that error",
-                MemoryFitWarning,
-                stacklevel=3,
-            )
+    if isinstance(vessel.memory, MemoryModel):
+        _warn_of_misfits(database.name, vessel.memory)
     if vessel.linear_damping[3, 3] == 0.0 and vessel.quadratic_damping[3] == 0.0:
         warnings.warn(
             f"database {database.name!r}: no roll damping beside radiation; roll at resonance will be far "
@@ -222,3 +215,15 @@ def _warn(database: HydroDatabase, vessel: VesselParameters) -> None:
             RollDampingWarning,
             stacklevel=3,
         )
+
+
+def _warn_of_misfits(name: str, fit: MemoryModel) -> None:
+    for row in fit.rows:
+        if not row.accepted:
+            warnings.warn(
+                f"database {name!r}: memory {row.output + 1}{row.input + 1} ({row.cause}) follows "
+                f"added mass with R2 = {row.r2_added_mass:.3f} and damping with {row.r2_damping:.3f}; "
+                f"{fit.r2} was asked, and motions that depend on it carry that error",
+                MemoryFitWarning,
+                stacklevel=4,
+            )
