@@ -1,4 +1,4 @@
-"""Fluid memory by direct convolution: retardation functions, the loop's quadrature, histories in the state."""
+"""Fluid memory by direct convolution: retardation functions, the loop's quadrature, histories."""
 
 from __future__ import annotations
 
@@ -304,23 +304,22 @@ def test_a_driven_vessel_feels_the_databases_added_mass_and_damping(omega: float
 def test_regular_waves_on_the_supply_ship_return_the_files_motion(
     shared: Path, heading: int, frequency: int
 ) -> None:
-    """Roll, with its tanks, within 3 % of the file, where the per-pair memory is up to 11 % off."""
+    """Roll, with its tanks, within 1.5 % of the file, where the per-pair memory is up to 11 % off."""
     supply = load_database(shared / "veres" / "supply")
     database = at_file_damping(supply, heading, frequency)
     scene = cases.vessel(database=database, hs=0.0, mooring_period=None, memory="convolution")
     found = simulated_rao(database, scene, heading, frequency)
     assert supply.motion_rao is not None
     source = supply.motion_rao[heading, frequency]
-    print(heading, frequency, np.abs(found - source) / np.abs(source))
     np.testing.assert_array_less(
-        np.abs(found - source) / np.abs(source), [0.02, 0.02, 0.02, 0.03, 0.02, 0.03]
+        np.abs(found - source) / np.abs(source), [0.005, 0.005, 0.02, 0.015, 0.015, 0.005]
     )
 
 
-def test_decay_differs_from_fitted_memory_by_the_fits_error() -> None:
-    """Heave and pitch let go from 1 m and 0.05 rad."""
+def test_decay_differs_from_per_pair_memory_by_the_fits_error() -> None:
+    """Heave, roll and pitch after a push."""
     decays = {}
-    for memory in ("per-pair", "passive", "convolution"):
+    for memory in ("per-pair", "convolution"):
         scene = cases.vessel(memory=memory, hs=0.0)
         body = scene.bodies["vessel"]
         scene.bodies.clear()
@@ -330,11 +329,9 @@ def test_decay_differs_from_fitted_memory_by_the_fits_error() -> None:
         )  # fmt: skip
         decays[memory] = run(scene, 40.0)["vessel_motion"][:, 2:5]
     size = np.abs(decays["convolution"]).max(axis=0)
-    for memory in ("per-pair", "passive"):
-        apart = np.abs(decays[memory] - decays["convolution"]).max(axis=0) / size
-        print(memory, apart)
-        assert np.all(apart < 0.06)
-        assert np.all(apart > 1e-4)
+    apart = np.abs(decays["per-pair"] - decays["convolution"]).max(axis=0) / size
+    assert np.all(apart < 0.025)
+    assert np.all(apart > 1e-3)
 
 
 # Around it
