@@ -11,7 +11,7 @@ import sys
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
-from measure import evaluation, footprint, integrators, memory_cost, rival, scenes, speed
+from measure import evaluation, footprint, integrators, memory_cost, memory_kinds, rival, scenes, speed
 from measure.machine import machine
 from measure.section import Section
 
@@ -37,6 +37,7 @@ def sections(folder: Path, *, repeats: int, quick: bool) -> Iterator[Section]:
     yield evaluation.whole(repeats=repeats)
     yield evaluation.parts(repeats=repeats)
     yield memory_cost.memory_cost(repeats=repeats)
+    yield memory_kinds.memory_kinds(repeats=repeats)
     points, uncertainty = integrators.work_precision(repeats=1 if quick else min(repeats, 3))
     integrators.figure(points, folder / PICTURE)
     yield integrators.table(points, uncertainty, repeats=1 if quick else min(repeats, 3))

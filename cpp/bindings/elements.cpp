@@ -187,6 +187,43 @@ void bind_loads(py::module_& m) {
       .def_property_readonly("body", [](const U& d) { return d.body; });
 }
 
+void bind_retardation(py::module_& m) {
+  using R = RetardationFunctions;
+  using Samples = py::array_t<double, py::array::c_style | py::array::forcecast>;
+  Class<R>(
+      m, "RetardationFunctions",
+      "Fluid memory by direct convolution, mu_j(t) = sum_k integral K_jk(tau) v_k(t - tau) dtau: kernel "
+      "(n, 6, 6) at tau = 0, step, 2 step ... in s, cubic in between, zero beyond. Motions 0 (surge) ... "
+      "5 (yaw); the motion is sampled at the same step.")
+      .def(py::init([](double step, const Samples& kernel) {
+             if (kernel.ndim() != 3 || kernel.shape(1) != 6 || kernel.shape(2) != 6) {
+               throw std::invalid_argument("retardation functions: the kernel must have shape (n, 6, 6)");
+             }
+             R out{step, std::vector<Mat6d>(static_cast<std::size_t>(kernel.shape(0)))};
+             const double* at = kernel.data();
+             for (Mat6d& sample : out.kernel) {
+               sample = Eigen::Map<const Eigen::Matrix<double, 6, 6, Eigen::RowMajor>>(at);
+               at += 36;
+             }
+             return out;
+           }),
+           py::kw_only(), py::arg("step"), py::arg("kernel"))
+      .def_property_readonly(
+          "step", [](const R& r) { return r.step; }, "s")
+      .def_property_readonly(
+          "kernel",
+          [](const R& r) {
+            Samples out({static_cast<py::ssize_t>(r.kernel.size()), py::ssize_t{6}, py::ssize_t{6}});
+            double* at = out.mutable_data();
+            for (const Mat6d& sample : r.kernel) {
+              Eigen::Map<Eigen::Matrix<double, 6, 6, Eigen::RowMajor>>{at} = sample;
+              at += 36;
+            }
+            return out;
+          },
+          "(n, 6, 6), N and N m per m/s and rad/s and s, copy");
+}
+
 void bind_vessel(py::module_& m) {
   using B = StateSpaceBlock;
   Class<B>(
@@ -206,16 +243,18 @@ void bind_vessel(py::module_& m) {
       .def_property_readonly("c", [](const B& x) { return x.c; })
       .def_property_readonly("d", [](const B& x) { return x.d; })
       .def_property_readonly("state_scale", [](const B& x) { return x.state_scale; });
+  bind_retardation(m);
   using V = VesselDescription;
   Class<V>(m, "VesselHydrodynamics",
            "Linear hydrodynamics of a body about its origin (the reference point): added mass, damping and "
            "restoring "
            "(6, 6), quadratic damping (6,), mooring stiffness and damping of surge, sway, yaw (3,), memory "
-           "blocks. "
+           "blocks or retardation functions. "
            "kinematics: 'yaw_following' (default) or 'paper', eqs (17)-(31).")
       .def(py::init([](std::string name, std::string body, Mat6d added_mass, Mat6d linear_damping,
                        Vec6d quadratic, Mat6d restoring, Vec3d mooring_stiffness, Vec3d mooring_damping,
-                       std::vector<B> memory, const std::string& kinematics) {
+                       std::variant<std::vector<B>, RetardationFunctions> memory,
+                       const std::string& kinematics) {
              if (kinematics != "yaw_following" && kinematics != "paper") {
                throw std::invalid_argument("vessel '" + name + "': kinematics '" + kinematics +
                                            "' is unknown; choose 'yaw_following' or 'paper'");

@@ -192,6 +192,16 @@ void bind_model(py::module_& m) {
           [](const Model& x) { return 6 * x.body_count() - (x.rows() == 0 ? 0 : x.assembly.rank); })
       .def_property_readonly("states", [](const Model& x) { return x.layout.size; })
       .def_property_readonly("memory_states", [](const Model& x) { return x.layout.work - x.layout.memory; })
+      .def_property_readonly(
+          "history_samples",
+          [](const Model& x) {
+            Eigen::Index sum = 0;
+            for (const Vessel& v : x.vessels) {
+              if (const auto* tables = std::get_if<Convolution>(&v.memory)) sum += tables->length();
+            }
+            return sum;
+          },
+          "Points in time at which convolutions keep the motion of their vessels.")
       .def_property_readonly("slots", [](const Model& x) { return x.slot_count; })
       .def_property_readonly(
           "breakpoints", [](const Model& x) { return x.breakpoints; }, "s")

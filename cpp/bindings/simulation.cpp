@@ -58,19 +58,60 @@ py::dict statistics(const Simulation& s) {
   return out;
 }
 
+using Rows = Eigen::Matrix<double, Eigen::Dynamic, 6, Eigen::RowMajor>;
+
+std::vector<Vec6d> to_twists(const Rows& rows) {
+  std::vector<Vec6d> out;
+  for (Eigen::Index i = 0; i < rows.rows(); ++i) out.emplace_back(rows.row(i).transpose());
+  return out;
+}
+
+Rows to_rows(const std::vector<Vec6d>& twists) {
+  Rows rows(static_cast<Eigen::Index>(twists.size()), 6);
+  for (Eigen::Index i = 0; i < rows.rows(); ++i)
+    rows.row(i) = twists[static_cast<std::size_t>(i)].transpose();
+  return rows;
+}
+
+void bind_history(py::module_& m) {
+  using H = TwistHistory;
+  py::class_<H>(
+      m, "TwistHistory",
+      "What a convolution keeps of a vessel's motion, in the frame that follows yaw: `recent` (3, 6) "
+      "at the newest samples, `quadrature` (n, 6) at the quadrature points of the past, newest first; "
+      "at rest before `start` (s), `intervals` steps of the convolution ago.")
+      .def(py::init([](double start, long intervals, const Rows& recent, const Rows& quadrature) {
+             return H{start, intervals, to_twists(recent), to_twists(quadrature)};
+           }),
+           py::kw_only(), py::arg("start"), py::arg("intervals"), py::arg("recent"), py::arg("quadrature"))
+      .def_property_readonly(
+          "start", [](const H& h) { return h.start; }, "s")
+      .def_property_readonly("intervals", [](const H& h) { return h.intervals; })
+      .def_property_readonly(
+          "recent", [](const H& h) { return to_rows(h.recent); }, "m/s and rad/s, copy")
+      .def_property_readonly(
+          "quadrature", [](const H& h) { return to_rows(h.quadrature); }, "m/s and rad/s, copy");
+}
+
 }  // namespace
 
 void bind_simulation(py::module_& m) {
+  bind_history(m);
   py::class_<State>(m, "State", "Time (s), state values and inputs of a run; a copy is a checkpoint.")
-      .def(py::init([](double time, const Array& values, const Array& inputs) {
-             return State{time, to_vector(values), to_vector(inputs)};
+      .def(py::init([](double time, const Array& values, const Array& inputs,
+                       std::vector<TwistHistory> histories) {
+             return State{time, to_vector(values), to_vector(inputs), std::move(histories)};
            }),
-           py::kw_only(), py::arg("time"), py::arg("values"), py::arg("inputs"))
+           py::kw_only(), py::arg("time"), py::arg("values"), py::arg("inputs"),
+           py::arg("histories") = std::vector<TwistHistory>{})
       .def_property_readonly("time", [](const State& s) { return s.time; })
       .def_property_readonly(
           "values", [](const State& s) { return to_array(s.values); }, "copy")
       .def_property_readonly(
-          "inputs", [](const State& s) { return to_array(s.inputs); }, "copy");
+          "inputs", [](const State& s) { return to_array(s.inputs); }, "copy")
+      .def_property_readonly(
+          "histories", [](const State& s) { return s.histories; },
+          "One TwistHistory per vessel with a convolution (copies); none: at rest before `time`.");
   m.def(
       "initial_state", [](const std::shared_ptr<Model>& model) { return initial_state(*model); },
       py::arg("model").none(false));

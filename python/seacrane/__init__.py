@@ -12,7 +12,17 @@ from seacrane import errors
 
 if TYPE_CHECKING:
     from seacrane import cases, crane, hydro, sea
-    from seacrane._core import Curve, Evaluator, Frame, Model, State, StateSpaceBlock, VesselHydrodynamics
+    from seacrane._core import (
+        Curve,
+        Evaluator,
+        Frame,
+        Model,
+        RetardationFunctions,
+        State,
+        StateSpaceBlock,
+        TwistHistory,
+        VesselHydrodynamics,
+    )
     from seacrane.curves import spline_curve
     from seacrane.errors import FileFormatError, SceneError, SeacraneError, SimulationError
     from seacrane.frequency_domain import (
@@ -47,6 +57,7 @@ _HOME = {
     "NaturalModes": "modal_analysis",
     "ResponseStatistics": "frequency_domain",
     "Result": "result",
+    "RetardationFunctions": "_core",
     "Run": "simulation",
     "SampledController": "simulation",
     "Scene": "scene",
@@ -56,6 +67,7 @@ _HOME = {
     "State": "_core",
     "StateSpaceBlock": "_core",
     "SummedResponse": "frequency_domain",
+    "TwistHistory": "_core",
     "VesselHydrodynamics": "_core",
     "Waves": "waves",
     "__version__": "version",
@@ -91,6 +103,7 @@ __all__ = [
     "NaturalModes",
     "ResponseStatistics",
     "Result",
+    "RetardationFunctions",
     "Run",
     "SampledController",
     "Scene",
@@ -100,6 +113,7 @@ __all__ = [
     "State",
     "StateSpaceBlock",
     "SummedResponse",
+    "TwistHistory",
     "VesselHydrodynamics",
     "Waves",
     "__version__",

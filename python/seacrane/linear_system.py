@@ -187,11 +187,17 @@ def linear_model(scene: Scene, *, state: _core.State | None = None, vessel: str 
     Raises
     ------
     SceneError
-        If something moves or accelerates at the state, or the vessel is not clear.
+        If something moves or accelerates at the state, the vessel is not clear, or its memory is a
+        convolution.
     """
     rest = equilibrium(scene) if state is None else state
     values = state_values(scene.copy(orientation="quaternion") if state is None else scene, rest)
     model = held(scene, time=rest.time).compile()
+    if model.history_samples:
+        raise SceneError(
+            f"scene {scene.name!r}: its fluid memory is a convolution, which has no states to linearise; "
+            "add the vessel with memory='per-pair' or 'passive'"
+        )
     terms = Terms(model, time=rest.time)
     _require_rest(terms, terms.checked(values))
     values = at_rest(model, values)

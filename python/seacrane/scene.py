@@ -371,8 +371,12 @@ class Scene:
                 hydrodynamics[key] = shaped_of(what, value, _VESSEL_SHAPES[key])
             elif key == "memory":
                 blocks = list(value) if isinstance(value, Sequence) else [value]
-                if not all(isinstance(block, _core.StateSpaceBlock) for block in blocks):
-                    raise SceneError(f"{what} is {value!r}; give a list of seacrane.StateSpaceBlock")
+                states = all(isinstance(block, _core.StateSpaceBlock) for block in blocks)
+                if not (states or isinstance(value, _core.RetardationFunctions)):
+                    raise SceneError(
+                        f"{what} is {value!r}; give a list of seacrane.StateSpaceBlock or "
+                        "seacrane.RetardationFunctions"
+                    )
             elif key == "kinematics":
                 text_of(what, value)
             else:

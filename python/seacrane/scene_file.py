@@ -241,8 +241,14 @@ def _element(kind: str, element: Any) -> dict[str, Any]:
         frame = getattr(element, key)
         out[key] = {part: getattr(frame, part).tolist() for part in _FRAME}
     if kind == "vessels":
-        out["memory"] = [_block(block) for block in element.memory]
+        out["memory"] = _memory(element.memory)
     return out
+
+
+def _memory(memory: list[_core.StateSpaceBlock] | _core.RetardationFunctions) -> Any:
+    if isinstance(memory, _core.RetardationFunctions):
+        return {"step": memory.step, "kernel": memory.kernel.tolist()}
+    return [_block(block) for block in memory]
 
 
 def _block(block: _core.StateSpaceBlock) -> dict[str, Any]:
@@ -308,7 +314,7 @@ def _add(scene: Scene, kind: str, node: Node) -> None:
     arguments |= {key: _curve(node.at(key)) for key in curves}
     arguments |= {key: _frame(node.at(key)) for key in frames}
     if memory:
-        arguments["memory"] = [_block_back(block) for block in node.at("memory").items()]
+        arguments["memory"] = _memory_back(node.at("memory"))
     if kind == "force_tables":
         arguments["loads"] = arguments.pop("wrenches")
     if kind == "joints" and arguments["kind"] != "distance" and arguments["length"] == 0.0:
@@ -330,6 +336,14 @@ def _curve(node: Node) -> _core.Curve:
 def _frame(node: Node) -> _core.Frame:
     node.expect(tuple(_FRAME))
     return _core.Frame(**{key: node.at(key).array(shape) for key, shape in _FRAME.items()})
+
+
+def _memory_back(node: Node) -> list[_core.StateSpaceBlock] | _core.RetardationFunctions:
+    if not isinstance(node.value, dict):
+        return [_block_back(block) for block in node.items()]
+    node.expect(("step", "kernel"))
+    step, kernel = node.at("step").number(), node.at("kernel").array((-1, 6, 6))
+    return _core.RetardationFunctions(step=step, kernel=kernel)
 
 
 def _block_back(node: Node) -> _core.StateSpaceBlock:

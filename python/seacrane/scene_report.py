@@ -66,6 +66,7 @@ def _size(scene: Scene, model: _core.Model) -> Rows:
         ("pose states", pose * bodies),
         ("velocity states", 6 * bodies),
         ("memory states", model.memory_states),
+        ("history samples", model.history_samples),
         ("work states", WORK_STATES),
         ("input slots", model.slots),
         ("wave components", 0 if scene.waves is None else len(scene.waves.omega)),
@@ -128,7 +129,7 @@ def _left_out(scene: Scene, model: _core.Model) -> Rows:
         "actuators": scene.actuators,
         "vessels": scene.vessels,
         "waves": scene.waves is not None,
-        "fluid memory": model.memory_states,
+        "fluid memory": model.memory_states or model.history_samples,
         "gravity": scene.gravity,
     }
     rows: Rows = [("absent", [name for name, present in absent.items() if not present])]

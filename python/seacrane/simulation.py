@@ -201,6 +201,7 @@ class Run:
             "compiled_coordinates": model.coordinates,
             "compiled_constraints": model.constraints,
             "memory_states": model.memory_states,
+            "history_samples": model.history_samples,
             "fastest_mode_per_s": self._fastest_mode,
             **statistics,
             **sea,

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from functools import lru_cache
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,11 +14,11 @@ from seacrane.scene import Scene
 from seacrane.waves import Waves
 
 if TYPE_CHECKING:
-    from seacrane.hydro import HydroDatabase, MemoryModel
+    from seacrane.hydro import HydroDatabase, MemoryModel, RetardationModel
 
 MOORING_PERIOD = 200.0  # s, of surge, sway and yaw (PAPER, "station keeping")
 MOORING_DAMPING = 0.1  # of critical
-MEMORY = ("per-pair", "passive", "none")
+MEMORY = ("per-pair", "passive", "convolution", "none")
 
 
 def add_vessel(
@@ -42,9 +42,11 @@ def add_vessel(
         Of the body and of its hydrodynamics.
     memory : str
         "per-pair": fluid memory as one state-space model per pair of motions, eqs (28)-(31). "passive": one
-        model per group of coupled motions, proven passive and with fewer states. "none": without radiation
-        damping, as the paper does for comparison. The database's own fitted memory is used where it is of
-        the kind asked for; else one is fitted here, once for each database.
+        model per group of coupled motions, proven passive and with fewer states. "convolution": the
+        reference, without a fit: the database's retardation functions convolved with the history of the
+        motion, see `seacrane.hydro.retardation_functions`; the steps land on its samples. "none": without
+        radiation damping, as the paper does for comparison. The database's own fitted memory is used where
+        it is of the kind asked for; else one is fitted here, once for each database.
     kinematics : str
         "yaw_following" (default) or "paper", eqs (17)-(31).
     mooring_period : float or None
@@ -68,7 +70,7 @@ def add_vessel(
     if memory not in MEMORY:
         raise SceneError(f"memory {memory!r} is not available in this version; choose {' or '.join(MEMORY)}")
     warn_of_water(database, gravity=scene.gravity)
-    parameters = vessel_parameters(database, memory=None if memory == "none" else _fitted(database, memory))
+    parameters = vessel_parameters(database, memory=None if memory == "none" else _memory(database, memory))
     scene.add_body(
         name=name,
         mass=parameters.mass,
@@ -86,7 +88,7 @@ def add_vessel(
         restoring=_without_yaw(parameters.restoring),
         mooring_stiffness=heavy * omega**2,
         mooring_damping=2.0 * mooring_damping * omega * heavy,
-        memory=[] if memory == "none" else _blocks(parameters.memory),
+        memory=[] if memory == "none" else _core_memory(parameters.memory),
         kinematics=kinematics,
     )
     scene.notes.update(database=database.name, memory=memory, kinematics=kinematics)
@@ -104,12 +106,14 @@ def _without_yaw(restoring: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 @lru_cache(maxsize=8)
-def _fitted(database: HydroDatabase, kind: str) -> MemoryModel:
+def _memory(database: HydroDatabase, kind: str) -> MemoryModel | RetardationModel:
     """The memory of a database, its own if that is of the kind asked for."""
-    from seacrane.hydro import fit_memory
+    from seacrane.hydro import fit_memory, retardation_functions
     from seacrane.hydro.certificate import is_energy_form
     from seacrane.hydro.memory_model import RADIATION
 
+    if kind == "convolution":
+        return retardation_functions(database=database)
     own = database.memory
     if own is not None:
         joint = all(is_energy_form(block) for block in own.blocks if block.cause == RADIATION)
@@ -118,7 +122,13 @@ def _fitted(database: HydroDatabase, kind: str) -> MemoryModel:
     return fit_memory(database=database, kind=kind)
 
 
-def _blocks(model: Any) -> list[_core.StateSpaceBlock]:
+def _core_memory(
+    model: MemoryModel | RetardationModel,
+) -> list[_core.StateSpaceBlock] | _core.RetardationFunctions:
+    from seacrane.hydro import RetardationModel
+
+    if isinstance(model, RetardationModel):
+        return _core.RetardationFunctions(step=model.step, kernel=model.kernel)
     return [
         _core.StateSpaceBlock(
             inputs=[int(i) for i in block.inputs],
@@ -129,7 +139,7 @@ def _blocks(model: Any) -> list[_core.StateSpaceBlock]:
             d=block.D,
             state_scale=block.state_scale,
         )
-        for block in (model.blocks if model is not None else ())
+        for block in model.blocks
     ]
 
 

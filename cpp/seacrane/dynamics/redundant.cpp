@@ -47,6 +47,10 @@ RedundantSystem::RedundantSystem(std::shared_ptr<const Model> model)
   for (const WaveLoad& wave : m.wave_loads) {
     wave_blocks_.push_back(wave.table ? wave.table->make_block() : WaveTableBlock());
   }
+  for (std::size_t v = 0; v < m.vessels.size(); ++v) {
+    const auto* tables = std::get_if<Convolution>(&m.vessels[v].memory);
+    if (tables) convolutions_.emplace_back(v, RunningConvolution(*tables));
+  }
   over_shape_.assign(2 * elements, Mat6d::Zero());
   dense_mass_.assign(bodies, Mat6d::Zero());
   shape_values_.assign(m.schur.value_count(), 0.0);
@@ -116,6 +120,9 @@ void RedundantSystem::apply_hydrodynamics(double t, const LoadInput<double>& inp
     } else {
       vessel.apply<double>(input, frames_[v], x, x_rate, sum);
     }
+  }
+  for (const auto& [v, memory] : convolutions_) {
+    m.vessels[v].radiate(frames_[v], memory.evaluate(t, frames_[v].twist), sum);
   }
   for (std::size_t i = 0; i < m.wave_loads.size(); ++i) {
     const WaveLoad& wave = m.wave_loads[i];

@@ -42,6 +42,15 @@ class RedundantSystem final : public System {
   /// End of the present smooth stretch of the reference curves, see Curve::at.
   void set_curve_limit(double time) { curve_limit_ = time; }
 
+  /// Histories of the vessels with a convolution, in their order; they change between steps only.
+  std::vector<TwistHistory> histories() const;
+  /// Goes on from `histories`; none at all: at rest before t.
+  void start_histories(double t, const double* y, const std::vector<TwistHistory>& histories);
+  /// When the next history wants its sample: no evaluation may go beyond. Infinity without convolution.
+  double next_sample() const;
+  /// Takes the samples due at t.
+  void sample(double t, const double* y);
+
   ConstraintResidual residual(double t, const double* y);
   /// As residual(), with the rows that the last evaluation left.
   ConstraintResidual residual_here(const double* y);
@@ -106,6 +115,7 @@ class RedundantSystem final : public System {
   std::vector<BodyInertia> inertia_;
   std::vector<Vec6d> bias_, load_, acceleration_, impulse_;
   std::vector<YawFrame<double>> frames_;
+  std::vector<std::pair<std::size_t, RunningConvolution>> convolutions_;  // by vessel
   std::vector<RowBlock<double>> blocks_;
   std::vector<Mat6d> over_mass_, mass_;
   std::vector<double> values_, lambda_, gamma_, residual_;

@@ -19,6 +19,12 @@ std::vector<std::pair<std::string, double>> RedundantSystem::time_parts(double t
   measure("inertia", [&](double) { evaluate_inertia(); });
   measure("constraint rows", [&](double) { evaluate_rows(t); });
   measure("loads, waves, memory", [&](double time) { evaluate_loads(time, y, rate.data()); });
+  if (!convolutions_.empty()) {
+    auto copies = convolutions_;
+    measure("sample of a convolution, per its step", [&](double) {
+      for (auto& [v, memory] : copies) memory.sample(frames_[v].twist);
+    });
+  }
   measure("assembly and factorisation", [&](double) { factor(); });
   measure("solution", [&](double) { solve_acceleration(); });
   measure("rates", [&](double) { write_rates(y, rate.data()); });

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <cmath>
+#include <variant>
 
 #include "seacrane/dynamics/loads/load.hpp"
+#include "seacrane/hydro/convolution.hpp"
 #include "seacrane/hydro/memory.hpp"
 #include "seacrane/math/rotation.hpp"
 
@@ -27,6 +29,21 @@ struct YawFrame {
     twist.template head<3>() = rotation.transpose() * k.velocity;
     twist.template tail<3>() = rotation.transpose() * k.angular_velocity;
     yaw_rate = twist[5] + tan_pitch * twist[3];
+  }
+
+  /// d/dt(R^T) v = -psi' e_z x (R^T v), in the yaw frame.
+  Vec6<T> turning() const {
+    Vec6<T> out;
+    out << yaw_rate * twist[1], -yaw_rate * twist[0], T(0), yaw_rate * twist[4], -yaw_rate * twist[3], T(0);
+    return out;
+  }
+
+  /// Rate of the twist's components in the yaw frame, from the accelerations in inertial axes.
+  Vec6<T> twist_rate(const Vec6<T>& acceleration) const {
+    Vec6<T> out = turning();
+    out.template head<3>() += rotation.transpose() * acceleration.template head<3>();
+    out.template tail<3>() += rotation.transpose() * acceleration.template tail<3>();
+    return out;
   }
 
   T roll_rate() const { return twist[3] / cos_pitch; }
@@ -68,17 +85,18 @@ struct Vessel {
   Vec3d mooring_stiffness, mooring_damping;  // surge, sway, yaw
   Vec3d mean_position;
   double mean_yaw = 0.0;
-  Memory memory;
+  std::variant<Memory, Convolution> memory;
   int memory_offset = 0;  // in the state vector
+
+  int memory_states() const {
+    const auto* models = std::get_if<Memory>(&memory);
+    return models ? models->states() : 0;
+  }
 
   /// -R A d/dt(R^T v) = -(R A R^T) vdot - bias: bias of the added mass, inertial axes.
   template <class T>
   Vec6<T> added_mass_bias(const YawFrame<T>& f) const {
-    // d/dt(R^T) v = -psi' e_z x (R^T v)
-    Vec6<T> turning;
-    turning << f.yaw_rate * f.twist[1], -f.yaw_rate * f.twist[0], T(0), f.yaw_rate * f.twist[4],
-        -f.yaw_rate * f.twist[3], T(0);
-    const Vec6<T> in_yaw_frame = added_mass.cast<T>() * turning;
+    const Vec6<T> in_yaw_frame = added_mass.cast<T>() * f.turning();
     return f.to_inertial(in_yaw_frame);
   }
 
@@ -99,7 +117,19 @@ struct Vessel {
     const auto& k = in.bodies[body];
     damp(f, out);
     restore(f, k, out);
-    if (memory.states() > 0) remember(f, x, x_rate, out);
+    if (memory_states() > 0) {
+      Vec6<T> mu = Vec6<T>::Zero();
+      std::get<Memory>(memory).template evaluate<T>(f.twist, x, x_rate, mu);
+      radiate(f, mu, out);
+    }
+  }
+
+  /// Adds the load -mu of the memory; a convolution has its own history and is evaluated by whoever keeps it.
+  template <class T>
+  void radiate(const YawFrame<T>& f, const Vec6<T>& mu, LoadSum<T>& out) const {
+    const Vec6<T> load = -mu;
+    add(f, load, out);
+    out.add_power(-f.twist.dot(mu));
   }
 
   double potential(const BodyKinematics<double>& k) const {
@@ -144,15 +174,6 @@ struct Vessel {
     out.wrench[body].force += force;
     out.wrench[body].moment += moment + yaw_moment;
     out.add_power(damper.dot(rate) - yaw_damper * f.yaw_rate);
-  }
-
-  template <class T>
-  void remember(const YawFrame<T>& f, const T* x, T* x_rate, LoadSum<T>& out) const {
-    Vec6<T> mu = Vec6<T>::Zero();
-    memory.evaluate<T>(f.twist, x, x_rate, mu);
-    const Vec6<T> load = -mu;
-    add(f, load, out);
-    out.add_power(-f.twist.dot(mu));
   }
 
   template <class T>

@@ -156,7 +156,11 @@ class Compiler {
       v.mooring_stiffness = d.mooring_stiffness;
       v.mooring_damping = d.mooring_damping;
       try {
-        v.memory = Memory(d.memory);
+        if (const auto* functions = std::get_if<RetardationFunctions>(&d.memory)) {
+          v.memory = Convolution(*functions);
+        } else {
+          v.memory = Memory(std::get<std::vector<StateSpaceBlock>>(d.memory));
+        }
       } catch (const std::invalid_argument& error) {
         throw SceneError("vessel '" + d.name + "': " + error.what());
       }
@@ -181,7 +185,7 @@ class Compiler {
     s.work = s.memory;
     for (auto& v : model_.vessels) {
       v.memory_offset = s.work;
-      s.work += v.memory.states();
+      s.work += v.memory_states();
     }
     s.size = s.work + 2;
     scales();
@@ -198,7 +202,9 @@ class Compiler {
     }
     for (std::size_t v = 0; v < model_.vessels.size(); ++v) {
       int i = model_.vessels[v].memory_offset;
-      for (const auto& block : scene_.vessels[v].memory) {
+      const auto* blocks = std::get_if<std::vector<StateSpaceBlock>>(&scene_.vessels[v].memory);
+      if (blocks == nullptr) continue;
+      for (const auto& block : *blocks) {
         for (Eigen::Index k = 0; k < block.a.rows(); ++k) {
           scale[idx(i++)] = block.state_scale.size() ? block.state_scale[k] : 1.0;
         }

@@ -4,9 +4,11 @@
 #include <limits>
 #include <memory>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "seacrane/dynamics/loads/registry.hpp"
+#include "seacrane/hydro/convolution.hpp"
 #include "seacrane/hydro/memory.hpp"
 #include "seacrane/math/curve.hpp"
 #include "seacrane/math/types.hpp"
@@ -57,7 +59,7 @@ struct VesselDescription {
   Mat6d restoring = Mat6d::Zero();          // heave, roll, pitch block only
   Vec3d mooring_stiffness = Vec3d::Zero();  // surge, sway (N/m), yaw (N m/rad), about the start
   Vec3d mooring_damping = Vec3d::Zero();
-  std::vector<StateSpaceBlock> memory;
+  std::variant<std::vector<StateSpaceBlock>, RetardationFunctions> memory;
   VesselKinematics kinematics = VesselKinematics::yaw_following;
 };
 

@@ -91,6 +91,11 @@ void check_vessel(const VesselDescription& v, const SceneNames& names) {
       1e-6 * v.restoring.cwiseAbs().maxCoeff()) {
     c.fail("restoring is not symmetric; a conservative restoring load has a symmetric matrix");
   }
+  if (v.kinematics == VesselKinematics::paper && std::holds_alternative<RetardationFunctions>(v.memory)) {
+    c.fail(
+        "kinematics 'paper' takes state-space memory, as the paper does; leave the convolution to "
+        "'yaw_following'");
+  }
   for (int i = 0; i < 3; ++i) {
     c.not_negative("mooring_stiffness", v.mooring_stiffness[i]);
     c.not_negative("mooring_damping", v.mooring_damping[i]);

@@ -38,7 +38,7 @@ IntegratorOptions integrator_options(const Model& model, const RunOptions& run) 
 }  // namespace
 
 State initial_state(const Model& model) {
-  return {0.0, model.initial_state, std::vector<double>(static_cast<std::size_t>(model.slot_count), 0.0)};
+  return {0.0, model.initial_state, std::vector<double>(static_cast<std::size_t>(model.slot_count), 0.0), {}};
 }
 
 Simulation::Simulation(std::shared_ptr<const Model> model, State start, RunOptions options)
@@ -67,7 +67,8 @@ Simulation::Simulation(std::shared_ptr<const Model> model, State start, RunOptio
                                 " m or rad; give a state of this scene at its own time");
   }
   system_.take_residual_before_projection();
-  next_stop(start.time);
+  next_jump();
+  system_.start_histories(start.time, start.values.data(), start.histories);
   start_energy_ = system_.energy(start.time, start.values.data());
   start_work_ = start.values[static_cast<std::size_t>(model_->layout.work)];
   integrator_->init(start.time, start.values.data());
@@ -77,14 +78,15 @@ Simulation::Simulation(std::shared_ptr<const Model> model, State start, RunOptio
   record_until(start.time);
 }
 
-double Simulation::next_stop(double t_end) {
+/// Time of the next jump of a reference curve.
+double Simulation::next_jump() {
   const auto& stops = model_->breakpoints;
   while (next_breakpoint_ < stops.size() && stops[next_breakpoint_] <= integrator_->time())
     ++next_breakpoint_;
   const double stop =
       next_breakpoint_ < stops.size() ? stops[next_breakpoint_] : std::numeric_limits<double>::infinity();
   system_.set_curve_limit(stop);
-  return std::min(stop, t_end);
+  return stop;
 }
 
 void Simulation::report_open(double t) const {
@@ -166,15 +168,18 @@ bool Simulation::advance(double t_end, const std::function<bool(double)>& keep_g
   auto asked = start;
   bool going = true;
   while (going && integrator_->time() < t_end) {
-    const double limit = next_stop(t_end);
-    step(limit);
-    record_until(integrator_->time());
-    if (integrator_->time() >= limit && limit < t_end) {
+    const double jump = next_jump();
+    step(std::min({jump, system_.next_sample(), t_end}));
+    const double now = integrator_->time();
+    record_until(now);
+    // The memory's load goes on smoothly over a sample: no derivative is thrown away.
+    if (now >= system_.next_sample()) system_.sample(now, integrator_->state());
+    if (now >= jump && now < t_end) {
       // A curve jumps here: go on from the other side with a fresh derivative.
-      next_stop(t_end);
+      next_jump();
       std::copy_n(integrator_->state(), output_state_.size(), output_state_.data());
-      system_.project(limit, output_state_.data(), false);
-      integrator_->reset(limit, output_state_.data());
+      system_.project(now, output_state_.data(), false);
+      integrator_->reset(now, output_state_.data());
     }
     if (Clock::now() - asked > kAskInterval) {
       wall_seconds_ += seconds_since(asked);
@@ -213,7 +218,10 @@ Recording Simulation::snapshot() {
 }
 
 State Simulation::state() const {
-  return {integrator_->time(), {integrator_->state(), integrator_->state() + model_->layout.size}, inputs_};
+  return {integrator_->time(),
+          {integrator_->state(), integrator_->state() + model_->layout.size},
+          inputs_,
+          system_.histories()};
 }
 
 RunStatistics Simulation::statistics() const {

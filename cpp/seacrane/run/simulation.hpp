@@ -26,8 +26,9 @@ struct RunOptions {
 /// Everything that changes during a run; a copy is a checkpoint.
 struct State {
   double time = 0.0;
-  std::vector<double> values;  // poses, twists, memory states, work; see StateLayout
-  std::vector<double> inputs;  // zero-order-held slots
+  std::vector<double> values;           // poses, twists, memory states, work; see StateLayout
+  std::vector<double> inputs;           // zero-order-held slots
+  std::vector<TwistHistory> histories;  // one per vessel with a convolution; none: at rest before `time`
 };
 
 State initial_state(const Model& model);
@@ -58,7 +59,7 @@ class Simulation {
   int state_size() const { return model_->layout.size; }
 
  private:
-  double next_stop(double t_end);
+  double next_jump();
   void record_until(double t);
   void write(double t, double* y, Recording& out);
   void step(double limit);

@@ -34,6 +34,7 @@ from seacrane.hydro.reader_warnings import (
     PartialSetWarning,
     SeveralSpeedsWarning,
 )
+from seacrane.hydro.retardation import RetardationModel, retardation_functions
 from seacrane.hydro.transform import QuadraticDampingWarning
 from seacrane.hydro.veres import read_veres
 from seacrane.hydro.veres_hydrostatics import Hydrostatics, read_hydrostatics
@@ -74,6 +75,7 @@ __all__ = [
     "PassivityCertificate",
     "PassivityError",
     "QuadraticDampingWarning",
+    "RetardationModel",
     "RigidPart",
     "RollDamping",
     "RollDampingWarning",
@@ -94,6 +96,7 @@ __all__ = [
     "read_veres",
     "read_wamit",
     "require_passive",
+    "retardation_functions",
     "rigid_mass_matrix",
     "shipped_database",
     "vessel_parameters",

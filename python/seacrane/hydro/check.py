@@ -21,6 +21,7 @@ from seacrane.hydro.relations import (
 
 if TYPE_CHECKING:
     from seacrane.hydro.database import HydroDatabase
+    from seacrane.hydro.retardation import RetardationModel
 
 FloatArray = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
@@ -94,7 +95,7 @@ def memory_rows(database: HydroDatabase, model: MemoryModel) -> list[CheckRow]:
                 _against_range(database, model.added_mass - known),
             )
         )
-    return rows + _memory_motion_rows(database, model)
+    return rows + memory_motion_rows(database, model)
 
 
 def _closure_rows(database: HydroDatabase) -> list[CheckRow]:
@@ -205,8 +206,8 @@ def _relation_rows(database: HydroDatabase) -> list[CheckRow]:
     return rows
 
 
-def _memory_motion_rows(database: HydroDatabase, model: MemoryModel) -> list[CheckRow]:
-    """Motions with the fitted matrices against those with the data, within the trusted band."""
+def memory_motion_rows(database: HydroDatabase, model: MemoryModel | RetardationModel) -> list[CheckRow]:
+    """Motions with the memory's matrices against those with the data, within the trusted band."""
     added_mass, damping = model.frequency_response(database.omega)
     more_mass, more_damping = model.additional_response(database.omega)
     static = sum((part.restoring for part in database.additional), np.zeros((len(database.omega), 6, 6)))

@@ -140,7 +140,7 @@ def _fit_radiation(
     infinite = np.zeros((6, 6)) if known is None else 0.5 * (known + known.T)
     symmetric_a = 0.5 * (database.added_mass + database.added_mass.swapaxes(1, 2))
     symmetric_b = 0.5 * (database.damping + database.damping.swapaxes(1, 2))
-    for j, k in entries_with_memory(symmetric_a, symmetric_b, database.omega):
+    for j, k in memory_entries(symmetric_a, symmetric_b, database.omega):
         data = IdentificationData(
             omega=database.omega,
             added_mass=symmetric_a[:, j, k],
@@ -153,7 +153,7 @@ def _fit_radiation(
         infinite[j, k] = infinite[k, j] = fit.added_mass_infinite
         _append(blocks, rows, fit, j, k, cause=RADIATION, r2=r2)
     if known is None:
-        infinite = _keep_constantentries_with_memory(infinite, symmetric_a, blocks)
+        infinite = _keep_constant_entries(infinite, symmetric_a, blocks)
     return blocks, rows, infinite
 
 
@@ -167,14 +167,14 @@ def _fit_passive_radiation(
         database=database,
         added_mass=symmetric_a,
         damping=symmetric_b,
-        entries=entries_with_memory(symmetric_a, symmetric_b, database.omega),
+        entries=memory_entries(symmetric_a, symmetric_b, database.omega),
         known=None if known is None else 0.5 * (known + known.T),
         trusted=trusted,
         r2=r2,
     )
     if known is not None:
         return blocks, rows, 0.5 * (known + known.T)
-    return blocks, rows, _keep_constantentries_with_memory(infinite, symmetric_a, blocks)
+    return blocks, rows, _keep_constant_entries(infinite, symmetric_a, blocks)
 
 
 def _fit_additional(
@@ -187,7 +187,7 @@ def _fit_additional(
     mass, stiffness = np.zeros((6, 6)), np.zeros((6, 6))
     symmetric_a = 0.5 * (part.added_mass + part.added_mass.swapaxes(1, 2))
     symmetric_b = 0.5 * (part.damping + part.damping.swapaxes(1, 2))
-    for j, k in entries_with_memory(symmetric_a, symmetric_b, database.omega):
+    for j, k in memory_entries(symmetric_a, symmetric_b, database.omega):
         data = IdentificationData(
             omega=database.omega,
             added_mass=symmetric_a[:, j, k],
@@ -222,7 +222,7 @@ def _dissipation_limit(
     return limit
 
 
-def entries_with_memory(
+def memory_entries(
     added_mass: FloatArray, damping: FloatArray, omega: FloatArray
 ) -> Iterator[tuple[int, int]]:
     """Entries (j <= k) with any memory, judged against the geometric mean of their diagonals."""
@@ -235,7 +235,7 @@ def entries_with_memory(
                 yield j, k
 
 
-def _keep_constantentries_with_memory(
+def _keep_constant_entries(
     infinite: FloatArray, added_mass: FloatArray, blocks: list[MemoryBlock]
 ) -> FloatArray:
     """Entries without memory keep their (constant) added mass."""
@@ -275,20 +275,23 @@ def _append(
 def joint_passivity(blocks: list[MemoryBlock], damping: FloatArray, band: tuple[float, float]) -> Passivity:
     """Smallest scaled eigenvalue of the radiation blocks' damping, 1e-3 to 1e3 rad/s, and over ``band``."""
     radiation = [block for block in blocks if block.cause == RADIATION]
-    everywhere = np.geomspace(1e-3, 1e3, 4001)
-    inside = np.linspace(*band, 1001)
-    peak = np.sqrt(np.maximum(np.diagonal(damping, axis1=1, axis2=2).max(axis=0), 1e-300))
-    active = peak > 1e-6 * peak.max()
 
     def smallest(omega: FloatArray) -> tuple[float, float]:
         total = np.zeros((len(omega), 6, 6))
         for block in radiation:
             total[:, block.outputs[:, None], block.inputs] += block.transfer(omega).real
-        scaled = (0.5 * (total + total.swapaxes(1, 2)) / np.outer(peak, peak))[:, active][:, :, active]
-        lowest = np.linalg.eigvalsh(scaled)[:, 0]
+        lowest = scaled_damping(total, damping)
         where = int(lowest.argmin())
         return float(lowest[where]), float(omega[where])
 
-    minimum, at = smallest(everywhere)
-    in_band, in_band_at = smallest(inside)
+    minimum, at = smallest(np.geomspace(1e-3, 1e3, 4001))
+    in_band, in_band_at = smallest(np.linspace(*band, 1001))
     return Passivity(minimum=minimum, omega=at, in_band=in_band, in_band_omega=in_band_at)
+
+
+def scaled_damping(damping: FloatArray, data: FloatArray) -> FloatArray:
+    """Smallest eigenvalues (n,) of ``damping`` (n, 6, 6), scaled by the largest diagonals of ``data``."""
+    peak = np.sqrt(np.maximum(np.diagonal(data, axis1=1, axis2=2).max(axis=0), 1e-300))
+    active = peak > 1e-6 * peak.max()
+    scaled = (0.5 * (damping + damping.swapaxes(1, 2)) / np.outer(peak, peak))[:, active][:, :, active]
+    return np.asarray(np.linalg.eigvalsh(scaled)[:, 0])

@@ -187,7 +187,7 @@ def _pair_r2(
 
 def _pairs(model: MemoryModel, database: HydroDatabase) -> Iterator[tuple[int, int]]:
     """Pairs (j <= k) that the model has blocks for and the database data that vary."""
-    from seacrane.hydro.memory import entries_with_memory
+    from seacrane.hydro.memory import memory_entries
 
     added_mass, damping = (0.5 * (x + x.swapaxes(1, 2)) for x in (database.added_mass, database.damping))
     modelled = {
@@ -197,6 +197,6 @@ def _pairs(model: MemoryModel, database: HydroDatabase) -> Iterator[tuple[int, i
         for j in block.outputs
         for k in block.inputs
     }
-    for pair in entries_with_memory(added_mass, damping, database.omega):
+    for pair in memory_entries(added_mass, damping, database.omega):
         if pair in modelled:
             yield pair

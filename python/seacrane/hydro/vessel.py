@@ -16,6 +16,7 @@ from seacrane.hydro.memory import fit_memory
 from seacrane.hydro.memory_audit import warn_of_lost_passivity, warn_of_mismatch
 from seacrane.hydro.memory_model import MemoryModel
 from seacrane.hydro.motion import natural_frequency
+from seacrane.hydro.retardation import RetardationModel
 
 if TYPE_CHECKING:
     from seacrane.hydro.database import HydroDatabase
@@ -55,7 +56,7 @@ class VesselParameters:
         holds beyond a rigid body.
     linear_damping : (6, 6) and quadratic_damping : (6,), beside radiation.
     restoring : (6, 6), with the static stiffness of additional causes (roll tanks).
-    memory : of radiation and additional causes.
+    memory : of radiation and additional causes, as states or as retardation functions.
     """
 
     mass: float
@@ -65,18 +66,21 @@ class VesselParameters:
     linear_damping: FloatArray
     quadratic_damping: FloatArray
     restoring: FloatArray
-    memory: MemoryModel
+    memory: MemoryModel | RetardationModel
 
 
 def vessel_parameters(
-    database: HydroDatabase, *, memory: MemoryModel | None = None, take_out: Sequence[RigidPart] = ()
+    database: HydroDatabase,
+    *,
+    memory: MemoryModel | RetardationModel | None = None,
+    take_out: Sequence[RigidPart] = (),
 ) -> VesselParameters:
     """Parameters of the vessel without the parts that the scene models as bodies of their own.
 
     Parameters
     ----------
     database : hydrodynamics; its own fitted memory is used, else one is fitted here.
-    memory : a fit to use in place of it.
+    memory : a fit, or retardation functions, to use in place of it.
     take_out : parts that the database's mass and restoring include and the scene models itself (a crane):
         their mass and inertia leave the mass matrix and their weight leaves the restoring (C44 and C55 grow
         by m g z, C46 and C56 lose theirs; buoyancy stays as it is).
@@ -101,7 +105,10 @@ def vessel_parameters(
 
 
 def time_domain_vessel(
-    database: HydroDatabase, *, memory: MemoryModel | None = None, take_out: Sequence[RigidPart] = ()
+    database: HydroDatabase,
+    *,
+    memory: MemoryModel | RetardationModel | None = None,
+    take_out: Sequence[RigidPart] = (),
 ) -> VesselParameters:
     """`vessel_parameters` without its warnings."""
     require_zero_speed(database)
@@ -204,17 +211,11 @@ def _add_roll_damping(database: HydroDatabase, linear: FloatArray, quadratic: Fl
 
 def _warn(database: HydroDatabase, vessel: VesselParameters) -> None:
     """Name fits that miss their aim, a memory of other data or that delivers energy, and roll damping."""
-    for row in vessel.memory.rows:
-        if not row.accepted:
-            warn_caller(
-                f"database {database.name!r}: memory {row.output + 1}{row.input + 1} ({row.cause}) follows "
-                f"added mass with R2 = {row.r2_added_mass:.3f} and damping with {row.r2_damping:.3f}; "
-                f"{vessel.memory.r2} was asked, and motions that depend on it carry that error",
-                MemoryFitWarning,
-            )
     warn_of_damping(database)
-    warn_of_mismatch(database, vessel.memory)
-    warn_of_lost_passivity(database, vessel)
+    if isinstance(vessel.memory, MemoryModel):
+        _warn_of_misfits(database.name, vessel.memory)
+        warn_of_mismatch(database, vessel.memory)
+        warn_of_lost_passivity(database, vessel)
     if vessel.linear_damping[3, 3] == 0.0 and vessel.quadratic_damping[3] == 0.0:
         warn_caller(
             f"database {database.name!r}: no roll damping beside radiation; roll at resonance will be far "
@@ -228,3 +229,14 @@ def _warn(database: HydroDatabase, vessel: VesselParameters) -> None:
             "table, and roll near its resonance is off by as much as the damping varies",
             RollDampingWarning,
         )
+
+
+def _warn_of_misfits(name: str, fit: MemoryModel) -> None:
+    for row in fit.rows:
+        if not row.accepted:
+            warn_caller(
+                f"database {name!r}: memory {row.output + 1}{row.input + 1} ({row.cause}) follows "
+                f"added mass with R2 = {row.r2_added_mass:.3f} and damping with {row.r2_damping:.3f}; "
+                f"{fit.r2} was asked, and motions that depend on it carry that error",
+                MemoryFitWarning,
+            )

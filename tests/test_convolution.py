@@ -1,0 +1,394 @@
+"""Fluid memory by direct convolution: retardation functions, the loop's quadrature, histories."""
+
+from __future__ import annotations
+
+import warnings
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+from test_veres_run import at_file_damping, simulated_rao
+
+from seacrane import (
+    Curve,
+    Result,
+    RetardationFunctions,
+    Run,
+    Scene,
+    SceneError,
+    State,
+    TwistHistory,
+    add_vessel,
+    cases,
+    linear_model,
+    load_database,
+    simulate,
+)
+from seacrane.hydro import HydroDatabase, retardation_functions, shipped_database, vessel_parameters
+from seacrane.hydro.retardation import cosine_transform, transform
+from seacrane.scene_report import scene_report
+
+Array = NDArray[np.float64]
+CHANNELS = ["vessel_motion", "energy_balance", "absolute_work"]
+DECAY, RINGING = 0.35, 0.9  # 1/s, of the closed-form kernel
+
+
+def closed_form(tau: Array) -> Array:
+    """exp(-a t) (cos b t - a/b sin b t), whose transform is s / ((s + a)^2 + b^2)."""
+    return np.exp(-DECAY * tau) * (np.cos(RINGING * tau) - DECAY / RINGING * np.sin(RINGING * tau))
+
+
+def closed_form_transform(omega: Array) -> NDArray[np.complex128]:
+    s = 1j * omega
+    return np.asarray(s / ((s + DECAY) ** 2 + RINGING**2))
+
+
+@cache
+def fitted_kernel(step: float, duration: float = 200.0) -> Array:
+    """K of the shipped hull's per-pair models, C exp(A t) B."""
+    from scipy.linalg import expm
+
+    out = np.zeros((round(duration / step) + 1, 6, 6))
+    for block in vessel_parameters(shipped_database()).memory.blocks:
+        ahead, states = expm(block.A * step), block.B.copy()
+        for sample in out:
+            sample[np.ix_(block.outputs, block.inputs)] += block.C @ states
+            states = ahead @ states
+    return out
+
+
+def with_kernel(scene: Scene, functions: RetardationFunctions) -> Scene:
+    """The scene with its vessel's memory replaced."""
+    names = ("added_mass", "linear_damping", "quadratic_damping", "restoring", "mooring_stiffness")
+    vessel = scene.vessels["vessel"]
+    kept: dict[str, Any] = {name: getattr(vessel, name) for name in (*names, "mooring_damping")}
+    out = scene.copy()
+    out.vessels = {}
+    out.add_vessel(body="vessel", memory=functions, **kept)
+    return out
+
+
+def convolved(step: float, **sea: Any) -> Scene:
+    scene = cases.vessel(**sea)
+    return with_kernel(scene, RetardationFunctions(step=step, kernel=fitted_kernel(step)))
+
+
+def run(scene: Scene, t_end: float = 30.0, **settings: Any) -> Result:
+    return simulate(
+        scene, **{"t_end": t_end, "dt_out": 0.25, "rtol": 1e-10, "channels": CHANNELS, **settings}
+    )
+
+
+def distance(found: Array, expected: Array) -> float:
+    """Largest difference of any motion, by that motion's largest value."""
+    return float(np.max(np.abs(found - expected).max(axis=0) / np.abs(expected).max(axis=0)))
+
+
+@pytest.fixture(scope="module")
+def by_states() -> Array:
+    return run(cases.vessel())["vessel_motion"]
+
+
+# Retardation functions
+
+
+def test_kernel_of_sampled_damping_converges_to_the_closed_form() -> None:
+    """B of a known kernel, sampled finer and to higher frequencies: at the limit what is left is rounding."""
+    tau = np.linspace(0.0, 25.0, 251)
+    errors = []
+    for spacing, end in ((0.1, 6.0), (0.05, 12.0), (0.025, 24.0)):
+        omega = spacing * np.arange(1, round(end / spacing) + 1)
+        damping = closed_form_transform(omega).real[:, None, None]
+        found = cosine_transform(omega, damping, tau)[0][:, 0, 0]
+        errors.append(float(np.max(np.abs(found - closed_form(tau)))))
+    assert errors[0] < 1e-2
+    assert errors[1] < errors[0] / 4.0
+    assert errors[2] < errors[1] / 4.0
+
+
+def test_transform_returns_the_closed_form() -> None:
+    step, omega = 0.05, np.linspace(0.1, 4.0, 40)
+    kernel = closed_form(step * np.arange(1201))[:, None, None]
+    found = transform(kernel, step, omega)[:, 0, 0]
+    np.testing.assert_allclose(found, closed_form_transform(omega), atol=1e-6)
+
+
+def test_database_comes_back_from_its_retardation_functions() -> None:
+    """Damping to 0.1 %; added mass as far as the data obey Kramers-Kronig; A_inf near the panel code's."""
+    database = shipped_database()
+    model = retardation_functions(database=database)
+    assert model.error_damping.max() < 1e-3
+    assert model.error_added_mass.max() < 0.05
+    low, high = model.band
+    inside = (database.omega >= low) & (database.omega <= high)
+    added_mass, damping = model.frequency_response(database.omega)
+    for j in range(1, 6):
+        spread = np.std(database.damping[inside, j, j])
+        misfit = np.sqrt(np.mean((damping - database.damping)[inside, j, j] ** 2))
+        assert misfit / spread == pytest.approx(model.error_damping[j, j], rel=1e-9)
+        assert np.abs(added_mass - database.added_mass)[inside, j, j].max() < 0.05 * np.ptp(
+            database.added_mass[inside, j, j]
+        )
+    assert database.infinite_frequency_added_mass is not None
+    ratio = np.diag(model.added_mass) / np.diag(database.infinite_frequency_added_mass)
+    np.testing.assert_allclose(ratio[1:], 1.0, atol=0.02)
+
+
+def test_steps_and_durations_are_checked() -> None:
+    database = shipped_database()
+    for arguments, text in (
+        ({"step": 0.0}, "step is 0.0 s"),
+        ({"duration": -1.0}, "duration is -1.0 s"),
+        ({"step": float("nan")}, "step is nan s"),
+        ({"step": 1e-6}, "samples"),
+    ):
+        with pytest.raises(ValueError, match=text):
+            retardation_functions(database=database, **arguments)
+
+
+# The loop
+
+
+def test_same_motion_as_states_of_the_same_kernel_to_fourth_order(by_states: Array) -> None:
+    errors = [distance(run(convolved(step))["vessel_motion"], by_states) for step in (0.2, 0.1, 0.05)]
+    orders = np.log2(np.divide(errors[:-1], errors[1:]))
+    assert orders[-1] > 3.5, (errors, orders)
+    assert errors[-1] < 3e-6
+
+
+def started(scene: Scene) -> Scene:
+    """The scene with its vessel under way at the start."""
+    body = scene.bodies["vessel"]
+    out = scene.copy()
+    out.bodies = {}
+    out.add_body(
+        name="vessel", mass=body.mass, inertia=body.inertia, center_of_mass=body.center_of_mass,
+        velocity=(0.0, 0.2, 0.3), angular_velocity=(0.02, 0.01, 0.0),
+    )  # fmt: skip
+    return out
+
+
+def test_a_sudden_start_keeps_the_order() -> None:
+    """Speed and acceleration jump at the start, where the past is rest."""
+    expected = run(started(cases.vessel(hs=0.0)), 15.0)["vessel_motion"]
+    errors = [
+        distance(run(started(convolved(h, hs=0.0)), 15.0)["vessel_motion"], expected) for h in (0.1, 0.05)
+    ]
+    assert np.log2(errors[0] / errors[1]) > 3.5, errors
+    assert errors[1] < 1e-5
+
+
+@pytest.mark.parametrize("integrator", ["rk4", "ark-erk", "cvode-adams", "cvode-bdf", "ida"])
+def test_every_integrator_takes_it(integrator: str, by_states: Array) -> None:
+    """At the distance that the quadrature leaves, landing on the samples without a restart."""
+    settings = {"dt": 0.01} if integrator == "rk4" else {"rtol": 1e-8}
+    found = run(convolved(0.1), integrator=integrator, **settings)
+    assert distance(found["vessel_motion"], by_states) < 4e-5
+    assert found.stats["restarts"] == 0
+
+
+def test_outputs_within_a_step_use_the_history_of_that_step() -> None:
+    """Accelerations at times off the samples, and on them, against those of the states."""
+    settings: dict[str, Any] = {"dt_out": 0.07, "channels": ["acceleration"]}
+    expected = run(cases.vessel(), 12.6, **settings)["acceleration"][:, 0]
+    found = run(convolved(0.1), 12.6, **settings)["acceleration"][:, 0]
+    np.testing.assert_allclose(found, expected, atol=1e-5 * np.abs(expected).max())
+
+
+def test_books_balance() -> None:
+    found = run(cases.vessel(memory="convolution"), 40.0)
+    assert np.max(np.abs(found["energy_balance"])) < 1e-9 * found["absolute_work"][-1]
+
+
+def test_two_vessels_with_steps_of_their_own() -> None:
+    """Far from each other each moves as it does alone."""
+    alone = run(started(convolved(0.1, hs=0.0)), 10.0)["vessel_motion"]
+    scene = started(convolved(0.1, hs=0.0))
+    ship, hydro = scene.bodies["vessel"], scene.vessels["vessel"]
+    scene.add_body(name="second", mass=ship.mass, inertia=ship.inertia, center_of_mass=ship.center_of_mass)
+    scene.add_vessel(
+        body="second", added_mass=hydro.added_mass, restoring=hydro.restoring,
+        memory=RetardationFunctions(step=0.07, kernel=fitted_kernel(0.07, 60.0)),
+    )  # fmt: skip
+    assert scene.compile().history_samples == 2 * (2000 + round(60.0 / 0.07))
+    both = run(scene, 10.0)["vessel_motion"]
+    assert distance(both, alone) < 1e-8
+
+
+# State
+
+
+@pytest.mark.parametrize("stop", [0.06, 0.14, 10.0, 10.04])
+def test_a_run_goes_on_from_its_state(stop: float) -> None:
+    """Within the first two steps of the convolution, on a sample and between samples."""
+    scene = cases.vessel(memory="convolution")
+    settings: dict[str, Any] = {"integrator": "rk4", "dt": 0.02, "dt_out": 1.0, "channels": CHANNELS[:1]}
+    whole = simulate(scene, t_end=20.0, **settings)["vessel_motion"]
+    first = Run(scene, t_end=stop, **settings)
+    first.advance(stop)
+    left = first.core.state
+    history = left.histories[0]
+    copied = TwistHistory(
+        start=history.start, intervals=history.intervals, recent=history.recent, quadrature=history.quadrature
+    )
+    state = State(time=left.time, values=left.values, inputs=left.inputs, histories=[copied])
+    rest = simulate(scene, t_end=20.0, start=state, **settings)["vessel_motion"]
+    np.testing.assert_allclose(rest[-1], whole[-1], atol=1e-10)
+    forgotten = State(time=left.time, values=left.values, inputs=left.inputs)
+    other = simulate(scene, t_end=20.0, start=forgotten, **settings)["vessel_motion"]
+    assert stop < 1.0 or np.abs(other[-1] - whole[-1]).max() > 1e-4
+
+
+def test_histories_are_checked() -> None:
+    scene = cases.vessel(memory="convolution")
+    run = Run(scene, t_end=1.0)
+    run.advance(1.0)
+    left = run.core.state
+    good = left.histories[0]
+
+    def refuse(text: str, **changes: Any) -> None:
+        parts = {name: getattr(good, name) for name in ("start", "intervals", "recent", "quadrature")}
+        histories = changes.pop("histories", None) or [TwistHistory(**{**parts, **changes})]
+        state = State(time=left.time, values=left.values, inputs=left.inputs, histories=histories)
+        with pytest.raises(ValueError, match=text):
+            Run(scene, t_end=2.0, start=state)
+
+    refuse("points of the past", quadrature=np.zeros((3, 6)))
+    refuse("points of the past", recent=np.zeros((2, 6)))
+    refuse("not finite", recent=np.full((3, 6), np.nan))
+    refuse("not within one step", start=5.0)
+    refuse("not within one step", intervals=2)
+    refuse("2 histories", histories=[good, good])
+
+
+# Physics
+
+
+def driven_heave(database: HydroDatabase, omega: float) -> complex:
+    """Force of a driver per metre of the heave that it prescribes, in the steady state, less inertia and
+    restoring: i omega B - omega^2 A."""
+    scene = Scene()
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        add_vessel(scene, database, memory="convolution", mooring_period=None)
+    scene.add_joint(kind="free", name="motion", first="ground", second="vessel")
+    for motion in ("x", "y", "z", "roll", "pitch", "yaw"):
+        curve = Curve.harmonic(amplitude=1.0 if motion == "z" else 0.0, omega=omega)
+        scene.add_driver(joint="motion", coordinate=motion, curve=curve, name=motion)
+    period = 2.0 * np.pi / omega
+    t_end = period * np.ceil(80.0 / period)
+    out = simulate(scene, t_end=t_end, dt_out=period / 64.0, channels=["driver_force"], rtol=1e-10)
+    last = slice(-64, None)
+    force = 2.0 * np.mean(out["driver_force"][last, 2] * np.exp(-1j * omega * out.time[last]))
+    mass, stiffness = scene.bodies["vessel"].mass, scene.vessels["vessel"].restoring[2, 2]
+    return complex(force + omega**2 * mass - stiffness)
+
+
+@pytest.mark.parametrize("omega", [0.5, 0.9, 1.5, 2.2])
+def test_a_driven_vessel_feels_the_databases_added_mass_and_damping(omega: float) -> None:
+    database, model = shipped_database(), retardation_functions(database=shipped_database())
+    found = driven_heave(database, omega)
+    added_mass, damping = (x[0, 2, 2] for x in model.frequency_response([omega]))
+    size = omega * np.ptp(database.damping[:, 2, 2])
+    assert abs(found - complex(-(omega**2) * added_mass, omega * damping)) < 1e-4 * size
+    index = int(np.argmin(np.abs(database.omega - omega)))
+    assert database.omega[index] == pytest.approx(omega)
+    assert found.imag == pytest.approx(omega * database.damping[index, 2, 2], abs=1e-3 * size)
+    assert -found.real / omega**2 == pytest.approx(database.added_mass[index, 2, 2], rel=0.01)
+
+
+@pytest.mark.parametrize(("heading", "frequency"), [(5, 10), (7, 26), (13, 14)])
+def test_regular_waves_on_the_supply_ship_return_the_files_motion(
+    shared: Path, heading: int, frequency: int
+) -> None:
+    """Roll, with its tanks, within 1.5 % of the file, where the per-pair memory is up to 11 % off."""
+    supply = load_database(shared / "veres" / "supply")
+    database = at_file_damping(supply, heading, frequency)
+    scene = cases.vessel(database=database, hs=0.0, mooring_period=None, memory="convolution")
+    found = simulated_rao(database, scene, heading, frequency)
+    assert supply.motion_rao is not None
+    source = supply.motion_rao[heading, frequency]
+    np.testing.assert_array_less(
+        np.abs(found - source) / np.abs(source), [0.005, 0.005, 0.02, 0.015, 0.015, 0.005]
+    )
+
+
+def test_decay_differs_from_per_pair_memory_by_the_fits_error() -> None:
+    """Heave, roll and pitch after a push."""
+    decays = {}
+    for memory in ("per-pair", "convolution"):
+        scene = cases.vessel(memory=memory, hs=0.0)
+        body = scene.bodies["vessel"]
+        scene.bodies.clear()
+        scene.add_body(
+            name="vessel", mass=body.mass, inertia=body.inertia, center_of_mass=body.center_of_mass,
+            velocity=(0.0, 0.0, 0.8), angular_velocity=(0.01, 0.04, 0.0),
+        )  # fmt: skip
+        decays[memory] = run(scene, 40.0)["vessel_motion"][:, 2:5]
+    size = np.abs(decays["convolution"]).max(axis=0)
+    apart = np.abs(decays["per-pair"] - decays["convolution"]).max(axis=0) / size
+    assert np.all(apart < 0.025)
+    assert np.all(apart > 1e-3)
+
+
+# Around it
+
+
+def test_scene_files_keep_it(tmp_path: Path) -> None:
+    scene = cases.vessel(memory="convolution")
+    scene.save(tmp_path / "ship.json")
+    again = Scene.load(tmp_path / "ship.json")
+    functions, kept = scene.vessels["vessel"].memory, again.vessels["vessel"].memory
+    assert isinstance(functions, RetardationFunctions)
+    assert isinstance(kept, RetardationFunctions)
+    assert kept.step == functions.step
+    np.testing.assert_array_equal(kept.kernel, functions.kernel)
+    np.testing.assert_array_equal(run(scene, 5.0)["vessel_motion"], run(again, 5.0)["vessel_motion"])
+
+
+def test_report_counts_the_history() -> None:
+    model = cases.vessel(memory="convolution").compile()
+    report = scene_report(cases.vessel(memory="convolution"))
+    rows = {label: value for group in report.values() for label, value in group}
+    assert model.memory_states == 0
+    assert rows["history samples"] == model.history_samples == 1200
+    assert "fluid memory" not in rows.get("absent", [])
+
+
+def test_the_command_line_takes_it(tmp_path: Path) -> None:
+    import json
+
+    import xarray
+
+    from seacrane.cli import main
+
+    assert main(["run", "vessel", "--memory", "convolution", "--t-end", "2", "--out", str(tmp_path)]) == 0
+    with xarray.open_dataset(tmp_path / "vessel.nc") as data:
+        assert json.loads(data.attrs["settings"])["memory"] == "convolution"
+
+
+def test_what_it_cannot_do_is_refused_by_name() -> None:
+    with pytest.raises(SceneError, match="vessel 'vessel': kinematics 'paper' takes state-space memory"):
+        cases.vessel(memory="convolution", kinematics="paper").compile()
+    with pytest.raises(SceneError, match="convolution, which has no states"):
+        linear_model(cases.vessel(memory="convolution", hs=0.0))
+
+
+@pytest.mark.parametrize(
+    ("step", "kernel", "text"),
+    [
+        (0.0, np.zeros((20, 6, 6)), "step is 0"),
+        (np.inf, np.zeros((20, 6, 6)), "step is inf"),
+        (0.1, np.zeros((3, 6, 6)), "3 samples"),
+        (0.1, np.full((20, 6, 6), np.nan), "not finite"),
+    ],
+)
+def test_bad_retardation_functions_are_refused(step: float, kernel: Array, text: str) -> None:
+    functions = RetardationFunctions(step=step, kernel=kernel)
+    with pytest.raises(SceneError, match=f"vessel 'vessel': retardation functions: .*{text}"):
+        with_kernel(cases.vessel(), functions).compile()
+    with pytest.raises(ValueError, match=r"\(n, 6, 6\)"):
+        RetardationFunctions(step=0.1, kernel=np.zeros((20, 6)))
