@@ -13,3 +13,4 @@ void bind_elements(py::module_& m);
 void bind_sea(py::module_& m);
 void bind_model(py::module_& m);
 void bind_simulation(py::module_& m);
+void bind_strip(py::module_& m);

@@ -35,4 +35,5 @@ PYBIND11_MODULE(_core, m) {
   bind_elements(m);
   bind_model(m);
   bind_simulation(m);
+  bind_strip(m);
 }
