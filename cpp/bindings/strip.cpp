@@ -113,7 +113,7 @@ py::array to_array(const std::vector<Item>& items, std::vector<py::ssize_t> shap
 }
 
 template <class Item, class Of>
-py::array each(const std::vector<Of>& items, Item Of::* member, const std::vector<py::ssize_t>& shape) {
+py::array each(const std::vector<Of>& items, Item Of::*member, const std::vector<py::ssize_t>& shape) {
   std::vector<Item> out;
   for (const Of& item : items) out.push_back(item.*member);
   return to_array(out, shape);
@@ -144,7 +144,7 @@ py::dict bound_section_radiation(const Doubles& points, const Doubles& omega, do
 
 py::dict bound_strip_theory(const Doubles& x, const std::vector<Doubles>& sections, const Doubles& omega,
                             const Doubles& heading, double speed, double rho, double g, int panels) {
-  StripCase input{to_vector(x, "x"),   {}, to_vector(omega, "omega"), to_vector(heading, "heading"), speed,
+  StripCase input{to_vector(x, "x"), {}, to_vector(omega, "omega"), to_vector(heading, "heading"), speed,
                   {rho, g, panels}};
   for (std::size_t i = 0; i < sections.size(); ++i) {
     input.sections.push_back(to_section(sections[i], "sections[" + std::to_string(i) + "]"));

@@ -33,6 +33,9 @@ struct SectionRadiation {
   SectionLimits limits;
 };
 
+/// Throws std::invalid_argument unless density, gravity, panel count and frequencies are in range.
+void require_settings(const SectionSettings& settings, const std::vector<double>& omega);
+
 /// Coefficients at the frequencies omega (rad/s). `poll` is called once per frequency and may throw.
 SectionRadiation section_radiation(const HalfSection& section, const std::vector<double>& omega,
                                    const SectionSettings& settings, const std::function<void()>& poll);

@@ -24,13 +24,13 @@ struct StripCase {
 /// Matrices at encounter frequencies omega; forces per metre of wave amplitude at wave frequencies omega.
 /// All about x = 0 on the centre line at the waterline.
 struct StripResult {
-  std::vector<Matrix6> added_mass, damping;          // [omega]
-  Matrix6 infinite_frequency, zero_frequency;        // added mass; NaN where the limit does not exist
-  std::vector<Vector6c> force, froude_krylov;        // [heading * omega count + omega]
-  std::vector<double> encounter_frequency;           // likewise, rad/s
-  std::vector<Eigen::Matrix3d> sectional_added_mass; // [omega * station count + station]
-  std::vector<Eigen::Matrix3d> sectional_damping;    // likewise
-  std::vector<SectionLimits> sectional_limits;       // [station]
+  std::vector<Matrix6> added_mass, damping;           // [omega]
+  Matrix6 infinite_frequency, zero_frequency;         // added mass; NaN where the limit does not exist
+  std::vector<Vector6c> force, froude_krylov;         // [heading * omega count + omega]
+  std::vector<double> encounter_frequency;            // likewise, rad/s
+  std::vector<Eigen::Matrix3d> sectional_added_mass;  // [omega * station count + station]
+  std::vector<Eigen::Matrix3d> sectional_damping;     // likewise
+  std::vector<SectionLimits> sectional_limits;        // [station]
 };
 
 /// `poll` is called at least once per station and frequency and may throw.
