@@ -13,7 +13,7 @@ namespace seacrane::strip {
 struct SectionSettings {
   double rho = 1025.0;  // kg/m3
   double g = 9.81;      // m/s2
-  int panels = 30;      // on the half section
+  int panels = 40;      // on the half section
 };
 
 /// Radiation of sway, heave and roll about the waterline origin at one frequency, per metre of length.

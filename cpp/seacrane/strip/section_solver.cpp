@@ -47,7 +47,7 @@ SectionSolver::SectionSolver(const HalfSection& section, const SectionSettings& 
       of_parity.velocity.resize(n - lid, n);
     }
   }
-  for (Eigen::MatrixXcd& change : log_change_) change.resize(n, n);
+  for (Eigen::MatrixXcd& log : log_) log.resize(n + 1, n);
   for (Index i = 0; i < n; ++i) {
     const Complex z = panels_.middle(i), normal = panels_.normal(i);
     if (i >= lid) {
@@ -69,10 +69,11 @@ SectionSolver::SectionSolver(const HalfSection& section, const SectionSettings& 
         direct_[parity].velocity(i - lid, j) = direct.velocity + sign * mirrored.velocity;
         image_[parity].velocity(i - lid, j) = above.velocity + sign * opposite.velocity;
       }
-      for (int side : {0, 1}) {
-        const Complex field = side == 0 ? z : -std::conj(z);
-        const auto log_at = [&](Complex c) { return std::log(i_unit * (field - std::conj(c))); };
-        log_change_[side](i, j) = log_at(panels_.end(j)) - log_at(panels_.start(j));
+    }
+    for (int side : {0, 1}) {
+      const Complex field = side == 0 ? z : -std::conj(z);
+      for (Index j = 0; j <= n; ++j) {
+        log_[side](j, i) = std::log(i_unit * (field - std::conj(panels_.node[j])));
       }
     }
   }
@@ -102,6 +103,7 @@ std::array<SectionSolver::Influence, 2> SectionSolver::wave_influence(double nu)
     of_parity.potential.setZero(n, n);
     of_parity.velocity.setZero(n - lid, n);
   }
+  const double log_nu = std::log(nu);
   std::vector<Complex> at_node(panels_.node.size());
   for (std::size_t j = 0; j < at_node.size(); ++j) {
     at_node[j] = std::exp(i_unit * nu * std::conj(panels_.node[j]));
@@ -115,14 +117,14 @@ std::array<SectionSolver::Influence, 2> SectionSolver::wave_influence(double nu)
       const Complex at_field = std::exp(-i_unit * nu * field);
       const auto wave = [&](Index j) {
         const Complex w = i_unit * nu * (field - std::conj(panels_.node[j]));
-        return decaying_exponential_integral(w, at_field * at_node[j]);
+        return decaying_exponential_integral(w, at_field * at_node[j], log_[side](j, i) + log_nu);
       };
       Complex before = wave(0);
       for (Index j = 0; j < n; ++j) {
         const Complex after = wave(j + 1), change = after - before;
         before = after;
         const double potential =
-            (i_unit * direction[j] * (log_change_[side](i, j) - change)).real() / (pi * nu);
+            (i_unit * direction[j] * (log_[side](j + 1, i) - log_[side](j, i) - change)).real() / (pi * nu);
         const double velocity = -(direction[j] * change * normal).real() / pi;
         for (int parity : {even, odd}) {
           const double sign = side == 0 || parity == even ? 1.0 : -1.0;

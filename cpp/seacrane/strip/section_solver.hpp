@@ -53,9 +53,9 @@ class SectionSolver {
 
   SectionSettings settings_;
   SectionPanels panels_;
-  Eigen::MatrixX3d mode_;                       // of each hull panel: n_y, n_z, y n_z - z n_y
-  std::array<Influence, 2> direct_, image_;     // of ln r and ln r' / (2 pi)
-  std::array<Eigen::MatrixXcd, 2> log_change_;  // of ln w over each panel, at the points and their mirrors
+  Eigen::MatrixX3d mode_;                    // of each hull panel: n_y, n_z, y n_z - z n_y
+  std::array<Influence, 2> direct_, image_;  // of ln r and ln r' / (2 pi)
+  std::array<Eigen::MatrixXcd, 2> log_;      // of w / nu at the nodes, for the points and their mirrors
 };
 
 }  // namespace seacrane::strip

@@ -1,0 +1,298 @@
+"""Strip theory of whole hulls: hand sums, closed forms, long waves, Haskind, mirror, shift, forward speed."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from seacrane import SceneError, _core
+
+FloatArray = NDArray[np.float64]
+RHO, G = 1025.0, 9.81
+LENGTH, HALF, DRAUGHT = 100.0, 10.0, 5.0
+BOX = np.array([[HALF, 0.0], [HALF, -DRAUGHT], [0.0, -DRAUGHT]])
+BEAM, HEAD = 0.5 * np.pi, np.pi
+
+
+def strips(x: Any, sections: Any, **options: Any) -> dict[str, Any]:
+    settings = {"omega": [0.6, 1.0], "heading": [HEAD], "rho": RHO, "g": G, **options}
+    return _core.strip_theory(x=x, sections=sections, **settings)
+
+
+def box(count: int = 5, centre: float = 0.0, **options: Any) -> dict[str, Any]:
+    x = np.linspace(-0.5, 0.5, count) * LENGTH + centre
+    return strips(x, [BOX] * count, **options)
+
+
+def ship(mirrored: bool = False, shift: float = 0.0, **options: Any) -> dict[str, Any]:
+    """A hull without symmetry fore and aft, with a transom or, mirrored, a blunt bow."""
+    x = np.array([-40.0, -30.0, -15.0, 0.0, 20.0, 35.0, 45.0])
+    size = np.array([0.5, 0.8, 1.0, 1.0, 0.9, 0.5, 0.0])
+    depth = np.array([0.3, 0.7, 1.0, 1.0, 1.0, 0.8, 0.0])
+    sections = [BOX * [b, d] for b, d in zip(size, depth, strict=True)]
+    if mirrored:
+        x, sections = -x[::-1], sections[::-1]
+    return strips(x + shift, sections, **options)
+
+
+def moment(x: FloatArray, values: FloatArray, power: int) -> FloatArray:
+    """Integral of x^power times values (stations, ...) linear between stations, by fine strips."""
+    edges = np.concatenate([np.linspace(a, b, 2001)[:-1] for a, b in pairwise(x)] + [x[-1:]])
+    middle, width = 0.5 * (edges[1:] + edges[:-1]), np.diff(edges)
+    flat = values.reshape(len(x), -1)
+    fine = np.stack([np.interp(middle, x, column) for column in flat.T], axis=1)
+    return np.asarray((width * middle**power) @ fine).reshape(values.shape[1:])
+
+
+def test_box_is_length_times_section() -> None:
+    found = box()
+    section = _core.section_radiation(points=BOX, omega=[0.6, 1.0], rho=RHO, g=G)
+    for whole, part in (("added_mass", "added_mass"), ("damping", "damping")):
+        a = 0.5 * (section[part] + section[part].transpose(0, 2, 1))
+        expected = np.zeros((2, 6, 6))
+        expected[:, 1:4, 1:4] = LENGTH * a
+        expected[:, 4, 4] = LENGTH**3 / 12.0 * a[:, 1, 1]
+        expected[:, 5, 5] = LENGTH**3 / 12.0 * a[:, 0, 0]
+        assert found[whole] == pytest.approx(expected, rel=1e-12, abs=1e-9 * np.abs(expected).max())
+    limit = found["infinite_frequency_added_mass"]
+    assert limit[2, 2] == pytest.approx(LENGTH * section["infinite_added_mass"][1, 1])
+    zero = found["zero_frequency_added_mass"]
+    assert zero[5, 5] == pytest.approx(LENGTH**3 / 12.0 * section["zero_added_mass"][0, 0])
+    assert np.isnan(zero[[2, 2, 4, 4], [2, 4, 2, 4]]).all()
+    assert np.isfinite(zero[np.ix_([0, 1, 3, 5], [0, 1, 3, 5])]).all()
+
+
+def test_froude_krylov_of_a_box() -> None:
+    """Closed form of the pressure integrals over bottom, sides and ends, in an oblique sea."""
+    omega, heading = 0.9, 2.2
+    found = box(omega=[omega], heading=[heading])["froude_krylov"][0, 0]
+    k = omega**2 / G
+    c, s = k * np.cos(heading), k * np.sin(heading)
+    along = 2.0 * np.sin(0.5 * c * LENGTH) / c  # integral of exp(-i c x)
+    along_x = 2j * (0.5 * LENGTH * np.cos(0.5 * c * LENGTH) / c - np.sin(0.5 * c * LENGTH) / c**2)
+    across = 2.0 * np.sin(s * HALF) / s
+    across_y = 2j * (HALF * np.cos(s * HALF) / s - np.sin(s * HALF) / s**2)
+    bottom = np.exp(-k * DRAUGHT)
+    down = (1.0 - bottom) / k
+    down_z = (DRAUGHT * bottom - down) / k
+    ends, sides = 2j * np.sin(0.5 * c * LENGTH), 2j * np.sin(s * HALF)
+    expected = np.array(
+        [
+            ends * across * down,
+            along * sides * down,
+            along * across * bottom,
+            along * (across_y * bottom - sides * down_z),
+            -along_x * across * bottom + ends * across * down_z,
+            along_x * sides * down - ends * across_y * down,
+        ]
+    )
+    assert found == pytest.approx(RHO * G * expected, rel=2e-4, abs=1e-7 * np.abs(expected).max() * RHO * G)
+
+
+def test_long_waves_lift_as_still_water_does() -> None:
+    """In long waves the loads are the restoring for the wave's height and slope, with buoyancy's lever."""
+    heading = 2.4
+    found = box(omega=[0.01], heading=[heading])
+    k = 0.01**2 / G
+    volume, area = LENGTH * 2.0 * HALF * DRAUGHT, 2.0 * HALF * LENGTH
+    c33 = area
+    c44 = area * HALF**2 / 3.0 - 0.5 * volume * DRAUGHT
+    c55 = area * LENGTH**2 / 12.0 - 0.5 * volume * DRAUGHT
+    expected = RHO * G * np.array([
+        1j * k * np.cos(heading) * volume, 1j * k * np.sin(heading) * volume, c33,
+        -1j * k * np.sin(heading) * c44, 1j * k * np.cos(heading) * c55,
+    ])  # fmt: skip
+    assert found["froude_krylov"][0, 0, :5] == pytest.approx(expected, rel=2e-3)
+    assert found["force"][0, 0, 2] == pytest.approx(expected[2], rel=0.01)
+
+
+def test_haskind_in_beam_seas() -> None:
+    """b = |X|^2 omega / (rho g^2) per metre, X with its diffraction part from near the hull."""
+    omega = np.array([0.4, 0.7, 1.0, 1.3])
+    found = box(omega=omega, heading=[BEAM], panels=80)
+    force = found["force"][0, :, 1:4] / LENGTH
+    damping = np.diagonal(found["sectional_damping"][:, 0], axis1=1, axis2=2)
+    expected = np.abs(force) ** 2 * omega[:, None] / (RHO * G**2)
+    assert damping == pytest.approx(expected, rel=0.01, abs=2e-3 * float(damping[:, :2].max()))
+    assert damping[:, 2] == pytest.approx(expected[:, 2], rel=0.03)
+
+
+def test_matrices_are_sums_over_stations() -> None:
+    found = ship()
+    x = np.array([-40.0, -30.0, -15.0, 0.0, 20.0, 35.0, 45.0])
+    for whole, part in (("added_mass", "sectional_added_mass"), ("damping", "sectional_damping")):
+        matrix, section = found[whole][1], found[part][1]
+        zeroth, first, second = (moment(x, section, power) for power in (0, 1, 2))
+        assert matrix[1:4, 1:4] == pytest.approx(zeroth, rel=1e-5)
+        assert matrix[2, 4] == pytest.approx(-first[1, 1], rel=1e-5)
+        assert matrix[5, [1, 3]] == pytest.approx(first[0, [0, 2]], rel=1e-5)
+        assert matrix[[4, 5], [4, 5]] == pytest.approx(second[[1, 0], [1, 0]], rel=1e-5)
+        assert matrix == pytest.approx(matrix.T)
+        assert np.abs(matrix[0]).max() == 0.0
+
+
+def test_stations_converge() -> None:
+    """Half as long strips change the loads of a short wave along the ship by a quarter."""
+
+    def force(count: int) -> Any:
+        x = np.linspace(-50.0, 50.0, count)
+        sections = [BOX * (1.0 - (station / 50.0) ** 2) for station in x]
+        return strips(x, sections, omega=[1.3], heading=[2.6], panels=20)["force"][0, 0]
+
+    coarse, middle, fine = (force(n) for n in (21, 41, 161))
+    assert (np.abs(middle - fine) < 0.3 * np.abs(coarse - fine)).all()
+
+
+@pytest.mark.parametrize("heading", [0.3, 1.2, 2.5])
+def test_mirrored_fore_and_aft(heading: float) -> None:
+    plain, mirror = ship(heading=[heading]), ship(mirrored=True, heading=[np.pi - heading])
+    sign = np.array([-1.0, 1.0, 1.0, 1.0, -1.0, -1.0])
+    for name in ("added_mass", "damping"):
+        assert mirror[name] == pytest.approx(sign[:, None] * plain[name] * sign, rel=1e-9, abs=1e-3)
+    for name in ("force", "froude_krylov"):
+        assert mirror[name] == pytest.approx(sign * plain[name], rel=1e-9, abs=1e-3)
+
+
+def test_waves_from_the_other_side() -> None:
+    found = ship(heading=[0.8, -0.8])["force"]
+    sign = np.array([1.0, -1.0, 1.0, -1.0, 1.0, -1.0])
+    assert found[1] == pytest.approx(sign * found[0], rel=1e-9)
+
+
+def test_origin_shifted_along_the_ship() -> None:
+    d, heading = 7.0, 2.2
+    plain, shifted = ship(heading=[heading]), ship(shift=d, heading=[heading])
+    h = np.eye(6)  # twist at the new origin to twist at the old one, d forward
+    h[1, 5], h[2, 4] = d, -d
+    assert shifted["added_mass"] == pytest.approx(h.T @ plain["added_mass"] @ h, rel=1e-9, abs=1e-3)
+    k = np.array([0.6, 1.0]) ** 2 / G
+    phase = np.exp(-1j * k * np.cos(heading) * d)
+    assert shifted["force"][0] == pytest.approx(phase[:, None] * plain["force"][0] @ h, rel=1e-9)
+
+
+def test_forward_speed_matrices() -> None:
+    """Salvesen, Tuck and Faltinsen's table of coefficients, with the end terms of the transom."""
+    u, x_a, i = 6.0, -40.0, 1
+    rest, found = ship(), ship(speed=u)
+    w = 1.0
+    a, b = rest["sectional_added_mass"][i, 0], rest["sectional_damping"][i, 0]
+    a0, b0 = rest["added_mass"][i], rest["damping"][i]
+    for n, sign, pair in ((1, -1.0, (2, 4)), (0, 1.0, (1, 5))):  # heave and pitch; sway and yaw
+        t, r = pair
+        expected_a = {
+            (t, t): a0[t, t] - u / w**2 * b[n, n],
+            (t, r): a0[t, r] + sign * (
+                u / w**2 * b0[t, t] - u / w**2 * x_a * b[n, n] + u**2 / w**2 * a[n, n]),
+            (r, t): a0[r, t] - sign * (u / w**2 * b0[t, t] + u / w**2 * x_a * b[n, n]),
+            (r, r): a0[r, r] + u**2 / w**2 * a0[t, t] - u / w**2 * x_a**2 * b[n, n]
+            + u**2 / w**2 * x_a * a[n, n],
+        }  # fmt: skip
+        expected_b = {
+            (t, t): b0[t, t] + u * a[n, n],
+            (t, r): b0[t, r] + sign * (
+                -u * a0[t, t] + u * x_a * a[n, n] + u**2 / w**2 * b[n, n]),
+            (r, t): b0[r, t] + sign * (u * a0[t, t] + u * x_a * a[n, n]),
+            (r, r): b0[r, r] + u**2 / w**2 * b0[t, t] + u * x_a**2 * a[n, n]
+            + u**2 / w**2 * x_a * b[n, n],
+        }  # fmt: skip
+        for name, expected in (("added_mass", expected_a), ("damping", expected_b)):
+            for at, value in expected.items():
+                assert found[name][i][at] == pytest.approx(value, rel=1e-9), (name, at)
+    assert found["added_mass"][i, 1, 3] == pytest.approx(a0[1, 3] - u / w**2 * b[0, 2])
+    assert found["damping"][i, 3, 5] == pytest.approx(
+        b0[3, 5] - u * a0[1, 3] + u * x_a * a[0, 2] + u**2 / w**2 * b[0, 2]
+    )
+
+
+def test_forward_speed_forces() -> None:
+    """On a box the diffraction loads of all motions follow from one sectional load by hand integrals."""
+    u, omega, heading = 5.0, 0.8, 2.5
+    found = box(speed=u, omega=[omega], heading=[heading])
+    c = omega**2 / G * np.cos(heading)
+    encounter = omega - c * u
+    assert found["encounter_frequency"][0, 0] == pytest.approx(encounter)
+    s, aft = u / (1j * encounter), -0.5 * LENGTH
+    along = 2.0 * np.sin(0.5 * c * LENGTH) / c
+    along_x = 2j * (0.5 * LENGTH * np.cos(0.5 * c * LENGTH) / c - np.sin(0.5 * c * LENGTH) / c**2)
+    end = s * np.exp(-1j * c * aft)
+    diffraction = (found["force"] - found["froude_krylov"])[0, 0]
+    for translation, rotation, sign in ((2, 4, -1.0), (1, 5, 1.0)):
+        section = diffraction[translation] / (along + end)
+        expected = sign * section * (along_x + s * along + aft * end)
+        assert diffraction[rotation] == pytest.approx(expected, rel=1e-9)
+    assert found["froude_krylov"] == pytest.approx(box(omega=[omega], heading=[heading])["froude_krylov"])
+
+
+def test_sections_answer_at_the_encounter_frequency() -> None:
+    """Beam seas: only the end term changes. Overtaken waves: time runs backwards, the load is -conj."""
+    still, moving = (box(speed=u, heading=[BEAM], omega=[0.8]) for u in (0.0, 5.0))
+    part = [(r["force"] - r["froude_krylov"])[0, 0, 1:4] for r in (still, moving)]
+    assert part[1] == pytest.approx(part[0] * (1.0 + 5.0 / 0.8j / LENGTH), rel=1e-9)
+
+    omega, met = 1.2, 0.4
+    k = omega**2 / G
+    loads = []
+    for encounter in (met, -met):
+        u = (omega - encounter) / k
+        found = box(speed=u, heading=[0.0], omega=[omega])
+        along, end = 2.0 * np.sin(0.5 * k * LENGTH) / k, np.exp(0.5j * k * LENGTH)
+        heave = (found["force"] - found["froude_krylov"])[0, 0, 2]
+        loads.append(heave / (along + u / (1j * encounter) * end))
+    assert loads[1] == pytest.approx(-np.conj(loads[0]), rel=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        ({"x": [0.0, 0.0, 1.0]}, r"x\[1\] is 0; sort the stations"),
+        ({"x": [0.0, np.nan, 1.0]}, r"x\[1\] is nan"),
+        ({"x": [0.0, 1.0]}, "number of sections is 3"),
+        ({"x": [0.0], "sections": [BOX]}, "number of stations is 1"),
+        ({"sections": [BOX, -BOX, BOX]}, "section 1 at x = 1 m: point 0"),
+        ({"sections": [np.zeros((3, 2))] * 3}, "immersed sections is 0"),
+        ({"omega": [0.5, 0.0]}, "omega is 0"),
+        ({"heading": [np.inf]}, "heading is inf"),
+        ({"speed": -1.0}, "speed is -1"),
+        ({"speed": np.nan}, "speed is nan"),
+        ({"rho": 0.0}, "rho is 0"),
+        ({"g": -9.81}, "g is -9.81"),
+        ({"speed": 9.81, "omega": [1.0], "heading": [0.0]}, "keeps up with the wave of 1"),
+    ],
+)
+def test_bad_input(change: dict[str, Any], message: str) -> None:
+    good = {"x": [0.0, 1.0, 2.0], "sections": [BOX] * 3}
+    with pytest.raises(SceneError, match=f"strip theory: .*{message}"):
+        strips(**{**good, **change})
+
+
+def test_ctrl_c() -> None:
+    """The sections are solved without the interpreter's lock, and stop for a signal."""
+    script = f"""
+import json, os, signal, threading, time
+import numpy as np
+from seacrane import _core
+box = np.array({BOX.tolist()})
+ticks = []
+def watch():
+    for _ in range(5):
+        time.sleep(0.1)
+        ticks.append(time.monotonic())
+    os.kill(os.getpid(), signal.SIGINT)
+threading.Thread(target=watch, daemon=True).start()
+try:
+    _core.strip_theory(x=np.arange(1e3), sections=[box] * 1000, omega=np.linspace(0.1, 3, 1000), heading=[0])
+    print("finished")
+except KeyboardInterrupt:
+    print(json.dumps(len(ticks)))
+"""
+    run = subprocess.run(
+        [sys.executable, "-c", script], capture_output=True, text=True, timeout=60, check=False
+    )
+    assert json.loads(run.stdout) == 5, run.stderr
