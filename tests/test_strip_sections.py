@@ -196,6 +196,14 @@ def test_bad_sections(points: list[list[float]], message: str) -> None:
         solved(np.array(points, dtype=float), [1.0])
 
 
+def test_unresolved_shape_is_refused() -> None:
+    """A slot below the surface, 0.25 m high and 14 m deep, is too much for 20 panels, not for 300."""
+    points = np.array([[1.0, 0.0], [1.0, -0.25], [15.0, -0.25], [15.0, -1.0], [0.0, -1.0]])
+    with pytest.raises(SceneError, match=r"section: at 1 rad/s the damping .* 20 panels are too few"):
+        solved(points, [1.0], panels=20)
+    assert diagonal(solved(points, [1.0], panels=300)["damping"]).min() > 0.0
+
+
 @pytest.mark.parametrize("omega", [[0.0], [-1.0], [np.inf], [np.nan]])
 def test_bad_frequency(omega: list[float]) -> None:
     with pytest.raises(SceneError, match=r"omega is .* above zero"):

@@ -37,7 +37,7 @@ Returns
 dict of arrays, SI units, about x = 0 on the centre line at the waterline, time factor exp(+i omega t)
     added_mass, damping : (n, 6, 6). Surge is zero: the theory has none.
     infinite_frequency_added_mass : (6, 6)
-    zero_frequency_added_mass : (6, 6), NaN in heave and pitch, which have no limit.
+    zero_frequency_added_mass : (6, 6), at zero speed; NaN in heave and pitch, which have no limit.
     force, froude_krylov : (m, n, 6) complex, per metre of wave amplitude, phases at the origin. Surge is the
     Froude-Krylov force alone.
     encounter_frequency : (m, n), rad/s
@@ -48,11 +48,15 @@ Raises
 ------
 ValueError
     Stations not increasing, a section that is not a half section as above, values that are not finite or
-    out of range, or a wave that the ship keeps up with (encounter frequency zero).
+    out of range, a wave that the ship keeps up with (encounter frequency zero), or panels too few for the
+    shape, which shows as radiated energy that is not the damping's.
 
 Notes
 -----
-N. Salvesen, E. O. Tuck and O. Faltinsen, Ship motions and sea loads, Trans. SNAME 78, 1970.)";
+N. Salvesen, E. O. Tuck and O. Faltinsen, Ship motions and sea loads, Trans. SNAME 78, 1970; with the end
+terms of the transom. Sections by `section_radiation`; between stations everything but the wave's phase is
+linear. Unlike theirs, the Froude-Krylov part is the exact pressure integral over the piecewise linear hull,
+with what faces forward or aft (surge, and small parts of pitch and yaw), both ends included.)";
 
 constexpr const char* section_radiation_doc =
     R"(Added mass and damping of a symmetric section on deep water, per metre of length.
@@ -79,7 +83,14 @@ dict of arrays; rows and columns are sway, heave, roll about the waterline on th
 Raises
 ------
 ValueError
-    The points are not a half section as above, or a value is not finite or out of range.)";
+    The points are not a half section as above, a value is not finite or out of range, or the panels are too
+    few for the shape, which shows as radiated energy that is not the damping's.
+
+Notes
+-----
+Close-fit sources on straight panels (Frank, NSRDC report 2375, 1967), with a rigid lid on the interior free
+surface against irregular frequencies. Sections thinner than 2 % are solved as 2 % thick: a stem in sway is
+a plate.)";
 
 std::vector<double> to_vector(const Doubles& a, const std::string& name) {
   if (a.ndim() != 1) {

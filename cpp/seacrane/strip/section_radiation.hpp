@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <complex>
 #include <functional>
+#include <string>
 #include <vector>
 
 #include "seacrane/strip/section.hpp"
@@ -35,6 +36,12 @@ struct SectionRadiation {
 
 /// Throws std::invalid_argument unless density, gravity, panel count and frequencies are in range.
 void require_settings(const SectionSettings& settings, const std::vector<double>& omega);
+
+/// Throws std::invalid_argument, naming `name`, where the panels do not resolve the flow: the damping of sway
+/// or heave, from pressures, and the energy of the waves far away differ by more than a tenth of the whole
+/// load.
+void require_energy_balance(const SectionCoefficients& coefficients, const SectionLimits& limits,
+                            double omega, const SectionSettings& settings, const std::string& name);
 
 /// Coefficients at the frequencies omega (rad/s). `poll` is called once per frequency and may throw.
 SectionRadiation section_radiation(const HalfSection& section, const std::vector<double>& omega,

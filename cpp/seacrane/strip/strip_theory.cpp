@@ -151,6 +151,8 @@ void solve_section(const HalfSection& section, std::size_t station, const StripC
   for (std::size_t i = 0; i < input.omega.size(); ++i) {
     poll();
     solution.push_back(solver.solve(input.omega[i]));
+    require_energy_balance(solution.back().coefficients, out.limits[station], input.omega[i], settings,
+                           station_name(input, station));
     out.radiation[i * stations + station] = solution.back().coefficients;
   }
   for (std::size_t i = 0; i < waves.count(); ++i) {
@@ -165,6 +167,8 @@ void solve_section(const HalfSection& section, std::size_t station, const StripC
     }
     poll();
     SectionSolution met = solver.solve(std::abs(encounter));
+    require_energy_balance(met.coefficients, out.limits[station], std::abs(encounter), settings,
+                           station_name(input, station));
     if (encounter < 0.0) met.potential = met.potential.conjugate().eval();  // overtaken waves: time runs back
     load.diffraction = panels.diffraction(wave, encounter, met.potential, settings.rho);
   }
