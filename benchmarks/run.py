@@ -11,7 +11,17 @@ import sys
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
-from measure import evaluation, footprint, integrators, memory_cost, memory_kinds, rival, scenes, speed
+from measure import (
+    evaluation,
+    footprint,
+    integrators,
+    memory_cost,
+    memory_kinds,
+    rival,
+    scenes,
+    speed,
+    strip_cost,
+)
 from measure.machine import machine
 from measure.section import Section
 
@@ -41,6 +51,7 @@ def sections(folder: Path, *, repeats: int, quick: bool) -> Iterator[Section]:
     points, uncertainty = integrators.work_precision(repeats=1 if quick else min(repeats, 3))
     integrators.figure(points, folder / PICTURE)
     yield integrators.table(points, uncertainty, repeats=1 if quick else min(repeats, 3))
+    yield strip_cost.strip_cost(repeats=min(repeats, 3))
     yield rival.rival(repeats=repeats, t_end=5.0 if quick else 100.0)
     yield footprint.memory(repeats=min(repeats, 3))
     yield footprint.imports(repeats=repeats)
