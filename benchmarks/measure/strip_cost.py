@@ -47,8 +47,8 @@ def strip_cost(*, repeats: int) -> Section:
         title="Strip theory",
         text=(
             f"The 115 m hull, {STATIONS} stations, {FREQUENCIES} frequencies, {HEADINGS} headings: added "
-            f"mass, damping and forces; CPU time, best of {repeats}. Under way every heading meets the waves at "
-            "frequencies of its own, and the sections are solved for each."
+            f"mass, damping and forces; CPU time, best of {repeats}. Under way every heading meets the waves "
+            "at frequencies of its own, and the sections are solved for each."
         ),
         head=["case", "CPU, s"],
         rows=rows,
