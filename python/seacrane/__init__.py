@@ -40,9 +40,10 @@ if TYPE_CHECKING:
     from seacrane.rest_state import equilibrium
     from seacrane.result import Result
     from seacrane.scene import Scene
+    from seacrane.sea_state import add_sea
     from seacrane.simulation import Run, SampledController, simulate
     from seacrane.version import __version__
-    from seacrane.vessel import add_sea, add_vessel
+    from seacrane.vessel import add_vessel
     from seacrane.waves import Waves
 
 _HOME = {
@@ -71,7 +72,7 @@ _HOME = {
     "VesselHydrodynamics": "_core",
     "Waves": "waves",
     "__version__": "version",
-    "add_sea": "vessel",
+    "add_sea": "sea_state",
     "add_vessel": "vessel",
     "balance": "inverse",
     "driven": "inverse",

@@ -14,7 +14,8 @@ from seacrane import _core
 from seacrane.crane import FOOT, KnuckleBoomCrane, Payload
 from seacrane.inverse import balance, reflected_inertia
 from seacrane.scene import Scene
-from seacrane.vessel import add_sea, add_vessel
+from seacrane.sea_state import add_sea
+from seacrane.vessel import add_vessel
 
 if TYPE_CHECKING:
     import os
