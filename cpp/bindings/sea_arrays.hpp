@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <stdexcept>
+#include <string>
 #include <vector>
 
 #include "bindings.hpp"
@@ -31,4 +32,24 @@ py::array_t<double> at_times(const Doubles& times, std::size_t first, std::size_
   return out;
 }
 
+/// Arrays broadcast against each other as NumPy does, each contiguous.
+inline std::vector<Doubles> broadcast(const py::object& a, const py::object& b, const py::object& c,
+                                      const py::object& d) {
+  std::vector<Doubles> out;
+  for (const py::handle one : py::module_::import("numpy").attr("broadcast_arrays")(a, b, c, d)) {
+    out.push_back(py::cast<Doubles>(one));
+  }
+  return out;
+}
+
+inline std::vector<double> to_vector(const Doubles& a, const std::string& object, const std::string& name) {
+  if (a.ndim() != 1) {
+    throw py::value_error(object + ": " + name + " has " + std::to_string(a.ndim()) +
+                          " dimensions; give a one-dimensional array");
+  }
+  return {a.data(), a.data() + a.size()};
+}
+
+void bind_spectrum(py::module_& m);
+void bind_wave_components(py::module_& m);
 void bind_wave_load(py::module_& m);

@@ -12,7 +12,6 @@
 namespace seacrane {
 namespace {
 
-constexpr std::uint64_t jitter_stream = 0, phase_stream = 1;
 const char* const object = "wave realisation";
 
 void check(const RealisationOptions& o, double from, double to) {
@@ -25,21 +24,29 @@ void check(const RealisationOptions& o, double from, double to) {
   sea::require_finite(o.direction, object, "direction", "rad");
 }
 
+std::uint64_t stream(const RealisationOptions& o, RandomUse use) {
+  return 3 * o.system + static_cast<std::uint64_t>(use);
+}
+
 }  // namespace
 
 WaveComponents realise(const Spectrum& spectrum, const RealisationOptions& o) {
-  const double from = o.omega_min.value_or(std::min(0.3, 0.5 * spectrum.peak_omega()));
-  const double to = o.omega_max.value_or(std::max(2.5, 3.0 * spectrum.peak_omega()));
+  const auto [low, high] = spectrum.default_range();
+  double from = o.omega_min.value_or(low);
+  const double to = o.omega_max.value_or(high);
   check(o, from, to);
   const auto n = static_cast<std::size_t>(o.count);
   const double width = (to - from) / static_cast<double>(n);
+  const bool uniform = o.placement == Placement::uniform;
+  if (uniform) from = (std::max(1.0, std::round(from / width + 0.5)) - 0.5) * width;
   std::vector<double> omega(n), amplitude(n), phase(n);
   for (std::size_t i = 0; i < n; ++i) {
     const double left = from + static_cast<double>(i) * width;
     const double right = from + static_cast<double>(i + 1) * width;
-    omega[i] = left + Philox::uniform(o.seed, jitter_stream, i) * width;
+    omega[i] = uniform ? std::round(left / width + 0.5) * width
+                       : left + Philox::uniform(o.seed, stream(o, RandomUse::jitter), i) * width;
     amplitude[i] = std::sqrt(2.0 * spectrum.energy(left, right));
-    phase[i] = 2.0 * std::numbers::pi * Philox::uniform(o.seed, phase_stream, i);
+    phase[i] = 2.0 * std::numbers::pi * Philox::uniform(o.seed, stream(o, RandomUse::phase), i);
   }
   std::vector<double> direction(n, o.direction);
   return {std::move(omega), std::move(amplitude), std::move(phase), std::move(direction), o.depth, o.gravity};

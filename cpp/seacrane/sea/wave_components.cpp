@@ -61,10 +61,14 @@ WaveComponents::WaveComponents(std::vector<double> omega, std::vector<double> am
   require_each(phase_, "phase", n, any, "give a finite phase in rad");
   require_each(direction_, "direction", n, any, "give a finite direction in rad");
   for (const double w : omega_) wavenumber_.push_back(seacrane::wavenumber(w, depth, gravity));
+  for (const double b : direction_) {
+    direction_x_.push_back(std::cos(b));
+    direction_y_.push_back(std::sin(b));
+  }
 }
 
 double WaveComponents::phase_at(std::size_t i, double x, double y) const {
-  return phase_[i] - wavenumber_[i] * (x * std::cos(direction_[i]) + y * std::sin(direction_[i]));
+  return phase_[i] - wavenumber_[i] * (x * direction_x_[i] + y * direction_y_[i]);
 }
 
 double WaveComponents::elevation(double t, double x, double y) const {

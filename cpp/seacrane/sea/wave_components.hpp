@@ -30,6 +30,9 @@ class WaveComponents {
   const std::vector<double>& direction() const { return direction_; }
   const std::vector<double>& amplitude() const { return amplitude_; }
   const std::vector<double>& phase() const { return phase_; }
+  /// cos b and sin b of the directions.
+  const std::vector<double>& direction_x() const { return direction_x_; }
+  const std::vector<double>& direction_y() const { return direction_y_; }
   double depth() const { return depth_; }
   double gravity() const { return gravity_; }
 
@@ -51,7 +54,7 @@ class WaveComponents {
   RepeatPeriod repeat_period(double horizon = 10800.0) const;
 
  private:
-  std::vector<double> omega_, amplitude_, phase_, direction_, wavenumber_;
+  std::vector<double> omega_, amplitude_, phase_, direction_, wavenumber_, direction_x_, direction_y_;
   double depth_, gravity_;
 };
 
