@@ -40,6 +40,7 @@ if TYPE_CHECKING:
     from seacrane.rest_state import equilibrium
     from seacrane.result import Result
     from seacrane.scene import Scene
+    from seacrane.sea import SeaState, WaveSystem
     from seacrane.sea_state import add_sea
     from seacrane.simulation import Run, SampledController, simulate
     from seacrane.version import __version__
@@ -63,6 +64,7 @@ _HOME = {
     "SampledController": "simulation",
     "Scene": "scene",
     "SceneError": "errors",
+    "SeaState": "sea",
     "SeacraneError": "errors",
     "SimulationError": "errors",
     "State": "_core",
@@ -70,6 +72,7 @@ _HOME = {
     "SummedResponse": "frequency_domain",
     "TwistHistory": "_core",
     "VesselHydrodynamics": "_core",
+    "WaveSystem": "sea",
     "Waves": "waves",
     "__version__": "version",
     "add_sea": "sea_state",
@@ -109,6 +112,7 @@ __all__ = [
     "SampledController",
     "Scene",
     "SceneError",
+    "SeaState",
     "SeacraneError",
     "SimulationError",
     "State",
@@ -116,6 +120,7 @@ __all__ = [
     "SummedResponse",
     "TwistHistory",
     "VesselHydrodynamics",
+    "WaveSystem",
     "Waves",
     "__version__",
     "add_sea",

@@ -78,8 +78,8 @@ def vessel(
     mooring_period : float or None
         s; None removes station keeping.
     **sea
-        hs (2 m), tp (8 s), gamma (3.3), wave_direction_deg (135), seed (1), count (200), relative_bound;
-        hs = 0 is calm water.
+        hs (2 m), tp (8 s), gamma (3.3), wave_direction_deg (135), seed (1), count (200), and the other
+        arguments of `add_sea`; hs = 0 is calm water.
     """
     return _afloat("vessel", memory, kinematics, database, mooring_period, sea)
 

@@ -2,25 +2,37 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+import math
+import warnings
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
+from numpy.typing import NDArray
 
 from seacrane import _core
 from seacrane.errors import SceneError
 from seacrane.scene import Scene
+from seacrane.sea import SeaState, Spreading, WaveSystem, cos_2s, jonswap
 from seacrane.waves import Waves
 
 if TYPE_CHECKING:
     from seacrane.hydro import HydroDatabase
 
+DEFAULTS: dict[str, Any] = {
+    "hs": 2.0,
+    "tp": 8.0,
+    "gamma": 3.3,
+    "spectrum": "jonswap",
+    "direction_deg": 135.0,
+    "spreading": None,
+    "seed": 1,
+    "count": 200,
+}
+AT_ONCE = 4096  # components whose transfer is interpolated together, to bound the memory it takes
 
-def _spectrum(name: str, hs: float, tp: float, gamma: float) -> _core.Spectrum:
-    if name == "jonswap":
-        return _core.jonswap(hs=hs, tp=tp, gamma=gamma)
-    if name == "pierson-moskowitz":
-        return _core.pierson_moskowitz(hs=hs, tp=tp)
-    raise SceneError(f"spectrum {name!r} is unknown; choose 'jonswap' or 'pierson-moskowitz'")
+
+class DepthMismatchWarning(UserWarning):
+    """Waves of one water depth act through forces computed for another: both are wrong in shallow water."""
 
 
 def add_sea(
@@ -28,58 +40,145 @@ def add_sea(
     database: HydroDatabase,
     *,
     vessel: str = "vessel",
-    hs: float = 2.0,
-    tp: float = 8.0,
-    gamma: float = 3.3,
-    spectrum: str = "jonswap",
-    direction_deg: float = 135.0,
-    seed: int = 1,
-    count: int = 200,
+    hs: float | None = None,
+    tp: float | None = None,
+    gamma: float | Literal["dnv"] | None = None,
+    spectrum: str | None = None,
+    direction_deg: float | None = None,
+    spreading: float | Spreading | None = None,
+    seed: int | None = None,
+    count: int | None = None,
+    sea: SeaState | None = None,
     relative_bound: float = 1e-9,
 ) -> None:
-    """Add a long-crested sea and its force-RAO loads on the vessel, phase at the mean position.
+    """Add a sea and its force-RAO loads on the vessel, phase at the mean position.
 
     Parameters
     ----------
     scene : Scene
     database : HydroDatabase
-        Whose force transfer is used.
+        Whose force transfer is used, at the direction of every component.
     vessel : str
         Body of the vessel.
-    hs, tp, gamma : float
-        Significant wave height (m), peak period (s), peakedness of JONSWAP; hs = 0 leaves the sea out.
+    hs, tp : float
+        Significant wave height (default 2 m; 0 leaves the sea out) and peak period (8 s).
+    gamma : float or "dnv"
+        Peak enhancement of JONSWAP, 1 to 7 (3.3), or by DNV-RP-C205.
     spectrum : str
-        "jonswap" or "pierson-moskowitz".
+        "jonswap" (default), "pierson-moskowitz" or "torsethaugen".
     direction_deg : float
-        Direction of travel, deg from +x (following sea) towards +y (port).
+        Mean direction of travel, deg from +x (following sea) towards +y (port); default 135.
+    spreading : float or Spreading
+        Short-crested sea: s of cos^(2 s)(angle / 2), or `seacrane.sea.cos_n(...)`; default: long-crested.
     seed, count : int
-        Of the realisation; see `seacrane._core.realise_waves`.
+        Of the realisation (1, 200 components); see `seacrane.sea.realise_waves`.
+    sea : SeaState
+        In place of all of these from hs on: any spectra, several wave systems, measured waves.
     relative_bound : float
         Error bound of the load table over the sum of component magnitudes; 0: exact sum in every evaluation.
+
+    Raises
+    ------
+    SceneError
+        For a value out of range, or `sea` beside what it replaces; ValueError for a frequency outside the
+        database.
+
+    Warns
+    -----
+    SteepSeaWarning
+        A sea steeper than any that stands.
+    DepthMismatchWarning
+        A `sea` of another water depth than the database.
     """
-    if hs == 0.0:
-        scene.waves = None
-        return
-    density = _spectrum(spectrum, hs, tp, gamma)
-    heading = float(np.radians(direction_deg))
-    components = _core.realise_waves(density, seed=seed, direction=heading, count=count)
-    omega = np.array(components.omega)
-    repeat = components.repeat_period()
+    arguments = {"hs": hs, "tp": tp, "gamma": gamma, "spectrum": spectrum, "direction_deg": direction_deg,
+                 "spreading": spreading, "seed": seed, "count": count}  # fmt: skip
+    given = {name: value for name, value in arguments.items() if value is not None}
+    if sea is not None:
+        if given:
+            raise SceneError(f"sea: given beside {', '.join(given)}; put these into the SeaState")
+        _check_depth(sea, database)
+        notes: dict[str, Any] = {"sea": sea.description()}
+    else:
+        chosen = DEFAULTS | given
+        if chosen["hs"] == 0.0:
+            scene.waves = None
+            return
+        sea, notes = _one_system(**chosen)
+    realised = sea.realise()
+    waves = realised.waves
+    omega, direction = np.array(waves.omega), np.array(waves.direction)
     scene.waves = Waves(
         body=vessel,
         omega=omega,
-        amplitude=np.array(components.amplitude),
-        phase=np.array(components.phase),
-        direction=np.array(components.direction),
-        transfer=np.asarray(database.force_at(omega, heading), dtype=complex).reshape(-1, 6),
+        amplitude=np.array(waves.amplitude),
+        phase=np.array(waves.phase),
+        direction=direction,
+        transfer=_transfer(database, omega, direction),
         relative_bound=relative_bound,
+        depth=sea.depth,
         information={
-            "seed": seed,
-            "realised_hs": float(components.realised_hs),
+            "seed": sea.seed,
+            "realised_hs": realised.hs,
             "wave_components": int(omega.size),
-            "repeat_period_s": float(repeat.time),
-            "repeat_found": int(repeat.found),
+            "repeat_period_s": float(realised.repeat.time),
+            "repeat_found": int(realised.repeat.found),
         },
     )
-    sea = {"spectrum": spectrum, "hs": hs, "tp": tp, "gamma": gamma, "wave_direction_deg": direction_deg}
-    scene.notes.update(sea, waves_relative_bound=relative_bound)
+    if len(realised.systems) > 1:
+        notes["realised_hs_of_systems"] = {system.name: system.hs for system in realised.systems}
+    scene.notes.update(notes, waves_relative_bound=relative_bound)
+
+
+def _one_system(
+    *,
+    hs: float,
+    tp: float,
+    gamma: float | Literal["dnv"],
+    spectrum: str,
+    direction_deg: float,
+    spreading: float | Spreading | None,
+    seed: int,
+    count: int,
+) -> tuple[SeaState, dict[str, Any]]:
+    """The sea of plain arguments, and the notes on it."""
+    density = _spectrum(spectrum, hs, tp, gamma)
+    if spreading is not None and not isinstance(spreading, Spreading):
+        spreading = cos_2s(spreading)
+    system = WaveSystem(spectrum=density, direction_deg=direction_deg, spreading=spreading, count=count)
+    notes = {"spectrum": spectrum, "hs": hs, "tp": tp, "gamma": density.gamma,
+             "wave_direction_deg": direction_deg}  # fmt: skip
+    if spreading is not None:
+        notes["spreading"] = {"kind": spreading.kind, "exponent": spreading.exponent}
+    return SeaState(systems=[system], seed=seed), notes
+
+
+def _spectrum(name: str, hs: float, tp: float, gamma: float | Literal["dnv"]) -> _core.Spectrum:
+    if name == "jonswap":
+        return jonswap(hs=hs, tp=tp, gamma=gamma)
+    if name == "pierson-moskowitz":
+        return _core.pierson_moskowitz(hs=hs, tp=tp)
+    if name == "torsethaugen":
+        return _core.torsethaugen(hs=hs, tp=tp)
+    raise SceneError(
+        f"spectrum {name!r} is unknown; choose 'jonswap', 'pierson-moskowitz' or 'torsethaugen', "
+        "or give a SeaState"
+    )
+
+
+def _check_depth(sea: SeaState, database: HydroDatabase) -> None:
+    if not math.isclose(sea.depth, database.depth, rel_tol=0.01):
+        warnings.warn(
+            f"database {database.name!r}: forces are for a depth of {database.depth:g} m, the sea is "
+            f"{sea.depth:g} m deep: where waves feel the bottom, loads and wavelengths disagree; set "
+            "SeaState(depth=...) to the database's",
+            DepthMismatchWarning,
+            stacklevel=3,
+        )
+
+
+def _transfer(
+    database: HydroDatabase, omega: NDArray[np.float64], direction: NDArray[np.float64]
+) -> NDArray[np.complex128]:
+    starts = range(0, omega.size, AT_ONCE)
+    rows = [database.force_at(omega[i : i + AT_ONCE], direction[i : i + AT_ONCE]) for i in starts]
+    return np.concatenate(rows).astype(complex).reshape(-1, 6)

@@ -65,8 +65,26 @@ def _add_run(commands: Any) -> None:
         type=float,
         help="direction the waves travel to, deg, from forward towards port: 0 following, 180 head seas",
     )
+    case.add_argument(
+        "--spectrum",
+        choices=("jonswap", "pierson-moskowitz", "torsethaugen"),
+        help="shape of the sea's spectrum",
+    )
+    case.add_argument(
+        "--gamma",
+        metavar="X",
+        type=_gamma,
+        help="peak enhancement of jonswap, 1 to 7, or dnv: by DNV-RP-C205",
+    )
+    case.add_argument(
+        "--spreading", metavar="S", type=float, help="short-crested sea: exponent s of cos^2s(angle / 2)"
+    )
     case.add_argument("--seed", metavar="N", type=int, help="seed of the wave realisation")
     case.add_argument("--database", metavar="PATH", help=f"the vessel's hydrodynamics: {PATH_HELP}")
+
+
+def _gamma(text: str) -> float | str:
+    return text if text == "dnv" else float(text)
 
 
 def _add_paper(commands: Any) -> None:

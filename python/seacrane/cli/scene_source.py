@@ -17,7 +17,8 @@ if TYPE_CHECKING:
     from seacrane.scene import Scene
 
 CASES = ("case1", "case2", "case3", "vessel")
-CASE_OPTIONS = ("memory", "hs", "tp", "wave_direction_deg", "seed", "database")
+SEA_OPTIONS = ("hs", "tp", "wave_direction_deg", "spectrum", "gamma", "spreading", "seed")
+CASE_OPTIONS = ("memory", *SEA_OPTIONS, "database")
 
 
 def load_scene(source: str, options: argparse.Namespace, *, scripts: bool) -> tuple[str, Scene]:

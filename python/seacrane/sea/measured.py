@@ -1,0 +1,184 @@
+"""A measured record of the surface as waves."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from seacrane import _core
+from seacrane.checked import number_of, vector_of
+from seacrane.errors import SceneError
+from seacrane.sea.spectra import tabulated_spectrum
+
+if TYPE_CHECKING:
+    from seacrane.sea.spreading import Spreading
+
+Array = NDArray[np.float64]
+UNIFORM = 1e-3  # largest departure of a time from the uniform grid, over the step
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class MeasuredWaves:
+    """Surface elevation measured at one point: a wave system whose waves reproduce the record there.
+
+    The record, its mean removed and its ends tapered where asked, is taken apart by the discrete Fourier
+    transform: one component per harmonic of its duration n dt between the two cuts. The waves repeat
+    after that duration, and reproduce the band-passed record at its times to rounding.
+
+    Attributes
+    ----------
+    time, elevation : ndarray, shape (n,)
+        s, uniform to 0.1 % of the step; m, z up. At least 8 samples. Read-only copies.
+    direction_deg : float
+        Direction of travel, deg from +x towards +y: one point cannot tell it.
+    spreading : Spreading, optional
+        Each component then has a direction of its own; the record at the point stays the same.
+    position : tuple of float
+        x, y of the measuring point, m, inertial frame.
+    omega_min, omega_max : float, optional
+        Low and high cut, rad/s; default: all harmonics up to the Nyquist frequency.
+    taper : float
+        Share of the record, 0 to 1, over which a cosine window takes both ends to zero together (Tukey);
+        0, the default, leaves the record as it is.
+    name : str
+
+    Raises
+    ------
+    SceneError
+        For arrays of other shapes, values that are not finite, steps that are not uniform, no motion, or cuts
+        between which there is no harmonic.
+    """
+
+    time: Array
+    elevation: Array
+    direction_deg: float
+    spreading: Spreading | None = None
+    position: tuple[float, float] = (0.0, 0.0)
+    omega_min: float | None = None
+    omega_max: float | None = None
+    taper: float = 0.0
+    name: str = "measured"
+
+    def __post_init__(self) -> None:
+        for field in ("time", "elevation"):
+            values = np.array(vector_of(f"{self._object}: {field}", getattr(self, field)))
+            bad = np.flatnonzero(~np.isfinite(values))
+            if bad.size:
+                raise SceneError(
+                    f"{self._object}: {field}[{bad[0]}] is {values[bad[0]]}; give finite numbers: fill "
+                    "gaps or cut the record there"
+                )
+            values.setflags(write=False)
+            object.__setattr__(self, field, values)
+        if self.time.size != self.elevation.size or self.time.size < 8:
+            raise SceneError(
+                f"{self._object}: {self.time.size} times and {self.elevation.size} elevations; give as many "
+                "of both, 8 or more"
+            )
+        self._check_steps()
+        if not 0.0 <= number_of(f"{self._object}: taper", self.taper) <= 1.0:
+            raise SceneError(f"{self._object}: taper is {self.taper}; give a share from 0 to 1")
+        for name, value in (("direction_deg", self.direction_deg), ("position", self.position)):
+            if not np.all(np.isfinite(value)):
+                raise SceneError(f"{self._object}: {name} is {value}; give finite numbers")
+        if not np.ptp(self.elevation) > 0.0:
+            raise SceneError(
+                f"{self._object}: elevation is {self.elevation[0]} throughout; leave the sea out"
+            )
+        if not self._kept.any():
+            raise SceneError(
+                f"{self._object}: no harmonic of {2.0 * np.pi / self.duration:.4g} rad/s lies between "
+                f"omega_min {self.omega_min} and omega_max {self.omega_max}; widen the band"
+            )
+
+    @property
+    def _object(self) -> str:
+        return f"measured waves {self.name!r}"
+
+    def _check_steps(self) -> None:
+        step = self.step
+        if not step > 0.0:
+            raise SceneError(
+                f"{self._object}: times run from {self.time[0]} to {self.time[-1]} s; let them rise"
+            )
+        off = np.abs(self.time - (self.time[0] + step * np.arange(self.time.size))) / step
+        worst = int(np.argmax(off))
+        if off[worst] > UNIFORM:
+            raise SceneError(
+                f"{self._object}: time[{worst}] is {self.time[worst]:.6g} s, {off[worst]:.3g} steps off the "
+                f"uniform grid of {step:.6g} s; resample the record with a uniform step"
+            )
+
+    @property
+    def step(self) -> float:
+        """Sampling interval, s."""
+        return float((self.time[-1] - self.time[0]) / (self.time.size - 1))
+
+    @property
+    def duration(self) -> float:
+        """n dt, s: after it the waves repeat."""
+        return self.step * self.time.size
+
+    @property
+    def _harmonics(self) -> Array:
+        return 2.0 * np.pi / self.duration * np.arange(self.time.size // 2 + 1)
+
+    @property
+    def _kept(self) -> NDArray[np.bool_]:
+        omega = self._harmonics
+        low = 0.0 if self.omega_min is None else number_of(f"{self._object}: omega_min", self.omega_min)
+        high = np.inf if self.omega_max is None else number_of(f"{self._object}: omega_max", self.omega_max)
+        return np.asarray((omega > 0.0) & (omega >= low) & (omega <= high))
+
+    def band_passed(self) -> Array:
+        """The record that the waves reproduce, at its times, m, shape (n,)."""
+        kept = np.where(self._kept, np.fft.rfft(self._windowed()), 0.0)
+        return np.asarray(np.fft.irfft(kept, self.time.size), dtype=float)
+
+    def _windowed(self) -> Array:
+        from scipy.signal.windows import tukey
+
+        still = self.elevation - self.elevation.mean()
+        return np.asarray(still * tukey(self.time.size, self.taper) if self.taper else still)
+
+    def waves(self, *, direction: Array, depth: float) -> _core.WaveComponents:
+        """Components with given directions of travel (rad), one for all or one for each."""
+        kept, omega, n = self._kept, self._harmonics, self.time.size
+        transform = np.fft.rfft(self._windowed())
+        amplitude = np.abs(transform) * 2.0 / n
+        if n % 2 == 0:
+            amplitude[-1] *= 0.5  # the Nyquist harmonic has no conjugate partner
+        plain = _core.WaveComponents(omega=omega[kept], amplitude=1.0, direction=direction, depth=depth)
+        x, y = self.position
+        along = x * np.cos(plain.direction) + y * np.sin(plain.direction)
+        phase = np.angle(transform)[kept] - omega[kept] * self.time[0] + plain.wavenumber * along
+        return _core.WaveComponents(
+            omega=omega[kept], amplitude=amplitude[kept], phase=phase, direction=direction, depth=depth
+        )
+
+    @property
+    def count(self) -> int:
+        """Number of components."""
+        return int(np.count_nonzero(self._kept))
+
+    def spectrum(self, *, segments: int = 16) -> _core.Spectrum:
+        """Spectrum of the record by Welch's method, for seas of the same energy but other phases.
+
+        Parameters
+        ----------
+        segments : int
+            Half-overlapping Hann-windowed pieces that are averaged: more are smoother and coarser.
+        """
+        from scipy.signal import welch
+
+        length = int(2 * self.time.size // (segments + 1)) if segments >= 1 else 0
+        if length < 8:
+            raise SceneError(
+                f"{self._object}: segments is {segments} for {self.time.size} samples; give 1 or more, with "
+                "8 samples or more in each"
+            )
+        hertz, density = welch(self.elevation, fs=1.0 / self.step, nperseg=min(length, self.time.size))
+        return tabulated_spectrum(frequency=hertz[1:], density=density[1:])

@@ -1,0 +1,244 @@
+"""A sea of several wave systems (wind sea, swell, a measured record) and its realisation."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from seacrane import _core
+from seacrane.checked import number_of, text_of
+from seacrane.errors import SceneError
+from seacrane.sea.measured import MeasuredWaves
+from seacrane.sea.spectra import warn_if_breaking
+from seacrane.sea.spreading import Spreading
+
+Array = NDArray[np.float64]
+GOLDEN = 0.5 * (np.sqrt(5.0) - 1.0)
+DIRECTION_STREAM = 2  # of the three Philox streams of each system
+
+
+@dataclass(frozen=True, kw_only=True)
+class WaveSystem:
+    """Waves of one spectrum about one direction.
+
+    Attributes
+    ----------
+    spectrum : Spectrum
+    direction_deg : float
+        Mean direction of travel, deg from +x (following sea) towards +y (port).
+    spreading : Spreading, optional
+        Short-crested waves: `cos_2s` or `cos_n`. Default: long-crested.
+    count : int
+        Number of components, 1 to 1,000,000.
+    omega_min, omega_max : float, optional
+        Range of frequencies, rad/s; default: `Spectrum.default_range`.
+    name : str
+
+    Raises
+    ------
+    SceneError
+        For a value of the wrong type or out of range.
+
+    Warns
+    -----
+    SteepSeaWarning
+        Above the steepness at which real waves break.
+    """
+
+    spectrum: _core.Spectrum
+    direction_deg: float
+    spreading: Spreading | None = None
+    count: int = 200
+    omega_min: float | None = None
+    omega_max: float | None = None
+    name: str = "waves"
+
+    def __post_init__(self) -> None:
+        what = f"wave system {text_of('wave system: name', self.name)!r}"
+        if not isinstance(self.spectrum, _core.Spectrum):
+            raise SceneError(f"{what}: spectrum is {self.spectrum!r}; give a Spectrum, such as jonswap(...)")
+        if self.spreading is not None and not isinstance(self.spreading, Spreading):
+            raise SceneError(f"{what}: spreading is {self.spreading!r}; give cos_2s(...), cos_n(...) or None")
+        if not np.isfinite(number_of(f"{what}: direction_deg", self.direction_deg)):
+            raise SceneError(f"{what}: direction_deg is {self.direction_deg}; give a finite angle in deg")
+        warn_if_breaking(what, self.spectrum, stacklevel=3)
+
+    def waves(self, *, seed: int, system: int, depth: float, placement: str) -> _core.WaveComponents:
+        """Long-crested components along the mean direction."""
+        return _core.realise_waves(
+            self.spectrum,
+            seed=seed,
+            system=system,
+            direction=float(np.radians(self.direction_deg)),
+            count=self.count,
+            omega_min=self.omega_min,
+            omega_max=self.omega_max,
+            depth=depth,
+            placement=placement,
+        )
+
+
+@dataclass(frozen=True, kw_only=True)
+class RealisedSystem:
+    """One wave system of a realised sea: its components are `components`, a slice of the sea's arrays."""
+
+    name: str
+    components: slice
+    m0: float
+
+    @property
+    def hs(self) -> float:
+        """4 sqrt(m0), m."""
+        return float(4.0 * np.sqrt(self.m0))
+
+    @property
+    def count(self) -> int:
+        """Number of components."""
+        return int(self.components.stop - self.components.start)
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class RealisedSea:
+    """The waves of a sea, and what they amount to (from the amplitudes, without sampling scatter).
+
+    Attributes
+    ----------
+    waves : WaveComponents
+        All systems, one after another.
+    systems : tuple of RealisedSystem
+    repeat : RepeatPeriod
+        First return of the autocorrelation to 0.99, searched up to three hours.
+    """
+
+    waves: _core.WaveComponents
+    systems: tuple[RealisedSystem, ...]
+    repeat: _core.RepeatPeriod
+
+    @property
+    def m0(self) -> float:
+        """Variance of the elevation, m2."""
+        return float(self.waves.m0)
+
+    @property
+    def hs(self) -> float:
+        """4 sqrt(m0), m."""
+        return float(self.waves.realised_hs)
+
+    @property
+    def tz(self) -> float:
+        """Mean zero-upcrossing period, s."""
+        return float(self.waves.mean_period)
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class SeaState:
+    """A sea as the sum of wave systems, independent of each other; immutable.
+
+    Attributes
+    ----------
+    systems : sequence of WaveSystem or MeasuredWaves
+        Wind sea, swells, a measured record; at least one.
+    seed : int
+        0 to 2^64 - 1. System j takes its random numbers from the Philox streams 3 j, 3 j + 1 and 3 j + 2
+        (frequencies, phases, directions), so that another system more or less changes none of the others.
+    depth : float
+        Water depth, m; infinity for deep water.
+    placement : str
+        Of the frequencies in their bins: "jittered", or "uniform" for an FFT; see `realise_waves`.
+
+    Raises
+    ------
+    SceneError
+        Without a system, for something that is none, or a value out of range.
+    """
+
+    systems: Sequence[WaveSystem | MeasuredWaves]
+    seed: int = 1
+    depth: float = float("inf")
+    placement: str = "jittered"
+
+    def __post_init__(self) -> None:
+        given = self.systems
+        if isinstance(given, (str, bytes)) or not isinstance(given, Iterable):
+            raise SceneError(f"sea state: systems is {given!r}; give a list of WaveSystem or MeasuredWaves")
+        systems = tuple(given)
+        if not systems:
+            raise SceneError("sea state: has no wave system; give at least one, or leave the sea out")
+        for one in systems:
+            if not isinstance(one, (WaveSystem, MeasuredWaves)):
+                raise SceneError(f"sea state: {one!r} is no wave system; give WaveSystem or MeasuredWaves")
+        if not number_of("sea state: depth", self.depth) > 0.0:
+            raise SceneError(f"sea state: depth is {self.depth}; give a depth above zero in m, or infinity")
+        if self.placement not in ("jittered", "uniform"):
+            raise SceneError(f"sea state: placement is {self.placement!r}; give 'jittered' or 'uniform'")
+        object.__setattr__(self, "systems", systems)
+
+    def realise(self) -> RealisedSea:
+        """The waves of all systems; the same description gives the same waves.
+
+        A short-crested system has one direction for each frequency: several would be phase-locked, and
+        the variance of such a sea depends on the place (Jefferys 1987). The directions are quantiles of the
+        spreading at steps of the golden ratio from a random start, so that every band of frequencies holds
+        the whole distribution of directions.
+        """
+        parts = [self._waves_of(j, system) for j, system in enumerate(self.systems)]
+        ends = np.cumsum([len(part) for part in parts])
+        realised = tuple(
+            RealisedSystem(name=system.name, components=slice(int(end - len(part)), int(end)), m0=part.m0)
+            for system, part, end in zip(self.systems, parts, ends, strict=True)
+        )
+        arrays = {
+            name: np.concatenate([getattr(part, name) for part in parts])
+            for name in ("omega", "amplitude", "phase", "direction")
+        }
+        waves = parts[0] if len(parts) == 1 else _core.WaveComponents(**arrays, depth=self.depth)
+        return RealisedSea(waves=waves, systems=realised, repeat=waves.repeat_period())
+
+    def _waves_of(self, j: int, system: WaveSystem | MeasuredWaves) -> _core.WaveComponents:
+        mean = np.array(float(np.radians(system.direction_deg)))
+        if isinstance(system, MeasuredWaves):
+            directions = mean + self._angles(j, system.count, system.spreading)
+            return system.waves(direction=directions, depth=self.depth)
+        plain = system.waves(seed=self.seed, system=j, depth=self.depth, placement=self.placement)
+        if system.spreading is None:
+            return plain
+        return _core.WaveComponents(
+            omega=plain.omega,
+            amplitude=plain.amplitude,
+            phase=plain.phase,
+            direction=mean + self._angles(j, len(plain), system.spreading),
+            depth=self.depth,
+        )
+
+    def _angles(self, j: int, count: int, spreading: Spreading | None) -> Array:
+        if spreading is None:
+            return np.zeros(count)
+        start = _core.philox_uniform(seed=self.seed, stream=3 * j + DIRECTION_STREAM, index=0)
+        return spreading.quantile(np.mod(start + GOLDEN * np.arange(count), 1.0))
+
+    def description(self) -> dict[str, Any]:
+        """The sea in plain data, for notes and files; tables and records by their size only."""
+        return {
+            "seed": self.seed,
+            "depth": self.depth,
+            "placement": self.placement,
+            "systems": [_described(system) for system in self.systems],
+        }
+
+
+def _described(system: WaveSystem | MeasuredWaves) -> dict[str, Any]:
+    spread = system.spreading
+    out: dict[str, Any] = {"name": system.name, "direction_deg": float(system.direction_deg)}
+    if spread is not None:
+        out["spreading"] = {"kind": spread.kind, "exponent": spread.exponent}
+    if isinstance(system, MeasuredWaves):
+        return out | {
+            "record": {"samples": int(system.time.size), "step": system.step},
+            "count": system.count,
+        }
+    parts = [{"hs": p.hs, "tp": p.tp, "gamma": p.gamma} for p in system.spectrum.parts()]
+    return out | {"spectrum": system.spectrum.name, "parts": parts, "count": int(system.count)}
