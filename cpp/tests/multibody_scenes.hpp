@@ -170,7 +170,7 @@ inline void make_vessel(SceneDescription& scene, const std::string& body) {
   memory.b = (MatXd(2, 1) << 1.0, 0.5).finished();
   memory.c = (MatXd(1, 2) << 3.0, 6.0).finished();
   memory.d = MatXd::Zero(1, 1);
-  v.memory.push_back(memory);
+  v.memory = std::vector<StateSpaceBlock>{memory};
   scene.vessels.push_back(v);
   const std::vector<double> omega = {0.7, 1.1, 1.6}, amplitude = {0.1, 0.2, 0.1}, phase = {0.1, 1.0, 2.0};
   Eigen::MatrixXcd transfer(3, 6);
