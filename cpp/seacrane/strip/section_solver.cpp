@@ -35,6 +35,28 @@ PotentialAndVelocity log_influence(Complex field, Complex normal, const SectionP
           (0.5 * local.real() * (log1 - log2) + local.imag() * angle) / (2.0 * pi)};
 }
 
+/// The imaginary part of G for one parity, a product of the two sides of a source: what a wave is at the
+/// collocation points (as potential, and as row of the system) and how much of it a panel and its mirror
+/// send.
+struct RadiatedWave {
+  Eigen::VectorXd potential, in_system, of_source;
+};
+
+RadiatedWave radiated_wave(const SectionPanels& panels, double nu, bool odd) {
+  const auto n = static_cast<Index>(panels.count()), lid = static_cast<Index>(panels.lid);
+  RadiatedWave out{Eigen::VectorXd(n), Eigen::VectorXd(n), Eigen::VectorXd(n)};
+  const auto at_source = [&](Complex c) { return std::exp(i_unit * nu * std::conj(c)); };
+  for (Index i = 0; i < n; ++i) {
+    const Complex wave = (odd ? i_unit : 1.0) * std::exp(-i_unit * nu * panels.middle(i));
+    out.potential[i] = wave.real();
+    out.in_system[i] = i < lid ? nu * wave.real() : (-i_unit * nu * wave * panels.normal(i)).real();
+    const Complex change = at_source(panels.end(i)) - at_source(panels.start(i));
+    const Complex integral = change * panels.direction(i) / (i_unit * nu);
+    out.of_source[i] = 2.0 * (odd ? integral.imag() : integral.real());
+  }
+  return out;
+}
+
 }  // namespace
 
 SectionSolver::SectionSolver(const HalfSection& section, const SectionSettings& settings)
@@ -48,36 +70,39 @@ SectionSolver::SectionSolver(const HalfSection& section, const SectionSettings& 
     }
   }
   for (Eigen::MatrixXcd& log : log_) log.resize(n + 1, n);
-  for (Index i = 0; i < n; ++i) {
-    const Complex z = panels_.middle(i), normal = panels_.normal(i);
-    if (i >= lid) {
-      mode_.row(i - lid) << normal.real(), normal.imag(), z.real() * normal.imag() - z.imag() * normal.real();
-    }
-    for (Index j = 0; j < n; ++j) {
-      // A panel's mirror images act at z as the panel itself does at the mirror images of z.
-      const auto at = [&](Complex field, Complex n_field, bool on_panel = false) {
-        return log_influence(field, n_field, panels_, j, on_panel);
-      };
-      const auto direct = at(z, normal, i == j), mirrored = at(-std::conj(z), -std::conj(normal));
-      const auto above = at(std::conj(z), std::conj(normal), i == j && i < lid);
-      const auto opposite = at(-z, -normal);
-      for (int parity : {even, odd}) {
-        const double sign = parity == even ? 1.0 : -1.0;
-        direct_[parity].potential(i, j) = direct.potential + sign * mirrored.potential;
-        image_[parity].potential(i, j) = above.potential + sign * opposite.potential;
-        if (i < lid) continue;
-        direct_[parity].velocity(i - lid, j) = direct.velocity + sign * mirrored.velocity;
-        image_[parity].velocity(i - lid, j) = above.velocity + sign * opposite.velocity;
-      }
-    }
-    for (int side : {0, 1}) {
-      const Complex field = side == 0 ? z : -std::conj(z);
-      for (Index j = 0; j <= n; ++j) {
-        log_[side](j, i) = std::log(i_unit * (field - std::conj(panels_.node[j])));
-      }
+  for (Index i = 0; i < n; ++i) fill_row(i);
+  conserve_flux();
+}
+
+/// What does not depend on frequency, at one collocation point.
+void SectionSolver::fill_row(Index i) {
+  const auto n = static_cast<Index>(panels_.count()), lid = static_cast<Index>(panels_.lid);
+  const Complex z = panels_.middle(i), normal = panels_.normal(i);
+  if (i >= lid) {
+    mode_.row(i - lid) << normal.real(), normal.imag(), z.real() * normal.imag() - z.imag() * normal.real();
+  }
+  for (Index j = 0; j < n; ++j) {
+    // A panel's mirror images act at z as the panel itself does at the mirror images of z.
+    const auto at = [&](Complex field, Complex n_field, bool on_panel = false) {
+      return log_influence(field, n_field, panels_, j, on_panel);
+    };
+    const auto direct = at(z, normal, i == j), mirrored = at(-std::conj(z), -std::conj(normal));
+    const auto above = at(std::conj(z), std::conj(normal), i == j && i < lid), opposite = at(-z, -normal);
+    for (int parity : {even, odd}) {
+      const double sign = parity == even ? 1.0 : -1.0;
+      direct_[parity].potential(i, j) = direct.potential + sign * mirrored.potential;
+      image_[parity].potential(i, j) = above.potential + sign * opposite.potential;
+      if (i < lid) continue;
+      direct_[parity].velocity(i - lid, j) = direct.velocity + sign * mirrored.velocity;
+      image_[parity].velocity(i - lid, j) = above.velocity + sign * opposite.velocity;
     }
   }
-  conserve_flux();
+  for (int side : {0, 1}) {
+    const Complex field = side == 0 ? z : -std::conj(z);
+    for (Index j = 0; j <= n; ++j) {
+      log_[side](j, i) = std::log(i_unit * (field - std::conj(panels_.node[j])));
+    }
+  }
 }
 
 /// The flux of a source through the closed outline of hull and image is its strength. Midpoints miss it by
@@ -154,46 +179,40 @@ Eigen::Matrix3cd SectionSolver::pressure_integral(
   return -sum;
 }
 
-SectionSolution SectionSolver::solve(double omega) const {
+/// Solves one parity's modes; the real system has the standing waves, and a rank-one change the radiated one.
+void SectionSolver::solve_parity(Parity parity, double nu, const Influence& wave,
+                                 SectionSolution& out) const {
   const auto n = static_cast<Index>(panels_.count()), lid = static_cast<Index>(panels_.lid), hull = n - lid;
+  const Eigen::MatrixXd potential = direct_[parity].potential - image_[parity].potential + wave.potential;
+  Eigen::MatrixXd system(n, n);
+  system.topRows(lid) = nu * potential.topRows(lid);
+  for (Index i = 0; i < lid; ++i) system(i, i) -= 1.0;
+  system.bottomRows(hull) = direct_[parity].velocity - image_[parity].velocity + wave.velocity;
+  const RadiatedWave radiated = radiated_wave(panels_, nu, parity == odd);
+  const Eigen::PartialPivLU<Eigen::MatrixXd> lu(system);
+  const Eigen::VectorXd response = lu.solve(radiated.in_system);
+  const double feedback = radiated.of_source.dot(response);
+  for (int mode = 0; mode < 3; ++mode) {
+    if (parity_of_mode[mode] != parity) continue;
+    Eigen::VectorXd right = Eigen::VectorXd::Zero(n);
+    right.tail(hull) = mode_.col(mode);
+    const Eigen::VectorXd standing = lu.solve(right);
+    const Complex amplitude = radiated.of_source.dot(standing) / (1.0 + i_unit * feedback);
+    const Eigen::VectorXcd density = standing.cast<Complex>() - (i_unit * amplitude) * response;
+    out.potential.col(mode) =
+        potential.bottomRows(hull) * density + (i_unit * amplitude) * radiated.potential.tail(hull);
+    out.coefficients.wave_amplitude[mode] = nu * amplitude * (parity == even ? i_unit : Complex(-1.0));
+  }
+}
+
+SectionSolution SectionSolver::solve(double omega) const {
   SectionSolution out;
-  out.potential.setZero(hull, 3);
+  out.potential.setZero(static_cast<Index>(panels_.count() - panels_.lid), 3);
   out.coefficients.wave_amplitude.setZero();
   const double nu = omega * omega / settings_.g;
-  const std::array<Influence, 2> wave = hull > 0 ? wave_influence(nu) : std::array<Influence, 2>{};
-  for (int parity : {even, odd}) {
-    if (hull == 0) break;
-    Eigen::MatrixXd potential = direct_[parity].potential - image_[parity].potential + wave[parity].potential;
-    Eigen::MatrixXd system(n, n);
-    system.topRows(lid) = nu * potential.topRows(lid);
-    for (Index i = 0; i < lid; ++i) system(i, i) -= 1.0;
-    system.bottomRows(hull) = direct_[parity].velocity - image_[parity].velocity + wave[parity].velocity;
-    // The radiated wave: u at the collocation points (potential and row of the system), v of the sources.
-    Eigen::VectorXd u_potential(n), u_system(n), v(n);
-    for (Index i = 0; i < n; ++i) {
-      const Complex at_field = std::exp(-i_unit * nu * panels_.middle(i));
-      const Complex shape = parity == even ? at_field : i_unit * at_field;
-      u_potential[i] = shape.real();
-      u_system[i] = i < lid ? nu * shape.real() : (-i_unit * nu * shape * panels_.normal(i)).real();
-      const Complex change = std::exp(i_unit * nu * std::conj(panels_.end(i))) -
-                             std::exp(i_unit * nu * std::conj(panels_.start(i)));
-      const Complex integral = change * panels_.direction(i) / (i_unit * nu);
-      v[i] = 2.0 * (parity == even ? integral.real() : integral.imag());
-    }
-    const Eigen::PartialPivLU<Eigen::MatrixXd> lu(system);
-    const Eigen::VectorXd response = lu.solve(u_system);
-    const double feedback = v.dot(response);
-    for (int mode = 0; mode < 3; ++mode) {
-      if (parity_of_mode[mode] != parity) continue;
-      Eigen::VectorXd right = Eigen::VectorXd::Zero(n);
-      right.tail(hull) = mode_.col(mode);
-      const Eigen::VectorXd standing = lu.solve(right);
-      const Complex radiated = v.dot(standing) / (1.0 + i_unit * feedback);
-      const Eigen::VectorXcd density = standing.cast<Complex>() - (i_unit * radiated) * response;
-      out.potential.col(mode) =
-          potential.bottomRows(hull) * density + (i_unit * radiated) * u_potential.tail(hull);
-      out.coefficients.wave_amplitude[mode] = nu * radiated * (parity == even ? i_unit : Complex(-1.0));
-    }
+  if (panels_.count() > 0) {
+    const std::array<Influence, 2> wave = wave_influence(nu);
+    for (Parity parity : {even, odd}) solve_parity(parity, nu, wave[parity], out);
   }
   const Eigen::Matrix3cd force = pressure_integral(out.potential);  // a + b / (i omega)
   out.coefficients.added_mass = force.real();

@@ -19,7 +19,7 @@ struct SectionSolution {
 ///
 ///     2 pi G = ln(r / r') + 2 Re[exp(-w) Ei(w)] + 2 pi i Re[exp(-w)],   w = i nu (z - conj c)
 ///
-/// (Wehausen and Laitone, Surface waves, 1960, section 17), nu = omega^2 / g, z = y + i z the field point, c
+/// (Wehausen and Laitone, Surface waves, 1960), nu = omega^2 / g, z = y + i z the field point, c
 /// the source, r' the distance to its image above the surface. Sources on the interior free surface close it
 /// with a rigid lid, which removes the irregular frequencies: there G_z = nu G - delta, so that the lid's own
 /// density is sigma = nu phi. Port-starboard symmetry halves the unknowns, heave being even, sway and roll
@@ -46,8 +46,10 @@ class SectionSolver {
     Eigen::MatrixXd potential, velocity;
   };
 
+  void fill_row(Eigen::Index i);
   void conserve_flux();
   std::array<Influence, 2> wave_influence(double nu) const;
+  void solve_parity(Parity parity, double nu, const Influence& wave, SectionSolution& out) const;
   Eigen::Matrix3d limit(double image_sign, bool with_heave) const;
   Eigen::Matrix3cd pressure_integral(const Eigen::Matrix<std::complex<double>, Eigen::Dynamic, 3>& p) const;
 
