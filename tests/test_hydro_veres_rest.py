@@ -21,7 +21,7 @@ from seacrane.hydro import (
     Hydrostatics,
     HydrostaticsWarning,
     load_database,
-    read_hydrostatics,
+    read_veres_hydrostatics,
     read_veres,
 )
 from seacrane.hydro.veres_files import read_drift, read_matrices
@@ -132,7 +132,7 @@ def test_drift_of_another_run_is_refused(copy: Path) -> None:
 
 
 def test_hydrostatics(supply: Path) -> None:
-    found = read_hydrostatics(supply / "input.hyd")
+    found = read_veres_hydrostatics(supply / "input.hyd")
     assert found == Hydrostatics(
         length=82.8, breadth=19.2, draught=6.0, sinkage=0.0, trim_deg=0.0, displacement=6362210.0, kb=3.334,
         vcg=7.3, lcb=36.014, lcg=36.014, cb=0.651, cw=0.870, gm_transverse=2.144, gm_longitudinal=103.628,
@@ -214,12 +214,12 @@ def test_every_truncation_of_hyd_is_noticed_or_leaves_a_row_out(tmp_path: Path) 
         whole.write_text("\n".join(lines[:kept]))
         if kept < 2:
             with pytest.raises(FileFormatError, match=r"box\.hyd: none of the rows"):
-                read_hydrostatics(whole)
+                read_veres_hydrostatics(whole)
         else:
-            assert read_hydrostatics(whole).length == 60.0
+            assert read_veres_hydrostatics(whole).length == 60.0
             whole.write_text("\n".join([*lines[: kept - 1], lines[kept - 1][:36]]))  # before its number
             with pytest.raises(FileFormatError, match=rf"box\.hyd, line {kept}: .*truncated"):
-                read_hydrostatics(whole)
+                read_veres_hydrostatics(whole)
 
 
 @pytest.mark.parametrize(

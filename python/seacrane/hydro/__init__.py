@@ -19,12 +19,19 @@ from seacrane.hydro.check import CheckRow, memory_rows
 from seacrane.hydro.data_warnings import DampingWarning, HeadingGapWarning, WaterMismatchWarning, warn_of_data
 from seacrane.hydro.database import AdditionalMatrices, HydroDatabase, RollDamping
 from seacrane.hydro.drift import DriftCoefficients
+from seacrane.hydro.hull import Hull
+from seacrane.hydro.hull_database import FloatingPositionWarning, hydro_from_hull
+from seacrane.hydro.hull_offsets import OffsetTable, read_offset_table
+from seacrane.hydro.hull_stl import read_stl
+from seacrane.hydro.hull_strip import SubmergedPartWarning
+from seacrane.hydro.hydrostatics import Hydrostatics
 from seacrane.hydro.memory import InfiniteFrequencyWarning, fit_memory
 from seacrane.hydro.memory_audit import MemoryMismatchWarning, NonPassiveMemoryWarning
 from seacrane.hydro.memory_model import FitRow, MemoryBlock, MemoryModel, Passivity
 from seacrane.hydro.memory_trade import MemoryTradeRow, memory_trade
 from seacrane.hydro.motion import motion_response, natural_frequency
 from seacrane.hydro.orcaflex import read_orcaflex
+from seacrane.hydro.parametric_hull import ParametricHull
 from seacrane.hydro.reader_warnings import (
     AssumedDensityWarning,
     AssumedInertiaWarning,
@@ -37,7 +44,7 @@ from seacrane.hydro.reader_warnings import (
 from seacrane.hydro.retardation import RetardationModel, retardation_functions
 from seacrane.hydro.transform import QuadraticDampingWarning
 from seacrane.hydro.veres import read_veres
-from seacrane.hydro.veres_hydrostatics import Hydrostatics, read_hydrostatics
+from seacrane.hydro.veres_hydrostatics import VeresHydrostatics, read_veres_hydrostatics
 from seacrane.hydro.veres_set import find_stem, veres_speeds
 from seacrane.hydro.vessel import (
     MemoryFitWarning,
@@ -59,7 +66,9 @@ __all__ = [
     "DriftCoefficients",
     "EncounterFrequencyWarning",
     "FitRow",
+    "FloatingPositionWarning",
     "HeadingGapWarning",
+    "Hull",
     "HydroDatabase",
     "Hydrostatics",
     "HydrostaticsWarning",
@@ -70,6 +79,8 @@ __all__ = [
     "MemoryModel",
     "MemoryTradeRow",
     "NonPassiveMemoryWarning",
+    "OffsetTable",
+    "ParametricHull",
     "PartialSetWarning",
     "Passivity",
     "PassivityCertificate",
@@ -80,10 +91,13 @@ __all__ = [
     "RollDamping",
     "RollDampingWarning",
     "SeveralSpeedsWarning",
+    "SubmergedPartWarning",
+    "VeresHydrostatics",
     "VesselParameters",
     "WaterMismatchWarning",
     "available_speeds",
     "fit_memory",
+    "hydro_from_hull",
     "load_database",
     "memory_rows",
     "memory_trade",
@@ -91,9 +105,11 @@ __all__ = [
     "natural_frequency",
     "passivity_certificate",
     "read_capytaine",
-    "read_hydrostatics",
+    "read_offset_table",
     "read_orcaflex",
+    "read_stl",
     "read_veres",
+    "read_veres_hydrostatics",
     "read_wamit",
     "require_passive",
     "retardation_functions",

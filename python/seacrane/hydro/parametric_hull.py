@@ -1,4 +1,4 @@
-"""Parametric ship hull: waterline and section shape, panel mesh, hydrostatics."""
+"""Parametric ship hull: waterline and section shape, panel mesh."""
 
 from __future__ import annotations
 
@@ -7,6 +7,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
+
+from seacrane.hydro.hydrostatics import panel_hydrostatics
 
 FloatArray = NDArray[np.float64]
 
@@ -111,54 +113,6 @@ class ParametricHull:
         hull = replace(self, entrance_length=entrance, origin_from_transom=0.0)
         lcb = panel_hydrostatics(hull.panels(stations=stations, girth=girth)).centre_of_buoyancy[0]
         return replace(hull, origin_from_transom=float(lcb))
-
-
-@dataclass(frozen=True, kw_only=True)
-class Hydrostatics:
-    """Volume (m3), centre of buoyancy (3,) m, waterplane area (m2) and its first and second moments."""
-
-    volume: float
-    centre_of_buoyancy: FloatArray
-    waterplane_area: float
-    waterplane_moment_x: float
-    waterplane_inertia_roll: float
-    waterplane_inertia_pitch: float
-
-    def restoring(self, *, rho: float, g: float, centre_of_gravity_z: float) -> FloatArray:
-        """Restoring matrix (6, 6) of the freely floating hull, equations (13)-(16) of the paper."""
-        weight = rho * g * self.volume
-        lever = self.centre_of_buoyancy[2] - centre_of_gravity_z
-        c = np.zeros((6, 6))
-        c[2, 2] = rho * g * self.waterplane_area
-        c[2, 4] = c[4, 2] = -rho * g * self.waterplane_moment_x
-        c[3, 3] = weight * (self.waterplane_inertia_roll / self.volume + lever)
-        c[4, 4] = weight * (self.waterplane_inertia_pitch / self.volume + lever)
-        return c
-
-
-def panel_hydrostatics(panels: FloatArray) -> Hydrostatics:
-    """Hydrostatics of a wetted panel mesh (n, 4, 3), by the divergence theorem over its triangles."""
-    triangles = np.concatenate([panels[:, [0, 1, 2]], panels[:, [0, 2, 3]]])
-    a, b, c = triangles[:, 0], triangles[:, 1], triangles[:, 2]
-    area = 0.5 * np.cross(b - a, c - a)
-    middle = np.stack([0.5 * (a + b), 0.5 * (b + c), 0.5 * (c + a)], axis=1)  # exact for quadratics
-
-    def integral(values: FloatArray) -> float:
-        """Surface integral of ``values`` (n, 3 nodes) times the z component of the outward normal."""
-        return float(np.sum(area[:, 2] * values.mean(axis=1)))
-
-    x, y, z = middle[..., 0], middle[..., 1], middle[..., 2]
-    volume = integral(z)
-    # x z and z^2 / 2 are the z-primitives of x and z; cubic terms are left to the triangle's own exact rule.
-    centre = np.array([integral(x * z), integral(y * z), integral(0.5 * z * z)]) / volume
-    return Hydrostatics(
-        volume=volume,
-        centre_of_buoyancy=centre,
-        waterplane_area=-integral(np.ones_like(z)),
-        waterplane_moment_x=-integral(x),
-        waterplane_inertia_roll=-integral(y * y),
-        waterplane_inertia_pitch=-integral(x * x),
-    )
 
 
 def _transom_panels(edge: FloatArray) -> FloatArray:

@@ -23,7 +23,7 @@ from seacrane.hydro.drift import DriftCoefficients
 from seacrane.hydro.encounter import one_function
 from seacrane.hydro.reader_warnings import EncounterFrequencyWarning, HydrostaticsWarning
 from seacrane.hydro.veres_files import DriftAtSpeed, DriftFile, MatricesAtSpeed, TransferAtSpeed
-from seacrane.hydro.veres_hydrostatics import Loading, contradictions, read_hydrostatics
+from seacrane.hydro.veres_hydrostatics import Loading, contradictions, read_veres_hydrostatics
 from seacrane.hydro.veres_set import (
     VeresSet,
     at_speed,
@@ -282,7 +282,7 @@ def _check_hydrostatics(found: VeresSet, speed: float) -> None:
         breadth=head.breadth,
         draught=head.draught,
     )
-    different = contradictions(read_hydrostatics(path), ship)
+    different = contradictions(read_veres_hydrostatics(path), ship)
     if different:
         warn_caller(
             f"{path}: contradicts {found.matrices.path.name}: {'; '.join(different)} (SI); the matrices are "

@@ -1,4 +1,4 @@
-"""Hydrostatics of ShipX/VERES (``.hyd``): what the text says, and whether the matrices agree with it."""
+"""VeresHydrostatics of ShipX/VERES (``.hyd``): what the text says, and whether the matrices agree with it."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ NUMBER = re.compile(r"^[-+]?(\d+\.?\d*|\.\d+)([EeDd][-+]?\d+)?\*?$")
 
 
 @dataclass(frozen=True, kw_only=True)
-class Hydrostatics:
+class VeresHydrostatics:
     """What a ``.hyd`` file holds of the ship; None for rows that it does not have.
 
     Of a specified and a calculated value the one marked as applied is given, else the last.
@@ -93,7 +93,7 @@ class Loading:
     motion_point: tuple[float, float]
 
 
-def read_hydrostatics(path: str | PathLike[str]) -> Hydrostatics:
+def read_veres_hydrostatics(path: str | PathLike[str]) -> VeresHydrostatics:
     """Read a ``.hyd`` file of ShipX/VERES.
 
     Raises
@@ -110,7 +110,7 @@ def read_hydrostatics(path: str | PathLike[str]) -> Hydrostatics:
         raise FileFormatError(f"{path}: none of the rows of a VERES hydrostatics file; export it again")
     if "displacement" in values:
         values["displacement"] *= TONNES
-    return Hydrostatics(**values)
+    return VeresHydrostatics(**values)
 
 
 def _value(records: TextRecords, line: str, label: str) -> float:
@@ -126,7 +126,7 @@ def _value(records: TextRecords, line: str, label: str) -> float:
     return value
 
 
-def contradictions(hydrostatics: Hydrostatics, loading: Loading) -> list[str]:
+def contradictions(hydrostatics: VeresHydrostatics, loading: Loading) -> list[str]:
     """Every value of the text that the matrices contradict, as "name: text against matrices"."""
     expected = _of_matrices(loading)
     found = []

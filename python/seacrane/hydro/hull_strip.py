@@ -1,0 +1,67 @@
+"""Hydrodynamics of a hull by strip theory (Salvesen, Tuck and Faltinsen 1970), in the compiled core."""
+
+from __future__ import annotations
+
+import warnings
+
+import numpy as np
+from numpy.typing import NDArray
+
+from seacrane import _core
+from seacrane.hydro.hull import Hull
+from seacrane.hydro.hull_solution import HullSolution
+
+FloatArray = NDArray[np.float64]
+
+HANGING = 1e-6  # of the volume
+
+
+class SubmergedPartWarning(UserWarning):
+    """A part of the hull that hangs under water apart from the rest is missing from the strip theory."""
+
+
+def strip_solution(
+    hull: Hull,
+    *,
+    omega: FloatArray,
+    heading: FloatArray,
+    rho: float,
+    g: float,
+    speed: float = 0.0,
+    stations: int = 41,
+) -> HullSolution:
+    """Radiation and excitation from even stations, both ends included.
+
+    Warns
+    -----
+    SubmergedPartWarning : a bulb ahead of the stem, or the like.
+
+    Raises
+    ------
+    ValueError : fewer than five stations, or a section that is not one outline from waterline to keel.
+    """
+    if stations < 5:
+        raise ValueError(f"hull {hull.name!r}: {stations} stations; give 5 or more, 20 to 40 for a ship")
+    x = np.linspace(hull.extent[0, 0], hull.extent[1, 0], stations)
+    cut = hull.sections(x)
+    hanging = 2.0 * float(np.trapezoid([s.apart for s in cut], x)) / hull.hydrostatics.volume
+    if hanging > HANGING:
+        warnings.warn(
+            f"hull {hull.name!r}: {100.0 * hanging:.2g} % of the volume hangs apart under water (a bulb "
+            "ahead of the stem, a pod) and is left out by strip theory: its added mass and wave force are "
+            "missing. Use method='capytaine' to have them",
+            SubmergedPartWarning,
+            stacklevel=4,
+        )
+    solved = _core.strip_theory(
+        x=x, sections=[s.section for s in cut], omega=omega, heading=heading, speed=speed, rho=rho, g=g
+    )
+    return HullSolution(
+        added_mass=solved["added_mass"],
+        damping=solved["damping"],
+        added_mass_zero=None,
+        added_mass_infinite=solved["infinite_frequency_added_mass"],
+        force=solved["force"],
+        method=f"strip theory, {stations} stations, surge without radiation",
+        trusted_band=(float(omega[0]), float(omega[-1])),
+    )
