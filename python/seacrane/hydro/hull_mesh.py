@@ -8,7 +8,7 @@ from numpy.typing import ArrayLike, NDArray
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
 
-MERGE = 1e-6  # of the size: vertices closer than this are one
+MERGE = 1e-7  # of the size: vertices closer than this are one
 
 
 def merged_points(points: FloatArray, tolerance: float) -> IntArray:
@@ -64,11 +64,19 @@ def require_closed(name: str, triangles: FloatArray) -> FloatArray:
     points = flat[np.unique(labels, return_index=True)[1]]
     faces = labels.reshape(-1, 3)
     distinct = (faces[:, 0] != faces[:, 1]) & (faces[:, 1] != faces[:, 2]) & (faces[:, 2] != faces[:, 0])
-    faces = faces[distinct]
+    faces = _without_cancelling(faces[distinct])
     edges = np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]])
     wet = points[edges][..., 2].min(axis=1) < -tolerance
     _require_pairs(name, points, edges[wet])
     return np.asarray(points[faces])
+
+
+def _without_cancelling(faces: IntArray) -> IntArray:
+    """The faces without back-to-back pairs on the same vertices: where both sides of a stem or fin meet."""
+    sense = np.sign(np.prod(faces - np.roll(faces, 1, axis=1), axis=1))
+    same, count = np.unique(np.sort(faces, axis=1), axis=0, return_inverse=True, return_counts=True)[1:]
+    balance = np.bincount(same.ravel(), weights=sense)
+    return np.asarray(faces[((count != 2) | (balance != 0.0))[same.ravel()]])
 
 
 def _require_pairs(name: str, points: FloatArray, edges: IntArray) -> None:

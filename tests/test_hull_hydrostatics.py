@@ -1,0 +1,195 @@
+"""Hulls from every source: hydrostatics against closed forms, with order of convergence; restoring."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from hull_shapes import box, moved, revolved, sphere, wigley_mesh, wigley_offsets
+
+from seacrane.hydro import Hull, Hydrostatics, OffsetTable, ParametricHull
+
+RHO, G = 1025.0, 9.81
+SHIP = (100.0, 16.0, 6.0)
+
+
+def from_mesh(mesh: tuple[np.ndarray, np.ndarray], draught: float | None = None) -> Hull:
+    return Hull.from_mesh(vertices=mesh[0], faces=mesh[1], draught=draught)
+
+
+def values(statics: Hydrostatics) -> np.ndarray:
+    return np.array(
+        [
+            statics.volume,
+            statics.centre_of_buoyancy[2],
+            statics.waterplane_area,
+            statics.waterplane_inertia_roll,
+            statics.waterplane_inertia_pitch,
+        ]
+    )
+
+
+def test_box_of_a_mesh_and_of_two_stations() -> None:
+    """40 x 10 m, draught 4 m: everything in closed form, to rounding."""
+    mesh = from_mesh(box(length=40.0, breadth=10.0, bottom=-4.0, top=3.0))
+    table = OffsetTable(x=[-20.0, 20.0], sections=([[5.0, 3.0], [5.0, -4.0]],) * 2)
+    for hull in (mesh, Hull.from_offsets(table)):
+        statics = hull.hydrostatics
+        inertia = [40.0 * 1000.0 / 12.0, 10.0 * 64000.0 / 12.0]
+        assert values(statics) == pytest.approx([1600.0, -2.0, 400.0, *inertia], rel=1e-12)
+        assert statics.wetted_surface == pytest.approx(400.0 + 2.0 * 4.0 * 50.0, rel=1e-12)
+        assert (hull.length, hull.breadth, hull.draught) == pytest.approx((40.0, 10.0, 4.0))
+        assert statics.metacentric_height(1.0) == pytest.approx(100.0 / 48.0 - 3.0)
+
+
+def test_draught_is_counted_from_the_keel() -> None:
+    mesh = from_mesh(moved(box(length=40.0, breadth=10.0, bottom=0.0, top=7.0), 0.0, 0.0, 2.5), draught=4.0)
+    table = OffsetTable(x=[0.0, 40.0], sections=([[0.0, 9.0], [5.0, 9.0], [5.0, 16.0]],) * 2)
+    assert mesh.hydrostatics.volume == pytest.approx(1600.0, rel=1e-12)
+    assert Hull.from_offsets(table, draught=4.0).hydrostatics.volume == pytest.approx(1600.0, rel=1e-12)
+
+
+def test_wedge_from_keel_first_offsets() -> None:
+    """Triangular sections of half angle 45 deg: V = L T^2, KB = 2 T / 3, I = L (2 T)^3 / 12."""
+    table = OffsetTable(x=[0.0, 30.0], sections=([[0.0, -5.0], [7.0, 2.0]],) * 2)
+    statics = Hull.from_offsets(table).hydrostatics
+    assert statics.volume == pytest.approx(30.0 * 25.0, rel=1e-12)
+    assert statics.centre_of_buoyancy == pytest.approx([15.0, 0.0, -5.0 / 3.0], rel=1e-12)
+    assert statics.waterplane_inertia_roll == pytest.approx(30.0 * 1000.0 / 12.0, rel=1e-12)
+    assert statics.centre_of_flotation == pytest.approx(15.0)
+    ends, sides = 2.0 * 25.0, 2.0 * 30.0 * np.sqrt(50.0)
+    assert statics.wetted_surface == pytest.approx(ends + sides, rel=1e-12)
+
+
+def test_a_rolling_horizontal_cylinder_keeps_its_metacentre_on_the_axis() -> None:
+    """Every section's buoyancy passes through the axis: M is at the axis, 1.5 m below the waterline here."""
+    angle = np.linspace(0.5 * np.pi, -0.5 * np.pi, 401)
+    section = np.column_stack([4.0 * np.cos(angle), 4.0 * np.sin(angle) - 1.5])
+    statics = Hull.from_offsets(OffsetTable(x=[-10.0, 10.0], sections=(section,) * 2)).hydrostatics
+    assert statics.metacentre_transverse == pytest.approx(-1.5, abs=1e-4)
+    segment = 16.0 * (np.pi - np.arccos(1.5 / 4.0)) + 1.5 * np.sqrt(16.0 - 2.25)
+    assert statics.volume == pytest.approx(20.0 * segment, rel=1e-4)
+
+
+@pytest.mark.parametrize("draught", [3.0, 5.0, 7.5])
+def test_sphere_cap(draught: float) -> None:
+    """A floating sphere of radius 5 m: cap volume and area, metacentre at the centre whatever the draught."""
+    radius = 5.0
+    errors = []
+    for count in (24, 48, 96):
+        statics = from_mesh(sphere(radius, count), draught=draught).hydrostatics
+        volume = np.pi * draught**2 * (3.0 * radius - draught) / 3.0
+        area = np.pi * draught * (2.0 * radius - draught)
+        below = 3.0 * (2.0 * radius - draught) ** 2 / (4.0 * (3.0 * radius - draught))
+        centre = radius - draught
+        got = [
+            statics.volume / volume,
+            statics.waterplane_area / area,
+            statics.wetted_surface / (2.0 * np.pi * radius * draught),
+            1.0 + (statics.centre_of_buoyancy[2] - centre + below) / radius,
+            1.0 + (statics.metacentre_transverse - centre) / radius,
+            1.0 + (statics.metacentre_longitudinal - centre) / radius,
+        ]
+        errors.append(np.abs(np.array(got) - 1.0).max())
+    assert errors[-1] < 3e-3
+    assert np.log2(errors[0] / errors[1]) > 1.7
+    assert np.log2(errors[1] / errors[2]) > 1.7
+
+
+def test_vertical_cylinder() -> None:
+    radius, count = 6.0, 360
+    mesh = revolved(np.array([0.0, radius, radius, 0.0]), np.array([-8.0, -8.0, 4.0, 4.0]), count)
+    statics = from_mesh(mesh).hydrostatics
+    area = np.pi * radius**2
+    expected = [8.0 * area, -4.0, area, 0.25 * area * radius**2, 0.25 * area * radius**2]
+    assert values(statics) == pytest.approx(expected, rel=3e-4)
+
+
+def wigley_values() -> np.ndarray:
+    """Closed forms: 4/9 L B T, -3/8 T, 2/3 L B, 2/105 L B^3 ..., L^3 B / 30."""
+    length, breadth, draught = SHIP
+    return np.array(
+        [
+            4.0 / 9.0 * length * breadth * draught,
+            -0.375 * draught,
+            2.0 / 3.0 * length * breadth,
+            2.0 / 3.0 * (breadth / 2.0) ** 3 * length / 2.0 * 32.0 / 35.0,
+            breadth * (length / 2.0) ** 3 * 4.0 / 15.0,
+        ]
+    )
+
+
+def test_offsets_and_mesh_of_a_wigley_hull_converge_at_second_order_to_the_closed_form() -> None:
+    exact = wigley_values()
+    for make in (
+        lambda n: Hull.from_offsets(wigley_offsets(*SHIP, n)),
+        lambda n: from_mesh(wigley_mesh(*SHIP, n)),
+    ):
+        errors = [np.abs(values(make(n).hydrostatics) / exact - 1.0) for n in (6, 12, 24)]
+        assert np.all(errors[2] < 6e-3)
+        assert np.all(np.log2(errors[0] / errors[1]) > 1.8)
+        assert np.all(np.log2(errors[1] / errors[2]) > 1.9)
+
+
+def test_parametric_hull_its_offsets_and_its_mesh_agree_at_second_order() -> None:
+    shape = ParametricHull(
+        length=115.0, breadth=25.0, draught=6.4, entrance_length=46.0, run_length=34.5,
+        origin_from_transom=50.0, transom_breadth_fraction=0.75, transom_draught_fraction=0.2,
+        section_exponent=4.0,
+    )  # fmt: skip
+    differences = []
+    for factor in (1, 2, 4):
+        parametric = Hull.from_parametric(shape, stations=14 * factor, girth=6 * factor)
+        x = np.linspace(-50.0, 65.0, 11 * factor + 1)
+        table = OffsetTable(x=x, sections=tuple(shape.section(float(v), 7 * factor) for v in x))
+        panels = parametric.panels
+        mesh = Hull.from_mesh(vertices=panels.reshape(-1, 3), faces=np.arange(4 * len(panels)).reshape(-1, 4))
+        one, other = values(parametric.hydrostatics), values(Hull.from_offsets(table).hydrostatics)
+        assert values(mesh.hydrostatics) == pytest.approx(one, rel=1e-9)
+        differences.append(np.abs(other / one - 1.0).max())
+    assert differences[2] < 3e-3
+    assert differences[0] / differences[2] > 8.0
+
+
+def test_moving_the_origin_moves_the_moments() -> None:
+    hull = Hull.from_offsets(wigley_offsets(*SHIP, 6))
+    away = hull.moved(7.0)
+    before, after = hull.hydrostatics, away.hydrostatics
+    assert after.centre_of_buoyancy[0] - before.centre_of_buoyancy[0] == pytest.approx(7.0)
+    steiner = 14.0 * before.waterplane_moment_x + 49.0 * before.waterplane_area
+    assert after.waterplane_inertia_pitch - before.waterplane_inertia_pitch == pytest.approx(steiner)
+    assert after.metacentre_longitudinal == pytest.approx(before.metacentre_longitudinal)
+    assert away.at_centre_of_buoyancy().hydrostatics.centre_of_buoyancy[0] == pytest.approx(0.0, abs=1e-12)
+
+
+def test_restoring_is_what_the_heeled_and_trimmed_box_shows() -> None:
+    """Moments of weight and buoyancy of a box tilted by a small angle, its mesh rotated and cut anew."""
+    vertices, faces = box(length=40.0, breadth=10.0, bottom=-4.0, top=6.0)
+    vertices = vertices + np.array([2.0, 0.0, 0.0])
+    upright = Hull.from_mesh(vertices=vertices, faces=faces).hydrostatics
+    c = upright.restoring(rho=RHO, g=G, centre_of_gravity_z=-1.0, centre_of_gravity_x=1.2, mass=1.5e6)
+    angle = 1e-4
+    turn = np.array([[np.cos(angle), 0, np.sin(angle)], [0, 1, 0], [-np.sin(angle), 0, np.cos(angle)]])
+
+    def load(rotation: np.ndarray) -> tuple[float, float]:
+        """Heave force (N) and pitch moment about the origin (N m)."""
+        wet = Hull.from_mesh(vertices=vertices @ rotation.T, faces=faces).hydrostatics
+        gravity = rotation @ np.array([1.2, 0.0, -1.0])
+        buoyancy, weight = RHO * G * wet.volume, 1.5e6 * G
+        return buoyancy - weight, -wet.centre_of_buoyancy[0] * buoyancy + gravity[0] * weight
+
+    up, moment = (np.array(load(turn)) - np.array(load(turn.T))) / (2.0 * angle)
+    assert -up == pytest.approx(c[2, 4], rel=1e-5)
+    assert -moment == pytest.approx(c[4, 4], rel=1e-5)
+
+
+def test_remeshing_keeps_the_shape() -> None:
+    hull = Hull.from_offsets(wigley_offsets(*SHIP, 24))
+    even = hull.remeshed(stations=48, girth=16)
+    assert values(even.hydrostatics) == pytest.approx(values(hull.hydrostatics), rel=5e-3)
+    assert len(even.panels) <= 2 * 48 * 16
+    barge = Hull.from_offsets(OffsetTable(x=[-20.0, 20.0], sections=([[5.0, 0.0], [5.0, -4.0]],) * 2))
+    fine = barge.remeshed(stations=20, girth=18)
+    assert fine.hydrostatics.volume == pytest.approx(1600.0, rel=1e-6)
+    ends = np.abs(np.ptp(fine.panels[..., 0], axis=1)) < 1e-9
+    assert ends.sum() > 50
+    assert np.linalg.norm(np.ptp(fine.panels, axis=1), axis=1).max() < 4.0

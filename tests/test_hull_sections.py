@@ -1,0 +1,76 @@
+"""Sections sliced from hulls."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from hull_shapes import box, joined, moved, sphere, wigley_mesh, wigley_offsets
+
+from seacrane.hydro import Hull, OffsetTable
+
+SHIP = (100.0, 16.0, 6.0)
+
+
+def half_area(section: np.ndarray) -> float:
+    return float(-np.trapezoid(section[:, 0], section[:, 1]))
+
+
+def test_slices_of_mesh_and_offsets_have_the_area_of_the_closed_form() -> None:
+    """Wigley: half area B T / 3 (1 - (2x/L)^2) at every station."""
+    length, breadth, draught = SHIP
+    x = np.linspace(-0.47, 0.47, 13) * length
+    exact = breadth * draught / 3.0 * (1.0 - (2.0 * x / length) ** 2)
+    vertices, faces = wigley_mesh(*SHIP, 40)
+    for hull in (
+        Hull.from_mesh(vertices=vertices, faces=faces),
+        Hull.from_offsets(wigley_offsets(*SHIP, 40)),
+    ):
+        cut = hull.sections(x)
+        assert [half_area(s.section) for s in cut] == pytest.approx(exact, abs=1e-3 * exact.max())
+        for s in cut:
+            assert s.apart == 0.0
+            assert s.section[0, 1] == 0.0
+            assert s.section[-1, 0] == 0.0
+            assert np.all(np.diff(s.section[:, 1]) <= 1e-9)
+
+
+def test_the_ends_themselves_are_sections() -> None:
+    barge = Hull.from_offsets(OffsetTable(x=[-20.0, 20.0], sections=([[5.0, 2.0], [5.0, -4.0]],) * 2))
+    for s in barge.sections([-20.0, -19.9, 0.0, 20.0]):
+        assert half_area(s.section) == pytest.approx(20.0)
+        assert s.section[:, 0].max() == pytest.approx(5.0)
+    stem = Hull.from_offsets(wigley_offsets(*SHIP, 8)).sections([50.0])[0].section
+    assert np.all(stem[:, 0] == 0.0)
+    assert stem[-1, 1] == pytest.approx(-6.0)
+
+
+def test_sections_integrate_to_the_volume_of_the_surface() -> None:
+    hull = Hull.from_offsets(wigley_offsets(*SHIP, 8))
+    x = np.linspace(-50.0, 50.0, 17)  # the table's stations: straight between them
+    areas = [2.0 * half_area(s.section) for s in hull.sections(x)]
+    # Between stations the area of a straight loft is quadratic, so that the mid-stations are needed too.
+    middle = [2.0 * half_area(s.section) for s in hull.sections(0.5 * (x[1:] + x[:-1]))]
+    simpson = np.sum(np.diff(x) * (np.array(areas[:-1]) + 4.0 * np.array(middle) + np.array(areas[1:])) / 6.0)
+    assert simpson == pytest.approx(hull.hydrostatics.volume, rel=1e-9)
+
+
+def test_a_bulb_ahead_of_the_stem_hangs_apart() -> None:
+    """A sphere of radius 1.5 m wholly under water, 4 m ahead of a box."""
+    bulb = moved(sphere(1.5, 48), 24.0, 0.0, -2.5)
+    vertices, faces = joined(box(length=40.0, breadth=10.0, bottom=-4.0, top=3.0), bulb)
+    hull = Hull.from_mesh(vertices=vertices, faces=faces)
+    ahead, inside = hull.sections([24.0, 0.0])
+    assert np.all(ahead.section == 0.0)
+    assert ahead.apart == pytest.approx(0.5 * np.pi * 1.5**2, rel=5e-3)
+    assert inside.apart == 0.0
+    with pytest.raises(ValueError, match="hangs apart"):
+        hull.remeshed(stations=40, girth=6)
+
+
+def test_a_catamaran_is_not_a_section() -> None:
+    one = box(length=40.0, breadth=3.0, bottom=-4.0, top=3.0)
+    vertices, faces = joined(moved(one, 0.0, 5.0, 0.0), moved(one, 0.0, -5.0, 0.0))
+    hull = Hull.from_mesh(vertices=vertices, faces=faces)
+    assert hull.hydrostatics.volume == pytest.approx(2 * 480.0)
+    with pytest.raises(ValueError, match="more than once"):
+        hull.sections([0.0])
