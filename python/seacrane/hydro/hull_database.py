@@ -12,7 +12,6 @@ from numpy.typing import ArrayLike, NDArray
 from seacrane.hydro.database import HydroDatabase
 from seacrane.hydro.hull import Hull
 from seacrane.hydro.hull_solution import HullSolution, symmetric_solution
-from seacrane.hydro.hydrostatics import Hydrostatics
 from seacrane.hydro.motion import natural_frequency
 from seacrane.hydro.parametric_hull import ParametricHull
 from seacrane.hydro.vessel import rigid_mass_matrix
@@ -97,17 +96,19 @@ def hydro_from_hull(
     frequencies = _increasing(shape.name, "omega", _default_omega(shape, g) if omega is None else omega)
     default_heading = np.radians(np.arange(0.0, 180.1, 5.0))
     headings = _increasing(shape.name, "heading", default_heading if heading is None else heading)
-    solution = symmetric_solution(
-        _solution(shape, method, frequencies, headings, rho, g, stations), heading=headings, reciprocal=True
-    )
+    displaced = rho * shape.hydrostatics.volume
+    weight = displaced if mass is None else float(mass)
+    radii = _radii(shape, radii_of_gyration)
+    _require_afloat(shape, _restoring(shape, weight, centre, rho, g), displaced, weight, centre, g)
+    found = _solution(shape, method, frequencies, headings, rho, g, stations)
     return database_of_solution(
         shape,
-        solution,
+        symmetric_solution(found, heading=headings, reciprocal=True),
         omega=frequencies,
         heading=headings,
         centre_of_gravity=centre,
-        mass=rho * shape.hydrostatics.volume if mass is None else float(mass),
-        radii_of_gyration=_radii(shape, radii_of_gyration),
+        mass=weight,
+        radii_of_gyration=radii,
         roll_damping_fraction=roll_damping_fraction,
         trusted_band=trusted_band,
         rho=rho,
@@ -132,15 +133,6 @@ def database_of_solution(
     name: str,
 ) -> HydroDatabase:
     """The database of a solution that is symmetric already; see `hydro_from_hull`."""
-    statics = hull.hydrostatics
-    restoring = statics.restoring(
-        rho=rho,
-        g=g,
-        centre_of_gravity_z=centre_of_gravity[2],
-        centre_of_gravity_x=centre_of_gravity[0],
-        mass=mass,
-    )
-    _require_afloat(hull, restoring, rho * statics.volume, mass, centre_of_gravity, g)
     inertia = mass * np.diag(radii_of_gyration**2)
     bare = HydroDatabase(
         name=name,
@@ -150,7 +142,7 @@ def database_of_solution(
         damping=solution.damping,
         zero_frequency_added_mass=solution.added_mass_zero,
         infinite_frequency_added_mass=solution.added_mass_infinite,
-        restoring=restoring,
+        restoring=_restoring(hull, mass, centre_of_gravity, rho, g),
         mass_matrix=rigid_mass_matrix(mass, centre_of_gravity, inertia),
         force=solution.force,
         length=hull.length,
@@ -160,7 +152,7 @@ def database_of_solution(
         g=g,
         trusted_band=solution.trusted_band if trusted_band is None else trusted_band,
         origin=f"origin of the hull on the still waterline, {-hull.extent[0, 0]:.4f} m ahead of its aft end",
-        source=_source(hull, solution, statics, mass, centre_of_gravity, roll_damping_fraction),
+        source=_source(hull, solution, mass, centre_of_gravity, roll_damping_fraction),
     )
     if roll_damping_fraction == 0.0:
         return bare
@@ -189,11 +181,11 @@ def _solution(
 def _source(
     hull: Hull,
     solution: HullSolution,
-    statics: Hydrostatics,
     mass: float,
     centre: FloatArray,
     roll_damping_fraction: float,
 ) -> str:
+    statics = hull.hydrostatics
     text = (
         f"hydro_from_hull: {solution.method}; {hull.source}; volume of the panel mesh {statics.volume:.6f} "
         f"m3, mass {mass:.6g} kg, centre of gravity x {centre[0]:.6f} m, z {centre[2]:.6f} m for GM_T "
@@ -202,6 +194,11 @@ def _source(
     if roll_damping_fraction == 0.0:
         return text
     return f"{text}; linear roll damping of {roll_damping_fraction} of critical added in linear_damping"
+
+
+def _restoring(hull: Hull, mass: float, centre: FloatArray, rho: float, g: float) -> FloatArray:
+    x, _, z = centre
+    return hull.hydrostatics.restoring(rho=rho, g=g, centre_of_gravity_z=z, centre_of_gravity_x=x, mass=mass)
 
 
 def _require_afloat(

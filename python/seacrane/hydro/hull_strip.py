@@ -14,6 +14,8 @@ from seacrane.hydro.hull_solution import HullSolution
 FloatArray = NDArray[np.float64]
 
 HANGING = 1e-6  # of the volume
+PANELS = 40  # on each half section
+PANELS_PER_WAVE = 8.0
 
 
 class SubmergedPartWarning(UserWarning):
@@ -31,6 +33,9 @@ def strip_solution(
     stations: int = 41,
 ) -> HullSolution:
     """Radiation and excitation from even stations, both ends included.
+
+    The trusted band begins where the wave is as long as the ship (longer waves do not see strips) and ends
+    where it is eight panels of the largest section long.
 
     Warns
     -----
@@ -54,8 +59,18 @@ def strip_solution(
             stacklevel=4,
         )
     solved = _core.strip_theory(
-        x=x, sections=[s.section for s in cut], omega=omega, heading=heading, speed=speed, rho=rho, g=g
+        x=x,
+        sections=[s.section for s in cut],
+        omega=omega,
+        heading=heading,
+        speed=speed,
+        rho=rho,
+        g=g,
+        panels=PANELS,
     )
+    girth = max(float(np.hypot(*np.diff(s.section, axis=0).T).sum()) for s in cut)
+    waves = np.array([hull.length, PANELS_PER_WAVE * girth / PANELS])
+    low, high = np.sqrt(2.0 * np.pi * g / waves).tolist()
     return HullSolution(
         added_mass=solved["added_mass"],
         damping=solved["damping"],
@@ -63,5 +78,5 @@ def strip_solution(
         added_mass_infinite=solved["infinite_frequency_added_mass"],
         force=solved["force"],
         method=f"strip theory, {stations} stations, surge without radiation",
-        trusted_band=(float(omega[0]), float(omega[-1])),
+        trusted_band=(low, high),
     )
