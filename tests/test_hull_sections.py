@@ -74,3 +74,17 @@ def test_a_catamaran_is_not_a_section() -> None:
     assert hull.hydrostatics.volume == pytest.approx(2 * 480.0)
     with pytest.raises(ValueError, match="more than once"):
         hull.sections([0.0])
+
+
+@pytest.mark.parametrize("away", [0.0, 1e-9, -1e-8, 1e-6, -1e-6, 1e-5])
+def test_slices_next_to_the_vertices_of_a_fan(away: float) -> None:
+    """Planes through and beside the pole of a sphere, where 48 panels meet, and all its other vertices."""
+    vertices, faces = sphere(5.0, 48)
+    hull = Hull.from_mesh(vertices=vertices, faces=faces, draught=4.0)
+    x = np.unique(np.round(hull.panels[..., 0], 9))[1:-1] + away
+    exact = [abs(25.0 - v**2) for v in x]
+    for s, square in zip(hull.sections(x), exact, strict=True):
+        radius = np.sqrt(square)
+        above = 1.0  # height of the centre
+        area = square * np.arccos(above / radius) - above * np.sqrt(square - above**2)
+        assert 2.0 * half_area(s.section) == pytest.approx(area, abs=0.25)

@@ -14,6 +14,7 @@ from seacrane.hydro.hydrostatics import triangles_of
 FloatArray = NDArray[np.float64]
 
 ON_PLANE = 1e-7  # of the length: closer points are one, or on the waterline, or on the centre line
+NEXT_TO_PLANE = 10.0  # of that: vertices this close to a slice are on it, so that their edges meet there
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -47,7 +48,7 @@ def slices(name: str, panels: FloatArray, x: FloatArray) -> list[Slice]:
 
 def _slice(name: str, triangles: FloatArray, x: float, aft: bool, tolerance: float) -> Slice:
     """One slice; vertices on the plane count to the nearer end, so that the end itself is a section."""
-    chains = _chains(name, x, _segments(triangles, x, aft), tolerance)
+    chains = _chains(name, x, _segments(triangles, x, aft, tolerance), tolerance)
     piercing = [_downwards(c) for c in chains if max(c[0, 1], c[-1, 1]) >= -tolerance]
     apart = sum(_half_area(c) for c in chains if max(c[0, 1], c[-1, 1]) < -tolerance)
     if not piercing:
@@ -65,9 +66,10 @@ def _slice(name: str, triangles: FloatArray, x: float, aft: bool, tolerance: flo
     return Slice(section=np.column_stack([np.maximum(section[:, 0], 0.0), section[:, 1]]), apart=apart)
 
 
-def _segments(triangles: FloatArray, x: float, aft: bool) -> FloatArray:
+def _segments(triangles: FloatArray, x: float, aft: bool, tolerance: float) -> FloatArray:
     """Directed segments (m, 2, 2) of y, z in which the triangles meet the plane."""
     distance = triangles[..., 0] - x
+    distance[np.abs(distance) <= NEXT_TO_PLANE * tolerance] = 0.0
     ahead = distance > 0.0 if aft else distance >= 0.0
     cut = ahead.any(axis=1) & ~ahead.all(axis=1)
     t, d, front = triangles[cut], distance[cut], ahead[cut]
