@@ -300,20 +300,26 @@ def test_a_driven_vessel_feels_the_databases_added_mass_and_damping(omega: float
     assert -found.real / omega**2 == pytest.approx(database.added_mass[index, 2, 2], rel=0.01)
 
 
-@pytest.mark.parametrize(("heading", "frequency"), [(5, 10), (7, 26), (13, 14)])
+RESONANCE = (0.005, 0.005, 0.02, 0.015, 0.015, 0.005)
+OFF_RESONANCE = (0.005, 0.04, 0.04, 0.05, 0.015, 0.015)
+
+
+@pytest.mark.parametrize(
+    ("heading", "frequency", "limits"),
+    [(5, 10, RESONANCE), (7, 26, RESONANCE), (13, 14, RESONANCE), (16, 29, OFF_RESONANCE)],
+)
 def test_regular_waves_on_the_supply_ship_return_the_files_motion(
-    shared: Path, heading: int, frequency: int
+    shared: Path, heading: int, frequency: int, limits: tuple[float, ...]
 ) -> None:
-    """Roll, with its tanks, within 1.5 % of the file, where the per-pair memory is up to 11 % off."""
+    """Roll, with its tanks, within 1.5 % of the file, where the per-pair memory is up to 11 % off; far from
+    resonance the data of the tanks, which break Kramers-Kronig, leave more."""
     supply = load_database(shared / "veres" / "supply")
     database = at_file_damping(supply, heading, frequency)
     scene = cases.vessel(database=database, hs=0.0, mooring_period=None, memory="convolution")
     found = simulated_rao(database, scene, heading, frequency)
     assert supply.motion_rao is not None
     source = supply.motion_rao[heading, frequency]
-    np.testing.assert_array_less(
-        np.abs(found - source) / np.abs(source), [0.005, 0.005, 0.02, 0.015, 0.015, 0.005]
-    )
+    np.testing.assert_array_less(np.abs(found - source) / np.abs(source), limits)
 
 
 def test_decay_differs_from_per_pair_memory_by_the_fits_error() -> None:

@@ -70,7 +70,7 @@ def vessel(
     Parameters
     ----------
     memory : str
-        "per-pair", "passive" or "none".
+        "per-pair", "passive", "convolution" or "none".
     kinematics : str
         "yaw_following" or "paper".
     database : path or HydroDatabase, optional

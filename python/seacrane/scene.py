@@ -373,10 +373,8 @@ class Scene:
                 blocks = list(value) if isinstance(value, Sequence) else [value]
                 states = all(isinstance(block, _core.StateSpaceBlock) for block in blocks)
                 if not (states or isinstance(value, _core.RetardationFunctions)):
-                    raise SceneError(
-                        f"{what} is {value!r}; give a list of seacrane.StateSpaceBlock or "
-                        "seacrane.RetardationFunctions"
-                    )
+                    kinds = "a list of seacrane.StateSpaceBlock or seacrane.RetardationFunctions"
+                    raise SceneError(f"{what} is {value!r}; give {kinds}")
             elif key == "kinematics":
                 text_of(what, value)
             else:
