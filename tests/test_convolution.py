@@ -1,4 +1,4 @@
-"""Fluid memory by direct convolution: retardation functions, the loop's quadrature, histories."""
+"""Fluid memory by direct convolution: the loop's quadrature, histories in the state, physics."""
 
 from __future__ import annotations
 
@@ -27,23 +27,16 @@ from seacrane import (
     load_database,
     simulate,
 )
-from seacrane.hydro import HydroDatabase, retardation_functions, shipped_database, vessel_parameters
-from seacrane.hydro.retardation import cosine_transform, transform
+from seacrane.hydro import (
+    HydroDatabase,
+    retardation_functions,
+    shipped_database,
+    vessel_parameters,
+)
 from seacrane.scene_report import scene_report
 
 Array = NDArray[np.float64]
 CHANNELS = ["vessel_motion", "energy_balance", "absolute_work"]
-DECAY, RINGING = 0.35, 0.9  # 1/s, of the closed-form kernel
-
-
-def closed_form(tau: Array) -> Array:
-    """exp(-a t) (cos b t - a/b sin b t), whose transform is s / ((s + a)^2 + b^2)."""
-    return np.exp(-DECAY * tau) * (np.cos(RINGING * tau) - DECAY / RINGING * np.sin(RINGING * tau))
-
-
-def closed_form_transform(omega: Array) -> NDArray[np.complex128]:
-    s = 1j * omega
-    return np.asarray(s / ((s + DECAY) ** 2 + RINGING**2))
 
 
 @cache
@@ -90,63 +83,6 @@ def distance(found: Array, expected: Array) -> float:
 @pytest.fixture(scope="module")
 def by_states() -> Array:
     return run(cases.vessel())["vessel_motion"]
-
-
-# Retardation functions
-
-
-def test_kernel_of_sampled_damping_converges_to_the_closed_form() -> None:
-    """B of a known kernel, sampled finer and to higher frequencies: at the limit what is left is rounding."""
-    tau = np.linspace(0.0, 25.0, 251)
-    errors = []
-    for spacing, end in ((0.1, 6.0), (0.05, 12.0), (0.025, 24.0)):
-        omega = spacing * np.arange(1, round(end / spacing) + 1)
-        damping = closed_form_transform(omega).real[:, None, None]
-        found = cosine_transform(omega, damping, tau)[0][:, 0, 0]
-        errors.append(float(np.max(np.abs(found - closed_form(tau)))))
-    assert errors[0] < 1e-2
-    assert errors[1] < errors[0] / 4.0
-    assert errors[2] < errors[1] / 4.0
-
-
-def test_transform_returns_the_closed_form() -> None:
-    step, omega = 0.05, np.linspace(0.1, 4.0, 40)
-    kernel = closed_form(step * np.arange(1201))[:, None, None]
-    found = transform(kernel, step, omega)[:, 0, 0]
-    np.testing.assert_allclose(found, closed_form_transform(omega), atol=1e-6)
-
-
-def test_database_comes_back_from_its_retardation_functions() -> None:
-    """Damping to 0.1 %; added mass as far as the data obey Kramers-Kronig; A_inf near the panel code's."""
-    database = shipped_database()
-    model = retardation_functions(database=database)
-    assert model.error_damping.max() < 1e-3
-    assert model.error_added_mass.max() < 0.05
-    low, high = model.band
-    inside = (database.omega >= low) & (database.omega <= high)
-    added_mass, damping = model.frequency_response(database.omega)
-    for j in range(1, 6):
-        spread = np.std(database.damping[inside, j, j])
-        misfit = np.sqrt(np.mean((damping - database.damping)[inside, j, j] ** 2))
-        assert misfit / spread == pytest.approx(model.error_damping[j, j], rel=1e-9)
-        assert np.abs(added_mass - database.added_mass)[inside, j, j].max() < 0.05 * np.ptp(
-            database.added_mass[inside, j, j]
-        )
-    assert database.infinite_frequency_added_mass is not None
-    ratio = np.diag(model.added_mass) / np.diag(database.infinite_frequency_added_mass)
-    np.testing.assert_allclose(ratio[1:], 1.0, atol=0.02)
-
-
-def test_steps_and_durations_are_checked() -> None:
-    database = shipped_database()
-    for arguments, text in (
-        ({"step": 0.0}, "step is 0.0 s"),
-        ({"duration": -1.0}, "duration is -1.0 s"),
-        ({"step": float("nan")}, "step is nan s"),
-        ({"step": 1e-6}, "samples"),
-    ):
-        with pytest.raises(ValueError, match=text):
-            retardation_functions(database=database, **arguments)
 
 
 # The loop

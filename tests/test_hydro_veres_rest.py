@@ -18,7 +18,7 @@ from veres_writer import VeresRun
 from seacrane.errors import FileFormatError
 from seacrane.hydro import (
     HydroDatabase,
-    Hydrostatics,
+    VeresHydrostatics,
     HydrostaticsWarning,
     load_database,
     read_veres_hydrostatics,
@@ -133,7 +133,7 @@ def test_drift_of_another_run_is_refused(copy: Path) -> None:
 
 def test_hydrostatics(supply: Path) -> None:
     found = read_veres_hydrostatics(supply / "input.hyd")
-    assert found == Hydrostatics(
+    assert found == VeresHydrostatics(
         length=82.8, breadth=19.2, draught=6.0, sinkage=0.0, trim_deg=0.0, displacement=6362210.0, kb=3.334,
         vcg=7.3, lcb=36.014, lcg=36.014, cb=0.651, cw=0.870, gm_transverse=2.144, gm_longitudinal=103.628,
         r44=6.72, r55=20.7, r66=20.7,

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from seacrane.hydro.memory import memory_entries
+from seacrane.hydro.memory import FEWEST_FREQUENCIES, memory_entries
 
 if TYPE_CHECKING:
     from seacrane.hydro.database import AdditionalMatrices, HydroDatabase
@@ -98,7 +98,7 @@ def retardation_functions(
     Raises
     ------
     ValueError : a step or duration that is not positive, or that leaves fewer than 8 or more than 20 000
-        samples.
+        samples; a step beyond half a period of the highest frequency; a band with fewer than 8 frequencies.
 
     Notes
     -----
@@ -112,9 +112,19 @@ def retardation_functions(
     if step is None:
         step = min(LONGEST_STEP, PHASE_PER_STEP / float(database.omega[-1]))
     step = _positive("step", step)
+    if step * database.omega[-1] > np.pi:
+        raise ValueError(
+            f"retardation functions: step is {step} s, more than half a period of the database's highest "
+            f"frequency, {database.omega[-1]:.4g} rad/s; make it shorter"
+        )
     durations = DURATIONS if duration is None else (_positive("duration", duration),)
     low, high = database.trusted_band or (float(database.omega[0]), float(database.omega[-1]))
     inside = (database.omega >= low - 1e-9) & (database.omega <= high + 1e-9)
+    if inside.sum() < FEWEST_FREQUENCIES:
+        raise ValueError(
+            f"database {database.name!r}: the band {low:.4g} to {high:.4g} rad/s holds {inside.sum()} "
+            f"frequencies; retardation functions need {FEWEST_FREQUENCIES} or more"
+        )
     added_mass, damping = _symmetric(database.added_mass), _symmetric(database.damping)
     active = np.zeros((6, 6), dtype=bool)
     for j, k in memory_entries(added_mass, damping, database.omega):

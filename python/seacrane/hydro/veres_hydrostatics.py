@@ -1,4 +1,4 @@
-"""VeresHydrostatics of ShipX/VERES (``.hyd``): what the text says, and whether the matrices agree with it."""
+"""Hydrostatics of ShipX/VERES (``.hyd``): what the text says, and whether the matrices agree with it."""
 
 from __future__ import annotations
 

@@ -24,6 +24,7 @@ if TYPE_CHECKING:
 FloatArray = NDArray[np.float64]
 
 RIGID_TOLERANCE = 1e-5
+LOST_DAMPING = 0.02  # of its standard deviation
 
 
 class RollDampingWarning(UserWarning):
@@ -216,6 +217,8 @@ def _warn(database: HydroDatabase, vessel: VesselParameters) -> None:
         _warn_of_misfits(database.name, vessel.memory)
         warn_of_mismatch(database, vessel.memory)
         warn_of_lost_passivity(database, vessel)
+    else:
+        _warn_of_lost_damping(database.name, vessel.memory)
     if vessel.linear_damping[3, 3] == 0.0 and vessel.quadratic_damping[3] == 0.0:
         warn_caller(
             f"database {database.name!r}: no roll damping beside radiation; roll at resonance will be far "
@@ -240,3 +243,15 @@ def _warn_of_misfits(name: str, fit: MemoryModel) -> None:
                 f"{fit.r2} was asked, and motions that depend on it carry that error",
                 MemoryFitWarning,
             )
+
+
+def _warn_of_lost_damping(name: str, model: RetardationModel) -> None:
+    j, k = np.unravel_index(int(model.error_damping.argmax()), (6, 6))
+    if model.error_damping[j, k] > LOST_DAMPING:
+        warn_caller(
+            f"database {name!r}: retardation functions of {model.duration:g} s at steps of {model.step:g} s "
+            f"return damping {j + 1}{k + 1} with an error of {model.error_damping[j, k]:.3f} of its standard "
+            "deviation, and motions that depend on it carry that error; take a longer duration, a shorter "
+            "step or a database with closer frequencies",
+            MemoryFitWarning,
+        )
