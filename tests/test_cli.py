@@ -103,10 +103,6 @@ FAILING = {
     ),
     "a run of negative length": (["run", "vessel", "--out", "OUT", "--t-end", "-1"], "t_end is -1.0 s"),
     "a negative wave height": (["run", "vessel", "--out", "OUT", "--hs", "-2"], "-2"),
-    "memory of a later version": (
-        ["run", "vessel", "--out", "OUT", "--memory", "convolution"],
-        "memory 'convolution' is not available in this version",
-    ),
     "a formulation of a later version": (
         ["run", "vessel", "--out", "OUT", "--formulation", "recursive"],
         "formulation 'recursive' is not available",
