@@ -315,7 +315,7 @@ def test_the_command_line_takes_it(tmp_path: Path) -> None:
 def test_what_it_cannot_do_is_refused_by_name() -> None:
     with pytest.raises(SceneError, match="vessel 'vessel': kinematics 'paper' takes state-space memory"):
         cases.vessel(memory="convolution", kinematics="paper").compile()
-    with pytest.raises(SceneError, match="memory 'convoluted' is not available .* passive or convolution or"):
+    with pytest.raises(SceneError, match=r"memory 'convoluted' is not available .* or convolution or"):
         cases.vessel(memory="convoluted")
     with pytest.raises(SceneError, match="convolution, which has no states"):
         linear_model(cases.vessel(memory="convolution", hs=0.0))
