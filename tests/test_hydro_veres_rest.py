@@ -18,11 +18,11 @@ from veres_writer import VeresRun
 from seacrane.errors import FileFormatError
 from seacrane.hydro import (
     HydroDatabase,
-    VeresHydrostatics,
     HydrostaticsWarning,
+    VeresHydrostatics,
     load_database,
-    read_veres_hydrostatics,
     read_veres,
+    read_veres_hydrostatics,
 )
 from seacrane.hydro.veres_files import read_drift, read_matrices
 
