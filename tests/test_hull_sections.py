@@ -44,6 +44,17 @@ def test_the_ends_themselves_are_sections() -> None:
     assert stem[-1, 1] == pytest.approx(-6.0)
 
 
+def test_a_bottom_that_rises_to_the_waterline_ends_in_an_empty_section() -> None:
+    """A barge whose bottom rises in a straight line from 4 m at x = 0 to 1 m above the waterline at x = 25 m."""
+    points = [[[5.0, 2.0], [5.0, -4.0]], [[5.0, 2.0], [5.0, -4.0]], [[5.0, 2.0], [5.0, 1.0]]]
+    hull = Hull.from_offsets(OffsetTable(x=[-20.0, 0.0, 25.0], sections=tuple(points)))
+    assert hull.extent[:, 0] == pytest.approx([-20.0, 20.0])
+    assert hull.hydrostatics.volume == pytest.approx(20.0 * 40.0 + 0.5 * 20.0 * 40.0)
+    middle, end = hull.sections([10.0, 20.0])
+    assert half_area(middle.section) == pytest.approx(10.0)
+    assert np.all(end.section == 0.0)
+
+
 def test_sections_integrate_to_the_volume_of_the_surface() -> None:
     hull = Hull.from_offsets(wigley_offsets(*SHIP, 8))
     x = np.linspace(-50.0, 50.0, 17)  # the table's stations: straight between them

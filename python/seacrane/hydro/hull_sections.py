@@ -50,6 +50,7 @@ def _slice(name: str, triangles: FloatArray, x: float, aft: bool, tolerance: flo
     """One slice; vertices on the plane count to the nearer end, so that the end itself is a section."""
     chains = _chains(name, x, _segments(triangles, x, aft, tolerance), tolerance)
     piercing = [_downwards(c) for c in chains if max(c[0, 1], c[-1, 1]) >= -tolerance]
+    piercing = [c for c in piercing if c[:, 1].min() < -tolerance]  # else: a bottom that just comes up
     apart = sum(_half_area(c) for c in chains if max(c[0, 1], c[-1, 1]) < -tolerance)
     if not piercing:
         return Slice(section=np.zeros((3, 2)), apart=apart)
