@@ -45,7 +45,7 @@ def test_the_ends_themselves_are_sections() -> None:
 
 
 def test_a_bottom_that_rises_to_the_waterline_ends_in_an_empty_section() -> None:
-    """A barge whose bottom rises in a straight line from 4 m at x = 0 to 1 m above the waterline at x = 25 m."""
+    """The bottom of a barge rises straight from 4 m depth at x = 0 to 1 m above the waterline at x = 25 m."""
     points = [[[5.0, 2.0], [5.0, -4.0]], [[5.0, 2.0], [5.0, -4.0]], [[5.0, 2.0], [5.0, 1.0]]]
     hull = Hull.from_offsets(OffsetTable(x=[-20.0, 0.0, 25.0], sections=tuple(points)))
     assert hull.extent[:, 0] == pytest.approx([-20.0, 20.0])
