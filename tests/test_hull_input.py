@@ -152,9 +152,10 @@ def with_a_turned_face() -> tuple[np.ndarray, np.ndarray]:
         (joined(BOX, BOX), "more than two faces"),
         (moved(BOX, 0.0, 1.0, 0.0), "off the plane y = 0"),
         (moved(BOX, 0.0, 0.0, 9.0), "nothing is below the waterline"),
+        (moved(BOX, 0.0, 0.0, -9.0), "wholly under water"),
         (box(length=4.0, breadth=40.0, bottom=-4.0, top=1.0), "x is forward"),
         (box(length=4e4, breadth=1e4, bottom=-4e3, top=1.0), "in mm"),
-        ((BOX[0] * np.nan, BOX[1]), "finite coordinates"),
+        ((np.full_like(BOX[0], np.nan), BOX[1]), "finite coordinates"),
         ((BOX[0], BOX[1] + 1), "names vertex 8 of 8"),
         ((BOX[0], BOX[1].astype(float)), "integer indices"),
         ((BOX[0][:, :2], BOX[1]), r"\(n, 3\)"),
@@ -178,7 +179,9 @@ def test_panels_given_directly_are_checked() -> None:
         (good.panels[:, ::-1], "inwards"),
         (good.panels + np.array([0.0, 0.0, 1.0]), "reaches z = 1"),
         (good.panels[0], "shape"),
-        (good.panels * np.inf, "not finite"),
+        (np.full_like(good.panels, np.inf), "not finite"),
+        (good.panels * np.array([1.0, 1.0, 1e-300]), "not closed"),
+        (good.panels * np.array([1.0, 0.0, 1.0]), "not closed"),
     ):
         with pytest.raises(ValueError, match=message):
             Hull(name="h", panels=panels, source="test")

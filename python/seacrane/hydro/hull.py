@@ -22,6 +22,7 @@ FloatArray = NDArray[np.float64]
 
 LONGEST = 2000.0  # m: no ship is, a drawing in mm is
 ON_WATERLINE = 1e-6  # of the length
+FLAT = 1e-9  # of the cube of the length: less is no volume
 CLOSED = 1e-3  # of the volume: what the integrals of x n_x, y n_y and z n_z may differ by
 SYMMETRIC = 1e-3  # of the breadth: how far off the centre plane volume and waterplane may lie
 
@@ -259,11 +260,17 @@ def _require_floating(name: str, panels: FloatArray, statics: Hydrostatics) -> N
             f"hull {name!r}: encloses {statics.volume:.4g} m3, so its normals point inwards; reverse the "
             "order of the vertices of every face"
         )
-    leak = np.abs(flux[:, :2].sum(axis=0)).max() / np.abs(flux).sum()
-    if np.ptp(volumes) > CLOSED * volumes.max() or leak > CLOSED:
+    leak = np.abs(flux[:, :2].sum(axis=0)).max() / max(np.abs(flux).sum(), 1e-300)
+    smallest = FLAT * float(np.ptp(panels.reshape(-1, 3), axis=0).max()) ** 3
+    if not (volumes.max() > smallest and np.ptp(volumes) <= CLOSED * volumes.max() and leak <= CLOSED):
         raise ValueError(
             f"hull {name!r}: volume by x, y and z is {volumes[0]:.6g}, {volumes[1]:.6g}, {volumes[2]:.6g} "
             "m3; the surface is not closed below the waterline, or some normals point inwards"
+        )
+    if statics.waterplane_area <= CLOSED * float(np.linalg.norm(flux, axis=1).sum()):
+        raise ValueError(
+            f"hull {name!r}: is wholly under water (waterplane area {statics.waterplane_area:.4g} m2); only "
+            "what floats at the waterline has a database: lower the draught"
         )
     breadth, length = float(np.ptp(panels[..., 1])), float(np.ptp(panels[..., 0]))
     off = max(
