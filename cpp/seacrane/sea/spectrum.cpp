@@ -11,6 +11,7 @@ namespace seacrane {
 namespace {
 
 constexpr double largest_gamma = 7.0;
+constexpr double negligible_height = 0.1;  // of the whole: a hundredth of the energy
 
 template <class Value>
 std::string object_of(const Value& name) {
@@ -151,7 +152,8 @@ std::array<double, 2> Spectrum::default_range() const {
   if (const auto* table = std::get_if<SpectralTable>(&parts_.front())) return {table->first(), table->last()};
   std::array<double, 2> range{0.3, 2.5};
   for (const Part& part : parts_) {
-    const double peak = std::visit([](const auto& p) { return p.peak_omega(); }, part);
+    const auto [peak, hs] = std::visit([](const auto& p) { return std::pair(p.peak_omega(), p.hs()); }, part);
+    if (hs < negligible_height * hs_) continue;
     range = {std::min(range[0], 0.5 * peak), std::max(range[1], 3.0 * peak)};
   }
   return range;

@@ -42,8 +42,8 @@ class Spectrum {
 
   /// Each wave system by itself, the one with the given or highest peak first.
   std::vector<Spectrum> parts() const;
-  /// What a realisation covers by default: min(0.3, lowest peak / 2) to max(2.5, 3 x highest peak) rad/s, for
-  /// a table its own range.
+  /// What a realisation covers by default: min(0.3, lowest peak / 2) to max(2.5, 3 x highest peak) rad/s of
+  /// the parts that hold a hundredth of the energy or more; for a table its own range.
   std::array<double, 2> default_range() const;
 
   const std::string& name() const { return name_; }

@@ -1,5 +1,6 @@
 #include "seacrane/sea/wave_components.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -7,6 +8,7 @@
 
 #include "seacrane/sea/dispersion.hpp"
 #include "seacrane/sea/require.hpp"
+#include "seacrane/sea/sincos.hpp"
 
 namespace seacrane {
 namespace {
@@ -24,18 +26,37 @@ void require_each(const std::vector<double>& values, const std::string& name, st
   }
 }
 
+/// use(i, cos, sin) of angle(i) for i = 0 .. count - 1, in order; in blocks, so that the functions are SIMD.
+template <class Angle, class Use>
+void for_each_phasor(std::size_t count, const Angle& angle, const Use& use) {
+  constexpr std::size_t block = 64;
+  double angles[block], sine[block], cosine[block];
+  for (std::size_t from = 0; from < count; from += block) {
+    const std::size_t n = std::min(block, count - from);
+    double largest = 0.0;
+    for (std::size_t i = 0; i < n; ++i) {
+      angles[i] = angle(from + i);
+      largest = std::max(largest, std::fabs(angles[i]));
+    }
+    sea::sincos_of(angles, n, largest, 1.0, sine, cosine);
+    for (std::size_t i = 0; i < n; ++i) use(from + i, cosine[i], sine[i]);
+  }
+}
+
 struct Correlation {
   double value, slope;
 };
 
 Correlation correlation(const WaveComponents& waves, double lag) {
   double value = 0.0, slope = 0.0, sum = 0.0;
-  for (std::size_t i = 0; i < waves.size(); ++i) {
-    const double w = waves.omega()[i], energy = waves.amplitude()[i] * waves.amplitude()[i];
-    value += energy * std::cos(w * lag);
-    slope -= energy * w * std::sin(w * lag);
-    sum += energy;
-  }
+  for_each_phasor(
+      waves.size(), [&](std::size_t i) { return waves.omega()[i] * lag; },
+      [&](std::size_t i, double cosine, double sine) {
+        const double energy = waves.amplitude()[i] * waves.amplitude()[i];
+        value += energy * cosine;
+        slope -= energy * waves.omega()[i] * sine;
+        sum += energy;
+      });
   return {value / sum, slope / sum};
 }
 
@@ -73,9 +94,9 @@ double WaveComponents::phase_at(std::size_t i, double x, double y) const {
 
 double WaveComponents::elevation(double t, double x, double y) const {
   double sum = 0.0;
-  for (std::size_t i = 0; i < size(); ++i) {
-    sum += amplitude_[i] * std::cos(omega_[i] * t + phase_at(i, x, y));
-  }
+  for_each_phasor(
+      size(), [&](std::size_t i) { return omega_[i] * t + phase_at(i, x, y); },
+      [&](std::size_t i, double cosine, double) { sum += amplitude_[i] * cosine; });
   return sum;
 }
 

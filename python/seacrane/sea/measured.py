@@ -124,7 +124,7 @@ class MeasuredWaves:
 
     @property
     def _harmonics(self) -> Array:
-        return 2.0 * np.pi / self.duration * np.arange(self.time.size // 2 + 1)
+        return np.asarray(2.0 * np.pi / self.duration * np.arange(self.time.size // 2 + 1), dtype=float)
 
     @property
     def _kept(self) -> NDArray[np.bool_]:
