@@ -152,6 +152,35 @@ TEST_CASE("a regular wave travels to its direction") {
   CHECK(wave.mean_period() == doctest::Approx(2.0 * std::numbers::pi / omega).epsilon(1e-14));
 }
 
+TEST_CASE("uniform placement: multiples of one width, each with the energy of the bin about it") {
+  RealisationOptions o = options_of(1);
+  o.placement = Placement::uniform;
+  o.count = 220;
+  const Spectrum s = Spectrum::jonswap(2.0, 8.0);
+  const WaveComponents waves = realise(s, o);
+  for (std::size_t i = 0; i < waves.size(); ++i) {
+    const double centre = 0.01 * static_cast<double>(30 + i);
+    CHECK(waves.omega()[i] == doctest::Approx(centre).epsilon(1e-12));
+    CHECK(0.5 * std::pow(waves.amplitude()[i], 2) ==
+          doctest::Approx(s.energy(centre - 0.005, centre + 0.005)).epsilon(1e-9));
+  }
+  o.omega_min = 0.0;  // the first bin lies about one width, not about zero
+  CHECK(realise(s, o).omega()[0] == doctest::Approx(2.5 / 220.0).epsilon(1e-12));
+}
+
+TEST_CASE("wave systems draw from random streams of their own") {
+  RealisationOptions o = options_of(7);
+  const Spectrum s = Spectrum::jonswap(2.0, 8.0);
+  const WaveComponents first = realise(s, o);
+  o.system = 2;
+  const WaveComponents third = realise(s, o);
+  for (std::size_t i = 0; i < first.size(); ++i) {
+    CHECK(first.phase()[i] == 2.0 * std::numbers::pi * Philox::uniform(7, 1, i));
+    CHECK(third.phase()[i] == 2.0 * std::numbers::pi * Philox::uniform(7, 7, i));
+    CHECK(third.omega()[i] != first.omega()[i]);
+  }
+}
+
 TEST_CASE("bad realisation options are named with their value and the fix") {
   RealisationOptions o = options_of(1);
   o.count = 0;

@@ -75,6 +75,23 @@ TEST_CASE("JONSWAP raises the peak by gamma and leaves the tail's shape alone") 
   CHECK(j.steepness() == doctest::Approx(2.0 * 2.0 * std::numbers::pi / (9.80665 * 64.0)).epsilon(1e-15));
 }
 
+TEST_CASE("bands of every kind of spectrum match Simpson's rule and add up to hs^2 / 16") {
+  const double end = std::numeric_limits<double>::infinity();
+  for (const Spectrum& s : {Spectrum::torsethaugen(4.0, 8.0), Spectrum::torsethaugen(2.0, 15.0),
+                            Spectrum::ochi_hubble({3.0, 2.0}, {14.0, 6.0}, {3.0, 1.3}),
+                            Spectrum::tabulated({0.3, 0.6, 0.9, 2.4}, {0.0, 2.0, 0.7, 0.1})}) {
+    CAPTURE(s.name());
+    CHECK(s.energy(0.61, 0.69) == doctest::Approx(simpson(s, 0.61, 0.69, 2000)).epsilon(1e-9));
+    CHECK(s.energy(1.0, 2.3) == doctest::Approx(simpson(s, 1.0, 2.3, 4000)).epsilon(1e-9));
+    double sum = s.energy(3.0, end);
+    for (int i = 0; i < 10000; ++i) sum += s.energy(3e-4 * i, 3e-4 * (i + 1));
+    CHECK(sum == doctest::Approx(s.hs() * s.hs() / 16.0).epsilon(1e-11));
+    double parts = 0.0;
+    for (const Spectrum& part : s.parts()) parts += part.moment(0);
+    CHECK(parts == doctest::Approx(s.moment(0)).epsilon(1e-14));
+  }
+}
+
 TEST_CASE("bad spectrum parameters are named with their value and the fix") {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   CHECK(message(nan, 8.0, 3.3).find("JONSWAP spectrum: hs is nan; give") == 0);

@@ -38,7 +38,7 @@ WaveComponents realise(const Spectrum& spectrum, const RealisationOptions& o) {
   const auto n = static_cast<std::size_t>(o.count);
   const double width = (to - from) / static_cast<double>(n);
   const bool uniform = o.placement == Placement::uniform;
-  if (uniform) from = (std::max(1.0, std::round(from / width + 0.5)) - 0.5) * width;
+  if (uniform) from = (std::max(1.0, std::ceil(from / width - 1e-9)) - 0.5) * width;
   std::vector<double> omega(n), amplitude(n), phase(n);
   for (std::size_t i = 0; i < n; ++i) {
     const double left = from + static_cast<double>(i) * width;

@@ -1,0 +1,133 @@
+"""Realised seas as random processes: variance, Rice's crossings, crests, directions, cross-spectra."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+from scipy.integrate import quad
+
+from seacrane.errors import SceneError
+from seacrane.sea import SeaState, Spreading, WaveComponents, WaveSystem, cos_2s, cos_n, jonswap
+
+SPREADINGS = [cos_2s(1.0), cos_2s(6.5), cos_2s(60.0), cos_n(2.0), cos_n(5.0)]
+NAMES = [f"{s.kind}-{s.exponent:g}" for s in SPREADINGS]
+
+
+@pytest.mark.parametrize("spreading", SPREADINGS, ids=NAMES)
+def test_spreading_is_a_density_with_its_quantiles(spreading: Spreading) -> None:
+    density = lambda b: float(spreading.density(b))  # noqa: E731
+    whole = quad(density, -np.pi, 0.0)[0] + quad(density, 0.0, np.pi)[0]
+    assert whole == pytest.approx(1.0, rel=1e-7)
+    for p in (0.01, 0.2, 0.5, 0.77, 0.999):
+        edge = float(spreading.quantile(p))
+        share = quad(density, -np.pi, min(edge, 0.0))[0] + quad(density, 0.0, max(edge, 0.0))[0]
+        assert share == pytest.approx(p, abs=1e-7)
+    mean = 2.0 * quad(lambda b: np.cos(b) * density(b), 0.0, np.pi, limit=200)[0]
+    assert spreading.std == pytest.approx(np.sqrt(2.0 * (1.0 - mean)), rel=1e-6)
+    # Published forms: 2^(2s-1) Gamma(s+1)^2 / (pi Gamma(2s+1)) and Gamma(n/2+1) / (sqrt(pi) Gamma(n/2+1/2)).
+    if spreading == cos_2s(1.0):
+        assert spreading.density(0.0) == pytest.approx(2.0 / (2.0 * np.pi), rel=1e-13)
+    if spreading == cos_n(2.0):
+        assert spreading.density(0.6) == pytest.approx(2.0 / np.pi * np.cos(0.6) ** 2, rel=1e-13)
+        assert spreading.density(1.7) == 0.0
+
+
+def short_crested(spreading: Spreading, **options: object) -> WaveComponents:
+    system = WaveSystem(
+        spectrum=jonswap(hs=2.0, tp=8.0), direction_deg=140.0, spreading=spreading,
+        count=int(options.pop("count", 600)),
+    )  # fmt: skip
+    return SeaState(systems=[system], **options).realise().waves
+
+
+@pytest.mark.parametrize("spreading", SPREADINGS, ids=NAMES)
+def test_directions_follow_the_spreading_in_every_band(spreading: Spreading) -> None:
+    waves = short_crested(spreading, seed=11)
+    off = np.array(waves.direction) - np.radians(140.0)
+    for band in (slice(None), slice(100, 200), slice(500, 600)):
+        angles = np.sort(off[band])
+        n = angles.size
+        ideal = spreading.quantile((np.arange(n) + 0.5) / n)
+        # Golden-ratio steps: any n neighbours fill (0, 1) with gaps below 2.6 / n; random ones would not.
+        shares = np.searchsorted(angles, spreading.quantile(np.linspace(0.02, 0.98, 49))) / n
+        np.testing.assert_allclose(shares, np.linspace(0.02, 0.98, 49), atol=3.0 / n)
+        assert np.abs(angles - ideal).mean() < 0.1 * spreading.std
+
+
+def test_energy_does_not_depend_on_the_place() -> None:
+    # One direction per frequency: over its common period the variance is m0 at every point, to rounding.
+    waves = short_crested(cos_2s(3.0), seed=5, placement="uniform", count=300)
+    step = float(np.min(np.diff(waves.omega)))
+    period = 2.0 * np.pi / step
+    t = np.arange(4096) * period / 4096
+    for x, y in [(0.0, 0.0), (33.0, -12.0), (400.0, 250.0)]:
+        record = waves.elevation(t, x=x, y=y)
+        assert np.mean(record**2) == pytest.approx(waves.m0, rel=1e-10)
+
+
+def test_cross_spectrum_of_two_points_is_that_of_the_spreading() -> None:
+    spreading, mean = cos_2s(6.0), np.radians(140.0)
+    waves = short_crested(spreading, seed=2, placement="uniform", count=4000)
+    step = float(np.min(np.diff(waves.omega)))
+    n = 1 << 14
+    t = np.arange(n) * 2.0 * np.pi / step / n
+    x, y = 18.0, 9.0
+    here, there = (np.fft.rfft(waves.elevation(t, x=px, y=py)) / n for px, py in ((0.0, 0.0), (x, y)))
+    first = round(float(waves.omega[0]) / step)
+    for band in (slice(600, 900), slice(900, 1200), slice(2000, 2400)):
+        lines = np.arange(first, first + 4000)[band]
+        product = there[lines] * np.conj(here[lines])
+        k = np.array(waves.wavenumber)[band]
+        angles = np.linspace(-np.pi, np.pi, 721)[:-1]
+        turned = np.exp(-1j * k[:, None] * (x * np.cos(mean + angles) + y * np.sin(mean + angles)))
+        kernel = turned @ spreading.density(angles) * (angles[1] - angles[0])
+        energy = np.abs(here[lines]) ** 2
+        expected = np.sum(energy * kernel) / np.sum(energy)
+        assert np.sum(product) / np.sum(energy) == pytest.approx(expected, abs=0.01)
+        assert 0.05 < abs(expected) < 0.97
+
+
+def crossings_and_crests(record: NDArray, levels: NDArray) -> tuple[NDArray, NDArray]:
+    below, above = record[:-1, None] < levels, record[1:, None] >= levels
+    zero = np.flatnonzero((record[:-1] < 0.0) & (record[1:] >= 0.0))
+    crests = np.maximum.reduceat(record, zero)[:-1]
+    return np.count_nonzero(below & above, axis=0), crests
+
+
+def test_many_seeds_cross_levels_as_rice_says_and_have_rayleigh_crests() -> None:
+    spectrum, dt, duration = jonswap(hs=2.0, tp=8.0), 0.2, 1200.0
+    t = np.arange(0.0, duration, dt)
+    levels = np.array([0.0, 1.0, 2.0])
+    seeds, counts, crests, variances = 40, np.zeros(3), [], []
+    for seed in range(seeds):
+        waves = (
+            SeaState(systems=[WaveSystem(spectrum=spectrum, direction_deg=0.0)], seed=seed).realise().waves
+        )
+        sigma = np.sqrt(waves.m0)
+        record = waves.elevation(t) / sigma
+        more, high = crossings_and_crests(record, levels)
+        counts += more
+        crests.append(high)
+        variances.append(np.mean(record**2))
+    expected = seeds * duration / waves.mean_period * np.exp(-0.5 * levels**2)
+    np.testing.assert_allclose(counts, expected, rtol=0.04)
+    assert np.mean(variances) == pytest.approx(1.0, abs=0.02)
+    all_crests = np.concatenate(crests)
+    for level in (1.0, 1.5, 2.0):
+        # Rayleigh is the narrow-band limit; the JONSWAP band takes some small crests in, hence the margin.
+        assert np.mean(all_crests > level) == pytest.approx(np.exp(-0.5 * level**2), rel=0.10)
+
+
+@pytest.mark.parametrize(
+    ("make", "message"),
+    [
+        (lambda: cos_2s(0.0), "exponent is 0.0; give one above 0"),
+        (lambda: cos_n(float("nan")), "exponent is nan"),
+        (lambda: Spreading(kind="cos", exponent=2.0), "kind is 'cos'; give 'cos-2s' or 'cos-n'"),
+        (lambda: cos_2s("wide"), "exponent is 'wide'; give a number"),
+    ],
+)
+def test_bad_spreadings_are_named(make: object, message: str) -> None:
+    with pytest.raises(SceneError, match=message):
+        make()  # type: ignore[operator]
