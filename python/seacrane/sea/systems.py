@@ -175,6 +175,8 @@ class SeaState:
             raise SceneError(f"sea state: depth is {self.depth}; give a depth above zero in m, or infinity")
         if self.placement not in ("jittered", "uniform"):
             raise SceneError(f"sea state: placement is {self.placement!r}; give 'jittered' or 'uniform'")
+        if not isinstance(self.seed, (int, np.integer)) or not 0 <= self.seed < 2**64:
+            raise SceneError(f"sea state: seed is {self.seed!r}; give a whole number from 0 to 2^64 - 1")
         object.__setattr__(self, "systems", systems)
 
     def realise(self) -> RealisedSea:
@@ -221,10 +223,10 @@ class SeaState:
         return spreading.quantile(np.mod(start + GOLDEN * np.arange(count), 1.0))
 
     def description(self) -> dict[str, Any]:
-        """The sea in plain data, for notes and files; tables and records by their size only."""
+        """The sea in plain data, for notes and files: depth None is deep water, a record its size."""
         return {
             "seed": self.seed,
-            "depth": self.depth,
+            "depth": None if np.isinf(self.depth) else float(self.depth),
             "placement": self.placement,
             "systems": [_described(system) for system in self.systems],
         }
