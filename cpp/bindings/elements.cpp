@@ -287,16 +287,6 @@ void bind_vessel(py::module_& m) {
       .def_property_readonly("kinematics", [](const V& v) {
         return v.kinematics == VesselKinematics::paper ? "paper" : "yaw_following";
       });
-  using W = WaveLoadDescription;
-  Class<W>(
-      m, "WaveLoads",
-      "Wave loads on a vessel from its force RAOs: an exact sum, or a table of it with a stated error bound.")
-      .def(py::init([](std::string name, std::string body, std::shared_ptr<ExactWaveLoad> exact,
-                       std::shared_ptr<WaveTable> table) {
-             return W{std::move(name), std::move(body), std::move(exact), std::move(table)};
-           }),
-           py::kw_only(), py::arg("name"), py::arg("body"), py::arg("exact"), py::arg("table") = py::none())
-      .def_property_readonly("name", [](const W& w) { return w.name; });
 }
 
 }  // namespace
@@ -307,4 +297,5 @@ void bind_elements(py::module_& m) {
   bind_drives(m);
   bind_loads(m);
   bind_vessel(m);
+  bind_flow_force(m);
 }

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "sea_arrays.hpp"
+#include "seacrane/model/description.hpp"
 
 using namespace seacrane;
 
@@ -25,7 +26,9 @@ Eigen::MatrixXcd to_matrix(const Complexes& a) {
   return Eigen::Map<const RowMajor>(a.data(), a.shape(0), a.shape(1));
 }
 
-py::array_t<double> exact_load(const ExactWaveLoad& load, const Doubles& times, int derivative) {
+/// The six loads or a time derivative of them.
+template <class Load>
+py::array_t<double> derivatives(const Load& load, const Doubles& times, int derivative) {
   if (derivative < 0 || derivative > 2) {
     throw py::value_error("wave load: derivative is " + std::to_string(derivative) + "; give 0, 1 or 2");
   }
@@ -34,16 +37,32 @@ py::array_t<double> exact_load(const ExactWaveLoad& load, const Doubles& times, 
       load.evaluate(t, out);
       return;
     }
-    double orders[3][wave_channels];
+    double orders[3][Load::channels];
     load.evaluate(t, orders[0], orders[1], orders[2]);
-    std::copy_n(orders[derivative], wave_channels, out);
+    std::copy_n(orders[derivative], Load::channels, out);
   });
 }
 
-py::array_t<double> table_channels(const WaveTable& table, const Doubles& times, std::size_t first,
+/// Six loads, or the seventh channel, at every time.
+template <class Source>
+py::array_t<double> table_channels(const KnotTable<Source>& table, const Doubles& times, std::size_t first,
                                    std::size_t width) {
-  WaveTableBlock block = table.make_block();
+  KnotBlock<Source> block = table.make_block();
   return at_times(times, first, width, [&](double t, double* out) { table.evaluate(t, block, out); });
+}
+
+/// A table that makes its knots during a run, or holds those of a whole period.
+template <class Source>
+std::shared_ptr<KnotTable<Source>> make_table(const std::shared_ptr<Source>& load, double relative_bound,
+                                              double period, const std::optional<Doubles>& knots) {
+  if (!knots) return std::make_shared<KnotTable<Source>>(load, relative_bound);
+  if (knots->ndim() != 3 || knots->shape(1) != 3 ||
+      knots->shape(2) != static_cast<py::ssize_t>(Source::channels)) {
+    throw py::value_error(std::string(Source::object) + ": knots need the shape (knots, 3, " +
+                          std::to_string(Source::channels) + "): value, rate, acceleration by channel");
+  }
+  return std::make_shared<KnotTable<Source>>(load, relative_bound, period, knots->data(),
+                                             static_cast<std::size_t>(knots->shape(0)));
 }
 
 void bind_exact(py::module_& m) {
@@ -77,7 +96,8 @@ ValueError
            }),
            py::arg("waves"), py::kw_only(), py::arg("transfer"), py::arg("position") = Point(0.0, 0.0),
            py::arg("elevation_point") = py::none())
-      .def("evaluate", &exact_load, py::arg("times"), py::kw_only(), py::arg("derivative") = 0,
+      .def("evaluate", &derivatives<ExactWaveLoad>, py::arg("times"), py::kw_only(),
+           py::arg("derivative") = 0,
            "Forces (N) and moments (N m) at times (s): shape times.shape + (6,). `derivative` 1 or 2 gives "
            "the "
            "time derivatives of that order.")
@@ -102,13 +122,44 @@ ValueError
       });
 }
 
-void bind_table(py::module_& m) {
-  py::class_<WaveTable, std::shared_ptr<WaveTable>>(
-      m, "WaveTable",
-      R"(A wave load by quintic Hermite interpolation on a global time grid; immutable.
+template <class Source>
+auto bind_table(py::module_& m, const char* name, const char* text) {
+  using Table = KnotTable<Source>;
+  return py::class_<Table, std::shared_ptr<Table>>(m, name, text)
+      .def(py::init(&make_table<Source>), py::arg("load").none(false), py::kw_only(),
+           py::arg("relative_bound") = 1e-9, py::arg("period") = 0.0, py::arg("knots") = py::none())
+      .def(
+          "evaluate",
+          [](const Table& table, const Doubles& times) { return table_channels(table, times, 0, 6); },
+          py::arg("times"), "Forces (N) and moments (N m) at times (s): shape times.shape + (6,).")
+      .def_property_readonly("step", &Table::step, "Distance of the knots, s.")
+      .def_property_readonly("stored_knots", &Table::stored_knots,
+                             "Knots kept for good; 0 where they are made during a run.")
+      .def_static(
+          "largest_step",
+          [](const std::shared_ptr<Source>& load, double relative_bound) {
+            return Table::largest_step(load.get(), relative_bound);
+          },
+          py::arg("load").none(false), py::kw_only(), py::arg("relative_bound") = 1e-9,
+          "The widest step (s) that keeps the bound.")
+      .def_property_readonly(
+          "error_bound",
+          [](const Table& table) { return py::array_t<double>(6, table.error_bound().data()); },
+          "Bound of |table - exact| per motion, N and N m, shape (6,).")
+      .def("__repr__", [name = std::string(name)](const Table& table) {
+        return py::str("{}({} components, step={:.4g} s)")
+            .format(name, table.exact()->waves().size(), table.step());
+      });
+}
 
-|table - exact| <= step^6 / 46080 sum |a X_ij| omega^6 at any time (Hermite remainder), plus rounding. Knots are
-computed when a run reaches them and held in a ring of fixed size: constant memory for any duration.
+void bind_wave_table(py::module_& m) {
+  bind_table<ExactWaveLoad>(
+      m, "WaveTable",
+      R"(A wave load by Hermite interpolation of degree 11 on a global time grid; immutable.
+
+|table - exact| <= 3.72e-10 step^12 sum |a X_ij| omega^12 at any time (Hermite remainder), plus rounding. Knots are
+computed when a run reaches them and held in a ring of fixed size: constant memory for any duration; or they are
+those of a whole period, handed over.
 
 Parameters
 ----------
@@ -116,40 +167,158 @@ load : ExactWaveLoad
 relative_bound : float
     The bound over sum |a X_ij|, 1e-14 to 1e-2; it sets the step. The default 1e-9 is about 1e-8 of a load's
     standard deviation with 200 components.
+period : float
+    With `knots`: of the load, s.
+knots : array_like, shape (count, 3, 7), optional
+    Value, rate and acceleration of the six loads and the elevation at the times period k / count. Copied.
 
 Raises
 ------
 ValueError
-    `relative_bound` is out of range.)")
-      .def(py::init([](const std::shared_ptr<ExactWaveLoad>& load, double relative_bound) {
-             return std::make_shared<WaveTable>(load, relative_bound);
-           }),
-           py::arg("load").none(false), py::kw_only(), py::arg("relative_bound") = 1e-9)
-      .def(
-          "evaluate",
-          [](const WaveTable& table, const Doubles& times) { return table_channels(table, times, 0, 6); },
-          py::arg("times"), "Forces (N) and moments (N m) at times (s): shape times.shape + (6,).")
+    `relative_bound` is out of range, there are too few knots for it, or they are not those of the load.)")
       .def(
           "elevation",
           [](const WaveTable& table, const Doubles& times) { return table_channels(table, times, 6, 1); },
           py::arg("times"), "Wave elevation (m) at the elevation point, shape of `times` (s).")
-      .def_property_readonly("step", &WaveTable::step, "Distance of the knots, s.")
-      .def_property_readonly(
-          "error_bound",
-          [](const WaveTable& table) { return py::array_t<double>(6, table.error_bound().data()); },
-          "Bound of |table - exact| per motion, N and N m, shape (6,).")
       .def_property_readonly(
           "elevation_error_bound", [](const WaveTable& table) { return table.error_bound()[6]; },
-          "The same, m.")
-      .def("__repr__", [](const WaveTable& table) {
-        return py::str("WaveTable({} components, step={:.4g} s)")
-            .format(table.exact()->waves().size(), table.step());
-      });
+          "The same, m.");
+}
+
+void bind_drift(py::module_& m) {
+  py::class_<DriftLoad, std::shared_ptr<DriftLoad>>(
+      m, "DriftLoad",
+      R"(Slowly varying second-order load at the mean position, Newman's approximation; immutable.
+
+F_j(t) = sum_ik a_i a_k (D_ij + D_kj) / 2 cos(theta_i - theta_k), theta_i = omega_i t + phase_i
+- k_i (x cos b_i + y sin b_i); its mean is sum a^2 D.
+
+Parameters
+----------
+waves : WaveComponents
+coefficient : array_like, shape (components, 6)
+    D: mean load over amplitude squared, N/m2 and N m/m2. Copied.
+position : tuple of float
+    x, y of the vessel, m, inertial frame.
+
+Raises
+------
+ValueError
+    A wrong shape or a value that is not finite.)")
+      .def(py::init([](const WaveComponents& waves, const MatXd& coefficient, Point position) {
+             return std::make_shared<DriftLoad>(waves, coefficient,
+                                                WavePoint{position.first, position.second});
+           }),
+           py::arg("waves"), py::kw_only(), py::arg("coefficient"), py::arg("position") = Point(0.0, 0.0))
+      .def(
+          "evaluate",
+          [](const DriftLoad& load, const Doubles& times, int derivative) {
+            return derivatives(load, times, derivative);
+          },
+          py::arg("times"), py::kw_only(), py::arg("derivative") = 0,
+          "Forces (N) and moments (N m) at times (s): shape times.shape + (6,); `derivative` 0, 1 or 2.")
+      .def_property_readonly(
+          "waves", [](const DriftLoad& load) { return load.waves(); }, "The components (a copy).");
+  bind_table<DriftLoad>(
+      m, "DriftTable",
+      "A DriftLoad by Hermite interpolation on a global time grid, as WaveTable; knots have the shape "
+      "(count, 3, 6).");
+}
+
+/// Headings x components x `width`, real.
+template <std::size_t width>
+HeadingTable<width> heading_table(const char* object, const std::vector<double>& headings,
+                                  std::size_t components, const double* values, const py::array& from,
+                                  py::ssize_t columns) {
+  const auto m = static_cast<py::ssize_t>(headings.size()), n = static_cast<py::ssize_t>(components);
+  if (from.ndim() != 3 || from.shape(0) != m || from.shape(1) != n || from.shape(2) != columns) {
+    throw py::value_error(std::string(object) + ": values need the shape (" + std::to_string(m) + ", " +
+                          std::to_string(n) + ", 6): headings, components, motions");
+  }
+  return HeadingTable<width>(object, headings, components, values);
+}
+
+void bind_positioned(py::module_& m) {
+  py::class_<PositionedWaveLoad, std::shared_ptr<PositionedWaveLoad>>(
+      m, "PositionedWaveLoad",
+      R"(Wave loads with phase and heading of the vessel as it is now, in axes that follow its yaw; immutable.
+
+F_j = Re sum_i a_i X_j(omega_i, b_i - psi) exp(i (omega_i t + phase_i - k_i (x cos b_i + y sin b_i))), X by periodic
+cubic splines in the relative heading; slow drift, if asked for, as in DriftLoad with D at b_i - psi.
+
+Parameters
+----------
+waves : WaveComponents
+headings : array_like, shape (m,)
+    Increasing within one turn, at most 45 deg apart, rad.
+transfer : array_like of complex, shape (m, components, 6)
+    X at each heading for each component's frequency, N/m and N m/m. Copied.
+drift_headings, drift : array_like, shapes (p,) and (p, components, 6), optional
+    D over its headings, N/m2 and N m/m2. Copied.
+
+Raises
+------
+ValueError
+    A wrong shape, a value that is not finite or a gap between headings.)")
+      .def(py::init([](const WaveComponents& waves, const std::vector<double>& headings,
+                       const Complexes& transfer, const std::vector<double>& drift_headings,
+                       const std::optional<Doubles>& drift) {
+             // A complex number lies in memory as its real and imaginary part.
+             auto force = heading_table<12>("force by heading", headings, waves.size(),
+                                            reinterpret_cast<const double*>(transfer.data()), transfer, 6);
+             DriftByHeading slow;
+             if (drift) {
+               slow = heading_table<6>("drift by heading", drift_headings, waves.size(), drift->data(),
+                                       *drift, 6);
+             }
+             return std::make_shared<PositionedWaveLoad>(waves, std::move(force), std::move(slow));
+           }),
+           py::arg("waves"), py::kw_only(), py::arg("headings"), py::arg("transfer"),
+           py::arg("drift_headings") = std::vector<double>{}, py::arg("drift") = py::none())
+      .def(
+          "evaluate",
+          [](const PositionedWaveLoad& load, double time, double x, double y, double yaw) {
+            if (!std::isfinite(time + x + y + yaw)) {
+              throw py::value_error("wave load: time, x, y or yaw is not finite; give s, m, m, rad");
+            }
+            PositionedLoad out;
+            load.evaluate(time, x, y, yaw, out);
+            return py::make_tuple(py::array_t<double>(6, out.force), py::array_t<double>(6, out.drift),
+                                  out.elevation);
+          },
+          py::arg("time"), py::kw_only(), py::arg("x") = 0.0, py::arg("y") = 0.0, py::arg("yaw") = 0.0,
+          "First-order load (6,), slow drift (6,), in yaw-following axes, and elevation (m) at one time (s) "
+          "and "
+          "pose (m, rad).")
+      .def_property_readonly(
+          "waves", [](const PositionedWaveLoad& load) { return load.waves(); }, "The components (a copy).");
+}
+
+void bind_wave_loads(py::module_& m) {
+  using W = WaveLoadDescription;
+  py::class_<W>(
+      m, "WaveLoads",
+      "Wave loads on a vessel: exact sums at the mean position, or tables of them with a stated error "
+      "bound; or loads at the actual position, which replace all others.")
+      .def(py::init([](std::string name, std::string body, std::shared_ptr<ExactWaveLoad> exact,
+                       std::shared_ptr<WaveTable> table, std::shared_ptr<DriftLoad> drift,
+                       std::shared_ptr<DriftTable> drift_table,
+                       std::shared_ptr<PositionedWaveLoad> positioned) {
+             return W{std::move(name),  std::move(body),        std::move(exact),     std::move(table),
+                      std::move(drift), std::move(drift_table), std::move(positioned)};
+           }),
+           py::kw_only(), py::arg("name"), py::arg("body"), py::arg("exact") = py::none(),
+           py::arg("table") = py::none(), py::arg("drift") = py::none(), py::arg("drift_table") = py::none(),
+           py::arg("positioned") = py::none())
+      .def_property_readonly("name", [](const W& w) { return w.name; });
 }
 
 }  // namespace
 
 void bind_wave_load(py::module_& m) {
   bind_exact(m);
-  bind_table(m);
+  bind_wave_table(m);
+  bind_drift(m);
+  bind_positioned(m);
+  bind_wave_loads(m);
 }

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from seacrane import _core
 from seacrane.errors import SceneError
 
 Array = NDArray[np.float64]
@@ -65,3 +66,13 @@ def shaped_of(what: str, value: Any, shape: tuple[int, ...]) -> Array:
     if array.shape != shape:
         raise SceneError(f"{what} has shape {array.shape}; give {shape}")
     return array
+
+
+def curve_of(what: str, value: Any) -> _core.Curve:
+    """A curve, or a number as a constant one."""
+    if isinstance(value, _core.Curve):
+        return value
+    number = number_of(what, value)
+    if not np.isfinite(number):
+        raise SceneError(f"{what} is {number}; give a finite number or a curve")
+    return _core.Curve.constant(value=number)

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane import _core
-from seacrane.checked import flag_of, name_of, number_of, numbers_of, shaped_of, text_of, vector_of
+from seacrane.checked import curve_of, flag_of, name_of, number_of, numbers_of, shaped_of, text_of, vector_of
 from seacrane.errors import SceneError
 from seacrane.frames import axes_across, axes_along, rotation_matrix
 from seacrane.waves import Waves
@@ -55,6 +55,7 @@ class Scene:
     springs: dict[str, _core.Spring] = field(default_factory=dict)
     force_tables: dict[str, _core.ForceTable] = field(default_factory=dict)
     function_forces: dict[str, _core.FunctionForce] = field(default_factory=dict)
+    loads: dict[str, Any] = field(default_factory=dict)
     vessels: dict[str, _core.VesselHydrodynamics] = field(default_factory=dict)
     waves: Waves | None = None
     recorded: dict[str, tuple[str, str]] = field(default_factory=dict)
@@ -270,8 +271,8 @@ class Scene:
             coordinate=coordinate,
             stiffness=number_of(f"actuator {name!r}: stiffness", stiffness),
             damping=number_of(f"actuator {name!r}: damping", damping),
-            feed_forward=_curve(f"actuator {name!r}: feed_forward", feed_forward),
-            reference=_curve(f"actuator {name!r}: reference", reference),
+            feed_forward=curve_of(f"actuator {name!r}: feed_forward", feed_forward),
+            reference=curve_of(f"actuator {name!r}: reference", reference),
         )
         inserted: _core.Actuator = self._insert("actuator", self.actuators, actuator)
         return inserted
@@ -360,6 +361,12 @@ class Scene:
         inserted: _core.FunctionForce = self._insert("function force", self.function_forces, element)
         return inserted
 
+    def add_load(self, element: Any) -> Any:
+        """Add a described load of a kind in `seacrane.load_kinds`, such as a FlowForce; returns it."""
+        from seacrane.load_kinds import kind_of
+
+        return self._insert(kind_of(element), self.loads, element)
+
     def add_vessel(
         self, *, body: str, name: str | None = None, **hydrodynamics: Any
     ) -> _core.VesselHydrodynamics:
@@ -432,6 +439,7 @@ class Scene:
                 *self.springs.values(),
                 *self.force_tables.values(),
                 *self.function_forces.values(),
+                *self.loads.values(),
             ],
             vessels=list(self.vessels.values()),
             wave_loads=[] if self.waves is None else [self.waves.compile()],
@@ -485,12 +493,3 @@ _VESSEL_SHAPES: dict[str, tuple[int, ...]] = {
     "mooring_stiffness": (3,),
     "mooring_damping": (3,),
 }
-
-
-def _curve(what: str, value: float | _core.Curve) -> _core.Curve:
-    if isinstance(value, _core.Curve):
-        return value
-    number = number_of(what, value)
-    if not np.isfinite(number):
-        raise SceneError(f"{what} is {number}; give a finite number or a curve")
-    return _core.Curve.constant(value=number)

@@ -18,14 +18,15 @@ import numpy as np
 
 from seacrane import _core
 from seacrane.errors import FileFormatError, SceneError
+from seacrane.load_kinds import load_from_node, load_to_data
+from seacrane.plain_data import notes_from_node, plain_data
 from seacrane.result.atomic import atomic_write
 from seacrane.scene import Scene
 from seacrane.scene_node import Node
-from seacrane.waves import Waves
+from seacrane.wave_file import waves_from_node, waves_to_data
 
 FORMAT = "seacrane scene"
 VERSION = 1
-INFINITE = "$infinite"  # its value is the sign
 LARGEST_FILE = 32 * 2**20  # bytes; JSON takes up to 25 times its size in memory when it is parsed
 
 _FRAME = {"point": (3,), "axes": (3, 3)}
@@ -49,7 +50,6 @@ _ARRAYS: dict[str, dict[str, tuple[int, ...]]] = {
         "mooring_stiffness": (3,),
         "mooring_damping": (3,),
     },
-    "waves": {"omega": (-1,), "amplitude": (-1,), "phase": (-1,), "direction": (-1,), "position": (2,)},
 }
 _NUMBERS = {
     "bodies": ("mass",),
@@ -80,6 +80,7 @@ _ADD = {
     "force_tables": "add_force_table",
     "vessels": "add_vessel",
 }
+_ADDED_LATER: dict[str, Any] = {"loads": []}  # entries that older files of this version do not have
 _SETTINGS = ("gravity", "baumgarte", "length_scale")
 
 
@@ -152,7 +153,19 @@ def load_scene(path: str | os.PathLike[str]) -> Scene:
     version = root.at("version").whole()
     if version != VERSION:
         raise FileFormatError(f"{place}: is of version {version}; this seacrane reads version {VERSION}")
-    fields = ("format", "version", "name", "orientation", *_SETTINGS, *_ADD, "waves", "recorded", "notes")
+    root = Node({**_ADDED_LATER, **root.value}, place)
+    fields = (
+        "format",
+        "version",
+        "name",
+        "orientation",
+        *_SETTINGS,
+        *_ADD,
+        "loads",
+        "waves",
+        "recorded",
+        "notes",
+    )
     root.expect(fields)
     return _scene(root)
 
@@ -168,14 +181,18 @@ def _scene(root: Node) -> Scene:
     for kind in _ADD:
         for node in root.at(kind).items():
             _add(scene, kind, node)
+    for node in root.at("loads").items():
+        element = load_from_node(node)
+        with node.scene_errors():
+            scene.add_load(element)
     for node in root.at("recorded").items():
         node.expect(("name", "joint", "coordinate"))
         with node.scene_errors():
             scene.record_coordinate(**{key: node.at(key).text() for key in ("name", "joint", "coordinate")})
     waves = root.at("waves")
     if waves.value is not None:
-        scene.waves = _waves(waves)
-    scene.notes.update(_notes_back(root.at("notes")))
+        scene.waves = waves_from_node(waves)
+    scene.notes.update(notes_from_node(root.at("notes")))
     return scene
 
 
@@ -223,12 +240,13 @@ def _described(scene: Scene) -> dict[str, Any]:
     out |= {key: float(getattr(scene, key)) for key in _SETTINGS}
     for kind in _ADD:
         out[kind] = [_element(kind, element) for element in getattr(scene, kind).values()]
-    out["waves"] = None if scene.waves is None else _waves_out(scene.waves)
+    out["loads"] = [load_to_data(element) for element in scene.loads.values()]
+    out["waves"] = None if scene.waves is None else waves_to_data(scene.waves)
     out["recorded"] = [
         {"name": name, "joint": joint, "coordinate": coordinate}
         for name, (joint, coordinate) in scene.recorded.items()
     ]
-    out["notes"] = _plain(f"scene {scene.name!r}: notes", scene.notes)
+    out["notes"] = plain_data(f"scene {scene.name!r}: notes", scene.notes)
     return out
 
 
@@ -256,51 +274,6 @@ def _block(block: _core.StateSpaceBlock) -> dict[str, Any]:
     return {"inputs": list(block.inputs), "outputs": list(block.outputs), **matrices}
 
 
-def _waves_out(waves: Waves) -> dict[str, Any]:
-    transfer = np.asarray(waves.transfer, dtype=complex)
-    out = {"body": waves.body, "relative_bound": float(waves.relative_bound)}
-    out["depth"] = None if waves.depth == math.inf else float(waves.depth)
-    out |= {key: np.asarray(getattr(waves, key), dtype=float).tolist() for key in _ARRAYS["waves"]}
-    out |= {"transfer_real": transfer.real.tolist(), "transfer_imaginary": transfer.imag.tolist()}
-    out["information"] = _plain("waves: information", waves.information)
-    return out
-
-
-def _plain(what: str, value: Any) -> Any:
-    """Notes as JSON data; infinities, for which JSON has no word, as objects."""
-    if isinstance(value, (np.generic, np.ndarray)):
-        value = value.tolist()
-    if isinstance(value, float) and math.isinf(value):
-        return {INFINITE: int(math.copysign(1, value))}
-    if value is None or isinstance(value, (str, bool, int, float)):
-        return value
-    if isinstance(value, Mapping):
-        return {str(key): _plain(f"{what}[{key!r}]", item) for key, item in value.items()}
-    if isinstance(value, Sequence) and not isinstance(value, (bytes, bytearray)):
-        return [_plain(f"{what}[{i}]", item) for i, item in enumerate(value)]
-    raise SceneError(
-        f"{what} is a {type(value).__name__}; a scene file takes numbers, texts, lists and mappings"
-    )
-
-
-def _notes_back(node: Node) -> dict[str, Any]:
-    if not isinstance(node.value, dict):
-        node.fail("give an object")
-    try:
-        out: dict[str, Any] = _restored(node.value)
-    except RecursionError as error:
-        raise FileFormatError(f"{node.path}: is nested too deeply") from error
-    return out
-
-
-def _restored(value: Any) -> Any:
-    if isinstance(value, dict):
-        if set(value) == {INFINITE} and value[INFINITE] in (1, -1):
-            return math.copysign(math.inf, value[INFINITE])
-        return {key: _restored(item) for key, item in value.items()}
-    return [_restored(item) for item in value] if isinstance(value, list) else value
-
-
 def _add(scene: Scene, kind: str, node: Node) -> None:
     """Check one element's entries, then add it as a script would."""
     arrays, curves, frames = _ARRAYS.get(kind, {}), _CURVES.get(kind, ()), _FRAMES.get(kind, ())
@@ -311,7 +284,7 @@ def _add(scene: Scene, kind: str, node: Node) -> None:
     arguments |= {key: node.at(key).number() for key in numbers}
     arguments |= {key: node.at(key).flag() for key in flags}
     arguments |= {key: node.at(key).array(shape) for key, shape in arrays.items()}
-    arguments |= {key: _curve(node.at(key)) for key in curves}
+    arguments |= {key: node.at(key).curve() for key in curves}
     arguments |= {key: _frame(node.at(key)) for key in frames}
     if memory:
         arguments["memory"] = _memory_back(node.at("memory"))
@@ -321,16 +294,6 @@ def _add(scene: Scene, kind: str, node: Node) -> None:
         del arguments["length"]
     with node.scene_errors():
         getattr(scene, _ADD[kind])(**arguments)
-
-
-def _curve(node: Node) -> _core.Curve:
-    node.expect(("starts", "coefficients", "cosines"))
-    starts, coefficients = node.at("starts").array((-1,)), node.at("coefficients").array((-1, 6))
-    cosines = node.at("cosines").array((-1, 3))
-    with node.scene_errors():
-        return _core.Curve.pieces(
-            starts=starts.tolist(), coefficients=coefficients.tolist(), cosines=cosines.tolist()
-        )
 
 
 def _frame(node: Node) -> _core.Frame:
@@ -359,26 +322,4 @@ def _block_back(node: Node) -> _core.StateSpaceBlock:
         c=node.at("c").array((len(outputs), states)),
         d=node.at("d").array((len(outputs), len(inputs))),
         state_scale=node.at("state_scale").array((-1,)),
-    )
-
-
-def _waves(node: Node) -> Waves:
-    arrays = _ARRAYS["waves"]
-    parts = ("transfer_real", "transfer_imaginary")
-    node.expect(("body", "relative_bound", "depth", *arrays, *parts, "information"))
-    depth = node.at("depth")
-    count = len(node.at("omega").items())
-    real, imaginary = (node.at(key).array((count, 6)) for key in parts)
-    transfer = np.empty((count, 6), dtype=complex)
-    transfer.real, transfer.imag = real, imaginary
-    values = {key: node.at(key).array((count,) if shape == (-1,) else shape) for key, shape in arrays.items()}
-    position = values.pop("position").tolist()
-    return Waves(
-        body=node.at("body").text(),
-        transfer=transfer,
-        position=(position[0], position[1]),
-        relative_bound=node.at("relative_bound").number(),
-        depth=math.inf if depth.value is None else depth.number(),
-        information=_notes_back(node.at("information")),
-        **values,
     )

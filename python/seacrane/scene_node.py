@@ -11,6 +11,7 @@ from typing import Any, NoReturn
 import numpy as np
 from numpy.typing import NDArray
 
+from seacrane import _core
 from seacrane.errors import FileFormatError, SceneError
 
 Array = NDArray[np.float64]
@@ -102,3 +103,13 @@ class Node:
             return np.array([item.number() for item in items], dtype=float)
         rows = [item.array(shape[1:]) for item in items]
         return np.array(rows, dtype=float).reshape(len(rows), *shape[1:])
+
+    def curve(self) -> _core.Curve:
+        """A reference curve, as `Curve.to_pieces` gives it."""
+        self.expect(("starts", "coefficients", "cosines"))
+        starts, coefficients = self.at("starts").array((-1,)), self.at("coefficients").array((-1, 6))
+        cosines = self.at("cosines").array((-1, 3))
+        with self.scene_errors():
+            return _core.Curve.pieces(
+                starts=starts.tolist(), coefficients=coefficients.tolist(), cosines=cosines.tolist()
+            )

@@ -42,11 +42,7 @@ RedundantSystem::RedundantSystem(std::shared_ptr<const Model> model)
   mass_.assign(bodies, Mat6d::Zero());
   values_.assign(m.schur.value_count(), 0.0);
   for (auto* values : {&lambda_, &gamma_, &residual_}) values->assign(rows, 0.0);
-  wave_force_.assign(m.wave_loads.size(), Vec6d::Zero());
-  wave_elevation_.assign(m.wave_loads.size(), 0.0);
-  for (const WaveLoad& wave : m.wave_loads) {
-    wave_blocks_.push_back(wave.table ? wave.table->make_block() : WaveTableBlock());
-  }
+  for (const WaveLoad& wave : m.wave_loads) waves_.emplace_back(wave.sources);
   for (std::size_t v = 0; v < m.vessels.size(); ++v) {
     const auto* tables = std::get_if<Convolution>(&m.vessels[v].memory);
     if (tables) convolutions_.emplace_back(v, RunningConvolution(*tables));
@@ -104,8 +100,8 @@ void RedundantSystem::evaluate_rows(double t) {
   evaluate_constraints(*model_, t, curve_limit_, bodies_.data(), blocks_.data());
 }
 
-void RedundantSystem::apply_hydrodynamics(double t, const LoadInput<double>& input, const double* y,
-                                          double* ydot, LoadSum<double>& sum) {
+void RedundantSystem::apply_hydrodynamics(const LoadInput<double>& input, const double* y, double* ydot,
+                                          LoadSum<double>& sum) {
   const Model& m = *model_;
   for (std::size_t v = 0; v < m.vessels.size(); ++v) {
     const Vessel& vessel = m.vessels[v];
@@ -124,18 +120,15 @@ void RedundantSystem::apply_hydrodynamics(double t, const LoadInput<double>& inp
   for (const auto& [v, memory] : convolutions_) {
     m.vessels[v].radiate(frames_[v], memory.evaluate(t, frames_[v].twist), sum);
   }
+}
+
+void RedundantSystem::apply_waves(double t, LoadSum<double>& sum) {
+  const Model& m = *model_;
   for (std::size_t i = 0; i < m.wave_loads.size(); ++i) {
     const WaveLoad& wave = m.wave_loads[i];
-    double load[7];
-    if (wave.table) {
-      wave.table->evaluate(t, wave_blocks_[i], load);
-    } else {
-      wave.exact->evaluate(t, load);
-    }
-    const Vec6d force = view<6>(load);
-    wave_elevation_[i] = load[6];
     const YawFrame<double>& frame = frames_[idx(wave.vessel)];
-    wave_force_[i] = force;
+    waves_[i].evaluate(t, bodies_[idx(wave.body)].position, frame.yaw);
+    const Vec6d force = waves_[i].sum();
     const Vec6d inertial = m.paper_kinematics ? force : frame.to_inertial(force);
     wrench_[idx(wave.body)].force += inertial.head<3>();
     wrench_[idx(wave.body)].moment += inertial.tail<3>();
@@ -152,7 +145,8 @@ void RedundantSystem::evaluate_loads(double t, const double* y, double* ydot) {
   for_each_load_type([&]<class Load>() {
     for (const Load& load : std::get<std::vector<Load>>(m.loads)) load.template apply<double>(input, sum);
   });
-  apply_hydrodynamics(t, input, y, ydot, sum);
+  apply_hydrodynamics(input, y, ydot, sum);
+  apply_waves(t, sum);
   power_ = sum.power;
   absolute_power_ = sum.absolute_power;
   for (int b = 0; b < m.body_count(); ++b) {

@@ -9,6 +9,7 @@
 
 #include "seacrane/dynamics/dense_kkt.hpp"
 #include "seacrane/dynamics/inertia.hpp"
+#include "seacrane/dynamics/wave_forces.hpp"
 #include "seacrane/integrate/system.hpp"
 #include "seacrane/model/model.hpp"
 
@@ -69,8 +70,7 @@ class RedundantSystem final : public System {
   const std::vector<Vec6d>& acceleration() const { return acceleration_; }
   const std::vector<double>& multipliers() const { return lambda_; }
   const std::vector<RowBlock<double>>& blocks() const { return blocks_; }
-  const Vec6d& wave_force(std::size_t load) const { return wave_force_[load]; }
-  double wave_elevation(std::size_t load) const { return wave_elevation_[load]; }
+  const WaveForces& waves(std::size_t load) const { return waves_[load]; }
   LoadInput<double> load_input(double t) const { return {t, curve_limit_, bodies_.data(), slots_.data()}; }
   const std::vector<BodyInertia>& inertia() const { return inertia_; }
   /// Loads minus velocity terms per body, and the mass matrix: M vdot = load + D^T lambda.
@@ -93,8 +93,9 @@ class RedundantSystem final : public System {
   void evaluate_inertia();
   void evaluate_rows(double t);
   void evaluate_loads(double t, const double* y, double* ydot);
-  void apply_hydrodynamics(double t, const LoadInput<double>& input, const double* y, double* ydot,
+  void apply_hydrodynamics(const LoadInput<double>& input, const double* y, double* ydot,
                            LoadSum<double>& sum);
+  void apply_waves(double t, LoadSum<double>& sum);
   void factor();
   void factor_dense();
   void solve_dense();
@@ -119,9 +120,7 @@ class RedundantSystem final : public System {
   std::vector<RowBlock<double>> blocks_;
   std::vector<Mat6d> over_mass_, mass_;
   std::vector<double> values_, lambda_, gamma_, residual_;
-  std::vector<Vec6d> wave_force_;
-  std::vector<double> wave_elevation_;
-  std::vector<WaveTableBlock> wave_blocks_;
+  std::vector<WaveForces> waves_;
   std::optional<DenseKkt> dense_;
   std::optional<RowSpace> row_space_;
   std::vector<Mat6d> over_shape_, dense_mass_;

@@ -172,7 +172,7 @@ class Compiler {
     }
     for (const auto& d : scene_.wave_loads) {
       const int b = body(d.body);
-      model_.wave_loads.push_back({b, model_.bodies[idx(b)].vessel, d.exact, d.table});
+      model_.wave_loads.push_back({b, model_.bodies[idx(b)].vessel, d});
     }
   }
 

@@ -63,10 +63,17 @@ struct VesselDescription {
   VesselKinematics kinematics = VesselKinematics::yaw_following;
 };
 
+/// Loads at the mean position as exact sums, or from tables of them where set; or at the actual position,
+/// which replaces all others.
 struct WaveLoadDescription {
   std::string name, body;
   std::shared_ptr<const ExactWaveLoad> exact;
-  std::shared_ptr<const WaveTable> table;  // used instead of the exact sum when set
+  std::shared_ptr<const WaveTable> table;
+  std::shared_ptr<const DriftLoad> drift;
+  std::shared_ptr<const DriftTable> drift_table;
+  std::shared_ptr<const PositionedWaveLoad> positioned;
+
+  bool has_drift() const { return positioned ? positioned->has_drift() : drift || drift_table; }
 };
 
 enum class Orientation { quaternion, euler_xyz };

@@ -37,8 +37,7 @@ struct ElementModel {
 struct WaveLoad {
   int body = 0;
   int vessel = -1;
-  std::shared_ptr<const ExactWaveLoad> exact;
-  std::shared_ptr<const WaveTable> table;
+  WaveLoadDescription sources;
 };
 
 /// Where things stand in the state vector.

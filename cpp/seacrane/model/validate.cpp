@@ -144,7 +144,10 @@ void check_vessels(const SceneDescription& scene, const SceneNames& names) {
   for (const auto& w : scene.wave_loads) {
     const Check c("wave load", w.name);
     if (floating.count(w.body) == 0) c.fail("body '" + w.body + "' is not a vessel; add its hydrodynamics");
-    if (!w.exact && !w.table) c.fail("has no wave components");
+    if (!w.exact && !w.table && !w.positioned) c.fail("has no wave components");
+    if (w.positioned && scene.vessels.front().kinematics == VesselKinematics::paper) {
+      c.fail("the paper's kinematics know loads at the mean position only; use 'yaw_following'");
+    }
   }
 }
 

@@ -45,6 +45,7 @@ std::vector<Offer> offers(const Model& m) {
   if (!m.wave_loads.empty()) {
     out.push_back({"wave_elevation", {}, true});
     out.push_back({"wave_force", {6}, true});
+    if (m.wave_loads.front().sources.has_drift()) out.push_back({"drift_force", {6}, true});
   }
   out.push_back({"constraint_error", {}, true});
   out.push_back({"constraint_rate_error", {}, true});
@@ -137,8 +138,9 @@ void Recording::write_vessel(const RedundantSystem& system) {
     view<3>(out) = vessel.displacement(k);
     view<3>(out + 3) = vessel.angles_from_mean(YawFrame<double>(k));
   }
-  if (double* out = slot("wave_elevation")) *out = system.wave_elevation(0);
-  if (double* out = slot("wave_force")) view<6>(out) = system.wave_force(0);
+  if (double* out = slot("wave_elevation")) *out = system.waves(0).elevation();
+  if (double* out = slot("wave_force")) view<6>(out) = system.waves(0).force();
+  if (double* out = slot("drift_force")) view<6>(out) = system.waves(0).drift();
 }
 
 void Recording::write_joint_coordinates(double t, const RedundantSystem& system) {

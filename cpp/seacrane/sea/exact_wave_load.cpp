@@ -12,7 +12,7 @@
 namespace seacrane {
 namespace {
 
-const char* const object = "wave load";
+constexpr const char* object = ExactWaveLoad::object;
 
 void check(const WaveComponents& waves, const Eigen::Ref<const Eigen::MatrixXcd>& transfer) {
   const auto rows = static_cast<Eigen::Index>(waves.size());

@@ -23,6 +23,9 @@ struct WavePoint {
 /// after construction. A sum of n terms carries a rounding error of a few 1e-16 (1 + omega t) sum |a X|.
 class ExactWaveLoad {
  public:
+  static constexpr std::size_t channels = wave_channels;
+  static constexpr const char* object = "wave load";
+
   /// X: one row per component, six columns, N/m and N m/m, time factor exp(+i omega t). `position` is where
   /// the phase of X refers to; the elevation is that at `elevation_point`.
   ExactWaveLoad(WaveComponents waves, const Eigen::Ref<const Eigen::MatrixXcd>& transfer,

@@ -45,6 +45,19 @@ inline void sincos_lane(double x, double& sine, double& cosine) {
   cosine = std::bit_cast<double>((c_bits ^ swap) ^ cosine_sign);
 }
 
+/// sine[i], cosine[i] of angle[i], none of them above `largest` in size.
+inline void sincos_each(const double* angle, std::size_t count, double largest, double* sine,
+                        double* cosine) {
+  if (largest <= sincos_limit) {
+    for (std::size_t i = 0; i < count; ++i) sincos_lane(angle[i], sine[i], cosine[i]);
+  } else {
+    for (std::size_t i = 0; i < count; ++i) {
+      sine[i] = std::sin(angle[i]);
+      cosine[i] = std::cos(angle[i]);
+    }
+  }
+}
+
 /// sine[i], cosine[i] of omega[i] * t.
 inline void sincos_of(const double* omega, std::size_t count, double largest_omega, double t, double* sine,
                       double* cosine) {

@@ -58,6 +58,7 @@ CHANNELS: Mapping[str, Channel] = MappingProxyType(
         ),
         "wave_elevation": _channel("", "m", "undisturbed wave elevation at the inertial origin"),
         "wave_force": _channel("motion", _WRENCH, "wave load on the vessel at its reference point"),
+        "drift_force": _channel("motion", _WRENCH, "slow drift load on the vessel at its reference point"),
         "constraint_error": _channel("", "m or rad", "largest absolute constraint residual"),
         "constraint_rate_error": _channel("", "m/s or rad/s", "largest absolute velocity residual"),
         "constraint_error_before_projection": _channel(

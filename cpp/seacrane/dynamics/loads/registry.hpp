@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "seacrane/dynamics/loads/actuator.hpp"
+#include "seacrane/dynamics/loads/flow_force.hpp"
 #include "seacrane/dynamics/loads/force_table.hpp"
 #include "seacrane/dynamics/loads/function_force.hpp"
 #include "seacrane/dynamics/loads/point_force.hpp"
@@ -12,7 +13,7 @@
 namespace seacrane {
 
 /// The one list of loads that a scene describes: a new one is its own file and an entry here.
-using LoadTypes = std::tuple<Actuator, PointForce, SpringDamper, ForceTable, FunctionForce>;
+using LoadTypes = std::tuple<Actuator, PointForce, SpringDamper, ForceTable, FunctionForce, FlowForce>;
 
 /// Calls f.template operator()<Load>() for every type of load.
 template <class F>

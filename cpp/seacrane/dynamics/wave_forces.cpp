@@ -1,0 +1,35 @@
+#include "seacrane/dynamics/wave_forces.hpp"
+
+namespace seacrane {
+
+WaveForces::WaveForces(const WaveLoadDescription& sources) : sources_(&sources) {
+  if (sources.table) block_ = sources.table->make_block();
+  if (sources.drift_table) drift_block_ = sources.drift_table->make_block();
+}
+
+void WaveForces::evaluate(double t, const Vec3d& position, double yaw) {
+  const WaveLoadDescription& s = *sources_;
+  if (s.positioned) {
+    PositionedLoad load;
+    s.positioned->evaluate(t, position.x(), position.y(), yaw, load);
+    force_ = view<6>(load.force);
+    drift_ = view<6>(load.drift);
+    elevation_ = load.elevation;
+    return;
+  }
+  double load[wave_channels];
+  if (s.table) {
+    s.table->evaluate(t, block_, load);
+  } else {
+    s.exact->evaluate(t, load);
+  }
+  force_ = view<6>(load);
+  elevation_ = load[6];
+  if (s.drift_table) {
+    s.drift_table->evaluate(t, drift_block_, drift_.data());
+  } else if (s.drift) {
+    s.drift->evaluate(t, drift_.data());
+  }
+}
+
+}  // namespace seacrane

@@ -1,0 +1,50 @@
+"""Notes of a scene as JSON data and back."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from seacrane.errors import FileFormatError, SceneError
+from seacrane.scene_node import Node
+
+INFINITE = "$infinite"  # its value is the sign
+
+
+def plain_data(what: str, value: Any) -> Any:
+    """Notes as JSON data; infinities, for which JSON has no word, as objects."""
+    if isinstance(value, (np.generic, np.ndarray)):
+        value = value.tolist()
+    if isinstance(value, float) and math.isinf(value):
+        return {INFINITE: int(math.copysign(1, value))}
+    if value is None or isinstance(value, (str, bool, int, float)):
+        return value
+    if isinstance(value, Mapping):
+        return {str(key): plain_data(f"{what}[{key!r}]", item) for key, item in value.items()}
+    if isinstance(value, Sequence) and not isinstance(value, (bytes, bytearray)):
+        return [plain_data(f"{what}[{i}]", item) for i, item in enumerate(value)]
+    raise SceneError(
+        f"{what} is a {type(value).__name__}; a scene file takes numbers, texts, lists and mappings"
+    )
+
+
+def notes_from_node(node: Node) -> dict[str, Any]:
+    """What `plain_data` made of the notes; raises FileFormatError."""
+    if not isinstance(node.value, dict):
+        node.fail("give an object")
+    try:
+        out: dict[str, Any] = _restored(node.value)
+    except RecursionError as error:
+        raise FileFormatError(f"{node.path}: is nested too deeply") from error
+    return out
+
+
+def _restored(value: Any) -> Any:
+    if isinstance(value, dict):
+        if set(value) == {INFINITE} and value[INFINITE] in (1, -1):
+            return math.copysign(math.inf, value[INFINITE])
+        return {key: _restored(item) for key, item in value.items()}
+    return [_restored(item) for item in value] if isinstance(value, list) else value
