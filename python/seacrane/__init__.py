@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from seacrane._core import (
         Curve,
         Evaluator,
+        FlowForce,
         Frame,
         Model,
         RetardationFunctions,
@@ -24,6 +25,14 @@ if TYPE_CHECKING:
         VesselHydrodynamics,
     )
     from seacrane.curves import spline_curve
+    from seacrane.environment import (
+        DoubleCountedDampingWarning,
+        FlowCoefficients,
+        add_current,
+        add_drift,
+        add_wind,
+        use_actual_position,
+    )
     from seacrane.errors import FileFormatError, SceneError, SeacraneError, SimulationError
     from seacrane.frequency_domain import (
         ResponseStatistics,
@@ -45,13 +54,18 @@ if TYPE_CHECKING:
     from seacrane.simulation import Run, SampledController, simulate
     from seacrane.version import __version__
     from seacrane.vessel import add_vessel
-    from seacrane.waves import Waves
+    from seacrane.waves import ByHeading, Waves
+    from seacrane.wind import gust_curve
 
 _HOME = {
     "Balance": "inverse",
+    "ByHeading": "waves",
     "Curve": "_core",
+    "DoubleCountedDampingWarning": "environment",
     "Evaluator": "_core",
     "FileFormatError": "errors",
+    "FlowCoefficients": "environment",
+    "FlowForce": "_core",
     "Frame": "_core",
     "HydroDatabase": "hydro",
     "LinearModel": "linear_system",
@@ -75,12 +89,16 @@ _HOME = {
     "WaveSystem": "sea",
     "Waves": "waves",
     "__version__": "version",
+    "add_current": "environment",
+    "add_drift": "environment",
     "add_sea": "sea_state",
     "add_vessel": "vessel",
+    "add_wind": "environment",
     "balance": "inverse",
     "driven": "inverse",
     "equilibrium": "rest_state",
     "fastest_mode": "linearise",
+    "gust_curve": "wind",
     "inverse_dynamics": "inverse",
     "jacobian": "linearise",
     "linear_model": "linear_system",
@@ -92,14 +110,19 @@ _HOME = {
     "response_summed": "frequency_domain",
     "simulate": "simulation",
     "spline_curve": "curves",
+    "use_actual_position": "environment",
 }
 _MODULES = ("cases", "crane", "hydro", "sea")
 
 __all__ = [
     "Balance",
+    "ByHeading",
     "Curve",
+    "DoubleCountedDampingWarning",
     "Evaluator",
     "FileFormatError",
+    "FlowCoefficients",
+    "FlowForce",
     "Frame",
     "HydroDatabase",
     "LinearModel",
@@ -123,8 +146,11 @@ __all__ = [
     "WaveSystem",
     "Waves",
     "__version__",
+    "add_current",
+    "add_drift",
     "add_sea",
     "add_vessel",
+    "add_wind",
     "balance",
     "cases",
     "crane",
@@ -132,6 +158,7 @@ __all__ = [
     "equilibrium",
     "errors",
     "fastest_mode",
+    "gust_curve",
     "hydro",
     "inverse_dynamics",
     "jacobian",
@@ -145,6 +172,7 @@ __all__ = [
     "sea",
     "simulate",
     "spline_curve",
+    "use_actual_position",
 ]
 
 

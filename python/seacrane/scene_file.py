@@ -8,9 +8,7 @@ the frames of `Scene`. Numbers are written with as many digits as it takes to re
 from __future__ import annotations
 
 import json
-import math
 import os
-from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 

@@ -89,6 +89,7 @@ def _elements(scene: Scene) -> Rows:
         "point forces": scene.point_forces,
         "force tables": scene.force_tables,
         "C functions": scene.function_forces,
+        "wind and current": scene.loads,
         "vessels": scene.vessels,
     }
     for label, table in loads.items():

@@ -16,7 +16,7 @@ Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 OFF_GRID = 1e-9  # of a step: a phase of 6e-9 rad at the end of the period
 FINEST = 8  # parts of the smallest distance between frequencies that a step may be
-LARGEST_NUMBER = 2**24  # of a component on the grid; bounds the memory
+LARGEST_NUMBER = 2**18  # of a component on the grid: a week of waves, 100 MB of knots
 
 
 def grid_of(omega: Array) -> tuple[float, NDArray[np.int64]]:

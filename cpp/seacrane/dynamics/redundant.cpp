@@ -118,7 +118,7 @@ void RedundantSystem::apply_hydrodynamics(const LoadInput<double>& input, const 
     }
   }
   for (const auto& [v, memory] : convolutions_) {
-    m.vessels[v].radiate(frames_[v], memory.evaluate(t, frames_[v].twist), sum);
+    m.vessels[v].radiate(frames_[v], memory.evaluate(input.time, frames_[v].twist), sum);
   }
 }
 

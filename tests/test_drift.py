@@ -1,0 +1,244 @@
+"""Newman's slow drift against its double sum, closed forms and the spectrum of the force."""
+
+from __future__ import annotations
+
+from functools import cache
+from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from seacrane import Scene, SceneError, _core, add_drift, simulate, use_actual_position
+from seacrane.hydro import HydroDatabase, shipped_database
+from seacrane.vessel import add_sea, add_vessel
+
+Array = NDArray[np.float64]
+TIMES = np.array([0.0, 3.3, 47.0, 600.0])
+
+
+@cache
+def database() -> HydroDatabase:
+    return shipped_database()
+
+
+def drifting(coefficient: Any, *, headings: int = 13, symmetric: bool = True) -> Any:
+    """A database that holds drift coefficients, coefficient(omega, heading) by motion."""
+    omega = np.linspace(0.2, 2.6, 25)
+    heading = np.linspace(0.0, np.pi if symmetric else 2.0 * np.pi, headings, endpoint=symmetric)
+    table = np.array([[coefficient(w, b) for w in omega] for b in heading])
+    drift = SimpleNamespace(heading=heading, omega=omega, coefficient=table)
+    return SimpleNamespace(
+        name="drifting",
+        drift=drift,
+        port_starboard_symmetric=symmetric,
+        full_circle=database().full_circle,
+        force_at=database().force_at,
+    )
+
+
+def ship(w: float, b: float) -> list[float]:
+    """Even in heading for surge, odd for sway and yaw, as port-starboard symmetry has it."""
+    return [2e3 * w**2 * np.cos(b), 9e3 * w**3 * np.sin(b), 0.0, 0.0, 0.0, 4e4 * w * np.sin(2.0 * b)]
+
+
+def sea(count: int = 50, seed: int = 8) -> tuple[_core.WaveComponents, Array]:
+    rng = np.random.default_rng(seed)
+    waves = _core.WaveComponents(
+        omega=np.sort(rng.uniform(0.4, 1.6, count)),
+        amplitude=rng.uniform(0.02, 0.3, count),
+        phase=rng.uniform(0.0, 6.28, count),
+        direction=rng.uniform(0.0, 6.28, count),
+    )
+    return waves, rng.normal(size=(count, 6)) * 1e4
+
+
+def double_sum(waves: _core.WaveComponents, coefficient: Array, t: float, x: float, y: float) -> Array:
+    """Newman's approximation from its definition."""
+    a, k, b = np.array(waves.amplitude), np.array(waves.wavenumber), np.array(waves.direction)
+    theta = np.array(waves.omega) * t + waves.phase - k * (x * np.cos(b) + y * np.sin(b))
+    pairs = np.outer(a, a) * np.cos(theta[:, None] - theta)
+    return np.einsum("ik,ikj->j", pairs, 0.5 * (coefficient[:, None] + coefficient[None]))
+
+
+def test_two_sums_equal_the_double_sum() -> None:
+    waves, coefficient = sea()
+    load = _core.DriftLoad(waves, coefficient=coefficient, position=(20.0, -3.0))
+    scale = np.sum(waves.amplitude) * np.array(waves.amplitude) @ np.abs(coefficient)
+    for t in TIMES:
+        error = np.abs(load.evaluate(t) - double_sum(waves, coefficient, t, 20.0, -3.0))
+        assert np.all(error < 1e-12 * scale)
+    h = 1e-3
+    before, here, after = (load.evaluate(50.0 + d) for d in (-h, 0.0, h))
+    assert np.all(np.abs((after - before) / (2.0 * h) - load.evaluate(50.0, derivative=1)) < 1e-6 * scale)
+    second = (after - 2.0 * here + before) / h**2
+    assert np.all(np.abs(second - load.evaluate(50.0, derivative=2)) < 1e-5 * scale)
+
+
+def test_two_waves_beat_in_closed_form_and_at_no_other_frequency() -> None:
+    w, a, e = np.array([0.7, 0.82]), np.array([1.2, 0.5]), np.array([0.4, 2.2])
+    d = np.array([[3e4, -1e4, 0.0, 0.0, 0.0, 5e5], [4e4, 2e4, 0.0, 0.0, 0.0, -1e5]])
+    load = _core.DriftLoad(_core.WaveComponents(omega=w, amplitude=a, phase=e), coefficient=d)
+    times = np.linspace(0.0, 200.0, 4001)
+    steady = a**2 @ d
+    beat = np.cos((w[1] - w[0]) * times + e[1] - e[0])
+    expected = steady + a[0] * a[1] * (d[0] + d[1]) * beat[:, None]
+    np.testing.assert_allclose(load.evaluate(times), expected, atol=1e-9 * 5e5)
+    table = _core.DriftTable(load)
+    assert table.step > 5.0  # the beat is slow, and so is its table
+    assert np.all(np.abs(table.evaluate(times) - expected) <= table.error_bound + 1e-9 * 5e5)
+
+
+def test_the_table_stays_within_its_bound() -> None:
+    waves, coefficient = sea()
+    load = _core.DriftLoad(waves, coefficient=coefficient)
+    times = np.random.default_rng(1).uniform(-300.0, 900.0, 20000)
+    for relative in (1e-4, 1e-9):
+        table = _core.DriftTable(load, relative_bound=relative)
+        error = np.abs(table.evaluate(times) - load.evaluate(times)).max(axis=0)
+        assert np.all(error <= table.error_bound * (1.0 + 1e-9) + 1e-12 * np.abs(coefficient).sum())
+        assert np.all(error > 1e-4 * table.error_bound)
+
+
+def test_one_wave_pushes_steadily() -> None:
+    one = _core.WaveComponents(omega=np.array([0.9]), amplitude=np.array([1.5]))
+    load = _core.DriftLoad(one, coefficient=np.full((1, 6), 2e4))
+    np.testing.assert_allclose(_core.DriftTable(load).evaluate(TIMES), 1.5**2 * 2e4, rtol=1e-12)
+
+
+def test_its_spectrum_is_pinksters() -> None:
+    """S_F(mu) = 8 int S(w) S(w + mu) D(w + mu / 2)^2 dw, over the mean of many seas."""
+    step, count, seeds = 0.01, 120, 300
+    omega = 0.4 + step * np.arange(count)
+    density = 0.5 * np.exp(-0.5 * ((omega - 0.8) / 0.12) ** 2)
+    amplitude = np.sqrt(2.0 * density * step)
+    mean = 1e4 * (1.0 + omega**2)
+    coefficient = np.zeros((count, 6))
+    coefficient[:, 0] = mean
+    period, samples = 2.0 * np.pi / step, 512
+    times = np.arange(samples) * period / samples
+    power = np.zeros(samples // 2 + 1)
+    rng = np.random.default_rng(2)
+    for _ in range(seeds):
+        waves = _core.WaveComponents(
+            omega=omega, amplitude=amplitude, phase=rng.uniform(0.0, 2.0 * np.pi, count)
+        )
+        force = _core.DriftLoad(waves, coefficient=coefficient).evaluate(times)[:, 0]
+        power += np.abs(np.fft.rfft(force) / samples) ** 2 * 2.0 / step
+    power /= seeds
+
+    def pinkster(m: int) -> float:
+        between = 1e4 * (1.0 + (omega[:-m] + 0.5 * m * step) ** 2)
+        return float(8.0 * np.sum(density[:-m] * density[m:] * between**2) * step)
+
+    slow = np.arange(1, 21)
+    expected = np.array([pinkster(m) for m in slow])
+    # A periodogram scatters by its own size: 1 / sqrt(300) = 6 % each, 1.3 % for the sum of twenty.
+    assert np.abs(power[slow] / expected - 1.0).max() < 0.25
+    assert power[slow].sum() == pytest.approx(expected.sum(), rel=0.05)
+    fast = round(2.0 * 0.8 / step)
+    assert power[count:].max() < 1e-20 * expected[0]
+    assert fast > count
+
+
+def moored(**sea_options: Any) -> Scene:
+    scene = Scene(name="moored")
+    add_vessel(scene, database(), mooring_period=100.0)
+    add_sea(scene, database(), **{"hs": 4.0, "tp": 9.0, "count": 40, **sea_options})
+    return scene
+
+
+def test_coefficients_are_interpolated_in_frequency_and_heading_and_mirrored() -> None:
+    for direction_deg in (135.0, 225.0, -10.0):
+        scene = moored(direction_deg=direction_deg)
+        add_drift(scene, drifting(ship))
+        assert scene.waves is not None
+        assert scene.waves.drift is not None
+        expected = np.array([ship(w, np.radians(direction_deg)) for w in scene.waves.omega])
+        scale = np.abs(expected).max(axis=0) + 1e-9
+        # Cubic in frequency exactly; a sine over 15 deg to 4e-4 by splines.
+        assert np.all(np.abs(scene.waves.drift - expected) < 2e-3 * scale)
+    port, starboard = moored(direction_deg=50.0), moored(direction_deg=-50.0)
+    for scene in (port, starboard):
+        add_drift(scene, drifting(ship))
+    assert port.waves is not None
+    assert starboard.waves is not None
+    mirror = np.array([1.0, -1.0, 1.0, -1.0, 1.0, -1.0])
+    np.testing.assert_allclose(port.waves.drift, starboard.waves.drift * mirror, rtol=1e-12, atol=1e-9)
+
+
+def test_a_moored_vessel_is_pushed_by_the_mean_drift_and_its_energy_balances(tmp_path: Path) -> None:
+    scene = moored()
+    add_drift(scene, drifting(ship))
+    assert scene.waves is not None
+    assert scene.waves.drift is not None
+    result = simulate(scene, t_end=100.0, dt_out=0.5, rtol=1e-8)
+    assert np.abs(result.channels["energy_balance"]).max() < 1e-6 * result.channels["absolute_work"][-1]
+    load = _core.DriftLoad(scene.waves.components(), coefficient=scene.waves.drift)
+    scale = np.array(scene.waves.amplitude) @ np.abs(scene.waves.drift) * np.sum(scene.waves.amplitude)
+    error = np.abs(result.channels["drift_force"] - load.evaluate(result.time))
+    assert np.all(error <= 2e-9 * scale)
+    calm = simulate(moored(), t_end=100.0, dt_out=0.5, rtol=1e-8)
+    moved = (result.channels["vessel_motion"] - calm.channels["vessel_motion"])[-1, 0]
+    assert moved < 0.0  # waves from ahead push aft
+    scene.save(tmp_path / "drift.json")
+    again = simulate(Scene.load(tmp_path / "drift.json"), t_end=5.0, dt_out=1.0)
+    first = simulate(scene, t_end=5.0, dt_out=1.0)
+    np.testing.assert_array_equal(again.channels["drift_force"], first.channels["drift_force"])
+
+
+@pytest.mark.parametrize("drift_first", [True, False])
+def test_drift_at_the_actual_position(drift_first: bool) -> None:
+    scene = moored()
+    for step in (add_drift, use_actual_position) if drift_first else (use_actual_position, add_drift):
+        step(scene, drifting(ship))
+    waves = scene.waves
+    assert waves is not None
+    assert waves.force_by_heading is not None
+    assert waves.drift_by_heading is not None
+    load = _core.PositionedWaveLoad(
+        waves.components(),
+        headings=waves.force_by_heading.heading,
+        transfer=waves.force_by_heading.values,
+        drift_headings=waves.drift_by_heading.heading,
+        drift=waves.drift_by_heading.values,
+    )
+    yaw = 0.35
+    turned = moored(direction_deg=135.0 - np.degrees(yaw))
+    add_drift(turned, drifting(ship))
+    assert turned.waves is not None
+    assert turned.waves.drift is not None
+    scale = np.array(waves.amplitude) @ np.abs(turned.waves.drift) * np.sum(waves.amplitude) + 1e-6
+    for t in TIMES:
+        expected = double_sum(waves.components(), turned.waves.drift, t, 40.0, 9.0)
+        assert np.all(np.abs(load.evaluate(t, x=40.0, y=9.0, yaw=yaw)[1] - expected) < 1e-11 * scale)
+    result = simulate(scene, t_end=3.0, dt_out=1.0)
+    motion = result.channels["vessel_motion"][-1]
+    at_end = load.evaluate(3.0, x=motion[0], y=motion[1], yaw=motion[5])[1]
+    np.testing.assert_allclose(result.channels["drift_force"][-1], at_end, rtol=1e-9, atol=1e-3)
+
+
+def test_what_is_missing_is_named() -> None:
+    scene = moored()
+    with pytest.raises(SceneError, match="has no drift coefficients"):
+        add_drift(scene, SimpleNamespace(name="plain", drift=None))  # type: ignore[arg-type]
+    with pytest.raises(SceneError, match="needs a sea"):
+        add_drift(Scene(), drifting(ship))
+    narrow = drifting(ship)
+    narrow.drift.omega = np.linspace(0.6, 2.0, 25)
+    with pytest.raises(ValueError, match=r"omega = 0\.\d+ rad/s is outside .* 0\.6 to 2 rad/s"):
+        add_drift(scene, narrow)
+    add_drift(scene, narrow, outside="hold")
+    with pytest.raises(SceneError, match="choose 'error' or 'hold'"):
+        add_drift(scene, narrow, outside="zero")  # type: ignore[arg-type]
+    with pytest.raises(ValueError, match="gaps above 45 deg are not interpolated"):
+        add_drift(moored(direction_deg=100.0), drifting(ship, headings=3))
+    add_drift(moored(direction_deg=90.0), drifting(ship, headings=3))  # a stored heading needs none
+    waves, coefficient = sea()
+    coefficient[3, 1] = np.inf
+    with pytest.raises(ValueError, match=r"drift load: coefficient\(3, 1\) is inf"):
+        _core.DriftLoad(waves, coefficient=coefficient)
+    with pytest.raises(ValueError, match="shape of coefficient is"):
+        _core.DriftLoad(waves, coefficient=coefficient[:4])

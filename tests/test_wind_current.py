@@ -1,0 +1,328 @@
+"""Wind and current by coefficients against closed forms."""
+
+from __future__ import annotations
+
+import warnings
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from seacrane import (
+    Curve,
+    DoubleCountedDampingWarning,
+    Evaluator,
+    FlowCoefficients,
+    Scene,
+    SceneError,
+    add_current,
+    add_wind,
+    gust_curve,
+    simulate,
+)
+from seacrane.load_kinds import kind_of
+from seacrane.wind import npd_spectrum
+
+Array = NDArray[np.float64]
+MASS = 2e6
+AREAS: dict[str, float] = {"frontal_area": 400.0, "lateral_area": 1500.0, "length": 100.0}
+
+
+def smooth(count: int = 37) -> FlowCoefficients:
+    """Even and odd functions of the angle, half a circle of them."""
+    angle = np.linspace(0.0, np.pi, count)
+    yaw = 0.1 * np.sin(2.0 * angle)
+    y = 0.9 * np.sin(angle)
+    y[[0, -1]] = yaw[[0, -1]] = 0.0
+    return FlowCoefficients(angle=angle, x=0.8 * np.cos(angle), y=y, yaw=yaw)
+
+
+def block(**pose: Any) -> Scene:
+    """A free body without weight, its centre of mass off its origin."""
+    scene = Scene(name="block")
+    scene.add_body(
+        name="block",
+        mass=MASS,
+        inertia=[1e9, 2e9, 3e9],
+        center_of_mass=(1.0, 2.0, 3.0),
+        gravity=False,
+        **pose,
+    )
+    return scene
+
+
+def wrench(scene: Scene, t: float = 0.0) -> Array:
+    """Force and moment about the centre of mass, inertial axes, from the accelerations."""
+    model = scene.compile()
+    terms = Evaluator(model).terms(t, model.initial_state)
+    return np.asarray(terms["mass"] @ terms["acceleration"])
+
+
+def yawed(yaw: float) -> dict[str, Any]:
+    return {"quaternion": (np.cos(yaw / 2.0), 0.0, 0.0, np.sin(yaw / 2.0))}
+
+
+@pytest.mark.parametrize("yaw", [0.0, 0.5, -2.9])
+@pytest.mark.parametrize("direction_deg", [0.0, 37.0, 140.0, -75.0, 180.0])
+def test_the_load_is_what_the_formula_says(yaw: float, direction_deg: float) -> None:
+    scene = block(**yawed(yaw), velocity=(1.5, -0.7, 0.4))
+    point = np.array([10.0, -4.0, 12.0])
+    add_wind(
+        scene,
+        coefficients=smooth(),
+        speed=20.0,
+        direction_deg=direction_deg,
+        body="block",
+        point=point,
+        **AREAS,
+    )
+    b = np.radians(direction_deg)
+    relative = 20.0 * np.array([np.cos(b), np.sin(b)]) - [1.5, -0.7]
+    angle = np.arctan2(relative[1], relative[0]) - yaw
+    q = 0.5 * 1.226 * relative @ relative
+    along, across = q * 400.0 * 0.8 * np.cos(angle), q * 1500.0 * 0.9 * np.sin(angle)
+    c, s = np.cos(yaw), np.sin(yaw)
+    force = np.array([c * along - s * across, s * along + c * across, 0.0])
+    turn = np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
+    moment = np.cross(turn @ (point - [1.0, 2.0, 3.0]), force)
+    moment[2] += q * 1500.0 * 100.0 * 0.1 * np.sin(2.0 * angle)
+    # Splines through points 5 deg apart: 1e-6 of the coefficient, the double angle 16 times that.
+    np.testing.assert_allclose(wrench(scene)[:3], force, atol=2e-6 * q * 1500.0)
+    np.testing.assert_allclose(wrench(scene)[3:], moment, atol=2e-5 * q * 1500.0 * 100.0)
+
+
+def test_port_and_starboard_are_mirror_images() -> None:
+    loads = []
+    for sign in (1.0, -1.0):
+        scene = block()
+        add_wind(
+            scene,
+            coefficients=smooth(),
+            speed=15.0,
+            direction_deg=sign * 65.0,
+            body="block",
+            point=(1.0, 2.0, 3.0),
+            **AREAS,
+        )
+        loads.append(wrench(scene))
+    assert abs(loads[0][1]) > 1e5
+    mirror = np.array([1.0, -1.0, 1.0, -1.0, 1.0, -1.0])
+    np.testing.assert_allclose(loads[0], loads[1] * mirror, rtol=1e-12, atol=1e-9)
+
+
+def test_turning_everything_turns_the_load() -> None:
+    base, turned = block(**yawed(0.2)), block(**yawed(1.3))
+    for scene, direction_deg in ((base, 50.0), (turned, 50.0 + np.degrees(1.1))):
+        add_wind(
+            scene,
+            coefficients=smooth(),
+            speed=15.0,
+            direction_deg=direction_deg,
+            body="block",
+            point=(7.0, 0.0, 0.0),
+            **AREAS,
+        )
+    c, s = np.cos(1.1), np.sin(1.1)
+    turn = np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
+    first, second = wrench(base), wrench(turned)
+    np.testing.assert_allclose(second[:3], turn @ first[:3], rtol=1e-11, atol=1e-6)
+    np.testing.assert_allclose(second[3:], turn @ first[3:], rtol=1e-11, atol=1e-5)
+
+
+def test_a_drifting_body_takes_up_the_current_as_the_closed_form_says() -> None:
+    """m dw/dt = - k w^2 for the speed w through the water: w = w0 / (1 + k w0 t / m)."""
+    scene = block(velocity=(-1.0, 0.0, 0.0))
+    add_current(
+        scene,
+        coefficients=smooth(),
+        speed=1.5,
+        direction_deg=0.0,
+        body="block",
+        point=(1.0, 2.0, 3.0),
+        **AREAS,
+    )
+    result = simulate(scene, t_end=200.0, dt_out=5.0, rtol=1e-10)
+    k, start = 0.5 * 1025.0 * 400.0 * 0.8, 2.5
+    through_water = start / (1.0 + k * start * result.time / MASS)
+    np.testing.assert_allclose(result.channels["velocity"][:, 0, 0], 1.5 - through_water, atol=1e-8)
+    # In axes that move with the water the load only takes energy away.
+    energy = 0.5 * MASS * np.sum((result.channels["velocity"][:, 0] - [1.5, 0.0, 0.0]) ** 2, axis=1)
+    assert np.all(np.diff(energy) < 0.0)
+    work = 0.5 * MASS * (result.channels["velocity"][:, 0, 0] ** 2 - 1.0)
+    assert work[-1] == pytest.approx(0.5 * MASS * (result.channels["velocity"][-1, 0, 0] ** 2 - 1.0))
+    assert np.abs(result.channels["energy_balance"]).max() < 1e-8 * result.channels["absolute_work"][-1]
+
+
+def test_the_load_always_opposes_motion_through_the_medium() -> None:
+    rng = np.random.default_rng(7)
+    for _ in range(40):
+        velocity, yaw = rng.normal(size=3), rng.uniform(-3.0, 3.0)
+        scene = block(**yawed(yaw), velocity=velocity)
+        add_current(
+            scene,
+            coefficients=smooth(),
+            speed=0.8,
+            direction_deg=30.0,
+            body="block",
+            point=(1.0, 2.0, 3.0),
+            **AREAS,
+        )
+        through = velocity[:2] - 0.8 * np.array([np.cos(np.pi / 6.0), np.sin(np.pi / 6.0)])
+        assert wrench(scene)[:2] @ through < 0.0
+
+
+def test_no_flow_no_load() -> None:
+    scene = block(velocity=(0.5, 0.0, 0.0))
+    add_current(scene, coefficients=smooth(), speed=0.5, direction_deg=0.0, body="block", **AREAS)
+    np.testing.assert_array_equal(wrench(scene), np.zeros(6))
+
+
+def test_gusts_follow_their_curve_and_a_jump_restarts_the_integration() -> None:
+    scene = block()
+    speed = Curve.constant(value=10.0).then(time=5.0, curve=Curve.constant(value=20.0))
+    add_wind(
+        scene,
+        coefficients=smooth(),
+        speed=speed,
+        direction_deg=0.0,
+        body="block",
+        point=(1.0, 2.0, 3.0),
+        **AREAS,
+    )
+    assert scene.compile().breakpoints == [5.0]
+    assert wrench(scene, t=6.0)[0] == pytest.approx(4.0 * wrench(scene, t=1.0)[0], rel=1e-12)
+    # V = 10 m/s until 5 s, then 20: both stretches have the closed form of the current above.
+    result = simulate(scene, t_end=10.0, dt_out=5.0, rtol=1e-10)
+    k, v = 0.5 * 1.226 * 400.0 * 0.8 / MASS, result.channels["velocity"][:, 0, 0]
+    after5 = 10.0 - 10.0 / (1.0 + k * 10.0 * 5.0)
+    left = 20.0 - after5
+    assert v[1] == pytest.approx(after5, abs=1e-9)
+    assert v[2] == pytest.approx(20.0 - left / (1.0 + k * left * 5.0), abs=1e-9)
+
+
+def test_gusts_have_the_variance_of_their_spectrum() -> None:
+    curve = gust_curve(mean_speed=20.0, duration=3600.0, seed=3)
+    times = np.arange(0.0, 3600.0, 0.5)
+    speed = curve.evaluate(times)[:, 0]
+    f = np.geomspace(1.0 / 600.0, 0.5, 20001)
+    variance = np.trapezoid(npd_spectrum(f, mean_speed=20.0), f)
+    assert speed.mean() == pytest.approx(20.0, abs=0.2)
+    assert speed.var() == pytest.approx(float(variance), rel=0.15)
+    assert npd_spectrum(0.0, mean_speed=10.0) == pytest.approx(320.0)
+    assert curve.evaluate(np.array([4000.0]))[0, 0] == pytest.approx(speed[-1], abs=2.0)
+    again, other = (
+        gust_curve(mean_speed=20.0, duration=60.0, seed=seed).evaluate(times[:100]) for seed in (3, 4)
+    )
+    assert np.abs(again[:, 0] - other[:, 0]).max() > 1.0
+    with pytest.raises(SceneError, match="gust: duration is -1"):
+        gust_curve(mean_speed=20.0, duration=-1.0)
+
+
+def test_a_scene_file_keeps_wind_and_current(tmp_path: Path) -> None:
+    scene = block(velocity=(-1.0, 0.2, 0.0))
+    add_wind(
+        scene,
+        coefficients=smooth(),
+        speed=gust_curve(mean_speed=12.0, duration=20.0, count=20),
+        direction_deg=100.0,
+        body="block",
+        point=(0.0, 0.0, 9.0),
+        **AREAS,
+    )
+    add_current(scene, coefficients=smooth(), speed=0.7, direction_deg=-30.0, body="block", **AREAS)
+    scene.save(tmp_path / "wind.json")
+    again = Scene.load(tmp_path / "wind.json")
+    assert list(again.loads) == ["wind", "current"]
+    assert kind_of(again.loads["wind"]) == "flow force"
+    first, second = (simulate(s, t_end=10.0, dt_out=1.0) for s in (scene, again))
+    for name in ("position", "quaternion"):
+        np.testing.assert_array_equal(first.channels[name], second.channels[name])
+    assert ("wind and current", ["wind", "current"]) in [
+        row for rows in scene.report().values() for row in rows
+    ]
+
+
+def test_damping_that_counts_twice_is_named() -> None:
+    scene = block()
+    scene.add_vessel(body="block", quadratic_damping=[0.0, 5e3, 0.0, 0.0, 0.0, 0.0])
+    with pytest.warns(DoubleCountedDampingWarning, match="slow motions are damped twice"):
+        add_current(scene, coefficients=smooth(), speed=1.0, direction_deg=0.0, body="block", **AREAS)
+    roll_only = block()
+    roll_only.add_vessel(body="block", quadratic_damping=[0.0, 0.0, 0.0, 5e3, 0.0, 0.0])
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        add_current(roll_only, coefficients=smooth(), speed=1.0, direction_deg=0.0, body="block", **AREAS)
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        ({"speed": np.nan}, "speed is nan"),
+        ({"density": -1.0}, "density is -1"),
+        ({"frontal_area": np.inf}, "frontal_area is inf"),
+        ({"length": "long"}, "length is 'long'"),
+        ({"point": (0.0, 0.0)}, r"point has shape \(2,\)"),
+        ({"point": (0.0, np.nan, 0.0)}, "point holds nan"),
+        ({"direction_deg": np.nan}, "direction is nan"),
+        ({"body": "boat"}, "there is no body 'boat'"),
+        ({"name": ""}, "name is empty"),
+    ],
+)
+def test_bad_values_are_refused(change: dict[str, Any], message: str) -> None:
+    arguments: dict[str, Any] = {
+        "coefficients": smooth(),
+        "speed": 10.0,
+        "direction_deg": 0.0,
+        "body": "block",
+        **AREAS,
+        **change,
+    }
+    with pytest.raises(SceneError, match=message):
+        scene = block()
+        add_wind(scene, **arguments)
+        scene.compile()
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        ({"x": [1.0, 2.0]}, r"x has shape \(2,\); give \(4,\)"),
+        ({"y": [0.0, np.nan, 0.0, 0.0]}, "y holds"),
+        ({"y": [0.1, 0.5, 0.5, 0.0]}, "zero on a symmetric one"),
+        ({"angle": [0.0, 1.0, 0.9, np.pi]}, "angles must increase"),
+        ({"angle": [0.0, 0.1, 0.2, 0.3]}, "at most 90 deg apart"),
+        ({"angle": [0.0, 1.0, 2.0, 7.0]}, "angles must increase within one turn"),
+    ],
+)
+def test_bad_coefficients_are_refused(change: dict[str, Any], message: str) -> None:
+    given: dict[str, Any] = {
+        "angle": [0.0, 1.0, 2.0, np.pi],
+        "x": [1.0, 0.5, -0.5, -1.0],
+        "y": [0.0, 0.5, 0.5, 0.0],
+        "yaw": [0.0] * 4,
+    }
+    with pytest.raises(SceneError, match=message):
+        scene = block()
+        add_wind(
+            scene,
+            coefficients=FlowCoefficients(**{**given, **change}),
+            speed=1.0,
+            direction_deg=0.0,
+            body="block",
+            **AREAS,
+        )
+        scene.compile()
+
+
+def test_names_and_kinds_are_kept_apart() -> None:
+    scene = block()
+    for expected in (None, "the name is used twice"):
+        if expected is None:
+            add_wind(scene, coefficients=smooth(), speed=1.0, direction_deg=0.0, body="block", **AREAS)
+        else:
+            with pytest.raises(SceneError, match=expected):
+                add_wind(scene, coefficients=smooth(), speed=1.0, direction_deg=0.0, body="block", **AREAS)
+    with pytest.raises(SceneError, match="is of no known kind; give one of FlowForce"):
+        scene.add_load(3.0)
