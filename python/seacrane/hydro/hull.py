@@ -56,6 +56,7 @@ class Hull:
         _require_panels(self.name, panels)
         panels.flags.writeable = False
         object.__setattr__(self, "panels", panels)
+        _require_closed(self.name, panels)
         _require_floating(self.name, panels, self.hydrostatics)
 
     @cached_property
@@ -249,15 +250,15 @@ def _require_panels(name: str, panels: FloatArray) -> None:
         raise ValueError(f"hull {name!r}: a panel reaches z = {top:.4g} m; cut the surface at z = 0")
 
 
-def _require_floating(name: str, panels: FloatArray, statics: Hydrostatics) -> None:
-    """A closed surface with outward normals, symmetric, along the x axis."""
+def _require_closed(name: str, panels: FloatArray) -> None:
+    """A volume that is the same by x, y and z, and positive."""
     triangles = triangles_of(panels)
     centre, flux = triangles.mean(axis=1), area_vectors(triangles)
     middle = 0.5 * (panels.reshape(-1, 3).min(axis=0) + panels.reshape(-1, 3).max(axis=0)) * [1, 1, 0]
     volumes = np.sum((centre - middle) * flux, axis=0)
     if np.all(volumes < 0.0):
         raise ValueError(
-            f"hull {name!r}: encloses {statics.volume:.4g} m3, so its normals point inwards; reverse the "
+            f"hull {name!r}: encloses {volumes[2]:.4g} m3, so its normals point inwards; reverse the "
             "order of the vertices of every face"
         )
     leak = np.abs(flux[:, :2].sum(axis=0)).max() / max(np.abs(flux).sum(), 1e-300)
@@ -267,7 +268,11 @@ def _require_floating(name: str, panels: FloatArray, statics: Hydrostatics) -> N
             f"hull {name!r}: volume by x, y and z is {volumes[0]:.6g}, {volumes[1]:.6g}, {volumes[2]:.6g} "
             "m3; the surface is not closed below the waterline, or some normals point inwards"
         )
-    if statics.waterplane_area <= CLOSED * float(np.linalg.norm(flux, axis=1).sum()):
+
+
+def _require_floating(name: str, panels: FloatArray, statics: Hydrostatics) -> None:
+    """At the waterline, symmetric, along the x axis."""
+    if statics.waterplane_area <= CLOSED * statics.wetted_surface:
         raise ValueError(
             f"hull {name!r}: is wholly under water (waterplane area {statics.waterplane_area:.4g} m2); only "
             "what floats at the waterline has a database: lower the draught"
@@ -275,8 +280,8 @@ def _require_floating(name: str, panels: FloatArray, statics: Hydrostatics) -> N
     breadth, length = float(np.ptp(panels[..., 1])), float(np.ptp(panels[..., 0]))
     off = max(
         abs(float(statics.centre_of_buoyancy[1])),
-        abs(statics.waterplane_moment_y) / max(statics.waterplane_area, 1e-12),
-        abs(statics.waterplane_product) / max(statics.waterplane_area * length, 1e-12),
+        abs(statics.waterplane_moment_y) / statics.waterplane_area,
+        abs(statics.waterplane_product) / (statics.waterplane_area * length),
     )
     if off > SYMMETRIC * breadth:
         raise ValueError(
