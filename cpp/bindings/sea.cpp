@@ -6,6 +6,7 @@
 #include "sea_arrays.hpp"
 #include "seacrane/sea/philox.hpp"
 #include "seacrane/sea/realisation.hpp"
+#include "vector_state.hpp"
 
 using namespace seacrane;
 
@@ -54,6 +55,7 @@ void bind_realisation(py::module_& m) {
         o.system = whole_number(system, "system", 0, 1'000'000);
         o.depth = depth;
         o.gravity = gravity;
+        clear_vector_state();
         return realise(spectrum, o);
       },
       py::arg("spectrum"), py::kw_only(), py::arg("seed"), py::arg("direction"), py::arg("count") = 200,

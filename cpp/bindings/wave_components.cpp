@@ -9,6 +9,7 @@
 #include "sea_arrays.hpp"
 #include "seacrane/sea/require.hpp"
 #include "seacrane/sea/wave_kinematics.hpp"
+#include "vector_state.hpp"
 
 using namespace seacrane;
 
@@ -57,6 +58,7 @@ py::array_t<double> elevation(const WaveComponents& waves, const py::object& tim
   const py::ssize_t count = out.size();
   const double *t = at[0].data(), *px = at[1].data(), *py_ = at[2].data();
   const py::gil_scoped_release release;
+  clear_vector_state();
   for (py::ssize_t i = 0; i < count; ++i) target[i] = waves.elevation(t[i], px[i], py_[i]);
   return out;
 }
@@ -88,6 +90,7 @@ WaveKinematics kinematics_at(const WaveComponents& waves, const py::object& time
   const py::ssize_t count = at[0].size();
   const double *t = at[0].data(), *px = at[1].data(), *py_ = at[2].data(), *pz = at[3].data();
   const py::gil_scoped_release release;
+  clear_vector_state();
   for (py::ssize_t i = 0; i < count; ++i) {
     const WaveParticle particle = kinematics(waves, t[i], px[i], py_[i], pz[i], kind);
     eta[i] = particle.elevation;
