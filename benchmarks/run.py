@@ -21,6 +21,7 @@ from measure import (
     scenes,
     speed,
     strip_cost,
+    wave_loads,
 )
 from measure.machine import machine
 from measure.section import Section
@@ -48,6 +49,7 @@ def sections(folder: Path, *, repeats: int, quick: bool) -> Iterator[Section]:
     yield evaluation.parts(repeats=repeats)
     yield memory_cost.memory_cost(repeats=repeats)
     yield memory_kinds.memory_kinds(repeats=repeats)
+    yield wave_loads.wave_loads(repeats=repeats)
     points, uncertainty = integrators.work_precision(repeats=1 if quick else min(repeats, 3))
     integrators.figure(points, folder / PICTURE)
     yield integrators.table(points, uncertainty, repeats=1 if quick else min(repeats, 3))

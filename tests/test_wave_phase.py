@@ -187,7 +187,7 @@ def test_headings_must_cover_the_circle() -> None:
     few: Any = SimpleNamespace(
         name="beam only", full_circle=lambda: (np.array([0.0, 1.0, 2.0]), np.zeros((3, 1, 6)))
     )
-    with pytest.raises(SceneError, match="database 'beam only': headings .* leave gaps above 45 deg"):
+    with pytest.raises(SceneError, match=r"database 'beam only': headings .* leave gaps above 45 deg"):
         use_actual_position(actual_scene(force_by_heading=None), few)
 
 

@@ -179,7 +179,8 @@ inline void make_vessel(SceneDescription& scene, const std::string& body) {
   }
   const auto exact = std::make_shared<const ExactWaveLoad>(
       WaveComponents(omega, amplitude, phase, {0.3, 0.3, 0.3}), transfer);
-  scene.wave_loads.push_back({"waves", body, exact, std::make_shared<const WaveTable>(exact)});
+  scene.wave_loads.push_back(
+      {"waves", body, exact, std::make_shared<const WaveTable>(exact), nullptr, nullptr, nullptr});
 }
 
 /// Dense D, gamma, mass and load of the last evaluation of a system: eq (9).

@@ -150,16 +150,34 @@ TEST_CASE("the table stays within its stated bound at every bound asked for") {
       CAPTURE(j);
       CHECK(table.error_bound()[j] <= relative * size[j] * (1.0 + 1e-12));
       CHECK(worst[j] <= table.error_bound()[j] + 1e-13 * size[j]);
-      CHECK(worst[j] > 0.01 * table.error_bound()[j]);
+      CHECK(worst[j] > 0.001 * table.error_bound()[j]);
     }
   }
+}
+
+TEST_CASE("interpolation is exact for polynomials of degree 11, and not for 12") {
+  const auto error = [](int degree, double s) {
+    const HermiteWeights w(s);
+    double sum = 0.0;
+    for (int k = 0; k < 4; ++k) {
+      const double x = k - 1.0;
+      sum += w.value[k] * std::pow(x, degree);
+      if (degree > 0) sum += w.rate[k] * degree * std::pow(x, degree - 1);
+      if (degree > 1) sum += w.acceleration[k] * degree * (degree - 1) * std::pow(x, degree - 2);
+    }
+    return sum - std::pow(s, degree);
+  };
+  for (const double s : {0.0, 0.1, 0.5, 0.77, 1.0}) {
+    for (int degree = 0; degree <= 11; ++degree) CHECK(std::fabs(error(degree, s)) < 1e-12);
+  }
+  CHECK(error(12, 0.5) == doctest::Approx(-0.177978515625).epsilon(1e-9));
 }
 
 TEST_CASE("the bound is sharp for one component") {
   Eigen::MatrixXcd x = Eigen::MatrixXcd::Zero(1, 6);
   x(0, 2) = {3e6, 4e6};
   const auto load = std::make_shared<const ExactWaveLoad>(WaveComponents({0.9}, {2.0}, {0.4}, {0.0}), x);
-  const WaveTable table(load, 1e-6);
+  const WaveTable table(load, 1e-11);  // knots close enough for the derivative to vary little between them
   WaveTableBlock block = table.make_block();
   double worst = 0.0;
   for (int i = 0; i < 50000; ++i) {
@@ -169,9 +187,9 @@ TEST_CASE("the bound is sharp for one component") {
     worst = std::max(worst, std::fabs(got[2] - exact[2]));
     CHECK(got[0] == 0.0);
   }
-  CHECK(worst <= table.error_bound()[2]);
-  CHECK(worst > 0.9 * table.error_bound()[2]);
-  CHECK(table.error_bound()[2] == doctest::Approx(1e-6 * 1e7).epsilon(1e-12));
+  CHECK(worst <= table.error_bound()[2] + 1e-13 * 1e7);
+  CHECK(worst > 0.8 * table.error_bound()[2]);
+  CHECK(table.error_bound()[2] == doctest::Approx(1e-11 * 1e7).epsilon(1e-12));
 }
 
 TEST_CASE("values do not depend on how a run moves through time") {
@@ -200,7 +218,7 @@ TEST_CASE("a forward run computes every knot once, and a rejected step none agai
   WaveTableBlock block = table.make_block();
   double out[wave_channels];
   for (int i = 0; i <= 10000; ++i) table.evaluate(i * 0.01, block, out);
-  const auto knots = static_cast<std::int64_t>(std::floor(100.0 / table.step())) + 2;
+  const auto knots = static_cast<std::int64_t>(std::floor(100.0 / table.step())) + 4;
   CHECK(block.knots_computed() == knots);
   for (double t = 100.0; t > 98.0; t -= 0.05) table.evaluate(t, block, out);
   CHECK(block.knots_computed() == knots);

@@ -186,8 +186,8 @@ def add_current(
         if vessel.body == body and np.any(np.abs([*linear[HORIZONTAL], *quadratic[HORIZONTAL]]) > 0.0):
             warnings.warn(
                 f"flow force {name!r}: vessel {vessel.name!r} has viscous damping in surge, sway or yaw "
-                f"(linear {linear[HORIZONTAL].tolist()}, quadratic {quadratic[HORIZONTAL].tolist()}), which the "
-                "current load contains too; slow motions are damped twice. Set one of them to zero",
+                f"(linear {linear[HORIZONTAL].tolist()}, quadratic {quadratic[HORIZONTAL].tolist()}), which "
+                "the current load contains too; slow motions are damped twice. Set one of them to zero",
                 DoubleCountedDampingWarning,
                 stacklevel=2,
             )
