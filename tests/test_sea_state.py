@@ -235,16 +235,16 @@ def test_plain_arguments_of_add_sea() -> None:
         afloat(sea=SeaState(systems=[WIND], depth=30.0))
 
 
-def test_the_command_line_chooses_the_sea(tmp_path: Path) -> None:
+def test_the_command_line_chooses_the_sea(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     from seacrane.cli import main
     from seacrane.result import Result
 
-    options = (
-        "--t-end 1 --integrator rk4 --dt 0.1 --memory none --spectrum torsethaugen --gamma dnv --spreading 4"
-    )
+    options = "--t-end 1 --integrator rk4 --dt 0.1 --memory none --spectrum torsethaugen --spreading 4"
     assert main(["run", "vessel", "--out", str(tmp_path), *options.split()]) == 0
     settings = json.loads(str(Result.load(tmp_path / "vessel.nc").stats["settings"]))
     assert settings["spectrum"] == "torsethaugen"
     assert settings["spreading"] == {"kind": "cos-2s", "exponent": 4.0}
+    assert main(["run", "vessel", "--out", str(tmp_path), "--spectrum", "torsethaugen", "--gamma", "2"]) == 1
+    assert "gamma: 'torsethaugen' has no free peak enhancement" in capsys.readouterr().err
     with pytest.raises(SystemExit):
         main(["run", "vessel", "--out", str(tmp_path), "--gamma", "steep"])

@@ -103,6 +103,8 @@ def add_sea(
         if chosen["hs"] == 0.0:
             scene.waves = None
             return
+        if gamma is not None and chosen["spectrum"] != "jonswap":
+            raise SceneError(f"gamma: {chosen['spectrum']!r} has no free peak enhancement; leave gamma out")
         sea, notes = _one_system(**chosen)
     realised = sea.realise()
     waves = realised.waves
