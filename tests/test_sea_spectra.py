@@ -232,6 +232,8 @@ def test_breaking_seas_warn() -> None:
     [
         (lambda: jonswap(hs=-1.0, tp=8.0), "hs is -1"),
         (lambda: jonswap(hs=2.0, tp=0.0), "tp is 0"),
+        (lambda: jonswap(hs=1e200, tp=8.0), "give a significant wave height of 1e-6 to 1000 m"),
+        (lambda: torsethaugen(hs=2.0, tp=1e300), "give a peak period of 0.001 to 10000 s"),
         (lambda: jonswap(hs=2.0, tp=8.0, gamma=7.5), "gamma is 7.5; give a peak enhancement of 7 or less"),
         (lambda: jonswap(hs=2.0, tp=8.0, gamma=0.9), "gamma is 0.9"),
         (lambda: jonswap(hs=2.0, tp=8.0, gamma="DNV"), "gamma is 'DNV'; give a number or 'dnv'"),

@@ -167,6 +167,8 @@ T, ETA = record(200)
         (lambda: MeasuredWaves(time=T, elevation=ETA, direction_deg=0.0, taper=1.5), "taper is 1.5"),
         (lambda: MeasuredWaves(time=T, elevation=ETA, direction_deg=np.inf), "direction_deg is inf"),
         (lambda: MeasuredWaves(time=T, elevation=ETA, direction_deg=0.0).spectrum(segments=99), "is 99"),
+        (lambda: MeasuredWaves(time=T, elevation=ETA, direction_deg="W"), "is 'W'; give a number"),
+        (lambda: MeasuredWaves(time=T, elevation=ETA, direction_deg=0.0, position=(1.0,)), "give \\(2,\\)"),
         (lambda: SeaState(systems=[]), "has no wave system"),
         (lambda: SeaState(systems=WIND), "give a list of WaveSystem"),
         (lambda: SeaState(systems=[jonswap(hs=1.0, tp=8.0)]), "is no wave system"),
@@ -229,6 +231,10 @@ def test_plain_arguments_of_add_sea() -> None:
     assert afloat(hs=0.0).waves is None
     with pytest.raises(SceneError, match="sea: given beside hs, seed; put these into the SeaState"):
         afloat(sea=SeaState(systems=[WIND]), hs=2.0, seed=1)
+    with pytest.raises(SceneError, match="sea is 'rough'; give a SeaState"):
+        afloat(sea="rough")
+    with pytest.raises(SceneError, match="hs is '2'; give a number"):
+        afloat(hs="2")
     with pytest.raises(SceneError, match="spectrum 'torset' is unknown"):
         afloat(spectrum="torset")
     with pytest.warns(DepthMismatchWarning, match="the sea is 30 m deep"):

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane import _core
+from seacrane.checked import number_of
 from seacrane.errors import SceneError
 from seacrane.scene import Scene
 from seacrane.sea import SeaState, Spreading, WaveSystem, cos_2s, jonswap
@@ -96,6 +97,8 @@ def add_sea(
     if sea is not None:
         if given:
             raise SceneError(f"sea: given beside {', '.join(given)}; put these into the SeaState")
+        if not isinstance(sea, SeaState):
+            raise SceneError(f"sea is {sea!r}; give a SeaState")
         _check_depth(sea, database)
         notes: dict[str, Any] = {"sea": sea.description()}
     else:
@@ -143,7 +146,7 @@ def _one_system(
     count: int,
 ) -> tuple[SeaState, dict[str, Any]]:
     """The sea of plain arguments, and the notes on it."""
-    density = _spectrum(spectrum, hs, tp, gamma)
+    density = _spectrum(spectrum, number_of("sea: hs", hs), number_of("sea: tp", tp), gamma)
     if spreading is not None and not isinstance(spreading, Spreading):
         spreading = cos_2s(spreading)
     system = WaveSystem(spectrum=density, direction_deg=direction_deg, spreading=spreading, count=count)

@@ -85,7 +85,7 @@ Spectrum Spectrum::torsethaugen(double hs, double tp, double gravity) {
   const double second_hs = std::sqrt(1.0 - ratio * ratio) * hs;
   if (second_tp == 0.0) second_tp = 6.6 * std::cbrt(second_hs);
   std::vector<Part> parts{SpectralPeak(object, ratio * hs, tp, std::max(gamma, 1.0), 4.0)};
-  if (second_hs > 0.0) parts.emplace_back(SpectralPeak(object, second_hs, second_tp, 1.0, 4.0));
+  if (second_hs > 1e-6) parts.emplace_back(SpectralPeak(object, second_hs, second_tp, 1.0, 4.0));
   return {"Torsethaugen", std::move(parts), hs, tp};
 }
 

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane import _core
-from seacrane.checked import number_of, vector_of
+from seacrane.checked import number_of, shaped_of, vector_of
 from seacrane.errors import SceneError
 from seacrane.sea.spectra import tabulated_spectrum
 
@@ -81,7 +81,9 @@ class MeasuredWaves:
         self._check_steps()
         if not 0.0 <= number_of(f"{self._object}: taper", self.taper) <= 1.0:
             raise SceneError(f"{self._object}: taper is {self.taper}; give a share from 0 to 1")
-        for name, value in (("direction_deg", self.direction_deg), ("position", self.position)):
+        point = shaped_of(f"{self._object}: position", self.position, (2,))
+        angle = number_of(f"{self._object}: direction_deg", self.direction_deg)
+        for name, value in (("direction_deg", angle), ("position", point)):
             if not np.all(np.isfinite(value)):
                 raise SceneError(f"{self._object}: {name} is {value}; give finite numbers")
         if not np.ptp(self.elevation) > 0.0:

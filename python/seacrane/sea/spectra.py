@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from seacrane import _core
-from seacrane.checked import numbers_of
+from seacrane.checked import number_of, numbers_of
 from seacrane.errors import SceneError
 
 # Peak period over mean periods of x^-5 exp(-5/4 x^-4), from its moments in closed form.
@@ -43,11 +43,12 @@ def jonswap(*, hs: float, tp: float, gamma: float | Literal["dnv"] = 3.3) -> _co
     -----
     Hasselmann et al., Deutsche Hydrographische Zeitschrift A8 (12), 1973. Normalised by quadrature.
     """
+    hs, tp = number_of("JONSWAP spectrum: hs", hs), number_of("JONSWAP spectrum: tp", tp)
     if isinstance(gamma, str):
         if gamma != "dnv":
             raise SceneError(f"JONSWAP spectrum: gamma is {gamma!r}; give a number or 'dnv'")
         gamma = _core.dnv_gamma(hs=hs, tp=tp)
-    return _core.jonswap(hs=hs, tp=tp, gamma=gamma)
+    return _core.jonswap(hs=hs, tp=tp, gamma=number_of("JONSWAP spectrum: gamma", gamma))
 
 
 def bretschneider(
