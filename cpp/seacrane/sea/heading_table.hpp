@@ -1,6 +1,6 @@
 #pragma once
 
-#include <array>
+#include <cmath>
 #include <cstddef>
 #include <string>
 #include <vector>
@@ -11,7 +11,7 @@
 namespace seacrane {
 
 /// `width` numbers per wave component, as periodic cubic splines over the wave's heading relative to the
-/// vessel. Between two headings a component's values and second derivatives lie side by side.
+/// vessel. All components of one heading lie side by side: those of a long-crested sea need two such rows.
 template <std::size_t width>
 class HeadingTable {
  public:
@@ -25,20 +25,22 @@ class HeadingTable {
     const std::size_t m = headings.size();
     knots_ = PeriodicKnots(std::move(headings));
     const MatXd curvature = knots_.curvature();
-    entries_.resize(components * m);
+    components_ = components;
+    entries_.resize(m * components);
     VecXd at(static_cast<Eigen::Index>(m));
     for (std::size_t i = 0; i < components; ++i) {
       for (std::size_t k = 0; k < width; ++k) {
         for (std::size_t h = 0; h < m; ++h) {
           const double v = values[(h * components + i) * width + k];
-          sea::require(std::isfinite(v), object, "value of component " + std::to_string(i), v,
-                       "give finite numbers");
+          if (!std::isfinite(v)) {
+            sea::require(false, object, "value of component " + std::to_string(i), v, "give finite numbers");
+          }
           at[static_cast<Eigen::Index>(h)] = v;
         }
         const VecXd bent = curvature * at;
         for (std::size_t h = 0; h < m; ++h) {
-          entries_[i * m + h].value[k] = at[static_cast<Eigen::Index>(h)];
-          entries_[i * m + h].curvature[k] = bent[static_cast<Eigen::Index>(h)];
+          entries_[h * components + i].value[k] = at[static_cast<Eigen::Index>(h)];
+          entries_[h * components + i].curvature[k] = bent[static_cast<Eigen::Index>(h)];
         }
       }
     }
@@ -48,7 +50,7 @@ class HeadingTable {
   SplinePlace<double> place(double heading) const { return knots_.place<double>(heading); }
 
   void at(std::size_t component, const SplinePlace<double>& p, double* out) const {
-    const Entry *row = &entries_[component * knots_.size()], &a = row[p.i], &b = row[p.j];
+    const Entry &a = entries_[p.i * components_ + component], &b = entries_[p.j * components_ + component];
     for (std::size_t k = 0; k < width; ++k) {
       out[k] = p.left * a.value[k] + p.right * b.value[k] + p.bend_left * a.curvature[k] +
                p.bend_right * b.curvature[k];
@@ -75,6 +77,7 @@ class HeadingTable {
 
   PeriodicKnots knots_;
   std::vector<Entry> entries_;
+  std::size_t components_ = 0;
 };
 
 }  // namespace seacrane
