@@ -1,6 +1,7 @@
 #include "seacrane/model/model.hpp"
 
 #include "bindings.hpp"
+#include "vector_state.hpp"
 #include "seacrane/dynamics/redundant.hpp"
 #include "seacrane/run/recording.hpp"
 
@@ -123,6 +124,7 @@ class Evaluator {
   void repeat(double t, const Array& y, long count, double dt) {
     std::vector<double> rate(static_cast<std::size_t>(check(y)));
     py::gil_scoped_release release;
+    clear_vector_state();
     for (long i = 0; i < count; ++i)
       system_.derivative(t + static_cast<double>(i) * dt, y.data(), rate.data());
   }

@@ -1,6 +1,7 @@
 #include "seacrane/run/simulation.hpp"
 
 #include "bindings.hpp"
+#include "vector_state.hpp"
 
 using namespace seacrane;
 using Array = py::array_t<double, py::array::c_style | py::array::forcecast>;
@@ -136,6 +137,7 @@ void bind_simulation(py::module_& m) {
           "advance",
           [](Simulation& s, double t_end, const py::object& progress) {
             py::gil_scoped_release release;
+            clear_vector_state();
             return s.advance(t_end, [&](double time) { return ask_python(time, progress); });
           },
           py::arg("t_end"), py::arg("progress") = py::none(),
