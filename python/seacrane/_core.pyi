@@ -6,7 +6,7 @@ import collections.abc
 import numpy
 import numpy.typing
 import typing
-__all__: list[str] = ['Actuator', 'Body', 'Curve', 'Driver', 'Evaluator', 'ExactWaveLoad', 'ForceTable', 'Frame', 'FunctionForce', 'Joint', 'Model', 'PointForce', 'RepeatPeriod', 'Simulation', 'Spectrum', 'Spring', 'State', 'StateSpaceBlock', 'VesselHydrodynamics', 'WaveComponents', 'WaveLoads', 'WaveTable', 'compile', 'initial_state', 'integrator_names', 'jonswap', 'philox_uniform', 'pierson_moskowitz', 'realise_waves']
+__all__: list[str] = ['Actuator', 'Body', 'Curve', 'DriftLoad', 'DriftTable', 'Driver', 'Evaluator', 'ExactWaveLoad', 'FlowForce', 'ForceTable', 'Frame', 'FunctionForce', 'Joint', 'Model', 'PointForce', 'PositionedWaveLoad', 'RepeatPeriod', 'RetardationFunctions', 'Simulation', 'Spectrum', 'Spring', 'State', 'StateSpaceBlock', 'TwistHistory', 'VesselHydrodynamics', 'WaveComponents', 'WaveKinematics', 'WaveLoads', 'WaveTable', 'compile', 'dnv_gamma', 'initial_state', 'integrator_names', 'jonswap', 'ochi_hubble', 'philox_uniform', 'pierson_moskowitz', 'realise_waves', 'section_radiation', 'strip_theory', 'tabulated_density', 'torsethaugen']
 class Curve:
     """
     A reference as a function of time: pieces of quintic polynomials plus one cosine each.
@@ -53,7 +53,7 @@ class Curve:
         """
 class Spectrum:
     """
-    One-sided wave spectrum S(omega) in m2 s/rad, normalised by quadrature to hs^2 / 16. Made by `jonswap` or `pierson_moskowitz`.
+    One-sided wave spectrum S(omega) in m2 s/rad; immutable. Parametric ones are normalised by quadrature to hs^2 / 16.
     """
     def __repr__(self) -> str:
         ...
@@ -67,16 +67,25 @@ class Spectrum:
         """
     def moment(self, order: typing.SupportsInt | typing.SupportsIndex) -> float:
         """
-        Integral of omega^order S over all frequencies, order -4 to 3.
+        Integral of omega^order S over all frequencies, for orders where it is finite (JONSWAP: -4 to 3).
+        """
+    def parts(self) -> list[Spectrum]:
+        """
+        Each wave system by itself, the one with the given or the highest peak first.
         """
     def steepness(self, *, gravity: typing.SupportsFloat | typing.SupportsIndex = 9.80665) -> float:
         """
         hs over the deep-water wave length of the peak period, hs / (g tp^2 / 2 pi).
         """
     @property
-    def gamma(self) -> float:
+    def default_range(self) -> typing.Annotated[list[float], "FixedSize(2)"]:
         """
-        Peak enhancement; 1 for Pierson-Moskowitz.
+        Frequencies that a realisation covers by default, rad/s.
+        """
+    @property
+    def gamma(self) -> float | None:
+        """
+        Peak enhancement of the first part; 1 for Pierson-Moskowitz, None for a table.
         """
     @property
     def hs(self) -> float:
@@ -89,7 +98,7 @@ class Spectrum:
     @property
     def peak_omega(self) -> float:
         """
-        Peak frequency, rad/s.
+        Peak frequency of the first part, rad/s.
         """
     @property
     def tp(self) -> float:
@@ -111,6 +120,35 @@ class RepeatPeriod:
     def time(self) -> float:
         """
         First repeat, or the proven lower bound of it, s.
+        """
+class WaveKinematics:
+    """
+    Answer of `WaveComponents.kinematics`. Arrays of the shape of the points; vectors have three inertial components last. In air velocity, acceleration and pressure are zero.
+    """
+    @property
+    def acceleration(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        m/s2, partial derivative in time (at the stretched point)
+        """
+    @property
+    def dynamic_pressure(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        Pa, without the hydrostatic -density g z
+        """
+    @property
+    def elevation(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        m, of the surface above the point
+        """
+    @property
+    def submerged(self) -> numpy.typing.NDArray[numpy.bool]:
+        """
+        Whether the point is below the surface.
+        """
+    @property
+    def velocity(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        m/s
         """
 class WaveComponents:
     """
@@ -145,9 +183,38 @@ class WaveComponents:
         """
         Autocorrelation coefficient of the elevation at one point, for lags in s, any shape.
         """
-    def elevation(self, times: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], *, x: typing.SupportsFloat | typing.SupportsIndex = 0.0, y: typing.SupportsFloat | typing.SupportsIndex = 0.0) -> numpy.typing.NDArray[numpy.float64]:
+    def elevation(self, times: typing.Any, *, x: typing.Any = 0.0, y: typing.Any = 0.0) -> numpy.typing.NDArray[numpy.float64]:
         """
-        Wave elevation (m) at one point (m, inertial frame), shape of `times` (s).
+        Wave elevation (m) at times (s) and points (m, inertial frame), broadcast against each other.
+        """
+    def kinematics(self, *, time: typing.Any, x: typing.Any, y: typing.Any, z: typing.Any, stretching: str = 'wheeler', density: typing.SupportsFloat | typing.SupportsIndex = 1025.0) -> WaveKinematics:
+        """
+        Undisturbed wave at points by linear theory, for finite or infinite depth.
+        
+        Parameters
+        ----------
+        time, x, y, z : array_like, broadcast against each other
+            s; m, inertial frame, z up from the still water.
+        stretching : str
+            How linear theory, which ends at z = 0, is taken to the moving surface. "wheeler" (default): at
+            z' = (z - elevation) / (1 + elevation / depth), so that the pressure vanishes at the surface. "none": linear
+            theory itself up to z = 0, the values of z = 0 above it.
+        density : float
+            kg/m3, for the pressure.
+        
+        Returns
+        -------
+        WaveKinematics
+        
+        Raises
+        ------
+        ValueError
+            A value is not finite, a point lies below the sea floor, or `stretching` is unknown.
+        
+        Notes
+        -----
+        J. D. Wheeler, "Method for calculating forces produced by irregular waves", J. Petroleum Technology 22, 1970;
+        DNV-RP-C205, 3.3.
         """
     def repeat_period(self, horizon: typing.SupportsFloat | typing.SupportsIndex = 10800.0) -> RepeatPeriod:
         """
@@ -248,10 +315,11 @@ class ExactWaveLoad:
         """
 class WaveTable:
     """
-    A wave load by quintic Hermite interpolation on a global time grid; immutable.
+    A wave load by Hermite interpolation of degree 11 on a global time grid; immutable.
     
-    |table - exact| <= step^6 / 46080 sum |a X_ij| omega^6 at any time (Hermite remainder), plus rounding. Knots are
-    computed when a run reaches them and held in a ring of fixed size: constant memory for any duration.
+    |table - exact| <= 3.72e-10 step^12 sum |a X_ij| omega^12 at any time (Hermite remainder), plus rounding. Knots are
+    computed when a run reaches them and held in a ring of fixed size: constant memory for any duration; or they are
+    those of a whole period, handed over.
     
     Parameters
     ----------
@@ -259,13 +327,22 @@ class WaveTable:
     relative_bound : float
         The bound over sum |a X_ij|, 1e-14 to 1e-2; it sets the step. The default 1e-9 is about 1e-8 of a load's
         standard deviation with 200 components.
+    period : float
+        With `knots`: of the load, s.
+    knots : array_like, shape (count, 3, 7), optional
+        Value, rate and acceleration of the six loads and the elevation at the times period k / count. Copied.
     
     Raises
     ------
     ValueError
-        `relative_bound` is out of range.
+        `relative_bound` is out of range, there are too few knots for it, or they are not those of the load.
     """
-    def __init__(self, load: ExactWaveLoad, *, relative_bound: typing.SupportsFloat | typing.SupportsIndex = 1e-09) -> None:
+    @staticmethod
+    def largest_step(load: ExactWaveLoad, *, relative_bound: typing.SupportsFloat | typing.SupportsIndex = 1e-09) -> float:
+        """
+        The widest step (s) that keeps the bound.
+        """
+    def __init__(self, load: ExactWaveLoad, *, relative_bound: typing.SupportsFloat | typing.SupportsIndex = 1e-09, period: typing.SupportsFloat | typing.SupportsIndex = 0.0, knots: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None) -> None:
         ...
     def __repr__(self) -> str:
         ...
@@ -292,6 +369,116 @@ class WaveTable:
         """
         Distance of the knots, s.
         """
+    @property
+    def stored_knots(self) -> int:
+        """
+        Knots kept for good; 0 where they are made during a run.
+        """
+class DriftLoad:
+    """
+    Slowly varying second-order load at the mean position, Newman's approximation; immutable.
+    
+    F_j(t) = sum_ik a_i a_k (D_ij + D_kj) / 2 cos(theta_i - theta_k), theta_i = omega_i t + phase_i
+    - k_i (x cos b_i + y sin b_i); its mean is sum a^2 D.
+    
+    Parameters
+    ----------
+    waves : WaveComponents
+    coefficient : array_like, shape (components, 6)
+        D: mean load over amplitude squared, N/m2 and N m/m2. Copied.
+    position : tuple of float
+        x, y of the vessel, m, inertial frame.
+    
+    Raises
+    ------
+    ValueError
+        A wrong shape or a value that is not finite.
+    """
+    def __init__(self, waves: WaveComponents, *, coefficient: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, n]"], position: tuple[typing.SupportsFloat | typing.SupportsIndex, typing.SupportsFloat | typing.SupportsIndex] = (0.0, 0.0)) -> None:
+        ...
+    def evaluate(self, times: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], *, derivative: typing.SupportsInt | typing.SupportsIndex = 0) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        Forces (N) and moments (N m) at times (s): shape times.shape + (6,); `derivative` 0, 1 or 2.
+        """
+    @property
+    def waves(self) -> WaveComponents:
+        """
+        The components (a copy).
+        """
+class DriftTable:
+    """
+    A DriftLoad by Hermite interpolation on a global time grid, as WaveTable; knots have the shape (count, 3, 6).
+    """
+    @staticmethod
+    def largest_step(load: DriftLoad, *, relative_bound: typing.SupportsFloat | typing.SupportsIndex = 1e-09) -> float:
+        """
+        The widest step (s) that keeps the bound.
+        """
+    def __init__(self, load: DriftLoad, *, relative_bound: typing.SupportsFloat | typing.SupportsIndex = 1e-09, period: typing.SupportsFloat | typing.SupportsIndex = 0.0, knots: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None) -> None:
+        ...
+    def __repr__(self) -> str:
+        ...
+    def evaluate(self, times: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        Forces (N) and moments (N m) at times (s): shape times.shape + (6,).
+        """
+    @property
+    def error_bound(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        Bound of |table - exact| per motion, N and N m, shape (6,).
+        """
+    @property
+    def step(self) -> float:
+        """
+        Distance of the knots, s.
+        """
+    @property
+    def stored_knots(self) -> int:
+        """
+        Knots kept for good; 0 where they are made during a run.
+        """
+class PositionedWaveLoad:
+    """
+    Wave loads with phase and heading of the vessel as it is now, in axes that follow its yaw; immutable.
+    
+    F_j = Re sum_i a_i X_j(omega_i, b_i - psi) exp(i (omega_i t + phase_i - k_i (x cos b_i + y sin b_i))), X by periodic
+    cubic splines in the relative heading; slow drift, if asked for, as in DriftLoad with D at b_i - psi.
+    
+    Parameters
+    ----------
+    waves : WaveComponents
+    headings : array_like, shape (m,)
+        Increasing within one turn, at most 45 deg apart, rad.
+    transfer : array_like of complex, shape (m, components, 6)
+        X at each heading for each component's frequency, N/m and N m/m. Copied.
+    drift_headings, drift : array_like, shapes (p,) and (p, components, 6), optional
+        D over its headings, N/m2 and N m/m2. Copied.
+    
+    Raises
+    ------
+    ValueError
+        A wrong shape, a value that is not finite or a gap between headings.
+    """
+    def __init__(self, waves: WaveComponents, *, headings: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], transfer: typing.Annotated[numpy.typing.ArrayLike, numpy.complex128], drift_headings: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex] = [], drift: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None) -> None:
+        ...
+    def evaluate(self, time: typing.SupportsFloat | typing.SupportsIndex, *, x: typing.SupportsFloat | typing.SupportsIndex = 0.0, y: typing.SupportsFloat | typing.SupportsIndex = 0.0, yaw: typing.SupportsFloat | typing.SupportsIndex = 0.0) -> tuple[numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.float64], float]:
+        """
+        First-order load (6,), slow drift (6,), in yaw-following axes, and elevation (m) at one time (s) and pose (m, rad).
+        """
+    @property
+    def waves(self) -> WaveComponents:
+        """
+        The components (a copy).
+        """
+class WaveLoads:
+    """
+    Wave loads on a vessel: exact sums at the mean position, or tables of them with a stated error bound; or loads at the actual position, which replace all others.
+    """
+    def __init__(self, *, name: str, body: str, exact: ExactWaveLoad = None, table: WaveTable = None, drift: DriftLoad = None, drift_table: DriftTable = None, positioned: PositionedWaveLoad = None) -> None:
+        ...
+    @property
+    def name(self) -> str:
+        ...
 class Body:
     """
     A rigid body: inertia (3, 3) in kg m2 about the centre of mass in body axes, pose of the body origin in the inertial frame, quaternion (w, x, y, z) body to inertial. Immutable.
@@ -544,11 +731,27 @@ class StateSpaceBlock:
     @property
     def state_scale(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]:
         ...
+class RetardationFunctions:
+    """
+    Fluid memory by direct convolution, mu_j(t) = sum_k integral K_jk(tau) v_k(t - tau) dtau: kernel (n, 6, 6) at tau = 0, step, 2 step ... in s, cubic in between, zero beyond. Motions 0 (surge) ... 5 (yaw); the motion is sampled at the same step.
+    """
+    def __init__(self, *, step: typing.SupportsFloat | typing.SupportsIndex, kernel: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> None:
+        ...
+    @property
+    def kernel(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        (n, 6, 6), N and N m per m/s and rad/s and s, copy
+        """
+    @property
+    def step(self) -> float:
+        """
+        s
+        """
 class VesselHydrodynamics:
     """
-    Linear hydrodynamics of a body about its origin (the reference point): added mass, damping and restoring (6, 6), quadratic damping (6,), mooring stiffness and damping of surge, sway, yaw (3,), memory blocks. kinematics: 'yaw_following' (default) or 'paper', eqs (17)-(31).
+    Linear hydrodynamics of a body about its origin (the reference point): added mass, damping and restoring (6, 6), quadratic damping (6,), mooring stiffness and damping of surge, sway, yaw (3,), memory blocks or retardation functions. kinematics: 'yaw_following' (default) or 'paper', eqs (17)-(31).
     """
-    def __init__(self, *, name: str, body: str, added_mass: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[6, 6]"] = ..., linear_damping: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[6, 6]"] = ..., quadratic_damping: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[6, 1]"] = ..., restoring: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[6, 6]"] = ..., mooring_stiffness: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ..., mooring_damping: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ..., memory: collections.abc.Sequence[StateSpaceBlock] = [], kinematics: str = 'yaw_following') -> None:
+    def __init__(self, *, name: str, body: str, added_mass: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[6, 6]"] = ..., linear_damping: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[6, 6]"] = ..., quadratic_damping: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[6, 1]"] = ..., restoring: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[6, 6]"] = ..., mooring_stiffness: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ..., mooring_damping: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ..., memory: collections.abc.Sequence[StateSpaceBlock] | RetardationFunctions = [], kinematics: str = 'yaw_following') -> None:
         ...
     @property
     def added_mass(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[6, 6]"]:
@@ -563,7 +766,7 @@ class VesselHydrodynamics:
     def linear_damping(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[6, 6]"]:
         ...
     @property
-    def memory(self) -> list[StateSpaceBlock]:
+    def memory(self) -> list[StateSpaceBlock] | RetardationFunctions:
         ...
     @property
     def mooring_damping(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
@@ -580,15 +783,67 @@ class VesselHydrodynamics:
     @property
     def restoring(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[6, 6]"]:
         ...
-class WaveLoads:
+class FlowForce:
     """
-    Wave loads on a vessel from its force RAOs: an exact sum, or a table of it with a stated error bound.
+    Wind or current on a body by coefficients; see seacrane.add_wind and seacrane.add_current.
+    
+    F_x, F_y = density / 2 V^2 (C_x frontal_area, C_y lateral_area), N = density / 2 V^2 C_n lateral_area length, V the
+    horizontal flow relative to `point`, in axes that follow the body's yaw; C over `angles` (rad), where the relative
+    flow goes, from the bow towards port, by periodic cubic splines. Immutable.
     """
-    def __init__(self, *, name: str, body: str, exact: ExactWaveLoad, table: WaveTable = None) -> None:
+    def __init__(self, *, name: str, body: str, point: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], density: typing.SupportsFloat | typing.SupportsIndex, speed: Curve, direction: typing.SupportsFloat | typing.SupportsIndex, frontal_area: typing.SupportsFloat | typing.SupportsIndex, lateral_area: typing.SupportsFloat | typing.SupportsIndex, length: typing.SupportsFloat | typing.SupportsIndex, angles: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], coefficients: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, 3]"]) -> None:
         ...
+    @property
+    def angles(self) -> list[float]:
+        """
+        rad
+        """
+    @property
+    def body(self) -> str:
+        ...
+    @property
+    def coefficients(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 3]"]:
+        """
+        C_x, C_y, C_n, shape (n, 3) (copy)
+        """
+    @property
+    def density(self) -> float:
+        """
+        kg/m3
+        """
+    @property
+    def direction(self) -> float:
+        """
+        rad, where the flow goes, from +x towards +y
+        """
+    @property
+    def frontal_area(self) -> float:
+        """
+        m2
+        """
+    @property
+    def lateral_area(self) -> float:
+        """
+        m2
+        """
+    @property
+    def length(self) -> float:
+        """
+        m
+        """
     @property
     def name(self) -> str:
         ...
+    @property
+    def point(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
+        """
+        m, body coordinates (copy)
+        """
+    @property
+    def speed(self) -> Curve:
+        """
+        Curve, m/s
+        """
 class Model:
     """
     A compiled scene: immutable, shareable between threads.
@@ -626,6 +881,11 @@ class Model:
     def elements(self) -> list[tuple[str, str, int, bool]]:
         """
         (name, kind, rows, whether the reaction is unique) of joints, then drivers.
+        """
+    @property
+    def history_samples(self) -> int:
+        """
+        Points in time at which convolutions keep the motion of their vessels.
         """
     @property
     def initial_state(self) -> numpy.typing.NDArray[numpy.float64]:
@@ -691,12 +951,41 @@ class Evaluator:
         """
         Nanoseconds per evaluation by part.
         """
+class TwistHistory:
+    """
+    What a convolution keeps of a vessel's motion, in the frame that follows yaw: `recent` (3, 6) at the newest samples, `quadrature` (n, 6) at the quadrature points of the past, newest first; at rest before `start` (s), `intervals` steps of the convolution ago.
+    """
+    def __init__(self, *, start: typing.SupportsFloat | typing.SupportsIndex, intervals: typing.SupportsInt | typing.SupportsIndex, recent: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, 6]"], quadrature: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, 6]"]) -> None:
+        ...
+    @property
+    def intervals(self) -> int:
+        ...
+    @property
+    def quadrature(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 6]"]:
+        """
+        m/s and rad/s, copy
+        """
+    @property
+    def recent(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 6]"]:
+        """
+        m/s and rad/s, copy
+        """
+    @property
+    def start(self) -> float:
+        """
+        s
+        """
 class State:
     """
     Time (s), state values and inputs of a run; a copy is a checkpoint.
     """
-    def __init__(self, *, time: typing.SupportsFloat | typing.SupportsIndex, values: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], inputs: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> None:
+    def __init__(self, *, time: typing.SupportsFloat | typing.SupportsIndex, values: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], inputs: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], histories: collections.abc.Sequence[TwistHistory] = []) -> None:
         ...
+    @property
+    def histories(self) -> list[TwistHistory]:
+        """
+        One TwistHistory per vessel with a convolution (copies); none: at rest before `time`.
+        """
     @property
     def inputs(self) -> numpy.typing.NDArray[numpy.float64]:
         """
@@ -746,6 +1035,10 @@ def compile(*, name: str, gravity: typing.SupportsFloat | typing.SupportsIndex, 
     """
     Checks and compiles a scene; seacrane.Scene.compile() calls it. Raises SceneError.
     """
+def dnv_gamma(*, hs: typing.SupportsFloat | typing.SupportsIndex, tp: typing.SupportsFloat | typing.SupportsIndex) -> float:
+    """
+    Peak enhancement by DNV-RP-C205 (3.5.5): 5 for tp / sqrt(hs) <= 3.6, 1 from 5 on, between them exp(5.75 - 1.15 tp / sqrt(hs)); m and s.
+    """
 def initial_state(model: Model) -> State:
     ...
 def integrator_names() -> list[str]:
@@ -761,7 +1054,7 @@ def jonswap(*, hs: typing.SupportsFloat | typing.SupportsIndex, tp: typing.Suppo
     tp : float
         Peak period, s.
     gamma : float
-        Peak enhancement, at least 1. The width is 0.07 below and 0.09 above the peak.
+        Peak enhancement, 1 to 7. The width is 0.07 below and 0.09 above the peak.
     
     Raises
     ------
@@ -771,6 +1064,28 @@ def jonswap(*, hs: typing.SupportsFloat | typing.SupportsIndex, tp: typing.Suppo
     Notes
     -----
     Hasselmann et al., Deutsche Hydrographische Zeitschrift A8 (12), 1973. Normalised by quadrature.
+    """
+def ochi_hubble(*, hs: typing.Annotated[collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(2)"], tp: typing.Annotated[collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(2)"], shape: typing.Annotated[collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(2)"]) -> Spectrum:
+    """
+    Ochi-Hubble spectrum: two systems of three parameters each.
+    
+    Parameters
+    ----------
+    hs : tuple of float
+        Significant wave heights of both systems, m.
+    tp : tuple of float
+        Peak periods, s.
+    shape : tuple of float
+        Their lambda, above 0.5 to 20; 1 is Pierson-Moskowitz, larger is narrower.
+    
+    Raises
+    ------
+    ValueError
+        A parameter is not finite or out of range.
+    
+    Notes
+    -----
+    M. K. Ochi and E. N. Hubble, Proc. 15th Coastal Engineering Conference, 1976.
     """
 def philox_uniform(*, seed: typing.Any, stream: typing.Any, index: typing.Any) -> float:
     """
@@ -796,7 +1111,7 @@ def pierson_moskowitz(*, hs: typing.SupportsFloat | typing.SupportsIndex, tp: ty
     -----
     W. J. Pierson and L. Moskowitz, J. Geophys. Res. 69 (24), 1964.
     """
-def realise_waves(spectrum: Spectrum, *, seed: typing.Any, direction: typing.SupportsFloat | typing.SupportsIndex, count: typing.Any = 200, omega_min: typing.SupportsFloat | typing.SupportsIndex | None = None, omega_max: typing.SupportsFloat | typing.SupportsIndex | None = None, depth: typing.SupportsFloat | typing.SupportsIndex = ..., gravity: typing.SupportsFloat | typing.SupportsIndex = 9.80665) -> WaveComponents:
+def realise_waves(spectrum: Spectrum, *, seed: typing.Any, direction: typing.SupportsFloat | typing.SupportsIndex, count: typing.Any = 200, omega_min: typing.SupportsFloat | typing.SupportsIndex | None = None, omega_max: typing.SupportsFloat | typing.SupportsIndex | None = None, depth: typing.SupportsFloat | typing.SupportsIndex = ..., gravity: typing.SupportsFloat | typing.SupportsIndex = 9.80665, placement: str = 'jittered', system: typing.Any = 0) -> WaveComponents:
     """
     Long-crested sea with deterministic amplitudes and jittered frequencies.
     
@@ -816,9 +1131,121 @@ def realise_waves(spectrum: Spectrum, *, seed: typing.Any, direction: typing.Sup
     count : int
         Number of components.
     omega_min, omega_max : float, optional
-        Range, rad/s. By default min(0.3, peak / 2) to max(2.5, 3 peak): the realised hs is then within 1 %.
+        Range, rad/s; by default `Spectrum.default_range`. For JONSWAP and Pierson-Moskowitz the realised hs is
+        then within 1 %.
     depth : float
         Water depth, m.
+    gravity : float
+        m/s2.
+    placement : str
+        "jittered" (default), or "uniform": frequencies are multiples of one bin width, as an FFT needs them, and
+        the sea repeats after 2 pi over that width.
+    system : int
+        Number of the wave system in a sea of several: each takes random numbers of its own, from the streams
+        3 system (jitter) and 3 system + 1 (phase).
+    
+    Raises
+    ------
+    ValueError
+        A parameter is not finite or out of range.
+    """
+def section_radiation(*, points: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], omega: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], rho: typing.SupportsFloat | typing.SupportsIndex = 1025.0, g: typing.SupportsFloat | typing.SupportsIndex = 9.81, panels: typing.SupportsInt | typing.SupportsIndex = 40) -> dict:
+    """
+    Added mass and damping of a symmetric section on deep water, per metre of length.
+    
+    Parameters
+    ----------
+    points : array_like, shape (p, 2)
+        y >= 0 and z <= 0 in m on the port half, from the waterline (z = 0) to the keel (y = 0).
+    omega : array_like, shape (n,)
+        Frequencies above zero, rad/s.
+    rho, g : float
+        kg/m3, m/s2.
+    panels : int
+        Panels on the half section.
+    
+    Returns
+    -------
+    dict of arrays; rows and columns are sway, heave, roll about the waterline on the centre line
+        added_mass, damping : (n, 3, 3)
+        wave_amplitude : (n, 3) complex, of the waves far to port per unit of motion (m/m, m/rad)
+        infinite_added_mass : (3, 3)
+        zero_added_mass : (3, 3), NaN in heave, which has no limit.
+    
+    Raises
+    ------
+    ValueError
+        The points are not a half section as above, a value is not finite or out of range, or the panels are too
+        few for the shape, which shows as radiated energy that is not the damping's.
+    
+    Notes
+    -----
+    Close-fit sources on straight panels (Frank, NSRDC report 2375, 1967), with a rigid lid on the interior free
+    surface against irregular frequencies. Sections thinner than 2 % are solved as 2 % thick: a stem in sway is
+    a plate.
+    """
+def strip_theory(*, x: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], sections: collections.abc.Sequence[typing.Annotated[numpy.typing.ArrayLike, numpy.float64]], omega: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], heading: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], speed: typing.SupportsFloat | typing.SupportsIndex = 0.0, rho: typing.SupportsFloat | typing.SupportsIndex = 1025.0, g: typing.SupportsFloat | typing.SupportsIndex = 9.81, panels: typing.SupportsInt | typing.SupportsIndex = 40) -> dict:
+    """
+    Strip theory of Salvesen, Tuck and Faltinsen (1970) for a port-starboard symmetric hull in deep water.
+    
+    Parameters
+    ----------
+    x : array_like, shape (s,)
+        Stations, m, increasing, forward.
+    sections : list of array_like, each of shape (p_i, 2)
+        y >= 0 and z <= 0 in m on the port half, from the waterline (z = 0) to the keel (y = 0). A last section
+        aft of finite area is a transom.
+    omega : array_like, shape (n,)
+        Frequencies above zero, rad/s: of encounter for the matrices, of the waves for the forces.
+    heading : array_like, shape (m,)
+        Direction the waves travel to, rad: 0 following, pi head sea.
+    speed : float
+        Forward speed, m/s.
+    rho, g : float
+        kg/m3, m/s2.
+    panels : int
+        Panels on each half section.
+    
+    Returns
+    -------
+    dict of arrays, SI units, about x = 0 on the centre line at the waterline, time factor exp(+i omega t)
+        added_mass, damping : (n, 6, 6). Surge is zero: the theory has none.
+        infinite_frequency_added_mass : (6, 6)
+        zero_frequency_added_mass : (6, 6), at zero speed; NaN in heave and pitch, which have no limit.
+        force, froude_krylov : (m, n, 6) complex, per metre of wave amplitude, phases at the origin. Surge is the
+        Froude-Krylov force alone.
+        encounter_frequency : (m, n), rad/s
+        sectional_added_mass, sectional_damping : (n, s, 3, 3), per metre of length, sway, heave and roll.
+        sectional_infinite_added_mass, sectional_zero_added_mass : (s, 3, 3)
+    
+    Raises
+    ------
+    ValueError
+        Stations not increasing, a section that is not a half section as above, values that are not finite or
+        out of range, a wave that the ship keeps up with (encounter frequency zero), or panels too few for the
+        shape, which shows as radiated energy that is not the damping's.
+    
+    Notes
+    -----
+    N. Salvesen, E. O. Tuck and O. Faltinsen, Ship motions and sea loads, Trans. SNAME 78, 1970; with the end
+    terms of the transom. Sections by `section_radiation`; between stations everything but the wave's phase is
+    linear. Unlike theirs, the Froude-Krylov part is the exact pressure integral over the piecewise linear hull,
+    with what faces forward or aft (surge, and small parts of pitch and yaw), both ends included.
+    """
+def tabulated_density(*, omega: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], density: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> Spectrum:
+    """
+    Spectrum from a table in rad/s and m2 s/rad, linear between its points, zero outside.
+    """
+def torsethaugen(*, hs: typing.SupportsFloat | typing.SupportsIndex, tp: typing.SupportsFloat | typing.SupportsIndex, gravity: typing.SupportsFloat | typing.SupportsIndex = 9.80665) -> Spectrum:
+    """
+    Torsethaugen's spectrum in its simplified form: wind sea and swell from one height and period.
+    
+    Parameters
+    ----------
+    hs : float
+        Significant wave height of both systems together, m.
+    tp : float
+        Peak period of the primary system, s: wind sea up to 6.6 hs^(1/3), else swell.
     gravity : float
         m/s2.
     
@@ -826,4 +1253,9 @@ def realise_waves(spectrum: Spectrum, *, seed: typing.Any, direction: typing.Sup
     ------
     ValueError
         A parameter is not finite or out of range.
+    
+    Notes
+    -----
+    K. Torsethaugen and S. Haver, ISOPE 2004; DNV-RP-C205 appendix A. Norwegian waters, fetch 370 km. Normalised by
+    quadrature instead of the fitted factor A_gamma.
     """

@@ -106,9 +106,11 @@ class Waves:
             raise ValueError("drift at the actual position needs drift_by_heading")
         if self.evaluation == "fft":
             raise ValueError("loads at the actual position have no table; choose evaluation='exact'")
-        slow = {} if drift is None else {"drift_headings": drift.heading, "drift": drift.values}
+        slow: dict[str, Any] = {}
+        if drift is not None:
+            slow = {"drift_headings": drift.heading.tolist(), "drift": drift.values}
         positioned = _core.PositionedWaveLoad(
-            self.components(), headings=force.heading, transfer=force.values, **slow
+            self.components(), headings=force.heading.tolist(), transfer=force.values, **slow
         )
         return {"positioned": positioned}
 

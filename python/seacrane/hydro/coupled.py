@@ -31,8 +31,15 @@ def growth_rate(vessel: VesselParameters) -> float:
 
 
 def free_vessel_system(vessel: VesselParameters) -> FloatArray:
-    """Matrix of ``x' = S x``: positions of motions with restoring, all six velocities, memory states."""
+    """Matrix of ``x' = S x``: positions of motions with restoring, all six velocities, memory states.
+
+    Raises
+    ------
+    TypeError : the memory is a convolution, which has no states.
+    """
     model = vessel.memory
+    if not isinstance(model, MemoryModel):
+        raise TypeError("the vessel's memory is a convolution; give one of states, from fit_memory")
     rigid = rigid_mass_matrix(vessel.mass, vessel.centre_of_mass, vessel.inertia)
     inverse = np.linalg.inv(rigid + vessel.added_mass)
     held = np.flatnonzero(np.any(vessel.restoring != 0.0, axis=0))
