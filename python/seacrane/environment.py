@@ -209,20 +209,46 @@ def use_actual_position(scene: Scene, database: HydroDatabase) -> None:
         For components outside the database's frequencies.
     """
     waves = _sea_of(scene, "loads at the actual position")
-    heading, _ = database.full_circle()
+    force = force_by_heading(database, waves.omega)
+    drift = None
+    if waves.drift is not None:
+        drift = _drift_by_heading(database, waves.omega, "hold")  # add_drift has judged the range
+    scene.waves = replace(waves, force_by_heading=force, drift_by_heading=drift)
+    scene.notes.update(wave_phase="actual")
+
+
+def force_by_heading(database: HydroDatabase, omega: Array) -> ByHeading:
+    """Force RAOs at some frequencies for all headings of the database.
+
+    Parameters
+    ----------
+    database : HydroDatabase
+    omega : ndarray, shape (n,)
+        rad/s.
+
+    Returns
+    -------
+    ByHeading
+        N/m and N m/m.
+
+    Raises
+    ------
+    SceneError
+        If the headings do not cover the circle.
+    ValueError
+        For a frequency outside those of the database.
+    """
+    from seacrane.hydro.interpolation import spline_weights
+
+    heading, table = database.full_circle()
     if np.diff(np.append(heading, heading[0] + 2.0 * np.pi)).max() > np.pi / 4.0 + 1e-9:
         raise SceneError(
             f"database {database.name!r}: headings {np.degrees(heading).round(3).tolist()} deg leave gaps "
             "above 45 deg; a vessel that turns needs them all round"
         )
-    values = database.force_at(waves.omega[None, :], heading[:, None])
-    drift = None
-    if waves.drift is not None:
-        drift = _drift_by_heading(database, waves.omega, "hold")  # add_drift has judged the range
-    scene.waves = replace(
-        waves, force_by_heading=ByHeading(heading=heading, values=values), drift_by_heading=drift
-    )
-    scene.notes.update(wave_phase="actual")
+    database.force_at(np.array([omega.min(), omega.max()]), heading[0])  # refuses frequencies outside
+    weights = spline_weights(database.omega, np.clip(omega, database.omega[0], database.omega[-1]))
+    return ByHeading(heading=heading, values=np.stack([weights @ at_heading for at_heading in table]))
 
 
 def add_drift(scene: Scene, database: HydroDatabase, *, outside: Literal["error", "hold"] = "error") -> None:
