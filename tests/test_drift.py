@@ -34,6 +34,7 @@ def drifting(coefficient: Any, *, headings: int = 13, symmetric: bool = True) ->
         name="drifting",
         drift=drift,
         port_starboard_symmetric=symmetric,
+        omega=database().omega,
         full_circle=database().full_circle,
         force_at=database().force_at,
     )

@@ -239,7 +239,7 @@ def test_a_scene_file_keeps_wind_and_current(tmp_path: Path) -> None:
     first, second = (simulate(s, t_end=10.0, dt_out=1.0) for s in (scene, again))
     for name in ("position", "quaternion"):
         np.testing.assert_array_equal(first.channels[name], second.channels[name])
-    assert ("wind and current", ["wind", "current"]) in [
+    assert ("wind and current", ["wind (block)", "current (block)"]) in [
         row for rows in scene.report().values() for row in rows
     ]
 

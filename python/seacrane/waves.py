@@ -108,9 +108,9 @@ class Waves:
             raise ValueError("loads at the actual position have no table; choose evaluation='exact'")
         slow: dict[str, Any] = {}
         if drift is not None:
-            slow = {"drift_headings": drift.heading.tolist(), "drift": drift.values}
+            slow = {"drift_headings": np.asarray(drift.heading).tolist(), "drift": drift.values}
         positioned = _core.PositionedWaveLoad(
-            self.components(), headings=force.heading.tolist(), transfer=force.values, **slow
+            self.components(), headings=np.asarray(force.heading).tolist(), transfer=force.values, **slow
         )
         return {"positioned": positioned}
 
