@@ -28,8 +28,8 @@ SceneDescription at_sea(bool actual) {
   wind.density = 1.2;
   wind.speed = Curve::harmonic(0.0, 8.0, 2.0, 0.5, 0.0);
   wind.frontal_area = wind.lateral_area = wind.length = 1.0;
-  wind.angles = {-1.5, 0.0, 1.5, 3.0};
-  wind.coefficients = {Vec3d(0, -1, 0), Vec3d(1, 0, 0), Vec3d(0, 1, 0), Vec3d(-1, 0, 0)};
+  wind.angles = {0.0, 1.5, 3.0, 4.5, 5.5};
+  wind.coefficients.assign(5, Vec3d(0.2, 0.3, 0.1));
   scene.loads_of<FlowForce>().push_back(wind);
   return scene;
 }
