@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -10,7 +11,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from seacrane import Scene, SceneError, Waves, _core, simulate
+from seacrane import RepeatingSeaWarning, Scene, SceneError, Waves, _core, simulate
 from seacrane.hydro import shipped_database
 from seacrane.vessel import add_vessel
 from seacrane.wave_series import grid_of
@@ -120,3 +121,14 @@ def test_knots_of_another_load_are_refused() -> None:
         _core.WaveTable(exact, relative_bound=1e-3, period=period, knots=knots[:, 0])
     with pytest.raises(ValueError, match="period is 0"):
         _core.WaveTable(exact, relative_bound=1e-3, knots=knots)
+
+
+def test_a_run_longer_than_its_sea_is_told_so() -> None:
+    scene = Scene(name="long")
+    add_vessel(scene, shipped_database(), mooring_period=100.0, memory="none")
+    scene.waves = uniform(step=0.2, first=2.0, count=10)
+    with pytest.warns(RepeatingSeaWarning, match=r"repeat after 31\.4159 s, the run takes 40 s"):
+        simulate(scene, t_end=40.0, dt_out=10.0)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        simulate(scene, t_end=31.0, dt_out=10.0)

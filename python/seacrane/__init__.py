@@ -54,7 +54,7 @@ if TYPE_CHECKING:
     from seacrane.simulation import Run, SampledController, simulate
     from seacrane.version import __version__
     from seacrane.vessel import add_vessel
-    from seacrane.waves import ByHeading, Waves
+    from seacrane.waves import ByHeading, RepeatingSeaWarning, Waves
     from seacrane.wind import gust_curve
 
 _HOME = {
@@ -72,6 +72,7 @@ _HOME = {
     "Model": "_core",
     "NaturalModes": "modal_analysis",
     "ResponseStatistics": "frequency_domain",
+    "RepeatingSeaWarning": "waves",
     "Result": "result",
     "RetardationFunctions": "_core",
     "Run": "simulation",
@@ -128,6 +129,7 @@ __all__ = [
     "LinearModel",
     "Model",
     "NaturalModes",
+    "RepeatingSeaWarning",
     "ResponseStatistics",
     "Result",
     "RetardationFunctions",

@@ -144,6 +144,8 @@ class Run:
             max_step=float(max_step), output_times=_output_times(self.start.time, self.t_end, float(dt_out)),
             channels=core_channels(wanted, known),
         )  # fmt: skip
+        if scene.waves is not None:
+            scene.waves.warn_of_repeats(self.t_end - self.start.time)
         self._fastest_mode = fastest_mode(self.model)  # before the run, so that Ctrl-C need not wait for it
         self.interrupted = False
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
@@ -15,6 +16,10 @@ from seacrane.errors import SceneError
 
 Array = NDArray[np.float64]
 EVALUATIONS = ("table", "exact", "fft")
+
+
+class RepeatingSeaWarning(UserWarning):
+    """A run is longer than its sea: after one period it meets the same waves, and extremes learn nothing."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -99,6 +104,21 @@ class Waves:
             direction=self.direction,
             depth=self.depth,
         )
+
+    def warn_of_repeats(self, duration: float) -> None:
+        """Warn with RepeatingSeaWarning if a series made by FFT is shorter than a run (s)."""
+        if self.evaluation != "fft":
+            return
+        from seacrane.wave_series import grid_of
+
+        period = 2.0 * np.pi / grid_of(np.asarray(self.omega, dtype=float))[0]
+        if duration > period:
+            warnings.warn(
+                f"waves on {self.body!r}: repeat after {period:.6g} s, the run takes {duration:.6g} s: what "
+                "comes later adds nothing to extremes or statistics; put more components into the same band",
+                RepeatingSeaWarning,
+                stacklevel=4,
+            )
 
     def _positioned(self) -> dict[str, Any]:
         force, drift = self.force_by_heading, self.drift_by_heading

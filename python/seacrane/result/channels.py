@@ -56,7 +56,7 @@ CHANNELS: Mapping[str, Channel] = MappingProxyType(
         "reaction_moment": _channel(
             "joint axis", "N m", "constraint moment on the second body, inertial frame, at the joint point"
         ),
-        "wave_elevation": _channel("", "m", "undisturbed wave elevation at the inertial origin"),
+        "wave_elevation": _channel("", "m", "undisturbed wave elevation where wave loads take their phase"),
         "wave_force": _channel("motion", _WRENCH, "wave load on the vessel at its reference point"),
         "drift_force": _channel("motion", _WRENCH, "slow drift load on the vessel at its reference point"),
         "constraint_error": _channel("", "m or rad", "largest absolute constraint residual"),
