@@ -144,6 +144,35 @@ def test_a_free_vessel_feels_where_it_is_and_its_energy_balances() -> None:
     assert np.abs(other.channels["wave_force"] - result.channels["wave_force"]).max() > 0.02 * scale.max()
 
 
+def test_turning_ship_and_sea_together_changes_nothing() -> None:
+    """Motions in axes of the mean heading know nothing of where north is."""
+    motions = []
+    for turn in (0.0, 0.6):
+        scene = Scene(name="turned")
+        add_vessel(scene, database(), mooring_period=100.0)
+        hull = scene.bodies["vessel"]
+        scene.bodies["vessel"] = _core.Body(
+            name="vessel",
+            mass=hull.mass,
+            inertia=hull.inertia,
+            center_of_mass=hull.center_of_mass,
+            quaternion=(np.cos(turn / 2.0), 0.0, 0.0, np.sin(turn / 2.0)),
+        )
+        add_sea(scene, database(), hs=3.0, tp=8.0, direction_deg=60.0 + np.degrees(turn), count=40)
+        use_actual_position(scene, database())
+        motions.append(simulate(scene, t_end=60.0, dt_out=1.0, rtol=1e-9).channels["vessel_motion"])
+    assert np.all(np.abs(motions[0] - motions[1]) < 1e-6 * np.abs(motions[0]).max(axis=0))
+
+
+def test_far_beyond_the_fast_sines_the_load_is_still_right() -> None:
+    waves = spread_sea()
+    transfer = database().force_at(waves.omega, waves.direction)
+    mean = _core.ExactWaveLoad(waves, transfer=transfer)
+    # Phases of 6e6 rad are rounded to 1e-9.
+    error = np.abs(positioned(waves).evaluate(3e6)[0] - mean.evaluate(3e6))
+    assert np.all(error < 1e-8 * mean.magnitude())
+
+
 def test_a_scene_file_keeps_the_loads_of_all_headings(tmp_path: Path) -> None:
     scene = actual_scene()
     scene.save(tmp_path / "scene.json")
