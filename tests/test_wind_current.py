@@ -150,8 +150,6 @@ def test_a_drifting_body_takes_up_the_current_as_the_closed_form_says() -> None:
     # In axes that move with the water the load only takes energy away.
     energy = 0.5 * MASS * np.sum((result.channels["velocity"][:, 0] - [1.5, 0.0, 0.0]) ** 2, axis=1)
     assert np.all(np.diff(energy) < 0.0)
-    work = 0.5 * MASS * (result.channels["velocity"][:, 0, 0] ** 2 - 1.0)
-    assert work[-1] == pytest.approx(0.5 * MASS * (result.channels["velocity"][-1, 0, 0] ** 2 - 1.0))
     assert np.abs(result.channels["energy_balance"]).max() < 1e-8 * result.channels["absolute_work"][-1]
 
 
