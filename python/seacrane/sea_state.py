@@ -10,7 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane import _core
-from seacrane.checked import number_of
+from seacrane.checked import flag_of, number_of
+from seacrane.environment import add_drift, use_actual_position
 from seacrane.errors import SceneError
 from seacrane.scene import Scene
 from seacrane.sea import SeaState, Spreading, WaveSystem, cos_2s, jonswap
@@ -51,8 +52,11 @@ def add_sea(
     count: int | None = None,
     sea: SeaState | None = None,
     relative_bound: float = 1e-9,
+    evaluation: str = "table",
+    phase: Literal["mean", "actual"] = "mean",
+    drift: bool = False,
 ) -> None:
-    """Add a sea and its force-RAO loads on the vessel, phase at the mean position.
+    """Add a sea and its force-RAO loads on the vessel.
 
     Parameters
     ----------
@@ -77,6 +81,13 @@ def add_sea(
         In place of all of these from hs on: any spectra, several wave systems, measured waves.
     relative_bound : float
         Error bound of the load table over the sum of component magnitudes; 0: exact sum in every evaluation.
+    evaluation : str
+        "table", "fft" (needs components of uniform placement) or "exact"; see `seacrane.Waves`.
+    phase : str
+        "mean": loads at the vessel's mean position and heading. "actual": at those of the moment, see
+        `seacrane.use_actual_position`.
+    drift : bool
+        Adds Newman's slow drift, see `seacrane.add_drift`.
 
     Raises
     ------
@@ -94,6 +105,9 @@ def add_sea(
     arguments = {"hs": hs, "tp": tp, "gamma": gamma, "spectrum": spectrum, "direction_deg": direction_deg,
                  "spreading": spreading, "seed": seed, "count": count}  # fmt: skip
     given = {name: value for name, value in arguments.items() if value is not None}
+    if phase not in ("mean", "actual"):
+        raise SceneError(f"sea: phase is {phase!r}; choose 'mean' or 'actual'")
+    flag_of("sea: drift", drift)
     if sea is not None:
         if given:
             raise SceneError(f"sea: given beside {', '.join(given)}; put these into the SeaState")
@@ -121,6 +135,7 @@ def add_sea(
         transfer=_transfer(database, omega, direction),
         relative_bound=relative_bound,
         depth=sea.depth,
+        evaluation=evaluation,
         information={
             "seed": sea.seed,
             "realised_hs": realised.hs,
@@ -129,6 +144,10 @@ def add_sea(
             "repeat_found": int(realised.repeat.found),
         },
     )
+    if drift:
+        add_drift(scene, database)
+    if phase == "actual":
+        use_actual_position(scene, database)
     if len(realised.systems) > 1:
         notes["realised_hs_of_systems"] = {system.name: system.hs for system in realised.systems}
     scene.notes.update(notes, waves_relative_bound=relative_bound)

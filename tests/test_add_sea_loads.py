@@ -1,0 +1,66 @@
+"""`add_sea` passes on how loads are evaluated, where, and whether they drift."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from seacrane import Scene, SceneError, add_drift, add_sea, use_actual_position
+from seacrane.hydro import DriftCoefficients, HydroDatabase, shipped_database
+from seacrane.sea import SeaState, WaveSystem, jonswap
+from seacrane.vessel import add_vessel
+
+
+def with_drift() -> HydroDatabase:
+    coefficient = np.full((13, 25, 6), [-2e3, 1e3, 0.0, 0.0, 0.0, 1e4])
+    drift = DriftCoefficients(
+        heading=np.linspace(0.0, np.pi, 13), omega=np.linspace(0.2, 2.6, 25), coefficient=coefficient
+    )
+    return replace(shipped_database(), drift=drift)
+
+
+def scene_of(**options: object) -> Scene:
+    scene = Scene(name="sea")
+    add_vessel(scene, shipped_database())
+    add_sea(scene, with_drift(), count=30, **options)  # type: ignore[arg-type]
+    return scene
+
+
+def test_keywords_do_what_the_functions_do() -> None:
+    by_keyword, by_hand = scene_of(phase="actual", drift=True), scene_of()
+    add_drift(by_hand, with_drift())
+    use_actual_position(by_hand, with_drift())
+    one, other = by_keyword.waves, by_hand.waves
+    assert one is not None and other is not None
+    assert one.force_by_heading is not None and other.force_by_heading is not None
+    assert one.drift_by_heading is not None and other.drift_by_heading is not None
+    np.testing.assert_array_equal(one.force_by_heading.values, other.force_by_heading.values)
+    np.testing.assert_array_equal(one.drift_by_heading.values, other.drift_by_heading.values)
+    assert by_keyword.notes == by_hand.notes
+    by_keyword.compile()
+
+
+def test_the_fft_takes_uniform_seas_and_refuses_jittered_ones() -> None:
+    scene = Scene(name="sea")
+    add_vessel(scene, shipped_database())
+    density = jonswap(hs=2.0, tp=8.0)
+    for placement in ("uniform", "jittered"):
+        system = WaveSystem(spectrum=density, direction_deg=135.0, count=50)
+        sea = SeaState(systems=[system], placement=placement)
+        add_sea(scene, shipped_database(), sea=sea, evaluation="fft")
+        if placement == "uniform":
+            scene.compile()
+            continue
+        with pytest.raises(SceneError, match="placement='uniform'"):
+            scene.compile()
+
+
+def test_wrong_words_are_refused() -> None:
+    with pytest.raises(SceneError, match="phase is 'true'; choose 'mean' or 'actual'"):
+        scene_of(phase="true")
+    with pytest.raises(SceneError, match="drift is 'newman'; give True or False"):
+        scene_of(drift="newman")
+    with pytest.raises(SceneError, match="choose table, exact, fft"):
+        scene_of(evaluation="spline").compile()
