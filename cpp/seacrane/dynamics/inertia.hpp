@@ -39,13 +39,11 @@ inline Mat6d rigid_mass_matrix(const BodyModel& body, const Mat3d& rotation) {
   return m;
 }
 
-/// Vessel: rigid body about the reference point plus added mass in the yaw-following frame.
-inline Vec6d vessel_inertia(const BodyModel& body, const Vessel& vessel, const BodyKinematics<double>& k,
-                            const YawFrame<double>& frame, BodyInertia& out) {
-  out.full = true;
+/// Vessel: rigid body about the reference point plus added mass in the yaw-following frame. Returns b.
+inline Vec6d vessel_terms(const BodyModel& body, const Vessel& vessel, const BodyKinematics<double>& k,
+                          const YawFrame<double>& frame, Mat6d& mass) {
   const Mat6d rigid = rigid_mass_matrix(body, k.rotation);
-  out.mass = rigid + frame.to_inertial(vessel.added_mass);
-  out.inverse = out.mass.llt().solve(Mat6d::Identity());
+  mass = rigid + frame.to_inertial(vessel.added_mass);
   const Vec3d& w = k.angular_velocity;
   const Vec3d c = k.rotation * body.center_of_mass;
   const Vec3d angular = rigid.bottomRightCorner<3, 3>() * w;
@@ -53,6 +51,14 @@ inline Vec6d vessel_inertia(const BodyModel& body, const Vessel& vessel, const B
   bias.head<3>() = body.mass * w.cross(w.cross(c));
   bias.tail<3>() = w.cross(angular);
   return bias + vessel.added_mass_bias(frame);
+}
+
+inline Vec6d vessel_inertia(const BodyModel& body, const Vessel& vessel, const BodyKinematics<double>& k,
+                            const YawFrame<double>& frame, BodyInertia& out) {
+  out.full = true;
+  const Vec6d bias = vessel_terms(body, vessel, k, frame, out.mass);
+  out.inverse = out.mass.llt().solve(Mat6d::Identity());
+  return bias;
 }
 
 inline Vec6d solve_inertia(const BodyInertia& inertia, const Vec6d& load) {

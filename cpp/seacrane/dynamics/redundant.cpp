@@ -77,8 +77,12 @@ void RedundantSystem::read_state(double t, const double* y) {
     k.velocity = view<3>(twist);
     k.angular_velocity = view<3>(twist + 3);
   }
-  for (std::size_t v = 0; v < m.vessels.size(); ++v) {
-    frames_[v] = YawFrame<double>(bodies_[idx(m.vessels[v].body)]);
+  follow_yaw();
+}
+
+void RedundantSystem::follow_yaw() {
+  for (std::size_t v = 0; v < model_->vessels.size(); ++v) {
+    frames_[v] = YawFrame<double>(bodies_[idx(model_->vessels[v].body)]);
   }
 }
 
@@ -100,13 +104,14 @@ void RedundantSystem::evaluate_rows(double t) {
   evaluate_constraints(*model_, t, curve_limit_, bodies_.data(), blocks_.data());
 }
 
-void RedundantSystem::apply_hydrodynamics(const LoadInput<double>& input, const double* y, double* ydot,
-                                          LoadSum<double>& sum) {
+void RedundantSystem::apply_hydrodynamics(const LoadInput<double>& input, const double* memory,
+                                          double* memory_rate, LoadSum<double>& sum) {
   const Model& m = *model_;
   for (std::size_t v = 0; v < m.vessels.size(); ++v) {
     const Vessel& vessel = m.vessels[v];
-    const double* x = y + vessel.memory_offset;
-    double* x_rate = ydot + vessel.memory_offset;
+    const int own = vessel.memory_offset - m.layout.memory;
+    const double* x = memory + own;
+    double* x_rate = memory_rate + own;
     if (m.paper_kinematics) {
       const auto b = idx(vessel.body);
       const PaperVessel paper(m.bodies[b], vessel, bodies_[b], x, x_rate);
@@ -136,7 +141,7 @@ void RedundantSystem::apply_waves(double t, LoadSum<double>& sum) {
   }
 }
 
-void RedundantSystem::evaluate_loads(double t, const double* y, double* ydot) {
+void RedundantSystem::evaluate_wrenches(double t, const double* memory, double* memory_rate) {
   const Model& m = *model_;
   for (auto& w : wrench_) w = Wrench<double>();
   const LoadInput<double> input = load_input(t);
@@ -145,10 +150,15 @@ void RedundantSystem::evaluate_loads(double t, const double* y, double* ydot) {
   for_each_load_type([&]<class Load>() {
     for (const Load& load : std::get<std::vector<Load>>(m.loads)) load.template apply<double>(input, sum);
   });
-  apply_hydrodynamics(input, y, ydot, sum);
+  apply_hydrodynamics(input, memory, memory_rate, sum);
   apply_waves(t, sum);
   power_ = sum.power;
   absolute_power_ = sum.absolute_power;
+}
+
+void RedundantSystem::evaluate_loads(double t, const double* y, double* ydot) {
+  const Model& m = *model_;
+  evaluate_wrenches(t, y + m.layout.memory, ydot + m.layout.memory);
   for (int b = 0; b < m.body_count(); ++b) {
     Vec6d& load = load_[idx(b)];
     load << wrench_[idx(b)].force, wrench_[idx(b)].moment;

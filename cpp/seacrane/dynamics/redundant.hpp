@@ -78,6 +78,20 @@ class RedundantSystem final : public System {
   Mat6d mass_matrix(int body) const;
   long dense_solves() const { return dense_solves_; }
 
+  // For a formulation with other coordinates: kinematics of all bodies (ground last) that it may set, and
+  // the loads that go with them.
+  BodyKinematics<double>* kinematics() { return bodies_.data(); }
+  void read_kinematics(double t, const double* y) { read_state(t, y); }
+  /// Yaw frames of the vessels at the present kinematics.
+  void follow_yaw();
+  const YawFrame<double>& frame(int vessel) const { return frames_[idx(vessel)]; }
+  double curve_limit() const { return curve_limit_; }
+  /// Loads on the bodies without velocity terms; `memory` and its rates: the memory part of a state.
+  void evaluate_wrenches(double t, const double* memory, double* memory_rate);
+  Vec6d wrench(int body) const {
+    return (Vec6d() << wrench_[idx(body)].force, wrench_[idx(body)].moment).finished();
+  }
+
   /// Kinematics, inertia, rows and loads at (t, y) without solving, for the residual form.
   void evaluate_terms(double t, const double* y, double* ydot);
   void multiplier_load(const double* lambda, std::vector<Vec6d>& out) const;
@@ -93,7 +107,7 @@ class RedundantSystem final : public System {
   void evaluate_inertia();
   void evaluate_rows(double t);
   void evaluate_loads(double t, const double* y, double* ydot);
-  void apply_hydrodynamics(const LoadInput<double>& input, const double* y, double* ydot,
+  void apply_hydrodynamics(const LoadInput<double>& input, const double* memory, double* memory_rate,
                            LoadSum<double>& sum);
   void apply_waves(double t, LoadSum<double>& sum);
   void factor();

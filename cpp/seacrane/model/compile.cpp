@@ -193,7 +193,8 @@ class Compiler {
 
   void scales() {
     const StateLayout& s = model_.layout;
-    const double length = kTranslationScale * scene_.length_scale;
+    const double length = model_.translation_scale = kTranslationScale * scene_.length_scale;
+    model_.rotation_scale = kRotationScale;
     std::vector<double>& scale = model_.scale;
     scale.assign(idx(s.size), std::numeric_limits<double>::infinity());  // work: not in the error norm
     for (int b = 0; b < s.bodies; ++b) {

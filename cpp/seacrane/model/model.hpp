@@ -78,6 +78,7 @@ struct Model {
   std::vector<CoordinateData> coordinates;
   int slot_count = 0;
   StateLayout layout;
+  double translation_scale = 0.0, rotation_scale = 0.0;  // typical magnitudes, m and rad, rates alike
   std::vector<double> scale;  // typical magnitude per state component; infinity: not in the error norm
   std::vector<double> breakpoints;
   std::vector<double> initial_state;

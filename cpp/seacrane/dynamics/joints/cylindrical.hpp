@@ -1,6 +1,7 @@
 #pragma once
 
 #include "seacrane/dynamics/joint_rows.hpp"
+#include "seacrane/dynamics/recursive/tree_joint.hpp"
 
 namespace seacrane {
 
@@ -18,6 +19,29 @@ struct Cylindrical {
     rows::along<T>(g, g.a.col(1), out, 1);
     rows::parallel_z(g, out, 2);
   }
+
+  struct Branch : branch::ScalarRates<2> {
+    static constexpr int positions = 2, speeds = 2;
+    static constexpr const char *position_kinds = "al", *speed_kinds = "al";  // a: rad, l: m
+
+    static void move(const TreeJoint& j, const BodyKinematics<double>& parent, const double* q,
+                     const double* /*u*/, BranchMotion& out) {
+      const Mat3d a = branch::parent_axes(j, parent);
+      out.rotation = branch::turn_about_z(a, q[0]) * j.child_axes.transpose();
+      out.reach = branch::parent_lever(j, parent) + q[1] * a.col(2);
+      out.slide[0] = out.turn[1] = Vec3d::Zero();
+      out.turn[0] = out.slide[1] = a.col(2);
+    }
+    static void read(const TreeJoint& j, const BodyKinematics<double>& parent,
+                     const BodyKinematics<double>& child, double* q, double* u) {
+      const Mat3d a = branch::parent_axes(j, parent);
+      const branch::Gap gap(j, parent, child);
+      q[0] = branch::turned(a, branch::child_axes(j, child));
+      q[1] = a.col(2).dot(gap.offset);
+      u[0] = a.col(2).dot(gap.turning);
+      u[1] = a.col(2).dot(gap.rate);
+    }
+  };
 };
 
 }  // namespace seacrane

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "seacrane/dynamics/joint_rows.hpp"
+#include "seacrane/dynamics/recursive/tree_joint.hpp"
 
 namespace seacrane {
 
@@ -16,6 +17,48 @@ struct Distance {
   static void evaluate(const JointGeometry<T>& g, const JointData& joint, RowBlock<T>& out) {
     rows::distance<T>(g, T(joint.length), out, 0);
   }
+
+  /// Quaternions of a link frame, whose z axis points from the parent's joint point to the child's, and of
+  /// the child: no direction of the link is singular. Speeds: the link turns about its own x and y axes
+  /// over the parent; the child's angular velocity over the parent's.
+  struct Branch {
+    static constexpr int positions = 8, speeds = 5;
+    static constexpr const char *position_kinds = "aaaaaaaa", *speed_kinds = "aaaaa";  // a: rad, l: m
+
+    static void move(const TreeJoint& j, const BodyKinematics<double>& parent, const double* q,
+                     const double* u, BranchMotion& out) {
+      const Mat3d link = rotation_from_quaternion<double>(view<4>(q));
+      out.rotation = rotation_from_quaternion<double>(view<4>(q + 4));
+      out.reach = branch::parent_lever(j, parent) + j.length * link.col(2);
+      out.slide[0] = -j.length * link.col(1);
+      out.slide[1] = j.length * link.col(0);
+      out.turn[0] = out.turn[1] = Vec3d::Zero();
+      out.slide_bias = -j.length * (u[0] * u[0] + u[1] * u[1]) * link.col(2);
+      branch::free_turning(parent, u, 2, out);
+    }
+    static void rates(const BodyKinematics<double>& parent, const double* q, const double* u,
+                      double* q_rate) {
+      const Mat3d link = rotation_from_quaternion<double>(view<4>(q));
+      const Vec3d turning = parent.angular_velocity + u[0] * link.col(0) + u[1] * link.col(1);
+      view<4>(q_rate) = quaternion_rate<double>(view<4>(q), turning);
+      view<4>(q_rate + 4) = quaternion_rate<double>(view<4>(q + 4), parent.angular_velocity + view<3>(u + 2));
+    }
+    static void read(const TreeJoint& j, const BodyKinematics<double>& parent,
+                     const BodyKinematics<double>& child, double* q, double* u) {
+      const branch::Gap gap(j, parent, child);
+      Eigen::Index least = 0;
+      gap.offset.cwiseAbs().minCoeff(&least);
+      Mat3d link;
+      link.col(2) = gap.offset.normalized();
+      link.col(0) = Vec3d::Unit(least).cross(link.col(2)).normalized();
+      link.col(1) = link.col(2).cross(link.col(0));
+      view<4>(q) = quaternion_from_rotation(link);
+      view<4>(q + 4) = quaternion_from_rotation(child.rotation);
+      u[0] = -link.col(1).dot(gap.rate) / j.length;
+      u[1] = link.col(0).dot(gap.rate) / j.length;
+      view<3>(u + 2) = gap.turning;
+    }
+  };
 };
 
 }  // namespace seacrane

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "seacrane/dynamics/joint_rows.hpp"
+#include "seacrane/dynamics/recursive/tree_joint.hpp"
 
 namespace seacrane {
 
@@ -17,6 +18,35 @@ struct Planar {
     rows::along<T>(g, g.a.col(2), out, 0);
     rows::parallel_z(g, out, 1);
   }
+
+  struct Branch : branch::ScalarRates<3> {
+    static constexpr int positions = 3, speeds = 3;
+    static constexpr const char *position_kinds = "lla", *speed_kinds = "lla";  // a: rad, l: m
+
+    static void move(const TreeJoint& j, const BodyKinematics<double>& parent, const double* q,
+                     const double* /*u*/, BranchMotion& out) {
+      const Mat3d a = branch::parent_axes(j, parent);
+      out.rotation = branch::turn_about_z(a, q[2]) * j.child_axes.transpose();
+      out.reach = branch::parent_lever(j, parent) + q[0] * a.col(0) + q[1] * a.col(1);
+      for (int i = 0; i < 2; ++i) {
+        out.slide[i] = a.col(i);
+        out.turn[i] = Vec3d::Zero();
+      }
+      out.slide[2] = Vec3d::Zero();
+      out.turn[2] = a.col(2);
+    }
+    static void read(const TreeJoint& j, const BodyKinematics<double>& parent,
+                     const BodyKinematics<double>& child, double* q, double* u) {
+      const Mat3d a = branch::parent_axes(j, parent);
+      const branch::Gap gap(j, parent, child);
+      for (int i = 0; i < 2; ++i) {
+        q[i] = a.col(i).dot(gap.offset);
+        u[i] = a.col(i).dot(gap.rate);
+      }
+      q[2] = branch::turned(a, branch::child_axes(j, child));
+      u[2] = a.col(2).dot(gap.turning);
+    }
+  };
 };
 
 }  // namespace seacrane

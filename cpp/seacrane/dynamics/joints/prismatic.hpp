@@ -1,6 +1,7 @@
 #pragma once
 
 #include "seacrane/dynamics/joint_rows.hpp"
+#include "seacrane/dynamics/recursive/tree_joint.hpp"
 
 namespace seacrane {
 
@@ -18,6 +19,27 @@ struct Prismatic {
     rows::along<T>(g, g.a.col(1), out, 1);
     rows::aligned(g, out, 2);
   }
+
+  struct Branch : branch::ScalarRates<1> {
+    static constexpr int positions = 1, speeds = 1;
+    static constexpr const char *position_kinds = "l", *speed_kinds = "l";  // a: rad, l: m
+
+    static void move(const TreeJoint& j, const BodyKinematics<double>& parent, const double* q,
+                     const double* /*u*/, BranchMotion& out) {
+      const Mat3d a = branch::parent_axes(j, parent);
+      out.rotation = a * j.child_axes.transpose();
+      out.reach = branch::parent_lever(j, parent) + q[0] * a.col(2);
+      out.slide[0] = a.col(2);
+      out.turn[0] = Vec3d::Zero();
+    }
+    static void read(const TreeJoint& j, const BodyKinematics<double>& parent,
+                     const BodyKinematics<double>& child, double* q, double* u) {
+      const Vec3d axis = branch::parent_axes(j, parent).col(2);
+      const branch::Gap gap(j, parent, child);
+      q[0] = axis.dot(gap.offset);
+      u[0] = axis.dot(gap.rate);
+    }
+  };
 };
 
 }  // namespace seacrane

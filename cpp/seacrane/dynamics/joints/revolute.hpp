@@ -1,6 +1,7 @@
 #pragma once
 
 #include "seacrane/dynamics/joint_rows.hpp"
+#include "seacrane/dynamics/recursive/tree_joint.hpp"
 
 namespace seacrane {
 
@@ -17,6 +18,26 @@ struct Revolute {
     rows::coincident(g, out, 0);
     rows::parallel_z(g, out, 3);
   }
+
+  struct Branch : branch::ScalarRates<1> {
+    static constexpr int positions = 1, speeds = 1;
+    static constexpr const char *position_kinds = "a", *speed_kinds = "a";  // a: rad, l: m
+
+    static void move(const TreeJoint& j, const BodyKinematics<double>& parent, const double* q,
+                     const double* /*u*/, BranchMotion& out) {
+      const Mat3d a = branch::parent_axes(j, parent);
+      out.rotation = branch::turn_about_z(a, q[0]) * j.child_axes.transpose();
+      out.reach = branch::parent_lever(j, parent);
+      out.slide[0] = Vec3d::Zero();
+      out.turn[0] = a.col(2);
+    }
+    static void read(const TreeJoint& j, const BodyKinematics<double>& parent,
+                     const BodyKinematics<double>& child, double* q, double* u) {
+      const Mat3d a = branch::parent_axes(j, parent);
+      q[0] = branch::turned(a, branch::child_axes(j, child));
+      u[0] = a.col(2).dot(branch::Gap(j, parent, child).turning);
+    }
+  };
 };
 
 }  // namespace seacrane

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "seacrane/dynamics/joint_rows.hpp"
+#include "seacrane/dynamics/recursive/tree_joint.hpp"
 
 namespace seacrane {
 
@@ -16,6 +17,28 @@ struct Spherical {
   static void evaluate(const JointGeometry<T>& g, const JointData& /*joint*/, RowBlock<T>& out) {
     rows::coincident(g, out, 0);
   }
+
+  /// The child's quaternion; speeds are its angular velocity over the parent's, inertial axes.
+  struct Branch {
+    static constexpr int positions = 4, speeds = 3;
+    static constexpr const char *position_kinds = "aaaa", *speed_kinds = "aaa";  // a: rad, l: m
+
+    static void move(const TreeJoint& j, const BodyKinematics<double>& parent, const double* q,
+                     const double* u, BranchMotion& out) {
+      out.rotation = rotation_from_quaternion<double>(view<4>(q));
+      out.reach = branch::parent_lever(j, parent);
+      branch::free_turning(parent, u, 0, out);
+    }
+    static void rates(const BodyKinematics<double>& parent, const double* q, const double* u,
+                      double* q_rate) {
+      view<4>(q_rate) = quaternion_rate<double>(view<4>(q), parent.angular_velocity + view<3>(u));
+    }
+    static void read(const TreeJoint& j, const BodyKinematics<double>& parent,
+                     const BodyKinematics<double>& child, double* q, double* u) {
+      view<4>(q) = quaternion_from_rotation(child.rotation);
+      view<3>(u) = branch::Gap(j, parent, child).turning;
+    }
+  };
 };
 
 }  // namespace seacrane

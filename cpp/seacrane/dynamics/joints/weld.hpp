@@ -1,6 +1,7 @@
 #pragma once
 
 #include "seacrane/dynamics/joint_rows.hpp"
+#include "seacrane/dynamics/recursive/tree_joint.hpp"
 
 namespace seacrane {
 
@@ -17,6 +18,19 @@ struct Weld {
     rows::coincident(g, out, 0);
     rows::aligned(g, out, 3);
   }
+
+  struct Branch : branch::ScalarRates<0> {
+    static constexpr int positions = 0, speeds = 0;
+    static constexpr const char *position_kinds = "", *speed_kinds = "";
+
+    static void move(const TreeJoint& j, const BodyKinematics<double>& parent, const double* /*q*/,
+                     const double* /*u*/, BranchMotion& out) {
+      out.rotation = branch::parent_axes(j, parent) * j.child_axes.transpose();
+      out.reach = branch::parent_lever(j, parent);
+    }
+    static void read(const TreeJoint& /*j*/, const BodyKinematics<double>& /*parent*/,
+                     const BodyKinematics<double>& /*child*/, double* /*q*/, double* /*u*/) {}
+  };
 };
 
 }  // namespace seacrane

@@ -1,0 +1,299 @@
+#include "seacrane/dynamics/recursive/body_tree.hpp"
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <set>
+#include <utility>
+
+#include "seacrane/math/rotation.hpp"
+
+namespace seacrane {
+namespace {
+
+struct Edge {
+  std::size_t kind = 0;
+  JointData joint;
+  int rows = 0;
+  bool branch = false;  // the type can be a branch
+};
+
+template <class Type>
+constexpr bool has_branch = requires {
+  typename Type::Branch;
+};
+
+class TreeBuilder {
+ public:
+  explicit TreeBuilder(const Model& model) : model_(model), ground_(model.body_count()) {
+    for_each_joint_type([&]<class Type>(std::size_t kind) {
+      for (const JointData& joint : model.joints[kind]) {
+        if (Type::rows > 0) edges_.push_back({kind, joint, Type::rows, has_branch<Type>});
+      }
+    });
+    std::sort(edges_.begin(), edges_.end(),
+              [](const Edge& a, const Edge& b) { return a.joint.element < b.joint.element; });
+    for (std::size_t e = 0; e < edges_.size(); ++e) {
+      at_[edges_[e].joint.first].push_back(e);
+      at_[edges_[e].joint.second].push_back(e);
+    }
+  }
+
+  BodyTree run() {
+    find_struts();
+    while (!span()) {
+    }
+    number();
+    return std::move(tree_);
+  }
+
+ private:
+  struct Pattern {
+    std::size_t hinge, slide, ends[2];  // ends: at the first and at the second body of the slide
+    bool used = true;
+  };
+
+  static std::size_t kind_of(const char* name) {
+    std::size_t out = kJointKinds;
+    for_each_joint_type([&]<class Type>(std::size_t i) {
+      if (std::string(name) == Type::kind) out = i;
+    });
+    return out;
+  }
+
+  int other(std::size_t edge, int body) const {
+    const JointData& j = edges_[edge].joint;
+    return j.first == body ? j.second : j.first;
+  }
+
+  /// The only other joint of a strut's part; none when there are several.
+  std::optional<std::size_t> only_other(int body, std::size_t slide) const {
+    if (body == ground_) return std::nullopt;
+    const auto& edges = at_.at(body);
+    if (edges.size() != 2) return std::nullopt;
+    return edges[0] == slide ? edges[1] : edges[0];
+  }
+
+  void find_struts() {
+    static const std::size_t prismatic = kind_of("prismatic"), universal = kind_of("universal"),
+                             spherical = kind_of("spherical"), revolute = kind_of("revolute");
+    for (std::size_t e = 0; e < edges_.size(); ++e) {
+      if (edges_[e].kind != prismatic) continue;
+      const JointData& slide = edges_[e].joint;
+      const auto first = only_other(slide.first, e), second = only_other(slide.second, e);
+      if (!first || !second) continue;
+      const std::set<std::size_t> kinds = {edges_[*first].kind, edges_[*second].kind};
+      if (kinds != std::set<std::size_t>{universal, spherical}) continue;
+      const int a = other(*first, slide.first), b = other(*second, slide.second);
+      for (std::size_t h : at_.at(a)) {
+        if (edges_[h].kind == revolute && a != b && other(h, a) == b) {
+          patterns_.push_back({h, e, {*first, *second}});
+          break;
+        }
+      }
+    }
+  }
+
+  bool is_strut_part(int body) const {
+    return std::any_of(patterns_.begin(), patterns_.end(), [&](const Pattern& p) {
+      const JointData& slide = edges_[p.slide].joint;
+      return p.used && (slide.first == body || slide.second == body);
+    });
+  }
+
+  bool carries_struts(std::size_t edge) const {
+    return std::any_of(patterns_.begin(), patterns_.end(),
+                       [&](const Pattern& p) { return p.used && p.hinge == edge; });
+  }
+
+  /// Grows the tree. False when a hinge with struts did not become a branch: then its struts are ordinary
+  /// bodies, and the tree must be grown again.
+  bool span() {
+    tree_ = BodyTree();
+    taken_.clear();
+    placed_ = {ground_};
+    grow();
+    for (int root = next_root(); root >= 0; root = next_root()) {
+      Cluster cluster;
+      cluster.parent = ground_;
+      cluster.body = root;
+      cluster.members = {{root, 0}};
+      tree_.clusters.push_back(cluster);
+      placed_.insert(root);
+      grow();
+    }
+    bool good = true;
+    for (Pattern& p : patterns_) {
+      if (p.used && !taken_.count(p.hinge)) p.used = good = false;
+    }
+    return good;
+  }
+
+  /// A vessel, else the heaviest body not reached yet.
+  int next_root() const {
+    int best = -1;
+    for (int b = 0; b < ground_; ++b) {
+      if (placed_.count(b) || is_strut_part(b)) continue;
+      const auto rank = [&](int i) {
+        const BodyModel& body = model_.bodies[idx(i)];
+        return std::pair(body.vessel >= 0, body.mass);
+      };
+      if (best < 0 || rank(b) > rank(best)) best = b;
+    }
+    return best;
+  }
+
+  void grow() {
+    for (;;) {
+      std::optional<std::size_t> best;
+      for (std::size_t e = 0; e < edges_.size(); ++e) {
+        if (edges_[e].branch && reaches_out(e) && (!best || rank(e) > rank(*best))) best = e;
+      }
+      if (!best) return;
+      add(*best);
+    }
+  }
+
+  int rank(std::size_t e) const { return edges_[e].rows + (carries_struts(e) ? kMaxRows : 0); }
+
+  bool reaches_out(std::size_t e) const {
+    const JointData& j = edges_[e].joint;
+    if (is_strut_part(j.first) || is_strut_part(j.second)) return false;
+    return placed_.count(j.first) != placed_.count(j.second);
+  }
+
+  static TreeJoint oriented(const JointData& j, int parent) {
+    const bool forward = j.first == parent;
+    return {parent,
+            forward ? j.second : j.first,
+            forward ? j.first_point : j.second_point,
+            forward ? j.second_point : j.first_point,
+            forward ? j.first_axes : j.second_axes,
+            forward ? j.second_axes : j.first_axes,
+            j.length};
+  }
+
+  void add(std::size_t e) {
+    const JointData& j = edges_[e].joint;
+    const int parent = placed_.count(j.first) ? j.first : j.second;
+    Cluster cluster;
+    cluster.kind = edges_[e].kind;
+    cluster.joint = oriented(j, parent);
+    cluster.parent = parent;
+    cluster.body = cluster.joint.child;
+    cluster.element = j.element;
+    cluster.members = {{cluster.body, 0}};
+    with_joint_type(cluster.kind, [&]<class Type>() {
+      cluster.positions = Type::Branch::positions;
+      cluster.speeds = Type::Branch::speeds;
+    });
+    cluster.first_strut = static_cast<int>(tree_.struts.size());
+    for (const Pattern& p : patterns_) {
+      if (p.used && p.hinge == e) add_strut(p, cluster);
+    }
+    taken_.insert(e);
+    placed_.insert(cluster.body);
+    tree_.clusters.push_back(cluster);
+  }
+
+  void add_strut(const Pattern& p, Cluster& cluster) {
+    const JointData& slide = edges_[p.slide].joint;
+    const bool forward = other(p.ends[0], slide.first) == cluster.parent;
+    const TreeJoint guide = oriented(slide, forward ? slide.first : slide.second);
+    const std::size_t at_base = p.ends[forward ? 0 : 1], at_arm = p.ends[forward ? 1 : 0];
+    const TreeJoint base = oriented(edges_[at_base].joint, cluster.parent),
+                    arm = oriented(edges_[at_arm].joint, cluster.body);
+    Strut s;
+    s.name = model_.elements[idx(slide.element)].name;
+    s.lower = guide.parent;
+    s.upper = guide.child;
+    s.base_point = base.parent_point;
+    s.arm_point = arm.parent_point;
+    s.lower_end = base.child_point;
+    s.upper_end = arm.child_point;
+    s.lower_axes = guide.parent_axes;
+    s.upper_axes = guide.child_axes;
+    s.offset = guide.child_axes.transpose() * (arm.child_point - guide.child_point) -
+               guide.parent_axes.transpose() * (base.child_point - guide.parent_point);
+    s.universal_at_base =
+        std::string(model_.elements[idx(edges_[at_base].joint.element)].kind) == "universal";
+    const TreeJoint& universal = s.universal_at_base ? base : arm;
+    s.fixed_axis = universal.parent_axes.col(2);
+    const Mat3d& axes = s.universal_at_base ? guide.parent_axes : guide.child_axes;
+    s.strut_axis = axes.transpose() * universal.child_axes.col(2);
+    choose_branches(s, start(cluster.parent), start(cluster.body), start(s.lower));
+    tree_.struts.push_back(s);
+    ++cluster.struts;
+    cluster.members.push_back({s.lower, 0});
+    cluster.members.push_back({s.upper, 0});
+    for (std::size_t e : {p.slide, p.ends[0], p.ends[1]}) taken_.insert(e);
+    placed_.insert(s.lower);
+    placed_.insert(s.upper);
+  }
+
+  BodyKinematics<double> start(int body) const {
+    BodyKinematics<double> k = BodyKinematics<double>::ground();
+    if (body == ground_) return k;
+    const double* pose = model_.initial_state.data() + model_.layout.pose(body);
+    k.position = view<3>(pose);
+    k.rotation = model_.description.orientation == Orientation::quaternion
+                     ? rotation_from_quaternion<double>(view<4>(pose + 3))
+                     : rotation_from_euler_xyz<double>(view<3>(pose + 3));
+    return k;
+  }
+
+  void number() {
+    for (Cluster& c : tree_.clusters) {
+      c.q = tree_.positions;
+      c.u = tree_.speeds;
+      tree_.positions += c.positions;
+      tree_.speeds += c.speeds;
+      for (Member& m : c.members) {
+        m.column = tree_.columns;
+        tree_.columns += c.speeds;
+      }
+    }
+    std::set<int> branches;
+    for (std::size_t e : taken_) branches.insert(edges_[e].joint.element);
+    for (std::size_t e = 0; e < model_.elements.size(); ++e) {
+      const int element = static_cast<int>(e);
+      if (model_.elements[e].rows == 0 || branches.count(element)) continue;
+      tree_.loops.push_back(element);
+      tree_.loop_rows += model_.elements[e].rows;
+    }
+  }
+
+  const Model& model_;
+  int ground_;
+  std::vector<Edge> edges_;
+  std::map<int, std::vector<std::size_t>> at_;  // edges by body
+  std::vector<Pattern> patterns_;
+  std::set<std::size_t> taken_;
+  std::set<int> placed_;
+  BodyTree tree_;
+};
+
+}  // namespace
+
+std::vector<double> BodyTree::scales(double length, double angle) const {
+  std::vector<double> out(idx(positions + speeds));
+  const auto fill = [&](int at, const char* kinds) {
+    for (; *kinds; ++kinds) out[idx(at++)] = *kinds == 'l' ? length : angle;
+  };
+  for (const Cluster& c : clusters) {
+    if (c.kind == Cluster::floating) {
+      fill(c.q, "lllaaaa");
+      fill(positions + c.u, "lllaaa");
+      continue;
+    }
+    with_joint_type(c.kind, [&]<class Type>() {
+      fill(c.q, Type::Branch::position_kinds);
+      fill(positions + c.u, Type::Branch::speed_kinds);
+    });
+  }
+  return out;
+}
+
+BodyTree build_tree(const Model& model) { return TreeBuilder(model).run(); }
+
+}  // namespace seacrane

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "seacrane/dynamics/recursive/strut.hpp"
+#include "seacrane/model/model.hpp"
+
+namespace seacrane {
+
+/// A body moved by a cluster's own speeds.
+struct Member {
+  int body = -1;
+  int column = 0;  // first of its columns, one per speed
+};
+
+/// Bodies that move together over one parent: one body of a tree joint, with the struts across a hinge, or
+/// a body that floats freely (no parent, six speeds).
+struct Cluster {
+  static constexpr std::size_t floating = kJointKinds;
+  std::size_t kind = floating;  // of the joint, index in JointTypes
+  TreeJoint joint;
+  int parent = -1, body = -1;  // indices; ground = body count
+  int q = 0, u = 0;            // offsets in positions and speeds
+  int positions = 7, speeds = 6;
+  int element = -1;  // the joint
+  int first_strut = 0, struts = 0;
+  std::vector<Member> members;  // the joint's child first
+};
+
+/// A spanning tree of clusters, parents before children, and the elements left for constraint rows.
+struct BodyTree {
+  std::vector<Cluster> clusters;
+  std::vector<Strut> struts;
+  std::vector<int> loops;  // elements with rows that no branch stands for: cut joints and drivers
+  int positions = 0, speeds = 0, columns = 0;
+  int loop_rows = 0;
+
+  /// Typical magnitude of every position, then of every speed.
+  std::vector<double> scales(double length, double angle) const;
+};
+
+/// Joints with the most rows become branches first; a joint type without a branch is left to rows. Struts are
+/// found wherever their pattern occurs.
+BodyTree build_tree(const Model& model);
+
+/// Calls f.template operator()<Type>() for the joint type of a cluster with a joint.
+template <class F>
+void with_joint_type(std::size_t kind, F&& f) {
+  for_each_joint_type([&]<class Type>(std::size_t i) {
+    if constexpr (requires { typename Type::Branch; }) {
+      if (i == kind) f.template operator()<Type>();
+    }
+  });
+}
+
+}  // namespace seacrane

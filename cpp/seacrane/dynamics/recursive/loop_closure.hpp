@@ -1,0 +1,55 @@
+#pragma once
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <vector>
+
+#include "seacrane/dynamics/recursive/articulated.hpp"
+#include "seacrane/dynamics/redundant.hpp"
+
+namespace seacrane {
+
+/// Rows that a tree leaves open (cut joints, drivers): a small dense block G = D M^-1 D^T on top of the tree,
+/// one response of the tree per row. Scratch of one run.
+class LoopClosure {
+ public:
+  LoopClosure(const Model& model, const BodyTree& tree);
+
+  int rows() const { return static_cast<int>(rows_.size()); }
+  /// G at the tree's last factor(), for the rows in `blocks` (by element).
+  void factor(const RowBlock<double>* blocks, ArticulatedTree& tree);
+  /// Multipliers of the smallest motion in the mass metric with D dv = right.
+  const VecXd& solve(const VecXd& right);
+  /// loads += D^T multipliers.
+  void add_load(const RowBlock<double>* blocks, const VecXd& multipliers, Vec6d* loads) const;
+
+  /// phi.
+  void position_residual(const RowBlock<double>* blocks, VecXd& out) const;
+  /// D v - nu for the twists of all bodies, ground last.
+  void rate_residual(const RowBlock<double>* blocks, const Vec6d* twists, VecXd& out) const;
+  /// gamma - D a.
+  void acceleration_residual(const RowBlock<double>* blocks, const Vec6d* acceleration, VecXd& out) const;
+  /// Drivers do work lambda nu.
+  void add_driver_power(const RowBlock<double>* blocks, const VecXd& multipliers,
+                        RedundantSystem& terms) const;
+  /// Largest over smallest pivot of the scaled G.
+  double condition() const { return condition_; }
+
+ private:
+  struct Row {
+    int element, row, first, second;
+    bool driver;
+  };
+
+  std::vector<Row> rows_;
+  std::vector<Vec6d> load_, response_;
+  std::vector<double> speeds_;
+  MatXd g_, basis_;
+  VecXd scale_, weight_, multipliers_;
+  Eigen::LDLT<MatXd> ldlt_;
+  Eigen::SelfAdjointEigenSolver<MatXd> eigen_;
+  double condition_ = 1.0;
+  bool regular_ = true;
+};
+
+}  // namespace seacrane

@@ -1,0 +1,210 @@
+#include "seacrane/dynamics/recursive/recursive.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "seacrane/dynamics/constraints.hpp"
+
+namespace seacrane {
+namespace {
+
+constexpr double kProjectionTolerance = 1e-13;
+constexpr int kProjectionIterations = 12;
+/// Departure of |q|^2 from one at which a quaternion is normalised: its length drifts by truncation only,
+/// and rotations do not depend on it.
+constexpr double kQuaternionDrift = 1e-3;
+
+bool normalise(double* quaternion) {
+  auto q = view<4>(quaternion);
+  const double squared = q.squaredNorm();
+  if (std::abs(squared - 1.0) < kQuaternionDrift) return false;
+  q /= std::sqrt(squared);
+  return true;
+}
+
+/// Mass matrix about the state point and velocity terms b, eq (5).
+Vec6d compact_terms(const BodyModel& body, const BodyKinematics<double>& k, Mat6d& mass) {
+  const Mat3d inertia = k.rotation * body.inertia * k.rotation.transpose();
+  mass.setZero();
+  mass.diagonal().head<3>().setConstant(body.mass);
+  mass.bottomRightCorner<3, 3>() = inertia;
+  Vec6d bias;
+  bias << Vec3d::Zero(), k.angular_velocity.cross(inertia * k.angular_velocity);
+  return bias;
+}
+
+}  // namespace
+
+RecursiveSystem::RecursiveSystem(RedundantSystem& terms)
+    : terms_(terms),
+      model_(terms.model()),
+      tree_(build_tree(model_)),
+      articulated_(tree_, model_.body_count()),
+      loops_(model_, tree_),
+      residual_(VecXd::Zero(loops_.rows())) {
+  if (model_.paper_kinematics) {
+    throw std::invalid_argument(
+        "formulation 'recursive' needs a symmetric mass matrix, which kinematics 'paper' has not; choose "
+        "formulation 'redundant'");
+  }
+  if (model_.description.baumgarte > 0.0) {
+    throw std::invalid_argument(
+        "formulation 'recursive' closes loops by projection; set baumgarte to 0 or choose formulation "
+        "'redundant'");
+  }
+  const auto bodies = idx(model_.body_count());
+  mass_.assign(bodies, Mat6d::Zero());
+  for (auto* vectors : {&bias_, &load_, &acceleration_, &twist_}) vectors->assign(bodies + 1, Vec6d::Zero());
+  scratch_.assign(bodies + 1, BodyKinematics<double>::ground());
+  blocks_.resize(model_.elements.size());
+  speed_rate_.assign(idx(tree_.speeds), 0.0);
+  position_rate_.assign(idx(tree_.positions), 0.0);
+  layout_.speeds = tree_.positions;
+  layout_.memory = layout_.speeds + tree_.speeds;
+  layout_.work = layout_.memory + model_.layout.work - model_.layout.memory;
+  layout_.size = layout_.work + 2;
+}
+
+std::vector<double> RecursiveSystem::scale() const {
+  std::vector<double> out = tree_.scales(model_.translation_scale, model_.rotation_scale);
+  out.insert(out.end(), model_.scale.begin() + model_.layout.memory, model_.scale.end());
+  return out;
+}
+
+void RecursiveSystem::place(const double* y) {
+  articulated_.place(y, y + layout_.speeds, terms_.kinematics());
+}
+
+void RecursiveSystem::evaluate_inertia() {
+  for (int b = 0; b < model_.body_count(); ++b) {
+    const BodyModel& body = model_.bodies[idx(b)];
+    const BodyKinematics<double>& k = terms_.bodies()[idx(b)];
+    bias_[idx(b)] = body.vessel < 0 ? compact_terms(body, k, mass_[idx(b)])
+                                    : vessel_terms(body, model_.vessels[idx(body.vessel)], k,
+                                                   terms_.frame(body.vessel), mass_[idx(b)]);
+  }
+}
+
+void RecursiveSystem::factor(double t) {
+  evaluate_inertia();
+  articulated_.factor(mass_.data());
+  if (loops_.rows() == 0) return;
+  evaluate_constraints(model_, t, terms_.curve_limit(), terms_.bodies().data(), blocks_.data());
+  loops_.factor(blocks_.data(), articulated_);
+}
+
+void RecursiveSystem::derivative(double t, const double* y, double* ydot) {
+  place(y);
+  terms_.follow_yaw();
+  factor(t);
+  terms_.evaluate_wrenches(t, y + layout_.memory, ydot + layout_.memory);
+  for (int b = 0; b < model_.body_count(); ++b) load_[idx(b)] = terms_.wrench(b) - bias_[idx(b)];
+  articulated_.solve(load_.data(), true, acceleration_.data(), ydot + layout_.speeds);
+  if (loops_.rows() > 0) {
+    loops_.acceleration_residual(blocks_.data(), acceleration_.data(), residual_);
+    const VecXd& lambda = loops_.solve(residual_);
+    loops_.add_load(blocks_.data(), lambda, load_.data());
+    articulated_.solve(load_.data(), true, acceleration_.data(), ydot + layout_.speeds);
+    loops_.add_driver_power(blocks_.data(), lambda, terms_);
+  }
+  articulated_.position_rates(y, y + layout_.speeds, terms_.bodies().data(), ydot);
+  ydot[layout_.work] = terms_.power();
+  ydot[layout_.work + 1] = terms_.absolute_power();
+}
+
+/// q -= (rates of the positions at `velocities`, speeds of an impulse).
+void RecursiveSystem::move_positions(double* y, const Vec6d* velocities) {
+  scratch_ = terms_.bodies();
+  for (int b = 0; b < model_.body_count(); ++b) {
+    scratch_[idx(b)].angular_velocity = velocities[b].tail<3>();
+  }
+  articulated_.position_rates(y, speed_rate_.data(), scratch_.data(), position_rate_.data());
+  for (int i = 0; i < tree_.positions; ++i) y[i] -= position_rate_[idx(i)];
+}
+
+void RecursiveSystem::twists_here() {
+  for (int b = 0; b < model_.body_count(); ++b) {
+    const BodyKinematics<double>& k = terms_.bodies()[idx(b)];
+    twist_[idx(b)] << k.velocity, k.angular_velocity;
+  }
+}
+
+bool RecursiveSystem::project(double t, double* y, bool evaluated_here) {
+  bool changed = false;
+  for (const Cluster& c : tree_.clusters) {
+    if (c.kind == Cluster::floating) changed |= normalise(y + c.q + 3);
+    if (c.kind != Cluster::floating && c.positions >= 4) {
+      for (int i = 0; i + 4 <= c.positions; i += 4) changed |= normalise(y + c.q + i);
+    }
+  }
+  if (loops_.rows() == 0) return changed;
+  if (!evaluated_here || changed) {
+    place(y);
+    terms_.follow_yaw();
+    factor(t);
+  }
+  loops_.position_residual(blocks_.data(), residual_);
+  double worst = residual_.cwiseAbs().maxCoeff();
+  before_projection_ = std::max(before_projection_, worst);
+  const auto impulse = [&] {
+    for (auto& load : load_) load.setZero();
+    loops_.add_load(blocks_.data(), loops_.solve(residual_), load_.data());
+    articulated_.solve(load_.data(), false, acceleration_.data(), speed_rate_.data());
+  };
+  for (int i = 0; worst > kProjectionTolerance && i < kProjectionIterations; ++i) {
+    impulse();
+    move_positions(y, acceleration_.data());
+    changed = true;
+    place(y);
+    terms_.follow_yaw();
+    factor(t);
+    loops_.position_residual(blocks_.data(), residual_);
+    const double next = residual_.cwiseAbs().maxCoeff();
+    if (!(next < 0.5 * worst) && next < 1e-11) break;  // rounding
+    worst = next;
+  }
+  for (int i = 0; i < kProjectionIterations; ++i) {
+    twists_here();
+    loops_.rate_residual(blocks_.data(), twist_.data(), residual_);
+    const double rate = residual_.cwiseAbs().maxCoeff();
+    if (!(rate > kProjectionTolerance) || (i >= 2 && rate < 1e-11)) break;
+    impulse();
+    for (int k = 0; k < tree_.speeds; ++k) y[layout_.speeds + k] -= speed_rate_[idx(k)];
+    changed = true;
+    place(y);
+  }
+  return changed;
+}
+
+double RecursiveSystem::take_residual_before_projection() {
+  const double out = before_projection_;
+  before_projection_ = 0.0;
+  return out;
+}
+
+void RecursiveSystem::read_bodies(double t, const double* redundant, double* y) {
+  terms_.read_kinematics(t, redundant);
+  articulated_.read(terms_.bodies().data(), y, y + layout_.speeds);
+  std::copy_n(redundant + model_.layout.memory, layout_.size - layout_.memory, y + layout_.memory);
+}
+
+void RecursiveSystem::write_bodies(double /*t*/, const double* y, double* redundant) {
+  place(y);
+  const StateLayout& s = model_.layout;
+  for (int b = 0; b < s.bodies; ++b) {
+    const BodyKinematics<double>& k = terms_.bodies()[idx(b)];
+    double* pose = redundant + s.pose(b);
+    view<3>(pose) = k.position;
+    if (s.pose_size == 7) {
+      view<4>(pose + 3) = quaternion_from_rotation(k.rotation);
+    } else {
+      view<3>(pose + 3) = euler_xyz_from_rotation(k.rotation);
+    }
+    view<6>(redundant + s.twist(b)) << k.velocity, k.angular_velocity;
+  }
+  std::copy_n(y + layout_.memory, layout_.size - layout_.memory, redundant + s.memory);
+}
+
+}  // namespace seacrane

@@ -1,0 +1,252 @@
+#include <doctest/doctest.h>
+
+#include "multibody_scenes.hpp"
+#include "seacrane/dynamics/recursive/recursive.hpp"
+
+namespace seacrane::test {
+namespace {
+
+// Bounds of the five-point differences, as in test_joints.cpp.
+constexpr double kDifference = 1e-9;
+
+std::vector<double> random_values(Random& random, int count) {
+  std::vector<double> out(static_cast<std::size_t>(count));
+  for (double& value : out) value = random.number();
+  return out;
+}
+
+/// One body on another that moves: the scene of a joint type, not closed.
+struct OneBranch {
+  BodyTree tree;
+  explicit OneBranch(std::size_t kind, Random& random) {
+    Cluster base, c;
+    base.parent = 2;
+    base.body = 0;
+    base.members = {{0, 0}};
+    c.kind = kind;
+    c.parent = 0;
+    c.body = 1;
+    c.joint = {0, 1, random.vector(), random.vector(), random.rotation(), random.rotation(), 0.8};
+    with_joint_type(kind, [&]<class Type>() {
+      c.positions = Type::Branch::positions;
+      c.speeds = Type::Branch::speeds;
+    });
+    c.q = 7;
+    c.u = 6;
+    c.members = {{1, 6}};
+    tree.clusters = {base, c};
+    tree.positions = 7 + c.positions;
+    tree.speeds = tree.columns = 6 + c.speeds;
+  }
+};
+
+Vec6d twist(const BodyKinematics<double>& k) {
+  return (Vec6d() << k.velocity, k.angular_velocity).finished();
+}
+
+}  // namespace
+
+TEST_CASE("every branch: twist is the rate of the pose, bias that of the twist, and read undoes place") {
+  Random random(11);
+  for_each_joint_type([&]<class Type>(std::size_t kind) {
+    if constexpr (requires { typename Type::Branch; }) {
+      CAPTURE(Type::kind);
+      const OneBranch scene(kind, random);
+      ArticulatedTree tree(scene.tree, 2);
+      std::vector<BodyKinematics<double>> bodies(3, BodyKinematics<double>::ground());
+      const auto q = random_values(random, scene.tree.positions);
+      const auto u = random_values(random, scene.tree.speeds);
+      std::vector<double> q_rate(q.size());
+      tree.place(q.data(), u.data(), bodies.data());
+      tree.position_rates(q.data(), u.data(), bodies.data(), q_rate.data());
+
+      // Rates of the pose along q(t), u constant: position, and R' R^T.
+      const auto at = [&](double t) {
+        std::vector<double> moved = q;
+        std::vector<BodyKinematics<double>> k(3, BodyKinematics<double>::ground());
+        for (std::size_t i = 0; i < q.size(); ++i) moved[i] += t * q_rate[i];
+        tree.place(moved.data(), u.data(), k.data());
+        return k[1];
+      };
+      const Vec3d velocity = slope([&](double t) -> Vec3d { return at(t).position; });
+      const Mat3d spin =
+          slope([&](double t) -> Mat3d { return at(t).rotation; }) * bodies[1].rotation.transpose();
+      CHECK((velocity - bodies[1].velocity).norm() < kDifference);
+      CHECK((spin - skew<double>(bodies[1].angular_velocity)).norm() < kDifference);
+
+      // Acceleration of the child with zero udot: the solver's own bias, seen through solve() with the
+      // inertia of one body and no load. Its generalised equations hold: S^T (M a - load) = 0.
+      tree.place(q.data(), u.data(), bodies.data());
+      std::vector<double> q_back(q.size()), u_back(u.size());
+      tree.read(bodies.data(), q_back.data(), u_back.data());
+      std::vector<BodyKinematics<double>> again(3, BodyKinematics<double>::ground());
+      tree.place(q_back.data(), u_back.data(), again.data());
+      CHECK((again[1].position - bodies[1].position).norm() < 1e-14);
+      CHECK((again[1].rotation - bodies[1].rotation).norm() < 1e-14);
+      CHECK((twist(again[1]) - twist(bodies[1])).norm() < 1e-13);
+    }
+  });
+}
+
+TEST_CASE("accelerations of a tree agree with the redundant formulation, joint by joint") {
+  Random random(12);
+  for_each_joint_type([&]<class Type>(std::size_t) {
+    if constexpr (requires { typename Type::Branch; }) {
+      CAPTURE(Type::kind);
+      for (int trial = 0; trial < 4; ++trial) {
+        SceneDescription scene;
+        scene.bodies = {body_at("a", 3.0, random.vector()), body_at("b", 0.5, random.vector()),
+                        body_at("c", 1.0, random.vector())};
+        for (auto& b : scene.bodies) b.inertia = b.mass * random.inertia();
+        const bool distance = std::string(Type::kind) == "distance";
+        for (int i = 0; i < 2; ++i) {
+          const std::string parent = i == 0 ? "a" : "c", child = i == 0 ? "b" : "b";
+          JointDescription& j = join(scene, Type::kind, "joint " + parent, i == 0 ? parent : child,
+                                     i == 0 ? child : parent, random.vector(), random.rotation());
+          if (distance) {
+            j.second_frame.point += Vec3d(0.48, 0.64, 0.0);
+            j.length = 0.8;
+          }
+          if (std::string(Type::kind) == "universal") {
+            j.second_frame.axes = j.second_frame.axes * rotation_by(Vec3d(0.5 * M_PI, 0.0, 0.0));
+          }
+        }
+        const auto model = compile(scene);
+        RedundantSystem redundant(model);
+        std::vector<double> y = moving_state(redundant, 100 + static_cast<std::uint64_t>(trial));
+        std::vector<double> ydot(y.size());
+        redundant.derivative(0.0, y.data(), ydot.data());
+
+        const BodyTree shape = build_tree(*model);
+        CHECK(shape.loops.empty());
+        ArticulatedTree tree(shape, 3);
+        std::vector<double> q(idx(shape.positions)), u(idx(shape.speeds)), u_rate(idx(shape.speeds));
+        auto bodies = redundant.bodies();
+        tree.read(bodies.data(), q.data(), u.data());
+        tree.place(q.data(), u.data(), bodies.data());
+        std::vector<Mat6d> mass;
+        for (int b = 0; b < 3; ++b) mass.push_back(redundant.mass_matrix(b));
+        std::vector<Vec6d> acceleration(4);
+        tree.factor(mass.data());
+        tree.solve(redundant.loads().data(), true, acceleration.data(), u_rate.data());
+        double largest = 0.0;
+        for (const Vec6d& a : redundant.acceleration()) largest = std::max(largest, a.norm());
+        for (std::size_t b = 0; b < 3; ++b) {
+          CHECK((acceleration[b] - redundant.acceleration()[b]).norm() < 1e-11 * largest);
+        }
+      }
+    }
+  });
+}
+
+/// A body, an arm hinged to it and a strut between them, all axes and points askew; a load on the arm.
+SceneDescription strut_scene(Random& random, bool universal_at_base, bool swapped) {
+  SceneDescription scene;
+  for (const char* name : {"base", "arm", "barrel", "rod", "load"}) {
+    scene.bodies.push_back(body_at(name, random.positive(), random.vector()));
+    scene.bodies.back().inertia = scene.bodies.back().mass * random.inertia();
+  }
+  const auto add = [&](const std::string& kind, const std::string& a, const std::string& b, const Vec3d& at,
+                       const Mat3d& axes) -> JointDescription& {
+    return swapped ? join(scene, kind, a + "-" + b, b, a, at, axes)
+                   : join(scene, kind, a + "-" + b, a, b, at, axes);
+  };
+  const Vec3d lower(1.0, 0.2, -1.0), upper = Vec3d(1.2, -0.1, 0.9) + 0.2 * random.vector();
+  add("revolute", "base", "arm", 0.3 * random.vector(), random.rotation());
+  const Mat3d along = axes_along(upper - lower + 0.3 * random.vector(), random.vector());
+  add("prismatic", "barrel", "rod", 0.5 * (lower + upper) + 0.2 * random.vector(), along);
+  JointDescription& cross =
+      add("universal", universal_at_base ? "base" : "arm", universal_at_base ? "barrel" : "rod",
+          universal_at_base ? lower : upper, random.rotation());
+  cross.second_frame.axes = cross.second_frame.axes * rotation_by(Vec3d(0.5 * M_PI, 0.0, 0.0));
+  add("spherical", universal_at_base ? "arm" : "base", universal_at_base ? "rod" : "barrel",
+      universal_at_base ? upper : lower, Mat3d::Identity());
+  JointDescription& link = add("distance", "arm", "load", upper, Mat3d::Identity());
+  link.second_frame.point += Vec3d(0.0, 0.48, 0.64);
+  link.length = 0.8;
+  return scene;
+}
+
+TEST_CASE("a strut across a hinge moves and accelerates as its loop of constraints does") {
+  Random random(13);
+  for (int trial = 0; trial < 40; ++trial) {
+    CAPTURE(trial);
+    const auto model = compile(strut_scene(random, trial % 2 == 0, trial % 4 < 2));
+    RedundantSystem redundant(model);
+    const BodyTree shape = build_tree(*model);
+    REQUIRE(shape.struts.size() == 1);
+    CHECK(shape.loops.empty());
+    CHECK(shape.speeds == 12);
+    std::vector<double> y = moving_state(redundant, 100 + static_cast<std::uint64_t>(trial));
+    std::vector<double> ydot(y.size());
+    redundant.derivative(0.0, y.data(), ydot.data());
+    ArticulatedTree tree(shape, 5);
+    std::vector<double> q(idx(shape.positions)), u(idx(shape.speeds)), u_rate(idx(shape.speeds));
+    auto bodies = redundant.bodies();
+    tree.read(bodies.data(), q.data(), u.data());
+    tree.place(q.data(), u.data(), bodies.data());
+    std::vector<Mat6d> mass;
+    for (int b = 0; b < 5; ++b) {
+      const auto &here = bodies[idx(b)], &there = redundant.bodies()[idx(b)];
+      CHECK((here.position - there.position).norm() < 1e-12);
+      CHECK((here.rotation - there.rotation).norm() < 1e-12);
+      CHECK((twist(here) - twist(there)).norm() < 1e-11);
+      mass.push_back(redundant.mass_matrix(b));
+    }
+    std::vector<Vec6d> acceleration(6);
+    tree.factor(mass.data());
+    tree.solve(redundant.loads().data(), true, acceleration.data(), u_rate.data());
+    double largest = 0.0;
+    for (const Vec6d& a : redundant.acceleration()) largest = std::max(largest, a.norm());
+    for (std::size_t b = 0; b < 5; ++b) {
+      CHECK((acceleration[b] - redundant.acceleration()[b]).norm() < 1e-10 * largest);
+    }
+  }
+}
+
+/// Both formulations at one state: accelerations of all bodies, relative to the largest.
+void check_agreement(const SceneDescription& scene, double bound) {
+  const auto model = compile(scene);
+  RedundantSystem redundant(model), terms(model);
+  RecursiveSystem recursive(terms);
+  std::vector<double> y = moving_state(redundant, 7), ydot(y.size()), back = y;
+  std::vector<double> z(recursive.size()), zdot(recursive.size());
+  redundant.project(0.3, y.data(), false);
+  redundant.derivative(0.3, y.data(), ydot.data());
+  recursive.read_bodies(0.3, y.data(), z.data());
+  recursive.project(0.3, z.data(), false);
+  recursive.derivative(0.3, z.data(), zdot.data());
+  recursive.write_bodies(0.3, z.data(), back.data());
+  double largest = 0.0, worst = 0.0;
+  for (const Vec6d& a : redundant.acceleration()) largest = std::max(largest, a.norm());
+  for (std::size_t b = 0; b < redundant.acceleration().size(); ++b) {
+    worst = std::max(worst, (recursive.acceleration()[b] - redundant.acceleration()[b]).norm());
+  }
+  CHECK(worst < bound * largest);
+  for (int b = 0; b < model->body_count(); ++b) {
+    const int p = model->layout.pose(b);
+    for (int i = 0; i < 3; ++i) CHECK(back[idx(p + i)] == doctest::Approx(y[idx(p + i)]).epsilon(1e-11));
+    for (int i = 0; i < 6; ++i) {
+      CHECK(std::abs(back[idx(model->layout.twist(b) + i)] - y[idx(model->layout.twist(b) + i)]) < 1e-10);
+    }
+  }
+  const int memory = model->layout.work - model->layout.memory;
+  for (int i = 0; i < memory; ++i) {
+    CHECK(std::abs(zdot[zdot.size() - 2 - idx(memory) + idx(i)] - ydot[idx(model->layout.memory + i)]) <
+          1e-12);
+  }
+  CHECK(std::abs(zdot[zdot.size() - 2] - ydot[idx(model->layout.work)]) <
+        1e-9 * (1.0 + std::abs(zdot.back())));
+}
+
+TEST_CASE("loops, drivers, vessel, memory and waves: the recursive form agrees with the redundant one") {
+  check_agreement(slider_crank(), 1e-10);
+  check_agreement(slider_crank("base"), 1e-10);
+  SceneDescription afloat = slider_crank("base");
+  make_vessel(afloat, "base");
+  check_agreement(afloat, 1e-10);
+  check_agreement(parallelogram(2), 1e-9);
+  check_agreement(parallelogram(5), 1e-9);
+}
+
+}  // namespace seacrane::test
