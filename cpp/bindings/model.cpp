@@ -2,6 +2,7 @@
 
 #include "bindings.hpp"
 #include "vector_state.hpp"
+#include "seacrane/dynamics/recursive/body_tree.hpp"
 #include "seacrane/dynamics/redundant.hpp"
 #include "seacrane/run/recording.hpp"
 
@@ -65,10 +66,22 @@ py::dict assembly_report(const Model& m) {
   return out;
 }
 
+py::dict tree_of(const Model& model) {
+  const BodyTree tree = build_tree(model);
+  py::dict out;
+  out["clusters"] = tree.clusters.size();
+  out["struts"] = tree.struts.size();
+  out["positions"] = tree.positions;
+  out["speeds"] = tree.speeds;
+  out["loop_rows"] = tree.loop_rows;
+  return out;
+}
+
 /// Evaluates a model at single states, for tests, linearisation and timing.
 class Evaluator {
  public:
-  explicit Evaluator(std::shared_ptr<Model> model) : model_(std::move(model)), system_(model_) {}
+  Evaluator(std::shared_ptr<Model> model, const std::string& formulation)
+      : model_(std::move(model)), system_(model_), reduced_(make_formulation(formulation, system_)) {}
 
   Array derivative(double t, const Array& y) {
     Array out(check(y));
@@ -122,11 +135,26 @@ class Evaluator {
   }
   /// Runs the evaluation `count` times; the caller takes the time.
   void repeat(double t, const Array& y, long count, double dt) {
-    std::vector<double> rate(static_cast<std::size_t>(check(y)));
+    check(y);
+    std::vector<double> state(stepped().size()), rate(stepped().size());
     py::gil_scoped_release release;
     clear_vector_state();
-    for (long i = 0; i < count; ++i)
-      system_.derivative(t + static_cast<double>(i) * dt, y.data(), rate.data());
+    stepped().read_bodies(t, y.data(), state.data());
+    for (long i = 0; i < count; ++i) {
+      stepped().derivative(t + static_cast<double>(i) * dt, state.data(), rate.data());
+    }
+  }
+  /// Accelerations of all bodies' state points (bodies, 6), by the formulation chosen.
+  Eigen::Matrix<double, Eigen::Dynamic, 6, Eigen::RowMajor> accelerations(double t, const Array& y) {
+    check(y);
+    std::vector<double> state(stepped().size()), rate(stepped().size());
+    stepped().read_bodies(t, y.data(), state.data());
+    stepped().derivative(t, state.data(), rate.data());
+    Eigen::Matrix<double, Eigen::Dynamic, 6, Eigen::RowMajor> out(model_->body_count(), 6);
+    for (int b = 0; b < model_->body_count(); ++b) {
+      out.row(b) = stepped().accelerations()[static_cast<std::size_t>(b)].transpose();
+    }
+    return out;
   }
   py::dict time_parts(double t, const Array& y, long count) {
     check(y);
@@ -146,14 +174,20 @@ class Evaluator {
     }
     return y.size();
   }
+  Formulation& stepped() { return reduced_ ? *reduced_ : system_; }
+
   std::shared_ptr<Model> model_;
   RedundantSystem system_;
+  std::unique_ptr<Formulation> reduced_;
 };
 
 void bind_evaluator(py::module_& m) {
   py::class_<Evaluator>(m, "Evaluator",
                         "Evaluates a compiled model at single states (t in s, y as Model.initial_state).")
-      .def(py::init<std::shared_ptr<Model>>(), py::arg("model").none(false))
+      .def(py::init<std::shared_ptr<Model>, std::string>(), py::arg("model").none(false),
+           py::arg("formulation") = "redundant")
+      .def("accelerations", &Evaluator::accelerations, py::arg("t"), py::arg("y"),
+           "Accelerations of the bodies' state points by the formulation, m/s2 and rad/s2, (bodies, 6).")
       .def("derivative", &Evaluator::derivative, py::arg("t"), py::arg("y"), "dy/dt, a new array.")
       .def("project", &Evaluator::project, py::arg("t"), py::arg("y"), "y on the constraints, a new array.")
       .def("residual", &Evaluator::residual, py::arg("t"), py::arg("y"),
@@ -173,6 +207,9 @@ void bind_model(py::module_& m) {
   py::class_<Model, std::shared_ptr<Model>>(m, "Model",
                                             "A compiled scene: immutable, shareable between threads.")
       .def_property_readonly("name", [](const Model& x) { return x.description.name; })
+      .def_property_readonly("tree", &tree_of,
+                             "What formulation 'recursive' makes of the scene: clusters, struts (cylinder "
+                             "loops in closed form), positions, speeds, loop_rows (rows left to close).")
       .def_property_readonly("bodies",
                              [](const Model& x) {
                                std::vector<std::string> out;

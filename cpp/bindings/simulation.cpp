@@ -121,8 +121,9 @@ void bind_simulation(py::module_& m) {
                          "One run of a model: advance(), inputs, recorded channels. Not for several threads.")
       .def(py::init([](const std::shared_ptr<Model>& model, const State& start, std::string integrator,
                        double rtol, double dt, double max_step, const Array& output_times,
-                       std::set<std::string> names) {
+                       std::set<std::string> names, std::string formulation) {
              RunOptions options;
+             options.formulation = std::move(formulation);
              options.integrator = std::move(integrator);
              options.tolerance = rtol;
              options.fixed_step = dt;
@@ -132,7 +133,8 @@ void bind_simulation(py::module_& m) {
              return std::make_unique<Simulation>(model, start, std::move(options));
            }),
            py::kw_only(), py::arg("model").none(false), py::arg("start"), py::arg("integrator"),
-           py::arg("rtol"), py::arg("dt"), py::arg("max_step"), py::arg("output_times"), py::arg("channels"))
+           py::arg("rtol"), py::arg("dt"), py::arg("max_step"), py::arg("output_times"), py::arg("channels"),
+           py::arg("formulation") = "redundant")
       .def(
           "advance",
           [](Simulation& s, double t_end, const py::object& progress) {

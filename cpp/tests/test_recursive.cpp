@@ -220,7 +220,7 @@ void check_agreement(const SceneDescription& scene, double bound) {
   double largest = 0.0, worst = 0.0;
   for (const Vec6d& a : redundant.acceleration()) largest = std::max(largest, a.norm());
   for (std::size_t b = 0; b < redundant.acceleration().size(); ++b) {
-    worst = std::max(worst, (recursive.acceleration()[b] - redundant.acceleration()[b]).norm());
+    worst = std::max(worst, (recursive.accelerations()[b] - redundant.acceleration()[b]).norm());
   }
   CHECK(worst < bound * largest);
   for (int b = 0; b < model->body_count(); ++b) {

@@ -305,6 +305,31 @@ void RedundantSystem::derivative(double t, const double* y, double* ydot) {
   write_rates(y, ydot);
 }
 
+void RedundantSystem::read_bodies(double /*t*/, const double* bodies, double* y) {
+  std::copy_n(bodies, size(), y);
+}
+
+void RedundantSystem::write_bodies(double /*t*/, const double* y, double* bodies) {
+  std::copy_n(y, size(), bodies);
+}
+
+std::string RedundantSystem::describe(std::size_t component) const {
+  static const char* axis[] = {"x", "y", "z"};
+  const StateLayout& s = model_->layout;
+  const int i = static_cast<int>(component);
+  if (i < s.velocity) {
+    const int k = i % s.pose_size;
+    return std::string(k < 3 ? "position " : "orientation ") + (k < 3 ? axis[k] : std::to_string(k - 3)) +
+           " of body '" + model_->bodies[idx(i / s.pose_size)].name + "'";
+  }
+  if (i < s.memory) {
+    const int k = (i - s.velocity) % 6;
+    return std::string(k < 3 ? "velocity " : "angular velocity ") + axis[k % 3] + " of body '" +
+           model_->bodies[idx((i - s.velocity) / 6)].name + "'";
+  }
+  return i < s.work ? "memory state " + std::to_string(i - s.memory) : "the work integral";
+}
+
 double RedundantSystem::energy(double t, const double* y) {
   read_state(t, y);
   evaluate_inertia();

@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "seacrane/dynamics/dense_kkt.hpp"
+#include "seacrane/dynamics/formulation.hpp"
 #include "seacrane/dynamics/inertia.hpp"
 #include "seacrane/dynamics/wave_forces.hpp"
-#include "seacrane/integrate/system.hpp"
 #include "seacrane/model/model.hpp"
 
 namespace seacrane {
@@ -29,7 +29,7 @@ struct ConstraintRank {
 
 /// The paper's formulation, eqs (5)-(9), (32)-(35): every body with six velocities, every joint with
 /// multipliers. Holds the scratch of one run; the Model stays untouched.
-class RedundantSystem final : public System {
+class RedundantSystem final : public Formulation {
  public:
   explicit RedundantSystem(std::shared_ptr<const Model> model);
 
@@ -37,6 +37,12 @@ class RedundantSystem final : public System {
   void derivative(double t, const double* y, double* ydot) override;
   bool project(double t, double* y, bool evaluated_here) override;
   bool has_projection() const override { return true; }
+  const char* name() const override { return "redundant"; }
+  std::vector<double> scale() const override { return model_->scale; }
+  void read_bodies(double t, const double* bodies, double* y) override;
+  void write_bodies(double t, const double* y, double* bodies) override;
+  const std::vector<Vec6d>& accelerations() const override { return acceleration_; }
+  std::string describe(std::size_t component) const override;
 
   const Model& model() const { return *model_; }
   void set_inputs(const std::vector<double>& slots) { slots_ = slots; }
@@ -58,8 +64,7 @@ class RedundantSystem final : public System {
   ConstraintRank rank(double t, const double* y);
   /// Nanoseconds per evaluation by part, each repeated `count` times at (t, y).
   std::vector<std::pair<std::string, double>> time_parts(double t, const double* y, long count);
-  /// Largest residual seen by project() before it corrected anything, since the last call.
-  double take_residual_before_projection();
+  double take_residual_before_projection() override;
   /// Kinetic energy (added mass included) plus potential energy of gravity, springs and restoring.
   double energy(double t, const double* y);
   /// As energy(), with what the last evaluation left.

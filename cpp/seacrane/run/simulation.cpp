@@ -20,7 +20,7 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-IntegratorOptions integrator_options(const Model& model, const RunOptions& run) {
+IntegratorOptions integrator_options(const Formulation& stepped, const RunOptions& run) {
   if (!(run.tolerance > 0.0) || !(run.tolerance <= kLargestTolerance)) {
     throw std::invalid_argument("rtol is " + to_text(run.tolerance) +
                                 "; give a positive number up to 0.1, e.g. 1e-6");
@@ -28,7 +28,7 @@ IntegratorOptions integrator_options(const Model& model, const RunOptions& run) 
   IntegratorOptions out;
   out.name = run.integrator;
   out.relative_tolerance = 0.0;
-  out.absolute_tolerance = model.scale;
+  out.absolute_tolerance = stepped.scale();
   for (double& value : out.absolute_tolerance) value *= run.tolerance;
   out.fixed_step = run.fixed_step;
   out.max_step = run.max_step;
@@ -45,10 +45,14 @@ Simulation::Simulation(std::shared_ptr<const Model> model, State start, RunOptio
     : model_(std::move(model)),
       options_(std::move(options)),
       system_(model_),
+      reduced_(make_formulation(options_.formulation, system_)),
+      stepped_(reduced_ ? *reduced_ : system_),
       residual_(system_),
-      integrator_(make_integrator(system_, &residual_, integrator_options(*model_, options_))),
+      integrator_(
+          make_integrator(stepped_, reduced_ ? nullptr : &residual_, integrator_options(stepped_, options_))),
       recording_(*model_, options_.channels, options_.output_times.size()),
       inputs_(start.inputs),
+      stepped_state_(stepped_.size(), 0.0),
       output_state_(start.values),
       rate_(start.values.size(), 0.0) {
   if (start.values.size() != static_cast<std::size_t>(model_->layout.size)) {
@@ -71,7 +75,8 @@ Simulation::Simulation(std::shared_ptr<const Model> model, State start, RunOptio
   system_.start_histories(start.time, start.values.data(), start.histories);
   start_energy_ = system_.energy(start.time, start.values.data());
   start_work_ = start.values[static_cast<std::size_t>(model_->layout.work)];
-  integrator_->init(start.time, start.values.data());
+  stepped_.read_bodies(start.time, start.values.data(), stepped_state_.data());
+  integrator_->init(start.time, stepped_state_.data());
   while (next_output_ < options_.output_times.size() && options_.output_times[next_output_] < start.time) {
     ++next_output_;
   }
@@ -109,14 +114,16 @@ void Simulation::report_open(double t) const {
 }
 
 void Simulation::write(double t, double* y, Recording& out) {
-  system_.project(t, y, false);
-  const double before = system_.take_residual_before_projection();
-  system_.derivative(t, y, rate_.data());
-  const ConstraintResidual after = system_.residual_here(y);
+  stepped_.project(t, y, false);
+  const double before = stepped_.take_residual_before_projection();
+  double* const bodies = output_state_.data();
+  stepped_.write_bodies(t, y, bodies);
+  system_.derivative(t, bodies, rate_.data());
+  const ConstraintResidual after = system_.residual_here(bodies);
   if (!(after.position <= kClosed)) report_open(t);
-  const double energy = model_->paper_kinematics ? 0.0 : system_.energy_here(t, y);
-  const double work = y[model_->layout.work] - start_work_;
-  out.append(t, y, system_, after, before, energy - start_energy_ - work);
+  const double energy = model_->paper_kinematics ? 0.0 : system_.energy_here(t, bodies);
+  const double work = bodies[model_->layout.work] - start_work_;
+  out.append(t, bodies, system_, after, before, energy - start_energy_ - work);
 }
 
 void Simulation::record_until(double t) {
@@ -124,29 +131,12 @@ void Simulation::record_until(double t) {
   while (next_output_ < times.size() && times[next_output_] <= t) {
     const double at = times[next_output_++];
     if (at >= t) {
-      std::copy_n(integrator_->state(), output_state_.size(), output_state_.data());
+      std::copy_n(integrator_->state(), stepped_state_.size(), stepped_state_.data());
     } else {
-      integrator_->interpolate(at, output_state_.data());
+      integrator_->interpolate(at, stepped_state_.data());
     }
-    write(at, output_state_.data(), recording_);
+    write(at, stepped_state_.data(), recording_);
   }
-}
-
-std::string Simulation::describe(std::size_t component) const {
-  static const char* axis[] = {"x", "y", "z"};
-  const StateLayout& s = model_->layout;
-  const int i = static_cast<int>(component);
-  if (i < s.velocity) {
-    const int k = i % s.pose_size;
-    return std::string(k < 3 ? "position " : "orientation ") + (k < 3 ? axis[k] : std::to_string(k - 3)) +
-           " of body '" + model_->bodies[static_cast<std::size_t>(i / s.pose_size)].name + "'";
-  }
-  if (i < s.memory) {
-    const int k = (i - s.velocity) % 6;
-    return std::string(k < 3 ? "velocity " : "angular velocity ") + axis[k % 3] + " of body '" +
-           model_->bodies[static_cast<std::size_t>((i - s.velocity) / 6)].name + "'";
-  }
-  return i < s.work ? "memory state " + std::to_string(i - s.memory) : "the work integral";
 }
 
 void Simulation::step(double limit) {
@@ -154,9 +144,8 @@ void Simulation::step(double limit) {
     integrator_->step(limit);
   } catch (const IntegrationError& error) {
     std::string text = error.reason();
-    if (error.component() != IntegrationError::no_component &&
-        error.component() < static_cast<std::size_t>(model_->layout.size)) {
-      text += ", worst in the " + describe(error.component());
+    if (error.component() != IntegrationError::no_component && error.component() < stepped_.size()) {
+      text += ", worst in the " + stepped_.describe(error.component());
     }
     throw IntegrationError(error.method(), error.time(), error.step_size(), error.component(), text);
   }
@@ -173,13 +162,16 @@ bool Simulation::advance(double t_end, const std::function<bool(double)>& keep_g
     const double now = integrator_->time();
     record_until(now);
     // The memory's load goes on smoothly over a sample: no derivative is thrown away.
-    if (now >= system_.next_sample()) system_.sample(now, integrator_->state());
+    if (now >= system_.next_sample()) {
+      write_present(output_state_.data());
+      system_.sample(now, output_state_.data());
+    }
     if (now >= jump && now < t_end) {
       // A curve jumps here: go on from the other side with a fresh derivative.
       next_jump();
-      std::copy_n(integrator_->state(), output_state_.size(), output_state_.data());
-      system_.project(now, output_state_.data(), false);
-      integrator_->reset(now, output_state_.data());
+      std::copy_n(integrator_->state(), stepped_state_.size(), stepped_state_.data());
+      stepped_.project(now, stepped_state_.data(), false);
+      integrator_->reset(now, stepped_state_.data());
     }
     if (Clock::now() - asked > kAskInterval) {
       wall_seconds_ += seconds_since(asked);
@@ -205,23 +197,26 @@ void Simulation::set_inputs(const std::vector<double>& slots) {
   check_inputs(slots);
   inputs_ = slots;
   system_.set_inputs(inputs_);
-  std::copy_n(integrator_->state(), output_state_.size(), output_state_.data());
-  integrator_->reset(integrator_->time(), output_state_.data());
+  std::copy_n(integrator_->state(), stepped_state_.size(), stepped_state_.data());
+  integrator_->reset(integrator_->time(), stepped_state_.data());
 }
 
 Recording Simulation::snapshot() {
   const std::vector<std::string> names = channel_names(*model_, false);
   Recording out(*model_, {names.begin(), names.end()}, 1);
-  std::copy_n(integrator_->state(), output_state_.size(), output_state_.data());
-  write(integrator_->time(), output_state_.data(), out);
+  std::copy_n(integrator_->state(), stepped_state_.size(), stepped_state_.data());
+  write(integrator_->time(), stepped_state_.data(), out);
   return out;
 }
 
+void Simulation::write_present(double* bodies) const {
+  stepped_.write_bodies(integrator_->time(), integrator_->state(), bodies);
+}
+
 State Simulation::state() const {
-  return {integrator_->time(),
-          {integrator_->state(), integrator_->state() + model_->layout.size},
-          inputs_,
-          system_.histories()};
+  std::vector<double> values(idx(model_->layout.size));
+  write_present(values.data());
+  return {integrator_->time(), std::move(values), inputs_, system_.histories()};
 }
 
 RunStatistics Simulation::statistics() const {

@@ -14,6 +14,7 @@
 namespace seacrane {
 
 struct RunOptions {
+  std::string formulation = "redundant";
   std::string integrator = "dopri5";
   double tolerance =
       1e-6;  // times the scale of each state: absolute, so that results don't depend on the origin
@@ -56,7 +57,8 @@ class Simulation {
   RunStatistics statistics() const;
   /// Sets the inputs from the present time on and restarts the derivative's history.
   void set_inputs(const std::vector<double>& slots);
-  int state_size() const { return model_->layout.size; }
+  int state_size() const { return static_cast<int>(stepped_.size()); }
+  const char* formulation() const { return stepped_.name(); }
 
  private:
   double next_jump();
@@ -65,17 +67,20 @@ class Simulation {
   void step(double limit);
   [[noreturn]] void report_open(double t) const;
   void check_inputs(const std::vector<double>& slots) const;
-  std::string describe(std::size_t component) const;
+  /// The state at time() in bodies' poses and twists.
+  void write_present(double* bodies) const;
 
   std::shared_ptr<const Model> model_;
   RunOptions options_;
-  RedundantSystem system_;
+  RedundantSystem system_;                // loads, and what is recorded
+  std::unique_ptr<Formulation> reduced_;  // null: the redundant system itself is stepped
+  Formulation& stepped_;
   GearGuptaLeimkuhler residual_;
   std::unique_ptr<Integrator> integrator_;
   Recording recording_;
   std::vector<double> inputs_;
   std::size_t next_output_ = 0, next_breakpoint_ = 0;
-  std::vector<double> output_state_, rate_;
+  std::vector<double> stepped_state_, output_state_, rate_;
   double start_energy_ = 0.0, start_work_ = 0.0;
   double wall_seconds_ = 0.0;
 };

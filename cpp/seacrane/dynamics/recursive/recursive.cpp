@@ -184,27 +184,44 @@ double RecursiveSystem::take_residual_before_projection() {
   return out;
 }
 
-void RecursiveSystem::read_bodies(double t, const double* redundant, double* y) {
-  terms_.read_kinematics(t, redundant);
+void RecursiveSystem::read_bodies(double t, const double* bodies, double* y) {
+  terms_.read_kinematics(t, bodies);
   articulated_.read(terms_.bodies().data(), y, y + layout_.speeds);
-  std::copy_n(redundant + model_.layout.memory, layout_.size - layout_.memory, y + layout_.memory);
+  std::copy_n(bodies + model_.layout.memory, layout_.size - layout_.memory, y + layout_.memory);
 }
 
-void RecursiveSystem::write_bodies(double /*t*/, const double* y, double* redundant) {
+void RecursiveSystem::write_bodies(double /*t*/, const double* y, double* bodies) {
   place(y);
   const StateLayout& s = model_.layout;
   for (int b = 0; b < s.bodies; ++b) {
     const BodyKinematics<double>& k = terms_.bodies()[idx(b)];
-    double* pose = redundant + s.pose(b);
+    double* pose = bodies + s.pose(b);
     view<3>(pose) = k.position;
     if (s.pose_size == 7) {
       view<4>(pose + 3) = quaternion_from_rotation(k.rotation);
     } else {
       view<3>(pose + 3) = euler_xyz_from_rotation(k.rotation);
     }
-    view<6>(redundant + s.twist(b)) << k.velocity, k.angular_velocity;
+    view<6>(bodies + s.twist(b)) << k.velocity, k.angular_velocity;
   }
-  std::copy_n(y + layout_.memory, layout_.size - layout_.memory, redundant + s.memory);
+  std::copy_n(y + layout_.memory, layout_.size - layout_.memory, bodies + s.memory);
+}
+
+std::string RecursiveSystem::describe(std::size_t component) const {
+  const int i = static_cast<int>(component);
+  const auto within = [](int at, int first, int count) { return at >= first && at < first + count; };
+  for (const Cluster& c : tree_.clusters) {
+    const bool position = within(i, c.q, c.positions);
+    const bool speed = within(i, layout_.speeds + c.u, c.speeds);
+    if (!position && !speed) continue;
+    const std::string of = c.kind == Cluster::floating
+                               ? "body '" + model_.bodies[idx(c.body)].name + "'"
+                               : "joint '" + model_.elements[idx(c.element)].name + "'";
+    return (position ? "coordinate " + std::to_string(i - c.q)
+                     : "speed " + std::to_string(i - layout_.speeds - c.u)) +
+           " of " + of;
+  }
+  return i < layout_.work ? "memory state " + std::to_string(i - layout_.memory) : "the work integral";
 }
 
 }  // namespace seacrane

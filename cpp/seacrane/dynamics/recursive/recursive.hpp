@@ -11,7 +11,7 @@ namespace seacrane {
 /// The recursive formulation: positions and speeds of a tree of clusters, O(n); constraint rows only where
 /// the tree leaves a loop or a driver. Loads come from `terms`, the redundant system of the same model, whose
 /// kinematics this one sets. State: positions, speeds, memory, work, |work|.
-class RecursiveSystem final : public System {
+class RecursiveSystem final : public Formulation {
  public:
   /// Throws std::invalid_argument for the paper's kinematics and Baumgarte stabilisation.
   explicit RecursiveSystem(RedundantSystem& terms);
@@ -21,16 +21,15 @@ class RecursiveSystem final : public System {
   bool project(double t, double* y, bool evaluated_here) override;
   bool has_projection() const override { return true; }
 
-  /// Typical magnitude per state component, as Model::scale.
-  std::vector<double> scale() const;
-  /// From a state of the redundant form (see StateLayout) to this one, and back; lossless but for rounding.
-  void read_bodies(double t, const double* redundant, double* y);
-  void write_bodies(double t, const double* y, double* redundant);
+  const char* name() const override { return "recursive"; }
+  std::vector<double> scale() const override;
+  void read_bodies(double t, const double* bodies, double* y) override;
+  void write_bodies(double t, const double* y, double* bodies) override;
+  const std::vector<Vec6d>& accelerations() const override { return acceleration_; }
+  double take_residual_before_projection() override;
+  std::string describe(std::size_t component) const override;
 
   const BodyTree& tree() const { return tree_; }
-  /// Accelerations of the bodies at the last derivative(), ground last.
-  const std::vector<Vec6d>& acceleration() const { return acceleration_; }
-  double take_residual_before_projection();
 
  private:
   struct Layout {

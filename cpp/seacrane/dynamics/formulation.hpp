@@ -1,0 +1,35 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "seacrane/integrate/system.hpp"
+#include "seacrane/math/types.hpp"
+
+namespace seacrane {
+
+class RedundantSystem;
+
+/// A system of bodies in some choice of coordinates, which can be told from the poses and twists of all
+/// bodies (the state of the redundant form, StateLayout) and back without loss.
+class Formulation : public System {
+ public:
+  virtual const char* name() const = 0;
+  /// Typical magnitude per state component; infinity: not in the error norm.
+  virtual std::vector<double> scale() const = 0;
+  virtual void read_bodies(double t, const double* bodies, double* y) = 0;
+  virtual void write_bodies(double t, const double* y, double* bodies) = 0;
+  /// Accelerations of the bodies' state points at the last derivative(), in the order of the model.
+  virtual const std::vector<Vec6d>& accelerations() const = 0;
+  /// Largest residual seen by project() before it corrected anything, since the last call.
+  virtual double take_residual_before_projection() = 0;
+  /// What a state component is, for messages.
+  virtual std::string describe(std::size_t component) const = 0;
+};
+
+/// The formulation "recursive" on the loads of `bodies`. Null for "redundant": that is `bodies` itself.
+/// Throws std::invalid_argument for a name or a scene that does not fit.
+std::unique_ptr<Formulation> make_formulation(const std::string& name, RedundantSystem& bodies);
+
+}  // namespace seacrane
