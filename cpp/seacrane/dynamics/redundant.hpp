@@ -36,6 +36,8 @@ class RedundantSystem final : public System {
   void derivative(double t, const double* y, double* ydot) override;
   bool project(double t, double* y, bool evaluated_here) override;
   bool has_projection() const override { return true; }
+  std::size_t position_size() const override { return static_cast<std::size_t>(model_->layout.velocity); }
+  void move(double h, double* y) const override;
 
   const Model& model() const { return *model_; }
   void set_inputs(const std::vector<double>& slots) { slots_ = slots; }

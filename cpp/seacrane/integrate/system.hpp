@@ -25,6 +25,13 @@ class System {
 
   /// False when project() never changes y; integrators then skip it.
   virtual bool has_projection() const { return false; }
+
+  /// Number of leading components that are positions, for methods that treat them apart; 0 where the system
+  /// does not tell.
+  virtual std::size_t position_size() const { return 0; }
+  /// Moves the positions in y along the velocities in y for the time h, both held: rotations by the
+  /// exponential.
+  virtual void move(double /*h*/, double* /*y*/) const {}
 };
 
 /// A fully implicit system F(t, y, y') = 0, for IDA (Gear-Gupta-Leimkuhler stabilised index 2).
