@@ -34,12 +34,10 @@ void FixedStep::step(double t_limit) {
   accept(t_end);
 }
 
-/// Cubic Hermite polynomial at t0 + s h [Hairer, Norsett, Wanner I, II.6.7].
+/// Cubic Hermite polynomial at t0 + s h.
 double FixedStep::cubic(std::size_t i, double s, double h) const {
-  const double rise = end_state_[i] - previous_state_[i];
-  const double bend =
-      (1.0 - 2.0 * s) * rise + h * ((s - 1.0) * start_derivative_[i] + s * end_derivative_[i]);
-  return previous_state_[i] + s * (rise + (s - 1.0) * bend);
+  return cubic_hermite(previous_state_[i], end_state_[i], h * start_derivative_[i], h * end_derivative_[i],
+                       s);
 }
 
 void FixedStep::find_quartic() const {

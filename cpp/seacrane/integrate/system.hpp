@@ -34,7 +34,10 @@ class System {
   virtual void move(double /*h*/, double* /*y*/) const {}
 };
 
-/// A fully implicit system F(t, y, y') = 0, for IDA (Gear-Gupta-Leimkuhler stabilised index 2).
+/// A fully implicit system F(t, y, y') = 0 (Gear-Gupta-Leimkuhler stabilised index 2). The unknowns are the
+/// state in the System's layout, then one multiplier for each constraint, then as many more that keep the
+/// rates of the positions on the constraints; the residuals likewise, then all constraints on velocity level,
+/// then all on position level.
 class ResidualSystem {
  public:
   virtual ~ResidualSystem() = default;
