@@ -12,7 +12,16 @@ from seacrane import errors
 
 if TYPE_CHECKING:
     from seacrane import cases, crane, hydro, sea
-    from seacrane._core import Curve, Evaluator, Frame, Model, State, StateSpaceBlock, VesselHydrodynamics
+    from seacrane._core import (
+        Curve,
+        Evaluator,
+        Frame,
+        Model,
+        State,
+        StateSpaceBlock,
+        VesselHydrodynamics,
+        integrator_names,
+    )
     from seacrane.curves import spline_curve
     from seacrane.errors import FileFormatError, SceneError, SeacraneError, SimulationError
     from seacrane.frequency_domain import (
@@ -65,6 +74,7 @@ _HOME = {
     "driven": "inverse",
     "equilibrium": "rest_state",
     "fastest_mode": "linearise",
+    "integrator_names": "_core",
     "inverse_dynamics": "inverse",
     "jacobian": "linearise",
     "linear_model": "linear_system",
@@ -113,6 +123,7 @@ __all__ = [
     "errors",
     "fastest_mode",
     "hydro",
+    "integrator_names",
     "inverse_dynamics",
     "jacobian",
     "linear_model",
