@@ -33,7 +33,13 @@ class ArkodeImex final : public ArkodeImplicitIntegrator {
 
  private:
   int set_table(void* memory) override {
-    return ARKStepSetTableNum(memory, ARKODE_ARK436L2SA_DIRK_6_3_4, ARKODE_ARK436L2SA_ERK_6_3_4);
+    // One Newton step solves a linear part, with the factors of the present step size only. Iterating
+    // instead, ARKODE would take its experience of instant convergence to steps whose factors are those of
+    // another size.
+    constexpr int time_dependent = 0;
+    const int flag = SEACRANE_ARK(SetLinear)(memory, time_dependent);
+    return flag < 0 ? flag
+                    : ARKStepSetTableNum(memory, ARKODE_ARK436L2SA_DIRK_6_3_4, ARKODE_ARK436L2SA_ERK_6_3_4);
   }
   int fill_jacobian(double, const double*, const double*, SUNMatrix matrix) override {
     std::copy(jacobian_.begin(), jacobian_.end(), SUNDenseMatrix_Data(matrix));

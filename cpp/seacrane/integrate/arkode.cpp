@@ -41,6 +41,7 @@ void ArkodeIntegrator::create() {
 
 void ArkodeIntegrator::restart() {
   solution_ = state_;
+  before_change_ = Counters{};
   change_parts(true);
   if (memory_) {
     require(reinitialise(memory_.get()), "ReInit");
@@ -56,7 +57,17 @@ void ArkodeIntegrator::restart() {
 }
 
 void ArkodeIntegrator::prepare_step() {
-  if (change_parts(false) || system_.has_projection()) hand_over(0.0);
+  if (!change_parts(false)) {
+    if (system_.has_projection()) hand_over(0.0);
+    return;
+  }
+  // A reset would go on with the parts' values at the end of the last step.
+  double h = 0.0;
+  functions_.current_step(memory_.get(), &h);
+  before_change_ = solver_counters();
+  solution_ = state_;
+  require(reinitialise(memory_.get()), "ReInit");
+  require(functions_.set_init_step(memory_.get(), h), "SetInitStep");
 }
 
 /// Gives ARKODE the present state; with a step size it is also told what to try next.
@@ -113,6 +124,9 @@ Counters ArkodeIntegrator::solver_counters() const {
   functions_.steps(memory_.get(), &now.steps);
   functions_.error_test_failures(memory_.get(), &now.rejected_steps);
   now.newton_iterations = newton_iterations(memory_.get());
+  now.steps += before_change_.steps;
+  now.rejected_steps += before_change_.rejected_steps;
+  now.newton_iterations += before_change_.newton_iterations;
   return now;
 }
 

@@ -61,6 +61,8 @@ class ArkodeIntegrator : public SundialsIntegrator {
 
   int order_;
   sundials::ArkodeFunctions functions_;
+  /// Counts of ARKODE that it has forgotten when the parts of f changed.
+  Counters before_change_;
   // Written by dense_output(), which is const to the caller.
   mutable std::vector<double> dense_;
   sundials::Vector dense_vector_;

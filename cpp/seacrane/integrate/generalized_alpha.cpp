@@ -230,7 +230,12 @@ void GeneralizedAlpha::advance(double h, double t_end) {
     }
     last = change;
   }
-  fail(h, IntegrationError::no_component, "Newton's iteration does not converge; take a shorter fixed step");
+  std::size_t worst = positions_;
+  for (std::size_t i = positions_; i < size(); ++i) {
+    const auto part = [&](std::size_t j) { return std::abs(velocity_change_[j]) / norm_.absolute()[j]; };
+    if (part(i) > part(worst)) worst = i;
+  }
+  fail(h, worst, "Newton's iteration does not converge; take a shorter fixed step");
 }
 
 void GeneralizedAlpha::save_history(std::span<double> history) const {
@@ -258,6 +263,10 @@ std::unique_ptr<Integrator> make(const char* name, Level level, System& system, 
   if (residual == nullptr) {
     throw std::invalid_argument("integrator \"" + std::string(name) +
                                 "\" needs the residual form of the system");
+  }
+  if (residual->size() > system.size() && system.position_size() == 0) {
+    throw std::invalid_argument("integrator \"" + std::string(name) +
+                                "\" needs a system with constraints to tell its positions");
   }
   return std::make_unique<GeneralizedAlpha>(name, level, system, *residual, options);
 }
