@@ -18,8 +18,9 @@ constexpr double default_step = 0.01;
 constexpr int most_iterations = 12;
 /// Newton's last correction of the velocities, in the error norm.
 constexpr double newton_tolerance = 1e-3;
-/// A slower contraction than this asks for a new Jacobian.
+/// A slower contraction than this asks for a new Jacobian, and so do more iterations.
 constexpr double slow_contraction = 0.25;
+constexpr int patience = 4;
 
 enum class Level { position, velocity };
 
@@ -220,7 +221,7 @@ void GeneralizedAlpha::advance(double h, double t_end) {
     const double change = correct(h);
     ++counters_.newton_iterations;
     // A Jacobian of this very step is as good as it gets.
-    if (!fresh && change > slow_contraction * last) factored_step_ = 0.0;
+    if (!fresh && (change > slow_contraction * last || i >= patience)) factored_step_ = 0.0;
     // Within the tolerances, a correction that falls no more is rounding.
     if (change < newton_tolerance || (change < 1.0 && change > 0.5 * last)) {
       place(h, unknown_.data());
