@@ -20,7 +20,7 @@ constexpr int most_iterations = 12;
 constexpr double newton_tolerance = 1e-3;
 /// A slower contraction than this asks for a new Jacobian, and so do more iterations.
 constexpr double slow_contraction = 0.25;
-constexpr int patience = 4;
+constexpr int patience = 6;
 
 enum class Level { position, velocity };
 
