@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace seacrane {
@@ -12,6 +13,8 @@ constexpr double strongest_cut = 0.2, strongest_growth = 10.0;
 /// Cut after a derivative that was not finite, where no error estimate tells the size.
 constexpr double blind_cut = 0.25;
 constexpr double least_error_memory = 1e-4;
+/// Rounding of a state relative to its size, as far as tolerances below it are still accepted.
+constexpr double rounding = 1e-3 * std::numeric_limits<double>::epsilon();
 
 }  // namespace
 
@@ -40,6 +43,10 @@ bool AdaptiveStep::end_is_finite() {
 /// [Hairer, Norsett, Wanner I, II.4].
 double AdaptiveStep::starting_step(double remaining) {
   const double size_of_state = norm_.norm(state_.data(), state_.data());
+  // An estimate can be zero at the level of rounding, and would let every step pass.
+  if (size_of_state * rounding > 1.0) {
+    fail(0.0, IntegrationError::no_component, "the tolerances are far below the rounding of the state");
+  }
   const double size_of_slope = norm_.norm(start_derivative_.data(), state_.data());
   double h0 = size_of_state < 1e-5 || size_of_slope < 1e-5 ? 1e-6 : 0.01 * size_of_state / size_of_slope;
   h0 = std::min(h0, remaining);

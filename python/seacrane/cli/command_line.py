@@ -38,8 +38,6 @@ def build_parser() -> argparse.ArgumentParser:
 
 
 def _add_run(commands: Any) -> None:
-    from seacrane._core import integrator_names
-
     text = "simulate a scene and write DIR/<scene>.nc"
     run = commands.add_parser("run", help=text, description=text)
     run.add_argument(
@@ -48,7 +46,7 @@ def _add_run(commands: Any) -> None:
     run.add_argument("--out", metavar="DIR", required=True, help="folder to write to; made if absent")
     run.add_argument("--t-end", metavar="S", type=float, help="end time, s")
     run.add_argument("--dt-out", metavar="S", type=float, help="output interval, s")
-    run.add_argument("--integrator", metavar="NAME", help=f"one of {', '.join(integrator_names())}")
+    run.add_argument("--integrator", metavar="NAME", help="default dopri5; an unknown name lists them all")
     run.add_argument("--rtol", metavar="X", type=float, help="relative tolerance of adaptive integrators")
     run.add_argument("--dt", metavar="S", type=float, help="step of fixed-step integrators, s")
     run.add_argument("--formulation", choices=("redundant", "recursive", "auto"), help="equations of motion")
