@@ -71,7 +71,8 @@ TEST_CASE("evaluations and projections allocate nothing") {
 
 TEST_CASE("the run loop allocates nothing after its start: steps, outputs and the end of a curve") {
   for (const SceneDescription& scene : scenes()) {
-    for (const std::string integrator : {"dopri5", "rk4"}) {
+    for (const std::string integrator :
+         {"dopri5", "rk4", "dop853", "semi-implicit-euler", "rosenbrock", "generalized-alpha"}) {
       CAPTURE(integrator);
       const auto model = compile(scene);
       RunOptions options;

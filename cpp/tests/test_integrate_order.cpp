@@ -14,10 +14,18 @@ double error_at_end(const IntegratorOptions& options, double t_end = 5.0) {
   return largest_error(integrator->state(), smooth_solution(t_end));
 }
 
+/// As with_step(), with a tight tolerance for what a method of fixed step solves by iteration.
+IntegratorOptions fixed(const std::string& name, double h) {
+  IntegratorOptions options = with_step(name, h);
+  if (name.starts_with("generalized-alpha")) options.absolute_tolerance = {1e-9};
+  return options;
+}
+
 /// Largest error of dense output within the first step of length h.
 double dense_error(const std::string& name, double h) {
   FunctionSystem system = smooth_system();
-  const auto integrator = make_integrator(system, nullptr, with_step(name, h));
+  SmoothResidual residual;
+  const auto integrator = make_integrator(system, &residual, fixed(name, h));
   const double t0 = 0.4;
   integrator->init(t0, smooth_solution(t0).data());
   integrator->step(t0 + 10.0);
@@ -37,34 +45,90 @@ double slope(double coarse, double fine, double ratio) { return std::log(coarse 
 }  // namespace
 
 TEST_CASE("the one-step methods have their order on a smooth nonlinear problem") {
-  for (const auto& [name, order] :
-       {std::pair<std::string, double>{"rk4", 4.0}, {"dopri5", 5.0}, {"ark-erk", 5.0}}) {
-    CAPTURE(name);
-    const double coarse = error_at_end(with_step(name, 0.1));
-    const double middle = error_at_end(with_step(name, 0.05));
-    const double fine = error_at_end(with_step(name, 0.025));
-    MESSAGE(name, " observed order ", slope(coarse, middle, 2.0), " ", slope(middle, fine, 2.0));
+  // Without verner65: on this circle its leading error cancels at long steps (9 to 11 observed), and at short
+  // ones the rounding of its large weights takes over (1 to 3). It is measured on the pendulum and the crane.
+  struct Case {
+    const char* name;
+    double order, step;
+  };
+  for (const auto& [name, order, step] : {Case{"semi-implicit-euler", 1, 0.002},
+                                          {"generalized-alpha", 2, 0.02},
+                                          {"generalized-alpha-index2", 2, 0.02},
+                                          {"heun21", 2, 0.02},
+                                          {"bs32", 3, 0.02},
+                                          {"rosenbrock", 3, 0.02},
+                                          {"rk4", 4, 0.1},
+                                          {"rk-low-storage", 4, 0.1},
+                                          {"rk43", 4, 0.1},
+                                          {"dopri5", 5, 0.1},
+                                          {"tsit5", 5, 0.1},
+                                          {"ark-erk", 5, 0.1},
+                                          {"verner76", 7, 0.4},
+                                          {"dop853", 8, 0.4}}) {
+    CAPTURE(std::string(name));
+    const double coarse = error_at_end(fixed(name, step));
+    const double middle = error_at_end(fixed(name, 0.5 * step));
+    const double fine = error_at_end(fixed(name, 0.25 * step));
+    MESSAGE(std::string(name), " observed order ", slope(coarse, middle, 2.0), " ", slope(middle, fine, 2.0),
+            ", error ", fine);
     CHECK(slope(middle, fine, 2.0) == doctest::Approx(order).epsilon(0.08));
   }
 }
 
-TEST_CASE("dense output of the one-step methods has a local error of order 5 in the step") {
-  for (const std::string name : {"rk4", "dopri5", "ark-erk"}) {
+TEST_CASE("the implicit methods of ARKODE have order 4: error against the number of steps") {
+  for (const std::string name : {"ark-dirk", "ark-imex"}) {
     CAPTURE(name);
-    const double observed = slope(dense_error(name, 0.05), dense_error(name, 0.025), 2.0);
-    MESSAGE(name, " local order of dense output ", observed);
-    CHECK(observed > 4.7);
-    CHECK(observed < 6.5);
+    const auto run = [&](double tolerance) {
+      FunctionSystem system = smooth_system();
+      const auto integrator = make_integrator(system, nullptr, with_tolerance(name, tolerance));
+      integrator->init(0.0, smooth_solution(0.0).data());
+      run_to(*integrator, 20.0);
+      return std::pair(largest_error(integrator->state(), smooth_solution(20.0)),
+                       static_cast<double>(integrator->counters().steps));
+    };
+    const auto [loose, few] = run(1e-6);
+    const auto [tight, many] = run(1e-10);
+    const double observed = slope(loose, tight, many / few);
+    MESSAGE(name, " observed order ", observed, ", steps ", few, " and ", many);
+    CHECK(observed > 3.5);
+    CHECK(observed < 5.0);
+  }
+}
+
+TEST_CASE("dense output of the one-step methods has its order") {
+  struct Case {
+    const char* name;
+    double order, step;
+  };
+  for (const auto& [name, order, step] : {Case{"semi-implicit-euler", 1, 0.05},
+                                          {"heun21", 2, 0.05},
+                                          {"bs32", 3, 0.05},
+                                          {"rosenbrock", 3, 0.05},
+                                          {"rk4", 4, 0.05},
+                                          {"rk-low-storage", 4, 0.05},
+                                          {"rk43", 4, 0.05},
+                                          {"dopri5", 4, 0.05},
+                                          {"tsit5", 4, 0.05},
+                                          {"ark-erk", 4, 0.05},
+                                          {"verner65", 5, 0.1},
+                                          {"verner76", 6, 0.2},
+                                          {"dop853", 7, 0.4}}) {
+    CAPTURE(std::string(name));
+    const double observed = slope(dense_error(name, step), dense_error(name, 0.5 * step), 2.0);
+    MESSAGE(std::string(name), " local order of dense output ", observed);
+    // The local error of order p falls like the step to the power p + 1.
+    CHECK(observed > order + 0.7);
+    CHECK(observed < order + 2.5);
   }
 }
 
 TEST_CASE("the error of the adaptive methods falls in proportion to the tolerance") {
-  for (const std::string name : {"dopri5", "ark-erk", "cvode-adams", "cvode-bdf", "ida"}) {
+  for (const std::string& name : adaptive_methods()) {
     CAPTURE(name);
     const double loose = error_at_end(with_tolerance(name, 1e-4));
     const double tight = error_at_end(with_tolerance(name, 1e-9));
     MESSAGE(name, " error ", loose, " at 1e-4, ", tight, " at 1e-9");
-    CHECK(slope(loose, tight, 1e5) > 0.65);
+    CHECK(slope(loose, tight, 1e5) > 0.55);
     CHECK(slope(loose, tight, 1e5) < 1.35);
     CHECK(loose < 1e-4 * 200.0);
     CHECK(tight < 1e-9 * 500.0);
@@ -90,7 +154,109 @@ TEST_CASE("dense output of every method stays within a small multiple of the tol
       }
     }
     MESSAGE(name, " worst dense error ", largest);
-    CHECK(largest < 3e-5);
+    CHECK(largest < std::max(3e-5, allowance(name) > 1e-4 ? 5.0 * allowance(name) : 0.0));
+  }
+}
+
+TEST_CASE("semi-implicit Euler is symplectic: the energy of a pendulum wanders but does not drift") {
+  // Explicit Euler would gain h v'^2 / 2 a unit of time: 0.5 in this run.
+  AnglePendulum system;
+  IntegratorOptions options = with_step("semi-implicit-euler", 0.01);
+  const auto integrator = make_integrator(system, nullptr, options);
+  const double start[2] = {1.0, 0.0};
+  integrator->init(0.0, start);
+  const auto energy = [](const double* y) { return 0.5 * y[1] * y[1] - std::cos(y[0]); };
+  double worst = 0.0;
+  while (integrator->time() < 200.0) {
+    integrator->step(200.0);
+    worst = std::max(worst, std::abs(energy(integrator->state()) - energy(start)));
+  }
+  CHECK(worst < 5e-3);
+  CHECK(worst > 1e-4);
+}
+
+TEST_CASE("semi-implicit Euler moves the position with the new velocity, and keeps q^2 + v^2 - h q v") {
+  class Spring final : public System {
+   public:
+    std::size_t size() const override { return 2; }
+    void derivative(double, const double* y, double* ydot) override {
+      ydot[0] = y[1];
+      ydot[1] = -y[0];
+    }
+    std::size_t position_size() const override { return 1; }
+    void move(double h, double* y) override { y[0] += h * y[1]; }
+  } system;
+  const double h = 0.125;
+  const auto integrator = make_integrator(system, nullptr, with_step("semi-implicit-euler", h));
+  const double start[2] = {1.0, 0.5};
+  integrator->init(0.0, start);
+  integrator->step(10.0);
+  CHECK(integrator->state()[1] == 0.5 - h * 1.0);
+  CHECK(integrator->state()[0] == 1.0 + h * (0.5 - h * 1.0));
+  const auto invariant = [&](const double* y) { return y[0] * y[0] + y[1] * y[1] - h * y[0] * y[1]; };
+  run_to(*integrator, 1000.0);
+  CHECK(std::abs(invariant(integrator->state()) - invariant(start)) < 1e-12);
+}
+
+TEST_CASE("generalized-alpha multiplies a fast mode by its spectral radius at every step") {
+  // y' = -k y with h k = 1e4. Undamped at radius 1; below, what the start has left falls like the radius.
+  static constexpr double rate = 1e4;
+  class Residual final : public ResidualSystem {
+   public:
+    std::size_t size() const override { return 1; }
+    void residual(double, const double* y, const double* ydot, double* r) override {
+      r[0] = ydot[0] / rate + y[0];
+    }
+    std::span<const double> differential() const override { return differential_; }
+    void expand(double, const double* state, double* y, double* ydot) override {
+      y[0] = state[0];
+      ydot[0] = -rate * state[0];
+    }
+    void contract(double, const double* y, double* state) const override { state[0] = y[0]; }
+
+   private:
+    std::array<double, 1> differential_ = {1.0};
+  } residual;
+  FunctionSystem system(1, [](double, const double* y, double* ydot) { ydot[0] = -rate * y[0]; });
+  IntegratorOptions options = with_step("generalized-alpha", 1.0);
+  options.relative_tolerance = 0.0;
+  options.absolute_tolerance = {1e-9};
+  for (const double radius : {0.3, 0.5, 0.8}) {
+    CAPTURE(radius);
+    options.spectral_radius = radius;
+    const auto integrator = make_integrator(system, &residual, options);
+    const double start = 1.0;
+    integrator->init(0.0, &start);
+    std::vector<double> size;
+    for (int i = 0; i < 30; ++i) {
+      integrator->step(100.0);
+      size.push_back(std::abs(integrator->state()[0]));
+    }
+    // Two equal roots: n r^n, whose ratio of neighbours tends to r like 1 + 1 / n.
+    const double ratio = size[12] / size[11];
+    MESSAGE("radius ", radius, " ratio ", ratio, " size ", size[12]);
+    CHECK(ratio < radius * 1.25);
+    CHECK(ratio > radius * 0.8);
+  }
+  for (const double radius : {-0.1, 1.5, std::nan("")}) {
+    options.spectral_radius = radius;
+    CHECK_THROWS_AS(make_integrator(system, &residual, options), std::invalid_argument);
+  }
+}
+
+TEST_CASE("the methods of one order agree on what they solve: every pair meets dop853 at a tight tolerance") {
+  const auto solution = [](const std::string& name) {
+    AnglePendulum system;
+    const auto integrator = make_integrator(system, nullptr, with_tolerance(name, 1e-10));
+    const double start[2] = {2.5, 0.3};
+    integrator->init(0.0, start);
+    run_to(*integrator, 10.0);
+    return std::vector<double>{integrator->state()[0], integrator->state()[1]};
+  };
+  const std::vector<double> reference = solution("dop853");
+  for (const std::string name : {"bs32", "rk43", "dopri5", "tsit5", "verner65", "verner76", "ark-erk"}) {
+    CAPTURE(name);
+    CHECK(largest_error(solution(name).data(), reference) < 2e-7);
   }
 }
 

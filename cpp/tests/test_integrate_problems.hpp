@@ -82,6 +82,11 @@ class Pendulum final : public System {
     ydot[3] = -tension * y[1] - gravity;
   }
   bool has_projection() const override { return projects_; }
+  std::size_t position_size() const override { return 2; }
+  void move(double h, double* y) override {
+    y[0] += h * y[2];
+    y[1] += h * y[3];
+  }
   bool project(double t, double* y, bool evaluated_here) override {
     if (evaluated_here && (t != evaluated_time || !std::equal(y, y + 4, evaluated_state.data()))) {
       ++false_claims;
@@ -133,6 +138,42 @@ class PendulumResidual final : public ResidualSystem {
   double gravity_ = pendulum_gravity();
   std::array<double, 6> differential_ = {1.0, 1.0, 1.0, 1.0, 0.0, 0.0};
 };
+
+/// Unit pendulum in its angle, a position: q' = v, v' = -sin q; the system tells positions from velocities.
+class AnglePendulum final : public System {
+ public:
+  std::size_t size() const override { return 2; }
+  void derivative(double, const double* y, double* ydot) override {
+    ydot[0] = y[1];
+    ydot[1] = -std::sin(y[0]);
+  }
+  std::size_t position_size() const override { return 1; }
+  void move(double h, double* y) override { y[0] += h * y[1]; }
+};
+
+/// Names of the methods with a fixed step, of those with step size control of our own, and of both.
+inline const std::vector<std::string> fixed_step_methods = {"semi-implicit-euler", "rk4", "rk-low-storage",
+                                                            "generalized-alpha", "generalized-alpha-index2"};
+inline const std::vector<std::string> adaptive_step_methods = {
+    "heun21", "bs32", "rk43", "dopri5", "tsit5", "verner65", "verner76", "dop853", "rosenbrock"};
+inline std::vector<std::string> own_methods() {
+  std::vector<std::string> names = fixed_step_methods;
+  names.insert(names.end(), adaptive_step_methods.begin(), adaptive_step_methods.end());
+  return names;
+}
+inline const std::vector<std::string> sundials_methods = {"ark-erk",     "ark-dirk",  "ark-imex",
+                                                          "cvode-adams", "cvode-bdf", "ida"};
+inline std::vector<std::string> adaptive_methods() {
+  std::vector<std::string> names = adaptive_step_methods;
+  names.insert(names.end(), sundials_methods.begin(), sundials_methods.end());
+  return names;
+}
+
+/// What the default fixed steps of the methods of low order leave where others keep to 1e-4.
+inline double allowance(const std::string& name) {
+  if (name == "semi-implicit-euler") return 2e-2;
+  return name.starts_with("generalized-alpha") ? 2e-3 : 1e-4;
+}
 
 inline IntegratorOptions with_tolerance(const std::string& name, double tolerance) {
   IntegratorOptions options;

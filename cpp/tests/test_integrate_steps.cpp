@@ -35,10 +35,10 @@ TEST_CASE("hard stops are landed on exactly by every method") {
         REQUIRE(integrator->previous_time() < integrator->time());
       }
       CHECK(integrator->time() == stop);
-      CHECK(largest_error(integrator->state(), smooth_solution(stop)) < 1e-4);
+      CHECK(largest_error(integrator->state(), smooth_solution(stop)) < allowance(name));
       std::vector<double> y(3);
       integrator->interpolate(stop, y.data());
-      CHECK(largest_error(y.data(), smooth_solution(stop)) < 1e-4);
+      CHECK(largest_error(y.data(), smooth_solution(stop)) < allowance(name));
     }
     const long steps = integrator->counters().steps;
     integrator->step(4.0);
@@ -114,7 +114,9 @@ TEST_CASE("reset goes on from another state, with nothing left of the old") {
     CHECK(integrator->previous_time() == 0.3);
     CHECK(same_bits(integrator->state(), other.data(), 3));
     run_to(*integrator, 2.0);
-    CHECK(largest_error(integrator->state(), smooth_solution(2.0)) < 1e-5);
+    CHECK(largest_error(integrator->state(), smooth_solution(2.0)) <
+          std::max(1e-5,
+                   name == "semi-implicit-euler" || name.starts_with("generalized") ? allowance(name) : 0.0));
     CHECK(integrator->counters().restarts == before.restarts + 1);
     CHECK(integrator->counters().steps > before.steps);
     CHECK(integrator->counters().evaluations > before.evaluations);
@@ -122,18 +124,19 @@ TEST_CASE("reset goes on from another state, with nothing left of the old") {
 }
 
 TEST_CASE("the own methods continue bit for bit from what they saved") {
-  for (const std::string name : {"rk4", "dopri5"}) {
+  for (const std::string& name : own_methods()) {
     for (const bool projects : {false, true}) {
       CAPTURE(name);
       CAPTURE(projects);
       Pendulum system(projects);
-      const auto integrator = make_integrator(system, nullptr, with_tolerance(name, 1e-5));
+      PendulumResidual residual;
+      const auto integrator = make_integrator(system, &residual, with_tolerance(name, 1e-5));
       const double start[4] = {1.0, 0.0, 0.0, 0.0};
       integrator->init(0.0, start);
       run_to(*integrator, 1.3);
       const std::vector<double> saved = integrator->save();
       Pendulum other_system(projects);
-      const auto other = make_integrator(other_system, nullptr, with_tolerance(name, 1e-5));
+      const auto other = make_integrator(other_system, &residual, with_tolerance(name, 1e-5));
       other->init(7.0, start);
       other->load(saved);
       for (int i = 0; i < 50; ++i) {
@@ -153,7 +156,7 @@ TEST_CASE("the own methods continue bit for bit from what they saved") {
 }
 
 TEST_CASE("the SUNDIALS methods restart from what they saved") {
-  for (const std::string name : {"ark-erk", "cvode-adams", "cvode-bdf", "ida"}) {
+  for (const std::string& name : sundials_methods) {
     CAPTURE(name);
     FunctionSystem system = smooth_system();
     SmoothResidual residual;
@@ -170,8 +173,7 @@ TEST_CASE("the SUNDIALS methods restart from what they saved") {
 }
 
 TEST_CASE("a component of infinite tolerance does not steer the step size") {
-  for (const std::string& name : integrator_names()) {
-    if (name == "rk4") continue;
+  for (const std::string& name : adaptive_methods()) {
     CAPTURE(name);
     // The second component is a quadrature with a fast wiggle that alone would force tiny steps.
     const auto rhs = [](double t, const double* y, double* ydot) {
@@ -206,7 +208,7 @@ TEST_CASE("a component of infinite tolerance does not steer the step size") {
     run_to(*integrator, 10.0);
     MESSAGE(name, " steps ", integrator->counters().steps);
     CHECK(integrator->state()[0] == doctest::Approx(std::exp(-1.0)).epsilon(1e-4));
-    CHECK(integrator->counters().steps < 300);
+    CHECK(integrator->counters().steps < (integrator->order() == 2 ? 1000 : 300));
   }
 }
 

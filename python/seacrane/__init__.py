@@ -23,6 +23,7 @@ if TYPE_CHECKING:
         StateSpaceBlock,
         TwistHistory,
         VesselHydrodynamics,
+        integrator_names,
     )
     from seacrane.curves import spline_curve
     from seacrane.environment import (
@@ -100,6 +101,7 @@ _HOME = {
     "equilibrium": "rest_state",
     "fastest_mode": "linearise",
     "gust_curve": "wind",
+    "integrator_names": "_core",
     "inverse_dynamics": "inverse",
     "jacobian": "linearise",
     "linear_model": "linear_system",
@@ -162,6 +164,7 @@ __all__ = [
     "fastest_mode",
     "gust_curve",
     "hydro",
+    "integrator_names",
     "inverse_dynamics",
     "jacobian",
     "linear_model",

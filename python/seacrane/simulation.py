@@ -290,7 +290,8 @@ def simulate(
     dt_out : float
         Output interval, s. Outputs are interpolated, projected, then evaluated; they never shorten steps.
     integrator : str
-        "dopri5" (default), "rk4", "ark-erk", "cvode-adams", "cvode-bdf" or "ida".
+        "dopri5" (default) or any other of `seacrane.integrator_names()`; the table in docs/design.md tells
+        them apart.
     rtol : float
         Local error per step over the scale of each state (0.1 m, 0.01 rad, 0.1 m/s, 0.01 rad/s; lengths
         times `scene.length_scale`): absolute, so that results do not depend on where the origin is.

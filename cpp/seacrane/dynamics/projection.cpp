@@ -77,6 +77,26 @@ void RedundantSystem::move_poses(double* y) {
   }
 }
 
+void RedundantSystem::move(double h, double* y) {
+  const Model& m = *model_;
+  for (int b = 0; b < m.body_count(); ++b) {
+    double* pose = y + m.layout.pose(b);
+    const double* twist = y + m.layout.twist(b);
+    view<3>(pose) += h * view<3>(twist);
+    const Vec3d turn = h * view<3>(twist + 3);
+    if (m.description.orientation == Orientation::quaternion) {
+      auto q = view<4>(pose + 3);
+      q = rotate_quaternion(turn, q);
+    } else {
+      auto phi = view<3>(pose + 3);
+      const Vec4d q = rotate_quaternion(turn, quaternion_from_rotation(rotation_from_euler_xyz<double>(phi)));
+      const Vec3d turned = euler_xyz_from_rotation(rotation_from_quaternion<double>(q));
+      // The angles go on without a jump of a whole turn.
+      for (int i = 0; i < 3; ++i) phi[i] += wrap_angle(turned[i] - phi[i]);
+    }
+  }
+}
+
 void RedundantSystem::move_twists(double* y) {
   for (int b = 0; b < model_->body_count(); ++b) {
     view<6>(y + model_->layout.twist(b)) -= impulse_[idx(b)];

@@ -43,6 +43,8 @@ class RedundantSystem final : public Formulation {
   void write_bodies(double t, const double* y, double* bodies) override;
   const std::vector<Vec6d>& accelerations() const override { return acceleration_; }
   std::string describe(std::size_t component) const override;
+  std::size_t position_size() const override { return static_cast<std::size_t>(model_->layout.velocity); }
+  void move(double h, double* y) override;
 
   const Model& model() const { return *model_; }
   void set_inputs(const std::vector<double>& slots) { slots_ = slots; }

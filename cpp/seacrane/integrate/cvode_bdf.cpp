@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "seacrane/integrate/cvode.hpp"
+#include "seacrane/integrate/difference_jacobian.hpp"
 #include "seacrane/integrate/registry.hpp"
 
 namespace seacrane {
@@ -53,18 +54,10 @@ void CvodeBdf::attach_solver(void* memory) {
 
 int CvodeBdf::fill_jacobian(double t, const double* y, const double* slope, SUNMatrix matrix) {
   ++counters_.jacobians;
-  const double h = attempted_step();
-  std::copy_n(y, size(), trial_.data());
-  for (std::size_t j = 0; j < size(); ++j) {
-    const double increment = difference_increment(y[j], h * slope[j], norm_.typical(j));
-    trial_[j] = y[j] + increment;
-    const int flag = evaluate(t, trial_.data(), trial_slope_.data());
-    if (flag != 0) return flag;
-    trial_[j] = y[j];
-    double* const column = SUNDenseMatrix_Column(matrix, static_cast<sunindextype>(j));
-    for (std::size_t i = 0; i < size(); ++i) column[i] = (trial_slope_[i] - slope[i]) / increment;
-  }
-  return 0;
+  return difference_jacobian(
+      y, slope, attempted_step(), norm_, trial_, trial_slope_,
+      [&](const double* at, double* f) { return evaluate(t, at, f); },
+      [&](std::size_t j) { return SUNDenseMatrix_Column(matrix, static_cast<sunindextype>(j)); });
 }
 
 int CvodeBdf::correct(double t, const double* y, double* correction) {

@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "seacrane/integrate/difference_jacobian.hpp"
 #include "seacrane/integrate/registry.hpp"
 #include "seacrane/integrate/sundials_integrator.hpp"
 

@@ -34,6 +34,8 @@ struct IntegratorOptions {
   double max_step = 0.0;
   /// First step of the adaptive methods (s); 0 lets the method choose.
   double initial_step = 0.0;
+  /// Spectral radius at infinite frequency of generalized-alpha, 0 to 1: 1 damps nothing, 0 annihilates.
+  double spectral_radius = 0.8;
 
   Tolerances tolerances() const { return {relative_tolerance, absolute_tolerance}; }
 };

@@ -10,8 +10,9 @@ namespace {
 
 /// Error memory of a controller that has not seen a step yet (Hairer, Norsett, Wanner, code DOPRI5).
 constexpr double fresh_error_memory = 1e-4;
-/// Largest projection, in the error norm, after which the derivative is kept.
-constexpr double kept_correction = 1e-2;
+/// Largest projection, in the error norm, after which the derivative is kept. A tenth of this changed the
+/// payload's error in case 2 by 4 % at most, for up to 23 % more evaluations.
+constexpr double kept_correction = 1e-1;
 /// Time, step size, error memory, and whether the derivative is known.
 constexpr std::size_t saved_scalars = 4;
 
@@ -118,18 +119,21 @@ const std::vector<double>& OneStepIntegrator::next_derivative() const {
 std::vector<double> OneStepIntegrator::save() const {
   const bool known = next_start_ != NextStart::missing;
   std::vector<double> saved = {time_, step_, error_memory_, known ? 1.0 : 0.0};
-  saved.reserve(saved_scalars + 2 * size());
+  saved.reserve(saved_scalars + 2 * size() + history_size());
   saved.insert(saved.end(), state_.begin(), state_.end());
   const std::vector<double>& derivative = next_derivative();
   saved.insert(saved.end(), derivative.begin(), derivative.end());
+  saved.resize(saved.size() + history_size());
+  save_history(std::span(saved).last(history_size()));
   return saved;
 }
 
 void OneStepIntegrator::load(std::span<const double> saved) {
-  if (saved.size() != saved_scalars + 2 * size()) {
+  const std::size_t needed = saved_scalars + 2 * size() + history_size();
+  if (saved.size() != needed) {
     throw std::invalid_argument(name() + ": the saved integrator state holds " +
                                 std::to_string(saved.size()) + " values, this system needs " +
-                                std::to_string(saved_scalars + 2 * size()));
+                                std::to_string(needed));
   }
   set_state(saved[0], saved.data() + saved_scalars);
   step_ = saved[1];
@@ -137,6 +141,7 @@ void OneStepIntegrator::load(std::span<const double> saved) {
   next_start_ = saved[3] != 0.0 ? NextStart::at_start : NextStart::missing;
   const double* derivative = saved.data() + saved_scalars + size();
   std::copy_n(derivative, size(), start_derivative_.data());
+  load_history(saved.last(history_size()));
 }
 
 }  // namespace seacrane

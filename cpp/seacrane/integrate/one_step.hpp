@@ -24,8 +24,8 @@ class OneStepIntegrator : public Integrator {
   void init(double t0, const double* y0) override;
   void reset(double t, const double* y) override;
   Counters counters() const override { return counters_; }
-  std::vector<double> save() const override;
-  void load(std::span<const double> saved) override;
+  std::vector<double> save() const final;
+  void load(std::span<const double> saved) final;
 
  protected:
   /// Makes start_derivative_ hold the derivative at time() and empties the last step.
@@ -33,6 +33,10 @@ class OneStepIntegrator : public Integrator {
   /// Ends the step: end_state_ and end_derivative_, the raw result at t_end, become the present state.
   void accept(double t_end);
   void evaluate(double t, const double* y, double* ydot) const;
+  /// What a method keeps from step to step beyond the state and its derivative.
+  virtual std::size_t history_size() const { return 0; }
+  virtual void save_history(std::span<double> /*history*/) const {}
+  virtual void load_history(std::span<const double> /*history*/) {}
   [[noreturn]] void fail(double h, std::size_t component, const std::string& reason) const;
 
   System& system_;
@@ -57,5 +61,13 @@ class OneStepIntegrator : public Integrator {
   std::vector<double> candidate_;
   double initial_step_;
 };
+
+/// Cubic Hermite polynomial at s in [0, 1] from values and slopes (times the step) at both ends
+/// [Hairer, Norsett, Wanner I, II.6.7].
+inline double cubic_hermite(double start, double end, double start_slope, double end_slope, double s) {
+  const double rise = end - start;
+  const double bend = (1.0 - 2.0 * s) * rise + (s - 1.0) * start_slope + s * end_slope;
+  return start + s * (rise + (s - 1.0) * bend);
+}
 
 }  // namespace seacrane

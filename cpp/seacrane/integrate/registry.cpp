@@ -4,9 +4,29 @@
 
 // The one list of integrators: the name a user gives, and the function of the method's own file that makes
 // it. A new method is added here and nowhere else.
-#define SEACRANE_INTEGRATORS(entry)                                                  \
-  entry("rk4", make_rk4) entry("dopri5", make_dopri5) entry("ark-erk", make_ark_erk) \
-      entry("cvode-adams", make_cvode_adams) entry("cvode-bdf", make_cvode_bdf) entry("ida", make_ida)
+// clang-format off
+#define SEACRANE_INTEGRATORS(entry)                                \
+  entry("semi-implicit-euler", make_semi_implicit_euler)           \
+  entry("rk4", make_rk4)                                           \
+  entry("rk-low-storage", make_rk_low_storage)                     \
+  entry("heun21", make_heun21)                                     \
+  entry("bs32", make_bs32)                                         \
+  entry("rk43", make_rk43)                                         \
+  entry("dopri5", make_dopri5)                                     \
+  entry("tsit5", make_tsit5)                                       \
+  entry("verner65", make_verner65)                                 \
+  entry("verner76", make_verner76)                                 \
+  entry("dop853", make_dop853)                                     \
+  entry("rosenbrock", make_rosenbrock)                             \
+  entry("generalized-alpha", make_generalized_alpha)               \
+  entry("generalized-alpha-index2", make_generalized_alpha_index2) \
+  entry("ark-erk", make_ark_erk)                                   \
+  entry("ark-dirk", make_ark_dirk)                                 \
+  entry("ark-imex", make_ark_imex)                                 \
+  entry("cvode-adams", make_cvode_adams)                           \
+  entry("cvode-bdf", make_cvode_bdf)                               \
+  entry("ida", make_ida)
+// clang-format on
 
 namespace seacrane {
 

@@ -3,6 +3,7 @@
 // The differences between the SUNDIALS releases 6.x and 7.x, and nothing else. Compiled and tested with
 // 6.4; the branches for 7.x follow its documentation and headers and have not been compiled.
 
+#include <arkode/arkode_arkstep.h>
 #include <arkode/arkode_erkstep.h>
 #include <cvode/cvode.h>
 #include <cvode/cvode_ls.h>
@@ -49,7 +50,6 @@ inline SUNContext create_context(MessageLog& log) {
 // One handler, that of the context, serves all solvers.
 inline void record_cvode_messages(void* /*memory*/, MessageLog& /*log*/) {}
 inline void record_ida_messages(void* /*memory*/, MessageLog& /*log*/) {}
-inline void record_arkode_messages(void* /*memory*/, MessageLog& /*log*/) {}
 
 #else
 
@@ -70,17 +70,58 @@ inline void record_cvode_messages(void* memory, MessageLog& log) {
 inline void record_ida_messages(void* memory, MessageLog& log) {
   IDASetErrHandlerFn(memory, record_message, &log);
 }
-inline void record_arkode_messages(void* memory, MessageLog& log) {
-  ERKStepSetErrHandlerFn(memory, record_message, &log);
-}
 
 #endif
 
-// From 7.1 on ARKODE's steppers share one set of functions and the ERKStep names are deprecated.
+/// The functions that ARKODE's explicit and its general stepper have in common. From 7.1 on they share one
+/// set, and the names of the steppers are deprecated.
+struct ArkodeFunctions {
+  void (*free)(void**);
+  int (*set_user_data)(void*, void*);
+  int (*set_weights)(void*, ARKEwtFn);
+  int (*set_warnings)(void*, int);
+  int (*set_max_step)(void*, sunrealtype);
+  int (*set_init_step)(void*, sunrealtype);
+  int (*set_stop_time)(void*, sunrealtype);
+  int (*reset)(void*, sunrealtype, N_Vector);
+  int (*evolve)(void*, sunrealtype, N_Vector, sunrealtype*, int);
+  int (*dense_output)(void*, sunrealtype, int, N_Vector);
+  int (*current_step)(void*, sunrealtype*);
+  int (*steps)(void*, long*);
+  int (*error_test_failures)(void*, long*);
+  int (*local_errors)(void*, N_Vector);
+  int (*weights)(void*, N_Vector);
+};
+
+#define SEACRANE_ARKODE_FUNCTIONS(prefix)                                                                   \
+  ArkodeFunctions {                                                                                         \
+    prefix##Free, prefix##SetUserData, prefix##WFtolerances, prefix##SetMaxHnilWarns, prefix##SetMaxStep,   \
+        prefix##SetInitStep, prefix##SetStopTime, prefix##Reset, prefix##Evolve, prefix##GetDky,            \
+        prefix##GetCurrentStep, prefix##GetNumSteps, prefix##GetNumErrTestFails, prefix##GetEstLocalErrors, \
+        prefix##GetErrWeights                                                                               \
+  }
+
 #if SUNDIALS_VERSION_MAJOR > 7 || (SUNDIALS_VERSION_MAJOR == 7 && SUNDIALS_VERSION_MINOR >= 1)
-#define SEACRANE_ERK(function) ARKode##function
+#define SEACRANE_ARK(function) ARKode##function
+inline ArkodeFunctions explicit_stepper() { return SEACRANE_ARKODE_FUNCTIONS(ARKode); }
+inline ArkodeFunctions general_stepper() { return SEACRANE_ARKODE_FUNCTIONS(ARKode); }
 #else
-#define SEACRANE_ERK(function) ERKStep##function
+#define SEACRANE_ARK(function) ARKStep##function
+inline ArkodeFunctions explicit_stepper() { return SEACRANE_ARKODE_FUNCTIONS(ERKStep); }
+inline ArkodeFunctions general_stepper() { return SEACRANE_ARKODE_FUNCTIONS(ARKStep); }
+#endif
+#undef SEACRANE_ARKODE_FUNCTIONS
+
+#if SUNDIALS_VERSION_MAJOR >= 7
+inline void record_erk_messages(void* /*memory*/, MessageLog& /*log*/) {}
+inline void record_ark_messages(void* /*memory*/, MessageLog& /*log*/) {}
+#else
+inline void record_erk_messages(void* memory, MessageLog& log) {
+  ERKStepSetErrHandlerFn(memory, record_message, &log);
+}
+inline void record_ark_messages(void* memory, MessageLog& log) {
+  ARKStepSetErrHandlerFn(memory, record_message, &log);
+}
 #endif
 
 }  // namespace seacrane::sundials

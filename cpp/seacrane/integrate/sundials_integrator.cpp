@@ -163,12 +163,4 @@ void SundialsIntegrator::require(int flag, const char* call) const {
                            (messages_.last_error.empty() ? "" : ": " + messages_.last_error));
 }
 
-double difference_increment(double y, double step_change, double typical) {
-  const double scale = std::max({std::abs(y), std::abs(step_change), typical});
-  const double increment = std::sqrt(epsilon) * scale;
-  // Towards where the solution goes, and exactly representable as a difference.
-  const double moved = y + (step_change < 0.0 ? -increment : increment);
-  return moved - y;
-}
-
 }  // namespace seacrane

@@ -90,7 +90,4 @@ class SundialsIntegrator : public Integrator {
   bool carried_ = false;
 };
 
-/// Increment for a one-sided difference quotient in component i, away from zero with `slope`.
-double difference_increment(double y, double step_change, double typical);
-
 }  // namespace seacrane

@@ -25,9 +25,19 @@ class System {
 
   /// False when project() never changes y; integrators then skip it.
   virtual bool has_projection() const { return false; }
+
+  /// Number of leading components that are positions, for methods that treat them apart; 0 where the system
+  /// does not tell.
+  virtual std::size_t position_size() const { return 0; }
+  /// Moves the positions in y along the velocities in y for the time h, both held: rotations by the
+  /// exponential.
+  virtual void move(double /*h*/, double* /*y*/) {}
 };
 
-/// A fully implicit system F(t, y, y') = 0, for IDA (Gear-Gupta-Leimkuhler stabilised index 2).
+/// A fully implicit system F(t, y, y') = 0 (Gear-Gupta-Leimkuhler stabilised index 2). The unknowns are the
+/// state in the System's layout, then one multiplier for each constraint, then as many more that keep the
+/// rates of the positions on the constraints; the residuals likewise, then all constraints on velocity level,
+/// then all on position level.
 class ResidualSystem {
  public:
   virtual ~ResidualSystem() = default;

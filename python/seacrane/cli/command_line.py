@@ -46,9 +46,7 @@ def _add_run(commands: Any) -> None:
     run.add_argument("--out", metavar="DIR", required=True, help="folder to write to; made if absent")
     run.add_argument("--t-end", metavar="S", type=float, help="end time, s")
     run.add_argument("--dt-out", metavar="S", type=float, help="output interval, s")
-    run.add_argument(
-        "--integrator", metavar="NAME", help="rk4, dopri5, ark-erk, cvode-adams, cvode-bdf or ida"
-    )
+    run.add_argument("--integrator", metavar="NAME", help="default dopri5; an unknown name lists them all")
     run.add_argument("--rtol", metavar="X", type=float, help="relative tolerance of adaptive integrators")
     run.add_argument("--dt", metavar="S", type=float, help="step of fixed-step integrators, s")
     run.add_argument("--formulation", choices=("redundant", "recursive", "auto"), help="equations of motion")

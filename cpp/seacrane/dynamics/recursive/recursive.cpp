@@ -16,10 +16,10 @@ constexpr int kProjectionIterations = 12;
 /// and rotations do not depend on it.
 constexpr double kQuaternionDrift = 1e-3;
 
-bool normalise(double* quaternion) {
+bool normalise(double* quaternion, double drift) {
   auto q = view<4>(quaternion);
   const double squared = q.squaredNorm();
-  if (std::abs(squared - 1.0) < kQuaternionDrift) return false;
+  if (std::abs(squared - 1.0) <= drift) return false;
   q /= std::sqrt(squared);
   return true;
 }
@@ -114,6 +114,13 @@ void RecursiveSystem::derivative(double t, const double* y, double* ydot) {
   ydot[layout_.work + 1] = terms_.absolute_power();
 }
 
+void RecursiveSystem::move(double h, double* y) {
+  place(y);
+  articulated_.position_rates(y, y + layout_.speeds, terms_.bodies().data(), position_rate_.data());
+  for (int i = 0; i < tree_.positions; ++i) y[i] += h * position_rate_[idx(i)];
+  normalise_quaternions(y, 0.0);
+}
+
 /// q -= (rates of the positions at `velocities`, speeds of an impulse).
 void RecursiveSystem::move_positions(double* y, const Vec6d* velocities) {
   scratch_ = terms_.bodies();
@@ -131,14 +138,18 @@ void RecursiveSystem::twists_here() {
   }
 }
 
-bool RecursiveSystem::project(double t, double* y, bool evaluated_here) {
+/// Those whose squared length is off one by more than `drift`; whether there was one.
+bool RecursiveSystem::normalise_quaternions(double* y, double drift) const {
   bool changed = false;
   for (const Cluster& c : tree_.clusters) {
-    if (c.kind == Cluster::floating) changed |= normalise(y + c.q + 3);
-    if (c.kind != Cluster::floating && c.positions >= 4) {
-      for (int i = 0; i + 4 <= c.positions; i += 4) changed |= normalise(y + c.q + i);
-    }
+    const int first = c.kind == Cluster::floating ? 3 : 0;
+    for (int i = first; i + 4 <= c.positions; i += 4) changed |= normalise(y + c.q + i, drift);
   }
+  return changed;
+}
+
+bool RecursiveSystem::project(double t, double* y, bool evaluated_here) {
+  bool changed = normalise_quaternions(y, kQuaternionDrift);
   if (loops_.rows() == 0) return changed;
   if (!evaluated_here || changed) {
     place(y);

@@ -21,6 +21,8 @@ class RecursiveSystem final : public Formulation {
   bool project(double t, double* y, bool evaluated_here) override;
   bool has_projection() const override { return true; }
 
+  std::size_t position_size() const override { return idx(tree_.positions); }
+  void move(double h, double* y) override;
   const char* name() const override { return "recursive"; }
   std::vector<double> scale() const override;
   void read_bodies(double t, const double* bodies, double* y) override;
@@ -41,6 +43,7 @@ class RecursiveSystem final : public Formulation {
   void factor(double t);
   void move_positions(double* y, const Vec6d* velocities);
   void twists_here();
+  bool normalise_quaternions(double* y, double drift) const;
 
   RedundantSystem& terms_;
   const Model& model_;

@@ -1,0 +1,118 @@
+#include "seacrane/integrate/adaptive_step.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace seacrane {
+namespace {
+
+constexpr double safety = 0.9;
+constexpr double strongest_cut = 0.2, strongest_growth = 10.0;
+/// Cut after a derivative that was not finite, where no error estimate tells the size.
+constexpr double blind_cut = 0.25;
+constexpr double least_error_memory = 1e-4;
+/// Rounding of a state relative to its size, as far as tolerances below it are still accepted.
+constexpr double rounding = 1e-3 * std::numeric_limits<double>::epsilon();
+
+}  // namespace
+
+AdaptiveStep::AdaptiveStep(std::string name, System& system, const IntegratorOptions& options,
+                           int estimate_power)
+    : OneStepIntegrator(std::move(name), system, options),
+      max_step_(options.max_step),
+      power_(1.0 / estimate_power),
+      beta_(0.2 * power_),
+      alpha_(power_ - 0.75 * beta_) {}
+
+bool AdaptiveStep::stage(double t, const double* y, double* k) {
+  evaluate(t, y, k);
+  if (all_finite(k, size())) return true;
+  bad_component_ = first_non_finite(k, size());
+  return false;
+}
+
+bool AdaptiveStep::end_is_finite() {
+  if (all_finite(end_state_.data(), size())) return true;
+  bad_component_ = first_non_finite(end_state_.data(), size());
+  return false;
+}
+
+/// First step size from the derivative and its change over a small Euler step
+/// [Hairer, Norsett, Wanner I, II.4].
+double AdaptiveStep::starting_step(double remaining) {
+  const double size_of_state = norm_.norm(state_.data(), state_.data());
+  // An estimate can be zero at the level of rounding, and would let every step pass.
+  if (size_of_state * rounding > 1.0) {
+    fail(0.0, IntegrationError::no_component, "the tolerances are far below the rounding of the state");
+  }
+  const double size_of_slope = norm_.norm(start_derivative_.data(), state_.data());
+  double h0 = size_of_state < 1e-5 || size_of_slope < 1e-5 ? 1e-6 : 0.01 * size_of_state / size_of_slope;
+  h0 = std::min(h0, remaining);
+  if (max_step_ > 0.0) h0 = std::min(h0, max_step_);
+  for (std::size_t i = 0; i < size(); ++i) end_state_[i] = state_[i] + h0 * start_derivative_[i];
+  if (!stage(time_ + h0, end_state_.data(), end_derivative_.data())) return blind_cut * h0;
+  for (std::size_t i = 0; i < size(); ++i) end_derivative_[i] -= start_derivative_[i];
+  const double curvature = norm_.norm(end_derivative_.data(), state_.data()) / h0;
+  const double steepest = std::max(size_of_slope, curvature);
+  const double h1 = steepest <= 1e-15 ? std::max(1e-6, 1e-3 * h0) : std::pow(0.01 / steepest, power_);
+  return std::max(std::min(100.0 * h0, h1), 2.0 * smallest_step(time_));
+}
+
+void AdaptiveStep::collapse() const {
+  const bool finite = bad_component_ == IntegrationError::no_component;
+  fail(step_, finite ? dominant_component(step_) : bad_component_,
+       finite ? "the step size has collapsed" : "the step size has collapsed: the derivative is not finite");
+}
+
+void AdaptiveStep::step(double t_limit) {
+  check_limit(t_limit);
+  if (t_limit == time_) return;
+  begin_step();
+  const double remaining = t_limit - time_;
+  if (step_ <= 0.0) step_ = starting_step(remaining);
+  if (max_step_ > 0.0) step_ = std::min(step_, max_step_);
+  for (bool cut_before = false;; cut_before = true) {
+    // A step cut short by a hard stop may be as short as it likes; only the wish itself can collapse.
+    if (step_ < smallest_step(time_)) collapse();
+    const double h = limited_step(step_, remaining);
+    const double t_end = h == remaining ? t_limit : time_ + h;
+    bad_component_ = IntegrationError::no_component;
+    end_derivative_known_ = false;
+    double e = 0.0;
+    bool finite = try_step(h, t_end);
+    if (finite) e = error(h);
+    // A pair whose estimate does without the derivative at the end needs it of an accepted step only.
+    if (finite && e <= 1.0 && !end_derivative_known_) {
+      finite = stage(t_end, end_state_.data(), end_derivative_.data());
+    }
+    if (finite && e <= 1.0) {
+      accept(t_end);
+      after_success(h, e, cut_before, h < step_);
+      return;
+    }
+    ++counters_.rejected_steps;
+    // Not finite where components beyond the tolerances overflow: cut as hard as allowed.
+    const double cut = std::isfinite(e) ? safety * std::pow(e, -alpha_) : 0.0;
+    step_ = h * (finite ? std::max(strongest_cut, cut) : blind_cut);
+  }
+}
+
+void AdaptiveStep::after_success(double h, double error, bool cut_before, bool truncated) {
+  double growth = strongest_growth;
+  if (error > 0.0) {
+    growth = std::clamp(safety * std::pow(error_memory_, beta_) * std::pow(error, -alpha_), strongest_cut,
+                        strongest_growth);
+  }
+  if (cut_before) growth = std::min(growth, 1.0);
+  // The error of a step cut short tells nothing of the wish when it only asks for the largest growth.
+  if (truncated && growth == strongest_growth) {
+    step_ = std::max(step_, growth * h);
+    return;
+  }
+  step_ = preferred_step(h, growth * h);
+  if (!truncated) error_memory_ = std::max(error, least_error_memory);
+}
+
+}  // namespace seacrane

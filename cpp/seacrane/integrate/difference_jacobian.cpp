@@ -1,0 +1,15 @@
+#include "seacrane/integrate/difference_jacobian.hpp"
+
+#include <cmath>
+#include <limits>
+
+namespace seacrane {
+
+double difference_increment(double y, double step_change, double typical) {
+  const double scale = std::max({std::abs(y), std::abs(step_change), typical});
+  const double increment = std::sqrt(std::numeric_limits<double>::epsilon()) * scale;
+  const double moved = y + (step_change < 0.0 ? -increment : increment);
+  return moved - y;
+}
+
+}  // namespace seacrane
