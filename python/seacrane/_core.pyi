@@ -917,12 +917,21 @@ class Model:
     @property
     def states(self) -> int:
         ...
+    @property
+    def tree(self) -> dict:
+        """
+        What formulation 'recursive' makes of the scene: clusters, struts (cylinder loops in closed form), positions, speeds, loop_rows (rows left to close).
+        """
 class Evaluator:
     """
     Evaluates a compiled model at single states (t in s, y as Model.initial_state).
     """
-    def __init__(self, model: Model) -> None:
+    def __init__(self, model: Model, formulation: str = 'redundant') -> None:
         ...
+    def accelerations(self, t: typing.SupportsFloat | typing.SupportsIndex, y: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 6]"]:
+        """
+        Accelerations of the bodies' state points by the formulation, m/s2 and rad/s2, (bodies, 6).
+        """
     def derivative(self, t: typing.SupportsFloat | typing.SupportsIndex, y: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> numpy.typing.NDArray[numpy.float64]:
         """
         dy/dt, a new array.
@@ -1003,7 +1012,7 @@ class Simulation:
     """
     One run of a model: advance(), inputs, recorded channels. Not for several threads.
     """
-    def __init__(self, *, model: Model, start: State, integrator: str, rtol: typing.SupportsFloat | typing.SupportsIndex, dt: typing.SupportsFloat | typing.SupportsIndex, max_step: typing.SupportsFloat | typing.SupportsIndex, output_times: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], channels: collections.abc.Set[str]) -> None:
+    def __init__(self, *, model: Model, start: State, integrator: str, rtol: typing.SupportsFloat | typing.SupportsIndex, dt: typing.SupportsFloat | typing.SupportsIndex, max_step: typing.SupportsFloat | typing.SupportsIndex, output_times: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], channels: collections.abc.Set[str], formulation: str = 'redundant') -> None:
         ...
     def advance(self, t_end: typing.SupportsFloat | typing.SupportsIndex, progress: typing.Any = None) -> bool:
         """

@@ -23,6 +23,7 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 Snapshot = Mapping[str, Array]
 MOST_OUTPUTS = 1e8
+RESIDUAL_INTEGRATORS = ("ida", "generalized-alpha", "generalized-alpha-index2")
 FORMULATIONS = ("auto", "recursive", "redundant")
 BAUMGARTE_OF_ADAMS = 5.0  # 1/s: cvode-adams cannot project
 
@@ -239,8 +240,8 @@ def _formulation(asked: str, model: _core.Model, integrator: str) -> str:
     if asked not in FORMULATIONS:
         raise SceneError(f"formulation {asked!r} is unknown; choose {', '.join(FORMULATIONS)}")
     reason = None
-    if integrator == "ida":
-        reason = "integrator 'ida' solves the redundant equations"
+    if integrator in RESIDUAL_INTEGRATORS:
+        reason = f"integrator {integrator!r} solves the redundant equations"
     elif model.paper_kinematics:
         reason = "kinematics 'paper' has no symmetric mass matrix"
     elif model.baumgarte > 0.0:
