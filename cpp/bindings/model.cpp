@@ -1,9 +1,9 @@
 #include "seacrane/model/model.hpp"
 
 #include "bindings.hpp"
-#include "vector_state.hpp"
 #include "seacrane/dynamics/redundant.hpp"
 #include "seacrane/run/recording.hpp"
+#include "vector_state.hpp"
 
 using namespace seacrane;
 using Array = py::array_t<double, py::array::c_style | py::array::forcecast>;
