@@ -92,7 +92,14 @@ def test_constraints_stay_closed(runs: dict[str, Result], name: str) -> None:
     assert run.time[-1] == 100.0 and len(run.time) == 1001
     assert np.max(run["constraint_error"]) < 1e-9
     assert np.max(run["constraint_rate_error"]) < 1e-9
+    assert np.max(run["constraint_error_before_projection"]) == 0.0  # tree coordinates leave nothing open
+
+
+def test_projection_closes_what_steps_of_the_redundant_form_open() -> None:
+    run = simulate(cases.case2(), formulation="redundant", t_end=10.0)
+    assert run.stats["formulation"] == "redundant"
     assert 0.0 < np.max(run["constraint_error_before_projection"]) < 1e-5
+    assert np.max(run["constraint_error"]) < 1e-9
 
 
 @pytest.mark.parametrize("name", CASES)

@@ -103,8 +103,8 @@ FAILING = {
     ),
     "a run of negative length": (["run", "vessel", "--out", "OUT", "--t-end", "-1"], "t_end is -1.0 s"),
     "a negative wave height": (["run", "vessel", "--out", "OUT", "--hs", "-2"], "-2"),
-    "a formulation of a later version": (
-        ["run", "vessel", "--out", "OUT", "--formulation", "recursive"],
+    "a formulation that the integrator cannot step": (
+        ["run", "vessel", "--out", "OUT", "--formulation", "recursive", "--integrator", "ida"],
         "formulation 'recursive' is not available",
     ),
     "an absent database file": (["hydro", "none.nc"], "no such file"),

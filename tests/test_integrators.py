@@ -65,7 +65,8 @@ def test_steps_equal_those_of_scipy(integrator: str, method: type[RungeKutta]) -
     scene = tumbling()
     model = scene.compile()
     h, steps = 1 / 64, 16  # short enough for the choice of the first step to be max_step
-    own = Run(scene, model=model, t_end=h * steps, dt_out=h, integrator=integrator, rtol=0.1, max_step=h)
+    own = Run(scene, model=model, t_end=h * steps, dt_out=h, integrator=integrator, rtol=0.1, max_step=h,
+              formulation="redundant")  # fmt: skip
     y = np.array(own.core.state.values)
     own.advance(h * steps)
     assert own.core.statistics()["steps"] == steps

@@ -259,7 +259,10 @@ def test_outputs_start_at_zero_and_end_at_the_end(t_end: float, dt_out: float, e
 def test_integrator_names_are_those_that_run() -> None:
     for name in _core.integrator_names():
         result = simulate(mass_on_rail(feed_forward=2.0), t_end=1.0, integrator=name)
-        assert result["coordinate"][-1, 0] == pytest.approx(0.25, rel=1e-4), name
+        assert result["coordinate"][-1, 0] == pytest.approx(
+            0.25,
+            rel=3e-3 if name == "semi-implicit-euler" else 1e-4,  # order 1: a half step of 2 ms late
+        ), name
 
 
 def test_channels_of_the_crane_can_be_asked_for_by_their_names() -> None:

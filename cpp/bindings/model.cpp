@@ -249,6 +249,9 @@ void bind_model(py::module_& m) {
           "Names of elements whose reactions are not unique.")
       .def_property_readonly("assembly", &assembly_report)
       .def_property_readonly("paper_kinematics", [](const Model& x) { return x.paper_kinematics; })
+      .def_property_readonly(
+          "euler_angles", [](const Model& x) { return x.description.orientation == Orientation::euler_xyz; },
+          "Whether the state holds XYZ Euler angles.")
       .def_property_readonly("baumgarte", [](const Model& x) { return x.description.baumgarte; })
       .def_property_readonly(
           "initial_state",

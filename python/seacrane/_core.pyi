@@ -883,6 +883,11 @@ class Model:
         (name, kind, rows, whether the reaction is unique) of joints, then drivers.
         """
     @property
+    def euler_angles(self) -> bool:
+        """
+        Whether the state holds XYZ Euler angles.
+        """
+    @property
     def history_samples(self) -> int:
         """
         Points in time at which convolutions keep the motion of their vessels.

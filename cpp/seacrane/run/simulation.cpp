@@ -14,7 +14,8 @@ namespace {
 using Clock = std::chrono::steady_clock;
 constexpr std::chrono::milliseconds kAskInterval{20};
 constexpr double kLargestTolerance = 0.1;  // beyond, an error estimate of one step means nothing
-constexpr double kClosed = 1e-6;           // m, rad: a state that projection leaves open by more is none
+constexpr double kLargestTurn = 3.14159265358979323846;  // rad in one step: no method resolves more
+constexpr double kClosed = 1e-6;  // m, rad: a state that projection leaves open by more is none
 
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
@@ -151,6 +152,19 @@ void Simulation::step(double limit) {
   }
 }
 
+/// A coordinate that turns keeps its joint closed however wrong it is: only the turn itself can tell.
+void Simulation::check_turning() const {
+  const double h = integrator_->time() - integrator_->previous_time();
+  for (int b = 0; b < model_->body_count(); ++b) {
+    const double turn = h * system_.bodies()[idx(b)].angular_velocity.norm();
+    if (turn <= kLargestTurn) continue;
+    throw std::domain_error("body '" + model_->bodies[idx(b)].name + "': turns by " + to_text(turn) +
+                            " rad in one step of " + to_text(h) +
+                            " s at t = " + to_text(integrator_->time()) +
+                            " s: the step is too long for the method; give a smaller dt, rtol or max_step");
+  }
+}
+
 bool Simulation::advance(double t_end, const std::function<bool(double)>& keep_going) {
   if (!std::isfinite(t_end)) throw std::invalid_argument("t_end is not finite");
   const auto start = Clock::now();
@@ -160,6 +174,7 @@ bool Simulation::advance(double t_end, const std::function<bool(double)>& keep_g
     const double jump = next_jump();
     step(std::min({jump, system_.next_sample(), t_end}));
     const double now = integrator_->time();
+    check_turning();
     record_until(now);
     // The memory's load goes on smoothly over a sample: no derivative is thrown away.
     if (now >= system_.next_sample()) {

@@ -65,6 +65,7 @@ class Simulation {
   void record_until(double t);
   void write(double t, double* y, Recording& out);
   void step(double limit);
+  void check_turning() const;
   [[noreturn]] void report_open(double t) const;
   void check_inputs(const std::vector<double>& slots) const;
   /// The state at time() in bodies' poses and twists.

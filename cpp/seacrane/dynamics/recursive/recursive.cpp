@@ -24,6 +24,12 @@ bool normalise(double* quaternion, double drift) {
   return true;
 }
 
+/// Angular velocity, inertial axes, of a quaternion and its rate: the vector part of 2 q' q^-1.
+Vec3d turning_of(const Vec4d& q, const Vec4d& rate) {
+  const Vec3d v = q.tail<3>(), v_rate = rate.tail<3>();
+  return 2.0 / q.squaredNorm() * (q[0] * v_rate - rate[0] * v - v_rate.cross(v));
+}
+
 /// Mass matrix about the state point and velocity terms b, eq (5).
 Vec6d compact_terms(const BodyModel& body, const BodyKinematics<double>& k, Mat6d& mass) {
   const Mat3d inertia = k.rotation * body.inertia * k.rotation.transpose();
@@ -114,11 +120,23 @@ void RecursiveSystem::derivative(double t, const double* y, double* ydot) {
   ydot[layout_.work + 1] = terms_.absolute_power();
 }
 
+template <class F>
+void RecursiveSystem::for_each_quaternion(F&& f) const {
+  for (const Cluster& c : tree_.clusters) {
+    const int first = c.kind == Cluster::floating ? 3 : 0;
+    for (int i = first; i + 4 <= c.positions; i += 4) f(c.q + i);
+  }
+}
+
 void RecursiveSystem::move(double h, double* y) {
   place(y);
   articulated_.position_rates(y, y + layout_.speeds, terms_.bodies().data(), position_rate_.data());
+  for_each_quaternion([&](int at) {
+    const Vec4d q = view<4>(y + at);
+    const Vec4d turned = rotate_quaternion(h * turning_of(q, view<4>(&position_rate_[idx(at)])), q);
+    view<4>(&position_rate_[idx(at)]) = (turned - q) / h;
+  });
   for (int i = 0; i < tree_.positions; ++i) y[i] += h * position_rate_[idx(i)];
-  normalise_quaternions(y, 0.0);
 }
 
 /// q -= (rates of the positions at `velocities`, speeds of an impulse).
@@ -141,10 +159,7 @@ void RecursiveSystem::twists_here() {
 /// Those whose squared length is off one by more than `drift`; whether there was one.
 bool RecursiveSystem::normalise_quaternions(double* y, double drift) const {
   bool changed = false;
-  for (const Cluster& c : tree_.clusters) {
-    const int first = c.kind == Cluster::floating ? 3 : 0;
-    for (int i = first; i + 4 <= c.positions; i += 4) changed |= normalise(y + c.q + i, drift);
-  }
+  for_each_quaternion([&](int at) { changed |= normalise(y + at, drift); });
   return changed;
 }
 

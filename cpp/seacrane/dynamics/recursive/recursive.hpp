@@ -43,6 +43,8 @@ class RecursiveSystem final : public Formulation {
   void factor(double t);
   void move_positions(double* y, const Vec6d* velocities);
   void twists_here();
+  template <class F>
+  void for_each_quaternion(F&& f) const;
   bool normalise_quaternions(double* y, double drift) const;
 
   RedundantSystem& terms_;
