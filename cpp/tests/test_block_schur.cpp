@@ -183,6 +183,16 @@ TEST_CASE("joints without rows take no part") {
   CHECK(graph.add(1, 2, 0));
   CHECK(graph.add(2, 1, 5));
   graph.check();
+  // Among loops as well, where many rows meet at its bodies.
+  for (std::uint64_t seed = 1; seed <= 30; ++seed) {
+    CAPTURE(seed);
+    RandomGraph loops(6, 200 + seed);
+    for (int i = 0; i < 14; ++i) {
+      const int a = pick(loops.random(), 7), b = pick(loops.random(), 7);
+      if (a != b) loops.add(a, b, i % 3 == 0 ? 0 : 1 + pick(loops.random(), 6));
+    }
+    loops.check();
+  }
 }
 
 TEST_CASE("a repeated joint makes the condition measure explode") {

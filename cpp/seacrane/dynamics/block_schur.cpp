@@ -10,9 +10,11 @@ namespace {
 
 constexpr int kChunk = 64;  // rows updated at a time, on the stack
 
+/// Elements without rows (a free joint) link nothing.
 std::vector<std::vector<int>> joint_adjacency(const std::vector<GraphNode>& nodes, int body_count) {
   std::vector<std::vector<int>> at_body(idx(body_count));
   for (std::size_t e = 0; e < nodes.size(); ++e) {
+    if (nodes[e].rows == 0) continue;
     for (int body : {nodes[e].first, nodes[e].second}) {
       if (body >= 0 && body < body_count) at_body[idx(body)].push_back(static_cast<int>(e));
     }
