@@ -1,0 +1,152 @@
+"""Every engine on the ten-body system: its settings, and its runs against one reference."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+import tempfile
+import time
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "tests"))
+
+from measure.records import scene_records
+from measure.timing import timed_run
+from mujoco_model import mjcf
+from system import DT_OUT, T_END, tree_data, write_tree
+
+from seacrane import Scene
+
+Array = NDArray[np.float64]
+HERE = Path(__file__).resolve().parent
+SEACRANE = {
+    "rk4": ("dt", (0.1, 0.05, 0.025)),
+    "dopri5": ("rtol", (1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8)),
+    "tsit5": ("rtol", (1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8)),
+    "verner65": ("rtol", (1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8)),
+    "verner76": ("rtol", (1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8)),
+    "dop853": ("rtol", (1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8)),
+}
+PINOCCHIO = {
+    "RK4": ("dt", (0.1, 0.05, 0.025, 0.0125)),
+    "RK45": ("rtol", (1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7)),
+    "DOP853": ("rtol", (1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9)),
+}
+BAUMGARTE = 10.0  # 1/s
+ACCELERATIONS = "Pinocchio, accelerations only"
+MUJOCO = [
+    ("rk4", step, constant)
+    for step, constant in ((0.05, 0.05), (0.02, 0.02), (0.01, 0.01), (0.005, 0.005), (0.002, 0.002))
+] + [("implicitfast", step, 2.0 * step) for step in (0.01, 0.002)]
+NUMPY = [("RK45", 1e-4), ("RK45", 1e-6), ("DOP853", 1e-4), ("DOP853", 1e-6)]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Point:
+    """One run: CPU time of the loop, s, its evaluations, largest errors of payload (m) and roll (rad)."""
+
+    engine: str
+    method: str
+    setting: str
+    cpu: float
+    evaluations: int
+    payload: float
+    roll: float
+
+
+@dataclass(frozen=True)
+class Reference:
+    """Payload positions (n, 3) and roll (n,) at the outputs."""
+
+    payload: Array
+    roll: Array
+
+    def point(self, payload: Array, roll: Array, **labels: object) -> Point:
+        """A run against this reference; one that broke off or went astray has infinite error."""
+        errors = [np.max(np.abs(a - b)) for a, b in ((payload, self.payload), (roll, self.roll))]
+        errors = [float(e) if np.isfinite(e) else np.inf for e in errors]
+        return Point(payload=errors[0], roll=errors[1], **labels)  # type: ignore[arg-type]
+
+
+def own_run(scene: Scene, *, repeats: int, **settings: object) -> tuple[float, int, Array, Array]:
+    """CPU time, evaluations, payload, roll of seacrane."""
+    run = timed_run(
+        scene, repeats=repeats, t_end=T_END, dt_out=DT_OUT, channels=["position", "vessel_motion"], **settings
+    )
+    payload = run.channels["position"][:, list(scene.bodies).index("payload")]
+    motion = run.channels["vessel_motion"].reshape(len(payload), -1)
+    return run.cpu, run.counters["evaluations"], payload, motion[:, 3]
+
+
+def seacrane_points(scene: Scene, reference: Reference, repeats: int) -> Iterator[Point]:
+    """Both formulations, every integrator and setting."""
+    for formulation in ("recursive", "redundant"):
+        for method, (key, values) in SEACRANE.items():
+            for value in values:
+                cpu, evaluations, payload, roll = own_run(
+                    scene, repeats=repeats, formulation=formulation, integrator=method, **{key: value}
+                )
+                yield reference.point(
+                    payload, roll, engine=f"seacrane {formulation}", method=method,
+                    setting=f"{key} {value:g}", cpu=cpu, evaluations=evaluations,
+                )  # fmt: skip
+
+
+def driver_run(command: list[str]) -> tuple[float, int, Array, Array]:
+    """CPU time, evaluations, payload, roll of a driver."""
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    if done.returncode:
+        raise RuntimeError(f"{' '.join(command)}: {done.stderr.strip()}")
+    head, *rows = done.stdout.splitlines()
+    values = np.array([[float(x) for x in row.split()] for row in rows])
+    return float(head.split()[0]), int(head.split()[1]), values[:, :3], values[:, 3]
+
+
+def peer_points(
+    scene: Scene, reference: Reference, python: str, drivers: Path, repeats: int
+) -> Iterator[Point]:
+    """Pinocchio and MuJoCo."""
+    with tempfile.TemporaryDirectory() as folder:
+        tree, model = Path(folder) / "tree.txt", Path(folder) / "model.xml"
+        write_tree(scene, tree)
+        model.write_text(mjcf(tree_data(scene)), encoding="utf-8")
+        for method, (key, values) in PINOCCHIO.items():
+            for value in values:
+                command = [python, HERE / "pinocchio_run.py", tree, method, value, BAUMGARTE]
+                cpu, evaluations, payload, roll = driver_run([str(word) for word in command])
+                yield reference.point(
+                    payload, roll, engine=ACCELERATIONS, method=method, setting=f"{key} {value:g}", cpu=cpu,
+                    evaluations=evaluations,
+                )  # fmt: skip
+        for method, step, constant in MUJOCO:
+            command = [drivers / "mujoco_run", tree, model, method, step, constant, min(repeats, 2)]
+            cpu, evaluations, payload, roll = driver_run([str(word) for word in command])
+            yield reference.point(
+                payload, roll, engine="MuJoCo", method=method, setting=f"dt {step:g}, loops {constant:g} s",
+                cpu=cpu, evaluations=evaluations,
+            )  # fmt: skip
+
+
+def numpy_points(scene: Scene, reference: Reference) -> Iterator[Point]:
+    """The paper's method in NumPy and SciPy, `tests/reference`; one run each."""
+    from reference.simulate import simulate
+    from reference.system import System
+
+    records = scene_records(scene)
+    payload = list(scene.bodies).index("payload")
+    times = DT_OUT * np.arange(round(T_END / DT_OUT) + 1)
+    for method, rtol in NUMPY:
+        system = System.from_records(records)
+        start = time.thread_time()
+        result = simulate(system, T_END, times, rtol, method=method)
+        cpu, evaluations = time.thread_time() - start, result["stats"]["evaluations"]
+        yield reference.point(
+            result["position"][:, payload], result["vessel_motion"][:, 3], engine="NumPy/SciPy",
+            method=method, setting=f"rtol {rtol:g}", cpu=cpu, evaluations=evaluations,
+        )  # fmt: skip
