@@ -2,6 +2,7 @@
 # make test     everything that CI checks: lint, types, formatting, C++ tests (plain and sanitized), Python tests
 # make build    the package in .venv, rebuilt only where something changed
 # make nightly  longer tests;  make bench  benchmarks;  make stubs  python/seacrane/_core.pyi
+# make bench-peers  the same crane in Pinocchio, MuJoCo and NumPy, in an environment of their own
 # make format   formats C++ and Python;  make clean  removes what was built (not .venv);  make distclean  all
 #
 # All of them install what is missing: system packages (apt, with sudo when needed) and .venv.
@@ -9,8 +10,8 @@ SHELL := /bin/bash
 .SHELLFLAGS := -euo pipefail -c
 .DELETE_ON_ERROR:
 .DEFAULT_GOAL := build
-.PHONY: demo test build nightly bench stubs format clean distclean lint cpp-test cpp-sanitize python-test \
-        system-packages FORCE
+.PHONY: demo test build nightly bench bench-peers stubs format clean distclean lint cpp-test cpp-sanitize \
+        python-test system-packages FORCE
 
 ifndef PYTHON
 PYTHON := $(shell .ci/find-python)
@@ -96,6 +97,11 @@ nightly: build .venv/.installed-dev
 
 bench: build .venv/.installed-dev
 	$(BIN)/python benchmarks/run.py
+
+bench-peers: build .venv/.installed-dev
+	$(PYTHON) -m venv out/peers
+	out/peers/bin/python -m pip install -q -r benchmarks/peers/requirements.txt
+	OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 $(BIN)/python benchmarks/peers/run.py --peers out/peers/bin/python
 
 # Default arguments that are objects print as `...`; tests/test_packaging.py runs the same command.
 STUB_OPTIONS := --exit-code --ignore-invalid-expressions '<seacrane\._core\.\w+ object at 0x[0-9a-f]+>'
