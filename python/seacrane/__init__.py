@@ -53,6 +53,7 @@ if TYPE_CHECKING:
     from seacrane.sea import SeaState, WaveSystem
     from seacrane.sea_state import add_sea
     from seacrane.simulation import Run, SampledController, simulate
+    from seacrane.trading import Trade, trade
     from seacrane.version import __version__
     from seacrane.vessel import add_vessel
     from seacrane.waves import ByHeading, RepeatingSeaWarning, Waves
@@ -86,6 +87,7 @@ _HOME = {
     "State": "_core",
     "StateSpaceBlock": "_core",
     "SummedResponse": "frequency_domain",
+    "Trade": "trading",
     "TwistHistory": "_core",
     "VesselHydrodynamics": "_core",
     "WaveSystem": "sea",
@@ -113,6 +115,7 @@ _HOME = {
     "response_summed": "frequency_domain",
     "simulate": "simulation",
     "spline_curve": "curves",
+    "trade": "trading",
     "use_actual_position": "environment",
 }
 _MODULES = ("cases", "crane", "hydro", "sea")
@@ -145,6 +148,7 @@ __all__ = [
     "State",
     "StateSpaceBlock",
     "SummedResponse",
+    "Trade",
     "TwistHistory",
     "VesselHydrodynamics",
     "WaveSystem",
@@ -177,6 +181,7 @@ __all__ = [
     "sea",
     "simulate",
     "spline_curve",
+    "trade",
     "use_actual_position",
 ]
 

@@ -23,6 +23,7 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 Snapshot = Mapping[str, Array]
 MOST_OUTPUTS = 1e8
+DEFAULT_INTEGRATOR, DEFAULT_RTOL = "dopri5", 1e-6
 RESIDUAL_INTEGRATORS = ("ida", "generalized-alpha", "generalized-alpha-index2")
 FORMULATIONS = ("auto", "recursive", "redundant")
 BAUMGARTE_OF_ADAMS = 5.0  # 1/s: cvode-adams cannot project
@@ -108,8 +109,8 @@ class Run:
         *,
         t_end: float,
         dt_out: float = 0.1,
-        integrator: str = "dopri5",
-        rtol: float = 1e-6,
+        integrator: str = DEFAULT_INTEGRATOR,
+        rtol: float = DEFAULT_RTOL,
         dt: float = 0.0,
         max_step: float = 0.0,
         formulation: str = "auto",
@@ -275,14 +276,15 @@ def simulate(
     *,
     t_end: float = 100.0,
     dt_out: float = 0.1,
-    integrator: str = "dopri5",
-    rtol: float = 1e-6,
+    integrator: str = DEFAULT_INTEGRATOR,
+    rtol: float = DEFAULT_RTOL,
     dt: float = 0.0,
     max_step: float = 0.0,
     formulation: str = "auto",
     channels: Sequence[str] | None = None,
     controllers: Sequence[SampledController] = (),
     start: _core.State | None = None,
+    accuracy: Mapping[str, float] | None = None,
     progress: bool = False,
 ) -> Result:
     """Simulate a scene and return its recorded channels.
@@ -315,6 +317,11 @@ def simulate(
         Called at their periods from the start on.
     start : State, optional
         Where to go on from; default: the assembled start of the scene.
+    accuracy : mapping of str to float, optional
+        Largest error over the outputs by quantity, such as ``{"payload_position": 0.01}``, in its unit; the
+        quantities are those of `seacrane.trade`. Integrator and tolerance are then chosen, by running twice
+        or more until two runs agree: leave integrator, rtol and dt alone. What is left of the integration
+        error is estimated in `stats`, as "error_estimate_<quantity>".
     progress : bool
         Show a progress bar.
 
@@ -331,10 +338,27 @@ def simulate(
         When the integration cannot go on; it says where, when and what to try.
     """
     controllers = _checked(controllers)
+    if accuracy is not None:
+        from seacrane.trading.accuracy import simulate_to_accuracy
+
+        if controllers or (integrator, rtol, dt) != (DEFAULT_INTEGRATOR, DEFAULT_RTOL, 0.0):
+            raise SceneError(
+                "accuracy: chooses integrator, rtol and dt itself, and runs more than once, which a "
+                "controller may not allow; leave these out, or leave out accuracy"
+            )
+        return simulate_to_accuracy(
+            scene, accuracy, channels=channels, progress=progress, t_end=t_end, dt_out=dt_out,
+            max_step=max_step, formulation=formulation, start=start,
+        )  # fmt: skip
     run = Run(
         scene, t_end=t_end, dt_out=dt_out, integrator=integrator, rtol=rtol, dt=dt, max_step=max_step,
         formulation=formulation, channels=channels, start=start,
     )  # fmt: skip
+    return finished(run, controllers, progress=progress)
+
+
+def finished(run: Run, controllers: Sequence[SampledController] = (), *, progress: bool = False) -> Result:
+    """Advance a run to its end, or to where Ctrl-C stops it, and return its result."""
     report, close = _progress(run.start.time, run.t_end, progress)
     try:
         _advance(run, run.t_end, controllers, report)

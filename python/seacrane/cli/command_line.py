@@ -34,6 +34,7 @@ def build_parser() -> argparse.ArgumentParser:
     _add_paper(commands)
     _add_report(commands)
     _add_hydro(commands)
+    _add_trade(commands)
     return parser
 
 
@@ -104,6 +105,14 @@ def _add_hydro(commands: Any) -> None:
     hydro.add_argument("path", metavar="PATH", help=PATH_HELP)
     hydro.add_argument("--json", action="store_true", help="print JSON instead of a table")
     hydro.add_argument("--out", metavar="DIR", help="also plot the database into this folder; made if absent")
+
+
+def _add_trade(commands: Any) -> None:
+    text = "measure what every setting costs and what error it brings: trade.csv and trade.png"
+    trade = commands.add_parser("trade", help=text, description=f"{text}; a call that was stopped goes on")
+    trade.add_argument("scene", metavar="SCENE", help=SCENE_HELP)
+    trade.add_argument("--out", metavar="DIR", required=True, help="folder to write to; made if absent")
+    trade.add_argument("--quick", action="store_true", help="a coarse grid of few integrators")
 
 
 def main(arguments: Sequence[str] | None = None) -> int:

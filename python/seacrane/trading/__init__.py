@@ -1,0 +1,7 @@
+"""Speed traded for accuracy: the measured cost and error of every setting, and the choice among them."""
+
+from __future__ import annotations
+
+from seacrane.trading.study import Trade, trade
+
+__all__ = ["Trade", "trade"]

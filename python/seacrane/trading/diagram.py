@@ -1,0 +1,100 @@
+"""Work-precision diagrams of a trade."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from seacrane.trading import rungs
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+    from seacrane.trading.rows import Row
+    from seacrane.trading.study import Trade
+
+COLUMNS = 2
+MARKERS = "ovs^Dp*hXP<>d8H"
+SHAPES = {"recursive": "-", "redundant": ":"}
+
+
+def work_precision(trade: Trade) -> Figure:
+    """One panel per quantity: largest error over wall time per simulated second, both logarithmic.
+
+    Lines join the tolerances or steps of one integrator, solid in the recursive and dotted in the redundant
+    formulation; crosses with a label leave physics out; the grey band is the reference's uncertainty.
+    """
+    from matplotlib.figure import Figure
+
+    names = list(trade.quantities)
+    down = -(-len(names) // COLUMNS)
+    figure = Figure(figsize=(15.0, 5.2 * down), layout="constrained")
+    panels = figure.subplots(down, COLUMNS, squeeze=False).ravel()
+    for panel in panels[len(names) :]:
+        panel.set_axis_off()
+    for panel, name in zip(panels, names, strict=False):
+        _draw(panel, trade, name)
+    handles = {
+        label: handle
+        for panel in panels
+        for handle, label in zip(*panel.get_legend_handles_labels(), strict=True)
+    }
+    figure.legend(handles.values(), handles.keys(), loc="outside right upper", fontsize=8)
+    figure.suptitle(
+        f"{trade.metadata['scene']}: {trade.metadata['t_end']:g} s, errors at outputs every "
+        f"{trade.metadata['dt_out']:g} s; solid recursive, dotted redundant"
+    )
+    return figure
+
+
+def _draw(axes: Axes, trade: Trade, quantity: str) -> None:
+    full = (trade.metadata["memory"], trade.metadata["waves"], rungs.FULL)
+    colours: dict[str, Any] = {}
+    groups: dict[tuple[str, str], list[Row]] = {}
+    for row in trade.rows:
+        if not row.stable or not np.isfinite(row.error(quantity)):
+            continue
+        if (row.memory, row.waves, row.rung) == full:
+            groups.setdefault((row.integrator, row.formulation), []).append(row)
+        else:
+            _mark(axes, row, quantity, full)
+    for (integrator, formulation), rows in groups.items():
+        number = colours.setdefault(integrator, len(colours))
+        axes.loglog(
+            [_cost(row) for row in rows], [row.error(quantity) for row in rows], SHAPES[formulation],
+            color=f"C{number % 10}", marker=MARKERS[number % len(MARKERS)], markersize=4, linewidth=1,
+            label=integrator if formulation == "recursive" else None,
+            markerfacecolor=None if number < 10 else "white",
+        )  # fmt: skip
+        if formulation != "recursive" and (integrator, "recursive") not in groups:
+            axes.lines[-1].set_label(integrator)
+    best = trade.front(quantity)
+    axes.step(
+        [_cost(row) for row in best], [row.error(quantity) for row in best], where="post", color="black",
+        linewidth=2.5, alpha=0.35, label="Pareto front",
+    )  # fmt: skip
+    axes.axhspan(0.0, trade.reference.uncertainty[quantity], color="0.85")
+    axes.set_xlabel("wall time per simulated second [s]")
+    axes.set_ylabel(f"largest error [{trade.quantities[quantity].unit}]")
+    axes.set_title(quantity.replace("_", " "))
+    axes.grid(alpha=0.3)
+
+
+def _cost(row: Row) -> float:
+    return row.wall_s / row.simulated_s
+
+
+def _mark(axes: Axes, row: Row, quantity: str, full: tuple[Any, ...]) -> None:
+    """A rung, labelled by what differs from the full scene."""
+    parts = (f"memory {row.memory}", row.waves, row.rung)
+    label = ", ".join(
+        part
+        for part, own, kept in zip(parts, (row.memory, row.waves, row.rung), full, strict=True)
+        if own != kept
+    )
+    axes.loglog(_cost(row), row.error(quantity), "kx", markersize=6)
+    axes.annotate(
+        label, (_cost(row), row.error(quantity)), xytext=(5, 2), textcoords="offset points", fontsize=7
+    )

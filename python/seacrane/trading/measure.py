@@ -1,0 +1,225 @@
+"""Run one setting or one rung, and measure its cost and its error."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from seacrane.errors import SceneError, SeacraneError
+from seacrane.simulation import simulate
+from seacrane.trading import rungs
+from seacrane.trading.quantities import PAYLOAD, Quantity, compare
+from seacrane.trading.rows import NOT_DEFINED, Row
+from seacrane.trading.settings_grid import TIGHT, Setting
+
+if TYPE_CHECKING:
+    from seacrane.result import Result
+    from seacrane.scene import Scene
+
+Array = NDArray[np.float64]
+LONG = 0.3  # s of wall time from which on one run tells the cost
+CHECKS = ("constraint_error_before_projection", "energy_balance", "absolute_work")
+
+
+@dataclass(frozen=True, kw_only=True)
+class Span:
+    """What every run of a trade has in common."""
+
+    t_end: float
+    dt_out: float
+    repeats: int
+    quantities: Mapping[str, Quantity]
+
+    def run(self, scene: Scene, setting: Setting, *, repeats: int | None = None, **also: Any) -> Result:
+        """The quickest of equal runs, recording what the quantities need."""
+        wanted = {channel for quantity in self.quantities.values() for channel in quantity.channels}
+        wanted |= {*CHECKS, *also.pop("channels", ())}
+        channels = [name for name in wanted if name in _offered(scene)]
+        best: Result | None = None
+        for _ in range(self.repeats if repeats is None else repeats):
+            result = simulate(
+                scene, t_end=self.t_end, dt_out=self.dt_out, channels=channels, **setting.arguments()
+            )
+            if result.interrupted:
+                raise KeyboardInterrupt
+            if best is None or wall(result) < wall(best):
+                best = result
+            if wall(best) > LONG:
+                break
+        assert best is not None
+        return best
+
+
+def wall(result: Result) -> float:
+    """Wall time of the loop, s."""
+    return float(result.stats["wall_s"])
+
+
+def _offered(scene: Scene) -> set[str]:
+    from seacrane.channel_names import CRANE_CHANNELS
+
+    known = set(scene.compile().channel_names(defaults_only=False))
+    return known | {name for name, parts in CRANE_CHANNELS.items() if set(parts) & known}
+
+
+@dataclass(frozen=True, kw_only=True)
+class Reference:
+    """The tight runs: values by quantity, their uncertainty, and the runs that did not work."""
+
+    values: Mapping[str, Array]
+    uncertainty: Mapping[str, float]
+    runs: tuple[str, ...]
+    refused: Mapping[str, str]
+
+
+def reference(scene: Scene, span: Span) -> Reference:
+    """Tight runs in two formulations and with two methods; the first is the reference.
+
+    Raises
+    ------
+    SceneError
+        If fewer than two of them work: a reference without a second opinion is none.
+    """
+    runs: dict[str, dict[str, Array]] = {}
+    refused: dict[str, str] = {}
+    for setting in TIGHT:
+        name = f"{setting.formulation} {setting.integrator} {setting.text}"
+        try:
+            result = span.run(scene, setting, repeats=1)
+        except SeacraneError as error:
+            refused[name] = str(error)
+            continue
+        runs[name] = {key: quantity.values(result) for key, quantity in span.quantities.items()}
+    if len(runs) < 2:
+        raise SceneError(
+            f"scene {scene.name!r}: only {len(runs)} of {len(TIGHT)} reference runs work, and one cannot be "
+            f"checked: {'; '.join(refused.values())}"
+        )
+    first, *others = runs.values()
+    spread = {
+        name: max(compare(first[name], run[name]).largest for run in others) for name in span.quantities
+    }
+    return Reference(values=first, uncertainty=spread, runs=tuple(runs), refused=refused)
+
+
+def measure(scene: Scene, setting: Setting, span: Span, truth: Mapping[str, Array], row: Row) -> Row:
+    """The row of a numerical setting or of a scene with one thing changed, filled in."""
+    from dataclasses import replace
+
+    try:
+        result, before = _run(scene, setting, span, row.rung)
+        if not all(np.isfinite(values).all() for values in result.channels.values()):
+            return replace(row, reason="the run ended with values that are not finite")
+        values = {name: _values(quantity, result) for name, quantity in span.quantities.items()}
+        if row.rung == rungs.WEIGHT:
+            values |= _of_weight(scene, result)
+    except SeacraneError as error:
+        return replace(row, reason=" ".join(str(error).split()))
+    errors = {name: compare(truth[name], v) for name, v in values.items() if v is not None and name in truth}
+    left_out = [name for name in span.quantities if name not in errors]
+    return replace(
+        row,
+        formulation=str(result.stats["formulation"]),
+        wall_s=wall(result) + before,
+        simulated_s=float(result.stats["simulated_s"]),
+        evaluations=int(result.stats["evaluations"]),
+        errors=errors,
+        drift=_drift(result),
+        energy=_energy(result),
+        stable=True,
+        reason=f"has no {', '.join(left_out)}" if left_out else "",
+    )
+
+
+def _run(scene: Scene, setting: Setting, span: Span, rung: str) -> tuple[Result, float]:
+    """The run, and the wall time of a run that it rests on (s)."""
+    if rung == rungs.WEIGHT:
+        return span.run(rungs.payload_as_weight(scene), setting), 0.0
+    if rung != rungs.PRESCRIBED:
+        return span.run(scene, setting), 0.0
+    alone = span.run(rungs.locked(scene), setting, channels=("vessel_motion",))
+    driven = rungs.with_prescribed_vessel(scene, alone.time, alone["vessel_motion"])
+    return span.run(driven, setting), wall(alone)
+
+
+def _values(quantity: Quantity, result: Result) -> Array | None:
+    """None where the changed scene has no such quantity."""
+    try:
+        return quantity.values(result)
+    except (KeyError, ValueError):
+        return None
+
+
+def _of_weight(scene: Scene, result: Result) -> dict[str, Array]:
+    """Tension is the weight; the payload hangs plumb under the tip."""
+    from seacrane.channel_names import LINK
+    from seacrane.frames import rotation_matrix
+
+    joint = scene.joints[LINK]
+    payload, body = scene.bodies[joint.second], scene.bodies[joint.first]
+    turn = rotation_matrix(result.select("quaternion", body=joint.first))
+    lever = np.asarray(joint.first_frame.point) - np.asarray(body.center_of_mass)
+    tip = result.select("position", body=joint.first) + turn @ lever
+    out = {"hook_tension": np.full((len(tip), 1, 1), payload.mass * scene.gravity)}
+    spin = np.cross(result.select("angular_velocity", body=joint.first), turn @ lever)
+    out["tip_velocity"] = (result.select("velocity", body=joint.first) + spin)[:, None]
+    if joint.second == PAYLOAD:
+        below = joint.length + float(joint.second_frame.point[2] - payload.center_of_mass[2])
+        out["payload_position"] = (tip - np.array([0.0, 0.0, below]))[:, None]
+    return out
+
+
+def frequency_domain(scene: Scene, span: Span, truth: Mapping[str, Array], start: Array, row: Row) -> Row:
+    """The row of the linear model about the described pose, in its steady state under the same waves.
+
+    Parameters
+    ----------
+    start : ndarray, shape (3,)
+        Payload position at rest, m.
+    """
+    import time
+    from dataclasses import replace
+
+    from seacrane.frequency_domain import response_summed
+    from seacrane.linear_system import linear_model
+
+    begun = time.perf_counter()
+    try:
+        linear = linear_model(scene)
+        times = span.dt_out * np.arange(len(next(iter(truth.values()))))
+        values: dict[str, Array] = {}
+        (vessel,) = scene.vessels.values()
+        if "roll" in truth:
+            values["roll"] = response_summed(linear, body=vessel.body).at(times)[:, 3, None, None]
+        if "payload_position" in truth:
+            moved = response_summed(linear, body=PAYLOAD).at(times)[:, :3]
+            values["payload_position"] = (start + moved)[:, None]
+    except (SeacraneError, ValueError) as error:
+        return replace(row, reason=" ".join(str(error).split()))
+    errors = {name: compare(truth[name], value) for name, value in values.items()}
+    left_out = [name for name in span.quantities if name not in errors]
+    return replace(
+        row,
+        wall_s=time.perf_counter() - begun,
+        simulated_s=span.t_end,
+        errors=errors,
+        stable=True,
+        reason=f"has no {', '.join(left_out)}" if left_out else "",
+    )
+
+
+def _drift(result: Result) -> float:
+    values = result.channels.get("constraint_error_before_projection")
+    return NOT_DEFINED if values is None else float(np.max(values))
+
+
+def _energy(result: Result) -> float:
+    """Largest energy balance over the absolute work done by the end."""
+    balance, work = result.channels.get("energy_balance"), result.channels.get("absolute_work")
+    if balance is None or work is None or not work[-1] > 0.0:
+        return NOT_DEFINED
+    return float(np.max(np.abs(balance)) / work[-1])

@@ -1,0 +1,80 @@
+"""The numerical settings that a trade measures: formulation, integrator, and tolerance or step."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Any
+
+FORMULATIONS = ("recursive", "redundant")
+COARSE = (1e-1, 1e-2, 1e-3, 1e-4)
+MIDDLE = (*COARSE, 1e-5, 1e-6)
+FINE = (*MIDDLE, 1e-7, 1e-8, 1e-9)
+TOLERANCES: dict[str, tuple[float, ...]] = {
+    "heun21": COARSE,
+    "bs32": MIDDLE,
+    "rk43": FINE,
+    "dopri5": FINE,
+    "tsit5": FINE,
+    "verner65": FINE,
+    "verner76": FINE,
+    "dop853": FINE,
+    "rosenbrock": COARSE,
+    "ark-erk": MIDDLE,
+    "ark-dirk": COARSE,
+    "ark-imex": COARSE,
+    "cvode-adams": MIDDLE,
+    "cvode-bdf": MIDDLE,
+    "ida": MIDDLE,
+}
+STEPS: dict[str, tuple[float, ...]] = {  # s
+    "semi-implicit-euler": (0.1, 0.05, 0.02, 0.01, 0.005),
+    "rk4": (0.2, 0.1, 0.05, 0.025, 0.0125),
+    "rk-low-storage": (0.2, 0.1, 0.05, 0.025),
+    "generalized-alpha": (0.1, 0.05, 0.02),
+    "generalized-alpha-index2": (0.1, 0.05, 0.02),
+}
+QUICK_INTEGRATORS = ("tsit5", "dop853", "rk4", "semi-implicit-euler")
+
+
+@dataclass(frozen=True, kw_only=True)
+class Setting:
+    """One choice of the numerics, as `simulate` takes it; `dt` 0 where the tolerance counts, and reverse."""
+
+    formulation: str
+    integrator: str
+    rtol: float = 0.0
+    dt: float = 0.0
+
+    @property
+    def text(self) -> str:
+        """The tolerance or the step."""
+        return f"rtol={self.rtol:g}" if self.rtol else f"dt={self.dt:g}"
+
+    def arguments(self) -> dict[str, Any]:
+        """Keyword arguments of `simulate`."""
+        size = {"rtol": self.rtol} if self.rtol else {"dt": self.dt}
+        return {"formulation": self.formulation, "integrator": self.integrator, **size}
+
+
+def settings(*, quick: bool) -> Iterator[Setting]:
+    """All settings of the grid; `quick` takes every third tolerance of a few integrators."""
+    for formulation in FORMULATIONS:
+        for integrator, values in {**TOLERANCES, **STEPS}.items():
+            if quick and integrator not in QUICK_INTEGRATORS:
+                continue
+            size = "rtol" if integrator in TOLERANCES else "dt"
+            for value in values[1::3] if quick else values:
+                yield Setting(formulation=formulation, integrator=integrator, **{size: value})
+
+
+TIGHT = (
+    Setting(formulation="recursive", integrator="dop853", rtol=1e-12),
+    Setting(formulation="recursive", integrator="verner76", rtol=1e-12),
+    Setting(formulation="redundant", integrator="dop853", rtol=1e-12),
+    Setting(formulation="redundant", integrator="verner76", rtol=1e-12),
+)
+"""The reference's runs; they differ in equations and in method, so that their difference is its error."""
+
+PHYSICS = Setting(formulation="auto", integrator="dop853", rtol=1e-8)
+"""Numerics of the physics rungs: an error far below what leaving physics out brings."""

@@ -1,0 +1,104 @@
+"""simulate(accuracy=...): what it promises against tight runs, and what it refuses."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from trade_scenes import Promise, promise
+
+from seacrane import SampledController, Scene, SceneError, cases, simulate
+from seacrane.trading.quantities import quantities_of
+
+
+def shares(found: list[Promise]) -> dict[str, float]:
+    """How often each promise holds."""
+    return {
+        "error within the limit": float(np.mean([p.error <= p.limit for p in found])),
+        "error within the estimate": float(np.mean([p.error <= p.estimate for p in found])),
+        "chosen setting within twice the cheapest": float(np.mean([p.cost_of_run <= 2.0 for p in found])),
+    }
+
+
+def test_errors_stay_within_limit_and_estimate() -> None:
+    rng = np.random.default_rng(20)
+    found = [promise(rng, t_end=10.0, grid=False) for _ in range(5)]
+    assert all(p.error <= p.estimate <= p.limit for p in found), found
+
+
+@pytest.mark.nightly
+def test_promises_hold_on_200_random_scenes() -> None:
+    rng = np.random.default_rng(2026)
+    found = [promise(rng, t_end=40.0) for _ in range(200)]
+    held = shares(found)
+    assert min(held.values()) >= 0.95, held
+
+
+def pendulum() -> Scene:
+    scene = Scene(name="pendulum")
+    scene.add_body(name="bob", mass=2.0, inertia=(0.1, 0.1, 0.1), position=(1.0, 0.0, 0.0))
+    scene.add_joint(
+        kind="revolute", name="pin", first="ground", second="bob", point=(0, 0, 0), axis=(0, 1, 0)
+    )
+    return scene
+
+
+def test_a_tighter_limit_gives_a_smaller_error_and_states_its_estimate() -> None:
+    scene = pendulum()
+    truth = simulate(scene, t_end=10.0, integrator="verner76", rtol=1e-12)
+    errors = []
+    for limit in (1e-2, 1e-5, 1e-8):
+        result = simulate(scene, t_end=10.0, accuracy={"position": limit})
+        errors.append(float(np.linalg.norm(result["position"] - truth["position"], axis=-1).max()))
+        assert errors[-1] <= float(result.stats["error_estimate_position"]) <= limit
+        assert result.stats["accuracy_position"] == limit and int(result.stats["accuracy_runs"]) >= 2
+    assert errors[0] > errors[1] > errors[2] > 0.0
+
+
+def test_only_the_channels_asked_for_are_returned() -> None:
+    result = simulate(pendulum(), t_end=1.0, accuracy={"position": 1e-3}, channels=["velocity"])
+    assert list(result.channels) == ["velocity"]
+
+
+@pytest.mark.parametrize(
+    ("accuracy", "says"),
+    [
+        ({}, "accuracy is empty"),
+        ({"position": 0.0}, "position is 0.0"),
+        ({"position": float("nan")}, "position is nan"),
+        ({"roll": 0.1}, "'roll' is unknown"),
+        (0.01, "give a mapping"),
+        ({"position": 1e-17}, "the limit is .* set by rounding"),
+    ],
+)
+def test_impossible_accuracies_are_refused(accuracy: object, says: str) -> None:
+    with pytest.raises(SceneError, match=says):
+        simulate(pendulum(), t_end=2.0, accuracy=accuracy)  # type: ignore[arg-type]
+
+
+def test_a_chaotic_motion_is_named_as_the_limit() -> None:
+    scene = pendulum()
+    scene.add_body(name="second", mass=2.0, inertia=(0.1, 0.1, 0.1), position=(1.0, 0.0, 1.0))
+    scene.add_joint(kind="revolute", name="p2", first="bob", second="second", point=(1, 0, 0), axis=(0, 1, 0))
+    with pytest.raises(SceneError, match="set by the motion itself"):
+        simulate(scene, t_end=60.0, accuracy={"position": 1e-6})
+
+
+def test_settings_that_accuracy_chooses_are_refused_beside_it() -> None:
+    controller = SampledController(period=0.1, function=lambda time, measured: {})
+    for also in ({"rtol": 1e-3}, {"integrator": "rk4"}, {"dt": 0.1}, {"controllers": [controller]}):
+        with pytest.raises(SceneError, match="chooses integrator, rtol and dt itself"):
+            simulate(pendulum(), t_end=1.0, accuracy={"position": 1e-3}, **also)  # type: ignore[arg-type]
+
+
+def test_the_tip_velocity_is_the_velocity_of_the_links_upper_end() -> None:
+    scene = cases.case2()
+    result = simulate(scene, t_end=5.0, dt_out=0.01, integrator="dop853", rtol=1e-10)
+    velocity = quantities_of(scene, scene.compile(), ["tip_velocity"])["tip_velocity"].values(result)[:, 0]
+    joint, body = scene.joints["link"], scene.bodies["knuckle_jib"]
+    from seacrane.frames import rotation_matrix
+
+    lever = np.asarray(joint.first_frame.point) - np.asarray(body.center_of_mass)
+    turn = rotation_matrix(result.select("quaternion", body="knuckle_jib"))
+    tip = result.select("position", body="knuckle_jib") + turn @ lever
+    differences = (tip[2:] - tip[:-2]) / 0.02
+    assert np.abs(differences - velocity[1:-1]).max() < 1e-3 * np.abs(velocity).max()
