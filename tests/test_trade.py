@@ -1,0 +1,206 @@
+"""trade(): its reference, rows, front, choice and file; and the scenes with less physics in them."""
+
+from __future__ import annotations
+
+import csv
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from seacrane import Scene, SceneError, Trade, cases, simulate, trade
+from seacrane.hydro import shipped_database
+from seacrane.trading import measure, rungs, study
+from seacrane.trading.quantities import compare, quantities_of
+from seacrane.trading.rows import Row, RowFile
+from seacrane.trading.settings_grid import Setting
+
+T_END = 6.0
+TIGHT = {"integrator": "dop853", "rtol": 1e-11}
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return tmp_path_factory.mktemp("trade")
+
+
+@pytest.fixture(scope="module")
+def case2() -> Scene:
+    return cases.case2()
+
+
+@pytest.fixture(scope="module")
+def measured(case2: Scene, folder: Path) -> Trade:
+    return trade(case2, t_end=T_END, quick=True, progress=False, out=folder)
+
+
+def test_the_reference_is_tight_and_settings_converge_towards_it(measured: Trade) -> None:
+    assert list(measured.quantities) == [
+        "payload_position", "tip_velocity", "roll", "cylinder_force", "hook_tension",
+    ]  # fmt: skip
+    assert 0.0 < measured.reference.uncertainty["payload_position"] < 1e-10
+    assert len(measured.reference.runs) == 4
+    for formulation in ("recursive", "redundant"):
+        rows = [r for r in measured.rows if (r.formulation, r.integrator) == (formulation, "tsit5")]
+        errors = [row.error("payload_position") for row in rows if row.rung == "full"]
+        assert len(errors) == 3 and errors[0] > 10 * errors[1] > 100 * errors[2] > 0.0
+
+
+def test_a_row_holds_what_its_settings_give(case2: Scene, measured: Trade) -> None:
+    row = next(r for r in measured.rows if r.integrator == "rk4" and r.formulation == "recursive")
+    run = simulate(case2, t_end=T_END, formulation="recursive", integrator="rk4", dt=row.dt)
+    tight = simulate(case2, t_end=T_END, integrator="verner76", rtol=1e-12)
+    distance = np.linalg.norm(
+        run.select("position", body="payload") - tight.select("position", body="payload"), axis=-1
+    )
+    assert row.error("payload_position") == pytest.approx(distance.max(), rel=1e-3)
+    assert row.errors["payload_position"].rms == pytest.approx(np.sqrt(np.mean(distance**2)), rel=1e-3)
+    assert row.evaluations == run.stats["evaluations"]
+
+
+def test_no_row_beats_one_on_the_front(measured: Trade) -> None:
+    front = measured.front("roll")
+    assert front
+    for row in measured.rows:
+        if np.isfinite(row.error("roll")):
+            beats = [row.wall_s < f.wall_s and row.error("roll") < f.error("roll") for f in front]
+            assert not any(beats)
+
+
+def test_the_cheapest_setting_meets_its_limit_when_run(case2: Scene, measured: Trade) -> None:
+    settings = measured.cheapest(payload_position=1e-4, roll=1e-6)
+    run = simulate(case2, t_end=T_END, **settings)
+    tight = simulate(case2, t_end=T_END, **TIGHT)
+    error = compare(
+        tight.select("position", body="payload")[:, None], run.select("position", body="payload")[:, None]
+    )
+    assert error.largest <= 1e-4
+
+
+@pytest.mark.parametrize(
+    ("accuracy", "says"),
+    [
+        ({"payload_position": 1e-16}, "the limit is .* set by rounding"),
+        ({"payload_position": 1e-11}, "beyond this grid: its smallest error is .* set by the local error"),
+        ({"pitch": 1.0}, "'pitch' was not measured"),
+        ({"roll": -1.0}, "roll is -1.0"),
+        ({}, "accuracy is empty"),
+    ],
+)
+def test_what_the_grid_cannot_give_is_refused(measured: Trade, accuracy: dict[str, float], says: str) -> None:
+    with pytest.raises(SceneError, match=says):
+        measured.cheapest(**accuracy)
+
+
+def test_files_and_table_hold_every_row(measured: Trade, folder: Path) -> None:
+    with (folder / "trade.csv").open() as file:
+        rows = list(csv.DictReader(file))
+    assert len(rows) == len(measured.rows) == measured.table.sizes["row"]
+    head = ["formulation", "integrator", "setting", "memory", "waves", "rung", "wall_s", "evaluations"]
+    head += [f"error_{name}" for name in measured.quantities]
+    head += ["drift", "energy", "stable", "reason", "pareto"]
+    assert list(rows[0])[: len(head)] == head
+    assert (folder / "trade.png").read_bytes()[:4] == b"\x89PNG"
+    error = measured.table["error"].sel(quantity="roll").to_numpy()
+    assert float(rows[0]["error_roll"]) == pytest.approx(error[0], rel=1e-5)
+    assert {row["rung"] for row in rows} >= {rungs.LOCKED, rungs.PRESCRIBED, rungs.WEIGHT, rungs.LINEAR}
+
+
+def test_a_later_call_goes_on_and_another_scene_begins_anew(
+    case2: Scene, measured: Trade, folder: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    path = folder / "trade_rows.jsonl"
+    lines = path.read_text().splitlines()
+    path.write_text("\n".join(lines[:-1]) + "\n" + lines[-1][:40])  # as if stopped while writing
+    called: list[str] = []
+
+    def filled(*arguments: object) -> Row:
+        called.append("one")
+        return measured.rows[-1]
+
+    monkeypatch.setattr(study, "measure", filled)
+    monkeypatch.setattr(study, "frequency_domain", filled)
+    again = trade(case2, t_end=T_END, quick=True, progress=False, out=folder)
+    assert called == ["one"]
+    assert [row.wall_s for row in again.rows] == [row.wall_s for row in measured.rows]
+    other = RowFile(path, {"scene": "another"})
+    assert not other.rows and len(path.read_text().splitlines()) == 1
+
+
+def test_a_setting_that_does_not_exist_is_a_row_with_its_reason(case2: Scene) -> None:
+    span = measure.Span(
+        t_end=1.0, dt_out=0.1, repeats=1, quantities=quantities_of(case2, case2.compile(), ["roll"])
+    )
+    setting = Setting(formulation="recursive", integrator="ida", rtol=1e-3)
+    row = Row(formulation="recursive", integrator="ida", rtol=1e-3, dt=0.0, memory="", waves="", rung="full")
+    done = measure.measure(case2, setting, span, {"roll": np.zeros((11, 1, 1))}, row)
+    assert not done.stable and "solves the redundant equations" in done.reason
+
+
+def test_another_memory_is_that_of_a_case_built_with_it(case2: Scene) -> None:
+    built = cases.case2(memory="passive")
+    changed = rungs.with_memory(case2, "passive", shipped_database())
+    mooring = {"mooring_stiffness": built.vessels["vessel"].mooring_stiffness,
+               "mooring_damping": built.vessels["vessel"].mooring_damping}  # fmt: skip
+    changed.vessels["vessel"] = rungs._changed(changed.vessels["vessel"], **mooring)
+    one, other = (simulate(scene, t_end=T_END, **TIGHT) for scene in (built, changed))
+    assert np.abs(one["position"] - other["position"]).max() < 1e-10  # feed-forward loads differ by rounding
+    assert case2.notes["memory"] == "per-pair"
+
+
+def test_a_crane_on_its_own_prescribed_vessel_motion_moves_as_in_the_full_scene(case2: Scene) -> None:
+    full = simulate(case2, t_end=T_END, **TIGHT)
+    driven = rungs.with_prescribed_vessel(case2, full.time, full["vessel_motion"])
+    alone = simulate(driven, t_end=T_END, **TIGHT)
+    assert np.abs(alone["vessel_motion"] - full["vessel_motion"]).max() < 1e-10
+    assert np.abs(alone["position"] - full["position"]).max() < 1e-4  # the spline between samples of 0.1 s
+    assert np.abs(full["vessel_motion"]).max() > 0.1
+
+
+def test_a_weight_in_place_of_the_payload_hangs_as_the_payload_in_calm_water() -> None:
+    scene = cases.case2(hs=0.0)
+    for name in list(scene.actuators):
+        scene.actuators[name] = rungs._core.Actuator(
+            name=name, joint=scene.actuators[name].joint, coordinate=scene.actuators[name].coordinate,
+            stiffness=scene.actuators[name].stiffness, damping=scene.actuators[name].damping,
+            feed_forward=scene.actuators[name].feed_forward,
+        )  # fmt: skip
+    quantities = quantities_of(scene, scene.compile(), None)
+    span = measure.Span(t_end=5.0, dt_out=0.1, repeats=1, quantities=quantities)
+    run = simulate(scene, t_end=5.0, dt_out=0.1, **TIGHT)
+    truth = {name: quantity.values(run) for name, quantity in quantities.items()}
+    row = Row(
+        formulation="auto", integrator="dop853", rtol=1e-9, dt=0.0, memory="", waves="", rung=rungs.WEIGHT
+    )
+    done = measure.measure(
+        scene, Setting(formulation="auto", integrator="dop853", rtol=1e-9), span, truth, row
+    )
+    assert done.stable, done.reason
+    assert done.error("payload_position") < 1e-6 and done.error("hook_tension") < 1.0
+    assert done.error("cylinder_force") < 1.0 and set(done.errors) == set(quantities)
+
+
+def test_the_strongest_components_carry_the_load(case2: Scene) -> None:
+    waves = case2.waves
+    assert waves is not None
+    half = rungs.strongest(waves, 100)
+    assert set(half.omega) < set(waves.omega) and len(half.omega) == 100
+    load = [np.sum(np.abs(w.transfer[:, 3] * w.amplitude) ** 2) for w in (half, waves)]
+    assert load[0] > 0.95 * load[1]
+    assert np.array_equal(rungs.strongest(waves, 200).phase, waves.phase)
+
+
+def test_a_scene_without_a_vessel_is_traded_on_its_numerics(tmp_path: Path) -> None:
+    scene = Scene(name="pendulum")
+    scene.add_body(name="bob", mass=2.0, inertia=(0.1, 0.1, 0.1), position=(1.0, 0.0, 0.0))
+    scene.add_joint(
+        kind="revolute", name="pin", first="ground", second="bob", point=(0, 0, 0), axis=(0, 1, 0)
+    )
+    found = trade(scene, t_end=2.0, quick=True, progress=False)
+    assert list(found.quantities) == ["position", "velocity"] and {r.rung for r in found.rows} == {"full"}
+    with pytest.raises(SceneError, match="'depth' is unknown to this scene"):
+        trade(scene, quantities=["depth"], t_end=2.0, progress=False)
+    with pytest.raises(SceneError, match="is no folder"):
+        trade(scene, t_end=2.0, quick=True, progress=False, out=tmp_path / "absent")
+    assert replace(found.rows[0], stable=False).key == found.rows[0].key
