@@ -40,7 +40,7 @@ def random_scene(rng: np.random.Generator) -> Scene:
         return random_chain(rng)
     options: dict[str, Any] = {
         "hs": float(rng.uniform(0.5, 4.0)),
-        "tp": float(rng.uniform(6.0, 14.0)),
+        "tp": float(rng.uniform(7.5, 14.0)),
         "wave_direction_deg": float(rng.uniform(0.0, 360.0)),
         "seed": int(rng.integers(1, 10**6)),
         "memory": str(rng.choice(["per-pair", "passive"])),
@@ -54,11 +54,11 @@ def random_scene(rng: np.random.Generator) -> Scene:
 
 
 def random_chain(rng: np.random.Generator) -> Scene:
-    """One to five rods on revolute joints about random horizontal axes, released at random angles."""
+    """One to three rods on revolute joints about random horizontal axes, released at random angles."""
     scene = Scene(name="chain")
     before, end = "ground", np.zeros(3)
-    for i in range(int(rng.integers(1, 6))):
-        swing, turn = rng.uniform(-0.5, 0.5), rng.uniform(0.0, 2.0 * np.pi)
+    for i in range(int(rng.integers(1, 4))):
+        swing, turn = rng.uniform(-0.3, 0.3), rng.uniform(0.0, 2.0 * np.pi)
         length, mass = rng.uniform(1.0, 6.0), 10.0 ** rng.uniform(1.0, 3.0)
         axis = np.array([np.cos(turn), np.sin(turn), 0.0])
         along = length * np.array([-np.sin(swing) * axis[1], np.sin(swing) * axis[0], -np.cos(swing)])

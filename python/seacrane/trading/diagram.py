@@ -24,7 +24,7 @@ def work_precision(trade: Trade) -> Figure:
     """One panel per quantity: largest error over wall time per simulated second, both logarithmic.
 
     Lines join the tolerances or steps of one integrator, solid in the recursive and dotted in the redundant
-    formulation; crosses with a label leave physics out; the grey band is the reference's uncertainty.
+    formulation; crosses with a label change the physics; the grey band is the reference's uncertainty.
     """
     from matplotlib.figure import Figure
 
@@ -53,13 +53,14 @@ def _draw(axes: Axes, trade: Trade, quantity: str) -> None:
     full = (trade.metadata["memory"], trade.metadata["waves"], rungs.FULL)
     colours: dict[str, Any] = {}
     groups: dict[tuple[str, str], list[Row]] = {}
+    fewer: list[Row] = []
     for row in trade.rows:
         if not row.stable or not np.isfinite(row.error(quantity)):
             continue
         if (row.memory, row.waves, row.rung) == full:
             groups.setdefault((row.integrator, row.formulation), []).append(row)
         else:
-            _mark(axes, row, quantity, full)
+            fewer.append(row)
     for (integrator, formulation), rows in groups.items():
         number = colours.setdefault(integrator, len(colours))
         axes.loglog(
@@ -75,6 +76,7 @@ def _draw(axes: Axes, trade: Trade, quantity: str) -> None:
         [_cost(row) for row in best], [row.error(quantity) for row in best], where="post", color="black",
         linewidth=2.5, alpha=0.35, label="Pareto front",
     )  # fmt: skip
+    _mark(axes, fewer, quantity, full)
     axes.axhspan(0.0, trade.reference.uncertainty[quantity], color="0.85")
     axes.set_xlabel("wall time per simulated second [s]")
     axes.set_ylabel(f"largest error [{trade.quantities[quantity].unit}]")
@@ -86,15 +88,18 @@ def _cost(row: Row) -> float:
     return row.wall_s / row.simulated_s
 
 
-def _mark(axes: Axes, row: Row, quantity: str, full: tuple[Any, ...]) -> None:
-    """A rung, labelled by what differs from the full scene."""
-    parts = (f"memory {row.memory}", row.waves, row.rung)
-    label = ", ".join(
-        part
-        for part, own, kept in zip(parts, (row.memory, row.waves, row.rung), full, strict=True)
-        if own != kept
-    )
-    axes.loglog(_cost(row), row.error(quantity), "kx", markersize=6)
-    axes.annotate(
-        label, (_cost(row), row.error(quantity)), xytext=(5, 2), textcoords="offset points", fontsize=7
-    )
+def _mark(axes: Axes, rows: list[Row], quantity: str, full: tuple[Any, ...]) -> None:
+    """Rungs, each labelled by what differs from the full scene; labels keep a distance from each other."""
+    height = -np.inf
+    low, high = np.log10(axes.get_ylim())
+    for row in sorted(rows, key=lambda row: row.error(quantity)):
+        own = (row.memory, row.waves, row.rung)
+        parts = (f"memory {row.memory}", row.waves, row.rung)
+        label = ", ".join(part for part, one, kept in zip(parts, own, full, strict=True) if one != kept)
+        axes.loglog(_cost(row), row.error(quantity), "kx", markersize=6)
+        height = max(height + 0.028 * (high - low), np.log10(row.error(quantity)))
+        place = (1.03 * axes.get_xlim()[1], 10.0**height)
+        axes.annotate(
+            label, (_cost(row), row.error(quantity)), xytext=place, textcoords="data", fontsize=7,
+            annotation_clip=False, arrowprops={"arrowstyle": "-", "linewidth": 0.4, "color": "0.6"},
+        )  # fmt: skip
