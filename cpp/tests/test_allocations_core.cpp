@@ -2,6 +2,7 @@
 
 #include "count_allocations.hpp"
 #include "multibody_scenes.hpp"
+#include "seacrane/dynamics/recursive/recursive.hpp"
 #include "seacrane/run/simulation.hpp"
 
 namespace seacrane::test {
@@ -48,7 +49,39 @@ std::vector<SceneDescription> scenes() {
   return {slider_crank(), floating, light, euler, at_sea(true), at_sea(false)};
 }
 
+/// Also loops whose rows depend on each other, which an eigendecomposition solves.
+std::vector<SceneDescription> scenes_with_loops() {
+  std::vector<SceneDescription> out = scenes();
+  out.push_back(parallelogram(3));
+  return out;
+}
+
 }  // namespace
+
+TEST_CASE("evaluations and projections of the recursive form allocate nothing") {
+  for (const SceneDescription& scene : scenes_with_loops()) {
+    RedundantSystem terms(compile(scene));
+    RecursiveSystem system(terms);
+    CHECK(system.tree().loop_rows > 0);
+    std::vector<double> bodies = terms.model().initial_state, y(system.size()), rate(y.size());
+    system.read_bodies(0.0, bodies.data(), y.data());
+    system.derivative(0.0, y.data(), rate.data());
+    system.project(0.0, y.data(), true);
+    const long before = allocation_count();
+    long projected = 0;
+    for (int i = 0; i < 200; ++i) {
+      const double t = 0.01 * i;
+      system.derivative(t, y.data(), rate.data());
+      for (std::size_t k = 0; k < y.size(); ++k) y[k] += 0.01 * rate[k];
+      projected += system.project(t + 0.01, y.data(), false) ? 1 : 0;
+      system.move(0.0, y.data());
+      system.write_bodies(t, y.data(), bodies.data());
+      system.read_bodies(t, bodies.data(), y.data());
+    }
+    CHECK(allocation_count() == before);
+    CHECK(projected > 0);
+  }
+}
 
 TEST_CASE("evaluations and projections allocate nothing") {
   for (const SceneDescription& scene : scenes()) {
@@ -72,11 +105,14 @@ TEST_CASE("evaluations and projections allocate nothing") {
 TEST_CASE("the run loop allocates nothing after its start: steps, outputs and the end of a curve") {
   for (const SceneDescription& scene : scenes()) {
     for (const std::string integrator :
-         {"dopri5", "rk4", "dop853", "semi-implicit-euler", "rosenbrock", "generalized-alpha"}) {
+         {"dopri5", "rk4", "dop853", "semi-implicit-euler", "rosenbrock", "generalized-alpha",
+          "recursive dopri5", "recursive rk4", "recursive semi-implicit-euler", "recursive rosenbrock"}) {
       CAPTURE(integrator);
       const auto model = compile(scene);
       RunOptions options;
-      options.integrator = integrator;
+      const std::size_t space = integrator.find(' ');
+      options.formulation = space == std::string::npos ? "redundant" : integrator.substr(0, space);
+      options.integrator = space == std::string::npos ? integrator : integrator.substr(space + 1);
       options.fixed_step = 0.01;
       for (int i = 0; i <= 300; ++i) options.output_times.push_back(0.01 * i);
       for (const auto& name : channel_names(*model, false)) options.channels.insert(name);

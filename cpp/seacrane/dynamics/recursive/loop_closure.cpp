@@ -1,5 +1,6 @@
 #include "seacrane/dynamics/recursive/loop_closure.hpp"
 
+#include <array>
 #include <cmath>
 
 namespace seacrane {
@@ -9,6 +10,20 @@ namespace {
 /// which a combination of them is not enforced: the square of the redundant form's singular value, 1e-4.
 constexpr double kRegularCondition = 1e10;
 constexpr double kSingularCut = 1e-8;
+/// What rounding leaves of the compliance along a row that the tree holds already, relative to that of its
+/// two ends alone.
+constexpr double kRounding = 1e-12;
+/// Bodies free in space yield more than in the tree: a row that passes their compliance by this much needs no
+/// closer look.
+constexpr double kClearly = 1e3 * kRounding;
+
+/// Free compliance per unit force and per unit moment, at most; a body's ellipsoid of inertia is left aside.
+Eigen::Vector2d free_compliance(const Model& model, int body) {
+  if (body == model.body_count()) return Eigen::Vector2d::Zero();
+  const BodyModel& b = model.bodies[idx(body)];
+  const Eigen::SelfAdjointEigenSolver<Mat3d> inertia(b.inertia, Eigen::EigenvaluesOnly);
+  return {1.0 / b.mass, 1.0 / inertia.eigenvalues()[0]};
+}
 
 }  // namespace
 
@@ -18,8 +33,10 @@ LoopClosure::LoopClosure(const Model& model, const BodyTree& tree)
       speeds_(idx(tree.speeds)) {
   for (int e : tree.loops) {
     const ElementModel& element = model.elements[idx(e)];
-    for (int r = 0; r < element.rows; ++r)
-      rows_.push_back({e, r, element.first, element.second, element.driver});
+    for (int r = 0; r < element.rows; ++r) {
+      rows_.push_back({e, r, element.first, element.second, element.driver,
+                       free_compliance(model, element.first), free_compliance(model, element.second)});
+    }
   }
   const auto n = static_cast<Eigen::Index>(rows_.size());
   g_ = MatXd::Zero(n, n);
@@ -29,6 +46,34 @@ LoopClosure::LoopClosure(const Model& model, const BodyTree& tree)
   eigen_ = Eigen::SelfAdjointEigenSolver<MatXd>(n);
 }
 
+/// Response to load_ on the two bodies of a row; clears the load.
+void LoopClosure::respond(const Row& row, ArticulatedTree& tree) {
+  tree.solve(load_.data(), false, response_.data(), speeds_.data());
+  load_[idx(row.first)].setZero();
+  load_[idx(row.second)].setZero();
+}
+
+/// Whether the tree yields along a row by more than rounding of what each end yields alone.
+bool LoopClosure::is_open(const Row& row, double compliance, const RowBlock<double>* blocks,
+                          ArticulatedTree& tree) {
+  const std::array<Vec6d, 2> direction = {blocks[row.element].d[0].row(row.row).transpose(),
+                                          blocks[row.element].d[1].row(row.row).transpose()};
+  double loose = 0.0, held = 0.0;
+  for (int side = 0; side < 2; ++side) {
+    const Vec6d& d = direction[idx(side)];
+    const Eigen::Vector2d& free = side == 0 ? row.first_free : row.second_free;
+    loose += free[0] * d.head<3>().squaredNorm() + free[1] * d.tail<3>().squaredNorm();
+  }
+  if (compliance > kClearly * loose) return true;
+  for (int side = 0; side < 2; ++side) {
+    const int body = side == 0 ? row.first : row.second;
+    load_[idx(body)] += direction[idx(side)];
+    respond(row, tree);
+    held += direction[idx(side)].dot(response_[idx(body)]);
+  }
+  return compliance > kRounding * held;
+}
+
 void LoopClosure::factor(const RowBlock<double>* blocks, ArticulatedTree& tree) {
   const Eigen::Index n = g_.rows();
   for (Eigen::Index c = 0; c < n; ++c) {
@@ -36,9 +81,7 @@ void LoopClosure::factor(const RowBlock<double>* blocks, ArticulatedTree& tree) 
     const RowBlock<double>& block = blocks[row.element];
     load_[idx(row.first)] += block.d[0].row(row.row).transpose();
     load_[idx(row.second)] += block.d[1].row(row.row).transpose();
-    tree.solve(load_.data(), false, response_.data(), speeds_.data());
-    load_[idx(row.first)].setZero();
-    load_[idx(row.second)].setZero();
+    respond(row, tree);
     for (Eigen::Index r = 0; r < n; ++r) {
       const Row& other = rows_[static_cast<std::size_t>(r)];
       const RowBlock<double>& rows = blocks[other.element];
@@ -46,7 +89,10 @@ void LoopClosure::factor(const RowBlock<double>* blocks, ArticulatedTree& tree) 
                  rows.d[1].row(other.row).dot(response_[idx(other.second)]);
     }
   }
-  for (Eigen::Index i = 0; i < n; ++i) scale_[i] = g_(i, i) > 0.0 ? 1.0 / std::sqrt(g_(i, i)) : 1.0;
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const Row& row = rows_[static_cast<std::size_t>(i)];
+    scale_[i] = is_open(row, g_(i, i), blocks, tree) ? 1.0 / std::sqrt(g_(i, i)) : 0.0;
+  }
   for (Eigen::Index i = 0; i < n; ++i) {
     for (Eigen::Index j = 0; j < n; ++j) g_(i, j) *= scale_[i] * scale_[j];
   }

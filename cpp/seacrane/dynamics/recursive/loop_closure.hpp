@@ -39,7 +39,11 @@ class LoopClosure {
   struct Row {
     int element, row, first, second;
     bool driver;
+    Eigen::Vector2d first_free, second_free;  // compliance of the bodies without joints: force, moment
   };
+
+  void respond(const Row& row, ArticulatedTree& tree);
+  bool is_open(const Row& row, double compliance, const RowBlock<double>* blocks, ArticulatedTree& tree);
 
   std::vector<Row> rows_;
   std::vector<Vec6d> load_, response_;
