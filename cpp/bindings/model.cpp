@@ -2,6 +2,7 @@
 
 #include "bindings.hpp"
 #include "seacrane/dynamics/recursive/body_tree.hpp"
+#include "seacrane/dynamics/recursive/recursive.hpp"
 #include "seacrane/dynamics/redundant.hpp"
 #include "seacrane/run/recording.hpp"
 #include "vector_state.hpp"
@@ -156,6 +157,18 @@ class Evaluator {
     }
     return out;
   }
+  /// Factor by which terms cancel in the recursive form at a state.
+  double condition(double t, const Array& y) {
+    check(y);
+    auto* recursive = dynamic_cast<RecursiveSystem*>(reduced_.get());
+    if (recursive == nullptr) {
+      throw std::invalid_argument("condition: belongs to an Evaluator of formulation \"recursive\"");
+    }
+    std::vector<double> state(recursive->size()), rate(recursive->size());
+    recursive->read_bodies(t, y.data(), state.data());
+    recursive->derivative(t, state.data(), rate.data());
+    return recursive->condition();
+  }
   py::dict time_parts(double t, const Array& y, long count) {
     check(y);
     if (count < 1) {
@@ -188,6 +201,9 @@ void bind_evaluator(py::module_& m) {
            py::arg("formulation") = "redundant")
       .def("accelerations", &Evaluator::accelerations, py::arg("t"), py::arg("y"),
            "Accelerations of the bodies' state points by the formulation, m/s2 and rad/s2, (bodies, 6).")
+      .def("condition", &Evaluator::condition, py::arg("t"), py::arg("y"),
+           "How many times larger the terms are than what they cancel to, of inertias along the tree of the "
+           "recursive formulation and of its loops: the digits that light bodies between heavy ones cost.")
       .def("derivative", &Evaluator::derivative, py::arg("t"), py::arg("y"), "dy/dt, a new array.")
       .def("project", &Evaluator::project, py::arg("t"), py::arg("y"), "y on the constraints, a new array.")
       .def("residual", &Evaluator::residual, py::arg("t"), py::arg("y"),

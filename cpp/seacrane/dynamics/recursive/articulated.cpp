@@ -1,6 +1,7 @@
 #include "seacrane/dynamics/recursive/articulated.hpp"
 
 #include <Eigen/Cholesky>
+#include <algorithm>
 
 namespace seacrane {
 namespace {
@@ -195,6 +196,37 @@ void ArticulatedTree::factor(const Mat6d* mass) {
   for (std::size_t i = tree_.clusters.size(); i-- > 0;) {
     with_speeds(tree_.clusters[i], [&]<int n>() { factor_cluster<n>(i); });
   }
+}
+
+double ArticulatedTree::condition(const Mat6d* mass) const {
+  // Inertias at a parent, children added in full, over what is left when these yield in their joints.
+  std::vector<Mat6d> gross(mass, mass + ground_);
+  gross.emplace_back(Mat6d::Zero());
+  std::vector<double> pivots(gross.size(), 1.0);  // largest of a parent's joints
+  double worst = 1.0;
+  for (std::size_t i = 0; i < tree_.clusters.size(); ++i) {
+    const Cluster& c = tree_.clusters[i];
+    if (c.kind == Cluster::floating) continue;
+    double& pivot = pivots[idx(c.parent)];
+    for (int k = 0; k < c.speeds; ++k) {
+      double own = 0.0;
+      for (const Member& m : c.members) {
+        const Vec6d& column = column_[idx(m.column + k)];
+        own += column.dot(inertia_[idx(m.body)] * column);
+      }
+      pivot = std::max(pivot, own * inverse_[i](k, k));
+    }
+    worst = std::max(worst, pivot);
+    for (const Member& m : c.members) {
+      add_moved_inertia(inertia_[idx(m.body)], reach_[idx(m.body)], gross[idx(c.parent)]);
+    }
+  }
+  for (int b = 0; b < ground_; ++b) {
+    const Mat6d inverse = inertia_[idx(b)].llt().solve(Mat6d::Identity());
+    worst = std::max(worst,
+                     pivots[idx(b)] * gross[idx(b)].diagonal().cwiseProduct(inverse.diagonal()).maxCoeff());
+  }
+  return worst;
 }
 
 template <int n>

@@ -26,6 +26,10 @@ class ArticulatedTree {
 
   /// Articulated inertias for the bodies' mass matrices (about state points), at the last place().
   void factor(const Mat6d* mass);
+  /// Largest factor by which inertias cancelled in the last factor(mass), like S_ii / d_i of the redundant
+  /// form, times that of the joints' own inertias: digits that joints between light and heavy bodies cost.
+  /// Allocates; for reports.
+  double condition(const Mat6d* mass) const;
   /// Accelerations of the bodies (ground last) and of the speeds under `load`, wrench less M-independent
   /// velocity terms. Without `moving` velocities count as zero: the response to an impulse.
   void solve(const Vec6d* load, bool moving, Vec6d* acceleration, double* u_rate);

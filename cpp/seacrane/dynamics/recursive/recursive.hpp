@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <memory>
 #include <vector>
 
@@ -32,6 +33,8 @@ class RecursiveSystem final : public Formulation {
   std::string describe(std::size_t component) const override;
 
   const BodyTree& tree() const { return tree_; }
+  /// How much cancels in the last evaluation: of inertias along the tree, and of the rows that close loops.
+  double condition() const { return std::max(articulated_.condition(mass_.data()), loops_.condition()); }
 
  private:
   struct Layout {
