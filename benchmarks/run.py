@@ -14,10 +14,12 @@ from pathlib import Path
 from measure import (
     evaluation,
     footprint,
+    formulations,
     integrators,
     memory_cost,
     memory_kinds,
     rival,
+    scaling,
     scenes,
     speed,
     strip_cost,
@@ -47,6 +49,10 @@ def sections(folder: Path, *, repeats: int, quick: bool) -> Iterator[Section]:
     yield speed.speed(repeats=repeats)
     yield evaluation.whole(repeats=repeats)
     yield evaluation.parts(repeats=repeats)
+    yield formulations.formulations(repeats=repeats)
+    yield formulations.throughput(repeats=repeats)
+    yield scaling.growth(repeats=min(repeats, 3))
+    yield scaling.loop_rows(repeats=repeats)
     yield memory_cost.memory_cost(repeats=repeats)
     yield memory_kinds.memory_kinds(repeats=repeats)
     yield wave_loads.wave_loads(repeats=repeats)

@@ -56,12 +56,12 @@ def timed_run(
     return Timed(wall=wall, cpu=cpu, counters=run.core.statistics(), channels=run.core.channels())
 
 
-def evaluation_ns(model: Model, *, repeats: int, count: int = 4_000) -> float:
+def evaluation_ns(model: Model, *, repeats: int, count: int = 4_000, formulation: str = "redundant") -> float:
     """Nanoseconds of one evaluation of the whole right-hand side.
 
     Time advances by 25 ms per call, as it does on average in 100 s of case 2 with default settings, so that
     new blocks of the wave table are entered as often as in a run.
     """
-    evaluator, state = Evaluator(model), np.array(model.initial_state)
+    evaluator, state = Evaluator(model, formulation), np.array(model.initial_state)
     evaluator.repeat(0.0, state, count // 10, 25e-3)
     return best_seconds(lambda: evaluator.repeat(0.0, state, count, 25e-3), repeats=repeats) / count * 1e9
