@@ -1,0 +1,312 @@
+"""The recursive formulation against the redundant one: random scenes at a state, runs, and handing over."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Callable
+from dataclasses import replace
+from functools import cache
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import HealthCheck, assume, given, settings
+from multibody_runs import add_crane, slider_crank, swing_out
+from numpy.typing import NDArray
+from random_scenes import Shape, build, moving, shapes
+from reference.classic import Link
+from reference.mechanisms import SliderCrank
+
+from seacrane import Evaluator, Model, Run, Scene, SceneError, cases, integrator_names, simulate
+
+Array = NDArray[np.float64]
+AGREEMENT = 1e-9  # of the largest like quantity
+EPS = float(np.finfo(float).eps)
+NEARLY_DEPENDENT = (1e-10, 3e-3)  # smallest over largest singular value of the rows
+CRANK = SliderCrank(Link(1.5, 0.08, 0.4, 0.15), (0.0, 0.3, 0.2), 1.2, 1.5, (0.02, 0.25, 0.24), 2.0)
+RANDOM = settings(
+    max_examples=60, deadline=None, derandomize=True, suppress_health_check=list(HealthCheck), database=None
+)
+
+
+def compiled(scene: Scene) -> Model:
+    """A scene drawn at random may hold a motion twice, or leave none: that is warned of."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", UserWarning)
+        return scene.compile()
+
+
+class Comparison:
+    """Both formulations at a state. Accelerations in the mass metric, by the largest term of eq (9)."""
+
+    def __init__(self, model: Model, state: Array) -> None:
+        terms = Evaluator(model, "redundant").terms(0.0, state)
+        recursive = Evaluator(model, "recursive")
+        found = np.asarray(recursive.accelerations(0.0, state)).ravel()
+        root = np.linalg.cholesky(terms["mass"])
+        forces = np.linalg.solve(root, terms["mass"] @ found - terms["load"])
+        like = max(
+            np.abs(root.T @ terms["acceleration"]).max(),
+            np.abs(np.linalg.solve(root, terms["load"])).max(),
+        )
+        self.acceleration = float(np.abs(root.T @ (found - terms["acceleration"])).max() / like)
+        self.shape = self.condition = 1.0
+        self.reaction = 0.0
+        if len(terms["jacobian"]):
+            loads = np.linalg.solve(root, terms["jacobian"].T)
+            size = np.linalg.norm(loads, axis=0)
+            values = np.linalg.svd(loads / size, compute_uv=False)
+            rows = terms["jacobian"] / np.linalg.norm(terms["jacobian"], axis=1)[:, None]
+            self.shape = float(np.divide(*np.linalg.svd(rows, compute_uv=False)[[-1, 0]]))
+            if len(rows) > rows.shape[1]:
+                self.shape = 0.0
+            self.condition = float(values[0] / values[-1]) ** 2 if values[-1] > 0.0 else np.inf
+            expected = terms["multipliers"] * size
+            multipliers = np.linalg.lstsq(loads / size, forces, rcond=None)[0]
+            self.reaction = float(np.abs(multipliers - expected).max() / max(np.abs(expected).max(), like))
+        self.recursive_condition = recursive.condition(0.0, state)
+
+    @property
+    def bound(self) -> float:
+        """Loosened in proportion to what the formulations say of themselves, where that is worse."""
+        return max(AGREEMENT, EPS * self.condition, EPS * self.recursive_condition)
+
+
+def check(shape: Shape, *, reactions: bool = True) -> Comparison:
+    model = compiled(build(shape))
+    found = Comparison(model, moving(model, shape.seed))
+    assert found.acceleration < found.bound, (found.acceleration, found.bound)
+    if reactions:
+        assert found.reaction < found.bound, (found.reaction, found.bound)
+    return found
+
+
+@RANDOM
+@given(shapes())
+def test_trees(shape: Shape) -> None:
+    """Every joint type as a branch, written in either order, on the ground, a floating body or a vessel."""
+    check(shape)
+
+
+@RANDOM
+@given(shapes(struts=2, most=4))
+def test_cylinder_struts(shape: Shape) -> None:
+    """The universal joint at either end, joints in any order, one strut close to its dead centre; drivers."""
+    check(shape)
+
+
+@RANDOM
+@given(shapes(loops=2))
+def test_loops(shape: Shape) -> None:
+    """More joints than a tree has. Rows that hold a motion twice, through loops or what the tree holds
+    already: then reactions are not unique, and accelerations are compared."""
+    model = compiled(build(shape))
+    found = Comparison(model, moving(model, shape.seed))
+    # Between these, a row counts as dependent in one formulation and not yet in the other.
+    assume(not NEARLY_DEPENDENT[0] < found.shape < NEARLY_DEPENDENT[1])
+    unique = found.shape > NEARLY_DEPENDENT[1]
+    assert found.acceleration < (found.bound if unique else 10.0 * AGREEMENT), found.acceleration
+    if unique:
+        assert found.reaction < found.bound, (found.reaction, found.bound)
+
+
+def test_a_light_body_between_heavy_ones_costs_the_digits_that_are_reported() -> None:
+    """Why bounds are loosened: the same chain in equal masses agrees to rounding."""
+    shape = Shape(
+        seed=662943803, parents=(-1, 0, 0, 1, -1), base="vessel", swapped=(False,) * 5,
+        kinds=("distance", "distance", "free", "cylindrical", "universal"), driven=True,
+    )  # fmt: skip
+    uneven, even = check(shape), check(replace(shape, decades=0.0))
+    assert even.recursive_condition < 1e4 < uneven.recursive_condition
+    assert even.acceleration < 1e-12
+
+
+def test_the_condition_belongs_to_the_recursive_form() -> None:
+    model = door().compile()
+    with pytest.raises(ValueError, match='formulation "recursive"'):
+        Evaluator(model).condition(0.0, np.array(model.initial_state))
+
+
+# Runs
+
+
+def door() -> Scene:
+    """A plate on one hinge, with a knob on a link."""
+    scene = Scene(name="door")
+    scene.add_body(name="plate", mass=30.0, inertia=(10.0, 12.0, 3.0), position=(0.5, 0.0, 0.0))
+    scene.add_body(name="knob", mass=1.0, inertia=(0.1, 0.1, 0.1), position=(1.0, 0.3, -0.4))
+    scene.add_joint(kind="revolute", name="hinge", first="ground", second="plate", axis=(0.2, 1.0, 0.1),
+                    point=(0.0, 0.0, 0.0))  # fmt: skip
+    scene.add_joint(kind="distance", name="link", first="plate", second="knob", point=(1.0, 0.0, 0.0),
+                    second_point=(1.0, 0.3, -0.4))  # fmt: skip
+    return scene
+
+
+def crank() -> Scene:
+    """Rows for one joint of a spatial slider-crank, and an actuator."""
+    scene = slider_crank(CRANK, 0.4, 6.0)
+    scene.add_actuator(joint="shaft", feed_forward=3.0, damping=1.0)
+    return scene
+
+
+def afloat() -> Scene:
+    """The crane with its payload on a body that floats free in space, all actuators at work."""
+    scene = Scene(name="afloat", gravity=0.0)
+    scene.add_body(name="base", mass=3e6, inertia=(5e8, 5e8, 5e8), angular_velocity=(0.02, 0.03, 0.01))
+    add_crane(scene, base="base", payload=True, references=swing_out(4.0))
+    return scene
+
+
+MECHANISMS: dict[str, Callable[[], Scene]] = {"door": door, "crank": crank, "afloat": afloat}
+
+
+def run(scene: Scene, t_end: float, formulation: str, **settings: Any) -> dict[str, Any]:
+    channels = ["position", "quaternion", "velocity", "constraint_error", "energy_balance", "absolute_work"]
+    going = Run(scene, t_end=t_end, dt_out=t_end / 10, formulation=formulation, channels=channels, **settings)
+    going.advance(t_end)
+    return dict(going.core.channels()) | {"state": going.core.state}
+
+
+def apart(a: dict[str, Any], b: dict[str, Any]) -> float:
+    return float(max(np.abs(a[k] - b[k]).max() for k in ("position", "quaternion")))
+
+
+# Tolerance or step at which a method's own error is below the agreement asked for.
+TIGHT: dict[str, dict[str, float]] = {
+    "heun21": {"rtol": 1e-3, "max_step": 4e-5},
+    "bs32": {"rtol": 1e-3, "max_step": 2e-4},
+    "rk4": {"dt": 1e-3},
+    "rk-low-storage": {"dt": 1e-3},
+    "cvode-adams": {"rtol": 1e-11},
+    "cvode-bdf": {"rtol": 1e-9},
+    "rosenbrock": {"rtol": 1e-9},
+}
+BEHIND = ("semi-implicit-euler", "generalized-alpha", "generalized-alpha-index2", "ida")
+METHODS = [name for name in integrator_names() if name not in BEHIND]
+
+
+@pytest.mark.parametrize("integrator", METHODS)
+@pytest.mark.parametrize("mechanism", MECHANISMS)
+def test_runs_agree_with_every_integrator(mechanism: str, integrator: str) -> None:
+    if mechanism == "crank" and integrator == "cvode-adams":
+        pytest.skip("refused: it cannot project")
+    low = integrator in ("heun21", "bs32", "rosenbrock", "cvode-bdf")
+    t_end = 0.1 if low else 1.0
+    scene = MECHANISMS[mechanism]()
+    found = run(scene, t_end, "recursive", integrator=integrator, **TIGHT.get(integrator, {"rtol": 1e-10}))
+    expected = reference(mechanism, t_end)
+    assert np.ptp(expected["position"], axis=0).max() > 1e-3
+    assert apart(found, expected) < (1e-7 if integrator == "cvode-bdf" else 1e-8)
+
+
+@cache
+def reference(mechanism: str, t_end: float) -> dict[str, Any]:
+    """The redundant formulation to rounding, and another method for the integrators' sake."""
+    return run(MECHANISMS[mechanism](), t_end, "redundant", integrator="dop853", rtol=1e-12)
+
+
+def test_semi_implicit_euler_closes_in_on_the_redundant_run_with_its_order() -> None:
+    expected = reference("crank", 0.1)
+    errors = [
+        apart(run(crank(), 0.1, "recursive", integrator="semi-implicit-euler", dt=dt), expected)
+        for dt in (4e-4, 2e-4, 1e-4)
+    ]
+    assert errors[-1] < 1e-3
+    np.testing.assert_allclose(np.divide(errors[:-1], errors[1:]), 2.0, rtol=0.1)
+
+
+@pytest.mark.parametrize("order", [("redundant", "recursive"), ("recursive", "redundant")])
+@pytest.mark.parametrize("mechanism", MECHANISMS)
+def test_a_state_hands_over_from_one_formulation_to_the_other(mechanism: str, order: tuple[str, str]) -> None:
+    scene = MECHANISMS[mechanism]()
+    first = run(scene, 0.5, order[0], rtol=1e-11)
+    second = run(scene, 1.0, order[1], rtol=1e-11, start=first["state"])
+    whole = run(scene, 1.0, order[0], rtol=1e-11)
+    assert np.abs(second["position"][-1] - whole["position"][-1]).max() < 1e-8
+    # The state is handed over without loss; q and -q are one rotation.
+    scene_model = scene.compile()
+    there = Run(scene, t_end=1.0, formulation=order[1], start=first["state"]).core.state
+    given, taken = np.array(first["state"].values), np.array(there.values)
+    for body in range(len(scene.bodies)):
+        at = scene_model.pose_index(body) + 3
+        taken[at : at + 4] *= np.sign(taken[at : at + 4] @ given[at : at + 4])
+    np.testing.assert_allclose(taken, given, rtol=0.0, atol=1e-12 * np.abs(given).max())
+
+
+CASES = {"case1": cases.case1, "case2": cases.case2, "case3": cases.case3}
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_cases_agree_in_every_channel(name: str) -> None:
+    scene = CASES[name]()
+    found, expected = (
+        simulate(scene, t_end=5.0, dt_out=0.5, rtol=1e-9, formulation=kind)
+        for kind in ("recursive", "redundant")
+    )
+    assert found.stats["compiled_constraints"] == 0
+    checks = {"constraint_error_before_projection", "constraint_error", "constraint_rate_error"}
+    assert set(found.channels) == set(expected.channels)
+    for channel in set(found.channels) - checks - {"energy_balance"}:
+        a, b = found[channel], expected[channel]
+        # The work sums |power|, whose kinks no method resolves to its tolerance.
+        bound = 1e-4 if channel == "absolute_work" else 1e-6
+        assert np.abs(a - b).max() <= bound * max(np.abs(b).max(), 1.0), channel
+    assert np.abs(found["position"] - expected["position"]).max() < 1e-7
+    for result in (found, expected):
+        assert np.abs(result["energy_balance"]).max() < 1e-7 * result["absolute_work"][-1]
+        assert result["constraint_error"].max() < 1e-11
+
+
+# Drift
+
+
+@pytest.mark.parametrize("mechanism", MECHANISMS)
+def test_long_runs_stay_on_their_joints(mechanism: str) -> None:
+    """Branches hold by construction, loops by projection; coordinates are not steered to either."""
+    out = run(MECHANISMS[mechanism](), 60.0, "recursive", integrator="tsit5", rtol=1e-4)
+    assert out["constraint_error"].max() < 1e-10
+    np.testing.assert_allclose(np.linalg.norm(out["quaternion"], axis=-1), 1.0, atol=1e-13)
+
+
+def test_energy_of_a_conservative_loop_is_kept() -> None:
+    scene = slider_crank(CRANK, 0.4, 6.0)
+    errors = []
+    for rtol in (1e-6, 1e-8):
+        out = run(scene, 30.0, "recursive", rtol=rtol)
+        kinetic = 0.5 * np.sum(
+            [b.mass for b in scene.bodies.values()] * np.sum(out["velocity"] ** 2, axis=-1), axis=-1
+        )
+        errors.append(np.abs(out["energy_balance"]).max() / kinetic.max())
+    assert errors[0] < 1e-3 and errors[1] < 0.05 * errors[0], errors
+
+
+# What does not exist
+
+
+REFUSED: dict[str, tuple[dict[str, Any], dict[str, Any], str]] = {
+    "paper kinematics": ({"kinematics": "paper"}, {}, "kinematics 'paper'"),
+    "implicit DAE method": ({}, {"integrator": "ida"}, "integrator 'ida'"),
+    "implicit DAE method of fixed step": ({}, {"integrator": "generalized-alpha"}, "'generalized-alpha'"),
+}
+
+
+@pytest.mark.parametrize("case", REFUSED)
+def test_combinations_that_do_not_exist_are_refused_and_never_replaced(case: str) -> None:
+    build_with, settings, reason = REFUSED[case]
+    scene = cases.vessel(**build_with)
+    with pytest.raises(SceneError, match="formulation 'recursive' is not available here") as raised:
+        simulate(scene, t_end=1.0, formulation="recursive", **settings)
+    assert reason in str(raised.value) and "choose 'redundant'" in str(raised.value)
+
+
+def test_baumgarte_and_a_method_that_cannot_project_are_refused() -> None:
+    with pytest.raises(SceneError, match="Baumgarte stabilisation belongs to the redundant"):
+        simulate(crank().copy(baumgarte=5.0), t_end=1.0, formulation="recursive")
+    with pytest.raises(SceneError, match="'cvode-adams' cannot project"):
+        simulate(crank(), t_end=1.0, formulation="recursive", integrator="cvode-adams")
+
+
+def test_auto_takes_the_formulation_that_the_scene_allows() -> None:
+    assert simulate(door(), t_end=0.1).stats["formulation"] == "recursive"
+    assert simulate(cases.vessel(kinematics="paper"), t_end=0.1).stats["formulation"] == "redundant"
+    assert simulate(door(), t_end=0.1, integrator="ida").stats["formulation"] == "redundant"
