@@ -310,3 +310,4 @@ def test_auto_takes_the_formulation_that_the_scene_allows() -> None:
     assert simulate(door(), t_end=0.1).stats["formulation"] == "recursive"
     assert simulate(cases.vessel(kinematics="paper"), t_end=0.1).stats["formulation"] == "redundant"
     assert simulate(door(), t_end=0.1, integrator="ida").stats["formulation"] == "redundant"
+    assert simulate(crank(), t_end=0.1).stats["formulation"] == "redundant"
