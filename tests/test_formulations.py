@@ -306,6 +306,15 @@ def test_baumgarte_and_a_method_that_cannot_project_are_refused() -> None:
         simulate(crank(), t_end=1.0, formulation="recursive", integrator="cvode-adams")
 
 
+def test_a_scene_that_cannot_move_is_left_to_the_redundant_form() -> None:
+    scene = Scene(name="welded")
+    scene.add_body(name="block", mass=1.0, inertia=(1.0, 1.0, 1.0))
+    scene.add_joint(kind="weld", name="seam", first="ground", second="block", point=(0.0, 0.0, 0.0))
+    assert simulate(scene, t_end=0.1).stats["formulation"] == "redundant"
+    with pytest.raises(SceneError, match="leave nothing to move"):
+        simulate(scene, t_end=0.1, formulation="recursive")
+
+
 def test_auto_takes_the_formulation_that_the_scene_allows() -> None:
     assert simulate(door(), t_end=0.1).stats["formulation"] == "recursive"
     assert simulate(cases.vessel(kinematics="paper"), t_end=0.1).stats["formulation"] == "redundant"

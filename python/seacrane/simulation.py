@@ -253,6 +253,8 @@ def _formulation(asked: str, model: _core.Model, integrator: str) -> str:
         reason = "nothing in this scene can move"
     elif integrator == "cvode-adams" and model.tree["loop_rows"]:
         reason = "integrator 'cvode-adams' cannot project, and this scene keeps constraints"
+    elif model.tree["speeds"] == 0:
+        reason = "the joints of this scene leave nothing to move"
     if asked == "recursive" and reason:
         raise SceneError(f"formulation 'recursive' is not available here: {reason}; choose 'redundant'")
     if asked == "auto":
