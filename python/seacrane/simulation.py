@@ -249,8 +249,6 @@ def _formulation(asked: str, model: _core.Model, integrator: str) -> str:
         reason = "Baumgarte stabilisation belongs to the redundant equations"
     elif model.euler_angles:
         reason = "orientation 'euler_xyz' is a choice of the redundant state"
-    elif model.tree["speeds"] == 0:
-        reason = "nothing in this scene can move"
     elif integrator == "cvode-adams" and model.tree["loop_rows"]:
         reason = "integrator 'cvode-adams' cannot project, and this scene keeps constraints"
     elif model.tree["speeds"] == 0:
