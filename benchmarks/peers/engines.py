@@ -24,7 +24,6 @@ from system import DT_OUT, T_END, tree_data, write_tree
 from seacrane import Scene
 
 Array = NDArray[np.float64]
-HERE = Path(__file__).resolve().parent
 SEACRANE = {
     "rk4": ("dt", (0.1, 0.05, 0.025)),
     "dopri5": ("rtol", (1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8)),
@@ -34,12 +33,10 @@ SEACRANE = {
     "dop853": ("rtol", (1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8)),
 }
 PINOCCHIO = {
-    "RK4": ("dt", (0.1, 0.05, 0.025, 0.0125)),
-    "RK45": ("rtol", (1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7)),
-    "DOP853": ("rtol", (1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9)),
+    **{method: settings for method, settings in SEACRANE.items() if method != "dop853"},
+    "rk4": ("dt", (0.1, 0.05, 0.025, 0.0125, 0.00625)),
 }
 BAUMGARTE = 10.0  # 1/s
-ACCELERATIONS = "Pinocchio, accelerations only"
 MUJOCO = [
     ("rk4", step, factor * step)
     for step in (0.05, 0.025, 0.0125, 0.005, 0.0025, 0.00125)
@@ -109,9 +106,7 @@ def driver_run(command: list[str]) -> tuple[float, int, Array, Array]:
     return float(head.split()[0]), int(head.split()[1]), values[:, :3], values[:, 3]
 
 
-def peer_points(
-    scene: Scene, reference: Reference, python: str, drivers: Path, repeats: int
-) -> Iterator[Point]:
+def peer_points(scene: Scene, reference: Reference, drivers: Path, repeats: int) -> Iterator[Point]:
     """Pinocchio and MuJoCo."""
     with tempfile.TemporaryDirectory() as folder:
         tree, model = Path(folder) / "tree.txt", Path(folder) / "model.xml"
@@ -119,10 +114,10 @@ def peer_points(
         model.write_text(mjcf(tree_data(scene)), encoding="utf-8")
         for method, (key, values) in PINOCCHIO.items():
             for value in values:
-                command = [python, HERE / "pinocchio_run.py", tree, method, value, BAUMGARTE]
+                command = [drivers / "pinocchio_run", tree, method, value, BAUMGARTE, repeats]
                 cpu, evaluations, payload, roll = driver_run([str(word) for word in command])
                 yield reference.point(
-                    payload, roll, engine=ACCELERATIONS, method=method, setting=f"{key} {value:g}", cpu=cpu,
+                    payload, roll, engine="Pinocchio", method=method, setting=f"{key} {value:g}", cpu=cpu,
                     evaluations=evaluations,
                 )  # fmt: skip
         for method, step, constant in MUJOCO:

@@ -1,6 +1,6 @@
 """The same ten-body crane in seacrane, Pinocchio, MuJoCo and NumPy: ``python benchmarks/peers/run.py``.
 
-Needs the peers in an environment of their own (`requirements.txt`); compiles MuJoCo's C++ driver, runs every
+Needs the peers in an environment of their own (`requirements.txt`); compiles their C++ drivers, runs every
 setting of every engine on one core, and writes the table and the work-precision diagram to
 ``out/bench-peers``, with ``--publish`` to ``benchmarks/peers``. Run it with seacrane's Python; ``--peers``
 names that of the peers.
@@ -14,7 +14,7 @@ import sys
 from pathlib import Path
 
 import numpy as np
-from engines import ACCELERATIONS, Point, Reference, numpy_points, own_run, peer_points, seacrane_points
+from engines import Point, Reference, numpy_points, own_run, peer_points, seacrane_points
 from measure.machine import machine
 from measure.section import Section
 from system import COMPONENTS, ten_body_scene
@@ -24,7 +24,7 @@ from seacrane.result.atomic import atomic_write
 HERE = Path(__file__).resolve().parent
 LEVELS = (1e-2, 1e-4, 1e-6)  # m
 PICTURE = "work_precision.png"
-MARKS = {"seacrane recursive": "o-", "seacrane redundant": "s-", ACCELERATIONS: "^--", "MuJoCo": "v--",
+MARKS = {"seacrane recursive": "o-", "seacrane redundant": "s-", "Pinocchio": "^--", "MuJoCo": "v--",
          "NumPy/SciPy": "x:"}  # fmt: skip
 INTRODUCTION = f"""# Against other engines
 
@@ -41,18 +41,16 @@ moments A44, A55, A55 about it.
 
 - seacrane: as installed, steps with projection.
 - Pinocchio: tree of 20 coordinates without quaternions, loops closed by two point constraints with Baumgarte
-  at 10 1/s, `constraintDynamics` of the wheel's library without regularisation. The loop over time is Python
-  (RK4) and SciPy (RK45, DOP853), so only the accelerations are timed: one `constraintDynamics`, called from
-  Python, less an empty turn of the timing loop, times their number; without loads, integrator and outputs,
-  which the others' times hold. The bindings' conversion of arguments is in it.
+  at 10 1/s, `constraintDynamics` without regularisation; Runge-Kutta in C++ on seacrane's tableaus, steps
+  ending at the outputs. Not tried: its `lcaba`, other Baumgarte gains, dop853.
 - MuJoCo: the same tree, hinges and slides, loops closed by soft `connect` constraints of the highest
   impedance (0.9999), own integrators, loads by a C++ callback. "loops" is the time constant of `solref`.
 - NumPy/SciPy: the index-1 form of `tests/reference`, `solve_ivp`, projected every second.
 - Exudyn is not in this run: its model is not written.
 
-Times are CPU times of one thread, best of several runs, outputs included (NumPy, Pinocchio: one run).
-MuJoCo's driver is compiled with seacrane's flags (-O3 -fno-math-errno); its library is the wheel's, as is
-Pinocchio's.
+Times are CPU times of one thread, best of several runs, outputs included (NumPy: one run). The C++ drivers
+are compiled with seacrane's flags (-O3 -fno-math-errno), Pinocchio from its headers; MuJoCo's library is the
+wheel's.
 """
 
 
@@ -129,7 +127,7 @@ def figure(points: list[Point], path: Path) -> None:
         picture.savefig(draft, dpi=130, format="png")
 
 
-def measure(python: str, drivers: Path, repeats: int) -> tuple[list[Point], float]:
+def measure(drivers: Path, repeats: int) -> tuple[list[Point], float]:
     """All points, and the reference's uncertainty in the payload's position, m."""
     scene = ten_body_scene()
     _, _, payload, roll = own_run(scene, repeats=1, formulation="redundant", integrator="dop853", rtol=1e-12)
@@ -138,7 +136,7 @@ def measure(python: str, drivers: Path, repeats: int) -> tuple[list[Point], floa
     points = []
     for source in (
         seacrane_points(scene, reference, repeats),
-        peer_points(scene, reference, python, drivers, repeats),
+        peer_points(scene, reference, drivers, repeats),
         numpy_points(scene, reference),
     ):
         for point in source:
@@ -166,7 +164,7 @@ def main() -> int:
         drivers = HERE.parents[1] / "out" / "bench-peers" / "drivers"
         subprocess.run([HERE / "build_drivers.sh", options.peers, drivers], check=True)
     head = f"{INTRODUCTION}\nMachine: {machine()}\n"
-    points, uncertainty = measure(options.peers, drivers, options.repeats)
+    points, uncertainty = measure(drivers, options.repeats)
     figure(points, folder / PICTURE)
     picture = f"![Payload error over CPU time, per engine]({PICTURE})\n"
     parts = [head, picture, ratios(points).markdown() + "\n", table(points, uncertainty).markdown() + "\n"]
