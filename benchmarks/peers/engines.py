@@ -98,7 +98,8 @@ def seacrane_points(scene: Scene, reference: Reference, repeats: int) -> Iterato
 
 def driver_run(command: list[str]) -> tuple[float, int, Array, Array]:
     """CPU time, evaluations, payload, roll of a driver."""
-    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    with tempfile.TemporaryDirectory() as folder:  # MuJoCo logs into the current one
+        done = subprocess.run(command, capture_output=True, text=True, check=False, cwd=folder)
     if done.returncode:
         raise RuntimeError(f"{' '.join(command)}: {done.stderr.strip()}")
     head, *rows = done.stdout.splitlines()
