@@ -42,7 +42,7 @@ MUJOCO = [
     for step in (0.05, 0.025, 0.0125, 0.005, 0.0025, 0.00125)
     for factor in (1.0, 0.5)
 ] + [("implicitfast", step, 2.0 * step) for step in (0.01, 0.002)]
-NUMPY = [("RK45", 1e-4), ("RK45", 1e-6), ("DOP853", 1e-4), ("DOP853", 1e-6)]
+NUMPY = [("RK45", 1e-4), ("RK45", 1e-6), ("DOP853", 1e-6), ("DOP853", 1e-9)]
 
 
 @dataclass(frozen=True, kw_only=True)
