@@ -89,6 +89,21 @@ class Evaluator {
     system_.derivative(t, y.data(), out.mutable_data());
     return out;
   }
+  /// d(dy/dt)/dy of the redundant formulation.
+  Eigen::MatrixXd jacobian(double t, const Array& y) {
+    const auto n = static_cast<Eigen::Index>(check(y));
+    if (reduced_) {
+      throw std::invalid_argument(std::string("formulation \"") + reduced_->name() +
+                                  "\" has no exact Jacobian; use formulation \"redundant\"");
+    }
+    Eigen::MatrixXd out(n, n);
+    if (!system_.jacobian(t, y.data(), out.data())) {
+      throw std::invalid_argument("model '" + model_->description.name +
+                                  "' has no exact Jacobian at t = " + std::to_string(t) +
+                                  " s: " + system_.missing_jacobian() + "; take differences of derivative()");
+    }
+    return out;
+  }
   Array project(double t, const Array& y) {
     Array out(check(y));
     std::copy_n(y.data(), y.size(), out.mutable_data());
@@ -205,6 +220,9 @@ void bind_evaluator(py::module_& m) {
            "How many times larger the terms are than what they cancel to, of inertias along the tree of the "
            "recursive formulation and of its loops: the digits that light bodies between heavy ones cost.")
       .def("derivative", &Evaluator::derivative, py::arg("t"), py::arg("y"), "dy/dt, a new array.")
+      .def("jacobian", &Evaluator::jacobian, py::arg("t"), py::arg("y"),
+           "Exact d(dy/dt)/dy (n, n), a new array: automatic differentiation, differences only for function "
+           "forces. ValueError where there is none.")
       .def("project", &Evaluator::project, py::arg("t"), py::arg("y"), "y on the constraints, a new array.")
       .def("residual", &Evaluator::residual, py::arg("t"), py::arg("y"),
            "Largest constraint residuals (position in m or rad, rate per s).")

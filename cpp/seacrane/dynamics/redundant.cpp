@@ -197,10 +197,10 @@ double RedundantSystem::shape_condition() {
 /// other, in redundant joints or near a singular position: there only the independent ones are enforced.
 void RedundantSystem::factor_dense() {
   const Model& m = *model_;
-  const bool dependent = shape_condition() > kShapeConditionLimit || m.redundant;
-  if (dependent) row_space_->factor(m.elements, blocks_.data(), over_shape_.data(), kSingularCut);
+  dependent_ = shape_condition() > kShapeConditionLimit || m.redundant;
+  if (dependent_) row_space_->factor(m.elements, blocks_.data(), over_shape_.data(), kSingularCut);
   for (int b = 0; b < m.body_count(); ++b) dense_mass_[idx(b)] = symmetric_mass(b);
-  dense_->factor(m.elements, blocks_.data(), dense_mass_.data(), dependent ? &*row_space_ : nullptr);
+  dense_->factor(m.elements, blocks_.data(), dense_mass_.data(), dependent_ ? &*row_space_ : nullptr);
 }
 
 Mat6d RedundantSystem::symmetric_mass(int body) const {
@@ -234,21 +234,31 @@ void RedundantSystem::solve_acceleration() {
     solve_dense();
     return;
   }
+  solve(load_, gamma_, acceleration_, lambda_);
+}
+
+void RedundantSystem::solve(const std::vector<Vec6d>& load, const std::vector<double>& right,
+                            std::vector<Vec6d>& acceleration, std::vector<double>& lambda) {
+  const Model& m = *model_;
+  if (!regular_) {
+    dense_->solve(load.data(), right.data(), acceleration.data(), lambda.data());
+    return;
+  }
   for (int b = 0; b < m.body_count(); ++b)
-    acceleration_[idx(b)] = solve_inertia(inertia_[idx(b)], load_[idx(b)]);
-  acceleration_.back().setZero();
-  lambda_ = gamma_;
+    acceleration[idx(b)] = solve_inertia(inertia_[idx(b)], load[idx(b)]);
+  acceleration.back().setZero();
+  lambda = right;
   for (std::size_t e = 0; e < m.elements.size(); ++e) {
     const ElementModel& element = m.elements[e];
     if (element.rows == 0) continue;
-    const Vec6d free = blocks_[e].d[0] * acceleration_[idx(element.first)] +
-                       blocks_[e].d[1] * acceleration_[idx(element.second)];
-    for (int r = 0; r < element.rows; ++r) lambda_[idx(element.row + r)] -= free[r];
+    const Vec6d free = blocks_[e].d[0] * acceleration[idx(element.first)] +
+                       blocks_[e].d[1] * acceleration[idx(element.second)];
+    for (int r = 0; r < element.rows; ++r) lambda[idx(element.row + r)] -= free[r];
   }
-  m.schur.solve(values_.data(), lambda_.data());
-  multiplier_load(lambda_.data(), impulse_);
+  m.schur.solve(values_.data(), lambda.data());
+  multiplier_load(lambda.data(), impulse_);
   for (int b = 0; b < m.body_count(); ++b) {
-    acceleration_[idx(b)] += solve_inertia(inertia_[idx(b)], impulse_[idx(b)]);
+    acceleration[idx(b)] += solve_inertia(inertia_[idx(b)], impulse_[idx(b)]);
   }
 }
 
@@ -303,6 +313,25 @@ void RedundantSystem::derivative(double t, const double* y, double* ydot) {
   factor();
   solve_acceleration();
   write_rates(y, ydot);
+}
+
+bool RedundantSystem::jacobian(double t, const double* y, double* out) {
+  if (model_->paper_kinematics || !convolutions_.empty()) return false;
+  if (!jacobian_) {
+    jacobian_.emplace(*model_);
+    jacobian_rate_.resize(size());
+  }
+  derivative(t, y, jacobian_rate_.data());
+  if (!missing_jacobian().empty()) return false;
+  jacobian_->evaluate(*this, t, y, out);
+  return true;
+}
+
+std::string RedundantSystem::missing_jacobian() const {
+  if (model_->paper_kinematics) return "kinematics \"paper\" is not differentiated";
+  if (!convolutions_.empty()) return "memory by convolution is not differentiated";
+  if (!regular_ && dependent_) return "constraint rows depend on each other here";
+  return "";
 }
 
 void RedundantSystem::read_bodies(double /*t*/, const double* bodies, double* y) {

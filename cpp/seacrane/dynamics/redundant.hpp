@@ -10,6 +10,7 @@
 #include "seacrane/dynamics/dense_kkt.hpp"
 #include "seacrane/dynamics/formulation.hpp"
 #include "seacrane/dynamics/inertia.hpp"
+#include "seacrane/dynamics/jacobian.hpp"
 #include "seacrane/dynamics/wave_forces.hpp"
 #include "seacrane/model/model.hpp"
 
@@ -45,6 +46,9 @@ class RedundantSystem final : public Formulation {
   std::string describe(std::size_t component) const override;
   std::size_t position_size() const override { return static_cast<std::size_t>(model_->layout.velocity); }
   void move(double h, double* y) override;
+  bool jacobian(double t, const double* y, double* out) override;
+  /// Why jacobian() returned false or would; empty when it is there.
+  std::string missing_jacobian() const;
 
   const Model& model() const { return *model_; }
   void set_inputs(const std::vector<double>& slots) { slots_ = slots; }
@@ -102,6 +106,9 @@ class RedundantSystem final : public Formulation {
   /// Kinematics, inertia, rows and loads at (t, y) without solving, for the residual form.
   void evaluate_terms(double t, const double* y, double* ydot);
   void multiplier_load(const double* lambda, std::vector<Vec6d>& out) const;
+  /// M vdot - D^T lambda = load, D vdot = right, by the factors of the last evaluation.
+  void solve(const std::vector<Vec6d>& load, const std::vector<double>& right,
+             std::vector<Vec6d>& acceleration, std::vector<double>& lambda);
   /// D v - nu by row, with the rows last evaluated; returns the largest magnitude.
   double rate_residual(const double* y, double* out) const;
   /// Power of the loads without potential, drivers included, and the sum of its absolute parts.
@@ -147,7 +154,10 @@ class RedundantSystem final : public Formulation {
   std::vector<Mat6d> over_shape_, dense_mass_;
   std::vector<double> shape_values_;
   double condition_ = 1.0;
-  bool regular_ = true;  // the Schur complement is accurate enough here
+  bool regular_ = true;     // the Schur complement is accurate enough here
+  bool dependent_ = false;  // not regular, and rows depend on each other
+  std::optional<RedundantJacobian> jacobian_;
+  std::vector<double> jacobian_rate_;
   double power_ = 0.0, absolute_power_ = 0.0;
   double before_projection_ = 0.0;
   long dense_solves_ = 0;

@@ -23,6 +23,12 @@ class ArkodeDirk final : public ArkodeImplicitIntegrator {
   }
   int fill_jacobian(double t, const double* y, const double* slope, SUNMatrix matrix) override {
     ++counters_.jacobians;
+    bool exact = false;
+    const int flag = guarded([&] {
+      exact = exact_jacobian(system_, t, y, SUNDenseMatrix_Data(matrix), counters_);
+      return 0;
+    });
+    if (exact || flag != 0) return flag;
     return difference_jacobian(
         y, slope, attempted_step(), norm_, trial_, trial_slope_,
         [&](const double* at, double* f) { return evaluate(t, at, f); },

@@ -65,8 +65,13 @@ bool ArkodeImex::change_parts(bool restarted) {
   ++counters_.jacobians;
   origin_ = state_;
   const auto f = [&](const double* y, double* ydot) { return evaluate(time_, y, ydot); };
-  int flag = f(origin_.data(), slope_.data());
-  if (flag == 0) {
+  bool exact = false;
+  int flag = guarded([&] {
+    exact = exact_jacobian(system_, time_, origin_.data(), jacobian_.data(), counters_);
+    return 0;
+  });
+  if (flag == 0 && !exact) flag = f(origin_.data(), slope_.data());
+  if (flag == 0 && !exact) {
     flag = difference_jacobian(origin_.data(), slope_.data(), 0.0, norm_, trial_, trial_slope_, f,
                                [&](std::size_t j) { return jacobian_.data() + j * size(); });
   }

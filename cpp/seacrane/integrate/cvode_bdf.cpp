@@ -54,6 +54,12 @@ void CvodeBdf::attach_solver(void* memory) {
 
 int CvodeBdf::fill_jacobian(double t, const double* y, const double* slope, SUNMatrix matrix) {
   ++counters_.jacobians;
+  bool exact = false;
+  const int flag = guarded([&] {
+    exact = exact_jacobian(system_, t, y, SUNDenseMatrix_Data(matrix), counters_);
+    return 0;
+  });
+  if (exact || flag != 0) return flag;
   return difference_jacobian(
       y, slope, attempted_step(), norm_, trial_, trial_slope_,
       [&](const double* at, double* f) { return evaluate(t, at, f); },

@@ -4,6 +4,8 @@
 #include <vector>
 
 #include "seacrane/integrate/error_norm.hpp"
+#include "seacrane/integrate/integrator.hpp"
+#include "seacrane/integrate/system.hpp"
 
 namespace seacrane {
 
@@ -11,6 +13,9 @@ namespace seacrane {
 /// `step_change` and whose changes have a `typical` size: in the direction of the change, exactly
 /// representable.
 double difference_increment(double y, double step_change, double typical);
+
+/// Whether the system wrote its own, finite Jacobian at (t, y), by columns; counts the evaluation it takes.
+bool exact_jacobian(System& system, double t, const double* y, double* out, Counters& counters);
 
 /// Jacobian of f at (t, y) by columns: `evaluate(y, f)` returns 0, `column(j)` is where column j goes. Stops
 /// at the first other value of `evaluate` and returns it. `h * slope` is the change of y that a step makes;

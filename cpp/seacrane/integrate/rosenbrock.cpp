@@ -85,6 +85,10 @@ bool RosenbrockW::refresh_jacobian(double h) {
   ++counters_.jacobians;
   // An exception on the way leaves neither.
   forget();
+  if (exact_jacobian(system_, time_, state_.data(), jacobian_.data(), counters_)) {
+    age_ = 0;
+    return true;
+  }
   // The derivative kept from the last step may belong to a state some projection away: no base for
   // differences.
   double* const base = end_derivative_.data();

@@ -32,6 +32,10 @@ class System {
   /// Moves the positions in y along the velocities in y for the time h, both held: rotations by the
   /// exponential.
   virtual void move(double /*h*/, double* /*y*/) {}
+
+  /// Writes df/dy, exact to rounding, by columns at the cost of a few evaluations; may throw as derivative()
+  /// does. Returns false, and leaves nothing of use, where there is none: differences then stand in.
+  virtual bool jacobian(double /*t*/, const double* /*y*/, double* /*out*/) { return false; }
 };
 
 /// A fully implicit system F(t, y, y') = 0 (Gear-Gupta-Leimkuhler stabilised index 2). The unknowns are the

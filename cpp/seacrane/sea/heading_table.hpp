@@ -47,9 +47,13 @@ class HeadingTable {
   }
 
   bool empty() const { return entries_.empty(); }
-  SplinePlace<double> place(double heading) const { return knots_.place<double>(heading); }
+  template <class T>
+  SplinePlace<T> place(const T& heading) const {
+    return knots_.place<T>(heading);
+  }
 
-  void at(std::size_t component, const SplinePlace<double>& p, double* out) const {
+  template <class T>
+  void at(std::size_t component, const SplinePlace<T>& p, T* out) const {
     const Entry &a = entries_[p.i * components_ + component], &b = entries_[p.j * components_ + component];
     for (std::size_t k = 0; k < width; ++k) {
       out[k] = p.left * a.value[k] + p.right * b.value[k] + p.bend_left * a.curvature[k] +

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <utility>
 
+#include "seacrane/math/dual.hpp"
 #include "seacrane/sea/sincos.hpp"
 
 namespace seacrane {
@@ -62,6 +63,35 @@ void PositionedWaveLoad::evaluate(double t, double x, double y, double yaw, Posi
   for (std::size_t j = 0; j < 6; ++j) {
     out.force[j] = force[j];
     out.drift[j] = envelope[0] * drift[0][j] + envelope[1] * drift[1][j];
+  }
+}
+
+void PositionedWaveLoad::slopes(double t, double x, double y, double yaw, double (&out)[6][3]) const {
+  using T = Dual<3>;
+  const T here[3] = {T::variable(x, 0), T::variable(y, 1), T::variable(yaw, 2)};
+  T force[6], envelope[2], drift[2][6];
+  for (std::size_t n = 0; n < waves_.size(); ++n) {
+    const T angle =
+        T(waves_.omega()[n] * t + waves_.phase()[n]) - along_x_[n] * here[0] - along_y_[n] * here[1];
+    const double a = waves_.amplitude()[n];
+    const T wave[2] = {a * cos(angle), a * sin(angle)};
+    const T heading = T(waves_.direction()[n]) - here[2];
+    T transfer[12];
+    force_.at(n, force_.place(heading), transfer);
+    for (std::size_t j = 0; j < 6; ++j) {
+      force[j] += wave[0] * transfer[2 * j] - wave[1] * transfer[2 * j + 1];
+    }
+    if (!has_drift()) continue;
+    T d[6];
+    drift_.at(n, drift_.place(heading), d);
+    for (std::size_t part = 0; part < 2; ++part) {
+      envelope[part] += wave[part];
+      for (std::size_t j = 0; j < 6; ++j) drift[part][j] += wave[part] * d[j];
+    }
+  }
+  for (std::size_t j = 0; j < 6; ++j) {
+    const T sum = force[j] + envelope[0] * drift[0][j] + envelope[1] * drift[1][j];
+    for (std::size_t i = 0; i < 3; ++i) out[j][i] = sum.slope[i];
   }
 }
 

@@ -27,6 +27,9 @@ class PositionedWaveLoad {
 
   void evaluate(double t, double x, double y, double yaw, PositionedLoad& out) const;
 
+  /// Slopes of the six loads, force and drift together, over x, y and yaw.
+  void slopes(double t, double x, double y, double yaw, double (&out)[6][3]) const;
+
   const WaveComponents& waves() const { return waves_; }
   bool has_drift() const { return !drift_.empty(); }
 

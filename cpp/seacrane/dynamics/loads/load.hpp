@@ -9,7 +9,7 @@ namespace seacrane {
 /// What a load may look at. `bodies` holds all bodies and, last, the ground.
 template <class T>
 struct LoadInput {
-  T time;
+  double time;
   double curve_limit;  // curve pieces from here on are not used yet, see Curve::at
   const BodyKinematics<T>* bodies;
   const double* slots;  // zero-order-held inputs
