@@ -34,7 +34,7 @@ def differences(evaluator: _core.Evaluator, t: float, y: Array, scale: Array, *,
 def largest_error(model: _core.Model, t: float, y: Array, *, step: float, kinks: bool = False) -> float:
     """Largest error of an entry, over the largest of its row, columns in typical magnitudes.
 
-    With `kinks` the absolute work is left out: its rate is the sum of magnitudes of powers that pass zero here.
+    With `kinks` the absolute work is left out: its rate sums magnitudes of powers that pass zero here.
     Rows below 1e-3 (of bodies held in place) count as that large: what differences show there is rounding.
     """
     evaluator = _core.Evaluator(model)
@@ -131,7 +131,7 @@ def test_all_kinds_of_elements(seed: int, on_constraints: bool, orientation: str
     baumgarte = 0.0 if seed == 1 else 2.0
     model = mixture(seed, orientation=orientation, baumgarte=baumgarte).compile()
     y = moving(model, seed, on_constraints=on_constraints)
-    assert largest_error(model, 0.3, y, step=1e-4, kinks=on_constraints) < 1e-7
+    assert largest_error(model, 0.3, y, step=3e-4, kinks=on_constraints) < 1e-7
 
 
 SEAS = [{"memory": "per-pair"}, {"memory": "passive"}, {"memory": "none"}, {"phase": "actual", "count": 20}]
@@ -156,7 +156,7 @@ def test_vessel_with_all_its_terms(orientation: str) -> None:
         added_mass=30.0 * np.eye(6) + matrix + matrix.T,
         linear_damping=random.uniform(-1.0, 1.0, (6, 6)),
         quadratic_damping=random.uniform(5.0, 9.0, 6),
-        restoring=np.diag([90.0, 70.0, 60.0]),
+        restoring=np.diag([0.0, 0.0, 90.0, 70.0, 60.0, 0.0]),
         mooring_stiffness=(3.0, 4.0, 5.0),
         mooring_damping=(1.0, 2.0, 3.0),
     )
