@@ -33,7 +33,7 @@ class System {
   /// exponential.
   virtual void move(double /*h*/, double* /*y*/) {}
 
-  /// Writes df/dy, exact to rounding, by columns at the cost of a few evaluations; may throw as derivative()
+  /// Writes df/dy, exact to rounding, by columns, for less than differences cost; may throw as derivative()
   /// does. Returns false, and leaves nothing of use, where there is none: differences then stand in.
   virtual bool jacobian(double /*t*/, const double* /*y*/, double* /*out*/) { return false; }
 };
