@@ -1,6 +1,7 @@
 #include "seacrane/model/model.hpp"
 
 #include "bindings.hpp"
+#include "seacrane/dynamics/merged.hpp"
 #include "seacrane/dynamics/recursive/body_tree.hpp"
 #include "seacrane/dynamics/recursive/recursive.hpp"
 #include "seacrane/dynamics/redundant.hpp"
@@ -31,7 +32,7 @@ std::shared_ptr<Model> compile_scene(
     std::vector<BodyDescription> bodies, std::vector<JointDescription> joints,
     std::vector<DriverDescription> drivers, const std::vector<py::object>& loads,
     std::vector<VesselDescription> vessels, std::vector<WaveLoadDescription> wave_loads,
-    const std::vector<std::pair<std::string, std::string>>& coordinates) {
+    const std::vector<std::pair<std::string, std::string>>& coordinates, bool merge) {
   SceneDescription scene;
   scene.name = std::move(name);
   scene.gravity = gravity;
@@ -49,7 +50,7 @@ std::shared_ptr<Model> compile_scene(
   scene.vessels = std::move(vessels);
   scene.wave_loads = std::move(wave_loads);
   for (const auto& [joint, coordinate] : coordinates) scene.coordinates.push_back({joint, coordinate});
-  return std::const_pointer_cast<Model>(compile(scene));
+  return std::const_pointer_cast<Model>(compile(scene, merge));
 }
 
 py::dict assembly_report(const Model& m) {
@@ -68,13 +69,37 @@ py::dict assembly_report(const Model& m) {
 }
 
 py::dict tree_of(const Model& model) {
-  const BodyTree tree = build_tree(model);
+  const BodyTree tree = build_tree(model.stepped());
   py::dict out;
   out["clusters"] = tree.clusters.size();
   out["struts"] = tree.struts.size();
   out["positions"] = tree.positions;
   out["speeds"] = tree.speeds;
   out["loop_rows"] = tree.loop_rows;
+  return out;
+}
+
+py::dict merge_of(const Model& model) {
+  const Model& stepped = model.stepped();
+  std::map<std::string, std::vector<std::string>> groups;
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    const int on = stepped.merge.places[b].body;
+    const bool fixed = on == stepped.body_count();
+    const std::string carrier = fixed ? kGround : stepped.bodies[static_cast<std::size_t>(on)].name;
+    if (carrier != model.bodies[b].name) groups[carrier].push_back(model.bodies[b].name);
+  }
+  std::set<std::string> kept;
+  for (const auto& e : stepped.elements) kept.insert(e.name);
+  std::vector<std::string> dropped;
+  for (const auto& e : model.elements) {
+    if (kept.count(e.name) == 0) dropped.push_back(e.name);
+  }
+  py::dict out;
+  out["bodies"] = groups;
+  out["locked_by"] = stepped.merge.locked;
+  out["dropped"] = dropped;
+  out["coordinates"] = 6 * stepped.body_count();
+  out["constraints"] = stepped.rows();
   return out;
 }
 
@@ -190,7 +215,13 @@ class Evaluator {
       throw std::invalid_argument("time_parts: count is " + std::to_string(count) + "; give at least 1");
     }
     py::dict out;
-    for (const auto& [name, ns] : system_.time_parts(t, y.data(), count)) out[name.c_str()] = ns;
+    RedundantSystem& loads = stepped().loads_from();
+    std::vector<double> bodies(y.data(), y.data() + y.size());
+    if (model_->merged) {
+      bodies.resize(loads.size());
+      merge_state(*model_, *model_->merged, y.data(), bodies.data());
+    }
+    for (const auto& [name, ns] : loads.time_parts(t, bodies.data(), count)) out[name.c_str()] = ns;
     return out;
   }
 
@@ -244,6 +275,10 @@ void bind_model(py::module_& m) {
       .def_property_readonly("tree", &tree_of,
                              "What formulation 'recursive' makes of the scene: clusters, struts (cylinder "
                              "loops in closed form), positions, speeds, loop_rows (rows left to close).")
+      .def_property_readonly("merge", &merge_of,
+                             "What runs step: bodies merged by the one that carries them, drivers that lock "
+                             "a joint, elements dropped, coordinates and constraints of formulation "
+                             "'redundant'.")
       .def_property_readonly("bodies",
                              [](const Model& x) {
                                std::vector<std::string> out;
@@ -305,7 +340,7 @@ void bind_model(py::module_& m) {
   m.def("compile", &compile_scene, py::kw_only(), py::arg("name"), py::arg("gravity"), py::arg("orientation"),
         py::arg("baumgarte"), py::arg("length_scale"), py::arg("bodies"), py::arg("joints"),
         py::arg("drivers"), py::arg("loads"), py::arg("vessels"), py::arg("wave_loads"),
-        py::arg("coordinates"),
+        py::arg("coordinates"), py::arg("merge") = true,
         "Checks and compiles a scene; seacrane.Scene.compile() calls it. Raises SceneError.");
   bind_evaluator(m);
 }

@@ -411,8 +411,14 @@ class Scene:
         usual = "angle" if self.joints[joint].kind == "revolute" else "displacement"
         return text_of(f"{kind} of joint {joint!r}: coordinate", coordinate or usual)
 
-    def compile(self) -> _core.Model:
+    def compile(self, *, merge: bool = True) -> _core.Model:
         """Check everything, close the joints and compile.
+
+        Parameters
+        ----------
+        merge : bool
+            Step bodies that never move relative to each other (welded, or on a hinge or slide that a driver
+            holds still) as one. Results hold all bodies and reactions either way.
 
         Raises
         ------
@@ -444,6 +450,7 @@ class Scene:
             vessels=list(self.vessels.values()),
             wave_loads=[] if self.waves is None else [self.waves.compile()],
             coordinates=list(self.recorded.values()),
+            merge=merge,
         )
         if model.redundant:
             import warnings

@@ -27,9 +27,9 @@ def scene_report(scene: Scene) -> dict[str, Rows]:
     Returns
     -------
     dict of str to list of (str, value)
-        Sections "size", "elements", "assembly", "left out", "cost" and, for models small enough for a dense
-        eigenvalue problem, "modes". Values are numbers, texts or lists of texts. Costs are nanoseconds per
-        evaluation, measured while the report is made; all else is the same at every call.
+        Sections "size", "elements", "merged", "assembly", "left out", "cost" and, for models small enough for
+        a dense eigenvalue problem, "modes". Values are numbers, texts or lists of texts. Costs are
+        nanoseconds per evaluation, measured while the report is made; all else is the same at every call.
 
     Raises
     ------
@@ -40,6 +40,7 @@ def scene_report(scene: Scene) -> dict[str, Rows]:
     report = {
         "size": _size(scene, model),
         "elements": _elements(scene),
+        "merged": _merged(model),
         "assembly": _assembly(model),
         "left out": _left_out(scene, model),
         "cost": _cost(model),
@@ -60,8 +61,8 @@ def _size(scene: Scene, model: _core.Model) -> Rows:
         ("coordinates", model.coordinates),
         ("constraints", model.constraints),
         ("degrees_of_freedom", model.degrees_of_freedom),
-        ("compiled_coordinates", model.coordinates),
-        ("compiled_constraints", model.constraints),
+        ("compiled_coordinates", model.merge["coordinates"]),
+        ("compiled_constraints", model.merge["constraints"]),
         ("states", model.states),
         ("pose states", pose * bodies),
         ("velocity states", 6 * bodies),
@@ -96,6 +97,15 @@ def _elements(scene: Scene) -> Rows:
         rows.append((label, [f"{name} ({element.body})" for name, element in table.items()]))
     rows.append(("springs", [f"{name} ({s.first} to {s.second})" for name, s in scene.springs.items()]))
     rows.append(("waves", [] if scene.waves is None else [scene.waves.body]))
+    return [(label, names) for label, names in rows if names]
+
+
+def _merged(model: _core.Model) -> Rows:
+    """Bodies that runs step as one, and the elements between them that drop out of the equations."""
+    merge = model.merge
+    rows: Rows = [(f"moves as one with {carrier}", names) for carrier, names in merge["bodies"].items()]
+    rows.append(("drivers that hold a joint still", merge["locked_by"]))
+    rows.append(("elements not stepped (reactions on output only)", merge["dropped"]))
     return [(label, names) for label, names in rows if names]
 
 

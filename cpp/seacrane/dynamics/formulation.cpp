@@ -2,13 +2,18 @@
 
 #include <stdexcept>
 
+#include "seacrane/dynamics/merged.hpp"
 #include "seacrane/dynamics/recursive/recursive.hpp"
 
 namespace seacrane {
 
 std::unique_ptr<Formulation> make_formulation(const std::string& name, RedundantSystem& bodies) {
-  if (name == "redundant") return nullptr;
-  if (name == "recursive") return std::make_unique<RecursiveSystem>(bodies);
+  const bool recursive = name == "recursive";
+  if (recursive || name == "redundant") {
+    if (bodies.model().merged) return std::make_unique<MergedSystem>(name, bodies.model());
+    if (recursive) return std::make_unique<RecursiveSystem>(bodies);
+    return nullptr;
+  }
   throw std::invalid_argument("unknown formulation \"" + name + "\"; choose redundant or recursive");
 }
 

@@ -21,14 +21,17 @@ class Formulation : public System {
   virtual void read_bodies(double t, const double* bodies, double* y) = 0;
   virtual void write_bodies(double t, const double* y, double* bodies) = 0;
   /// Accelerations of the bodies' state points at the last derivative(), in the order of the model.
-  virtual const std::vector<Vec6d>& accelerations() const = 0;
+  virtual const std::vector<Vec6d>& accelerations() = 0;
+  /// The redundant system that its loads come from: inputs, the limit of curves and histories are set there.
+  virtual RedundantSystem& loads_from() = 0;
   /// Largest residual seen by project() before it corrected anything, since the last call.
   virtual double take_residual_before_projection() = 0;
   /// What a state component is, for messages.
   virtual std::string describe(std::size_t component) const = 0;
 };
 
-/// The formulation "recursive" on the loads of `bodies`. Null for "redundant": that is `bodies` itself.
+/// What steps the model of `bodies`: its merged bodies where it has such, in either formulation; else the
+/// formulation "recursive" on the loads of `bodies`, or null for "redundant": that is `bodies` itself.
 /// Throws std::invalid_argument for a name or a scene that does not fit.
 std::unique_ptr<Formulation> make_formulation(const std::string& name, RedundantSystem& bodies);
 

@@ -42,7 +42,8 @@ class RedundantSystem final : public Formulation {
   std::vector<double> scale() const override { return model_->scale; }
   void read_bodies(double t, const double* bodies, double* y) override;
   void write_bodies(double t, const double* y, double* bodies) override;
-  const std::vector<Vec6d>& accelerations() const override { return acceleration_; }
+  const std::vector<Vec6d>& accelerations() override { return acceleration_; }
+  RedundantSystem& loads_from() override { return *this; }
   std::string describe(std::size_t component) const override;
   std::size_t position_size() const override { return static_cast<std::size_t>(model_->layout.velocity); }
   void move(double h, double* y) override;

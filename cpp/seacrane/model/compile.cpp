@@ -5,6 +5,7 @@
 #include <map>
 #include <set>
 
+#include "seacrane/dynamics/merged.hpp"
 #include "seacrane/model/assembly.hpp"
 #include "seacrane/model/model.hpp"
 #include "seacrane/model/validate.hpp"
@@ -19,7 +20,10 @@ constexpr double kRotationScale = 0.01;    // rad, rad/s: the same at a lever of
 
 class Compiler {
  public:
-  explicit Compiler(const SceneDescription& scene) : scene_(scene) { model_.description = scene; }
+  Compiler(const SceneDescription& scene, MergePlan merge) : scene_(scene) {
+    model_.description = scene;
+    model_.merge = std::move(merge);
+  }
 
   Model run() {
     bodies();
@@ -34,12 +38,11 @@ class Compiler {
   }
 
   // What loads ask for while they are compiled.
-  int body(const std::string& name) const {
-    return name == kGround ? static_cast<int>(scene_.bodies.size()) : index_.at(name);
-  }
-
-  Vec3d from_state_point(int b, const Vec3d& point) const {
-    return b < model_.body_count() ? Vec3d(point - model_.bodies[idx(b)].state_point) : point;
+  Attachment attach(const std::string& body, const Vec3d& point) const {
+    const Placement p = place(body);
+    const Vec3d in_body = p.point(point);
+    if (p.body == ground()) return {p.body, in_body, p.axes};
+    return {p.body, in_body - model_.bodies[idx(p.body)].state_point, p.axes};
   }
 
   CoordinateData coordinate(const CoordinateDescription& d) const {
@@ -48,7 +51,7 @@ class Compiler {
         {"x", CoordinateKind::x},         {"y", CoordinateKind::y},
         {"z", CoordinateKind::z},         {"roll", CoordinateKind::roll},
         {"pitch", CoordinateKind::pitch}, {"yaw", CoordinateKind::yaw}};
-    return {joint_data(scene_.joints[idx(joint_index_.at(d.joint))]), kinds.at(d.coordinate)};
+    return {joint_data(*joint_.at(d.joint)), kinds.at(d.coordinate)};
   }
 
   int slots(int count) {
@@ -58,46 +61,96 @@ class Compiler {
   }
 
  private:
+  int ground() const { return static_cast<int>(model_.merge.carriers.size()); }
+
+  Placement place(const std::string& body) const {
+    return body == kGround ? Placement{ground()} : model_.merge.places[idx(index_.at(body))];
+  }
+
+  bool within_one_body(const JointDescription& d) const {
+    return place(d.first).body == place(d.second).body;
+  }
+
   void bodies() {
     std::map<std::string, int> vessel_on;
     for (std::size_t v = 0; v < scene_.vessels.size(); ++v)
       vessel_on[scene_.vessels[v].body] = static_cast<int>(v);
-    for (const auto& d : scene_.bodies) {
-      BodyModel b;
-      b.name = d.name;
-      b.mass = d.mass;
-      b.inertia = d.inertia;
-      b.inverse_inertia = d.inertia.inverse();
-      const auto vessel = vessel_on.find(d.name);
-      b.vessel = vessel == vessel_on.end() ? -1 : vessel->second;
-      b.state_point = b.vessel < 0 ? d.center_of_mass : Vec3d::Zero();
-      b.center_of_mass = d.center_of_mass - b.state_point;
-      index_[d.name] = static_cast<int>(model_.bodies.size());
-      // The vessel's restoring matrix carries its own weight and buoyancy.
-      if (d.gravity && b.vessel < 0) {
-        model_.gravity.push_back({index_[d.name], d.mass * scene_.gravity, b.center_of_mass});
-      }
-      model_.bodies.push_back(b);
+    for (int b = 0; b < static_cast<int>(scene_.bodies.size()); ++b) index_[scene_.bodies[idx(b)].name] = b;
+    for (int b = 0; b < ground(); ++b) {
+      BodyModel body = merged_body(b);
+      const auto vessel = vessel_on.find(body.name);
+      body.vessel = vessel == vessel_on.end() ? -1 : vessel->second;
+      body.state_point = body.vessel < 0 ? body.center_of_mass : Vec3d::Zero();
+      weigh(b, body);
+      body.center_of_mass -= body.state_point;
+      model_.bodies.push_back(body);
     }
   }
 
+  /// Calls f(described body, its place) for what compiled body b carries.
+  template <class F>
+  void for_each_carried(int b, F&& f) const {
+    for (std::size_t i = 0; i < scene_.bodies.size(); ++i) {
+      if (model_.merge.places[i].body == b) f(scene_.bodies[i], model_.merge.places[i]);
+    }
+  }
+
+  /// Mass, centre of mass (from the body origin) and inertia of all that moves as one.
+  BodyModel merged_body(int b) const {
+    BodyModel body;
+    const BodyDescription& carrier = scene_.bodies[idx(model_.merge.carriers[idx(b)])];
+    body.name = carrier.name;
+    int count = 0;
+    Vec3d moment = Vec3d::Zero();
+    for_each_carried(b, [&](const BodyDescription& d, const Placement& p) {
+      ++count;
+      body.mass += d.mass;
+      moment += d.mass * p.point(d.center_of_mass);
+    });
+    body.center_of_mass = count == 1 ? carrier.center_of_mass : Vec3d(moment / body.mass);
+    body.inertia = count == 1 ? carrier.inertia : Mat3d::Zero();
+    for_each_carried(b, [&](const BodyDescription& d, const Placement& p) {
+      if (count == 1) return;
+      const Mat3d s = skew<double>(Vec3d(p.point(d.center_of_mass) - body.center_of_mass));
+      body.inertia += p.axes * d.inertia * p.axes.transpose() - d.mass * s * s;
+    });
+    body.inverse_inertia = body.inertia.inverse();
+    return body;
+  }
+
+  /// One weight for all that a body carries. The vessel's restoring matrix carries its own weight and
+  /// buoyancy.
+  void weigh(int b, const BodyModel& body) {
+    double mass = 0.0;
+    Vec3d moment = Vec3d::Zero();
+    for_each_carried(b, [&](const BodyDescription& d, const Placement& p) {
+      if (!d.gravity || (body.vessel >= 0 && d.name == body.name)) return;
+      mass += d.mass;
+      moment += d.mass * (p.point(d.center_of_mass) - body.state_point);
+    });
+    if (mass > 0.0) model_.gravity.push_back({b, mass * scene_.gravity, moment / mass});
+  }
+
   JointData joint_data(const JointDescription& d) const {
+    const Attachment first = attach(d.first, d.first_frame.point);
+    const Attachment second = attach(d.second, d.second_frame.point);
     JointData j;
-    j.first = body(d.first);
-    j.second = body(d.second);
-    j.first_point = from_state_point(j.first, d.first_frame.point);
-    j.second_point = from_state_point(j.second, d.second_frame.point);
-    j.first_axes = d.first_frame.axes;
-    j.second_axes = d.second_frame.axes;
+    j.first = first.body;
+    j.second = second.body;
+    j.first_point = first.point;
+    j.second_point = second.point;
+    j.first_axes = first.axes * d.first_frame.axes;
+    j.second_axes = second.axes * d.second_frame.axes;
     j.length = d.length;
     return j;
   }
 
   void joints() {
     for (const auto& d : scene_.joints) {
+      joint_[d.name] = &d;
+      if (within_one_body(d)) continue;
       JointData j = joint_data(d);
       j.element = static_cast<int>(model_.elements.size());
-      joint_index_[d.name] = j.element;
       ElementModel e;
       e.name = d.name;
       e.kind = d.kind;
@@ -116,6 +169,7 @@ class Compiler {
 
   void drivers() {
     for (const auto& d : scene_.drivers) {
+      if (within_one_body(*joint_.at(d.coordinate.joint))) continue;
       DriverData driver{coordinate(d.coordinate), d.curve, static_cast<int>(model_.elements.size())};
       ElementModel e;
       e.name = d.name;
@@ -139,7 +193,8 @@ class Compiler {
   void loads() {
     for_each_load_type([&]<class Load>() {
       for (const auto& d : std::get<std::vector<typename Load::Description>>(scene_.loads)) {
-        std::get<std::vector<Load>>(model_.loads).push_back(Load::compile(d, *this));
+        const Load load = Load::compile(d, *this);
+        if (!load.moves_nothing(ground())) std::get<std::vector<Load>>(model_.loads).push_back(load);
       }
     });
     for (const auto& d : scene_.coordinates) model_.coordinates.push_back(coordinate(d));
@@ -148,7 +203,7 @@ class Compiler {
   void vessels() {
     for (const auto& d : scene_.vessels) {
       Vessel v;
-      v.body = body(d.body);
+      v.body = place(d.body).body;
       v.added_mass = d.added_mass;
       v.linear_damping = d.linear_damping;
       v.quadratic_damping = d.quadratic_damping;
@@ -164,14 +219,14 @@ class Compiler {
       } catch (const std::invalid_argument& error) {
         throw SceneError("vessel '" + d.name + "': " + error.what());
       }
-      const BodyDescription& start = scene_.bodies[idx(v.body)];
+      const BodyDescription& start = scene_.bodies[idx(index_.at(d.body))];
       v.mean_position = start.position;
       v.mean_yaw = roll_pitch_yaw<double>(rotation_from_quaternion<double>(start.quaternion))[2];
       model_.paper_kinematics = d.kinematics == VesselKinematics::paper;
       model_.vessels.push_back(v);
     }
     for (const auto& d : scene_.wave_loads) {
-      const int b = body(d.body);
+      const int b = place(d.body).body;
       model_.wave_loads.push_back({b, model_.bodies[idx(b)].vessel, d});
     }
   }
@@ -218,7 +273,7 @@ class Compiler {
     std::vector<double>& y = model_.initial_state;
     y.assign(idx(s.size), 0.0);
     for (int b = 0; b < s.bodies; ++b) {
-      const BodyDescription& d = scene_.bodies[idx(b)];
+      const BodyDescription& d = scene_.bodies[idx(model_.merge.carriers[idx(b)])];
       const Vec4d q = d.quaternion.normalized();
       const Mat3d r = rotation_from_quaternion<double>(q);
       const Vec3d lever = r * model_.bodies[idx(b)].state_point;
@@ -247,15 +302,25 @@ class Compiler {
 
   const SceneDescription& scene_;
   Model model_;
-  std::map<std::string, int> index_, joint_index_;
+  std::map<std::string, int> index_;  // of described bodies
+  std::map<std::string, const JointDescription*> joint_;
 };
 
 }  // namespace
 
-std::shared_ptr<const Model> compile(const SceneDescription& scene) {
+std::shared_ptr<const Model> compile(const SceneDescription& scene, bool merge) {
   validate(scene);
-  auto model = std::make_shared<Model>(Compiler(scene).run());
+  auto model = std::make_shared<Model>(Compiler(scene, no_merge(scene)).run());
   assemble(*model);
+  MergePlan plan = merge ? plan_merge(scene) : no_merge(scene);
+  if (plan.merges()) {
+    auto merged = std::make_shared<Model>(Compiler(scene, std::move(plan)).run());
+    std::vector<double> start(merged->initial_state);
+    merge_state(*model, *merged, model->initial_state.data(), start.data());
+    merged->initial_state = std::move(start);
+    assemble(*merged);
+    model->merged = std::move(merged);
+  }
   return model;
 }
 

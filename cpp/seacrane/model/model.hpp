@@ -10,6 +10,7 @@
 #include "seacrane/dynamics/loads/registry.hpp"
 #include "seacrane/hydro/vessel.hpp"
 #include "seacrane/model/description.hpp"
+#include "seacrane/model/merge.hpp"
 
 namespace seacrane {
 
@@ -85,12 +86,16 @@ struct Model {
   AssemblyReport assembly;
   bool redundant = false;  // rank of D below its rows
   bool paper_kinematics = false;
+  MergePlan merge;
+  std::shared_ptr<const Model> merged;  // what runs step, with bodies that move as one merged; null: this
 
+  const Model& stepped() const { return merged ? *merged : *this; }
   int body_count() const { return static_cast<int>(bodies.size()); }
   int rows() const { return schur.rows(); }
   const std::vector<Actuator>& actuators() const { return std::get<std::vector<Actuator>>(loads); }
 };
 
-std::shared_ptr<const Model> compile(const SceneDescription& scene);
+/// With `merge`, a second model in which bodies that move as one are merged goes with it, for stepping.
+std::shared_ptr<const Model> compile(const SceneDescription& scene, bool merge = true);
 
 }  // namespace seacrane

@@ -6,6 +6,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "seacrane/dynamics/merged.hpp"
 #include "seacrane/model/validate.hpp"
 
 namespace seacrane {
@@ -48,13 +49,15 @@ Simulation::Simulation(std::shared_ptr<const Model> model, State start, RunOptio
       system_(model_),
       reduced_(make_formulation(options_.formulation, system_)),
       stepped_(reduced_ ? *reduced_ : system_),
-      residual_(system_),
-      integrator_(
-          make_integrator(stepped_, reduced_ ? nullptr : &residual_, integrator_options(stepped_, options_))),
+      loads_(stepped_.loads_from()),
+      residual_(loads_),
+      integrator_(make_integrator(stepped_, options_.formulation == "redundant" ? &residual_ : nullptr,
+                                  integrator_options(stepped_, options_))),
       recording_(*model_, options_.channels, options_.output_times.size()),
       inputs_(start.inputs),
       stepped_state_(stepped_.size(), 0.0),
       output_state_(start.values),
+      merged_state_(loads_.size(), 0.0),
       rate_(start.values.size(), 0.0) {
   if (start.values.size() != static_cast<std::size_t>(model_->layout.size)) {
     throw std::invalid_argument("state: has " + std::to_string(start.values.size()) +
@@ -64,7 +67,7 @@ Simulation::Simulation(std::shared_ptr<const Model> model, State start, RunOptio
     if (!std::isfinite(v)) throw std::invalid_argument("state: holds a value that is not finite");
   }
   check_inputs(inputs_);
-  system_.set_inputs(inputs_);
+  apply_inputs();
   system_.project(start.time, start.values.data(), false);
   const double open = system_.residual(start.time, start.values.data()).position;
   if (!(open <= kClosed)) {
@@ -73,7 +76,7 @@ Simulation::Simulation(std::shared_ptr<const Model> model, State start, RunOptio
   }
   system_.take_residual_before_projection();
   next_jump();
-  system_.start_histories(start.time, start.values.data(), start.histories);
+  start_histories(start);
   start_energy_ = system_.energy(start.time, start.values.data());
   start_work_ = start.values[static_cast<std::size_t>(model_->layout.work)];
   stepped_.read_bodies(start.time, start.values.data(), stepped_state_.data());
@@ -92,7 +95,33 @@ double Simulation::next_jump() {
   const double stop =
       next_breakpoint_ < stops.size() ? stops[next_breakpoint_] : std::numeric_limits<double>::infinity();
   system_.set_curve_limit(stop);
+  loads_.set_curve_limit(stop);
   return stop;
+}
+
+void Simulation::apply_inputs() {
+  system_.set_inputs(inputs_);
+  loads_.set_inputs(inputs_);
+}
+
+template <class F>
+void Simulation::for_each_system(const double* bodies, F&& f) {
+  f(system_, bodies);
+  if (&loads_ == &system_) return;
+  merge_state(*model_, loads_.model(), bodies, merged_state_.data());
+  f(loads_, merged_state_.data());
+}
+
+void Simulation::start_histories(const State& start) {
+  for_each_system(start.values.data(), [&](RedundantSystem& system, const double* bodies) {
+    system.start_histories(start.time, bodies, start.histories);
+  });
+}
+
+void Simulation::sample_histories(double now) {
+  write_present(output_state_.data());
+  for_each_system(output_state_.data(),
+                  [&](RedundantSystem& system, const double* bodies) { system.sample(now, bodies); });
 }
 
 void Simulation::report_open(double t) const {
@@ -177,10 +206,7 @@ bool Simulation::advance(double t_end, const std::function<bool(double)>& keep_g
     check_turning();
     record_until(now);
     // The memory's load goes on smoothly over a sample: no derivative is thrown away.
-    if (now >= system_.next_sample()) {
-      write_present(output_state_.data());
-      system_.sample(now, output_state_.data());
-    }
+    if (now >= system_.next_sample()) sample_histories(now);
     if (now >= jump && now < t_end) {
       // A curve jumps here: go on from the other side with a fresh derivative.
       next_jump();
@@ -211,7 +237,7 @@ void Simulation::check_inputs(const std::vector<double>& slots) const {
 void Simulation::set_inputs(const std::vector<double>& slots) {
   check_inputs(slots);
   inputs_ = slots;
-  system_.set_inputs(inputs_);
+  apply_inputs();
   std::copy_n(integrator_->state(), stepped_state_.size(), stepped_state_.data());
   integrator_->reset(integrator_->time(), stepped_state_.data());
 }
@@ -235,7 +261,9 @@ State Simulation::state() const {
 }
 
 RunStatistics Simulation::statistics() const {
-  return {integrator_->counters(), system_.dense_solves(), wall_seconds_};
+  long dense = system_.dense_solves();
+  if (&loads_ != &system_) dense += loads_.dense_solves();
+  return {integrator_->counters(), dense, wall_seconds_};
 }
 
 }  // namespace seacrane

@@ -68,20 +68,27 @@ class Simulation {
   void check_turning() const;
   [[noreturn]] void report_open(double t) const;
   void check_inputs(const std::vector<double>& slots) const;
+  void apply_inputs();
+  void start_histories(const State& start);
+  void sample_histories(double now);
+  /// Calls f(system, its bodies' state) for the system recorded and, with merged bodies, the one stepped.
+  template <class F>
+  void for_each_system(const double* bodies, F&& f);
   /// The state at time() in bodies' poses and twists.
   void write_present(double* bodies) const;
 
   std::shared_ptr<const Model> model_;
   RunOptions options_;
-  RedundantSystem system_;                // loads, and what is recorded
+  RedundantSystem system_;                // of the described bodies: what is recorded
   std::unique_ptr<Formulation> reduced_;  // null: the redundant system itself is stepped
   Formulation& stepped_;
+  RedundantSystem& loads_;  // that are stepped
   GearGuptaLeimkuhler residual_;
   std::unique_ptr<Integrator> integrator_;
   Recording recording_;
   std::vector<double> inputs_;
   std::size_t next_output_ = 0, next_breakpoint_ = 0;
-  std::vector<double> stepped_state_, output_state_, rate_;
+  std::vector<double> stepped_state_, output_state_, merged_state_, rate_;
   double start_energy_ = 0.0, start_work_ = 0.0;
   double wall_seconds_ = 0.0;
 };

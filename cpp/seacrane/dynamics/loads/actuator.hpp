@@ -59,6 +59,9 @@ struct Actuator {
            T(damping) * (T(ref.rate) - coordinate_rate<T>(row, ka, kb));
   }
 
+  /// True between two points of one rigid body: forces cancel and do no work.
+  bool moves_nothing(int /*ground*/) const { return coordinate.joint.first == coordinate.joint.second; }
+
   template <class T>
   void apply(const LoadInput<T>& in, LoadSum<T>& out) const {
     const int a = coordinate.joint.first, b = coordinate.joint.second;

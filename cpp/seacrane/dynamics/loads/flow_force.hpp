@@ -33,6 +33,7 @@ struct FlowForce {
 
   int body = 0;
   Vec3d point;  // from the state point, body axes
+  Vec3d bow;    // x axis of the described body
   Curve speed;
   double cosine = 1.0, sine = 0.0;  // of the flow's direction
   PeriodicKnots knots;
@@ -64,8 +65,10 @@ struct FlowForce {
   template <class Context>
   static FlowForce compile(const Description& d, Context& context) {
     FlowForce f;
-    f.body = context.body(d.body);
-    f.point = context.from_state_point(f.body, d.point);
+    const Attachment on = context.attach(d.body, d.point);
+    f.body = on.body;
+    f.point = on.point;
+    f.bow = on.axes.col(0);
     f.speed = d.speed;
     f.cosine = std::cos(d.direction);
     f.sine = std::sin(d.direction);
@@ -86,6 +89,9 @@ struct FlowForce {
     for (double t : speed.breakpoints(0)) times.insert(t);
   }
 
+  /// True on bodies that are fixed to the ground: no load, no work.
+  bool moves_nothing(int ground) const { return body == ground; }
+
   template <class T>
   void apply(const LoadInput<T>& in, LoadSum<T>& out) const {
     using std::atan2, std::sqrt;
@@ -96,10 +102,10 @@ struct FlowForce {
     const T along = T(cosine) * u - velocity.x(), across = T(sine) * u - velocity.y();
     const T square = along * along + across * across;
     if (!(square > T(0))) return;  // no direction, and no load
-    const Vec3<T> bow = k.rotation.col(0);
-    const T flat = sqrt(bow.x() * bow.x() + bow.y() * bow.y());
+    const Vec3<T> ahead = k.rotation * bow.cast<T>();
+    const T flat = sqrt(ahead.x() * ahead.x() + ahead.y() * ahead.y());
     if (!(flat > T(0))) return;  // the bow points straight up or down: the axes are not defined
-    const T c = bow.x() / flat, s = bow.y() / flat;
+    const T c = ahead.x() / flat, s = ahead.y() / flat;
     const SplinePlace<T> p = knots.place<T>(atan2(c * across - s * along, c * along + s * across));
     Vec3<T> f;  // in axes that follow yaw; z holds the moment
     for (int n = 0; n < 3; ++n) {

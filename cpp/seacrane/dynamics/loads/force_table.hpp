@@ -50,9 +50,12 @@ struct ForceTable {
 
   template <class Context>
   static ForceTable compile(const Description& d, Context& context) {
-    const int b = context.body(d.body);
-    return {b, context.from_state_point(b, d.point), d.times, d.wrenches};
+    const Attachment on = context.attach(d.body, d.point);
+    return {on.body, on.point, d.times, d.wrenches};
   }
+
+  /// True on bodies that are fixed to the ground: no load, no work.
+  bool moves_nothing(int ground) const { return body == ground; }
 
   template <class T>
   void apply(const LoadInput<T>& in, LoadSum<T>& out) const {

@@ -28,6 +28,7 @@ struct FunctionForce {
 
   int body = 0;
   Vec3d origin;  // body origin from the state point, body axes
+  Mat3d axes;    // of the described body
   ForceFunction function = nullptr;
   std::vector<double> parameters;
 
@@ -38,9 +39,12 @@ struct FunctionForce {
 
   template <class Context>
   static FunctionForce compile(const Description& d, Context& context) {
-    const int b = context.body(d.body);
-    return {b, context.from_state_point(b, Vec3d::Zero()), d.function, d.parameters};
+    const Attachment on = context.attach(d.body, Vec3d::Zero());
+    return {on.body, on.point, on.axes, d.function, d.parameters};
   }
+
+  /// True on bodies that are fixed to the ground: no load, no work.
+  bool moves_nothing(int ground) const { return body == ground; }
 
   template <class T>
   void apply(const LoadInput<T>& in, LoadSum<T>& out) const {
@@ -50,7 +54,7 @@ struct FunctionForce {
     const Vec3d velocity = k.velocity + k.angular_velocity.cross(lever);
     double state[13], wrench[6] = {};
     view<3>(state) = k.position + lever;
-    view<4>(state + 3) = quaternion_from_rotation(k.rotation);
+    view<4>(state + 3) = quaternion_from_rotation(Mat3d(k.rotation * axes));
     view<3>(state + 7) = velocity;
     view<3>(state + 10) = k.angular_velocity;
     function(in.time, state, parameters.data(), wrench);

@@ -15,6 +15,13 @@ struct LoadInput {
   const double* slots;  // zero-order-held inputs
 };
 
+/// Where a load of a described body acts on the compiled body that carries it.
+struct Attachment {
+  int body = 0;
+  Vec3d point;                     // from the state point, in axes of the compiled body
+  Mat3d axes = Mat3d::Identity();  // of the described body, likewise
+};
+
 /// What loads add up: one wrench per body (the ground's is discarded), and the power of all loads that
 /// have no potential, for the energy balance.
 template <class T>

@@ -19,6 +19,7 @@ struct PointForce {
 
   int body = 0;
   Vec3d point;  // from the state point, body axes
+  Mat3d axes;   // of the described body
   Vec3d force;
   bool body_axes = false;
   int slot = 0;
@@ -32,16 +33,19 @@ struct PointForce {
 
   template <class Context>
   static PointForce compile(const Description& d, Context& context) {
-    const int b = context.body(d.body);
-    return {b, context.from_state_point(b, d.point), d.force, d.body_axes, context.slots(3)};
+    const Attachment on = context.attach(d.body, d.point);
+    return {on.body, on.point, on.axes, d.force, d.body_axes, context.slots(3)};
   }
+
+  /// True on bodies that are fixed to the ground: no load, no work.
+  bool moves_nothing(int ground) const { return body == ground; }
 
   template <class T>
   void apply(const LoadInput<T>& in, LoadSum<T>& out) const {
     const auto& k = in.bodies[body];
     const Vec3d total = force + view<3>(in.slots + slot);
     Vec3<T> f = total.cast<T>();
-    if (body_axes) f = k.rotation * f;
+    if (body_axes) f = k.rotation * (axes * total).template cast<T>();
     const Vec3<T> lever = k.rotation * point.cast<T>();
     out.wrench[body].add(f, lever);
     out.add_power(f.dot(k.velocity + cross<T>(k.angular_velocity, lever)));

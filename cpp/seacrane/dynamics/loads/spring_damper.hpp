@@ -49,17 +49,13 @@ struct SpringDamper {
 
   template <class Context>
   static SpringDamper compile(const Description& d, Context& context) {
-    const int a = context.body(d.first), b = context.body(d.second);
-    return {a,
-            b,
-            context.from_state_point(a, d.first_point),
-            context.from_state_point(b, d.second_point),
-            d.stiffness,
-            d.damping,
-            d.natural_length,
-            d.lengths,
-            d.forces};
+    const Attachment a = context.attach(d.first, d.first_point);
+    const Attachment b = context.attach(d.second, d.second_point);
+    return {a.body, b.body, a.point, b.point, d.stiffness, d.damping, d.natural_length, d.lengths, d.forces};
   }
+
+  /// True between two points of one rigid body: forces cancel and do no work.
+  bool moves_nothing(int /*ground*/) const { return first == second; }
 
   template <class T>
   void apply(const LoadInput<T>& in, LoadSum<T>& out) const {

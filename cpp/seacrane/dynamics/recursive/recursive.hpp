@@ -28,7 +28,8 @@ class RecursiveSystem final : public Formulation {
   std::vector<double> scale() const override;
   void read_bodies(double t, const double* bodies, double* y) override;
   void write_bodies(double t, const double* y, double* bodies) override;
-  const std::vector<Vec6d>& accelerations() const override { return acceleration_; }
+  const std::vector<Vec6d>& accelerations() override { return acceleration_; }
+  RedundantSystem& loads_from() override { return terms_; }
   double take_residual_before_projection() override;
   std::string describe(std::size_t component) const override;
 

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <vector>
+
+#include "seacrane/model/description.hpp"
+
+namespace seacrane {
+
+/// Where a described body sits on the compiled body that carries it: origin and axes of its frame in the
+/// carrier's.
+struct Placement {
+  int body = 0;  // the carrier among the compiled bodies; ground = their count
+  Vec3d origin = Vec3d::Zero();
+  Mat3d axes = Mat3d::Identity();
+
+  Vec3d point(const Vec3d& p) const { return origin + axes * p; }
+};
+
+/// Bodies that never move relative to each other, as one. The carrier's frame is that of the vessel among
+/// them, else of the ground, else of the body described first.
+struct MergePlan {
+  std::vector<Placement> places;    // of the described bodies, in their order
+  std::vector<int> carriers;        // described body whose frame a compiled body has
+  std::vector<std::string> locked;  // drivers that hold the coordinate of their joint still
+
+  bool merges() const { return carriers.size() < places.size(); }
+};
+
+/// Every body by itself.
+MergePlan no_merge(const SceneDescription& scene);
+
+/// Merges across welds, and across hinges and slides whose coordinate a driver holds at a constant value.
+/// Two vessels, or a vessel and the ground, stay apart; so does a scene in the paper's kinematics, and one
+/// in which nothing would be left to move.
+MergePlan plan_merge(const SceneDescription& scene);
+
+}  // namespace seacrane

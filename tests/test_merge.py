@@ -1,0 +1,226 @@
+"""Bodies that move as one are stepped as one: counts, equal motion and reactions, what stays apart."""
+
+from __future__ import annotations
+
+import ctypes
+from typing import Any
+
+import numpy as np
+import pytest
+
+from seacrane import Curve, Run, Scene, _core, cases
+from seacrane.environment import FlowCoefficients, add_wind
+from seacrane.scene_report import scene_report
+
+TURNED = np.array([0.8, 0.2, -0.4, 0.4])  # unit quaternion
+COMPARED = ("position", "velocity", "angular_velocity", "acceleration", "reaction_force", "reaction_moment")
+FORCE = ctypes.CFUNCTYPE(None, ctypes.c_double, *[ctypes.POINTER(ctypes.c_double)] * 3)
+FORMULATIONS = ("redundant", "recursive")
+
+
+@FORCE
+def fin(_t: float, state: Any, _parameters: Any, wrench: Any) -> None:
+    """Depends on the described body's own point, velocity and orientation."""
+    wrench[0] = -0.3 * state[7] + state[4]
+    wrench[1] = 2.0 * state[5]
+    wrench[2] = -0.5 * state[2]
+    wrench[4] = 0.4 * state[3] - 0.1 * state[10]
+
+
+def recorded(scene: Scene, *, merge: bool, t_end: float = 2.0, **settings: Any) -> dict[str, Any]:
+    model = scene.compile(merge=merge)
+    settings = {"rtol": 1e-10, "dt_out": 0.25} | settings
+    run = Run(scene, t_end=t_end, model=model, channels=model.channel_names(defaults_only=False), **settings)
+    run.advance(t_end)
+    return dict(run.core.channels())
+
+
+def compare(scene: Scene, bound: float, **settings: Any) -> None:
+    """Runs with and without merging agree within `bound` of the largest value of each channel."""
+    merged, full = recorded(scene, merge=True, **settings), recorded(scene, merge=False, **settings)
+    assert set(merged) == set(full)
+    for name in COMPARED:
+        if name in full:
+            scale = np.abs(full[name]).max()
+            assert scale > 0.0, name
+            assert np.abs(merged[name] - full[name]).max() <= bound * scale, name
+    work = 1.0 + np.abs(full["absolute_work"]).max()
+    assert np.abs(merged["energy_balance"] - full["energy_balance"]).max() <= 10.0 * bound * work
+    # Kinks where a power changes sign, outside the error norm.
+    assert np.abs(merged["absolute_work"] - full["absolute_work"]).max() <= 1e-5 * work
+
+
+def askew(**settings: Any) -> Scene:
+    """A floating body, two others welded on at odd angles, and a bob hinged to one of them."""
+    scene = Scene(gravity=9.81, **settings)
+    drift = {"velocity": (0.4, 0.0, 0.1)}
+    scene.add_body(name="a", mass=4.0, inertia=[0.5, 0.7, 0.9], **drift)
+    scene.add_body(
+        name="b", mass=2.0, inertia=[0.3, 0.4, 0.5], position=(1.0, 0.3, 0.2), quaternion=TURNED,
+        center_of_mass=(0.1, -0.2, 0.05), **drift,
+    )  # fmt: skip
+    scene.add_body(name="c", mass=1.0, inertia=[0.2] * 3, position=(1.0, 1.1, -0.3), gravity=False, **drift)
+    scene.add_body(name="bob", mass=1.5, inertia=[0.1] * 3, position=(2.0, 1.0, -0.3), **drift)
+    scene.add_joint(kind="weld", name="ab", first="a", second="b", point=(0.7, 0.1, 0.0))
+    scene.add_joint(kind="weld", name="cb", first="c", second="b", point=(1.0, 0.7, 0.0))
+    pin = {"point": (1.4, 1.0, -0.3), "axis": (0.2, 1.0, 0.3)}
+    scene.add_joint(kind="revolute", name="pin", first="c", second="bob", **pin)
+    return scene
+
+
+def with_loads(scene: Scene) -> Scene:
+    """Every kind of load on the bodies welded on."""
+    scene.add_point_force(name="thrust", body="b", point=(0.1, 0.2, 0.3), force=(3, -2, 9), body_axes=True)
+    scene.add_point_force(name="lift", body="c", point=(0.0, 0.2, 0.0), force=(0.0, 0.0, 60.0))
+    scene.add_spring(name="line", first="b", second="bob", stiffness=40.0, damping=2.0, natural_length=0.5)
+    scene.add_spring(name="inner", first="a", second="c", stiffness=400.0, damping=5.0, natural_length=0.5)
+    scene.add_actuator(name="motor", joint="pin", stiffness=5.0, damping=0.5)
+    loads = [[1.0, 0.0, 2.0, 0.0, 0.5, 0.0], [0.0, 3.0, 1.0, 0.2, 0.0, 0.0]]
+    scene.add_force_table(name="table", body="b", times=[0.0, 3.0], loads=loads, point=(0.0, 0.1, 0.3))
+    scene.add_function_force(name="fin", body="b", address=ctypes.cast(fin, ctypes.c_void_p).value or 0)
+    angle = np.linspace(-np.pi, np.pi, 13)[:-1]
+    wind = FlowCoefficients(
+        angle=angle, x=np.cos(angle), y=np.sin(angle), yaw=0.1 * np.sin(2.0 * angle) + 0.05 * np.sin(angle)
+    )
+    sizes = {"frontal_area": 0.5, "lateral_area": 0.8, "length": 1.5}
+    add_wind(scene, coefficients=wind, speed=6.0, direction_deg=40.0, body="b", point=(0, 0.2, 0.1), **sizes)
+    return scene
+
+
+@pytest.mark.parametrize("formulation", FORMULATIONS)
+@pytest.mark.parametrize("orientation", ["quaternion", "euler_xyz"])
+def test_every_load_on_welded_bodies_acts_as_before(formulation: str, orientation: str) -> None:
+    scene = with_loads(askew(orientation=orientation))
+    compare(scene, 2e-8, formulation=formulation, t_end=1.0)
+
+
+@pytest.mark.parametrize("formulation", FORMULATIONS)
+def test_accelerations_at_a_moving_state_agree_to_rounding(formulation: str) -> None:
+    scene = with_loads(askew())
+    full = scene.compile(merge=False)
+    y = np.array(full.initial_state)
+    random = np.random.default_rng(3)
+    for body in range(4):
+        y[full.twist_index(body) : full.twist_index(body) + 6] += random.normal(size=6)
+    y = _core.Evaluator(full).project(0.0, y)
+    expected = _core.Evaluator(full, "redundant").accelerations(0.3, y)
+    found = _core.Evaluator(scene.compile(), formulation).accelerations(0.3, y)
+    np.testing.assert_allclose(found, expected, rtol=0.0, atol=1e-12 * np.abs(expected).max())
+
+
+@pytest.mark.parametrize("formulation", FORMULATIONS)
+def test_case_2_holds_all_reactions_and_steps_a_body_less(formulation: str) -> None:
+    scene = cases.case2(count=20)
+    model = scene.compile()
+    assert (model.coordinates, model.constraints, model.degrees_of_freedom) == (60, 46, 14)
+    assert (model.merge["coordinates"], model.merge["constraints"]) == (54, 40)
+    assert model.merge["bodies"] == {"vessel": ["tower"]}
+    assert model.merge["dropped"] == ["deck"]
+    expected = _core.Evaluator(scene.compile(merge=False)).accelerations(0.0, model.initial_state)
+    found = _core.Evaluator(model, formulation).accelerations(0.0, model.initial_state)
+    np.testing.assert_allclose(found, expected, rtol=0.0, atol=1e-9 * np.abs(expected).max())
+    compare(scene, 1e-6, formulation=formulation, t_end=3.0, rtol=1e-9, dt_out=0.5)
+
+
+def test_a_convolution_goes_on_in_the_merged_vessel() -> None:
+    compare(cases.case2(count=5, memory="convolution"), 1e-6, t_end=3.0, rtol=1e-8, dt_out=0.5)
+
+
+def arm(curve: _core.Curve) -> Scene:
+    """A pendulum below a turntable and a slide whose drivers follow `curve`."""
+    scene = Scene(gravity=9.81)
+    scene.add_body(name="table", mass=5.0, inertia=[1.0, 2.0, 3.0])
+    scene.add_body(name="slide", mass=2.0, inertia=[0.3, 0.2, 0.1], position=(1.0, 0.2, 0.0))
+    scene.add_body(name="bob", mass=1.0, inertia=[0.1] * 3, position=(1.5, 0.2, -0.5))
+    scene.add_joint(kind="revolute", name="slew", first="ground", second="table", axis=(0.0, 0.6, 0.8))
+    scene.add_joint(kind="prismatic", name="rail", first="slide", second="table", axis=(1.0, 0.4, 0.2))
+    pin = {"point": (1.0, 0.2, 0.0), "axis": (0.0, 1.0, 0.0)}
+    scene.add_joint(kind="revolute", name="pin", first="slide", second="bob", **pin)
+    scene.add_driver(name="hold slew", joint="slew", curve=curve)
+    scene.add_driver(name="hold rail", joint="rail", curve=curve)
+    scene.add_actuator(name="brake", joint="slew", stiffness=3.0, damping=1.0)
+    return scene
+
+
+@pytest.mark.parametrize("formulation", FORMULATIONS)
+def test_joints_held_still_are_locked(formulation: str) -> None:
+    scene = arm(Curve.constant(value=0.3))
+    model = scene.compile()
+    assert model.merge["bodies"] == {"ground": ["table", "slide"]}
+    assert sorted(model.merge["locked_by"]) == ["hold rail", "hold slew"]
+    assert sorted(model.merge["dropped"]) == ["hold rail", "hold slew", "rail", "slew"]
+    assert model.merge["coordinates"] - model.merge["constraints"] == 1
+    compare(scene, 1e-8, formulation=formulation)
+
+
+def test_a_driver_that_moves_locks_nothing() -> None:
+    moving = Curve.constant(value=0.3).then(time=1.0, curve=Curve.constant(value=0.4))
+    for curve in (moving, Curve.harmonic(amplitude=0.1, omega=2.0)):
+        merge = arm(curve).compile().merge
+        assert (merge["bodies"], merge["dropped"], merge["locked_by"]) == ({}, [], [])
+
+
+def test_a_pendulum_with_a_weld_is_the_compound_pendulum() -> None:
+    scene = Scene(gravity=9.81)
+    scene.add_body(name="rod", mass=1.0, inertia=[0.2, 0.2, 0.01], position=(0.5, 0.0, 0.0))
+    scene.add_body(name="disc", mass=3.0, inertia=[0.1, 0.15, 0.2], position=(1.2, 0.0, 0.0))
+    scene.add_joint(
+        kind="revolute", name="pin", first="ground", second="rod", point=(0, 0, 0), axis=(0, 1, 0)
+    )
+    scene.add_joint(kind="weld", name="seam", first="rod", second="disc", point=(1.0, 0.0, 0.0))
+    model = scene.compile()
+    inertia = 0.2 + 1.0 * 0.5**2 + 0.15 + 3.0 * 1.2**2
+    expected = 9.81 * (0.5 + 3.0 * 1.2) / inertia  # about y, from level
+    for formulation in FORMULATIONS:
+        found = _core.Evaluator(model, formulation).accelerations(0.0, model.initial_state)
+        np.testing.assert_allclose(found[:, 4], expected, rtol=1e-13)
+    assert model.merge["coordinates"] == 6
+
+
+def test_two_vessels_and_the_ground_stay_apart() -> None:
+    scene = Scene(gravity=0.0)
+    for i, name in enumerate(("one", "mast", "two", "quay")):
+        scene.add_body(name=name, mass=1.0, inertia=[1.0] * 3, position=(2.0 * i, 0.0, 0.0))
+    for name in ("one", "two"):
+        scene.add_vessel(body=name, restoring=np.diag([0, 0, 1.0, 1.0, 1.0, 0]))
+    for a, b in (("mast", "one"), ("mast", "two"), ("ground", "quay"), ("quay", "two")):
+        scene.add_joint(kind="weld", name=f"{a}-{b}", first=a, second=b)
+    merge = scene.compile().merge
+    assert merge["bodies"] == {"one": ["mast"], "ground": ["quay"]}
+    assert merge["dropped"] == ["mast-one", "ground-quay"]
+
+
+def test_what_cannot_move_at_all_is_not_merged() -> None:
+    scene = Scene(gravity=9.81)
+    scene.add_body(name="block", mass=1.0, inertia=[1.0] * 3)
+    scene.add_joint(kind="weld", name="base", first="ground", second="block")
+    assert scene.compile().merge["dropped"] == []
+
+
+def test_paper_kinematics_step_every_body() -> None:
+    assert cases.case2(count=5, kinematics="paper").compile().merge["dropped"] == []
+
+
+def test_inputs_and_restarts_reach_the_merged_bodies() -> None:
+    scene = with_loads(askew())
+    ends = []
+    for merge in (True, False):
+        model = scene.compile(merge=merge)
+        run = Run(scene, t_end=0.5, model=model, rtol=1e-10)
+        run.advance(0.5)
+        run = Run(scene, t_end=1.5, model=model, rtol=1e-10, start=run.core.state)
+        run.set_inputs({"thrust.force": (5.0, 1.0, -2.0), "motor.force": 1.5})
+        run.advance(1.5)
+        ends.append(np.array(run.core.state.values)[:-1])  # without the absolute work
+    np.testing.assert_allclose(ends[0], ends[1], rtol=0.0, atol=1e-7)
+
+
+def test_the_report_tells_what_moves_as_one() -> None:
+    report = scene_report(cases.case2(count=5))
+    merged = dict(report["merged"])
+    assert merged["moves as one with vessel"] == ["tower"]
+    assert merged["elements not stepped (reactions on output only)"] == ["deck"]
+    assert dict(report["size"])["compiled_coordinates"] == 54
+    locked = dict(scene_report(arm(Curve.constant(value=0.3)))["merged"])
+    assert locked["drivers that hold a joint still"] == ["hold slew", "hold rail"]
+    assert not dict(report["merged"]).get("drivers that hold a joint still")
