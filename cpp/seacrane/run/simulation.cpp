@@ -184,10 +184,10 @@ void Simulation::step(double limit) {
 /// A coordinate that turns keeps its joint closed however wrong it is: only the turn itself can tell.
 void Simulation::check_turning() const {
   const double h = integrator_->time() - integrator_->previous_time();
-  for (int b = 0; b < model_->body_count(); ++b) {
-    const double turn = h * system_.bodies()[idx(b)].angular_velocity.norm();
+  for (int b = 0; b < loads_.model().body_count(); ++b) {
+    const double turn = h * loads_.bodies()[idx(b)].angular_velocity.norm();
     if (turn <= kLargestTurn) continue;
-    throw std::domain_error("body '" + model_->bodies[idx(b)].name + "': turns by " + to_text(turn) +
+    throw std::domain_error("body '" + loads_.model().bodies[idx(b)].name + "': turns by " + to_text(turn) +
                             " rad in one step of " + to_text(h) +
                             " s at t = " + to_text(integrator_->time()) +
                             " s: the step is too long for the method; give a smaller dt, rtol or max_step");
