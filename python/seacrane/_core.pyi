@@ -901,6 +901,11 @@ class Model:
     def memory_states(self) -> int:
         ...
     @property
+    def merge(self) -> dict:
+        """
+        What runs step: bodies merged by the one that carries them, drivers that lock a joint, elements dropped, coordinates and constraints of formulation 'redundant'.
+        """
+    @property
     def name(self) -> str:
         ...
     @property
@@ -937,6 +942,10 @@ class Evaluator:
         """
         Accelerations of the bodies' state points by the formulation, m/s2 and rad/s2, (bodies, 6).
         """
+    def condition(self, t: typing.SupportsFloat | typing.SupportsIndex, y: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> float:
+        """
+        How many times larger the terms are than what they cancel to, of inertias along the tree of the recursive formulation and of its loops: the digits that light bodies between heavy ones cost.
+        """
     def derivative(self, t: typing.SupportsFloat | typing.SupportsIndex, y: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> numpy.typing.NDArray[numpy.float64]:
         """
         dy/dt, a new array.
@@ -944,6 +953,10 @@ class Evaluator:
     def energy(self, t: typing.SupportsFloat | typing.SupportsIndex, y: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> float:
         """
         Mechanical energy, J.
+        """
+    def jacobian(self, t: typing.SupportsFloat | typing.SupportsIndex, y: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]:
+        """
+        Exact d(dy/dt)/dy (n, n), a new array: automatic differentiation, differences only for function forces. ValueError where there is none.
         """
     def project(self, t: typing.SupportsFloat | typing.SupportsIndex, y: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> numpy.typing.NDArray[numpy.float64]:
         """
@@ -1045,7 +1058,7 @@ class Simulation:
     @property
     def time(self) -> float:
         ...
-def compile(*, name: str, gravity: typing.SupportsFloat | typing.SupportsIndex, orientation: str, baumgarte: typing.SupportsFloat | typing.SupportsIndex, length_scale: typing.SupportsFloat | typing.SupportsIndex, bodies: collections.abc.Sequence[Body], joints: collections.abc.Sequence[Joint], drivers: collections.abc.Sequence[Driver], loads: collections.abc.Sequence[typing.Any], vessels: collections.abc.Sequence[VesselHydrodynamics], wave_loads: collections.abc.Sequence[WaveLoads], coordinates: collections.abc.Sequence[tuple[str, str]]) -> Model:
+def compile(*, name: str, gravity: typing.SupportsFloat | typing.SupportsIndex, orientation: str, baumgarte: typing.SupportsFloat | typing.SupportsIndex, length_scale: typing.SupportsFloat | typing.SupportsIndex, bodies: collections.abc.Sequence[Body], joints: collections.abc.Sequence[Joint], drivers: collections.abc.Sequence[Driver], loads: collections.abc.Sequence[typing.Any], vessels: collections.abc.Sequence[VesselHydrodynamics], wave_loads: collections.abc.Sequence[WaveLoads], coordinates: collections.abc.Sequence[tuple[str, str]], merge: bool = True) -> Model:
     """
     Checks and compiles a scene; seacrane.Scene.compile() calls it. Raises SceneError.
     """
