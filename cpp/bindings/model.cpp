@@ -117,9 +117,9 @@ class Evaluator {
   /// d(dy/dt)/dy of the redundant formulation.
   Eigen::MatrixXd jacobian(double t, const Array& y) {
     const auto n = static_cast<Eigen::Index>(check(y));
-    if (reduced_) {
-      throw std::invalid_argument(std::string("formulation \"") + reduced_->name() +
-                                  "\" has no exact Jacobian; use formulation \"redundant\"");
+    if (steps_recursive()) {
+      throw std::invalid_argument(
+          "formulation \"recursive\" has no exact Jacobian; use formulation \"redundant\"");
     }
     Eigen::MatrixXd out(n, n);
     if (!system_.jacobian(t, y.data(), out.data())) {
@@ -200,14 +200,13 @@ class Evaluator {
   /// Factor by which terms cancel in the recursive form at a state.
   double condition(double t, const Array& y) {
     check(y);
-    auto* recursive = dynamic_cast<RecursiveSystem*>(reduced_.get());
-    if (recursive == nullptr) {
+    if (!steps_recursive()) {
       throw std::invalid_argument("condition: belongs to an Evaluator of formulation \"recursive\"");
     }
-    std::vector<double> state(recursive->size()), rate(recursive->size());
-    recursive->read_bodies(t, y.data(), state.data());
-    recursive->derivative(t, state.data(), rate.data());
-    return recursive->condition();
+    std::vector<double> state(stepped().size()), rate(stepped().size());
+    stepped().read_bodies(t, y.data(), state.data());
+    stepped().derivative(t, state.data(), rate.data());
+    return stepped().condition();
   }
   py::dict time_parts(double t, const Array& y, long count) {
     check(y);
@@ -233,6 +232,7 @@ class Evaluator {
     }
     return y.size();
   }
+  bool steps_recursive() { return std::string(stepped().name()) == "recursive"; }
   Formulation& stepped() { return reduced_ ? *reduced_ : system_; }
 
   std::shared_ptr<Model> model_;

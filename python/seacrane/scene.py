@@ -417,8 +417,7 @@ class Scene:
         Parameters
         ----------
         merge : bool
-            Step bodies that never move relative to each other (welded, or on a hinge or slide that a driver
-            holds still) as one. Results hold all bodies and reactions either way.
+            Step bodies that never move relative to each other as one; results hold all of them either way.
 
         Raises
         ------

@@ -24,6 +24,8 @@ class Formulation : public System {
   virtual const std::vector<Vec6d>& accelerations() = 0;
   /// The redundant system that its loads come from: inputs, the limit of curves and histories are set there.
   virtual RedundantSystem& loads_from() = 0;
+  /// Digits lost at the last derivative(): the factor by which rounding may have grown.
+  virtual double condition() const = 0;
   /// Largest residual seen by project() before it corrected anything, since the last call.
   virtual double take_residual_before_projection() = 0;
   /// What a state component is, for messages.

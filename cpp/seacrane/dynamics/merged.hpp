@@ -24,6 +24,8 @@ class MergedSystem final : public Formulation {
     return stepped().project(t, y, evaluated_here);
   }
   bool has_projection() const override { return stepped().has_projection(); }
+  bool jacobian(double t, const double* y, double* out) override { return stepped().jacobian(t, y, out); }
+  double condition() const override { return stepped().condition(); }
   std::size_t position_size() const override { return stepped().position_size(); }
   void move(double h, double* y) override { stepped().move(h, y); }
   const char* name() const override { return stepped().name(); }

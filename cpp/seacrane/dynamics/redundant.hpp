@@ -44,6 +44,7 @@ class RedundantSystem final : public Formulation {
   void write_bodies(double t, const double* y, double* bodies) override;
   const std::vector<Vec6d>& accelerations() override { return acceleration_; }
   RedundantSystem& loads_from() override { return *this; }
+  double condition() const override { return condition_; }
   std::string describe(std::size_t component) const override;
   std::size_t position_size() const override { return static_cast<std::size_t>(model_->layout.velocity); }
   void move(double h, double* y) override;

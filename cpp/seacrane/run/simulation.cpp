@@ -181,7 +181,8 @@ void Simulation::step(double limit) {
   }
 }
 
-/// A coordinate that turns keeps its joint closed however wrong it is: only the turn itself can tell.
+/// A coordinate that turns keeps its joint closed however wrong it is: where no error is estimated, only the
+/// turn itself can tell.
 void Simulation::check_turning() const {
   const double h = integrator_->time() - integrator_->previous_time();
   for (int b = 0; b < loads_.model().body_count(); ++b) {
@@ -190,7 +191,7 @@ void Simulation::check_turning() const {
     throw std::domain_error("body '" + loads_.model().bodies[idx(b)].name + "': turns by " + to_text(turn) +
                             " rad in one step of " + to_text(h) +
                             " s at t = " + to_text(integrator_->time()) +
-                            " s: the step is too long for the method; give a smaller dt, rtol or max_step");
+                            " s: the step is too long for the method; give a smaller dt");
   }
 }
 
@@ -203,7 +204,7 @@ bool Simulation::advance(double t_end, const std::function<bool(double)>& keep_g
     const double jump = next_jump();
     step(std::min({jump, system_.next_sample(), t_end}));
     const double now = integrator_->time();
-    check_turning();
+    if (!integrator_->is_adaptive()) check_turning();
     record_until(now);
     // The memory's load goes on smoothly over a sample: no derivative is thrown away.
     if (now >= system_.next_sample()) sample_histories(now);

@@ -35,7 +35,9 @@ class RecursiveSystem final : public Formulation {
 
   const BodyTree& tree() const { return tree_; }
   /// How much cancels in the last evaluation: of inertias along the tree, and of the rows that close loops.
-  double condition() const { return std::max(articulated_.condition(mass_.data()), loops_.condition()); }
+  double condition() const override {
+    return std::max(articulated_.condition(mass_.data()), loops_.condition());
+  }
 
  private:
   struct Layout {
