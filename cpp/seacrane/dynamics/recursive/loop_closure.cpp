@@ -30,7 +30,9 @@ Eigen::Vector2d free_compliance(const Model& model, int body) {
 LoopClosure::LoopClosure(const Model& model, const BodyTree& tree)
     : load_(idx(model.body_count()) + 1, Vec6d::Zero()),
       response_(idx(model.body_count()) + 1, Vec6d::Zero()),
-      speeds_(idx(tree.speeds)) {
+      speeds_(idx(tree.speeds)),
+      ldlt_(tree.loop_rows),
+      eigen_(tree.loop_rows) {
   for (int e : tree.loops) {
     const ElementModel& element = model.elements[idx(e)];
     for (int r = 0; r < element.rows; ++r) {
@@ -42,8 +44,6 @@ LoopClosure::LoopClosure(const Model& model, const BodyTree& tree)
   g_ = MatXd::Zero(n, n);
   basis_ = MatXd::Zero(n, n);
   scale_ = weight_ = multipliers_ = VecXd::Zero(n);
-  ldlt_ = Eigen::LDLT<MatXd>(n);
-  eigen_ = Eigen::SelfAdjointEigenSolver<MatXd>(n);
 }
 
 /// Response to load_ on the two bodies of a row; clears the load.
