@@ -426,8 +426,7 @@ class Scene:
 
         Warns
         -----
-        UserWarning
-            Names joints that are consistent but redundant: their reactions are minimum-norm, not unique.
+        UserWarning : names joints that are redundant: their reactions are minimum-norm, not unique.
         """
         model = _core.compile(
             name=name_of("scene", self.name),
