@@ -2,7 +2,7 @@
 # make test     everything that CI checks: lint, types, formatting, C++ tests (plain and sanitized), Python tests
 # make build    the package in .venv, rebuilt only where something changed
 # make nightly  longer tests;  make bench  benchmarks;  make stubs  python/seacrane/_core.pyi
-# make bench-peers  the same crane in Pinocchio, MuJoCo and NumPy, in an environment of their own
+# make bench-peers  the same crane in Pinocchio, MuJoCo, Exudyn and NumPy, in an environment of their own
 # make format   formats C++ and Python;  make clean  removes what was built (not .venv);  make distclean  all
 #
 # All of them install what is missing: system packages (apt, with sudo when needed) and .venv.

@@ -1,75 +1,76 @@
-// Explicit Runge-Kutta methods on Pinocchio's accelerations. Prints the best
-// CPU time, the counters, and the payload's position and the roll at every
-// second. pinocchio_run TREE METHOD(rk4|dopri5|tsit5|verner65|verner76)
-// SETTING(step s, or rtol) BAUMGARTE(1/s) REPEATS
+// seacrane's own explicit integrators on Pinocchio's accelerations: the same
+// step size control, dense output and step end where the references bend.
+// Prints the best CPU time, the counters,
+// and the payload's position and the roll at every second. pinocchio_run TREE
+// METHOD(rk4|dopri5|tsit5|verner65|verner76|dop853) SETTING(step s, or rtol)
+// BAUMGARTE(1/s) REPEATS
 #include <cstdio>
 #include <ctime>
 #include <exception>
+#include <memory>
 
-#include "explicit_pair.hpp"
 #include "pinocchio_dynamics.hpp"
+#include "seacrane/integrate/embedded_pair.hpp"
 #include "seacrane/integrate/tableaus/dormand_prince54.hpp"
+#include "seacrane/integrate/tableaus/dormand_prince853.hpp"
 #include "seacrane/integrate/tableaus/tsitouras54.hpp"
 #include "seacrane/integrate/tableaus/verner65.hpp"
 #include "seacrane/integrate/tableaus/verner76.hpp"
+
+namespace seacrane {
+std::unique_ptr<Integrator> make_rk4(System &, ResidualSystem *,
+                                     const IntegratorOptions &);
+}
 
 namespace {
 
 namespace tableaus = seacrane::tableaus;
 constexpr int seconds = 100; // one output each
 
-/// Error scales as in seacrane: 0.1 m, 0.01 rad, and the same per second.
-std::vector<double> error_scales() {
-  std::vector<double> scale(2 * coordinates, 0.01);
-  for (int i : {int(surge), int(sway), int(heave), int(main_stroke),
-                int(knuckle_stroke)}) {
-    scale[i] = scale[coordinates + i] = 0.1;
-  }
-  return scale;
-}
-
-struct Run {
+struct Accelerations final : seacrane::System {
   PinocchioDynamics &dynamics;
-  double setting;
-  Work work;
-  std::vector<std::array<double, 4>> rows;
-
-  template <class Advance> double march(Advance &&advance) {
-    std::vector<double> y(2 * coordinates, 0.0);
-    const std::clock_t begin = std::clock();
-    for (int second = 0; second <= seconds; ++second) {
-      if (second > 0)
-        advance(y, double(second - 1), double(second));
-      const auto p = dynamics.payload(y);
-      rows.push_back({p[0], p[1], p[2], y[roll]});
-    }
-    return double(std::clock() - begin) / CLOCKS_PER_SEC;
-  }
-
-  template <class Tableau> double pair() {
-    ExplicitPair<Tableau> stepper(error_scales(), setting);
-    return march([&](auto &y, double t, double t1) {
-      stepper.advance(dynamics, y, t, t1, work);
-    });
-  }
-
-  double run(const std::string &method) {
-    if (method == "rk4") {
-      return march([&](auto &y, double t, double t1) {
-        rk4(dynamics, y, t, t1, setting, work);
-      });
-    }
-    if (method == "dopri5")
-      return pair<tableaus::DormandPrince54>();
-    if (method == "tsit5")
-      return pair<tableaus::Tsitouras54>();
-    if (method == "verner65")
-      return pair<tableaus::Verner65>();
-    if (method == "verner76")
-      return pair<tableaus::Verner76>();
-    throw std::runtime_error("unknown method " + method);
+  explicit Accelerations(PinocchioDynamics &d) : dynamics(d) {}
+  std::size_t size() const override { return 2 * coordinates; }
+  void derivative(double t, const double *y, double *rate) override {
+    dynamics(t, y, rate);
   }
 };
+
+/// Error scales as in seacrane: 0.1 m, 0.01 rad, and the same per second.
+std::vector<double> tolerances(double rtol) {
+  std::vector<double> out(2 * coordinates, 0.01 * rtol);
+  for (int i : {int(surge), int(sway), int(heave), int(main_stroke),
+                int(knuckle_stroke)})
+    out[i] = out[coordinates + i] = 0.1 * rtol;
+  return out;
+}
+
+std::unique_ptr<seacrane::Integrator> integrator(const std::string &method,
+                                                 double setting,
+                                                 seacrane::System &system) {
+  using namespace seacrane;
+  IntegratorOptions options;
+  if (method == "rk4") {
+    options.fixed_step = setting;
+    return make_rk4(system, nullptr, options);
+  }
+  options.relative_tolerance = 0.0;
+  options.absolute_tolerance = tolerances(setting);
+  if (method == "dopri5")
+    return std::make_unique<EmbeddedPair<tableaus::DormandPrince54>>(system,
+                                                                     options);
+  if (method == "tsit5")
+    return std::make_unique<EmbeddedPair<tableaus::Tsitouras54>>(system,
+                                                                 options);
+  if (method == "verner65")
+    return std::make_unique<EmbeddedPair<tableaus::Verner65>>(system, options);
+  if (method == "verner76")
+    return std::make_unique<EmbeddedPair<tableaus::Verner76>>(system, options);
+  if (method == "dop853")
+    return std::make_unique<EmbeddedPair<tableaus::DormandPrince853>>(system,
+                                                                      options);
+  throw std::runtime_error("unknown method " + method);
+}
 
 } // namespace
 
@@ -77,17 +78,31 @@ int main(int count, char **arguments) try {
   if (count != 6)
     throw std::runtime_error("needs TREE METHOD SETTING BAUMGARTE REPEATS");
   const TreeData tree(arguments[1]);
+  const double bend = tree.at("actuator A")[4];
   PinocchioDynamics dynamics(tree, std::stod(arguments[4]));
+  Accelerations system(dynamics);
   double best = 1e300;
-  Run run{dynamics, std::stod(arguments[3]), {}, {}};
+  std::vector<std::array<double, 4>> rows(seconds + 1);
+  seacrane::Counters work;
   for (int repeat = 0; repeat < std::stoi(arguments[5]); ++repeat) {
-    run.work = {};
-    run.rows.clear();
-    best = std::fmin(best, run.run(arguments[2]));
+    const auto method =
+        integrator(arguments[2], std::stod(arguments[3]), system);
+    std::vector<double> y(2 * coordinates, 0.0);
+    const std::clock_t begin = std::clock();
+    method->init(0.0, y.data());
+    for (int second = 0; second <= seconds; ++second) {
+      while (method->time() < second)
+        method->step(method->time() < bend ? bend : seconds);
+      method->interpolate(second, y.data());
+      const auto p = dynamics.payload(y);
+      rows[second] = {p[0], p[1], p[2], y[roll]};
+    }
+    best = std::fmin(best, double(std::clock() - begin) / CLOCKS_PER_SEC);
+    work = method->counters();
   }
-  std::printf("%.9g %ld %ld %ld\n", best, run.work.evaluations, run.work.steps,
-              run.work.rejected);
-  for (const auto &row : run.rows)
+  std::printf("%.9g %ld %ld %ld\n", best, work.evaluations, work.steps,
+              work.rejected_steps);
+  for (const auto &row : rows)
     std::printf("%.17g %.17g %.17g %.17g\n", row[0], row[1], row[2], row[3]);
   return 0;
 } catch (const std::exception &error) {
