@@ -2,7 +2,8 @@
 # make test     everything that CI checks: lint, types, formatting, C++ tests (plain and sanitized), Python tests
 # make build    the package in .venv, rebuilt only where something changed
 # make nightly  longer tests;  make bench  benchmarks;  make stubs  python/seacrane/_core.pyi
-# make bench-peers  the same crane in Pinocchio, MuJoCo, Exudyn and NumPy, in an environment of their own
+# make bench-peers  the same crane in Pinocchio, MuJoCo, Exudyn and NumPy, in an environment of their own;
+#                   either of the two with BENCH_ARGS=--publish writes into benchmarks/ (on an idle machine)
 # make format   formats C++ and Python;  make clean  removes what was built (not .venv);  make distclean  all
 #
 # All of them install what is missing: system packages (apt, with sudo when needed) and .venv.
@@ -96,12 +97,13 @@ nightly: build .venv/.installed-dev
 	$(MAKE) --no-print-directory bench
 
 bench: build .venv/.installed-dev
-	$(BIN)/python benchmarks/run.py
+	$(BIN)/python benchmarks/run.py $(BENCH_ARGS)
 
 bench-peers: build .venv/.installed-dev
 	$(PYTHON) -m venv out/peers
 	out/peers/bin/python -m pip install -q -r benchmarks/peers/requirements.txt
-	OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 $(BIN)/python benchmarks/peers/run.py --peers out/peers/bin/python
+	OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 $(BIN)/python benchmarks/peers/run.py --peers out/peers/bin/python \
+	  $(BENCH_ARGS)
 
 # Default arguments that are objects print as `...`; tests/test_packaging.py runs the same command.
 STUB_OPTIONS := --exit-code --ignore-invalid-expressions '<seacrane\._core\.\w+ object at 0x[0-9a-f]+>'

@@ -11,11 +11,12 @@ import numpy as np
 from seacrane import Frame, Model, Scene
 from seacrane.crane import KnuckleBoomCrane, Payload
 
+from .exponent import exponent
 from .section import Section
 from .timing import evaluation_ns
 
 BODIES = (1, 3, 10, 30, 100, 300, 1000)
-CRANES = (1, 3, 10, 30, 100)
+CRANES = (1, 2, 5, 15, 50, 100)
 LARGE = 30  # the exponent is fitted from here on, where what every evaluation costs no longer shows
 EVALUATIONS = 200_000  # over the number of bodies
 
@@ -104,12 +105,6 @@ def _cost(scene: Scene, *, repeats: int, formulations: tuple[str, ...]) -> list[
     ]
 
 
-def exponent(sizes: list[int], costs: list[float]) -> float:
-    """Slope of the cost over the size in logarithms, from LARGE bodies on."""
-    large = np.array(sizes) >= LARGE
-    return float(np.polyfit(np.log(np.array(sizes)[large]), np.log(np.array(costs)[large]), 1)[0])
-
-
 def growth(*, repeats: int) -> Section:
     """Chains, trees and cranes of growing size, with the fitted exponents."""
     rows: list[list[Any]] = []
@@ -121,9 +116,10 @@ def growth(*, repeats: int) -> Section:
             scene = make(size)
             bodies.append(len(scene.bodies))
             costs.append(_cost(scene, repeats=repeats, formulations=("recursive", "redundant")))
-        slopes = [exponent(bodies, [c[k] for c in costs]) for k in range(2)]
-        for n, (recursive, redundant) in zip(bodies, costs, strict=True):
-            rows.append([label, n, recursive, redundant, redundant / recursive, None, None])
+        slopes = [exponent(bodies, [c[k] for c in costs], LARGE) for k in range(2)]
+        for size, n, (recursive, redundant) in zip(sizes, bodies, costs, strict=True):
+            loops = 2 * size if make is cranes else 0
+            rows.append([label, n, loops, recursive, redundant, redundant / recursive, None, None])
         rows[-1][-2:] = slopes
     return Section(
         title="Cost over the size of a scene",
@@ -132,8 +128,8 @@ def growth(*, repeats: int) -> Section:
             f"{LARGE} bodies on; the aim for `recursive` is at most 1.1. A crane has nine bodies, two of its "
             "loops are cylinders, and none needs a constraint."
         ),
-        head=["scene", "bodies", "recursive, us", "redundant, us", "redundant over recursive",
-              "exponent, recursive", "exponent, redundant"],
+        head=["scene", "bodies", "cylinder loops", "recursive, us", "redundant, us",
+              "redundant over recursive", "exponent, recursive", "exponent, redundant"],
         rows=rows,
     )  # fmt: skip
 

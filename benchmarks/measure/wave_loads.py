@@ -14,10 +14,12 @@ from seacrane.hydro import HydroDatabase, shipped_database
 from seacrane.sea import ExactWaveLoad, WaveTable, jonswap
 from seacrane.vessel import add_vessel
 
+from .exponent import exponent
 from .section import Section
 from .timing import evaluation_ns
 
-COUNTS = (10, 200, 2_000, 10_000)
+COUNTS = (10, 30, 100, 300, 1_000, 3_000, 10_000)
+LARGE = 100  # exponents are fitted from here on, where fixed costs no longer show
 BAND = (0.3, 2.5)  # rad/s
 
 
@@ -26,16 +28,19 @@ def wave_loads(*, repeats: int, counts: tuple[int, ...] = COUNTS) -> Section:
     database = shipped_database()
     calm = Scene(name="calm")
     add_vessel(calm, database)
+    rows = [_row(calm, database, count, repeats) for count in counts]
+    slopes = [exponent(list(counts), [row[k] for row in rows], LARGE) for k in range(1, 5)]
     return Section(
         title="Wave loads",
         text=(
             "The vessel alone in waves less the vessel in calm water, ns per evaluation; calls 25 ms apart, "
             "as in a run. The table's knots are made on the way and are part of it. Set-up is the time to "
-            "compile the scene. Frequencies are equally spaced: the FFT's series holds a period, 2 pi / step."
+            "compile the scene. Frequencies are equally spaced: the FFT's series holds one period. "
+            f"Exponent: slope in logarithms from {LARGE} components on."
         ),
         head=["components", "exact sum", "table", "FFT series", "actual position", "table, knots s apart",
               "set-up table [ms]", "set-up FFT [ms]", "FFT series covers [h]"],
-        rows=[_row(calm, database, count, repeats) for count in counts],
+        rows=[*rows, ["exponent", *slopes, None, None, None, None]],
     )  # fmt: skip
 
 

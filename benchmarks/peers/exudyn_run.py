@@ -276,14 +276,19 @@ def main() -> None:
     best = np.inf
     for _ in range(int(repeats)):
         start = time.process_time()
-        crane.mbs.SolveDynamic(options, solverType=solver, storeSolver=True)
+        try:
+            crane.mbs.SolveDynamic(options, solverType=solver, storeSolver=True)
+        except (RuntimeError, ValueError) as error:
+            print(error, file=sys.stderr)
         best = min(best, time.process_time() - start)
     counters = crane.mbs.sys["dynamicSolver"].it
     print(f"\n{best:.9g} {counters.newtonStepsCount} {T_END * round(1.0 / float(step))} 0")
     payload = crane.mbs.GetSensorStoredData(crane.payload)[:, 1:] @ TURN
     roll = crane.mbs.GetSensorStoredData(crane.hull)[:, 6]
-    for position, angle in zip(payload, roll, strict=True):
-        print(" ".join(f"{value:.17g}" for value in (*position, angle)))
+    rows = np.full((T_END + 1, 4), np.nan)  # of a run that breaks off, what is missing stays so
+    rows[: len(roll)] = np.column_stack([payload, roll])
+    for row in rows:
+        print(" ".join(f"{value:.17g}" for value in row))
 
 
 if __name__ == "__main__":

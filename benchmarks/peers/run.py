@@ -97,7 +97,7 @@ def table(points: list[Point], uncertainty: float) -> Section:
             p.setting,
             1e3 * p.cpu,
             p.evaluations,
-            1e6 * p.cpu / p.evaluations,
+            1e6 * p.cpu / max(p.evaluations, 1),
             p.payload,
             p.roll,
         ]
