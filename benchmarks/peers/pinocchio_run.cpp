@@ -1,6 +1,5 @@
 // seacrane's own explicit integrators on Pinocchio's accelerations: the same
-// step size control, dense output and step end where the references bend.
-// Prints the best CPU time, the counters,
+// step size control and dense output. Prints the best CPU time, the counters,
 // and the payload's position and the roll at every second. pinocchio_run TREE
 // METHOD(rk4|dopri5|tsit5|verner65|verner76|dop853) SETTING(step s, or rtol)
 // BAUMGARTE(1/s) REPEATS
@@ -78,7 +77,6 @@ int main(int count, char **arguments) try {
   if (count != 6)
     throw std::runtime_error("needs TREE METHOD SETTING BAUMGARTE REPEATS");
   const TreeData tree(arguments[1]);
-  const double bend = tree.at("actuator A")[4];
   PinocchioDynamics dynamics(tree, std::stod(arguments[4]));
   Accelerations system(dynamics);
   double best = 1e300;
@@ -92,7 +90,7 @@ int main(int count, char **arguments) try {
     method->init(0.0, y.data());
     for (int second = 0; second <= seconds; ++second) {
       while (method->time() < second)
-        method->step(method->time() < bend ? bend : seconds);
+        method->step(seconds);
       method->interpolate(second, y.data());
       const auto p = dynamics.payload(y);
       rows[second] = {p[0], p[1], p[2], y[roll]};
