@@ -417,7 +417,7 @@ class Scene:
         Parameters
         ----------
         merge : bool
-            Step bodies that never move relative to each other as one; results hold all of them either way.
+            Step bodies that never move relative to each other as one and leave out what adds nothing.
 
         Raises
         ------
@@ -446,7 +446,7 @@ class Scene:
                 *self.loads.values(),
             ],
             vessels=list(self.vessels.values()),
-            wave_loads=[] if self.waves is None else [self.waves.compile()],
+            wave_loads=[] if self.waves is None else [self.waves.compile(prune=merge)],
             coordinates=list(self.recorded.values()),
             merge=merge,
         )

@@ -20,6 +20,7 @@ _ADDED_LATER: dict[str, Any] = {
     "force_by_heading": None,
     "drift": None,
     "drift_by_heading": None,
+    "negligible": 1e-9,
 }
 
 
@@ -28,7 +29,7 @@ def waves_to_data(waves: Waves) -> dict[str, Any]:
     transfer = np.asarray(waves.transfer, dtype=complex)
     out: dict[str, Any] = {"body": waves.body, "relative_bound": float(waves.relative_bound)}
     out["depth"] = None if waves.depth == math.inf else float(waves.depth)
-    out["evaluation"] = waves.evaluation
+    out["evaluation"], out["negligible"] = waves.evaluation, float(waves.negligible)
     out |= {key: np.asarray(getattr(waves, key), dtype=float).tolist() for key in _ARRAYS}
     out |= {"transfer_real": transfer.real.tolist(), "transfer_imaginary": transfer.imag.tolist()}
     force, drift = waves.force_by_heading, waves.drift_by_heading
@@ -64,6 +65,7 @@ def waves_from_node(node: Node) -> Waves:
         relative_bound=node.at("relative_bound").number(),
         depth=math.inf if depth.value is None else depth.number(),
         evaluation=node.at("evaluation").text(),
+        negligible=node.at("negligible").number(),
         force_by_heading=_by_heading(node.at("force_by_heading"), count, complex_values=True),
         drift=None if drift.value is None else drift.array((count, 6)),
         drift_by_heading=_by_heading(node.at("drift_by_heading"), count, complex_values=False),

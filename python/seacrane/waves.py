@@ -68,6 +68,9 @@ class Waves:
         Mean drift load per squared amplitude at each component, N/m2 and N m/m2: adds Newman's slow drift.
     drift_by_heading : ByHeading, optional
         The same over the heading, for loads at the actual position.
+    negligible : float
+        Components whose magnitudes sum to no more than this share of all, in every load and the elevation,
+        are left out when the scene is compiled, 0 to 0.1; 0 leaves out those that add nothing.
     information : mapping
         What is reported of the sea (seed, realised Hs, repeat period).
     """
@@ -85,12 +88,19 @@ class Waves:
     force_by_heading: ByHeading | None = None
     drift: Array | None = None
     drift_by_heading: ByHeading | None = None
+    negligible: float = 1e-9
     information: Mapping[str, Any] = field(default_factory=dict)
 
-    def compile(self) -> _core.WaveLoads:
-        """The loads for the compiled core; raises SceneError for shapes or values that make no sense."""
+    def compile(self, *, prune: bool = True) -> _core.WaveLoads:
+        """The loads for the compiled core; raises SceneError for shapes or values that make no sense.
+
+        `prune` leaves out the components that are negligible.
+        """
+        from seacrane.wave_selection import without_negligible
+
         try:
-            loads = self._positioned() if self.force_by_heading is not None else self._mean()
+            sea = without_negligible(self) if prune else self
+            loads = sea._positioned() if sea.force_by_heading is not None else sea._mean()
         except (TypeError, ValueError) as error:
             raise SceneError(f"waves on {self.body!r}: {error}") from error
         return _core.WaveLoads(name="waves", body=text_of("waves: body", self.body), **loads)

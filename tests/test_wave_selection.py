@@ -1,0 +1,116 @@
+"""Negligible wave components are left out when a scene is compiled, within a stated bound."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from seacrane import Run, Scene, SceneError, _core, cases
+from seacrane.wave_selection import kept_components, without_negligible
+from seacrane.waves import ByHeading, Waves
+
+
+def sea(count: int = 40, *, seed: int = 2) -> Waves:
+    """Components whose amplitudes spread over fourteen decades."""
+    random = np.random.default_rng(seed)
+    transfer = random.normal(size=(count, 6)) + 1j * random.normal(size=(count, 6))
+    return Waves(
+        body="vessel",
+        omega=np.sort(random.uniform(0.3, 2.0, count)),
+        amplitude=10.0 ** random.uniform(-14.0, 0.0, count),
+        phase=random.uniform(0.0, 6.0, count),
+        direction=np.full(count, 0.4),
+        transfer=1e5 * transfer,
+    )
+
+
+@pytest.mark.parametrize("negligible", [0.0, 1e-9, 1e-6, 1e-3, 0.05])
+def test_the_bound_holds_in_every_load_at_every_time(negligible: float) -> None:
+    waves = replace(sea(), negligible=negligible)
+    fewer = without_negligible(waves)
+    assert (fewer.omega.size < 40) == (negligible > 0.0)
+    full, kept = (_core.ExactWaveLoad(w.components(), transfer=w.transfer) for w in (waves, fewer))
+    most = np.abs(waves.transfer).T @ waves.amplitude
+    times = np.linspace(0.0, 500.0, 400)
+    difference = np.abs(full.evaluate(times) - kept.evaluate(times)).max(axis=0)
+    assert (difference <= (negligible + 1e-13) * most).all()
+    left_out = waves.amplitude[~kept_components(waves)].sum()
+    assert left_out <= negligible * waves.amplitude.sum()
+
+
+def test_one_more_component_would_break_the_bound() -> None:
+    waves = replace(sea(), negligible=1e-6)
+    kept = kept_components(waves)
+    magnitude = waves.amplitude[:, None] * np.abs(np.hstack([waves.transfer, np.ones((40, 1))]))
+    share = magnitude / magnitude.sum(axis=0)
+    smallest = np.flatnonzero(kept)[np.argmin(share[kept].max(axis=1))]
+    assert (share[~kept].sum(axis=0) + share[smallest]).max() > 1e-6
+
+
+def test_loads_over_the_heading_and_drift_count_too() -> None:
+    """A component without load at the mean heading may have one at another, or drift."""
+    plain = replace(sea(4), amplitude=np.array([1e-12, 1.0, 1.0, 1e-12]))
+    assert list(kept_components(plain)) == [False, True, True, False]
+    values = np.zeros((3, 4, 6), dtype=complex)
+    values[:, 1:3] = 1.0
+    values[1, 0] = 1e12
+    headings = np.array([0.0, 0.5, 1.0])
+    by_heading = replace(plain, force_by_heading=ByHeading(heading=headings, values=values))
+    assert list(kept_components(by_heading)) == [True, True, True, False]
+    drift = np.array([[0.0] * 6, [1.0] * 6, [1.0] * 6, [1e24] * 6])
+    slow = replace(
+        by_heading,
+        drift=drift,
+        drift_by_heading=ByHeading(heading=headings, values=np.tile(drift, (3, 1, 1))),
+    )
+    assert list(kept_components(slow)) == [True, True, True, True]
+    fewer = without_negligible(by_heading)
+    assert fewer.force_by_heading is not None and fewer.force_by_heading.values.shape == (3, 3, 6)
+
+
+def test_a_series_by_fft_and_arrays_that_do_not_fit_are_left_alone() -> None:
+    assert kept_components(replace(sea(), evaluation="fft")).all()
+    assert kept_components(replace(sea(), phase=np.zeros(3))).all()
+    assert kept_components(replace(sea(), amplitude=np.full(40, np.nan))).all()
+
+
+def test_runs_without_negligible_components_are_those_of_the_whole_sea() -> None:
+    scene = cases.vessel(count=40)
+    assert scene.waves is not None
+    amplitude = scene.waves.amplitude.copy()
+    amplitude[[0, 5, 39]] = (0.0, 1e-12, 1e-11)
+    scene.waves = replace(scene.waves, amplitude=amplitude)
+    assert list(np.flatnonzero(~kept_components(scene.waves))) == [0, 5, 39]
+    motions = []
+    for merge in (True, False):
+        run = Run(scene, t_end=20.0, dt_out=1.0, rtol=1e-10, model=scene.compile(merge=merge))
+        run.advance(20.0)
+        motions.append(run.core.channels()["vessel_motion"])
+    assert np.abs(motions[0] - motions[1]).max() <= 1e-8 * np.abs(motions[1]).max()
+
+
+def test_bad_input_and_files(tmp_path: Path) -> None:
+    scene = cases.vessel(count=5)
+    assert scene.waves is not None
+    good = scene.waves
+    for value in (-1e-3, 0.5, float("nan"), "all"):
+        scene.waves = replace(good, negligible=value)  # type: ignore[arg-type]
+        with pytest.raises(SceneError, match="negligible"):
+            scene.compile()
+    scene.waves = replace(good, negligible=1e-4)
+    scene.save(tmp_path / "scene.json")
+    again = Scene.load(tmp_path / "scene.json")
+    assert again.waves is not None and again.waves.negligible == 1e-4
+
+
+def test_a_sea_of_zero_amplitude_keeps_its_channels() -> None:
+    scene = cases.vessel(count=5)
+    assert scene.waves is not None
+    scene.waves = replace(scene.waves, amplitude=np.zeros(5))
+    assert np.count_nonzero(kept_components(scene.waves)) == 1
+    run = Run(scene, t_end=0.2)
+    run.advance(0.2)
+    assert (run.core.channels()["wave_force"] == 0.0).all()
