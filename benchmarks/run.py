@@ -22,6 +22,7 @@ from measure import (
     scaling,
     scenes,
     speed,
+    storm,
     strip_cost,
     wave_loads,
 )
@@ -51,6 +52,7 @@ def sections(folder: Path, *, repeats: int, quick: bool) -> Iterator[Section]:
     yield evaluation.parts(repeats=repeats)
     yield formulations.formulations(repeats=repeats)
     yield formulations.throughput(repeats=repeats)
+    yield storm.storm(repeats=min(repeats, 3))
     yield scaling.growth(repeats=min(repeats, 3))
     yield scaling.loop_rows(repeats=repeats)
     yield memory_cost.memory_cost(repeats=repeats)
