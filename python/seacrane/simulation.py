@@ -276,9 +276,9 @@ def simulate(
     *,
     t_end: float = 100.0,
     dt_out: float = 0.1,
-    integrator: str = DEFAULT_INTEGRATOR,
-    rtol: float = DEFAULT_RTOL,
-    dt: float = 0.0,
+    integrator: str | None = None,
+    rtol: float | None = None,
+    dt: float | None = None,
     max_step: float = 0.0,
     formulation: str = "auto",
     channels: Sequence[str] | None = None,
@@ -296,14 +296,15 @@ def simulate(
         End time, s.
     dt_out : float
         Output interval, s. Outputs are interpolated, projected, then evaluated; they never shorten steps.
-    integrator : str
-        "dopri5" (default) or any other of `seacrane.integrator_names()`; the table in docs/design.md tells
+    integrator : str, optional
+        Default "dopri5"; or any other of `seacrane.integrator_names()`; the table in docs/design.md tells
         them apart.
-    rtol : float
+    rtol : float, optional
         Local error per step over the scale of each state (0.1 m, 0.01 rad, 0.1 m/s, 0.01 rad/s; lengths
-        times `scene.length_scale`): absolute, so that results do not depend on where the origin is.
-    dt : float
-        Step of fixed-step methods, s; 0 takes the method's default.
+        times `scene.length_scale`): absolute, so that results do not depend on where the origin is. Default
+        1e-6.
+    dt : float, optional
+        Step of fixed-step methods, s; default, or 0: the method's own.
     max_step : float
         Longest step, s; 0 sets no limit.
     formulation : str
@@ -319,9 +320,9 @@ def simulate(
         Where to go on from; default: the assembled start of the scene.
     accuracy : mapping of str to float, optional
         Largest error over the outputs by quantity, such as ``{"payload_position": 0.01}``, in its unit; the
-        quantities are those of `seacrane.trade`. Integrator and tolerance are then chosen, by running twice
-        or more until two runs agree: leave integrator, rtol and dt alone. What is left of the integration
-        error is estimated in `stats`, as "error_estimate_<quantity>".
+        quantities are those of `seacrane.trade`. Integrator and tolerance are then chosen, and a second,
+        cheap run tells the error: leave integrator, rtol, dt and controllers out. The estimate of what is
+        left of the integration error is in `stats`, as "error_estimate_<quantity>".
     progress : bool
         Show a progress bar.
 
@@ -338,23 +339,34 @@ def simulate(
         When the integration cannot go on; it says where, when and what to try.
     """
     controllers = _checked(controllers)
+    given = {"integrator": integrator, "rtol": rtol, "dt": dt}
+    chosen: dict[str, Any] = {name: value for name, value in given.items() if value is not None}
     if accuracy is not None:
         from seacrane.trading.accuracy import simulate_to_accuracy
 
-        if controllers or (integrator, rtol, dt) != (DEFAULT_INTEGRATOR, DEFAULT_RTOL, 0.0):
-            raise SceneError(
-                "accuracy: chooses integrator, rtol and dt itself, and runs more than once, which a "
-                "controller may not allow; leave these out, or leave out accuracy"
-            )
+        _refuse_beside_accuracy(chosen, controllers)
         return simulate_to_accuracy(
             scene, accuracy, channels=channels, progress=progress, t_end=t_end, dt_out=dt_out,
             max_step=max_step, formulation=formulation, start=start,
         )  # fmt: skip
     run = Run(
-        scene, t_end=t_end, dt_out=dt_out, integrator=integrator, rtol=rtol, dt=dt, max_step=max_step,
-        formulation=formulation, channels=channels, start=start,
+        scene, t_end=t_end, dt_out=dt_out, max_step=max_step, formulation=formulation, channels=channels,
+        start=start, **chosen,
     )  # fmt: skip
     return finished(run, controllers, progress=progress)
+
+
+def _refuse_beside_accuracy(chosen: Mapping[str, Any], controllers: Sequence[SampledController]) -> None:
+    if chosen:
+        named = ", ".join(f"{name}={value!r}" for name, value in chosen.items())
+        raise SceneError(
+            f"accuracy chooses integrator, rtol and dt itself, and {named} is given too: leave one out"
+        )
+    if controllers:
+        raise SceneError(
+            "accuracy runs the scene more than once, which a sampled controller may not allow: leave out "
+            "controllers or accuracy"
+        )
 
 
 def finished(run: Run, controllers: Sequence[SampledController] = (), *, progress: bool = False) -> Result:

@@ -1,36 +1,62 @@
-"""simulate(accuracy=...): tolerances tightened until two runs agree within the stated error.
+"""simulate(accuracy=...): one run at the right tolerance, and a cheap one that tells its error.
 
-A rule from measured trades (docs/trade.md) gives the first tolerance. The difference of two runs is
-about the error of the looser one; the tighter one, which is returned, has less.
+Errors of two runs of one scene obey the same linearised equations of motion and differ in their local errors
+only, so that their ratio hardly depends on the scene (docs/trade.md). The difference of a cheap and a tight
+run is the error of the cheap one; times that ratio, it is the error of the tight one, which is returned.
 """
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
-from seacrane.channel_names import LINK
 from seacrane.errors import SceneError
 from seacrane.simulation import Run, finished
+from seacrane.trading.expected import TIGHTEST, Method, probe_of, setting_for, unit_error
 from seacrane.trading.quantities import Quantity, compare, limits_of, quantities_of
 
 if TYPE_CHECKING:
     from seacrane.result import Result
     from seacrane.scene import Scene
 
-LOW_ORDER, HIGH_ORDER = "tsit5", "dop853"
-TIGHT = 1e-7  # tolerance below which the method of order 8 is the cheaper one
-LOOSEST, TIGHTEST = 1e-2, 1e-12
-STEP = 10.0  # between the tolerances of the two runs that are compared
-MARGIN = 0.5  # of the limit, aimed at when a tolerance turns out too loose
-SHRINK = 0.3  # error of the tighter run over the difference: 0.1 by the tolerances, and a margin
-COARSE = 2e-3  # tolerance from which on stability sets the steps: errors do not follow the tolerance there
-ERROR_PER_TOLERANCE = {"m": 0.1, "m/s": 0.1, "rad": 3e-4, "rad/s": 3e-4}
-FORCE_PER_TOLERANCE = 0.05  # over the weight that the force carries
-AMPLIFIED = 1e3  # error over tolerance from which the motion itself, not the method, sets the limit
+SAFETY = 5.0  # on the ratio of two errors: scenes differ in it by less in 97 of 100
+PESSIMISM = 1.5  # further, on the error expected before any run
+STEP = 10.0  # between the tolerances of two runs that are compared without a ratio
+SHRINK = 0.4  # then: error of the tighter one over the difference, 0.1 by the tolerances, and a margin
+COARSE = 0.1  # of the motion: a difference above it is no error that linearised equations describe
+ROUNDING = 1e-10  # tolerance below which rounding may set the error, and only runs of like tolerance tell
+AMPLIFIED = 1e4  # error over the expected one from which the motion itself, not rounding, sets the limit
 
-Runner = Callable[[str, float], "Result"]
+
+@dataclass(frozen=True, kw_only=True)
+class _Case:
+    """What is asked for, and how to run it."""
+
+    scene: Scene
+    quantities: Mapping[str, Quantity]
+    limits: Mapping[str, float]
+    run: Callable[[Scene, Method], Result]
+
+    def differences(self, one: Result, other: Result) -> dict[str, float]:
+        return {name: compare(q.values(one), q.values(other)).largest for name, q in self.quantities.items()}
+
+    def motions(self, result: Result) -> dict[str, float]:
+        """Largest distance of each quantity from its start."""
+        values = {name: q.values(result) for name, q in self.quantities.items()}
+        return {name: compare(v[:1].repeat(len(v), axis=0), v).largest for name, v in values.items()}
+
+    def excess(self, errors: Mapping[str, float]) -> float:
+        return max(errors[name] / limit for name, limit in self.limits.items())
+
+
+@dataclass(frozen=True, kw_only=True)
+class _Done:
+    """A finished run and its setting."""
+
+    setting: Method
+    result: Result
 
 
 def simulate_to_accuracy(
@@ -41,7 +67,7 @@ def simulate_to_accuracy(
     progress: bool,
     **settings: Any,
 ) -> Result:
-    """The loosest run whose estimated error meets all limits.
+    """The run whose estimated error meets all limits.
 
     Parameters
     ----------
@@ -70,92 +96,121 @@ def simulate_to_accuracy(
     needed = {channel for quantity in measured.values() for channel in quantity.channels}
     wanted = None if channels is None else sorted({*channels, *needed})
 
-    def run(method: str, tolerance: float) -> Result:
-        settled = Run(scene, model=model, channels=wanted, integrator=method, rtol=tolerance, **settings)
+    def run(changed: Scene, setting: Method) -> Result:
+        settled = Run(
+            changed, model=model if changed is scene else None, channels=wanted,
+            integrator=setting.name, rtol=setting.tolerance, **settings,
+        )  # fmt: skip
         return finished(settled, progress=progress)
 
-    result = _converged(scene, run, measured, limits)
+    result = _converged(_Case(scene=scene, quantities=measured, limits=limits, run=run))
     if channels is None:
         return result
     return replace(result, channels={name: result.channels[name] for name in channels})
 
 
-def _converged(
-    scene: Scene, run: Runner, measured: Mapping[str, Quantity], limits: Mapping[str, float]
-) -> Result:
-    """Tightens until two runs agree within the limits."""
-    tolerance = min(max(first_tolerance(scene, measured, limits), STEP * TIGHTEST), LOOSEST)
-    method = _method(tolerance)
-    done = [run(method, tolerance)]
-    while not done[-1].interrupted:
-        looser = done[-1]
-        done.append(run(method, tolerance / STEP))
-        if done[-1].interrupted:
+def _converged(case: _Case) -> Result:
+    """Runs until the estimate of the last one meets the limits."""
+    setting = first_setting(case.scene, case.quantities, case.limits)
+    done = [_run(case, probe_of(setting) if setting.tolerance > ROUNDING else _looser(setting))]
+    while not done[-1].result.interrupted:
+        done.append(_run(case, setting))
+        if done[-1].result.interrupted:
             break
-        shrink = 1.0 if tolerance > COARSE else SHRINK
-        errors = {name: shrink * _difference(q, done[-1], looser) for name, q in measured.items()}
-        excess = max(errors[name] / limit for name, limit in limits.items())
-        if excess <= 1.0:
-            return _with_estimate(done, limits, errors)
-        if tolerance <= STEP * TIGHTEST:
-            raise SceneError(_unreachable(scene, measured, limits, errors))
-        held, needed = tolerance / STEP, tolerance * MARGIN / excess
-        tolerance = max(min(held, needed), STEP * TIGHTEST)
-        if tolerance != held or _method(tolerance) != method:  # methods differ in error at one tolerance
-            method = _method(tolerance)
-            done.append(run(method, tolerance))
-    return done[-1]
+        errors, known = _errors(case, done[-1], done[-2])
+        if case.excess(errors) <= 1.0:
+            return _with_estimate(case, done, errors)
+        if setting.tolerance <= TIGHTEST:
+            raise SceneError(_unreachable(case, errors))
+        setting = _tighter(setting, case.excess(errors) if known else STEP)
+        if setting.tolerance < ROUNDING and done[-1].setting.tolerance > STEP * 1.1 * setting.tolerance:
+            done.append(_run(case, _looser(setting)))
+    return done[-1].result
 
 
-def _method(tolerance: float) -> str:
-    return HIGH_ORDER if tolerance < TIGHT else LOW_ORDER
+def _run(case: _Case, setting: Method) -> _Done:
+    return _Done(setting=setting, result=case.run(case.scene, setting))
 
 
-def first_tolerance(scene: Scene, quantities: Mapping[str, Quantity], limits: Mapping[str, float]) -> float:
-    """Of the looser of the first two runs: what met such limits in measured trades."""
-    tolerance = min(limit / _scale(scene, quantities[name]) for name, limit in limits.items())
-    return tolerance if tolerance < COARSE else max(COARSE, tolerance / STEP)
+def _looser(setting: Method) -> Method:
+    return replace(setting, tolerance=STEP * setting.tolerance)
 
 
-def _scale(scene: Scene, quantity: Quantity) -> float:
-    """Expected error over the tolerance."""
-    if quantity.unit in ERROR_PER_TOLERANCE:
-        return ERROR_PER_TOLERANCE[quantity.unit]
-    if quantity.name == "hook_tension":
-        mass = scene.bodies[scene.joints[LINK].second].mass
-    else:
-        floating = {vessel.body for vessel in scene.vessels.values()}
-        mass = sum(body.mass for body in scene.bodies.values() if body.name not in floating)
-    return max(FORCE_PER_TOLERANCE * mass * abs(scene.gravity), 1.0)
+def _tighter(setting: Method, factor: float) -> Method:
+    """A setting whose error is smaller by that factor at least."""
+    found = setting_for(setting.error / factor)
+    if found.error > 0.6 * setting.error:
+        found = replace(setting, tolerance=setting.tolerance / math.sqrt(STEP))
+    return replace(found, tolerance=max(found.tolerance, TIGHTEST))
 
 
-def _difference(quantity: Quantity, one: Result, other: Result) -> float:
-    return compare(quantity.values(one), quantity.values(other)).largest
+def first_setting(scene: Scene, quantities: Mapping[str, Quantity], limits: Mapping[str, float]) -> Method:
+    """What met such limits in measured trades."""
+    smallest = min(limit / unit_error(scene, quantities[name]) for name, limit in limits.items())
+    return setting_for(smallest / (SAFETY * PESSIMISM))
 
 
-def _with_estimate(
-    done: Sequence[Result], limits: Mapping[str, float], errors: Mapping[str, float]
-) -> Result:
-    stats: dict[str, Any] = {**done[-1].stats, "accuracy_runs": len(done)}
-    stats["accuracy_wall_s"] = sum(float(result.stats["wall_s"]) for result in done)
-    stats["accuracy_evaluations"] = sum(int(result.stats["evaluations"]) for result in done)
-    for name, limit in limits.items():
+def _errors(case: _Case, tight: _Done, loose: _Done) -> tuple[dict[str, float], bool]:
+    """Estimated errors of the tighter run, and whether they may be extrapolated to other tolerances."""
+    differences = case.differences(tight.result, loose.result)
+    one, other = tight.setting, loose.setting
+    if one.name == other.name and other.tolerance <= 1.1 * STEP * one.tolerance:
+        return {name: SHRINK * d for name, d in differences.items()}, one.tolerance > ROUNDING
+    ratio = SAFETY * one.error / other.error
+    motions = case.motions(tight.result)
+    known = all(d <= COARSE * motions[name] for name, d in differences.items())
+    errors = {name: d * (ratio if d <= COARSE * motions[name] else 1.0) for name, d in differences.items()}
+    return errors, known
+
+
+def _with_estimate(case: _Case, done: Sequence[_Done], errors: Mapping[str, float]) -> Result:
+    last = done[-1]
+    runs = [one.result for one in done]
+    if _table_may_show(case, last.result):
+        exact = case.run(_with_exact_waves(case.scene), last.setting)
+        of_table = case.differences(last.result, exact)
+        errors = {name: error + of_table[name] for name, error in errors.items()}
+        runs.append(exact)
+        if case.excess(errors) > 1.0:
+            raise SceneError(_unreachable(case, errors, _bound_of_table(case.scene)))
+    stats: dict[str, Any] = {**last.result.stats, "accuracy_runs": len(runs)}
+    stats["accuracy_wall_s"] = sum(float(result.stats["wall_s"]) for result in runs)
+    stats["accuracy_evaluations"] = sum(int(result.stats["evaluations"]) for result in runs)
+    for name, limit in case.limits.items():
         stats |= {f"accuracy_{name}": limit, f"error_estimate_{name}": errors[name]}
-    return replace(done[-1], stats=stats)
+    return replace(last.result, stats=stats)
 
 
-def _unreachable(
-    scene: Scene, quantities: Mapping[str, Quantity], limits: Mapping[str, float], errors: Mapping[str, float]
-) -> str:
-    name = max(limits, key=lambda quantity: errors[quantity] / limits[quantity])
-    unit = quantities[name].unit
-    amplified = errors[name] > AMPLIFIED * TIGHTEST * _scale(scene, quantities[name])
-    term = (
-        "the motion itself, which amplifies the smallest differences: ask for statistics, or a shorter run"
-        if amplified
-        else f"rounding at the tightest tolerance, {TIGHTEST:g}"
-    )
+def _table_may_show(case: _Case, result: Result) -> bool:
+    """Whether the bound of the wave table, as a part of the motion, exceeds a limit."""
+    waves = case.scene.waves
+    if waves is None or waves.evaluation != "table" or waves.force_by_heading is not None:
+        return False
+    motions = case.motions(result)
+    return any(waves.relative_bound * motions[n] > limit for n, limit in case.limits.items())
+
+
+def _with_exact_waves(scene: Scene) -> Scene:
+    assert scene.waves is not None
+    return scene.copy(waves=replace(scene.waves, evaluation="exact"))
+
+
+def _bound_of_table(scene: Scene) -> str:
+    assert scene.waves is not None
+    return f"the wave table, whose relative_bound is {scene.waves.relative_bound:g}: tighten it"
+
+
+def _unreachable(case: _Case, errors: Mapping[str, float], term: str = "") -> str:
+    name = max(case.limits, key=lambda quantity: errors[quantity] / case.limits[quantity])
+    quantity = case.quantities[name]
+    expected = setting_for(0.0).error * unit_error(case.scene, quantity)
+    if not term and errors[name] > AMPLIFIED * expected:
+        term = (
+            "the motion itself, which amplifies the smallest differences: ask for statistics, or a shorter "
+            "run"
+        )
+    term = term or f"rounding at the tightest tolerance, {TIGHTEST:g}"
     return (
-        f"accuracy: {name} of {limits[name]:g} {unit} cannot be reached: the limit is {errors[name]:.3g} "
-        f"{unit}, set by {term}"
+        f"accuracy: {name} of {case.limits[name]:g} {quantity.unit} cannot be reached: the limit is "
+        f"{errors[name]:.3g} {quantity.unit}, set by {term}"
     )
