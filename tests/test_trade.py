@@ -9,15 +9,24 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from seacrane import Scene, SceneError, Trade, cases, simulate, trade
+from seacrane import Scene, SceneError, Trade, cases, integrator_names, simulate, trade
 from seacrane.hydro import shipped_database
-from seacrane.trading import measure, rungs, study
+from seacrane.trading import measure, rungs, settings_grid, study
 from seacrane.trading.quantities import compare, quantities_of
 from seacrane.trading.rows import Row, RowFile
 from seacrane.trading.settings_grid import Setting
 
 T_END = 6.0
 TIGHT = {"integrator": "dop853", "rtol": 1e-11}
+
+
+def pendulum() -> Scene:
+    scene = Scene(name="pendulum")
+    scene.add_body(name="bob", mass=2.0, inertia=(0.1, 0.1, 0.1), position=(1.0, 0.0, 0.0))
+    scene.add_joint(
+        kind="revolute", name="pin", first="ground", second="bob", point=(0, 0, 0), axis=(0, 1, 0)
+    )
+    return scene
 
 
 @pytest.fixture(scope="module")
@@ -120,6 +129,7 @@ def test_a_later_call_goes_on_and_another_scene_begins_anew(
         return measured.rows[-1]
 
     monkeypatch.setattr(study, "measure", filled)
+    monkeypatch.setattr(study, "measure_variant", filled)
     monkeypatch.setattr(study, "frequency_domain", filled)
     again = trade(case2, t_end=T_END, quick=True, progress=False, out=folder)
     assert called == ["one"]
@@ -136,6 +146,38 @@ def test_a_setting_that_does_not_exist_is_a_row_with_its_reason(case2: Scene) ->
     row = Row(formulation="recursive", integrator="ida", rtol=1e-3, dt=0.0, memory="", waves="", rung="full")
     done = measure.measure(case2, setting, span, {"roll": np.zeros((11, 1, 1))}, row)
     assert not done.stable and "solves the redundant equations" in done.reason
+
+
+def test_every_integrator_of_the_core_is_in_the_grid(case2: Scene) -> None:
+    found = {setting.integrator for setting in settings_grid.settings(case2, quick=False)}
+    assert found == set(integrator_names())
+
+
+@pytest.mark.parametrize(("name", "size"), [("rk4", "dt"), ("semi-implicit-euler", "dt"), ("tsit5", "rtol")])
+def test_a_method_that_no_list_knows_is_set_by_what_changes_its_steps(
+    name: str, size: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(settings_grid, "TOLERANCES", {})
+    monkeypatch.setattr(settings_grid, "STEPS", {})
+    assert settings_grid._sizes(pendulum(), name)[0] == size
+
+
+def test_a_method_that_refuses_the_scene_is_a_row_with_its_reason(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(settings_grid, "QUICK_INTEGRATORS", ("tsit5", "not-yet"))
+    rows = [
+        r for r in trade(pendulum(), t_end=1.0, quick=True, progress=False).rows if r.integrator == "not-yet"
+    ]
+    assert rows and not any(row.stable for row in rows)
+    assert all("unknown integrator" in row.reason for row in rows)
+
+
+def test_memory_orders_are_named_by_their_states_and_come_closer(case2: Scene) -> None:
+    database = shipped_database()
+    names = [v.memory for v in rungs.variants(case2, database, quick=False) if v.memory.startswith("passive")]
+    assert names == [f"passive r2={r2:g}" for r2 in rungs.LEVELS]
+    scenes = [rungs.with_memory(case2, "passive", database, r2=r2) for r2 in (0.9, 0.99)]
+    assert [rungs.full_memory_name(s, "passive r2=0.9") for s in scenes] == ["passive:12", "passive:20"]
+    assert [s.compile().memory_states for s in scenes] == [12, 20]
 
 
 def test_another_memory_is_that_of_a_case_built_with_it(case2: Scene) -> None:
@@ -192,11 +234,7 @@ def test_the_strongest_components_carry_the_load(case2: Scene) -> None:
 
 
 def test_a_scene_without_a_vessel_is_traded_on_its_numerics(tmp_path: Path) -> None:
-    scene = Scene(name="pendulum")
-    scene.add_body(name="bob", mass=2.0, inertia=(0.1, 0.1, 0.1), position=(1.0, 0.0, 0.0))
-    scene.add_joint(
-        kind="revolute", name="pin", first="ground", second="bob", point=(0, 0, 0), axis=(0, 1, 0)
-    )
+    scene = pendulum()
     found = trade(scene, t_end=2.0, quick=True, progress=False)
     assert list(found.quantities) == ["position", "velocity"] and {r.rung for r in found.rows} == {"full"}
     with pytest.raises(SceneError, match="'depth' is unknown to this scene"):

@@ -135,6 +135,21 @@ def measure(scene: Scene, setting: Setting, span: Span, truth: Mapping[str, Arra
     )
 
 
+def measure_variant(
+    variant: rungs.Variant, setting: Setting, span: Span, truth: Mapping[str, Array], row: Row
+) -> Row:
+    """As `measure`, of a scene that has yet to be made; a fitted memory is named by its states."""
+    from dataclasses import replace
+
+    try:
+        scene = variant.build()
+    except (SeacraneError, ValueError) as error:
+        return replace(row, reason=" ".join(str(error).split()))
+    return measure(
+        scene, setting, span, truth, replace(row, memory=rungs.full_memory_name(scene, row.memory))
+    )
+
+
 def _run(scene: Scene, setting: Setting, span: Span, rung: str) -> tuple[Result, float]:
     """The run, and the wall time of a run that it rests on (s)."""
     if rung == rungs.WEIGHT:

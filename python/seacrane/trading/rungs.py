@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
+from functools import lru_cache, partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -14,10 +15,11 @@ from seacrane.channel_names import LINK
 from seacrane.errors import SceneError
 from seacrane.inverse import SIX, _hold, driven
 from seacrane.scene import Scene
-from seacrane.vessel import MEMORY, add_vessel
+from seacrane.vessel import add_vessel
 
 if TYPE_CHECKING:
     from seacrane.hydro import HydroDatabase
+    from seacrane.hydro.memory_model import MemoryModel
 
 Array = NDArray[np.float64]
 FULL, LOCKED, PRESCRIBED, WEIGHT, LINEAR = (
@@ -25,16 +27,20 @@ FULL, LOCKED, PRESCRIBED, WEIGHT, LINEAR = (
 )  # fmt: skip
 SHARES = (0.5, 0.25)  # of the wave components, the strongest
 BOUND = 1e-4  # of a coarse wave table
+FITTED = ("per-pair", "passive")
+LEVELS = (0.9, 0.95, 0.99, 0.999)  # R2 asked of the fit: each costs states
+USUAL_LEVEL = 0.99  # of a vessel's own memory
+QUICK_LEVELS = (0.9, USUAL_LEVEL)
 
 
 @dataclass(frozen=True, kw_only=True)
 class Variant:
-    """A scene that differs from the full one in one thing."""
+    """A scene that differs from the full one in one thing; made when it is measured."""
 
     memory: str
     waves: str
     rung: str
-    scene: Scene
+    build: Callable[[], Scene]
 
 
 def memory_name(scene: Scene) -> str:
@@ -52,29 +58,59 @@ def waves_name(scene: Scene) -> str:
 def variants(scene: Scene, database: HydroDatabase | None, *, quick: bool) -> Iterator[Variant]:
     """Scenes with one thing changed: memory models, wave evaluations, rungs of coupling."""
     memory, waves = memory_name(scene), waves_name(scene)
-    for kind in MEMORY if scene.vessels else ():
-        if kind == memory or (quick and kind == "convolution"):
-            continue
-        if kind != "none" and database is None:
-            continue
-        yield Variant(memory=kind, waves=waves, rung=FULL, scene=with_memory(scene, kind, database))
-    for name, changed in _wave_variants(scene, quick=quick):
-        yield Variant(memory=memory, waves=name, rung=FULL, scene=changed)
+    for name, build in _memory_variants(scene, database, quick=quick):
+        yield Variant(memory=name, waves=waves, rung=FULL, build=build)
+    for name, build in _wave_variants(scene, quick=quick):
+        yield Variant(memory=memory, waves=name, rung=FULL, build=build)
     if scene.actuators:
-        yield Variant(memory=memory, waves=waves, rung=LOCKED, scene=locked(scene))
+        yield Variant(memory=memory, waves=waves, rung=LOCKED, build=lambda: locked(scene))
         if scene.vessels:
-            yield Variant(memory=memory, waves=waves, rung=PRESCRIBED, scene=scene)
+            yield Variant(memory=memory, waves=waves, rung=PRESCRIBED, build=lambda: scene)
     if hanging(scene):
-        yield Variant(memory=memory, waves=waves, rung=WEIGHT, scene=scene)
+        yield Variant(memory=memory, waves=waves, rung=WEIGHT, build=lambda: scene)
     if scene.waves is not None and scene.vessels:
-        yield Variant(memory=memory, waves=waves, rung=LINEAR, scene=scene)
+        yield Variant(memory=memory, waves=waves, rung=LINEAR, build=lambda: scene)
 
 
-def with_memory(scene: Scene, kind: str, database: HydroDatabase | None) -> Scene:
-    """The scene with another fluid memory of its one vessel; the added mass is that of the memory's fit."""
+def _memory_variants(
+    scene: Scene, database: HydroDatabase | None, *, quick: bool
+) -> Iterator[tuple[str, Callable[[], Scene]]]:
+    """None, convolution, and fits of each kind at several R2."""
+    memory = memory_name(scene)
+    if not scene.vessels or len(scene.vessels) > 1:
+        return
+    for kind in ("none", "convolution"):
+        if kind == memory or (kind != "none" and (quick or database is None)):
+            continue
+        yield kind, partial(with_memory, scene, kind, database)
+    for kind in FITTED if database is not None else ():
+        for r2 in QUICK_LEVELS if quick else LEVELS:
+            if kind != memory or r2 != USUAL_LEVEL:
+                yield f"{kind} r2={r2:g}", partial(with_memory, scene, kind, database, r2=r2)
+
+
+def full_memory_name(scene: Scene, name: str) -> str:
+    """A fitted memory's name with its number of states for its R2: "passive:20"."""
+    kind, _, level = name.partition(" r2=")
+    if not level:
+        return name
+    (vessel,) = scene.vessels.values()
+    return f"{kind}:{sum(len(block.a) for block in vessel.memory)}"
+
+
+def with_memory(scene: Scene, kind: str, database: HydroDatabase | None, *, r2: float | None = None) -> Scene:
+    """The scene with another fluid memory of its one vessel; the added mass is that of the memory's fit.
+
+    Parameters
+    ----------
+    r2 : float, optional
+        Asked of a fit; default: the database's own memory where it has one of that kind.
+    """
     (vessel,) = scene.vessels.values()
     changes: dict[str, Any] = {"memory": []}
     if database is not None:
+        if r2 is not None:
+            database = replace(database, memory=_fit(database, kind, r2))
         fresh = Scene(name="memory", gravity=scene.gravity)
         add_vessel(fresh, database, name=vessel.body, memory=kind, kinematics=vessel.kinematics)
         (fitted,) = fresh.vessels.values()
@@ -85,26 +121,34 @@ def with_memory(scene: Scene, kind: str, database: HydroDatabase | None) -> Scen
     return out
 
 
+@lru_cache(maxsize=16)
+def _fit(database: HydroDatabase, kind: str, r2: float) -> MemoryModel:
+    from seacrane.hydro import fit_memory
+
+    return fit_memory(database=database, kind=kind, r2=r2)
+
+
 def _changed(vessel: _core.VesselHydrodynamics, **changes: Any) -> _core.VesselHydrodynamics:
     kept = ("name", "body", "added_mass", "linear_damping", "quadratic_damping", "restoring",
             "mooring_stiffness", "mooring_damping", "memory", "kinematics")  # fmt: skip
     return _core.VesselHydrodynamics(**{**{name: getattr(vessel, name) for name in kept}, **changes})
 
 
-def _wave_variants(scene: Scene, *, quick: bool) -> Iterator[tuple[str, Scene]]:
+def _wave_variants(scene: Scene, *, quick: bool) -> Iterator[tuple[str, Callable[[], Scene]]]:
     waves = scene.waves
     if waves is None:
         return
     if waves.force_by_heading is None:
         if waves_name(scene) != "exact":
-            yield "exact", scene.copy(waves=replace(waves, evaluation="exact"))
+            yield "exact", partial(scene.copy, waves=replace(waves, evaluation="exact"))
         if not quick:
             coarse = replace(waves, evaluation="table", relative_bound=BOUND)
-            yield f"table bound {BOUND:g}", scene.copy(waves=coarse)
+            yield f"table bound {BOUND:g}", partial(scene.copy, waves=coarse)
     if waves.force_by_heading is None and waves.drift is None:
         for share in SHARES:
             count = int(np.ceil(share * len(waves.omega)))
-            yield f"{count} of {len(waves.omega)} components", scene.copy(waves=strongest(waves, count))
+            fewer = partial(scene.copy, waves=strongest(waves, count))
+            yield f"{count} of {len(waves.omega)} components", fewer
 
 
 def strongest(waves: Any, count: int) -> Any:

@@ -4,7 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
+
+from seacrane import _core
+from seacrane.errors import SeacraneError
+
+if TYPE_CHECKING:
+    from seacrane.scene import Scene
 
 FORMULATIONS = ("recursive", "redundant")
 COARSE = (1e-1, 1e-2, 1e-3, 1e-4)
@@ -34,6 +40,8 @@ STEPS: dict[str, tuple[float, ...]] = {  # s
     "generalized-alpha": (0.1, 0.05, 0.02),
     "generalized-alpha-index2": (0.1, 0.05, 0.02),
 }
+OTHER_STEPS = (0.1, 0.05, 0.025)  # s, of a method that neither list knows
+TRIAL = 0.2  # s of simulated time that tell whether a method takes its steps from dt
 QUICK_INTEGRATORS = ("tsit5", "dop853", "rk4", "semi-implicit-euler")
 
 
@@ -57,15 +65,39 @@ class Setting:
         return {"formulation": self.formulation, "integrator": self.integrator, **size}
 
 
-def settings(*, quick: bool) -> Iterator[Setting]:
+def settings(scene: Scene, *, quick: bool) -> Iterator[Setting]:
     """All settings of the grid; `quick` takes every third tolerance of a few integrators."""
+    names = QUICK_INTEGRATORS if quick else _core.integrator_names()
+    sizes = [(name, *_sizes(scene, name)) for name in names]
     for formulation in FORMULATIONS:
-        for integrator, values in {**TOLERANCES, **STEPS}.items():
-            if quick and integrator not in QUICK_INTEGRATORS:
-                continue
-            size = "rtol" if integrator in TOLERANCES else "dt"
+        for name, size, values in sizes:
             for value in values[1::3] if quick else values:
-                yield Setting(formulation=formulation, integrator=integrator, **{size: value})
+                yield Setting(formulation=formulation, integrator=name, **{size: value})
+
+
+def _sizes(scene: Scene, name: str) -> tuple[str, tuple[float, ...]]:
+    """What an integrator's accuracy is set by, and the values to try."""
+    if name in TOLERANCES:
+        return "rtol", TOLERANCES[name]
+    if name in STEPS:
+        return "dt", STEPS[name]
+    return ("dt", OTHER_STEPS) if _takes_dt(scene, name) else ("rtol", MIDDLE)
+
+
+def _takes_dt(scene: Scene, name: str) -> bool:
+    """Whether half the step makes more steps; False for a method that refuses the scene."""
+    from seacrane.simulation import simulate
+
+    try:
+        runs = [
+            simulate(
+                scene, t_end=TRIAL, dt_out=TRIAL, integrator=name, dt=TRIAL / parts, channels=["position"]
+            )
+            for parts in (4, 8)
+        ]
+    except SeacraneError:
+        return False
+    return bool(runs[0].stats["steps"] != runs[1].stats["steps"])
 
 
 TIGHT = (

@@ -15,7 +15,7 @@ import numpy as np
 from seacrane.checked import number_of
 from seacrane.errors import SceneError
 from seacrane.trading import rungs
-from seacrane.trading.measure import Reference, Span, frequency_domain, measure, reference
+from seacrane.trading.measure import Reference, Span, frequency_domain, measure, measure_variant, reference
 from seacrane.trading.quantities import Quantity, limits_of, quantities_of
 from seacrane.trading.rows import Row, RowFile, front, write_csv
 from seacrane.trading.settings_grid import PHYSICS, settings
@@ -238,7 +238,7 @@ def _tasks(
     """Each empty row, and the function that fills it in."""
     memory, waves = str(metadata["memory"]), str(metadata["waves"])
     tasks: list[tuple[Row, Any]] = []
-    for setting in settings(quick=quick):
+    for setting in settings(scene, quick=quick):
         row = Row(formulation=setting.formulation, integrator=setting.integrator, rtol=setting.rtol,
                   dt=setting.dt, memory=memory, waves=waves, rung=rungs.FULL)  # fmt: skip
         tasks.append((row, lambda row, s=setting: measure(scene, s, span, truth.values, row)))
@@ -254,21 +254,21 @@ def _tasks(
         if linear:
             tasks.append((row, lambda row: frequency_domain(scene, span, truth.values, start, row)))
         else:
-            tasks.append((row, lambda row, v=variant: measure(v.scene, PHYSICS, span, truth.values, row)))
+            tasks.append((row, lambda row, v=variant: measure_variant(v, PHYSICS, span, truth.values, row)))
     return tasks
 
 
 def _measure_all(tasks: list[tuple[Row, Any]], file: RowFile | None, progress: bool) -> list[Row]:
     from tqdm.auto import tqdm
 
-    rows = []
+    rows: dict[str, Row] = {}
     for empty, fill in tqdm(tasks, desc="trade", unit="row", disable=not progress):
         known = file.rows.get(empty.key) if file is not None else None
         row = fill(empty) if known is None else known
         if file is not None and known is None:
             file.add(empty.key, row)
-        rows.append(row)
-    return rows
+        rows.setdefault(row.key, row)  # two levels of a memory fit may give one model
+    return list(rows.values())
 
 
 def _shipped(scene: Scene) -> HydroDatabase | None:
