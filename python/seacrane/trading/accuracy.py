@@ -23,8 +23,7 @@ if TYPE_CHECKING:
 
 SAFETY = 5.0  # on the ratio of two errors: scenes differ in it by less in 97 of 100
 PESSIMISM = 1.5  # further, on the error expected before any run
-STEP = 10.0  # between the tolerances of two runs that are compared without a ratio
-SHRINK = 0.4  # then: error of the tighter one over the difference, 0.1 by the tolerances, and a margin
+STEP = 10.0  # to a tighter tolerance, or a looser one to compare with, where errors do not tell how far
 COARSE = 0.1  # of the motion: a difference above it is no error that linearised equations describe
 ROUNDING = 1e-10  # tolerance below which rounding may set the error, and only runs of like tolerance tell
 AMPLIFIED = 1e4  # error over the expected one from which the motion itself, not rounding, sets the limit
@@ -151,16 +150,13 @@ def first_setting(scene: Scene, quantities: Mapping[str, Quantity], limits: Mapp
 
 
 def _errors(case: _Case, tight: _Done, loose: _Done) -> tuple[dict[str, float], bool]:
-    """Estimated errors of the tighter run, and whether they may be extrapolated to other tolerances."""
-    differences = case.differences(tight.result, loose.result)
-    one, other = tight.setting, loose.setting
-    if one.name == other.name and other.tolerance <= 1.1 * STEP * one.tolerance:
-        return {name: SHRINK * d for name, d in differences.items()}, one.tolerance > ROUNDING
-    ratio = SAFETY * one.error / other.error
-    motions = case.motions(tight.result)
-    known = all(d <= COARSE * motions[name] for name, d in differences.items())
-    errors = {name: d * (ratio if d <= COARSE * motions[name] else 1.0) for name, d in differences.items()}
-    return errors, known
+    """Estimated errors of the tighter run, and whether they tell which setting would do."""
+    differences, motions = case.differences(tight.result, loose.result), case.motions(tight.result)
+    ratio = tight.setting.error / loose.setting.error
+    factor = SAFETY * ratio / (1.0 - ratio)
+    linear = {name: d <= COARSE * motions[name] for name, d in differences.items()}
+    errors = {name: d * (factor if linear[name] else max(factor, 1.0)) for name, d in differences.items()}
+    return errors, all(linear.values()) and tight.setting.tolerance > ROUNDING
 
 
 def _with_estimate(case: _Case, done: Sequence[_Done], errors: Mapping[str, float]) -> Result:
@@ -168,6 +164,8 @@ def _with_estimate(case: _Case, done: Sequence[_Done], errors: Mapping[str, floa
     runs = [one.result for one in done]
     if _table_may_show(case, last.result):
         exact = case.run(_with_exact_waves(case.scene), last.setting)
+        if exact.interrupted:
+            return exact
         of_table = case.differences(last.result, exact)
         errors = {name: error + of_table[name] for name, error in errors.items()}
         runs.append(exact)

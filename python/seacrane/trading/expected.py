@@ -43,7 +43,7 @@ def setting_for(error: float) -> Method:
     name = "tsit5" if error >= HIGH else "verner76"
     factor, power = ERROR[name]
     decades = math.log10(max(error, 1e-300) / factor) / power
-    tolerance = 10.0 ** (math.floor(2.0 * decades) / 2.0)
+    tolerance = float(f"{10.0 ** (math.floor(2.0 * decades) / 2.0):.6g}")
     return Method(name=name, tolerance=min(max(tolerance, TIGHTEST), LOOSEST))
 
 
