@@ -1,8 +1,7 @@
 #pragma once
 
-#include <Eigen/Cholesky>
-
 #include "seacrane/hydro/vessel.hpp"
+#include "seacrane/math/spd_inverse.hpp"
 #include "seacrane/model/model.hpp"
 
 namespace seacrane {
@@ -35,7 +34,9 @@ inline Mat6d rigid_mass_matrix(const BodyModel& body, const Mat3d& rotation) {
   m.topLeftCorner<3, 3>() = body.mass * Mat3d::Identity();
   m.topRightCorner<3, 3>() = -body.mass * s;
   m.bottomLeftCorner<3, 3>() = body.mass * s;
-  m.bottomRightCorner<3, 3>() = rotation * body.inertia * rotation.transpose() - body.mass * s * s;
+  m.bottomRightCorner<3, 3>() = (rotation * body.inertia) * rotation.transpose();
+  m.bottomRightCorner<3, 3>() += (body.mass * c) * -c.transpose();  // -m s s = m (c.c - c c^T)
+  m.diagonal().tail<3>().array() += body.mass * c.squaredNorm();
   return m;
 }
 
@@ -57,7 +58,7 @@ inline Vec6d vessel_inertia(const BodyModel& body, const Vessel& vessel, const B
                             const YawFrame<double>& frame, BodyInertia& out) {
   out.full = true;
   const Vec6d bias = vessel_terms(body, vessel, k, frame, out.mass);
-  out.inverse = out.mass.llt().solve(Mat6d::Identity());
+  out.inverse = spd_inverse(out.mass);
   return bias;
 }
 

@@ -42,15 +42,18 @@ Memory::Memory(const std::vector<StateSpaceBlock>& blocks) {
     block.outputs = static_cast<int>(s.outputs.size());
     for (std::size_t i = 0; i < s.inputs.size(); ++i) block.input[i] = s.inputs[i];
     for (std::size_t i = 0; i < s.outputs.size(); ++i) block.output[i] = s.outputs[i];
-    block.coefficients = coefficients_.size();
-    const auto append = [&](const MatXd& left, const MatXd& right) {
-      for (Eigen::Index i = 0; i < right.rows(); ++i) {
-        for (Eigen::Index j = 0; j < left.cols(); ++j) coefficients_.push_back(left(i, j));
-        for (Eigen::Index j = 0; j < right.cols(); ++j) coefficients_.push_back(right(i, j));
+    MatXd all(block.states + block.outputs, block.states + block.inputs);
+    all.topLeftCorner(block.states, block.states) = s.a;
+    all.topRightCorner(block.states, block.inputs) = s.b;
+    all.bottomLeftCorner(block.outputs, block.states) = s.c;
+    all.bottomRightCorner(block.outputs, block.inputs) = s.d;
+    for (Eigen::Index first = 0; first < all.rows(); first += tile) {
+      for (Eigen::Index j = 0; j < all.cols(); ++j) {
+        for (Eigen::Index i = first; i < first + tile; ++i) {
+          coefficients_.push_back(i < all.rows() ? all(i, j) : 0.0);
+        }
       }
-    };
-    append(s.a, s.b);
-    append(s.c, s.d);
+    }
     blocks_.push_back(block);
     states_ += block.states;
   }

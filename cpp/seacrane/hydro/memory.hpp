@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <vector>
 
@@ -25,19 +26,18 @@ class Memory {
 
   template <class T>
   void evaluate(const Vec6<T>& u, const T* x, T* x_rate, Vec6<T>& mu) const {
+    const double* m = coefficients_.data();
     for (const Block& block : blocks_) {
-      const double* m = coefficients_.data() + block.coefficients;
-      for (int i = 0; i < block.states; ++i) {
-        T sum = T(0);
-        for (int j = 0; j < block.states; ++j) sum += *m++ * x[j];
-        for (int j = 0; j < block.inputs; ++j) sum += *m++ * u[block.input[j]];
-        x_rate[i] = sum;
-      }
-      for (int i = 0; i < block.outputs; ++i) {
-        T sum = T(0);
-        for (int j = 0; j < block.states; ++j) sum += *m++ * x[j];
-        for (int j = 0; j < block.inputs; ++j) sum += *m++ * u[block.input[j]];
-        mu[block.output[i]] += sum;
+      const int rows = block.states + block.outputs;
+      for (int first = 0; first < rows; first += tile) {
+        Vec6<T> sum = Vec6<T>::Zero();
+        for (int j = 0; j < block.states; ++j, m += tile) sum += x[j] * view<tile>(m).template cast<T>();
+        for (int j = 0; j < block.inputs; ++j, m += tile) {
+          sum += u[block.input[j]] * view<tile>(m).template cast<T>();
+        }
+        const int here = std::min(tile, rows - first), to_states = std::clamp(block.states - first, 0, here);
+        for (int i = 0; i < to_states; ++i) x_rate[first + i] = sum[i];
+        for (int i = to_states; i < here; ++i) mu[block.output[first + i - block.states]] += sum[i];
       }
       x += block.states;
       x_rate += block.states;
@@ -45,13 +45,13 @@ class Memory {
   }
 
  private:
+  static constexpr int tile = 6;  // rows summed side by side
   struct Block {
     int states, inputs, outputs;
     int input[6], output[6];
-    std::size_t coefficients;  // rows (A | B), then rows (C | D)
   };
   std::vector<Block> blocks_;
-  std::vector<double> coefficients_;
+  std::vector<double> coefficients_;  // (A B; C D) per block, in tiles of rows, by columns, padded with zeros
   int states_ = 0;
 };
 

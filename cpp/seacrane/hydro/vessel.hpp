@@ -51,12 +51,16 @@ struct YawFrame {
 
   /// 6 x 6 in the yaw frame to inertial axes.
   Mat6<T> to_inertial(const Mat6d& a) const {
-    Mat6<T> out;
+    const T cosine = rotation(0, 0), sine = rotation(1, 0);
+    Mat6<T> columns = a.cast<T>(), out;  // columns: those of a R^T
+    for (int j = 0; j < 6; j += 3) {
+      columns.col(j) = cosine * a.col(j).cast<T>() - sine * a.col(j + 1).cast<T>();
+      columns.col(j + 1) = sine * a.col(j).cast<T>() + cosine * a.col(j + 1).cast<T>();
+    }
+    out = columns;
     for (int i = 0; i < 6; i += 3) {
-      for (int j = 0; j < 6; j += 3) {
-        out.template block<3, 3>(i, j) =
-            rotation * a.block<3, 3>(i, j).template cast<T>() * rotation.transpose();
-      }
+      out.row(i) = cosine * columns.row(i) - sine * columns.row(i + 1);
+      out.row(i + 1) = sine * columns.row(i) + cosine * columns.row(i + 1);
     }
     return out;
   }

@@ -86,22 +86,49 @@ Recording::Recording(const Model& model, const std::set<std::string>& names, std
   row_.assign(width_, 0.0);
   rows_.reserve(width_ * capacity);
   times_.reserve(capacity);
+  const std::pair<const char*, double**> places[] = {
+      {"position", &at_.position},
+      {"velocity", &at_.velocity},
+      {"angular_velocity", &at_.angular_velocity},
+      {"quaternion", &at_.quaternion},
+      {"euler_xyz", &at_.euler_xyz},
+      {"acceleration", &at_.acceleration},
+      {"angular_acceleration", &at_.angular_acceleration},
+      {"vessel_motion", &at_.vessel_motion},
+      {"coordinate", &at_.coordinate},
+      {"coordinate_rate", &at_.coordinate_rate},
+      {"actuator_force", &at_.actuator_force},
+      {"driver_force", &at_.driver_force},
+      {"reaction_force", &at_.reaction_force},
+      {"reaction_moment", &at_.reaction_moment},
+      {"tension", &at_.tension},
+      {"wave_elevation", &at_.wave_elevation},
+      {"wave_force", &at_.wave_force},
+      {"drift_force", &at_.drift_force},
+      {"constraint_error", &at_.constraint_error},
+      {"constraint_rate_error", &at_.constraint_rate_error},
+      {"constraint_error_before_projection", &at_.constraint_error_before_projection},
+      {"energy_balance", &at_.energy_balance},
+      {"absolute_work", &at_.absolute_work}};
+  for (const Channel& channel : channels_) {
+    for (const auto& [name, place] : places) {
+      if (channel.name == name) *place = row_.data() + channel.offset;
+    }
+  }
 }
 
-double* Recording::slot(const char* name) {
-  for (const Channel& channel : channels_) {
-    if (channel.name == name) return row_.data() + channel.offset;
-  }
-  return nullptr;
+bool Recording::wants_solution() const {
+  return at_.acceleration || at_.angular_acceleration || at_.driver_force || at_.reaction_force ||
+         at_.reaction_moment || at_.tension;
 }
 
 void Recording::write_bodies(RedundantSystem& system) {
-  double* position = slot("position");
-  double* velocity = slot("velocity");
-  double* angular = slot("angular_velocity");
-  double* euler = slot("euler_xyz");
-  double* acceleration = slot("acceleration");
-  double* angular_acceleration = slot("angular_acceleration");
+  double* position = at_.position;
+  double* velocity = at_.velocity;
+  double* angular = at_.angular_velocity;
+  double* euler = at_.euler_xyz;
+  double* acceleration = at_.acceleration;
+  double* angular_acceleration = at_.angular_acceleration;
   for (int b = 0; b < model_->body_count(); ++b) {
     const BodyKinematics<double>& k = system.bodies()[idx(b)];
     const Vec3d lever = k.rotation * model_->bodies[idx(b)].center_of_mass;
@@ -119,7 +146,7 @@ void Recording::write_bodies(RedundantSystem& system) {
 }
 
 void Recording::write_quaternions(const RedundantSystem& system) {
-  double* out = slot("quaternion");
+  double* out = at_.quaternion;
   if (!out) return;
   const bool first = last_quaternion_.empty();
   if (first) last_quaternion_.resize(model_->bodies.size());
@@ -132,21 +159,21 @@ void Recording::write_quaternions(const RedundantSystem& system) {
 }
 
 void Recording::write_vessel(const RedundantSystem& system) {
-  if (double* out = slot("vessel_motion")) {
+  if (double* out = at_.vessel_motion) {
     const Vessel& vessel = model_->vessels.front();
     const BodyKinematics<double>& k = system.bodies()[idx(vessel.body)];
     view<3>(out) = vessel.displacement(k);
     view<3>(out + 3) = vessel.angles_from_mean(YawFrame<double>(k));
   }
-  if (double* out = slot("wave_elevation")) *out = system.waves(0).elevation();
-  if (double* out = slot("wave_force")) view<6>(out) = system.waves(0).force();
-  if (double* out = slot("drift_force")) view<6>(out) = system.waves(0).drift();
+  if (double* out = at_.wave_elevation) *out = system.waves(0).elevation();
+  if (double* out = at_.wave_force) view<6>(out) = system.waves(0).force();
+  if (double* out = at_.drift_force) view<6>(out) = system.waves(0).drift();
 }
 
 void Recording::write_joint_coordinates(double t, const RedundantSystem& system) {
   const auto& bodies = system.bodies();
-  double* value = slot("coordinate");
-  double* rate = slot("coordinate_rate");
+  double* value = at_.coordinate;
+  double* rate = at_.coordinate_rate;
   if (value || rate) {
     for (std::size_t i = 0; i < model_->coordinates.size(); ++i) {
       const CoordinateData& c = model_->coordinates[i];
@@ -156,7 +183,7 @@ void Recording::write_joint_coordinates(double t, const RedundantSystem& system)
       if (rate) rate[i] = coordinate_rate<double>(row, ka, kb);
     }
   }
-  if (double* out = slot("actuator_force")) {
+  if (double* out = at_.actuator_force) {
     const LoadInput<double> input = system.load_input(t);
     for (const Actuator& a : model_->actuators()) {
       const JointData& j = a.coordinate.joint;
@@ -164,7 +191,7 @@ void Recording::write_joint_coordinates(double t, const RedundantSystem& system)
           input, evaluate_coordinate<double>(a.coordinate, bodies[idx(j.first)], bodies[idx(j.second)]));
     }
   }
-  if (double* out = slot("driver_force")) {
+  if (double* out = at_.driver_force) {
     for (std::size_t e = joint_count(*model_); e < model_->elements.size(); ++e) {
       *out++ = system.multipliers()[idx(model_->elements[e].row)];
     }
@@ -172,13 +199,13 @@ void Recording::write_joint_coordinates(double t, const RedundantSystem& system)
 }
 
 void Recording::write_reactions(const RedundantSystem& system) {
-  if (double* out = slot("tension")) {
+  if (double* out = at_.tension) {
     for (const ElementModel& e : model_->elements) {
       if (e.kind == Distance::kind) *out++ = -system.multipliers()[idx(e.row)];
     }
   }
-  double* force = slot("reaction_force");
-  double* moment = slot("reaction_moment");
+  double* force = at_.reaction_force;
+  double* moment = at_.reaction_moment;
   if (!force && !moment) return;
   for (std::size_t e = 0; e < joint_count(*model_); ++e) {
     const ElementModel& element = model_->elements[e];
@@ -204,11 +231,11 @@ void Recording::append(double t, const double* y, RedundantSystem& system, const
   write_vessel(system);
   write_joint_coordinates(t, system);
   write_reactions(system);
-  if (double* out = slot("constraint_error")) *out = after.position;
-  if (double* out = slot("constraint_rate_error")) *out = after.rate;
-  if (double* out = slot("constraint_error_before_projection")) *out = before;
-  if (double* out = slot("energy_balance")) *out = energy_balance;
-  if (double* out = slot("absolute_work")) *out = y[model_->layout.work + 1];
+  if (double* out = at_.constraint_error) *out = after.position;
+  if (double* out = at_.constraint_rate_error) *out = after.rate;
+  if (double* out = at_.constraint_error_before_projection) *out = before;
+  if (double* out = at_.energy_balance) *out = energy_balance;
+  if (double* out = at_.absolute_work) *out = y[model_->layout.work + 1];
   times_.push_back(t);
   rows_.insert(rows_.end(), row_.begin(), row_.end());
 }

@@ -22,6 +22,7 @@ std::vector<std::string> channel_names(const Model& model, bool defaults_only);
 class Recording {
  public:
   Recording(const Model& model, const std::set<std::string>& names, std::size_t capacity);
+  Recording(Recording&&) = default;  // a copy would write into the row of the original
 
   const std::vector<Channel>& channels() const { return channels_; }
   std::size_t width() const { return width_; }
@@ -29,13 +30,26 @@ class Recording {
   const std::vector<double>& times() const { return times_; }
   const std::vector<double>& rows() const { return rows_; }
 
-  /// Appends the row of (t, y), for which system.derivative() was the last call. `energy_balance` is the
-  /// change of mechanical energy minus the work done since the start.
+  /// Whether a channel needs accelerations or multipliers, and with them the solution of a row's equations.
+  bool wants_solution() const;
+  /// Appends the row of (t, y), for which system.derivative() was the last call, or evaluate_terms() where no
+  /// solution is wanted. `energy_balance` is the change of mechanical energy minus the work done since the
+  /// start.
   void append(double t, const double* y, RedundantSystem& system, const ConstraintResidual& after,
               double before, double energy_balance);
 
  private:
-  double* slot(const char* name);
+  /// Where channels are in row_; null: not recorded.
+  struct Places {
+    double *position = nullptr, *velocity = nullptr, *angular_velocity = nullptr, *quaternion = nullptr,
+           *euler_xyz = nullptr, *acceleration = nullptr, *angular_acceleration = nullptr,
+           *vessel_motion = nullptr, *coordinate = nullptr, *coordinate_rate = nullptr,
+           *actuator_force = nullptr, *driver_force = nullptr, *reaction_force = nullptr,
+           *reaction_moment = nullptr, *tension = nullptr, *wave_elevation = nullptr, *wave_force = nullptr,
+           *drift_force = nullptr, *constraint_error = nullptr, *constraint_rate_error = nullptr,
+           *constraint_error_before_projection = nullptr, *energy_balance = nullptr, *absolute_work = nullptr;
+  };
+
   void write_bodies(RedundantSystem& system);
   void write_quaternions(const RedundantSystem& system);
   void write_vessel(const RedundantSystem& system);
@@ -46,6 +60,7 @@ class Recording {
   std::vector<Channel> channels_;
   std::size_t width_ = 0;
   std::vector<double> times_, rows_, row_;
+  Places at_;
   std::vector<Vec4d> last_quaternion_;
 };
 

@@ -148,7 +148,11 @@ void Simulation::write(double t, double* y, Recording& out) {
   const double before = stepped_.take_residual_before_projection();
   double* const bodies = output_state_.data();
   stepped_.write_bodies(t, y, bodies);
-  system_.derivative(t, bodies, rate_.data());
+  if (out.wants_solution()) {
+    system_.derivative(t, bodies, rate_.data());
+  } else {
+    system_.evaluate_terms(t, bodies, rate_.data());
+  }
   const ConstraintResidual after = system_.residual_here(bodies);
   if (!(after.position <= kClosed)) report_open(t);
   const double energy = model_->paper_kinematics ? 0.0 : system_.energy_here(t, bodies);

@@ -1,7 +1,8 @@
 #include "seacrane/dynamics/recursive/articulated.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
+
+#include "seacrane/math/spd_inverse.hpp"
 
 namespace seacrane {
 namespace {
@@ -11,29 +12,31 @@ using Vec = Eigen::Matrix<double, n, 1>;
 template <int n>
 using Mat = Eigen::Matrix<double, n, n>;
 
-/// Wrench about a point that lies `reach` away, moved to where reach begins.
-Vec6d moved_wrench(const Vec6d& w, const Vec3d& reach) {
-  Vec6d out = w;
-  out.tail<3>() += reach.cross(w.head<3>());
-  return out;
+/// to += wrench about a point that lies `reach` away, moved to where reach begins.
+inline void add_moved_wrench(const Vec6d& w, const Vec3d& reach, Vec6d& to) {
+  to += w;
+  to.tail<3>() += reach.cross(w.head<3>());
 }
 
 /// Acceleration (or velocity) of a point `reach` away on the same rigid body, velocity terms aside.
-Vec6d moved_rate(const Vec6d& a, const Vec3d& reach) {
+inline Vec6d moved_rate(const Vec6d& a, const Vec3d& reach) {
   Vec6d out = a;
   out.head<3>() += a.tail<3>().cross(reach);
   return out;
 }
 
-/// to += X^T I X.
-void add_moved_inertia(const Mat6d& inertia, const Vec3d& reach, Mat6d& to) {
-  const Mat3d r = skew<double>(reach);
-  const Mat3d upper = inertia.topRightCorner<3, 3>() - inertia.topLeftCorner<3, 3>() * r;
+/// to += X^T I X with X = [1, -reach x; 0, 1].
+inline void add_moved_inertia(const Mat6d& inertia, const Vec3d& reach, Mat6d& to) {
+  Eigen::Matrix<double, 6, 3> right;  // of I X
+  right.col(0) = inertia.col(3) - reach[2] * inertia.col(1) + reach[1] * inertia.col(2);
+  right.col(1) = inertia.col(4) - reach[0] * inertia.col(2) + reach[2] * inertia.col(0);
+  right.col(2) = inertia.col(5) - reach[1] * inertia.col(0) + reach[0] * inertia.col(1);
   to.topLeftCorner<3, 3>() += inertia.topLeftCorner<3, 3>();
-  to.topRightCorner<3, 3>() += upper;
-  to.bottomLeftCorner<3, 3>() += upper.transpose();
-  to.bottomRightCorner<3, 3>() +=
-      inertia.bottomRightCorner<3, 3>() - inertia.bottomLeftCorner<3, 3>() * r + r * upper;
+  to.bottomLeftCorner<3, 3>() += right.topRows<3>().transpose();
+  for (int j = 0; j < 3; ++j) {
+    to.col(3 + j) += right.col(j);
+    to.col(3 + j).tail<3>() += reach.cross(right.col(j).head<3>());
+  }
 }
 
 }  // namespace
@@ -42,7 +45,6 @@ ArticulatedTree::ArticulatedTree(const BodyTree& tree, int bodies)
     : tree_(tree),
       ground_(bodies),
       column_(idx(tree.columns), Vec6d::Zero()),
-      weighted_(idx(tree.columns), Vec6d::Zero()),
       at_parent_(idx(tree.speeds), Vec6d::Zero()),
       reach_(idx(bodies), Vec3d::Zero()),
       bias_(idx(bodies), Vec6d::Zero()),
@@ -89,44 +91,10 @@ void ArticulatedTree::place_floating(const Cluster& c, const double* q, const do
   for (int i = 0; i < 6; ++i) column_[idx(c.members[0].column + i)] = Vec6d::Unit(i);
 }
 
-void ArticulatedTree::place_joint(const Cluster& c, const double* q, const double* u,
-                                  BodyKinematics<double>* bodies) {
-  const BodyKinematics<double>& parent = bodies[c.parent];
-  BranchMotion motion;
-  with_joint_type(c.kind, [&]<class Type>() { Type::Branch::move(c.joint, parent, q, u, motion); });
-  const Vec3d lever = motion.rotation * -c.joint.child_point;
-  place_member(c.members[0], parent, motion, lever, c.speeds, u, bodies[c.body]);
-  if (c.struts > 0) place_struts(c, motion, u[0], bodies);
-}
-
-/// Both parts of a strut turn alike; the lower one is held at its end, the upper one moves with the arm.
-void ArticulatedTree::place_struts(const Cluster& c, const BranchMotion& hinge, double rate,
-                                   BodyKinematics<double>* bodies) {
-  const BodyKinematics<double>& parent = bodies[c.parent];
-  for (int i = 0; i < c.struts; ++i) {
-    const Strut& s = tree_.struts[idx(c.first_strut + i)];
-    const Vec3d arm = hinge.rotation * (s.arm_point - c.joint.child_point);
-    const StrutMotion m = move_strut(s, parent.rotation, hinge.rotation, hinge.reach, hinge.turn[0], arm);
-    BranchMotion part;
-    part.turn[0] = m.turn;
-    part.turn_bias = rate * rate * m.turn_bend;
-    part.rotation = m.rotation * s.lower_axes.transpose();
-    part.reach = parent.rotation * s.base_point;
-    part.slide[0] = Vec3d::Zero();
-    place_member(c.members[idx(1 + 2 * i)], parent, part, part.rotation * -s.lower_end, 1, &rate,
-                 bodies[s.lower]);
-    part.rotation = m.rotation * s.upper_axes.transpose();
-    part.reach = m.end;
-    part.slide[0] = m.end_rate;
-    part.slide_bias = rate * rate * m.end_bend;
-    place_member(c.members[idx(2 + 2 * i)], parent, part, part.rotation * -s.upper_end, 1, &rate,
-                 bodies[s.upper]);
-  }
-}
-
+template <int speeds>
 void ArticulatedTree::place_member(const Member& m, const BodyKinematics<double>& parent,
-                                   const BranchMotion& motion, const Vec3d& lever, int speeds,
-                                   const double* u, BodyKinematics<double>& body) {
+                                   const BranchMotion& motion, const Vec3d& lever, const double* u,
+                                   BodyKinematics<double>& body) {
   Vec3d slide = Vec3d::Zero(), turn = Vec3d::Zero();
   for (int i = 0; i < speeds; ++i) {
     Vec6d& column = column_[idx(m.column + i)];
@@ -148,6 +116,43 @@ void ArticulatedTree::place_member(const Member& m, const BodyKinematics<double>
   bias.head<3>() = w.cross(swept + 2.0 * slide) + motion.slide_bias + motion.turn_bias.cross(lever) +
                    turn.cross(turn.cross(lever));
   bias.tail<3>() = w.cross(turn) + motion.turn_bias;
+}
+
+void ArticulatedTree::place_joint(const Cluster& c, const double* q, const double* u,
+                                  BodyKinematics<double>* bodies) {
+  const BodyKinematics<double>& parent = bodies[c.parent];
+  BranchMotion motion;
+  with_joint_type(c.kind, [&]<class Type>() {
+    Type::Branch::move(c.joint, parent, q, u, motion);
+    const Vec3d lever = motion.rotation * -c.joint.child_point;
+    place_member<Type::Branch::speeds>(c.members[0], parent, motion, lever, u, bodies[c.body]);
+  });
+  if (c.struts > 0) place_struts(c, motion, u[0], bodies);
+}
+
+/// Both parts of a strut turn alike; the lower one is held at its end, the upper one moves with the arm.
+void ArticulatedTree::place_struts(const Cluster& c, const BranchMotion& hinge, double rate,
+                                   BodyKinematics<double>* bodies) {
+  const BodyKinematics<double>& parent = bodies[c.parent];
+  for (int i = 0; i < c.struts; ++i) {
+    const Strut& s = tree_.struts[idx(c.first_strut + i)];
+    const Vec3d arm = hinge.rotation * (s.arm_point - c.joint.child_point);
+    const StrutMotion m = move_strut(s, parent.rotation, hinge.rotation, hinge.reach, hinge.turn[0], arm);
+    BranchMotion part;
+    part.turn[0] = m.turn;
+    part.turn_bias = rate * rate * m.turn_bend;
+    part.rotation = m.rotation * s.lower_axes.transpose();
+    part.reach = parent.rotation * s.base_point;
+    part.slide[0] = Vec3d::Zero();
+    place_member<1>(c.members[idx(1 + 2 * i)], parent, part, part.rotation * -s.lower_end, &rate,
+                    bodies[s.lower]);
+    part.rotation = m.rotation * s.upper_axes.transpose();
+    part.reach = m.end;
+    part.slide[0] = m.end_rate;
+    part.slide_bias = rate * rate * m.end_bend;
+    place_member<1>(c.members[idx(2 + 2 * i)], parent, part, part.rotation * -s.upper_end, &rate,
+                    bodies[s.upper]);
+  }
 }
 
 void ArticulatedTree::position_rates(const double* q, const double* u, const BodyKinematics<double>* bodies,
@@ -222,7 +227,7 @@ double ArticulatedTree::condition(const Mat6d* mass) const {
     }
   }
   for (int b = 0; b < ground_; ++b) {
-    const Mat6d inverse = inertia_[idx(b)].llt().solve(Mat6d::Identity());
+    const Mat6d inverse = spd_inverse(inertia_[idx(b)]);
     worst = std::max(worst,
                      pivots[idx(b)] * gross[idx(b)].diagonal().cwiseProduct(inverse.diagonal()).maxCoeff());
   }
@@ -233,36 +238,32 @@ template <int n>
 void ArticulatedTree::factor_cluster(std::size_t i) {
   const Cluster& c = tree_.clusters[i];
   if constexpr (n == 6) {
-    inverse_[i] = inertia_[idx(c.body)].llt().solve(Mat6d::Identity());
+    inverse_[i] = spd_inverse(inertia_[idx(c.body)]);
     return;
   }
   Mat<n> gram = Mat<n>::Zero();
+  for (int k = 0; k < n; ++k) at_parent_[idx(c.u + k)].setZero();
   for (const Member& m : c.members) {
     const Mat6d& inertia = inertia_[idx(m.body)];
-    for (int k = 0; k < n; ++k) weighted_[idx(m.column + k)].noalias() = inertia * column_[idx(m.column + k)];
+    const Vec6d* const column = &column_[idx(m.column)];
     for (int k = 0; k < n; ++k) {
-      for (int l = 0; l <= k; ++l) gram(k, l) += column_[idx(m.column + k)].dot(weighted_[idx(m.column + l)]);
+      Vec6d weighted;
+      weighted.noalias() = inertia * column[k];
+      for (int l = k; l < n; ++l) gram(l, k) += column[l].dot(weighted);
+      add_moved_wrench(weighted, reach_[idx(m.body)], at_parent_[idx(c.u + k)]);
     }
   }
   Mat<n> inverse;
-  if constexpr (n == 1) {
-    inverse(0, 0) = 1.0 / gram(0, 0);
-  } else if constexpr (n > 1) {
-    inverse = gram.template selfadjointView<Eigen::Lower>().llt().solve(Mat<n>::Identity());
-  }
+  if constexpr (n > 0) inverse = spd_inverse<n>(gram);
   inverse_[i].topLeftCorner<n, n>() = inverse;
-  for (int k = 0; k < n; ++k) {
-    Vec6d& sum = at_parent_[idx(c.u + k)];
-    sum.setZero();
-    for (const Member& m : c.members) sum += moved_wrench(weighted_[idx(m.column + k)], reach_[idx(m.body)]);
-  }
   if (c.parent == ground_) return;
   Mat6d& to = inertia_[idx(c.parent)];
   for (const Member& m : c.members) add_moved_inertia(inertia_[idx(m.body)], reach_[idx(m.body)], to);
+  const Vec6d* const at_parent = at_parent_.data() + c.u;
   for (int k = 0; k < n; ++k) {
-    Vec6d row = Vec6d::Zero();
-    for (int l = 0; l < n; ++l) row += inverse(k, l) * at_parent_[idx(c.u + l)];
-    to.noalias() -= at_parent_[idx(c.u + k)] * row.transpose();
+    Vec6d row = inverse(0, k) * at_parent[0];
+    for (int l = 1; l < n; ++l) row += inverse(l, k) * at_parent[l];
+    for (int j = 0; j < 6; ++j) to.col(j) -= row[j] * at_parent[k];
   }
 }
 
@@ -293,7 +294,7 @@ void ArticulatedTree::gather(std::size_t i, bool moving) {
   torque_[i].head<n>() = inverse_[i].topLeftCorner<n, n>() * torque;
   if (c.parent == ground_) return;
   Vec6d& to = force_[idx(c.parent)];
-  for (const Member& m : c.members) to += moved_wrench(force_[idx(m.body)], reach_[idx(m.body)]);
+  for (const Member& m : c.members) add_moved_wrench(force_[idx(m.body)], reach_[idx(m.body)], to);
   for (int k = 0; k < n; ++k) to += torque_[i][k] * at_parent_[idx(c.u + k)];
 }
 

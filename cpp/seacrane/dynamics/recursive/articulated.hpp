@@ -40,8 +40,9 @@ class ArticulatedTree {
   void place_floating(const Cluster& c, const double* q, const double* u, BodyKinematics<double>* bodies);
   void place_joint(const Cluster& c, const double* q, const double* u, BodyKinematics<double>* bodies);
   void place_struts(const Cluster& c, const BranchMotion& hinge, double rate, BodyKinematics<double>* bodies);
+  template <int speeds>
   void place_member(const Member& m, const BodyKinematics<double>& parent, const BranchMotion& motion,
-                    const Vec3d& lever, int speeds, const double* u, BodyKinematics<double>& body);
+                    const Vec3d& lever, const double* u, BodyKinematics<double>& body);
   template <int speeds>
   void factor_cluster(std::size_t i);
   template <int speeds>
@@ -54,7 +55,6 @@ class ArticulatedTree {
   const BodyTree& tree_;
   int ground_;
   std::vector<Vec6d> column_;     // S: body velocity per unit speed
-  std::vector<Vec6d> weighted_;   // I S
   std::vector<Vec6d> at_parent_;  // sum over the members of X^T I S, per speed
   std::vector<Vec3d> reach_;      // parent's state point to the body's
   std::vector<Vec6d> bias_;       // acceleration with udot = 0 and the parent at rest

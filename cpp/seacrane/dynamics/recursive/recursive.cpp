@@ -30,11 +30,12 @@ Vec3d turning_of(const Vec4d& q, const Vec4d& rate) {
   return 2.0 / q.squaredNorm() * (q[0] * v_rate - rate[0] * v - v_rate.cross(v));
 }
 
-/// Mass matrix about the state point and velocity terms b, eq (5).
-Vec6d compact_terms(const BodyModel& body, const BodyKinematics<double>& k, Mat6d& mass) {
-  const Mat3d inertia = k.rotation * body.inertia * k.rotation.transpose();
-  mass.setZero();
-  mass.diagonal().head<3>().setConstant(body.mass);
+/// Inertia about the state point, the part of a mass matrix that turns with the body, and velocity terms b,
+/// eq (5).
+inline Vec6d compact_terms(const BodyModel& body, const BodyKinematics<double>& k, Mat6d& mass) {
+  const Mat3d turned = k.rotation * body.inertia;
+  Mat3d inertia;
+  inertia.noalias() = turned * k.rotation.transpose();
   mass.bottomRightCorner<3, 3>() = inertia;
   Vec6d bias;
   bias << Vec3d::Zero(), k.angular_velocity.cross(inertia * k.angular_velocity);
@@ -62,6 +63,7 @@ RecursiveSystem::RecursiveSystem(RedundantSystem& terms)
   }
   const auto bodies = idx(model_.body_count());
   mass_.assign(bodies, Mat6d::Zero());
+  for (std::size_t b = 0; b < bodies; ++b) mass_[b].diagonal().head<3>().setConstant(model_.bodies[b].mass);
   for (auto* vectors : {&bias_, &load_, &acceleration_, &twist_}) vectors->assign(bodies + 1, Vec6d::Zero());
   scratch_.assign(bodies + 1, BodyKinematics<double>::ground());
   blocks_.resize(model_.elements.size());
