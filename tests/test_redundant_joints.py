@@ -14,6 +14,12 @@ from seacrane import Evaluator, Scene
 G = 9.80665
 
 
+@pytest.fixture(params=["redundant", "recursive"])
+def formulation(request: pytest.FixtureRequest) -> str:
+    """Runs are made with each; reactions are those of the redundant form, evaluated at the outputs."""
+    return str(request.param)
+
+
 def door(hinges: list[float], kinds: list[str] | None = None) -> Scene:
     """A door of 30 kg, 1 m wide, on hinges at these heights on a leaning post, which makes it swing."""
     scene = Scene(name="door")
@@ -31,12 +37,12 @@ def door(hinges: list[float], kinds: list[str] | None = None) -> Scene:
     return scene
 
 
-def test_two_hinges_warn_and_move_like_one() -> None:
+def test_two_hinges_warn_and_move_like_one(formulation: str) -> None:
     two = door([-0.8, 0.8])
     with pytest.warns(
         UserWarning, match=r"hinge 0, hinge 1 are redundant \(5 more than needed\).*minimum-norm"
     ):
-        out = record(two, 2.0, rtol=1e-9)
+        out = record(two, 2.0, rtol=1e-9, formulation=formulation)
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         one = record(door([0.0]), 2.0, rtol=1e-9)
@@ -61,11 +67,11 @@ def test_reactions_of_redundant_joints_are_marked() -> None:
     assert (model.constraints, model.assembly["rank"], model.degrees_of_freedom) == (16, 11, 1)
 
 
-def test_a_hinge_and_a_ball_hold_one_motion_twice() -> None:
+def test_a_hinge_and_a_ball_hold_one_motion_twice(formulation: str) -> None:
     """The ball adds nothing: three rows that the hinge has already."""
     scene = door([-0.8, 0.8], ["revolute", "spherical"])
     with pytest.warns(UserWarning, match=r"\(3 more than needed\)"):
-        out = record(scene, 1.0)
+        out = record(scene, 1.0, formulation=formulation)
     # The hinge's moments hold the same two tilts as the ball's forces across: three shared in all.
     np.testing.assert_allclose(out["reaction_force"][:, :, 2].sum(axis=1), 30.0 * G, rtol=1e-9)
 
@@ -105,12 +111,12 @@ def bars(count: int, *, spatial: bool = False) -> Scene:
     return scene
 
 
-def test_a_planar_parallelogram_moves_like_its_spatial_twin() -> None:
+def test_a_planar_parallelogram_moves_like_its_spatial_twin(formulation: str) -> None:
     twin_scene = bars(2, spatial=True)
     assert not twin_scene.compile().redundant
-    twin = record(twin_scene, 1.0, rtol=1e-9)  # flat, and singular, at 0.62 s
+    twin = record(twin_scene, 1.0, rtol=1e-9, formulation=formulation)  # flat, and singular, at 0.62 s
     with pytest.warns(UserWarning, match=r"foot 0, head 0, foot 1, head 1 are redundant \(3 more"):
-        planar = record(bars(2), 1.0, rtol=1e-9)
+        planar = record(bars(2), 1.0, rtol=1e-9, formulation=formulation)
     assert np.max(np.abs(twin["angular_velocity"])) > 1.0
     for name in ("position", "velocity", "quaternion"):
         np.testing.assert_allclose(planar[name], twin[name], atol=1e-7)
@@ -131,9 +137,9 @@ def extra_bar() -> Scene:
     return scene
 
 
-def test_an_extra_bar_changes_no_motion() -> None:
+def test_an_extra_bar_changes_no_motion(formulation: str) -> None:
     with pytest.warns(UserWarning, match=r"bar are redundant \(4 more"):
-        barred = record(extra_bar(), 1.0, rtol=1e-9)
+        barred = record(extra_bar(), 1.0, rtol=1e-9, formulation=formulation)
     with pytest.warns(UserWarning):
         free = record(bars(2), 1.0, rtol=1e-9)
     for name in ("position", "velocity", "quaternion"):
@@ -142,7 +148,7 @@ def test_an_extra_bar_changes_no_motion() -> None:
 
 
 @pytest.mark.parametrize("ratio", [1e-6, 1e-10, 1e-12])
-def test_a_light_rod_is_not_taken_for_redundancy(ratio: float) -> None:
+def test_a_light_rod_is_not_taken_for_redundancy(ratio: float, formulation: str) -> None:
     """A rod of this share of the coupler's mass in a loop that holds each motion once."""
     scene = bars(2, spatial=True)
     rod = scene.bodies.pop("crank 1")
@@ -154,7 +160,7 @@ def test_a_light_rod_is_not_taken_for_redundancy(ratio: float) -> None:
     residual = terms["mass"] @ terms["acceleration"] - terms["load"] - reactions
     assert np.abs(residual).max() < 1e-12 * np.abs(terms["load"]).max()
     assert np.abs(terms["jacobian"] @ terms["acceleration"] - terms["gamma"]).max() < 1e-12
-    record(scene, 0.3)
+    record(scene, 0.3, formulation=formulation)
 
 
 VERTICES = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [1, 1, 1], [0, 1, 1], [0, 0, 1]], dtype=float)
@@ -182,7 +188,7 @@ def bricard(last: str) -> Scene:
     return scene
 
 
-def test_bricard_moves_like_its_twin_with_one_sliding_hinge() -> None:
+def test_bricard_moves_like_its_twin_with_one_sliding_hinge(formulation: str) -> None:
     with pytest.warns(UserWarning, match=r"\(1 more than needed\)"):
         model = bricard("revolute").compile()
     assert (model.coordinates, model.constraints, model.degrees_of_freedom) == (30, 30, 1)
@@ -191,9 +197,9 @@ def test_bricard_moves_like_its_twin_with_one_sliding_hinge() -> None:
     assert (twin.constraints, twin.degrees_of_freedom) == (29, 1)
     out: list[dict[str, Any]] = []
     with pytest.warns(UserWarning):
-        out.append(record(bricard("revolute"), 0.8, rtol=1e-9))
+        out.append(record(bricard("revolute"), 0.8, rtol=1e-9, formulation=formulation))
     # The twin has a singular position of its own at 0.89 s, where its last hinge is free to slide.
-    out.append(record(bricard("cylindrical"), 0.8, rtol=1e-9))
+    out.append(record(bricard("cylindrical"), 0.8, rtol=1e-9, formulation=formulation))
     assert np.max(np.linalg.norm(out[0]["position"] - out[0]["position"][0], axis=2)) > 0.5
     for name in ("position", "velocity", "quaternion"):
         np.testing.assert_allclose(out[0][name], out[1][name], atol=1e-6)

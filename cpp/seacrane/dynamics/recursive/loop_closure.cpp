@@ -1,23 +1,20 @@
 #include "seacrane/dynamics/recursive/loop_closure.hpp"
 
-#include <array>
+#include <algorithm>
 #include <cmath>
+
+#include "seacrane/dynamics/inertia.hpp"
 
 namespace seacrane {
 namespace {
 
-/// Pivot ratio of the scaled G beyond which rows may depend on each other, and the relative eigenvalue below
-/// which a combination of them is not enforced: the square of the redundant form's singular value, 1e-4.
-constexpr double kRegularCondition = 1e10;
+/// Free over remaining compliance beyond which rows may depend on each other, as in the redundant form.
+constexpr double kConditionLimit = 1e5;
+/// Eigenvalue, relative to the compliance of free bodies of mass one, below which a combination of rows is
+/// not enforced: the square of the redundant form's singular value, 1e-4.
 constexpr double kSingularCut = 1e-8;
-/// What rounding leaves of the compliance along a row that the tree holds already, relative to that of its
-/// two ends alone.
-constexpr double kRounding = 1e-12;
-/// Bodies free in space yield more than in the tree: a row that passes their compliance by this much needs no
-/// closer look.
-constexpr double kClearly = 1e3 * kRounding;
 
-/// Free compliance per unit force and per unit moment, at most; a body's ellipsoid of inertia is left aside.
+/// Compliance of a free body per unit force and per unit moment, at most.
 Eigen::Vector2d free_compliance(const Model& model, int body) {
   if (body == model.body_count()) return Eigen::Vector2d::Zero();
   const BodyModel& b = model.bodies[idx(body)];
@@ -25,11 +22,17 @@ Eigen::Vector2d free_compliance(const Model& model, int body) {
   return {1.0 / b.mass, 1.0 / inertia.eigenvalues()[0]};
 }
 
+double free_along(const Eigen::Vector2d& free, const Vec6d& direction) {
+  return free[0] * direction.head<3>().squaredNorm() + free[1] * direction.tail<3>().squaredNorm();
+}
+
 }  // namespace
 
 LoopClosure::LoopClosure(const Model& model, const BodyTree& tree)
-    : load_(idx(model.body_count()) + 1, Vec6d::Zero()),
+    : model_(model),
+      load_(idx(model.body_count()) + 1, Vec6d::Zero()),
       response_(idx(model.body_count()) + 1, Vec6d::Zero()),
+      shape_mass_(idx(model.body_count()), Mat6d::Zero()),
       speeds_(idx(tree.speeds)),
       ldlt_(tree.loop_rows),
       eigen_(tree.loop_rows) {
@@ -41,84 +44,122 @@ LoopClosure::LoopClosure(const Model& model, const BodyTree& tree)
     }
   }
   const auto n = static_cast<Eigen::Index>(rows_.size());
-  g_ = MatXd::Zero(n, n);
-  basis_ = MatXd::Zero(n, n);
-  scale_ = weight_ = multipliers_ = VecXd::Zero(n);
+  for (MatXd* matrix : {&g_, &shape_, &basis_, &product_, &scaled_}) *matrix = MatXd::Zero(n, n);
+  for (VecXd* vector : {&free_, &scale_, &combined_, &multipliers_}) *vector = VecXd::Zero(n);
 }
 
-/// Response to load_ on the two bodies of a row; clears the load.
-void LoopClosure::respond(const Row& row, ArticulatedTree& tree) {
-  tree.solve(load_.data(), false, response_.data(), speeds_.data());
-  load_[idx(row.first)].setZero();
-  load_[idx(row.second)].setZero();
-}
-
-/// Whether the tree yields along a row by more than rounding of what each end yields alone.
-bool LoopClosure::is_open(const Row& row, double compliance, const RowBlock<double>* blocks,
-                          ArticulatedTree& tree) {
-  const std::array<Vec6d, 2> direction = {blocks[row.element].d[0].row(row.row).transpose(),
-                                          blocks[row.element].d[1].row(row.row).transpose()};
-  double loose = 0.0, held = 0.0;
-  for (int side = 0; side < 2; ++side) {
-    const Vec6d& d = direction[idx(side)];
-    const Eigen::Vector2d& free = side == 0 ? row.first_free : row.second_free;
-    loose += free[0] * d.head<3>().squaredNorm() + free[1] * d.tail<3>().squaredNorm();
-  }
-  if (compliance > kClearly * loose) return true;
-  for (int side = 0; side < 2; ++side) {
-    const int body = side == 0 ? row.first : row.second;
-    load_[idx(body)] += direction[idx(side)];
-    respond(row, tree);
-    held += direction[idx(side)].dot(response_[idx(body)]);
-  }
-  return compliance > kRounding * held;
-}
-
-void LoopClosure::factor(const RowBlock<double>* blocks, ArticulatedTree& tree) {
-  const Eigen::Index n = g_.rows();
+/// g := D M^-1 D^T for the inertias that the tree holds factored.
+void LoopClosure::gather(const RowBlock<double>* blocks, ArticulatedTree& tree, MatXd& g) {
+  const Eigen::Index n = g.rows();
   for (Eigen::Index c = 0; c < n; ++c) {
     const Row& row = rows_[static_cast<std::size_t>(c)];
     const RowBlock<double>& block = blocks[row.element];
     load_[idx(row.first)] += block.d[0].row(row.row).transpose();
     load_[idx(row.second)] += block.d[1].row(row.row).transpose();
-    respond(row, tree);
+    tree.solve(load_.data(), false, response_.data(), speeds_.data());
+    load_[idx(row.first)].setZero();
+    load_[idx(row.second)].setZero();
     for (Eigen::Index r = 0; r < n; ++r) {
       const Row& other = rows_[static_cast<std::size_t>(r)];
       const RowBlock<double>& rows = blocks[other.element];
-      g_(r, c) = rows.d[0].row(other.row).dot(response_[idx(other.first)]) +
-                 rows.d[1].row(other.row).dot(response_[idx(other.second)]);
+      const double first = rows.d[0].row(other.row).dot(response_[idx(other.first)]),
+                   second = rows.d[1].row(other.row).dot(response_[idx(other.second)]);
+      g(r, c) = first + second;
+      if (r == c) free_[r] = std::abs(first) + std::abs(second);
     }
-  }
-  for (Eigen::Index i = 0; i < n; ++i) {
-    const Row& row = rows_[static_cast<std::size_t>(i)];
-    scale_[i] = is_open(row, g_(i, i), blocks, tree) ? 1.0 / std::sqrt(g_(i, i)) : 0.0;
-  }
-  for (Eigen::Index i = 0; i < n; ++i) {
-    for (Eigen::Index j = 0; j < n; ++j) g_(i, j) *= scale_[i] * scale_[j];
-  }
-  ldlt_.compute(g_);
-  const double largest = ldlt_.vectorD().maxCoeff(), smallest = ldlt_.vectorD().minCoeff();
-  condition_ = largest / smallest;
-  regular_ = smallest > 0.0 && condition_ < kRegularCondition;
-  if (regular_) return;
-  eigen_.compute(g_);
-  const double cut = kSingularCut * eigen_.eigenvalues().maxCoeff();
-  for (Eigen::Index i = 0; i < n; ++i) {
-    const double value = eigen_.eigenvalues()[i];
-    weight_[i] = value > cut ? 1.0 / value : 0.0;
   }
 }
 
-const VecXd& LoopClosure::solve(const VecXd& right) {
-  multipliers_ = scale_.cwiseProduct(right);
-  if (regular_) {
-    ldlt_.solveInPlace(multipliers_);
-  } else {
-    basis_.col(0).noalias() = eigen_.eigenvectors().transpose() * multipliers_;
-    basis_.col(0) = basis_.col(0).cwiseProduct(weight_);
-    multipliers_.noalias() = eigen_.eigenvectors() * basis_.col(0);
+/// LDL^T of a matrix with its diagonal scaled to one; the ratio of the smallest to the largest pivot.
+double LoopClosure::decompose(const MatXd& g) {
+  for (Eigen::Index i = 0; i < g.rows(); ++i) scale_[i] = g(i, i) > 0.0 ? 1.0 / std::sqrt(g(i, i)) : 0.0;
+  scaled_.noalias() = scale_.asDiagonal() * g;
+  scaled_.array().rowwise() *= scale_.transpose().array();
+  ldlt_.compute(scaled_);
+  return ldlt_.vectorD().minCoeff() / ldlt_.vectorD().maxCoeff();
+}
+
+void LoopClosure::factor(const RowBlock<double>* blocks, const Mat6d* mass,
+                         const BodyKinematics<double>* bodies, ArticulatedTree& tree) {
+  gather(blocks, tree, g_);
+  double cancelled = 1.0, open = 1.0;
+  for (Eigen::Index i = 0; i < g_.rows(); ++i) {
+    const Row& row = rows_[static_cast<std::size_t>(i)];
+    const RowBlock<double>& block = blocks[row.element];
+    const double loose = free_along(row.first_free, block.d[0].row(row.row).transpose()) +
+                         free_along(row.second_free, block.d[1].row(row.row).transpose());
+    open = std::min(open, g_(i, i) / loose);
+    cancelled = std::max(cancelled, free_[i] / std::abs(g_(i, i)));
   }
-  multipliers_ = multipliers_.cwiseProduct(scale_);
+  const double pivots = decompose(g_);
+  condition_ = cancelled / pivots;
+  dependent_ = !(open * pivots * kConditionLimit > 1.0) && !is_independent(blocks, mass, bodies, tree);
+  if (dependent_) reduce();
+}
+
+/// Whether geometry alone, with every mass one, tells the rows apart; else `basis_` holds the combinations
+/// that it does, and columns of zeros. Light bodies between heavy ones and rows that depend on each other
+/// both make G nearly singular: only the latter do so with equal masses.
+bool LoopClosure::is_independent(const RowBlock<double>* blocks, const Mat6d* mass,
+                                 const BodyKinematics<double>* bodies, ArticulatedTree& tree) {
+  for (std::size_t b = 0; b < shape_mass_.size(); ++b) {
+    shape_mass_[b] = rigid_mass_matrix(model_.bodies[b], bodies[b].rotation) / model_.bodies[b].mass;
+  }
+  tree.factor(shape_mass_.data());
+  gather(blocks, tree, shape_);
+  tree.factor(mass);
+  const Eigen::Index n = shape_.rows();
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const Row& row = rows_[static_cast<std::size_t>(i)];
+    double loose = 0.0;
+    for (const int side : {0, 1}) {
+      const int body = side == 0 ? row.first : row.second;
+      if (body == model_.body_count()) continue;
+      const Mat6d& d = blocks[row.element].d[side];
+      Mat6d over;
+      rows_over_shape(model_.bodies[idx(body)], bodies[body], d, over);
+      loose += over.row(row.row).dot(d.row(row.row));
+    }
+    scale_[i] = 1.0 / std::sqrt(loose);
+  }
+  scaled_.noalias() = scale_.asDiagonal() * shape_;
+  scaled_.array().rowwise() *= scale_.transpose().array();
+  eigen_.compute(scaled_);
+  if (eigen_.eigenvalues()[0] > kSingularCut) {
+    decompose(g_);
+    return true;
+  }
+  basis_.noalias() = scale_.asDiagonal() * eigen_.eigenvectors();
+  for (Eigen::Index i = 0; i < n; ++i) {
+    if (!(eigen_.eigenvalues()[i] > kSingularCut)) basis_.col(i).setZero();
+  }
+  return false;
+}
+
+/// G of the independent combinations; a one stands for each that is left out.
+void LoopClosure::reduce() {
+  product_.noalias() = g_ * basis_;
+  shape_.noalias() = basis_.transpose() * product_;
+  for (Eigen::Index i = 0; i < shape_.rows(); ++i) {
+    if (!(eigen_.eigenvalues()[i] > kSingularCut)) shape_(i, i) = 1.0;
+  }
+  condition_ = 1.0 / decompose(shape_);
+}
+
+const VecXd& LoopClosure::solve(const VecXd& right) {
+  if (dependent_) {
+    combined_.noalias() = basis_.transpose() * right;
+  } else {
+    combined_ = right;
+  }
+  combined_ = combined_.cwiseProduct(scale_);
+  ldlt_.solveInPlace(combined_);
+  combined_ = combined_.cwiseProduct(scale_);
+  if (dependent_) {
+    multipliers_.noalias() = basis_ * combined_;
+  } else {
+    multipliers_ = combined_;
+  }
   return multipliers_;
 }
 

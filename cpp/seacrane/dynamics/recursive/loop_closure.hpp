@@ -10,14 +10,17 @@
 namespace seacrane {
 
 /// Rows that a tree leaves open (cut joints, drivers): a small dense block G = D M^-1 D^T on top of the tree,
-/// one response of the tree per row. Scratch of one run.
+/// one response of the tree per row. Where rows depend on each other or on what the tree holds, only the
+/// combinations that geometry tells apart are enforced, by the measure of the redundant form (RowSpace).
+/// Nothing is allocated after construction. Scratch of one run.
 class LoopClosure {
  public:
   LoopClosure(const Model& model, const BodyTree& tree);
 
   int rows() const { return static_cast<int>(rows_.size()); }
-  /// G at the tree's last factor(), for the rows in `blocks` (by element).
-  void factor(const RowBlock<double>* blocks, ArticulatedTree& tree);
+  /// G at the tree's last factor(mass), for the rows in `blocks` (by element); the tree is left as it was.
+  void factor(const RowBlock<double>* blocks, const Mat6d* mass, const BodyKinematics<double>* bodies,
+              ArticulatedTree& tree);
   /// Multipliers of the smallest motion in the mass metric with D dv = right.
   const VecXd& solve(const VecXd& right);
   /// loads += D^T multipliers.
@@ -32,7 +35,7 @@ class LoopClosure {
   /// Drivers do work lambda nu.
   void add_driver_power(const RowBlock<double>* blocks, const VecXd& multipliers,
                         RedundantSystem& terms) const;
-  /// Largest over smallest pivot of the scaled G.
+  /// How much cancels in the entries of G, times largest over smallest pivot.
   double condition() const { return condition_; }
 
  private:
@@ -42,18 +45,23 @@ class LoopClosure {
     Eigen::Vector2d first_free, second_free;  // compliance of the bodies without joints: force, moment
   };
 
-  void respond(const Row& row, ArticulatedTree& tree);
-  bool is_open(const Row& row, double compliance, const RowBlock<double>* blocks, ArticulatedTree& tree);
+  void gather(const RowBlock<double>* blocks, ArticulatedTree& tree, MatXd& g);
+  double decompose(const MatXd& g);
+  bool is_independent(const RowBlock<double>* blocks, const Mat6d* mass, const BodyKinematics<double>* bodies,
+                      ArticulatedTree& tree);
+  void reduce();
 
+  const Model& model_;
   std::vector<Row> rows_;
   std::vector<Vec6d> load_, response_;
+  std::vector<Mat6d> shape_mass_;
   std::vector<double> speeds_;
-  MatXd g_, basis_;
-  VecXd scale_, weight_, multipliers_;
+  MatXd g_, shape_, basis_, product_, scaled_;
+  VecXd free_, scale_, combined_, multipliers_;
   Eigen::LDLT<MatXd> ldlt_;
   Eigen::SelfAdjointEigenSolver<MatXd> eigen_;
   double condition_ = 1.0;
-  bool regular_ = true;
+  bool dependent_ = false;
 };
 
 }  // namespace seacrane

@@ -100,7 +100,7 @@ void RecursiveSystem::factor(double t) {
   articulated_.factor(mass_.data());
   if (loops_.rows() == 0) return;
   evaluate_constraints(model_, t, terms_.curve_limit(), terms_.bodies().data(), blocks_.data());
-  loops_.factor(blocks_.data(), articulated_);
+  loops_.factor(blocks_.data(), mass_.data(), terms_.bodies().data(), articulated_);
 }
 
 void RecursiveSystem::derivative(double t, const double* y, double* ydot) {
