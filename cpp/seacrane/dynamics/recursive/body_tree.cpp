@@ -1,6 +1,7 @@
 #include "seacrane/dynamics/recursive/body_tree.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <optional>
 #include <set>
@@ -17,6 +18,20 @@ struct Edge {
   int rows = 0;
   bool branch = false;  // the type can be a branch
 };
+
+/// Share of a strut's length within which a point counts as on its line, and the like of directions.
+constexpr double kOnLine = 1e-6;
+
+/// How well the universal joint holds the strut's spin: zero where the strut lies in the plane of both axes.
+double spin_hold(const Strut& s, const BodyKinematics<double>& base, const BodyKinematics<double>& arm) {
+  const Vec3d d = arm.position + arm.rotation * s.arm_point - base.position - base.rotation * s.base_point;
+  const double squared = d.squaredNorm(), across = s.offset.head<2>().squaredNorm();
+  const double along = s.extension_sign * std::sqrt(std::max(squared - across, 0.0));
+  const double tilt = s.strut_axis.dot(Vec3d(s.offset[0], s.offset[1], along)) / std::sqrt(squared);
+  const double lean =
+      ((s.universal_at_base ? base : arm).rotation * s.fixed_axis).dot(d) / std::sqrt(squared);
+  return 1.0 - tilt * tilt - lean * lean;
+}
 
 template <class Type>
 constexpr bool has_branch = requires {
@@ -86,12 +101,29 @@ class TreeBuilder {
       if (kinds != std::set<std::size_t>{universal, spherical}) continue;
       const int a = other(*first, slide.first), b = other(*second, slide.second);
       for (std::size_t h : at_.at(a)) {
-        if (edges_[h].kind == revolute && a != b && other(h, a) == b) {
-          patterns_.push_back({h, e, {*first, *second}});
-          break;
-        }
+        if (edges_[h].kind != revolute || a == b || other(h, a) != b) continue;
+        const Pattern p{h, e, {*first, *second}};
+        if (angle_tells(p, a, b)) patterns_.push_back(p);
+        break;
       }
     }
+  }
+
+  /// Whether the hinge angle tells the strut's pose in every position: ends off the slide's line must not
+  /// come as near as that, where the stroke goes on and the hinge turns back; nor may the universal joint
+  /// start with the strut in the plane of its axes, free to spin.
+  bool angle_tells(const Pattern& p, int parent, int body) const {
+    const Strut s = make_strut(p, parent, body);
+    const TreeJoint hinge = oriented(edges_[p.hinge].joint, parent);
+    const auto around = [](const Vec3d& lever, const Vec3d& axis) {
+      return Eigen::Vector2d(lever.cross(axis).norm(), lever.dot(axis));
+    };
+    const double nearest = (around(s.base_point - hinge.parent_point, hinge.parent_axes.col(2)) -
+                            around(s.arm_point - hinge.child_point, hinge.child_axes.col(2)))
+                               .norm();
+    const double across = s.offset.head<2>().norm();
+    return (across < kOnLine * s.offset.norm() || across < nearest) &&
+           spin_hold(s, start(parent), start(body)) > kOnLine;
   }
 
   bool is_strut_part(int body) const {
@@ -196,13 +228,13 @@ class TreeBuilder {
     tree_.clusters.push_back(cluster);
   }
 
-  void add_strut(const Pattern& p, Cluster& cluster) {
+  Strut make_strut(const Pattern& p, int parent, int body) const {
     const JointData& slide = edges_[p.slide].joint;
-    const bool forward = other(p.ends[0], slide.first) == cluster.parent;
+    const bool forward = other(p.ends[0], slide.first) == parent;
     const TreeJoint guide = oriented(slide, forward ? slide.first : slide.second);
     const std::size_t at_base = p.ends[forward ? 0 : 1], at_arm = p.ends[forward ? 1 : 0];
-    const TreeJoint base = oriented(edges_[at_base].joint, cluster.parent),
-                    arm = oriented(edges_[at_arm].joint, cluster.body);
+    const TreeJoint base = oriented(edges_[at_base].joint, parent),
+                    arm = oriented(edges_[at_arm].joint, body);
     Strut s;
     s.name = model_.elements[idx(slide.element)].name;
     s.lower = guide.parent;
@@ -221,7 +253,12 @@ class TreeBuilder {
     s.fixed_axis = universal.parent_axes.col(2);
     const Mat3d& axes = s.universal_at_base ? guide.parent_axes : guide.child_axes;
     s.strut_axis = axes.transpose() * universal.child_axes.col(2);
-    choose_branches(s, start(cluster.parent), start(cluster.body), start(s.lower));
+    choose_branches(s, start(parent), start(body), start(s.lower));
+    return s;
+  }
+
+  void add_strut(const Pattern& p, Cluster& cluster) {
+    const Strut s = make_strut(p, cluster.parent, cluster.body);
     tree_.struts.push_back(s);
     ++cluster.struts;
     cluster.members.push_back({s.lower, 0});
