@@ -94,17 +94,38 @@ void bind_history(py::module_& m) {
           "quadrature", [](const H& h) { return to_rows(h.quadrature); }, "m/s and rad/s, copy");
 }
 
+void bind_steps(py::module_& m) {
+  using S = StepHistory;
+  py::class_<S>(
+      m, "StepHistory",
+      "What an integrator keeps from step to step, in the coordinates of a formulation, and the rate of the "
+      "state: a run with the same settings goes on bit for bit (methods of SUNDIALS restart). Another "
+      "formulation, integrator or scene, or other values or inputs, start from the values alone.")
+      .def(py::init(
+               [](std::string formulation, std::string integrator, const Array& values, const Array& rate) {
+                 return S{std::move(formulation), std::move(integrator), to_vector(values), to_vector(rate)};
+               }),
+           py::kw_only(), py::arg("formulation"), py::arg("integrator"), py::arg("values"), py::arg("rate"))
+      .def_property_readonly("formulation", [](const S& s) { return s.formulation; })
+      .def_property_readonly("integrator", [](const S& s) { return s.integrator; })
+      .def_property_readonly(
+          "values", [](const S& s) { return to_array(s.values); }, "copy")
+      .def_property_readonly(
+          "rate", [](const S& s) { return to_array(s.rate); }, "copy");
+}
+
 }  // namespace
 
 void bind_simulation(py::module_& m) {
   bind_history(m);
+  bind_steps(m);
   py::class_<State>(m, "State", "Time (s), state values and inputs of a run; a copy is a checkpoint.")
       .def(py::init([](double time, const Array& values, const Array& inputs,
-                       std::vector<TwistHistory> histories) {
-             return State{time, to_vector(values), to_vector(inputs), std::move(histories)};
+                       std::vector<TwistHistory> histories, StepHistory steps) {
+             return State{time, to_vector(values), to_vector(inputs), std::move(histories), std::move(steps)};
            }),
            py::kw_only(), py::arg("time"), py::arg("values"), py::arg("inputs"),
-           py::arg("histories") = std::vector<TwistHistory>{})
+           py::arg("histories") = std::vector<TwistHistory>{}, py::arg("steps") = StepHistory{})
       .def_property_readonly("time", [](const State& s) { return s.time; })
       .def_property_readonly(
           "values", [](const State& s) { return to_array(s.values); }, "copy")
@@ -112,7 +133,9 @@ void bind_simulation(py::module_& m) {
           "inputs", [](const State& s) { return to_array(s.inputs); }, "copy")
       .def_property_readonly(
           "histories", [](const State& s) { return s.histories; },
-          "One TwistHistory per vessel with a convolution (copies); none: at rest before `time`.");
+          "One TwistHistory per vessel with a convolution (copies); none: at rest before `time`.")
+      .def_property_readonly(
+          "steps", [](const State& s) { return s.steps; }, "StepHistory (copy); its names are empty: none.");
   m.def(
       "initial_state", [](const std::shared_ptr<Model>& model) { return initial_state(*model); },
       py::arg("model").none(false));

@@ -40,7 +40,8 @@ IntegratorOptions integrator_options(const Formulation& stepped, const RunOption
 }  // namespace
 
 State initial_state(const Model& model) {
-  return {0.0, model.initial_state, std::vector<double>(static_cast<std::size_t>(model.slot_count), 0.0), {}};
+  return {
+      0.0, model.initial_state, std::vector<double>(static_cast<std::size_t>(model.slot_count), 0.0), {}, {}};
 }
 
 Simulation::Simulation(std::shared_ptr<const Model> model, State start, RunOptions options)
@@ -68,6 +69,7 @@ Simulation::Simulation(std::shared_ptr<const Model> model, State start, RunOptio
   }
   check_inputs(inputs_);
   apply_inputs();
+  const State given = start;
   system_.project(start.time, start.values.data(), false);
   const double open = system_.residual(start.time, start.values.data()).position;
   if (!(open <= kClosed)) {
@@ -75,16 +77,37 @@ Simulation::Simulation(std::shared_ptr<const Model> model, State start, RunOptio
                                 " m or rad; give a state of this scene at its own time");
   }
   system_.take_residual_before_projection();
-  next_jump();
   start_histories(start);
   start_energy_ = system_.energy(start.time, start.values.data());
   start_work_ = start.values[static_cast<std::size_t>(model_->layout.work)];
-  stepped_.read_bodies(start.time, start.values.data(), stepped_state_.data());
-  integrator_->init(start.time, stepped_state_.data());
+  if (!resume(given)) {
+    stepped_.read_bodies(start.time, start.values.data(), stepped_state_.data());
+    integrator_->init(start.time, stepped_state_.data());
+  }
+  next_jump();
   while (next_output_ < options_.output_times.size() && options_.output_times[next_output_] < start.time) {
     ++next_output_;
   }
   record_until(start.time);
+}
+
+/// Goes on from the integrator's own state where the history belongs to this formulation and integrator and
+/// to exactly these values, inputs and scene.
+bool Simulation::resume(const State& given) {
+  const StepHistory& history = given.steps;
+  if (history.formulation != stepped_.name() || history.integrator != options_.integrator) return false;
+  stepped_.read_bodies(given.time, given.values.data(), stepped_state_.data());
+  integrator_->init(given.time, stepped_state_.data());
+  if (integrator_->save().size() != history.values.size()) return false;
+  integrator_->load(history.values);
+  write_present(output_state_.data());
+  return integrator_->time() == given.time && output_state_ == given.values && present_rate() == history.rate;
+}
+
+std::vector<double> Simulation::present_rate() const {
+  std::vector<double> out(stepped_.size());
+  stepped_.derivative(integrator_->time(), integrator_->state(), out.data());
+  return out;
 }
 
 /// Time of the next jump of a reference curve.
@@ -212,7 +235,7 @@ bool Simulation::advance(double t_end, const std::function<bool(double)>& keep_g
     record_until(now);
     // The memory's load goes on smoothly over a sample: no derivative is thrown away.
     if (now >= system_.next_sample()) sample_histories(now);
-    if (now >= jump && now < t_end) {
+    if (now >= jump) {
       // A curve jumps here: go on from the other side with a fresh derivative.
       next_jump();
       std::copy_n(integrator_->state(), stepped_state_.size(), stepped_state_.data());
@@ -262,7 +285,11 @@ void Simulation::write_present(double* bodies) const {
 State Simulation::state() const {
   std::vector<double> values(idx(model_->layout.size));
   write_present(values.data());
-  return {integrator_->time(), std::move(values), inputs_, system_.histories()};
+  return {integrator_->time(),
+          std::move(values),
+          inputs_,
+          system_.histories(),
+          {stepped_.name(), options_.integrator, integrator_->save(), present_rate()}};
 }
 
 RunStatistics Simulation::statistics() const {

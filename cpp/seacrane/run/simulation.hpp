@@ -24,12 +24,20 @@ struct RunOptions {
   std::set<std::string> channels;
 };
 
+/// What an integrator keeps from step to step, with the state in the coordinates it steps.
+struct StepHistory {
+  std::string formulation, integrator;  // empty: none
+  std::vector<double> values;           // Integrator::save()
+  std::vector<double> rate;             // of the state stepped: tells whether the scene is the same
+};
+
 /// Everything that changes during a run; a copy is a checkpoint.
 struct State {
   double time = 0.0;
   std::vector<double> values;           // poses, twists, memory states, work; see StateLayout
   std::vector<double> inputs;           // zero-order-held slots
   std::vector<TwistHistory> histories;  // one per vessel with a convolution; none: at rest before `time`
+  StepHistory steps;                    // the same formulation and integrator go on from it bit for bit
 };
 
 State initial_state(const Model& model);
@@ -70,6 +78,8 @@ class Simulation {
   void check_inputs(const std::vector<double>& slots) const;
   void apply_inputs();
   void start_histories(const State& start);
+  bool resume(const State& given);
+  std::vector<double> present_rate() const;
   void sample_histories(double now);
   /// Calls f(system, its bodies' state) for the system recorded and, with merged bodies, the one stepped.
   template <class F>

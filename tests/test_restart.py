@@ -1,0 +1,166 @@
+"""Runs that stop and go on: bit for bit with the step history, closely from the values alone."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import pytest
+from multibody_runs import slider_crank
+from numpy.typing import NDArray
+from reference.classic import Link
+from reference.mechanisms import SliderCrank
+
+from seacrane import Curve, Run, Scene, State, cases
+from seacrane._core import StepHistory
+
+Array = NDArray[np.float64]
+NONE = StepHistory(formulation="", integrator="", values=[], rate=[])
+CRANK = SliderCrank(Link(1.5, 0.08, 0.4, 0.15), (0.0, 0.3, 0.2), 1.2, 1.5, (0.02, 0.25, 0.24), 2.0)
+STOP, END = 0.73, 1.5
+ONE_STEP: dict[str, dict[str, float]] = {
+    "dopri5": {"rtol": 1e-7},
+    "tsit5": {"rtol": 1e-3},
+    "dop853": {"rtol": 1e-9},
+    "rk4": {"dt": 0.01},
+    "semi-implicit-euler": {"dt": 1e-3},
+    "rosenbrock": {"rtol": 1e-5},
+}
+
+
+def chain() -> Scene:
+    """Every branch whose coordinates poses do not tell: a link, a ball, and turns of more than one round."""
+    scene = Scene(name="chain")
+    ends = [(0.0, 0.0, 0.0), (0.5, 0.1, -0.4), (0.9, -0.2, -0.9), (1.2, 0.1, -1.4)]
+    kinds = ["distance", "spherical", "revolute"]
+    for i, kind in enumerate(kinds):
+        last, here = np.array(ends[i]), np.array(ends[i + 1])
+        scene.add_body(name=f"body {i}", mass=2.0, inertia=(0.1, 0.2, 0.15), position=here,
+                       angular_velocity=(1.0, -2.0, 9.0 if kind == "revolute" else 1.0))  # fmt: skip
+        extra: dict[str, Any] = {"second_point": here} if kind == "distance" else {}
+        first = "ground" if i == 0 else f"body {i - 1}"
+        scene.add_joint(kind=kind, name=f"joint {i}", first=first, second=f"body {i}",
+                        point=last if i == 0 else 0.5 * (last + here), **extra)  # fmt: skip
+    return scene
+
+
+def crank(feed_forward: float = 0.0) -> Scene:
+    """A loop, and a curve that jumps before and after the stop."""
+    scene = slider_crank(CRANK, 0.4, 6.0)
+    push = Curve.quintic(start_time=0.1, end_time=0.5, start=0.0, end=0.3)
+    scene.add_actuator(joint="shaft", stiffness=5.0, damping=1.0, reference=push, feed_forward=feed_forward)
+    return scene
+
+
+SCENES: dict[str, Callable[[], Scene]] = {"chain": chain, "crank": crank, "case2": cases.case2}
+
+
+def run(scene: Scene, start: State | None = None, end: float = END, **settings: Any) -> Run:
+    going = Run(scene, t_end=end, dt_out=0.05, start=start, channels=["position"], **settings)
+    return going
+
+
+def values(going: Run) -> Array:
+    return np.array(going.core.state.values)
+
+
+def parts(state: State, **change: Any) -> State:
+    """A copy, as a file would hold it."""
+    steps = state.steps
+    copied = StepHistory(
+        formulation=steps.formulation, integrator=steps.integrator, values=steps.values, rate=steps.rate
+    )
+    given = {"time": state.time, "values": state.values, "inputs": state.inputs, "steps": copied}
+    return State(**given | {"histories": state.histories} | change)
+
+
+@pytest.mark.parametrize("formulation", ["redundant", "recursive"])
+@pytest.mark.parametrize("integrator", ONE_STEP)
+@pytest.mark.parametrize("name", SCENES)
+def test_a_run_goes_on_bit_for_bit(name: str, integrator: str, formulation: str) -> None:
+    if name == "case2" and integrator in ("rosenbrock", "semi-implicit-euler"):
+        pytest.skip("slow there")
+    scene = SCENES[name]()
+    settings: dict[str, Any] = {"integrator": integrator, "formulation": formulation, **ONE_STEP[integrator]}
+    whole = run(scene, **settings)
+    whole.advance(STOP)
+    left = whole.core.state
+    whole.advance(END)
+    later = run(scene, parts(left), **settings)
+    assert np.array_equal(values(later), left.values)
+    later.advance(END)
+    assert later.core.statistics()["steps"] > 3
+    assert np.array_equal(values(later), values(whole))
+
+
+def test_convolution_goes_on_bit_for_bit() -> None:
+    scene = cases.case2(memory="convolution")
+    whole = run(scene, rtol=1e-5, formulation="recursive")
+    whole.advance(STOP)
+    later = run(scene, parts(whole.core.state), rtol=1e-5, formulation="recursive")
+    for going in (whole, later):
+        going.advance(END)
+    assert np.array_equal(values(later), values(whole))
+
+
+CHANGES: dict[str, dict[str, Any]] = {
+    "other integrator": {"integrator": "tsit5"},
+    "other formulation": {"formulation": "redundant"},
+}
+
+
+@pytest.mark.parametrize("change", CHANGES)
+def test_other_settings_start_from_the_values(change: str) -> None:
+    settings: dict[str, Any] = {"rtol": 1e-10, "formulation": "recursive"}
+    whole = run(crank(), **settings)
+    whole.advance(STOP)
+    left = whole.core.state
+    whole.advance(END)
+    changed = settings | CHANGES[change]
+    with_steps, without = (
+        run(crank(), parts(left), **changed),
+        run(crank(), parts(left, steps=NONE), **changed),
+    )
+    for going in (with_steps, without):
+        going.advance(END)
+        np.testing.assert_allclose(values(going)[:14], values(whole)[:14], atol=1e-7)
+    assert np.array_equal(values(with_steps), values(without))
+
+
+def test_steps_of_another_scene_inputs_or_values_are_not_gone_on_from() -> None:
+    """The derivative kept from the last step would be wrong."""
+    whole = run(crank(), formulation="recursive")
+    whole.advance(STOP)
+    left = whole.core.state
+    moved = np.array(left.values)
+    moved[-2] += 1.0  # the work integral
+    cases_: list[tuple[Scene, dict[str, Any]]] = [
+        (crank(), {"inputs": np.array(left.inputs) + 30.0}),
+        (crank(), {"values": moved}),
+        (crank(50.0), {}),
+    ]
+    for scene, change in cases_:
+        pair = [
+            run(scene, parts(left, **change | more), formulation="recursive")
+            for more in ({}, {"steps": NONE})
+        ]
+        for going in pair:
+            going.advance(END)
+        assert np.array_equal(values(pair[0]), values(pair[1]))
+        assert not np.array_equal(values(pair[0]), values(whole))
+
+
+def test_the_first_output_after_a_restart_sees_the_present_piece_of_a_curve() -> None:
+    """Not the one before the first jump of all."""
+    scene = Scene(name="hoist", gravity=0.0)
+    scene.add_body(name="load", mass=1.0, inertia=(1.0, 1.0, 1.0))
+    scene.add_joint(kind="prismatic", name="rail", first="ground", second="load", point=(0.0, 0.0, 0.0))
+    pull = Curve.quintic(start_time=0.0, end_time=0.5, start=0.0, end=1.0)
+    scene.add_actuator(joint="rail", stiffness=10.0, reference=pull)
+    first = Run(scene, t_end=2.0, channels=["position", "acceleration"])
+    first.advance(1.0)
+    again = Run(scene, t_end=2.0, start=first.core.state, channels=["position", "acceleration"])
+    out = again.core.channels()
+    force = 10.0 * (1.0 - out["position"][0, 0, 2])
+    assert out["acceleration"][0, 0, 2] == pytest.approx(force, abs=1e-9)
