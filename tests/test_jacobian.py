@@ -11,8 +11,9 @@ from linear_scenes import reference_vessel
 from multibody_runs import quaternion_about
 from numpy.typing import NDArray
 
-from seacrane import FlowCoefficients, Scene, _core, add_wind, cases, simulate
+from seacrane import FlowCoefficients, Scene, _core, add_wind, cases, equilibrium, linear_model, simulate
 from seacrane.linearise import jacobian
+from seacrane.reduced_coordinates import Terms
 
 Array = NDArray[np.float64]
 
@@ -187,6 +188,16 @@ def test_linearisation_takes_the_exact_one() -> None:
     kept = np.isfinite(model.scale)
     exact = _core.Evaluator(model).jacobian(0.0, model.initial_state)[np.ix_(kept, kept)]
     np.testing.assert_array_equal(jacobian(model), exact)
+
+
+def test_linear_model_agrees_with_differences(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The exact matrix, and the one that models without an exact Jacobian get."""
+    scene = cases.case2(hs=0.0)
+    rest = equilibrium(scene, time=50.0)
+    exact = linear_model(scene, state=rest).a
+    monkeypatch.setattr(Terms, "exact_columns", lambda *_: None)
+    other = linear_model(scene, state=rest).a
+    np.testing.assert_allclose(exact, other, rtol=1e-6, atol=1e-6)
 
 
 @pytest.mark.parametrize("integrator", ["rosenbrock", "cvode-bdf", "ark-dirk", "ark-imex"])

@@ -51,6 +51,25 @@ class Terms:
         rate = self.evaluator.derivative(self.time, values)
         return np.concatenate([rate[self.twists], rate[self.memory]])
 
+    def exact_columns(self, values: Array, directions: Array) -> Array | None:
+        """d(accelerations, memory rates) along directions (states, k); None where no exact Jacobian is."""
+        try:
+            jacobian = np.asarray(self.evaluator.jacobian(self.time, values))
+        except ValueError:
+            return None
+        return np.asarray(np.vstack([jacobian[self.twists], jacobian[self.memory]]) @ directions)
+
+    def pose_directions(self, values: Array, displacement: Array) -> Array:
+        """Change of the state (states, k) with translations and rotation vectors (6 n, k), inertial axes."""
+        out = np.zeros((values.size, displacement.shape[1]))
+        for body, move in enumerate(displacement.reshape(self.bodies, 6, -1)):
+            at = self.model.pose_index(body)
+            w, v = values[at + 3], values[at + 4 : at + 7]
+            out[at : at + 3] = move[:3]
+            out[at + 3] = -0.5 * v @ move[3:]
+            out[at + 4 : at + 7] = 0.5 * (w * move[3:] + np.cross(move[3:].T, v).T)
+        return out
+
     def acceleration(self, values: Array) -> Array:
         """Accelerations (6 n), inertial axes, m/s2 and rad/s2."""
         return np.asarray(self.evaluator.derivative(self.time, values)[self.twists])
@@ -89,7 +108,14 @@ class ReducedCoordinates:
         return int(self.basis.shape[1])
 
     def pose_columns(self) -> Array:
-        """d(accelerations, memory rates) / d(coordinates): central differences of fourth order."""
+        """d(accelerations, memory rates) / d(coordinates).
+
+        Exact; by central differences of fourth order for a model without an exact Jacobian.
+        """
+        terms = self.terms
+        exact = terms.exact_columns(self.values, terms.pose_directions(self.values, self.basis))
+        if exact is not None:
+            return exact
         columns = []
         for direction in self.basis.T:
             near, far = (
@@ -102,9 +128,14 @@ class ReducedCoordinates:
     def twist_columns(self) -> Array:
         """d(accelerations, memory rates) / d(speeds).
 
-        Loads are linear, quadratic, or u |u| in the speeds: 2 D(h) - D(2h) of the central differences D
-        keeps the linear part alone.
+        Exact; else by differences: loads are linear, quadratic, or u |u| in the speeds, and 2 D(h) - D(2h)
+        of the central differences D keeps the linear part alone.
         """
+        directions = np.zeros((self.values.size, self.size))
+        directions[self.terms.twists] = self.basis
+        exact = self.terms.exact_columns(self.values, directions)
+        if exact is not None:
+            return exact
         columns = []
         for direction in self.basis.T:
             near, far = (
@@ -117,6 +148,9 @@ class ReducedCoordinates:
     def memory_columns(self) -> Array:
         """d(accelerations, memory rates) / d(memory states), which is linear."""
         terms = self.terms
+        exact = terms.exact_columns(self.values, np.eye(self.values.size)[:, terms.memory])
+        if exact is not None:
+            return exact
         scale = np.array(terms.model.scale)
         columns = []
         for i in range(terms.memory.start, terms.memory.stop):
