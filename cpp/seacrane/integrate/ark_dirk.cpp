@@ -1,7 +1,4 @@
-#include <vector>
-
 #include "seacrane/integrate/arkode.hpp"
-#include "seacrane/integrate/difference_jacobian.hpp"
 #include "seacrane/integrate/registry.hpp"
 
 namespace seacrane {
@@ -9,33 +6,19 @@ namespace {
 
 /// ARKODE's diagonally implicit stepper with the L-stable pair ESDIRK4(3)6L[2]SA of order 4 [C. A. Kennedy,
 /// M. H. Carpenter, Diagonally implicit Runge-Kutta methods for ordinary differential equations, NASA TM
-/// 219173 (2016)]: modified Newton iteration with a dense Jacobian by difference quotients.
+/// 219173 (2016)]: modified Newton iteration with a dense Jacobian.
 class ArkodeDirk final : public ArkodeImplicitIntegrator {
  public:
   ArkodeDirk(System& system, const IntegratorOptions& options)
-      : ArkodeImplicitIntegrator("ark-dirk", 4, nullptr, derivative, system, options),
-        trial_(size()),
-        trial_slope_(size()) {}
+      : ArkodeImplicitIntegrator("ark-dirk", 4, nullptr, derivative, system, options) {}
 
  private:
   int set_table(void* memory) override {
     return ARKStepSetTableNum(memory, ARKODE_ESDIRK436L2SA_6_3_4, ARKODE_ERK_NONE);
   }
   int fill_jacobian(double t, const double* y, const double* slope, SUNMatrix matrix) override {
-    ++counters_.jacobians;
-    bool exact = false;
-    const int flag = guarded([&] {
-      exact = exact_jacobian(system_, t, y, SUNDenseMatrix_Data(matrix), counters_);
-      return 0;
-    });
-    if (exact || flag != 0) return flag;
-    return difference_jacobian(
-        y, slope, attempted_step(), norm_, trial_, trial_slope_,
-        [&](const double* at, double* f) { return evaluate(t, at, f); },
-        [&](std::size_t j) { return SUNDenseMatrix_Column(matrix, static_cast<sunindextype>(j)); });
+    return dense_jacobian(t, y, slope, attempted_step(), norm_, SUNDenseMatrix_Data(matrix));
   }
-
-  std::vector<double> trial_, trial_slope_;
 };
 
 }  // namespace

@@ -2,7 +2,6 @@
 #include <vector>
 
 #include "seacrane/integrate/arkode.hpp"
-#include "seacrane/integrate/difference_jacobian.hpp"
 #include "seacrane/integrate/registry.hpp"
 
 namespace seacrane {
@@ -27,8 +26,6 @@ class ArkodeImex final : public ArkodeImplicitIntegrator {
         origin_(size()),
         slope_(size()),
         product_(size()),
-        trial_(size()),
-        trial_slope_(size()),
         jacobian_(size() * size()) {}
 
  private:
@@ -55,26 +52,16 @@ class ArkodeImex final : public ArkodeImplicitIntegrator {
   }
   static int rest(sunrealtype t, N_Vector y, N_Vector ydot, void* user_data);
   int steps_left_ = 0;
-  std::vector<double> origin_, slope_, product_, trial_, trial_slope_;
+  std::vector<double> origin_, slope_, product_;
   std::vector<double> jacobian_;  // by columns
 };
 
 bool ArkodeImex::change_parts(bool restarted) {
   if (!restarted && steps_left_-- > 0) return false;
   steps_left_ = 0;
-  ++counters_.jacobians;
   origin_ = state_;
-  const auto f = [&](const double* y, double* ydot) { return evaluate(time_, y, ydot); };
-  bool exact = false;
-  int flag = guarded([&] {
-    exact = exact_jacobian(system_, time_, origin_.data(), jacobian_.data(), counters_);
-    return 0;
-  });
-  if (flag == 0 && !exact) flag = f(origin_.data(), slope_.data());
-  if (flag == 0 && !exact) {
-    flag = difference_jacobian(origin_.data(), slope_.data(), 0.0, norm_, trial_, trial_slope_, f,
-                               [&](std::size_t j) { return jacobian_.data() + j * size(); });
-  }
+  int flag = evaluate(time_, origin_.data(), slope_.data());
+  if (flag == 0) flag = dense_jacobian(time_, origin_.data(), slope_.data(), 0.0, norm_, jacobian_.data());
   if (flag != 0) fail("the linearisation");
   steps_left_ = steps_per_linearisation - 1;
   return true;

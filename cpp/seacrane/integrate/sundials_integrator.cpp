@@ -6,6 +6,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "seacrane/integrate/difference_jacobian.hpp"
+
 namespace seacrane {
 namespace {
 
@@ -133,6 +135,23 @@ int SundialsIntegrator::evaluate(double t, const double* y, double* ydot) {
     system_.derivative(t, y, ydot);
     return check_finite(ydot, size());
   });
+}
+
+int SundialsIntegrator::dense_jacobian(double t, const double* y, const double* slope, double h,
+                                       const ErrorNorm& norm, double* columns) {
+  ++counters_.jacobians;
+  bool exact = false;
+  const int flag = guarded([&] {
+    exact = exact_jacobian(system_, t, y, columns, counters_);
+    return 0;
+  });
+  if (exact || flag != 0) return flag;
+  trial_.resize(size());
+  trial_slope_.resize(size());
+  return difference_jacobian(
+      y, slope, h, norm, trial_, trial_slope_,
+      [&](const double* at, double* f) { return evaluate(t, at, f); },
+      [&](std::size_t j) { return columns + j * size(); });
 }
 
 std::size_t SundialsIntegrator::dominant_component() const {

@@ -62,6 +62,11 @@ class SundialsIntegrator : public Integrator {
   }
   /// f(t, y) for the solver's callbacks: 0, or 1 when the result is not finite.
   int evaluate(double t, const double* y, double* ydot);
+  /// Jacobian of f at (t, y) by columns: the system's own, else by difference quotients; `slope` is f there.
+  /// Our own quotients because those of the solvers take increments from the error weights, which are zero
+  /// for components outside the error norm. Returns what a callback does.
+  int dense_jacobian(double t, const double* y, const double* slope, double h, const ErrorNorm& norm,
+                     double* columns);
   /// 0 when finite, else 1 with the component noted.
   int check_finite(const double* values, std::size_t size);
 
@@ -81,6 +86,7 @@ class SundialsIntegrator : public Integrator {
   std::size_t dominant_component() const;
 
   Counters before_restart_;
+  std::vector<double> trial_, trial_slope_;  // of dense_jacobian()
   // Filled only to name the dominant component of a failure.
   mutable std::vector<double> errors_, weights_;
   sundials::Vector errors_vector_, weights_vector_;
