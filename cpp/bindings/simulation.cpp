@@ -144,20 +144,22 @@ void bind_simulation(py::module_& m) {
                          "One run of a model: advance(), inputs, recorded channels. Not for several threads.")
       .def(py::init([](const std::shared_ptr<Model>& model, const State& start, std::string integrator,
                        double rtol, double dt, double max_step, const Array& output_times,
-                       std::set<std::string> names, std::string formulation) {
+                       std::set<std::string> names, std::string formulation,
+                       std::optional<double> spectral_radius) {
              RunOptions options;
              options.formulation = std::move(formulation);
              options.integrator = std::move(integrator);
              options.tolerance = rtol;
              options.fixed_step = dt;
              options.max_step = max_step;
+             options.spectral_radius = spectral_radius;
              options.output_times = to_vector(output_times);
              options.channels = std::move(names);
              return std::make_unique<Simulation>(model, start, std::move(options));
            }),
            py::kw_only(), py::arg("model").none(false), py::arg("start"), py::arg("integrator"),
            py::arg("rtol"), py::arg("dt"), py::arg("max_step"), py::arg("output_times"), py::arg("channels"),
-           py::arg("formulation") = "redundant")
+           py::arg("formulation") = "redundant", py::arg("spectral_radius") = py::none())
       .def(
           "advance",
           [](Simulation& s, double t_end, const py::object& progress) {

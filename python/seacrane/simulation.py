@@ -99,7 +99,7 @@ class Run:
     scene : Scene
     model : Model, optional
         The compiled scene, to save compiling it again.
-    t_end, dt_out, integrator, rtol, dt, max_step, formulation, channels, start
+    t_end, dt_out, integrator, rtol, dt, max_step, spectral_radius, formulation, channels, start
         As `simulate`.
     """
 
@@ -113,6 +113,7 @@ class Run:
         rtol: float = DEFAULT_RTOL,
         dt: float = 0.0,
         max_step: float = 0.0,
+        spectral_radius: float | None = None,
         formulation: str = "auto",
         channels: Sequence[str] | None = None,
         start: _core.State | None = None,
@@ -144,17 +145,22 @@ class Run:
             )
         t_end, dt_out, rtol = number_of("t_end", t_end), number_of("dt_out", dt_out), number_of("rtol", rtol)
         dt, max_step = _step("dt", dt), _step("max_step", max_step)
+        if spectral_radius is not None:
+            spectral_radius = number_of("spectral_radius", spectral_radius)
         self.t_end = t_end
         self.settings = {
             "t_end": float(t_end), "dt_out": float(dt_out), "rtol": float(rtol), "dt": float(dt),
             "max_step": float(max_step), "orientation": scene.orientation, "baumgarte": scene.baumgarte,
             **scene.notes,
         }  # fmt: skip
+        if spectral_radius is not None:
+            self.settings["spectral_radius"] = spectral_radius
         self.integrator = integrator
         self.core = _core.Simulation(
             model=self.model, start=self.start, integrator=integrator, rtol=float(rtol), dt=float(dt),
             max_step=float(max_step), output_times=_output_times(self.start.time, self.t_end, float(dt_out)),
             channels=core_channels(wanted, known), formulation=self.formulation,
+            spectral_radius=spectral_radius,
         )  # fmt: skip
         if scene.waves is not None:
             scene.waves.warn_of_repeats(self.t_end - self.start.time)
@@ -280,6 +286,7 @@ def simulate(
     rtol: float | None = None,
     dt: float | None = None,
     max_step: float = 0.0,
+    spectral_radius: float | None = None,
     formulation: str = "auto",
     channels: Sequence[str] | None = None,
     controllers: Sequence[SampledController] = (),
@@ -307,6 +314,9 @@ def simulate(
         Step of fixed-step methods, s; default, or 0: the method's own.
     max_step : float
         Longest step, s; 0 sets no limit.
+    spectral_radius : float, optional
+        What is left after a step of "generalized-alpha" and "generalized-alpha-index2" of a motion far too
+        fast for it: 1 damps nothing, 0 all in one step; default 0.8. Other integrators have none.
     formulation : str
         "redundant": six velocities per body and multipliers, the paper's. "recursive": the same motion in
         the coordinates of a tree of bodies, cylinder loops in closed form, other loops by a small block of
@@ -339,7 +349,7 @@ def simulate(
         When the integration cannot go on; it says where, when and what to try.
     """
     controllers = _checked(controllers)
-    given = {"integrator": integrator, "rtol": rtol, "dt": dt}
+    given = {"integrator": integrator, "rtol": rtol, "dt": dt, "spectral_radius": spectral_radius}
     chosen: dict[str, Any] = {name: value for name, value in given.items() if value is not None}
     if accuracy is not None:
         from seacrane.trading.accuracy import simulate_to_accuracy

@@ -15,6 +15,7 @@ namespace {
 
 /// Step without a choice of the user (s), half of rk4's: order 2 needs it.
 constexpr double default_step = 0.01;
+constexpr double default_radius = 0.8;
 constexpr int most_iterations = 12;
 /// Newton's last correction of the velocities, in the error norm.
 constexpr double newton_tolerance = 1e-3;
@@ -100,7 +101,7 @@ GeneralizedAlpha::GeneralizedAlpha(std::string name, Level level, System& system
       velocity_change_(size()),
       jacobian_(unknowns_ * unknowns_),
       lu_(unknowns_) {
-  const double radius = options.spectral_radius;
+  const double radius = options.spectral_radius.value_or(default_radius);
   if (!(radius >= 0.0 && radius <= 1.0)) {
     throw std::invalid_argument("spectral_radius is " + std::to_string(radius) +
                                 "; give a value from 0 (strongest damping) to 1 (none)");

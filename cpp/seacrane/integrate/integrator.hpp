@@ -35,7 +35,8 @@ struct IntegratorOptions {
   /// First step of the adaptive methods (s); 0 lets the method choose.
   double initial_step = 0.0;
   /// Spectral radius at infinite frequency of generalized-alpha, 0 to 1: 1 damps nothing, 0 annihilates.
-  double spectral_radius = 0.8;
+  /// Without one the method takes its own; the other methods have none to choose.
+  std::optional<double> spectral_radius;
 
   Tolerances tolerances() const { return {relative_tolerance, absolute_tolerance}; }
 };

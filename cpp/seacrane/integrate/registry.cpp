@@ -46,13 +46,23 @@ struct Entry {
 constexpr Entry entries[] = {SEACRANE_INTEGRATORS(SEACRANE_LIST)};
 #undef SEACRANE_LIST
 
+void require_spectral_radius(const std::string& name) {
+  if (name.starts_with("generalized-alpha")) return;
+  throw std::invalid_argument("spectral_radius: integrator \"" + name +
+                              "\" has no spectral radius to choose; leave it out, or choose "
+                              "\"generalized-alpha\" or \"generalized-alpha-index2\"");
+}
+
 }  // namespace
 
 std::unique_ptr<Integrator> make_integrator(System& system, ResidualSystem* residual,
                                             const IntegratorOptions& options) {
   std::string known;
   for (const Entry& entry : entries) {
-    if (options.name == entry.name) return entry.make(system, residual, options);
+    if (options.name == entry.name) {
+      if (options.spectral_radius) require_spectral_radius(options.name);
+      return entry.make(system, residual, options);
+    }
     known += known.empty() ? "" : ", ";
     known += entry.name;
   }

@@ -34,6 +34,7 @@ IntegratorOptions integrator_options(const Formulation& stepped, const RunOption
   for (double& value : out.absolute_tolerance) value *= run.tolerance;
   out.fixed_step = run.fixed_step;
   out.max_step = run.max_step;
+  out.spectral_radius = run.spectral_radius;
   return out;
 }
 

@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -18,9 +19,10 @@ struct RunOptions {
   std::string integrator = "dopri5";
   double tolerance =
       1e-6;  // times the scale of each state: absolute, so that results don't depend on the origin
-  double fixed_step = 0.0;           // s, fixed-step methods; 0: the method's default
-  double max_step = 0.0;             // s; 0: no limit
-  std::vector<double> output_times;  // increasing, from the start on
+  double fixed_step = 0.0;                // s, fixed-step methods; 0: the method's default
+  double max_step = 0.0;                  // s; 0: no limit
+  std::optional<double> spectral_radius;  // of generalized-alpha; none: the method's default
+  std::vector<double> output_times;       // increasing, from the start on
   std::set<std::string> channels;
 };
 

@@ -50,6 +50,7 @@ def _add_run(commands: Any) -> None:
     run.add_argument("--integrator", metavar="NAME", help="default dopri5; an unknown name lists them all")
     run.add_argument("--rtol", metavar="X", type=float, help="relative tolerance of adaptive integrators")
     run.add_argument("--dt", metavar="S", type=float, help="step of fixed-step integrators, s")
+    run.add_argument("--spectral-radius", metavar="R", type=float, help="of generalized-alpha, 0 to 1")
     run.add_argument("--formulation", choices=("redundant", "recursive", "auto"), help="equations of motion")
     run.add_argument("--progress", action="store_true", help="show a progress bar")
     case = run.add_argument_group("the built-in cases", "these choose the vessel and the sea of a named case")

@@ -12,7 +12,7 @@ from seacrane.cli.scene_source import load_scene
 if TYPE_CHECKING:
     from seacrane.result import Result
 
-SETTINGS = ("t_end", "dt_out", "integrator", "rtol", "dt", "formulation")
+SETTINGS = ("t_end", "dt_out", "integrator", "rtol", "dt", "spectral_radius", "formulation")
 
 
 def run(arguments: argparse.Namespace) -> int:
