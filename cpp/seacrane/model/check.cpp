@@ -1,5 +1,6 @@
 #include "seacrane/model/check.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <sstream>
 
 namespace seacrane {
@@ -9,6 +10,19 @@ std::string to_text(double value) {
   out.precision(6);
   out << value;
   return out.str();
+}
+
+void Check::positive_definite(const char* what, const MatXd& m, bool semi) const {
+  finite(what, m);
+  const double size = m.cwiseAbs().maxCoeff();
+  if ((m - m.transpose()).cwiseAbs().maxCoeff() > 1e-9 * size) {
+    fail(std::string(what) + " is not symmetric; give a symmetric matrix");
+  }
+  const double smallest = Eigen::SelfAdjointEigenSolver<MatXd>(m).eigenvalues()[0];
+  if (semi ? smallest < -1e-9 * size : !(smallest > 0.0)) {
+    fail(std::string(what) + " is not positive " + (semi ? "semi-" : "") +
+         "definite: its smallest eigenvalue is " + to_text(smallest));
+  }
 }
 
 void SceneNames::coordinate(const Check& c, const CoordinateDescription& d) const {

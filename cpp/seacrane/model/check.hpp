@@ -1,6 +1,5 @@
 #pragma once
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <map>
 #include <set>
@@ -58,18 +57,7 @@ class Check {
     finite(what, v);
     if (v < 0.0) fail(std::string(what) + " is " + to_text(v) + "; it must not be negative");
   }
-  void positive_definite(const char* what, const MatXd& m, bool semi) const {
-    finite(what, m);
-    const double size = m.cwiseAbs().maxCoeff();
-    if ((m - m.transpose()).cwiseAbs().maxCoeff() > 1e-9 * size) {
-      fail(std::string(what) + " is not symmetric; give a symmetric matrix");
-    }
-    const double smallest = Eigen::SelfAdjointEigenSolver<MatXd>(m).eigenvalues()[0];
-    if (semi ? smallest < -1e-9 * size : !(smallest > 0.0)) {
-      fail(std::string(what) + " is not positive " + (semi ? "semi-" : "") +
-           "definite: its smallest eigenvalue is " + to_text(smallest));
-    }
-  }
+  void positive_definite(const char* what, const MatXd& m, bool semi) const;
 
  private:
   std::string prefix_;
