@@ -13,7 +13,7 @@ import pytest
 from hypothesis import HealthCheck, assume, given, settings
 from multibody_runs import add_crane, slider_crank, swing_out
 from numpy.typing import NDArray
-from random_loops import shape_of
+from random_loops import nearly_flat, shape_of
 from random_scenes import Shape, build, moving, shapes
 from reference.classic import Link
 from reference.mechanisms import SliderCrank
@@ -128,6 +128,16 @@ def check_seeds(family: str, seeds: range) -> None:
 @pytest.mark.parametrize("family", FAMILIES)
 def test_hundreds_of_scenes(family: str) -> None:
     check_seeds(family, range(120))
+
+
+@pytest.mark.parametrize("planar", [False, True])
+@pytest.mark.parametrize("turned", [1.0, 0.1, 0.01])
+def test_loops_close_to_where_they_fold_flat(turned: float, planar: bool) -> None:
+    for seed in range(6):
+        model = compiled(nearly_flat(seed, turned, planar=planar))
+        found = Comparison(model, moving(model, seed))
+        assert found.acceleration < (AGREEMENT if planar else found.bound), seed
+        assert planar or found.reaction < found.bound, seed
 
 
 @pytest.mark.nightly
