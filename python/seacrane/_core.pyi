@@ -6,7 +6,7 @@ import collections.abc
 import numpy
 import numpy.typing
 import typing
-__all__: list[str] = ['Actuator', 'Body', 'Curve', 'DriftLoad', 'DriftTable', 'Driver', 'Evaluator', 'ExactWaveLoad', 'FlowForce', 'ForceTable', 'Frame', 'FunctionForce', 'Joint', 'Model', 'PointForce', 'PositionedWaveLoad', 'RepeatPeriod', 'RetardationFunctions', 'Simulation', 'Spectrum', 'Spring', 'State', 'StateSpaceBlock', 'TwistHistory', 'VesselHydrodynamics', 'WaveComponents', 'WaveKinematics', 'WaveLoads', 'WaveTable', 'compile', 'dnv_gamma', 'initial_state', 'integrator_names', 'jonswap', 'ochi_hubble', 'philox_uniform', 'pierson_moskowitz', 'realise_waves', 'section_radiation', 'strip_theory', 'tabulated_density', 'torsethaugen']
+__all__: list[str] = ['Actuator', 'Body', 'Curve', 'DriftLoad', 'DriftTable', 'Driver', 'Evaluator', 'ExactWaveLoad', 'FlowForce', 'ForceTable', 'Frame', 'FunctionForce', 'Joint', 'Model', 'PointForce', 'PositionedWaveLoad', 'RepeatPeriod', 'RetardationFunctions', 'Simulation', 'Spectrum', 'Spring', 'State', 'StateSpaceBlock', 'StepHistory', 'TwistHistory', 'VesselHydrodynamics', 'WaveComponents', 'WaveKinematics', 'WaveLoads', 'WaveTable', 'compile', 'dnv_gamma', 'initial_state', 'integrator_names', 'jonswap', 'ochi_hubble', 'philox_uniform', 'pierson_moskowitz', 'realise_waves', 'section_radiation', 'strip_theory', 'tabulated_density', 'torsethaugen']
 class Curve:
     """
     A reference as a function of time: pieces of quintic polynomials plus one cosine each.
@@ -1002,11 +1002,33 @@ class TwistHistory:
         """
         s
         """
+class StepHistory:
+    """
+    What an integrator keeps from step to step, in the coordinates of a formulation, and the rate of the state: a run with the same settings goes on bit for bit (methods of SUNDIALS restart). Another formulation, integrator or scene, or other values or inputs, start from the values alone.
+    """
+    def __init__(self, *, formulation: str, integrator: str, values: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], rate: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> None:
+        ...
+    @property
+    def formulation(self) -> str:
+        ...
+    @property
+    def integrator(self) -> str:
+        ...
+    @property
+    def rate(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        copy
+        """
+    @property
+    def values(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        copy
+        """
 class State:
     """
     Time (s), state values and inputs of a run; a copy is a checkpoint.
     """
-    def __init__(self, *, time: typing.SupportsFloat | typing.SupportsIndex, values: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], inputs: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], histories: collections.abc.Sequence[TwistHistory] = []) -> None:
+    def __init__(self, *, time: typing.SupportsFloat | typing.SupportsIndex, values: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], inputs: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], histories: collections.abc.Sequence[TwistHistory] = [], steps: StepHistory = ...) -> None:
         ...
     @property
     def histories(self) -> list[TwistHistory]:
@@ -1017,6 +1039,11 @@ class State:
     def inputs(self) -> numpy.typing.NDArray[numpy.float64]:
         """
         copy
+        """
+    @property
+    def steps(self) -> StepHistory:
+        """
+        StepHistory (copy); its names are empty: none.
         """
     @property
     def time(self) -> float:
@@ -1030,7 +1057,7 @@ class Simulation:
     """
     One run of a model: advance(), inputs, recorded channels. Not for several threads.
     """
-    def __init__(self, *, model: Model, start: State, integrator: str, rtol: typing.SupportsFloat | typing.SupportsIndex, dt: typing.SupportsFloat | typing.SupportsIndex, max_step: typing.SupportsFloat | typing.SupportsIndex, output_times: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], channels: collections.abc.Set[str], formulation: str = 'redundant') -> None:
+    def __init__(self, *, model: Model, start: State, integrator: str, rtol: typing.SupportsFloat | typing.SupportsIndex, dt: typing.SupportsFloat | typing.SupportsIndex, max_step: typing.SupportsFloat | typing.SupportsIndex, output_times: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], channels: collections.abc.Set[str], formulation: str = 'redundant', spectral_radius: typing.SupportsFloat | typing.SupportsIndex | None = None) -> None:
         ...
     def advance(self, t_end: typing.SupportsFloat | typing.SupportsIndex, progress: typing.Any = None) -> bool:
         """

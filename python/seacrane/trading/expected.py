@@ -35,7 +35,7 @@ class Method:
     def error(self) -> float:
         """Expected error over the scale of a quantity."""
         factor, power = ERROR[self.name]
-        return factor * self.tolerance**power
+        return factor * math.pow(self.tolerance, power)
 
 
 def setting_for(error: float) -> Method:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from functools import lru_cache, partial
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -95,7 +95,8 @@ def full_memory_name(scene: Scene, name: str) -> str:
     if not level:
         return name
     (vessel,) = scene.vessels.values()
-    return f"{kind}:{sum(len(block.a) for block in vessel.memory)}"
+    blocks = cast("list[_core.StateSpaceBlock]", vessel.memory)
+    return f"{kind}:{sum(block.a.shape[0] for block in blocks)}"
 
 
 def with_memory(scene: Scene, kind: str, database: HydroDatabase | None, *, r2: float | None = None) -> Scene:
