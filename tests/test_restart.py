@@ -21,7 +21,7 @@ CRANK = SliderCrank(Link(1.5, 0.08, 0.4, 0.15), (0.0, 0.3, 0.2), 1.2, 1.5, (0.02
 STOP, END = 0.73, 1.5
 ONE_STEP: dict[str, dict[str, float]] = {
     "dopri5": {"rtol": 1e-7},
-    "tsit5": {"rtol": 1e-3},
+    "tsit5": {"rtol": 1e-5},
     "dop853": {"rtol": 1e-9},
     "rk4": {"dt": 0.01},
     "semi-implicit-euler": {"dt": 1e-3},

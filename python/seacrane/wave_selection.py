@@ -70,19 +70,23 @@ def kept_components(waves: Waves) -> NDArray[np.bool_]:
 
 
 def _magnitudes(waves: Waves) -> Array | None:
-    """What each component adds at most, (n, channels)."""
-    amplitude = np.abs(np.asarray(waves.amplitude, dtype=float))
+    """What each component adds at most, (n, channels); none where arrays do not fit together."""
     n = np.size(waves.omega)
-    columns = [amplitude[:, None], amplitude[:, None] * np.abs(np.asarray(waves.transfer))]
-    # Slow drift multiplies two sums of sqrt(D) a: leaving out a share of one changes it by twice that share.
-    slow = 2.0 * amplitude[:, None]
-    if waves.drift is not None:
-        columns.append(slow * np.sqrt(np.abs(np.asarray(waves.drift))))
-    if waves.force_by_heading is not None:
-        columns.append(amplitude[:, None] * np.abs(np.asarray(waves.force_by_heading.values)).max(axis=0))
-    if waves.drift_by_heading is not None:
-        columns.append(slow * np.sqrt(np.abs(np.asarray(waves.drift_by_heading.values)).max(axis=0)))
-    arrays = (waves.omega, waves.phase, waves.direction)
-    if any(np.shape(a) != (n,) for a in arrays) or any(len(c) != n for c in columns):
+    tables = [np.asarray(t.values) for t in (waves.force_by_heading, waves.drift_by_heading) if t is not None]
+    rows = [waves.omega, waves.amplitude, waves.phase, waves.direction, waves.transfer, waves.drift]
+    if any(np.shape(a)[:1] != (n,) for a in rows if a is not None) or any(
+        t.shape[1:2] != (n,) for t in tables
+    ):
         return None
+    amplitude = np.abs(np.asarray(waves.amplitude, dtype=float))[:, None]
+    columns = [amplitude, amplitude * np.abs(np.asarray(waves.transfer))]
+    # Slow drift multiplies two sums of sqrt(D) a: leaving out a share of one changes it by twice that share.
+    if waves.drift is not None:
+        columns.append(2.0 * amplitude * np.sqrt(np.abs(np.asarray(waves.drift))))
+    if waves.force_by_heading is not None:
+        columns.append(amplitude * np.abs(np.asarray(waves.force_by_heading.values)).max(axis=0))
+    if waves.drift_by_heading is not None:
+        columns.append(
+            2.0 * amplitude * np.sqrt(np.abs(np.asarray(waves.drift_by_heading.values)).max(axis=0))
+        )
     return np.hstack(columns)

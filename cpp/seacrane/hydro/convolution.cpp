@@ -147,7 +147,8 @@ void RunningConvolution::restore(double t, const TwistHistory& history) {
                                 " s, not within one step before; give the state as a run left it");
   }
   std::copy(history.recent.begin(), history.recent.end(), recent_.begin());
-  oldest_ = 0;
+  // The place in the ring where a run that was not interrupted would be: sums are then rounded alike.
+  oldest_ = (intervals_ % tables_->length()) * Convolution::kPoints % tables_->length();
   for (auto v = history.quadrature.rbegin(); v != history.quadrature.rend(); ++v) keep(*v);
   expand_past();
 }
