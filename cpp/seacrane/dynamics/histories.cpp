@@ -45,4 +45,10 @@ void RedundantSystem::sample(double t, const double* y) {
   }
 }
 
+void RedundantSystem::take_histories(const RedundantSystem& other) {
+  for (std::size_t i = 0; i < convolutions_.size(); ++i) {
+    convolutions_[i].second = other.convolutions_[i].second;
+  }
+}
+
 }  // namespace seacrane

@@ -65,6 +65,8 @@ class RedundantSystem final : public Formulation {
   double next_sample() const;
   /// Takes the samples due at t.
   void sample(double t, const double* y);
+  /// Those of a system with the same vessels.
+  void take_histories(const RedundantSystem& other);
 
   ConstraintResidual residual(double t, const double* y);
   /// As residual(), with the rows that the last evaluation left.

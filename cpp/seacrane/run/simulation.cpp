@@ -128,24 +128,23 @@ void Simulation::apply_inputs() {
   loads_.set_inputs(inputs_);
 }
 
-template <class F>
-void Simulation::for_each_system(const double* bodies, F&& f) {
-  f(system_, bodies);
-  if (&loads_ == &system_) return;
+const double* Simulation::stepped_bodies(const double* bodies) {
+  if (&loads_ == &system_) return bodies;
   merge_state(*model_, loads_.model(), bodies, merged_state_.data());
-  f(loads_, merged_state_.data());
+  return merged_state_.data();
 }
 
+/// One history of the vessel's motion for the steps and the outputs: two would differ by rounding, and a run
+/// that goes on from one of them would too.
 void Simulation::start_histories(const State& start) {
-  for_each_system(start.values.data(), [&](RedundantSystem& system, const double* bodies) {
-    system.start_histories(start.time, bodies, start.histories);
-  });
+  loads_.start_histories(start.time, stepped_bodies(start.values.data()), start.histories);
+  if (&loads_ != &system_) system_.take_histories(loads_);
 }
 
 void Simulation::sample_histories(double now) {
   write_present(output_state_.data());
-  for_each_system(output_state_.data(),
-                  [&](RedundantSystem& system, const double* bodies) { system.sample(now, bodies); });
+  loads_.sample(now, stepped_bodies(output_state_.data()));
+  if (&loads_ != &system_) system_.take_histories(loads_);
 }
 
 void Simulation::report_open(double t) const {

@@ -83,9 +83,8 @@ class Simulation {
   bool resume(const State& given);
   std::vector<double> present_rate() const;
   void sample_histories(double now);
-  /// Calls f(system, its bodies' state) for the system recorded and, with merged bodies, the one stepped.
-  template <class F>
-  void for_each_system(const double* bodies, F&& f);
+  /// The state of the bodies that are stepped, merged ones as one.
+  const double* stepped_bodies(const double* bodies);
   /// The state at time() in bodies' poses and twists.
   void write_present(double* bodies) const;
 
