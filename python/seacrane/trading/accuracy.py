@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from seacrane.result import Result
     from seacrane.scene import Scene
 
-SAFETY = 5.0  # on the ratio of two errors: scenes differ in it by less in 97 of 100
+SAFETY = 5.0  # on the ratio of two errors, which differs between scenes: the estimate held on 198 of 200
 PESSIMISM = 1.5  # further, on the error expected before any run
 STEP = 10.0  # to a tighter tolerance, or a looser one to compare with, where errors do not tell how far
 COARSE = 0.1  # of the motion: a difference above it is no error that linearised equations describe
