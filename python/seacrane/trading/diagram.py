@@ -50,6 +50,8 @@ def work_precision(trade: Trade) -> Figure:
 
 
 def _draw(axes: Axes, trade: Trade, quantity: str) -> None:
+    from matplotlib.ticker import LogLocator, NullFormatter
+
     full = (trade.metadata["memory"], trade.metadata["waves"], rungs.FULL)
     colours: dict[str, Any] = {}
     groups: dict[tuple[str, str], list[Row]] = {}
@@ -78,6 +80,9 @@ def _draw(axes: Axes, trade: Trade, quantity: str) -> None:
     )  # fmt: skip
     _mark(axes, fewer, quantity, full)
     axes.axhspan(0.0, trade.reference.uncertainty[quantity], color="0.85")
+    axes.xaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
+    axes.xaxis.set_major_formatter("{x:g}")
+    axes.xaxis.set_minor_formatter(NullFormatter())
     axes.set_xlabel("wall time per simulated second [s]")
     axes.set_ylabel(f"largest error [{trade.quantities[quantity].unit}]")
     axes.set_title(quantity.replace("_", " "))
