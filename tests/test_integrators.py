@@ -1,7 +1,8 @@
-"""Every integrator: its order on a constrained crane, SciPy's formulas, names told in one place."""
+"""Integrators: SciPy's formulas, agreement on case 2, what a method needs, names told in one place."""
 
 from __future__ import annotations
 
+import json
 import re
 from functools import lru_cache
 from pathlib import Path
@@ -10,35 +11,9 @@ from typing import Any
 import numpy as np
 import pytest
 from scipy.integrate._ivp.rk import DOP853, RK23, RK45, RungeKutta, rk_step
-from test_convergence import T_END, exact, payload_error, run, slopes
+from test_convergence import exact, payload_error, run
 
-from seacrane import Evaluator, Run, Scene, cases, integrator_names
-
-FIXED = {"semi-implicit-euler": (1, 1 / 512), "rk-low-storage": (4, 1 / 32)}
-FIXED |= {"generalized-alpha": (2, 1 / 128), "generalized-alpha-index2": (2, 1 / 128)}
-PAIRS = {"heun21": (2, 1 / 64), "bs32": (3, 1 / 32), "rk43": (4, 1 / 32), "tsit5": (5, 1 / 16)}
-PAIRS |= {"verner65": (6, 1 / 8), "verner76": (7, 1 / 16), "dop853": (8, 1 / 5), "rosenbrock": (3, 1 / 64)}
-
-
-@pytest.mark.parametrize("integrator", FIXED)
-def test_fixed_step_methods_have_their_order_on_the_payload(integrator: str) -> None:
-    order, step = FIXED[integrator]
-    steps = [step, step / 2, step / 4]
-    # The tolerance ends Newton's iteration of generalized-alpha and says when a derivative is kept.
-    found = slopes(steps, [payload_error(run(integrator=integrator, dt=h, rtol=1e-10)) for h in steps])
-    assert order - 0.25 < found[-1] < order + 0.6, found
-
-
-@pytest.mark.parametrize("integrator", PAIRS)
-def test_pairs_have_their_order_on_the_payload(integrator: str) -> None:
-    order, step = PAIRS[integrator]
-    steps = [step, step / 2]
-    # A tolerance that every step meets leaves max_step as the step.
-    runs = [run(integrator=integrator, rtol=0.1, max_step=h) for h in steps]
-    for h, out in zip(steps, runs, strict=True):
-        assert T_END / h <= out["stats"]["steps"] <= T_END / h + 4
-    found = slopes(steps, [payload_error(out) for out in runs])
-    assert order - 0.4 < found[0] < order + 1.6, found
+from seacrane import Evaluator, Run, Scene, SceneError, cases, integrator_names, simulate
 
 
 @pytest.mark.parametrize("integrator", ["heun21", "bs32", "rk43", "tsit5", "verner65", "verner76", "dop853",
@@ -138,6 +113,52 @@ def test_methods_agree_on_case_2_afloat(integrator: str, settings: dict[str, flo
     """Memory states, waves, controllers and constraints together."""
     reference = afloat_payload(rtol=1e-11)
     assert np.linalg.norm(afloat_payload(integrator=integrator, **settings) - reference) < limit
+
+
+def oscillator(frequency: float) -> Scene:
+    """1 kg on a rail, 1 mm from where a spring wants it; `frequency` in rad/s."""
+    scene = Scene(gravity=0.0)
+    scene.add_body(name="cart", mass=1.0, inertia=[1, 1, 1])
+    scene.add_joint(kind="prismatic", name="rail", first="ground", second="cart", axis=(1, 0, 0))
+    scene.add_actuator(joint="rail", stiffness=frequency**2, reference=1e-3)
+    return scene
+
+
+@pytest.mark.parametrize("integrator", ["generalized-alpha", "generalized-alpha-index2"])
+@pytest.mark.parametrize("radius", [0.9, 0.5, 0.2])
+def test_spectral_radius_is_what_a_step_leaves_of_a_motion_far_too_fast(
+    integrator: str, radius: float
+) -> None:
+    """All three roots of the step tend to -radius [Chung, Hulbert 1993]: their product, of the recurrence."""
+    step = 0.1
+    result = simulate(
+        oscillator(1e3), t_end=12 * step, dt_out=step, dt=step, integrator=integrator, spectral_radius=radius,
+        channels=["position"],
+    )  # fmt: skip
+    x = np.asarray(result["position"])[:, 0, 0] - 1e-3
+    rows = np.array([x[k : k + 3] for k in range(3, 9)])
+    size = np.abs(rows).max(axis=1)
+    product = np.linalg.lstsq(rows / size[:, None], x[6:12] / size, rcond=None)[0][0]
+    assert abs(product) ** (1 / 3) == pytest.approx(radius, rel=1e-2)
+    assert json.loads(str(result.stats["settings"]))["spectral_radius"] == radius
+
+
+@pytest.mark.parametrize(
+    ("settings", "parts"),
+    [
+        ({"integrator": "dopri5", "spectral_radius": 0.5}, ("spectral_radius", "dopri5")),
+        ({"integrator": "generalized-alpha", "spectral_radius": 1.5}, ("spectral_radius is 1.5", "0 ")),
+        ({"integrator": "generalized-alpha", "spectral_radius": float("nan")}, ("spectral_radius is nan",)),
+        ({"integrator": "generalized-alpha", "spectral_radius": "half"}, ("spectral_radius is 'half'",)),
+    ],
+)
+def test_a_spectral_radius_that_makes_no_sense_is_refused(
+    settings: dict[str, Any], parts: tuple[str, ...]
+) -> None:
+    with pytest.raises(SceneError) as caught:
+        simulate(oscillator(1.0), t_end=1.0, **settings)
+    for part in parts:
+        assert part in str(caught.value)
 
 
 def test_the_reference_of_the_orders_stands() -> None:
