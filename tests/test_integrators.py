@@ -13,7 +13,7 @@ import pytest
 from scipy.integrate._ivp.rk import DOP853, RK23, RK45, RungeKutta, rk_step
 from test_convergence import exact, payload_error, run
 
-from seacrane import Evaluator, Run, Scene, SceneError, cases, integrator_names, simulate
+from seacrane import Evaluator, Run, Scene, SceneError, _core, cases, integrator_names, simulate
 
 
 @pytest.mark.parametrize("integrator", ["heun21", "bs32", "rk43", "tsit5", "verner65", "verner76", "dop853",
@@ -101,6 +101,8 @@ def afloat_payload(**settings: Any) -> np.ndarray:
     ("semi-implicit-euler", {"dt": 2e-3}, 2e-3),
     ("generalized-alpha", {"dt": 1e-2}, 2e-3),
     ("rk-low-storage", {"dt": 5e-2}, 1e-5),
+    ("rk4-exact-memory", {"dt": 5e-2}, 1e-5),
+    ("ark-mri", {"dt": 5e-2, "rtol": 1e-7}, 1e-4),
     ("heun21", {"rtol": 1e-5}, 1e-3),
     ("rosenbrock", {"rtol": 1e-5}, 1e-3),
     ("ark-imex", {"rtol": 1e-5}, 1e-3),
@@ -159,6 +161,49 @@ def test_a_spectral_radius_that_makes_no_sense_is_refused(
         simulate(oscillator(1.0), t_end=1.0, **settings)
     for part in parts:
         assert part in str(caught.value)
+
+
+@lru_cache(maxsize=1)
+def stiffly_held() -> tuple[Scene, Any]:
+    """Case 2 with gains of its controllers 100 times the usual."""
+    scene = cases.case2(relative_bound=0.0)
+    for name, actuator in scene.actuators.items():
+        scene.actuators[name] = _core.Actuator(
+            name=name, joint=actuator.joint, coordinate=actuator.coordinate,
+            stiffness=100.0 * actuator.stiffness, damping=100.0 * actuator.damping,
+            feed_forward=actuator.feed_forward, reference=actuator.reference,
+        )  # fmt: skip
+    return scene, scene.compile()
+
+
+@pytest.mark.parametrize("formulation", ["redundant", "recursive"])
+def test_multirate_steps_stiff_actuators_apart(formulation: str) -> None:
+    """Fewer evaluations of the whole system, where an explicit pair is held to the actuators' time scale."""
+    scene, model = stiffly_held()
+    payload = list(scene.bodies).index("payload")
+
+    def run_to_5(**settings: Any) -> tuple[np.ndarray, dict[str, Any]]:
+        out = Run(scene, t_end=5.0, dt_out=5.0, model=model, channels=["position"], **settings)
+        out.advance(5.0)
+        return np.asarray(out.core.channels()["position"][-1, payload]), dict(out.core.statistics())
+
+    reference, _ = run_to_5(rtol=1e-9)
+    pair, explicit = run_to_5(integrator="tsit5", rtol=1e-3, formulation=formulation)
+    found, split = run_to_5(integrator="ark-mri", dt=0.1, rtol=1e-4, formulation=formulation)
+    assert np.linalg.norm(found - reference) < 1e-3
+    assert np.linalg.norm(pair - reference) < 1e-1
+    assert split["evaluations"] < 0.5 * explicit["evaluations"]
+    assert split["fast_evaluations"] > split["evaluations"]
+
+
+def test_methods_refuse_scenes_without_what_they_need() -> None:
+    with pytest.raises(SceneError, match=r"ark-mri.*no actuator with stiffness or damping"):
+        simulate(tumbling(), t_end=1.0, integrator="ark-mri")
+    with pytest.raises(SceneError, match=r"ark-mri.*paper"):
+        simulate(cases.case2(kinematics="paper"), t_end=1.0, integrator="ark-mri")
+    for scene in (cases.vessel(memory="none"), cases.vessel(memory="convolution")):
+        with pytest.raises(SceneError, match=r"rk4-exact-memory.*no fluid memory in states"):
+            simulate(scene, t_end=1.0, integrator="rk4-exact-memory")
 
 
 def test_the_reference_of_the_orders_stands() -> None:

@@ -49,6 +49,7 @@ py::dict statistics(const Simulation& s) {
   out["steps"] = r.counters.steps;
   out["rejected_steps"] = r.counters.rejected_steps;
   out["evaluations"] = r.counters.evaluations;
+  out["fast_evaluations"] = r.counters.fast_evaluations;
   out["jacobians"] = r.counters.jacobians;
   out["newton_iterations"] = r.counters.newton_iterations;
   out["projections"] = r.counters.projections;

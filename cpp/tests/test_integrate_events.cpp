@@ -45,7 +45,7 @@ TEST_CASE("events of a nonlinear solution are found once each, within the tolera
     FunctionSystem system = smooth_system();
     SmoothResidual residual;
     IntegratorOptions options = with_tolerance(name, 1e-11);
-    options.fixed_step = 0.005;
+    options.fixed_step = name == "ark-mri" ? 0.0025 : 0.005;  // order 3, not 4
     const auto integrator = make_integrator(system, &residual, options);
     integrator->init(0.0, smooth_solution(0.0).data());
     const auto found = events_of(*integrator, 9.0, [](double, const double* y) { return y[0]; });

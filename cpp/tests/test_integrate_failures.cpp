@@ -130,7 +130,7 @@ TEST_CASE("an exception of the system reaches the caller, also through C, and th
 }
 
 TEST_CASE("an exception of the projection reaches the caller and leaves the step undone") {
-  class Breaking final : public System {
+  class Breaking final : public SplitSystem {
    public:
     std::size_t size() const override { return 1; }
     void derivative(double, const double* y, double* ydot) override { ydot[0] = -y[0]; }
@@ -143,8 +143,8 @@ TEST_CASE("an exception of the projection reaches the caller and leaves the step
       return false;
     }
   } system;
-  for (const std::string name : {"rk4", "rk-low-storage", "bs32", "dopri5", "dop853", "rosenbrock", "ark-erk",
-                                 "ark-dirk", "ark-imex", "cvode-bdf"}) {
+  for (const std::string name : {"rk4", "rk4-exact-memory", "rk-low-storage", "bs32", "dopri5", "dop853",
+                                 "rosenbrock", "ark-erk", "ark-dirk", "ark-imex", "ark-mri", "cvode-bdf"}) {
     CAPTURE(name);
     const auto integrator = make_integrator(system, nullptr, with_tolerance(name, 1e-8));
     const double y0 = 1.0;
@@ -250,6 +250,27 @@ TEST_CASE("options and calls that make no sense are refused with a reason") {
     CHECK_THROWS_AS(integrator->interpolate(integrator->time() + 0.1, y), std::invalid_argument);
     CHECK_THROWS_AS(integrator->interpolate(-0.1, y), std::invalid_argument);
   }
+}
+
+TEST_CASE("a method that needs what the system has not says so") {
+  class Plain final : public System {
+   public:
+    std::size_t size() const override { return 1; }
+    void derivative(double, const double*, double* ydot) override { ydot[0] = 0.0; }
+  } system;
+  for (const std::string name : {"ark-mri", "rk4-exact-memory"}) {
+    CAPTURE(name);
+    try {
+      make_integrator(system, nullptr, with_tolerance(name, 1e-6));
+      FAIL("not refused");
+    } catch (const std::invalid_argument& error) {
+      CHECK(std::string(error.what()).find(name) != std::string::npos);
+    }
+  }
+  IntegratorOptions options = with_tolerance("dopri5", 1e-6);
+  options.spectral_radius = 0.5;
+  CHECK_THROWS_WITH_AS(make_integrator(system, nullptr, options), doctest::Contains("\"dopri5\""),
+                       std::invalid_argument);
 }
 
 }  // namespace seacrane::test

@@ -69,7 +69,9 @@ TEST_CASE("projection keeps the order of every one-step method") {
                                           {"heun21", 2, 0.005},
                                           {"bs32", 3, 0.01},
                                           {"rosenbrock", 3, 0.005},
+                                          {"ark-mri", 3, 0.02},
                                           {"rk4", 4, 0.01},
+                                          {"rk4-exact-memory", 4, 0.01},
                                           {"rk-low-storage", 4, 0.01},
                                           {"rk43", 4, 0.01},
                                           {"tsit5", 5, 0.02},
@@ -142,7 +144,7 @@ TEST_CASE("an algebraic component leaves the error norm of IDA whatever its size
 
 TEST_CASE("dense output starts at the projected state of the step before") {
   for (const std::string name :
-       {"rk4", "rk-low-storage", "bs32", "rk43", "dopri5", "tsit5", "verner65",
+       {"rk4", "rk4-exact-memory", "ark-mri", "rk-low-storage", "bs32", "rk43", "dopri5", "tsit5", "verner65",
         "verner76", "dop853", "rosenbrock", "ark-erk", "ark-dirk", "ark-imex"}) {
     CAPTURE(name);
     Pendulum system(true);

@@ -28,6 +28,12 @@ class MergedSystem final : public Formulation {
   double condition() const override { return stepped().condition(); }
   std::size_t position_size() const override { return stepped().position_size(); }
   void move(double h, double* y) override { stepped().move(h, y); }
+  std::string missing_fast_part() const override { return stepped().missing_fast_part(); }
+  void split(double t, const double* y) override { stepped().split(t, y); }
+  void fast_derivative(double t, const double* y, double* ydot) override {
+    stepped().fast_derivative(t, y, ydot);
+  }
+  std::vector<LinearBlock> linear_blocks() const override { return stepped().linear_blocks(); }
   const char* name() const override { return stepped().name(); }
   std::vector<double> scale() const override { return stepped().scale(); }
   void read_bodies(double t, const double* bodies, double* y) override;

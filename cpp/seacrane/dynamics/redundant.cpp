@@ -273,7 +273,7 @@ void RedundantSystem::solve_dense() {
   if (m.paper_kinematics && !regular_) factor_dense();  // project() corrects in the symmetric metric
 }
 
-void RedundantSystem::write_rates(const double* y, double* ydot) {
+void RedundantSystem::write_pose_rates(const double* y, double* ydot) const {
   const Model& m = *model_;
   for (int b = 0; b < m.body_count(); ++b) {
     const BodyKinematics<double>& k = bodies_[idx(b)];
@@ -285,8 +285,13 @@ void RedundantSystem::write_rates(const double* y, double* ydot) {
     } else {
       view<3>(pose + 3) = euler_xyz_rate<double>(view<3>(angles), k.angular_velocity);
     }
-    view<6>(ydot + m.layout.twist(b)) = acceleration_[idx(b)];
   }
+}
+
+void RedundantSystem::write_rates(const double* y, double* ydot) {
+  const Model& m = *model_;
+  write_pose_rates(y, ydot);
+  for (int b = 0; b < m.body_count(); ++b) view<6>(ydot + m.layout.twist(b)) = acceleration_[idx(b)];
   // Drivers do work lambda nu on the system.
   for (std::size_t e = m.elements.size() - m.drivers.size(); e < m.elements.size(); ++e) {
     add_driver_power(lambda_[idx(m.elements[e].row)] * blocks_[e].nu[0]);

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "seacrane/dynamics/actuator_split.hpp"
 #include "seacrane/dynamics/dense_kkt.hpp"
 #include "seacrane/dynamics/formulation.hpp"
 #include "seacrane/dynamics/inertia.hpp"
@@ -49,6 +50,11 @@ class RedundantSystem final : public Formulation {
   std::size_t position_size() const override { return static_cast<std::size_t>(model_->layout.velocity); }
   void move(double h, double* y) override;
   bool jacobian(double t, const double* y, double* out) override;
+  /// Those of the fluid memory.
+  std::vector<LinearBlock> linear_blocks() const override;
+  std::string missing_fast_part() const override;
+  void split(double t, const double* y) override;
+  void fast_derivative(double t, const double* y, double* ydot) override;
   /// Why jacobian() returned false or would; empty when it is there.
   std::string missing_jacobian() const;
 
@@ -135,6 +141,7 @@ class RedundantSystem final : public Formulation {
   Mat6d symmetric_mass(int body) const;
   void correct();
   void solve_acceleration();
+  void write_pose_rates(const double* y, double* ydot) const;
   void write_rates(const double* y, double* ydot);
   double position_residual() const;
   void move_poses(double* y);
@@ -158,8 +165,11 @@ class RedundantSystem final : public Formulation {
   std::vector<Mat6d> over_shape_, dense_mass_;
   std::vector<double> shape_values_;
   double condition_ = 1.0;
-  bool regular_ = true;     // the Schur complement is accurate enough here
-  bool dependent_ = false;  // not regular, and rows depend on each other
+  bool regular_ = true;                                   // the Schur complement is accurate enough here
+  bool dependent_ = false;                                // not regular, and rows depend on each other
+  std::vector<SplitActuator<std::vector<Vec6d>>> split_;  // response: accelerations of the bodies
+  std::vector<Vec6d> split_load_;
+  std::vector<double> split_right_, split_multipliers_;
   std::optional<RedundantJacobian> jacobian_;
   std::vector<double> jacobian_rate_;
   double power_ = 0.0, absolute_power_ = 0.0;

@@ -17,6 +17,8 @@ struct Counters {
   long steps = 0;
   long rejected_steps = 0;
   long evaluations = 0;
+  /// Of the fast part, by multirate methods.
+  long fast_evaluations = 0;
   long jacobians = 0;
   long newton_iterations = 0;
   long projections = 0;

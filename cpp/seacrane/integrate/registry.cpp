@@ -8,6 +8,7 @@
 #define SEACRANE_INTEGRATORS(entry)                                \
   entry("semi-implicit-euler", make_semi_implicit_euler)           \
   entry("rk4", make_rk4)                                           \
+  entry("rk4-exact-memory", make_rk4_exact_memory)                 \
   entry("rk-low-storage", make_rk_low_storage)                     \
   entry("heun21", make_heun21)                                     \
   entry("bs32", make_bs32)                                         \
@@ -23,6 +24,7 @@
   entry("ark-erk", make_ark_erk)                                   \
   entry("ark-dirk", make_ark_dirk)                                 \
   entry("ark-imex", make_ark_imex)                                 \
+  entry("ark-mri", make_ark_mri)                                   \
   entry("cvode-adams", make_cvode_adams)                           \
   entry("cvode-bdf", make_cvode_bdf)                               \
   entry("ida", make_ida)

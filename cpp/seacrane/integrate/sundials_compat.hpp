@@ -5,6 +5,7 @@
 
 #include <arkode/arkode_arkstep.h>
 #include <arkode/arkode_erkstep.h>
+#include <arkode/arkode_mristep.h>
 #include <cvode/cvode.h>
 #include <cvode/cvode_ls.h>
 #include <cvode/cvode_proj.h>
@@ -103,10 +104,12 @@ struct ArkodeFunctions {
 
 #if SUNDIALS_VERSION_MAJOR > 7 || (SUNDIALS_VERSION_MAJOR == 7 && SUNDIALS_VERSION_MINOR >= 1)
 #define SEACRANE_ARK(function) ARKode##function
+#define SEACRANE_MRI(function) ARKode##function
 inline ArkodeFunctions explicit_stepper() { return SEACRANE_ARKODE_FUNCTIONS(ARKode); }
 inline ArkodeFunctions general_stepper() { return SEACRANE_ARKODE_FUNCTIONS(ARKode); }
 #else
 #define SEACRANE_ARK(function) ARKStep##function
+#define SEACRANE_MRI(function) MRIStep##function
 inline ArkodeFunctions explicit_stepper() { return SEACRANE_ARKODE_FUNCTIONS(ERKStep); }
 inline ArkodeFunctions general_stepper() { return SEACRANE_ARKODE_FUNCTIONS(ARKStep); }
 #endif
@@ -115,12 +118,16 @@ inline ArkodeFunctions general_stepper() { return SEACRANE_ARKODE_FUNCTIONS(ARKS
 #if SUNDIALS_VERSION_MAJOR >= 7
 inline void record_erk_messages(void* /*memory*/, MessageLog& /*log*/) {}
 inline void record_ark_messages(void* /*memory*/, MessageLog& /*log*/) {}
+inline void record_mri_messages(void* /*memory*/, MessageLog& /*log*/) {}
 #else
 inline void record_erk_messages(void* memory, MessageLog& log) {
   ERKStepSetErrHandlerFn(memory, record_message, &log);
 }
 inline void record_ark_messages(void* memory, MessageLog& log) {
   ARKStepSetErrHandlerFn(memory, record_message, &log);
+}
+inline void record_mri_messages(void* memory, MessageLog& log) {
+  MRIStepSetErrHandlerFn(memory, record_message, &log);
 }
 #endif
 

@@ -17,6 +17,12 @@ struct FreeVector {
 struct FreeMatrix {
   void operator()(SUNMatrix matrix) const { SUNMatDestroy(matrix); }
 };
+struct FreeCoupling {
+  void operator()(MRIStepCoupling coupling) const { MRIStepCoupling_Free(coupling); }
+};
+struct FreeInnerStepper {
+  void operator()(MRIStepInnerStepper stepper) const { MRIStepInnerStepper_Free(&stepper); }
+};
 struct FreeLinearSolver {
   void operator()(SUNLinearSolver solver) const { SUNLinSolFree(solver); }
 };
@@ -27,6 +33,8 @@ struct FreeNonlinearSolver {
 using Context = std::unique_ptr<std::remove_pointer_t<SUNContext>, FreeContext>;
 using Vector = std::unique_ptr<std::remove_pointer_t<N_Vector>, FreeVector>;
 using Matrix = std::unique_ptr<std::remove_pointer_t<SUNMatrix>, FreeMatrix>;
+using Coupling = std::unique_ptr<std::remove_pointer_t<MRIStepCoupling>, FreeCoupling>;
+using InnerStepper = std::unique_ptr<std::remove_pointer_t<MRIStepInnerStepper>, FreeInnerStepper>;
 using LinearSolver = std::unique_ptr<std::remove_pointer_t<SUNLinearSolver>, FreeLinearSolver>;
 using NonlinearSolver = std::unique_ptr<std::remove_pointer_t<SUNNonlinearSolver>, FreeNonlinearSolver>;
 

@@ -27,7 +27,7 @@ class SundialsIntegrator : public Integrator {
   void interpolate(double t, double* y) const final;
   void reset(double t, const double* y) final;
   Counters counters() const final;
-  bool is_adaptive() const final { return true; }
+  bool is_adaptive() const override { return true; }
   std::vector<double> save() const final;
   void load(std::span<const double> saved) final;
 

@@ -2,8 +2,16 @@
 
 #include <cstddef>
 #include <span>
+#include <string>
+#include <vector>
 
 namespace seacrane {
+
+/// Consecutive components x of a state, x' = a x + b(t, y) where b does not depend on x.
+struct LinearBlock {
+  std::size_t first = 0, size = 0;
+  std::vector<double> a;  // by rows
+};
 
 /// An explicit first-order system y' = f(t, y), possibly living on a manifold.
 ///
@@ -36,6 +44,16 @@ class System {
   /// Writes df/dy, exact to rounding, by columns, for less than differences cost; may throw as derivative()
   /// does. Returns false, and leaves nothing of use, where there is none: differences then stand in.
   virtual bool jacobian(double /*t*/, const double* /*y*/, double* /*out*/) { return false; }
+
+  /// Why there is no fast part, for multirate methods; empty where there is one.
+  virtual std::string missing_fast_part() const { return "it tells no fast part"; }
+  /// Chooses the fast part of f anew, right after derivative(t, y, ...); it holds until the next call.
+  virtual void split(double /*t*/, const double* /*y*/) {}
+  /// Writes the fast part of f(t, y), for much less than f costs.
+  virtual void fast_derivative(double /*t*/, const double* /*y*/, double* /*ydot*/) {}
+
+  /// The components whose rate is linear in themselves, with constant coefficients.
+  virtual std::vector<LinearBlock> linear_blocks() const { return {}; }
 };
 
 /// A fully implicit system F(t, y, y') = 0 (Gear-Gupta-Leimkuhler stabilised index 2). The unknowns are the

@@ -50,7 +50,8 @@ RecursiveSystem::RecursiveSystem(RedundantSystem& terms)
       tree_(build_tree(model_)),
       articulated_(tree_, model_.body_count()),
       loops_(model_, tree_),
-      residual_(VecXd::Zero(loops_.rows())) {
+      residual_(VecXd::Zero(loops_.rows())),
+      loop_bias_(VecXd::Zero(loops_.rows())) {
   if (model_.paper_kinematics) {
     throw std::invalid_argument(
         "formulation 'recursive' needs a symmetric mass matrix, which kinematics 'paper' has not; choose "
@@ -78,6 +79,12 @@ RecursiveSystem::RecursiveSystem(RedundantSystem& terms)
 std::vector<double> RecursiveSystem::scale() const {
   std::vector<double> out = tree_.scales(model_.translation_scale, model_.rotation_scale);
   out.insert(out.end(), model_.scale.begin() + model_.layout.memory, model_.scale.end());
+  return out;
+}
+
+std::vector<LinearBlock> RecursiveSystem::linear_blocks() const {
+  std::vector<LinearBlock> out = terms_.linear_blocks();
+  for (LinearBlock& block : out) block.first += idx(layout_.memory) - idx(model_.layout.memory);
   return out;
 }
 

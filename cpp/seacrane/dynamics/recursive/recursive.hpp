@@ -24,6 +24,10 @@ class RecursiveSystem final : public Formulation {
 
   std::size_t position_size() const override { return idx(tree_.positions); }
   void move(double h, double* y) override;
+  std::vector<LinearBlock> linear_blocks() const override;
+  std::string missing_fast_part() const override;
+  void split(double t, const double* y) override;
+  void fast_derivative(double t, const double* y, double* ydot) override;
   const char* name() const override { return "recursive"; }
   std::vector<double> scale() const override;
   void read_bodies(double t, const double* bodies, double* y) override;
@@ -64,7 +68,8 @@ class RecursiveSystem final : public Formulation {
   std::vector<BodyKinematics<double>> scratch_;
   std::vector<RowBlock<double>> blocks_;
   std::vector<double> speed_rate_, position_rate_;
-  VecXd residual_;
+  VecXd residual_, loop_bias_;
+  std::vector<SplitActuator<std::vector<double>>> split_;  // response: rates of the speeds
   double before_projection_ = 0.0;
 };
 
