@@ -183,6 +183,34 @@ inline void make_vessel(SceneDescription& scene, const std::string& body) {
       {"waves", body, exact, std::make_shared<const WaveTable>(exact), nullptr, nullptr, nullptr});
 }
 
+/// A slider-crank on a vessel in wind, and slow drift from its table or, with the first-order loads, at the
+/// actual position.
+inline SceneDescription at_sea(bool actual) {
+  SceneDescription scene = slider_crank("hull");
+  make_vessel(scene, "hull");
+  WaveLoadDescription& waves = scene.wave_loads.front();
+  const std::vector<double> headings = {0.0, 0.7, 1.4, 2.1, 2.8, 3.5, 4.2, 4.9, 5.6};
+  const std::vector<double> values(headings.size() * 3 * 12, 2.0);
+  if (actual) {
+    waves.positioned = std::make_shared<const PositionedWaveLoad>(
+        waves.exact->waves(), ForceByHeading("force", headings, 3, values.data()),
+        DriftByHeading("drift", headings, 3, values.data()));
+  } else {
+    waves.drift = std::make_shared<const DriftLoad>(waves.exact->waves(), MatXd::Constant(3, 6, 2.0));
+    waves.drift_table = std::make_shared<const DriftTable>(waves.drift);
+  }
+  FlowForceDescription wind;
+  wind.name = "wind";
+  wind.body = "hull";
+  wind.density = 1.2;
+  wind.speed = Curve::harmonic(0.0, 8.0, 2.0, 0.5, 0.0);
+  wind.frontal_area = wind.lateral_area = wind.length = 1.0;
+  wind.angles = {0.0, 1.5, 3.0, 4.5, 5.5};
+  wind.coefficients.assign(5, Vec3d(0.2, 0.3, 0.1));
+  scene.loads_of<FlowForce>().push_back(wind);
+  return scene;
+}
+
 /// Dense D, gamma, mass and load of the last evaluation of a system: eq (9).
 struct DenseTerms {
   MatXd mass, d;
