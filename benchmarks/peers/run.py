@@ -53,8 +53,8 @@ moments A44, A55, A55 about it.
   runs in the loop, and they take roughly a fifth of its time (sampled). Its explicit methods refuse
   algebraic equations, so what is left are methods of order 2: the trapezoidal rule on index 2, generalised
   alpha. Its evaluations are Newton iterations. Other linear solvers, full Newton iterations, a Jacobian every
-  step and rotation vectors were slower or equal here. In the last 20 s errors grow some 300-fold, in Pinocchio
-  alike.
+  step and rotation vectors were slower or equal here. In the last 20 s errors grow some 300-fold, in
+  Pinocchio alike.
 
 Times are CPU times of one thread, best of several runs, outputs included (NumPy and Exudyn: one run). The
 C++ drivers are compiled with seacrane's flags (-O3 -fno-math-errno), Pinocchio from its headers; MuJoCo's and
