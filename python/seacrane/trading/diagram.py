@@ -80,7 +80,7 @@ def _draw(axes: Axes, trade: Trade, quantity: str) -> None:
     )  # fmt: skip
     _mark(axes, fewer, quantity, full)
     axes.axhspan(0.0, trade.reference.uncertainty[quantity], color="0.85")
-    axes.xaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
+    axes.xaxis.set_major_locator(LogLocator(subs=(1.0, 3.0)))
     axes.xaxis.set_major_formatter("{x:g}")
     axes.xaxis.set_minor_formatter(NullFormatter())
     axes.set_xlabel("wall time per simulated second [s]")
