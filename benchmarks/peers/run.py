@@ -153,12 +153,18 @@ def measure(drivers: Path, python: str, repeats: int) -> tuple[list[Point], floa
     return points, float(np.max(np.abs(other - payload)))
 
 
+def absolute(path: str) -> str:
+    """The same path from any working folder."""
+    return str(Path(path).absolute())
+
+
 def main() -> int:
     """Build, measure, write; returns the exit status."""
     parser = argparse.ArgumentParser(
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )
-    parser.add_argument("--peers", required=True, help="Python that has the peers installed")
+    # Not resolved: an environment's Python is a link, and another program where it points to.
+    parser.add_argument("--peers", required=True, type=absolute, help="Python that has the peers installed")
     parser.add_argument("--publish", action="store_true", help="write into benchmarks/peers")
     parser.add_argument("--repeats", type=int, default=5, help="equal runs per setting, default 5")
     parser.add_argument("--drivers", type=Path, help="folder of drivers that are compiled already")
