@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from trade_scenes import pendulum
 
 from seacrane import Scene, SceneError, Trade, cases, integrator_names, simulate, trade
 from seacrane.hydro import shipped_database
@@ -18,15 +19,6 @@ from seacrane.trading.settings_grid import Setting
 
 T_END = 6.0
 TIGHT = {"integrator": "dop853", "rtol": 1e-11}
-
-
-def pendulum() -> Scene:
-    scene = Scene(name="pendulum")
-    scene.add_body(name="bob", mass=2.0, inertia=(0.1, 0.1, 0.1), position=(1.0, 0.0, 0.0))
-    scene.add_joint(
-        kind="revolute", name="pin", first="ground", second="bob", point=(0, 0, 0), axis=(0, 1, 0)
-    )
-    return scene
 
 
 @pytest.fixture(scope="module")

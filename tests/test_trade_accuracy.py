@@ -7,9 +7,9 @@ from typing import Any
 
 import numpy as np
 import pytest
-from trade_scenes import promise, shares, summary
+from trade_scenes import pendulum, promise, shares, summary
 
-from seacrane import SampledController, Scene, SceneError, cases, simulate
+from seacrane import SampledController, SceneError, cases, simulate
 from seacrane.trading.quantities import quantities_of
 
 
@@ -29,15 +29,6 @@ def test_promises_hold_on_200_random_scenes(capsys: pytest.CaptureFixture[str]) 
     of_all = held.pop("all runs within twice the cheapest")
     assert min(held.values()) >= 0.95, held
     assert of_all >= 0.4, of_all  # the second run has its price
-
-
-def pendulum() -> Scene:
-    scene = Scene(name="pendulum")
-    scene.add_body(name="bob", mass=2.0, inertia=(0.1, 0.1, 0.1), position=(1.0, 0.0, 0.0))
-    scene.add_joint(
-        kind="revolute", name="pin", first="ground", second="bob", point=(0, 0, 0), axis=(0, 1, 0)
-    )
-    return scene
 
 
 def test_a_tighter_limit_gives_a_smaller_error_and_states_its_estimate() -> None:

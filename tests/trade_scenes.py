@@ -72,6 +72,16 @@ def summary(found: list[Promise]) -> str:
     return "\n".join(lines)
 
 
+def pendulum() -> Scene:
+    """A bob on a pin, released from the horizontal."""
+    scene = Scene(name="pendulum")
+    scene.add_body(name="bob", mass=2.0, inertia=(0.1, 0.1, 0.1), position=(1.0, 0.0, 0.0))
+    scene.add_joint(
+        kind="revolute", name="pin", first="ground", second="bob", point=(0, 0, 0), axis=(0, 1, 0)
+    )
+    return scene
+
+
 def random_scene(rng: np.random.Generator) -> Scene:
     """A lift case or the vessel alone in a random sea, with a random payload; or a chain of pendulums."""
     kind = rng.choice(["case1", "case2", "case2", "case3", "vessel", "chain"])
