@@ -1,4 +1,4 @@
-"""Exact Jacobians of the redundant formulation against differences, over all kinds of elements."""
+"""Exact Jacobians against differences, over all kinds of elements, and their use."""
 
 from __future__ import annotations
 
@@ -142,6 +142,7 @@ SEAS: list[dict[str, Any]] = [
     {"memory": "per-pair"},
     {"memory": "passive"},
     {"memory": "none"},
+    {"memory": "convolution"},
     {"phase": "actual", "count": 20},
 ]
 
@@ -200,11 +201,19 @@ def test_linear_model_agrees_with_differences(monkeypatch: pytest.MonkeyPatch) -
     np.testing.assert_allclose(exact, other, rtol=1e-6, atol=1e-6)
 
 
-@pytest.mark.parametrize("integrator", ["rosenbrock", "cvode-bdf", "ark-dirk", "ark-imex"])
-def test_implicit_methods_use_it(integrator: str) -> None:
+@pytest.mark.parametrize(
+    ("integrator", "formulation"),
+    [
+        (integrator, formulation)
+        for integrator in ("rosenbrock", "cvode-bdf", "ark-dirk", "ark-imex")
+        for formulation in ("redundant", "recursive")
+    ]
+    + [("ida", "redundant")],
+)
+def test_implicit_methods_use_it(integrator: str, formulation: str) -> None:
     """No evaluations are spent on differences, and the motion is that of an explicit method."""
     scene = cases.case2(count=20)
-    settings: dict[str, Any] = {"t_end": 2.0, "dt_out": 1.0, "formulation": "redundant"}
+    settings: dict[str, Any] = {"t_end": 2.0, "dt_out": 1.0, "formulation": formulation}
     run = simulate(scene, integrator=integrator, rtol=1e-5, **settings)
     reference = simulate(scene, integrator="dop853", rtol=1e-9, **settings)
     stats: dict[str, Any] = dict(run.stats)
@@ -214,15 +223,9 @@ def test_implicit_methods_use_it(integrator: str) -> None:
     assert np.max(error) < 2e-3
 
 
-@pytest.mark.parametrize(
-    ("options", "message"),
-    [({"kinematics": "paper"}, "kinematics .paper."), ({"memory": "convolution"}, "memory by convolution")],
-)
-def test_what_has_none_says_so_and_is_linearised_by_differences(
-    options: dict[str, Any], message: str
-) -> None:
-    model = cases.vessel(hs=0.0, **options).compile()
-    with pytest.raises(ValueError, match=f"model 'vessel' has no exact Jacobian.*{message}"):
+def test_what_has_none_says_so_and_is_linearised_by_differences() -> None:
+    model = cases.vessel(hs=0.0, kinematics="paper").compile()
+    with pytest.raises(ValueError, match=r"model 'vessel' has no exact Jacobian.*kinematics .paper."):
         _core.Evaluator(model).jacobian(0.0, model.initial_state)
     assert np.all(np.isfinite(jacobian(model)))
 
@@ -244,7 +247,7 @@ def test_dependent_rows_and_other_formulations_have_none() -> None:
     with pytest.raises(ValueError, match="constraint rows depend on each other"):
         _core.Evaluator(model).jacobian(0.0, model.initial_state)
     chain = mixture(1).compile()
-    with pytest.raises(ValueError, match=r"formulation .recursive. has no exact Jacobian"):
+    with pytest.raises(ValueError, match=r"formulation .recursive. steps coordinates of its own"):
         _core.Evaluator(chain, "recursive").jacobian(0.0, chain.initial_state)
     with pytest.raises(ValueError, match="values"):
         _core.Evaluator(chain).jacobian(0.0, np.zeros(3))

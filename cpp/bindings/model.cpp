@@ -119,7 +119,8 @@ class Evaluator {
     const auto n = static_cast<Eigen::Index>(check(y));
     if (steps_recursive()) {
       throw std::invalid_argument(
-          "formulation \"recursive\" has no exact Jacobian; use formulation \"redundant\"");
+          "jacobian: is told in the variables of the state, and formulation \"recursive\" steps coordinates "
+          "of its own; use formulation \"redundant\"");
     }
     Eigen::MatrixXd out(n, n);
     if (!system_.jacobian(t, y.data(), out.data())) {
@@ -253,7 +254,7 @@ void bind_evaluator(py::module_& m) {
       .def("derivative", &Evaluator::derivative, py::arg("t"), py::arg("y"), "dy/dt, a new array.")
       .def("jacobian", &Evaluator::jacobian, py::arg("t"), py::arg("y"),
            "Exact d(dy/dt)/dy (n, n), a new array: automatic differentiation, differences only for function "
-           "forces. ValueError where there is none.")
+           "forces; the history of a convolution is held. ValueError where there is none.")
       .def("project", &Evaluator::project, py::arg("t"), py::arg("y"), "y on the constraints, a new array.")
       .def("residual", &Evaluator::residual, py::arg("t"), py::arg("y"),
            "Largest constraint residuals (position in m or rad, rate per s).")

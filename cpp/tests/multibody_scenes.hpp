@@ -134,6 +134,34 @@ inline SceneDescription slider_crank(const std::string& base = kGround) {
   return scene;
 }
 
+/// A body, an arm hinged to it and a strut between them, all axes and points askew; a load on the arm.
+inline SceneDescription strut_scene(Random& random, bool universal_at_base, bool swapped) {
+  SceneDescription scene;
+  for (const char* name : {"base", "arm", "barrel", "rod", "load"}) {
+    scene.bodies.push_back(body_at(name, random.positive(), random.vector()));
+    scene.bodies.back().inertia = scene.bodies.back().mass * random.inertia();
+  }
+  const auto add = [&](const std::string& kind, const std::string& a, const std::string& b, const Vec3d& at,
+                       const Mat3d& axes) -> JointDescription& {
+    return swapped ? join(scene, kind, a + "-" + b, b, a, at, axes)
+                   : join(scene, kind, a + "-" + b, a, b, at, axes);
+  };
+  const Vec3d lower(1.0, 0.2, -1.0), upper = Vec3d(1.2, -0.1, 0.9) + 0.2 * random.vector();
+  add("revolute", "base", "arm", 0.3 * random.vector(), random.rotation());
+  const Mat3d along = axes_along(upper - lower + 0.3 * random.vector(), random.vector());
+  add("prismatic", "barrel", "rod", 0.5 * (lower + upper) + 0.2 * random.vector(), along);
+  JointDescription& cross =
+      add("universal", universal_at_base ? "base" : "arm", universal_at_base ? "barrel" : "rod",
+          universal_at_base ? lower : upper, random.rotation());
+  cross.second_frame.axes = cross.second_frame.axes * rotation_by(Vec3d(0.5 * M_PI, 0.0, 0.0));
+  add("spherical", universal_at_base ? "arm" : "base", universal_at_base ? "rod" : "barrel",
+      universal_at_base ? upper : lower, Mat3d::Identity());
+  JointDescription& link = add("distance", "arm", "load", upper, Mat3d::Identity());
+  link.second_frame.point += Vec3d(0.0, 0.48, 0.64);
+  link.length = 0.8;
+  return scene;
+}
+
 /// Planar four-bar of two equal cranks and a coupler as long as the ground, in the x-z plane; with
 /// `count` cranks. Its out-of-plane constraints are redundant, and so is each crank after the second.
 inline SceneDescription parallelogram(int count) {

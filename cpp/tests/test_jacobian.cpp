@@ -2,7 +2,8 @@
 
 #include "count_allocations.hpp"
 #include "multibody_scenes.hpp"
-#include "seacrane/dynamics/redundant.hpp"
+#include "seacrane/dynamics/gear_gupta_leimkuhler.hpp"
+#include "seacrane/dynamics/recursive/recursive.hpp"
 
 namespace seacrane::test {
 namespace {
@@ -55,9 +56,83 @@ void check_redundant(const SceneDescription& scene, std::uint64_t seed) {
     CAPTURE(on_constraints);
     RedundantSystem system(compile(scene, false));
     const std::vector<double> y = state_of(system, on_constraints, seed);
+    system.start_histories(0.65, y.data(), {});
     const MatXd found = exact(system, 0.7, y), expected = by_differences(system, 0.7, y);
     CHECK(difference(found, expected) < kTolerance);
   }
+}
+
+/// In tree coordinates: positions and speeds changed at random, so that loops and quaternions are off too.
+void check_recursive(const SceneDescription& scene, std::uint64_t seed) {
+  RedundantSystem terms(compile(scene, false));
+  const std::vector<double> bodies = state_of(terms, true, seed);
+  terms.start_histories(0.65, bodies.data(), {});
+  RecursiveSystem system(terms);
+  std::vector<double> y(system.size());
+  system.read_bodies(0.7, bodies.data(), y.data());
+  Random random(seed + 2);
+  for (double& value : y) value += 0.05 * random.number();
+  const MatXd found = exact(system, 0.7, y), expected = by_differences(system, 0.7, y);
+  CHECK(difference(found, expected) < kTolerance);
+}
+
+/// F_y + c F_y' of the residual form, at a state, multipliers and rates that solve nothing.
+void check_residual(const SceneDescription& scene, std::uint64_t seed) {
+  RedundantSystem bodies(compile(scene, false));
+  GearGuptaLeimkuhler system(bodies);
+  const std::vector<double> start = state_of(bodies, false, seed);
+  bodies.start_histories(0.65, start.data(), {});
+  const auto n = static_cast<Eigen::Index>(system.size());
+  std::vector<double> y(system.size()), ydot(system.size());
+  system.expand(0.7, start.data(), y.data(), ydot.data());
+  Random random(seed + 3);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    ydot[static_cast<std::size_t>(i)] += 0.1 * random.number();
+    if (i >= bodies.model().layout.size) y[static_cast<std::size_t>(i)] += 0.1 * random.number();
+  }
+  const double c = 3.0;
+  MatXd found(n, n), expected(n, n);
+  REQUIRE(system.jacobian(0.7, c, y.data(), ydot.data(), found.data()));
+  for (Eigen::Index j = 0; j < n; ++j) {
+    expected.col(j) = slope(
+        [&](double step) {
+          std::vector<double> there = y, rate = ydot;
+          there[static_cast<std::size_t>(j)] += step;
+          rate[static_cast<std::size_t>(j)] += c * step;
+          VecXd r(n);
+          system.residual(0.7, there.data(), rate.data(), r.data());
+          return r;
+        },
+        kStep);
+  }
+  CHECK(difference(found, expected) < kTolerance);
+}
+
+/// What a move along the velocities does to the positions.
+void check_move(RedundantSystem& system, std::vector<double> y, double h) {
+  const StateLayout& s = system.model().layout;
+  MatXd found(s.velocity, s.size - s.velocity), expected = found;
+  REQUIRE(system.move_jacobian(h, y.data(), found.data()));
+  for (int j = 0; j < found.cols(); ++j) {
+    expected.col(j) = slope([&](double step) {
+      std::vector<double> there = y;
+      there[idx(s.velocity + j)] += step;
+      system.move(h, there.data());
+      return VecXd(Eigen::Map<const VecXd>(there.data(), s.velocity));
+    });
+  }
+  CHECK((found - expected).cwiseAbs().maxCoeff() < 1e-10);
+}
+
+SceneDescription with_convolution() {
+  SceneDescription scene = slider_crank("hull");
+  make_vessel(scene, "hull");
+  RetardationFunctions functions{0.1, {}};
+  for (int i = 0; i <= 20; ++i) {
+    functions.kernel.emplace_back((Mat6d::Identity() + Mat6d::Constant(0.2)) * 40.0 * std::exp(-0.2 * i));
+  }
+  scene.vessels.front().memory = functions;
+  return scene;
 }
 
 BodyDescription random_body(const std::string& name, Random& random) {
@@ -157,6 +232,8 @@ TEST_CASE("exact Jacobian: every kind of joint") {
     CAPTURE(std::string(Type::kind));
     const SceneDescription scene = pair(Type::kind, random);
     check_redundant(scene, 5);
+    check_recursive(scene, 5);
+    check_residual(scene, 5);
   });
 }
 
@@ -167,6 +244,8 @@ TEST_CASE("exact Jacobian: every kind of load") {
     SceneDescription scene = pair("revolute", random);
     scene.loads_of<Load>().push_back(example<Load>());
     check_redundant(scene, 6);
+    check_recursive(scene, 6);
+    check_residual(scene, 6);
   });
 }
 
@@ -180,8 +259,12 @@ TEST_CASE("exact Jacobian: drivers on angles and displacements, Baumgarte, Euler
       scene.joints.clear();
       join(scene, "cylindrical", "joint", "first", "second", random.vector(), random.rotation());
       scene.drivers.push_back({"driver", {"joint", coordinate}, Curve::harmonic(0.0, 0.0, 0.2, 3.0, 0.0)});
+      check_recursive(scene, 7);
       scene.baumgarte = 2.0;
       check_redundant(scene, 7);
+      check_residual(scene, 7);
+      RedundantSystem system(compile(scene, false));
+      check_move(system, state_of(system, false, 7), 0.4);
     }
   }
 }
@@ -189,19 +272,65 @@ TEST_CASE("exact Jacobian: drivers on angles and displacements, Baumgarte, Euler
 TEST_CASE("exact Jacobian: a vessel with memory, waves at the mean and at the actual position, drift, wind") {
   SceneDescription calm = slider_crank("hull");
   make_vessel(calm, "hull");
-  for (const SceneDescription& scene : {calm, at_sea(false), at_sea(true)}) {
+  for (const SceneDescription& scene : {calm, at_sea(false), at_sea(true), with_convolution()}) {
     check_redundant(scene, 8);
+    check_recursive(scene, 8);
+    check_residual(scene, 8);
+  }
+}
+
+TEST_CASE("exact Jacobian of the recursive form: struts, and a loop that stays rows") {
+  Random random(9);
+  for (int trial = 0; trial < 4; ++trial) {
+    CAPTURE(trial);
+    check_recursive(strut_scene(random, trial % 2 == 0, trial < 2), 9);
+  }
+  check_recursive(slider_crank(), 9);
+}
+
+TEST_CASE("kinematics of the tree on dual numbers are those of the run") {
+  Random random(10);
+  for (const SceneDescription& scene : {strut_scene(random, true, false), pair("distance", random)}) {
+    RedundantSystem terms(compile(scene, false));
+    const BodyTree tree = build_tree(terms.model());
+    const auto bodies = idx(terms.model().body_count());
+    std::vector<double> q(idx(tree.positions)), u(idx(tree.speeds));
+    ArticulatedTree run(tree, static_cast<int>(bodies));
+    terms.read_kinematics(0.0, moving_state(terms, 10).data());
+    run.read(terms.bodies().data(), q.data(), u.data());
+    std::vector<BodyKinematics<double>> a(bodies + 1, BodyKinematics<double>::ground()), b = a;
+    std::vector<Vec6d> column(idx(tree.columns)), bias(bodies);
+    std::vector<Vec3d> reach(bodies);
+    run.place(q.data(), u.data(), a.data());
+    TreeKinematics<double>{tree, column, reach, bias}.place(q.data(), u.data(), b.data());
+    for (std::size_t i = 0; i < bodies; ++i) {
+      CHECK((a[i].position - b[i].position).norm() < 1e-14);
+      CHECK((a[i].rotation - b[i].rotation).norm() < 1e-14);
+      CHECK((a[i].velocity - b[i].velocity).norm() < 1e-13);
+      CHECK((a[i].angular_velocity - b[i].angular_velocity).norm() < 1e-13);
+    }
   }
 }
 
 TEST_CASE("exact Jacobian: nothing is allocated after the first one") {
-  for (const SceneDescription& scene : {slider_crank(), at_sea(true), at_sea(false)}) {
+  for (const SceneDescription& scene : {slider_crank(), at_sea(true), at_sea(false), with_convolution()}) {
     RedundantSystem system(compile(scene));
+    RecursiveSystem tree(system);
+    GearGuptaLeimkuhler residual(system);
     const std::vector<double> y = moving_state(system, 9);
-    std::vector<double> out(y.size() * y.size());
-    REQUIRE(system.jacobian(0.0, y.data(), out.data()));
+    std::vector<double> q(tree.size()), unknown(residual.size()), rate(residual.size());
+    tree.read_bodies(0.0, y.data(), q.data());
+    residual.expand(0.0, y.data(), unknown.data(), rate.data());
+    std::vector<double> out(residual.size() * residual.size());
+    const auto all = [&](double t) {
+      REQUIRE(system.jacobian(t, y.data(), out.data()));
+      REQUIRE(tree.jacobian(t, q.data(), out.data()));
+      REQUIRE(residual.jacobian(t, 1.0, unknown.data(), rate.data(), out.data()));
+      REQUIRE(system.move_jacobian(0.1, y.data(), out.data()));
+    };
+    all(0.0);
     const long before = allocation_count();
-    for (int i = 0; i < 20; ++i) REQUIRE(system.jacobian(0.001 * i, y.data(), out.data()));
+    for (int i = 0; i < 20; ++i) all(0.001 * i);
     CHECK(allocation_count() == before);
   }
 }

@@ -14,8 +14,8 @@ LARGEST = 1500  # states; beyond, the dense eigenvalue problem takes longer than
 def jacobian(model: _core.Model, *, state: Array | None = None, time: float = 0.0) -> Array:
     """Jacobian of dy/dt, shape (n, n), in the state variables of the model (work left out).
 
-    Exact to rounding; central differences for what has none (paper kinematics, a convolution, constraints
-    that depend on each other).
+    Exact to rounding, the history of a convolution held; central differences for what has none (paper
+    kinematics, constraints that depend on each other).
     """
     y = np.array(model.initial_state if state is None else state, dtype=float)
     scale = np.array(model.scale)

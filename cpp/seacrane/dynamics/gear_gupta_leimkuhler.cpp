@@ -59,6 +59,14 @@ void GearGuptaLeimkuhler::residual(double t, const double* y, const double* ydot
   }
 }
 
+bool GearGuptaLeimkuhler::jacobian(double t, double c, const double* y, const double* ydot, double* out) {
+  if (system_->model().paper_kinematics) return false;
+  if (!jacobian_) jacobian_.emplace(system_->model());
+  system_->evaluate_terms(t, y, rate_.data());
+  jacobian_->evaluate(*system_, t, c, y, ydot, out);
+  return true;
+}
+
 void GearGuptaLeimkuhler::expand(double t, const double* ode_state, double* y, double* ydot) {
   const Model& m = system_->model();
   std::fill_n(y, size(), 0.0);

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "seacrane/dynamics/redundant.hpp"
+#include "seacrane/dynamics/residual_jacobian.hpp"
 #include "seacrane/integrate/system.hpp"
 
 namespace seacrane {
@@ -16,6 +18,7 @@ class GearGuptaLeimkuhler final : public ResidualSystem {
 
   std::size_t size() const override { return differential_.size(); }
   void residual(double t, const double* y, const double* ydot, double* r) override;
+  bool jacobian(double t, double c, const double* y, const double* ydot, double* out) override;
   std::span<const double> differential() const override { return differential_; }
   void expand(double t, const double* ode_state, double* y, double* ydot) override;
   void contract(double t, const double* y, double* ode_state) const override;
@@ -24,6 +27,7 @@ class GearGuptaLeimkuhler final : public ResidualSystem {
   RedundantSystem* system_;
   std::vector<double> differential_, rate_;
   std::vector<Vec6d> load_, correction_;
+  std::optional<ResidualJacobian> jacobian_;
 };
 
 }  // namespace seacrane

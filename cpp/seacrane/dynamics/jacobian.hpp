@@ -2,23 +2,37 @@
 
 #include <vector>
 
-#include "seacrane/dynamics/kinematics.hpp"
-#include "seacrane/math/dual.hpp"
-#include "seacrane/model/model.hpp"
+#include "seacrane/dynamics/body_residual.hpp"
 
 namespace seacrane {
 
 class RedundantSystem;
 
-/// Exact Jacobian of dy/dt of the redundant formulation. The residual of eq (9),
-///
-///   p = load + D^T lambda - M vdot,   s = gamma - D vdot,   vdot and lambda held,
-///
-/// is differentiated element by element in the twelve directions of one body at a time (translation, rotation
-/// vector in inertial axes, velocity, angular velocity); then M dvdot - D^T dlambda = dp, D dvdot = ds is
-/// solved with the factors of the evaluation, which are never differentiated themselves. Load, constraint and
-/// vessel are the code of the run with a Dual for a double. Only a function force, a C function, is
-/// differentiated by central differences.
+inline double sign(double x) { return x < 0.0 ? -1.0 : 1.0; }
+
+/// x' = a x + ..., mu = c x + ... of every vessel's memory.
+struct MemoryMatrices {
+  MatXd a, c;
+};
+std::vector<MemoryMatrices> memory_matrices(const Model& model);
+/// Sign of the memory's power at x; `x_rate` is scratch.
+double memory_power_sign(const Vessel& vessel, const YawFrame<double>& frame, const double* x,
+                         double* x_rate);
+
+/// Rotation vector (inertial axes) per change of the orientation's variables: 3 x 4 or 3 x 3.
+using TurningMatrix = Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, 4>;
+TurningMatrix turning(Orientation orientation, const double* angles);
+
+/// Derivatives of the rate of the orientation's variables in these variables, and in the angular velocity.
+struct TurningRate {
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 4, 4> in_angles;
+  Eigen::Matrix<double, Eigen::Dynamic, 3, 0, 4, 3> in_omega;
+  TurningRate(Orientation orientation, const double* angles, const Vec3d& omega);
+};
+
+/// Exact Jacobian of dy/dt of the redundant formulation: with the slopes of the residual (BodyResidual),
+/// M dvdot - D^T dlambda = dp, D dvdot = ds is solved with the factors of the evaluation, which are never
+/// differentiated themselves.
 class RedundantJacobian {
  public:
   explicit RedundantJacobian(const Model& model);
@@ -27,33 +41,15 @@ class RedundantJacobian {
   void evaluate(RedundantSystem& system, double t, const double* y, double* out);
 
  private:
-  static constexpr int kDirections = 12;
-  using Scalar = Dual<kDirections>;
-  struct MemoryMatrices {
-    MatXd a, c;  // x' = a x + ..., mu = c x + ...
-  };
-
-  void seed(const BodyKinematics<double>& k, BodyKinematics<Scalar>& out) const;
-  void add_inertia(int body);
-  void add_loads(int body, const LoadInput<Scalar>& input, LoadSum<Scalar>& sum);
-  void add_differences(const FunctionForce& load, double t, LoadSum<Scalar>& sum);
-  void add_hydrodynamics(int body, const LoadInput<Scalar>& input, const double* y, LoadSum<Scalar>& sum);
-  void add_waves(int body, double t, LoadSum<Scalar>& sum);
-  void add_rows(int body, double t);
-  void add_rows(const RowBlock<Scalar>& block, const ElementModel& element);
   void solve_column(double* column, double power, double absolute_power);
-  void write_body_columns(int body, const double* y, const LoadSum<Scalar>& sum, double* out);
+  void write_body_columns(int body, const double* y, double* out);
   void write_memory_columns(const double* y, double* out);
   void write_pose_rates(const double* y, double* out) const;
 
   const Model* model_;
-  RedundantSystem* system_ = nullptr;   // during an evaluation
+  RedundantSystem* system_ = nullptr;  // during an evaluation
+  BodyResidual residual_;
   std::vector<MemoryMatrices> memory_;  // by vessel
-  std::vector<BodyKinematics<Scalar>> bodies_;
-  std::vector<BodyKinematics<double>> moved_;
-  std::vector<Wrench<Scalar>> wrench_;
-  std::vector<Wrench<double>> moved_wrench_;
-  std::vector<Scalar> right_, memory_state_, memory_rate_;
   std::vector<Vec6d> load_, acceleration_;
   std::vector<double> given_, lambda_, column_;
   MatXd response_;  // to unit loads of the memory

@@ -97,6 +97,28 @@ void RedundantSystem::move(double h, double* y) {
   }
 }
 
+bool RedundantSystem::move_jacobian(double h, const double* y, double* out) {
+  const StateLayout& s = model_->layout;
+  Eigen::Map<MatXd> slopes(out, s.velocity, s.size - s.velocity);
+  slopes.setZero();
+  std::copy_n(y, s.size, moved_.data());
+  move(h, moved_.data());
+  for (int b = 0; b < s.bodies; ++b) {
+    const int pose = s.pose(b), column = s.twist(b) - s.velocity;
+    slopes.block<3, 3>(pose, column) = h * Mat3d::Identity();
+    const Mat3d turn = h * exponential_slope(h * view<3>(y + s.twist(b) + 3));
+    const double* angles = moved_.data() + pose + 3;
+    for (int i = 0; i < 3; ++i) {
+      if (s.pose_size == 7) {
+        slopes.block<4, 1>(pose + 3, column + 3 + i) = quaternion_rate<double>(view<4>(angles), turn.col(i));
+      } else {
+        slopes.block<3, 1>(pose + 3, column + 3 + i) = euler_xyz_rate<double>(view<3>(angles), turn.col(i));
+      }
+    }
+  }
+  return true;
+}
+
 void RedundantSystem::move_twists(double* y) {
   for (int b = 0; b < model_->body_count(); ++b) {
     view<6>(y + model_->layout.twist(b)) -= impulse_[idx(b)];

@@ -42,6 +42,7 @@ RedundantSystem::RedundantSystem(std::shared_ptr<const Model> model)
   mass_.assign(bodies, Mat6d::Zero());
   values_.assign(m.schur.value_count(), 0.0);
   for (auto* values : {&lambda_, &gamma_, &residual_}) values->assign(rows, 0.0);
+  moved_.assign(idx(m.layout.size), 0.0);
   for (const WaveLoad& wave : m.wave_loads) waves_.emplace_back(wave.sources);
   for (std::size_t v = 0; v < m.vessels.size(); ++v) {
     const auto* tables = std::get_if<Convolution>(&m.vessels[v].memory);
@@ -84,6 +85,13 @@ void RedundantSystem::follow_yaw() {
   for (std::size_t v = 0; v < model_->vessels.size(); ++v) {
     frames_[v] = YawFrame<double>(bodies_[idx(model_->vessels[v].body)]);
   }
+}
+
+const RunningConvolution* RedundantSystem::convolution(int vessel) const {
+  for (const auto& [v, running] : convolutions_) {
+    if (v == idx(vessel)) return &running;
+  }
+  return nullptr;
 }
 
 void RedundantSystem::evaluate_inertia() {
@@ -321,7 +329,7 @@ void RedundantSystem::derivative(double t, const double* y, double* ydot) {
 }
 
 bool RedundantSystem::jacobian(double t, const double* y, double* out) {
-  if (model_->paper_kinematics || !convolutions_.empty()) return false;
+  if (model_->paper_kinematics) return false;
   if (!jacobian_) {
     jacobian_.emplace(*model_);
     jacobian_rate_.resize(size());
@@ -334,7 +342,6 @@ bool RedundantSystem::jacobian(double t, const double* y, double* out) {
 
 std::string RedundantSystem::missing_jacobian() const {
   if (model_->paper_kinematics) return "kinematics \"paper\" is not differentiated";
-  if (!convolutions_.empty()) return "memory by convolution is not differentiated";
   if (!regular_ && dependent_) return "constraint rows depend on each other here";
   return "";
 }

@@ -49,6 +49,7 @@ class RedundantSystem final : public Formulation {
   std::string describe(std::size_t component) const override;
   std::size_t position_size() const override { return static_cast<std::size_t>(model_->layout.velocity); }
   void move(double h, double* y) override;
+  bool move_jacobian(double h, const double* y, double* out) override;
   bool jacobian(double t, const double* y, double* out) override;
   /// Those of the fluid memory.
   std::vector<LinearBlock> linear_blocks() const override;
@@ -107,6 +108,8 @@ class RedundantSystem final : public Formulation {
   void follow_yaw();
   const YawFrame<double>& frame(int vessel) const { return frames_[idx(vessel)]; }
   double curve_limit() const { return curve_limit_; }
+  /// Running convolution of a vessel; null where its memory has states, or where it has none.
+  const RunningConvolution* convolution(int vessel) const;
   /// Loads on the bodies without velocity terms; `memory` and its rates: the memory part of a state.
   void evaluate_wrenches(double t, const double* memory, double* memory_rate);
   Vec6d wrench(int body) const {
@@ -158,7 +161,7 @@ class RedundantSystem final : public Formulation {
   std::vector<std::pair<std::size_t, RunningConvolution>> convolutions_;  // by vessel
   std::vector<RowBlock<double>> blocks_;
   std::vector<Mat6d> over_mass_, mass_;
-  std::vector<double> values_, lambda_, gamma_, residual_;
+  std::vector<double> values_, lambda_, gamma_, residual_, moved_;
   std::vector<WaveForces> waves_;
   std::optional<DenseKkt> dense_;
   std::optional<RowSpace> row_space_;

@@ -34,7 +34,8 @@ enum class Level { position, velocity };
 ///   q1 = q0 moved by h v0 + h^2 ((1/2 - beta) a0 + beta a1), rotations by the exponential.
 /// First-order states (memory, work) follow the second line [K. E. Jansen, C. H. Whiting, G. M. Hulbert,
 /// Comput. Methods Appl. Mech. Eng. 190 (2000) 305]. v0' is the acceleration of the projected state. Unknown
-/// are v1' and lambda; Newton's matrix is made by differences and kept while it contracts.
+/// are v1' and lambda; Newton's matrix is exact where the system has a Jacobian, else made by differences,
+/// and kept while it contracts.
 class GeneralizedAlpha final : public FixedStep {
  public:
   GeneralizedAlpha(std::string name, Level level, System& system, ResidualSystem& residual,
@@ -61,6 +62,8 @@ class GeneralizedAlpha final : public FixedStep {
   void place(double h, const double* unknown);
   void evaluate_residual(double h, double t_end, const double* unknown, double* r);
   void refresh_jacobian(double h, double t_end);
+  bool exact_jacobian(double h, double t_end);
+  void difference_jacobian(double h, double t_end);
   void factor(double h);
   double correct(double h);
 
@@ -76,6 +79,7 @@ class GeneralizedAlpha final : public FixedStep {
   std::vector<double> unknown_, trial_, residual_, trial_residual_;
   std::vector<double> y_, ydot_, full_residual_, velocity_change_;
   std::vector<double> jacobian_;  // by columns
+  std::vector<double> full_jacobian_, move_slopes_;
   DenseLu lu_;
   double factored_step_ = 0.0;
 };
@@ -100,6 +104,8 @@ GeneralizedAlpha::GeneralizedAlpha(std::string name, Level level, System& system
       full_residual_(residual.size()),
       velocity_change_(size()),
       jacobian_(unknowns_ * unknowns_),
+      full_jacobian_(residual.size() * residual.size()),
+      move_slopes_(positions_ * rates_),
       lu_(unknowns_) {
   const double radius = options.spectral_radius.value_or(default_radius);
   if (!(radius >= 0.0 && radius <= 1.0)) {
@@ -163,6 +169,46 @@ void GeneralizedAlpha::evaluate_residual(double h, double t_end, const double* u
 void GeneralizedAlpha::refresh_jacobian(double h, double t_end) {
   ++counters_.jacobians;
   factored_step_ = 0.0;
+  if (!exact_jacobian(h, t_end)) difference_jacobian(h, t_end);
+  factor(h);
+}
+
+/// Chain rule through place(): v1 changes by gamma h share per v1', the velocity that moves q0 by beta h
+/// share.
+bool GeneralizedAlpha::exact_jacobian(double h, double t_end) {
+  const std::size_t n = residual_system_.size();
+  const double of_velocity = share_ * gamma_ * h, of_motion = share_ * beta_ * h;
+  place(h, unknown_.data());
+  const double* const f = full_jacobian_.data();
+  if (!residual_system_.jacobian(t_end, 1.0 / of_velocity, y_.data(), ydot_.data(), full_jacobian_.data())) {
+    return false;
+  }
+  for (std::size_t i = 0; i < rates_; ++i) {
+    y_[positions_ + i] = state_[positions_ + i] + h * ((0.5 - beta_) * a_[i] + beta_ * next_a_[i]);
+  }
+  std::copy_n(state_.data(), positions_, y_.data());
+  if (positions_ > 0 && !system_.move_jacobian(h, y_.data(), move_slopes_.data())) return false;
+  ++counters_.evaluations;
+  const bool on_position = level_ == Level::position;
+  const double scale = 1.0 / (on_position ? of_motion * h : of_velocity);
+  const std::size_t rows = size() + (on_position ? rows_ : 0);
+  const auto add = [&](double factor, const double* from, double* column) {
+    for (std::size_t i = 0; i < rates_; ++i) column[i] += factor * from[positions_ + i];
+    for (std::size_t i = 0; i < rows_; ++i) column[rates_ + i] += factor * scale * from[rows + i];
+  };
+  std::fill(jacobian_.begin(), jacobian_.end(), 0.0);
+  for (std::size_t j = 0; j < unknowns_; ++j) {
+    double* const column = jacobian_.data() + j * unknowns_;
+    add(j < rates_ ? of_velocity : 1.0, f + (positions_ + j) * n, column);
+    for (std::size_t k = 0; j < rates_ && k < positions_; ++k) {
+      const double moved = move_slopes_[j * positions_ + k];
+      if (moved != 0.0) add(of_motion * moved, f + k * n, column);
+    }
+  }
+  return all_finite(jacobian_.data(), jacobian_.size());
+}
+
+void GeneralizedAlpha::difference_jacobian(double h, double t_end) {
   double multiplier = 1.0;
   for (std::size_t j = rates_; j < unknowns_; ++j) multiplier = std::max(multiplier, std::abs(unknown_[j]));
   trial_ = unknown_;
@@ -179,7 +225,6 @@ void GeneralizedAlpha::refresh_jacobian(double h, double t_end) {
     double* const column = jacobian_.data() + j * unknowns_;
     for (std::size_t i = 0; i < unknowns_; ++i) column[i] = (trial_residual_[i] - residual_[i]) / increment;
   }
-  factor(h);
 }
 
 void GeneralizedAlpha::factor(double h) {

@@ -47,9 +47,10 @@ struct FreeIda {
   void operator()(void* memory) const { IDAFree(&memory); }
 };
 
-/// IDA: variable-order BDF on the residual form F(t, y, y') = 0, dense Jacobian F_y + c F_y' by difference
-/// quotients. Algebraic unknowns (multipliers) are kept out of the error test, where index 2 would make
-/// them fail it at any step size; in the Newton iteration they count relative to the largest of them.
+/// IDA: variable-order BDF on the residual form F(t, y, y') = 0, dense Jacobian F_y + c F_y', exact where the
+/// system has one, else by difference quotients. Algebraic unknowns (multipliers) are kept out of the error
+/// test, where index 2 would make them fail it at any step size; in the Newton iteration they count relative
+/// to the largest of them.
 ///
 /// The stabilised form keeps the constraints to the tolerance of the Newton iteration; state() is in
 /// addition projected, as a copy that does not feed back.
@@ -194,6 +195,14 @@ int Ida::evaluate_residual(double t, const double* y, const double* ydot, double
 int Ida::fill_jacobian(double t, double c, const double* y, const double* ydot, const double* r,
                        SUNMatrix matrix) {
   ++counters_.jacobians;
+  bool exact = false;
+  const int failed = guarded([&] {
+    double* const values = SUNDenseMatrix_Data(matrix);
+    exact = residual_.jacobian(t, c, y, ydot, values) && all_finite(values, n_ * n_);
+    if (exact) ++counters_.evaluations;
+    return 0;
+  });
+  if (exact || failed != 0) return failed;
   const double h = attempted_step();
   std::copy_n(y, n_, trial_.data());
   std::copy_n(ydot, n_, trial_derivative_.data());

@@ -40,6 +40,9 @@ class System {
   /// Moves the positions in y along the velocities in y for the time h, both held: rotations by the
   /// exponential.
   virtual void move(double /*h*/, double* /*y*/) {}
+  /// Derivatives of the positions that move(h, y) leaves in the velocities of y, by columns: position_size()
+  /// rows, a column for every other component. Returns false where there are none.
+  virtual bool move_jacobian(double /*h*/, const double* /*y*/, double* /*out*/) { return false; }
 
   /// Writes df/dy, exact to rounding, by columns, for less than differences cost; may throw as derivative()
   /// does. Returns false, and leaves nothing of use, where there is none: differences then stand in.
@@ -65,6 +68,12 @@ class ResidualSystem {
   virtual ~ResidualSystem() = default;
   virtual std::size_t size() const = 0;
   virtual void residual(double t, const double* y, const double* ydot, double* r) = 0;
+  /// Writes dF/dy + c dF/dy', exact to rounding, by columns; may throw as residual() does. Returns false, and
+  /// leaves nothing of use, where there is none.
+  virtual bool jacobian(double /*t*/, double /*c*/, const double* /*y*/, const double* /*ydot*/,
+                        double* /*out*/) {
+    return false;
+  }
   /// 1 for differential, 0 for algebraic components.
   virtual std::span<const double> differential() const = 0;
   /// Maps an ODE state (layout of System) to consistent (y, ydot) of this system, and back.

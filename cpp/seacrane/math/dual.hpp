@@ -84,6 +84,12 @@ struct Dual {
   friend Dual floor(const Dual& a) { return Dual(std::floor(a.value)); }
 };
 
+inline double value_of(double x) { return x; }
+template <int N>
+double value_of(const Dual<N>& x) {
+  return x.value;
+}
+
 }  // namespace seacrane
 
 namespace Eigen {

@@ -137,4 +137,15 @@ inline Vec4d rotate_quaternion(const Vec3d& rotation, const Vec4d& q) {
   return out.normalized();
 }
 
+/// exp(rotation + d) = exp(slope d) exp(rotation) for small d: the left Jacobian of SO(3).
+inline Mat3d exponential_slope(const Vec3d& rotation) {
+  const double square = rotation.squaredNorm(), angle = std::sqrt(square);
+  const bool small = angle < 1e-2;  // series right to 1e-17
+  const double a = small ? 0.5 - square / 24.0 + square * square / 720.0 : (1.0 - std::cos(angle)) / square;
+  const double b = small ? 1.0 / 6.0 - square / 120.0 + square * square / 5040.0
+                         : (angle - std::sin(angle)) / (angle * square);
+  const Mat3d s = skew<double>(rotation);
+  return Mat3d::Identity() + a * s + b * s * s;
+}
+
 }  // namespace seacrane

@@ -24,12 +24,13 @@ struct Cylindrical {
     static constexpr int positions = 2, speeds = 2;
     static constexpr const char *position_kinds = "al", *speed_kinds = "al";  // a: rad, l: m
 
-    static void move(const TreeJoint& j, const BodyKinematics<double>& parent, const double* q,
-                     const double* /*u*/, BranchMotion& out) {
-      const Mat3d a = branch::parent_axes(j, parent);
-      out.rotation = branch::turn_about_z(a, q[0]) * j.child_axes.transpose();
+    template <class T>
+    static void move(const TreeJoint& j, const BodyKinematics<T>& parent, const T* q, const T* /*u*/,
+                     BranchMotionOf<T>& out) {
+      const Mat3<T> a = branch::parent_axes(j, parent);
+      out.rotation = branch::turn_about_z<T>(a, q[0]) * j.child_axes.transpose().cast<T>();
       out.reach = branch::parent_lever(j, parent) + q[1] * a.col(2);
-      out.slide[0] = out.turn[1] = Vec3d::Zero();
+      out.slide[0] = out.turn[1] = Vec3<T>::Zero();
       out.turn[0] = out.slide[1] = a.col(2);
     }
     static void read(const TreeJoint& j, const BodyKinematics<double>& parent,

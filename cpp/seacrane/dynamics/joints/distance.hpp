@@ -25,23 +25,24 @@ struct Distance {
     static constexpr int positions = 8, speeds = 5;
     static constexpr const char *position_kinds = "aaaaaaaa", *speed_kinds = "aaaaa";  // a: rad, l: m
 
-    static void move(const TreeJoint& j, const BodyKinematics<double>& parent, const double* q,
-                     const double* u, BranchMotion& out) {
-      const Mat3d link = rotation_from_quaternion<double>(view<4>(q));
-      out.rotation = rotation_from_quaternion<double>(view<4>(q + 4));
-      out.reach = branch::parent_lever(j, parent) + j.length * link.col(2);
-      out.slide[0] = -j.length * link.col(1);
-      out.slide[1] = j.length * link.col(0);
-      out.turn[0] = out.turn[1] = Vec3d::Zero();
-      out.slide_bias = -j.length * (u[0] * u[0] + u[1] * u[1]) * link.col(2);
+    template <class T>
+    static void move(const TreeJoint& j, const BodyKinematics<T>& parent, const T* q, const T* u,
+                     BranchMotionOf<T>& out) {
+      const Mat3<T> link = rotation_from_quaternion<T>(branch::quaternion(q));
+      out.rotation = rotation_from_quaternion<T>(branch::quaternion(q + 4));
+      const T length(j.length);
+      out.reach = branch::parent_lever(j, parent) + length * link.col(2);
+      out.slide[0] = -length * link.col(1);
+      out.slide[1] = length * link.col(0);
+      out.turn[0] = out.turn[1] = Vec3<T>::Zero();
+      out.slide_bias = -length * (u[0] * u[0] + u[1] * u[1]) * link.col(2);
       branch::free_turning(parent, u, 2, out);
     }
-    static void rates(const BodyKinematics<double>& parent, const double* q, const double* u,
-                      double* q_rate) {
-      const Mat3d link = rotation_from_quaternion<double>(view<4>(q));
-      const Vec3d turning = parent.angular_velocity + u[0] * link.col(0) + u[1] * link.col(1);
-      view<4>(q_rate) = quaternion_rate<double>(view<4>(q), turning);
-      view<4>(q_rate + 4) = quaternion_rate<double>(view<4>(q + 4), parent.angular_velocity + view<3>(u + 2));
+    template <class T>
+    static void rates(const BodyKinematics<T>& parent, const T* q, const T* u, T* q_rate) {
+      const Mat3<T> link = rotation_from_quaternion<T>(branch::quaternion(q));
+      branch::turn<T>(q, parent.angular_velocity + u[0] * link.col(0) + u[1] * link.col(1), q_rate);
+      branch::turn<T>(q + 4, parent.angular_velocity + branch::vector(u + 2), q_rate + 4);
     }
     static void read(const TreeJoint& j, const BodyKinematics<double>& parent,
                      const BodyKinematics<double>& child, double* q, double* u) {

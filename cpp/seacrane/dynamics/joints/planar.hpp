@@ -23,16 +23,17 @@ struct Planar {
     static constexpr int positions = 3, speeds = 3;
     static constexpr const char *position_kinds = "lla", *speed_kinds = "lla";  // a: rad, l: m
 
-    static void move(const TreeJoint& j, const BodyKinematics<double>& parent, const double* q,
-                     const double* /*u*/, BranchMotion& out) {
-      const Mat3d a = branch::parent_axes(j, parent);
-      out.rotation = branch::turn_about_z(a, q[2]) * j.child_axes.transpose();
+    template <class T>
+    static void move(const TreeJoint& j, const BodyKinematics<T>& parent, const T* q, const T* /*u*/,
+                     BranchMotionOf<T>& out) {
+      const Mat3<T> a = branch::parent_axes(j, parent);
+      out.rotation = branch::turn_about_z<T>(a, q[2]) * j.child_axes.transpose().cast<T>();
       out.reach = branch::parent_lever(j, parent) + q[0] * a.col(0) + q[1] * a.col(1);
       for (int i = 0; i < 2; ++i) {
         out.slide[i] = a.col(i);
-        out.turn[i] = Vec3d::Zero();
+        out.turn[i] = Vec3<T>::Zero();
       }
-      out.slide[2] = Vec3d::Zero();
+      out.slide[2] = Vec3<T>::Zero();
       out.turn[2] = a.col(2);
     }
     static void read(const TreeJoint& j, const BodyKinematics<double>& parent,

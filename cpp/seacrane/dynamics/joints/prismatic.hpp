@@ -24,13 +24,14 @@ struct Prismatic {
     static constexpr int positions = 1, speeds = 1;
     static constexpr const char *position_kinds = "l", *speed_kinds = "l";  // a: rad, l: m
 
-    static void move(const TreeJoint& j, const BodyKinematics<double>& parent, const double* q,
-                     const double* /*u*/, BranchMotion& out) {
-      const Mat3d a = branch::parent_axes(j, parent);
-      out.rotation = a * j.child_axes.transpose();
+    template <class T>
+    static void move(const TreeJoint& j, const BodyKinematics<T>& parent, const T* q, const T* /*u*/,
+                     BranchMotionOf<T>& out) {
+      const Mat3<T> a = branch::parent_axes(j, parent);
+      out.rotation = a * j.child_axes.transpose().cast<T>();
       out.reach = branch::parent_lever(j, parent) + q[0] * a.col(2);
       out.slide[0] = a.col(2);
-      out.turn[0] = Vec3d::Zero();
+      out.turn[0] = Vec3<T>::Zero();
     }
     static void read(const TreeJoint& j, const BodyKinematics<double>& parent,
                      const BodyKinematics<double>& child, double* q, double* u) {

@@ -23,12 +23,13 @@ struct Revolute {
     static constexpr int positions = 1, speeds = 1;
     static constexpr const char *position_kinds = "a", *speed_kinds = "a";  // a: rad, l: m
 
-    static void move(const TreeJoint& j, const BodyKinematics<double>& parent, const double* q,
-                     const double* /*u*/, BranchMotion& out) {
-      const Mat3d a = branch::parent_axes(j, parent);
-      out.rotation = branch::turn_about_z(a, q[0]) * j.child_axes.transpose();
+    template <class T>
+    static void move(const TreeJoint& j, const BodyKinematics<T>& parent, const T* q, const T* /*u*/,
+                     BranchMotionOf<T>& out) {
+      const Mat3<T> a = branch::parent_axes(j, parent);
+      out.rotation = branch::turn_about_z<T>(a, q[0]) * j.child_axes.transpose().cast<T>();
       out.reach = branch::parent_lever(j, parent);
-      out.slide[0] = Vec3d::Zero();
+      out.slide[0] = Vec3<T>::Zero();
       out.turn[0] = a.col(2);
     }
     static void read(const TreeJoint& j, const BodyKinematics<double>& parent,

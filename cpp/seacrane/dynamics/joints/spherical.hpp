@@ -23,15 +23,16 @@ struct Spherical {
     static constexpr int positions = 4, speeds = 3;
     static constexpr const char *position_kinds = "aaaa", *speed_kinds = "aaa";  // a: rad, l: m
 
-    static void move(const TreeJoint& j, const BodyKinematics<double>& parent, const double* q,
-                     const double* u, BranchMotion& out) {
-      out.rotation = rotation_from_quaternion<double>(view<4>(q));
+    template <class T>
+    static void move(const TreeJoint& j, const BodyKinematics<T>& parent, const T* q, const T* u,
+                     BranchMotionOf<T>& out) {
+      out.rotation = rotation_from_quaternion<T>(branch::quaternion(q));
       out.reach = branch::parent_lever(j, parent);
       branch::free_turning(parent, u, 0, out);
     }
-    static void rates(const BodyKinematics<double>& parent, const double* q, const double* u,
-                      double* q_rate) {
-      view<4>(q_rate) = quaternion_rate<double>(view<4>(q), parent.angular_velocity + view<3>(u));
+    template <class T>
+    static void rates(const BodyKinematics<T>& parent, const T* q, const T* u, T* q_rate) {
+      branch::turn<T>(q, parent.angular_velocity + branch::vector(u), q_rate);
     }
     static void read(const TreeJoint& j, const BodyKinematics<double>& parent,
                      const BodyKinematics<double>& child, double* q, double* u) {

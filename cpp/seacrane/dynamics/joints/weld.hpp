@@ -23,9 +23,10 @@ struct Weld {
     static constexpr int positions = 0, speeds = 0;
     static constexpr const char *position_kinds = "", *speed_kinds = "";
 
-    static void move(const TreeJoint& j, const BodyKinematics<double>& parent, const double* /*q*/,
-                     const double* /*u*/, BranchMotion& out) {
-      out.rotation = branch::parent_axes(j, parent) * j.child_axes.transpose();
+    template <class T>
+    static void move(const TreeJoint& j, const BodyKinematics<T>& parent, const T* /*q*/, const T* /*u*/,
+                     BranchMotionOf<T>& out) {
+      out.rotation = branch::parent_axes(j, parent) * j.child_axes.transpose().cast<T>();
       out.reach = branch::parent_lever(j, parent);
     }
     static void read(const TreeJoint& /*j*/, const BodyKinematics<double>& /*parent*/,

@@ -36,6 +36,11 @@ class ArticulatedTree {
   /// Velocities of all bodies for given speeds, ground last.
   void velocities(const double* u, Vec6d* twists) const;
 
+  /// Velocity of a body per unit speed, its parent at rest, at the last place(); by Member::column.
+  const std::vector<Vec6d>& columns() const { return column_; }
+  /// From the parent's state point to a body's, at the last place().
+  const Vec3d& reach(int body) const { return reach_[idx(body)]; }
+
  private:
   void place_floating(const Cluster& c, const double* q, const double* u, BodyKinematics<double>* bodies);
   void place_joint(const Cluster& c, const double* q, const double* u, BodyKinematics<double>* bodies);

@@ -37,6 +37,10 @@ class LoopClosure {
                         RedundantSystem& terms) const;
   /// How much cancels in the entries of G, times largest over smallest pivot.
   double condition() const { return condition_; }
+  /// False where rows depend on each other at the last factor().
+  bool regular() const { return !dependent_; }
+  /// Those of the last solve().
+  const VecXd& multipliers() const { return multipliers_; }
 
  private:
   struct Row {

@@ -129,6 +129,19 @@ void RecursiveSystem::derivative(double t, const double* y, double* ydot) {
   ydot[layout_.work + 1] = terms_.absolute_power();
 }
 
+bool RecursiveSystem::jacobian(double t, const double* y, double* out) {
+  if (!jacobian_) {
+    jacobian_.emplace(model_, tree_);
+    jacobian_rate_.resize(size());
+  }
+  derivative(t, y, jacobian_rate_.data());
+  if (!loops_.regular()) return false;
+  jacobian_->evaluate(
+      {terms_, articulated_, loops_, mass_.data(), load_.data(), acceleration_.data(), blocks_.data()}, t, y,
+      jacobian_rate_.data(), out);
+  return true;
+}
+
 template <class F>
 void RecursiveSystem::for_each_quaternion(F&& f) const {
   for (const Cluster& c : tree_.clusters) {

@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <memory>
+#include <optional>
 #include <vector>
 
-#include "seacrane/dynamics/recursive/loop_closure.hpp"
+#include "seacrane/dynamics/recursive/recursive_jacobian.hpp"
 #include "seacrane/dynamics/redundant.hpp"
 
 namespace seacrane {
@@ -22,6 +23,7 @@ class RecursiveSystem final : public Formulation {
   bool project(double t, double* y, bool evaluated_here) override;
   bool has_projection() const override { return true; }
 
+  bool jacobian(double t, const double* y, double* out) override;
   std::size_t position_size() const override { return idx(tree_.positions); }
   void move(double h, double* y) override;
   std::vector<LinearBlock> linear_blocks() const override;
@@ -70,6 +72,8 @@ class RecursiveSystem final : public Formulation {
   std::vector<double> speed_rate_, position_rate_;
   VecXd residual_, loop_bias_;
   std::vector<SplitActuator<std::vector<double>>> split_;  // response: rates of the speeds
+  std::optional<RecursiveJacobian> jacobian_;
+  std::vector<double> jacobian_rate_;
   double before_projection_ = 0.0;
 };
 

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "seacrane/dynamics/recursive/tree_joint.hpp"
+#include "seacrane/math/dual.hpp"
 
 namespace seacrane {
 
@@ -26,68 +27,75 @@ struct Strut {
 };
 
 /// Pose and, per unit of hinge rate, first and second derivatives over the hinge's parent.
-struct StrutMotion {
-  Mat3d rotation;                 // strut frame to inertial
-  Vec3d end, end_rate, end_bend;  // upper end from the parent's state point; derivatives in the hinge angle
-  Vec3d turn, turn_bend;          // angular velocity per unit rate, and its derivative in the hinge angle
+template <class T>
+struct StrutMotionOf {
+  Mat3<T> rotation;                 // strut frame to inertial
+  Vec3<T> end, end_rate, end_bend;  // upper end from the parent's state point; derivatives in the hinge angle
+  Vec3<T> turn, turn_bend;          // angular velocity per unit rate, and its derivative in the hinge angle
 };
+using StrutMotion = StrutMotionOf<double>;
 
 /// `hinge_lever`: parent's state point to the hinge; `axis`: of the hinge; `arm`: hinge to upper end; all
 /// inertial axes.
-inline StrutMotion move_strut(const Strut& s, const Mat3d& base, const Mat3d& arm_rotation,
-                              const Vec3d& hinge_lever, const Vec3d& axis, const Vec3d& arm) {
-  StrutMotion out;
-  const Vec3d lower = base * s.base_point;
+template <class T>
+StrutMotionOf<T> move_strut(const Strut& s, const Mat3<T>& base, const Mat3<T>& arm_rotation,
+                            const Vec3<T>& hinge_lever, const Vec3<T>& axis, const Vec3<T>& arm) {
+  using std::sqrt;
+  StrutMotionOf<T> out;
+  const Vec3<T> strut_axis = s.strut_axis.cast<T>();
+  const Vec3<T> lower = base * s.base_point.cast<T>();
   out.end = hinge_lever + arm;
-  out.end_rate = axis.cross(arm);
-  out.end_bend = axis.cross(out.end_rate);
-  const Vec3d d = out.end - lower;
-  const double squared = d.squaredNorm(), across = s.offset.head<2>().squaredNorm();
+  out.end_rate = cross<T>(axis, arm);
+  out.end_bend = cross<T>(axis, out.end_rate);
+  const Vec3<T> d = out.end - lower;
+  const T squared = d.squaredNorm(), across = s.offset.head<2>().squaredNorm();
   if (!(squared > across)) {
-    throw std::domain_error("cylinder '" + s.name + "': its ends are " + std::to_string(std::sqrt(squared)) +
+    throw std::domain_error("cylinder '" + s.name + "': its ends are " +
+                            std::to_string(std::sqrt(value_of(squared))) +
                             " m apart, nearer than the parts allow");
   }
-  const double length = std::sqrt(squared), along = s.extension_sign * std::sqrt(squared - across);
+  const T length = sqrt(squared), along = T(s.extension_sign) * sqrt(squared - across);
 
   // Directions r (end to end) and m (across, towards the universal axis) in the strut frame, d and w likewise
   // in inertial axes: the strut frame turns the first pair into the second.
-  const Vec3d r = Vec3d(s.offset[0], s.offset[1], along) / length;
-  const double tilt = s.strut_axis.dot(r);
-  const Vec3d m = (s.strut_axis - tilt * r).normalized();
-  const double rho = std::sqrt(1.0 - tilt * tilt);
-  const Vec3d u = d / length;
-  const Vec3d a = s.universal_at_base ? Vec3d(base * s.fixed_axis) : Vec3d(arm_rotation * s.fixed_axis);
-  const Vec3d across_u = a - a.dot(u) * u;
-  const double lean = across_u.norm();
-  const double cosine = -tilt * a.dot(u) / (rho * lean);
-  if (!(std::abs(cosine) < 1.0 - 1e-9)) {
+  const Vec3<T> r = Vec3<T>(T(s.offset[0]), T(s.offset[1]), along) / length;
+  const T tilt = strut_axis.dot(r);
+  const Vec3<T> m = (strut_axis - tilt * r).normalized();
+  const T rho = sqrt(T(1) - tilt * tilt);
+  const Vec3<T> u = d / length;
+  const Vec3<T> a = s.universal_at_base ? Vec3<T>(base * s.fixed_axis.cast<T>())
+                                        : Vec3<T>(arm_rotation * s.fixed_axis.cast<T>());
+  const Vec3<T> across_u = a - a.dot(u) * u;
+  const T lean = across_u.norm();
+  const T cosine = -tilt * a.dot(u) / (rho * lean);
+  if (!(std::abs(value_of(cosine)) < 1.0 - 1e-9)) {
     throw std::domain_error("cylinder '" + s.name +
                             "': it has turned into the axis of its universal joint, where its own turn is "
                             "not determined");
   }
-  const Vec3d n1 = across_u / lean;
-  const Vec3d w = cosine * n1 + s.side * std::sqrt(1.0 - cosine * cosine) * u.cross(n1);
-  Mat3d from, to;
-  from << r, m, r.cross(m);
-  to << u, w, u.cross(w);
+  const Vec3<T> n1 = across_u / lean;
+  const Vec3<T> w = cosine * n1 + T(s.side) * sqrt(T(1) - cosine * cosine) * cross<T>(u, n1);
+  Mat3<T> from, to;
+  from << r, m, cross<T>(r, m);
+  to << u, w, cross<T>(u, w);
   out.rotation = to * from.transpose();
 
   // turn x d + z stroke' = end', turn . (b x a) + b . a' = 0, and once more differentiated.
-  const Vec3d z = out.rotation.col(2), b = out.rotation * s.strut_axis;
-  const Vec3d a_rate = s.universal_at_base ? Vec3d::Zero() : Vec3d(axis.cross(a));
-  const Vec3d c = b.cross(a);
-  const double gauge = u.dot(c), projected = z.dot(d);
-  const auto turn_of = [&](const Vec3d& side_rate, double remainder) {
-    const Vec3d across_part = d.cross(side_rate) / squared;
-    return Vec3d(across_part - (remainder + across_part.dot(c)) / gauge * u);
+  const Vec3<T> z = out.rotation.col(2), b = out.rotation * strut_axis;
+  const Vec3<T> a_rate = s.universal_at_base ? Vec3<T>::Zero() : Vec3<T>(cross<T>(axis, a));
+  const Vec3<T> c = cross<T>(b, a);
+  const T gauge = u.dot(c), projected = z.dot(d);
+  const auto turn_of = [&](const Vec3<T>& side_rate, const T& remainder) {
+    const Vec3<T> across_part = cross<T>(d, side_rate) / squared;
+    return Vec3<T>(across_part - (remainder + across_part.dot(c)) / gauge * u);
   };
-  const double stroke = out.end_rate.dot(d) / projected;
+  const T stroke = out.end_rate.dot(d) / projected;
   out.turn = turn_of(out.end_rate - stroke * z, b.dot(a_rate));
-  const Vec3d z_rate = out.turn.cross(z), b_rate = out.turn.cross(b);
-  const Vec3d force = out.end_bend - out.turn.cross(out.end_rate) - stroke * z_rate;
-  const double bend = force.dot(d) / projected;
-  const Vec3d c_rate = b_rate.cross(a) + b.cross(a_rate);
-  const Vec3d a_bend = s.universal_at_base ? Vec3d::Zero() : Vec3d(axis.cross(a_rate));
+  const Vec3<T> z_rate = cross<T>(out.turn, z), b_rate = cross<T>(out.turn, b);
+  const Vec3<T> force = out.end_bend - cross<T>(out.turn, out.end_rate) - stroke * z_rate;
+  const T bend = force.dot(d) / projected;
+  const Vec3<T> c_rate = cross<T>(b_rate, a) + cross<T>(b, a_rate);
+  const Vec3<T> a_bend = s.universal_at_base ? Vec3<T>::Zero() : Vec3<T>(cross<T>(axis, a_rate));
   out.turn_bend = turn_of(force - bend * z, out.turn.dot(c_rate) + b_rate.dot(a_rate) + b.dot(a_bend));
   return out;
 }

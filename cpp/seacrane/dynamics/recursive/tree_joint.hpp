@@ -22,26 +22,30 @@ inline constexpr int kMostSpeeds = 6;
 
 /// What a joint type says of its branch, inertial axes: with the joint point that of the child and all rates
 /// relative to the parent, point rate = sum slide_k u_k and angular velocity = sum turn_k u_k.
-struct BranchMotion {
-  Mat3d rotation;  // child to inertial
-  Vec3d reach;     // parent's state point to the child's joint point
-  Vec3d slide[kMostSpeeds], turn[kMostSpeeds];
-  Vec3d slide_bias = Vec3d::Zero();  // their derivatives in the parent's frame with udot = 0
-  Vec3d turn_bias = Vec3d::Zero();
+template <class T>
+struct BranchMotionOf {
+  Mat3<T> rotation;  // child to inertial
+  Vec3<T> reach;     // parent's state point to the child's joint point
+  Vec3<T> slide[kMostSpeeds], turn[kMostSpeeds];
+  Vec3<T> slide_bias = Vec3<T>::Zero();  // their derivatives in the parent's frame with udot = 0
+  Vec3<T> turn_bias = Vec3<T>::Zero();
 };
+using BranchMotion = BranchMotionOf<double>;
 
 namespace branch {
 
 /// Joint axes of the parent, and of the child, in inertial axes.
-inline Mat3d parent_axes(const TreeJoint& j, const BodyKinematics<double>& parent) {
-  return parent.rotation * j.parent_axes;
+template <class T>
+Mat3<T> parent_axes(const TreeJoint& j, const BodyKinematics<T>& parent) {
+  return parent.rotation * j.parent_axes.cast<T>();
 }
 inline Mat3d child_axes(const TreeJoint& j, const BodyKinematics<double>& child) {
   return child.rotation * j.child_axes;
 }
 
-inline Vec3d parent_lever(const TreeJoint& j, const BodyKinematics<double>& parent) {
-  return parent.rotation * j.parent_point;
+template <class T>
+Vec3<T> parent_lever(const TreeJoint& j, const BodyKinematics<T>& parent) {
+  return parent.rotation * j.parent_point.cast<T>();
 }
 
 /// From the parent's joint point to the child's, and the relative rate of the two in the parent's frame.
@@ -64,31 +68,50 @@ inline double turned(const Mat3d& a, const Mat3d& b) {
 }
 
 /// Axes a turned about their z axis.
-inline Mat3d turn_about_z(const Mat3d& a, double angle) {
-  const double c = std::cos(angle), s = std::sin(angle);
-  Mat3d out;
+template <class T>
+Mat3<T> turn_about_z(const Mat3<T>& a, const T& angle) {
+  using std::cos, std::sin;
+  const T c = cos(angle), s = sin(angle);
+  Mat3<T> out;
   out << c * a.col(0) + s * a.col(1), c * a.col(1) - s * a.col(0), a.col(2);
   return out;
+}
+
+template <class T>
+Vec4<T> quaternion(const T* q) {
+  return {q[0], q[1], q[2], q[3]};
+}
+
+template <class T>
+Vec3<T> vector(const T* u) {
+  return {u[0], u[1], u[2]};
+}
+
+/// Rate of the quaternion at q that turns with omega, inertial axes.
+template <class T>
+void turn(const T* q, const Vec3<T>& omega, T* q_rate) {
+  const Vec4<T> rate = quaternion_rate<T>(quaternion(q), omega);
+  for (int i = 0; i < 4; ++i) q_rate[i] = rate[i];
 }
 
 /// Speeds are the rates of the coordinates.
 template <int count>
 struct ScalarRates {
-  static void rates(const BodyKinematics<double>& /*parent*/, const double* /*q*/, const double* u,
-                    double* q_rate) {
+  template <class T>
+  static void rates(const BodyKinematics<T>& /*parent*/, const T* /*q*/, const T* u, T* q_rate) {
     std::copy_n(u, count, q_rate);
   }
 };
 
 /// Three speeds along the inertial axes: child's angular velocity over its parent's. Its derivative in the
 /// parent's frame does not vanish with udot.
-inline void free_turning(const BodyKinematics<double>& parent, const double* u, int first,
-                         BranchMotion& out) {
+template <class T>
+void free_turning(const BodyKinematics<T>& parent, const T* u, int first, BranchMotionOf<T>& out) {
   for (int i = 0; i < 3; ++i) {
-    out.slide[first + i] = Vec3d::Zero();
-    out.turn[first + i] = Vec3d::Unit(i);
+    out.slide[first + i] = Vec3<T>::Zero();
+    out.turn[first + i] = Vec3d::Unit(i).cast<T>();
   }
-  out.turn_bias = -parent.angular_velocity.cross(view<3>(u + first));
+  out.turn_bias = -cross<T>(parent.angular_velocity, vector(u + first));
 }
 
 }  // namespace branch

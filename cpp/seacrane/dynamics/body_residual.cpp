@@ -1,0 +1,290 @@
+#include "seacrane/dynamics/body_residual.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <type_traits>
+
+#include "seacrane/dynamics/redundant.hpp"
+
+namespace seacrane {
+namespace {
+
+/// Step of the central differences of a function force, m, rad and per s: error about 1e-10 of its scale.
+constexpr double kStep = 1e-5;
+
+template <class Load>
+bool acts_on(const Load& load, int body) {
+  if constexpr (requires { load.coordinate; }) {
+    return load.coordinate.joint.first == body || load.coordinate.joint.second == body;
+  } else if constexpr (requires { load.second; }) {
+    return load.first == body || load.second == body;
+  } else {
+    return load.body == body;
+  }
+}
+
+template <class T>
+BodyKinematics<T> constant(const BodyKinematics<double>& k) {
+  return {k.position.cast<T>(), k.rotation.cast<T>(), k.velocity.cast<T>(), k.angular_velocity.cast<T>()};
+}
+
+BodyKinematics<double> moved(const BodyKinematics<double>& k, int direction, double step) {
+  const Vec3d along = step * Vec3d::Unit(direction % 3);
+  BodyKinematics<double> out = k;
+  if (direction < 3) {
+    out.position += along;
+  } else if (direction < 6) {
+    out.rotation = Eigen::AngleAxisd(step, Vec3d::Unit(direction % 3)) * k.rotation;
+  } else if (direction < 9) {
+    out.velocity += along;
+  } else {
+    out.angular_velocity += along;
+  }
+  return out;
+}
+
+}  // namespace
+
+BodyResidual::BodyResidual(const Model& model, const std::vector<int>* counted)
+    : model_(&model),
+      counted_(model.elements.size(), counted == nullptr),
+      bodies_(idx(model.body_count()) + 1),
+      moved_(bodies_.size()),
+      wrench_(bodies_.size()),
+      second_wrench_(bodies_.size()),
+      moved_wrench_(bodies_.size()),
+      right_(idx(model.rows())),
+      rate_(right_.size()),
+      position_(right_.size()) {
+  if (counted) {
+    for (int e : *counted) counted_[idx(e)] = true;
+  }
+  int most = 0;
+  for (const Vessel& vessel : model.vessels) most = std::max(most, vessel.memory_states());
+  memory_state_.resize(idx(most));
+  memory_rate_.resize(idx(most));
+  touched_.reserve(bodies_.size());
+}
+
+void BodyResidual::start(const RedundantSystem& system, double t, const Held& held) {
+  system_ = &system;
+  t_ = t;
+  held_ = held;
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    moved_[b] = system.bodies()[b];
+    bodies_[b] = constant<Scalar>(system.bodies()[b]);
+  }
+}
+
+void BodyResidual::differentiate(int b) {
+  seed(system_->bodies()[idx(b)], bodies_[idx(b)]);
+  for (int other : touched_) wrench_[idx(other)] = second_wrench_[idx(other)] = Wrench<Scalar>();
+  touched_.clear();
+  for (auto* rows : {&right_, &rate_, &position_}) std::fill(rows->begin(), rows->end(), Scalar());
+  const LoadInput<double> now = system_->load_input(t_);
+  const LoadInput<Scalar> input{t_, now.curve_limit, bodies_.data(), now.slots};
+  sum_ = LoadSum<Scalar>{wrench_.data()};
+  add_inertia(b);
+  add_loads(b, input);
+  add_hydrodynamics(b, input);
+  add_waves(b);
+  add_rows(b);
+  bodies_[idx(b)] = constant<Scalar>(system_->bodies()[idx(b)]);
+}
+
+BodyResidual::Slopes BodyResidual::slopes(const Wrench<Scalar>& w) {
+  Slopes out;
+  for (int i = 0; i < 3; ++i) {
+    for (int d = 0; d < kDirections; ++d) {
+      out(i, d) = w.force[i].slope[idx(d)];
+      out(3 + i, d) = w.moment[i].slope[idx(d)];
+    }
+  }
+  return out;
+}
+
+Wrench<BodyResidual::Scalar>& BodyResidual::wrench(int b) {
+  if (std::find(touched_.begin(), touched_.end(), b) == touched_.end()) touched_.push_back(b);
+  return wrench_[idx(b)];
+}
+
+void BodyResidual::seed(const BodyKinematics<double>& k, BodyKinematics<Scalar>& out) const {
+  for (int i = 0; i < 3; ++i) {
+    out.position[i] = Scalar::variable(k.position[i], i);
+    out.velocity[i] = Scalar::variable(k.velocity[i], 6 + i);
+    out.angular_velocity[i] = Scalar::variable(k.angular_velocity[i], 9 + i);
+    const Mat3d turned = skew<double>(Vec3d::Unit(i)) * k.rotation;
+    for (int r = 0; r < 3; ++r) {
+      for (int c = 0; c < 3; ++c) out.rotation(r, c).slope[idx(3 + i)] = turned(r, c);
+    }
+  }
+}
+
+/// -(M vdot + b), eqs (5) and (12) about the state point, with the added mass of a vessel.
+void BodyResidual::add_inertia(int b) {
+  const BodyModel& body = model_->bodies[idx(b)];
+  const auto& k = bodies_[idx(b)];
+  const Vec6<Scalar> rate = held_.acceleration[b].cast<Scalar>();
+  const Vec3<Scalar> a = rate.head<3>(), alpha = rate.tail<3>(), omega = k.angular_velocity;
+  const Mat3<Scalar> inertia = body.inertia.cast<Scalar>();
+  const auto about_center = [&](const Vec3<Scalar>& w) -> Vec3<Scalar> {
+    const Vec3<Scalar> in_body = k.rotation.transpose() * w;
+    const Vec3<Scalar> momentum = inertia * in_body;
+    return k.rotation * momentum;
+  };
+  const Vec3<Scalar> c = k.rotation * body.center_of_mass.cast<Scalar>();
+  const Vec3<Scalar> swing = cross<Scalar>(omega, cross<Scalar>(omega, c));
+  const Vec3<Scalar> at_center = a + cross<Scalar>(alpha, c) + swing;
+  const Vec3<Scalar> force = Scalar(body.mass) * at_center;
+  Wrench<Scalar>& out = wrench(b);
+  out.force -= force;
+  out.moment -= about_center(alpha) + cross<Scalar>(omega, about_center(omega)) + cross<Scalar>(c, force);
+  if (body.vessel < 0) return;
+  const YawFrame<Scalar> frame(k);
+  const Vec6<Scalar> fluid =
+      model_->vessels[idx(body.vessel)].added_mass.cast<Scalar>() * frame.twist_rate(rate);
+  const Vec6<Scalar> added = frame.to_inertial(fluid);
+  out.force -= added.head<3>();
+  out.moment -= added.tail<3>();
+}
+
+void BodyResidual::add_loads(int b, const LoadInput<Scalar>& input) {
+  for (const Gravity& load : model_->gravity) {
+    if (load.body == b) load.apply<Scalar>(input, sum_);
+  }
+  for_each_load_type([&]<class Load>() {
+    for (const Load& load : std::get<std::vector<Load>>(model_->loads)) {
+      if (!acts_on(load, b)) continue;
+      if constexpr (requires { load.coordinate; }) {
+        wrench(load.coordinate.joint.first);
+        wrench(load.coordinate.joint.second);
+      } else if constexpr (requires { load.second; }) {
+        wrench(load.first);
+        wrench(load.second);
+      }
+      if constexpr (std::is_same_v<Load, FunctionForce>) {
+        add_differences(load);
+      } else {
+        load.template apply<Scalar>(input, sum_);
+      }
+    }
+  });
+}
+
+void BodyResidual::add_differences(const FunctionForce& load) {
+  const auto b = idx(load.body);
+  LoadInput<double> input = system_->load_input(t_);
+  input.bodies = moved_.data();
+  const auto at = [&](int direction, double step) {
+    moved_[b] = moved(system_->bodies()[b], direction, step);
+    moved_wrench_[b] = Wrench<double>();
+    LoadSum<double> out{moved_wrench_.data()};
+    load.apply<double>(input, out);
+    return (Eigen::Matrix<double, 7, 1>() << moved_wrench_[b].force, moved_wrench_[b].moment, out.power)
+        .finished();
+  };
+  const double power_here = at(0, 0.0)[6];
+  for (int d = 0; d < kDirections; ++d) {
+    const Eigen::Matrix<double, 7, 1> slope = (at(d, kStep) - at(d, -kStep)) / (2.0 * kStep);
+    for (int i = 0; i < 3; ++i) {
+      wrench_[b].force[i].slope[idx(d)] += slope[i];
+      wrench_[b].moment[i].slope[idx(d)] += slope[3 + i];
+    }
+    sum_.power.slope[idx(d)] += slope[6];
+    sum_.absolute_power.slope[idx(d)] += sign(power_here) * slope[6];
+  }
+  moved_[b] = system_->bodies()[b];
+}
+
+void BodyResidual::add_hydrodynamics(int b, const LoadInput<Scalar>& input) {
+  const int v = model_->bodies[idx(b)].vessel;
+  if (v < 0) return;
+  const Vessel& vessel = model_->vessels[idx(v)];
+  const YawFrame<Scalar> frame(bodies_[idx(b)]);
+  const int own = vessel.memory_offset - model_->layout.memory;
+  std::copy_n(held_.memory + own, vessel.memory_states(), memory_state_.begin());
+  vessel.apply<Scalar>(input, frame, memory_state_.data(), memory_rate_.data(), sum_);
+  const RunningConvolution* convolution = system_->convolution(v);
+  if (!convolution) return;
+  // Linear in the twist now; the history is fixed within a step.
+  const Vec6d past = convolution->evaluate(t_, Vec6d::Zero());
+  Vec6<Scalar> mu = past.cast<Scalar>();
+  for (int i = 0; i < 6; ++i) {
+    const Vec6d present = convolution->evaluate(t_, Vec6d::Unit(i)) - past;
+    for (int j = 0; j < 6; ++j) mu[j] += present[j] * frame.twist[i];
+  }
+  vessel.radiate(frame, mu, sum_);
+}
+
+void BodyResidual::add_waves(int b) {
+  for (std::size_t i = 0; i < model_->wave_loads.size(); ++i) {
+    const WaveLoad& wave = model_->wave_loads[i];
+    if (wave.body != b) continue;
+    const YawFrame<Scalar> frame(bodies_[idx(b)]);
+    Vec6<Scalar> force = system_->waves(i).sum().cast<Scalar>();
+    if (wave.sources.positioned) {
+      const Vec3d& place = system_->bodies()[idx(b)].position;
+      double slopes[6][3];
+      wave.sources.positioned->slopes(t_, place.x(), place.y(), frame.yaw.value, slopes);
+      for (int k = 0; k < 6; ++k) {
+        const double* over = slopes[k];
+        force[k] += over[2] * (frame.yaw - Scalar(frame.yaw.value));
+        force[k].slope[0] += over[0];
+        force[k].slope[1] += over[1];
+      }
+    }
+    const Vec6<Scalar> inertial = frame.to_inertial(force);
+    wrench_[idx(b)].force += inertial.head<3>();
+    wrench_[idx(b)].moment += inertial.tail<3>();
+    sum_.add_power(force.dot(frame.twist));
+  }
+}
+
+void BodyResidual::add_rows(int b) {
+  const Model& m = *model_;
+  for_each_joint_type([&]<class Type>(std::size_t kind) {
+    for (const JointData& joint : m.joints[kind]) {
+      if ((joint.first != b && joint.second != b) || !counted_[idx(joint.element)]) continue;
+      RowBlock<Scalar> block;
+      const JointGeometry<Scalar> g(joint, bodies_[idx(joint.first)], bodies_[idx(joint.second)]);
+      Type::template evaluate<Scalar>(g, joint, block);
+      add_rows(block, m.elements[idx(joint.element)]);
+    }
+  });
+  for (const DriverData& driver : m.drivers) {
+    const JointData& joint = driver.coordinate.joint;
+    if ((joint.first != b && joint.second != b) || !counted_[idx(driver.element)]) continue;
+    RowBlock<Scalar> block;
+    evaluate_driver<Scalar>(driver, driver.curve.at(t_, system_->curve_limit()), bodies_[idx(joint.first)],
+                            bodies_[idx(joint.second)], block);
+    add_rows(block, m.elements[idx(driver.element)]);
+  }
+}
+
+/// D^T lambda (and mu) on both bodies, gamma - D vdot, and what is left of the constraints.
+void BodyResidual::add_rows(const RowBlock<Scalar>& block, const ElementModel& element) {
+  const double beta = model_->description.baumgarte;
+  const int bodies[2] = {element.first, element.second};
+  for (int r = 0; r < element.rows; ++r) {
+    const auto row = idx(element.row + r);
+    rate_[row] = -block.nu[r];
+    position_[row] = block.phi[r];
+    right_[row] = block.gamma[r];
+    for (int side = 0; side < 2; ++side) {
+      if (bodies[side] == model_->body_count()) continue;
+      const auto b = idx(bodies[side]);
+      Wrench<Scalar>& load = wrench(bodies[side]);
+      for (int i = 0; i < 6; ++i) {
+        const Scalar& d = block.d[side](r, i);
+        const auto part = [&](Wrench<Scalar>& w) -> Scalar& { return i < 3 ? w.force[i] : w.moment[i - 3]; };
+        part(load) += held_.multipliers[row] * d;
+        if (held_.second_multipliers) part(second_wrench_[b]) += held_.second_multipliers[row] * d;
+        right_[row] -= held_.acceleration[b][i] * d;
+        rate_[row] += d * (i < 3 ? bodies_[b].velocity[i] : bodies_[b].angular_velocity[i - 3]);
+      }
+    }
+    if (beta > 0.0) right_[row] -= (beta * beta) * position_[row] + (2.0 * beta) * rate_[row];
+  }
+}
+
+}  // namespace seacrane

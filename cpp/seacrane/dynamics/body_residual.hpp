@@ -1,0 +1,82 @@
+#pragma once
+
+#include <vector>
+
+#include "seacrane/dynamics/kinematics.hpp"
+#include "seacrane/math/dual.hpp"
+#include "seacrane/model/model.hpp"
+
+namespace seacrane {
+
+class RedundantSystem;
+
+/// The residual of eq (9), element by element, with accelerations and multipliers held:
+///
+///   p = load + D^T lambda - M vdot,   s = gamma - D vdot,
+///
+/// and its slopes in the twelve directions of one body at a time (translation, rotation vector in inertial
+/// axes, velocity, angular velocity), by automatic differentiation: loads, rows and vessel are the code of
+/// the run with a Dual for a double. Only a function force, a C function, is differentiated by central
+/// differences. Allocates nothing after construction.
+class BodyResidual {
+ public:
+  static constexpr int kDirections = 12;
+  using Scalar = Dual<kDirections>;
+  using Slopes = Eigen::Matrix<double, 6, kDirections>;
+
+  /// What does not change; by body, by row, by row, and the memory part of a state.
+  struct Held {
+    const Vec6d* acceleration;
+    const double* multipliers;
+    const double* second_multipliers;  // mu, whose D^T mu is wanted as well; may be null
+    const double* memory;
+  };
+
+  /// Rows of the elements in `counted` only (all elements by default).
+  explicit BodyResidual(const Model& model, const std::vector<int>* counted = nullptr);
+
+  /// Goes on from the kinematics, waves and histories of the system's last evaluation, at t.
+  void start(const RedundantSystem& system, double t, const Held& held);
+  /// Slopes in the directions of a body, until the next call.
+  void differentiate(int body);
+
+  /// Of p on a body, and of D^T mu.
+  Slopes load(int body) const { return slopes(wrench_[idx(body)]); }
+  Slopes second_load(int body) const { return slopes(second_wrench_[idx(body)]); }
+  /// Bodies on which p may have slopes.
+  const std::vector<int>& touched() const { return touched_; }
+  /// By row: s, the velocity residual D v - nu and the position residual.
+  const std::vector<Scalar>& acceleration_rows() const { return right_; }
+  const std::vector<Scalar>& velocity_rows() const { return rate_; }
+  const std::vector<Scalar>& position_rows() const { return position_; }
+  const LoadSum<Scalar>& sum() const { return sum_; }
+  /// Rates of the memory states of the body's vessel.
+  const std::vector<Scalar>& memory_rates() const { return memory_rate_; }
+
+ private:
+  static Slopes slopes(const Wrench<Scalar>& w);
+  void seed(const BodyKinematics<double>& k, BodyKinematics<Scalar>& out) const;
+  Wrench<Scalar>& wrench(int body);
+  void add_inertia(int body);
+  void add_loads(int body, const LoadInput<Scalar>& input);
+  void add_differences(const FunctionForce& load);
+  void add_hydrodynamics(int body, const LoadInput<Scalar>& input);
+  void add_waves(int body);
+  void add_rows(int body);
+  void add_rows(const RowBlock<Scalar>& block, const ElementModel& element);
+
+  const Model* model_;
+  const RedundantSystem* system_ = nullptr;
+  double t_ = 0.0;
+  Held held_{};
+  std::vector<char> counted_;  // by element
+  std::vector<BodyKinematics<Scalar>> bodies_;
+  std::vector<BodyKinematics<double>> moved_;
+  std::vector<Wrench<Scalar>> wrench_, second_wrench_;
+  std::vector<Wrench<double>> moved_wrench_;
+  std::vector<Scalar> right_, rate_, position_, memory_state_, memory_rate_;
+  std::vector<int> touched_;
+  LoadSum<Scalar> sum_{};
+};
+
+}  // namespace seacrane

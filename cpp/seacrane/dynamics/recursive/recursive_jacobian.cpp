@@ -1,0 +1,283 @@
+#include "seacrane/dynamics/recursive/recursive_jacobian.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+
+#include "seacrane/dynamics/redundant.hpp"
+
+namespace seacrane {
+namespace {
+
+Vec6d moved_wrench(const Vec6d& w, const Vec3d& reach) {
+  Vec6d out = w;
+  out.tail<3>() += reach.cross(w.head<3>());
+  return out;
+}
+
+}  // namespace
+
+RecursiveJacobian::RecursiveJacobian(const Model& model, const BodyTree& tree)
+    : model_(&model),
+      tree_(tree),
+      residual_(model, &tree.loops),
+      memory_(memory_matrices(model)),
+      states_(model.layout.work - model.layout.memory),
+      multipliers_(idx(model.rows())),
+      power_(idx(model.body_count())),
+      absolute_power_(power_),
+      state_(idx(tree.positions + tree.speeds)),
+      state_rate_(idx(tree.positions)),
+      bodies_(idx(model.body_count()) + 1, BodyKinematics<Scalar>::ground()),
+      column_(idx(tree.columns)),
+      bias_(bodies_.size()),
+      acceleration_(bodies_.size(), Vec6<Scalar>::Zero()),
+      force_(bodies_.size()),
+      reach_(bodies_.size()),
+      kinematics_{tree_, column_, reach_, bias_},
+      motion_(bodies_.size()),
+      change_(bodies_.size()),
+      torque_(tree.clusters.size()),
+      load_(bodies_.size(), Vec6d::Zero()),
+      response_(load_) {
+  for (int e : tree.loops) {
+    for (int r = 0; r < model.elements[idx(e)].rows; ++r) rows_.emplace_back(e, r);
+  }
+  right_ = lambda_ = VecXd::Zero(static_cast<Eigen::Index>(rows_.size()));
+  for (const Vessel& vessel : model.vessels) fluid_.emplace_back(vessel.memory_states(), kDirections);
+  to_fluid_.resize(tree.positions + tree.speeds + states_ + 2, 6);
+}
+
+void RecursiveJacobian::evaluate(const TreeEvaluation& at, double t, const double* y, const double* rate,
+                                 double* out) {
+  at_ = &at;
+  const int size = tree_.positions + tree_.speeds;
+  const std::size_t n = idx(size + states_ + 2);
+  std::fill_n(out, n * n, 0.0);
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    multipliers_[idx(model_->elements[idx(rows_[i].first)].row + rows_[i].second)] =
+        at.loops.multipliers()[static_cast<Eigen::Index>(i)];
+  }
+  differentiate_bodies(t, y);
+  for (int first = 0; first < size; first += kDirections) differentiate_tree(first, y, rate, out);
+  write_memory_columns(y, out);
+}
+
+/// Slopes of every body's residual, and of the loops' rows, in the directions of every body.
+void RecursiveJacobian::differentiate_bodies(double t, const double* y) {
+  const Model& m = *model_;
+  shares_.clear();
+  row_shares_.clear();
+  residual_.start(at_->terms, t,
+                  {at_->acceleration, multipliers_.data(), nullptr, y + tree_.positions + tree_.speeds});
+  for (int b = 0; b < m.body_count(); ++b) {
+    residual_.differentiate(b);
+    for (int to : residual_.touched()) {
+      if (to < m.body_count()) shares_.push_back({to, b, residual_.load(to)});
+    }
+    const auto slopes = [](const Scalar& x) { return Row(Eigen::Map<const Row>(x.slope.data())); };
+    for (std::size_t i = 0; i < rows_.size(); ++i) {
+      const ElementModel& element = m.elements[idx(rows_[i].first)];
+      if (element.first != b && element.second != b) continue;
+      const Scalar& s = residual_.acceleration_rows()[idx(element.row + rows_[i].second)];
+      row_shares_.push_back({static_cast<int>(i), b, slopes(s)});
+    }
+    power_[idx(b)] = slopes(residual_.sum().power);
+    absolute_power_[idx(b)] = slopes(residual_.sum().absolute_power);
+    const int v = m.bodies[idx(b)].vessel;
+    if (v < 0) continue;
+    for (int i = 0; i < m.vessels[idx(v)].memory_states(); ++i) {
+      fluid_[idx(v)].row(i) = slopes(residual_.memory_rates()[idx(i)]);
+    }
+  }
+}
+
+/// Columns of up to twelve positions and speeds, from `first` on.
+void RecursiveJacobian::differentiate_tree(int first, const double* y, const double* rate, double* out) {
+  const int size = tree_.positions + tree_.speeds, last = std::min(first + kDirections, size);
+  const std::size_t n = idx(size + states_ + 2);
+  for (int i = 0; i < size; ++i) state_[idx(i)] = Scalar(y[i]);
+  for (int i = first; i < last; ++i) state_[idx(i)] = Scalar::variable(y[i], i - first);
+  const Scalar* u = state_.data() + tree_.positions;
+  kinematics_.place(state_.data(), u, bodies_.data());
+  kinematics_.position_rates(state_.data(), u, bodies_.data(), state_rate_.data());
+  read_kinematics();
+  spread_acceleration(rate + tree_.positions);
+  gather();
+  for (int k = 0; k < last - first; ++k) {
+    double* column = out + n * idx(first + k);
+    for (int i = 0; i < tree_.positions; ++i) column[i] = state_rate_[idx(i)].slope[idx(k)];
+    write_column(k, column);
+  }
+}
+
+/// Directions of the bodies, rotations as vectors in inertial axes, over those of the state.
+void RecursiveJacobian::read_kinematics() {
+  for (int b = 0; b < model_->body_count(); ++b) {
+    const BodyKinematics<Scalar>& k = bodies_[idx(b)];
+    const Mat3d& r = at_->terms.bodies()[idx(b)].rotation;
+    for (int d = 0; d < kDirections; ++d) {
+      Mat3d turned;
+      for (int i = 0; i < 9; ++i) turned(i) = k.rotation(i).slope[idx(d)];
+      const Mat3d spin = turned * r.transpose();
+      auto column = motion_[idx(b)].col(d);
+      for (int i = 0; i < 3; ++i) {
+        column[i] = k.position[i].slope[idx(d)];
+        column[3 + i] = 0.5 * (spin((i + 2) % 3, (i + 1) % 3) - spin((i + 1) % 3, (i + 2) % 3));
+        column[6 + i] = k.velocity[i].slope[idx(d)];
+        column[9 + i] = k.angular_velocity[i].slope[idx(d)];
+      }
+    }
+  }
+}
+
+/// Accelerations of the bodies for the given rates of the speeds.
+void RecursiveJacobian::spread_acceleration(const double* u_rate) {
+  for (const Cluster& c : tree_.clusters) {
+    for (const Member& m : c.members) {
+      Vec6<Scalar>& a = acceleration_[idx(m.body)];
+      a.setZero();
+      if (c.kind != Cluster::floating) {
+        const Vec6<Scalar>& parent = acceleration_[idx(c.parent)];
+        const Vec3<Scalar> turning = parent.tail<3>();
+        a = parent + bias_[idx(m.body)];
+        a.head<3>() += cross<Scalar>(turning, reach_[idx(m.body)]);
+      }
+      for (int k = 0; k < c.speeds; ++k) a += Scalar(u_rate[c.u + k]) * column_[idx(m.column + k)];
+    }
+  }
+}
+
+/// torque_: slopes of S^T p, gathered inwards.
+void RecursiveJacobian::gather() {
+  for (auto& change : change_) change.setZero();
+  for (const Share& share : shares_) {
+    change_[idx(share.to)].noalias() += share.slopes * motion_[idx(share.from)];
+  }
+  for (int b = 0; b < model_->body_count(); ++b) {
+    BodyResidual::Slopes turned;
+    for (int i = 0; i < 6; ++i) turned.row(i) = Eigen::Map<const Row>(acceleration_[idx(b)][i].slope.data());
+    change_[idx(b)].noalias() -= at_->mass[b] * turned;
+    const Vec6d p = at_->load[b] - at_->mass[b] * at_->acceleration[b];
+    for (int i = 0; i < 6; ++i) {
+      force_[idx(b)][i] = Scalar(p[i]);
+      Eigen::Map<Row>(force_[idx(b)][i].slope.data()) = change_[idx(b)].row(i);
+    }
+  }
+  force_.back().setZero();
+  for (std::size_t i = tree_.clusters.size(); i-- > 0;) {
+    const Cluster& c = tree_.clusters[i];
+    torque_[i].setZero();
+    for (const Member& m : c.members) {
+      const Vec6<Scalar>& f = force_[idx(m.body)];
+      for (int k = 0; k < c.speeds; ++k) {
+        const Scalar g = column_[idx(m.column + k)].dot(f);
+        torque_[i].row(k) += Eigen::Map<const Row>(g.slope.data());
+      }
+      if (c.kind == Cluster::floating) continue;
+      const Vec3<Scalar> force = f.head<3>();
+      force_[idx(c.parent)] += f;
+      force_[idx(c.parent)].tail<3>() += cross<Scalar>(reach_[idx(m.body)], force);
+    }
+  }
+}
+
+void RecursiveJacobian::write_column(int k, double* column) {
+  const Model& m = *model_;
+  // Torques of clusters as wrenches on their bodies, and opposite ones on what carries these.
+  for (auto& load : load_) load.setZero();
+  for (std::size_t i = 0; i < tree_.clusters.size(); ++i) {
+    const Cluster& c = tree_.clusters[i];
+    if (c.speeds == 0) continue;
+    Eigen::Matrix<double, 6, Eigen::Dynamic, 0, 6, 6> s(6, c.speeds);
+    for (int j = 0; j < c.speeds; ++j) s.col(j) = at_->tree.columns()[idx(c.members[0].column + j)];
+    const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 6, 6> gram = s.transpose() * s;
+    const Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 6, 1> torque = torque_[i].col(k).head(c.speeds);
+    const Vec6d wrench = s * gram.llt().solve(torque);
+    load_[idx(c.body)] += wrench;
+    if (c.kind != Cluster::floating) {
+      load_[idx(c.parent)] -= moved_wrench(wrench, at_->tree.reach(c.body));
+    }
+  }
+  load_.back().setZero();
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    double turned = 0.0;
+    const ElementModel& element = m.elements[idx(rows_[i].first)];
+    const RowBlock<double>& block = at_->blocks[rows_[i].first];
+    for (int side = 0; side < 2; ++side) {
+      const Vec6<Scalar>& a = acceleration_[idx(side == 0 ? element.first : element.second)];
+      for (int j = 0; j < 6; ++j) turned += block.d[side](rows_[i].second, j) * a[j].slope[idx(k)];
+    }
+    right_[static_cast<Eigen::Index>(i)] = -turned;
+  }
+  for (const RowShare& share : row_shares_) {
+    right_[share.row] += share.slopes.dot(motion_[idx(share.from)].col(k));
+  }
+  double power = 0.0, absolute_power = 0.0;
+  for (int b = 0; b < m.body_count(); ++b) {
+    power += power_[idx(b)].dot(motion_[idx(b)].col(k));
+    absolute_power += absolute_power_[idx(b)].dot(motion_[idx(b)].col(k));
+  }
+  solve(column, power, absolute_power);
+  double* fluid = column + tree_.positions + tree_.speeds;
+  for (std::size_t v = 0; v < m.vessels.size(); ++v) {
+    const Vessel& vessel = m.vessels[v];
+    Eigen::Map<VecXd>(fluid + vessel.memory_offset - m.layout.memory, vessel.memory_states()).noalias() =
+        fluid_[v] * motion_[idx(vessel.body)].col(k);
+  }
+}
+
+/// Rates of the speeds and the work under load_ and right_, which it may overwrite.
+void RecursiveJacobian::solve(double* column, double power, double absolute_power) {
+  double* const u_rate = column + tree_.positions;
+  at_->tree.solve(load_.data(), false, response_.data(), u_rate);
+  if (!rows_.empty()) {
+    for (std::size_t i = 0; i < rows_.size(); ++i) {
+      right_[static_cast<Eigen::Index>(i)] -= along_row(static_cast<int>(i), response_.data());
+    }
+    lambda_ = at_->loops.solve(right_);
+    at_->loops.add_load(at_->blocks, lambda_, load_.data());
+    at_->tree.solve(load_.data(), false, response_.data(), u_rate);
+    for (std::size_t i = 0; i < rows_.size(); ++i) {
+      const ElementModel& element = model_->elements[idx(rows_[i].first)];
+      if (!element.driver) continue;
+      const double rate = at_->blocks[rows_[i].first].nu[0], change = lambda_[static_cast<Eigen::Index>(i)];
+      power += rate * change;
+      absolute_power += sign(rate * multipliers_[idx(element.row)]) * rate * change;
+    }
+  }
+  column[tree_.positions + tree_.speeds + states_] = power;
+  column[tree_.positions + tree_.speeds + states_ + 1] = absolute_power;
+}
+
+double RecursiveJacobian::along_row(int row, const Vec6d* acceleration) const {
+  const auto [e, r] = rows_[idx(row)];
+  const ElementModel& element = model_->elements[idx(e)];
+  return at_->blocks[e].d[0].row(r).dot(acceleration[element.first]) +
+         at_->blocks[e].d[1].row(r).dot(acceleration[element.second]);
+}
+
+/// The memory is linear: six unit loads in the yaw frame tell how its states act.
+void RecursiveJacobian::write_memory_columns(const double* y, double* out) {
+  const Model& m = *model_;
+  const int first = tree_.positions + tree_.speeds, n = first + states_ + 2;
+  Eigen::Map<MatXd> jacobian(out, n, n);
+  for (std::size_t v = 0; v < m.vessels.size(); ++v) {
+    const Vessel& vessel = m.vessels[v];
+    const int states = vessel.memory_states();
+    const int at = first + vessel.memory_offset - m.layout.memory;
+    if (states == 0) continue;
+    const YawFrame<double>& frame = at_->terms.frame(static_cast<int>(v));
+    const double direction = memory_power_sign(vessel, frame, y + at, to_fluid_.col(0).data());
+    to_fluid_.setZero();
+    for (int i = 0; i < 6; ++i) {
+      right_.setZero();
+      for (auto& load : load_) load.setZero();
+      load_[idx(vessel.body)] = frame.to_inertial(Vec6d(Vec6d::Unit(i)));
+      solve(to_fluid_.col(i).data(), frame.twist[i], direction * frame.twist[i]);
+    }
+    jacobian.middleCols(at, states).noalias() = -to_fluid_ * memory_[v].c;
+    jacobian.block(at, at, states, states) += memory_[v].a;
+  }
+}
+
+}  // namespace seacrane
