@@ -218,7 +218,7 @@ def test_implicit_methods_use_it(integrator: str, formulation: str) -> None:
     reference = simulate(scene, integrator="dop853", rtol=1e-9, **settings)
     stats: dict[str, Any] = dict(run.stats)
     assert stats["jacobians"] > 0
-    assert stats["evaluations"] < stats["jacobians"] * stats["states"]
+    assert stats["evaluations"] - stats["newton_iterations"] < stats["jacobians"] * stats["states"]
     error = np.abs(run.channels["position"] - reference.channels["position"])
     assert np.max(error) < 2e-3
 

@@ -956,7 +956,7 @@ class Evaluator:
         """
     def jacobian(self, t: typing.SupportsFloat | typing.SupportsIndex, y: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]:
         """
-        Exact d(dy/dt)/dy (n, n), a new array: automatic differentiation, differences only for function forces. ValueError where there is none.
+        Exact d(dy/dt)/dy (n, n), a new array: automatic differentiation, differences only for function forces; the history of a convolution is held. ValueError where there is none.
         """
     def project(self, t: typing.SupportsFloat | typing.SupportsIndex, y: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> numpy.typing.NDArray[numpy.float64]:
         """
