@@ -12,9 +12,10 @@ from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 
-from seacrane import SampledController, Scene, simulate
+from seacrane import Run, SampledController, Scene, SceneError, SimulationError, simulate
 
 GENEROUS = 60.0  # s, far above what a return takes, far below what the run would
 LONG = 1e6  # s of simulated time: hours
@@ -184,3 +185,85 @@ def test_two_threads_share_one_model_and_agree() -> None:
     for thread in threads:
         thread.join()
     assert (results[0]["position"] == results[1]["position"]).all()
+
+
+def diverging() -> Scene:
+    """A hinge on a spring that one step of rk4 cannot resolve."""
+    scene = Scene()
+    scene.add_body(name="bob", mass=1.0, inertia=[0.1, 0.1, 0.1], position=(1.0, 0.0, 0.0))
+    scene.add_joint(
+        kind="revolute", name="pin", first="ground", second="bob", point=(0, 0, 0), axis=(0, 1, 0)
+    )
+    scene.add_actuator(name="motor", joint="pin", stiffness=60.0)
+    return scene
+
+
+def after(limit: float, error: BaseException | None = None, **inputs: Any) -> SampledController:
+    """Raises, or sets inputs that there are not, from a time on."""
+
+    def function(now: float, measured: Any) -> dict[str, Any]:
+        if now < limit - 1e-9:
+            return {"motor.force": 1.0}
+        if error is not None:
+            raise error
+        return inputs
+
+    return SampledController(period=0.1, function=function)
+
+
+ENDS: dict[str, tuple[type[Exception], dict[str, Any]]] = {
+    "integration": (SimulationError, {"integrator": "rk4", "dt": 0.41}),
+    "controller": (SimulationError, {"controllers": [after(1.0, KeyError("wire"))]}),
+    "memory in a controller": (SimulationError, {"controllers": [after(1.0, MemoryError())]}),
+    "inputs": (SceneError, {"controllers": [after(1.0, **{"engine.force": 1.0})]}),
+}
+
+
+@pytest.mark.parametrize("name", ENDS)
+def test_what_was_recorded_before_an_error_is_kept(name: str, tmp_path: Path) -> None:
+    kind, settings = ENDS[name]
+    with pytest.raises(kind) as caught:
+        simulate(diverging(), t_end=1e3, **settings)
+    partial = caught.value.result
+    assert partial is not None
+    assert partial.interrupted
+    assert 1 < partial.time.size < 9000
+    assert all(np.isfinite(values).all() for values in partial.channels.values())
+    assert partial.state is not None
+    assert partial.state.time >= partial.time[-1]
+    if name != "integration":
+        assert partial.state.time == pytest.approx(1.0)
+    from seacrane import Result
+
+    again = Result.load(partial.save(tmp_path / "partial.nc"))
+    assert np.array_equal(again["position"], partial["position"])
+
+
+def test_memory_that_runs_out_in_the_loop_leaves_what_was_recorded(monkeypatch: pytest.MonkeyPatch) -> None:
+    advance = Run.advance
+
+    def short_of_memory(run: Run, t_end: float, progress: Any = None) -> bool:
+        advance(run, 2.0, progress)
+        raise MemoryError
+
+    monkeypatch.setattr(Run, "advance", short_of_memory)
+    with pytest.raises(SimulationError, match="memory ran out at t = 2 s") as caught:
+        simulate(ball_on_a_pin(), t_end=10.0)
+    assert caught.value.result is not None
+    assert caught.value.result.time[-1] == 2.0
+
+
+def test_the_state_where_a_run_failed_can_be_gone_on_from() -> None:
+    with pytest.raises(SimulationError) as caught:
+        simulate(diverging(), t_end=2.0, controllers=[after(1.0, ValueError("no signal"))])
+    partial = caught.value.result
+    assert partial is not None
+    rest = simulate(diverging(), t_end=2.0, start=partial.state)
+    assert rest.time[0] == pytest.approx(1.0)
+    np.testing.assert_array_equal(rest["position"][0], partial["position"][-1])
+
+
+def test_an_error_outside_a_run_has_no_result() -> None:
+    with pytest.raises(SceneError) as caught:
+        simulate(Scene(), t_end=-1.0)
+    assert caught.value.result is None

@@ -2,9 +2,23 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from seacrane.result import Result
+
 
 class SeacraneError(Exception):
-    """Base of every exception that seacrane raises on purpose."""
+    """Base of every exception that seacrane raises on purpose.
+
+    Attributes
+    ----------
+    result : Result or None
+        What a run had recorded when it raised this, with `interrupted` set and its last good state; None
+        outside a run.
+    """
+
+    result: Result | None = None
 
 
 class SceneError(SeacraneError, ValueError):
@@ -16,4 +30,5 @@ class FileFormatError(SeacraneError, ValueError):
 
 
 class SimulationError(SeacraneError, RuntimeError):
-    """A run could not be continued; the message says which state, when, and what to try."""
+    """A run could not be continued; the message says which state, when, and what to try; `result` holds
+    the outputs until then."""

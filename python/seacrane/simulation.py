@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
@@ -12,7 +13,7 @@ from numpy.typing import NDArray
 from seacrane import _core
 from seacrane.channel_names import core_channels, named_channels
 from seacrane.checked import number_of, numbers_of
-from seacrane.errors import SceneError, SimulationError
+from seacrane.errors import SceneError, SeacraneError, SimulationError
 from seacrane.linearise import fastest_mode
 from seacrane.scene import Scene
 from seacrane.version import __version__
@@ -173,6 +174,11 @@ class Run:
             self.interrupted = True
         return not self.interrupted
 
+    @property
+    def state(self) -> _core.State:
+        """The present state: a copy, to go on from by ``Run(scene, start=...)``."""
+        return self.core.state
+
     def measure(self) -> dict[str, Array]:
         """All channels at the present instant, by the names of a result."""
         arrays = self.core.snapshot()
@@ -239,7 +245,21 @@ class Run:
             links=[name for name, joint in scene.joints.items() if joint.kind == "distance"],
             stats=stats,
             interrupted=self.interrupted,
+            state=self._last_state(),
         )
+
+    def _last_state(self) -> _core.State | None:
+        """The present state, or None where its rate cannot be found."""
+        try:
+            return self.core.state
+        except SeacraneError:
+            return None
+
+    def explain(self, error: SeacraneError) -> None:
+        """Hang what has been recorded on an error that ends the run."""
+        self.interrupted = True
+        with contextlib.suppress(MemoryError):
+            error.result = self.result()
 
 
 def _formulation(asked: str, model: _core.Model, integrator: str) -> str:
@@ -346,7 +366,8 @@ def simulate(
     SceneError
         For a scene or setting that makes no sense.
     SimulationError
-        When the integration cannot go on; it says where, when and what to try.
+        When the integration cannot go on, a controller raises, or memory runs out; it says where, when and
+        what to try. Its `result` holds the outputs until then.
     """
     controllers = _checked(controllers)
     given = {"integrator": integrator, "rtol": rtol, "dt": dt, "spectral_radius": spectral_radius}
@@ -380,12 +401,24 @@ def _refuse_beside_accuracy(chosen: Mapping[str, Any], controllers: Sequence[Sam
 
 
 def finished(run: Run, controllers: Sequence[SampledController] = (), *, progress: bool = False) -> Result:
-    """Advance a run to its end, or to where Ctrl-C stops it, and return its result."""
+    """Advance a run to its end, or to where Ctrl-C stops it, and return its result.
+
+    What ends it otherwise is raised as by `simulate`, and carries the partial result.
+    """
     report, close = _progress(run.start.time, run.t_end, progress)
     try:
         _advance(run, run.t_end, controllers, report)
     except KeyboardInterrupt:  # between two pieces of the loop, or inside a controller
         run.interrupted = True
+    except SeacraneError as error:
+        run.explain(error)
+        raise
+    except MemoryError as error:
+        stopped = SimulationError(
+            f"run: memory ran out at t = {run.core.time:.6g} s; record fewer channels, or a longer dt_out"
+        )
+        run.explain(stopped)
+        raise stopped from error
     finally:
         close()
     return run.result()

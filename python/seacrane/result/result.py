@@ -22,6 +22,8 @@ from seacrane.result.netcdf import read_arrays, write_netcdf
 if TYPE_CHECKING:
     import xarray
 
+    from seacrane._core import State
+
 Array = NDArray[np.float64]
 Stat = str | int | float
 
@@ -122,6 +124,9 @@ class Result:
         Version, settings and counters of the run: the attributes of the saved file.
     interrupted : bool
         True if the run was stopped before its end; it then holds the outputs up to that moment.
+    state : State or None
+        Where the run stopped, to go on from by ``simulate(start=...)``. `save` leaves it out: a result that
+        was read from a file, or pickled, has none.
     """
 
     time: Array
@@ -129,6 +134,7 @@ class Result:
     coords: Mapping[str, tuple[str, ...]]
     stats: Mapping[str, Stat]
     interrupted: bool = False
+    state: State | None = None
     dims: Mapping[str, tuple[str, ...]] = field(init=False)
 
     def __post_init__(self) -> None:
@@ -163,6 +169,7 @@ class Result:
         links: Sequence[str] = (),
         stats: Mapping[str, Any],
         interrupted: bool = False,
+        state: State | None = None,
     ) -> Result:
         """Check and wrap the arrays that the run loop filled.
 
@@ -181,6 +188,8 @@ class Result:
             mapping.
         interrupted : bool
             True if the run did not reach its end; only then may channels hold values that are not finite.
+        state : State, optional
+            Where the run stopped.
 
         Raises
         ------
@@ -213,6 +222,7 @@ class Result:
             coords={dim: names for dim, names in coords.items() if dim in used},
             stats=_checked_stats(stats),
             interrupted=bool(interrupted),
+            state=state,
         )
 
     def __getitem__(self, name: str) -> Array:
