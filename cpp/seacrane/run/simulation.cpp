@@ -249,7 +249,7 @@ bool Simulation::advance(double t_end, const std::function<bool(double)>& keep_g
     }
   }
   wall_seconds_ += seconds_since(asked);
-  return integrator_->time() >= t_end;
+  return going && integrator_->time() >= t_end;
 }
 
 void Simulation::check_inputs(const std::vector<double>& slots) const {

@@ -56,7 +56,7 @@ class Simulation {
   Simulation(std::shared_ptr<const Model> model, State start, RunOptions options);
 
   /// Steps to t_end. `keep_going` is asked every 20 ms of wall time; false stops the run after the step
-  /// at hand. Returns whether t_end was reached.
+  /// at hand. Returns whether t_end was reached and nothing asked for a stop.
   bool advance(double t_end, const std::function<bool(double time)>& keep_going);
 
   double time() const { return integrator_->time(); }
