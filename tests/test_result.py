@@ -200,7 +200,7 @@ def run() -> dict[str, Any]:
 
 GENERAL = {
     "acceleration", "angular_acceleration", "coordinate", "coordinate_rate", "actuator_force",
-    "drift_force", "driver_force", "tension",
+    "drift_force", "driver_force", "tension", "limit_force", "impact_loss",
 }  # fmt: skip
 
 

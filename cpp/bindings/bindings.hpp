@@ -11,6 +11,7 @@ namespace py = pybind11;
 void bind_curve(py::module_& m);
 void bind_elements(py::module_& m);
 void bind_flow_force(py::module_& m);
+void bind_limits(py::module_& m);
 void bind_sea(py::module_& m);
 void bind_model(py::module_& m);
 void bind_simulation(py::module_& m);

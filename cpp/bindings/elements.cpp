@@ -298,4 +298,5 @@ void bind_elements(py::module_& m) {
   bind_loads(m);
   bind_vessel(m);
   bind_flow_force(m);
+  bind_limits(m);
 }

@@ -15,6 +15,10 @@ namespace {
 
 /// Sorts a description to its kind.
 void add_load(SceneDescription& scene, const py::object& object) {
+  if (py::isinstance<LimitDescription>(object)) {
+    scene.limits.push_back(object.cast<LimitDescription>());
+    return;
+  }
   bool known = false;
   for_each_load_type([&]<class Load>() {
     using Description = typename Load::Description;
@@ -311,6 +315,15 @@ void bind_model(py::module_& m) {
             return sum;
           },
           "Points in time at which convolutions keep the motion of their vessels.")
+      .def_property_readonly(
+          "limits",
+          [](const Model& x) {
+            std::vector<std::pair<std::string, bool>> out;
+            for (const Limit& limit : x.limits) out.emplace_back(limit.name, limit.element >= 0);
+            return out;
+          },
+          "(name, whether it holds at the described start) of wires, bounds and seats, in the order of the "
+          "channel limit_force.")
       .def_property_readonly("slots", [](const Model& x) { return x.slot_count; })
       .def_property_readonly(
           "breakpoints", [](const Model& x) { return x.breakpoints; }, "s")

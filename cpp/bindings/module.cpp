@@ -3,6 +3,7 @@
 #include "bindings.hpp"
 #include "seacrane/integrate/integration_error.hpp"
 #include "seacrane/model/validate.hpp"
+#include "seacrane/run/contacts.hpp"
 
 namespace {
 
@@ -18,6 +19,8 @@ void translate(std::exception_ptr pointer) {
     raise("SceneError", error.what());
   } catch (const std::invalid_argument& error) {
     raise("SceneError", error.what());
+  } catch (const seacrane::ChatteringError& error) {
+    raise("ChatteringError", error.what());
   } catch (const seacrane::IntegrationError& error) {
     raise("SimulationError", error.what());
   } catch (const std::domain_error& error) {

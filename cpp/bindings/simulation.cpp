@@ -55,6 +55,10 @@ py::dict statistics(const Simulation& s) {
   out["projections"] = r.counters.projections;
   out["restarts"] = r.counters.restarts;
   out["dense_solves"] = r.dense_solves;
+  if (s.has_limits()) {
+    out["events"] = s.events().size();
+    out["impact_energy_lost_J"] = r.energy_lost;
+  }
   out["wall_s"] = r.wall_seconds;
   out["states"] = s.state_size();
   return out;
@@ -122,11 +126,21 @@ void bind_simulation(py::module_& m) {
   bind_steps(m);
   py::class_<State>(m, "State", "Time (s), state values and inputs of a run; a copy is a checkpoint.")
       .def(py::init([](double time, const Array& values, const Array& inputs,
-                       std::vector<TwistHistory> histories, StepHistory steps) {
-             return State{time, to_vector(values), to_vector(inputs), std::move(histories), std::move(steps)};
+                       std::vector<TwistHistory> histories, StepHistory steps,
+                       std::optional<std::vector<std::string>> closed) {
+             return State{time,
+                          to_vector(values),
+                          to_vector(inputs),
+                          std::move(histories),
+                          std::move(steps),
+                          std::move(closed)};
            }),
            py::kw_only(), py::arg("time"), py::arg("values"), py::arg("inputs"),
-           py::arg("histories") = std::vector<TwistHistory>{}, py::arg("steps") = StepHistory{})
+           py::arg("histories") = std::vector<TwistHistory>{}, py::arg("steps") = StepHistory{},
+           py::arg("closed") = py::none())
+      .def_property_readonly(
+          "closed", [](const State& s) { return s.closed; },
+          "Names of the limits that hold (copy); None: as at the described start.")
       .def_property_readonly("time", [](const State& s) { return s.time; })
       .def_property_readonly(
           "values", [](const State& s) { return to_array(s.values); }, "copy")
@@ -182,5 +196,17 @@ void bind_simulation(py::module_& m) {
       .def(
           "snapshot", [](Simulation& s) { return channels(s.snapshot()); },
           "All channels at the present time, arrays of one row.")
+      .def(
+          "events",
+          [](const Simulation& s) {
+            std::vector<std::tuple<double, std::string, std::string, double, double, double>> out;
+            for (const Event& e : s.events()) {
+              out.emplace_back(e.time, s.limit_name(e.limit), to_text(e.kind), e.speed, e.impulse,
+                               e.energy_lost);
+            }
+            return out;
+          },
+          "(time in s, limit, kind, speed of approach in m/s or rad/s, impulse in N s or N m s, energy lost "
+          "in J) of all events so far.")
       .def("statistics", &statistics);
 }

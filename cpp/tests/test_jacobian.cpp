@@ -224,6 +224,16 @@ FlowForceDescription example<FlowForce>() {
   return d;
 }
 
+template <>
+FrictionDescription example<Friction>() {
+  return {"load", {"joint", "angle"}, 4.0, 0.7};
+}
+/// Beyond its bound, whatever the state.
+template <>
+SoftStopDescription example<SoftStop>() {
+  return {"load", {"joint", "angle"}, -3.0, -2.9, 7.0, 0.2};
+}
+
 }  // namespace
 
 TEST_CASE("exact Jacobian: every kind of joint") {

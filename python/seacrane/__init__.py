@@ -17,8 +17,11 @@ if TYPE_CHECKING:
         Evaluator,
         FlowForce,
         Frame,
+        Friction,
+        Limit,
         Model,
         RetardationFunctions,
+        SoftStop,
         State,
         StateSpaceBlock,
         TwistHistory,
@@ -34,7 +37,7 @@ if TYPE_CHECKING:
         add_wind,
         use_actual_position,
     )
-    from seacrane.errors import FileFormatError, SceneError, SeacraneError, SimulationError
+    from seacrane.errors import ChatteringError, FileFormatError, SceneError, SeacraneError, SimulationError
     from seacrane.frequency_domain import (
         ResponseStatistics,
         SummedResponse,
@@ -44,11 +47,12 @@ if TYPE_CHECKING:
     )
     from seacrane.hydro import HydroDatabase, load_database
     from seacrane.inverse import Balance, balance, driven, inverse_dynamics, reflected_inertia
+    from seacrane.limits import add_end_stop, add_friction, add_seat, add_soft_stop, add_wire
     from seacrane.linear_system import LinearModel, linear_model
     from seacrane.linearise import fastest_mode, jacobian
     from seacrane.modal_analysis import NaturalModes, natural_modes
     from seacrane.rest_state import equilibrium
-    from seacrane.result import Result
+    from seacrane.result import Event, Result
     from seacrane.scene import Scene
     from seacrane.sea import SeaState, WaveSystem
     from seacrane.sea_state import add_sea
@@ -62,19 +66,23 @@ if TYPE_CHECKING:
 _HOME = {
     "Balance": "inverse",
     "ByHeading": "waves",
+    "ChatteringError": "errors",
     "Curve": "_core",
     "DoubleCountedDampingWarning": "environment",
     "Evaluator": "_core",
+    "Event": "result",
     "FileFormatError": "errors",
     "FlowCoefficients": "environment",
     "FlowForce": "_core",
     "Frame": "_core",
+    "Friction": "_core",
     "HydroDatabase": "hydro",
+    "Limit": "_core",
     "LinearModel": "linear_system",
     "Model": "_core",
     "NaturalModes": "modal_analysis",
-    "ResponseStatistics": "frequency_domain",
     "RepeatingSeaWarning": "waves",
+    "ResponseStatistics": "frequency_domain",
     "Result": "result",
     "RetardationFunctions": "_core",
     "Run": "simulation",
@@ -84,6 +92,7 @@ _HOME = {
     "SeaState": "sea",
     "SeacraneError": "errors",
     "SimulationError": "errors",
+    "SoftStop": "_core",
     "State": "_core",
     "StateSpaceBlock": "_core",
     "SummedResponse": "frequency_domain",
@@ -95,9 +104,14 @@ _HOME = {
     "__version__": "version",
     "add_current": "environment",
     "add_drift": "environment",
+    "add_end_stop": "limits",
+    "add_friction": "limits",
     "add_sea": "sea_state",
+    "add_seat": "limits",
+    "add_soft_stop": "limits",
     "add_vessel": "vessel",
     "add_wind": "environment",
+    "add_wire": "limits",
     "balance": "inverse",
     "driven": "inverse",
     "equilibrium": "rest_state",
@@ -123,14 +137,18 @@ _MODULES = ("cases", "crane", "hydro", "sea")
 __all__ = [
     "Balance",
     "ByHeading",
+    "ChatteringError",
     "Curve",
     "DoubleCountedDampingWarning",
     "Evaluator",
+    "Event",
     "FileFormatError",
     "FlowCoefficients",
     "FlowForce",
     "Frame",
+    "Friction",
     "HydroDatabase",
+    "Limit",
     "LinearModel",
     "Model",
     "NaturalModes",
@@ -145,6 +163,7 @@ __all__ = [
     "SeaState",
     "SeacraneError",
     "SimulationError",
+    "SoftStop",
     "State",
     "StateSpaceBlock",
     "SummedResponse",
@@ -156,9 +175,14 @@ __all__ = [
     "__version__",
     "add_current",
     "add_drift",
+    "add_end_stop",
+    "add_friction",
     "add_sea",
+    "add_seat",
+    "add_soft_stop",
     "add_vessel",
     "add_wind",
+    "add_wire",
     "balance",
     "cases",
     "crane",

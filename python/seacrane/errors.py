@@ -32,3 +32,7 @@ class FileFormatError(SeacraneError, ValueError):
 class SimulationError(SeacraneError, RuntimeError):
     """A run could not be continued; the message says which state, when, and what to try; `result` holds
     the outputs until then."""
+
+
+class ChatteringError(SimulationError):
+    """Limits make and break contact without end in no time; the message names limit, joint and time."""

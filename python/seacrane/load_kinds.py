@@ -18,9 +18,10 @@ from seacrane.scene_node import Node
 
 @dataclass(frozen=True, kw_only=True)
 class LoadKind:
-    """A class of the core and the kinds of its arguments; all have a name and a body."""
+    """A class of the core and the kinds of its arguments; all have a name."""
 
     type: type
+    texts: tuple[str, ...] = ("body",)
     numbers: tuple[str, ...] = ()
     curves: tuple[str, ...] = ()
     arrays: Mapping[str, tuple[int, ...]] = field(default_factory=dict)
@@ -28,7 +29,7 @@ class LoadKind:
     @property
     def keys(self) -> tuple[str, ...]:
         """All entries of an element in a scene file."""
-        return ("kind", "name", "body", *self.numbers, *self.curves, *self.arrays)
+        return ("kind", "name", *self.texts, *self.numbers, *self.curves, *self.arrays)
 
 
 LOAD_KINDS = {
@@ -38,7 +39,19 @@ LOAD_KINDS = {
         curves=("speed",),
         arrays={"point": (3,), "angles": (-1,), "coefficients": (-1, 3)},
     ),
+    "limit": LoadKind(
+        type=_core.Limit,
+        texts=("limit", "joint", "coordinate"),
+        numbers=("minimum", "maximum", "restitution", "sticking_speed"),
+    ),
+    "friction": LoadKind(type=_core.Friction, texts=("joint", "coordinate"), numbers=("load", "speed")),
+    "soft stop": LoadKind(
+        type=_core.SoftStop,
+        texts=("joint", "coordinate"),
+        numbers=("minimum", "maximum", "stiffness", "damping"),
+    ),
 }
+RENAMED = {"limit": "kind"}  # entries of a scene file by the arguments of the class
 
 
 def kind_of(element: Any) -> str:
@@ -54,7 +67,8 @@ def load_to_data(element: Any) -> dict[str, Any]:
     """A described load as plain data."""
     name = kind_of(element)
     kind = LOAD_KINDS[name]
-    out: dict[str, Any] = {"kind": name, "name": element.name, "body": element.body}
+    out: dict[str, Any] = {"kind": name, "name": element.name}
+    out |= {key: getattr(element, RENAMED.get(key, key)) for key in kind.texts}
     out |= {key: getattr(element, key) for key in kind.numbers}
     out |= {key: getattr(element, key).to_pieces() for key in kind.curves}
     return out | {key: np.asarray(getattr(element, key)).tolist() for key in kind.arrays}
@@ -67,7 +81,7 @@ def load_from_node(node: Node) -> Any:
         node.at("kind").fail(f"give one of {', '.join(LOAD_KINDS)}")
     kind = LOAD_KINDS[name]
     node.expect(kind.keys)
-    arguments: dict[str, Any] = {key: node.at(key).text() for key in ("name", "body")}
+    arguments: dict[str, Any] = {RENAMED.get(key, key): node.at(key).text() for key in ("name", *kind.texts)}
     arguments |= {key: node.at(key).number() for key in kind.numbers}
     arguments |= {key: node.at(key).curve() for key in kind.curves}
     arguments |= {key: node.at(key).array(shape) for key, shape in kind.arrays.items()}

@@ -90,11 +90,18 @@ def _elements(scene: Scene) -> Rows:
         "point forces": scene.point_forces,
         "force tables": scene.force_tables,
         "C functions": scene.function_forces,
-        "wind and current": scene.loads,
+        "wind and current": {name: e for name, e in scene.loads.items() if hasattr(e, "body")},
         "vessels": scene.vessels,
     }
     for label, table in loads.items():
         rows.append((label, [f"{name} ({element.body})" for name, element in table.items()]))
+    on_joints = {name: e for name, e in scene.loads.items() if hasattr(e, "joint")}
+    rows.append(
+        (
+            "limits and friction",
+            [f"{name} ({e.joint} {e.coordinate or 'one way'})" for name, e in on_joints.items()],
+        )
+    )
     rows.append(("springs", [f"{name} ({s.first} to {s.second})" for name, s in scene.springs.items()]))
     rows.append(("waves", [] if scene.waves is None else [scene.waves.body]))
     return [(label, names) for label, names in rows if names]

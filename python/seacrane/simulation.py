@@ -205,7 +205,7 @@ class Run:
 
     def result(self) -> Result:
         """What has been recorded so far."""
-        from seacrane.result import Result
+        from seacrane.result import Event, Result
 
         arrays = self.core.channels()
         channels = self._channels(arrays)
@@ -243,6 +243,11 @@ class Run:
             actuators=list(scene.actuators),
             drivers=list(scene.drivers),
             links=[name for name, joint in scene.joints.items() if joint.kind == "distance"],
+            limits=[name for name, _ in model.limits],
+            events=[
+                Event(time=time, name=name, kind=kind, speed=speed, impulse=impulse, energy_lost=lost)
+                for time, name, kind, speed, impulse, lost in self.core.events()
+            ],
             stats=stats,
             interrupted=self.interrupted,
             state=self._last_state(),

@@ -81,6 +81,10 @@ struct Dual {
     }
     return out;
   }
+  friend Dual tanh(const Dual& a) {
+    const double t = std::tanh(a.value);
+    return a.chain(t, 1.0 - t * t);
+  }
   friend Dual floor(const Dual& a) { return Dual(std::floor(a.value)); }
 };
 

@@ -20,15 +20,20 @@ constexpr double kRotationScale = 0.01;    // rad, rad/s: the same at a lever of
 
 class Compiler {
  public:
-  Compiler(const SceneDescription& scene, MergePlan merge) : scene_(scene) {
+  Compiler(const SceneDescription& scene, MergePlan merge, std::vector<Limit> limits = {},
+           ClosedSet closed = 0)
+      : scene_(scene) {
     model_.description = scene;
     model_.merge = std::move(merge);
+    model_.limits = std::move(limits);
+    model_.closed = closed;
   }
 
   Model run() {
     bodies();
     joints();
     drivers();
+    limits();
     loads();
     vessels();
     layout();
@@ -52,6 +57,20 @@ class Compiler {
         {"z", CoordinateKind::z},         {"roll", CoordinateKind::roll},
         {"pitch", CoordinateKind::pitch}, {"yaw", CoordinateKind::yaw}};
     return {joint_data(*joint_.at(d.joint)), kinds.at(d.coordinate)};
+  }
+
+  JointData joint_data(const JointDescription& d) const {
+    const Attachment first = attach(d.first, d.first_frame.point);
+    const Attachment second = attach(d.second, d.second_frame.point);
+    JointData j;
+    j.first = first.body;
+    j.second = second.body;
+    j.first_point = first.point;
+    j.second_point = second.point;
+    j.first_axes = first.axes * d.first_frame.axes;
+    j.second_axes = second.axes * d.second_frame.axes;
+    j.length = d.length;
+    return j;
   }
 
   int slots(int count) {
@@ -131,20 +150,6 @@ class Compiler {
     if (mass > 0.0) model_.gravity.push_back({b, mass * scene_.gravity, moment / mass});
   }
 
-  JointData joint_data(const JointDescription& d) const {
-    const Attachment first = attach(d.first, d.first_frame.point);
-    const Attachment second = attach(d.second, d.second_frame.point);
-    JointData j;
-    j.first = first.body;
-    j.second = second.body;
-    j.first_point = first.point;
-    j.second_point = second.point;
-    j.first_axes = first.axes * d.first_frame.axes;
-    j.second_axes = second.axes * d.second_frame.axes;
-    j.length = d.length;
-    return j;
-  }
-
   void joints() {
     for (const auto& d : scene_.joints) {
       joint_[d.name] = &d;
@@ -159,7 +164,7 @@ class Compiler {
       e.first_point = j.first_point;
       e.second_point = j.second_point;
       for_each_joint_type([&]<class Type>(std::size_t kind) {
-        if (d.kind != Type::kind) return;
+        if (d.kind != Type::kind || d.open) return;
         e.rows = Type::rows;
         model_.joints[kind].push_back(j);
       });
@@ -188,6 +193,22 @@ class Compiler {
     model_.schur = BlockSchur(nodes, model_.body_count());
     for (std::size_t e = 0; e < nodes.size(); ++e)
       model_.elements[e].row = model_.schur.row(static_cast<int>(e));
+  }
+
+  /// Where limits are measured, and the elements of those that hold: closed stops are the last drivers.
+  void limits() {
+    auto element = static_cast<int>(model_.elements.size());
+    for (std::size_t i = model_.limits.size(); i-- > 0;) {
+      Limit& limit = model_.limits[i];
+      const bool here = holds(model_.closed, static_cast<int>(i));
+      if (limit.kind == LimitKind::stop) {
+        limit.coordinate = coordinate(limit.described);
+        limit.element = here ? --element : -1;
+      } else {
+        limit.coordinate.joint = joint_data(scene_.joints[idx(limit.joint)]);
+        limit.element = here ? limit.joint : -1;
+      }
+    }
   }
 
   void loads() {
@@ -306,22 +327,51 @@ class Compiler {
   std::map<std::string, const JointDescription*> joint_;
 };
 
+/// A scene with every body by itself and, of its limits, the rows of a set.
+std::shared_ptr<Model> described_model(const SceneDescription& scene, const std::vector<Limit>& limits,
+                                       ClosedSet closed, const SceneDescription& with_rows) {
+  auto model = std::make_shared<Model>(Compiler(with_rows, no_merge(with_rows), limits, closed).run());
+  if (!limits.empty()) model->description = scene;
+  return model;
+}
+
 }  // namespace
 
 std::shared_ptr<const Model> compile(const SceneDescription& scene, bool merge) {
   validate(scene);
-  auto model = std::make_shared<Model>(Compiler(scene, no_merge(scene)).run());
+  const std::vector<Limit> limits = list_limits(scene);
+  const ClosedSet closed = described_set(scene, limits);
+  const SceneDescription with_rows = limits.empty() ? SceneDescription() : scene_of(scene, limits, closed);
+  const SceneDescription& start = limits.empty() ? scene : with_rows;
+  const std::shared_ptr<Model> model = described_model(scene, limits, closed, start);
+  model->merges = merge;
   assemble(*model);
-  MergePlan plan = merge ? plan_merge(scene) : no_merge(scene);
+  check_start(*model);
+  MergePlan plan = merge ? plan_merge(start) : no_merge(start);
   if (plan.merges()) {
-    auto merged = std::make_shared<Model>(Compiler(scene, std::move(plan)).run());
-    std::vector<double> start(merged->initial_state);
-    merge_state(*model, *merged, model->initial_state.data(), start.data());
-    merged->initial_state = std::move(start);
+    auto merged = std::make_shared<Model>(Compiler(start, std::move(plan)).run());
+    std::vector<double> state(merged->initial_state);
+    merge_state(*model, *merged, model->initial_state.data(), state.data());
+    merged->initial_state = std::move(state);
     assemble(*merged);
     model->merged = std::move(merged);
   }
   return model;
+}
+
+std::shared_ptr<const Model> compile_set(const Model& model, ClosedSet closed) {
+  const SceneDescription scene = scene_of(model.description, model.limits, closed);
+  const std::shared_ptr<Model> out = described_model(model.description, model.limits, closed, scene);
+  out->merges = model.merges;
+  out->initial_state = model.initial_state;
+  out->redundant = model.redundant;
+  MergePlan plan = model.merges ? plan_merge(scene) : no_merge(scene);
+  if (plan.merges()) {
+    auto merged = std::make_shared<Model>(Compiler(scene, std::move(plan)).run());
+    merged->redundant = model.redundant;
+    out->merged = std::move(merged);
+  }
+  return out;
 }
 
 }  // namespace seacrane

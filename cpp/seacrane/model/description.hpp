@@ -12,6 +12,7 @@
 #include "seacrane/hydro/memory.hpp"
 #include "seacrane/math/curve.hpp"
 #include "seacrane/math/types.hpp"
+#include "seacrane/model/limit.hpp"
 #include "seacrane/sea/wave_load.hpp"
 
 /// What the user writes, one value type per kind of element. Names refer to other elements; "ground"
@@ -40,6 +41,7 @@ struct JointDescription {
   std::string name, kind, first, second;
   Frame first_frame, second_frame;
   double length = 0.0;  // of a distance joint
+  bool open = false;    // holds nothing now: a limit that is not reached, see limit.hpp
 };
 
 struct DriverDescription {
@@ -91,6 +93,7 @@ struct SceneDescription {
   std::vector<VesselDescription> vessels;
   std::vector<WaveLoadDescription> wave_loads;
   std::vector<CoordinateDescription> coordinates;  // joint coordinates to record
+  std::vector<LimitDescription> limits;
 
   /// Descriptions of one kind of load, such as loads_of<PointForce>().
   template <class Load>

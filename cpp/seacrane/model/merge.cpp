@@ -47,7 +47,7 @@ class Merger {
     for (const auto& joint : scene_.joints) {
       const auto lock = locks.find(joint.name);
       const bool locked = lock != locks.end();
-      if (joint.kind == Weld::kind || locked) join(joint, locked ? lock->second.value : 0.0);
+      if ((joint.kind == Weld::kind && !joint.open) || locked) join(joint, locked ? lock->second.value : 0.0);
       if (locked && same(joint)) plan.locked.push_back(lock->second.driver);
     }
     place(plan);

@@ -88,6 +88,9 @@ struct Model {
   bool paper_kinematics = false;
   MergePlan merge;
   std::shared_ptr<const Model> merged;  // what runs step, with bodies that move as one merged; null: this
+  bool merges = true;                   // whether bodies are merged at all
+  std::vector<Limit> limits;
+  ClosedSet closed = 0;  // limits whose rows this model holds
 
   const Model& stepped() const { return merged ? *merged : *this; }
   int body_count() const { return static_cast<int>(bodies.size()); }
@@ -97,5 +100,8 @@ struct Model {
 
 /// With `merge`, a second model in which bodies that move as one are merged goes with it, for stepping.
 std::shared_ptr<const Model> compile(const SceneDescription& scene, bool merge = true);
+
+/// The model of the same scene in which other limits hold; only `initial_state` is not assembled.
+std::shared_ptr<const Model> compile_set(const Model& model, ClosedSet closed);
 
 }  // namespace seacrane

@@ -179,6 +179,8 @@ void validate(const SceneDescription& scene) {
     for (const auto& d : descriptions) Load::check(d, Check(Load::kind, d.name), names);
   });
   check_vessels(scene, names);
+  unique_names("limit", scene.limits);
+  check_limits(scene, names);
 }
 
 }  // namespace seacrane

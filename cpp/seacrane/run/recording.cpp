@@ -12,7 +12,9 @@ struct Offer {
   bool by_default;
 };
 
-std::size_t joint_count(const Model& m) { return m.elements.size() - m.drivers.size(); }
+std::size_t joint_count(const Model& m) { return m.description.joints.size(); }
+/// Described drivers; closed stops are drivers of the compiled model too.
+std::size_t driver_count(const Model& m) { return m.description.drivers.size(); }
 
 std::size_t distance_count(const Model& m) {
   std::size_t count = 0;
@@ -36,7 +38,7 @@ std::vector<Offer> offers(const Model& m) {
     out.push_back({"coordinate_rate", {m.coordinates.size()}, true});
   }
   if (!m.actuators().empty()) out.push_back({"actuator_force", {m.actuators().size()}, true});
-  if (!m.drivers.empty()) out.push_back({"driver_force", {m.drivers.size()}, true});
+  if (driver_count(m) > 0) out.push_back({"driver_force", {driver_count(m)}, true});
   if (joint_count(m) > 0) {
     out.push_back({"reaction_force", {joint_count(m), 3}, true});
     out.push_back({"reaction_moment", {joint_count(m), 3}, true});
@@ -46,6 +48,10 @@ std::vector<Offer> offers(const Model& m) {
     out.push_back({"wave_elevation", {}, true});
     out.push_back({"wave_force", {6}, true});
     if (m.wave_loads.front().sources.has_drift()) out.push_back({"drift_force", {6}, true});
+  }
+  if (!m.limits.empty()) {
+    out.push_back({"limit_force", {m.limits.size()}, true});
+    out.push_back({"impact_loss", {}, true});
   }
   out.push_back({"constraint_error", {}, true});
   out.push_back({"constraint_rate_error", {}, true});
@@ -105,6 +111,8 @@ Recording::Recording(const Model& model, const std::set<std::string>& names, std
       {"wave_elevation", &at_.wave_elevation},
       {"wave_force", &at_.wave_force},
       {"drift_force", &at_.drift_force},
+      {"limit_force", &at_.limit_force},
+      {"impact_loss", &at_.impact_loss},
       {"constraint_error", &at_.constraint_error},
       {"constraint_rate_error", &at_.constraint_rate_error},
       {"constraint_error_before_projection", &at_.constraint_error_before_projection},
@@ -119,7 +127,7 @@ Recording::Recording(const Model& model, const std::set<std::string>& names, std
 
 bool Recording::wants_solution() const {
   return at_.acceleration || at_.angular_acceleration || at_.driver_force || at_.reaction_force ||
-         at_.reaction_moment || at_.tension;
+         at_.reaction_moment || at_.tension || at_.limit_force;
 }
 
 void Recording::write_bodies(RedundantSystem& system) {
@@ -192,23 +200,28 @@ void Recording::write_joint_coordinates(double t, const RedundantSystem& system)
     }
   }
   if (double* out = at_.driver_force) {
-    for (std::size_t e = joint_count(*model_); e < model_->elements.size(); ++e) {
-      *out++ = system.multipliers()[idx(model_->elements[e].row)];
+    for (std::size_t d = 0; d < driver_count(*model_); ++d) {
+      *out++ = system.multipliers()[idx(system.model().elements[joint_count(*model_) + d].row)];
     }
   }
 }
 
 void Recording::write_reactions(const RedundantSystem& system) {
   if (double* out = at_.tension) {
-    for (const ElementModel& e : model_->elements) {
-      if (e.kind == Distance::kind) *out++ = -system.multipliers()[idx(e.row)];
+    for (const ElementModel& e : system.model().elements) {
+      if (e.kind == Distance::kind) *out++ = e.rows > 0 ? -system.multipliers()[idx(e.row)] : 0.0;
+    }
+  }
+  if (double* out = at_.limit_force) {
+    for (const Limit& limit : system.model().limits) {
+      *out++ = limit.element < 0 ? 0.0 : limit_force(limit, system, system.multipliers().data());
     }
   }
   double* force = at_.reaction_force;
   double* moment = at_.reaction_moment;
   if (!force && !moment) return;
   for (std::size_t e = 0; e < joint_count(*model_); ++e) {
-    const ElementModel& element = model_->elements[e];
+    const ElementModel& element = system.model().elements[e];
     const bool second_is_ground = element.second == model_->body_count();
     const int side = second_is_ground ? 0 : 1, body = second_is_ground ? element.first : element.second;
     Vec6d load = Vec6d::Zero();
@@ -224,17 +237,17 @@ void Recording::write_reactions(const RedundantSystem& system) {
   }
 }
 
-void Recording::append(double t, const double* y, RedundantSystem& system, const ConstraintResidual& after,
-                       double before, double energy_balance) {
+void Recording::append(double t, const double* y, RedundantSystem& system, const Kept& kept) {
   write_bodies(system);
   write_quaternions(system);
   write_vessel(system);
   write_joint_coordinates(t, system);
   write_reactions(system);
-  if (double* out = at_.constraint_error) *out = after.position;
-  if (double* out = at_.constraint_rate_error) *out = after.rate;
-  if (double* out = at_.constraint_error_before_projection) *out = before;
-  if (double* out = at_.energy_balance) *out = energy_balance;
+  if (double* out = at_.constraint_error) *out = kept.after.position;
+  if (double* out = at_.constraint_rate_error) *out = kept.after.rate;
+  if (double* out = at_.constraint_error_before_projection) *out = kept.before;
+  if (double* out = at_.energy_balance) *out = kept.energy_balance;
+  if (double* out = at_.impact_loss) *out = kept.impact_loss;
   if (double* out = at_.absolute_work) *out = y[model_->layout.work + 1];
   times_.push_back(t);
   rows_.insert(rows_.end(), row_.begin(), row_.end());

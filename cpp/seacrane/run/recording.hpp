@@ -15,6 +15,13 @@ struct Channel {
   std::size_t offset = 0, size = 1;
 };
 
+/// Invariants of one row: residuals after projection and the largest before it, the change of mechanical
+/// energy minus the work since the start, and the energy lost in impacts until then (J).
+struct Kept {
+  ConstraintResidual after;
+  double before = 0.0, energy_balance = 0.0, impact_loss = 0.0;
+};
+
 /// Names of all channels a model offers, the default ones first.
 std::vector<std::string> channel_names(const Model& model, bool defaults_only);
 
@@ -33,10 +40,8 @@ class Recording {
   /// Whether a channel needs accelerations or multipliers, and with them the solution of a row's equations.
   bool wants_solution() const;
   /// Appends the row of (t, y), for which system.derivative() was the last call, or evaluate_terms() where no
-  /// solution is wanted. `energy_balance` is the change of mechanical energy minus the work done since the
-  /// start.
-  void append(double t, const double* y, RedundantSystem& system, const ConstraintResidual& after,
-              double before, double energy_balance);
+  /// solution is wanted.
+  void append(double t, const double* y, RedundantSystem& system, const Kept& kept);
 
  private:
   /// Where channels are in row_; null: not recorded.
@@ -46,7 +51,8 @@ class Recording {
            *vessel_motion = nullptr, *coordinate = nullptr, *coordinate_rate = nullptr,
            *actuator_force = nullptr, *driver_force = nullptr, *reaction_force = nullptr,
            *reaction_moment = nullptr, *tension = nullptr, *wave_elevation = nullptr, *wave_force = nullptr,
-           *drift_force = nullptr, *constraint_error = nullptr, *constraint_rate_error = nullptr,
+           *drift_force = nullptr, *limit_force = nullptr, *impact_loss = nullptr,
+           *constraint_error = nullptr, *constraint_rate_error = nullptr,
            *constraint_error_before_projection = nullptr, *energy_balance = nullptr, *absolute_work = nullptr;
   };
 

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <limits>
 #include <stdexcept>
+#include <utility>
 
-#include "seacrane/dynamics/merged.hpp"
 #include "seacrane/model/validate.hpp"
 
 namespace seacrane {
@@ -14,7 +14,6 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 constexpr std::chrono::milliseconds kAskInterval{20};
-constexpr double kLargestTolerance = 0.1;  // beyond, an error estimate of one step means nothing
 constexpr double kLargestTurn = 3.14159265358979323846;  // rad in one step: no method resolves more
 constexpr double kClosed = 1e-6;  // m, rad: a state that projection leaves open by more is none
 
@@ -22,70 +21,79 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-IntegratorOptions integrator_options(const Formulation& stepped, const RunOptions& run) {
-  if (!(run.tolerance > 0.0) || !(run.tolerance <= kLargestTolerance)) {
-    throw std::invalid_argument("rtol is " + to_text(run.tolerance) +
-                                "; give a positive number up to 0.1, e.g. 1e-6");
-  }
-  IntegratorOptions out;
-  out.name = run.integrator;
-  out.relative_tolerance = 0.0;
-  out.absolute_tolerance = stepped.scale();
-  for (double& value : out.absolute_tolerance) value *= run.tolerance;
-  out.fixed_step = run.fixed_step;
-  out.max_step = run.max_step;
-  out.spectral_radius = run.spectral_radius;
-  return out;
+void add(const Counters& more, Counters& sum) {
+  sum.steps += more.steps;
+  sum.rejected_steps += more.rejected_steps;
+  sum.evaluations += more.evaluations;
+  sum.fast_evaluations += more.fast_evaluations;
+  sum.jacobians += more.jacobians;
+  sum.newton_iterations += more.newton_iterations;
+  sum.projections += more.projections;
+  sum.restarts += more.restarts;
+}
+
+std::shared_ptr<const Model> model_of(const std::shared_ptr<const Model>& model, const State& start) {
+  if (!start.closed) return model;
+  const ClosedSet closed = set_of(model->limits, *start.closed);
+  return closed == model->closed ? model : compile_set(*model, closed);
 }
 
 }  // namespace
 
 State initial_state(const Model& model) {
-  return {
-      0.0, model.initial_state, std::vector<double>(static_cast<std::size_t>(model.slot_count), 0.0), {}, {}};
+  return {0.0,
+          model.initial_state,
+          std::vector<double>(idx(model.slot_count), 0.0),
+          {},
+          {},
+          names_of(model.limits, model.closed)};
 }
 
 Simulation::Simulation(std::shared_ptr<const Model> model, State start, RunOptions options)
     : model_(std::move(model)),
       options_(std::move(options)),
-      system_(model_),
-      reduced_(make_formulation(options_.formulation, system_)),
-      stepped_(reduced_ ? *reduced_ : system_),
-      loads_(stepped_.loads_from()),
-      residual_(loads_),
-      integrator_(make_integrator(stepped_, options_.formulation == "redundant" ? &residual_ : nullptr,
-                                  integrator_options(stepped_, options_))),
       recording_(*model_, options_.channels, options_.output_times.size()),
       inputs_(start.inputs),
-      stepped_state_(stepped_.size(), 0.0),
       output_state_(start.values),
-      merged_state_(loads_.size(), 0.0),
       rate_(start.values.size(), 0.0) {
-  if (start.values.size() != static_cast<std::size_t>(model_->layout.size)) {
+  if (start.values.size() != idx(model_->layout.size)) {
     throw std::invalid_argument("state: has " + std::to_string(start.values.size()) +
                                 " values, the model needs " + std::to_string(model_->layout.size));
   }
   for (double v : start.values) {
     if (!std::isfinite(v)) throw std::invalid_argument("state: holds a value that is not finite");
   }
+  output_time_ = start.time;
+  steppers_.push_back(std::make_unique<Stepper>(model_of(model_, start), options_));
+  now_ = steppers_.front().get();
+  stepped_state_.resize(now_->stepped.size());
   check_inputs(inputs_);
   apply_inputs();
-  const State given = start;
-  system_.project(start.time, start.values.data(), false);
-  const double open = system_.residual(start.time, start.values.data()).position;
+  RedundantSystem& system = now_->system;
+  double* const bodies = output_state_.data();
+  system.project(start.time, bodies, false);
+  const double open = system.residual(start.time, bodies).position;
   if (!(open <= kClosed)) {
     throw std::invalid_argument("state: leaves joints or drivers open by " + to_text(open) +
-                                " m or rad; give a state of this scene at its own time");
+                                " m or rad at t = " + to_text(start.time) +
+                                " s; give a state of this scene at its own time");
   }
-  system_.take_residual_before_projection();
-  start_histories(start);
-  start_energy_ = system_.energy(start.time, start.values.data());
-  start_work_ = start.values[static_cast<std::size_t>(model_->layout.work)];
-  if (!resume(given)) {
-    stepped_.read_bodies(start.time, start.values.data(), stepped_state_.data());
-    integrator_->init(start.time, stepped_state_.data());
+  system.take_residual_before_projection();
+  find_jump(start.time);
+  start_histories(*now_, start.time, bodies, start.histories);
+  start_energy_ = system.energy(start.time, bodies);
+  start_work_ = output_state_[idx(model_->layout.work)];
+  if (!model_->limits.empty()) {
+    contacts_ =
+        std::make_unique<Contacts>(*model_, [this](ClosedSet set) -> Stepper& { return stepper_of(set); });
   }
-  next_jump();
+  if (resume(start)) {
+    now_->started = true;
+    watch_limits();
+  } else {
+    const ClosedSet closed = now_->model->closed;
+    go_on(start.time, contacts_ ? contacts_->settle(start.time, bodies, closed) : closed);
+  }
   while (next_output_ < options_.output_times.size() && options_.output_times[next_output_] < start.time) {
     ++next_output_;
   }
@@ -96,64 +104,121 @@ Simulation::Simulation(std::shared_ptr<const Model> model, State start, RunOptio
 /// to exactly these values, inputs and scene.
 bool Simulation::resume(const State& given) {
   const StepHistory& history = given.steps;
-  if (history.formulation != stepped_.name() || history.integrator != options_.integrator) return false;
-  stepped_.read_bodies(given.time, given.values.data(), stepped_state_.data());
-  integrator_->init(given.time, stepped_state_.data());
-  if (integrator_->save().size() != history.values.size()) return false;
-  integrator_->load(history.values);
-  write_present(output_state_.data());
-  return integrator_->time() == given.time && output_state_ == given.values && present_rate() == history.rate;
+  if (history.formulation != now_->stepped.name() || history.integrator != options_.integrator) return false;
+  now_->stepped.read_bodies(given.time, given.values.data(), stepped_state_.data());
+  integrator().init(given.time, stepped_state_.data());
+  if (integrator().save().size() != history.values.size()) return false;
+  integrator().load(history.values);
+  std::vector<double> present(given.values.size());
+  write_present(present.data());
+  return time() == given.time && present == given.values && present_rate() == history.rate;
 }
 
 std::vector<double> Simulation::present_rate() const {
-  std::vector<double> out(stepped_.size());
-  stepped_.derivative(integrator_->time(), integrator_->state(), out.data());
+  std::vector<double> out(now_->stepped.size());
+  now_->stepped.derivative(time(), integrator().state(), out.data());
   return out;
 }
 
+const std::vector<Event>& Simulation::events() const {
+  static const std::vector<Event> none;
+  return contacts_ ? contacts_->events() : none;
+}
+
+Stepper& Simulation::stepper_of(ClosedSet closed) {
+  if (now_->model->closed == closed) return *now_;
+  const auto known = std::find_if(steppers_.begin(), steppers_.end(),
+                                  [&](const auto& s) { return s->model->closed == closed; });
+  const bool fresh = known == steppers_.end();
+  if (fresh) steppers_.push_back(std::make_unique<Stepper>(compile_set(*model_, closed), options_));
+  Stepper& at = fresh ? *steppers_.back() : **known;
+  for (RedundantSystem* system : {&at.system, &at.loads}) {
+    system->set_inputs(inputs_);
+    system->set_curve_limit(now_->system.curve_limit());
+  }
+  const auto histories = now_->system.histories();
+  if (!histories.empty()) start_histories(at, output_time_, output_state_.data(), histories);
+  return at;
+}
+
+/// Whether limits had an event in the last step: what has been stepped beyond it is dropped then.
+bool Simulation::pass_event() {
+  const std::optional<double> found = contacts_->find(*now_);
+  if (!found) return false;
+  const double t = output_time_ = *found;
+  record_until(t);
+  integrator().interpolate(t, stepped_state_.data());
+  now_->stepped.project(t, stepped_state_.data(), false);
+  now_->stepped.write_bodies(t, stepped_state_.data(), output_state_.data());
+  find_jump(t);
+  ClosedSet closed = now_->model->closed;
+  try {
+    closed = contacts_->pass(t, output_state_.data(), closed);
+  } catch (...) {  // the run ends here, not beyond
+    integrator().reset(t, stepped_state_.data());
+    throw;
+  }
+  go_on(t, closed);
+  return true;
+}
+
+/// Steps from output_state_ on, with other limits.
+void Simulation::go_on(double t, ClosedSet closed) {
+  now_ = &stepper_of(closed);
+  stepped_state_.resize(now_->stepped.size());
+  now_->stepped.read_bodies(t, output_state_.data(), stepped_state_.data());
+  if (now_->started) {
+    integrator().reset(t, stepped_state_.data());
+  } else {
+    integrator().init(t, stepped_state_.data());
+    now_->started = true;
+  }
+  watch_limits();
+}
+
+void Simulation::watch_limits() {
+  if (!contacts_) return;
+  write_present(output_state_.data());
+  contacts_->watch(*now_, time(), output_state_.data());
+}
+
 /// Time of the next jump of a reference curve.
-double Simulation::next_jump() {
+double Simulation::find_jump(double now) {
   const auto& stops = model_->breakpoints;
-  while (next_breakpoint_ < stops.size() && stops[next_breakpoint_] <= integrator_->time())
-    ++next_breakpoint_;
+  while (next_breakpoint_ < stops.size() && stops[next_breakpoint_] <= now) ++next_breakpoint_;
   const double stop =
       next_breakpoint_ < stops.size() ? stops[next_breakpoint_] : std::numeric_limits<double>::infinity();
-  system_.set_curve_limit(stop);
-  loads_.set_curve_limit(stop);
+  now_->system.set_curve_limit(stop);
+  now_->loads.set_curve_limit(stop);
   return stop;
 }
 
 void Simulation::apply_inputs() {
-  system_.set_inputs(inputs_);
-  loads_.set_inputs(inputs_);
-}
-
-const double* Simulation::stepped_bodies(const double* bodies) {
-  if (&loads_ == &system_) return bodies;
-  merge_state(*model_, loads_.model(), bodies, merged_state_.data());
-  return merged_state_.data();
+  now_->system.set_inputs(inputs_);
+  now_->loads.set_inputs(inputs_);
 }
 
 /// One history of the vessel's motion for the steps and the outputs: two would differ by rounding, and a run
 /// that goes on from one of them would too.
-void Simulation::start_histories(const State& start) {
-  loads_.start_histories(start.time, stepped_bodies(start.values.data()), start.histories);
-  if (&loads_ != &system_) system_.take_histories(loads_);
+void Simulation::start_histories(Stepper& at, double t, const double* bodies,
+                                 const std::vector<TwistHistory>& histories) {
+  at.loads.start_histories(t, at.stepped_bodies(bodies), histories);
+  if (&at.loads != &at.system) at.system.take_histories(at.loads);
 }
 
 void Simulation::sample_histories(double now) {
   write_present(output_state_.data());
-  loads_.sample(now, stepped_bodies(output_state_.data()));
-  if (&loads_ != &system_) system_.take_histories(loads_);
+  now_->loads.sample(now, now_->stepped_bodies(output_state_.data()));
+  if (&now_->loads != &now_->system) now_->system.take_histories(now_->loads);
 }
 
 void Simulation::report_open(double t) const {
   double worst = -1.0;
   std::string name;
-  for (std::size_t e = 0; e < model_->elements.size(); ++e) {
-    const ElementModel& element = model_->elements[e];
+  for (std::size_t e = 0; e < now_->model->elements.size(); ++e) {
+    const ElementModel& element = now_->model->elements[e];
     if (element.rows == 0) continue;
-    const double open = system_.blocks()[e].phi.head(element.rows).cwiseAbs().maxCoeff();
+    const double open = now_->system.blocks()[e].phi.head(element.rows).cwiseAbs().maxCoeff();
     if (open > worst || std::isnan(open)) {
       worst = open;
       name = element.name;
@@ -167,30 +232,33 @@ void Simulation::report_open(double t) const {
 }
 
 void Simulation::write(double t, double* y, Recording& out) {
-  stepped_.project(t, y, false);
-  const double before = stepped_.take_residual_before_projection();
+  RedundantSystem& system = now_->system;
+  Formulation& stepped = now_->stepped;
+  stepped.project(t, y, false);
+  const double before = stepped.take_residual_before_projection();
   double* const bodies = output_state_.data();
-  stepped_.write_bodies(t, y, bodies);
+  stepped.write_bodies(t, y, bodies);
   if (out.wants_solution()) {
-    system_.derivative(t, bodies, rate_.data());
+    system.derivative(t, bodies, rate_.data());
   } else {
-    system_.evaluate_terms(t, bodies, rate_.data());
+    system.evaluate_terms(t, bodies, rate_.data());
   }
-  const ConstraintResidual after = system_.residual_here(bodies);
+  const ConstraintResidual after = system.residual_here(bodies);
   if (!(after.position <= kClosed)) report_open(t);
-  const double energy = model_->paper_kinematics ? 0.0 : system_.energy_here(t, bodies);
+  const double energy = model_->paper_kinematics ? 0.0 : system.energy_here(t, bodies);
   const double work = bodies[model_->layout.work] - start_work_;
-  out.append(t, bodies, system_, after, before, energy - start_energy_ - work);
+  const double impact_loss = contacts_ ? contacts_->energy_lost() : 0.0;
+  out.append(t, bodies, system, {after, before, energy - start_energy_ - work, impact_loss});
 }
 
 void Simulation::record_until(double t) {
   const auto& times = options_.output_times;
   while (next_output_ < times.size() && times[next_output_] <= t) {
     const double at = times[next_output_++];
-    if (at >= t) {
-      std::copy_n(integrator_->state(), stepped_state_.size(), stepped_state_.data());
+    if (at >= integrator().time()) {
+      std::copy_n(integrator().state(), stepped_state_.size(), stepped_state_.data());
     } else {
-      integrator_->interpolate(at, stepped_state_.data());
+      integrator().interpolate(at, stepped_state_.data());
     }
     write(at, stepped_state_.data(), recording_);
   }
@@ -198,11 +266,11 @@ void Simulation::record_until(double t) {
 
 void Simulation::step(double limit) {
   try {
-    integrator_->step(limit);
+    integrator().step(limit);
   } catch (const IntegrationError& error) {
     std::string text = error.reason();
-    if (error.component() != IntegrationError::no_component && error.component() < stepped_.size()) {
-      text += ", worst in the " + stepped_.describe(error.component());
+    if (error.component() != IntegrationError::no_component && error.component() < now_->stepped.size()) {
+      text += ", worst in the " + now_->stepped.describe(error.component());
     }
     throw IntegrationError(error.method(), error.time(), error.step_size(), error.component(), text);
   }
@@ -211,15 +279,28 @@ void Simulation::step(double limit) {
 /// A coordinate that turns keeps its joint closed however wrong it is: where no error is estimated, only the
 /// turn itself can tell.
 void Simulation::check_turning() const {
-  const double h = integrator_->time() - integrator_->previous_time();
-  for (int b = 0; b < loads_.model().body_count(); ++b) {
-    const double turn = h * loads_.bodies()[idx(b)].angular_velocity.norm();
+  const double h = integrator().time() - integrator().previous_time();
+  for (int b = 0; b < now_->loads.model().body_count(); ++b) {
+    const double turn = h * now_->loads.bodies()[idx(b)].angular_velocity.norm();
     if (turn <= kLargestTurn) continue;
-    throw std::domain_error("body '" + loads_.model().bodies[idx(b)].name + "': turns by " + to_text(turn) +
-                            " rad in one step of " + to_text(h) +
-                            " s at t = " + to_text(integrator_->time()) +
+    throw std::domain_error("body '" + now_->loads.model().bodies[idx(b)].name + "': turns by " +
+                            to_text(turn) + " rad in one step of " + to_text(h) +
+                            " s at t = " + to_text(integrator().time()) +
                             " s: the step is too long for the method; give a smaller dt");
   }
+}
+
+/// The end of a step that went as far as it should.
+void Simulation::land(double now, double jump) {
+  record_until(now);
+  // The memory's load goes on smoothly over a sample: no derivative is thrown away.
+  if (now >= now_->system.next_sample()) sample_histories(now);
+  if (now < jump) return;
+  // A curve jumps here: go on from the other side with a fresh derivative.
+  find_jump(now);
+  std::copy_n(integrator().state(), stepped_state_.size(), stepped_state_.data());
+  now_->stepped.project(now, stepped_state_.data(), false);
+  integrator().reset(now, stepped_state_.data());
 }
 
 bool Simulation::advance(double t_end, const std::function<bool(double)>& keep_going) {
@@ -227,29 +308,20 @@ bool Simulation::advance(double t_end, const std::function<bool(double)>& keep_g
   const auto start = Clock::now();
   auto asked = start;
   bool going = true;
-  while (going && integrator_->time() < t_end) {
-    const double jump = next_jump();
-    step(std::min({jump, system_.next_sample(), t_end}));
-    const double now = integrator_->time();
-    if (!integrator_->is_adaptive()) check_turning();
-    record_until(now);
-    // The memory's load goes on smoothly over a sample: no derivative is thrown away.
-    if (now >= system_.next_sample()) sample_histories(now);
-    if (now >= jump) {
-      // A curve jumps here: go on from the other side with a fresh derivative.
-      next_jump();
-      std::copy_n(integrator_->state(), stepped_state_.size(), stepped_state_.data());
-      stepped_.project(now, stepped_state_.data(), false);
-      integrator_->reset(now, stepped_state_.data());
-    }
+  while (going && integrator().time() < t_end) {
+    const double jump = find_jump(integrator().time());
+    step(std::min({jump, now_->system.next_sample(), t_end}));
+    const double now = integrator().time();
+    if (!integrator().is_adaptive()) check_turning();
+    if (!contacts_ || !pass_event()) land(now, jump);
     if (Clock::now() - asked > kAskInterval) {
       wall_seconds_ += seconds_since(asked);
-      going = !keep_going || keep_going(integrator_->time());
+      going = !keep_going || keep_going(integrator().time());
       asked = Clock::now();
     }
   }
   wall_seconds_ += seconds_since(asked);
-  return going && integrator_->time() >= t_end;
+  return going && integrator().time() >= t_end;
 }
 
 void Simulation::check_inputs(const std::vector<double>& slots) const {
@@ -266,36 +338,44 @@ void Simulation::set_inputs(const std::vector<double>& slots) {
   check_inputs(slots);
   inputs_ = slots;
   apply_inputs();
-  std::copy_n(integrator_->state(), stepped_state_.size(), stepped_state_.data());
-  integrator_->reset(integrator_->time(), stepped_state_.data());
+  std::copy_n(integrator().state(), stepped_state_.size(), stepped_state_.data());
+  integrator().reset(integrator().time(), stepped_state_.data());
+  watch_limits();
 }
 
 Recording Simulation::snapshot() {
   const std::vector<std::string> names = channel_names(*model_, false);
   Recording out(*model_, {names.begin(), names.end()}, 1);
-  std::copy_n(integrator_->state(), stepped_state_.size(), stepped_state_.data());
-  write(integrator_->time(), stepped_state_.data(), out);
+  std::copy_n(integrator().state(), stepped_state_.size(), stepped_state_.data());
+  write(integrator().time(), stepped_state_.data(), out);
   return out;
 }
 
 void Simulation::write_present(double* bodies) const {
-  stepped_.write_bodies(integrator_->time(), integrator_->state(), bodies);
+  now_->stepped.write_bodies(integrator().time(), integrator().state(), bodies);
 }
 
 State Simulation::state() const {
   std::vector<double> values(idx(model_->layout.size));
   write_present(values.data());
-  return {integrator_->time(),
+  return {time(),
           std::move(values),
           inputs_,
-          system_.histories(),
-          {stepped_.name(), options_.integrator, integrator_->save(), present_rate()}};
+          now_->system.histories(),
+          {now_->stepped.name(), options_.integrator, integrator().save(), present_rate()},
+          names_of(model_->limits, now_->model->closed)};
 }
 
 RunStatistics Simulation::statistics() const {
-  long dense = system_.dense_solves();
-  if (&loads_ != &system_) dense += loads_.dense_solves();
-  return {integrator_->counters(), dense, wall_seconds_};
+  RunStatistics out;
+  out.wall_seconds = wall_seconds_;
+  for (const auto& stepper : steppers_) {
+    if (stepper->started) add(stepper->integrator->counters(), out.counters);
+    out.dense_solves += stepper->system.dense_solves();
+    if (&stepper->loads != &stepper->system) out.dense_solves += stepper->loads.dense_solves();
+  }
+  if (contacts_) out.energy_lost = contacts_->energy_lost();
+  return out;
 }
 
 }  // namespace seacrane

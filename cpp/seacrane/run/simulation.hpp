@@ -7,10 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "seacrane/dynamics/gear_gupta_leimkuhler.hpp"
-#include "seacrane/dynamics/redundant.hpp"
-#include "seacrane/integrate/registry.hpp"
+#include "seacrane/run/contacts.hpp"
 #include "seacrane/run/recording.hpp"
+#include "seacrane/run/stepper.hpp"
 
 namespace seacrane {
 
@@ -40,6 +39,7 @@ struct State {
   std::vector<double> inputs;           // zero-order-held slots
   std::vector<TwistHistory> histories;  // one per vessel with a convolution; none: at rest before `time`
   StepHistory steps;                    // the same formulation and integrator go on from it bit for bit
+  std::optional<std::vector<std::string>> closed;  // limits that hold; none: as described
 };
 
 State initial_state(const Model& model);
@@ -48,6 +48,7 @@ struct RunStatistics {
   Counters counters;
   long dense_solves = 0;
   double wall_seconds = 0.0;  // inside advance()
+  double energy_lost = 0.0;   // J, in impacts
 };
 
 /// One run of one Model: steps, lands on breakpoints, records at the times asked for.
@@ -59,7 +60,7 @@ class Simulation {
   /// at hand. Returns whether t_end was reached and nothing asked for a stop.
   bool advance(double t_end, const std::function<bool(double time)>& keep_going);
 
-  double time() const { return integrator_->time(); }
+  double time() const { return now_->integrator->time(); }
   State state() const;
   /// One row of all channels the model offers, at the present time.
   Recording snapshot();
@@ -67,39 +68,48 @@ class Simulation {
   RunStatistics statistics() const;
   /// Sets the inputs from the present time on and restarts the derivative's history.
   void set_inputs(const std::vector<double>& slots);
-  int state_size() const { return static_cast<int>(stepped_.size()); }
-  const char* formulation() const { return stepped_.name(); }
+  int state_size() const { return static_cast<int>(now_->stepped.size()); }
+  const char* formulation() const { return now_->stepped.name(); }
+  /// What limits did so far, in order of time.
+  const std::vector<Event>& events() const;
+  bool has_limits() const { return contacts_ != nullptr; }
+  const std::string& limit_name(int limit) const { return model_->limits[idx(limit)].name; }
 
  private:
-  double next_jump();
+  Integrator& integrator() const { return *now_->integrator; }
+  double find_jump(double now);
   void record_until(double t);
   void write(double t, double* y, Recording& out);
   void step(double limit);
+  void land(double now, double jump);
   void check_turning() const;
   [[noreturn]] void report_open(double t) const;
   void check_inputs(const std::vector<double>& slots) const;
   void apply_inputs();
-  void start_histories(const State& start);
   bool resume(const State& given);
   std::vector<double> present_rate() const;
+  void watch_limits();
+  /// Starts histories of `at` from those given; none: at rest before t.
+  static void start_histories(Stepper& at, double t, const double* bodies,
+                              const std::vector<TwistHistory>& histories);
+  /// The stepper of a set of limits, with the inputs, curves and histories of the present one.
+  Stepper& stepper_of(ClosedSet closed);
+  bool pass_event();
+  void go_on(double t, ClosedSet closed);
   void sample_histories(double now);
-  /// The state of the bodies that are stepped, merged ones as one.
-  const double* stepped_bodies(const double* bodies);
   /// The state at time() in bodies' poses and twists.
   void write_present(double* bodies) const;
 
   std::shared_ptr<const Model> model_;
   RunOptions options_;
-  RedundantSystem system_;                // of the described bodies: what is recorded
-  std::unique_ptr<Formulation> reduced_;  // null: the redundant system itself is stepped
-  Formulation& stepped_;
-  RedundantSystem& loads_;  // that are stepped
-  GearGuptaLeimkuhler residual_;
-  std::unique_ptr<Integrator> integrator_;
+  std::vector<std::unique_ptr<Stepper>> steppers_;  // by set of limits, in the order of their first use
+  Stepper* now_ = nullptr;
+  std::unique_ptr<Contacts> contacts_;  // null: the scene has no limits
   Recording recording_;
   std::vector<double> inputs_;
   std::size_t next_output_ = 0, next_breakpoint_ = 0;
-  std::vector<double> stepped_state_, output_state_, merged_state_, rate_;
+  std::vector<double> stepped_state_, output_state_, rate_;
+  double output_time_ = 0.0;  // of output_state_ at an event
   double start_energy_ = 0.0, start_work_ = 0.0;
   double wall_seconds_ = 0.0;
 };

@@ -49,6 +49,9 @@ def summary(result: Result) -> str:
     balance, closure = worst(result, "energy_balance"), energy_closure(result)
     if balance is not None and closure is not None:
         lines.append(f"worst energy balance {balance:.3g} J, {closure:.2g} of the absolute work")
+    if "events" in stats:
+        lost = float(stats["impact_energy_lost_J"])
+        lines.append(f"events of limits {stats['events']}, energy lost in impacts {lost:.3g} J")
     if result.interrupted:
         lines.append(f"interrupted: outputs end at {result.time[-1]:g} s")
     return "\n".join(lines)

@@ -2,6 +2,7 @@
 
 from seacrane.result.atomic import atomic_write
 from seacrane.result.channels import AXES, CHANNELS, MOTIONS, Channel
+from seacrane.result.events import Event
 from seacrane.result.result import Result
 
-__all__ = ["AXES", "CHANNELS", "MOTIONS", "Channel", "Result", "atomic_write"]
+__all__ = ["AXES", "CHANNELS", "MOTIONS", "Channel", "Event", "Result", "atomic_write"]

@@ -59,6 +59,8 @@ CHANNELS: Mapping[str, Channel] = MappingProxyType(
         "wave_elevation": _channel("", "m", "undisturbed wave elevation where wave loads take their phase"),
         "wave_force": _channel("motion", _WRENCH, "wave load on the vessel at its reference point"),
         "drift_force": _channel("motion", _WRENCH, "slow drift load on the vessel at its reference point"),
+        "limit_force": _channel("limit", "N or N m", "tension of a wire, push of a stop, pressure on a seat"),
+        "impact_loss": _channel("", "J", "mechanical energy lost in impacts of limits since the start"),
         "constraint_error": _channel("", "m or rad", "largest absolute constraint residual"),
         "constraint_rate_error": _channel("", "m/s or rad/s", "largest absolute velocity residual"),
         "constraint_error_before_projection": _channel(

@@ -9,6 +9,7 @@ import numpy as np
 
 from seacrane.errors import FileFormatError
 from seacrane.result.channels import CHANNELS, attributes
+from seacrane.result.events import NUMBERS, PREFIX, event_arrays, events_from_arrays
 
 if TYPE_CHECKING:
     from seacrane.result.result import Result
@@ -22,6 +23,7 @@ NAMED = {
     "actuator": "actuators",
     "driver": "drivers",
     "link": "links",
+    "limit": "limits",
 }
 
 
@@ -41,6 +43,16 @@ def write_netcdf(path: Path, result: Result) -> None:
             variable[:] = array
         for name in ("time", *result.channels):
             file[name].setncatts(attributes(name))
+        if result.events:
+            _write_events(file, result)
+
+
+def _write_events(file: Any, result: Result) -> None:
+    file.createDimension("event", len(result.events))
+    for name, array in event_arrays(result.events).items():
+        file.createVariable(name, str if array.dtype == object else "f8", ("event",))[:] = array
+    for key, (unit, long_name) in NUMBERS.items():
+        file[PREFIX + key].setncatts({"units": unit, "long_name": long_name})
 
 
 def read_arrays(path: Path) -> dict[str, Any]:
@@ -58,13 +70,22 @@ def read_arrays(path: Path) -> dict[str, Any]:
             "arrays": {
                 name: variable[:]
                 for name, variable in file.variables.items()
-                if name != "time" and name not in file.dimensions
+                if name != "time" and name not in file.dimensions and "event" not in variable.dimensions
             },
             **{
                 argument: [str(name) for name in file[dim][:]]
                 for dim, argument in NAMED.items()
                 if dim in file.variables
             },
+            "events": events_from_arrays(
+                {
+                    name: variable[:]
+                    for name, variable in file.variables.items()
+                    if "event" in variable.dimensions
+                }
+            )
+            if "event" in file.dimensions
+            else (),
             "stats": stats,
             "interrupted": interrupted,
         }

@@ -17,6 +17,8 @@ from numpy.typing import NDArray
 from seacrane.errors import FileFormatError, SeacraneError
 from seacrane.result.atomic import atomic_write
 from seacrane.result.channels import AXES, CHANNELS, MOTIONS, QUATERNION, attributes
+from seacrane.result.events import TEXTS as EVENT_TEXTS
+from seacrane.result.events import Event, checked_events, event_arrays
 from seacrane.result.netcdf import read_arrays, write_netcdf
 
 if TYPE_CHECKING:
@@ -119,11 +121,13 @@ class Result:
         Dimension names of each channel.
     coords : mapping of str to tuple of str
         Names along every dimension but time: `body`, `joint`, `cylinder`, `axis`, `motion`, `wxyz`,
-        `joint_coordinate`, `actuator`, `driver`, `link`; only those in use.
+        `joint_coordinate`, `actuator`, `driver`, `link`, `limit`; only those in use.
     stats : mapping of str to str, int or float
         Version, settings and counters of the run: the attributes of the saved file.
     interrupted : bool
         True if the run was stopped before its end; it then holds the outputs up to that moment.
+    events : tuple of Event
+        What wires, end stops and seats did, in order of time.
     state : State or None
         Where the run stopped, to go on from by ``simulate(start=...)``. `save` leaves it out: a result that
         was read from a file, or pickled, has none.
@@ -134,6 +138,7 @@ class Result:
     coords: Mapping[str, tuple[str, ...]]
     stats: Mapping[str, Stat]
     interrupted: bool = False
+    events: tuple[Event, ...] = ()
     state: State | None = None
     dims: Mapping[str, tuple[str, ...]] = field(init=False)
 
@@ -151,7 +156,14 @@ class Result:
         )
 
     def __reduce__(self) -> tuple[Any, ...]:  # read-only mapping views cannot be pickled themselves
-        parts = (self.time, dict(self.channels), dict(self.coords), dict(self.stats), self.interrupted)
+        parts = (
+            self.time,
+            dict(self.channels),
+            dict(self.coords),
+            dict(self.stats),
+            self.interrupted,
+            self.events,
+        )
         return _rebuild, parts
 
     @classmethod
@@ -167,6 +179,8 @@ class Result:
         actuators: Sequence[str] = (),
         drivers: Sequence[str] = (),
         links: Sequence[str] = (),
+        limits: Sequence[str] = (),
+        events: Sequence[Event] = (),
         stats: Mapping[str, Any],
         interrupted: bool = False,
         state: State | None = None,
@@ -180,9 +194,11 @@ class Result:
         arrays : mapping of str to array_like
             Channels by the names of `CHANNELS`. Arrays of float64 are taken over without a copy and
             made read-only; the caller must not write to them through another view.
-        bodies, joints, cylinders, coordinates, actuators, drivers, links : sequence of str
-            Names along the dimensions `body`, `joint`, `cylinder`, `joint_coordinate`, `actuator`, `driver`
-            and `link`, in the order of the arrays.
+        bodies, joints, cylinders, coordinates, actuators, drivers, links, limits : sequence of str
+            Names along the dimensions `body`, `joint`, `cylinder`, `joint_coordinate`, `actuator`, `driver`,
+            `link` and `limit`, in the order of the arrays.
+        events : sequence of Event
+            In order of time.
         stats : mapping
             Attributes, at least `ALWAYS_STATED`; values that are None are left out, `settings` may be a
             mapping.
@@ -206,6 +222,7 @@ class Result:
             "actuator": actuators,
             "driver": drivers,
             "link": links,
+            "limit": limits,
         }
         coords = {dim: _checked_names(dim, names) for dim, names in named.items()}
         coords |= {"axis": AXES, "motion": MOTIONS, "wxyz": QUATERNION}
@@ -222,6 +239,7 @@ class Result:
             coords={dim: names for dim, names in coords.items() if dim in used},
             stats=_checked_stats(stats),
             interrupted=bool(interrupted),
+            events=checked_events(events),
             state=state,
         )
 
@@ -278,6 +296,10 @@ class Result:
             name: (CHANNELS[name].dims, array.copy(), attributes(name))
             for name, array in self.channels.items()
         }
+        if self.events:
+            for name, array in event_arrays(self.events).items():
+                text = name.removeprefix("event_") in EVENT_TEXTS
+                variables[name] = (("event",), array.astype(str) if text else array, {})
         coords: dict[str, Any] = {"time": ("time", self.time.copy(), attributes("time"))}
         coords.update({dim: list(names) for dim, names in self.coords.items()})
         return xarray.Dataset(variables, coords, {**self.stats, "interrupted": int(self.interrupted)})
@@ -341,8 +363,15 @@ class Result:
 
 
 def _rebuild(
-    time: Array, channels: dict[str, Array], coords: dict[str, Any], stats: dict[str, Stat], interrupted: bool
+    time: Array,
+    channels: dict[str, Array],
+    coords: dict[str, Any],
+    stats: dict[str, Stat],
+    interrupted: bool,
+    events: tuple[Event, ...],
 ) -> Result:
     for array in (time, *channels.values()):
         array.setflags(write=False)
-    return Result(time=time, channels=channels, coords=coords, stats=stats, interrupted=interrupted)
+    return Result(
+        time=time, channels=channels, coords=coords, stats=stats, interrupted=interrupted, events=events
+    )

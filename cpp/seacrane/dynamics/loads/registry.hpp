@@ -6,14 +6,17 @@
 #include "seacrane/dynamics/loads/actuator.hpp"
 #include "seacrane/dynamics/loads/flow_force.hpp"
 #include "seacrane/dynamics/loads/force_table.hpp"
+#include "seacrane/dynamics/loads/friction.hpp"
 #include "seacrane/dynamics/loads/function_force.hpp"
 #include "seacrane/dynamics/loads/point_force.hpp"
+#include "seacrane/dynamics/loads/soft_stop.hpp"
 #include "seacrane/dynamics/loads/spring_damper.hpp"
 
 namespace seacrane {
 
 /// The one list of loads that a scene describes: a new one is its own file and an entry here.
-using LoadTypes = std::tuple<Actuator, PointForce, SpringDamper, ForceTable, FunctionForce, FlowForce>;
+using LoadTypes =
+    std::tuple<Actuator, PointForce, SpringDamper, ForceTable, FunctionForce, FlowForce, Friction, SoftStop>;
 
 /// Calls f.template operator()<Load>() for every type of load.
 template <class F>

@@ -1,0 +1,236 @@
+#include "seacrane/model/limit.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+
+#include "seacrane/dynamics/redundant.hpp"
+#include "seacrane/model/model.hpp"
+
+namespace seacrane {
+namespace {
+
+constexpr double kTaut = 1e-6;     // relative to its length: a described wire this short is stretched
+constexpr double kBeyond = 1e-9;   // m or rad
+constexpr double kInwards = 1e-9;  // m/s
+constexpr double kTurn = std::numbers::pi;
+
+const JointDescription* find_joint(const SceneDescription& scene, const std::string& name) {
+  const auto found = std::find_if(scene.joints.begin(), scene.joints.end(),
+                                  [&](const JointDescription& j) { return j.name == name; });
+  return found == scene.joints.end() ? nullptr : &*found;
+}
+
+bool turns(const std::string& coordinate) {
+  return coordinate == "angle" || coordinate == "roll" || coordinate == "pitch" || coordinate == "yaw";
+}
+
+void check_stop(const Check& c, const SceneDescription& scene, const LimitDescription& d) {
+  c.finite("minimum", d.minimum);
+  c.finite("maximum", d.maximum);
+  const bool low = d.minimum > -kNoStop, high = d.maximum < kNoStop;
+  if (!low && !high) c.fail("has neither minimum nor maximum; give at least one");
+  if (!(d.minimum < d.maximum)) {
+    c.fail("minimum is " + to_text(d.minimum) + " and maximum " + to_text(d.maximum) +
+           "; the minimum must be below the maximum");
+  }
+  if (turns(d.coordinate.coordinate)) {
+    if (!low || !high || d.minimum <= -kTurn || d.maximum >= kTurn) {
+      c.fail("bounds of an angle are " + to_text(d.minimum) + " and " + to_text(d.maximum) +
+             " rad; give both, between -pi and pi: the other way round would reach them too");
+    }
+  }
+  for (const auto& driver : scene.drivers) {
+    if (driver.coordinate.joint == d.coordinate.joint &&
+        driver.coordinate.coordinate == d.coordinate.coordinate) {
+      c.fail("driver '" + driver.name + "' prescribes " + d.coordinate.joint + "." + d.coordinate.coordinate +
+             ", which no stop can hold; remove one of them");
+    }
+  }
+}
+
+void check_joint_limit(const Check& c, const SceneDescription& scene, const LimitDescription& d,
+                       const char* kind) {
+  const JointDescription* joint = find_joint(scene, d.coordinate.joint);
+  if (!joint) c.fail("there is no joint '" + d.coordinate.joint + "'; add it first");
+  if (joint->kind != kind) {
+    c.fail("joint '" + joint->name + "' is " + joint->kind + "; a " + d.kind + " takes a " + kind + " joint");
+  }
+}
+
+struct Point {
+  Vec3d position, velocity;
+};
+
+/// A joint's point at the described pose of its body.
+Point described_point(const SceneDescription& scene, const std::string& body, const Frame& frame) {
+  for (const BodyDescription& b : scene.bodies) {
+    if (b.name != body) continue;
+    const Vec3d lever = rotation_from_quaternion<double>(b.quaternion.normalized()) * frame.point;
+    return {b.position + lever, b.velocity + b.angular_velocity.cross(lever)};
+  }
+  return {frame.point, Vec3d::Zero()};
+}
+
+bool stretched(const SceneDescription& scene, const JointDescription& joint) {
+  const Point a = described_point(scene, joint.first, joint.first_frame),
+              b = described_point(scene, joint.second, joint.second_frame);
+  const Vec3d d = b.position - a.position;
+  const double length = d.norm();
+  if (!(length >= joint.length * (1.0 - kTaut))) return false;
+  return d.dot(b.velocity - a.velocity) >= -kInwards * length;
+}
+
+}  // namespace
+
+std::vector<std::string> names_of(const std::vector<Limit>& limits, ClosedSet closed) {
+  std::vector<std::string> out;
+  for (std::size_t i = 0; i < limits.size(); ++i) {
+    if (holds(closed, static_cast<int>(i))) out.push_back(limits[i].name);
+  }
+  return out;
+}
+
+ClosedSet set_of(const std::vector<Limit>& limits, const std::vector<std::string>& names) {
+  ClosedSet out = 0;
+  for (const std::string& name : names) {
+    const auto at =
+        std::find_if(limits.begin(), limits.end(), [&](const Limit& limit) { return limit.name == name; });
+    if (at == limits.end()) {
+      throw std::invalid_argument("state: limit '" + name +
+                                  "' holds, which this scene does not have; give a state of this scene");
+    }
+    out |= bit_of(static_cast<int>(at - limits.begin()));
+  }
+  return out;
+}
+
+CoordinateRow<double> evaluate_limit(const Limit& limit, const BodyKinematics<double>* bodies) {
+  const JointData& joint = limit.coordinate.joint;
+  const BodyKinematics<double>&ka = bodies[joint.first], &kb = bodies[joint.second];
+  if (limit.kind == LimitKind::stop) {
+    CoordinateRow<double> row = evaluate_coordinate<double>(limit.coordinate, ka, kb);
+    row.value -= limit.bound;
+    return row;
+  }
+  RowBlock<double> block;
+  rows::distance<double>(JointGeometry<double>(joint, ka, kb), limit.bound, block, 0);
+  return {block.phi[0], block.d[0].row(0).transpose(), block.d[1].row(0).transpose(), block.gamma[0]};
+}
+
+double limit_force(const Limit& limit, const RedundantSystem& system, const double* lambda) {
+  const double* own = lambda + system.model().elements[idx(limit.element)].row;
+  if (limit.kind != LimitKind::seat) return limit.side * *own;
+  const JointData& joint = limit.coordinate.joint;
+  const Vec3d normal = system.bodies()[idx(joint.first)].rotation * joint.first_axes.col(2);
+  return normal.dot(view<3>(own));
+}
+
+void check_limits(const SceneDescription& scene, const SceneNames& names) {
+  std::map<std::string, std::string> held;
+  int count = 0;
+  for (const LimitDescription& d : scene.limits) {
+    const Check c("limit", d.name);
+    if (d.kind == "stop") {
+      names.coordinate(c, d.coordinate);
+      check_stop(c, scene, d);
+    } else if (d.kind == "wire") {
+      check_joint_limit(c, scene, d, Distance::kind);
+    } else if (d.kind == "seat") {
+      check_joint_limit(c, scene, d, Weld::kind);
+    } else {
+      c.fail("kind '" + d.kind + "' is unknown; choose wire, stop or seat");
+    }
+    c.not_negative("restitution", d.restitution);
+    if (d.restitution > 1.0) c.fail("restitution is " + to_text(d.restitution) + "; give 0 to 1");
+    c.not_negative("sticking_speed", d.sticking_speed);
+    const std::string what = d.coordinate.joint + "." + (d.kind == "stop" ? d.coordinate.coordinate : "");
+    const auto [other, fresh] = held.insert({what, d.name});
+    if (!fresh) c.fail("limits what limit '" + other->second + "' limits already; remove one of them");
+    count += d.kind == "stop" ? (d.minimum > -kNoStop) + (d.maximum < kNoStop) : 1;
+  }
+  const Check c("scene", scene.name);
+  if (count > kMostLimits) {
+    c.fail("has " + std::to_string(count) + " bounds, wires and seats that may open and close; at most " +
+           std::to_string(kMostLimits) + " are kept apart, use soft stops for the others");
+  }
+  if (scene.limits.empty()) return;
+  for (const auto& v : scene.vessels) {
+    if (v.kinematics == VesselKinematics::paper) {
+      c.fail(
+          "kinematics 'paper' have no symmetric mass matrix, in which impacts would keep momentum; use "
+          "'yaw_following' with limits");
+    }
+  }
+}
+
+std::vector<Limit> list_limits(const SceneDescription& scene) {
+  std::vector<Limit> out;
+  for (const LimitDescription& d : scene.limits) {
+    Limit limit;
+    limit.name = d.name;
+    limit.joint = static_cast<int>(find_joint(scene, d.coordinate.joint) - scene.joints.data());
+    limit.described = d.coordinate;
+    limit.restitution = d.restitution;
+    limit.sticking_speed = d.sticking_speed;
+    if (d.kind != "stop") {
+      limit.kind = d.kind == "wire" ? LimitKind::wire : LimitKind::seat;
+      limit.bound = scene.joints[idx(limit.joint)].length;
+      limit.side = -1.0;
+      out.push_back(limit);
+      continue;
+    }
+    const bool both = d.minimum > -kNoStop && d.maximum < kNoStop;
+    for (const double side : {1.0, -1.0}) {
+      limit.side = side;
+      limit.bound = side > 0.0 ? d.minimum : d.maximum;
+      limit.name = d.name + (!both ? "" : (side > 0.0 ? ".minimum" : ".maximum"));
+      if (std::abs(limit.bound) < kNoStop) out.push_back(limit);
+    }
+  }
+  return out;
+}
+
+ClosedSet described_set(const SceneDescription& scene, const std::vector<Limit>& limits) {
+  ClosedSet closed = 0;
+  for (std::size_t i = 0; i < limits.size(); ++i) {
+    const Limit& limit = limits[i];
+    const bool holds_here =
+        limit.kind == LimitKind::seat ||
+        (limit.kind == LimitKind::wire && stretched(scene, scene.joints[idx(limit.joint)]));
+    if (holds_here) closed |= bit_of(static_cast<int>(i));
+  }
+  return closed;
+}
+
+SceneDescription scene_of(const SceneDescription& scene, const std::vector<Limit>& limits, ClosedSet closed) {
+  SceneDescription out = scene;
+  for (std::size_t i = 0; i < limits.size(); ++i) {
+    const Limit& limit = limits[i];
+    const bool here = holds(closed, static_cast<int>(i));
+    if (limit.kind != LimitKind::stop) {
+      out.joints[idx(limit.joint)].open = !here;
+    } else if (here) {
+      out.drivers.push_back({limit.name, limit.described, Curve::constant(limit.bound)});
+    }
+  }
+  return out;
+}
+
+void check_start(const Model& model) {
+  if (model.limits.empty()) return;
+  const std::shared_ptr<const Model> view(&model, [](const Model*) {});
+  RedundantSystem system(view);
+  system.read_kinematics(0.0, model.initial_state.data());
+  for (std::size_t i = 0; i < model.limits.size(); ++i) {
+    const Limit& limit = model.limits[i];
+    if (holds(model.closed, static_cast<int>(i)) || limit.kind == LimitKind::seat) continue;
+    const double gap = limit.side * evaluate_limit(limit, system.bodies().data()).value;
+    if (gap >= -kBeyond) continue;
+    throw SceneError("limit '" + limit.name + "': the scene starts " + to_text(-gap) +
+                     " m or rad beyond it; start within the bounds, or correct them");
+  }
+}
+
+}  // namespace seacrane

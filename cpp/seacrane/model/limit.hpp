@@ -1,0 +1,75 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "seacrane/dynamics/joint_coordinate.hpp"
+#include "seacrane/model/check.hpp"
+
+namespace seacrane {
+
+struct SceneDescription;
+struct Model;
+class RedundantSystem;
+
+inline constexpr double kNoStop = kFarthest;  // m or rad: a bound here or beyond is none
+inline constexpr int kMostLimits = 64;
+
+/// Contact that only pushes, or a wire that only pulls:
+///   wire   a distance joint that holds only while it is stretched
+///   stop   bounds on a joint coordinate
+///   seat   a weld that holds only while it is pressed along z of its first frame; let go, it stays open
+struct LimitDescription {
+  std::string name, kind;
+  CoordinateDescription coordinate;              // of a stop; wires and seats name the joint alone
+  double minimum = -kNoStop, maximum = kNoStop;  // of a stop
+  double restitution = 0.0;
+  double sticking_speed = 1e-3;  // m/s or rad/s: approaches below it don't rebound
+};
+
+enum class LimitKind { wire, stop, seat };
+
+/// Which limits hold, one bit each: the discrete part of the state.
+using ClosedSet = std::uint64_t;
+constexpr ClosedSet bit_of(int limit) { return ClosedSet{1} << limit; }
+constexpr bool holds(ClosedSet closed, int limit) { return (closed & bit_of(limit)) != 0; }
+
+/// One bound. Open: side * gap >= 0; closed: side * multiplier >= 0 (wire and stop).
+struct Limit {
+  std::string name;
+  LimitKind kind = LimitKind::stop;
+  int joint = 0;                    // among the described joints
+  CoordinateDescription described;  // of a stop
+  CoordinateData coordinate;        // its data; of a wire or seat only the joint's
+  double bound = 0.0;               // of the coordinate, or the length of a wire
+  double side = 1.0;                // 1: the coordinate stays above the bound
+  double restitution = 0.0, sticking_speed = 0.0;
+  int element = -1;  // where it holds: its element in the model of that set
+};
+
+/// Names of the limits that hold, and the set of those named. Throws std::invalid_argument for a name that
+/// is not there.
+std::vector<std::string> names_of(const std::vector<Limit>& limits, ClosedSet closed);
+ClosedSet set_of(const std::vector<Limit>& limits, const std::vector<std::string>& names);
+
+/// Distance from the bound, its row of D, its rate: as a driver at the bound would have them.
+CoordinateRow<double> evaluate_limit(const Limit& limit, const BodyKinematics<double>* bodies);
+
+/// Of the multipliers `lambda` of `system`, the part of a limit that holds in the direction in which it can
+/// act: tension of a wire, push of a stop, pressure on a seat.
+double limit_force(const Limit& limit, const RedundantSystem& system, const double* lambda);
+
+/// Checks the limits of a scene whose joints, drivers and names have been checked.
+void check_limits(const SceneDescription& scene, const SceneNames& names);
+/// One entry per bound, in the order described, without the data of coordinates.
+std::vector<Limit> list_limits(const SceneDescription& scene);
+/// Limits that hold at the described poses: seats, and wires that are not shorter than their length.
+ClosedSet described_set(const SceneDescription& scene, const std::vector<Limit>& limits);
+/// The scene with the rows of the given set only: other wires and seats are left open, closed stops are
+/// drivers at their bound, after the described ones.
+SceneDescription scene_of(const SceneDescription& scene, const std::vector<Limit>& limits, ClosedSet closed);
+/// Refuses a start beyond a bound.
+void check_start(const Model& model);
+
+}  // namespace seacrane

@@ -1,0 +1,104 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <stdexcept>
+#include <vector>
+
+#include "seacrane/run/stepper.hpp"
+
+namespace seacrane {
+
+enum class EventKind { contact, rebound, release };
+const char* to_text(EventKind kind);
+
+/// Events without end in no time.
+class ChatteringError : public std::domain_error {
+ public:
+  using std::domain_error::domain_error;
+};
+
+/// A limit that began or ceased to hold.
+struct Event {
+  double time = 0.0;
+  int limit = 0;
+  EventKind kind = EventKind::contact;
+  double speed = 0.0;        // m/s or rad/s: rate of approach just before; 0 for a release
+  double impulse = 0.0;      // N s or N m s along the coordinate, positive as the limit can push
+  double energy_lost = 0.0;  // J, of the whole impact; shared by limits hit at the same time
+};
+
+/// Finds and carries out what limits do: wires that go slack and snatch, stops that are hit and left, seats
+/// that are lifted off.
+///
+/// Which limits hold is told by complementarity: side * gap >= 0 where one is open, side * multiplier >= 0
+/// where it is closed. After every step the quantities that must not be negative are looked at, at the end of
+/// the step and inside it; the first change of sign is located through the integrator's dense output. An
+/// impact keeps momentum, M (v+ - v-) = D^T Lambda over all rows that hold, and each limit that is hit sends
+/// its coordinate back at -restitution times the rate of approach (Newton). Where several limits are
+/// involved, those whose impulse or multiplier would pull are let go, least index first (Murty's principal
+/// pivoting).
+class Contacts {
+ public:
+  /// The stepper of a set: made when first asked for.
+  using SetStepper = std::function<Stepper&(ClosedSet closed)>;
+
+  Contacts(const Model& model, SetStepper stepper);
+
+  /// Time of the first event in the last step of `at`; nothing when there is none. Remembers its limit.
+  std::optional<double> find(Stepper& at);
+  /// Carries out the event found, at time t and the state `bodies` of the described bodies (on the joints of
+  /// `closed`), and what follows from it at the same time. Work takes up what the impact changed. Returns the
+  /// limits that hold from then on.
+  ClosedSet pass(double t, double* bodies, ClosedSet closed);
+  /// The same without an event: at the start.
+  ClosedSet settle(double t, double* bodies, ClosedSet closed);
+  /// Starts watching from the state (t, bodies) of `at`.
+  void watch(Stepper& at, double t, const double* bodies);
+
+  const std::vector<Event>& events() const { return events_; }
+  double energy_lost() const { return energy_lost_; }
+
+ private:
+  struct Watched {
+    double value = 0.0, rate = 0.0;
+  };
+  struct Dip {
+    double part = 0.0;  // of the step; 0: none
+    bool negative = false;
+    double value = 0.0;
+  };
+  /// By limit, but for the changes of twist.
+  struct Impact {
+    std::vector<double> impulse, speed, lost;
+    std::vector<bool> rebounds;
+    std::vector<Vec6d> change;
+    double driver_work = 0.0;
+  };
+
+  /// side * gap and its rate, with the kinematics that `system` holds.
+  Watched gap(const Limit& limit, const RedundantSystem& system) const;
+  /// What must not be negative, at (t, y) of the stepped form.
+  double watched_value(Stepper& at, const Limit& limit, double t, const double* y);
+  void evaluate(Stepper& at, double t, const double* bodies);
+  void look_inside(Stepper& at);
+  Dip dip(Stepper& at, std::size_t limit) const;
+  double locate(Stepper& at, std::size_t limit, double until, double value);
+  ClosedSet hit(double t, double* bodies, ClosedSet closed, ClosedSet struck);
+  Impact collide(Stepper& at, double t, const double* bodies, ClosedSet struck);
+  void note(const Event& event);
+  [[noreturn]] void report_chatter(double t, int limit) const;
+
+  const Model& model_;
+  SetStepper stepper_;
+  std::vector<Event> events_;
+  double energy_lost_ = 0.0;
+  int found_ = 0;
+  double last_pass_ = -1e300;
+  std::size_t stalled_ = 0;              // passes in a row that took no time
+  std::vector<Watched> before_, after_;  // by limit, at both ends of the last step
+  std::vector<double> state_, probe_, bodies_, rate_;
+  std::vector<double> middle_;  // forces of closed limits in the middle of the step
+};
+
+}  // namespace seacrane

@@ -1,0 +1,57 @@
+#include "seacrane/run/stepper.hpp"
+
+#include <stdexcept>
+#include <string>
+
+#include "seacrane/dynamics/merged.hpp"
+#include "seacrane/dynamics/recursive/body_tree.hpp"
+#include "seacrane/model/validate.hpp"
+#include "seacrane/run/simulation.hpp"
+
+namespace seacrane {
+namespace {
+
+constexpr double kLargestTolerance = 0.1;  // beyond, an error estimate of one step means nothing
+
+IntegratorOptions integrator_options(const Formulation& stepped, const RunOptions& run) {
+  if (!(run.tolerance > 0.0) || !(run.tolerance <= kLargestTolerance)) {
+    throw std::invalid_argument("rtol is " + to_text(run.tolerance) +
+                                "; give a positive number up to 0.1, e.g. 1e-6");
+  }
+  IntegratorOptions out;
+  out.name = run.integrator;
+  out.relative_tolerance = 0.0;
+  out.absolute_tolerance = stepped.scale();
+  for (double& value : out.absolute_tolerance) value *= run.tolerance;
+  out.fixed_step = run.fixed_step;
+  out.max_step = run.max_step;
+  out.spectral_radius = run.spectral_radius;
+  return out;
+}
+
+/// Where limits leave nothing to move, the recursive form has no coordinates.
+std::string formulation_of(const Model& model, const RunOptions& run) {
+  const bool rigid = !model.limits.empty() && build_tree(model.stepped()).speeds == 0;
+  return rigid ? "redundant" : run.formulation;
+}
+
+}  // namespace
+
+Stepper::Stepper(std::shared_ptr<const Model> of, const RunOptions& options)
+    : model(std::move(of)),
+      system(model),
+      other(make_formulation(formulation_of(*model, options), system)),
+      stepped(other ? *other : system),
+      loads(stepped.loads_from()),
+      residual(loads),
+      integrator(make_integrator(stepped, options.formulation == "redundant" ? &residual : nullptr,
+                                 integrator_options(stepped, options))),
+      merged_state_(loads.size(), 0.0) {}
+
+const double* Stepper::stepped_bodies(const double* bodies) {
+  if (&loads == &system) return bodies;
+  merge_state(*model, loads.model(), bodies, merged_state_.data());
+  return merged_state_.data();
+}
+
+}  // namespace seacrane

@@ -1,0 +1,104 @@
+"""What limits refuse, and what scene files and results keep of them."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from event_scenes import ball, lift, pushed
+
+from seacrane import (
+    Result,
+    Scene,
+    SceneError,
+    add_end_stop,
+    add_friction,
+    add_seat,
+    add_soft_stop,
+    add_wire,
+    cases,
+    simulate,
+)
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        (lambda s: add_end_stop(s, joint="air", coordinate="x"), "neither minimum nor maximum"),
+        (
+            lambda s: add_end_stop(s, joint="air", coordinate="x", minimum=1.0, maximum=0.0),
+            "minimum must be below",
+        ),
+        (lambda s: add_end_stop(s, joint="air", coordinate="x", minimum=1.0), "starts 1 m or rad beyond"),
+        (
+            lambda s: add_end_stop(s, joint="air", coordinate="yaw", minimum=-1.0),
+            "give both, between -pi and pi",
+        ),
+        (
+            lambda s: add_end_stop(s, joint="air", coordinate="z", minimum=-3.0, name="b"),
+            "'floor' limits already",
+        ),
+        (lambda s: add_end_stop(s, joint="nowhere"), "there is no joint 'nowhere'"),
+        (lambda s: add_end_stop(s, joint="air", coordinate="x", minimum=float("nan")), "nan"),
+        (
+            lambda s: add_end_stop(s, joint="air", coordinate="x", minimum=-1.0, restitution=1.5),
+            "give 0 to 1",
+        ),
+        (lambda s: add_wire(s, joint="air"), "a wire takes a distance joint"),
+        (lambda s: add_seat(s, joint="air"), "a seat takes a weld joint"),
+        (
+            lambda s: add_friction(s, joint="air", coordinate="x", load=-1.0, speed=1.0),
+            "must not be negative",
+        ),
+        (lambda s: add_friction(s, joint="air", coordinate="x", load=1.0, speed=0.0), "give a positive one"),
+        (
+            lambda s: add_soft_stop(s, joint="air", coordinate="x", maximum=1.0, stiffness=0.0),
+            "make it positive",
+        ),
+    ],
+)
+def test_contradictions_are_refused_by_name(change: Any, message: str) -> None:
+    scene = ball()
+    with pytest.raises(SceneError, match=message):
+        change(scene)
+        scene.compile()
+
+
+def test_a_driver_and_a_stop_on_one_coordinate_are_refused() -> None:
+    scene = lift()
+    add_end_stop(scene, joint="hoist", maximum=3.0)
+    with pytest.raises(SceneError, match=r"driver 'hoist\.displacement' prescribes hoist\.displacement"):
+        scene.compile()
+
+
+def test_a_run_without_limits_says_nothing_of_them() -> None:
+    result = simulate(cases.case1(), t_end=0.2, dt_out=0.1)
+    assert result.events == ()
+    assert "events" not in result.stats
+    assert not {"limit_force", "impact_loss"} & set(result.channels)
+
+
+def test_events_survive_a_file(tmp_path: Path) -> None:
+    result = simulate(ball(), t_end=1.5, dt_out=0.1)
+    loaded = Result.load(result.save(tmp_path / "ball.nc"))
+    assert loaded.events == result.events
+    assert len(result.events) == result.stats["events"]
+    assert loaded.coords["limit"] == ("floor",)
+    dataset = result.to_xarray()
+    assert list(dataset["event_name"].values) == ["floor"] * len(result.events)
+    np.testing.assert_array_equal(dataset["event_time"], [e.time for e in result.events])
+
+
+def test_limits_survive_a_scene_file(tmp_path: Path) -> None:
+    scene = pushed(restitution=0.3)
+    add_friction(scene, joint="rail", load=2.0, speed=1e-3)
+    add_soft_stop(scene, joint="rail", maximum=1.0, stiffness=1e4, damping=0.2)
+    scene.save(tmp_path / "pushed.json")
+    read = Scene.load(tmp_path / "pushed.json")
+    again, once = (simulate(s, t_end=1.5, dt_out=0.1) for s in (read, scene))
+    np.testing.assert_array_equal(again["coordinate"], once["coordinate"])
+    assert again.events == once.events
+    assert len(once.events) > 1
+    assert "rail soft stop (rail displacement)" in dict(scene.report()["elements"])["limits and friction"]
