@@ -1,6 +1,7 @@
 #include "seacrane/run/simulation.hpp"
 
 #include "bindings.hpp"
+#include "seacrane/integrate/stability_polynomial.hpp"
 #include "vector_state.hpp"
 
 using namespace seacrane;
@@ -155,6 +156,10 @@ void bind_simulation(py::module_& m) {
       "initial_state", [](const std::shared_ptr<Model>& model) { return initial_state(*model); },
       py::arg("model").none(false));
   m.def("integrator_names", &integrator_names);
+  m.def("stability_polynomial", &stability_polynomial, py::arg("integrator"),
+        "Coefficients of the stability polynomial of an explicit Runge-Kutta method, lowest power first: a "
+        "step "
+        "h of y' = lambda y multiplies y by R(h lambda). Empty for an integrator that has no tableau here.");
   py::class_<Simulation>(m, "Simulation",
                          "One run of a model: advance(), inputs, recorded channels. Not for several threads.")
       .def(py::init([](const std::shared_ptr<Model>& model, const State& start, std::string integrator,
