@@ -35,6 +35,7 @@ def build_parser() -> argparse.ArgumentParser:
     _add_report(commands)
     _add_hydro(commands)
     _add_trade(commands)
+    _add_extremes(commands)
     return parser
 
 
@@ -114,6 +115,19 @@ def _add_trade(commands: Any) -> None:
     trade.add_argument("scene", metavar="SCENE", help=SCENE_HELP)
     trade.add_argument("--out", metavar="DIR", required=True, help="folder to write to; made if absent")
     trade.add_argument("--quick", action="store_true", help="a coarse grid of few integrators")
+
+
+def _add_extremes(commands: Any) -> None:
+    text = "drive every axis of use far beyond it with every method: extremes.csv and heat maps"
+    more = f"{text}; a call that was stopped goes on; fails where something breaks that must always hold"
+    extremes = commands.add_parser("extremes", help=text, description=more)
+    extremes.add_argument("--out", metavar="DIR", required=True, help="folder to write to; made if absent")
+    extremes.add_argument(
+        "--quick", action="store_true", help="few values and methods, and all that must always hold"
+    )
+    extremes.add_argument(
+        "--axes", metavar="NAME", nargs="+", help="only these axes; an unknown name lists them all"
+    )
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
