@@ -56,7 +56,7 @@ class Axis:
     case : callable
         The case at a value.
     limit_s : float
-        Wall time that one run may take, s.
+        Processor time that one run may take, s.
     long : tuple of float
         Values of the full atlas that only the default setting runs, within `long_limit_s` each.
     long_limit_s : float
@@ -69,6 +69,6 @@ class Axis:
     values: tuple[float, ...]
     quick: tuple[float, ...]
     case: Callable[[float], Case]
-    limit_s: float = 2.0
+    limit_s: float = 1.0
     long: tuple[float, ...] = ()
     long_limit_s: float = 120.0

@@ -28,6 +28,8 @@ class Promise:
         Largest constraint error of a result, m or rad.
     energy : float
         Largest energy balance, over the work or the kinetic energy.
+    error : float
+        Largest error over the motion, where there is a reference.
     words : tuple of str
         What the message of a refusal or a stop must hold.
     """
@@ -36,7 +38,8 @@ class Promise:
     values: tuple[float, ...]
     verdict: str = rows.COMPLETED
     left: float = 1e-9
-    energy: float = 1e-4
+    energy: float = 1e-5
+    error: float = 1e-3
     words: tuple[str, ...] = ()
 
 
@@ -88,4 +91,6 @@ def _breaks(promise: Promise, row: Row) -> list[str]:
         out.append(f"constraint error {row.left:.3g}, promised {promise.left:g}")
     if row.energy > promise.energy:
         out.append(f"energy error {row.energy:.3g}, promised {promise.energy:g}")
+    if row.error > promise.error:
+        out.append(f"error {row.error:.3g} of the motion, promised {promise.error:g}")
     return out

@@ -83,16 +83,16 @@ def _open_start(gap: float) -> Case:
 
 AXES = (
     Axis(name="rods", title="Mass of the cylinders' rods, case 2", label="times the rods' mass",
-         values=(1e-8, 1e-6, 1e-4, 1e-2, 1.0, 10.0, 1e2, 1e4), quick=(1e-8, 1.0, 1e4), case=_rods),
+         values=(1e-8, 1e-4, 1e-2, 1.0, 1e2, 1e4), quick=(1e-8, 1.0, 1e4), case=_rods),
     Axis(name="payload", title="Payload, case 2", label="payload [t]",
-         values=(1e-7, 1e-4, 0.01, 1.0, 10.0, 100.0, 500.0, 2500.0, 1e5),
+         values=(1e-7, 0.01, 10.0, 100.0, 500.0, 2500.0, 1e5),
          quick=(1e-7, 0.01, 100.0, 2500.0), case=_payload),
     Axis(name="link", title="Length of the wire, case 2", label="link length [m]",
          values=(0.05, 0.5, 8.0, 50.0, 300.0, 3000.0), quick=(0.05, 8.0, 3000.0), case=_link),
     Axis(name="gains", title="Gains of the actuators, case 2", label="times the usual gains",
          values=(0.01, 0.1, 1.0, 10.0, 100.0, 1000.0), quick=(0.01, 1.0, 100.0), case=_gains),
     Axis(name="slew", title="Slewing through many turns, crane on the ground", label="turns",
-         values=(1.0, 10.0, 100.0, 1000.0), quick=(1.0, 10.0), case=_slew),
+         values=(1.0, 10.0, 100.0), quick=(1.0,), long=(1000.0,), case=_slew),
     Axis(name="open-start", title="Bodies described apart from their joints", label="gap at the start [m]",
-         values=(1e-12, 1e-9, 1e-6, 1e-3, 0.01, 0.1, 1.0), quick=(1e-12, 1e-3, 1.0), case=_open_start),
+         values=(1e-12, 1e-6, 1e-3, 0.1, 1.0), quick=(1e-12, 1e-3, 1.0), case=_open_start),
 )  # fmt: skip

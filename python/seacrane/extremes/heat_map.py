@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 LETTERS = {rows.REFUSED: "R", rows.STOPPED: "S", rows.SLOW: "T", rows.NOT_FINITE: "N", rows.UNNAMED: "U",
            rows.HUNG: "H", rows.CRASHED: "X"}  # fmt: skip
-MEANING = {"R": "refused at the start", "S": "stopped by name", "T": "out of wall time", "N": "not finite",
+MEANING = {"R": "refused at the start", "S": "stopped by name", "T": "out of time", "N": "not finite",
            "U": "unnamed exception", "H": "hung", "X": "crashed", "c": "completed, no reference"}  # fmt: skip
 COLOURS = {rows.REFUSED: "#bfbfbf", rows.STOPPED: "#8c8c8c", rows.SLOW: "#d9d9d9", rows.NOT_FINITE: "magenta",
            rows.UNNAMED: "magenta", rows.HUNG: "magenta", rows.CRASHED: "magenta"}  # fmt: skip

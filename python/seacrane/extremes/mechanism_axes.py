@@ -13,12 +13,12 @@ CUBE = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [1, 1, 1], [0, 1, 1], [0, 0, 1
 HINGES = np.array([[0, 1, 0], [0, 0, 1], [1, 0, 0], [0, 1, 0], [0, 0, 1], [1, 0, 0]], dtype=float)
 
 
-def _box(rate: float, orientation: str) -> Case:
-    """A box of 10 t on a wire, turning about an axis that no axis of inertia is near."""
+def _box(spin: tuple[float, float, float], orientation: str) -> Case:
+    """A box of 10 t on a wire that is not fixed at its middle."""
     scene = Scene(name="tumbling box", orientation=orientation)
     scene.add_body(
         name="payload", mass=1e4, inertia=(4.3e4, 3.1e4, 6.0e4), position=(0.0, 0.0, -10.0),
-        angular_velocity=rate * np.array([0.48, 0.64, 0.6]),
+        angular_velocity=spin,
     )  # fmt: skip
     scene.add_joint(
         kind="distance", name="link", first="ground", second="payload", point=(0.0, 0.0, 0.0),
@@ -28,13 +28,13 @@ def _box(rate: float, orientation: str) -> Case:
 
 
 def _tumbling(rate: float) -> Case:
-    """By quaternions, the default."""
-    return _box(rate, "quaternion")
+    """About an axis that no axis of inertia is near; by quaternions, the default."""
+    return _box((0.48 * rate, 0.64 * rate, 0.6 * rate), "quaternion")
 
 
 def _tumbling_by_angles(rate: float) -> Case:
-    """By the paper's angles, which are singular at phi_y = 90 deg."""
-    return _box(rate, "euler_xyz")
+    """About y, by the paper's angles: it turns exactly through phi_y = 90 deg, where they are singular."""
+    return _box((0.0, rate, 0.0), "euler_xyz")
 
 
 def _heaving_support(amplitude: float) -> Case:
@@ -165,20 +165,20 @@ AXES = (
     Axis(name="tumble", title="A payload that tumbles on its wire, by quaternions", label="spin [rad/s]",
          values=(0.1, 1.0, 10.0, 100.0), quick=(1.0, 10.0), case=_tumbling),
     Axis(name="tumble-angles", title="The same by the paper's XYZ angles", label="spin [rad/s]",
-         values=(0.1, 1.0, 10.0, 100.0), quick=(0.1, 1.0), case=_tumbling_by_angles),
+         values=(0.1, 1.0, 10.0, 100.0), quick=(0.1, 10.0), case=_tumbling_by_angles),
     Axis(name="parametric", title="A pendulum of 10 m on a support that heaves at twice its frequency",
-         label="amplitude of heave [m]", values=(1e-3, 0.01, 0.1, 1.0, 3.0, 10.0), quick=(0.01, 1.0),
+         label="amplitude of heave [m]", values=(1e-3, 0.1, 1.0, 10.0), quick=(0.01, 1.0),
          case=_heaving_support),
     Axis(name="dead-centre", title="A jib whirled through the dead centres of its cylinder",
-         label="least distance of the cylinder's ends [m]", values=(1.0, 0.1, 1e-2, 1e-3, 1e-5, 1e-8, 0.0),
+         label="least distance of the cylinder's ends [m]", values=(1.0, 0.1, 1e-3, 1e-5, 1e-8, 0.0),
          quick=(1.0, 1e-3, 0.0), case=_dead_centre),
     Axis(name="driven-dead-centre", title="A cylinder driven up to its dead centre and beyond",
-         label="short of the dead centre [m]", values=(1.0, 0.1, 1e-2, 1e-4, 1e-6, 0.0, -1e-6, -0.1),
-         quick=(0.1, 0.0, -0.1), case=_driven_to_dead_centre),
+         label="short of the dead centre [m]", values=(1.0, 0.01, 1e-4, 1e-6, 0.0, -0.1),
+         quick=(0.01, 1e-4, -0.1), case=_driven_to_dead_centre),
     Axis(name="four-bar", title="A four-bar through its singular position", label="mismatch of its bars [-]",
-         values=(0.1, 1e-2, 1e-4, 1e-6, 1e-8, 1e-12, 0.0), quick=(0.01, 1e-6, 0.0), case=_four_bar),
+         values=(0.1, 1e-2, 1e-4, 1e-6, 1e-10, 0.0), quick=(0.01, 1e-6, 0.0), case=_four_bar),
     Axis(name="bricard", title="Bricard's overconstrained loop", label="times the mass of one rod",
-         values=(1e-8, 1e-4, 1.0, 1e4, 1e8), quick=(1e-4, 1.0, 1e4), case=_bricard),
-    Axis(name="hinges", title="A door on many hinges", label="hinges", values=(1.0, 2.0, 5.0, 20.0, 100.0),
-         quick=(1.0, 2.0, 20.0), case=_hinges),
+         values=(1e-8, 1e-4, 1.0, 1e4), quick=(1e-8, 1.0), case=_bricard),
+    Axis(name="hinges", title="A door on many hinges", label="hinges", values=(1.0, 2.0, 5.0, 20.0),
+         quick=(2.0, 5.0), case=_hinges),
 )  # fmt: skip

@@ -10,11 +10,29 @@ from seacrane import _core
 from seacrane.simulation import RESIDUAL_INTEGRATORS
 
 FORMULATIONS = ("recursive", "redundant")
-STEPPED = ("semi-implicit-euler", "rk4", "rk4-exact-memory", "rk-low-storage", "generalized-alpha",
-           "generalized-alpha-index2", "ark-mri")  # fmt: skip
-STEPS = (0.02, 0.005)  # s
-COARSE_RTOL, FINE_RTOL = (1e-3, 1e-6), (1e-3, 1e-6, 1e-9)
-HIGH_ORDER = ("dopri5", "tsit5", "verner65", "verner76", "dop853")
+STEPS: dict[str, tuple[float, ...]] = {  # s
+    "semi-implicit-euler": (0.02, 0.005),
+    "rk4": (0.02, 0.005),
+    "rk4-exact-memory": (0.02,),
+    "rk-low-storage": (0.02,),
+    "generalized-alpha": (0.02,),
+    "generalized-alpha-index2": (0.02,),
+    "ark-mri": (0.02,),
+}
+TOLERANCES: dict[str, tuple[float, ...]] = {
+    "heun21": (1e-3,),
+    "bs32": (1e-3,),
+    "rk43": (1e-6,),
+    "dopri5": (1e-3, 1e-6, 1e-9),
+    "verner65": (1e-6,),
+    "rosenbrock": (1e-3,),
+    "ark-erk": (1e-6,),
+    "ark-dirk": (1e-6,),
+    "ark-imex": (1e-3,),
+    "cvode-adams": (1e-6,),
+    "ida": (1e-6,),
+}
+OTHER_TOLERANCES = (1e-3, 1e-6)  # of a method that neither list knows
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -65,9 +83,7 @@ def every() -> Iterator[Method]:
         for name in _core.integrator_names():
             if formulation == "recursive" and name in RESIDUAL_INTEGRATORS:
                 continue
-            if name in STEPPED:
-                for dt in STEPS:
-                    yield Method(formulation=formulation, integrator=name, dt=dt)
-                continue
-            for rtol in FINE_RTOL if name in HIGH_ORDER else COARSE_RTOL:
+            for dt in STEPS.get(name, ()):
+                yield Method(formulation=formulation, integrator=name, dt=dt)
+            for rtol in () if name in STEPS else TOLERANCES.get(name, OTHER_TOLERANCES):
                 yield Method(formulation=formulation, integrator=name, rtol=rtol)

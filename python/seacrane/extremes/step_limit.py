@@ -38,7 +38,7 @@ LONGEST = 10.0  # s; beyond, no limit is looked for
 SEMI_IMPLICIT = "semi-implicit-euler"
 EXPLICIT = ("rk4", "rk-low-storage", "heun21", "bs32", "rk43", "dopri5", "tsit5", "verner65", "verner76",
             "dop853")  # fmt: skip
-UNPREDICTED = ("rk4-exact-memory", "ark-mri", "generalized-alpha", "generalized-alpha-index2")
+UNPREDICTED = ("rk4-exact-memory", "generalized-alpha", "generalized-alpha-index2")
 FIXED = (SEMI_IMPLICIT, "rk4", "rk-low-storage", *UNPREDICTED)
 QUICK = (SEMI_IMPLICIT, "rk4", "dopri5", "tsit5")
 

@@ -17,7 +17,8 @@ from seacrane.extremes.methods import DEFAULT, Method
 from seacrane.extremes.rows import Row
 
 DEFAULT_LIMIT_S = 20.0  # the default setting must end, not be cut off, on a slow machine too
-GRACE_S = 30.0  # beyond all wall times granted: who has not answered by then hangs
+BUSY = 8.0  # times more wall than processor time on a busy machine
+GRACE_S = 60.0  # wall time, beyond what the times granted may take: who has not answered by then hangs
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -97,7 +98,9 @@ class _Worker:
 
     def _ask(self, group: Group, left: list[Method], take: Callable[[Row], None]) -> str | None:
         """What ended it before its end; removes from `left` what is done."""
-        patience = GRACE_S + 20.0 * group.limit_s  # the first row waits for the reference, too
+        patience = GRACE_S + BUSY * (
+            20.0 * group.limit_s + DEFAULT_LIMIT_S
+        )  # the first row waits for the reference, too
         try:
             self.pipe.send(group)
             while self.pipe.poll(patience):
@@ -106,7 +109,7 @@ class _Worker:
                     return None
                 take(row)
                 left.pop(0)
-                patience = GRACE_S + max(group.limit_s, DEFAULT_LIMIT_S)
+                patience = GRACE_S + BUSY * max(group.limit_s, DEFAULT_LIMIT_S)
         except (EOFError, OSError):
             return rows.CRASHED
         return rows.HUNG

@@ -110,19 +110,20 @@ class TreeBuilder {
   }
 
   /// Whether the hinge angle tells the strut's pose in every position: ends off the slide's line must not
-  /// come as near as that, where the stroke goes on and the hinge turns back; nor may the universal joint
-  /// start with the strut in the plane of its axes, free to spin.
+  /// come as near as that, where the stroke goes on and the hinge turns back; no ends may meet, where the
+  /// line between them has no direction; nor may the universal joint start with the strut in the plane of its
+  /// axes, free to spin.
   bool angle_tells(const Pattern& p, int parent, int body) const {
     const Strut s = make_strut(p, parent, body);
     const TreeJoint hinge = oriented(edges_[p.hinge].joint, parent);
     const auto around = [](const Vec3d& lever, const Vec3d& axis) {
       return Eigen::Vector2d(lever.cross(axis).norm(), lever.dot(axis));
     };
-    const double nearest = (around(s.base_point - hinge.parent_point, hinge.parent_axes.col(2)) -
-                            around(s.arm_point - hinge.child_point, hinge.child_axes.col(2)))
-                               .norm();
+    const Eigen::Vector2d base = around(s.base_point - hinge.parent_point, hinge.parent_axes.col(2)),
+                          arm = around(s.arm_point - hinge.child_point, hinge.child_axes.col(2));
+    const double nearest = (base - arm).norm(), farthest = std::hypot(base[0] + arm[0], base[1] - arm[1]);
     const double across = s.offset.head<2>().norm();
-    return (across < kOnLine * s.offset.norm() || across < nearest) &&
+    return nearest > kOnLine * farthest && (across < kOnLine * s.offset.norm() || across < nearest) &&
            spin_hold(s, start(parent), start(body)) > kOnLine;
   }
 

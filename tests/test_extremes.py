@@ -1,0 +1,286 @@
+"""The stability atlas: the quick one must keep every promise, and its parts must notice what goes wrong."""
+
+from __future__ import annotations
+
+import csv
+import json
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from seacrane import SceneError, cases, cli
+from seacrane.extremes import committed, rows, stability_atlas, workers
+from seacrane.extremes.axes import AXES
+from seacrane.extremes.axis import Case
+from seacrane.extremes.measure import Reference, measure, points_on_bodies, reference
+from seacrane.extremes.methods import DEFAULT, QUICK, Method, every
+from seacrane.extremes.rows import Row
+from seacrane.extremes.vessel_axes import _turn_of
+
+NO_REFERENCE = Reference(points=None, motion=rows.UNKNOWN, uncertainty=rows.UNKNOWN, known="")
+
+
+@pytest.fixture(scope="module")
+def quick(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """`seacrane extremes --quick`, run once; it fails where a promise of the committed list is broken."""
+    folder = tmp_path_factory.mktemp("extremes")
+    assert cli.main(["extremes", "--out", str(folder), "--quick"]) == 0
+    return folder
+
+
+def rows_of(folder: Path) -> list[dict[str, str]]:
+    with (folder / "extremes.csv").open(newline="", encoding="utf-8") as file:
+        return list(csv.DictReader(file))
+
+
+def test_the_quick_atlas_keeps_every_promise(quick: Path) -> None:
+    found = rows_of(quick)
+    assert {row["axis"] for row in found} == set(AXES)
+    assert not [row for row in found if row["verdict"] in rows.FORBIDDEN]
+    default = {(row["axis"], float(row["value"])): row for row in found if row["formulation"] == "auto"}
+    for promise in committed.promises():
+        for value in promise.values:
+            if value in AXES[promise.axis].long:
+                continue
+            row = default[promise.axis, value]
+            assert row["verdict"] == promise.verdict
+            if promise.verdict == rows.COMPLETED:
+                assert float(row["left"]) <= promise.left
+            else:
+                assert all(word in row["message"] for word in promise.words)
+    for axis in AXES.values():
+        for value in axis.quick:
+            methods = [row for row in found if (row["axis"], float(row["value"])) == (axis.name, value)]
+            assert len(methods) == len(QUICK)
+
+
+def test_predicted_step_limits_are_those_found(quick: Path) -> None:
+    with (quick / "extremes_step.csv").open(newline="", encoding="utf-8") as file:
+        limits = list(csv.DictReader(file))
+    assert len(limits) == 8
+    for row in limits:
+        assert float(row["found"]) == pytest.approx(float(row["predicted"]), rel=0.02)
+
+
+def test_heat_maps_are_drawn(quick: Path) -> None:
+    import matplotlib.image as mpimg
+
+    for name in [*AXES, "step"]:
+        picture = mpimg.imread(quick / f"extremes_{name}.png")
+        assert picture.std() > 0.05, name
+
+
+def test_a_second_call_runs_nothing_again(quick: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def fail(groups: Any, jobs: int) -> Any:
+        raise AssertionError(f"{len(groups)} groups are run again")
+
+    monkeypatch.setattr("seacrane.extremes.study.run_all", fail)
+    lines = (quick / "extremes_rows.jsonl").read_text().splitlines()
+    again = stability_atlas(out=quick, quick=True, axes=["payload", "heel"], figures=False, progress=False)
+    assert {row.axis for row in again.rows} == {"payload", "heel"}
+    assert not again.broken
+    # A line that an interrupted call was writing is left out.
+    (quick / "extremes_rows.jsonl").write_text("\n".join([*lines, '{"axis": "pay']) + "\n")
+    stability_atlas(out=quick, quick=True, axes=["payload"], figures=False, progress=False)
+
+
+def test_what_makes_no_sense_is_refused(tmp_path: Path) -> None:
+    with pytest.raises(SceneError, match=r"axis 'depth' is unknown; choose rods, .*, step"):
+        stability_atlas(out=tmp_path, axes=["depth"])
+    with pytest.raises(SceneError, match="is no folder"):
+        stability_atlas(out=tmp_path / "absent")
+
+
+GOOD = Row(axis="payload", value=10.0, formulation="auto", integrator="dopri5", setting="",
+           verdict=rows.COMPLETED, error=1e-9, left=1e-15, energy=1e-9)  # fmt: skip
+OPEN = "joint or driver 'hinge': is open by 0.3 m or rad and projection does not close it"
+STOPPED = replace(GOOD, axis="driven-dead-centre", value=-0.1, verdict=rows.STOPPED, message=OPEN)
+
+
+@pytest.mark.parametrize(
+    ("row", "words"),
+    [
+        (replace(GOOD, left=1e-6), "constraint error 1e-06, promised 1e-09"),
+        (replace(GOOD, left=float("nan")), "constraint error nan"),
+        (replace(GOOD, energy=1e-3), "energy error 0.001"),
+        (replace(GOOD, error=0.1), "error 0.1 of the motion"),
+        (replace(GOOD, verdict=rows.SLOW, message="granted 20 s"), "slow instead of completed: granted 20 s"),
+        (replace(GOOD, verdict=rows.STOPPED, message="collapsed"), "stopped instead of completed: collapsed"),
+        (replace(STOPPED, message="something went wrong"), "says nothing of hinge, open by"),
+        (replace(STOPPED, verdict=rows.COMPLETED), "completed instead of stopped"),
+        *(
+            (replace(GOOD, axis="heel", integrator="rk4", setting="dt=0.02", verdict=bad, message="x"), bad)
+            for bad in rows.FORBIDDEN
+        ),
+    ],
+)
+def test_a_broken_promise_is_told(row: Row, words: str) -> None:
+    assert committed.broken([GOOD, STOPPED], list(AXES)) == []
+    (text,) = committed.broken([row], list(AXES))
+    assert words in text
+
+
+def test_every_promise_is_on_an_axis_and_default_runs_cover_it() -> None:
+    for promise in committed.promises():
+        assert promise.axis in AXES
+        assert promise.verdict in (rows.COMPLETED, rows.REFUSED, rows.STOPPED)
+        assert (promise.verdict == rows.COMPLETED) == (not promise.words)
+    assert len({method.name for method in every()}) == len(list(every()))
+    assert DEFAULT in QUICK
+
+
+def short(t_end: float = 1.0) -> Case:
+    return Case(scene=cases.vessel(count=5), t_end=t_end, dt_out=0.5)
+
+
+def empty(method: Method) -> Row:
+    return workers.Group(axis="heel", value=0.0, methods=(method,), limit_s=1.0).empty(method)
+
+
+def test_a_run_is_cut_off_when_its_time_is_over() -> None:
+    method = Method(formulation="redundant", integrator="rk4", dt=1e-5)
+    row = measure(short(1e4), method, NO_REFERENCE, 0.05, empty(method))
+    assert row.verdict == rows.SLOW
+    assert 0 < row.steps < 1e6
+    assert row.wall_s < 10.0
+    assert "0.05 s of processor time" in row.message
+
+
+def test_how_a_run_ends_is_told_apart(monkeypatch: pytest.MonkeyPatch) -> None:
+    def verdict(method: Method, case: Case | None = None) -> Row:
+        return measure(case or short(), method, NO_REFERENCE, 5.0, empty(method))
+
+    done = verdict(DEFAULT)
+    assert (done.verdict, done.message) == (rows.COMPLETED, "")
+    assert done.energy < 1e-4
+    assert verdict(Method(formulation="recursive", integrator="ida")).verdict == rows.REFUSED
+    wild = AXES["memory"].case(-10.0)
+    stopped = verdict(Method(formulation="redundant", integrator="rk4", dt=0.02), wild)
+    assert stopped.verdict == rows.STOPPED
+    assert "vessel" in stopped.message
+    monkeypatch.setattr("seacrane.extremes.measure.Run.advance", raising(RuntimeError("mystery")))
+    assert verdict(DEFAULT).verdict == rows.UNNAMED
+    monkeypatch.undo()
+    monkeypatch.setattr("seacrane.extremes.measure.CHECKS", ("not there",))
+    assert verdict(DEFAULT).verdict == rows.UNNAMED
+
+
+def raising(error: Exception) -> Callable[..., None]:
+    def fail(*_: Any) -> None:
+        raise error
+
+    return fail
+
+
+def test_a_value_that_is_not_finite_is_found(monkeypatch: pytest.MonkeyPatch) -> None:
+    import seacrane.extremes.measure as module
+
+    real = module.run_within
+
+    class Spoilt:
+        def __init__(self, run: Any) -> None:
+            self.core, self.start = self, run.start
+            self.run = run
+
+        def channels(self) -> dict[str, Any]:
+            values = self.run.core.channels()
+            values["velocity"][1] = np.nan
+            return dict(values)
+
+        def statistics(self) -> Any:
+            return self.run.core.statistics()
+
+        @property
+        def time(self) -> float:
+            return float(self.run.core.time)
+
+    monkeypatch.setattr(module, "run_within", lambda *a: (Spoilt(real(*a)[0]), None))
+    row = measure(short(), DEFAULT, NO_REFERENCE, 5.0, empty(DEFAULT))
+    assert (row.verdict, row.message) == (rows.NOT_FINITE, "velocity is not finite")
+
+
+def test_errors_are_against_a_reference_that_checks_itself() -> None:
+    case = short(10.0)
+    truth = reference(case, 5.0)
+    assert truth.uncertainty < 1e-9
+    loose = Method(formulation="redundant", integrator="bs32", rtol=1e-3)
+    tight = Method(formulation="recursive", integrator="tsit5", rtol=1e-9)
+    errors = [measure(case, method, truth, 5.0, empty(method)).error for method in (loose, tight)]
+    assert 1e-6 < errors[0] < 1e-1
+    assert errors[1] < 1e-7
+
+
+def test_points_on_a_body_tell_of_its_turning() -> None:
+    half = np.sqrt(0.5)
+    points = points_on_bodies(np.zeros((1, 1, 3)), np.array([[[half, 0.0, 0.0, half]]]))[0, 0]
+    np.testing.assert_allclose(points, [[0, 0, 0], [0, 1, 0], [-1, 0, 0], [0, 0, 1]], atol=1e-15)
+
+
+class _Fake(workers._Worker):
+    """A worker whose process answers as told."""
+
+    def __init__(self, answers: list[Any]) -> None:
+        self.answers, self.starts = answers, 0
+        self._start()
+
+    def _start(self) -> None:
+        self.starts += 1
+        self.pipe = self  # type: ignore[assignment]
+
+    def send(self, group: Any) -> None:
+        self.group = group
+
+    def poll(self, patience: float) -> bool:
+        return bool(self.answers[0] != "hang" or self.answers.pop(0) != "hang")
+
+    def recv(self) -> Any:
+        answer = self.answers.pop(0)
+        if answer == "crash":
+            raise EOFError
+        return None if answer is None else self.group.empty(self.group.methods[0])
+
+    def stop(self) -> None:
+        pass
+
+
+def test_hangs_and_crashes_are_told_and_the_rest_goes_on() -> None:
+    group = workers.Group(axis="heel", value=5.0, methods=QUICK, limit_s=1.0)
+    worker = _Fake(["row", "crash", "hang", "row", None])
+    taken: list[Row] = []
+    worker.run(replace(group, methods=QUICK[:4]), taken.append)
+    assert [row.verdict for row in taken] == ["", rows.CRASHED, rows.HUNG, ""]
+    assert [row.method for row in taken] == [method.name for method in QUICK[:4]]
+    assert worker.starts == 3
+
+
+def test_a_scene_that_cannot_be_made_is_a_row_of_its_own() -> None:
+    groups = [
+        workers.Group(axis="wave-period", value=1.0, methods=(DEFAULT,), limit_s=1.0),
+        workers.Group(axis="no such axis", value=1.0, methods=(DEFAULT,), limit_s=1.0),
+    ]
+    refused, unnamed = list(workers.run_all(groups, 1))
+    assert refused.verdict == rows.REFUSED
+    assert "outside" in refused.message
+    assert unnamed.verdict == rows.UNNAMED
+    assert "KeyError" in unnamed.message
+
+
+def test_phases_far_from_zero_are_known_exactly() -> None:
+    from fractions import Fraction
+
+    pi = Fraction(314159265358979323846264338327950288419716939937510, 10**50)
+    for numerator in (1, 12345678, 2**20 * 10**11):
+        exact = Fraction(numerator, 2**20)
+        expected = exact - int(exact / (2 * pi)) * 2 * pi
+        assert _turn_of(numerator) == pytest.approx(float(expected), abs=1e-15)
+
+
+def test_rows_survive_their_file(tmp_path: Path) -> None:
+    file = rows.RowFile(tmp_path / "rows.jsonl")
+    file.add(GOOD)
+    (again,) = rows.RowFile(tmp_path / "rows.jsonl").rows.values()
+    assert json.dumps(again.__dict__) == json.dumps(GOOD.__dict__)
