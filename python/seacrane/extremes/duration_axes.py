@@ -41,7 +41,7 @@ AXES = (
     Axis(name="hours-of-lift", title="Case 2 for hours", label="duration [h]", values=(0.02, 0.1),
          quick=(0.02,), long=(0.5, 3.0, 24.0), case=_lift),
     Axis(name="hours-of-vessel", title="The vessel alone in waves for hours", label="duration [h]",
-         values=(0.1, 0.5), quick=(0.1,), long=(24.0, 1000.0), case=_vessel),
+         values=(0.1, 0.5), quick=(0.1,), long=(24.0, 1000.0), long_limit_s=400.0, case=_vessel),
     Axis(name="hours-of-pendulum", title="A pendulum without damping for hours", label="duration [h]",
          values=(0.1, 1.0), quick=(0.1,), long=(3.0, 24.0, 1000.0), case=_pendulum),
 )  # fmt: skip

@@ -145,6 +145,7 @@ def _completed(case: Case, channels: dict[str, Array], truth: Reference, row: Ro
         error = _distance(points, truth.points) / truth.motion
     return replace(
         row, verdict=rows.COMPLETED, error=error, energy=_energy(case, channels),
+        motion=row.motion if truth.points is not None else largest_motion(points),
         drift=float(channels["constraint_error_before_projection"].max()),
         left=float(channels["constraint_error"].max()),
     )  # fmt: skip

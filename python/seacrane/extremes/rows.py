@@ -42,7 +42,7 @@ class Row:
     uncertainty : float
         The same between two tight runs that differ in equations and method: no error below can be told.
     motion : float
-        That largest distance they move, m.
+        That largest distance they move, m; where there is no reference, in the run itself.
     drift, left : float
         Largest constraint error before and after projection, m or rad.
     energy : float
