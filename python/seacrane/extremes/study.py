@@ -18,7 +18,6 @@ from seacrane.extremes.workers import Group, run_all
 
 STEP = "step"
 QUICK_LIMIT_S = 1.0  # wall time of one run in a quick atlas
-GROUP = 8  # settings that share one reference: small enough that all processes end together
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -113,8 +112,7 @@ def _groups(axis: Axis, *, quick: bool) -> Iterator[Group]:
     values, methods = (axis.quick, QUICK) if quick else (axis.values, tuple(every()))
     limit_s = QUICK_LIMIT_S if quick else axis.limit_s
     for value in values:
-        for i in range(0, len(methods), GROUP):
-            yield Group(axis=axis.name, value=value, methods=methods[i : i + GROUP], limit_s=limit_s)
+        yield Group(axis=axis.name, value=value, methods=methods, limit_s=limit_s)
     alone = [value for value in committed.values(axis.name) if value not in (*values, *axis.long)]
     for value in [*alone, *(() if quick else axis.long)]:
         yield Group(axis=axis.name, value=value, methods=(DEFAULT,), limit_s=axis.long_limit_s,
