@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 from multibody_runs import record
+from reference_problems import bricard
 
 from seacrane import Evaluator, Scene
 
@@ -163,43 +164,18 @@ def test_a_light_rod_is_not_taken_for_redundancy(ratio: float, formulation: str)
     record(scene, 0.3, formulation=formulation)
 
 
-VERTICES = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [1, 1, 1], [0, 1, 1], [0, 0, 1]], dtype=float)
-AXES = np.array([[0, 1, 0], [0, 0, 1], [1, 0, 0], [0, 1, 0], [0, 0, 1], [1, 0, 0]], dtype=float)
-
-
-def bricard(last: str) -> Scene:
-    """Bricard's loop of six perpendicular hinges along a cube's edges: mobile, with one row too many."""
-    scene = Scene(name="bricard", gravity=9.81)
-    bodies = ["ground"]
-    for i in range(1, 6):
-        here, there = VERTICES[i], VERTICES[(i + 1) % 6]
-        along = there - here
-        inertia = np.diag(np.full(3, 1.0 / 12.0)) * (1.0 - np.abs(along)) + 1e-3 * np.eye(3)
-        scene.add_body(name=f"rod {i}", mass=1.0, inertia=inertia, position=0.5 * (here + there))
-        bodies.append(f"rod {i}")
-    for i in range(6):
-        first, second = bodies[i - 1] if i > 0 else bodies[5], bodies[i]
-        if i == 1:
-            first = "ground"
-        kind = last if i == 0 else "revolute"
-        scene.add_joint(
-            kind=kind, name=f"hinge {i}", first=first, second=second, point=VERTICES[i], axis=AXES[i]
-        )
-    return scene
-
-
 def test_bricard_moves_like_its_twin_with_one_sliding_hinge(formulation: str) -> None:
     with pytest.warns(UserWarning, match=r"\(1 more than needed\)"):
-        model = bricard("revolute").compile()
+        model = bricard.scene().compile()
     assert (model.coordinates, model.constraints, model.degrees_of_freedom) == (30, 30, 1)
-    twin = bricard("cylindrical").compile()
+    twin = bricard.scene(last="cylindrical").compile()
     assert not twin.redundant
     assert (twin.constraints, twin.degrees_of_freedom) == (29, 1)
     out: list[dict[str, Any]] = []
     with pytest.warns(UserWarning):
-        out.append(record(bricard("revolute"), 0.8, rtol=1e-9, formulation=formulation))
+        out.append(record(bricard.scene(), 0.8, rtol=1e-9, formulation=formulation))
     # The twin has a singular position of its own at 0.89 s, where its last hinge is free to slide.
-    out.append(record(bricard("cylindrical"), 0.8, rtol=1e-9, formulation=formulation))
+    out.append(record(bricard.scene(last="cylindrical"), 0.8, rtol=1e-9, formulation=formulation))
     assert np.max(np.linalg.norm(out[0]["position"] - out[0]["position"][0], axis=2)) > 0.5
     for name in ("position", "velocity", "quaternion"):
         np.testing.assert_allclose(out[0][name], out[1][name], atol=1e-6)

@@ -1,0 +1,132 @@
+"""A ship in waves after Cummins: (M + A_inf) eta'' + B eta' + int_0^t K(s) eta'(t - s) ds + C eta = F(t).
+
+Three independent answers for the small motions of the shipped hull, moored, whose matrices and kernel K(t) =
+C exp(A t) B are data: the integral itself, as a sum over the whole past in NumPy (Cummins, Schiffstechnik 9,
+1962); the roots of the equation for free decay; and its solution in the frequency domain, in `test_vessel`.
+The engine has states for memory, or convolves by rules and steps of its own.
+"""
+
+from __future__ import annotations
+
+import itertools
+from functools import cache
+from typing import Any
+
+import numpy as np
+from linear_scenes import reference_vessel
+from numpy.typing import NDArray
+from test_convolution import convolved
+from test_vessel import moored, regular_wave
+
+from seacrane import Scene, State, Waves, linear_model, natural_modes, simulate
+from seacrane.hydro import shipped_database
+
+Array = NDArray[np.float64]
+AMPLITUDE, OMEGA, HEADING_DEG = 1e-5, 0.7, 135.0
+
+
+def waves() -> Waves:
+    return regular_wave(
+        shipped_database(), omega=OMEGA, heading_deg=HEADING_DEG, amplitude=AMPLITUDE, phase=0.4
+    )
+
+
+def scene(memory: str = "states") -> Scene:
+    """At rest in a regular wave that is there at once: memory by states, or by convolution in steps of 0.05
+    s."""
+    out = moored(shipped_database())
+    if memory == "convolution":
+        by_convolution = convolved(0.05).vessels["vessel"]
+        vessel = out.vessels.pop("vessel")
+        names = ("added_mass", "linear_damping", "quadratic_damping", "restoring", "mooring_stiffness")
+        kept: dict[str, Any] = {name: getattr(vessel, name) for name in (*names, "mooring_damping")}
+        out.add_vessel(body="vessel", memory=by_convolution.memory, **kept)
+    out.waves = waves()
+    return out
+
+
+def trapezoidal(step: float, t_end: float) -> Array:
+    """Motions (k, 6) by the trapezoidal rule, in time and in the integral: errors in even powers of the
+    step."""
+    from scipy.linalg import expm
+
+    linear = reference_vessel(moored(shipped_database()))
+    count = round(t_end / step)
+    ahead, kernel = expm(linear.memory.a * step), np.zeros((count + 1, 6, 6))
+    states = np.array(linear.memory.b)
+    for k in range(count + 1):
+        kernel[k] = linear.memory.c @ states
+        states = ahead @ states
+    sea = waves()
+    force = (
+        sea.transfer[0]
+        * AMPLITUDE
+        * np.exp(1j * (sea.phase[0] + OMEGA * step * np.arange(count + 1)[:, None]))
+    )
+    damping = linear.damping + linear.memory.d
+    flat = kernel[::-1].transpose(1, 0, 2).reshape(6, -1)  # newest last, to meet the oldest velocity first
+    # Unknown: the rate at the end of a step; everything it multiplies goes to the left.
+    left = linear.mass + 0.5 * step * (damping + 0.5 * step * kernel[0]) + 0.25 * step**2 * linear.restoring
+    inverse = np.linalg.inv(left)
+    eta, rate = np.zeros((count + 1, 6)), np.zeros((count + 1, 6))
+    acceleration = np.linalg.solve(linear.mass, force[0].real)
+    for n in range(1, count + 1):
+        past = flat[:, 6 * (count + 1 - n - 1) :][:, : 6 * n] @ _weighted(rate[:n]) * step
+        drifted = eta[n - 1] + 0.5 * step * rate[n - 1]
+        load = force[n].real - linear.restoring @ drifted - past
+        rate[n] = inverse @ (linear.mass @ (rate[n - 1] + 0.5 * step * acceleration) + 0.5 * step * load)
+        eta[n] = drifted + 0.5 * step * rate[n]
+        acceleration = (rate[n] - rate[n - 1]) * 2.0 / step - acceleration
+    return eta
+
+
+def _weighted(rates: Array) -> Array:
+    """Trapezoidal weights of the past; the newest rate, not among them, stands on the left side."""
+    out = rates.copy()
+    out[0] *= 0.5
+    return out.ravel()
+
+
+@cache
+def by_convolution(t_end: float = 60.0, every: float = 1.0) -> Array:
+    """Motions at whole seconds, extrapolated twice to steps of zero."""
+    coarse, middle, fine = (trapezoidal(step, t_end)[:: round(every / step)] for step in (0.1, 0.05, 0.025))
+    first, second = middle + (middle - coarse) / 3.0, fine + (fine - middle) / 3.0
+    return np.asarray(second + (second - first) / 15.0)
+
+
+def decay(label: str, **settings: Any) -> tuple[complex, complex]:
+    """Eigenvalue found from a run that starts in a mode's shape, and that of the vessel's matrices.
+
+    The period is twice the mean distance of zero crossings, the logarithmic decrement the mean over half
+    periods of the logarithm of the ratio of extremes.
+    """
+    calm = moored(shipped_database())
+    modes = natural_modes(linear_model(calm))
+    mode = modes.find(label)
+    start: State = linear_model(calm).full_state(1e-4 * modes.state_vectors[mode].real)
+    period = 2.0 * np.pi / modes.eigenvalues[mode].imag
+    result = simulate(
+        calm, t_end=4.0 * period, dt_out=period / 4000.0, start=start, channels=["vessel_motion"],
+        **{"rtol": 1e-11, **settings},
+    )  # fmt: skip
+    signal = result["vessel_motion"][
+        :, ("surge", "sway", "heave", "roll", "pitch", "yaw").index(label.split()[1])
+    ]
+    change = np.flatnonzero(signal[:-1] * signal[1:] < 0.0)
+    crossings = result.time[change] + np.diff(result.time)[0] * signal[change] / (
+        signal[change] - signal[change + 1]
+    )
+    half = np.diff(crossings).mean()
+    extremes = np.array([_extreme(np.abs(signal[a + 1 : b + 1])) for a, b in itertools.pairwise(change)])
+    rate = np.log(extremes[1:] / extremes[:-1]).mean() / half
+    expected = reference_vessel(calm).eigenvalues()
+    nearest = expected[np.argmin(np.abs(expected - complex(rate, np.pi / half)))]
+    return complex(rate, np.pi / half), complex(nearest)
+
+
+def _extreme(values: Array) -> float:
+    """Of a parabola through the largest sample and its neighbours."""
+    k = int(np.argmax(values))
+    before, here, after = values[k - 1 : k + 2]
+    return float(here - (after - before) ** 2 / (8.0 * (before + after - 2.0 * here)))

@@ -1,0 +1,203 @@
+"""The comparisons: each runs a scene and tells how far it is from the problem's solution."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Callable
+from functools import cache
+from typing import Any
+
+import numpy as np
+from multibody_runs import slider_crank
+from numpy.typing import NDArray
+from reference.classic import Link
+from reference.mechanisms import SliderCrank
+
+from seacrane import Result, Scene, simulate
+from seacrane.frames import rotation_matrix
+
+from . import andrews, andrews_equations, bricard, cummins, four_bars, governor, pendulums, tops
+from .comparison import Comparison
+from .planar import angles
+
+Array = NDArray[np.float64]
+IFTOMM = "IFToMM library"
+CRANK = SliderCrank(Link(1.5, 0.08, 0.4, 0.15), (0.0, 0.3, 0.2), 1.2, 1.5, (0.02, 0.25, 0.24), 2.0)
+
+
+def run(scene: Scene, t_end: float, dt_out: float, settings: dict[str, Any], *channels: str) -> Result:
+    """Joints that hold a motion twice are part of some problems: no warning."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", UserWarning)
+        return simulate(scene, t_end=t_end, dt_out=dt_out, channels=list(channels), **settings)
+
+
+def compared(
+    problem: str,
+    quantity: str,
+    source: str,
+    settings: dict[str, Any],
+    found: Array,
+    expected: Array,
+    unit: str,
+) -> Comparison:
+    """The largest difference over all times; as numbers, the last values of the component that differs
+    most."""
+    found, expected = (np.asarray(a, dtype=float).reshape(len(a), -1) for a in (found, expected))
+    worst = int(np.argmax(np.abs(found - expected).max(axis=0)))
+    text = ", ".join(f"{value:g}" if isinstance(value, float) else str(value) for value in settings.values())
+    return Comparison(
+        problem=problem,
+        quantity=quantity,
+        source=source,
+        setting=text,
+        found=float(found[-1, worst]),
+        expected=float(expected[-1, worst]),
+        difference=float(np.abs(found - expected).max()),
+        unit=unit,
+    )
+
+
+def simple_pendulum(**settings: Any) -> Comparison:
+    result = run(pendulums.scene(), 10.0, 0.05, settings, "position")
+    expected, _ = pendulums.place(result.time)
+    source = f"{IFTOMM} A01; elliptic functions"
+    return compared(
+        "simple pendulum", "place, 10 s", source, settings, result["position"][:, 0, ::2], expected, "m"
+    )
+
+
+def four_bar_row(loops: int = 2, *, planar: bool = True, t_end: float = 10.0, **settings: Any) -> Comparison:
+    result = run(four_bars.scene(loops, planar=planar), t_end, 0.05, settings, "quaternion")
+    found = 0.5 * np.pi - angles("xz", result["quaternion"])[:, 0]
+    expected, _ = four_bars.turned(loops, result.time)
+    name = f"{loops} four-bars" + ("" if planar else ", spatial joints")
+    source = f"{IFTOMM} A02; elliptic functions"
+    return compared(name, f"angle of a post, {t_end:g} s", source, settings, found, expected, "rad")
+
+
+@cache
+def squeezer_solution() -> Array:
+    return andrews_equations.solution([0.0, andrews.END_TIME])[0]
+
+
+def squeezer(*, planar: bool = False, published: bool = False, **settings: Any) -> Comparison:
+    result = run(andrews.scene(planar=planar), andrews.END_TIME, 1e-4, settings, "quaternion")
+    found = andrews.problem_angles(result["quaternion"])[[0, -1]]
+    expected = np.array([andrews.START, andrews.END]) if published else squeezer_solution()
+    source = "IVP test set" if published else "its equations, SciPy"
+    name = "Andrews' squeezer" + (", planar joints" if planar else "")
+    return compared(name, "seven angles, 0.03 s", source, settings, found, expected, "rad")
+
+
+@cache
+def bricard_places() -> Array:
+    """Of the rods' middles every 0.125 s."""
+    mechanism = bricard.mechanism()
+    coordinate, _ = mechanism.simulate(np.linspace(0.0, 2.5, 21), bricard.CUBE, 0.0)
+    return mechanism.poses(coordinate)[0]
+
+
+def bricard_loop(**settings: Any) -> Comparison:
+    result = run(bricard.scene(), 2.5, 0.125, settings, "position")
+    source = f"{IFTOMM} A04; closed form and SciPy"
+    return compared(
+        "Bricard's loop",
+        "places of five rods, 2.5 s",
+        source,
+        settings,
+        result["position"],
+        bricard_places(),
+        "m",
+    )
+
+
+@cache
+def governor_solution() -> Array:
+    return governor.solution(np.linspace(0.0, 5.0, 51))
+
+
+def flyball_governor(**settings: Any) -> Comparison:
+    result = run(governor.scene(), 5.0, 0.1, settings, "position")
+    expected = governor_solution()[:, 1]
+    source = f"{IFTOMM} A05; Lagrange's equations, SciPy"
+    found = result.select("position", body="slider")[:, 2]
+    return compared("flyball governor", "slider's height, 5 s", source, settings, found, expected, "m")
+
+
+def heavy_top(**settings: Any) -> Comparison:
+    result = run(tops.scene(), 2.0, 0.02, settings, "position")
+    expected = tops.center(result.time)
+    source = "Bruels, Cardona 2010; elliptic integrals"
+    return compared("heavy top", "place, 2 s", source, settings, result["position"][:, 0], expected, "m")
+
+
+def wing_nut(**settings: Any) -> Comparison:
+    result = run(tops.wing_nut(), 100.0, 0.25, settings, "quaternion", "angular_velocity")
+    body = rotation_matrix(result["quaternion"][:, 0])
+    found = np.einsum("kji,kj->ki", body, result["angular_velocity"][:, 0])
+    expected = tops.wing_solution(result.time)
+    source = "Euler's equations; elliptic functions"
+    return compared("Dzhanibekov's nut", "body rates, 100 s", source, settings, found, expected, "rad/s")
+
+
+@cache
+def crank_places() -> Array:
+    mechanism = CRANK.mechanism()
+    coordinate, _ = mechanism.simulate(np.linspace(0.0, 3.0, 61), 0.4, 6.0)
+    return mechanism.poses(coordinate)[0]
+
+
+def spatial_slider_crank(**settings: Any) -> Comparison:
+    result = run(slider_crank(CRANK, 0.4, 6.0), 3.0, 0.05, settings, "position")
+    source = "one coordinate, SciPy"
+    return compared(
+        "slider-crank",
+        "places of three bodies, 3 s",
+        source,
+        settings,
+        result["position"],
+        crank_places(),
+        "m",
+    )
+
+
+def ship_in_a_wave(memory: str = "states", **settings: Any) -> Comparison:
+    result = run(cummins.scene(memory), 60.0, 1.0, settings, "vessel_motion")
+    expected = cummins.by_convolution()
+    size = np.abs(expected).max(axis=0)
+    return compared(
+        f"Cummins, memory by {memory}", "six motions over their largest, 60 s", "direct convolution, NumPy",
+        settings, result["vessel_motion"] / size, expected / size, "",
+    )  # fmt: skip
+
+
+def decays(label: str, **settings: Any) -> list[Comparison]:
+    found, expected = cummins.decay(label, **settings)
+    source = "roots of its equation"
+    pairs = (
+        ("period", 2.0 * np.pi / found.imag, 2.0 * np.pi / expected.imag, "s"),
+        (
+            "decrement",
+            -2.0 * np.pi * found.real / found.imag,
+            -2.0 * np.pi * expected.real / expected.imag,
+            "",
+        ),
+    )
+    name = f"free decay in {label.split()[1]}"
+    return [
+        compared(name, what, source, settings, np.array([a]), np.array([b]), unit)
+        for what, a, b, unit in pairs
+    ]
+
+
+MECHANISMS: dict[str, Callable[..., Comparison]] = {
+    "pendulum": simple_pendulum,
+    "four-bars": four_bar_row,
+    "squeezer": squeezer,
+    "bricard": bricard_loop,
+    "governor": flyball_governor,
+    "top": heavy_top,
+    "nut": wing_nut,
+    "crank": spatial_slider_crank,
+}

@@ -1,0 +1,109 @@
+"""Bodies that turn freely about a point: the heavy top, and the wing nut of Dzhanibekov.
+
+Heavy top: data of Bruels and Cardona (Journal of Computational and Nonlinear Dynamics 5, 031002, 2010), a
+common benchmark of time integration on rotations. It is Lagrange's symmetric top: the cosine u of its
+nutation angle is an elliptic function, (u')^2 = a cubic of u, and its precession the integral of (p - s u) /
+(I (1 - u^2)). Wing nut: Euler's equations near the intermediate axis, by elliptic functions
+(`reference.classic`).
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+from reference.classic import free_rotation
+
+from seacrane import Scene
+
+Array = NDArray[np.float64]
+GRAVITY, MASS = 9.81, 15.0
+INERTIA = np.array([0.234375, 0.46875, 0.234375])  # about the centre, 1 m from the tip along body y
+RATE = np.array([0.0, 150.0, -4.61538])  # rad/s, body axes, the top's axis level at the start
+WING = (3.0, 2.0, 1.0)  # kg m2
+FLICK = 1e-3  # relative distance from the motion that never flips
+
+
+def scene() -> Scene:
+    out = Scene(name="heavy top", gravity=GRAVITY)
+    out.add_body(
+        name="top", mass=MASS, inertia=INERTIA, center_of_mass=(0.0, 1.0, 0.0), angular_velocity=RATE
+    )
+    out.add_joint(kind="spherical", name="tip", first="ground", second="top", point=(0, 0, 0))
+    return out
+
+
+def nutation() -> tuple[float, float, float]:
+    """How far above -1 the lowest u is, parameter m and argument per second of the elliptic functions.
+
+    Level and without nutation at the start: 0 is a root of (u')^2 = (1 - u^2)(p^2 - beta u) - (p - s u)^2,
+    momenta in units of the transverse inertia about the tip. The other two are -1 + d with (p + s)^2 - (2
+    beta + p^2 + s^2) d + beta d^2 = 0, and one above 1; u moves between -1 + d and 0.
+    """
+    p, s, beta = momenta()
+    middle = 2.0 * beta + p * p + s * s
+    above = 2.0 * (p + s) ** 2 / (middle + np.sqrt(middle**2 - 4.0 * beta * (p + s) ** 2))
+    low = above - 1.0
+    high = (p * p + s * s) / beta - low
+    return above, -low / (high - low), 0.5 * np.sqrt(beta * (high - low))
+
+
+def momenta() -> tuple[float, float, float]:
+    """About the vertical and about the top's axis, and twice the weight's moment, all over the transverse
+    inertia."""
+    across = INERTIA[0] + MASS
+    return RATE[2], INERTIA[1] * RATE[1] / across, 2.0 * MASS * GRAVITY / across
+
+
+def third_kind(n: float, amplitude: Array, m: float) -> Array:
+    """Legendre's incomplete elliptic integral Pi(n; amplitude | m), by Carlson's forms and whole periods."""
+    from scipy.special import elliprf, elliprj
+
+    def within(angle: Array) -> Array:
+        s, c = np.sin(angle), np.cos(angle)
+        rest, last = 1.0 - m * s * s, np.ones_like(s)
+        # Carlson's forms are homogeneous: arguments times sin^2, so that an amplitude of 0 is no exception.
+        return np.asarray(
+            s * elliprf(c * c, rest, last) + n / 3.0 * s**3 * elliprj(c * c, rest, last, 1.0 - n * s * s)
+        )
+
+    turns = np.round(amplitude / np.pi)
+    return np.asarray(within(amplitude - np.pi * turns) + 2.0 * turns * within(np.array(0.5 * np.pi)))
+
+
+def center(times: ArrayLike) -> Array:
+    """Place of the top's centre (k, 3): u = low cn^2, and its precession by integrals of the third kind.
+
+    Hardly any momentum about the downward vertical is left here: the top swings through it, and its
+    precession jumps by nearly pi, which quadrature of p - s u over 1 - u^2 would miss.
+    """
+    from scipy.special import ellipj, ellipk
+
+    above, m, speed = nutation()
+    low = above - 1.0
+    p, s, _ = momenta()
+    sn, cn, _, amplitude = ellipj(ellipk(m) + speed * np.asarray(times, dtype=float), m)
+    u, angle = low * cn**2, np.zeros_like(sn)
+    for side, share in ((1.0, p - s), (-1.0, p + s)):  # of 1 / (1 - u) and of 1 / (1 + u)
+        edge = 1.0 - low if side > 0.0 else above
+        n = -side * low / edge
+        integral = third_kind(n, amplitude, m) - third_kind(n, amplitude[:1], m)
+        angle += 0.5 * share * integral / (edge * speed)
+    level = np.sqrt(1.0 - u * u)
+    return np.column_stack([-level * np.sin(angle), level * np.cos(angle), u])
+
+
+def wing_nut() -> Scene:
+    out = Scene(name="wing nut", gravity=0.0)
+    out.add_body(name="nut", mass=1.0, inertia=WING, angular_velocity=wing_rates())
+    return out
+
+
+def wing_rates() -> Array:
+    """Rates at the start (w1, 0, w3): next to those whose motion would end on the intermediate axis."""
+    i1, i2, i3 = WING
+    return np.array([np.sqrt(i3 * (i2 - i3) / (i1 * (i1 - i2))) * (1.0 + FLICK), 0.0, 1.0])
+
+
+def wing_solution(times: ArrayLike) -> Array:
+    """Body rates (k, 3)."""
+    return free_rotation(times, WING, tuple(wing_rates()))

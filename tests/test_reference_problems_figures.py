@@ -1,0 +1,126 @@
+"""The figures that the engine keeps: joints, energy, drift and growth over long runs."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import pytest
+from multibody_runs import slider_crank
+from numpy.typing import NDArray
+from reference_problems import bricard, four_bars, pendulums, tops
+from reference_problems.problems import CRANK
+
+from seacrane import Result, Scene, cases, simulate
+from seacrane.crane import KnuckleBoomCrane, Payload
+from seacrane.frames import rotation_matrix
+
+Array = NDArray[np.float64]
+
+
+def thrown_crane() -> Scene:
+    """The crane, nothing driving it, on a vessel that turns in empty space."""
+    scene = Scene(name="thrown crane", gravity=0.0)
+    scene.add_body(name="vessel", mass=4.0e6, inertia=(4e8, 3e9, 3e9), angular_velocity=(0.05, 0.02, 0.1))
+    KnuckleBoomCrane.load().add_to(scene, base="vessel", payload=Payload())
+    return scene
+
+
+CONSERVATIVE: dict[str, Callable[[], Scene]] = {
+    "pendulum": pendulums.scene,
+    "double pendulum": pendulums.double_scene,
+    "slider-crank": lambda: slider_crank(CRANK, 0.4, 6.0),
+    "two four-bars": lambda: four_bars.scene(2, planar=False),
+    "bricard": bricard.scene,
+    "heavy top": tops.scene,
+    "wing nut": tops.wing_nut,
+    "thrown crane": thrown_crane,
+}
+QUICK = ("pendulum", "heavy top", "wing nut", "thrown crane")
+
+
+def kinetic_energy(scene: Scene, result: Result) -> Array:
+    """J, (k)."""
+    bodies = list(scene.bodies.values())
+    mass, inertia = np.array([b.mass for b in bodies]), np.array([b.inertia for b in bodies])
+    spin = np.einsum("knji,knj->kni", rotation_matrix(result["quaternion"]), result["angular_velocity"])
+    turning = np.einsum("kni,nij,knj->k", spin, inertia, spin)
+    return np.asarray(0.5 * (np.sum(mass * np.sum(result["velocity"] ** 2, axis=2), axis=1) + turning))
+
+
+def drift(name: str, t_end: float, **settings: Any) -> float:
+    """Largest change of energy over the largest kinetic energy."""
+    scene = CONSERVATIVE[name]()
+    channels = [
+        "velocity",
+        "angular_velocity",
+        "quaternion",
+        "energy_balance",
+        "absolute_work",
+        "constraint_error",
+    ]
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", UserWarning)
+        result = simulate(scene, t_end=t_end, dt_out=0.5, channels=channels, rtol=1e-10, **settings)
+    assert np.max(result["absolute_work"]) == 0.0
+    assert np.max(result["constraint_error"]) < 1e-9
+    return float(np.max(np.abs(result["energy_balance"])) / np.max(kinetic_energy(scene, result)))
+
+
+@pytest.mark.parametrize("name", QUICK)
+def test_energy_of_conservative_scenes_drifts_below_1e_9_in_100_s(name: str) -> None:
+    assert drift(name, 100.0) < 1e-9
+
+
+@pytest.mark.nightly
+@pytest.mark.parametrize("integrator", ["dopri5", "dop853"])
+@pytest.mark.parametrize("formulation", ["redundant", "recursive"])
+@pytest.mark.parametrize("name", CONSERVATIVE)
+def test_energy_of_all_conservative_scenes(name: str, formulation: str, integrator: str) -> None:
+    assert drift(name, 100.0, formulation=formulation, integrator=integrator) < 1e-9
+
+
+@pytest.mark.parametrize("formulation", ["redundant", "recursive"])
+@pytest.mark.parametrize("case", [cases.case1, cases.case2, cases.case3], ids=lambda case: case.__name__)
+def test_energy_balance_is_1e_8_of_the_absolute_work(case: Callable[[], Scene], formulation: str) -> None:
+    result = simulate(case(), t_end=30.0, dt_out=0.5, rtol=1e-8, formulation=formulation)
+    balance, work = np.abs(result["energy_balance"][1:]), result["absolute_work"][1:]
+    assert np.max(balance / work) < 1e-8
+    assert np.max(result["constraint_error"]) < 1e-9
+
+
+def test_energy_balance_of_the_vessel_is_1e_8_of_the_absolute_work() -> None:
+    """From rest: after 0.5 s, the first output, hardly any work is done yet."""
+    result = simulate(cases.vessel(), t_end=100.0, dt_out=0.5, rtol=1e-8)
+    balance, work = np.abs(result["energy_balance"][1:]), result["absolute_work"][1:]
+    assert np.max(balance / work) < 1e-8
+
+
+@pytest.mark.nightly
+@pytest.mark.parametrize("formulation", ["redundant", "recursive"])
+def test_case2_keeps_its_joints_and_energy_for_three_hours(formulation: str) -> None:
+    """Default setting otherwise."""
+    result = simulate(cases.case2(), t_end=10800.0, dt_out=1.0, formulation=formulation)
+    assert np.max(result["constraint_error"]) < 1e-9
+    assert np.max(result["constraint_error_before_projection"]) < 1e-5
+    assert np.abs(result["energy_balance"][-1]) < 1e-8 * result["absolute_work"][-1]
+
+
+@pytest.mark.nightly
+def test_a_vessel_does_not_grow_in_a_day() -> None:
+    """24 h in a sea that repeats only after that: every motion as large at the end as at the start."""
+    result = simulate(
+        cases.vessel(),
+        t_end=86400.0,
+        dt_out=0.5,
+        channels=["vessel_motion", "energy_balance", "absolute_work"],
+    )
+    late = result.time >= 3600.0
+    thirds = np.array_split(result["vessel_motion"][late], 3)
+    deviation = np.array([third.std(axis=0) for third in thirds])
+    assert np.max(np.abs(deviation / deviation.mean(axis=0) - 1.0)) < 0.1
+    mean = np.array([third.mean(axis=0) for third in thirds])
+    assert np.max(np.abs(mean - mean.mean(axis=0)) / deviation.mean(axis=0)) < 0.05
+    assert np.abs(result["energy_balance"][-1]) < 1e-7 * result["absolute_work"][-1]
