@@ -12,16 +12,17 @@ from multibody_runs import slider_crank
 from numpy.typing import NDArray
 from reference.classic import Link
 from reference.mechanisms import SliderCrank
+from test_vessel import moored, regular_wave, steady_state
 
 from seacrane import Result, Scene, simulate
 from seacrane.frames import rotation_matrix
+from seacrane.hydro import shipped_database
 
 from . import andrews, andrews_equations, bricard, cummins, four_bars, governor, pendulums, tops
 from .comparison import Comparison
 from .planar import angles
 
 Array = NDArray[np.float64]
-IFTOMM = "IFToMM library"
 CRANK = SliderCrank(Link(1.5, 0.08, 0.4, 0.15), (0.0, 0.3, 0.2), 1.2, 1.5, (0.02, 0.25, 0.24), 2.0)
 
 
@@ -45,12 +46,14 @@ def compared(
     most."""
     found, expected = (np.asarray(a, dtype=float).reshape(len(a), -1) for a in (found, expected))
     worst = int(np.argmax(np.abs(found - expected).max(axis=0)))
-    text = ", ".join(f"{value:g}" if isinstance(value, float) else str(value) for value in settings.values())
+    text = ", ".join(
+        f"{key} {value:g}" if isinstance(value, float) else value for key, value in settings.items()
+    )
     return Comparison(
         problem=problem,
         quantity=quantity,
         source=source,
-        setting=text,
+        setting=text or "default",
         found=float(found[-1, worst]),
         expected=float(expected[-1, worst]),
         difference=float(np.abs(found - expected).max()),
@@ -61,7 +64,7 @@ def compared(
 def simple_pendulum(**settings: Any) -> Comparison:
     result = run(pendulums.scene(), 10.0, 0.05, settings, "position")
     expected, _ = pendulums.place(result.time)
-    source = f"{IFTOMM} A01; elliptic functions"
+    source = "elliptic functions"
     return compared(
         "simple pendulum", "place, 10 s", source, settings, result["position"][:, 0, ::2], expected, "m"
     )
@@ -72,7 +75,7 @@ def four_bar_row(loops: int = 2, *, planar: bool = True, t_end: float = 10.0, **
     found = 0.5 * np.pi - angles("xz", result["quaternion"])[:, 0]
     expected, _ = four_bars.turned(loops, result.time)
     name = f"{loops} four-bars" + ("" if planar else ", spatial joints")
-    source = f"{IFTOMM} A02; elliptic functions"
+    source = "elliptic functions"
     return compared(name, f"angle of a post, {t_end:g} s", source, settings, found, expected, "rad")
 
 
@@ -100,7 +103,7 @@ def bricard_places() -> Array:
 
 def bricard_loop(**settings: Any) -> Comparison:
     result = run(bricard.scene(), 2.5, 0.125, settings, "position")
-    source = f"{IFTOMM} A04; closed form and SciPy"
+    source = "closed form and SciPy"
     return compared(
         "Bricard's loop",
         "places of five rods, 2.5 s",
@@ -120,16 +123,18 @@ def governor_solution() -> Array:
 def flyball_governor(**settings: Any) -> Comparison:
     result = run(governor.scene(), 5.0, 0.1, settings, "position")
     expected = governor_solution()[:, 1]
-    source = f"{IFTOMM} A05; Lagrange's equations, SciPy"
+    source = "Lagrange's equations, SciPy"
     found = result.select("position", body="slider")[:, 2]
     return compared("flyball governor", "slider's height, 5 s", source, settings, found, expected, "m")
 
 
-def heavy_top(**settings: Any) -> Comparison:
+def heavy_top(*, published: bool = False, **settings: Any) -> Comparison:
     result = run(tops.scene(), 2.0, 0.02, settings, "position")
-    expected = tops.center(result.time)
-    source = "Bruels, Cardona 2010; elliptic integrals"
-    return compared("heavy top", "place, 2 s", source, settings, result["position"][:, 0], expected, "m")
+    found, expected = result["position"][:, 0], tops.center(result.time)
+    if published:
+        found, expected = found[[0, -1]], np.array([[0.0, 1.0, 0.0], tops.PUBLISHED])
+    source = "Kynema's verification" if published else "elliptic integrals"
+    return compared("heavy top", "place, 2 s", source, settings, found, expected, "m")
 
 
 def wing_nut(**settings: Any) -> Comparison:
@@ -137,7 +142,7 @@ def wing_nut(**settings: Any) -> Comparison:
     body = rotation_matrix(result["quaternion"][:, 0])
     found = np.einsum("kji,kj->ki", body, result["angular_velocity"][:, 0])
     expected = tops.wing_solution(result.time)
-    source = "Euler's equations; elliptic functions"
+    source = "elliptic functions"
     return compared("Dzhanibekov's nut", "body rates, 100 s", source, settings, found, expected, "rad/s")
 
 
@@ -186,9 +191,26 @@ def decays(label: str, **settings: Any) -> list[Comparison]:
     )
     name = f"free decay in {label.split()[1]}"
     return [
-        compared(name, what, source, settings, np.array([a]), np.array([b]), unit)
+        compared(name, what, source, {"rtol": 1e-11, **settings}, np.array([a]), np.array([b]), unit)
         for what, a, b, unit in pairs
     ]
+
+
+def regular_wave_response() -> list[Comparison]:
+    """Steady amplitudes of heave, roll and pitch in a regular wave, over that of the wave (rad/m for two)."""
+    database, size = shipped_database(), 1e-4
+    sea = regular_wave(database, omega=0.8, heading_deg=135.0, amplitude=size, phase=0.4)
+    found, expected = (np.abs(a) / size for a in steady_state(database, moored(database), sea, t_end=500.0))
+    out = []
+    for i, motion, unit in ((2, "heave", ""), (3, "roll", "rad/m"), (4, "pitch", "rad/m")):
+        name, source = f"regular wave, {motion}", "complex linear equations"
+        settings = {"rtol": 1e-10}
+        out.append(
+            compared(
+                name, "amplitude at 0.8 rad/s", source, settings, found[i : i + 1], expected[i : i + 1], unit
+            )
+        )
+    return out
 
 
 MECHANISMS: dict[str, Callable[..., Comparison]] = {

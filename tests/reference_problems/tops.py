@@ -1,10 +1,11 @@
 """Bodies that turn freely about a point: the heavy top, and the wing nut of Dzhanibekov.
 
-Heavy top: data of Bruels and Cardona (Journal of Computational and Nonlinear Dynamics 5, 031002, 2010), a
-common benchmark of time integration on rotations. It is Lagrange's symmetric top: the cosine u of its
-nutation angle is an elliptic function, (u')^2 = a cubic of u, and its precession the integral of (p - s u) /
-(I (1 - u^2)). Wing nut: Euler's equations near the intermediate axis, by elliptic functions
-(`reference.classic`).
+Heavy top: data of Bruels, Cardona and Arnold (Mechanism and Machine Theory 48, 2012), a common benchmark of
+time integration on rotations. It is Lagrange's symmetric top: the cosine u of its nutation angle is an
+elliptic function, (u')^2 = a cubic of u, and its precession the integral of (p - s u) / (I (1 - u^2)).
+`PUBLISHED` is the place after 2 s in the verification tests of Kynema (github.com/kynema/kynema,
+dynamic_heavy_top.cpp), computed there by those authors' second-order method in steps of 2e-6 s. Wing nut:
+Euler's equations near the intermediate axis, by elliptic functions (`reference.classic`).
 """
 
 from __future__ import annotations
@@ -19,6 +20,7 @@ Array = NDArray[np.float64]
 GRAVITY, MASS = 9.81, 15.0
 INERTIA = np.array([0.234375, 0.46875, 0.234375])  # about the centre, 1 m from the tip along body y
 RATE = np.array([0.0, 150.0, -4.61538])  # rad/s, body axes, the top's axis level at the start
+PUBLISHED = np.array([-0.150416985652933, 1.0 - 1.724164450779749, -0.673023460701136])
 WING = (3.0, 2.0, 1.0)  # kg m2
 FLICK = 1e-3  # relative distance from the motion that never flips
 
