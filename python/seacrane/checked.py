@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from seacrane import _core
 from seacrane.errors import SceneError
+from seacrane.shown import shown
 
 Array = NDArray[np.float64]
 
@@ -16,7 +17,7 @@ Array = NDArray[np.float64]
 def text_of(what: str, value: Any) -> str:
     """A printable text; may be empty."""
     if not isinstance(value, str) or not value.isprintable():
-        raise SceneError(f"{what} is {value!r}; give a name, a printable text")
+        raise SceneError(f"{what} is {shown(value)}; give a name, a printable text")
     return value
 
 
@@ -30,7 +31,7 @@ def name_of(kind: str, value: Any) -> str:
 def flag_of(what: str, value: Any) -> bool:
     """A truth value, nothing that merely counts as one."""
     if not isinstance(value, (bool, np.bool_)):
-        raise SceneError(f"{what} is {value!r}; give True or False")
+        raise SceneError(f"{what} is {shown(value)}; give True or False")
     return bool(value)
 
 
@@ -41,7 +42,7 @@ def number_of(what: str, value: Any) -> float:
             raise TypeError
         return float(value)
     except (TypeError, ValueError, OverflowError) as error:
-        raise SceneError(f"{what} is {value!r}; give a number") from error
+        raise SceneError(f"{what} is {shown(value)}; give a number") from error
 
 
 def vector_of(what: str, value: Any) -> list[float]:
@@ -57,7 +58,7 @@ def numbers_of(what: str, value: Any) -> Array:
     try:
         return np.asarray(value, dtype=float)
     except (TypeError, ValueError, OverflowError) as error:
-        raise SceneError(f"{what} is {value!r}; give numbers") from error
+        raise SceneError(f"{what} is {shown(value)}; give numbers") from error
 
 
 def shaped_of(what: str, value: Any, shape: tuple[int, ...]) -> Array:

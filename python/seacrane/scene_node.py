@@ -13,9 +13,9 @@ from numpy.typing import NDArray
 
 from seacrane import _core
 from seacrane.errors import FileFormatError, SceneError
+from seacrane.shown import shown
 
 Array = NDArray[np.float64]
-SHOWN = 60  # characters of a wrong value in a message
 
 
 @dataclass(frozen=True)
@@ -27,9 +27,7 @@ class Node:
 
     def fail(self, fix: str) -> NoReturn:
         """Raise a FileFormatError that names the place, the value and the fix."""
-        shown = repr(self.value)
-        shown = shown if len(shown) <= SHOWN else shown[:SHOWN] + "..."
-        raise FileFormatError(f"{self.path} is {shown}; {fix}")
+        raise FileFormatError(f"{self.path} is {shown(self.value)}; {fix}")
 
     @contextlib.contextmanager
     def scene_errors(self) -> Iterator[None]:

@@ -12,9 +12,13 @@ from typing import Any
 
 from seacrane.crane.mass_properties import Box, Member, Point, Tube
 from seacrane.errors import FileFormatError
+from seacrane.shown import shown
 
 DEFAULT_PATH = Path(__file__).resolve().parent.parent / "data" / "knuckle_boom_250t.toml"
 SCHEMA = 1
+LARGEST = 1e12  # m, kg: no crane, and nothing that its squares overflow with
+LONGEST_TEXT = 200
+APART = 1e-6  # m: pivots nearer than that are one
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -85,7 +89,7 @@ class _Table:
     def __init__(self, source: str, where: str, values: object) -> None:
         self.source, self.where = source, where
         if not isinstance(values, Mapping):
-            raise FileFormatError(f"{source}: {where} is {values!r}; write a table of keys and values.")
+            raise FileFormatError(f"{source}: {where} is {shown(values)}; write a table of keys and values.")
         self.values = dict(values)
 
     def label(self, key: str) -> str:
@@ -101,8 +105,11 @@ class _Table:
 
     def text(self, key: str) -> str:
         value = self.take(key)
-        if not isinstance(value, str) or not value:
-            raise FileFormatError(f"{self.source}: {self.label(key)} is {value!r}; write a non-empty string.")
+        if not isinstance(value, str) or not 0 < len(value) <= LONGEST_TEXT:
+            raise FileFormatError(
+                f"{self.source}: {self.label(key)} is {shown(value)}; write a text of 1 to {LONGEST_TEXT} "
+                "characters."
+            )
         return value
 
     def number(self, key: str, *, positive: bool = True) -> float:
@@ -116,7 +123,7 @@ class _Table:
         value = self.take(key)
         if not isinstance(value, list) or len(value) != 2:
             raise FileFormatError(
-                f"{self.source}: {self.label(key)} is {value!r}; write two numbers [along, above], in m."
+                f"{self.source}: {self.label(key)} is {shown(value)}; write two numbers [along, above], in m."
             )
         first, second = (_number(self.source, self.label(key), item) for item in value)
         return first, second
@@ -132,13 +139,15 @@ class _Table:
 
     def finish(self) -> None:
         if self.values:
-            unknown = ", ".join(self.label(key) for key in sorted(self.values))
+            unknown = self.label(min(self.values))[:80]
             raise FileFormatError(f"{self.source}: unknown key {unknown}; correct its spelling or remove it.")
 
 
 def _number(source: str, label: str, value: object) -> float:
-    if isinstance(value, bool) or not isinstance(value, (int, float)) or not math.isfinite(value):
-        raise FileFormatError(f"{source}: {label} is {value!r}; write a finite number.")
+    if isinstance(value, bool) or not isinstance(value, (int, float)) or not abs(value) <= LARGEST:
+        raise FileFormatError(
+            f"{source}: {label} is {shown(value)}; write a finite number, {LARGEST:g} at most."
+        )
     return float(value)
 
 
@@ -156,7 +165,9 @@ def _member(table: _Table) -> Member:
     elif shape == "box":
         member = _box(table, name, mass, start, end)
     else:
-        raise FileFormatError(f'{table.source}: {table.label("shape")} is {shape!r}; write "tube" or "box".')
+        raise FileFormatError(
+            f'{table.source}: {table.label("shape")} is {shown(shape)}; write "tube" or "box".'
+        )
     table.finish()
     return member
 
@@ -197,7 +208,9 @@ def _cylinder(table: _Table) -> CylinderData:
 def _crane(root: _Table) -> CraneData:
     schema = root.take("schema")
     if schema != SCHEMA:
-        raise FileFormatError(f"{root.source}: schema is {schema!r}; this version reads schema {SCHEMA}.")
+        raise FileFormatError(
+            f"{root.source}: schema is {shown(schema)}; this version reads schema {SCHEMA}."
+        )
     tower, king = root.table("tower"), root.table("king")
     main_jib, knuckle_jib = root.table("main_jib"), root.table("knuckle_jib")
     data = CraneData(
@@ -271,7 +284,7 @@ def _check_reach(source: str, data: CraneData) -> None:
         ),
     }
     for name, (cylinder, first, second) in triangles.items():
-        if first == 0.0 or second == 0.0:
+        if min(first, second) < APART:
             raise FileFormatError(
                 f"{source}: {name} is pinned at its jib's own pivot; move its pivot or head."
             )
@@ -296,8 +309,11 @@ def parse(text: str, *, source: str = "crane data") -> CraneData:
     toml = importlib.import_module("tomllib" if sys.version_info >= (3, 11) else "tomli")
     try:
         values = toml.loads(text)
-    except toml.TOMLDecodeError as error:
-        raise FileFormatError(f"{source}: not valid TOML: {error}; correct that line.") from error
+    except RecursionError as error:
+        raise FileFormatError(f"{source}: is nested too deeply for crane data; remove brackets.") from error
+    except ValueError as error:  # TOMLDecodeError is one, a number of too many digits another
+        reason = str(error)[:200]
+        raise FileFormatError(f"{source}: not valid TOML: {reason}; correct that line.") from error
     data = _crane(_Table(source, "", values))
     _check_total(source, data)
     _check_reach(source, data)

@@ -18,6 +18,8 @@ from seacrane.errors import FileFormatError
 from seacrane.hydro.database import PORT_STARBOARD, HydroDatabase
 from seacrane.hydro.dispersion import wavenumber
 from seacrane.hydro.equivalent_box import equivalent_box
+from seacrane.netcdf_limits import LARGEST_DATABASE, NETCDF_ERRORS, TOO_LARGE, require_size
+from seacrane.shown import shown
 
 if TYPE_CHECKING:
     import xarray
@@ -55,17 +57,20 @@ def read_capytaine(
     source = Path(path)
     if not source.is_file():
         raise FileFormatError(f"{source}: no such file; give the path of a Capytaine NetCDF file")
+    import netCDF4
     import xarray
 
     try:
+        with netCDF4.Dataset(source, "r") as file:
+            require_size(source, file, LARGEST_DATABASE, TOO_LARGE)
         with xarray.open_dataset(source) as opened:
             dataset = opened.load()
         return _convert(source, dataset, mass_matrix, restoring)
     except FileFormatError:
         raise
-    except (OSError, RuntimeError, LookupError, AttributeError, TypeError, ValueError) as error:
+    except NETCDF_ERRORS as error:
         raise FileFormatError(
-            f"{source}: cannot be read as a Capytaine dataset ({error}); write it again"
+            f"{source}: cannot be read as a Capytaine dataset ({str(error)[:200]}); write it again"
         ) from error
 
 
@@ -84,6 +89,8 @@ def _convert(
     path: Path, dataset: xarray.Dataset, mass_matrix: ArrayLike | None, restoring: ArrayLike | None
 ) -> HydroDatabase:
     rho, g = _number(path, dataset, "rho"), _number(path, dataset, "g")
+    if not (rho > 0.0 and g > 0.0):
+        raise FileFormatError(f"{path}: rho is {rho:g} kg/m3 and g {g:g} m/s2; positive ones are needed")
     depth = _number(path, dataset, "water_depth", default=np.inf)
     speed = _number(path, dataset, "forward_speed", default=0.0)
     if speed != 0.0:
@@ -166,12 +173,12 @@ def _by_motion(path: Path, dataset: xarray.Dataset) -> xarray.Dataset:
         bodies = {label.rpartition("__")[0] for label in labels}
         if len(bodies) > 1:
             raise FileFormatError(
-                f"{path}: {dimension} names several bodies ({', '.join(sorted(bodies))}); one is read"
+                f"{path}: {dimension} names several bodies ({', '.join(sorted(bodies))[:200]}); one is read"
             )
         plain = [label.rpartition("__")[2] for label in labels]
         if sorted(plain) != sorted(MOTION_NAMES):
             raise FileFormatError(
-                f"{path}: {dimension} holds {', '.join(plain)}; the six rigid motions "
+                f"{path}: {dimension} holds {', '.join(plain)[:200]}; the six rigid motions "
                 f"{', '.join(MOTION_NAMES)} are needed"
             )
         dataset = dataset.isel({dimension: [plain.index(name) for name in MOTION_NAMES]})
@@ -186,7 +193,9 @@ def _omega(path: Path, dataset: xarray.Dataset) -> FloatArray:
         )
     omega = np.asarray(dataset["omega"].values, dtype=float)
     if len(np.unique(omega)) < len(omega) or np.any(np.isnan(omega)) or np.any(omega < 0.0):
-        raise FileFormatError(f"{path}: omega {omega.tolist()} holds repeated, negative or undefined values")
+        raise FileFormatError(
+            f"{path}: omega {shown(omega.tolist())} holds repeated, negative or undefined values"
+        )
     return omega
 
 
@@ -201,7 +210,7 @@ def _variable(path: Path, dataset: xarray.Dataset, name: str, dimensions: tuple[
     variable = dataset[name]
     if set(variable.dims) != set(dimensions):
         raise FileFormatError(
-            f"{path}: {name} has dimensions {', '.join(map(str, variable.dims))}; "
+            f"{path}: {name} has dimensions {', '.join(map(str, variable.dims))[:200]}; "
             f"{', '.join(dimensions)} are needed"
         )
     return variable.transpose(*dimensions)
@@ -256,7 +265,7 @@ def _complex(path: Path, dataset: xarray.Dataset, name: str, dimensions: tuple[s
     values = _variable(path, dataset, name, (*dimensions, "complex"))
     labels = [str(label) for label in values["complex"].values] if "complex" in values.coords else []
     if sorted(labels) != ["im", "re"]:
-        raise FileFormatError(f"{path}: {name} has parts {labels}; re and im along complex are needed")
+        raise FileFormatError(f"{path}: {name} has parts {shown(labels)}; re and im along complex are needed")
     real, imaginary = (np.asarray(values.sel(complex=part).values, dtype=float) for part in ("re", "im"))
     return np.asarray(real + 1j * imaginary)
 

@@ -12,8 +12,11 @@ from numpy.typing import NDArray
 
 from seacrane.errors import FileFormatError
 from seacrane.hydro.hull_panels import end_cap, lofted
+from seacrane.shown import shown
 
 FloatArray = NDArray[np.float64]
+
+LARGEST = 1e9  # m: areas and volumes do not overflow
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -44,8 +47,11 @@ class OffsetTable:
                 f"offset table {self.name!r}: {len(self.sections)} sections at stations of shape {x.shape}; "
                 "give two or more stations and one section for each"
             )
-        if not np.all(np.isfinite(x)) or np.any(np.diff(x) <= 0.0):
-            raise ValueError(f"offset table {self.name!r}: stations {x} have to increase, forward, in m")
+        if not np.all(np.abs(x) <= LARGEST) or np.any(np.diff(x) <= 0.0):
+            raise ValueError(
+                f"offset table {self.name!r}: stations {shown(x.tolist())} have to increase, forward, "
+                f"in m, {LARGEST:g} at most"
+            )
         sections = tuple(self._checked(x[i], section) for i, section in enumerate(self.sections))
         x.flags.writeable = False
         object.__setattr__(self, "x", x)
@@ -57,8 +63,10 @@ class OffsetTable:
         station = f"offset table {self.name!r}: station x = {x:.6g} m"
         if points.ndim != 2 or points.shape[1] != 2 or len(points) == 0:
             raise ValueError(f"{station} has points of shape {points.shape}; give (p, 2), y and z")
-        if not np.all(np.isfinite(points)):
-            raise ValueError(f"{station} has a coordinate that is not finite; correct the table")
+        if not np.all(np.abs(points) <= LARGEST):
+            raise ValueError(
+                f"{station} has a coordinate that is not finite or above {LARGEST:g}; correct the table"
+            )
         if points[:, 0].min() < 0.0:
             raise ValueError(f"{station} has y = {points[:, 0].min():.6g} m; give the port half, y >= 0")
         if points[0, 1] < points[-1, 1]:
@@ -144,8 +152,8 @@ def _numbers(source: Path, number: int, line: str) -> list[float]:
         values = []
     if len(values) != 3 or not np.all(np.isfinite(values)):
         raise FileFormatError(
-            f"{source}: line {number}: {line.strip()!r} is not three finite numbers x,y,z (in m, separated "
-            "by commas)"
+            f"{source}: line {number}: {line.strip()[:80]!r} is not three finite numbers x,y,z (in m, "
+            "separated by commas)"
         )
     return values
 

@@ -102,7 +102,7 @@ def end_cap(x: float, section: FloatArray, *, forward: bool) -> FloatArray:
     """Flat end of both sides: rings from the outline towards the middle of its waterline."""
     radius = np.hypot(*section.T)
     steps = np.hypot(*np.diff(section, axis=0).T)
-    rings = int(np.clip(round(float(radius.mean() / max(steps.mean(), 1e-300))), 1, MOST_RINGS))
+    rings = max(1, round(min(float(radius.mean() / max(steps.mean(), 1e-300)), MOST_RINGS)))
     scale = np.linspace(1.0, 0.0, rings + 1)[:, None, None]
     grid = np.concatenate([np.full((rings + 1, len(section), 1), x), scale * section], axis=2)
     corners = [grid[:-1, :-1], grid[1:, :-1], grid[1:, 1:], grid[:-1, 1:]]

@@ -92,5 +92,5 @@ def _vertex(source: Path, number: int, words: list[str]) -> list[float]:
         return [float(word) for word in words[1:]]
     except ValueError:
         raise FileFormatError(
-            f"{source}: line {number}: {' '.join(words)!r} is not 'vertex x y z' with three numbers"
+            f"{source}: line {number}: {' '.join(words)[:80]!r} is not 'vertex x y z' with three numbers"
         ) from None

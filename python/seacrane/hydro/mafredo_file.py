@@ -18,6 +18,7 @@ from seacrane.caller import warn_caller
 from seacrane.errors import FileFormatError
 from seacrane.hydro.database import MOTIONS
 from seacrane.hydro.reader_warnings import AssumedSymmetryWarning
+from seacrane.netcdf_limits import LARGEST_DATABASE, NETCDF_ERRORS, TOO_LARGE, require_size
 
 FloatArray = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
@@ -53,10 +54,11 @@ def read_mafredo(path: Path) -> MafredoData:
     try:
         with netCDF4.Dataset(path, "r") as file:
             file.set_auto_mask(False)
+            require_size(path, file, LARGEST_DATABASE, TOO_LARGE)
             return _read(path, file)
     except FileFormatError:
         raise
-    except (OSError, RuntimeError, LookupError, AttributeError, TypeError, ValueError) as error:
+    except NETCDF_ERRORS as error:
         raise FileFormatError(
             f"{path}: cannot be read as a MaFreDo database ({str(error)[:200]}); write it again"
         ) from error
@@ -100,7 +102,7 @@ def _motions(variable: Any) -> list[int]:
     labels = [str(label).lower() for label in np.asarray(variable[...]).tolist()]
     words = MOTIONS if labels[0] in MOTIONS else tuple(str(i) for i in range(6))
     if sorted(labels) != sorted(words):
-        raise ValueError(f"{variable.name} holds {', '.join(labels)}; six motions are needed")
+        raise ValueError(f"{variable.name} holds {', '.join(labels)[:200]}; six motions are needed")
     return [labels.index(word) for word in words]
 
 

@@ -15,6 +15,7 @@ from seacrane.errors import FileFormatError
 from seacrane.hydro.database import MOTIONS, AdditionalMatrices, HydroDatabase, RollDamping
 from seacrane.hydro.drift import DriftCoefficients
 from seacrane.hydro.memory_model import FitRow, MemoryBlock, MemoryModel, Passivity
+from seacrane.netcdf_limits import LARGEST_DATABASE, NETCDF_ERRORS, TOO_LARGE, require_size
 
 if TYPE_CHECKING:
     import xarray
@@ -96,12 +97,13 @@ def load_database_file(path: str | PathLike[str]) -> HydroDatabase:
                     f"{source}: format version {int(file.format_version)} is newer than this seacrane reads "
                     f"({FORMAT_VERSION}); update seacrane"
                 )
+            require_size(source, file, LARGEST_DATABASE, TOO_LARGE)
             return _read(file)
     except FileFormatError:
         raise
-    except (OSError, RuntimeError, LookupError, AttributeError, TypeError, ValueError) as error:
+    except NETCDF_ERRORS as error:
         raise FileFormatError(
-            f"{source}: damaged hydrodynamic database ({error}); fetch or save it again"
+            f"{source}: damaged hydrodynamic database ({str(error)[:200]}); fetch or save it again"
         ) from error
 
 

@@ -23,6 +23,7 @@ from seacrane.hydro.mafredo_file import read_mafredo
 from seacrane.hydro.orcaflex_model import KILO, Raos, VesselType, read_vessel_type
 from seacrane.hydro.reader_warnings import AssumedDensityWarning, PartialSetWarning
 from seacrane.hydro.vessel import rigid_mass_matrix
+from seacrane.shown import shown
 
 FloatArray = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
@@ -118,6 +119,8 @@ def read_orcaflex(
 
 def _density(path: Path, given: float | None) -> float:
     if given is not None:
+        if not 0.0 < float(given) < np.inf:
+            raise FileFormatError(f"{path}: water density is {given:g} kg/m3; give a positive one")
         return float(given)
     warn_caller(
         f"{path}: holds no water density; 1025 kg/m3 is taken for the size of the hull and the self-check. "
@@ -307,7 +310,7 @@ def _circle(
     """Directions in [0, 2 pi), rising, with loads and motions; mirrored where bow and stern are alike."""
     if found.symmetry not in MIRRORS:
         raise FileFormatError(
-            f"{path}: symmetry {found.symmetry!r}; {', '.join(MIRRORS)} are read: expand the directions"
+            f"{path}: symmetry {shown(found.symmetry)}; {', '.join(MIRRORS)} are read: expand the directions"
         )
     port, bow = MIRRORS[found.symmetry]
     degrees, force, motion = found.heading_deg, found.force[:, columns], found.motion

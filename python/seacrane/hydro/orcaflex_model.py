@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane.errors import FileFormatError
+from seacrane.shown import shown
 
 FloatArray = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
@@ -154,12 +155,12 @@ def read_vessel_type(path: Path, *, vessel_type: str | None, draught: str | None
     model = _Node(path, "", _document(path))
     units = model.at("General").at("UnitsSystem").text() if model.has("General") else "SI"
     if units != "SI":
-        raise model.error(f"units system {units!r}: save the model in SI units")
+        raise model.error(f"units system {shown(units)}: save the model in SI units")
     kind = _named(model.at("VesselTypes"), vessel_type, "vessel_type")
     for key, usual in DEFAULTS.items():
         if kind.has(key) and kind.at(key).text() != usual:
             raise kind.error(
-                f"{key} is {kind.at(key).text()!r}; only {usual!r} is read: change the conventions"
+                f"{key} is {shown(kind.at(key).text())}; only {usual!r} is read: change the conventions"
             )
     state = _named(kind.at("Draughts"), draught, "draught")
     origin = _point(state, "ReferenceOrigin")
@@ -228,8 +229,8 @@ def _named(nodes: _Node, name: str | None, argument: str) -> _Node:
     if name is None and len(names) == 1:
         name = names[0]
     if name not in names:
-        raise nodes.error(f"holds {', '.join(names) or 'nothing'}; pass {argument}= with one of these")
-    return _Node(nodes.path, f"{nodes.place}/{name}", nodes.value[names.index(name)])
+        raise nodes.error(f"holds {', '.join(names)[:200] or 'nothing'}; pass {argument}= with one of these")
+    return _Node(nodes.path, f"{nodes.place}/{name[:60]}", nodes.value[names.index(name)])
 
 
 def _to_omega(kind: _Node, values: Sequence[float]) -> FloatArray:
@@ -243,7 +244,7 @@ def _to_omega(kind: _Node, values: Sequence[float]) -> FloatArray:
             return np.asarray(2.0 * np.pi / array)
     if unit in ("frequency (rad/s)", "frequency (Hz)"):
         return array * (2.0 * np.pi if unit.endswith("(Hz)") else 1.0)
-    raise kind.error(f"WavesReferredToBy is {unit!r}; period (s), frequency (rad/s) or (Hz) are known")
+    raise kind.error(f"WavesReferredToBy is {shown(unit)}; period (s), frequency (rad/s) or (Hz) are known")
 
 
 def _matrices(kind: _Node, state: _Node) -> tuple[FloatArray, FloatArray, FloatArray]:
@@ -283,8 +284,8 @@ def _lag(kind: _Node, phase: FloatArray) -> FloatArray:
     event = kind.at("RAOPhaseRelativeToConvention").text()
     if unit not in ("degrees", "radians") or sense not in ("lags", "leads") or event not in LAG_OF_EVENT:
         raise kind.error(
-            f"RAO phases as {sense!r} in {unit!r} relative to {event!r}; lags or leads in degrees or radians "
-            f"relative to {', '.join(LAG_OF_EVENT)} are known"
+            f"RAO phases as {shown(sense)} in {shown(unit)} relative to {shown(event)}; lags or leads in "
+            f"degrees or radians relative to {', '.join(LAG_OF_EVENT)} are known"
         )
     radians = np.radians(phase) if unit == "degrees" else phase
     return np.asarray((radians if sense == "lags" else -radians) + np.pi * LAG_OF_EVENT[event])
@@ -294,7 +295,7 @@ def _motion_raos(kind: _Node, node: _Node) -> Raos:
     """Displacement RAOs; the unit of rotations is a convention of these alone."""
     unit = kind.at("RAOResponseUnits").text()
     if unit not in ("degrees", "radians"):
-        raise kind.error(f"RAOResponseUnits is {unit!r}; degrees or radians are known")
+        raise kind.error(f"RAOResponseUnits is {shown(unit)}; degrees or radians are known")
     turn = np.pi / 180.0 if unit == "degrees" else 1.0
     return _raos(kind, node, np.array([1.0, 1.0, 1.0, turn, turn, turn]))
 

@@ -101,5 +101,5 @@ class TextRecords:
         except ValueError:
             raise self.error(f"{what}: {word[:40]!r} is not a number") from None
         if not math.isfinite(value):
-            raise self.error(f"{what}: {word!r} is not a finite number")
+            raise self.error(f"{what}: {word[:40]!r} is not a finite number")
         return value

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from seacrane.errors import FileFormatError
 from seacrane.hydro.text_records import TextRecords
+from seacrane.shown import shown
 
 FloatArray = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
@@ -166,7 +167,9 @@ def read_drift(path: Path) -> DriftFile:
             speed[h], heading[h] = records.numbers(2, "speed and heading")
             table[h] = records.table(n, 4, "frequency and three drift coefficients")
         if np.any(speed != speed[0]):
-            raise records.error(f"speeds {np.unique(speed).tolist()} m/s where {m} headings of one are due")
+            raise records.error(
+                f"speeds {shown(np.unique(speed).tolist())} m/s where {m} headings of one are due"
+            )
         omega = _one_omega(records, table[:, :, 0])
         cases.append(DriftAtSpeed(float(speed[0]), heading, omega, table[:, :, 1:].copy()))
     records.finish()

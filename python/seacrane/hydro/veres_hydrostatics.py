@@ -122,7 +122,7 @@ def _value(records: TextRecords, line: str, label: str) -> float:
     marked = [word for word in numbers if word.endswith("*")]
     value = float((marked or numbers)[-1].rstrip("*").replace("D", "E").replace("d", "e"))
     if not math.isfinite(value):
-        raise records.error(f"{label}: {numbers[-1]} is not a finite number")
+        raise records.error(f"{label}: {numbers[-1][:40]} is not a finite number")
     return value
 
 

@@ -33,6 +33,7 @@ from seacrane.hydro.wamit_control import (
     read_listing,
 )
 from seacrane.hydro.wamit_tables import Radiation, WaveTable, read_radiation, read_restoring, read_waves
+from seacrane.shown import shown
 
 FloatArray = NDArray[np.float64]
 
@@ -227,7 +228,7 @@ def _directions(path: Path, heading_deg: FloatArray) -> tuple[FloatArray, NDArra
     degrees, order = np.unique(wrapped, return_index=True)
     repeated = len(wrapped) - len(degrees)
     if repeated and not (repeated == 1 and np.ptp(heading_deg) == 360.0):
-        raise FileFormatError(f"{path}: headings {heading_deg.tolist()} deg name one direction twice")
+        raise FileFormatError(f"{path}: headings {shown(heading_deg.tolist())} deg name one direction twice")
     return np.radians(degrees), order
 
 

@@ -155,8 +155,8 @@ def check_period_output(path: Path) -> None:
         match = re.match(r"\s*(IPEROUT|IPERIO)\s*=\s*(-?\d+)", line, re.IGNORECASE)
         if match and match.group(2) != "1":
             raise FileFormatError(
-                f"{path}, line {number}: {match.group(1)}={match.group(2)}: the files list frequencies or "
-                "wave numbers; run WAMIT with periods (1)"
+                f"{path}, line {number}: {match.group(1)}={match.group(2)[:20]}: the files list frequencies "
+                "or wave numbers; run WAMIT with periods (1)"
             )
 
 
@@ -217,7 +217,7 @@ class _ListDirected:
         except ValueError:
             raise self.error(f"{what}: {word[:40]!r} is not a number") from None
         if not math.isfinite(value):
-            raise self.error(f"{what}: {word!r} is not a finite number")
+            raise self.error(f"{what}: {word[:40]!r} is not a finite number")
         return value
 
 
@@ -233,10 +233,13 @@ def _lines(path: Path) -> list[str]:
 def _number(path: Path, text: str, match: re.Match[str], group: int) -> float:
     word = match.group(group)
     try:
-        return float(word.replace("D", "E").replace("d", "e"))
+        value = float(word.replace("D", "E").replace("d", "e"))
+        if not math.isfinite(value):
+            raise ValueError
+        return value
     except ValueError:
         line = text.count("\n", 0, match.start()) + 1
-        raise FileFormatError(f"{path}, line {line}: {word[:40]!r} is not a number") from None
+        raise FileFormatError(f"{path}, line {line}: {word[:40]!r} is not a finite number") from None
 
 
 def _depth(path: Path, text: str, last: int) -> float:

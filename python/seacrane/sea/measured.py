@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from seacrane.sea.spreading import Spreading
 
 Array = NDArray[np.float64]
+HIGHEST = 1e6  # m: no sea, and its squares do not overflow
 UNIFORM = 1e-3  # largest departure of a time from the uniform grid, over the step
 
 
@@ -86,6 +87,11 @@ class MeasuredWaves:
         for name, value in (("direction_deg", angle), ("position", point)):
             if not np.all(np.isfinite(value)):
                 raise SceneError(f"{self._object}: {name} is {value}; give finite numbers")
+        highest = float(np.abs(self.elevation).max())
+        if highest > HIGHEST:
+            raise SceneError(
+                f"{self._object}: elevation reaches {highest:.4g} m, above {HIGHEST:g}; give metres"
+            )
         if not np.ptp(self.elevation) > 0.0:
             raise SceneError(
                 f"{self._object}: elevation is {self.elevation[0]} throughout; leave the sea out"

@@ -1,0 +1,16 @@
+"""Values from outside as they appear in messages: short, whatever they are."""
+
+from __future__ import annotations
+
+from typing import Any
+
+LONGEST = 60  # characters
+
+
+def shown(value: Any) -> str:
+    """The value as Python writes it, cut after 60 characters; integers of thousands of digits included."""
+    try:
+        text = repr(value)
+    except (ValueError, RecursionError):  # too many digits, too deeply nested
+        text = f"a {type(value).__name__}"
+    return text if len(text) <= LONGEST else text[:LONGEST] + "..."

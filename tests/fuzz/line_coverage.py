@@ -1,0 +1,58 @@
+"""Lines of each reader that the committed corpus reaches: python tests/fuzz/line_coverage.py [FOLDER of more].
+
+Ends with 1 if a reader is below 90 %. With --missing, prints which lines are not reached.
+"""
+
+from __future__ import annotations
+
+import sys
+import tempfile
+from pathlib import Path
+
+import coverage
+
+ROOT = Path(__file__).resolve().parents[2]
+LEAST = 90.0
+sys.path.insert(0, str(ROOT / "tests"))
+
+
+def main() -> int:
+    """The corpus under coverage, then a table."""
+    meter = coverage.Coverage(data_file=None, source_pkgs=["seacrane"], config_file=False)
+    meter.exclude(r"if TYPE_CHECKING:")
+    meter.start()
+    from fuzz.targets import TARGETS, cases, quiet
+
+    more = [Path(word) for word in sys.argv[1:] if not word.startswith("-")]
+    with quiet(), tempfile.TemporaryDirectory() as name:
+        for target in TARGETS.values():
+            folder = Path(name) / target.name
+            folder.mkdir()
+            target.place(folder)
+            grown = [file for root in more for file in sorted((root / target.name / "corpus").glob("*"))]
+            for path in [*cases(target), *grown]:
+                target.run(path.read_bytes(), folder)
+    meter.stop()
+    import seacrane
+
+    package = Path(seacrane.__file__).parent
+    modules: dict[str, set[str]] = {}
+    for target in TARGETS.values():
+        modules.setdefault(target.reader, set()).update(target.modules)
+    worst = 100.0
+    print(f"{'reader':10} {'lines':>6} {'reached':>8} {'share':>7}")
+    for reader, files in modules.items():
+        lines, missed = 0, 0
+        for file in sorted(files):
+            _, statements, _, missing, where = meter.analysis2(str(package / file))
+            lines, missed = lines + len(statements), missed + len(missing)
+            if missing and "--missing" in sys.argv:
+                print(f"    {file}: {where}")
+        share = 100.0 * (lines - missed) / lines
+        worst = min(worst, share)
+        print(f"{reader:10} {lines:6} {lines - missed:8} {share:6.1f}%")
+    return 0 if worst >= LEAST else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,122 @@
+"""A NetCDF file written out as JSON, so that a mutation reaches the reader and not only HDF5's checksums.
+
+An object has "attrs", "dims", "vars" (each with "type", "dims", "data", "attrs") and "groups" of the same
+kind. Numbers that JSON lacks are the texts "nan", "inf" and "-inf".
+"""
+
+from __future__ import annotations
+
+import contextlib
+import json
+from pathlib import Path
+from typing import Any
+
+import netCDF4
+import numpy as np
+
+LARGEST = 10**15
+WORDS = {"nan": float("nan"), "inf": float("inf"), "-inf": float("-inf")}
+
+
+def spec_of(path: Path) -> bytes:
+    """The contents of a file as a specification."""
+    with netCDF4.Dataset(path) as file:
+        file.set_auto_mask(False)
+        return json.dumps(_described(file)).encode()
+
+
+def _described(group: Any) -> dict[str, Any]:
+    variables = {
+        name: {
+            "type": "str" if variable.dtype is str else variable.dtype.str[1:],
+            "dims": list(variable.dimensions),
+            "data": _plain(np.asarray(variable[...])),
+            "attrs": {key: _plain(variable.getncattr(key)) for key in variable.ncattrs()},
+        }
+        for name, variable in group.variables.items()
+    }
+    return {
+        "attrs": {key: _plain(group.getncattr(key)) for key in group.ncattrs()},
+        "dims": {name: len(dimension) for name, dimension in group.dimensions.items()},
+        "vars": variables,
+        "groups": {name: _described(inner) for name, inner in group.groups.items()},
+    }
+
+
+def _plain(value: Any) -> Any:
+    if isinstance(value, np.generic | np.ndarray):
+        value = value.tolist()
+    if isinstance(value, list):
+        return [_plain(item) for item in value]
+    if isinstance(value, bytes):
+        return value.decode("latin-1")
+    return value if not isinstance(value, float) or np.isfinite(value) else str(value)
+
+
+def build(case: bytes, path: Path) -> bool:
+    """Write what the specification says to ``path``; False where it is no object.
+
+    What makes no file is left out.
+    """
+    try:
+        spec = json.loads(case)
+    except (ValueError, RecursionError):
+        return False
+    if not isinstance(spec, dict):
+        return False
+    path.unlink(missing_ok=True)  # a file that HDF5 could not close stays locked
+    try:
+        with netCDF4.Dataset(path, "w", format="NETCDF4") as file:
+            _fill(file, spec, 0)
+    except (OSError, RuntimeError):
+        return False
+    return True
+
+
+def _fill(group: Any, spec: dict[str, Any], depth: int) -> None:
+    for name, value in _entries(spec, "attrs"):
+        with _left_out():
+            group.setncattr(name, _value(value))
+    for name, size in _entries(spec, "dims"):
+        with _left_out():
+            group.createDimension(name, None if size is None else min(int(size), LARGEST))
+    for name, variable in _entries(spec, "vars"):
+        with _left_out():
+            _variable(group, name, variable)
+    for name, inner in _entries(spec, "groups"):
+        if isinstance(inner, dict) and depth < 8:
+            with _left_out():
+                _fill(group.createGroup(name), inner, depth + 1)
+
+
+def _entries(spec: dict[str, Any], key: str) -> list[tuple[str, Any]]:
+    found = spec.get(key)
+    return list(found.items()) if isinstance(found, dict) else []
+
+
+def _left_out() -> contextlib.suppress:
+    """Whatever cannot be written is no case for a reader."""
+    return contextlib.suppress(
+        AttributeError, LookupError, MemoryError, OSError, OverflowError, RecursionError, RuntimeError,
+        TypeError, ValueError,
+    )  # fmt: skip
+
+
+def _variable(group: Any, name: str, spec: dict[str, Any]) -> None:
+    kind = str if spec["type"] == "str" else np.dtype(spec["type"])
+    variable = group.createVariable(
+        name, kind, tuple(spec["dims"]), fill_value=False, zlib=bool(spec.get("zlib"))
+    )
+    for key, value in _entries(spec, "attrs"):
+        with _left_out():
+            variable.setncattr(key, _value(value))
+    data = spec.get("data")
+    if data is not None:
+        array = np.array(_value(data), dtype=object if kind is str else kind)
+        variable[tuple(slice(0, size) for size in array.shape) if array.ndim else ...] = array
+
+
+def _value(value: Any) -> Any:
+    if isinstance(value, list):
+        return [_value(item) for item in value]
+    return WORDS.get(value, value) if isinstance(value, str) else value

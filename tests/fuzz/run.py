@@ -1,0 +1,203 @@
+"""Coverage-guided fuzzing of the readers with atheris: python tests/fuzz/run.py [TARGET ...] --cases N.
+
+Each target runs in processes of its own, in slices, so that all counts grow together; counts, cases found
+unsound and the corpus that grew are kept in the folder --out, and a later call goes on from there. A case is
+unsound that raises anything but a refusal by name, takes more than 2 s of processor time or 1.5 GiB more
+memory, returns a number that is not finite, or ends the process.
+"""
+
+from __future__ import annotations
+
+import argparse
+import hashlib
+import json
+import os
+import random
+import resource
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import traceback
+from pathlib import Path
+from typing import Any
+
+SECONDS, MEMORY = 2.0, 3 * 2**29
+SLICE = 50_000  # cases of one process
+
+
+class Hang(BaseException):
+    """A case took too long."""
+
+
+def main() -> int:
+    """All targets named, in slices, until each has had its cases."""
+    options = _options()
+    if options.child:
+        return _child(options.targets[0], options)
+    from fuzz.targets import TARGETS
+
+    names = options.targets or list(TARGETS)
+    unknown = [name for name in names if name not in TARGETS]
+    if unknown:
+        sys.exit(f"no target {unknown[0]!r}; choose from {', '.join(TARGETS)}")
+    end = time.monotonic() + options.seconds
+    while time.monotonic() < end:
+        left = [name for name in names if _count(options.out, name)["cases"] < options.cases]
+        if not left:
+            break
+        for name in left:
+            _slice(name, options, min(end - time.monotonic(), options.slice_seconds))
+    return _report(names, options)
+
+
+def _options() -> argparse.Namespace:
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("targets", nargs="*", metavar="TARGET")
+    parser.add_argument("--cases", type=int, default=1_000_000, help="of each target, earlier calls included")
+    parser.add_argument("--seconds", type=float, default=1e9, help="to stop after, all targets together")
+    parser.add_argument("--slice-seconds", type=float, default=60.0, help="of each target in turn")
+    parser.add_argument("--out", type=Path, default=Path("out/fuzz"))
+    parser.add_argument("--child", action="store_true", help=argparse.SUPPRESS)
+    return parser.parse_args()
+
+
+def _count(out: Path, name: str) -> dict[str, Any]:
+    path = out / name / "count.json"
+    empty = {"cases": 0, "value": 0, "refused": 0, "no case": 0, "unsound": {}, "seconds": 0.0}
+    return json.loads(path.read_text()) if path.is_file() else empty
+
+
+def _slice(name: str, options: argparse.Namespace, seconds: float) -> None:
+    if seconds <= 0.0:
+        return
+    command = [sys.executable, __file__, name, "--child", "--out", str(options.out)]
+    command += ["--cases", str(options.cases), "--seconds", str(seconds)]
+    log = options.out / name / "log.txt"
+    log.parent.mkdir(parents=True, exist_ok=True)
+    with log.open("wb") as file:
+        code = subprocess.run(command, stdout=file, stderr=file, check=False).returncode
+    found = _count(options.out, name)
+    print(f"{name}: {found['cases']} cases, {sum(found['unsound'].values())} unsound", flush=True)
+    if code:
+        print(f"{name}: the process ended with {code}; see {log} and crash-* beside it", flush=True)
+        log.rename(log.with_name(f"log-{int(time.time())}.txt"))
+
+
+def _report(names: list[str], options: argparse.Namespace) -> int:
+    unsound = 0
+    print(f"{'target':18} {'cases':>9} {'values':>9} {'refused':>9} {'per s':>7}  unsound")
+    for name in names:
+        found = _count(options.out, name)
+        unsound += len(found["unsound"])
+        rate = found["cases"] / max(found["seconds"], 1e-9)
+        numbers = " ".join(f"{found[key]:9}" for key in ("cases", "value", "refused"))
+        print(f"{name:18} {numbers} {rate:7.0f}  {found['unsound']}")
+    return 1 if unsound else 0
+
+
+def _child(name: str, options: argparse.Namespace) -> int:
+    try:
+        import atheris
+    except ImportError:
+        sys.exit("coverage-guided fuzzing needs atheris: pip install 'seacrane[fuzz]'")
+    with atheris.instrument_imports(include=["seacrane"]):
+        import seacrane.hydro
+        import seacrane.scene_file  # noqa: F401
+    from fuzz.targets import TARGETS, cases, quiet
+
+    target = TARGETS[name]
+    home = options.out / name
+    grown = home / "corpus"
+    grown.mkdir(parents=True, exist_ok=True)
+    folder = Path(tempfile.mkdtemp(dir="/dev/shm" if os.path.isdir("/dev/shm") else None))
+    target.place(folder)
+    for case in cases(target):
+        (grown / hashlib.sha1(case.read_bytes()).hexdigest()).write_bytes(case.read_bytes())
+    harness = Harness(target, home, folder, options)
+    seed = int.from_bytes(os.urandom(4), "little") & 0x7FFFFFFF
+    arguments = [sys.argv[0], str(grown), f"-artifact_prefix={home}/", f"-seed={seed}"]
+    arguments += ["-max_len=80000", "-timeout=60", "-rss_limit_mb=4096", "-detect_leaks=0", "-verbosity=0"]
+    mutator: dict[str, Any] = {}
+    if target.mutate is not None:
+        mutator["custom_mutator"] = harness.mutate
+        arguments += ["-mutate_depth=1", "-cross_over=0"]  # the mutator decides how much changes at a time
+    atheris.Setup(arguments, harness, **mutator)
+    soft = _address_space() + MEMORY
+    resource.setrlimit(resource.RLIMIT_AS, (soft, soft))
+    signal.signal(signal.SIGVTALRM, _hang)
+    with quiet():
+        atheris.Fuzz()
+    return 0
+
+
+def _address_space() -> int:
+    return int(Path("/proc/self/statm").read_text().split()[0]) * resource.getpagesize()
+
+
+def _hang(*_: Any) -> None:
+    raise Hang(f"more than {SECONDS} s")
+
+
+class Harness:
+    """Runs cases, counts them and keeps those that are unsound, one for each place where they fail."""
+
+    def __init__(self, target: Any, home: Path, folder: Path, options: argparse.Namespace) -> None:
+        self.target, self.home, self.folder, self.options = target, home, folder, options
+        self.count = _count(options.out, target.name)
+        self.before = self.count["seconds"]
+        self.start = time.monotonic()
+        self.fresh = 0
+
+    def mutate(self, data: bytes, size: int, seed: int) -> bytes:
+        """libFuzzer's custom mutator: by the structure of the file."""
+        return self.target.mutate(data, random.Random(seed))[:size]
+
+    def __call__(self, data: bytes) -> None:
+        signal.setitimer(signal.ITIMER_VIRTUAL, SECONDS)
+        try:
+            self.count[self.target.run(data, self.folder)] += 1
+        except (Exception, Hang) as error:
+            signal.setitimer(signal.ITIMER_VIRTUAL, 0.0)
+            self._keep(data, error)
+        signal.setitimer(signal.ITIMER_VIRTUAL, 0.0)
+        self.count["cases"] += 1
+        self.fresh += 1
+        if self.fresh % 500 == 0 or self.fresh < 3:
+            self._save()
+            if self.fresh >= SLICE or self.count["cases"] >= self.options.cases or self._over():
+                self._finish()
+
+    def _over(self) -> bool:
+        return time.monotonic() - self.start > self.options.seconds
+
+    def _finish(self) -> None:
+        for file in self.folder.iterdir():
+            file.unlink()
+        self.folder.rmdir()
+        os._exit(0)
+
+    def _save(self) -> None:
+        self.count["seconds"] = self.before + time.monotonic() - self.start
+        (self.home / "count.new").write_text(json.dumps(self.count))
+        os.replace(self.home / "count.new", self.home / "count.json")
+
+    def _keep(self, data: bytes, error: BaseException) -> None:
+        frames = traceback.extract_tb(error.__traceback__)
+        own = [
+            frame
+            for frame in frames
+            if "seacrane" in Path(frame.filename).parts[-3:-1] or "hydro" in frame.filename
+        ]
+        frame = (own or list(frames))[-1]
+        place = f"{type(error).__name__} {Path(frame.filename).name}:{frame.lineno}"
+        if place not in self.count["unsound"]:
+            (self.home / f"unsound-{place.replace(' ', '-').replace(':', '-')}").write_bytes(data)
+            print(place, str(error)[:300], flush=True)
+        self.count["unsound"][place] = self.count["unsound"].get(place, 0) + 1
+
+
+if __name__ == "__main__":
+    sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
+    sys.exit(main())

@@ -1,0 +1,237 @@
+"""Writes the smallest valid file of each kind into the corpus: python tests/fuzz/seeds.py."""
+
+from __future__ import annotations
+
+import dataclasses
+import json
+import sys
+import tempfile
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
+
+from orcaflex_writer import model
+from test_hydro_capytaine import layout
+from test_hydro_mafredo import dhyd
+from test_scene_file import every_kind
+from veres_writer import VeresRun
+
+from fuzz.netcdf_spec import spec_of
+from fuzz.targets import CORPUS
+from seacrane import cases, scene_file, simulate
+from seacrane.crane.data_file import DEFAULT_PATH
+from seacrane.hydro import HydroDatabase, motion_response, shipped_database
+from seacrane.hydro.drift import DriftCoefficients
+
+G = 9.80665
+
+
+def put(target: str, name: str, content: bytes) -> None:
+    (CORPUS / target).mkdir(parents=True, exist_ok=True)
+    (CORPUS / target / name).write_bytes(content)
+
+
+def small_hull() -> HydroDatabase:
+    """Two frequencies and three headings of the shipped hull."""
+    base = shipped_database()
+    hull = dataclasses.replace(
+        base,
+        omega=base.omega[[20, 40]],
+        heading=base.heading[[0, 9, 18]],
+        added_mass=rounded(base.added_mass[[20, 40]]),
+        damping=rounded(base.damping[[20, 40]]),
+        force=base.force[[0, 9, 18]][:, [20, 40]].round(0),
+        g=G,
+        memory=None,
+        trusted_band=None,
+    )
+    return dataclasses.replace(hull, motion_rao=motion_response(hull))
+
+
+def rounded(matrix: np.ndarray) -> np.ndarray:
+    """Three digits: shorter cases."""
+    return np.array([float(f"{value:.3g}") for value in matrix.ravel()]).reshape(matrix.shape)
+
+
+def veres_seeds(folder: Path) -> None:
+    run = VeresRun(heading_deg=np.array([0.0, 90.0]), omega=np.array([0.5, 1.1]))
+    run.write(folder)
+    for suffix in (".re7", ".re8", ".re1", ".re2"):
+        put("veres", f"box{suffix}", (folder / f"box{suffix}").read_bytes())
+    put("veres", "box.hyd", HYD.encode())
+    for version, speeds in ((1, (0.0,)), (2, (0.0, 4.0))):
+        dataclasses.replace(run, version=version, speeds=speeds).write(folder)
+        for suffix in (".re7", ".re8", ".re1", ".re2"):
+            put(f"veres-{suffix[1:]}", f"version-{version}-speeds-{len(speeds)}",
+                (folder / f"box{suffix}").read_bytes())  # fmt: skip
+
+
+HYD = """\
+Length between perpendiculars    (m)     60.000
+Breadth                          (m)     14.000
+Draught, midship                 (m)      5.000
+Displacement                (tonnes)    4300.00       4301.21*
+Vertical center of gravity,      VCG      6.000*
+Longitudinal center of gravity,  LCG     28.000        28.514*
+Transverse metacentric height,   GMt                    1.422*
+Roll radius of gyration,         r44      5.050*
+"""
+
+
+def wamit_seeds() -> None:
+    periods, headings = (6.0, 12.0), (0.0, 90.0)
+    scale = np.array([8e3, 1.1e4, 1.7e4, 8e5, 9e6, 1e7])
+    pairs = [(i, j) for i in range(6) for j in range(6) if i == j or (i, j) in ((0, 4), (4, 0))]
+
+    def entry(i: int, j: int, size: float) -> float:
+        return size * float(np.sqrt(scale[i] * scale[j])) * (1.0 if i == j else 0.1)
+
+    radiation = [f"{p:.6E} {i + 1} {j + 1} {entry(i, j, 1.0):.6E}" for p in (-1.0, 0.0) for i, j in pairs]
+    radiation += [
+        f"{p:.6E} {i + 1} {j + 1} {entry(i, j, 1.0):.6E} {entry(i, j, 0.1):.6E}"
+        for p in periods
+        for i, j in pairs
+    ]
+    waves = [
+        f"{p:.6E} {b:.6E} {i + 1} {5.0 + i:.6E} {90.0:.6E} {0.0:.6E} {5.0 + i:.6E}"
+        for p in periods
+        for b in headings
+        for i in range(6)
+    ]
+    restoring = [
+        f"{i + 1} {j + 1} {float(i == j and 2 <= i < 5) * scale[i]:.6E}" for i in range(6) for j in range(6)
+    ]
+    mass = "\n".join(" ".join(f"{v:.8g}" for v in row) for row in np.diag([9e7, 9e7, 9e7, 3e10, 4e11, 4e11]))
+    zero = "\n".join(["0 0 0 0 0 0"] * 6)
+    put("wamit", "box.1", ("\n".join(radiation) + "\n").encode())
+    put("wamit", "box.3", ("\n".join(waves) + "\n").encode())
+    put("wamit", "box.4", ("\n".join(waves) + "\n").encode())
+    put("wamit", "box.hst", ("\n".join(restoring) + "\n").encode())
+    put(
+        "wamit",
+        "box.frc",
+        f"box\n1 0 1 1 0 0 0 0 1\n1025.0\n0.0 0.0 2.5\n1\n{mass}\n1\n{zero}\n0\n0\n".encode(),
+    )
+    put("wamit", "box.cfg", b"IALTFRC=2\nIPERIO=1\n")
+    put("wamit", "box.out", LISTING.encode())
+    put("wamit-frc", "radii", b"box\n1 0 1 2 0 0 0 0 1\n2.5\n15.0 0 0\n0 60.0 0\n0 0 60.0\n0\n")
+    put("wamit-frc", "no-mass", b"box\n1 0 1 1 0 0 0 0 1\n1025.0\n0 0 2.5\n0\n0\n0\n0\n")
+
+
+LISTING = """\
+                        WAMIT  Version 6.314
+ Input from Geometric Data File:         box.gdf
+ Box
+ Gravity:     9.80665                Length scale:        1.00000
+ Water depth:        infinite       Water density:     1025.00000
+ Total panels:    4750  Waterline panels:    246       Symmetry:   Y=0
+ XBODY =    0.0000 YBODY =    0.0000 ZBODY =    0.0000 PHIBODY =   0.0
+ Volumes (VOLX,VOLY,VOLZ):           92309.5      92313.2      92314.5
+ Center of Buoyancy (Xb,Yb,Zb):     3.925910     0.000000    -4.815541
+ Center of Gravity  (Xg,Yg,Zg):     3.930000     0.000000     2.500000
+ Wave period (sec) =  6.000000E+00
+ Wave period (sec) =  1.200000E+01
+
+ End of the listing
+"""
+
+
+def orcaflex_seeds(hull: HydroDatabase) -> None:
+    """JSON is YAML; the same model in OrcaFlex's own layout is the second seed."""
+    from orcaflex_writer import text_of
+
+    document = model(hull, phase=(1.0, 0.0, 0.0))
+    put("orcaflex", "model", json.dumps(short(document)).encode())
+    put("orcaflex-text", "model", text_of(short(document)).encode())
+
+
+def short(value: Any) -> Any:
+    """The same document with numbers of five digits, infinity as a word."""
+    if isinstance(value, dict):
+        return {key: short(item) for key, item in value.items()}
+    if isinstance(value, list):
+        return [short(item) for item in value]
+    if not isinstance(value, float):
+        return value
+    return float(f"{value:.5g}") if np.isfinite(value) else "Infinity"
+
+
+def hull_seeds() -> None:
+    outline = {-10.0: 1.0, 0.0: 3.0, 10.0: 1.0}
+    rows = [f"{x},{y},{z}" for x, b in outline.items() for y, z in ((b, 2.0), (b, -2.0), (0.0, -2.0))]
+    put("offsets", "boat", ("x,y,z\n" + "\n".join(rows) + "\n").encode())
+    corners = np.array([(x, y, z) for x in (-5.0, 5.0) for y in (-2.0, 2.0) for z in (-1.0, 1.0)])
+    quads = ((0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3))
+    triangles = [corners[[q[0], q[i], q[i + 1]]] for q in quads for i in (1, 2)]
+    lines = ["solid box"]
+    for triangle in triangles:
+        vertices = "\n".join("vertex " + " ".join(f"{v:g}" for v in point) for point in triangle)
+        lines.append(f"facet normal 0 0 0\nouter loop\n{vertices}\nendloop\nendfacet")
+    put("stl", "ascii", ("\n".join([*lines, "endsolid box"]) + "\n").encode())
+    record = np.zeros(len(triangles), dtype=[("n", "<f4", 3), ("v", "<f4", (3, 3)), ("a", "<u2")])
+    record["v"] = triangles
+    put("stl", "binary", b"box".ljust(80) + len(triangles).to_bytes(4, "little") + record.tobytes())
+
+
+def scene_seeds(folder: Path) -> None:
+    scene_file.save_scene(every_kind(), folder / "scene.json")
+    put("scene", "every-kind", json.dumps(json.loads((folder / "scene.json").read_bytes())).encode())
+
+
+def netcdf_seeds(folder: Path, hull: HydroDatabase) -> None:
+    drift = DriftCoefficients(heading=hull.heading, omega=hull.omega, coefficient=np.ones((3, 2, 6)))
+    full = dataclasses.replace(hull, drift=drift, memory=small_memory(), trusted_band=(0.5, 1.0))
+    for name, database in (("plain", hull), ("full", full)):
+        database.save(folder / "hull.nc")
+        put("database", name, spec_of(folder / "hull.nc"))
+        put("database-bytes", name, (folder / "hull.nc").read_bytes())
+    data = layout().isel(omega=[0, 3, 7, -1], wave_direction=[0, 4])
+    data.to_netcdf(folder / "ship.nc")
+    put("capytaine", "ship", spec_of(folder / "ship.nc"))
+    put("capytaine-bytes", "ship", (folder / "ship.nc").read_bytes())
+    path = dhyd(hull, folder, phase_origin=(1.0, 0.0))
+    put("mafredo", "ship", spec_of(path))
+    put("mafredo-bytes", "ship", path.read_bytes())
+    result = simulate(cases.case1(), t_end=1.0, dt_out=0.5)
+    result.save(folder / "run.nc")
+    put("result", "run", spec_of(folder / "run.nc"))
+    put("result-bytes", "run", (folder / "run.nc").read_bytes())
+
+
+def small_memory() -> Any:
+    """The first block of the shipped memory."""
+    memory = shipped_database().memory
+    assert memory is not None
+    return dataclasses.replace(memory, blocks=memory.blocks[:1], rows=memory.rows[:2])
+
+
+def main() -> None:
+    hull = small_hull()
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        veres_seeds(folder)
+        scene_seeds(folder)
+        netcdf_seeds(folder, hull)
+    wamit_seeds()
+    orcaflex_seeds(hull)
+    hull_seeds()
+    put("crane", "shipped", DEFAULT_PATH.read_bytes())
+    t = np.arange(16) * 0.5
+    record = {
+        "time": t.tolist(),
+        "elevation": np.sin(t).round(3).tolist(),
+        "direction_deg": 30.0,
+        "taper": 0.1,
+    }
+    put(
+        "measured",
+        "record",
+        json.dumps({**record, "omega_min": 0.5, "omega_max": 3.0, "name": "buoy"}).encode(),
+    )
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,206 @@
+"""What is fuzzed: each reader, how a case reaches it, what it may answer, and whether the answer is sound."""
+
+from __future__ import annotations
+
+import contextlib
+import json
+import random
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, fields, is_dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from fuzz.mutate import mutate_json, mutate_text
+from fuzz.netcdf_spec import build
+from seacrane import sea
+from seacrane.crane import KnuckleBoomCrane
+from seacrane.errors import FileFormatError, SceneError
+from seacrane.hydro import Hull, HydroDatabase, capytaine, orcaflex, veres, wamit
+from seacrane.result import Result
+from seacrane.scene_file import load_scene
+
+CORPUS = Path(__file__).parent / "corpus"
+LONGEST_MESSAGE = 2000  # characters: what a file holds may not flood the screen
+INFINITE = ("depth",)  # fields that may be infinite
+
+
+@dataclass(frozen=True)
+class Target:
+    """One kind of case.
+
+    ``file`` is the name a case is written under, beside the files of the corpus folder ``beside``;
+    ``modules`` are the sources whose lines count as the reader's; what ``read`` returns has to be finite.
+    """
+
+    name: str
+    reader: str
+    file: str
+    read: Callable[[Path], Any]
+    modules: tuple[str, ...]
+    mutate: Callable[[bytes, random.Random], bytes] | None = mutate_text
+    beside: str | None = None
+    refusals: tuple[type[Exception], ...] = (FileFormatError,)
+    netcdf: bool = False
+
+    def place(self, folder: Path) -> None:
+        """The files that stand beside a case."""
+        if self.beside:
+            for file in (CORPUS / self.beside).iterdir():
+                if file.name != self.file:
+                    (folder / file.name).write_bytes(file.read_bytes())
+
+    def run(self, case: bytes, folder: Path) -> str:
+        """Read a case: "value", "refused", or "no case"; anything unsound raises."""
+        path = folder / self.file
+        if not self.netcdf:
+            path.write_bytes(case)
+        elif not build(case, path):
+            return "no case"
+        try:
+            value = self.read(path)
+        except self.refusals as error:
+            if len(str(error)) > LONGEST_MESSAGE + len(str(path)):
+                length, start = len(str(error)), str(error)[:200]
+                raise AssertionError(f"a message of {length} characters: {start}") from None
+            return "refused"
+        require_finite(self.name, value)
+        return "value"
+
+
+def require_finite(place: str, value: Any) -> None:
+    """Raise unless every number in arrays and dataclasses is finite."""
+    if is_dataclass(value) and not isinstance(value, type):
+        for entry in fields(value):
+            if entry.name not in INFINITE:
+                require_finite(f"{place}.{entry.name}", getattr(value, entry.name))
+    elif isinstance(value, tuple | list):
+        for i, item in enumerate(value):
+            require_finite(f"{place}[{i}]", item)
+    elif isinstance(value, float | complex | np.ndarray | np.generic):
+        array = np.asarray(value)
+        if array.dtype.kind in "fc" and not np.all(np.isfinite(array)):
+            raise AssertionError(f"{place} is not finite: {array[~np.isfinite(array)].ravel()[:3]}")
+
+
+@contextlib.contextmanager
+def quiet() -> Iterator[None]:
+    """Warnings of the readers are not what is looked for; NaN that comes of an overflow is found above."""
+    import warnings
+
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        yield
+
+
+def _veres(path: Path) -> Any:
+    return veres.read_veres(path.with_suffix(""))
+
+
+def _wamit(path: Path) -> Any:
+    return wamit.read_wamit(path.with_suffix(""))
+
+
+def _capytaine(path: Path) -> Any:
+    return capytaine.read_capytaine(path)
+
+
+def _mafredo(path: Path) -> Any:
+    return orcaflex.read_orcaflex(path, mass_matrix=np.diag([1e7] * 3 + [1e9] * 3), restoring=np.eye(6) * 1e7)
+
+
+def _hull_of_offsets(path: Path) -> Any:
+    return Hull.from_offsets(path).panels
+
+
+def _hull_of_stl(path: Path) -> Any:
+    return Hull.from_stl(path).panels
+
+
+def _scene(path: Path) -> Any:
+    """A scene that loads has to compile, or to be refused by name."""
+    scene = load_scene(path)
+    with contextlib.suppress(SceneError):
+        scene.compile()
+
+
+def _crane(path: Path) -> Any:
+    """A crane file that is read gives bodies with mass and inertia."""
+    crane = KnuckleBoomCrane.load(path)
+    return list(crane.mass_properties.values())
+
+
+def _measured(path: Path) -> Any:
+    """The arguments of `MeasuredWaves` as JSON; what is no such object is refused here."""
+    try:
+        arguments = json.loads(path.read_bytes())
+    except (ValueError, RecursionError):
+        raise SceneError("no JSON") from None
+    known = {entry.name for entry in fields(sea.MeasuredWaves)} - {"spreading"}
+    if (
+        not isinstance(arguments, dict)
+        or not {"time", "elevation", "direction_deg"} <= set(arguments) <= known
+    ):
+        raise SceneError("other arguments")
+    waves = sea.MeasuredWaves(**arguments)
+    components = waves.waves(direction=np.radians(waves.direction_deg), depth=np.inf)
+    return [waves.band_passed(), components.amplitude, components.phase]
+
+
+def _result(path: Path) -> Any:
+    found = Result.load(path)
+    return [] if found.interrupted else list(found.channels.values())
+
+
+_SCENE = ("scene_file.py", "scene_node.py", "wave_file.py", "plain_data.py", "load_kinds.py")
+_ORCAFLEX = ("hydro/orcaflex.py", "hydro/orcaflex_model.py")
+_VERES = tuple(
+    f"hydro/{name}.py" for name in ("veres", "veres_files", "veres_set", "veres_hydrostatics", "text_records")
+)
+_WAMIT = tuple(f"hydro/{name}.py" for name in ("wamit", "wamit_control", "wamit_tables"))
+_SHAPE = (FileFormatError, ValueError)
+
+
+def _set_targets(
+    name: str, kinds: str, read: Callable[[Path], Any], modules: tuple[str, ...]
+) -> list[Target]:
+    """One target for each file of a set, the others being sound."""
+    return [
+        Target(f"{name}-{kind}", name, f"box.{kind}", read, modules, beside=name) for kind in kinds.split()
+    ]
+
+
+def _netcdf_targets(name: str, file: str, read: Callable[[Path], Any], module: str) -> list[Target]:
+    """Files written from mutated specifications, and files mutated byte by byte."""
+    return [
+        Target(name, name, file, read, (module,), mutate_json, netcdf=True),
+        Target(f"{name}-bytes", name, file, read, (module,), None),
+    ]
+
+
+_ALL = [
+    *_set_targets("veres", "re7 re8 re1 re2 hyd", _veres, _VERES),
+    *_set_targets("wamit", "1 3 4 hst frc out cfg", _wamit, _WAMIT),
+    Target("orcaflex", "orcaflex", "ship.yml", orcaflex.read_orcaflex, _ORCAFLEX, mutate_json),
+    Target("orcaflex-text", "orcaflex", "ship.yml", orcaflex.read_orcaflex, _ORCAFLEX),
+    Target("offsets", "offsets", "hull.txt", _hull_of_offsets, ("hydro/hull_offsets.py",), refusals=_SHAPE),
+    Target("stl", "stl", "hull.stl", _hull_of_stl, ("hydro/hull_stl.py",), refusals=_SHAPE),
+    Target("scene", "scene", "scene.json", _scene, _SCENE, mutate_json),
+    Target("crane", "crane", "crane.toml", _crane, ("crane/data_file.py",)),
+    Target(
+        "measured", "measured", "record.json", _measured, ("sea/measured.py",), mutate_json,
+        refusals=(SceneError,),
+    ),
+    *_netcdf_targets("database", "hull.nc", HydroDatabase.load, "hydro/netcdf.py"),
+    *_netcdf_targets("mafredo", "ship.dhyd", _mafredo, "hydro/mafredo_file.py"),
+    *_netcdf_targets("capytaine", "ship.nc", _capytaine, "hydro/capytaine.py"),
+    *_netcdf_targets("result", "run.nc", _result, "result/netcdf.py"),
+]  # fmt: skip
+TARGETS = {target.name: target for target in _ALL}
+
+
+def cases(target: Target) -> list[Path]:
+    """The committed cases of a target; those of a set's undamaged file included."""
+    own = sorted(path for path in (CORPUS / target.name).glob("*") if path.is_file())
+    return own + ([CORPUS / target.beside / target.file] if target.beside else [])
