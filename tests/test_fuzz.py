@@ -16,7 +16,6 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-
 from fuzz.mutate import mutate_text
 from fuzz.targets import TARGETS, Target, cases, quiet
 

@@ -6,7 +6,7 @@ import collections.abc
 import numpy
 import numpy.typing
 import typing
-__all__: list[str] = ['Actuator', 'Body', 'Curve', 'DriftLoad', 'DriftTable', 'Driver', 'Evaluator', 'ExactWaveLoad', 'FlowForce', 'ForceTable', 'Frame', 'FunctionForce', 'Joint', 'Model', 'PointForce', 'PositionedWaveLoad', 'RepeatPeriod', 'RetardationFunctions', 'Simulation', 'Spectrum', 'Spring', 'State', 'StateSpaceBlock', 'StepHistory', 'TwistHistory', 'VesselHydrodynamics', 'WaveComponents', 'WaveKinematics', 'WaveLoads', 'WaveTable', 'compile', 'dnv_gamma', 'initial_state', 'integrator_names', 'jonswap', 'ochi_hubble', 'philox_uniform', 'pierson_moskowitz', 'realise_waves', 'section_radiation', 'strip_theory', 'tabulated_density', 'torsethaugen']
+__all__: list[str] = ['Actuator', 'Body', 'Curve', 'DriftLoad', 'DriftTable', 'Driver', 'Evaluator', 'ExactWaveLoad', 'FlowForce', 'ForceTable', 'Frame', 'Friction', 'FunctionForce', 'Joint', 'Limit', 'Model', 'PointForce', 'PositionedWaveLoad', 'RepeatPeriod', 'RetardationFunctions', 'Simulation', 'SoftStop', 'Spectrum', 'Spring', 'State', 'StateSpaceBlock', 'StepHistory', 'TwistHistory', 'VesselHydrodynamics', 'WaveComponents', 'WaveKinematics', 'WaveLoads', 'WaveTable', 'compile', 'dnv_gamma', 'initial_state', 'integrator_names', 'jonswap', 'ochi_hubble', 'philox_uniform', 'pierson_moskowitz', 'realise_waves', 'section_radiation', 'stability_polynomial', 'strip_theory', 'tabulated_density', 'torsethaugen']
 class Curve:
     """
     A reference as a function of time: pieces of quintic polynomials plus one cosine each.
@@ -844,6 +844,84 @@ class FlowForce:
         """
         Curve, m/s
         """
+class Limit:
+    """
+    What a joint does one way only; see seacrane.add_wire, add_end_stop and add_seat. Kinds: wire, stop, seat. Bounds in m or rad, at +-1e7 none; sticking_speed in m/s or rad/s. Immutable.
+    """
+    def __init__(self, *, name: str, kind: str, joint: str, coordinate: str = '', minimum: typing.SupportsFloat | typing.SupportsIndex = -10000000.0, maximum: typing.SupportsFloat | typing.SupportsIndex = 10000000.0, restitution: typing.SupportsFloat | typing.SupportsIndex = 0.0, sticking_speed: typing.SupportsFloat | typing.SupportsIndex = 0.001) -> None:
+        ...
+    @property
+    def coordinate(self) -> str:
+        ...
+    @property
+    def joint(self) -> str:
+        ...
+    @property
+    def kind(self) -> str:
+        ...
+    @property
+    def maximum(self) -> float:
+        ...
+    @property
+    def minimum(self) -> float:
+        ...
+    @property
+    def name(self) -> str:
+        ...
+    @property
+    def restitution(self) -> float:
+        ...
+    @property
+    def sticking_speed(self) -> float:
+        ...
+class Friction:
+    """
+    Dry friction on a joint coordinate: -load tanh(rate / speed), load in N or N m, speed in m/s or rad/s; see seacrane.add_friction. Immutable.
+    """
+    def __init__(self, *, name: str, joint: str, coordinate: str, load: typing.SupportsFloat | typing.SupportsIndex, speed: typing.SupportsFloat | typing.SupportsIndex) -> None:
+        ...
+    @property
+    def coordinate(self) -> str:
+        ...
+    @property
+    def joint(self) -> str:
+        ...
+    @property
+    def load(self) -> float:
+        ...
+    @property
+    def name(self) -> str:
+        ...
+    @property
+    def speed(self) -> float:
+        ...
+class SoftStop:
+    """
+    Compliant bounds of a joint coordinate: stiffness p (1 + damping p') back where it is beyond one by p, never a pull; N/m and s/m, or N m/rad and s/rad; see seacrane.add_soft_stop. Immutable.
+    """
+    def __init__(self, *, name: str, joint: str, coordinate: str, minimum: typing.SupportsFloat | typing.SupportsIndex = -10000000.0, maximum: typing.SupportsFloat | typing.SupportsIndex = 10000000.0, stiffness: typing.SupportsFloat | typing.SupportsIndex, damping: typing.SupportsFloat | typing.SupportsIndex = 0.0) -> None:
+        ...
+    @property
+    def coordinate(self) -> str:
+        ...
+    @property
+    def damping(self) -> float:
+        ...
+    @property
+    def joint(self) -> str:
+        ...
+    @property
+    def maximum(self) -> float:
+        ...
+    @property
+    def minimum(self) -> float:
+        ...
+    @property
+    def name(self) -> str:
+        ...
+    @property
+    def stiffness(self) -> float:
+        ...
 class Model:
     """
     A compiled scene: immutable, shareable between threads.
@@ -896,6 +974,11 @@ class Model:
     def initial_state(self) -> numpy.typing.NDArray[numpy.float64]:
         """
         Consistent start (copy): poses, twists, memory states, work.
+        """
+    @property
+    def limits(self) -> list[tuple[str, bool]]:
+        """
+        (name, whether it holds at the described start) of wires, bounds and seats, in the order of the channel limit_force.
         """
     @property
     def memory_states(self) -> int:
@@ -1028,8 +1111,13 @@ class State:
     """
     Time (s), state values and inputs of a run; a copy is a checkpoint.
     """
-    def __init__(self, *, time: typing.SupportsFloat | typing.SupportsIndex, values: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], inputs: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], histories: collections.abc.Sequence[TwistHistory] = [], steps: StepHistory = ...) -> None:
+    def __init__(self, *, time: typing.SupportsFloat | typing.SupportsIndex, values: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], inputs: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], histories: collections.abc.Sequence[TwistHistory] = [], steps: StepHistory = ..., closed: collections.abc.Sequence[str] | None = None) -> None:
         ...
+    @property
+    def closed(self) -> list[str] | None:
+        """
+        Names of the limits that hold (copy); None: as at the described start.
+        """
     @property
     def histories(self) -> list[TwistHistory]:
         """
@@ -1066,6 +1154,10 @@ class Simulation:
     def channels(self) -> dict:
         """
         Recorded arrays by name, time first (copies).
+        """
+    def events(self) -> list[tuple[float, str, str, float, float, float]]:
+        """
+        (time in s, limit, kind, speed of approach in m/s or rad/s, impulse in N s or N m s, energy lost in J) of all events so far.
         """
     def set_inputs(self, slots: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> None:
         """
@@ -1237,6 +1329,10 @@ def section_radiation(*, points: typing.Annotated[numpy.typing.ArrayLike, numpy.
     Close-fit sources on straight panels (Frank, NSRDC report 2375, 1967), with a rigid lid on the interior free
     surface against irregular frequencies. Sections thinner than 2 % are solved as 2 % thick: a stem in sway is
     a plate.
+    """
+def stability_polynomial(integrator: str) -> list[float]:
+    """
+    Coefficients of the stability polynomial of an explicit Runge-Kutta method, lowest power first: a step h of y' = lambda y multiplies y by R(h lambda). Empty for an integrator that has no tableau here.
     """
 def strip_theory(*, x: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], sections: collections.abc.Sequence[typing.Annotated[numpy.typing.ArrayLike, numpy.float64]], omega: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], heading: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], speed: typing.SupportsFloat | typing.SupportsIndex = 0.0, rho: typing.SupportsFloat | typing.SupportsIndex = 1025.0, g: typing.SupportsFloat | typing.SupportsIndex = 9.81, panels: typing.SupportsInt | typing.SupportsIndex = 40) -> dict:
     """

@@ -1,4 +1,4 @@
-"""Lines of each reader that the committed corpus reaches: python tests/fuzz/line_coverage.py [FOLDER of more].
+"""Lines of each reader that the committed corpus reaches: python tests/fuzz/line_coverage.py [FOLDER].
 
 Ends with 1 if a reader is below 90 %. With --missing, prints which lines are not reached.
 """
