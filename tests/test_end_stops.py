@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from event_scenes import GRAVITY, INERTIA, MASS, lift, pushed
 
-from seacrane import Result, Run, Scene, add_end_stop, add_friction, add_soft_stop, simulate
+from seacrane import Result, Run, Scene, add_end_stop, add_friction, add_soft_stop, add_wire, cases, simulate
 
 
 def test_stop_holds_while_it_is_pushed_and_lets_go_when_the_load_turns() -> None:
@@ -104,3 +104,24 @@ def test_soft_stop_returns_what_is_not_damped() -> None:
     # Hunt and Crossley's estimate for small damping: e = 1 - 2/3 damping v
     assert returned / start == pytest.approx(1.0 - 2.0 / 3.0 * 0.05 * start, abs=0.003)
     assert np.abs(damped["energy_balance"]).max() < 1e-8
+
+
+@pytest.mark.parametrize("formulation", ["redundant", "recursive"])
+def test_cylinder_of_a_crane_afloat_runs_onto_its_stop(formulation: str) -> None:
+    """The boom stops, its payload flies on, the wire snatches and lifts the boom off again; then it rests."""
+    scene = cases.case2()
+    add_end_stop(scene, joint="main_cylinder", minimum=-1.0, maximum=0.05)
+    add_wire(scene, joint="link")
+    result = simulate(scene, t_end=8.0, dt_out=0.25, rtol=1e-8, formulation=formulation)
+    assert [(e.name, e.kind) for e in result.events[:4]] == [
+        ("main_cylinder.maximum", "contact"), ("link", "release"),
+        ("main_cylinder.maximum", "release"), ("link", "contact"),
+    ]  # fmt: skip
+    assert len(result.events) < 10
+    assert result.events[0].time == pytest.approx(6.6407455, abs=1e-6)
+    held = result.time > result.events[-1].time
+    np.testing.assert_allclose(result.select("stroke", cylinder="main")[held], 0.05, atol=1e-10)
+    assert np.all(result.select("limit_force", limit="main_cylinder.maximum")[held] > 0.0)
+    assert np.all(result.select("limit_force", limit="link")[held] > 0.0)
+    assert np.abs(result["energy_balance"]).max() < 1e-8 * result["absolute_work"][-1]
+    assert result["constraint_error"].max() < 1e-9

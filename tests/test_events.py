@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import pytest
 from event_scenes import (
@@ -17,7 +19,17 @@ from event_scenes import (
     scipy_pendulum,
 )
 
-from seacrane import ChatteringError, Run, Scene, add_wire, cases, integrator_names, simulate
+from seacrane import (
+    ChatteringError,
+    Run,
+    Scene,
+    SceneError,
+    State,
+    add_wire,
+    cases,
+    integrator_names,
+    simulate,
+)
 from seacrane._core import Body
 
 AFLOAT = {"rk4-exact-memory", "ark-mri"}  # step what a scene without fluid or actuators has not
@@ -248,13 +260,39 @@ def test_wire_that_stays_taut_changes_nothing_in_a_lift() -> None:
     np.testing.assert_allclose(after["link_tension"], before["link_tension"], rtol=1e-5)
 
 
-def test_a_run_goes_on_from_its_state_with_the_limits_that_hold() -> None:
-    whole = simulate(pendulum(), t_end=2.2, dt_out=0.1, integrator="rk4", dt=0.01)
-    slack = 0.5 * (whole.events[0].time + whole.events[1].time)
-    first = Run(pendulum(), t_end=slack, integrator="rk4", dt=0.01)
-    first.advance(slack)
-    state = first.core.state
-    assert state.closed == []
-    rest = simulate(pendulum(), t_end=2.2, dt_out=0.1, integrator="rk4", dt=0.01, start=state)
-    assert rest.events[0].time == pytest.approx(whole.events[1].time, abs=1e-7)
-    np.testing.assert_allclose(rest["position"][-1], whole["position"][-1], atol=1e-6)
+@pytest.mark.parametrize("formulation", ["redundant", "recursive"])
+@pytest.mark.parametrize(("integrator", "setting"), [("dopri5", {"rtol": 1e-7}), ("rk4", {"dt": 0.01})])
+def test_a_run_goes_on_bit_for_bit_with_the_limits_that_hold(
+    formulation: str, integrator: str, setting: dict[str, float]
+) -> None:
+    """Stopped taut, slack, and taut again: what follows are the same events and the same states."""
+    settings: dict[str, Any] = {"integrator": integrator, "formulation": formulation, "t_end": 4.0, **setting}
+    whole = Run(pendulum(restitution=0.2), **settings)
+    for stop, closed in ((0.3, ["wire"]), (1.2, []), (2.3, ["wire"])):
+        whole.advance(stop)
+        state = whole.core.state
+        assert state.closed == closed
+        copied = State(
+            time=state.time, values=state.values, inputs=state.inputs, steps=state.steps, closed=state.closed
+        )
+        rest = Run(pendulum(restitution=0.2), start=copied, **settings)
+        rest.advance(2.8)
+        straight = Run(pendulum(restitution=0.2), **settings)
+        for t in (t for t in (0.3, 1.2, 2.3) if t <= stop):
+            straight.advance(t)
+        straight.advance(2.8)
+        np.testing.assert_array_equal(rest.core.state.values, straight.core.state.values)
+        assert rest.core.events() == [e for e in straight.core.events() if e[0] > stop]
+
+
+def test_a_state_with_limits_of_another_scene_is_refused() -> None:
+    run = Run(pendulum(), t_end=1.0)
+    state = run.core.state
+    alien = State(time=0.0, values=state.values, inputs=state.inputs, closed=["chain"])
+    with pytest.raises(SceneError, match="limit 'chain' holds, which this scene does not have"):
+        Run(pendulum(), t_end=1.0, start=alien)
+    run.advance(0.9)
+    slack = run.core.state
+    wrong = State(time=0.9, values=slack.values, inputs=slack.inputs, closed=["wire"])
+    with pytest.raises(SceneError, match=r"limit 'wire' is to hold, but open by 0\.\d+ m"):
+        Run(pendulum(), t_end=1.0, start=wrong)

@@ -9,6 +9,7 @@
 namespace seacrane {
 namespace {
 
+constexpr double kMisfit = 1e-3;     // m or rad: of a state that is none of the scene
 constexpr double kTouch = 1e-10;     // m or rad: gaps below it are closed, and overlaps rounding
 constexpr double kStill = 1e-9;      // m/s or rad/s: rates that are rounding
 constexpr double kFall = 1e-9;       // m/s2 or rad/s2: likewise
@@ -71,6 +72,23 @@ Contacts::Watched Contacts::gap(const Limit& limit, const RedundantSystem& syste
   const JointData& joint = limit.coordinate.joint;
   const double rate = coordinate_rate(row, bodies[idx(joint.first)], bodies[idx(joint.second)]);
   return {limit.side * row.value, limit.side * rate};
+}
+
+void Contacts::check(Stepper& at, double t, const double* bodies) const {
+  at.system.residual(t, bodies);
+  for (const Limit& limit : at.model->limits) {
+    double misfit = 0.0;
+    if (limit.element >= 0) {
+      const auto& phi = at.system.blocks()[idx(limit.element)].phi;
+      misfit = phi.head(at.model->elements[idx(limit.element)].rows).cwiseAbs().maxCoeff();
+    } else if (limit.kind != LimitKind::seat) {
+      misfit = -gap(limit, at.system).value;
+    }
+    if (misfit <= kMisfit) continue;
+    throw std::invalid_argument("state: limit '" + limit.name + "' is " +
+                                (limit.element >= 0 ? "to hold, but open" : "passed") + " by " +
+                                to_text(misfit) + " m or rad; give a state of this scene");
+  }
 }
 
 void Contacts::evaluate(Stepper& at, double t, const double* bodies) {
@@ -201,7 +219,7 @@ ClosedSet Contacts::pass(double t, double* bodies, ClosedSet closed) {
     note({t, found_, EventKind::release});
     return settle(t, bodies, closed & ~bit);
   }
-  return settle(t, bodies, hit(t, bodies, closed, bit));
+  return settle(t, bodies, hit(t, bodies, closed, found_));
 }
 
 ClosedSet Contacts::settle(double t, double* bodies, ClosedSet closed) {
@@ -230,7 +248,7 @@ ClosedSet Contacts::settle(double t, double* bodies, ClosedSet closed) {
     }
     if (wrong == count) return closed;
     if (struck) {
-      closed = hit(t, bodies, closed, bit_of(wrong));
+      closed = hit(t, bodies, closed, wrong);
     } else {
       closed ^= bit_of(wrong);
       note({t, wrong, holds(closed, wrong) ? EventKind::contact : EventKind::release});
@@ -241,18 +259,30 @@ ClosedSet Contacts::settle(double t, double* bodies, ClosedSet closed) {
                         " s (friction-free contacts that depend on each other); remove redundant stops");
 }
 
-ClosedSet Contacts::hit(double t, double* bodies, ClosedSet closed, ClosedSet struck) {
-  const int count = static_cast<int>(model_.limits.size());
-  {  // what is reached at the same time is part of the same impact
-    Stepper& at = stepper_(closed);
-    at.system.read_kinematics(t, bodies);
-    for (int i = 0; i < count; ++i) {
-      const Limit& limit = at.model->limits[idx(i)];
-      if (limit.element >= 0 || limit.kind == LimitKind::seat) continue;
-      const Watched g = gap(limit, at.system);
-      if (g.value <= kTouch && g.rate < -kStill) struck |= bit_of(i);
-    }
+/// What is hit at the same time as limit `found`, or touched and approached then. `slow`: none of them faster
+/// than its sticking_speed.
+ClosedSet Contacts::struck_with(Stepper& at, double t, const double* bodies, int found, bool& slow) {
+  at.system.read_kinematics(t, bodies);
+  ClosedSet out = 0;
+  slow = true;
+  for (int i = 0; i < static_cast<int>(model_.limits.size()); ++i) {
+    const Limit& limit = at.model->limits[idx(i)];
+    if (limit.element >= 0 || limit.kind == LimitKind::seat) continue;
+    const Watched g = gap(limit, at.system);
+    const bool here = i == found ? g.rate <= kStill : g.value <= kTouch && g.rate < -kStill;
+    if (!here) continue;
+    out |= bit_of(i);
+    slow = slow && -g.rate <= limit.sticking_speed;
   }
+  return out;
+}
+
+/// A slow impact lets nothing go: limits that hit and free each other by turns would otherwise do so without
+/// end, slower and slower. What would pull then, settle() opens by its force.
+ClosedSet Contacts::hit(double t, double* bodies, ClosedSet closed, int found) {
+  const int count = static_cast<int>(model_.limits.size());
+  bool slow = true;
+  const ClosedSet struck = struck_with(stepper_(closed), t, bodies, found, slow);
   ClosedSet kept = closed | struck;
   for (;;) {
     Stepper& at = stepper_(kept);
@@ -262,7 +292,7 @@ ClosedSet Contacts::hit(double t, double* bodies, ClosedSet closed, ClosedSet st
     const double pull = -kRounding * largest;
     int pulls = 0;
     while (pulls < count && !(holds(kept, pulls) && impact.impulse[idx(pulls)] < pull)) ++pulls;
-    if (pulls < count) {
+    if (pulls < count && !slow) {
       kept &= ~bit_of(pulls);
       continue;
     }

@@ -37,7 +37,7 @@ struct Event {
 /// impact keeps momentum, M (v+ - v-) = D^T Lambda over all rows that hold, and each limit that is hit sends
 /// its coordinate back at -restitution times the rate of approach (Newton). Where several limits are
 /// involved, those whose impulse or multiplier would pull are let go, least index first (Murty's principal
-/// pivoting).
+/// pivoting), but by impulse only where something is faster than its sticking_speed.
 class Contacts {
  public:
   /// The stepper of a set: made when first asked for.
@@ -45,6 +45,8 @@ class Contacts {
 
   Contacts(const Model& model, SetStepper stepper);
 
+  /// Throws std::invalid_argument for a state that does not fit the limits of `at`.
+  void check(Stepper& at, double t, const double* bodies) const;
   /// Time of the first event in the last step of `at`; nothing when there is none. Remembers its limit.
   std::optional<double> find(Stepper& at);
   /// Carries out the event found, at time t and the state `bodies` of the described bodies (on the joints of
@@ -84,7 +86,8 @@ class Contacts {
   void look_inside(Stepper& at);
   Dip dip(Stepper& at, std::size_t limit) const;
   double locate(Stepper& at, std::size_t limit, double until, double value);
-  ClosedSet hit(double t, double* bodies, ClosedSet closed, ClosedSet struck);
+  ClosedSet struck_with(Stepper& at, double t, const double* bodies, int found, bool& slow);
+  ClosedSet hit(double t, double* bodies, ClosedSet closed, int found);
   Impact collide(Stepper& at, double t, const double* bodies, ClosedSet struck);
   void note(const Event& event);
   [[noreturn]] void report_chatter(double t, int limit) const;

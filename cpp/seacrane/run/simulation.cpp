@@ -69,6 +69,11 @@ Simulation::Simulation(std::shared_ptr<const Model> model, State start, RunOptio
   stepped_state_.resize(now_->stepped.size());
   check_inputs(inputs_);
   apply_inputs();
+  if (!model_->limits.empty()) {
+    contacts_ =
+        std::make_unique<Contacts>(*model_, [this](ClosedSet set) -> Stepper& { return stepper_of(set); });
+    contacts_->check(*now_, start.time, start.values.data());
+  }
   RedundantSystem& system = now_->system;
   double* const bodies = output_state_.data();
   system.project(start.time, bodies, false);
@@ -83,10 +88,6 @@ Simulation::Simulation(std::shared_ptr<const Model> model, State start, RunOptio
   start_histories(*now_, start.time, bodies, start.histories);
   start_energy_ = system.energy(start.time, bodies);
   start_work_ = output_state_[idx(model_->layout.work)];
-  if (!model_->limits.empty()) {
-    contacts_ =
-        std::make_unique<Contacts>(*model_, [this](ClosedSet set) -> Stepper& { return stepper_of(set); });
-  }
   if (resume(start)) {
     now_->started = true;
     watch_limits();
@@ -162,14 +163,18 @@ bool Simulation::pass_event() {
   return true;
 }
 
-/// Steps from output_state_ on, with other limits.
+/// Steps from output_state_ on, with other limits. Another stepper starts afresh: what it kept from the last
+/// time its set held would be missing in a run that goes on from a State.
 void Simulation::go_on(double t, ClosedSet closed) {
-  now_ = &stepper_of(closed);
+  Stepper& next = stepper_of(closed);
+  const bool same = &next == now_ && next.started;
+  now_ = &next;
   stepped_state_.resize(now_->stepped.size());
   now_->stepped.read_bodies(t, output_state_.data(), stepped_state_.data());
-  if (now_->started) {
+  if (same) {
     integrator().reset(t, stepped_state_.data());
   } else {
+    if (now_->started) add(integrator().counters(), before_);
     integrator().init(t, stepped_state_.data());
     now_->started = true;
   }
@@ -368,6 +373,7 @@ State Simulation::state() const {
 
 RunStatistics Simulation::statistics() const {
   RunStatistics out;
+  out.counters = before_;
   out.wall_seconds = wall_seconds_;
   for (const auto& stepper : steppers_) {
     if (stepper->started) add(stepper->integrator->counters(), out.counters);

@@ -104,6 +104,7 @@ class Simulation {
   RunOptions options_;
   std::vector<std::unique_ptr<Stepper>> steppers_;  // by set of limits, in the order of their first use
   Stepper* now_ = nullptr;
+  Counters before_;                     // of steppers before their last start
   std::unique_ptr<Contacts> contacts_;  // null: the scene has no limits
   Recording recording_;
   std::vector<double> inputs_;
