@@ -102,3 +102,22 @@ def test_limits_survive_a_scene_file(tmp_path: Path) -> None:
     assert again.events == once.events
     assert len(once.events) > 1
     assert "rail soft stop (rail displacement)" in dict(scene.report()["elements"])["limits and friction"]
+
+
+def test_a_method_that_cannot_project_takes_the_redundant_form_with_limits() -> None:
+    scene = Scene(name="two wires")
+    scene.add_body(name="ball", mass=2.0, inertia=(0.1, 0.1, 0.1), position=(0.0, 0.0, -1.0))
+    for name, x in (("left", -1.0), ("right", 1.2)):
+        scene.add_joint(
+            kind="distance", name=name, first="ground", second="ball", point=(x, 0.3 * x, 0.0),
+            second_point=(0.0, 0.0, -1.0), length=2.5,
+        )  # fmt: skip
+        add_wire(scene, joint=name)
+    result = simulate(scene, t_end=3.0, dt_out=0.1, integrator="cvode-adams", rtol=1e-8)
+    reference = simulate(scene, t_end=3.0, dt_out=0.1, rtol=1e-10)
+    assert result.stats["formulation"] == "redundant"
+    assert [e.name for e in result.events] == [e.name for e in reference.events]
+    assert {e.name for e in result.events} == {"left", "right"}
+    np.testing.assert_allclose(result["position"], reference["position"], atol=1e-5)
+    with pytest.raises(SceneError, match="cannot project, and this scene keeps constraints or limits"):
+        simulate(scene, t_end=1.0, integrator="cvode-adams", formulation="recursive")

@@ -280,8 +280,8 @@ def _formulation(asked: str, model: _core.Model, integrator: str) -> str:
         reason = "Baumgarte stabilisation belongs to the redundant equations"
     elif model.euler_angles:
         reason = "orientation 'euler_xyz' is a choice of the redundant state"
-    elif integrator == "cvode-adams" and model.tree["loop_rows"]:
-        reason = "integrator 'cvode-adams' cannot project, and this scene keeps constraints"
+    elif integrator == "cvode-adams" and (model.tree["loop_rows"] or model.limits):
+        reason = "integrator 'cvode-adams' cannot project, and this scene keeps constraints or limits"
     elif model.tree["speeds"] == 0:
         reason = "the joints of this scene leave nothing to move"
     if asked == "recursive" and reason:
