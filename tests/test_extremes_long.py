@@ -15,6 +15,7 @@ from seacrane.extremes.vessel_axes import AXES as VESSELS
 TUMBLE = next(axis for axis in MECHANISMS if axis.name == "tumble")
 FOUR_BAR = next(axis for axis in MECHANISMS if axis.name == "four-bar")
 HEEL = next(axis for axis in VESSELS if axis.name == "heel")
+TIME_ORIGIN = next(axis for axis in VESSELS if axis.name == "time-origin")
 CHECKS = ["constraint_error", "constraint_rate_error", "energy_balance", "absolute_work"]
 
 
@@ -73,3 +74,13 @@ def test_a_heeled_vessel_loses_energy_and_never_gains_any() -> None:
         heel = np.degrees(2.0 * np.arctan2(x, w))
         assert np.max(np.abs(heel)) <= degrees * (1.0 + 1e-9)
         assert np.max(np.abs(heel[-40:])) < 0.9 * degrees
+
+
+@pytest.mark.parametrize("integrator", ["cvode-bdf", "cvode-adams", "ida", "ark-erk", "ark-dirk", "dop853"])
+def test_methods_start_30_years_from_zero(integrator: str) -> None:
+    """Solvers of SUNDIALS begin with steps of few roundings of the time there, and may."""
+    case = TIME_ORIGIN.case(1e9)
+    run = simulate(case.scene, t_end=case.t_end, dt_out=case.dt_out, start=case.start, integrator=integrator,
+                   channels=["position"])  # fmt: skip
+    assert case.truth is not None
+    np.testing.assert_allclose(run["position"], case.truth[0], atol=1e-4)

@@ -13,6 +13,9 @@ constexpr double strongest_cut = 0.2, strongest_growth = 10.0;
 /// Cut after a derivative that was not finite, where no error estimate tells the size.
 constexpr double blind_cut = 0.25;
 constexpr double least_error_memory = 1e-4;
+/// Slope at the end of a step over all that was seen of it, beyond which the step is not believed; a power of
+/// time below 100 stays within.
+constexpr double leap = 100.0;
 /// Rounding of a state relative to its size, as far as tolerances below it are still accepted.
 constexpr double rounding = 1e-3 * std::numeric_limits<double>::epsilon();
 
@@ -87,16 +90,27 @@ void AdaptiveStep::step(double t_limit) {
     if (finite && e <= 1.0 && !end_derivative_known_) {
       finite = stage(t_end, end_state_.data(), end_derivative_.data());
     }
+    if (finite && e <= 1.0 && has_leapt(h)) e = std::numeric_limits<double>::infinity();
     if (finite && e <= 1.0) {
       accept(t_end);
       after_success(h, e, cut_before, h < step_);
       return;
     }
     ++counters_.rejected_steps;
-    // Not finite where components beyond the tolerances overflow: cut as hard as allowed.
+    // Not finite where components beyond the tolerances overflow, or after a leap: cut as hard as allowed.
     const double cut = std::isfinite(e) ? safety * std::pow(e, -alpha_) : 0.0;
     step_ = h * (finite ? std::max(strongest_cut, cut) : blind_cut);
   }
+}
+
+/// A stop may be met by a stage without weight alone, which throws the others clear of it: their estimate is
+/// zero, and the step ends far behind the stop. Only the slope there tells, out of all proportion to the
+/// slope at the start and to how far the step went.
+bool AdaptiveStep::has_leapt(double h) const {
+  const double seen = h * norm_.norm(start_derivative_.data(), state_.data()) +
+                      norm_.distance(end_state_.data(), state_.data());
+  const double end = h * norm_.norm(end_derivative_.data(), end_state_.data());
+  return end > 1.0 && end > leap * seen;
 }
 
 void AdaptiveStep::after_success(double h, double error, bool cut_before, bool truncated) {

@@ -38,6 +38,8 @@ class AdaptiveStep : public OneStepIntegrator {
 
  private:
   double starting_step(double remaining);
+  /// Whether the step has leapt through something that its error estimate has not seen.
+  bool has_leapt(double h) const;
   void after_success(double h, double error, bool cut_before, bool truncated);
   [[noreturn]] void collapse() const;
 

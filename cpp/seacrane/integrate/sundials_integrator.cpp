@@ -90,6 +90,8 @@ void SundialsIntegrator::step(double t_limit) {
   pending_ = nullptr;
   bad_component_ = IntegrationError::no_component;
   messages_.last_error.clear();
+  // A solver starts as short as it likes and grows from there: far from t = 0 by few roundings of the time.
+  const double shortest = must_restart_ ? 0.0 : 0.1 * smallest_step(time_);
   try {
     if (must_restart_) {
       if (started_) add(before_restart_, solver_counters());
@@ -101,7 +103,7 @@ void SundialsIntegrator::step(double t_limit) {
       prepare_step();
     }
     const double reached = advance(t_limit);
-    if (reached < t_limit && reached - before < smallest_step(reached)) {
+    if (reached < t_limit && reached - before < shortest) {
       messages_.last_error = "the step size has collapsed";
       fail("step");
     }
