@@ -5,6 +5,7 @@ from __future__ import annotations
 import time
 import warnings
 from dataclasses import dataclass, replace
+from itertools import combinations
 from typing import Any
 
 import numpy as np
@@ -22,6 +23,7 @@ Array = NDArray[np.float64]
 CHECKS = ("constraint_error", "constraint_error_before_projection", "energy_balance", "absolute_work")
 MOTION = ("position", "quaternion", "velocity", "angular_velocity")
 LEAST_MOTION = 1e-9  # m; what rests within it has no relative error
+AGREED = 1e-4  # of the motion, within which two tight runs need no third
 SLOWER = 4.0  # a tight run may take that many times the time of others
 TIGHT = (
     Method(formulation="redundant", integrator="verner76", rtol=1e-11),
@@ -82,7 +84,7 @@ def run_within(case: Case, method: Method, limit_s: float) -> tuple[Run, OutOfTi
 
 
 def reference(case: Case, limit_s: float) -> Reference:
-    """From two tight runs that differ in equations and method, where two of four complete."""
+    """From two tight runs that differ in equations and method; if they disagree, the two nearest of all."""
     if case.truth is not None:
         points = points_on_bodies(*case.truth)
         return Reference(points=points, motion=largest_motion(points), uncertainty=UNKNOWN, known="")
@@ -100,16 +102,25 @@ def reference(case: Case, limit_s: float) -> Reference:
             channels = run.core.channels()
             found.append((method.name, points_on_bodies(channels["position"], channels["quaternion"])))
         else:
-            failed.append(f"{method.name}: {one_line(stop)}")
-        if len(found) == 2:
+            failed.append(f"not {method.name}: {one_line(stop)}")
+        if len(found) >= 2 and _nearest(found)[0] <= AGREED * largest_motion(found[0][1]):
             break
-    known = "; ".join([*(name for name, _ in found), *(f"not {text}" for text in failed)])
     if not found:
-        return Reference(points=None, motion=UNKNOWN, uncertainty=UNKNOWN, known=known)
-    points = found[0][1]
+        return Reference(points=None, motion=UNKNOWN, uncertainty=UNKNOWN, known="; ".join(failed))
+    apart, first, second = _nearest(found) if len(found) > 1 else (UNKNOWN, 0, 0)
+    points = found[first][1]
     motion = largest_motion(points)
-    apart = _distance(points, found[1][1]) / motion if len(found) == 2 and motion > LEAST_MOTION else UNKNOWN
-    return Reference(points=points, motion=motion, uncertainty=apart, known=known)
+    names = dict.fromkeys([found[first][0], found[second][0]])
+    return Reference(
+        points=points, motion=motion, uncertainty=apart / motion if motion > LEAST_MOTION else UNKNOWN,
+        known="; ".join([*names, *failed]),
+    )  # fmt: skip
+
+
+def _nearest(runs: list[tuple[str, Array]]) -> tuple[float, int, int]:
+    """Distance of the two runs that are nearest to each other, m, and which these are."""
+    pairs = combinations(range(len(runs)), 2)
+    return min((_distance(runs[i][1], runs[j][1]), i, j) for i, j in pairs)
 
 
 def measure(case: Case, method: Method, truth: Reference, limit_s: float, row: Row) -> Row:
