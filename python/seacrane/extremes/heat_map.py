@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -41,11 +42,16 @@ def save_heat_maps(folder: Path, measured: Sequence[Row], limits: Sequence[StepL
 
 
 def heat_map(axis: str, measured: Sequence[Row]) -> Figure:
-    """Error over the motion of every method (down) at every value (across) of one axis."""
+    """Error over the motion of every method (down) at every value (across) of one axis.
+
+    Values that only the default setting ran are left out where others have more.
+    """
     from matplotlib.colors import LogNorm
     from matplotlib.figure import Figure
     from matplotlib.patches import Patch
 
+    runs = Counter(row.value for row in measured)
+    measured = [row for row in measured if runs[row.value] > 1 or max(runs.values()) == 1]
     methods = list(dict.fromkeys(row.method for row in measured))
     values = sorted({row.value for row in measured})
     figure = Figure(figsize=(4.2 + 0.75 * len(values), 1.9 + 0.19 * len(methods)), layout="constrained")

@@ -60,7 +60,7 @@ def stability_atlas(
     axes : sequence of str, optional
         Names of `AXES`, and "step" for the longest stable steps; default: all.
     jobs : int, optional
-        Processes at a time; default: the processors that this one may use, at most 2.
+        Processes at a time; default: as many as this one may use processors, at most 2.
     figures : bool
         Draw the heat maps.
     progress : bool
@@ -77,7 +77,7 @@ def stability_atlas(
     chosen = _chosen(axes)
     file = RowFile(folder / "extremes_rows.jsonl")
     wanted = [group for axis in chosen for group in _groups(axis, quick=quick)]
-    rows = _measure(wanted, file, jobs or min(2, len(os.sched_getaffinity(0))), progress)
+    rows = _measure(wanted, file, jobs or min(2, _processors()), progress)
     limits = list(_step_limits(quick, progress)) if axes is None or STEP in axes else []
     atlas = Atlas(
         rows=tuple(rows), step_limits=tuple(limits),
@@ -91,6 +91,11 @@ def stability_atlas(
 
         save_heat_maps(folder, atlas.rows, limits)
     return atlas
+
+
+def _processors() -> int:
+    """Those that this process may use."""
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
 def _step_limits(quick: bool, progress: bool) -> Iterator[StepLimit]:
