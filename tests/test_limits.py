@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
-from event_scenes import ball, lift, pushed
+from event_scenes import ball, lift, pendulum, pushed
 
 from seacrane import (
     Result,
+    Run,
     Scene,
     SceneError,
     add_end_stop,
@@ -21,6 +23,7 @@ from seacrane import (
     cases,
     simulate,
 )
+from seacrane.cli.run_command import summary
 
 
 @pytest.mark.parametrize(
@@ -85,6 +88,7 @@ def test_events_survive_a_file(tmp_path: Path) -> None:
     loaded = Result.load(result.save(tmp_path / "ball.nc"))
     assert loaded.events == result.events
     assert len(result.events) == result.stats["events"]
+    assert f"events of limits {len(result.events)}, energy lost in impacts" in summary(result)
     assert loaded.coords["limit"] == ("floor",)
     dataset = result.to_xarray()
     assert list(dataset["event_name"].values) == ["floor"] * len(result.events)
@@ -102,6 +106,22 @@ def test_limits_survive_a_scene_file(tmp_path: Path) -> None:
     assert again.events == once.events
     assert len(once.events) > 1
     assert "rail soft stop (rail displacement)" in dict(scene.report()["elements"])["limits and friction"]
+
+
+def test_threads_that_share_a_model_compile_their_sets_apart() -> None:
+    scene = pendulum()
+    model = scene.compile()
+
+    def positions(_: int) -> Any:
+        run = Run(scene, t_end=3.0, model=model)
+        run.advance(3.0)
+        assert len(run.core.events()) == 2
+        return run.result()["position"]
+
+    with ThreadPoolExecutor(4) as pool:
+        first, *others = pool.map(positions, range(8))
+    for other in others:
+        np.testing.assert_array_equal(other, first)
 
 
 def test_a_method_that_cannot_project_takes_the_redundant_form_with_limits() -> None:
