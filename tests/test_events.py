@@ -88,6 +88,13 @@ def test_chattering_ends_in_an_error_that_names_limit_joint_and_time() -> None:
     ) as e:
         simulate(ball(restitution=restitution, sticking_speed=0.0), t_end=40.0, dt_out=1.0, rtol=1e-6)
     assert f"t = {end:.4f}" in str(e.value)
+    # what it did until then is there, and the state is not beyond the floor
+    partial = e.value.result
+    assert partial is not None
+    assert partial.state is not None
+    assert partial.events[0].kind == "rebound"
+    assert partial.state.time == pytest.approx(end, abs=1e-3)
+    assert abs(partial.state.values[2]) < 1e-6
     # with the default it comes to rest
     result = simulate(ball(restitution=restitution), t_end=40.0, dt_out=1.0, rtol=1e-6)
     assert result.events[-1].kind == "contact"
