@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from seacrane.extremes import crane_axes, duration_axes, mechanism_axes, vessel_axes
+from seacrane.extremes import crane_axes, duration_axes, mechanism_axes, switching_axes, vessel_axes
 from seacrane.extremes.axis import Axis
 
 AXES: dict[str, Axis] = {
     axis.name: axis
-    for axis in (*crane_axes.AXES, *vessel_axes.AXES, *mechanism_axes.AXES, *duration_axes.AXES)
+    for group in (crane_axes, vessel_axes, mechanism_axes, switching_axes, duration_axes)
+    for axis in group.AXES
 }
