@@ -350,7 +350,11 @@ void bind_model(py::module_& m) {
           "pose_index", [](const Model& x, int body) { return x.layout.pose(body); }, py::arg("body"))
       .def(
           "twist_index", [](const Model& x, int body) { return x.layout.twist(body); }, py::arg("body"))
-      .def("channel_names", &channel_names, py::arg("defaults_only") = true);
+      .def("channel_names", &channel_names, py::arg("defaults_only") = true)
+      .def(
+          "channel_values",
+          [](const Model& m, const std::set<std::string>& names) { return Recording(m, names, 0).width(); },
+          py::arg("names"), "How many numbers one output of these channels holds.");
   m.def("compile", &compile_scene, py::kw_only(), py::arg("name"), py::arg("gravity"), py::arg("orientation"),
         py::arg("baumgarte"), py::arg("length_scale"), py::arg("bodies"), py::arg("joints"),
         py::arg("drivers"), py::arg("loads"), py::arg("vessels"), py::arg("wave_loads"),

@@ -60,6 +60,14 @@ py::dict statistics(const Simulation& s) {
     out["events"] = s.events().size();
     out["impact_energy_lost_J"] = r.energy_lost;
   }
+  if (r.rank) {
+    out["smallest_pivot"] = r.rank->pivot;
+    out["smallest_pivot_at_s"] = r.rank->time;
+    if (!r.rank->element.empty()) {
+      out["smallest_singular_value"] = r.rank->singular_value;
+      out["smallest_pivot_joint"] = r.rank->element;
+    }
+  }
   out["wall_s"] = r.wall_seconds;
   out["states"] = s.state_size();
   return out;
@@ -165,7 +173,7 @@ void bind_simulation(py::module_& m) {
       .def(py::init([](const std::shared_ptr<Model>& model, const State& start, std::string integrator,
                        double rtol, double dt, double max_step, const Array& output_times,
                        std::set<std::string> names, std::string formulation,
-                       std::optional<double> spectral_radius) {
+                       std::optional<double> spectral_radius, double energy_limit) {
              RunOptions options;
              options.formulation = std::move(formulation);
              options.integrator = std::move(integrator);
@@ -173,13 +181,15 @@ void bind_simulation(py::module_& m) {
              options.fixed_step = dt;
              options.max_step = max_step;
              options.spectral_radius = spectral_radius;
+             options.energy_limit = energy_limit;
              options.output_times = to_vector(output_times);
              options.channels = std::move(names);
              return std::make_unique<Simulation>(model, start, std::move(options));
            }),
            py::kw_only(), py::arg("model").none(false), py::arg("start"), py::arg("integrator"),
            py::arg("rtol"), py::arg("dt"), py::arg("max_step"), py::arg("output_times"), py::arg("channels"),
-           py::arg("formulation") = "redundant", py::arg("spectral_radius") = py::none())
+           py::arg("formulation") = "redundant", py::arg("spectral_radius") = py::none(),
+           py::arg("energy_limit") = 0.0)
       .def(
           "advance",
           [](Simulation& s, double t_end, const py::object& progress) {

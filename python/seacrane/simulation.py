@@ -15,7 +15,10 @@ from seacrane.channel_names import core_channels, named_channels
 from seacrane.checked import number_of, numbers_of
 from seacrane.errors import SceneError, SeacraneError, SimulationError
 from seacrane.linearise import fastest_mode
+from seacrane.output_times import output_times
 from seacrane.scene import Scene
+from seacrane.step_advice import step_advice
+from seacrane.validity import findings, warn_of_validity
 from seacrane.version import __version__
 
 if TYPE_CHECKING:
@@ -23,7 +26,6 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 Snapshot = Mapping[str, Array]
-MOST_OUTPUTS = 1e8
 DEFAULT_INTEGRATOR, DEFAULT_RTOL = "dopri5", 1e-6
 RESIDUAL_INTEGRATORS = ("ida", "generalized-alpha", "generalized-alpha-index2")
 FORMULATIONS = ("auto", "recursive", "redundant")
@@ -75,23 +77,6 @@ def _slots(scene: Scene) -> dict[str, slice]:
     return out
 
 
-def _output_times(t_start: float, t_end: float, dt_out: float) -> Array:
-    for name, value in (("start time", t_start), ("t_end", t_end), ("dt_out", dt_out)):
-        if not np.isfinite(value):
-            raise SceneError(f"{name} is {value}; give a finite number of seconds")
-    if t_end < t_start:
-        raise SceneError(f"t_end is {t_end} s, before the start at {t_start} s")
-    if dt_out <= 0.0:
-        raise SceneError(f"dt_out is {dt_out} s; make it positive")
-    if (t_end - t_start) / dt_out > MOST_OUTPUTS:
-        raise SceneError(
-            f"dt_out is {dt_out} s: more than {MOST_OUTPUTS:.0e} outputs until {t_end} s; make it longer"
-        )
-    count = int(np.floor((t_end - t_start) / dt_out * (1.0 + 1e-12))) + 1
-    times = t_start + dt_out * np.arange(count)
-    return np.append(times, t_end) if t_end - times[-1] > 1e-9 * dt_out else np.minimum(times, t_end)
-
-
 class Run:
     """One run of a compiled scene, to be advanced piece by piece.
 
@@ -100,7 +85,7 @@ class Run:
     scene : Scene
     model : Model, optional
         The compiled scene, to save compiling it again.
-    t_end, dt_out, integrator, rtol, dt, max_step, spectral_radius, formulation, channels, start
+    t_end, dt_out, integrator, rtol, dt, max_step, spectral_radius, energy_limit, formulation, channels, start
         As `simulate`.
     """
 
@@ -115,6 +100,7 @@ class Run:
         dt: float = 0.0,
         max_step: float = 0.0,
         spectral_radius: float | None = None,
+        energy_limit: float | None = None,
         formulation: str = "auto",
         channels: Sequence[str] | None = None,
         start: _core.State | None = None,
@@ -156,12 +142,18 @@ class Run:
         }  # fmt: skip
         if spectral_radius is not None:
             self.settings["spectral_radius"] = spectral_radius
+        if energy_limit is not None:
+            self.settings["energy_limit"] = energy_limit = number_of("energy_limit", energy_limit)
+            if not energy_limit > 0.0:
+                raise SceneError(f"energy_limit is {energy_limit}; give a positive number, such as 1e-3")
+        made_of = core_channels(wanted, known)
+        values = self.model.channel_values(made_of)
+        outputs = output_times(self.start.time, self.t_end, float(dt_out), values=values)
         self.integrator = integrator
         self.core = _core.Simulation(
             model=self.model, start=self.start, integrator=integrator, rtol=float(rtol), dt=float(dt),
-            max_step=float(max_step), output_times=_output_times(self.start.time, self.t_end, float(dt_out)),
-            channels=core_channels(wanted, known), formulation=self.formulation,
-            spectral_radius=spectral_radius,
+            max_step=float(max_step), output_times=outputs, channels=made_of, formulation=self.formulation,
+            spectral_radius=spectral_radius, energy_limit=energy_limit or 0.0,
         )  # fmt: skip
         if scene.waves is not None:
             scene.waves.warn_of_repeats(self.t_end - self.start.time)
@@ -233,6 +225,9 @@ class Run:
             **statistics,
             **sea,
         }
+        out_of_range = findings(scene, arrays["time"], channels, stats)
+        if out_of_range:
+            stats["validity"] = "\n".join(message for _, message in out_of_range)
         return Result.from_arrays(
             time=arrays["time"],
             arrays=channels,
@@ -260,9 +255,16 @@ class Run:
         except SeacraneError:
             return None
 
+    def _steps(self) -> int:
+        return int(self.core.statistics()["steps"])
+
     def explain(self, error: SeacraneError) -> None:
-        """Hang what has been recorded on an error that ends the run."""
+        """Hang what has been recorded on an error that ends the run, and what its fixed step could be."""
         self.interrupted = True
+        step = self.settings["dt"] or (self.core.time - self.start.time) / max(self._steps(), 1)
+        advice = step_advice(self.integrator, step, self._fastest_mode)
+        if isinstance(error, SimulationError) and advice:
+            error.args = (f"{error}. {advice}",)
         with contextlib.suppress(MemoryError):
             error.result = self.result()
 
@@ -312,6 +314,7 @@ def simulate(
     dt: float | None = None,
     max_step: float = 0.0,
     spectral_radius: float | None = None,
+    energy_limit: float | None = None,
     formulation: str = "auto",
     channels: Sequence[str] | None = None,
     controllers: Sequence[SampledController] = (),
@@ -342,6 +345,9 @@ def simulate(
     spectral_radius : float, optional
         What is left after a step of "generalized-alpha" and "generalized-alpha-index2" of a motion far too
         fast for it: 1 damps nothing, 0 all in one step; default 0.8. Other integrators have none.
+    energy_limit : float, optional
+        Stops the run at the first output where `energy_balance` exceeds this share of the absolute work and
+        the largest kinetic energy until then; default: never. Not for the paper's kinematics.
     formulation : str
         "redundant": six velocities per body and multipliers, the paper's. "recursive": the same motion in
         the coordinates of a tree of bodies, cylinder loops in closed form, other loops by a small block of
@@ -373,6 +379,13 @@ def simulate(
     SimulationError
         When the integration cannot go on, a controller raises, or memory runs out; it says where, when and
         what to try. Its `result` holds the outputs until then.
+
+    Warns
+    -----
+    LargeHeelWarning, MeanHeadingWarning, OutsideDatabaseWarning, PushingLinkWarning, LargeSwingWarning,
+    FullTurnWarning, NearSingularWarning
+        After the run, when its motions left the range in which the models hold; also in `stats`, as
+        "validity". See docs/troubleshooting.md.
     """
     controllers = _checked(controllers)
     given = {"integrator": integrator, "rtol": rtol, "dt": dt, "spectral_radius": spectral_radius}
@@ -383,11 +396,11 @@ def simulate(
         _refuse_beside_accuracy(chosen, controllers)
         return simulate_to_accuracy(
             scene, accuracy, channels=channels, progress=progress, t_end=t_end, dt_out=dt_out,
-            max_step=max_step, formulation=formulation, start=start,
+            max_step=max_step, formulation=formulation, start=start, energy_limit=energy_limit,
         )  # fmt: skip
     run = Run(
         scene, t_end=t_end, dt_out=dt_out, max_step=max_step, formulation=formulation, channels=channels,
-        start=start, **chosen,
+        start=start, energy_limit=energy_limit, **chosen,
     )  # fmt: skip
     return finished(run, controllers, progress=progress)
 
@@ -426,7 +439,9 @@ def finished(run: Run, controllers: Sequence[SampledController] = (), *, progres
         raise stopped from error
     finally:
         close()
-    return run.result()
+    result = run.result()
+    warn_of_validity(run.scene, result)
+    return result
 
 
 def _checked(controllers: Any) -> list[SampledController]:

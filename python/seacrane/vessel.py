@@ -91,7 +91,8 @@ def add_vessel(
         memory=[] if memory == "none" else _core_memory(parameters.memory),
         kinematics=kinematics,
     )
-    scene.notes.update(database=database.name, memory=memory, kinematics=kinematics)
+    band = [float(database.omega[0]), float(database.omega[-1])]
+    scene.notes.update(database=database.name, database_omega=band, memory=memory, kinematics=kinematics)
 
 
 def _without_yaw(restoring: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -368,7 +368,7 @@ std::string RedundantSystem::describe(std::size_t component) const {
     return std::string(k < 3 ? "velocity " : "angular velocity ") + axis[k % 3] + " of body '" +
            model_->bodies[idx((i - s.velocity) / 6)].name + "'";
   }
-  return i < s.work ? "memory state " + std::to_string(i - s.memory) : "the work integral";
+  return i < s.work ? describe_memory(i - s.memory) : "work integral";
 }
 
 double RedundantSystem::energy(double t, const double* y) {

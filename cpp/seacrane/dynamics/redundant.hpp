@@ -22,11 +22,15 @@ struct ConstraintResidual {
   double position = 0.0, rate = 0.0;
 };
 
-/// Rank of D at one state, a basis of ker(D^T) (empty for large systems) and the largest S_ii / d_i.
+/// Rank of D at one state, a basis of ker(D^T) (empty for large systems) and the largest S_ii / d_i. The
+/// smallest singular value over the largest, by geometry alone, with the element that takes the largest part
+/// in that combination of rows (NaN and -1 for large systems).
 struct ConstraintRank {
   int rank = 0;
   MatXd null_space;
   double condition = 0.0;
+  double smallest_singular_value = std::numeric_limits<double>::quiet_NaN();
+  int weakest = -1;
 };
 
 /// The paper's formulation, eqs (5)-(9), (32)-(35): every body with six velocities, every joint with
@@ -51,6 +55,11 @@ class RedundantSystem final : public Formulation {
   void move(double h, double* y) override;
   bool move_jacobian(double h, const double* y, double* out) override;
   bool jacobian(double t, const double* y, double* out) override;
+  /// What a state of the fluid memory is, counted from the first of them, for messages.
+  std::string describe_memory(int state) const;
+  /// What is not finite at (t, y), named with its value: a state, a load, the rows of a joint or what comes
+  /// of them; empty where all is. For reports: loads are evaluated one by one.
+  std::string non_finite(double t, const double* y);
   /// Those of the fluid memory.
   std::vector<LinearBlock> linear_blocks() const override;
   std::string missing_fast_part() const override;
@@ -141,6 +150,9 @@ class RedundantSystem final : public Formulation {
   void factor_dense();
   void solve_dense();
   double shape_condition();
+  int weakest_element() const;
+  std::string non_finite_load(double t, const double* y);
+  std::string non_finite_rows() const;
   Mat6d symmetric_mass(int body) const;
   void correct();
   void solve_acceleration();

@@ -34,10 +34,16 @@ class RowSpace {
   const MatXd& basis() const { return basis_; }
   /// Orthonormal basis of what is left out, ker(D^T) when D is singular: shape (rows, rows - rank).
   const MatXd& null_space() const { return null_space_; }
+  /// Smallest singular value over the largest, and the combination of rows (of length one each) it belongs
+  /// to.
+  double smallest_singular_value() const { return smallest_; }
+  const VecXd& weakest() const { return weakest_; }
 
  private:
   int bodies_, rows_;
   MatXd d_, over_shape_, basis_, null_space_;
+  VecXd weakest_;
+  double smallest_ = 1.0;
 };
 
 }  // namespace seacrane

@@ -64,9 +64,16 @@ double AdaptiveStep::starting_step(double remaining) {
 }
 
 void AdaptiveStep::collapse() const {
-  const bool finite = bad_component_ == IntegrationError::no_component;
-  fail(step_, finite ? dominant_component(step_) : bad_component_,
-       finite ? "the step size has collapsed" : "the step size has collapsed: the derivative is not finite");
+  if (max_step_ > 0.0 && max_step_ < smallest_step(time_)) {
+    fail(max_step_, IntegrationError::no_component,
+         "max_step is below the resolution of time there; give a longer one or start nearer to 0");
+  }
+  if (bad_component_ != IntegrationError::no_component) {
+    fail(step_, bad_component_, "the step size has collapsed: the derivative is not finite");
+  }
+  fail(step_, dominant_component(step_),
+       "the step size has collapsed: no step, however short, meets the tolerance, because a load or motion "
+       "jumps here or the tolerance is below rounding; smooth the jump or give a larger rtol");
 }
 
 void AdaptiveStep::step(double t_limit) {

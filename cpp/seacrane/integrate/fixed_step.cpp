@@ -22,6 +22,10 @@ void FixedStep::require_finite(double h, const std::vector<double>& values) cons
 void FixedStep::step(double t_limit) {
   check_limit(t_limit);
   if (t_limit == time_) return;
+  if (length_ < smallest_step(time_)) {
+    fail(length_, IntegrationError::no_component,
+         "dt is below the resolution of time there; give a longer dt or start nearer to 0");
+  }
   begin_step();
   quartic_known_ = false;
   const double remaining = t_limit - time_;

@@ -185,16 +185,16 @@ void assemble(Model& model) {
     report_rates(model, system, y.data());
   }
   report_moves(model, before, report);
-  const auto [rank, null_space, condition] = system.rank(0.0, y.data());
-  report.rank = rank;
-  report.condition = condition;
-  model.redundant = rank < model.rows();
+  const ConstraintRank found = system.rank(0.0, y.data());
+  report.rank = found.rank;
+  report.condition = found.condition;
+  model.redundant = found.rank < model.rows();
   if (model.redundant && !dense) {
     throw SceneError("scene '" + model.description.name +
-                     "': has redundant joints (S_ii/d_i = " + to_text(condition) + ") and more than " +
+                     "': has redundant joints (S_ii/d_i = " + to_text(found.condition) + ") and more than " +
                      std::to_string(kDenseRows) + " constraints; remove the redundant ones");
   }
-  if (model.redundant) mark_redundant(model, null_space);
+  if (model.redundant) mark_redundant(model, found.null_space);
 }
 
 }  // namespace seacrane

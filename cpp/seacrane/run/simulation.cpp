@@ -53,9 +53,14 @@ Simulation::Simulation(std::shared_ptr<const Model> model, State start, RunOptio
     : model_(std::move(model)),
       options_(std::move(options)),
       recording_(*model_, options_.channels, options_.output_times.size()),
+      energy_(options_.energy_limit),
       inputs_(start.inputs),
       output_state_(start.values),
       rate_(start.values.size(), 0.0) {
+  if (options_.energy_limit > 0.0 && model_->paper_kinematics) {
+    throw std::invalid_argument(
+        "energy_limit: kinematics 'paper' has no energy balance; leave energy_limit out");
+  }
   if (start.values.size() != idx(model_->layout.size)) {
     throw std::invalid_argument("state: has " + std::to_string(start.values.size()) +
                                 " values, the model needs " + std::to_string(model_->layout.size));
@@ -245,6 +250,8 @@ void Simulation::write(double t, double* y, Recording& out) {
   stepped.write_bodies(t, y, bodies);
   if (out.wants_solution()) {
     system.derivative(t, bodies, rate_.data());
+    // The tree factors no constraints of its own joints.
+    if (options_.formulation == "recursive") watch_rank(t, system.condition(), bodies);
   } else {
     system.evaluate_terms(t, bodies, rate_.data());
   }
@@ -253,7 +260,9 @@ void Simulation::write(double t, double* y, Recording& out) {
   const double energy = model_->paper_kinematics ? 0.0 : system.energy_here(t, bodies);
   const double work = bodies[model_->layout.work] - start_work_;
   const double impact_loss = contacts_ ? contacts_->energy_lost() : 0.0;
-  out.append(t, bodies, system, {after, before, energy - start_energy_ - work, impact_loss});
+  const double balance = energy - start_energy_ - work;
+  out.append(t, bodies, system, {after, before, balance, impact_loss});
+  energy_.check(t, bodies, system, balance, bodies[model_->layout.work + 1], energy);
 }
 
 void Simulation::record_until(double t) {
@@ -272,13 +281,19 @@ void Simulation::record_until(double t) {
 void Simulation::step(double limit) {
   try {
     integrator().step(limit);
+    require_finite(integrator(), now_->stepped);
   } catch (const IntegrationError& error) {
-    std::string text = error.reason();
-    if (error.component() != IntegrationError::no_component && error.component() < now_->stepped.size()) {
-      text += ", worst in the " + now_->stepped.describe(error.component());
-    }
-    throw IntegrationError(error.method(), error.time(), error.step_size(), error.component(), text);
+    explain(error, integrator(), now_->stepped, now_->system);
   }
+  if (integrator().is_adaptive()) stall_.step(time());
+  watch_rank(time(), now_->loads.condition(), nullptr);
+}
+
+/// `bodies`: the state at t; null: the present one.
+void Simulation::watch_rank(double t, double condition, const double* bodies) {
+  if (now_->model->redundant || !rank_.sees(condition)) return;
+  if (!bodies) write_present(output_state_.data());
+  rank_.keep(t, condition, now_->model, bodies ? bodies : output_state_.data());
 }
 
 /// A coordinate that turns keeps its joint closed however wrong it is: where no error is estimated, only the
@@ -381,6 +396,7 @@ RunStatistics Simulation::statistics() const {
     if (&stepper->loads != &stepper->system) out.dense_solves += stepper->loads.dense_solves();
   }
   if (contacts_) out.energy_lost = contacts_->energy_lost();
+  out.rank = rank_.report();
   return out;
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "seacrane/run/contacts.hpp"
+#include "seacrane/run/guards.hpp"
 #include "seacrane/run/recording.hpp"
 #include "seacrane/run/stepper.hpp"
 
@@ -21,6 +22,7 @@ struct RunOptions {
   double fixed_step = 0.0;                // s, fixed-step methods; 0: the method's default
   double max_step = 0.0;                  // s; 0: no limit
   std::optional<double> spectral_radius;  // of generalized-alpha; none: the method's default
+  double energy_limit = 0.0;              // of the energy balance, see EnergyWatch; 0: none
   std::vector<double> output_times;       // increasing, from the start on
   std::set<std::string> channels;
 };
@@ -49,6 +51,7 @@ struct RunStatistics {
   long dense_solves = 0;
   double wall_seconds = 0.0;  // inside advance()
   double energy_lost = 0.0;   // J, in impacts
+  std::optional<RankReport> rank;
 };
 
 /// One run of one Model: steps, lands on breakpoints, records at the times asked for.
@@ -84,6 +87,7 @@ class Simulation {
   void land(double now, double jump);
   void check_turning() const;
   [[noreturn]] void report_open(double t) const;
+  void watch_rank(double t, double condition, const double* bodies);
   void check_inputs(const std::vector<double>& slots) const;
   void apply_inputs();
   bool resume(const State& given);
@@ -107,6 +111,9 @@ class Simulation {
   Counters before_;                     // of steppers before their last start
   std::unique_ptr<Contacts> contacts_;  // null: the scene has no limits
   Recording recording_;
+  RankWatch rank_;
+  StallWatch stall_;
+  EnergyWatch energy_;
   std::vector<double> inputs_;
   std::size_t next_output_ = 0, next_breakpoint_ = 0;
   std::vector<double> stepped_state_, output_state_, rate_;

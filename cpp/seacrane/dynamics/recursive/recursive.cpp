@@ -269,7 +269,7 @@ std::string RecursiveSystem::describe(std::size_t component) const {
                      : "speed " + std::to_string(i - layout_.speeds - c.u)) +
            " of " + of;
   }
-  return i < layout_.work ? "memory state " + std::to_string(i - layout_.memory) : "the work integral";
+  return i < layout_.work ? terms_.describe_memory(i - layout_.memory) : "work integral";
 }
 
 }  // namespace seacrane

@@ -1,0 +1,81 @@
+#pragma once
+
+#include <limits>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "seacrane/dynamics/redundant.hpp"
+#include "seacrane/integrate/integrator.hpp"
+
+namespace seacrane {
+
+/// What can go wrong with a run, told by the names of the scene. Only require_finite(),
+/// StallWatch::step() and RankWatch::sees() are in the loop: a sum over the state and two comparisons per
+/// step.
+
+/// Throws IntegrationError, with the component named, when the state that was stepped to is not finite.
+void require_finite(const Integrator& integrator, const Formulation& stepped);
+
+/// Throws `error` again, in the words of the scene: the state that dominates, what is not finite from the
+/// last good state on (body, load and time), and what has grown beyond any motion. `bodies`: the described
+/// ones.
+[[noreturn]] void explain(const IntegrationError& error, const Integrator& integrator, Formulation& stepped,
+                          RedundantSystem& bodies);
+
+/// Stops a run whose steps have become so short that it would never end, as around a force that switches its
+/// sign at rest. Of adaptive methods: a fixed step is what was asked for.
+class StallWatch {
+ public:
+  /// After each step. Throws std::domain_error.
+  void step(double t);
+
+ private:
+  long steps_ = 0;
+  double from_ = -std::numeric_limits<double>::infinity();  // s, where the steps counted began
+};
+
+/// Stops a run whose energy does not close.
+class EnergyWatch {
+ public:
+  /// `limit`: largest balance over the absolute work and the largest kinetic energy so far; 0: none.
+  explicit EnergyWatch(double limit);
+
+  /// At an output, after `system` was evaluated there: the energy balance, the absolute work since the start
+  /// and the energy itself (J). Throws std::domain_error beyond the limit.
+  void check(double t, const double* y, const RedundantSystem& system, double balance, double absolute_work,
+             double energy);
+
+ private:
+  double limit_, largest_kinetic_ = 0.0;
+};
+
+/// How near constraints came to depending on each other, and where.
+struct RankReport {
+  double pivot = 1.0;           // smallest d_i / S_ii: what earlier rows leave of a row, masses included
+  double singular_value = 1.0;  // smallest over largest, by geometry alone; NaN for large systems
+  double time = 0.0;            // s
+  std::string element;          // joint or driver with the largest part in it; empty for large systems
+};
+
+/// Keeps the state at which constraints came nearest to depending on each other, by the ratio that every
+/// factorisation tells anyway.
+class RankWatch {
+ public:
+  /// Whether S_ii / d_i here is clearly above all before: then the state is to be kept. It grows by a tenth
+  /// at least each time, so that a run keeps few.
+  bool sees(double condition) const { return condition > 1.1 * worst_; }
+  /// `bodies`: the state of the bodies of `model`.
+  void keep(double t, double condition, const std::shared_ptr<const Model>& model, const double* bodies);
+  /// Evaluates the model at the state kept; nothing where there are no constraints, or
+  /// redundant ones from the start.
+  std::optional<RankReport> report() const;
+
+ private:
+  double worst_ = 0.5, time_ = 0.0;  // every ratio is at least 1: the first is kept
+  std::shared_ptr<const Model> model_;
+  std::vector<double> bodies_;
+};
+
+}  // namespace seacrane

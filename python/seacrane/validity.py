@@ -1,0 +1,219 @@
+"""Where the motions of a run left the range in which its models hold: each a warning, once, after the run."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from seacrane.caller import warn_caller
+
+if TYPE_CHECKING:
+    from seacrane.result import Result
+    from seacrane.scene import Scene
+
+Array = NDArray[np.float64]
+Channels = Mapping[str, Array]
+Finding = tuple[type[Warning], str]
+
+LARGEST_HEEL = np.radians(20.0)  # of roll and pitch: the sine of it is 2 % off, a righting arm 10 % and more
+LARGEST_SWING = np.radians(30.0)
+LARGEST_YAW = np.radians(15.0)
+SINGULAR = 1e-4  # relative singular value below which combinations of constraints are not enforced
+FOREIGN_SHARE = 0.2  # of the energy of a motion, outside the database
+LEAST_RATE = 1e-3  # m/s, rad/s: motions below it do not matter
+FEWEST_OUTPUTS = 32
+MOTIONS = ("surge", "sway", "heave", "roll", "pitch", "yaw")
+
+
+class LargeHeelWarning(UserWarning):
+    """Roll or pitch beyond 20 deg: the linear restoring and the wave loads are those of an upright hull."""
+
+
+class MeanHeadingWarning(UserWarning):
+    """Yaw beyond 15 deg, with wave loads of the mean heading: of a direction that the hull has left."""
+
+
+class OutsideDatabaseWarning(UserWarning):
+    """A vessel moves at frequencies that its database does not hold: its fluid memory there is a guess."""
+
+
+class PushingLinkWarning(UserWarning):
+    """A link of constant length pushed: a wire would have gone slack, and snapped tight later."""
+
+
+class LargeSwingWarning(UserWarning):
+    """A link beyond 30 deg off the vertical: a real wire bears on its sheave, which the model has not."""
+
+
+class FullTurnWarning(UserWarning):
+    """An angle passed half a turn: its record jumps there, and so does the error an actuator sees."""
+
+
+class NearSingularWarning(UserWarning):
+    """Constraints came to depend on each other: the mechanism could branch, and reactions are not unique."""
+
+
+def findings(scene: Scene, time: Array, channels: Channels, stats: Mapping[str, Any]) -> list[Finding]:
+    """All that is out of range in a run: warning classes and messages. Channels left out are not judged."""
+    found: list[Finding] = []
+    for look in (_heel, _yaw, _frequencies, _links, _swing, _turns):
+        found += look(scene, time, channels)
+    return found + _singular(scene, stats)
+
+
+def warn_of_validity(scene: Scene, result: Result) -> None:
+    """Warn, at the user's line, of everything that `findings` names."""
+    for category, message in findings(scene, result.time, result.channels, result.stats):
+        warn_caller(message, category)
+
+
+def _worst(time: Array, values: Array) -> tuple[float, float]:
+    """Largest magnitude and its time."""
+    at = int(np.argmax(np.abs(values)))
+    return float(np.abs(values[at])), float(time[at])
+
+
+def _heel(scene: Scene, time: Array, channels: Channels) -> list[Finding]:
+    if "vessel_motion" not in channels:
+        return []
+    found: list[Finding] = []
+    for motion in ("roll", "pitch"):
+        angle, at = _worst(time, channels["vessel_motion"][:, MOTIONS.index(motion)])
+        if angle > LARGEST_HEEL:
+            found.append(
+                (
+                    LargeHeelWarning,
+                    f"vessel: {motion} reaches {np.degrees(angle):.3g} deg at t = {at:.6g} s, beyond "
+                    f"{np.degrees(LARGEST_HEEL):.0f} deg: restoring is linear and wave loads are those of "
+                    "the upright hull, so that righting moments and capsize are not told. Lower the sea or "
+                    "the load, add roll damping, or take motions beyond as an alarm only",
+                )
+            )
+    return found
+
+
+def _yaw(scene: Scene, time: Array, channels: Channels) -> list[Finding]:
+    if "vessel_motion" not in channels or scene.waves is None or scene.waves.force_by_heading is not None:
+        return []
+    angle, at = _worst(time, channels["vessel_motion"][:, 5])
+    if angle <= LARGEST_YAW:
+        return []
+    return [
+        (
+            MeanHeadingWarning,
+            f"vessel: yaw reaches {np.degrees(angle):.3g} deg at t = {at:.6g} s, and wave loads are those of "
+            "the mean heading: they act from a direction that the hull has left. Use phase='actual' in "
+            "add_sea (seacrane.use_actual_position), or a stiffer mooring",
+        )
+    ]
+
+
+def _frequencies(scene: Scene, time: Array, channels: Channels) -> list[Finding]:
+    """Energy of the vessel's velocities above the database's highest frequency, motion by motion."""
+    band = scene.notes.get("database_omega")
+    if "vessel_motion" not in channels or band is None or time.size < FEWEST_OUTPUTS:
+        return []
+    step = float(time[1] - time[0])
+    even = int(time.size) - (abs(time[-1] - time[-2] - step) > 1e-6 * step)  # the last output may be early
+    rate = np.diff(channels["vessel_motion"][:even], axis=0) / step
+    rate = rate - rate.mean(axis=0)
+    energy = np.abs(np.fft.rfft(rate * np.hanning(len(rate))[:, None], axis=0)) ** 2
+    omega = 2.0 * np.pi * np.fft.rfftfreq(len(rate), step)
+    total = energy.sum(axis=0)
+    share = energy[omega > band[1]].sum(axis=0) / np.where(total > 0.0, total, 1.0)
+    share[rate.std(axis=0) < LEAST_RATE] = 0.0
+    worst = int(share.argmax())
+    if share[worst] <= FOREIGN_SHARE:
+        return []
+    return [
+        (
+            OutsideDatabaseWarning,
+            f"vessel: {share[worst]:.0%} of the energy of {MOTIONS[worst]} is above {band[1]:.4g} rad/s, "
+            f"where database {scene.notes.get('database', '')!r} ends: added mass and damping are guessed "
+            "there. Compute the database to higher frequencies, or look for what shakes the vessel that fast",
+        )
+    ]
+
+
+def _hangs(scene: Scene, link: str) -> bool:
+    """Whether a body hangs on nothing but this link, as on a wire; other links are rods of a mechanism."""
+    ends = {scene.joints[link].first, scene.joints[link].second} - {"ground"}
+    others = [joint for name, joint in scene.joints.items() if name != link]
+    return any(all(end not in (joint.first, joint.second) for joint in others) for end in ends)
+
+
+def _links(scene: Scene, time: Array, channels: Channels) -> list[Finding]:
+    links = [name for name, joint in scene.joints.items() if joint.kind == "distance"]
+    found: list[Finding] = []
+    for i, name in enumerate(links if "tension" in channels else []):
+        tension = channels["tension"][:, i]
+        if _hangs(scene, name) and tension.min() < -1e-9 * np.abs(tension).max():
+            at = int(tension.argmin())
+            found.append(
+                (
+                    PushingLinkWarning,
+                    f"link {name!r}: pushes with {-tension[at]:.4g} N at t = {time[at]:.6g} s, which a wire "
+                    "cannot: it would be slack, and its load when it tightens again is not in this result. "
+                    "Lower the sea or the speed of the lift, or take the run as an alarm only",
+                )
+            )
+    return found
+
+
+def _swing(scene: Scene, time: Array, channels: Channels) -> list[Finding]:
+    force = channels.get("reaction_force")
+    found: list[Finding] = []
+    for i, (name, joint) in enumerate(scene.joints.items()):
+        if joint.kind != "distance" or force is None or not _hangs(scene, name):
+            continue
+        pull = force[:, i]
+        angle = np.arctan2(np.hypot(pull[:, 0], pull[:, 1]), np.abs(pull[:, 2]))
+        largest, at = _worst(time, angle)
+        if largest > LARGEST_SWING and np.linalg.norm(pull, axis=1).max() > 0.0:
+            found.append(
+                (
+                    LargeSwingWarning,
+                    f"link {name!r}: is {np.degrees(largest):.3g} deg off the vertical at t = {at:.6g} s: a "
+                    "real wire then bears on the side of its sheave, and loads the boom sideways beyond what "
+                    "cranes are built for; the motion itself is exact. Slow the lift, or shorten the wire",
+                )
+            )
+    return found
+
+
+def _turns(scene: Scene, time: Array, channels: Channels) -> list[Finding]:
+    values = channels.get("coordinate")
+    found: list[Finding] = []
+    for i, (name, (_, kind)) in enumerate(scene.recorded.items()):
+        if values is None or kind != "angle":
+            continue
+        jumps = np.flatnonzero(np.abs(np.diff(values[:, i])) > np.pi)
+        if jumps.size:
+            found.append(
+                (
+                    FullTurnWarning,
+                    f"coordinate {name!r}: passes 180 deg {jumps.size} time(s), first at t = "
+                    f"{time[jumps[0] + 1]:.6g} s: it is recorded between -180 and 180 deg and jumps there, "
+                    "and an actuator more than half a turn behind its reference pulls the other way. Unwrap "
+                    "it by numpy.unwrap; keep references within half a turn of the motion",
+                )
+            )
+    return found
+
+
+def _singular(scene: Scene, stats: Mapping[str, Any]) -> list[Finding]:
+    value = stats.get("smallest_singular_value")
+    if value is None or value >= SINGULAR:
+        return []
+    return [
+        (
+            NearSingularWarning,
+            f"joint {stats['smallest_pivot_joint']!r}: its constraints came to depend on the others at t = "
+            f"{stats['smallest_pivot_at_s']:.6g} s (relative singular value {value:.2g}): the mechanism "
+            "can branch there, as at a dead centre; it went on by inertia, and reactions there are not "
+            "unique. Keep away from the position, or give the joint more freedom",
+        )
+    ]

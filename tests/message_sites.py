@@ -1,0 +1,56 @@
+"""Where the package stops a run or warns, read from its sources: for the test of the documentation."""
+
+from __future__ import annotations
+
+import ast
+import re
+from functools import cache
+from pathlib import Path
+
+ROOT = Path(__file__).parents[1]
+PYTHON, CPP = ROOT / "python" / "seacrane", ROOT / "cpp" / "seacrane"
+THROW = re.compile(
+    r"throw (?:std::domain_error|IntegrationError)\(|\bfail\(|last_error = |reason = |std::string text =",
+)
+SHORTEST = 18  # shorter are names of calls, such as "the step", before what SUNDIALS says itself
+LITERAL = re.compile(r'"((?:[^"\\]|\\.)*)"')
+
+
+def stops_of_cpp() -> dict[str, str]:
+    """Words of every statement that ends a run, by file and line."""
+    out: dict[str, str] = {}
+    for path in sorted(CPP.rglob("*.[ch]pp")):
+        if path.parent.name in ("model", "sea", "strip", "math", "joints", "loads", "hydro"):
+            continue  # checks of descriptions: SceneError
+        text = path.read_text()
+        for match in THROW.finditer(text):
+            statement = text[match.start() : text.index(";\n", match.end() - 1)]
+            words = "".join(LITERAL.findall(statement))
+            if len(words) >= SHORTEST:
+                out[f"{path.relative_to(ROOT)}:{text.count(chr(10), 0, match.start()) + 1}"] = words
+    return out
+
+
+def stops_of_python() -> dict[str, str]:
+    """Words of every `SimulationError(...)`, by file and line."""
+    out: dict[str, str] = {}
+    for path in sorted(PYTHON.rglob("*.py")):
+        for node in ast.walk(ast.parse(path.read_text())):
+            if isinstance(node, ast.Call) and getattr(node.func, "id", "") == "SimulationError":
+                parts = [n.value for n in ast.walk(node) if isinstance(n, ast.Constant)]
+                words = "".join(part for part in parts if isinstance(part, str))
+                out[f"{path.relative_to(ROOT)}:{node.lineno}"] = words
+    return out
+
+
+@cache
+def classes_of(*bases: str) -> set[str]:
+    """Names of the package's classes derived from any of these, or from another such class."""
+    found = set(bases)
+    trees = [ast.parse(path.read_text()) for path in sorted(PYTHON.rglob("*.py"))]
+    for _ in range(3):  # generations
+        for tree in trees:
+            for node in ast.walk(tree):
+                if isinstance(node, ast.ClassDef) and found & {getattr(b, "id", "") for b in node.bases}:
+                    found.add(node.name)
+    return found - set(bases)

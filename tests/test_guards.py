@@ -1,0 +1,328 @@
+"""Failure that is loud, early and explained: stops by name, and warnings of what left its range."""
+
+from __future__ import annotations
+
+import ctypes
+import warnings
+from typing import Any
+
+import numpy as np
+import pytest
+from multibody_runs import ramp
+
+from seacrane import (
+    Curve,
+    Result,
+    Run,
+    SampledController,
+    Scene,
+    SceneError,
+    SimulationError,
+    State,
+    simulate,
+)
+from seacrane.cases import vessel
+from seacrane.output_times import OutputMemoryError
+from seacrane.step_advice import STABLE_UP_TO
+from seacrane.validity import (
+    FullTurnWarning,
+    LargeHeelWarning,
+    LargeSwingWarning,
+    MeanHeadingWarning,
+    NearSingularWarning,
+    OutsideDatabaseWarning,
+    PushingLinkWarning,
+    findings,
+)
+
+SIGNATURE = ctypes.CFUNCTYPE(None, ctypes.c_double, *[ctypes.POINTER(ctypes.c_double)] * 3)
+
+
+@SIGNATURE
+def fails_later(t: float, state: Any, parameters: Any, wrench: Any) -> None:
+    wrench[0] = float("nan") if t > 0.55 else 1.0
+
+
+def box() -> Scene:
+    scene = Scene(name="box")
+    scene.add_body(name="box", mass=1.0, inertia=[1, 1, 1])
+    scene.add_body(name="mate", mass=1.0, inertia=[1, 1, 1], position=(1, 0, 0))
+    scene.add_joint(kind="spherical", name="ball", first="box", second="mate", point=(1, 0, 0))
+    return scene
+
+
+def slide(stiffness: float) -> Scene:
+    """A box of 1 kg on a slide, held by a stiff actuator: an oscillator of sqrt(stiffness) rad/s."""
+    scene = Scene(name="slide")
+    scene.add_body(name="box", mass=1.0, inertia=[1, 1, 1], velocity=(0.1, 0, 0))
+    scene.add_joint(kind="prismatic", name="rail", first="ground", second="box", axis=(1, 0, 0))
+    scene.add_actuator(name="hold", joint="rail", stiffness=stiffness)
+    return scene
+
+
+def folding(rate: float, start: float = 0.5) -> Scene:
+    """Two equal arms, a turned crank and a link from its tip to a slider: they fold together at 90 deg."""
+    scene = Scene(name="folding", gravity=0.0)
+    tip = (np.cos(start), 0.0, np.sin(start))
+    end = (2.0 * np.cos(start), 0.0, 0.0)
+    scene.add_body(name="crank", mass=1.0, inertia=[1, 1, 1])
+    scene.add_body(name="slider", mass=1.0, inertia=[1, 1, 1], position=end)
+    scene.add_joint(kind="revolute", name="pin", first="ground", second="crank", axis=(0, -1, 0))
+    scene.add_joint(
+        kind="prismatic", name="guide", first="ground", second="slider", point=end, axis=(1, 0, 0)
+    )
+    scene.add_joint(kind="distance", name="link", first="crank", second="slider", point=tip, second_point=end)
+    scene.add_driver(name="turn", joint="pin", curve=ramp(rate))
+    return scene
+
+
+def hanging(length: float = 2.0, **start: Any) -> Scene:
+    scene = Scene(name="hanging")
+    place = start.pop("position", (0.0, 0.0, -length))
+    scene.add_body(name="load", mass=10.0, inertia=[1, 1, 1], position=place, **start)
+    scene.add_joint(
+        kind="distance", name="wire", first="ground", second="load", point=(0, 0, 0), second_point=place
+    )
+    return scene
+
+
+@pytest.mark.parametrize("formulation", ["redundant", "recursive"])
+def test_a_force_that_is_not_finite_is_named_and_the_outputs_until_then_are_kept(formulation: str) -> None:
+    scene = box()
+    address = ctypes.cast(fails_later, ctypes.c_void_p).value
+    assert address is not None
+    scene.add_function_force(name="pull", body="box", address=address, parameters=[])
+    with pytest.raises(SimulationError, match=r"function force 'pull': force \(nan, 0, 0\) N") as caught:
+        simulate(scene, t_end=1.0, dt_out=0.1, formulation=formulation)
+    assert "on body 'box', at t = 0.55 s" in str(caught.value)
+    result = caught.value.result
+    assert isinstance(result, Result)
+    np.testing.assert_allclose(result.time, [0.0, 0.1, 0.2, 0.3, 0.4, 0.5], atol=1e-12)
+    # Until then a constant force on the two boxes, along the line through both: a = F / (2 m).
+    assert result["position"][-1, 0, 0] == pytest.approx(0.5 * 0.5 * 0.5**2, rel=1e-9)
+    assert result.interrupted
+
+
+def test_a_step_beyond_stability_tells_what_has_grown_and_the_longest_step() -> None:
+    """100 rad/s: rk4 is stable up to sqrt(8) / 100 = 0.028 s."""
+    for dt in (0.025, 0.027):
+        simulate(slide(1e4), t_end=3.0, integrator="rk4", dt=dt)
+    with pytest.raises(SimulationError) as caught:
+        simulate(slide(1e4), t_end=100.0, integrator="rk4", dt=0.1)
+    text = str(caught.value)
+    assert "the velocity x of body 'box' had grown to" in text
+    assert "unstable with steps longer than about 0.028 s, and took 0.1 s" in text
+
+
+# rk4-exact-memory refuses a scene without memory, and is rk4 in all else.
+@pytest.mark.parametrize("method", sorted(set(STABLE_UP_TO) - {"rk4-exact-memory"}))
+def test_the_limits_told_are_those_of_the_methods(method: str) -> None:
+    """Energy over 2000 steps of an undamped oscillator, a little below and above the limit."""
+    limit = STABLE_UP_TO[method]
+    settings: dict[str, Any] = {"integrator": method, "t_end": 1900 * limit, "dt_out": 10.0 * limit}
+    kept = simulate(slide(1.0), dt=0.95 * limit, **settings)
+    assert np.abs(kept["velocity"][:, 0, 0]).max() < 1.0
+    with pytest.raises((SimulationError, AssertionError)):
+        left = simulate(slide(1.0), dt=1.05 * limit, **settings)
+        assert np.abs(left["velocity"][:, 0, 0]).max() < 1e3
+
+
+def test_a_collapsed_step_names_the_state_and_what_to_try() -> None:
+    scene = Scene(name="push")
+    scene.add_body(name="box", mass=1.0, inertia=[1, 1, 1])
+    scene.add_joint(kind="prismatic", name="rail", first="ground", second="box", axis=(1, 0, 0))
+    scene.add_actuator(name="hold", joint="rail", stiffness=10.0, reference=Curve.constant(value=0.1))
+    with pytest.raises(SimulationError, match=r"worst in the \w+ 0 of joint 'rail'") as caught:
+        simulate(scene, t_end=1.0, rtol=1e-30)
+    assert "smooth the jump or give a larger rtol" in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    ("settings", "named"),
+    [({"integrator": "rk4", "dt": 1e-20}, "dt is below"), ({"max_step": 1e-20}, "max_step is below")],
+)
+def test_a_step_below_the_resolution_of_time_is_refused(settings: dict[str, Any], named: str) -> None:
+    with pytest.raises(SimulationError, match=named):
+        simulate(slide(1.0), t_end=1.0, **settings)
+
+
+@pytest.mark.parametrize("formulation", ["redundant", "recursive"])
+def test_the_nearest_approach_to_a_singular_position_is_told(formulation: str) -> None:
+    """The crank turns to 0.01 rad before the arms fold: 10 times nearer than at 0.1 rad."""
+    found = []
+    for gap in (0.1, 0.01):
+        t_end = (np.pi / 2.0 - 0.5 - gap) / 0.2
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            result = simulate(folding(0.2), t_end=t_end, formulation=formulation, max_step=0.05)
+        assert result.stats["smallest_pivot_joint"] == "link"
+        # The ratio is told to a tenth, which is when the state is kept.
+        assert result.stats["smallest_pivot_at_s"] == pytest.approx(t_end, abs=0.1)
+        assert 0.0 < result.stats["smallest_pivot"] < 0.1
+        found.append(float(result.stats["smallest_singular_value"]))
+    assert found[0] / found[1] == pytest.approx(10.0, rel=0.1)
+
+
+def test_a_run_into_a_singular_position_warns() -> None:
+    t_end = (np.pi / 2.0 - 0.5 - 1e-5) / 0.2
+    with pytest.warns(NearSingularWarning, match=r"joint 'link'.*depend on the others at t = 5.35"):
+        result = simulate(folding(0.2), t_end=t_end, formulation="redundant", max_step=0.05)
+    assert "depend on the others" in str(result.stats["validity"])
+
+
+def test_rank_is_not_told_where_there_are_no_constraints() -> None:
+    scene = Scene()
+    scene.add_body(name="stone", mass=1.0, inertia=[1, 1, 1])
+    assert "smallest_pivot" not in simulate(scene, t_end=1.0, formulation="redundant").stats
+
+
+def pendulum() -> Scene:
+    scene = Scene(name="pendulum")
+    scene.add_body(name="rod", mass=1.0, inertia=[0.1, 0.1, 0.1], position=(1.0, 0, 0))
+    scene.add_joint(
+        kind="revolute", name="pin", first="ground", second="rod", point=(0, 0, 0), axis=(0, 1, 0)
+    )
+    scene.record_coordinate(joint="pin")
+    return scene
+
+
+@pytest.mark.filterwarnings("ignore::seacrane.validity.FullTurnWarning")
+def test_energy_limit_stops_by_name_and_keeps_the_outputs() -> None:
+    settings: dict[str, Any] = {"t_end": 20.0, "integrator": "semi-implicit-euler", "dt": 0.02}
+    free = simulate(pendulum(), **settings)
+    share = np.abs(free["energy_balance"]).max() / 10.0
+    with pytest.raises(SimulationError, match=r"energy_balance is .* beyond energy_limit = ") as caught:
+        simulate(pendulum(), energy_limit=0.1 * share, **settings)
+    assert caught.value.result is not None
+    kept = caught.value.result
+    assert 0 < kept.time.size < free.time.size
+    np.testing.assert_array_equal(kept["energy_balance"], free["energy_balance"][: kept.time.size])
+    simulate(pendulum(), t_end=20.0, energy_limit=1e-4)
+
+
+@pytest.mark.parametrize("limit", [0.0, -1.0, float("nan"), "tight"])
+def test_energy_limits_that_make_no_sense_are_refused(limit: Any) -> None:
+    with pytest.raises(SceneError, match="energy_limit is"):
+        simulate(pendulum(), t_end=1.0, energy_limit=limit)
+
+
+def test_energy_limit_is_refused_where_no_energy_is_told() -> None:
+    with pytest.raises(SceneError, match="kinematics 'paper' has no energy balance"):
+        simulate(vessel(kinematics="paper", hs=0.0), t_end=1.0, energy_limit=1e-3)
+
+
+def test_outputs_that_do_not_fit_are_refused_before_memory_is_taken() -> None:
+    scene = pendulum()
+    with pytest.raises(OutputMemoryError, match=r"outputs: 100000001 times \d+ values need .* bytes"):
+        simulate(scene, t_end=1e8, dt_out=1.0)
+    with pytest.raises(MemoryError):
+        simulate(scene, t_end=1e8, dt_out=1.0)
+
+
+@pytest.mark.parametrize(
+    ("settings", "named"),
+    [({"t_end": 1e13, "dt_out": 1e12}, "beyond 1e\\+12 s"), ({"t_end": 1e300, "dt_out": 1e299}, "beyond")],
+)
+def test_times_that_doubles_do_not_resolve_are_refused(settings: dict[str, float], named: str) -> None:
+    with pytest.raises(SceneError, match=named):
+        simulate(pendulum(), **settings)
+
+
+def test_outputs_closer_than_time_resolves_are_refused() -> None:
+    run = Run(pendulum(), t_end=1.0)
+    late = State(time=1e11, values=run.state.values, inputs=run.state.inputs)
+    with pytest.raises(SceneError, match=r"dt_out is 1e-05 s, which time does not resolve at 1e\+11 s"):
+        simulate(pendulum(), t_end=1e11 + 1e-3, dt_out=1e-5, start=late)
+
+
+def judged(scene: Scene, time: Any, channels: dict[str, Any], **stats: Any) -> dict[type[Warning], str]:
+    return dict(findings(scene, np.asarray(time, dtype=float), channels, stats))
+
+
+def test_heel_beyond_the_linear_restoring_warns() -> None:
+    ship = vessel(hs=0.0)
+    righting = np.asarray(ship.vessels["vessel"].restoring)[3, 3]
+    lever = 20.0
+    for angle, expected in ((15.0, 0), (30.0, 1)):  # a weight off the centre line; it overshoots its heel
+        ship.point_forces.clear()
+        weight = 0.5 * np.radians(angle) * righting / lever
+        ship.add_point_force(name="push", body="vessel", point=(0.0, lever, 0.0), force=(0.0, 0.0, -weight))
+        with warnings.catch_warnings(record=True) as caught:
+            warnings.simplefilter("always")
+            result = simulate(ship, t_end=30.0)
+        told = [w for w in caught if w.category is LargeHeelWarning]
+        assert len(told) == expected
+        assert ("validity" in result.stats) == bool(expected)
+    assert told[0].filename == __file__
+
+
+def test_yaw_away_from_the_mean_heading_warns_with_loads_of_the_mean_only() -> None:
+    ship = vessel(hs=1.0)
+    motion = np.zeros((3, 6))
+    motion[1, 5] = -0.5
+    found = judged(ship, [0.0, 1.0, 2.0], {"vessel_motion": motion})
+    assert "yaw reaches 28.6 deg at t = 1 s" in found[MeanHeadingWarning]
+    assert not judged(vessel(hs=0.0), [0.0, 1.0, 2.0], {"vessel_motion": motion})
+    assert not judged(vessel(hs=1.0, phase="actual"), [0.0, 1.0, 2.0], {"vessel_motion": motion})
+
+
+def test_motions_beyond_the_database_warn() -> None:
+    ship = vessel(hs=0.0)
+    top = ship.notes["database_omega"][1]
+    time = np.arange(0.0, 200.0, 0.1)
+    for omega, expected in ((0.5 * top, False), (2.0 * top, True)):
+        motion = np.zeros((time.size, 6))
+        motion[:, 2] = 0.2 * np.sin(omega * time)
+        found = judged(ship, time, {"vessel_motion": motion})
+        assert (OutsideDatabaseWarning in found) == expected
+    assert "energy of heave is above" in found[OutsideDatabaseWarning]
+    assert not judged(vessel(hs=0.0), time, {"vessel_motion": 1e-4 * motion})
+
+
+def test_a_link_that_pushes_and_swings_wide_warns_once_each() -> None:
+    """Thrown over the top: v^2 < g l there, and the tension m (v^2 / l - g) is negative."""
+    speed = np.sqrt(4.0 * 9.80665 * 2.0 + 0.2 * 9.80665 * 2.0)
+    with pytest.warns() as caught:
+        result = simulate(hanging(velocity=(speed, 0.0, 0.0)), t_end=3.0)
+    told = [w.category for w in caught]
+    assert told == [PushingLinkWarning, LargeSwingWarning]
+    pushed = 10.0 * (0.2 * 9.80665 * 2.0 / 2.0 - 9.80665)
+    assert result["tension"].min() == pytest.approx(pushed, rel=1e-2)
+    assert f"{-result['tension'].min():.4g} N" in str(caught[0].message)
+    assert str(result.stats["validity"]).count("\n") == 1
+
+
+def test_a_rod_of_a_mechanism_may_push() -> None:
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        scene = folding(0.2)
+        scene.add_point_force(name="squeeze", body="slider", force=(-10.0, 0.0, 0.0))
+        result = simulate(scene, t_end=4.0)
+    assert result["tension"].min() < 0.0
+
+
+def test_an_angle_that_passes_half_a_turn_warns() -> None:
+    scene = pendulum()
+    spun = scene.copy()
+    spun.bodies["rod"] = Scene().add_body(
+        name="rod", mass=1.0, inertia=[0.1, 0.1, 0.1], position=(1.0, 0, 0), angular_velocity=(0, 10, 0),
+        velocity=(0, 0, -10),
+    )  # fmt: skip
+    with pytest.warns(FullTurnWarning, match="coordinate 'pin': passes 180 deg"):
+        simulate(spun, t_end=2.0)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        simulate(scene, t_end=0.5)
+
+
+def test_a_controller_s_error_keeps_the_outputs_too() -> None:
+    def function(time: float, measured: Any) -> Any:
+        if time > 0.45:
+            raise RuntimeError("sensor lost")
+        return {}
+
+    scene = slide(1.0)
+    with pytest.raises(SimulationError, match="sensor lost") as caught:
+        simulate(scene, t_end=1.0, controllers=[SampledController(period=0.1, function=function)])
+    assert caught.value.result is not None
+    assert caught.value.result.time[-1] == pytest.approx(0.5)

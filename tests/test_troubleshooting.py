@@ -1,0 +1,57 @@
+"""docs/troubleshooting.md has an entry for all that stops a run or warns, and none for what is gone."""
+
+from __future__ import annotations
+
+import re
+
+import pytest
+from message_sites import CPP, LITERAL, PYTHON, ROOT, classes_of, stops_of_cpp, stops_of_python
+
+PAGE = (ROOT / "docs" / "troubleshooting.md").read_text()
+STOPS = PAGE.split("## A run that stops")[1].split("\n## ")[0]
+
+
+def fragments() -> list[str]:
+    """Words in backquotes after "Message:" or "Messages:", entry by entry."""
+    paragraphs = [p.replace("\n", " ") for p in STOPS.split("\n\n") if p.startswith("Message")]
+    return [word for paragraph in paragraphs for word in re.findall(r"`([^`]+)`", paragraph)]
+
+
+SITES = {**stops_of_cpp(), **stops_of_python()}
+
+
+def test_the_sources_are_read() -> None:
+    """The scan must see stops known to exist, in every form of a throw."""
+    words = "\n".join(SITES.values())
+    for known in ("projection does not close it", "the step size has collapsed", "controller: raised",
+                  "XYZ angles are singular", "Newton's iteration", "stands still"):  # fmt: skip
+        assert known in words
+    assert len(SITES) >= 30
+    assert len(classes_of("UserWarning", "Warning")) >= 29
+
+
+@pytest.mark.parametrize("site", SITES)
+def test_every_stop_of_a_run_has_an_entry(site: str) -> None:
+    assert any(fragment in SITES[site] for fragment in fragments()), SITES[site]
+
+
+@pytest.mark.parametrize("fragment", fragments())
+def test_every_message_on_the_page_is_one_of_the_package(fragment: str) -> None:
+    reports = [CPP / "run" / "guards.cpp", PYTHON / "step_advice.py"]
+    words = [*SITES.values(), *("".join(LITERAL.findall(path.read_text())) for path in reports)]
+    assert any(fragment in text for text in words)
+
+
+@pytest.mark.parametrize("name", sorted(classes_of("UserWarning", "Warning")))
+def test_every_warning_has_an_entry(name: str) -> None:
+    assert f"\n### {name}\n" in PAGE
+
+
+@pytest.mark.parametrize("name", re.findall(r"\n### (\w+Warning)\n", PAGE))
+def test_every_entry_of_a_warning_is_one_of_the_package(name: str) -> None:
+    assert name in classes_of("UserWarning", "Warning")
+
+
+@pytest.mark.parametrize("name", sorted(classes_of("Exception")))
+def test_every_error_is_listed(name: str) -> None:
+    assert f"`{name}`" in PAGE
