@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ctypes
 import warnings
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -23,6 +24,7 @@ from seacrane import (
 )
 from seacrane.cases import vessel
 from seacrane.output_times import OutputMemoryError
+from seacrane.report import report_html
 from seacrane.step_advice import STABLE_UP_TO
 from seacrane.validity import (
     FullTurnWarning,
@@ -290,6 +292,15 @@ def test_a_link_that_pushes_and_swings_wide_warns_once_each() -> None:
     assert result["tension"].min() == pytest.approx(pushed, rel=1e-2)
     assert f"{-result['tension'].min():.4g} N" in str(caught[0].message)
     assert str(result.stats["validity"]).count("\n") == 1
+
+
+def test_what_was_out_of_range_is_kept_in_files_and_listed_in_reports(tmp_path: Path) -> None:
+    with pytest.warns(LargeSwingWarning):
+        result = simulate(hanging(position=(1.9, 0.0, -0.6)), t_end=1.0)
+    loaded = Result.load(result.save(tmp_path / "swing.nc"))
+    assert loaded.stats["validity"] == result.stats["validity"]
+    page = report_html(title="Swing", summary=[], runs={"one": loaded}, pictures=[])
+    assert "Out of range:</strong> run one: link &#x27;wire&#x27;: is " in page
 
 
 def test_a_rod_of_a_mechanism_may_push() -> None:

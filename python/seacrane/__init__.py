@@ -51,6 +51,7 @@ if TYPE_CHECKING:
     from seacrane.linear_system import LinearModel, linear_model
     from seacrane.linearise import fastest_mode, jacobian
     from seacrane.modal_analysis import NaturalModes, natural_modes
+    from seacrane.output_times import OutputMemoryError
     from seacrane.rest_state import equilibrium
     from seacrane.result import Event, Result
     from seacrane.scene import Scene
@@ -58,6 +59,15 @@ if TYPE_CHECKING:
     from seacrane.sea_state import add_sea
     from seacrane.simulation import Run, SampledController, simulate
     from seacrane.trading import Trade, trade
+    from seacrane.validity import (
+        FullTurnWarning,
+        LargeHeelWarning,
+        LargeSwingWarning,
+        MeanHeadingWarning,
+        NearSingularWarning,
+        OutsideDatabaseWarning,
+        PushingLinkWarning,
+    )
     from seacrane.version import __version__
     from seacrane.vessel import add_vessel
     from seacrane.waves import ByHeading, RepeatingSeaWarning, Waves
@@ -76,11 +86,19 @@ _HOME = {
     "FlowForce": "_core",
     "Frame": "_core",
     "Friction": "_core",
+    "FullTurnWarning": "validity",
     "HydroDatabase": "hydro",
+    "LargeHeelWarning": "validity",
+    "LargeSwingWarning": "validity",
     "Limit": "_core",
     "LinearModel": "linear_system",
+    "MeanHeadingWarning": "validity",
     "Model": "_core",
     "NaturalModes": "modal_analysis",
+    "NearSingularWarning": "validity",
+    "OutputMemoryError": "output_times",
+    "OutsideDatabaseWarning": "validity",
+    "PushingLinkWarning": "validity",
     "RepeatingSeaWarning": "waves",
     "ResponseStatistics": "frequency_domain",
     "Result": "result",
@@ -147,11 +165,19 @@ __all__ = [
     "FlowForce",
     "Frame",
     "Friction",
+    "FullTurnWarning",
     "HydroDatabase",
+    "LargeHeelWarning",
+    "LargeSwingWarning",
     "Limit",
     "LinearModel",
+    "MeanHeadingWarning",
     "Model",
     "NaturalModes",
+    "NearSingularWarning",
+    "OutputMemoryError",
+    "OutsideDatabaseWarning",
+    "PushingLinkWarning",
     "RepeatingSeaWarning",
     "ResponseStatistics",
     "Result",

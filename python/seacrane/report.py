@@ -130,6 +130,11 @@ def report_html(
         for name, run in runs.items()
         if run.interrupted
     ]
+    body += [
+        f"<p><strong>Out of range:</strong> run {escape(name)}: {escape(text)}.</p>"
+        for name, run in runs.items()
+        for text in str(run.stats.get("validity", "")).splitlines()
+    ]
     shown = list(pictures)
     if findings:
         body += ["<h2>Findings</h2>", _findings(findings)]
