@@ -10,7 +10,8 @@ from pathlib import Path
 ROOT = Path(__file__).parents[1]
 PYTHON, CPP = ROOT / "python" / "seacrane", ROOT / "cpp" / "seacrane"
 THROW = re.compile(
-    r"throw (?:std::domain_error|IntegrationError)\(|\bfail\(|last_error = |reason = |std::string text =",
+    r"throw (?:std::domain_error|IntegrationError|ChatteringError)\("
+    r"|\bfail\(|last_error = |reason = |std::string text ="
 )
 SHORTEST = 18  # shorter are names of calls, such as "the step", before what SUNDIALS says itself
 LITERAL = re.compile(r'"((?:[^"\\]|\\.)*)"')

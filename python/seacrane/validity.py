@@ -157,7 +157,7 @@ def _links(scene: Scene, time: Array, channels: Channels) -> list[Finding]:
                     PushingLinkWarning,
                     f"link {name!r}: pushes with {-tension[at]:.4g} N at t = {time[at]:.6g} s, which a wire "
                     "cannot: it would be slack, and its load when it tightens again is not in this result. "
-                    "Lower the sea or the speed of the lift, or take the run as an alarm only",
+                    f"seacrane.add_wire(scene, joint={name!r}) makes it a wire",
                 )
             )
     return found
