@@ -928,6 +928,10 @@ class Model:
     """
     def channel_names(self, defaults_only: bool = True) -> list[str]:
         ...
+    def channel_values(self, names: collections.abc.Set[str]) -> int:
+        """
+        How many numbers one output of these channels holds.
+        """
     def pose_index(self, body: typing.SupportsInt | typing.SupportsIndex) -> int:
         ...
     def twist_index(self, body: typing.SupportsInt | typing.SupportsIndex) -> int:
@@ -1145,7 +1149,7 @@ class Simulation:
     """
     One run of a model: advance(), inputs, recorded channels. Not for several threads.
     """
-    def __init__(self, *, model: Model, start: State, integrator: str, rtol: typing.SupportsFloat | typing.SupportsIndex, dt: typing.SupportsFloat | typing.SupportsIndex, max_step: typing.SupportsFloat | typing.SupportsIndex, output_times: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], channels: collections.abc.Set[str], formulation: str = 'redundant', spectral_radius: typing.SupportsFloat | typing.SupportsIndex | None = None) -> None:
+    def __init__(self, *, model: Model, start: State, integrator: str, rtol: typing.SupportsFloat | typing.SupportsIndex, dt: typing.SupportsFloat | typing.SupportsIndex, max_step: typing.SupportsFloat | typing.SupportsIndex, output_times: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], channels: collections.abc.Set[str], formulation: str = 'redundant', spectral_radius: typing.SupportsFloat | typing.SupportsIndex | None = None, energy_limit: typing.SupportsFloat | typing.SupportsIndex = 0.0) -> None:
         ...
     def advance(self, t_end: typing.SupportsFloat | typing.SupportsIndex, progress: typing.Any = None) -> bool:
         """
