@@ -75,21 +75,25 @@ def _slots(scene: Scene) -> dict[str, slice]:
     return out
 
 
-def _output_times(t_start: float, t_end: float, dt_out: float) -> Array:
-    for name, value in (("start time", t_start), ("t_end", t_end), ("dt_out", dt_out)):
+def _output_times(first: float, t_start: float, t_end: float, dt_out: float) -> Array:
+    """Output times counted from `first`; those before t_start are left out by the core."""
+    times = (("start time", t_start), ("t_end", t_end), ("dt_out", dt_out), ("outputs_from", first))
+    for name, value in times:
         if not np.isfinite(value):
             raise SceneError(f"{name} is {value}; give a finite number of seconds")
     if t_end < t_start:
         raise SceneError(f"t_end is {t_end} s, before the start at {t_start} s")
+    if first > t_start:
+        raise SceneError(f"outputs_from is {first} s, after the start at {t_start} s")
     if dt_out <= 0.0:
         raise SceneError(f"dt_out is {dt_out} s; make it positive")
-    if (t_end - t_start) / dt_out > MOST_OUTPUTS:
+    if (t_end - first) / dt_out > MOST_OUTPUTS:
         raise SceneError(
             f"dt_out is {dt_out} s: more than {MOST_OUTPUTS:.0e} outputs until {t_end} s; make it longer"
         )
-    count = int(np.floor((t_end - t_start) / dt_out * (1.0 + 1e-12))) + 1
-    times = t_start + dt_out * np.arange(count)
-    return np.append(times, t_end) if t_end - times[-1] > 1e-9 * dt_out else np.minimum(times, t_end)
+    count = int(np.floor((t_end - first) / dt_out * (1.0 + 1e-12))) + 1
+    grid = first + dt_out * np.arange(count)
+    return np.append(grid, t_end) if t_end - grid[-1] > 1e-9 * dt_out else np.minimum(grid, t_end)
 
 
 class Run:
@@ -102,6 +106,11 @@ class Run:
         The compiled scene, to save compiling it again.
     t_end, dt_out, integrator, rtol, dt, max_step, spectral_radius, formulation, channels, start
         As `simulate`.
+    outputs_from : float, optional
+        Time from which output times are counted, s, not after the start; default: the start. A run that goes
+        on from a `start` so records at the times at which the run before it would have.
+    capacity : int
+        Outputs to take memory for; 0: all.
     """
 
     def __init__(
@@ -118,6 +127,8 @@ class Run:
         formulation: str = "auto",
         channels: Sequence[str] | None = None,
         start: _core.State | None = None,
+        outputs_from: float | None = None,
+        capacity: int = 0,
         model: _core.Model | None = None,
     ) -> None:
         model = scene.compile() if model is None else model
@@ -149,6 +160,7 @@ class Run:
         if spectral_radius is not None:
             spectral_radius = number_of("spectral_radius", spectral_radius)
         self.t_end = t_end
+        self.first = self.start.time if outputs_from is None else number_of("outputs_from", outputs_from)
         self.settings = {
             "t_end": float(t_end), "dt_out": float(dt_out), "rtol": float(rtol), "dt": float(dt),
             "max_step": float(max_step), "orientation": scene.orientation, "baumgarte": scene.baumgarte,
@@ -159,9 +171,9 @@ class Run:
         self.integrator = integrator
         self.core = _core.Simulation(
             model=self.model, start=self.start, integrator=integrator, rtol=float(rtol), dt=float(dt),
-            max_step=float(max_step), output_times=_output_times(self.start.time, self.t_end, float(dt_out)),
-            channels=core_channels(wanted, known), formulation=self.formulation,
-            spectral_radius=spectral_radius,
+            max_step=float(max_step), channels=core_channels(wanted, known),
+            output_times=_output_times(self.first, self.start.time, self.t_end, dt_out),
+            formulation=self.formulation, spectral_radius=spectral_radius, capacity=capacity,
         )  # fmt: skip
         if scene.waves is not None:
             scene.waves.warn_of_repeats(self.t_end - self.start.time)
@@ -203,19 +215,13 @@ class Run:
     def _channels(self, arrays: dict[str, Array]) -> dict[str, Array]:
         return named_channels(self.scene, {k: v for k, v in arrays.items() if k != "time"})
 
-    def result(self) -> Result:
-        """What has been recorded so far."""
-        from seacrane.result import Event, Result
-
-        arrays = self.core.channels()
-        channels = self._channels(arrays)
-        if self._wanted is not None:
-            channels = {name: values for name, values in channels.items() if name in self._wanted}
+    def stats(self) -> dict[str, Any]:
+        """Version, settings and counters so far: `Result.stats`."""
         statistics = self.core.statistics()
         scene, model, tree = self.scene, self.model, self.model.tree
         recursive = self.formulation == "recursive"
         sea = {} if scene.waves is None else dict(scene.waves.information)
-        stats = {
+        return {
             "seacrane_version": __version__,
             "scene": scene.name,
             "formulation": self.formulation,
@@ -233,6 +239,16 @@ class Run:
             **statistics,
             **sea,
         }
+
+    def result(self, most: int | None = None) -> Result:
+        """What has been recorded so far; with `most`, no more than its first outputs, and no state."""
+        from seacrane.result import Event, Result
+
+        arrays = self.core.channels() if most is None else self.core.channels(most)
+        channels = self._channels(arrays)
+        if self._wanted is not None:
+            channels = {name: values for name, values in channels.items() if name in self._wanted}
+        scene = self.scene
         return Result.from_arrays(
             time=arrays["time"],
             arrays=channels,
@@ -243,17 +259,17 @@ class Run:
             actuators=list(scene.actuators),
             drivers=list(scene.drivers),
             links=[name for name, joint in scene.joints.items() if joint.kind == "distance"],
-            limits=[name for name, _ in model.limits],
+            limits=[name for name, _ in self.model.limits],
             events=[
                 Event(time=time, name=name, kind=kind, speed=speed, impulse=impulse, energy_lost=lost)
                 for time, name, kind, speed, impulse, lost in self.core.events()
             ],
-            stats=stats,
+            stats=self.stats(),
             interrupted=self.interrupted,
-            state=self._last_state(),
+            state=self.last_state() if most is None else None,
         )
 
-    def _last_state(self) -> _core.State | None:
+    def last_state(self) -> _core.State | None:
         """The present state, or None where its rate cannot be found."""
         try:
             return self.core.state
@@ -374,7 +390,7 @@ def simulate(
         When the integration cannot go on, a controller raises, or memory runs out; it says where, when and
         what to try. Its `result` holds the outputs until then.
     """
-    controllers = _checked(controllers)
+    controllers = checked_controllers(controllers)
     given = {"integrator": integrator, "rtol": rtol, "dt": dt, "spectral_radius": spectral_radius}
     chosen: dict[str, Any] = {name: value for name, value in given.items() if value is not None}
     if accuracy is not None:
@@ -406,9 +422,15 @@ def _refuse_beside_accuracy(chosen: Mapping[str, Any], controllers: Sequence[Sam
 
 
 def finished(run: Run, controllers: Sequence[SampledController] = (), *, progress: bool = False) -> Result:
-    """Advance a run to its end, or to where Ctrl-C stops it, and return its result.
+    """Advance a run to its end, or to where Ctrl-C stops it, and return its result."""
+    drive(run, controllers, progress=progress)
+    return run.result()
 
-    What ends it otherwise is raised as by `simulate`, and carries the partial result.
+
+def drive(run: Run, controllers: Sequence[SampledController] = (), *, progress: bool = False) -> None:
+    """Advance a run to its end, or to where Ctrl-C stops it.
+
+    What ends it otherwise is raised as by `simulate`, and carries what `Run.explain` hangs on it.
     """
     report, close = _progress(run.start.time, run.t_end, progress)
     try:
@@ -426,10 +448,9 @@ def finished(run: Run, controllers: Sequence[SampledController] = (), *, progres
         raise stopped from error
     finally:
         close()
-    return run.result()
 
 
-def _checked(controllers: Any) -> list[SampledController]:
+def checked_controllers(controllers: Any) -> list[SampledController]:
     given = list(controllers) if isinstance(controllers, Iterable) else [controllers]
     for controller in given:
         if not isinstance(controller, SampledController):
