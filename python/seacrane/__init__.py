@@ -50,6 +50,7 @@ if TYPE_CHECKING:
     from seacrane.limits import add_end_stop, add_friction, add_seat, add_soft_stop, add_wire
     from seacrane.linear_system import LinearModel, linear_model
     from seacrane.linearise import fastest_mode, jacobian
+    from seacrane.long_run import StreamedResult, simulate_to_file
     from seacrane.modal_analysis import NaturalModes, natural_modes
     from seacrane.rest_state import equilibrium
     from seacrane.result import Event, Result
@@ -95,6 +96,7 @@ _HOME = {
     "SoftStop": "_core",
     "State": "_core",
     "StateSpaceBlock": "_core",
+    "StreamedResult": "long_run",
     "SummedResponse": "frequency_domain",
     "Trade": "trading",
     "TwistHistory": "_core",
@@ -128,6 +130,7 @@ _HOME = {
     "response_statistics": "frequency_domain",
     "response_summed": "frequency_domain",
     "simulate": "simulation",
+    "simulate_to_file": "long_run",
     "spline_curve": "curves",
     "trade": "trading",
     "use_actual_position": "environment",
@@ -166,6 +169,7 @@ __all__ = [
     "SoftStop",
     "State",
     "StateSpaceBlock",
+    "StreamedResult",
     "SummedResponse",
     "Trade",
     "TwistHistory",
@@ -204,6 +208,7 @@ __all__ = [
     "response_summed",
     "sea",
     "simulate",
+    "simulate_to_file",
     "spline_curve",
     "trade",
     "use_actual_position",

@@ -65,10 +65,14 @@ def read_arrays(path: Path) -> dict[str, Any]:
             raise FileFormatError(f"{path} has no variable 'time'; it is not a seacrane result")
         stats = {name: file.getncattr(name) for name in file.ncattrs()}
         interrupted = bool(stats.pop("interrupted", 0))
+        time = file["time"][:]
+        count = (
+            time.size if not np.isnan(time[-1:]).any() else int(np.argmax(np.isnan(time)))
+        )  # see stream.py
         return {
-            "time": file["time"][:],
+            "time": time[:count],
             "arrays": {
-                name: variable[:]
+                name: variable[:count]
                 for name, variable in file.variables.items()
                 if name != "time" and name not in file.dimensions and "event" not in variable.dimensions
             },

@@ -83,7 +83,7 @@ def _checked_names(dim: str, names: Sequence[str]) -> tuple[str, ...]:
     return names
 
 
-def _checked_stats(stats: Mapping[str, Any]) -> dict[str, Stat]:
+def checked_stats(stats: Mapping[str, Any]) -> dict[str, Stat]:
     """Plain strings, integers and floats; what is None is left out; `settings` may be a mapping."""
     plain: dict[str, Stat] = {}
     for name, value in stats.items():
@@ -237,7 +237,7 @@ class Result:
             time=checked_time,
             channels=channels,
             coords={dim: names for dim, names in coords.items() if dim in used},
-            stats=_checked_stats(stats),
+            stats=checked_stats(stats),
             interrupted=bool(interrupted),
             events=checked_events(events),
             state=state,
