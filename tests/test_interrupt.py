@@ -79,6 +79,18 @@ def run_script(body: str) -> dict[str, Any]:
     return out
 
 
+def test_ctrl_c_does_not_wait_for_the_run() -> None:
+    """Measured: hundredths of a second. The bound leaves room for a machine that is busy."""
+    told = run_script(
+        "def soon():\n    time.sleep(0.5)\n    pressed.append(time.monotonic())\n"
+        "    os.kill(os.getpid(), signal.SIGINT)\n"
+        "pressed = []\nthreading.Thread(target=soon, daemon=True).start()\n"
+        "result = simulate(waves, t_end=1e6, dt_out=1.0)\nmore = time.monotonic() - pressed[0]\n"
+    )
+    assert told["interrupted"]
+    assert told["more"] < 10.0
+
+
 @pytest.mark.parametrize("name", RUNS)
 def test_ctrl_c_returns_what_was_recorded(name: str) -> None:
     told = run_script(RUNS[name])
@@ -127,6 +139,12 @@ def test_the_command_line_saves_what_it_has(tmp_path: Path) -> None:
     result = Result.load(tmp_path / "case1.nc")
     assert result.interrupted
     assert 0.0 < result.time[-1] < 1e5
+    t_end = result.time[-1] + 20.0
+    subprocess.run([*command[:-1], f"{t_end}", "--resume"], check=True, timeout=GENEROUS)
+    whole = Result.load(tmp_path / "case1.nc")
+    assert whole.time[-1] == t_end
+    assert np.array_equal(whole["position"][: result.time.size], result["position"])
+    assert not whole.interrupted
 
 
 def ball_on_a_pin() -> Scene:

@@ -48,17 +48,18 @@ class StreamedResult:
     stats: Mapping[str, Any]
     interrupted: bool
 
-    def load(self) -> Result:
-        """All of it, in memory."""
+    def load(self, channels: Sequence[str] | None = None) -> Result:
+        """All of it, or those channels, in memory."""
         from seacrane.result import Result
 
-        return Result.load(self.path)
+        return Result.load(self.path, channels=channels)
 
 
 def simulate_to_file(
     scene: Scene,
     path: str | os.PathLike[str],
     *,
+    t_end: float = 100.0,
     checkpoint_every: float | None = None,
     resume: bool = False,
     controllers: Sequence[SampledController] = (),
@@ -77,6 +78,8 @@ def simulate_to_file(
     scene : Scene
     path : path
         NetCDF file; an older one of that name is replaced when the run ends.
+    t_end : float
+        End time, s.
     checkpoint_every : float, optional
         Simulated time between two states on disk, s, for runs that may be killed; default: only where the
         run stops.
@@ -110,7 +113,8 @@ def simulate_to_file(
     if not every > 0.0:
         raise SceneError(f"checkpoint_every is {every} s; make it positive")
     given = checked_controllers(controllers)
-    run = _FileRun(scene, Path(path), every, resume, {k: v for k, v in settings.items() if v is not None})
+    chosen = {name: value for name, value in settings.items() if value is not None}
+    run = _FileRun(scene, Path(path), every, resume, {"t_end": t_end, **chosen})
     try:
         drive(run, given, progress=progress)
     except BaseException:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -55,8 +56,8 @@ def _write_events(file: Any, result: Result) -> None:
         file[PREFIX + key].setncatts({"units": unit, "long_name": long_name})
 
 
-def read_arrays(path: Path) -> dict[str, Any]:
-    """Everything in a result's file, as the arguments of `Result.from_arrays`."""
+def read_arrays(path: Path, channels: Sequence[str] | None = None) -> dict[str, Any]:
+    """What is in a result's file, or those channels of it, as the arguments of `Result.from_arrays`."""
     import netCDF4
 
     with netCDF4.Dataset(path, "r") as file:
@@ -74,7 +75,9 @@ def read_arrays(path: Path) -> dict[str, Any]:
             "arrays": {
                 name: variable[:count]
                 for name, variable in file.variables.items()
-                if name != "time" and name not in file.dimensions and "event" not in variable.dimensions
+                if "time" in variable.dimensions
+                and name != "time"
+                and (channels is None or name in channels)
             },
             **{
                 argument: [str(name) for name in file[dim][:]]

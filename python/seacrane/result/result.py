@@ -331,13 +331,15 @@ class Result:
         return path
 
     @classmethod
-    def load(cls, path: str | os.PathLike[str]) -> Result:
-        """Read a result that `save` wrote.
+    def load(cls, path: str | os.PathLike[str], *, channels: Sequence[str] | None = None) -> Result:
+        """Read a result that `save` or `simulate_to_file` wrote.
 
         Parameters
         ----------
         path : path
             NetCDF4 file.
+        channels : sequence of str, optional
+            Take only those, as far as the file holds them; default: all.
 
         Returns
         -------
@@ -355,7 +357,7 @@ class Result:
         if not path.is_file():
             raise FileNotFoundError(f"no result file {path}")
         try:
-            return cls.from_arrays(**read_arrays(path))
+            return cls.from_arrays(**read_arrays(path, channels))
         except (OSError, RuntimeError, ValueError) as error:
             if isinstance(error, SeacraneError):
                 raise

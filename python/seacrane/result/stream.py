@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from seacrane.result.result import Result
 
 Array = NDArray[np.float64]
-LARGEST_PIECE = 2**23  # bytes
+LARGEST_PIECE = 2**21  # bytes: what Ctrl-C may have to wait for
 MOST_ROWS, LEAST_ROWS = 4096, 16
 MARGIN = 2**18  # bytes, beyond the numbers themselves, for what the NetCDF library writes about them
 TURNING = "slew_angle"  # counted on over whole turns, which one piece does not know of
@@ -103,6 +103,8 @@ class ResultFile:
                 times = np.asarray(file["time"][:])
                 attributes = {name: file.getncattr(name) for name in file.ncattrs()}
                 attributes["settings"]
+                if not file.dimensions["time"].isunlimited():
+                    raise ValueError("its outputs were written all at once")
                 self.rows = int(file["time"].chunking()[0])
                 angles = file[TURNING][:] if TURNING in file.variables else None
         except (OSError, RuntimeError, LookupError, TypeError, ValueError) as error:
