@@ -98,10 +98,13 @@ class _Stop(Exception):
 
 
 @pytest.mark.parametrize("formulation", ["redundant", "recursive"])
-def test_a_run_stopped_at_any_step_goes_on_as_if_it_had_not(formulation: str, tmp_path: Path) -> None:
+@pytest.mark.parametrize("method", [{"rtol": 1e-11}, {"integrator": "rk4", "dt": 1e-3}])
+def test_a_run_stopped_at_any_step_goes_on_as_if_it_had_not(
+    method: dict[str, Any], formulation: str, tmp_path: Path
+) -> None:
     """Nothing lands on the checkpoint."""
     scene = cases.case2()
-    settings: dict[str, Any] = {"t_end": 8.0, "rtol": 1e-11, "formulation": formulation, "outputs_from": 0.0}
+    settings = {"t_end": 8.0, "formulation": formulation, "outputs_from": 0.0, **method}
     whole, stopped = Run(scene, **settings), Run(scene, **settings)
     whole.advance(8.0)
 
