@@ -128,12 +128,15 @@ void bind_record(py::module_& m) {
       m, "RecordHistory",
       "What recording keeps from output to output, used where `steps` is: energy and work (J) that "
       "energy_balance is counted from, the largest residual before projection since the last output (m or "
-      "rad), and the last recorded quaternions.")
-      .def(py::init([](double start_energy, double start_work, double open, const Array& quaternions) {
-             return R{start_energy, start_work, open, to_vector(quaternions)};
+      "rad), energy lost in impacts (J), and the last recorded quaternions.")
+      .def(py::init([](double start_energy, double start_work, double open, double impact_loss,
+                       const Array& quaternions) {
+             return R{start_energy, start_work, open, impact_loss, to_vector(quaternions)};
            }),
            py::kw_only(), py::arg("start_energy"), py::arg("start_work"), py::arg("open"),
-           py::arg("quaternions"))
+           py::arg("impact_loss"), py::arg("quaternions"))
+      .def_property_readonly(
+          "impact_loss", [](const R& r) { return r.impact_loss; }, "J")
       .def_property_readonly(
           "start_energy", [](const R& r) { return r.start_energy; }, "J")
       .def_property_readonly(

@@ -197,7 +197,9 @@ class _FileRun(Run):
         """All outputs, then the state: it never is ahead of them."""
         if self.core.recorded:
             self._keep(self.core.recorded)
-        self.file.describe(self.stats(), interrupted=self.interrupted or self.core.time < self.t_end)
+        self.file.describe(
+            self.stats(), self.events(), interrupted=self.interrupted or self.core.time < self.t_end
+        )
         state = self.last_state()
         if state is not None:
             self.file.sync()

@@ -19,7 +19,7 @@ from seacrane.scene import Scene
 from seacrane.version import __version__
 
 if TYPE_CHECKING:
-    from seacrane.result import Result
+    from seacrane.result import Event, Result
 
 Array = NDArray[np.float64]
 Snapshot = Mapping[str, Array]
@@ -240,9 +240,18 @@ class Run:
             **sea,
         }
 
+    def events(self) -> list[Event]:
+        """What limits did so far."""
+        from seacrane.result import Event
+
+        return [
+            Event(time=time, name=name, kind=kind, speed=speed, impulse=impulse, energy_lost=lost)
+            for time, name, kind, speed, impulse, lost in self.core.events()
+        ]
+
     def result(self, most: int | None = None) -> Result:
         """What has been recorded so far; with `most`, no more than its first outputs, and no state."""
-        from seacrane.result import Event, Result
+        from seacrane.result import Result
 
         arrays = self.core.channels() if most is None else self.core.channels(most)
         channels = self._channels(arrays)
@@ -260,10 +269,7 @@ class Run:
             drivers=list(scene.drivers),
             links=[name for name, joint in scene.joints.items() if joint.kind == "distance"],
             limits=[name for name, _ in self.model.limits],
-            events=[
-                Event(time=time, name=name, kind=kind, speed=speed, impulse=impulse, energy_lost=lost)
-                for time, name, kind, speed, impulse, lost in self.core.events()
-            ],
+            events=self.events(),
             stats=self.stats(),
             interrupted=self.interrupted,
             state=self.last_state() if most is None else None,

@@ -29,6 +29,7 @@ VERSION = 1
 DIGEST = hashlib.sha256().digest_size
 LARGEST_FILE = 2**30  # bytes: a million states take less
 LARGEST_HEADER = 2**22  # bytes
+_RECORD = ("start_energy", "start_work", "open", "impact_loss")
 _ARRAYS = ("time", "values", "inputs", "steps", "rate", "record", "quaternions")
 
 
@@ -47,7 +48,7 @@ def save_state(state: _core.State, path: str | os.PathLike[str]) -> None:
         "inputs": state.inputs,
         "steps": steps.values,
         "rate": steps.rate,
-        "record": [] if record is None else [record.start_energy, record.start_work, record.open],
+        "record": [] if record is None else [getattr(record, name) for name in _RECORD],
         "quaternions": [] if record is None else record.quaternions,
     }
     for i, history in enumerate(state.histories):
@@ -62,6 +63,7 @@ def save_state(state: _core.State, path: str | os.PathLike[str]) -> None:
         "formulation": steps.formulation,
         "integrator": steps.integrator,
         "parts": state.parts,
+        "closed": state.closed,
         "intervals": [history.intervals for history in state.histories],
         "arrays": [[name, values.size] for name, values in flat.items()],
     }
@@ -164,14 +166,13 @@ def _state(header: dict[str, Any], arrays: dict[str, Array]) -> _core.State:
         raise ValueError(f"has arrays {', '.join(arrays)}")
     if not all(type(n) is int and 0 <= n < 2**62 for n in intervals):
         raise ValueError(f"intervals are {intervals!r}")
-    if not all(isinstance(part, str) for part in parts):
-        raise ValueError("parts are not texts")
+    closed = header["closed"]
+    if not all(isinstance(text, str) for text in [*parts, *(closed or [])]):
+        raise ValueError("parts or closed limits are not texts")
     record = None
     if arrays["record"].size:
-        energy, work, still_open = arrays["record"]
-        record = _core.RecordHistory(
-            start_energy=energy, start_work=work, open=still_open, quaternions=arrays["quaternions"]
-        )
+        numbers = dict(zip(_RECORD, arrays["record"], strict=True))
+        record = _core.RecordHistory(quaternions=arrays["quaternions"], **numbers)
     return _core.State(
         time=_one(arrays["time"]),
         values=arrays["values"],
@@ -189,6 +190,7 @@ def _state(header: dict[str, Any], arrays: dict[str, Array]) -> _core.State:
             formulation=header["formulation"], integrator=header["integrator"],
             values=arrays["steps"], rate=arrays["rate"],
         ),
+        closed=closed,
         record=record,
         parts=parts,
     )  # fmt: skip

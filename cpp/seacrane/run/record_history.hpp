@@ -11,6 +11,7 @@ namespace seacrane {
 struct RecordHistory {
   double start_energy = 0.0, start_work = 0.0;  // J, where energy_balance is counted from
   double open = 0.0;                // m or rad, largest residual before projection since the last output
+  double impact_loss = 0.0;         // J, of limits since the start
   std::vector<double> quaternions;  // of the last output; none: not recorded
 };
 

@@ -123,6 +123,7 @@ void Simulation::resume(const RecordHistory& record) {
   start_work_ = record.start_work;
   open_ = record.open;
   recording_.go_on_from(record.quaternions);
+  if (contacts_) contacts_->go_on_from(record.impact_loss);
 }
 
 std::vector<double> Simulation::present_rate() const {
@@ -381,7 +382,8 @@ State Simulation::state() {
           now_->system.histories(),
           {now_->stepped.name(), options_.integrator, integrator().save(), present_rate()},
           names_of(model_->limits, now_->model->closed),
-          RecordHistory{start_energy_, start_work_, open_, recording_.last_quaternions()},
+          RecordHistory{start_energy_, start_work_, open_, contacts_ ? contacts_->energy_lost() : 0.0,
+                        recording_.last_quaternions()},
           state_parts(*model_)};
 }
 

@@ -10,7 +10,7 @@ import numpy as np
 
 from seacrane.errors import FileFormatError
 from seacrane.result.channels import CHANNELS, attributes
-from seacrane.result.events import NUMBERS, PREFIX, event_arrays, events_from_arrays
+from seacrane.result.events import NUMBERS, PREFIX, Event, event_arrays, events_from_arrays
 
 if TYPE_CHECKING:
     from seacrane.result.result import Result
@@ -45,13 +45,18 @@ def write_netcdf(path: Path, result: Result) -> None:
         for name in ("time", *result.channels):
             file[name].setncatts(attributes(name))
         if result.events:
-            _write_events(file, result)
+            add_events(file, result.events, 0)
 
 
-def _write_events(file: Any, result: Result) -> None:
-    file.createDimension("event", len(result.events))
-    for name, array in event_arrays(result.events).items():
-        file.createVariable(name, str if array.dtype == object else "f8", ("event",))[:] = array
+def add_events(file: Any, events: Sequence[Event], place: int) -> None:
+    """Write events from a place in a file's list on, which is made if there is none."""
+    made = "event" not in file.dimensions
+    if made:
+        file.createDimension("event", None)
+    for name, array in event_arrays(events).items():
+        if made:
+            file.createVariable(name, str if array.dtype == object else "f8", ("event",))
+        file[name][place : place + len(events)] = array
     for key, (unit, long_name) in NUMBERS.items():
         file[PREFIX + key].setncatts({"units": unit, "long_name": long_name})
 
@@ -75,9 +80,7 @@ def read_arrays(path: Path, channels: Sequence[str] | None = None) -> dict[str, 
             "arrays": {
                 name: variable[:count]
                 for name, variable in file.variables.items()
-                if "time" in variable.dimensions
-                and name != "time"
-                and (channels is None or name in channels)
+                if "time" in variable.dimensions and name != "time" and (channels is None or name in channels)
             },
             **{
                 argument: [str(name) for name in file[dim][:]]

@@ -7,7 +7,7 @@ import json
 import os
 import signal
 import threading
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -17,9 +17,11 @@ from numpy.typing import NDArray
 from seacrane.errors import FileFormatError
 from seacrane.result.atomic import space_left
 from seacrane.result.channels import CHANNELS, attributes
+from seacrane.result.netcdf import add_events
 from seacrane.result.result import checked_stats
 
 if TYPE_CHECKING:
+    from seacrane.result.events import Event
     from seacrane.result.result import Result
 
 Array = NDArray[np.float64]
@@ -48,6 +50,7 @@ class ResultFile:
         self.outputs = 0
         self.rows = MOST_ROWS
         self._last_angle: float | None = None
+        self._events = self._events_of_run = 0
         self._before: Mapping[str, Any] = {}
         self.stats: dict[str, Any] = {}
 
@@ -74,7 +77,7 @@ class ResultFile:
         FileFormatError
             If it is the file of a run with other settings (of a result's `stats`; t_end may differ).
         """
-        times, self._before, angles = self._left()
+        times, self._before, angles, events = self._left()
         old, new = (
             json.loads(stats["settings"]) for stats in (self._before, {"settings": json.dumps(settings)})
         )
@@ -85,13 +88,14 @@ class ResultFile:
                     "settings of the run that stopped"
                 )
         self.outputs = int(np.searchsorted(times, until, "right"))
+        self._events = int(np.searchsorted(events, until, "right"))
         if angles is not None and self.outputs:
             self._last_angle = float(angles[self.outputs - 1])
         if not self.draft.exists():
             self.path.replace(self.draft)
 
-    def _left(self) -> tuple[Array, dict[str, Any], Array | None]:
-        """Times, attributes and turning angle in what a run left."""
+    def _left(self) -> tuple[Array, dict[str, Any], Array | None, Array]:
+        """Times, attributes, turning angle and times of events in what a run left."""
         import netCDF4
 
         source = self.draft if self.draft.exists() else self.path
@@ -107,12 +111,13 @@ class ResultFile:
                     raise ValueError("its outputs were written all at once")
                 self.rows = int(file["time"].chunking()[0])
                 angles = file[TURNING][:] if TURNING in file.variables else None
+                events = file["event_time"][:] if "event_time" in file.variables else np.empty(0)
         except (OSError, RuntimeError, LookupError, TypeError, ValueError) as error:
             raise FileFormatError(f"{source} is not a result that a run left: {error}") from error
         times = times[np.isfinite(times)]
         if not times.size:
             raise FileFormatError(f"{source} holds no outputs; start the run anew")
-        return times, attributes, angles
+        return times, attributes, angles, events
 
     def append(self, piece: Result, *, interrupted: bool) -> None:
         """Add the outputs of a result.
@@ -132,16 +137,18 @@ class ResultFile:
                 for name, values in piece.channels.items():
                     file[name][rows] = self._continued(values) if name == TURNING else values
                 file["time"][rows] = piece.time  # last: outputs without a time do not count
+                self._add_events(file, piece.events)
                 file.setncatts(self._stats(piece.stats, interrupted))
         if TURNING in piece.channels:
             self._last_angle = float(self._continued(piece.channels[TURNING])[-1])
         self.outputs += piece.time.size
 
-    def describe(self, stats: Mapping[str, Any], *, interrupted: bool) -> None:
-        """Bring the counters up to date."""
+    def describe(self, stats: Mapping[str, Any], events: Sequence[Event], *, interrupted: bool) -> None:
+        """Bring counters and events up to date."""
         with _whole(), self._named_errors():
             _reserve(self.draft, 0)
             with _dataset(self.draft) as file:
+                self._add_events(file, events)
                 file.setncatts(self._stats(checked_stats(stats), interrupted))
 
     def sync(self) -> None:
@@ -178,12 +185,22 @@ class ResultFile:
             self.draft.unlink(missing_ok=True)
             raise
 
+    def _add_events(self, file: Any, events: Sequence[Event]) -> None:
+        """Those of this run's events that are not in the file yet."""
+        new = events[self._events_of_run :]
+        if new:
+            add_events(file, new, self._events)
+            self._events += len(new)
+            self._events_of_run = len(events)
+
     def _stats(self, stats: Mapping[str, Any], interrupted: bool) -> dict[str, Any]:
         """Of all pieces of the run: counters and simulated time of the one before are added."""
         out = {**stats, "interrupted": int(interrupted)}
         for name in ("simulated_s", *COUNTERS):
             if name in self._before and name in stats:
                 out[name] = stats[name] + self._before[name]
+        if "events" in stats:
+            out["events"] = self._events
         self.stats = {name: value for name, value in out.items() if name != "interrupted"}
         return out
 
