@@ -54,10 +54,11 @@ if TYPE_CHECKING:
     from seacrane.modal_analysis import NaturalModes, natural_modes
     from seacrane.rest_state import equilibrium
     from seacrane.result import Event, Result
+    from seacrane.sampled_controller import SampledController
     from seacrane.scene import Scene
     from seacrane.sea import SeaState, WaveSystem
     from seacrane.sea_state import add_sea
-    from seacrane.simulation import Run, SampledController, simulate
+    from seacrane.simulation import Run, simulate
     from seacrane.trading import Trade, trade
     from seacrane.version import __version__
     from seacrane.vessel import add_vessel
@@ -87,7 +88,7 @@ _HOME = {
     "Result": "result",
     "RetardationFunctions": "_core",
     "Run": "simulation",
-    "SampledController": "simulation",
+    "SampledController": "sampled_controller",
     "Scene": "scene",
     "SceneError": "errors",
     "SeaState": "sea",

@@ -14,7 +14,8 @@ from seacrane import _core
 from seacrane.checked import number_of
 from seacrane.errors import FileFormatError, SceneError, SeacraneError
 from seacrane.result.stream import ResultFile
-from seacrane.simulation import Run, SampledController, checked_controllers, drive
+from seacrane.sampled_controller import SampledController, checked_controllers
+from seacrane.simulation import Run, drive
 
 if TYPE_CHECKING:
     from seacrane.result import Result

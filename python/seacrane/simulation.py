@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import contextlib
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -15,6 +14,7 @@ from seacrane.channel_names import core_channels, named_channels
 from seacrane.checked import number_of, numbers_of
 from seacrane.errors import SceneError, SeacraneError, SimulationError
 from seacrane.linearise import fastest_mode
+from seacrane.sampled_controller import SampledController, called_at, checked_controllers, next_call
 from seacrane.scene import Scene
 from seacrane.version import __version__
 
@@ -22,36 +22,11 @@ if TYPE_CHECKING:
     from seacrane.result import Event, Result
 
 Array = NDArray[np.float64]
-Snapshot = Mapping[str, Array]
 MOST_OUTPUTS = 1e8
 DEFAULT_INTEGRATOR, DEFAULT_RTOL = "dopri5", 1e-6
 RESIDUAL_INTEGRATORS = ("ida", "generalized-alpha", "generalized-alpha-index2")
 FORMULATIONS = ("auto", "recursive", "redundant")
 BAUMGARTE_OF_ADAMS = 5.0  # 1/s: cvode-adams cannot project
-
-
-@dataclass(frozen=True, kw_only=True)
-class SampledController:
-    """A Python controller called at its own period, between integration steps.
-
-    Attributes
-    ----------
-    period : float
-        s.
-    function : callable
-        function(time, measured) -> {input: value}: `measured` maps channel names to arrays of the present
-        instant, inputs are "<actuator>.force" (N or N m), "<actuator>.reference" (m or rad) and
-        "<point force>.force" (3 values, N). Inputs are held until the next call.
-    """
-
-    period: float
-    function: Callable[[float, Snapshot], Mapping[str, Any]]
-
-    def __post_init__(self) -> None:
-        if not number_of("controller: period", self.period) > 0.0 or not np.isfinite(self.period):
-            raise SceneError(f"controller: period is {self.period} s; make it positive and finite")
-        if not callable(self.function):
-            raise SceneError(f"controller: function is {self.function!r}; give a function(time, measured)")
 
 
 def _step(name: str, value: Any) -> float:
@@ -456,14 +431,6 @@ def drive(run: Run, controllers: Sequence[SampledController] = (), *, progress: 
         close()
 
 
-def checked_controllers(controllers: Any) -> list[SampledController]:
-    given = list(controllers) if isinstance(controllers, Iterable) else [controllers]
-    for controller in given:
-        if not isinstance(controller, SampledController):
-            raise SceneError(f"controllers holds {controller!r}; give a list of seacrane.SampledController")
-    return given
-
-
 def _advance(
     run: Run, t_end: float, controllers: Sequence[SampledController], report: Callable[[float], None] | None
 ) -> None:
@@ -473,32 +440,10 @@ def _advance(
         called: dict[str, Any] = {}
         for i, controller in enumerate(controllers):
             if due[i] <= now and now < t_end:
-                called.update(_call(controller, now, run))
-                due[i] = _next_call(controller, now, run.start.time)
+                called.update(called_at(controller, now, run.measure))
+                due[i] = next_call(controller, now, run.start.time)
         if called:
             run.set_inputs(called)
         stop = min([t_end, *due])
         if not run.advance(stop, report) or stop >= t_end:
             return
-
-
-def _call(controller: SampledController, now: float, run: Run) -> Mapping[str, Any]:
-    try:
-        inputs = controller.function(now, run.measure())
-    except Exception as error:
-        raise SimulationError(
-            f"controller: raised {type(error).__name__} at t = {now:.6g} s: {error}"
-        ) from error
-    if not isinstance(inputs, Mapping):
-        raise SimulationError(f"controller: returned {inputs!r} at t = {now:.6g} s; return {{input: value}}")
-    return inputs
-
-
-def _next_call(controller: SampledController, now: float, start: float) -> float:
-    with np.errstate(over="ignore"):
-        after = start + controller.period * (np.round((now - start) / controller.period) + 1.0)
-    if not after > now:
-        raise SceneError(
-            f"controller: period is {controller.period} s, below the resolution of time; make it longer"
-        )
-    return float(after)
