@@ -21,6 +21,7 @@ from seacrane import (
     Scene,
     SceneError,
     SimulationError,
+    add_end_stop,
     cases,
     simulate,
     simulate_to_file,
@@ -54,6 +55,7 @@ def same(one: Result, two: Result) -> None:
         else:
             assert np.array_equal(values, two[name]), name
     assert one.coords == two.coords
+    assert one.events == two.events
 
 
 def stopping_after(
@@ -117,6 +119,30 @@ def test_a_stopped_run_goes_on_to_the_same_file(
     same(whole, rest.load())
     assert rest.load().stats["simulated_s"] == pytest.approx(30.0)
     assert rest.load().stats["steps"] == whole.stats["steps"]
+
+
+def bouncing() -> Scene:
+    scene = Scene(name="ball")
+    scene.add_body(name="ball", mass=3.0, inertia=(0.1, 0.2, 0.3))
+    scene.add_joint(kind="free", name="air", first="ground", second="ball", point=(0.0, 0.0, 0.0))
+    add_end_stop(scene, joint="air", coordinate="z", minimum=-2.0, restitution=0.9, name="floor")
+    return scene
+
+
+def test_events_are_in_the_file_and_go_on_after_a_stop(tmp_path: Path) -> None:
+    """A ball that bounces 16 times; the run stops in the air, and once more when the ball lies still."""
+    whole = simulate(bouncing(), t_end=20.0)
+    assert len(whole.events) > 10
+    for t_end in (3.0, 15.0, 20.0):
+        told = simulate_to_file(bouncing(), tmp_path / "run.nc", t_end=t_end, resume=t_end > 3.0)
+    joined = told.load()
+    assert joined.stats["events"] == len(joined.events) == len(whole.events)
+    np.testing.assert_allclose(
+        [event.time for event in joined.events], [event.time for event in whole.events], atol=1e-5
+    )
+    assert [event.kind for event in joined.events] == [event.kind for event in whole.events]
+    np.testing.assert_allclose(joined["impact_loss"], whole["impact_loss"], atol=1e-3)
+    np.testing.assert_allclose(joined["energy_balance"], 0.0, atol=1e-3)
 
 
 def test_a_finished_run_goes_on_to_a_later_end(tmp_path: Path) -> None:
