@@ -258,6 +258,39 @@ def test_ctrl_c_while_a_piece_is_written_waits_for_it(
     assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
 
 
+READER = """
+import sys, netCDF4
+file = netCDF4.Dataset(sys.argv[1], "r")
+print(file["time"][:].size, flush=True)
+sys.stdin.readline()
+print(file["time"][:].size, flush=True)
+"""
+
+
+def test_a_program_that_reads_the_file_does_not_stop_the_run(tmp_path: Path) -> None:
+    """Its lock is its own: it keeps what it opened, and the run goes on."""
+    path, readers = tmp_path / "run.nc", []
+
+    def look(now: float, measured: Any) -> dict[str, float]:
+        if now > 50.0 and not readers:
+            readers.append(
+                subprocess.Popen(
+                    [sys.executable, "-c", READER, str(stream.partial_path(path))],
+                    stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True,
+                )
+            )  # fmt: skip
+            assert readers[0].stdout is not None
+            assert int(readers[0].stdout.readline()) >= 16
+        return {}
+
+    ticks = [SampledController(period=1.0, function=look)]
+    told = simulate_to_file(spinner(), path, t_end=100.0, controllers=ticks)
+    left, _ = readers[0].communicate("go on\n", timeout=GENEROUS)
+    assert told.outputs == told.load().time.size == 1001
+    assert 16 <= int(left) < 1001
+    assert sorted(p.name for p in tmp_path.iterdir()) == ["run.nc", "run.state"]
+
+
 def test_outputs_without_a_time_do_not_count(tmp_path: Path) -> None:
     """A piece whose writing was broken off."""
     import netCDF4

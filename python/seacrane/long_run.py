@@ -70,7 +70,7 @@ def simulate_to_file(
     """Simulate a scene and write its outputs to a file while the run goes on.
 
     Outputs leave memory in pieces. Until the run ends, or is stopped by Ctrl-C or an error, the file is
-    called <name>.partial.nc; it can be read between two pieces. Beside it goes <name>.state, from which
+    called <name>.partial.nc, which other programs may read. Beside it goes <name>.state, from which
     ``resume=True`` goes on: the file then holds, bit for bit, the outputs of a run that was not stopped
     (methods of SUNDIALS restart there).
 

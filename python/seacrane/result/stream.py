@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import contextlib
+import fcntl
 import json
 import os
+import shutil
 import signal
 import threading
 from collections.abc import Iterator, Mapping, Sequence
@@ -15,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane.errors import FileFormatError
-from seacrane.result.atomic import space_left
+from seacrane.result.atomic import atomic_write, space_left
 from seacrane.result.channels import CHANNELS, attributes
 from seacrane.result.netcdf import add_events
 from seacrane.result.result import checked_stats
@@ -229,8 +231,26 @@ class ResultFile:
 def _dataset(path: Path) -> Iterator[Any]:
     import netCDF4
 
-    with netCDF4.Dataset(path, "a") as file:
+    for attempts_left in reversed(range(5)):
+        _leave_to_readers(path)
+        try:
+            file = netCDF4.Dataset(path, "a")
+            break
+        except OSError:
+            if not attempts_left:
+                raise
+    with file:
         yield file
+
+
+def _leave_to_readers(path: Path) -> None:
+    """A program that reads a NetCDF file locks it: it keeps that file, and the run goes on in a copy."""
+    with path.open("rb") as file:
+        try:
+            fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except BlockingIOError:
+            with atomic_write(path) as draft:
+                shutil.copyfile(path, draft)
 
 
 def _reserve(path: Path, size: int) -> None:
