@@ -185,24 +185,30 @@ def test_other_threads_go_on_while_the_loop_runs() -> None:
     assert all(later > earlier + 1000 for earlier, later in pairwise(seen))
 
 
-def test_two_threads_share_one_model_and_agree() -> None:
-    from seacrane import Run
+@pytest.mark.parametrize("formulation", ["redundant", "recursive"])
+def test_threads_share_one_model_and_agree(formulation: str) -> None:
+    """To the bit, with each other and with a run alone; cpp/tests/test_threads.cpp has more scenes."""
+    from seacrane import cases
 
-    scene = ball_on_a_pin()
+    scene = cases.case2(memory="convolution")
     model = scene.compile()
     results: dict[int, Any] = {}
 
     def work(number: int) -> None:
-        run = Run(scene, t_end=50.0, model=model)
-        assert run.advance(50.0)
+        run = Run(scene, t_end=10.0, model=model, formulation=formulation)
+        assert run.advance(10.0)
         results[number] = run.result()
 
-    threads = [threading.Thread(target=work, args=(i,)) for i in range(2)]
+    threads = [threading.Thread(target=work, args=(i,)) for i in range(3)]
     for thread in threads:
         thread.start()
     for thread in threads:
         thread.join()
-    assert (results[0]["position"] == results[1]["position"]).all()
+    alone = simulate(scene, t_end=10.0, formulation=formulation)
+    for result in results.values():
+        for name, values in alone.channels.items():
+            assert np.array_equal(result[name], values), name
+    assert len(results) == 3
 
 
 def diverging() -> Scene:
