@@ -14,7 +14,17 @@ import pytest
 from numpy.typing import NDArray
 from test_restart import SCENES
 
-from seacrane import FileFormatError, Run, Scene, SceneError, State, cases, integrator_names, simulate
+from seacrane import (
+    FileFormatError,
+    Run,
+    Scene,
+    SceneError,
+    State,
+    add_wire,
+    cases,
+    integrator_names,
+    simulate,
+)
 from seacrane.state_file import DIGEST, MAGIC
 
 Array = NDArray[np.float64]
@@ -122,6 +132,37 @@ def test_a_run_stopped_at_any_step_goes_on_as_if_it_had_not(
     for name in all_of_it.channels:
         joined = np.concatenate([first[name], second[name]])
         np.testing.assert_array_equal(joined, all_of_it[name], err_msg=name)
+
+
+def on_a_wire() -> Scene:
+    """A ball thrown up so fast that its wire goes slack, and is caught again."""
+    scene = Scene(name="wire")
+    scene.add_body(
+        name="ball", mass=3.0, inertia=(0.1, 0.2, 0.3), position=(0.0, 0.0, -2.0), velocity=(8, 0, 0)
+    )
+    scene.add_joint(kind="distance", name="wire", first="ground", second="ball", point=(0.0, 0.0, 0.0),
+                    second_point=(0.0, 0.0, -2.0))  # fmt: skip
+    add_wire(scene, joint="wire", restitution=0.5)
+    return scene
+
+
+@pytest.mark.parametrize("formulation", ["redundant", "recursive"])
+@pytest.mark.parametrize("integrator", ["dopri5", "rk4", "rosenbrock"])
+@pytest.mark.parametrize("stop", [0.2, 1.0, 2.4])
+def test_limits_go_on_bit_for_bit(stop: float, integrator: str, formulation: str, tmp_path: Path) -> None:
+    settings: dict[str, Any] = {"t_end": 4.0, "integrator": integrator, "formulation": formulation}
+    whole = Run(on_a_wire(), **settings)
+    whole.advance(stop)
+    left = whole.state
+    left.save(tmp_path / "state")
+    later = Run(on_a_wire(), start=State.load(tmp_path / "state"), **settings)
+    assert later.start.closed == left.closed == (["wire"] if stop == 0.2 else left.closed)
+    for run in (whole, later):
+        run.advance(4.0)
+    assert len(whole.result().events) > 2
+    assert np.array_equal(whole.state.values, later.state.values)
+    late = whole.result().time > stop
+    assert np.array_equal(whole.result()["impact_loss"][late][-10:], later.result()["impact_loss"][-10:])
 
 
 @pytest.fixture
