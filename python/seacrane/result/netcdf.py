@@ -71,16 +71,17 @@ def read_arrays(path: Path, channels: Sequence[str] | None = None) -> dict[str, 
             raise FileFormatError(f"{path} has no variable 'time'; it is not a seacrane result")
         stats = {name: file.getncattr(name) for name in file.ncattrs()}
         interrupted = bool(stats.pop("interrupted", 0))
-        time = file["time"][:]
-        count = (
-            time.size if not np.isnan(time[-1:]).any() else int(np.argmax(np.isnan(time)))
-        )  # see stream.py
+        time = np.asarray(file["time"][:])
+        outputs = _timed(time)
         return {
-            "time": time[:count],
+            "time": time[outputs],
             "arrays": {
-                name: variable[:count]
+                name: variable[outputs]
                 for name, variable in file.variables.items()
-                if "time" in variable.dimensions and name != "time" and (channels is None or name in channels)
+                if name != "time"
+                and name not in file.dimensions
+                and "event" not in variable.dimensions
+                and (channels is None or name in channels)
             },
             **{
                 argument: [str(name) for name in file[dim][:]]
@@ -99,3 +100,10 @@ def read_arrays(path: Path, channels: Sequence[str] | None = None) -> dict[str, 
             "stats": stats,
             "interrupted": interrupted,
         }
+
+
+def _timed(time: Any) -> slice:
+    """All outputs, without those at the end whose writing was broken off before they had a time."""
+    if time.ndim == 1 and time.dtype.kind == "f" and np.isnan(time[-1:]).any():
+        return slice(int(np.argmax(np.isnan(time))))
+    return slice(None)
