@@ -1,7 +1,7 @@
 # make demo     the paper's figures and report in out/demo
 # make test     everything that CI checks: lint, types, formatting, C++ tests (plain and sanitized), Python tests
 # make build    the package in .venv, rebuilt only where something changed
-# make nightly  longer tests;  make bench  benchmarks;  make stubs  python/seacrane/_core.pyi
+# make nightly  longer tests, and ThreadSanitizer (make cpp-tsan);  make bench  benchmarks;  make stubs  python/seacrane/_core.pyi
 # make bench-peers  the same crane in Pinocchio, MuJoCo, Exudyn and NumPy, in an environment of their own;
 #                   either of the two with BENCH_ARGS=--publish writes into benchmarks/ (on an idle machine)
 # make format   formats C++ and Python;  make clean  removes what was built (not .venv);  make distclean  all
@@ -12,7 +12,7 @@ SHELL := /bin/bash
 .DELETE_ON_ERROR:
 .DEFAULT_GOAL := build
 .PHONY: demo test build nightly bench bench-peers stubs format clean distclean lint cpp-test cpp-sanitize \
-        python-test system-packages FORCE
+        cpp-tsan python-test system-packages FORCE
 
 ifndef PYTHON
 PYTHON := $(shell .ci/find-python)
@@ -23,6 +23,7 @@ PIP := $(BIN)/python -m pip --disable-pip-version-check
 STAMPS := build/stamps
 PACKAGE_BUILD := build/package
 SANITIZE_BUILD := build/sanitize
+TSAN_BUILD := build/tsan
 CPP_FILES = $(shell find cpp -name '*.hpp' -o -name '*.cpp')
 export CMAKE_BUILD_PARALLEL_LEVEL ?= $(JOBS)
 
@@ -83,6 +84,14 @@ cpp-sanitize: system-packages
 	cmake --build $(SANITIZE_BUILD) --target seacrane_tests
 	ctest --test-dir $(SANITIZE_BUILD) --output-on-failure --no-tests=error -j $(JOBS)
 
+# Threads that share one model. Where it is allowed, addresses are not randomised: ThreadSanitizer of older
+# compilers cannot map its shadow memory where newer kernels put things.
+cpp-tsan: system-packages
+	cmake -S . -B $(TSAN_BUILD) -G Ninja -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG='-O1 -g1' \
+	  -DSEACRANE_PYTHON=OFF -DSEACRANE_TESTS=ON -DSEACRANE_SANITIZE=thread
+	cmake --build $(TSAN_BUILD) --target seacrane_thread_tests
+	$$(setarch -R true 2>/dev/null && echo setarch -R) $(TSAN_BUILD)/cpp/tests/seacrane_thread_tests
+
 python-test: build .venv/.installed-dev
 	$(BIN)/python -m pytest -n $(JOBS) --dist worksteal $(PYTEST_ARGS)
 
@@ -94,6 +103,7 @@ test:
 
 nightly: build .venv/.installed-dev
 	$(BIN)/python -m pytest -m nightly $(PYTEST_ARGS)
+	$(MAKE) --no-print-directory cpp-tsan
 	$(MAKE) --no-print-directory bench
 
 bench: build .venv/.installed-dev

@@ -79,6 +79,18 @@ def run_script(body: str) -> dict[str, Any]:
     return out
 
 
+def test_ctrl_c_does_not_wait_for_the_run() -> None:
+    """Measured: hundredths of a second. The bound leaves room for a machine that is busy."""
+    told = run_script(
+        "def soon():\n    time.sleep(0.5)\n    pressed.append(time.monotonic())\n"
+        "    os.kill(os.getpid(), signal.SIGINT)\n"
+        "pressed = []\nthreading.Thread(target=soon, daemon=True).start()\n"
+        "result = simulate(waves, t_end=1e6, dt_out=1.0)\nmore = time.monotonic() - pressed[0]\n"
+    )
+    assert told["interrupted"]
+    assert told["more"] < 10.0
+
+
 @pytest.mark.parametrize("name", RUNS)
 def test_ctrl_c_returns_what_was_recorded(name: str) -> None:
     told = run_script(RUNS[name])
@@ -127,6 +139,12 @@ def test_the_command_line_saves_what_it_has(tmp_path: Path) -> None:
     result = Result.load(tmp_path / "case1.nc")
     assert result.interrupted
     assert 0.0 < result.time[-1] < 1e5
+    t_end = result.time[-1] + 20.0
+    subprocess.run([*command[:-1], f"{t_end}", "--resume"], check=True, timeout=GENEROUS)
+    whole = Result.load(tmp_path / "case1.nc")
+    assert whole.time[-1] == t_end
+    assert np.array_equal(whole["position"][: result.time.size], result["position"])
+    assert not whole.interrupted
 
 
 def ball_on_a_pin() -> Scene:
@@ -167,24 +185,30 @@ def test_other_threads_go_on_while_the_loop_runs() -> None:
     assert all(later > earlier + 1000 for earlier, later in pairwise(seen))
 
 
-def test_two_threads_share_one_model_and_agree() -> None:
-    from seacrane import Run
+@pytest.mark.parametrize("formulation", ["redundant", "recursive"])
+def test_threads_share_one_model_and_agree(formulation: str) -> None:
+    """To the bit, with each other and with a run alone; cpp/tests/test_threads.cpp has more scenes."""
+    from seacrane import cases
 
-    scene = ball_on_a_pin()
+    scene = cases.case2(memory="convolution")
     model = scene.compile()
     results: dict[int, Any] = {}
 
     def work(number: int) -> None:
-        run = Run(scene, t_end=50.0, model=model)
-        assert run.advance(50.0)
+        run = Run(scene, t_end=10.0, model=model, formulation=formulation)
+        assert run.advance(10.0)
         results[number] = run.result()
 
-    threads = [threading.Thread(target=work, args=(i,)) for i in range(2)]
+    threads = [threading.Thread(target=work, args=(i,)) for i in range(3)]
     for thread in threads:
         thread.start()
     for thread in threads:
         thread.join()
-    assert (results[0]["position"] == results[1]["position"]).all()
+    alone = simulate(scene, t_end=10.0, formulation=formulation)
+    for result in results.values():
+        for name, values in alone.channels.items():
+            assert np.array_equal(result[name], values), name
+    assert len(results) == 3
 
 
 def diverging() -> Scene:

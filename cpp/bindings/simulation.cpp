@@ -26,10 +26,10 @@ bool ask_python(double time, const py::object& progress) {
   return true;
 }
 
-py::dict channels(const Recording& r) {
-  const auto rows = static_cast<py::ssize_t>(r.count());
+py::dict channels(const Recording& r, std::size_t most) {
+  const auto rows = static_cast<py::ssize_t>(std::min(r.count(), most));
   py::dict out;
-  out["time"] = to_array(r.times());
+  out["time"] = Array(rows, r.times().data());
   for (const Channel& c : r.channels()) {
     std::vector<py::ssize_t> shape{rows};
     for (std::size_t n : c.shape) shape.push_back(static_cast<py::ssize_t>(n));
@@ -128,25 +128,57 @@ void bind_steps(py::module_& m) {
           "rate", [](const S& s) { return to_array(s.rate); }, "copy");
 }
 
+py::module_ state_file() { return py::module_::import("seacrane.state_file"); }
+
+void bind_record(py::module_& m) {
+  using R = RecordHistory;
+  py::class_<R>(
+      m, "RecordHistory",
+      "What recording keeps from output to output, used where `steps` is: energy and work (J) that "
+      "energy_balance is counted from, the largest residual before projection since the last output (m or "
+      "rad), energy lost in impacts (J), and the last recorded quaternions.")
+      .def(py::init([](double start_energy, double start_work, double open, double impact_loss,
+                       const Array& quaternions) {
+             return R{start_energy, start_work, open, impact_loss, to_vector(quaternions)};
+           }),
+           py::kw_only(), py::arg("start_energy"), py::arg("start_work"), py::arg("open"),
+           py::arg("impact_loss"), py::arg("quaternions"))
+      .def_property_readonly(
+          "impact_loss", [](const R& r) { return r.impact_loss; }, "J")
+      .def_property_readonly(
+          "start_energy", [](const R& r) { return r.start_energy; }, "J")
+      .def_property_readonly(
+          "start_work", [](const R& r) { return r.start_work; }, "J")
+      .def_property_readonly(
+          "open", [](const R& r) { return r.open; }, "m or rad")
+      .def_property_readonly(
+          "quaternions", [](const R& r) { return to_array(r.quaternions); }, "copy");
+}
+
 }  // namespace
 
 void bind_simulation(py::module_& m) {
   bind_history(m);
   bind_steps(m);
+  bind_record(m);
   py::class_<State>(m, "State", "Time (s), state values and inputs of a run; a copy is a checkpoint.")
       .def(py::init([](double time, const Array& values, const Array& inputs,
                        std::vector<TwistHistory> histories, StepHistory steps,
-                       std::optional<std::vector<std::string>> closed) {
+                       std::optional<std::vector<std::string>> closed, std::optional<RecordHistory> record,
+                       std::vector<std::string> parts) {
              return State{time,
                           to_vector(values),
                           to_vector(inputs),
                           std::move(histories),
                           std::move(steps),
-                          std::move(closed)};
+                          std::move(closed),
+                          std::move(record),
+                          std::move(parts)};
            }),
            py::kw_only(), py::arg("time"), py::arg("values"), py::arg("inputs"),
            py::arg("histories") = std::vector<TwistHistory>{}, py::arg("steps") = StepHistory{},
-           py::arg("closed") = py::none())
+           py::arg("closed") = py::none(), py::arg("record") = py::none(),
+           py::arg("parts") = std::vector<std::string>{})
       .def_property_readonly(
           "closed", [](const State& s) { return s.closed; },
           "Names of the limits that hold (copy); None: as at the described start.")
@@ -159,7 +191,24 @@ void bind_simulation(py::module_& m) {
           "histories", [](const State& s) { return s.histories; },
           "One TwistHistory per vessel with a convolution (copies); none: at rest before `time`.")
       .def_property_readonly(
-          "steps", [](const State& s) { return s.steps; }, "StepHistory (copy); its names are empty: none.");
+          "steps", [](const State& s) { return s.steps; }, "StepHistory (copy); its names are empty: none.")
+      .def_property_readonly(
+          "record", [](const State& s) { return s.record; }, "RecordHistory (copy), or None.")
+      .def_property_readonly(
+          "parts", [](const State& s) { return s.parts; },
+          "What the values belong to, in words; a run of a scene with other parts refuses the state. Empty: "
+          "not known.")
+      .def(
+          "save", [](const State& s, const py::object& path) { state_file().attr("save_state")(s, path); },
+          py::arg("path"), "Writes the state to a file, complete or not at all; see docs/restart.md.")
+      .def_static(
+          "load",
+          [](const py::object& path, const py::object& scene) {
+            return state_file().attr("load_state")(path, py::arg("scene") = scene).cast<State>();
+          },
+          py::arg("path"), py::kw_only(), py::arg("scene") = py::none(),
+          "Reads what save() wrote; FileFormatError for a damaged file, and for a state of other parts than "
+          "those of `scene`, where one is given.");
   m.def(
       "initial_state", [](const std::shared_ptr<Model>& model) { return initial_state(*model); },
       py::arg("model").none(false));
@@ -173,7 +222,7 @@ void bind_simulation(py::module_& m) {
       .def(py::init([](const std::shared_ptr<Model>& model, const State& start, std::string integrator,
                        double rtol, double dt, double max_step, const Array& output_times,
                        std::set<std::string> names, std::string formulation,
-                       std::optional<double> spectral_radius, double energy_limit) {
+                       std::optional<double> spectral_radius, double energy_limit, std::size_t capacity) {
              RunOptions options;
              options.formulation = std::move(formulation);
              options.integrator = std::move(integrator);
@@ -184,12 +233,13 @@ void bind_simulation(py::module_& m) {
              options.energy_limit = energy_limit;
              options.output_times = to_vector(output_times);
              options.channels = std::move(names);
+             options.capacity = capacity;
              return std::make_unique<Simulation>(model, start, std::move(options));
            }),
            py::kw_only(), py::arg("model").none(false), py::arg("start"), py::arg("integrator"),
            py::arg("rtol"), py::arg("dt"), py::arg("max_step"), py::arg("output_times"), py::arg("channels"),
            py::arg("formulation") = "redundant", py::arg("spectral_radius") = py::none(),
-           py::arg("energy_limit") = 0.0)
+           py::arg("energy_limit") = 0.0, py::arg("capacity") = 0)
       .def(
           "advance",
           [](Simulation& s, double t_end, const py::object& progress) {
@@ -206,10 +256,14 @@ void bind_simulation(py::module_& m) {
           "set_inputs", [](Simulation& s, const Array& slots) { s.set_inputs(to_vector(slots)); },
           py::arg("slots"), "Sets the zero-order-held inputs from now on.")
       .def(
-          "channels", [](const Simulation& s) { return channels(s.recording()); },
-          "Recorded arrays by name, time first (copies).")
+          "channels", [](const Simulation& s, std::size_t most) { return channels(s.recording(), most); },
+          py::arg("most") = std::numeric_limits<std::ptrdiff_t>::max(),
+          "Recorded arrays by name, time first (copies), of no more than the first `most` outputs.")
+      .def_property_readonly(
+          "recorded", [](const Simulation& s) { return s.recording().count(); }, "Outputs recorded.")
+      .def("drop", &Simulation::drop_rows, py::arg("count"), "Drops the first `count` outputs recorded.")
       .def(
-          "snapshot", [](Simulation& s) { return channels(s.snapshot()); },
+          "snapshot", [](Simulation& s) { return channels(s.snapshot(), 1); },
           "All channels at the present time, arrays of one row.")
       .def(
           "events",

@@ -50,14 +50,16 @@ if TYPE_CHECKING:
     from seacrane.limits import add_end_stop, add_friction, add_seat, add_soft_stop, add_wire
     from seacrane.linear_system import LinearModel, linear_model
     from seacrane.linearise import fastest_mode, jacobian
+    from seacrane.long_run import StreamedResult, simulate_to_file
     from seacrane.modal_analysis import NaturalModes, natural_modes
     from seacrane.output_times import OutputMemoryError
     from seacrane.rest_state import equilibrium
     from seacrane.result import Event, Result
+    from seacrane.sampled_controller import SampledController
     from seacrane.scene import Scene
     from seacrane.sea import SeaState, WaveSystem
     from seacrane.sea_state import add_sea
-    from seacrane.simulation import Run, SampledController, simulate
+    from seacrane.simulation import Run, simulate
     from seacrane.trading import Trade, trade
     from seacrane.validity import (
         FullTurnWarning,
@@ -104,7 +106,7 @@ _HOME = {
     "Result": "result",
     "RetardationFunctions": "_core",
     "Run": "simulation",
-    "SampledController": "simulation",
+    "SampledController": "sampled_controller",
     "Scene": "scene",
     "SceneError": "errors",
     "SeaState": "sea",
@@ -113,6 +115,7 @@ _HOME = {
     "SoftStop": "_core",
     "State": "_core",
     "StateSpaceBlock": "_core",
+    "StreamedResult": "long_run",
     "SummedResponse": "frequency_domain",
     "Trade": "trading",
     "TwistHistory": "_core",
@@ -146,6 +149,7 @@ _HOME = {
     "response_statistics": "frequency_domain",
     "response_summed": "frequency_domain",
     "simulate": "simulation",
+    "simulate_to_file": "long_run",
     "spline_curve": "curves",
     "trade": "trading",
     "use_actual_position": "environment",
@@ -192,6 +196,7 @@ __all__ = [
     "SoftStop",
     "State",
     "StateSpaceBlock",
+    "StreamedResult",
     "SummedResponse",
     "Trade",
     "TwistHistory",
@@ -230,6 +235,7 @@ __all__ = [
     "response_summed",
     "sea",
     "simulate",
+    "simulate_to_file",
     "spline_curve",
     "trade",
     "use_actual_position",

@@ -6,7 +6,7 @@ import collections.abc
 import numpy
 import numpy.typing
 import typing
-__all__: list[str] = ['Actuator', 'Body', 'Curve', 'DriftLoad', 'DriftTable', 'Driver', 'Evaluator', 'ExactWaveLoad', 'FlowForce', 'ForceTable', 'Frame', 'Friction', 'FunctionForce', 'Joint', 'Limit', 'Model', 'PointForce', 'PositionedWaveLoad', 'RepeatPeriod', 'RetardationFunctions', 'Simulation', 'SoftStop', 'Spectrum', 'Spring', 'State', 'StateSpaceBlock', 'StepHistory', 'TwistHistory', 'VesselHydrodynamics', 'WaveComponents', 'WaveKinematics', 'WaveLoads', 'WaveTable', 'compile', 'dnv_gamma', 'initial_state', 'integrator_names', 'jonswap', 'ochi_hubble', 'philox_uniform', 'pierson_moskowitz', 'realise_waves', 'section_radiation', 'stability_polynomial', 'strip_theory', 'tabulated_density', 'torsethaugen']
+__all__: list[str] = ['Actuator', 'Body', 'Curve', 'DriftLoad', 'DriftTable', 'Driver', 'Evaluator', 'ExactWaveLoad', 'FlowForce', 'ForceTable', 'Frame', 'Friction', 'FunctionForce', 'Joint', 'Limit', 'Model', 'PointForce', 'PositionedWaveLoad', 'RecordHistory', 'RepeatPeriod', 'RetardationFunctions', 'Simulation', 'SoftStop', 'Spectrum', 'Spring', 'State', 'StateSpaceBlock', 'StepHistory', 'TwistHistory', 'VesselHydrodynamics', 'WaveComponents', 'WaveKinematics', 'WaveLoads', 'WaveTable', 'compile', 'dnv_gamma', 'initial_state', 'integrator_names', 'jonswap', 'ochi_hubble', 'philox_uniform', 'pierson_moskowitz', 'realise_waves', 'section_radiation', 'stability_polynomial', 'strip_theory', 'tabulated_density', 'torsethaugen']
 class Curve:
     """
     A reference as a function of time: pieces of quintic polynomials plus one cosine each.
@@ -1111,12 +1111,52 @@ class StepHistory:
         """
         copy
         """
+class RecordHistory:
+    """
+    What recording keeps from output to output, used where `steps` is: energy and work (J) that energy_balance is counted from, the largest residual before projection since the last output (m or rad), energy lost in impacts (J), and the last recorded quaternions.
+    """
+    def __init__(self, *, start_energy: typing.SupportsFloat | typing.SupportsIndex, start_work: typing.SupportsFloat | typing.SupportsIndex, open: typing.SupportsFloat | typing.SupportsIndex, impact_loss: typing.SupportsFloat | typing.SupportsIndex, quaternions: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> None:
+        ...
+    @property
+    def impact_loss(self) -> float:
+        """
+        J
+        """
+    @property
+    def open(self) -> float:
+        """
+        m or rad
+        """
+    @property
+    def quaternions(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        copy
+        """
+    @property
+    def start_energy(self) -> float:
+        """
+        J
+        """
+    @property
+    def start_work(self) -> float:
+        """
+        J
+        """
 class State:
     """
     Time (s), state values and inputs of a run; a copy is a checkpoint.
     """
-    def __init__(self, *, time: typing.SupportsFloat | typing.SupportsIndex, values: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], inputs: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], histories: collections.abc.Sequence[TwistHistory] = [], steps: StepHistory = ..., closed: collections.abc.Sequence[str] | None = None) -> None:
+    @staticmethod
+    def load(path: typing.Any, *, scene: typing.Any = None) -> State:
+        """
+        Reads what save() wrote; FileFormatError for a damaged file, and for a state of other parts than those of `scene`, where one is given.
+        """
+    def __init__(self, *, time: typing.SupportsFloat | typing.SupportsIndex, values: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], inputs: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], histories: collections.abc.Sequence[TwistHistory] = [], steps: StepHistory = ..., closed: collections.abc.Sequence[str] | None = None, record: RecordHistory | None = None, parts: collections.abc.Sequence[str] = []) -> None:
         ...
+    def save(self, path: typing.Any) -> None:
+        """
+        Writes the state to a file, complete or not at all; see docs/restart.md.
+        """
     @property
     def closed(self) -> list[str] | None:
         """
@@ -1131,6 +1171,16 @@ class State:
     def inputs(self) -> numpy.typing.NDArray[numpy.float64]:
         """
         copy
+        """
+    @property
+    def parts(self) -> list[str]:
+        """
+        What the values belong to, in words; a run of a scene with other parts refuses the state. Empty: not known.
+        """
+    @property
+    def record(self) -> RecordHistory | None:
+        """
+        RecordHistory (copy), or None.
         """
     @property
     def steps(self) -> StepHistory:
@@ -1149,15 +1199,19 @@ class Simulation:
     """
     One run of a model: advance(), inputs, recorded channels. Not for several threads.
     """
-    def __init__(self, *, model: Model, start: State, integrator: str, rtol: typing.SupportsFloat | typing.SupportsIndex, dt: typing.SupportsFloat | typing.SupportsIndex, max_step: typing.SupportsFloat | typing.SupportsIndex, output_times: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], channels: collections.abc.Set[str], formulation: str = 'redundant', spectral_radius: typing.SupportsFloat | typing.SupportsIndex | None = None, energy_limit: typing.SupportsFloat | typing.SupportsIndex = 0.0) -> None:
+    def __init__(self, *, model: Model, start: State, integrator: str, rtol: typing.SupportsFloat | typing.SupportsIndex, dt: typing.SupportsFloat | typing.SupportsIndex, max_step: typing.SupportsFloat | typing.SupportsIndex, output_times: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], channels: collections.abc.Set[str], formulation: str = 'redundant', spectral_radius: typing.SupportsFloat | typing.SupportsIndex | None = None, energy_limit: typing.SupportsFloat | typing.SupportsIndex = 0.0, capacity: typing.SupportsInt | typing.SupportsIndex = 0) -> None:
         ...
     def advance(self, t_end: typing.SupportsFloat | typing.SupportsIndex, progress: typing.Any = None) -> bool:
         """
         Steps to t_end (s) without the GIL; returns False when Ctrl-C stopped it. progress(time) is called now and then.
         """
-    def channels(self) -> dict:
+    def channels(self, most: typing.SupportsInt | typing.SupportsIndex = 9223372036854775807) -> dict:
         """
-        Recorded arrays by name, time first (copies).
+        Recorded arrays by name, time first (copies), of no more than the first `most` outputs.
+        """
+    def drop(self, count: typing.SupportsInt | typing.SupportsIndex) -> None:
+        """
+        Drops the first `count` outputs recorded.
         """
     def events(self) -> list[tuple[float, str, str, float, float, float]]:
         """
@@ -1173,6 +1227,11 @@ class Simulation:
         """
     def statistics(self) -> dict:
         ...
+    @property
+    def recorded(self) -> int:
+        """
+        Outputs recorded.
+        """
     @property
     def state(self) -> State:
         """

@@ -19,15 +19,15 @@ class OutputMemoryError(SceneError, MemoryError):
     """The outputs asked for would not fit into this computer's memory; nothing has been allocated."""
 
 
-def output_times(t_start: float, t_end: float, dt_out: float, *, values: int) -> Array:
-    """Times from t_start in steps of dt_out to t_end, which is always among them.
+def output_times(t_start: float, t_end: float, dt_out: float, *, first: float, values: int) -> Array:
+    """Times from `first` in steps of dt_out to t_end, which is always among them.
 
     Parameters
     ----------
-    t_start, t_end, dt_out : float
-        s.
+    t_start, t_end, dt_out, first : float
+        s; the core leaves out times before t_start.
     values : int
-        Numbers recorded at each.
+        Numbers kept in memory of each; 0 where outputs leave memory.
 
     Raises
     ------
@@ -36,21 +36,24 @@ def output_times(t_start: float, t_end: float, dt_out: float, *, values: int) ->
     OutputMemoryError
         More outputs than memory holds, before any is allocated.
     """
-    for name, value in (("start time", t_start), ("t_end", t_end), ("dt_out", dt_out)):
+    given = {"start time": t_start, "t_end": t_end, "dt_out": dt_out, "outputs_from": first}
+    for name, value in given.items():
         if not np.isfinite(value):
             raise SceneError(f"{name} is {value}; give a finite number of seconds")
     if t_end < t_start:
         raise SceneError(f"t_end is {t_end} s, before the start at {t_start} s")
+    if first > t_start:
+        raise SceneError(f"outputs_from is {first} s, after the start at {t_start} s")
     if dt_out <= 0.0:
         raise SceneError(f"dt_out is {dt_out} s; make it positive")
-    if (t_end - t_start) / dt_out > MOST_OUTPUTS:
+    if (t_end - first) / dt_out > MOST_OUTPUTS:
         raise SceneError(
             f"dt_out is {dt_out} s: more than {MOST_OUTPUTS:.0e} outputs until {t_end} s; make it longer"
         )
-    count = int(np.floor((t_end - t_start) / dt_out * (1.0 + 1e-12))) + 1
-    _check_resolution(max(abs(t_start), abs(t_end)), dt_out)
+    count = int(np.floor((t_end - first) / dt_out * (1.0 + 1e-12))) + 1
+    _check_resolution(max(abs(first), abs(t_end)), dt_out)
     _check_memory(count, values)
-    times = t_start + dt_out * np.arange(count)
+    times = first + dt_out * np.arange(count)
     return np.append(times, t_end) if t_end - times[-1] > 1e-9 * dt_out else np.minimum(times, t_end)
 
 

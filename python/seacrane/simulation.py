@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import contextlib
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -16,44 +15,20 @@ from seacrane.checked import number_of, numbers_of
 from seacrane.errors import SceneError, SeacraneError, SimulationError
 from seacrane.linearise import fastest_mode
 from seacrane.output_times import output_times
+from seacrane.sampled_controller import SampledController, called_at, checked_controllers, next_call
 from seacrane.scene import Scene
 from seacrane.step_advice import step_advice
-from seacrane.validity import findings, warn_of_validity
+from seacrane.validity import Finding, as_text, findings, warn_of
 from seacrane.version import __version__
 
 if TYPE_CHECKING:
-    from seacrane.result import Result
+    from seacrane.result import Event, Result
 
 Array = NDArray[np.float64]
-Snapshot = Mapping[str, Array]
 DEFAULT_INTEGRATOR, DEFAULT_RTOL = "dopri5", 1e-6
 RESIDUAL_INTEGRATORS = ("ida", "generalized-alpha", "generalized-alpha-index2")
 FORMULATIONS = ("auto", "recursive", "redundant")
 BAUMGARTE_OF_ADAMS = 5.0  # 1/s: cvode-adams cannot project
-
-
-@dataclass(frozen=True, kw_only=True)
-class SampledController:
-    """A Python controller called at its own period, between integration steps.
-
-    Attributes
-    ----------
-    period : float
-        s.
-    function : callable
-        function(time, measured) -> {input: value}: `measured` maps channel names to arrays of the present
-        instant, inputs are "<actuator>.force" (N or N m), "<actuator>.reference" (m or rad) and
-        "<point force>.force" (3 values, N). Inputs are held until the next call.
-    """
-
-    period: float
-    function: Callable[[float, Snapshot], Mapping[str, Any]]
-
-    def __post_init__(self) -> None:
-        if not number_of("controller: period", self.period) > 0.0 or not np.isfinite(self.period):
-            raise SceneError(f"controller: period is {self.period} s; make it positive and finite")
-        if not callable(self.function):
-            raise SceneError(f"controller: function is {self.function!r}; give a function(time, measured)")
 
 
 def _step(name: str, value: Any) -> float:
@@ -87,6 +62,11 @@ class Run:
         The compiled scene, to save compiling it again.
     t_end, dt_out, integrator, rtol, dt, max_step, spectral_radius, energy_limit, formulation, channels, start
         As `simulate`.
+    outputs_from : float, optional
+        Time from which output times are counted, s, not after the start; default: the start. A run that goes
+        on from a `start` so records at the times at which the run before it would have.
+    capacity : int
+        Outputs to take memory for; 0: all.
     """
 
     def __init__(
@@ -104,6 +84,8 @@ class Run:
         formulation: str = "auto",
         channels: Sequence[str] | None = None,
         start: _core.State | None = None,
+        outputs_from: float | None = None,
+        capacity: int = 0,
         model: _core.Model | None = None,
     ) -> None:
         model = scene.compile() if model is None else model
@@ -135,6 +117,7 @@ class Run:
         if spectral_radius is not None:
             spectral_radius = number_of("spectral_radius", spectral_radius)
         self.t_end = t_end
+        self.first = self.start.time if outputs_from is None else number_of("outputs_from", outputs_from)
         self.settings = {
             "t_end": float(t_end), "dt_out": float(dt_out), "rtol": float(rtol), "dt": float(dt),
             "max_step": float(max_step), "orientation": scene.orientation, "baumgarte": scene.baumgarte,
@@ -148,12 +131,14 @@ class Run:
                 raise SceneError(f"energy_limit is {energy_limit}; give a positive number, such as 1e-3")
         made_of = core_channels(wanted, known)
         values = self.model.channel_values(made_of)
-        outputs = output_times(self.start.time, self.t_end, float(dt_out), values=values)
+        outputs = output_times(
+            self.start.time, self.t_end, float(dt_out), first=self.first, values=0 if capacity else values
+        )
         self.integrator = integrator
         self.core = _core.Simulation(
             model=self.model, start=self.start, integrator=integrator, rtol=float(rtol), dt=float(dt),
             max_step=float(max_step), output_times=outputs, channels=made_of, formulation=self.formulation,
-            spectral_radius=spectral_radius, energy_limit=energy_limit or 0.0,
+            spectral_radius=spectral_radius, energy_limit=energy_limit or 0.0, capacity=capacity,
         )  # fmt: skip
         if scene.waves is not None:
             scene.waves.warn_of_repeats(self.t_end - self.start.time)
@@ -195,19 +180,13 @@ class Run:
     def _channels(self, arrays: dict[str, Array]) -> dict[str, Array]:
         return named_channels(self.scene, {k: v for k, v in arrays.items() if k != "time"})
 
-    def result(self) -> Result:
-        """What has been recorded so far."""
-        from seacrane.result import Event, Result
-
-        arrays = self.core.channels()
-        channels = self._channels(arrays)
-        if self._wanted is not None:
-            channels = {name: values for name, values in channels.items() if name in self._wanted}
+    def stats(self) -> dict[str, Any]:
+        """Version, settings and counters so far: `Result.stats`."""
         statistics = self.core.statistics()
         scene, model, tree = self.scene, self.model, self.model.tree
         recursive = self.formulation == "recursive"
         sea = {} if scene.waves is None else dict(scene.waves.information)
-        stats = {
+        return {
             "seacrane_version": __version__,
             "scene": scene.name,
             "formulation": self.formulation,
@@ -225,9 +204,32 @@ class Run:
             **statistics,
             **sea,
         }
-        out_of_range = findings(scene, arrays["time"], channels, stats)
-        if out_of_range:
-            stats["validity"] = "\n".join(message for _, message in out_of_range)
+
+    def events(self) -> list[Event]:
+        """What limits did so far."""
+        from seacrane.result import Event
+
+        return [
+            Event(time=time, name=name, kind=kind, speed=speed, impulse=impulse, energy_lost=lost)
+            for time, name, kind, speed, impulse, lost in self.core.events()
+        ]
+
+    def judged(self, found: list[Finding]) -> list[Finding]:
+        """What is out of range in all of the run, of what is in the outputs at hand."""
+        return found
+
+    def result(self, most: int | None = None) -> Result:
+        """What has been recorded so far; with `most`, no more than its first outputs, and no state."""
+        from seacrane.result import Result
+
+        arrays = self.core.channels() if most is None else self.core.channels(most)
+        channels = self._channels(arrays)
+        if self._wanted is not None:
+            channels = {name: values for name, values in channels.items() if name in self._wanted}
+        scene, stats = self.scene, self.stats()
+        found = self.judged(findings(scene, arrays["time"], channels, stats))
+        if found:
+            stats["validity"] = as_text(found)
         return Result.from_arrays(
             time=arrays["time"],
             arrays=channels,
@@ -238,17 +240,14 @@ class Run:
             actuators=list(scene.actuators),
             drivers=list(scene.drivers),
             links=[name for name, joint in scene.joints.items() if joint.kind == "distance"],
-            limits=[name for name, _ in model.limits],
-            events=[
-                Event(time=time, name=name, kind=kind, speed=speed, impulse=impulse, energy_lost=lost)
-                for time, name, kind, speed, impulse, lost in self.core.events()
-            ],
+            limits=[name for name, _ in self.model.limits],
+            events=self.events(),
             stats=stats,
             interrupted=self.interrupted,
-            state=self._last_state(),
+            state=self.last_state() if most is None else None,
         )
 
-    def _last_state(self) -> _core.State | None:
+    def last_state(self) -> _core.State | None:
         """The present state, or None where its rate cannot be found."""
         try:
             return self.core.state
@@ -387,7 +386,7 @@ def simulate(
         After the run, when its motions left the range in which the models hold; also in `stats`, as
         "validity". See docs/troubleshooting.md.
     """
-    controllers = _checked(controllers)
+    controllers = checked_controllers(controllers)
     given = {"integrator": integrator, "rtol": rtol, "dt": dt, "spectral_radius": spectral_radius}
     chosen: dict[str, Any] = {name: value for name, value in given.items() if value is not None}
     if accuracy is not None:
@@ -419,9 +418,17 @@ def _refuse_beside_accuracy(chosen: Mapping[str, Any], controllers: Sequence[Sam
 
 
 def finished(run: Run, controllers: Sequence[SampledController] = (), *, progress: bool = False) -> Result:
-    """Advance a run to its end, or to where Ctrl-C stops it, and return its result.
+    """Advance a run to its end, or to where Ctrl-C stops it, and return its result."""
+    drive(run, controllers, progress=progress)
+    result = run.result()
+    warn_of(findings(run.scene, result.time, result.channels, result.stats))
+    return result
 
-    What ends it otherwise is raised as by `simulate`, and carries the partial result.
+
+def drive(run: Run, controllers: Sequence[SampledController] = (), *, progress: bool = False) -> None:
+    """Advance a run to its end, or to where Ctrl-C stops it.
+
+    What ends it otherwise is raised as by `simulate`, and carries what `Run.explain` hangs on it.
     """
     report, close = _progress(run.start.time, run.t_end, progress)
     try:
@@ -439,17 +446,6 @@ def finished(run: Run, controllers: Sequence[SampledController] = (), *, progres
         raise stopped from error
     finally:
         close()
-    result = run.result()
-    warn_of_validity(run.scene, result)
-    return result
-
-
-def _checked(controllers: Any) -> list[SampledController]:
-    given = list(controllers) if isinstance(controllers, Iterable) else [controllers]
-    for controller in given:
-        if not isinstance(controller, SampledController):
-            raise SceneError(f"controllers holds {controller!r}; give a list of seacrane.SampledController")
-    return given
 
 
 def _advance(
@@ -461,32 +457,10 @@ def _advance(
         called: dict[str, Any] = {}
         for i, controller in enumerate(controllers):
             if due[i] <= now and now < t_end:
-                called.update(_call(controller, now, run))
-                due[i] = _next_call(controller, now, run.start.time)
+                called.update(called_at(controller, now, run.measure))
+                due[i] = next_call(controller, now, run.start.time)
         if called:
             run.set_inputs(called)
         stop = min([t_end, *due])
         if not run.advance(stop, report) or stop >= t_end:
             return
-
-
-def _call(controller: SampledController, now: float, run: Run) -> Mapping[str, Any]:
-    try:
-        inputs = controller.function(now, run.measure())
-    except Exception as error:
-        raise SimulationError(
-            f"controller: raised {type(error).__name__} at t = {now:.6g} s: {error}"
-        ) from error
-    if not isinstance(inputs, Mapping):
-        raise SimulationError(f"controller: returned {inputs!r} at t = {now:.6g} s; return {{input: value}}")
-    return inputs
-
-
-def _next_call(controller: SampledController, now: float, start: float) -> float:
-    with np.errstate(over="ignore"):
-        after = start + controller.period * (np.round((now - start) / controller.period) + 1.0)
-    if not after > now:
-        raise SceneError(
-            f"controller: period is {controller.period} s, below the resolution of time; make it longer"
-        )
-    return float(after)

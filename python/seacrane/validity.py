@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -11,7 +11,6 @@ from numpy.typing import NDArray
 from seacrane.caller import warn_caller
 
 if TYPE_CHECKING:
-    from seacrane.result import Result
     from seacrane.scene import Scene
 
 Array = NDArray[np.float64]
@@ -64,9 +63,14 @@ def findings(scene: Scene, time: Array, channels: Channels, stats: Mapping[str, 
     return found + _singular(scene, stats)
 
 
-def warn_of_validity(scene: Scene, result: Result) -> None:
-    """Warn, at the user's line, of everything that `findings` names."""
-    for category, message in findings(scene, result.time, result.channels, result.stats):
+def as_text(found: Iterable[Finding]) -> str:
+    """One message a line."""
+    return "\n".join(message for _, message in found)
+
+
+def warn_of(found: Iterable[Finding]) -> None:
+    """Warn, at the user's line, of what `findings` names."""
+    for category, message in found:
         warn_caller(message, category)
 
 

@@ -122,7 +122,11 @@ std::vector<double> OneStepIntegrator::save() const {
   saved.reserve(saved_scalars + 2 * size() + history_size());
   saved.insert(saved.end(), state_.begin(), state_.end());
   const std::vector<double>& derivative = next_derivative();
-  saved.insert(saved.end(), derivative.begin(), derivative.end());
+  if (known) {
+    saved.insert(saved.end(), derivative.begin(), derivative.end());
+  } else {  // what is left of one may not be finite
+    saved.resize(saved.size() + size(), 0.0);
+  }
   saved.resize(saved.size() + history_size());
   save_history(std::span(saved).last(history_size()));
   return saved;
@@ -134,6 +138,11 @@ void OneStepIntegrator::load(std::span<const double> saved) {
     throw std::invalid_argument(name() + ": the saved integrator state holds " +
                                 std::to_string(saved.size()) + " values, this system needs " +
                                 std::to_string(needed));
+  }
+  if (!(std::isfinite(saved[1]) && saved[1] >= 0.0 && std::isfinite(saved[2]) && saved[2] > 0.0)) {
+    throw std::invalid_argument(name() + ": the saved integrator state holds a step of " +
+                                std::to_string(saved[1]) + " s and an error of " + std::to_string(saved[2]) +
+                                "; give a state as a run left it");
   }
   set_state(saved[0], saved.data() + saved_scalars);
   step_ = saved[1];

@@ -60,6 +60,8 @@ class Contacts {
 
   const std::vector<Event>& events() const { return events_; }
   double energy_lost() const { return energy_lost_; }
+  /// Losses of the run that this one goes on with, J.
+  void go_on_from(double energy_lost) { energy_lost_ = energy_lost; }
 
  private:
   struct Watched {

@@ -125,6 +125,26 @@ Recording::Recording(const Model& model, const std::set<std::string>& names, std
   }
 }
 
+void Recording::drop(std::size_t count) {
+  count = std::min(count, times_.size());
+  times_.erase(times_.begin(), times_.begin() + static_cast<std::ptrdiff_t>(count));
+  rows_.erase(rows_.begin(), rows_.begin() + static_cast<std::ptrdiff_t>(count * width_));
+}
+
+std::vector<double> Recording::last_quaternions() const {
+  std::vector<double> out;
+  for (const Vec4d& q : last_quaternion_) out.insert(out.end(), q.data(), q.data() + 4);
+  return out;
+}
+
+void Recording::go_on_from(const std::vector<double>& quaternions) {
+  if (quaternions.size() != 4 * model_->bodies.size()) return;
+  last_quaternion_.clear();
+  for (std::size_t b = 0; b < model_->bodies.size(); ++b) {
+    last_quaternion_.emplace_back(view<4>(quaternions.data() + 4 * b));
+  }
+}
+
 bool Recording::wants_solution() const {
   return at_.acceleration || at_.angular_acceleration || at_.driver_force || at_.reaction_force ||
          at_.reaction_moment || at_.tension || at_.limit_force;

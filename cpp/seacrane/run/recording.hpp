@@ -37,6 +37,13 @@ class Recording {
   const std::vector<double>& times() const { return times_; }
   const std::vector<double>& rows() const { return rows_; }
 
+  /// Drops the first `count` rows.
+  void drop(std::size_t count);
+  /// Quaternions of the last row; none where they are not recorded.
+  std::vector<double> last_quaternions() const;
+  /// Recorded quaternions keep the sign that they had in such a row.
+  void go_on_from(const std::vector<double>& quaternions);
+
   /// Whether a channel needs accelerations or multipliers, and with them the solution of a row's equations.
   bool wants_solution() const;
   /// Appends the row of (t, y), for which system.derivative() was the last call, or evaluate_terms() where no

@@ -41,22 +41,24 @@ std::shared_ptr<const Model> model_of(const std::shared_ptr<const Model>& model,
 }  // namespace
 
 State initial_state(const Model& model) {
-  return {0.0,
-          model.initial_state,
-          std::vector<double>(idx(model.slot_count), 0.0),
-          {},
-          {},
-          names_of(model.limits, model.closed)};
+  State out;
+  out.values = model.initial_state;
+  out.inputs.assign(idx(model.slot_count), 0.0);
+  out.closed = names_of(model.limits, model.closed);
+  out.parts = state_parts(model);
+  return out;
 }
 
 Simulation::Simulation(std::shared_ptr<const Model> model, State start, RunOptions options)
     : model_(std::move(model)),
       options_(std::move(options)),
-      recording_(*model_, options_.channels, options_.output_times.size()),
+      recording_(*model_, options_.channels,
+                 options_.capacity > 0 ? options_.capacity : options_.output_times.size()),
       energy_(options_.energy_limit),
       inputs_(start.inputs),
       output_state_(start.values),
       rate_(start.values.size(), 0.0) {
+  if (!start.parts.empty()) check_state_parts(*model_, start.parts);
   if (options_.energy_limit > 0.0 && model_->paper_kinematics) {
     throw std::invalid_argument(
         "energy_limit: kinematics 'paper' has no energy balance; leave energy_limit out");
@@ -94,6 +96,7 @@ Simulation::Simulation(std::shared_ptr<const Model> model, State start, RunOptio
   start_energy_ = system.energy(start.time, bodies);
   start_work_ = output_state_[idx(model_->layout.work)];
   if (resume(start)) {
+    if (start.record) resume(*start.record);
     now_->started = true;
     watch_limits();
   } else {
@@ -118,6 +121,14 @@ bool Simulation::resume(const State& given) {
   std::vector<double> present(given.values.size());
   write_present(present.data());
   return time() == given.time && present == given.values && present_rate() == history.rate;
+}
+
+void Simulation::resume(const RecordHistory& record) {
+  start_energy_ = record.start_energy;
+  start_work_ = record.start_work;
+  open_ = record.open;
+  recording_.go_on_from(record.quaternions);
+  if (contacts_) contacts_->go_on_from(record.impact_loss);
 }
 
 std::vector<double> Simulation::present_rate() const {
@@ -245,7 +256,8 @@ void Simulation::write(double t, double* y, Recording& out) {
   RedundantSystem& system = now_->system;
   Formulation& stepped = now_->stepped;
   stepped.project(t, y, false);
-  const double before = stepped.take_residual_before_projection();
+  const double before = std::max(open_, stepped.take_residual_before_projection());
+  open_ = 0.0;
   double* const bodies = output_state_.data();
   stepped.write_bodies(t, y, bodies);
   if (out.wants_solution()) {
@@ -375,15 +387,19 @@ void Simulation::write_present(double* bodies) const {
   now_->stepped.write_bodies(integrator().time(), integrator().state(), bodies);
 }
 
-State Simulation::state() const {
+State Simulation::state() {
   std::vector<double> values(idx(model_->layout.size));
   write_present(values.data());
+  open_ = std::max(open_, now_->stepped.take_residual_before_projection());
   return {time(),
           std::move(values),
           inputs_,
           now_->system.histories(),
           {now_->stepped.name(), options_.integrator, integrator().save(), present_rate()},
-          names_of(model_->limits, now_->model->closed)};
+          names_of(model_->limits, now_->model->closed),
+          RecordHistory{start_energy_, start_work_, open_, contacts_ ? contacts_->energy_lost() : 0.0,
+                        recording_.last_quaternions()},
+          state_parts(*model_)};
 }
 
 RunStatistics Simulation::statistics() const {

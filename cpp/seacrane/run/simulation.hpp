@@ -9,6 +9,7 @@
 
 #include "seacrane/run/contacts.hpp"
 #include "seacrane/run/guards.hpp"
+#include "seacrane/run/record_history.hpp"
 #include "seacrane/run/recording.hpp"
 #include "seacrane/run/stepper.hpp"
 
@@ -23,7 +24,8 @@ struct RunOptions {
   double max_step = 0.0;                  // s; 0: no limit
   std::optional<double> spectral_radius;  // of generalized-alpha; none: the method's default
   double energy_limit = 0.0;              // of the energy balance, see EnergyWatch; 0: none
-  std::vector<double> output_times;       // increasing, from the start on
+  std::vector<double> output_times;       // increasing; those before the start are left out
+  std::size_t capacity = 0;               // outputs to take memory for; 0: all
   std::set<std::string> channels;
 };
 
@@ -42,6 +44,8 @@ struct State {
   std::vector<TwistHistory> histories;  // one per vessel with a convolution; none: at rest before `time`
   StepHistory steps;                    // the same formulation and integrator go on from it bit for bit
   std::optional<std::vector<std::string>> closed;  // limits that hold; none: as described
+  std::optional<RecordHistory> record;             // goes with `steps`; none: recording starts afresh
+  std::vector<std::string> parts;                  // see state_parts(); none: not known
 };
 
 State initial_state(const Model& model);
@@ -64,10 +68,12 @@ class Simulation {
   bool advance(double t_end, const std::function<bool(double time)>& keep_going);
 
   double time() const { return now_->integrator->time(); }
-  State state() const;
+  State state();
   /// One row of all channels the model offers, at the present time.
   Recording snapshot();
   const Recording& recording() const { return recording_; }
+  /// Drops the first `count` rows recorded.
+  void drop_rows(std::size_t count) { recording_.drop(count); }
   RunStatistics statistics() const;
   /// Sets the inputs from the present time on and restarts the derivative's history.
   void set_inputs(const std::vector<double>& slots);
@@ -91,6 +97,7 @@ class Simulation {
   void check_inputs(const std::vector<double>& slots) const;
   void apply_inputs();
   bool resume(const State& given);
+  void resume(const RecordHistory& record);
   std::vector<double> present_rate() const;
   void watch_limits();
   /// Starts histories of `at` from those given; none: at rest before t.
@@ -119,6 +126,7 @@ class Simulation {
   std::vector<double> stepped_state_, output_state_, rate_;
   double output_time_ = 0.0;  // of output_state_ at an event
   double start_energy_ = 0.0, start_work_ = 0.0;
+  double open_ = 0.0;  // largest residual before projection since the last output, as far as taken
   double wall_seconds_ = 0.0;
 };
 

@@ -53,6 +53,12 @@ def _add_run(commands: Any) -> None:
     run.add_argument("--dt", metavar="S", type=float, help="step of fixed-step integrators, s")
     run.add_argument("--spectral-radius", metavar="R", type=float, help="of generalized-alpha, 0 to 1")
     run.add_argument("--formulation", choices=("redundant", "recursive", "auto"), help="equations of motion")
+    run.add_argument(
+        "--checkpoint-every", metavar="S", type=float, help="simulated time between two states on disk, s"
+    )
+    run.add_argument(
+        "--resume", action="store_true", help="go on with the run that DIR holds, stopped or killed"
+    )
     run.add_argument("--progress", action="store_true", help="show a progress bar")
     case = run.add_argument_group("the built-in cases", "these choose the vessel and the sea of a named case")
     case.add_argument(

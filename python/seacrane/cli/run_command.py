@@ -1,4 +1,4 @@
-"""``seacrane run``: simulate one scene and save what it recorded."""
+"""``seacrane run``: simulate one scene and write what it records to a file."""
 
 from __future__ import annotations
 
@@ -12,22 +12,26 @@ from seacrane.cli.scene_source import load_scene
 if TYPE_CHECKING:
     from seacrane.result import Result
 
+SUMMARISED = ("constraint_error", "energy_balance", "absolute_work")
 SETTINGS = ("t_end", "dt_out", "integrator", "rtol", "dt", "spectral_radius", "formulation")
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Simulate, save and summarise; 130 if the run was interrupted."""
+    """Simulate and summarise; 130 if the run was interrupted."""
     name, scene = load_scene(arguments.scene, arguments, scripts=True)
     folder = output_folder(arguments.out)
-    from seacrane.simulation import simulate
+    from seacrane.long_run import simulate_to_file
 
     given = {setting: getattr(arguments, setting) for setting in SETTINGS}
     settings = {setting: value for setting, value in given.items() if value is not None}
-    result = simulate(scene, progress=arguments.progress, **settings)
-    path = result.save(folder / f"{name}.nc")
-    print(summary(result))
-    print(f"saved {path}")
-    return INTERRUPTED if result.interrupted else 0
+    path = folder / f"{name}.nc"
+    told = simulate_to_file(
+        scene, path, checkpoint_every=arguments.checkpoint_every, resume=arguments.resume,
+        progress=arguments.progress, **settings,
+    )  # fmt: skip
+    print(summary(told.load(SUMMARISED)))
+    print(f"saved {path}, and where it stopped in {told.checkpoint}")
+    return INTERRUPTED if told.interrupted else 0
 
 
 def summary(result: Result) -> str:
@@ -53,5 +57,5 @@ def summary(result: Result) -> str:
         lost = float(stats["impact_energy_lost_J"])
         lines.append(f"events of limits {stats['events']}, energy lost in impacts {lost:.3g} J")
     if result.interrupted:
-        lines.append(f"interrupted: outputs end at {result.time[-1]:g} s")
+        lines.append(f"interrupted: outputs end at {result.time[-1]:g} s; --resume goes on from there")
     return "\n".join(lines)

@@ -12,7 +12,7 @@ import csv
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, fields
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.polynomial import Polynomial
@@ -165,7 +165,7 @@ def _settles(
     at = np.array([model.twist_index(body) + k for body in range(len(model.bodies)) for k in range(6)])
     pushed[at] += PUSH * scale[at] * np.random.default_rng(1).normal(size=at.size)
     start = _core.State(time=0.0, values=pushed, inputs=linear.state.inputs)
-    size = {"dt": h} if integrator in FIXED else {"rtol": 0.1, "max_step": h}
+    size: dict[str, Any] = {"dt": h} if integrator in FIXED else {"rtol": 0.1, "max_step": h}
     steps = STEPS if integrator not in RESIDUAL_INTEGRATORS else STEPS // 5
     run = Run(scene, model=model, start=start, t_end=steps * h, dt_out=steps * h, formulation=formulation,
               integrator=integrator, channels=["position"], **size)  # fmt: skip

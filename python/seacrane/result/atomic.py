@@ -28,12 +28,12 @@ def atomic_write(path: Path) -> Iterator[Path]:
             os.fsync(file.fileno())
         draft.replace(path)
     except OSError as error:
-        raise OSError(f"could not write {path}: {error}{_space_left(path.parent)}") from error
+        raise OSError(f"could not write {path}: {error}{space_left(path.parent)}") from error
     finally:
         draft.unlink(missing_ok=True)
 
 
-def _space_left(folder: Path) -> str:
+def space_left(folder: Path) -> str:
     try:
         return f" ({shutil.disk_usage(folder).free / 1e6:.0f} MB free in {folder})"
     except OSError:

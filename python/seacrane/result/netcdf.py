@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -9,7 +10,7 @@ import numpy as np
 
 from seacrane.errors import FileFormatError
 from seacrane.result.channels import CHANNELS, attributes
-from seacrane.result.events import NUMBERS, PREFIX, event_arrays, events_from_arrays
+from seacrane.result.events import NUMBERS, PREFIX, Event, event_arrays, events_from_arrays
 
 if TYPE_CHECKING:
     from seacrane.result.result import Result
@@ -44,19 +45,24 @@ def write_netcdf(path: Path, result: Result) -> None:
         for name in ("time", *result.channels):
             file[name].setncatts(attributes(name))
         if result.events:
-            _write_events(file, result)
+            add_events(file, result.events, 0)
 
 
-def _write_events(file: Any, result: Result) -> None:
-    file.createDimension("event", len(result.events))
-    for name, array in event_arrays(result.events).items():
-        file.createVariable(name, str if array.dtype == object else "f8", ("event",))[:] = array
+def add_events(file: Any, events: Sequence[Event], place: int) -> None:
+    """Write events from a place in a file's list on, which is made if there is none."""
+    made = "event" not in file.dimensions
+    if made:
+        file.createDimension("event", None)
+    for name, array in event_arrays(events).items():
+        if made:
+            file.createVariable(name, str if array.dtype == object else "f8", ("event",))
+        file[name][place : place + len(events)] = array
     for key, (unit, long_name) in NUMBERS.items():
         file[PREFIX + key].setncatts({"units": unit, "long_name": long_name})
 
 
-def read_arrays(path: Path) -> dict[str, Any]:
-    """Everything in a result's file, as the arguments of `Result.from_arrays`."""
+def read_arrays(path: Path, channels: Sequence[str] | None = None) -> dict[str, Any]:
+    """What is in a result's file, or those channels of it, as the arguments of `Result.from_arrays`."""
     import netCDF4
 
     with netCDF4.Dataset(path, "r") as file:
@@ -65,12 +71,17 @@ def read_arrays(path: Path) -> dict[str, Any]:
             raise FileFormatError(f"{path} has no variable 'time'; it is not a seacrane result")
         stats = {name: file.getncattr(name) for name in file.ncattrs()}
         interrupted = bool(stats.pop("interrupted", 0))
+        time = np.asarray(file["time"][:])
+        outputs = _timed(time)
         return {
-            "time": file["time"][:],
+            "time": time[outputs],
             "arrays": {
-                name: variable[:]
+                name: variable[outputs]
                 for name, variable in file.variables.items()
-                if name != "time" and name not in file.dimensions and "event" not in variable.dimensions
+                if name != "time"
+                and name not in file.dimensions
+                and "event" not in variable.dimensions
+                and (channels is None or name in channels)
             },
             **{
                 argument: [str(name) for name in file[dim][:]]
@@ -89,3 +100,10 @@ def read_arrays(path: Path) -> dict[str, Any]:
             "stats": stats,
             "interrupted": interrupted,
         }
+
+
+def _timed(time: Any) -> slice:
+    """All outputs, without those at the end whose writing was broken off before they had a time."""
+    if time.ndim == 1 and time.dtype.kind == "f" and np.isnan(time[-1:]).any():
+        return slice(int(np.argmax(np.isnan(time))))
+    return slice(None)

@@ -83,7 +83,7 @@ def _checked_names(dim: str, names: Sequence[str]) -> tuple[str, ...]:
     return names
 
 
-def _checked_stats(stats: Mapping[str, Any]) -> dict[str, Stat]:
+def checked_stats(stats: Mapping[str, Any]) -> dict[str, Stat]:
     """Plain strings, integers and floats; what is None is left out; `settings` may be a mapping."""
     plain: dict[str, Stat] = {}
     for name, value in stats.items():
@@ -237,7 +237,7 @@ class Result:
             time=checked_time,
             channels=channels,
             coords={dim: names for dim, names in coords.items() if dim in used},
-            stats=_checked_stats(stats),
+            stats=checked_stats(stats),
             interrupted=bool(interrupted),
             events=checked_events(events),
             state=state,
@@ -331,13 +331,15 @@ class Result:
         return path
 
     @classmethod
-    def load(cls, path: str | os.PathLike[str]) -> Result:
-        """Read a result that `save` wrote.
+    def load(cls, path: str | os.PathLike[str], *, channels: Sequence[str] | None = None) -> Result:
+        """Read a result that `save` or `simulate_to_file` wrote.
 
         Parameters
         ----------
         path : path
             NetCDF4 file.
+        channels : sequence of str, optional
+            Take only those, as far as the file holds them; default: all.
 
         Returns
         -------
@@ -355,7 +357,7 @@ class Result:
         if not path.is_file():
             raise FileNotFoundError(f"no result file {path}")
         try:
-            return cls.from_arrays(**read_arrays(path))
+            return cls.from_arrays(**read_arrays(path, channels))
         except (OSError, RuntimeError, ValueError) as error:
             if isinstance(error, SeacraneError):
                 raise

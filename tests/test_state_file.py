@@ -1,0 +1,278 @@
+"""State files: runs go on in a new process bit for bit; what is damaged or of another scene is refused."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import subprocess
+import sys
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+from test_restart import SCENES
+
+from seacrane import (
+    FileFormatError,
+    Run,
+    Scene,
+    SceneError,
+    State,
+    add_wire,
+    cases,
+    integrator_names,
+    simulate,
+)
+from seacrane.state_file import DIGEST, MAGIC
+
+Array = NDArray[np.float64]
+STOP, END = 0.43, 0.9
+CHANNELS = ["position", "quaternion", "energy_balance", "constraint_error_before_projection"]
+FIXED = {"semi-implicit-euler": 1e-3, "generalized-alpha": 5e-3, "generalized-alpha-index2": 5e-3}
+# By a reset of the solver, and by a solver made anew.
+RESET, MADE_ANEW = ("ark-erk", "ark-dirk", "ark-imex", "cvode-adams", "cvode-bdf"), ("ark-mri", "ida")
+REDUNDANT_ONLY = ("ida", "generalized-alpha", "generalized-alpha-index2")
+
+
+def scenes(name: str) -> Scene:
+    return cases.case2(memory="convolution") if name == "convolution" else SCENES[name]()
+
+
+def all_runs() -> list[tuple[str, str, str]]:
+    """Scene, integrator, formulation."""
+    out = []
+    for integrator in sorted(set(integrator_names()) - {"rk4-exact-memory"}):
+        for formulation in ["redundant", *(["recursive"] if integrator not in REDUNDANT_ONLY else [])]:
+            out += [("chain", integrator, formulation)] if integrator != "ark-mri" else []
+            if not (integrator == "cvode-adams" and formulation == "recursive"):
+                out.append(("crank", integrator, formulation))
+    for integrator in ("dopri5", "rk4", "rk4-exact-memory"):
+        for formulation in ("redundant", "recursive"):
+            out += [(scene, integrator, formulation) for scene in ("case2", "convolution")]
+    return [one for one in out if one[:2] != ("convolution", "rk4-exact-memory")]
+
+
+def begin(one: tuple[str, str, str], start: State | None = None) -> Run:
+    name, integrator, formulation = one
+    settings: dict[str, Any] = {"rtol": 1e-4 if integrator == "heun21" else 1e-7}
+    if integrator in FIXED or integrator.startswith("rk"):
+        settings["dt"] = FIXED.get(integrator, 0.02)
+    if integrator == "ark-mri":
+        settings["dt"] = 0.05
+    scene = scenes(name)
+    return Run(scene, t_end=END, dt_out=0.1, start=start, integrator=integrator, formulation=formulation,
+               channels=CHANNELS, outputs_from=0.0, **settings)  # fmt: skip
+
+
+def told(run: Run) -> dict[str, Array]:
+    """Where a run stands, and what it has recorded from the checkpoint on."""
+    recorded = run.core.channels()
+    late = recorded["time"] > STOP
+    return {"end": np.array(run.state.values)} | {name: values[late] for name, values in recorded.items()}
+
+
+def go_on(folder: str) -> None:
+    """What the new process does."""
+    for path in Path(folder).glob("*.state"):
+        run = begin(tuple(path.stem.split("!")), State.load(path))  # type: ignore[arg-type]
+        run.advance(END)
+        np.savez(path.with_suffix(".npz"), **told(run))  # type: ignore[arg-type]
+
+
+def test_a_run_goes_on_in_a_new_process_bit_for_bit(tmp_path: Path) -> None:
+    """Own methods as if never stopped, those of SUNDIALS as a run that restarts them at the same time."""
+    runs = {}
+    for one in all_runs():
+        run = begin(one)
+        run.advance(STOP)
+        run.state.save(tmp_path / f"{'!'.join(one)}.state")
+        if one[1] in RESET:
+            run.set_inputs({})
+        elif one[1] in MADE_ANEW:
+            run = begin(one, run.state)
+        run.advance(END)
+        runs[one] = told(run)
+    code = f"import test_state_file as t; t.go_on({str(tmp_path)!r})"
+    subprocess.run([sys.executable, "-c", code], check=True, cwd=Path(__file__).parent)
+    for one, whole in runs.items():
+        later = np.load(tmp_path / f"{'!'.join(one)}.npz")
+        for name, values in whole.items():
+            assert np.array_equal(later[name], values), (one, name)
+        assert len(whole["time"]) == 5
+
+
+class _Stop(Exception):
+    pass
+
+
+@pytest.mark.parametrize("formulation", ["redundant", "recursive"])
+@pytest.mark.parametrize("method", [{"rtol": 1e-11}, {"integrator": "rk4", "dt": 1e-3}])
+def test_a_run_stopped_at_any_step_goes_on_as_if_it_had_not(
+    method: dict[str, Any], formulation: str, tmp_path: Path
+) -> None:
+    """Nothing lands on the checkpoint."""
+    scene = cases.case2()
+    settings = {"t_end": 8.0, "formulation": formulation, "outputs_from": 0.0, **method}
+    whole, stopped = Run(scene, **settings), Run(scene, **settings)
+    whole.advance(8.0)
+
+    def stop(now: float) -> None:
+        raise _Stop
+
+    with pytest.raises(_Stop):
+        stopped.advance(8.0, stop)
+    stopped.state.save(tmp_path / "state")
+    later = Run(scene, start=State.load(tmp_path / "state", scene=scene), **settings)
+    assert 0.0 < later.state.time < 8.0
+    later.advance(8.0)
+    assert np.array_equal(later.state.values, whole.state.values)
+    first, second, all_of_it = stopped.result(), later.result(), whole.result()
+    for name in all_of_it.channels:
+        joined = np.concatenate([first[name], second[name]])
+        np.testing.assert_array_equal(joined, all_of_it[name], err_msg=name)
+
+
+def on_a_wire() -> Scene:
+    """A ball thrown up so fast that its wire goes slack, and is caught again."""
+    scene = Scene(name="wire")
+    scene.add_body(
+        name="ball", mass=3.0, inertia=(0.1, 0.2, 0.3), position=(0.0, 0.0, -2.0), velocity=(8, 0, 0)
+    )
+    scene.add_joint(kind="distance", name="wire", first="ground", second="ball", point=(0.0, 0.0, 0.0),
+                    second_point=(0.0, 0.0, -2.0))  # fmt: skip
+    add_wire(scene, joint="wire", restitution=0.5)
+    return scene
+
+
+@pytest.mark.parametrize("formulation", ["redundant", "recursive"])
+@pytest.mark.parametrize("integrator", ["dopri5", "rk4", "rosenbrock"])
+@pytest.mark.parametrize("stop", [0.2, 1.0, 2.4])
+def test_limits_go_on_bit_for_bit(stop: float, integrator: str, formulation: str, tmp_path: Path) -> None:
+    settings: dict[str, Any] = {"t_end": 4.0, "integrator": integrator, "formulation": formulation}
+    whole = Run(on_a_wire(), **settings)
+    whole.advance(stop)
+    left = whole.state
+    left.save(tmp_path / "state")
+    later = Run(on_a_wire(), start=State.load(tmp_path / "state"), **settings)
+    assert later.start.closed == left.closed == (["wire"] if stop == 0.2 else left.closed)
+    for run in (whole, later):
+        run.advance(4.0)
+    assert len(whole.result().events) > 2
+    assert np.array_equal(whole.state.values, later.state.values)
+    late = whole.result().time > stop
+    assert np.array_equal(whole.result()["impact_loss"][late][-10:], later.result()["impact_loss"][-10:])
+
+
+@pytest.fixture
+def saved(tmp_path: Path) -> Path:
+    run = Run(cases.case2(memory="convolution"), t_end=1.0)
+    run.advance(0.5)
+    run.state.save(tmp_path / "run.state")
+    return tmp_path / "run.state"
+
+
+def rewritten(path: Path, **changes: Any) -> Path:
+    """The file with another header, and the checksum that belongs to it."""
+    body = path.read_bytes()[:-DIGEST]
+    end = body.index(b"\n", len(MAGIC))
+    header = json.loads(body[len(MAGIC) : end]) | changes
+    body = MAGIC + json.dumps(header).encode() + body[end:]
+    path.write_bytes(body + hashlib.sha256(body).digest())
+    return path
+
+
+def test_a_state_comes_back_bit_for_bit(saved: Path) -> None:
+    run = Run(cases.case2(memory="convolution"), t_end=1.0)
+    run.advance(0.5)
+    one, two = run.state, State.load(saved)
+    for name in ("time", "parts"):
+        assert getattr(one, name) == getattr(two, name)
+    for name in ("values", "inputs"):
+        assert np.array_equal(getattr(one, name), getattr(two, name))
+    assert one.record is not None and two.record is not None
+    for name in ("start_energy", "start_work", "open"):
+        assert getattr(one.record, name) == getattr(two.record, name)
+    for name in ("values", "rate", "integrator", "formulation"):
+        assert np.array_equal(getattr(one.steps, name), getattr(two.steps, name))
+    (mine,), (yours,) = one.histories, two.histories
+    assert (mine.start, mine.intervals) == (yours.start, yours.intervals)
+    assert np.array_equal(mine.quadrature, yours.quadrature) and np.array_equal(mine.recent, yours.recent)
+
+
+def test_damaged_files_are_refused_by_name(saved: Path) -> None:
+    data = saved.read_bytes()
+    cut = [data[:n] for n in (0, 5, 20, 200, len(data) // 2, len(data) - 1)]
+    flipped = [bytes([*data[:n], data[n] ^ 1, *data[n + 1 :]]) for n in (3, 30, 500, len(data) - 40)]
+    for damaged in [*cut, *flipped, data + b"\0", b"\x89HDF\r\n"]:
+        saved.write_bytes(damaged)
+        with pytest.raises(FileFormatError, match=r"run\.state: .*; (give|go on from|save)") as caught:
+            State.load(saved)
+        assert str(saved) in str(caught.value)
+    with pytest.raises(FileNotFoundError, match="no state file"):
+        State.load(saved.with_name("other"))
+
+
+HEADERS: dict[str, tuple[dict[str, Any], str]] = {
+    "a terabyte": ({"arrays": [["values", 10**12]]}, "does not fit"),
+    "negative": ({"arrays": [["values", -8]]}, "does not fit"),
+    "no number": ({"arrays": [["values", True]]}, "does not fit"),
+    "twice": ({"arrays": [["values", 8], ["values", 8]]}, "does not fit"),
+    "too little": ({"arrays": [["values", 8]]}, "do not fill"),
+    "no list": ({"arrays": 3}, "unreadable header"),
+    "later": ({"version": 2}, "version 2.*reads version 1"),
+    "histories": ({"intervals": [1, 2]}, "is not a state"),
+    "intervals": ({"intervals": [-1]}, "is not a state"),
+    "parts": ({"parts": [1]}, "is not a state"),
+    "texts": ({"integrator": 3}, "is not a state"),
+}
+
+
+@pytest.mark.parametrize("name", HEADERS)
+def test_headers_that_lie_are_refused_before_memory_is_taken(name: str, saved: Path) -> None:
+    change, words = HEADERS[name]
+    with pytest.raises(FileFormatError, match=words):
+        State.load(rewritten(saved, **change))
+
+
+def test_a_state_of_another_scene_is_refused(saved: Path) -> None:
+    other = cases.case2()
+    with pytest.raises(FileFormatError, match=r"run\.state: .*holds memory of 0 .* has memory of \d+"):
+        State.load(saved, scene=other)
+    with pytest.raises(SceneError, match="another scene: it holds memory of 0"):
+        simulate(other, t_end=1.0, start=State.load(saved))
+    with pytest.raises(SceneError, match=r"it holds body 'vessel' where this scene has body 'body 0'"):
+        simulate(SCENES["chain"](), t_end=1.0, start=State.load(saved))
+
+
+def test_a_step_that_no_run_left_is_refused(saved: Path) -> None:
+    run = Run(SCENES["chain"](), t_end=1.0)
+    run.advance(0.5)
+    run.state.save(saved)
+    body = bytearray(saved.read_bytes()[:-DIGEST])
+    header = json.loads(body[len(MAGIC) : body.index(b"\n", len(MAGIC))])
+    at = body.index(b"\n", len(MAGIC)) + 1
+    for name, count in header["arrays"]:
+        if name == "steps":
+            body[at + 8 : at + 16] = np.array([-1.0]).tobytes()
+        at += 8 * count
+    saved.write_bytes(bytes(body) + hashlib.sha256(body).digest())
+    with pytest.raises(SceneError, match="holds a step of -1"):
+        simulate(SCENES["chain"](), t_end=1.0, start=State.load(saved))
+
+
+def test_an_older_file_stays_when_a_state_cannot_be_written(
+    saved: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    before = saved.read_bytes()
+
+    def full(*given: Any) -> int:
+        raise OSError(28, "No space left on device")
+
+    state = State.load(saved)
+    monkeypatch.setattr(Path, "write_bytes", full)
+    with pytest.raises(OSError, match="No space left"):
+        state.save(saved)
+    assert saved.read_bytes() == before
+    assert list(saved.parent.iterdir()) == [saved]

@@ -1,0 +1,379 @@
+"""Runs that are written to a file as they go: the same numbers, bounded memory, nothing lost at a stop."""
+
+from __future__ import annotations
+
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from seacrane import (
+    FileFormatError,
+    LargeHeelWarning,
+    Result,
+    SampledController,
+    Scene,
+    SceneError,
+    SimulationError,
+    add_end_stop,
+    cases,
+    simulate,
+    simulate_to_file,
+)
+from seacrane.result import stream
+
+GENEROUS = 60.0  # s
+
+
+@pytest.fixture(autouse=True)
+def small_pieces(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(stream, "MOST_ROWS", 16)
+
+
+def spinner() -> Scene:
+    """A crane's slew joint that turns round and round, with a motor."""
+    scene = Scene(name="spinner", gravity=0.0)
+    scene.add_body(name="king", mass=1.0, inertia=(1.0, 1.0, 1.0), angular_velocity=(0.0, 0.0, 3.0))
+    scene.add_joint(kind="revolute", name="A", first="ground", second="king", point=(0.0, 0.0, 0.0))
+    scene.record_coordinate(joint="A")
+    scene.add_actuator(name="motor", joint="A", damping=0.01)
+    return scene
+
+
+def same(one: Result, two: Result) -> None:
+    assert set(one.channels) == set(two.channels)
+    assert np.array_equal(one.time, two.time)
+    for name, values in one.channels.items():
+        if name == "slew_angle":  # turns are added to the pieces, to rounding
+            np.testing.assert_allclose(values, two[name], rtol=1e-14)
+        else:
+            assert np.array_equal(values, two[name]), name
+    assert one.coords == two.coords
+    assert one.events == two.events
+
+
+def stopping_after(
+    pieces: int, monkeypatch: pytest.MonkeyPatch, error: type[BaseException] | None = None
+) -> None:
+    """Ctrl-C, or an error, while a piece is on its way to the disk."""
+    append = stream.ResultFile.append
+    done = []
+
+    def counted(file: stream.ResultFile, piece: Result, *, interrupted: bool) -> None:
+        done.append(piece)
+        if len(done) == pieces:
+            if error is not None:
+                raise error
+            signal.raise_signal(signal.SIGINT)
+        append(file, piece, interrupted=interrupted)
+
+    monkeypatch.setattr(stream.ResultFile, "append", counted)
+
+
+@pytest.mark.parametrize("outputs", [1, 15, 16, 17, 200])
+def test_a_file_holds_what_simulate_returns(outputs: int, tmp_path: Path) -> None:
+    settings: dict[str, Any] = {"t_end": 0.1 * (outputs - 1), "dt_out": 0.1}
+    told = simulate_to_file(cases.case2(), tmp_path / "run.nc", **settings)
+    assert (told.outputs, told.interrupted) == (outputs, False)
+    whole, read = simulate(cases.case2(), **settings), told.load()
+    same(whole, read)
+    assert not read.interrupted
+    for name in set(whole.stats) - {"wall_s"}:
+        assert whole.stats[name] == read.stats[name] == told.stats[name]
+    assert sorted(p.name for p in tmp_path.iterdir()) == ["run.nc", "run.state"]
+
+
+def test_whole_turns_go_on_from_piece_to_piece_and_over_a_stop(tmp_path: Path) -> None:
+    whole = simulate(spinner(), t_end=4000.0, dt_out=0.2)
+    assert whole["slew_angle"][-1] > 250.0
+    for t_end in (2000.0, 4000.0):
+        told = simulate_to_file(
+            spinner(), tmp_path / "run.nc", t_end=t_end, dt_out=0.2, resume=t_end > 3000.0
+        )
+    np.testing.assert_allclose(told.load()["slew_angle"], whole["slew_angle"], atol=1e-3)
+
+
+@pytest.mark.parametrize("memory", ["per-pair", "convolution"])
+def test_a_stopped_run_goes_on_to_the_same_file(
+    memory: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    scene = cases.case2(memory=memory)
+    # Long enough for the loop to ask Python several times, also on a machine ten times as fast.
+    settings: dict[str, Any] = {"t_end": 300.0, "dt_out": 0.1, "rtol": 1e-11}
+    for pieces in (1, 2):
+        with monkeypatch.context() as patch:
+            stopping_after(pieces, patch)
+            told = simulate_to_file(scene, tmp_path / "run.nc", resume=pieces > 1, **settings)
+        assert told.interrupted
+        partial = told.load()
+        assert partial.interrupted
+        assert 0 < partial.time.size < 3001
+    whole = simulate(scene, **settings)
+    rest = simulate_to_file(scene, tmp_path / "run.nc", resume=True, **settings)
+    assert not rest.interrupted
+    same(whole, rest.load())
+    assert rest.load().stats["simulated_s"] == pytest.approx(300.0)
+    assert rest.load().stats["steps"] == whole.stats["steps"]
+
+
+def bouncing() -> Scene:
+    scene = Scene(name="ball")
+    scene.add_body(name="ball", mass=3.0, inertia=(0.1, 0.2, 0.3))
+    scene.add_joint(kind="free", name="air", first="ground", second="ball", point=(0.0, 0.0, 0.0))
+    add_end_stop(scene, joint="air", coordinate="z", minimum=-2.0, restitution=0.9, name="floor")
+    return scene
+
+
+def test_events_are_in_the_file_and_go_on_after_a_stop(tmp_path: Path) -> None:
+    """A ball that bounces 16 times; the run stops in the air, and once more when the ball lies still."""
+    whole = simulate(bouncing(), t_end=20.0)
+    assert len(whole.events) > 10
+    for t_end in (3.0, 15.0, 20.0):
+        told = simulate_to_file(bouncing(), tmp_path / "run.nc", t_end=t_end, resume=t_end > 3.0)
+    joined = told.load()
+    assert joined.stats["events"] == len(joined.events) == len(whole.events)
+    np.testing.assert_allclose(
+        [event.time for event in joined.events], [event.time for event in whole.events], atol=1e-5
+    )
+    assert [event.kind for event in joined.events] == [event.kind for event in whole.events]
+    np.testing.assert_allclose(joined["impact_loss"], whole["impact_loss"], atol=1e-3)
+    np.testing.assert_allclose(joined["energy_balance"], 0.0, atol=1e-3)
+
+
+def test_a_finished_run_goes_on_to_a_later_end(tmp_path: Path) -> None:
+    for t_end in (3.0, 5.0):
+        told = simulate_to_file(spinner(), tmp_path / "run.nc", t_end=t_end, resume=t_end > 4.0)
+    assert told.load().time[-1] == pytest.approx(5.0)
+    assert np.all(np.diff(told.load().time) > 0.09)
+
+
+KILLED = """
+import sys
+from pathlib import Path
+from seacrane import cases, simulate_to_file
+from seacrane.result import stream
+stream.MOST_ROWS = 16
+simulate_to_file(cases.case2(), Path(sys.argv[1]) / "run.nc", t_end=1e5, dt_out=0.5, checkpoint_every=20.0)
+"""
+
+
+def test_a_killed_run_leaves_outputs_and_a_state_to_go_on_from(tmp_path: Path) -> None:
+    process = subprocess.Popen([sys.executable, "-c", KILLED, str(tmp_path)])
+    until = time.monotonic() + GENEROUS
+    while not (tmp_path / "run.state").exists():
+        assert time.monotonic() < until
+        time.sleep(0.05)
+    time.sleep(0.3)
+    process.kill()
+    process.wait()
+    partial = Result.load(stream.partial_path(tmp_path / "run.nc"))
+    assert partial.interrupted
+    assert partial.time.size > 16
+    t_end = float(partial.time[-1]) + 20.0
+    settings: dict[str, Any] = {"t_end": t_end, "dt_out": 0.5}
+    with pytest.raises(FileExistsError, match=r"run\.partial\.nc is there from a run that was killed"):
+        simulate_to_file(cases.case2(), tmp_path / "run.nc", **settings)
+    told = simulate_to_file(cases.case2(), tmp_path / "run.nc", resume=True, **settings)
+    same(simulate(cases.case2(), **settings), told.load())
+
+
+FULL = """
+import resource, sys, json
+from pathlib import Path
+from seacrane import cases, simulate_to_file, Result
+from seacrane.result import stream
+stream.MOST_ROWS = 64
+path = Path(sys.argv[1]) / "run.nc"
+resource.setrlimit(resource.RLIMIT_FSIZE, (int(sys.argv[2]), int(sys.argv[2])))
+try:
+    simulate_to_file(cases.case2(), path, t_end=1e5, dt_out=0.5)
+except OSError as error:
+    print(json.dumps(str(error)))
+"""
+
+
+def test_a_full_disk_leaves_the_outputs_that_had_room(tmp_path: Path) -> None:
+    run = subprocess.run(
+        [sys.executable, "-c", FULL, str(tmp_path), str(2**21)],
+        capture_output=True, text=True, check=True, timeout=GENEROUS,
+    )  # fmt: skip
+    text = json.loads(run.stdout)
+    assert "could not write" in text and "run.nc" in text and "the outputs until then" in text
+    partial = Result.load(tmp_path / "run.nc")
+    assert partial.interrupted
+    assert partial.time.size > 300
+    assert all(np.isfinite(values).all() for values in partial.channels.values())
+    assert not list(tmp_path.glob("*.partial.nc"))
+    assert not (tmp_path / "run.state").exists()
+
+
+def test_a_write_that_fails_once_is_made_up_for_at_the_end(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    stopping_after(3, monkeypatch, MemoryError)
+    with pytest.raises(SimulationError, match="memory ran out"):
+        simulate_to_file(cases.case2(), tmp_path / "run.nc", t_end=1e4, dt_out=0.5)
+    partial = Result.load(tmp_path / "run.nc")
+    same_piece = simulate(cases.case2(), t_end=float(partial.time[-1]), dt_out=0.5)
+    assert partial.time.size > 48
+    assert np.array_equal(partial["position"][:-2], same_piece["position"][:-2])
+
+
+def test_an_error_in_a_controller_leaves_the_file(tmp_path: Path) -> None:
+    def fail(now: float, measured: Any) -> dict[str, float]:
+        if now > 5.0:
+            raise ValueError("sensor lost")
+        return {"motor.force": 1.0}
+
+    ticks = [SampledController(period=0.5, function=fail)]
+    with pytest.raises(SimulationError, match="sensor lost"):
+        simulate_to_file(spinner(), tmp_path / "run.nc", t_end=20.0, controllers=ticks)
+    partial = Result.load(tmp_path / "run.nc")
+    assert partial.interrupted
+    assert partial.time[-1] == pytest.approx(5.5)
+    assert simulate_to_file(spinner(), tmp_path / "run.nc", t_end=20.0, resume=True).outputs == 201
+
+
+def test_ctrl_c_while_a_piece_is_written_waits_for_it(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    dataset = stream._dataset
+    seen = []
+
+    def pressed(path: Path) -> Any:
+        if not seen:
+            signal.raise_signal(signal.SIGINT)
+        seen.append(path)
+        return dataset(path)
+
+    monkeypatch.setattr(stream, "_dataset", pressed)
+    told = simulate_to_file(spinner(), tmp_path / "run.nc", t_end=1e5, dt_out=1.0)
+    assert told.interrupted
+    assert told.outputs == told.load().time.size >= 16
+    assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
+
+
+READER = """
+import sys, netCDF4
+file = netCDF4.Dataset(sys.argv[1], "r")
+print(file["time"][:].size, flush=True)
+sys.stdin.readline()
+print(file["time"][:].size, flush=True)
+"""
+
+
+def test_a_program_that_reads_the_file_does_not_stop_the_run(tmp_path: Path) -> None:
+    """Its lock is its own: it keeps what it opened, and the run goes on."""
+    path, readers = tmp_path / "run.nc", []
+
+    def look(now: float, measured: Any) -> dict[str, float]:
+        if now > 50.0 and not readers:
+            readers.append(
+                subprocess.Popen(
+                    [sys.executable, "-c", READER, str(stream.partial_path(path))],
+                    stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True,
+                )
+            )  # fmt: skip
+            assert readers[0].stdout is not None
+            assert int(readers[0].stdout.readline()) >= 16
+        return {}
+
+    ticks = [SampledController(period=1.0, function=look)]
+    told = simulate_to_file(spinner(), path, t_end=100.0, controllers=ticks)
+    left, _ = readers[0].communicate("go on\n", timeout=GENEROUS)
+    assert told.outputs == told.load().time.size == 1001
+    assert 16 <= int(left) < 1001
+    assert sorted(p.name for p in tmp_path.iterdir()) == ["run.nc", "run.state"]
+
+
+def test_outputs_without_a_time_do_not_count(tmp_path: Path) -> None:
+    """A piece whose writing was broken off."""
+    import netCDF4
+
+    told = simulate_to_file(spinner(), tmp_path / "run.nc", t_end=5.0)
+    with netCDF4.Dataset(told.path, "a") as file:
+        file["velocity"][51:60] = 1.0
+    assert Result.load(told.path).time.size == 51
+
+
+REFUSED: dict[str, tuple[dict[str, Any], type[Exception], str]] = {
+    "other rtol": ({"rtol": 1e-3}, FileFormatError, "has rtol 1e-06, this run 0.001"),
+    "other outputs": ({"dt_out": 0.2}, FileFormatError, "has dt_out 0.1, this run 0.2"),
+    "other integrator": ({"integrator": "rk4"}, FileFormatError, "left by 'dopri5'"),
+    "start": ({"start": None}, SceneError, "start cannot be given"),
+    "checkpoints": ({"checkpoint_every": -1.0}, SceneError, "make it positive"),
+    "end": ({"t_end": 1.0}, SceneError, "before the start"),
+}
+
+
+@pytest.mark.parametrize("name", REFUSED)
+def test_what_cannot_be_gone_on_with_is_refused_and_left_alone(name: str, tmp_path: Path) -> None:
+    change, kind, words = REFUSED[name]
+    simulate_to_file(spinner(), tmp_path / "run.nc", t_end=2.0)
+    before = {path.name: path.read_bytes() for path in tmp_path.iterdir()}
+    with pytest.raises(kind, match=words):
+        simulate_to_file(spinner(), tmp_path / "run.nc", resume=True, **{"t_end": 3.0} | change)
+    assert {path.name: path.read_bytes() for path in tmp_path.iterdir()} == before
+
+
+def test_files_that_are_missing_or_foreign_are_named(tmp_path: Path) -> None:
+    path = tmp_path / "run.nc"
+    with pytest.raises(FileNotFoundError, match=r"no state file .*run\.state"):
+        simulate_to_file(spinner(), path, t_end=2.0, resume=True)
+    with pytest.raises(OSError, match="there is no folder"):
+        simulate_to_file(spinner(), tmp_path / "none" / "run.nc", t_end=2.0)
+    simulate_to_file(spinner(), path, t_end=2.0)
+    with pytest.raises(FileFormatError, match=r"run\.state: is the state of another scene"):
+        simulate_to_file(cases.case2(), path, t_end=3.0, resume=True)
+    path.write_bytes(b"no result")
+    with pytest.raises(FileFormatError, match="is not a result"):
+        simulate_to_file(spinner(), path, t_end=3.0, resume=True)
+    path.unlink()
+    with pytest.raises(FileNotFoundError, match="no result file"):
+        simulate_to_file(spinner(), path, t_end=3.0, resume=True)
+
+
+MEMORY = """
+import resource, sys
+from pathlib import Path
+from seacrane import cases, simulate_to_file
+path = Path(sys.argv[1]) / "run.nc"
+peak = []
+for dt_out in (10.0, 0.02):
+    simulate_to_file(cases.case2(), path, t_end=400.0, dt_out=dt_out)
+    peak.append(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss)
+print(peak[1] - peak[0])
+"""
+
+
+def test_memory_does_not_grow_with_the_outputs(tmp_path: Path) -> None:
+    """20,000 outputs of 2 kB are 40 MB."""
+    run = subprocess.run(
+        [sys.executable, "-c", MEMORY, str(tmp_path)],
+        capture_output=True,
+        text=True,
+        check=True,
+        timeout=GENEROUS,
+    )
+    assert os.path.getsize(tmp_path / "run.nc") > 1e7
+    assert float(run.stdout) < 25e3  # kB
+
+
+def test_a_file_tells_what_left_the_range_of_its_models(tmp_path: Path) -> None:
+    """Once for the run, however many pieces it has, and of what was before a stop too."""
+    scene = cases.vessel(hs=24.0)
+    settings: dict[str, Any] = {"dt_out": 0.01, "channels": ["vessel_motion"]}
+    with pytest.warns(LargeHeelWarning) as caught:
+        told = simulate_to_file(scene, tmp_path / "storm.nc", t_end=100.0, **settings)
+    assert len([w for w in caught if w.category is LargeHeelWarning]) <= 2  # roll, pitch
+    assert "20 deg" in told.stats["validity"]
+    assert told.load().stats["validity"] == told.stats["validity"]
+    simulate_to_file(scene, tmp_path / "storm.nc", t_end=101.0, resume=True, **settings)
+    assert told.load().stats["validity"].startswith(told.stats["validity"])
