@@ -14,18 +14,21 @@ from seacrane.shown import shown
 Array = NDArray[np.float64]
 
 
-def text_of(what: str, value: Any) -> str:
-    """A printable text; may be empty."""
+def text_of(what: str, value: Any, usual: str = "") -> str:
+    """A printable text; None and the empty text stand for the usual one."""
+    if value is None or (isinstance(value, str) and not value):
+        value = usual or value
     if not isinstance(value, str) or not value.isprintable():
         raise SceneError(f"{what} is {shown(value)}; give a name, a printable text")
-    return value
-
-
-def name_of(kind: str, value: Any) -> str:
-    """A printable text that is not empty."""
-    if not text_of(f"{kind}: name", value):
-        raise SceneError(f"{kind}: name is empty; give every element a name")
     return str(value)
+
+
+def name_of(kind: str, value: Any, usual: str = "") -> str:
+    """A printable text that is not empty; None and the empty text stand for the usual one."""
+    name = text_of(f"{kind}: name", value, usual)
+    if not name:
+        raise SceneError(f"{kind}: name is empty; give every element a name")
+    return name
 
 
 def flag_of(what: str, value: Any) -> bool:
@@ -56,7 +59,10 @@ def vector_of(what: str, value: Any) -> list[float]:
 def numbers_of(what: str, value: Any) -> Array:
     """An array of floats of any shape."""
     try:
-        return np.asarray(value, dtype=float)
+        array = np.asarray(value)
+        if array.dtype.kind == "c":
+            raise TypeError
+        return np.asarray(array, dtype=float)
     except (TypeError, ValueError, OverflowError) as error:
         raise SceneError(f"{what} is {shown(value)}; give numbers") from error
 

@@ -239,7 +239,7 @@ class Scene:
         "x y z roll pitch yaw" of a free joint.
         """
         coordinate = self._coordinate("driver", joint, coordinate)
-        name = name_of("driver", name or f"{joint}.{coordinate}")
+        name = name_of("driver", name, f"{joint}.{coordinate}")
         if not isinstance(curve, _core.Curve):
             raise SceneError(f"driver {name!r}: curve is {curve!r}; give a seacrane.Curve")
         driver = _core.Driver(name=name, joint=joint, coordinate=coordinate, curve=curve)
@@ -264,7 +264,7 @@ class Scene:
         curves of time. Inputs "<name>.force" and "<name>.reference" add to them during a run.
         """
         coordinate = self._coordinate("actuator", joint, coordinate)
-        name = name_of("actuator", name or joint)
+        name = name_of("actuator", name, joint)
         actuator = _core.Actuator(
             name=name,
             joint=joint,
@@ -371,7 +371,7 @@ class Scene:
         self, *, body: str, name: str | None = None, **hydrodynamics: Any
     ) -> _core.VesselHydrodynamics:
         """Linear hydrodynamics of a body about its origin; see `VesselHydrodynamics` for the arguments."""
-        name = name_of("vessel", name or body)
+        name = name_of("vessel", name, body)
         for key, value in hydrodynamics.items():
             what = f"vessel {name!r}: {key}"
             if key in _VESSEL_SHAPES:
@@ -398,7 +398,7 @@ class Scene:
     ) -> None:
         """Record a joint coordinate and its rate under a name (default: the joint's)."""
         coordinate = self._coordinate("recorded coordinate", joint, coordinate)
-        name = name_of("recorded coordinate", name or joint)
+        name = name_of("recorded coordinate", name, joint)
         if self.recorded.get(name, (joint, coordinate)) != (joint, coordinate):
             raise SceneError(
                 f"recorded coordinate {name!r}: is {'.'.join(self.recorded[name])} already; give another name"
@@ -409,7 +409,7 @@ class Scene:
         if text_of(f"{kind}: joint", joint) not in self.joints:
             raise SceneError(f"{kind}: there is no joint {joint!r}; add it first")
         usual = "angle" if self.joints[joint].kind == "revolute" else "displacement"
-        return text_of(f"{kind} of joint {joint!r}: coordinate", coordinate or usual)
+        return text_of(f"{kind} of joint {joint!r}: coordinate", coordinate, usual)
 
     def compile(self, *, merge: bool = True) -> _core.Model:
         """Check everything, close the joints and compile.

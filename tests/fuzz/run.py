@@ -48,7 +48,8 @@ def main() -> int:
         if not left:
             break
         for name in left:
-            _slice(name, options, min(end - time.monotonic(), options.slice_seconds))
+            if time.monotonic() < end:
+                _slice(name, options)
     return _report(names, options)
 
 
@@ -56,8 +57,8 @@ def _options() -> argparse.Namespace:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("targets", nargs="*", metavar="TARGET")
     parser.add_argument("--cases", type=int, default=1_000_000, help="of each target, earlier calls included")
-    parser.add_argument("--seconds", type=float, default=1e9, help="to stop after, all targets together")
-    parser.add_argument("--slice-seconds", type=float, default=60.0, help="of each target in turn")
+    parser.add_argument("--seconds", type=float, default=1e9, help="after which no slice is begun")
+    parser.add_argument("--slice-seconds", type=float, default=60.0, help="processor time of each in turn")
     parser.add_argument("--out", type=Path, default=Path("out/fuzz"))
     parser.add_argument("--child", action="store_true", help=argparse.SUPPRESS)
     return parser.parse_args()
@@ -69,11 +70,9 @@ def _count(out: Path, name: str) -> dict[str, Any]:
     return json.loads(path.read_text()) if path.is_file() else empty
 
 
-def _slice(name: str, options: argparse.Namespace, seconds: float) -> None:
-    if seconds <= 0.0:
-        return
+def _slice(name: str, options: argparse.Namespace) -> None:
     command = [sys.executable, __file__, name, "--child", "--out", str(options.out)]
-    command += ["--cases", str(options.cases), "--seconds", str(seconds)]
+    command += ["--cases", str(options.cases), "--seconds", str(options.slice_seconds)]
     log = options.out / name / "log.txt"
     log.parent.mkdir(parents=True, exist_ok=True)
     with log.open("wb") as file:
@@ -147,7 +146,7 @@ class Harness:
         self.target, self.home, self.folder, self.options = target, home, folder, options
         self.count = _count(options.out, target.name)
         self.before = self.count["seconds"]
-        self.start = time.monotonic()
+        self.start = time.process_time()
         self.fresh = 0
 
     def mutate(self, data: bytes, size: int, seed: int) -> bytes:
@@ -170,7 +169,7 @@ class Harness:
                 self._finish()
 
     def _over(self) -> bool:
-        return time.monotonic() - self.start > self.options.seconds
+        return time.process_time() - self.start > self.options.seconds
 
     def _finish(self) -> None:
         for file in self.folder.iterdir():
@@ -179,7 +178,7 @@ class Harness:
         os._exit(0)
 
     def _save(self) -> None:
-        self.count["seconds"] = self.before + time.monotonic() - self.start
+        self.count["seconds"] = self.before + time.process_time() - self.start
         (self.home / "count.new").write_text(json.dumps(self.count))
         os.replace(self.home / "count.new", self.home / "count.json")
 

@@ -23,7 +23,7 @@ from seacrane.scene_file import load_scene
 
 CORPUS = Path(__file__).parent / "corpus"
 LONGEST_MESSAGE = 2000  # characters: what a file holds may not flood the screen
-INFINITE = ("depth",)  # fields that may be infinite
+INFINITE = ("depth", "band", "rows")  # may be infinite, or not a number where a fit has no data
 
 
 @dataclass(frozen=True)

@@ -18,6 +18,8 @@ DEFAULT_PATH = Path(__file__).resolve().parent.parent / "data" / "knuckle_boom_2
 SCHEMA = 1
 LARGEST = 1e12  # m, kg: no crane, and nothing that its squares overflow with
 LONGEST_TEXT = 200
+SMALLEST = 1e-9  # m, kg
+THINNEST = 1e-6  # of a section
 APART = 1e-6  # m: pivots nearer than that are one
 
 
@@ -114,8 +116,8 @@ class _Table:
 
     def number(self, key: str, *, positive: bool = True) -> float:
         value = _number(self.source, self.label(key), self.take(key))
-        if value < 0.0 or (positive and value == 0.0):
-            need = "greater than zero" if positive else "zero or more"
+        if value < 0.0 or (positive and value < SMALLEST):
+            need = f"greater than zero, {SMALLEST:g} at least" if positive else "zero or more"
             raise FileFormatError(f"{self.source}: {self.label(key)} is {value:g}; it must be {need}.")
         return value
 
@@ -186,6 +188,11 @@ def _tube(table: _Table, name: str, mass: float, start: Point, end: Point) -> Tu
 def _box(table: _Table, name: str, mass: float, start: Point, end: Point) -> Box:
     width, depth = table.number("width"), table.number("depth")
     wall = table.number("wall", positive=False)
+    if 0.0 < wall < THINNEST * max(width, depth):
+        raise FileFormatError(
+            f"{table.source}: {table.label('wall')} is {wall:g} m in a section of {width:g} x {depth:g} m; "
+            "make it thicker (0: solid)."
+        )
     if 2.0 * wall >= min(width, depth):
         raise FileFormatError(
             f"{table.source}: {table.label('wall')} is {wall:g} m, half the section ({width:g} x {depth:g} m)"

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import tempfile
-from dataclasses import asdict, fields
+from dataclasses import asdict, astuple, fields
 from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -279,14 +279,16 @@ def _read_memory(group: Any) -> MemoryModel:
         FitRow(cause=cause, **{name: _plain(name, column[i]) for name, column in columns.items()})
         for i, cause in enumerate(row_causes)
     ]
-    band = group.band
+    band, passivity = group.band, _passivity(group.passivity)
+    if np.isnan(band).any() or np.isnan(astuple(passivity)).any() or not np.isfinite(group.r2):
+        raise ValueError("memory: band, passivity or r2 is not a number")
     return MemoryModel(
         blocks=tuple(blocks),
         **{name: _get(group, name) for name in _MODEL_MATRICES},
         band=(float(band[0]), float(band[1])),
         r2=float(group.r2),
         rows=tuple(rows),
-        passivity=_passivity(group.passivity),
+        passivity=passivity,
     )
 
 

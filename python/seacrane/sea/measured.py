@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane import _core
-from seacrane.checked import number_of, shaped_of, vector_of
+from seacrane.checked import name_of, number_of, shaped_of, vector_of
 from seacrane.errors import SceneError
 from seacrane.sea.spectra import tabulated_spectrum
 
@@ -64,6 +64,7 @@ class MeasuredWaves:
     name: str = "measured"
 
     def __post_init__(self) -> None:
+        name_of("measured waves", self.name)
         for field in ("time", "elevation"):
             values = np.array(vector_of(f"{self._object}: {field}", getattr(self, field)))
             bad = np.flatnonzero(~np.isfinite(values))

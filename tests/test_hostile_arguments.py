@@ -1,0 +1,245 @@
+"""Arguments of every kind where another is due: a value, or an exception by name; no NaN, hang or crash."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import HealthCheck, Phase, assume, example, given, seed, settings
+from hypothesis import strategies as st
+
+from seacrane import Curve, Scene, SceneError, SimulationError, Waves, sea, simulate, spline_curve
+
+NAN, INF = float("nan"), float("inf")
+SETTINGS = settings(
+    max_examples=80,
+    deadline=None,
+    phases=(Phase.explicit, Phase.generate),
+    suppress_health_check=[HealthCheck.too_slow],
+    database=None,
+)
+LONGEST_MESSAGE = 2000
+
+
+class Strange:
+    """An object that no argument expects."""
+
+
+NUMBERS: tuple[Any, ...] = (
+    NAN, INF, -INF, 0.0, -0.0, -1.0, 1e-320, 1e-200, 1e200, 1.7e308, -1e308, 10**400, 2**63, True, 1.5, 1e12,
+)  # fmt: skip
+OTHERS: tuple[Any, ...] = (
+    None, "", "nan", "1", "\x00", "\ud800", "Ladekran 🏗", "é" * 400, b"bytes", 1j, Strange(), Strange, len,
+    {}, set(),     [], [[]], [NAN], [1.0, 2.0], [1.0] * 3, [INF] * 3, [1e308] * 3, [0.0] * 3, [0.0] * 4, [[1.0, 0.0], [0.0]],
+    np.eye(3), np.full((3, 3), NAN), np.zeros((6, 6)), -np.eye(6), np.eye(3, dtype=complex), np.zeros((0, 3)),
+    np.array(["a", "b", "c"]), np.array(None), np.zeros((3, 3, 3, 3)), np.datetime64("now"), range(3),
+)  # fmt: skip
+HOSTILE = st.one_of(
+    st.sampled_from(range(len(NUMBERS))).map(lambda i: NUMBERS[i]),
+    st.sampled_from(range(len(OTHERS))).map(lambda i: OTHERS[i]),
+    st.floats(),
+    st.lists(st.floats(), max_size=7),
+    st.text(max_size=5),
+)
+
+
+def base() -> Scene:
+    """A pendulum on a hull, both free of constraints that could be singular."""
+    scene = Scene(name="base")
+    scene.add_body(name="hull", mass=1e6, inertia=[1e7, 2e7, 2e7])
+    scene.add_body(name="bob", mass=1e3, inertia=[1e3, 1e3, 1e3], position=(0.0, 0.0, -10.0))
+    scene.add_joint(kind="revolute", name="pin", first="hull", second="bob", point=(0, 0, 0), axis=(0, 1, 0))
+    return scene
+
+
+RESTORING = np.diag([0.0, 0.0, 1e7, 1e8, 1e9, 0.0])
+MATRIX = np.diag([1e6, 1e6, 1e6, 1e8, 1e8, 1e8])
+CALLS: dict[str, dict[str, Any]] = {
+    "add_body": {
+        "name": "x", "mass": 2.0, "inertia": [1.0, 1.0, 1.0], "center_of_mass": (0.0, 0.0, 0.1),
+        "position": (3.0, 0.0, 0.0), "quaternion": (1.0, 0.0, 0.0, 0.0), "velocity": (0.1, 0.0, 0.0),
+        "angular_velocity": (0.0, 0.1, 0.0), "gravity": True,
+    },
+    "add_joint": {
+        "kind": "spherical", "name": "x", "first": "ground", "second": "hull", "point": (0.0, 0.0, 0.0),
+        "axis": (0.0, 0.0, 1.0), "second_axis": None, "second_point": None, "length": None,
+    },
+    "add_driver": {"joint": "pin", "curve": Curve.constant(value=0.1), "coordinate": "angle", "name": "x"},
+    "add_actuator": {
+        "joint": "pin", "name": "x", "coordinate": "angle", "stiffness": 1e3, "damping": 10.0,
+        "feed_forward": 1.0, "reference": 0.1,
+    },
+    "add_point_force": {"name": "x", "body": "bob", "point": (0, 0, 0), "force": (1, 0, 0)},
+    "add_spring": {
+        "name": "x", "first": "hull", "second": "bob", "first_point": (1.0, 0, 0), "second_point": (0, 0, 0),
+        "stiffness": 1e3, "damping": 1.0, "natural_length": 1.0, "lengths": (), "forces": (),
+    },
+    "add_force_table": {
+        "name": "x", "body": "bob", "times": [0.0, 1.0], "loads": np.zeros((2, 6)), "point": (0.0, 0.0, 0.0),
+    },
+    "add_vessel": {
+        "name": "x", "body": "hull", "added_mass": MATRIX, "linear_damping": MATRIX, "restoring": RESTORING,
+        "quadratic_damping": np.ones(6), "mooring_stiffness": np.ones(3), "mooring_damping": np.ones(3),
+    },
+    "record_coordinate": {"name": "x", "joint": "pin", "coordinate": "angle"},
+}  # fmt: skip
+
+
+def refused(action: Callable[[], Any], allowed: tuple[type[Exception], ...]) -> Any:
+    """The action's value, or None where it is refused with a message that a screen can hold."""
+    try:
+        return action()
+    except allowed as error:
+        assert 0 < len(str(error)) <= LONGEST_MESSAGE, str(error)[:300]
+        return None
+
+
+def run_for_some_steps(scene: Scene) -> None:
+    """What compiles runs without NaN, or ends by name."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        if refused(scene.compile, (SceneError,)) is None:
+            return
+        result = refused(
+            lambda: simulate(scene, t_end=0.05, dt_out=0.05, integrator="rk4", dt=0.01),
+            (SceneError, SimulationError),
+        )
+    if result is not None:
+        assert all(np.all(np.isfinite(array)) for array in result.channels.values())
+
+
+@pytest.mark.parametrize("call", CALLS)
+@seed(20)
+@SETTINGS
+@given(data=st.data())
+def test_scene_methods(call: str, data: st.DataObject) -> None:
+    """One or two arguments replaced; what is accepted compiles and runs, or is refused by name later."""
+    arguments = dict(CALLS[call])
+    for key in data.draw(st.lists(st.sampled_from(sorted(arguments)), min_size=1, max_size=2, unique=True)):
+        arguments[key] = data.draw(HOSTILE, label=key)
+    scene = base()
+    refused(lambda: getattr(scene, call)(**arguments), (SceneError, TypeError))
+    run_for_some_steps(scene)
+
+
+@pytest.mark.parametrize("call", CALLS)
+def test_the_calls_themselves_are_sound(call: str) -> None:
+    """Else the test above would test nothing."""
+    scene = base()
+    getattr(scene, call)(**CALLS[call])
+    scene.compile()
+
+
+@pytest.mark.parametrize("call", [call for call in CALLS if call != "record_coordinate"])
+def test_duplicate_names(call: str) -> None:
+    scene = base()
+    getattr(scene, call)(**CALLS[call])
+    with pytest.raises(SceneError, match="'x'"):
+        getattr(scene, call)(**CALLS[call])
+
+
+@pytest.mark.parametrize("name", ["Ladekran 🏗", "рука", "架", "é" * 200])
+def test_names_of_any_script(name: str) -> None:
+    """Names that can be printed work all the way into results and messages."""
+    scene = Scene(name=name)
+    scene.add_body(name=name, mass=1.0, inertia=[1, 1, 1])
+    refused(lambda: scene.add_body(name=name, mass=1.0, inertia=[1, 1, 1]), (SceneError,))
+    result = simulate(scene, t_end=0.1, dt_out=0.1)
+    assert result.coords["body"] == (name,)
+
+
+SIMULATE: dict[str, Any] = {
+    "dt_out": 0.05, "integrator": "rk4", "rtol": 1e-6, "dt": 0.01, "max_step": 0.0, "spectral_radius": None,
+    "formulation": "auto", "channels": None, "controllers": (), "start": None, "accuracy": None,
+}  # fmt: skip
+
+
+@seed(21)
+@SETTINGS
+@given(key=st.sampled_from(sorted(SIMULATE)), value=HOSTILE)
+@example(key="dt_out", value=1e-300)
+@example(key="rtol", value=5e-324)
+def test_simulate(key: str, value: Any) -> None:
+    """Steps far below a microsecond are left out: they are what was asked for, and take their time."""
+    assume(not (key in ("dt", "max_step") and isinstance(value, float) and 0.0 < value < 1e-6))
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        result = refused(
+            lambda: simulate(base(), t_end=0.05, **(SIMULATE | {key: value})),
+            (SceneError, SimulationError, ValueError, TypeError),
+        )
+    if result is not None:
+        assert all(np.all(np.isfinite(array)) for array in result.channels.values())
+
+
+@pytest.mark.parametrize("t_end", [NAN, INF, -INF, -1.0, None, "1", [1.0], 1e300])
+def test_end_times(t_end: Any) -> None:
+    """1e300 s in outputs of 0.05 s are refused before anything is allocated for them."""
+    with pytest.raises((SceneError, SimulationError, ValueError, TypeError, MemoryError)) as caught:
+        simulate(base(), t_end=t_end, dt_out=0.05)
+    assert str(caught.value)
+
+
+CURVES: dict[str, tuple[Callable[..., Any], dict[str, Any]]] = {
+    "constant": (Curve.constant, {"value": 1.0}),
+    "quintic": (Curve.quintic, {"start_time": 0.0, "end_time": 1.0, "start": 0.0, "end": 0.1}),
+    "harmonic": (Curve.harmonic, {"offset": 0.0, "amplitude": 0.1, "omega": 1.0, "phase": 0.0}),
+    "spline": (spline_curve, {"times": [0.0, 1.0, 2.0], "values": [0.0, 0.1, 0.0]}),
+}
+
+
+@pytest.mark.parametrize("kind", CURVES)
+@seed(22)
+@SETTINGS
+@given(data=st.data())
+def test_curves(kind: str, data: st.DataObject) -> None:
+    """A curve that can be made drives a joint without NaN, or is refused there."""
+    make, usual = CURVES[kind]
+    arguments = dict(usual)
+    arguments[data.draw(st.sampled_from(sorted(usual)))] = data.draw(HOSTILE)
+    curve = refused(lambda: make(**arguments), (ValueError, TypeError))
+    if curve is None:
+        return
+    scene = base()
+    refused(lambda: scene.add_actuator(joint="pin", name="x", reference=curve, stiffness=1.0), (SceneError,))
+    run_for_some_steps(scene)
+
+
+WAVES: dict[str, Any] = {
+    "body": "hull", "omega": [0.5, 0.7], "amplitude": [0.1, 0.2], "phase": [0.0, 1.0],
+    "direction": [0.0, 0.5], "transfer": np.ones((2, 6), dtype=complex),
+    "position": (0.0, 0.0), "relative_bound": 1e-9, "depth": INF,
+    "evaluation": "exact", "negligible": 1e-9,
+}  # fmt: skip
+
+
+@seed(23)
+@SETTINGS
+@given(key=st.sampled_from(sorted(WAVES)), value=HOSTILE)
+def test_waves(key: str, value: Any) -> None:
+    scene = base()
+    scene.add_vessel(**CALLS["add_vessel"])
+    waves = refused(lambda: Waves(**(WAVES | {key: value})), (SceneError, ValueError, TypeError))
+    if waves is not None:
+        scene.waves = waves
+        run_for_some_steps(scene)
+
+
+RECORD: dict[str, Any] = {
+    "time": np.arange(16) * 0.5, "elevation": np.sin(np.arange(16)), "direction_deg": 0.0,
+    "position": (0.0, 0.0), "omega_min": None, "omega_max": None, "taper": 0.1, "name": "record",
+}  # fmt: skip
+
+
+@seed(24)
+@SETTINGS
+@given(key=st.sampled_from(sorted(RECORD)), value=HOSTILE)
+def test_measured_series(key: str, value: Any) -> None:
+    waves = refused(lambda: sea.MeasuredWaves(**(RECORD | {key: value})), (SceneError, TypeError))
+    if waves is not None:
+        found = refused(lambda: waves.waves(direction=np.array([0.0]), depth=INF), (SceneError, ValueError))
+        assert found is None or np.all(np.isfinite(found.amplitude))
+        assert np.all(np.isfinite(waves.band_passed()))
