@@ -33,9 +33,10 @@ NUMBERS: tuple[Any, ...] = (
 )  # fmt: skip
 OTHERS: tuple[Any, ...] = (
     None, "", "nan", "1", "\x00", "\ud800", "Ladekran 🏗", "é" * 400, b"bytes", 1j, Strange(), Strange, len,
-    {}, set(),     [], [[]], [NAN], [1.0, 2.0], [1.0] * 3, [INF] * 3, [1e308] * 3, [0.0] * 3, [0.0] * 4, [[1.0, 0.0], [0.0]],
-    np.eye(3), np.full((3, 3), NAN), np.zeros((6, 6)), -np.eye(6), np.eye(3, dtype=complex), np.zeros((0, 3)),
-    np.array(["a", "b", "c"]), np.array(None), np.zeros((3, 3, 3, 3)), np.datetime64("now"), range(3),
+    {}, set(), [], [[]], [NAN], [1.0, 2.0], [1.0] * 3, [INF] * 3, [1e308] * 3, [0.0] * 3, [0.0] * 4,
+    [[1.0, 0.0], [0.0]], np.eye(3), np.full((3, 3), NAN), np.zeros((6, 6)), -np.eye(6),
+    np.eye(3, dtype=complex), np.zeros((0, 3)), np.array(["a", "b", "c"]), np.array(None),
+    np.zeros((3, 3, 3, 3)), np.datetime64("now"), range(3),
 )  # fmt: skip
 HOSTILE = st.one_of(
     st.sampled_from(range(len(NUMBERS))).map(lambda i: NUMBERS[i]),

@@ -37,7 +37,9 @@ def jacobian(model: _core.Model, *, state: Array | None = None, time: float = 0.
 
 
 def fastest_mode(model: _core.Model) -> float | None:
-    """Largest |eigenvalue| (1/s) at the start; None for models too large for a dense problem."""
+    """Largest |eigenvalue| (1/s) at the start; None where the model is too large for a dense problem, or its
+    rates are not finite there (of which the run itself tells)."""
     if model.states > LARGEST:
         return None
-    return float(np.max(np.abs(np.linalg.eigvals(jacobian(model)))))
+    matrix = jacobian(model)
+    return float(np.max(np.abs(np.linalg.eigvals(matrix)))) if np.all(np.isfinite(matrix)) else None

@@ -17,6 +17,7 @@ from seacrane.shown import shown
 DEFAULT_PATH = Path(__file__).resolve().parent.parent / "data" / "knuckle_boom_250t.toml"
 SCHEMA = 1
 LARGEST = 1e12  # m, kg: no crane, and nothing that its squares overflow with
+LARGEST_FILE = 2**20  # bytes
 LONGEST_TEXT = 200
 SMALLEST = 1e-9  # m, kg
 THINNEST = 1e-6  # of a section
@@ -337,7 +338,11 @@ def load(path: str | Path | None = None) -> CraneData:
     """
     path = DEFAULT_PATH if path is None else Path(path)
     try:
-        text = path.read_text(encoding="utf-8")
+        with path.open("rb") as file:
+            content = file.read(LARGEST_FILE + 1)
+        if len(content) > LARGEST_FILE:
+            raise FileFormatError(f"{path}: is larger than {LARGEST_FILE} bytes, which no crane file is.")
+        text = content.decode("utf-8")
     except (OSError, UnicodeDecodeError) as error:
         raise FileFormatError(f"crane data file {path} cannot be read ({error}); check the path.") from error
     return parse(text, source=str(path))

@@ -23,6 +23,7 @@ FloatArray = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
 
 KILO = 1000.0  # te to kg, kN to N
+LARGEST_FILE = 64 * 2**20  # bytes; YAML is read at about 1 MiB/s
 DEEPEST = 40  # levels of a text model; OrcaFlex writes about ten
 DEFAULTS = {
     "RAOWaveUnit": "amplitude",
@@ -199,6 +200,8 @@ def _document(path: Path) -> dict[str, Any]:
         ) from None
     loader = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
     try:
+        if path.stat().st_size > LARGEST_FILE:
+            raise FileFormatError(f"{path}: above {LARGEST_FILE} bytes; save the vessel type alone")
         text = path.read_bytes().decode("utf-8-sig")
         depth = 0
         for event in yaml.parse(text, Loader=loader):

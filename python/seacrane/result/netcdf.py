@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from seacrane.errors import FileFormatError
+from seacrane.netcdf_limits import require_size
 from seacrane.result.channels import CHANNELS, attributes
 from seacrane.result.events import NUMBERS, PREFIX, Event, event_arrays, events_from_arrays
 
@@ -61,12 +62,16 @@ def add_events(file: Any, events: Sequence[Event], place: int) -> None:
         file[PREFIX + key].setncatts({"units": unit, "long_name": long_name})
 
 
-def read_arrays(path: Path, channels: Sequence[str] | None = None) -> dict[str, Any]:
-    """What is in a result's file, or those channels of it, as the arguments of `Result.from_arrays`."""
+def read_arrays(path: Path, largest: int, channels: Sequence[str] | None = None) -> dict[str, Any]:
+    """What is in a result's file, or those channels of it, as the arguments of `Result.from_arrays`.
+
+    FileFormatError beyond `largest` bytes.
+    """
     import netCDF4
 
     with netCDF4.Dataset(path, "r") as file:
         file.set_auto_mask(False)
+        require_size(path, file, largest, "raise it with Result.load(path, largest=...) if the file is yours")
         if "time" not in file.variables:
             raise FileFormatError(f"{path} has no variable 'time'; it is not a seacrane result")
         stats = {name: file.getncattr(name) for name in file.ncattrs()}

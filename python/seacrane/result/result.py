@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane.errors import FileFormatError, SeacraneError
+from seacrane.netcdf_limits import NETCDF_ERRORS
 from seacrane.result.atomic import atomic_write
 from seacrane.result.channels import AXES, CHANNELS, MOTIONS, QUATERNION, attributes
 from seacrane.result.events import TEXTS as EVENT_TEXTS
@@ -28,6 +29,7 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 Stat = str | int | float
+LARGEST_RESULT = 4 * 2**30  # bytes
 
 ALWAYS_STATED = [
     "seacrane_version",
@@ -46,7 +48,6 @@ ALWAYS_STATED = [
     "degrees_of_freedom",
     "compiled_coordinates",
     "compiled_constraints",
-    "fastest_mode_per_s",
 ]
 
 
@@ -331,7 +332,13 @@ class Result:
         return path
 
     @classmethod
-    def load(cls, path: str | os.PathLike[str], *, channels: Sequence[str] | None = None) -> Result:
+    def load(
+        cls,
+        path: str | os.PathLike[str],
+        *,
+        channels: Sequence[str] | None = None,
+        largest: int = LARGEST_RESULT,
+    ) -> Result:
         """Read a result that `save` or `simulate_to_file` wrote.
 
         Parameters
@@ -340,6 +347,9 @@ class Result:
             NetCDF4 file.
         channels : sequence of str, optional
             Take only those, as far as the file holds them; default: all.
+        largest : int
+            Bytes that its arrays may take in memory, 4 GiB by default: what a file says that it holds is
+            looked at before any of it is read.
 
         Returns
         -------
@@ -351,17 +361,17 @@ class Result:
         FileNotFoundError
             If there is no such file.
         FileFormatError
-            If it is not a NetCDF file, or not one of this kind.
+            If it is not a NetCDF file, not one of this kind, or larger.
         """
         path = Path(path)
         if not path.is_file():
             raise FileNotFoundError(f"no result file {path}")
         try:
-            return cls.from_arrays(**read_arrays(path, channels))
-        except (OSError, RuntimeError, ValueError) as error:
+            return cls.from_arrays(**read_arrays(path, largest, channels))
+        except NETCDF_ERRORS as error:
             if isinstance(error, SeacraneError):
                 raise
-            raise FileFormatError(f"{path} is not a seacrane result: {error}") from error
+            raise FileFormatError(f"{path} is not a seacrane result: {str(error)[:200]}") from error
 
 
 def _rebuild(
