@@ -4,6 +4,8 @@
 # make nightly  longer tests, and ThreadSanitizer (make cpp-tsan);  make bench  benchmarks;  make stubs  python/seacrane/_core.pyi
 # make bench-peers  the same crane in Pinocchio, MuJoCo, Exudyn and NumPy, in an environment of their own;
 #                   either of the two with BENCH_ARGS=--publish writes into benchmarks/ (on an idle machine)
+# make fuzz     hostile files, guided by coverage: CASES for each kind of file (a million take hours), counts
+#               and findings in out/fuzz; goes on where the last call stopped
 # make format   formats C++ and Python;  make clean  removes what was built (not .venv);  make distclean  all
 #
 # All of them install what is missing: system packages (apt, with sudo when needed) and .venv.
@@ -12,7 +14,7 @@ SHELL := /bin/bash
 .DELETE_ON_ERROR:
 .DEFAULT_GOAL := build
 .PHONY: demo test build nightly bench bench-peers stubs format clean distclean lint cpp-test cpp-sanitize \
-        cpp-tsan python-test system-packages FORCE
+        cpp-tsan python-test fuzz system-packages FORCE
 
 ifndef PYTHON
 PYTHON := $(shell .ci/find-python)
@@ -108,6 +110,12 @@ nightly: build .venv/.installed-dev
 
 bench: build .venv/.installed-dev
 	$(BIN)/python benchmarks/run.py $(BENCH_ARGS)
+
+CASES ?= 1000000
+fuzz: build .venv/.installed-dev
+	$(BIN)/python .ci/requirements.py fuzz > .venv/requirements-fuzz.txt
+	$(PIP) install -q -r .venv/requirements-fuzz.txt
+	$(BIN)/python tests/fuzz/run.py --cases $(CASES) $(FUZZ_ARGS)
 
 bench-peers: build .venv/.installed-dev
 	$(PYTHON) -m venv out/peers

@@ -23,6 +23,7 @@ LARGEST_YAW = np.radians(15.0)
 SINGULAR = 1e-4  # relative singular value below which combinations of constraints are not enforced
 FOREIGN_SHARE = 0.2  # of the energy of a motion, outside the database
 LEAST_RATE = 1e-3  # m/s, rad/s: motions below it do not matter
+NO_PULL = 1e-9  # of the largest
 FEWEST_OUTPUTS = 32
 MOTIONS = ("surge", "sway", "heave", "roll", "pitch", "yaw")
 
@@ -175,8 +176,10 @@ def _swing(scene: Scene, time: Array, channels: Channels) -> list[Finding]:
             continue
         pull = force[:, i]
         angle = np.arctan2(np.hypot(pull[:, 0], pull[:, 1]), np.abs(pull[:, 2]))
+        size = np.linalg.norm(pull, axis=1)
+        angle[size <= NO_PULL * size.max()] = 0.0  # rounding has no direction
         largest, at = _worst(time, angle)
-        if largest > LARGEST_SWING and np.linalg.norm(pull, axis=1).max() > 0.0:
+        if largest > LARGEST_SWING:
             found.append(
                 (
                     LargeSwingWarning,
