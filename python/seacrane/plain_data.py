@@ -36,7 +36,7 @@ def notes_from_node(node: Node) -> dict[str, Any]:
     if not isinstance(node.value, dict):
         node.fail("give an object")
     try:
-        out: dict[str, Any] = _restored(node.value)
+        out = {key: _restored(value) for key, value in node.value.items()}
     except RecursionError as error:
         raise FileFormatError(f"{node.path}: is nested too deeply") from error
     return out

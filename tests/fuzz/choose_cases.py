@@ -86,12 +86,13 @@ def _each(target: Target, source: Iterator[bytes]) -> Iterator[set[tuple[str, in
         target.place(folder)
         for case in source:
             lines = Lines(target.modules)
-            with lines:
-                answer = target.run(case, folder)
-            if answer != "no case":
-                yield lines.reached
-            else:
-                yield set()
+            try:
+                with lines:
+                    answer = target.run(case, folder)
+            except Exception as error:
+                print(f"{target.name}: {type(error).__name__}: {str(error)[:200]}", flush=True)
+                answer = "unsound"
+            yield lines.reached if answer in ("value", "refused") else set()
 
 
 def _extend(target: Target, source: Iterator[bytes], reached: set[tuple[str, int]]) -> None:
