@@ -103,6 +103,7 @@ def _wamit(path: Path) -> Any:
 
 
 def _capytaine(path: Path) -> Any:
+    capytaine.is_capytaine(path)  # as `load_database` asks first
     return capytaine.read_capytaine(path)
 
 

@@ -25,6 +25,11 @@ def equivalent_box(restoring: FloatArray, volume: float, weight_density: float) 
             f"restoring C33 = {heave:.6g} N/m and C55 = {pitch:.6g} N m/rad; both have to be positive for a "
             "floating vessel: check the hydrostatics"
         )
-    area = heave / weight_density
     length = float(np.sqrt(12.0 * pitch / heave))
+    area = heave / weight_density if weight_density > 0.0 else 0.0
+    if not (0.0 < area < np.inf and 0.0 < length < np.inf):
+        raise ValueError(
+            f"C33 = {heave:.6g} N/m and C55 = {pitch:.6g} N m/rad with {weight_density:.6g} N/m3 of water "
+            "are of no floating box: check density, gravity and hydrostatics"
+        )
     return length, area / length, volume / area
