@@ -77,6 +77,12 @@ READ: dict[str, tuple[str, Callable[[Path], Any]]] = {
 }
 
 
+SEED = {
+    kind: CORPUS / kind / name
+    for kind, name in (("database", "plain"), ("capytaine", "ship"), ("mafredo", "ship"), ("result", "run"))
+}
+
+
 def bomb(path: Path, name: str) -> None:
     """8 GiB of zeros along that dimension in a file of some kilobytes."""
     with netCDF4.Dataset(path, "a") as file:
@@ -90,8 +96,7 @@ def test_decompression_bomb(kind: str, tmp_path: Path) -> None:
     """A compressed array of 8 GiB is refused by its declared size, whatever it is called."""
     target = TARGETS[kind]
     path = tmp_path / target.file
-    seed = sorted((CORPUS / kind).iterdir())[0]
-    assert build(seed.read_bytes(), path)
+    assert build(SEED[kind].read_bytes(), path)
     bomb(path, READ[kind][0])
     assert path.stat().st_size < 2**20
     refused(
@@ -104,7 +109,7 @@ def test_decompression_bomb(kind: str, tmp_path: Path) -> None:
 def test_giant_dimension(kind: str, tmp_path: Path) -> None:
     """The dimension that all arrays share, declared 1e9 long and left unwritten."""
     target = TARGETS[kind]
-    spec = json.loads(sorted((CORPUS / kind).iterdir())[0].read_bytes())
+    spec = json.loads(SEED[kind].read_bytes())
     group = spec if kind != "mafredo" else spec["groups"]["mass"]
     group["dims"][READ[kind][0]] = 10**9
     for variable in group["vars"].values():
@@ -116,8 +121,7 @@ def test_giant_dimension(kind: str, tmp_path: Path) -> None:
 
 
 def test_larger_results_can_be_asked_for(tmp_path: Path) -> None:
-    spec = sorted((CORPUS / "result").iterdir())[0].read_bytes()
-    assert build(spec, tmp_path / "run.nc")
+    assert build(SEED["result"].read_bytes(), tmp_path / "run.nc")
     assert len(Result.load(tmp_path / "run.nc").time) == 3
     refused(lambda: Result.load(tmp_path / "run.nc", largest=1000), "raise it with Result.load")
 

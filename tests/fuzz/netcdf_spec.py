@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import contextlib
 import json
+import math
 from pathlib import Path
 from typing import Any
 
@@ -15,6 +16,7 @@ import netCDF4
 import numpy as np
 
 LARGEST = 10**15
+CONTIGUOUS = 10**6  # numbers; more are stored in chunks, of which those unwritten take no room
 WORDS = {"nan": float("nan"), "inf": float("inf"), "-inf": float("-inf")}
 
 
@@ -104,16 +106,23 @@ def _left_out() -> contextlib.suppress:
 
 def _variable(group: Any, name: str, spec: dict[str, Any]) -> None:
     kind = str if spec["type"] == "str" else np.dtype(spec["type"])
-    variable = group.createVariable(
-        name, kind, tuple(spec["dims"]), fill_value=False, zlib=bool(spec.get("zlib"))
-    )
+    sizes = [len(_dimension(group, dimension)) for dimension in spec["dims"]]
+    large = bool(spec.get("zlib")) or math.prod(sizes) > CONTIGUOUS
+    variable = group.createVariable(name, kind, tuple(spec["dims"]), fill_value=False, zlib=large)
     for key, value in _entries(spec, "attrs"):
         with _left_out():
             variable.setncattr(key, _value(value))
     data = spec.get("data")
-    if data is not None:
+    if data is not None and math.prod(sizes) <= CONTIGUOUS:  # else nothing is written: refused anyway
         array = np.array(_value(data), dtype=object if kind is str else kind)
         variable[tuple(slice(0, size) for size in array.shape) if array.ndim else ...] = array
+
+
+def _dimension(group: Any, name: str) -> Any:
+    """A dimension of the group or of one around it."""
+    while name not in group.dimensions:
+        group = group.parent
+    return group.dimensions[name]
 
 
 def _value(value: Any) -> Any:
