@@ -124,6 +124,12 @@ def test_a_broken_promise_is_told(row: Row, words: str) -> None:
     assert words in text
 
 
+def test_an_error_against_a_reference_that_is_not_known_breaks_nothing() -> None:
+    chaos = replace(GOOD, error=0.9, uncertainty=0.8)
+    assert committed.broken([chaos], list(AXES)) == []
+    assert committed.broken([replace(chaos, uncertainty=1e-9)], list(AXES)) != []
+
+
 def test_every_promise_is_on_an_axis_and_default_runs_cover_it() -> None:
     for promise in committed.promises():
         assert promise.axis in AXES

@@ -29,7 +29,7 @@ class Promise:
     energy : float
         Largest energy balance, over the work or the kinetic energy.
     error : float
-        Largest error over the motion, where there is a reference.
+        Largest error over the motion, where there is a reference that is known as well as that.
     words : tuple of str
         What the message of a refusal or a stop must hold.
     """
@@ -91,6 +91,6 @@ def _breaks(promise: Promise, row: Row) -> list[str]:
         out.append(f"constraint error {row.left:.3g}, promised {promise.left:g}")
     if row.energy > promise.energy:
         out.append(f"energy error {row.energy:.3g}, promised {promise.energy:g}")
-    if row.error > promise.error:
+    if row.error > promise.error and not row.uncertainty > 0.1 * promise.error:
         out.append(f"error {row.error:.3g} of the motion, promised {promise.error:g}")
     return out
