@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import multiprocessing
 import queue
 import signal
@@ -40,11 +41,17 @@ class Group:
 
 
 def serve(pipe: Connection) -> None:
-    """What a worker does: take groups, send rows, one by one; None ends a group."""
+    """What a worker does, until its caller has gone."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is the caller's, who ends this process
+    with contextlib.suppress(EOFError, BrokenPipeError):
+        _serve(pipe)
+
+
+def _serve(pipe: Connection) -> None:
+    """Take groups, send rows, one by one; None ends a group."""
     from seacrane.extremes.axes import AXES
     from seacrane.extremes.measure import Reference, measure, reference
 
-    signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is the caller's, who ends this process
     while (group := pipe.recv()) is not None:
         case: Any = None
         truth: Any = None
