@@ -113,7 +113,7 @@ def read_listing(path: Path) -> Listing:
         centre_of_gravity=None if gravity is None else np.array(gravity),
         body_height=_body_height(path, maybe),
         symmetric=symmetry is not None and "Y=0" in symmetry.group(0).replace(" ", ""),
-        panels=None if panels is None else int(panels[0]),
+        panels=int(panels[0]) if panels and panels[0] >= 1.0 else None,
         period=np.array(periods),
         last_line=len(lines),
     )
