@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import hashlib
 import json
 import random
 from collections.abc import Callable, Iterator
@@ -20,6 +21,7 @@ from seacrane.errors import FileFormatError, SceneError
 from seacrane.hydro import Hull, HydroDatabase, capytaine, orcaflex, veres, wamit
 from seacrane.result import Result
 from seacrane.scene_file import load_scene
+from seacrane.state_file import load_state
 
 CORPUS = Path(__file__).parent / "corpus"
 LONGEST_MESSAGE = 2000  # characters: what a file holds may not flood the screen
@@ -149,6 +151,15 @@ def _measured(path: Path) -> Any:
     return [waves.band_passed(), components.amplitude, components.phase]
 
 
+def _state(path: Path) -> Any:
+    """A state file as it is, then with its checksum made right, so that damage reaches the reader."""
+    content = path.read_bytes()
+    with contextlib.suppress(FileFormatError):
+        load_state(path)
+    path.write_bytes(content + hashlib.sha256(content).digest())
+    load_state(path)
+
+
 def _result(path: Path) -> Any:
     found = Result.load(path)
     return [] if found.interrupted else list(found.channels.values())
@@ -193,6 +204,7 @@ _ALL = [
         "measured", "measured", "record.json", _measured, ("sea/measured.py",), mutate_json,
         refusals=(SceneError,),
     ),
+    Target("state", "state", "run.state", _state, ("state_file.py",)),
     *_netcdf_targets("database", "hull.nc", HydroDatabase.load, "hydro/netcdf.py"),
     *_netcdf_targets("mafredo", "ship.dhyd", _mafredo, "hydro/mafredo_file.py"),
     *_netcdf_targets("capytaine", "ship.nc", _capytaine, "hydro/capytaine.py"),
