@@ -32,6 +32,7 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 PUSH, GROWTH = 1e-8, 1e4  # of the velocities, in units of their scale; more growth than that is instability
 STEPS = 800  # of one trial
+START = 20  # steps that a pair may need to reach its longest
 MARGIN = np.log(GROWTH) / STEPS  # per step: slower growth than this does not show in a trial
 NEAR = 1.005  # ratio at which bisection ends
 LONGEST = 10.0  # s; beyond, no limit is looked for
@@ -173,7 +174,8 @@ def _settles(
         run.advance(steps * h)
     except SimulationError:
         return False
-    if run.core.statistics()["rejected_steps"]:
+    taken = run.core.statistics()
+    if taken["rejected_steps"] or taken["steps"] > 1.02 * steps + START:  # the step size control came to help
         return False
     moved = np.abs(np.array(run.core.state.values) - rest)[counts] / scale[counts]
     return bool(moved.max() < GROWTH * PUSH)
