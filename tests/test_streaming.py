@@ -28,6 +28,7 @@ from seacrane import (
     simulate_to_file,
 )
 from seacrane.result import stream
+from seacrane.sea.spectra import SteepSeaWarning
 
 GENEROUS = 60.0  # s
 
@@ -159,6 +160,7 @@ import sys
 from pathlib import Path
 from seacrane import cases, simulate_to_file
 from seacrane.result import stream
+from seacrane.sea.spectra import SteepSeaWarning
 stream.MOST_ROWS = 16
 simulate_to_file(cases.case2(), Path(sys.argv[1]) / "run.nc", t_end=1e5, dt_out=0.5, checkpoint_every=20.0)
 """
@@ -189,6 +191,7 @@ import resource, sys, json
 from pathlib import Path
 from seacrane import cases, simulate_to_file, Result
 from seacrane.result import stream
+from seacrane.sea.spectra import SteepSeaWarning
 stream.MOST_ROWS = 64
 path = Path(sys.argv[1]) / "run.nc"
 resource.setrlimit(resource.RLIMIT_FSIZE, (int(sys.argv[2]), int(sys.argv[2])))
@@ -368,7 +371,8 @@ def test_memory_does_not_grow_with_the_outputs(tmp_path: Path) -> None:
 
 def test_a_file_tells_what_left_the_range_of_its_models(tmp_path: Path) -> None:
     """Once for the run, however many pieces it has, and of what was before a stop too."""
-    scene = cases.vessel(hs=24.0)
+    with pytest.warns(SteepSeaWarning):
+        scene = cases.vessel(hs=24.0)
     settings: dict[str, Any] = {"dt_out": 0.01, "channels": ["vessel_motion"]}
     with pytest.warns(LargeHeelWarning) as caught:
         told = simulate_to_file(scene, tmp_path / "storm.nc", t_end=100.0, **settings)

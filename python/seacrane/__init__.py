@@ -64,7 +64,6 @@ if TYPE_CHECKING:
     from seacrane.validity import (
         FullTurnWarning,
         LargeHeelWarning,
-        LargeSwingWarning,
         MeanHeadingWarning,
         NearSingularWarning,
         OutsideDatabaseWarning,
@@ -91,7 +90,6 @@ _HOME = {
     "FullTurnWarning": "validity",
     "HydroDatabase": "hydro",
     "LargeHeelWarning": "validity",
-    "LargeSwingWarning": "validity",
     "Limit": "_core",
     "LinearModel": "linear_system",
     "MeanHeadingWarning": "validity",
@@ -172,7 +170,6 @@ __all__ = [
     "FullTurnWarning",
     "HydroDatabase",
     "LargeHeelWarning",
-    "LargeSwingWarning",
     "Limit",
     "LinearModel",
     "MeanHeadingWarning",

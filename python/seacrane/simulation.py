@@ -381,8 +381,8 @@ def simulate(
 
     Warns
     -----
-    LargeHeelWarning, MeanHeadingWarning, OutsideDatabaseWarning, PushingLinkWarning, LargeSwingWarning,
-    FullTurnWarning, NearSingularWarning
+    LargeHeelWarning, MeanHeadingWarning, OutsideDatabaseWarning, PushingLinkWarning, FullTurnWarning,
+    NearSingularWarning
         After the run, when its motions left the range in which the models hold; also in `stats`, as
         "validity". See docs/troubleshooting.md.
     """

@@ -18,12 +18,10 @@ Channels = Mapping[str, Array]
 Finding = tuple[type[Warning], str]
 
 LARGEST_HEEL = np.radians(20.0)  # of roll and pitch: the sine of it is 2 % off, a righting arm 10 % and more
-LARGEST_SWING = np.radians(30.0)
 LARGEST_YAW = np.radians(15.0)
 SINGULAR = 1e-4  # relative singular value below which combinations of constraints are not enforced
 FOREIGN_SHARE = 0.2  # of the energy of a motion, outside the database
 LEAST_RATE = 1e-3  # m/s, rad/s: motions below it do not matter
-NO_PULL = 1e-9  # of the largest
 FEWEST_OUTPUTS = 32
 MOTIONS = ("surge", "sway", "heave", "roll", "pitch", "yaw")
 
@@ -44,10 +42,6 @@ class PushingLinkWarning(UserWarning):
     """A link of constant length pushed: a wire would have gone slack, and snapped tight later."""
 
 
-class LargeSwingWarning(UserWarning):
-    """A link beyond 30 deg off the vertical: a real wire bears on its sheave, which the model has not."""
-
-
 class FullTurnWarning(UserWarning):
     """An angle passed half a turn: its record jumps there, and so does the error an actuator sees."""
 
@@ -59,7 +53,7 @@ class NearSingularWarning(UserWarning):
 def findings(scene: Scene, time: Array, channels: Channels, stats: Mapping[str, Any]) -> list[Finding]:
     """All that is out of range in a run: warning classes and messages. Channels left out are not judged."""
     found: list[Finding] = []
-    for look in (_heel, _yaw, _frequencies, _links, _swing, _turns):
+    for look in (_heel, _yaw, _frequencies, _links, _turns):
         found += look(scene, time, channels)
     return found + _singular(scene, stats)
 
@@ -163,29 +157,6 @@ def _links(scene: Scene, time: Array, channels: Channels) -> list[Finding]:
                     f"link {name!r}: pushes with {-tension[at]:.4g} N at t = {time[at]:.6g} s, which a wire "
                     "cannot: it would be slack, and its load when it tightens again is not in this result. "
                     f"seacrane.add_wire(scene, joint={name!r}) makes it a wire",
-                )
-            )
-    return found
-
-
-def _swing(scene: Scene, time: Array, channels: Channels) -> list[Finding]:
-    force = channels.get("reaction_force")
-    found: list[Finding] = []
-    for i, (name, joint) in enumerate(scene.joints.items()):
-        if joint.kind != "distance" or force is None or not _hangs(scene, name):
-            continue
-        pull = force[:, i]
-        angle = np.arctan2(np.hypot(pull[:, 0], pull[:, 1]), np.abs(pull[:, 2]))
-        size = np.linalg.norm(pull, axis=1)
-        angle[size <= NO_PULL * size.max()] = 0.0  # rounding has no direction
-        largest, at = _worst(time, angle)
-        if largest > LARGEST_SWING:
-            found.append(
-                (
-                    LargeSwingWarning,
-                    f"link {name!r}: is {np.degrees(largest):.3g} deg off the vertical at t = {at:.6g} s: a "
-                    "real wire then bears on the side of its sheave, and loads the boom sideways beyond what "
-                    "cranes are built for; the motion itself is exact. Slow the lift, or shorten the wire",
                 )
             )
     return found
