@@ -124,5 +124,5 @@ def write_csv(path: Path, rows: Sequence[Row]) -> None:
 
 def _text(value: float | str) -> str:
     if isinstance(value, float):
-        return "" if math.isnan(value) else f"{value:.6g}"
+        return "" if math.isnan(value) else f"{value:.4g}"
     return str(value)
