@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Sequence
 from pathlib import Path
+from textwrap import fill
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -23,6 +24,7 @@ MEANING = {"R": "refused at the start", "S": "stopped by name", "T": "out of tim
            "U": "unnamed exception", "H": "hung", "X": "crashed", "c": "completed, no reference"}  # fmt: skip
 COLOURS = {rows.REFUSED: "#bfbfbf", rows.STOPPED: "#8c8c8c", rows.SLOW: "#d9d9d9", rows.NOT_FINITE: "magenta",
            rows.UNNAMED: "magenta", rows.HUNG: "magenta", rows.CRASHED: "magenta"}  # fmt: skip
+TITLE_WIDTH = 44  # characters
 LEAST, MOST = 1e-9, 1.0  # errors beyond have the colours of these
 
 
@@ -75,7 +77,7 @@ def heat_map(axis: str, measured: Sequence[Row]) -> Figure:
     axes.set_xticks(range(len(values)), [f"{value:g}" for value in values], rotation=45, ha="right")
     axes.set_yticks(range(len(methods)), methods, fontsize=7)
     axes.set_xlabel(AXES[axis].label)
-    axes.set_title(AXES[axis].title, fontsize=10)
+    axes.set_title(fill(AXES[axis].title, TITLE_WIDTH), fontsize=10)
     axes.set_xlim(-0.5, len(values) - 0.5)
     axes.set_ylim(len(methods) - 0.5, -0.5)
     known = [row.uncertainty for row in measured if np.isfinite(row.uncertainty)]

@@ -164,8 +164,8 @@ def _hinges(count: float) -> Case:
 AXES = (
     Axis(name="tumble", title="A payload that tumbles on its wire, by quaternions", label="spin [rad/s]",
          values=(0.1, 1.0, 10.0, 100.0), quick=(1.0, 10.0), case=_tumbling),
-    Axis(name="tumble-angles", title="The same by the paper's XYZ angles", label="spin [rad/s]",
-         values=(0.1, 1.0, 10.0, 100.0), quick=(0.1, 10.0), case=_tumbling_by_angles),
+    Axis(name="tumble-angles", title="A payload that tumbles on its wire, by the paper's XYZ angles",
+         label="spin [rad/s]", values=(0.1, 1.0, 10.0, 100.0), quick=(0.1, 10.0), case=_tumbling_by_angles),
     Axis(name="parametric", title="A pendulum of 10 m on a support that heaves at twice its frequency",
          label="amplitude of heave [m]", values=(1e-3, 0.1, 1.0, 10.0), quick=(0.01, 1.0),
          case=_heaving_support),
