@@ -25,6 +25,9 @@ class AdaptiveStep : public OneStepIntegrator {
   virtual double error(double h) const = 0;
   /// The component that takes the largest part in error().
   virtual std::size_t dominant_component(double h) const = 0;
+  /// Whether the step just tried, its end derivative known, has leapt through something that its error
+  /// estimate has not seen.
+  virtual bool has_leapt(double h, double t_end);
   /// Step size to try instead of the controller's `wish` after a step of length h.
   virtual double preferred_step(double /*h*/, double wish) const { return wish; }
 
@@ -38,8 +41,6 @@ class AdaptiveStep : public OneStepIntegrator {
 
  private:
   double starting_step(double remaining);
-  /// Whether the step has leapt through something that its error estimate has not seen.
-  bool has_leapt(double h) const;
   void after_success(double h, double error, bool cut_before, bool truncated);
   [[noreturn]] void collapse() const;
 

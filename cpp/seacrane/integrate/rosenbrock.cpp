@@ -15,6 +15,8 @@ namespace {
 
 /// Accepted steps with one Jacobian.
 constexpr int steps_per_jacobian = 20;
+/// Share of the derivative's change over a step beyond which the Jacobian is said not to describe it.
+constexpr double misled = 0.5;
 /// A step is not lengthened by less: its factors would be lost for little.
 constexpr double worthwhile_growth = 1.3;
 
@@ -54,6 +56,7 @@ class RosenbrockW final : public AdaptiveStep {
   bool try_step(double h, double t_end) override;
   double error(double h) const override;
   std::size_t dominant_component(double h) const override;
+  bool has_leapt(double h, double t_end) override;
   double preferred_step(double h, double wish) const override {
     return wish >= h && wish < worthwhile_growth * h ? h : wish;
   }
@@ -149,6 +152,30 @@ bool RosenbrockW::try_step(double h, double t_end) {
                                      Scheme::b[2] * k_[2][i] + Scheme::b[3] * k_[3][i]);
   }
   return end_is_finite();
+}
+
+/// A Jacobian that is too stiff, of a stop that the body has left, holds all stages still: the error estimate
+/// is small, and so is the motion. What the state's change did to the derivative tells, against what J says
+/// of it.
+bool RosenbrockW::has_leapt(double h, double t_end) {
+  if (AdaptiveStep::has_leapt(h, t_end)) return true;
+  const std::size_t n = size();
+  double* const seen = slope_.data();
+  double* const predicted = sum_.data();
+  double* const apart = stage_state_.data();
+  if (!stage(t_end, state_.data(), seen)) return true;
+  std::fill_n(predicted, n, 0.0);
+  for (std::size_t j = 0; j < n; ++j) {
+    const double change = end_state_[j] - state_[j];
+    const double* const column = jacobian_.data() + j * n;
+    for (std::size_t i = 0; i < n; ++i) predicted[i] += column[i] * change;
+  }
+  for (std::size_t i = 0; i < n; ++i) {
+    seen[i] = end_derivative_[i] - seen[i];
+    apart[i] = seen[i] - predicted[i];
+  }
+  const auto size_of = [this](const double* slope) { return norm_.norm(slope, state_.data()); };
+  return h * size_of(apart) > 1.0 && size_of(apart) > misled * (size_of(seen) + size_of(predicted));
 }
 
 double RosenbrockW::error_slope(std::size_t i) const {
