@@ -2,12 +2,17 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import pytest
 
+from seacrane import ChatteringError, simulate
 from seacrane.extremes.axes import AXES
+from seacrane.extremes.axis import Case
 from seacrane.extremes.measure import Reference, measure, reference
 from seacrane.extremes.methods import Method
 from seacrane.extremes.workers import Group
+from seacrane.result import Result
 
 
 @pytest.fixture(scope="module", params=[1e7, 1e9, 1e11])
@@ -17,7 +22,8 @@ def stop(request: pytest.FixtureRequest) -> tuple[float, Reference]:
 
 
 @pytest.mark.parametrize(
-    "integrator", ["heun21", "dopri5", "tsit5", "verner65", "verner76", "dop853", "cvode-bdf", "ida"]
+    "integrator",
+    ["heun21", "dopri5", "tsit5", "verner65", "verner76", "dop853", "cvode-bdf", "ida", "rosenbrock"],
 )
 def test_a_damped_stop_throws_nothing_back_higher(integrator: str, stop: tuple[float, Reference]) -> None:
     stiffness, truth = stop
@@ -28,3 +34,27 @@ def test_a_damped_stop_throws_nothing_back_higher(integrator: str, stop: tuple[f
         row = measure(AXES["soft-stop"].case(stiffness), method, truth, 5.0, empty)
         assert row.verdict == "completed", row.message
         assert row.error < bound
+
+
+def ended(case: Case, integrator: str, **settings: Any) -> Result:
+    return simulate(case.scene, t_end=case.t_end, dt_out=case.dt_out, integrator=integrator, **settings)
+
+
+def test_methods_of_low_order_do_not_take_the_error_of_a_gap_for_an_impact() -> None:
+    """A wire that has just gone slack: its gap grows with the cube of time, less than any error."""
+    case = AXES["snatch"].case(3.0)
+    expected = ended(case, "dopri5", rtol=1e-9).events
+    assert len(expected) == 7
+    settings: tuple[tuple[str, dict[str, float]], ...] = (
+        ("cvode-bdf", {"rtol": 1e-5}),
+        ("semi-implicit-euler", {"dt": 1e-3}),
+    )
+    for integrator, setting in settings:
+        found = ended(case, integrator, **setting).events
+        assert [e.kind for e in found] == [e.kind for e in expected], integrator
+        assert max(abs(a.time - b.time) for a, b in zip(found, expected, strict=True)) < 5e-3
+
+
+def test_rebounds_that_a_fixed_step_cannot_resolve_are_named() -> None:
+    with pytest.raises(ChatteringError, match=r"64 rebounds shorter than a step at t = 0.89.* shorter steps"):
+        ended(AXES["rebound"].case(0.3), "semi-implicit-euler", dt=1e-3)

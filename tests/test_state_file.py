@@ -112,21 +112,21 @@ class _Stop(Exception):
 def test_a_run_stopped_at_any_step_goes_on_as_if_it_had_not(
     method: dict[str, Any], formulation: str, tmp_path: Path
 ) -> None:
-    """Nothing lands on the checkpoint."""
+    """Nothing lands on the checkpoint; long enough for the loop to ask on any machine."""
     scene = cases.case2()
-    settings = {"t_end": 8.0, "formulation": formulation, "outputs_from": 0.0, **method}
+    settings = {"t_end": 60.0, "formulation": formulation, "outputs_from": 0.0, **method}
     whole, stopped = Run(scene, **settings), Run(scene, **settings)
-    whole.advance(8.0)
+    whole.advance(60.0)
 
     def stop(now: float) -> None:
         raise _Stop
 
     with pytest.raises(_Stop):
-        stopped.advance(8.0, stop)
+        stopped.advance(60.0, stop)
     stopped.state.save(tmp_path / "state")
     later = Run(scene, start=State.load(tmp_path / "state", scene=scene), **settings)
-    assert 0.0 < later.state.time < 8.0
-    later.advance(8.0)
+    assert 0.0 < later.state.time < 60.0
+    later.advance(60.0)
     assert np.array_equal(later.state.values, whole.state.values)
     first, second, all_of_it = stopped.result(), later.result(), whole.result()
     for name in all_of_it.channels:

@@ -97,7 +97,7 @@ void AdaptiveStep::step(double t_limit) {
     if (finite && e <= 1.0 && !end_derivative_known_) {
       finite = stage(t_end, end_state_.data(), end_derivative_.data());
     }
-    if (finite && e <= 1.0 && has_leapt(h, t_end)) e = std::numeric_limits<double>::infinity();
+    if (finite && e <= 1.0 && has_leapt(h)) e = std::numeric_limits<double>::infinity();
     if (finite && e <= 1.0) {
       accept(t_end);
       after_success(h, e, cut_before, h < step_);
@@ -113,7 +113,7 @@ void AdaptiveStep::step(double t_limit) {
 /// A stop may be met by a stage without weight alone, which throws the others clear of it: their estimate is
 /// zero, and the step ends far behind the stop. Only the slope there tells, out of all proportion to the
 /// slope at the start and to how far the step went.
-bool AdaptiveStep::has_leapt(double h, double /*t_end*/) {
+bool AdaptiveStep::has_leapt(double h) {
   const double seen = h * norm_.norm(start_derivative_.data(), state_.data()) +
                       norm_.distance(end_state_.data(), state_.data());
   const double end = h * norm_.norm(end_derivative_.data(), end_state_.data());

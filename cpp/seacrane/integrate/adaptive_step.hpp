@@ -27,7 +27,7 @@ class AdaptiveStep : public OneStepIntegrator {
   virtual std::size_t dominant_component(double h) const = 0;
   /// Whether the step just tried, its end derivative known, has leapt through something that its error
   /// estimate has not seen.
-  virtual bool has_leapt(double h, double t_end);
+  virtual bool has_leapt(double h);
   /// Step size to try instead of the controller's `wish` after a step of length h.
   virtual double preferred_step(double /*h*/, double wish) const { return wish; }
 

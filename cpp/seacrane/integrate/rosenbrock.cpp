@@ -56,7 +56,7 @@ class RosenbrockW final : public AdaptiveStep {
   bool try_step(double h, double t_end) override;
   double error(double h) const override;
   std::size_t dominant_component(double h) const override;
-  bool has_leapt(double h, double t_end) override;
+  bool has_leapt(double h) override;
   double preferred_step(double h, double wish) const override {
     return wish >= h && wish < worthwhile_growth * h ? h : wish;
   }
@@ -151,19 +151,20 @@ bool RosenbrockW::try_step(double h, double t_end) {
     end_state_[i] = state_[i] + h * (Scheme::b[0] * k_[0][i] + Scheme::b[1] * k_[1][i] +
                                      Scheme::b[2] * k_[2][i] + Scheme::b[3] * k_[3][i]);
   }
-  return end_is_finite();
+  if (!end_is_finite()) return false;
+  // The end derivative comes last: projection may go on from it.
+  return error(h) > 1.0 || stage(t_end, state_.data(), slope_.data());
 }
 
 /// A Jacobian that is too stiff, of a stop that the body has left, holds all stages still: the error estimate
 /// is small, and so is the motion. What the state's change did to the derivative tells, against what J says
 /// of it.
-bool RosenbrockW::has_leapt(double h, double t_end) {
-  if (AdaptiveStep::has_leapt(h, t_end)) return true;
+bool RosenbrockW::has_leapt(double h) {
+  if (AdaptiveStep::has_leapt(h)) return true;
   const std::size_t n = size();
   double* const seen = slope_.data();
   double* const predicted = sum_.data();
   double* const apart = stage_state_.data();
-  if (!stage(t_end, state_.data(), seen)) return true;
   std::fill_n(predicted, n, 0.0);
   for (std::size_t j = 0; j < n; ++j) {
     const double change = end_state_[j] - state_[j];

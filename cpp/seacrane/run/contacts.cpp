@@ -176,11 +176,19 @@ std::optional<double> Contacts::find(Stepper& at) {
       if (!(d.value < (limit.element < 0 ? -kTouch : 0.0))) continue;
     }
     const double t = locate(at, i, until, d.value);
-    if (first && *first <= t) continue;
+    if ((first && *first <= t) || (limit.element < 0 && !approached(at, limit, t))) continue;
     first = t;
     found_ = static_cast<int>(i);
+    unresolved_ = limit.element < 0 && before_[i].value < -kTouch;
   }
   return first;
+}
+
+/// A gap that is negative and does not get smaller is an error of the integration, after a release above all.
+bool Contacts::approached(Stepper& at, const Limit& limit, double t) {
+  at.integrator->interpolate(t, probe_.data());
+  watched_value(at, limit, t, probe_.data());
+  return gap(limit, at.system).rate < -kStill;
 }
 
 /// A step starts with nothing negative but rounding, whatever the sign of that.
@@ -198,22 +206,25 @@ void Contacts::note(const Event& event) {
   events_.push_back(event);
   if (events_.size() < kChatterCount) return;
   const double since = events_[events_.size() - kChatterCount].time;
-  if (event.time - since <= kChatterTime) report_chatter(event.time, event.limit);
+  if (event.time - since > kChatterTime) return;
+  report_chatter(event.time, event.limit, "events within " + to_text(kChatterTime) + " s");
 }
 
-void Contacts::report_chatter(double t, int limit) const {
+void Contacts::report_chatter(double t, int limit, const std::string& what) const {
   const Limit& at = model_.limits[idx(limit)];
   throw ChatteringError("limit '" + at.name + "' on joint '" + model_.description.joints[idx(at.joint)].name +
-                        "': chatters, " + std::to_string(kChatterCount) + " events within " +
-                        to_text(kChatterTime) + " s at t = " + at_time(t) +
+                        "': chatters, " + std::to_string(kChatterCount) + " " + what +
+                        " at t = " + at_time(t) +
                         " s; give a sticking_speed above the speed of its last rebounds, a lower "
-                        "restitution or a soft stop");
+                        "restitution, shorter steps or a soft stop");
 }
 
 ClosedSet Contacts::pass(double t, double* bodies, ClosedSet closed) {
   stalled_ = t - last_pass_ <= kChatterTime / static_cast<double>(kChatterCount) ? stalled_ + 1 : 0;
   last_pass_ = t;
-  if (stalled_ >= kChatterCount) report_chatter(t, found_);
+  if (stalled_ >= kChatterCount) report_chatter(t, found_, "passes that took no time");
+  late_ = unresolved_ ? late_ + 1 : 0;
+  if (late_ >= kChatterCount) report_chatter(t, found_, "rebounds shorter than a step");
   const ClosedSet bit = bit_of(found_);
   if ((closed & bit) != 0) {
     note({t, found_, EventKind::release});

@@ -87,12 +87,13 @@ class Contacts {
   void evaluate(Stepper& at, double t, const double* bodies);
   void look_inside(Stepper& at);
   Dip dip(Stepper& at, std::size_t limit) const;
+  bool approached(Stepper& at, const Limit& limit, double t);
   double locate(Stepper& at, std::size_t limit, double until, double value);
   ClosedSet struck_with(Stepper& at, double t, const double* bodies, int found, bool& slow);
   ClosedSet hit(double t, double* bodies, ClosedSet closed, int found);
   Impact collide(Stepper& at, double t, const double* bodies, ClosedSet struck);
   void note(const Event& event);
-  [[noreturn]] void report_chatter(double t, int limit) const;
+  [[noreturn]] void report_chatter(double t, int limit, const std::string& what) const;
 
   const Model& model_;
   SetStepper stepper_;
@@ -101,6 +102,8 @@ class Contacts {
   int found_ = 0;
   double last_pass_ = -1e300;
   std::size_t stalled_ = 0;              // passes in a row that took no time
+  bool unresolved_ = false;              // the impact found is one that the step before went through
+  std::size_t late_ = 0;                 // such impacts in a row
   std::vector<Watched> before_, after_;  // by limit, at both ends of the last step
   std::vector<double> state_, probe_, bodies_, rate_;
   std::vector<double> middle_;  // forces of closed limits in the middle of the step
