@@ -66,6 +66,7 @@ py::dict statistics(const Simulation& s) {
     if (!r.rank->element.empty()) {
       out["smallest_singular_value"] = r.rank->singular_value;
       out["smallest_pivot_joint"] = r.rank->element;
+      out["rank_changed"] = r.rank->rank_changed ? 1 : 0;
     }
   }
   out["wall_s"] = r.wall_seconds;

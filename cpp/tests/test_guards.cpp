@@ -168,13 +168,15 @@ TEST_CASE("the nearest approach of constraints to dependence is kept and named")
     RankWatch watch;
     CHECK_FALSE(watch.report().has_value());
     const double condition = system.rank(0.0, model->initial_state.data()).condition;
-    REQUIRE(watch.sees(condition));
-    watch.keep(3.0, condition, model, model->initial_state.data());
-    CHECK_FALSE(watch.sees(1.05 * condition));
+    REQUIRE(watch.sees({condition}));
+    watch.keep(3.0, {condition}, model, model->initial_state.data());
+    CHECK_FALSE(watch.sees({1.05 * condition}));
+    CHECK(watch.sees({1.0, 0, 0, 1}));  // a combination of rows was left out within a step
     const RankReport report = watch.report().value();
     CHECK(report.time == 3.0);
     CHECK(report.pivot == doctest::Approx(1.0 / condition));
     CHECK(report.element == "link");
+    CHECK_FALSE(report.rank_changed);
     found.push_back(report.singular_value);
   }
   // What is left of the link's row with crank and guide held is the cosine of its angle to the slide.

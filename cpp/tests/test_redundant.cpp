@@ -138,6 +138,39 @@ TEST_CASE("multipliers of redundant constraints are the shortest that give these
   CHECK((decomposition.solve(needed) - k.lambda).norm() < 1e-9 * k.lambda.norm());
 }
 
+TEST_CASE("rank is watched beside rows that are redundant from the start") {
+  RedundantSystem system(compile(parallelogram(3)));
+  const Model& m = system.model();
+  std::vector<double> y = m.initial_state, rate(y.size());
+  system.derivative(0.0, y.data(), rate.data());
+  const Dependence found = system.take_dependence();
+  CHECK(found.redundant == m.rows() - m.assembly.rank);
+  CHECK(found.left_out == found.redundant);
+  CHECK_FALSE(found.lost_rank());
+  CHECK_FALSE(found.gained_rank());
+  const ConstraintRank rank = system.rank(0.0, y.data(), found.redundant);
+  CHECK(found.ratio == doctest::Approx(std::pow(rank.smallest_singular_value, -2)));
+  CHECK(found.ratio < 1e5);
+  CHECK(system.rank(0.0, y.data()).smallest_singular_value < 1e-7);
+}
+
+TEST_CASE("a body of next to no inertia far from its hinge does not make rows dependent") {
+  for (const double inertia : {1.0, 1e-8, 1e-12, 1e-20}) {
+    SceneDescription scene;
+    scene.bodies.push_back(body_at("bob", 2.0, Vec3d(1.0, 0.0, 0.0)));
+    scene.bodies.back().inertia = inertia * Mat3d::Identity();
+    join(scene, "revolute", "pin", kGround, "bob", Vec3d::Zero(), axes_along(Vec3d::UnitY(), Vec3d::UnitX()));
+    RedundantSystem system(compile(scene));
+    CHECK_FALSE(system.model().redundant);
+    std::vector<double> y = system.model().initial_state, rate(y.size());
+    system.derivative(0.0, y.data(), rate.data());
+    CHECK(system.take_dependence().left_out == 0);
+    // A falling pendulum: m g L / (m L^2 + J).
+    CHECK(system.acceleration()[0][4] ==
+          doctest::Approx(2.0 * scene.gravity / (2.0 + inertia)).epsilon(1e-12));
+  }
+}
+
 TEST_CASE("the stabilised index-2 residual vanishes at a consistent start and sees each equation") {
   RedundantSystem system(compile(floating()));
   GearGuptaLeimkuhler form(system);

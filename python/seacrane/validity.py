@@ -184,7 +184,7 @@ def _turns(scene: Scene, time: Array, channels: Channels) -> list[Finding]:
 
 def _singular(scene: Scene, stats: Mapping[str, Any]) -> list[Finding]:
     value = stats.get("smallest_singular_value")
-    if value is None or value >= SINGULAR:
+    if value is None or (value >= SINGULAR and not stats.get("rank_changed")):
         return []
     return [
         (
@@ -192,6 +192,7 @@ def _singular(scene: Scene, stats: Mapping[str, Any]) -> list[Finding]:
             f"joint {stats['smallest_pivot_joint']!r}: its constraints came to depend on the others at t = "
             f"{stats['smallest_pivot_at_s']:.6g} s (relative singular value {value:.2g}): the mechanism "
             "can branch there, as at a dead centre; it went on by inertia, and reactions there are not "
-            "unique. Keep away from the position, or give the joint more freedom",
+            "unique. Look at energy_balance, which tells what was lost there; keep away from the position, "
+            "or give the joint more freedom",
         )
     ]

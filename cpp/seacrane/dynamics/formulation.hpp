@@ -10,6 +10,23 @@
 namespace seacrane {
 
 class RedundantSystem;
+struct Model;
+
+/// How near constraint rows are to depending on each other, beyond those that do from the start.
+struct Dependence {
+  double ratio = 0.0;  // the inverse of what is left of the worst row, at the last factorisation; 0: no rows
+  int redundant = 0;   // combinations of rows that depend on the others from the start
+  int left_out = 0;    // those not enforced at the last factorisation
+  int most_left_out = 0;  // the same, at any since it was taken last
+
+  bool lost_rank() const { return most_left_out > redundant; }
+  /// The start was the singular position.
+  bool gained_rank() const { return left_out < redundant; }
+};
+
+/// Combinations of rows that depend on the others in the assembled model; of a model that was not assembled,
+/// another set of limits, the fewest left out so far, `known` (-1: none yet) or `left_out`.
+int redundant_rows(const Model& model, int known, int left_out);
 
 /// A system of bodies in some choice of coordinates, which can be told from the poses and twists of all
 /// bodies (the state of the redundant form, StateLayout) and back without loss.
@@ -26,6 +43,7 @@ class Formulation : public System {
   virtual RedundantSystem& loads_from() = 0;
   /// Digits lost at the last derivative(): the factor by which rounding may have grown.
   virtual double condition() const = 0;
+  virtual Dependence take_dependence() = 0;
   /// Largest residual seen by project() before it corrected anything, since the last call.
   virtual double take_residual_before_projection() = 0;
   /// What a state component is, for messages.

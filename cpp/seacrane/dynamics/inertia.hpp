@@ -26,18 +26,30 @@ inline Vec6d compact_inertia(const BodyModel& body, const BodyKinematics<double>
   return bias;
 }
 
-/// Rigid-body mass matrix about the state point, eq (12), in inertial axes.
-inline Mat6d rigid_mass_matrix(const BodyModel& body, const Mat3d& rotation) {
-  const Vec3d c = rotation * body.center_of_mass;
+/// Mass matrix about a point from which the centre of mass is at c, eq (12); c and the inertia about the
+/// centre of mass in inertial axes.
+inline Mat6d rigid_mass_matrix(double mass, const Vec3d& c, const Mat3d& inertia) {
   const Mat3d s = skew<double>(c);
   Mat6d m;
-  m.topLeftCorner<3, 3>() = body.mass * Mat3d::Identity();
-  m.topRightCorner<3, 3>() = -body.mass * s;
-  m.bottomLeftCorner<3, 3>() = body.mass * s;
-  m.bottomRightCorner<3, 3>() = (rotation * body.inertia) * rotation.transpose();
-  m.bottomRightCorner<3, 3>() += (body.mass * c) * -c.transpose();  // -m s s = m (c.c - c c^T)
-  m.diagonal().tail<3>().array() += body.mass * c.squaredNorm();
+  m.topLeftCorner<3, 3>() = mass * Mat3d::Identity();
+  m.topRightCorner<3, 3>() = -mass * s;
+  m.bottomLeftCorner<3, 3>() = mass * s;
+  m.bottomRightCorner<3, 3>() = inertia;
+  m.bottomRightCorner<3, 3>() += (mass * c) * -c.transpose();  // -m s s = m (c.c - c c^T)
+  m.diagonal().tail<3>().array() += mass * c.squaredNorm();
   return m;
+}
+
+/// Rigid-body mass matrix about the state point in inertial axes.
+inline Mat6d rigid_mass_matrix(const BodyModel& body, const Mat3d& rotation) {
+  return rigid_mass_matrix(body.mass, rotation * body.center_of_mass,
+                           (rotation * body.inertia) * rotation.transpose());
+}
+
+/// The same of a body of mass one and of its shape only.
+inline Mat6d shape_mass_matrix(const BodyModel& body, const Mat3d& rotation) {
+  return rigid_mass_matrix(1.0, rotation * body.center_of_mass,
+                           (rotation * body.shape) * rotation.transpose());
 }
 
 /// Vessel: rigid body about the reference point plus added mass in the yaw-following frame. Returns b.
@@ -70,11 +82,11 @@ inline Vec6d solve_inertia(const BodyInertia& inertia, const Vec6d& load) {
   return out;
 }
 
-/// D M1^-1 of six padded rows with the body's inertia divided by its mass: geometry without masses.
+/// D M1^-1 of six padded rows of mass one and of the body's shape: geometry without masses.
 inline void rows_over_shape(const BodyModel& body, const BodyKinematics<double>& k, const Mat6d& d,
                             Mat6d& dw) {
   const Vec3d c = k.rotation * body.center_of_mass;
-  const Mat3d angular = body.mass * (k.rotation * body.inverse_inertia * k.rotation.transpose());
+  const Mat3d angular = k.rotation * body.inverse_shape * k.rotation.transpose();
   // Velocity of the state point = that of the centre of mass + c x omega.
   const Mat3d cross = skew<double>(c);
   dw.leftCols<3>() = d.leftCols<3>();

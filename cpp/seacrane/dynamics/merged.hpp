@@ -26,6 +26,7 @@ class MergedSystem final : public Formulation {
   bool has_projection() const override { return stepped().has_projection(); }
   bool jacobian(double t, const double* y, double* out) override { return stepped().jacobian(t, y, out); }
   double condition() const override { return stepped().condition(); }
+  Dependence take_dependence() override { return stepped().take_dependence(); }
   std::size_t position_size() const override { return stepped().position_size(); }
   void move(double h, double* y) override { stepped().move(h, y); }
   std::string missing_fast_part() const override { return stepped().missing_fast_part(); }

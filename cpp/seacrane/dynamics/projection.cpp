@@ -175,7 +175,7 @@ ConstraintResidual RedundantSystem::residual_here(const double* y) {
   return {position_residual(), rate_residual(y, residual_.data())};
 }
 
-ConstraintRank RedundantSystem::rank(double t, const double* y) {
+ConstraintRank RedundantSystem::rank(double t, const double* y, int skipped) {
   read_state(t, y);
   evaluate_inertia();
   evaluate_rows(t);
@@ -186,21 +186,21 @@ ConstraintRank RedundantSystem::rank(double t, const double* y) {
   if (row_space_) {
     out.rank = row_space_->factor(model_->elements, blocks_.data(), over_shape_.data(), kRankCut);
     out.null_space = row_space_->null_space();
-    out.smallest_singular_value = row_space_->smallest_singular_value();
-    out.weakest = weakest_element();
+    out.smallest_singular_value = row_space_->singular_value(skipped);
+    out.weakest = weakest_element(skipped);
   } else {
     out.rank = model_->rows() - (shape > kRedundantCondition ? 1 : 0);
   }
   return out;
 }
 
-/// The element with the largest part in the combination of rows that is nearest to none.
-int RedundantSystem::weakest_element() const {
+/// The element with the largest part in a combination of rows.
+int RedundantSystem::weakest_element(int combination) const {
   int weakest = -1;
   double largest = -1.0;
   for (std::size_t e = 0; e < model_->elements.size(); ++e) {
     const ElementModel& element = model_->elements[e];
-    const double part = row_space_->weakest().segment(element.row, element.rows).norm();
+    const double part = row_space_->combination(combination).segment(element.row, element.rows).norm();
     if (element.rows == 0 || !(part > largest)) continue;
     largest = part;
     weakest = static_cast<int>(e);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "seacrane/dynamics/constraints.hpp"
 #include "seacrane/hydro/paper_kinematics.hpp"
@@ -206,9 +207,23 @@ double RedundantSystem::shape_condition() {
 void RedundantSystem::factor_dense() {
   const Model& m = *model_;
   dependent_ = shape_condition() > kShapeConditionLimit || m.redundant;
-  if (dependent_) row_space_->factor(m.elements, blocks_.data(), over_shape_.data(), kSingularCut);
+  if (dependent_) {
+    const int rank = row_space_->factor(m.elements, blocks_.data(), over_shape_.data(), kSingularCut);
+    most_left_out_ = std::max(most_left_out_, m.rows() - rank);
+  }
   for (int b = 0; b < m.body_count(); ++b) dense_mass_[idx(b)] = symmetric_mass(b);
   dense_->factor(m.elements, blocks_.data(), dense_mass_.data(), dependent_ ? &*row_space_ : nullptr);
+}
+
+Dependence RedundantSystem::take_dependence() {
+  const Model& m = *model_;
+  if (m.rows() == 0) return {};
+  const int left_out = !regular_ && dependent_ ? m.rows() - row_space_->rank() : 0;
+  redundant_ = redundant_rows(m, redundant_, left_out);
+  // Rows redundant from the start leave nothing of the worst one, always.
+  const bool hidden = redundant_ > 0 && redundant_ <= left_out;
+  const double ratio = hidden ? std::pow(row_space_->singular_value(redundant_), -2) : condition_;
+  return {ratio, redundant_, left_out, std::exchange(most_left_out_, 0)};
 }
 
 Mat6d RedundantSystem::symmetric_mass(int body) const {

@@ -23,8 +23,8 @@ struct ConstraintResidual {
 };
 
 /// Rank of D at one state, a basis of ker(D^T) (empty for large systems) and the largest S_ii / d_i. The
-/// smallest singular value over the largest, by geometry alone, with the element that takes the largest part
-/// in that combination of rows (NaN and -1 for large systems).
+/// smallest singular value over the largest that is asked for, by geometry alone, with the element that takes
+/// the largest part in that combination of rows (NaN and -1 for large systems).
 struct ConstraintRank {
   int rank = 0;
   MatXd null_space;
@@ -50,6 +50,7 @@ class RedundantSystem final : public Formulation {
   const std::vector<Vec6d>& accelerations() override { return acceleration_; }
   RedundantSystem& loads_from() override { return *this; }
   double condition() const override { return condition_; }
+  Dependence take_dependence() override;
   std::string describe(std::size_t component) const override;
   std::size_t position_size() const override { return static_cast<std::size_t>(model_->layout.velocity); }
   void move(double h, double* y) override;
@@ -87,7 +88,8 @@ class RedundantSystem final : public Formulation {
   ConstraintResidual residual(double t, const double* y);
   /// As residual(), with the rows that the last evaluation left.
   ConstraintResidual residual_here(const double* y);
-  ConstraintRank rank(double t, const double* y);
+  /// The singular value told is the smallest but `skipped`.
+  ConstraintRank rank(double t, const double* y, int skipped = 0);
   /// Nanoseconds per evaluation by part, each repeated `count` times at (t, y).
   std::vector<std::pair<std::string, double>> time_parts(double t, const double* y, long count);
   double take_residual_before_projection() override;
@@ -150,7 +152,7 @@ class RedundantSystem final : public Formulation {
   void factor_dense();
   void solve_dense();
   double shape_condition();
-  int weakest_element() const;
+  int weakest_element(int combination) const;
   std::string non_finite_load(double t, const double* y);
   std::string non_finite_rows() const;
   Mat6d symmetric_mass(int body) const;
@@ -182,6 +184,7 @@ class RedundantSystem final : public Formulation {
   double condition_ = 1.0;
   bool regular_ = true;                                   // the Schur complement is accurate enough here
   bool dependent_ = false;                                // not regular, and rows depend on each other
+  int redundant_ = -1, most_left_out_ = 0;                // combinations of rows; -1: not told yet
   std::vector<SplitActuator<std::vector<Vec6d>>> split_;  // response: accelerations of the bodies
   std::vector<Vec6d> split_load_;
   std::vector<double> split_right_, split_multipliers_;

@@ -26,8 +26,8 @@ int RowSpace::factor(const std::vector<ElementModel>& elements, const RowBlock<d
   const VecXd scale = g.diagonal().array().max(1e-300).sqrt().inverse();
   const Eigen::SelfAdjointEigenSolver<MatXd> eigen(scale.asDiagonal() * g * scale.asDiagonal());
   const double limit = cut * cut * eigen.eigenvalues()[rows_ - 1];
-  smallest_ = std::sqrt(std::max(0.0, eigen.eigenvalues()[0] / eigen.eigenvalues()[rows_ - 1]));
-  weakest_ = eigen.eigenvectors().col(0);
+  singular_values_ = (eigen.eigenvalues() / eigen.eigenvalues()[rows_ - 1]).cwiseMax(0.0).cwiseSqrt();
+  combinations_ = eigen.eigenvectors();
   int dropped = 0;  // eigenvalues come in increasing order
   while (dropped < rows_ && !(eigen.eigenvalues()[dropped] > limit)) ++dropped;
   basis_ = scale.asDiagonal() * eigen.eigenvectors().rightCols(rows_ - dropped);

@@ -34,16 +34,15 @@ class RowSpace {
   const MatXd& basis() const { return basis_; }
   /// Orthonormal basis of what is left out, ker(D^T) when D is singular: shape (rows, rows - rank).
   const MatXd& null_space() const { return null_space_; }
-  /// Smallest singular value over the largest, and the combination of rows (of length one each) it belongs
-  /// to.
-  double smallest_singular_value() const { return smallest_; }
-  const VecXd& weakest() const { return weakest_; }
+  /// Singular values over the largest, in increasing order, and the combination of rows (of length one each)
+  /// that one belongs to.
+  double singular_value(int i) const { return singular_values_[i]; }
+  auto combination(int i) const { return combinations_.col(i); }
 
  private:
   int bodies_, rows_;
-  MatXd d_, over_shape_, basis_, null_space_;
-  VecXd weakest_;
-  double smallest_ = 1.0;
+  MatXd d_, over_shape_, basis_, null_space_, combinations_;
+  VecXd singular_values_;
 };
 
 }  // namespace seacrane

@@ -1,3 +1,4 @@
+#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
@@ -17,6 +18,7 @@ namespace {
 // cases closes to 1e-6 of the absolute work at rtol = 1e-6.
 constexpr double kTranslationScale = 0.1;  // m, m/s, times the scene's length scale
 constexpr double kRotationScale = 0.01;    // rad, rad/s: the same at a lever of 10 m
+constexpr double kLeastGyration = 1e-2;    // over the longest arm of a body, where geometry is judged
 
 class Compiler {
  public:
@@ -33,6 +35,7 @@ class Compiler {
     bodies();
     joints();
     drivers();
+    shapes();
     limits();
     loads();
     vessels();
@@ -193,6 +196,24 @@ class Compiler {
     model_.schur = BlockSchur(nodes, model_.body_count());
     for (std::size_t e = 0; e < nodes.size(); ++e)
       model_.elements[e].row = model_.schur.row(static_cast<int>(e));
+  }
+
+  /// A body of next to no inertia about its joints' lever arms makes their rows alike without being
+  /// redundant: geometry is judged with radii of gyration of at least a hundredth of the longest arm.
+  void shapes() {
+    for (int b = 0; b < model_.body_count(); ++b) {
+      BodyModel& body = model_.bodies[idx(b)];
+      double arm = 0.0;
+      for (const ElementModel& e : model_.elements) {
+        if (e.first == b) arm = std::max(arm, (e.first_point - body.center_of_mass).norm());
+        if (e.second == b) arm = std::max(arm, (e.second_point - body.center_of_mass).norm());
+      }
+      const Eigen::SelfAdjointEigenSolver<Mat3d> axes(body.inertia / body.mass);
+      const Vec3d square = axes.eigenvalues().cwiseMax(std::pow(kLeastGyration * arm, 2));
+      body.shape = axes.eigenvectors() * square.asDiagonal() * axes.eigenvectors().transpose();
+      body.inverse_shape =
+          axes.eigenvectors() * square.cwiseInverse().asDiagonal() * axes.eigenvectors().transpose();
+    }
   }
 
   /// Where limits are measured, and the elements of those that hold: closed stops are the last drivers.

@@ -129,22 +129,30 @@ void EnergyWatch::check(double t, const double* y, const RedundantSystem& system
       "a smaller rtol or dt, or a larger energy_limit");
 }
 
-void RankWatch::keep(double t, double condition, const std::shared_ptr<const Model>& model,
+void RankWatch::keep(double t, const Dependence& found, const std::shared_ptr<const Model>& model,
                      const double* bodies) {
-  worst_ = condition;
+  if (found.gained_rank()) {
+    worst_ = std::numeric_limits<double>::infinity();
+    t = 0.0;
+    bodies = model->initial_state.data();
+  }
+  worst_ = std::max(worst_, found.ratio);
+  changed_ = changed_ || found.lost_rank() || found.gained_rank();
+  redundant_ = std::min(found.redundant, std::max(found.left_out, 0));
   time_ = t;
   model_ = model;
   bodies_.assign(bodies, bodies + model->layout.size);
 }
 
 std::optional<RankReport> RankWatch::report() const {
-  if (!model_ || model_->rows() == 0 || model_->redundant) return std::nullopt;
+  if (!model_ || model_->rows() == 0) return std::nullopt;
   RankReport out;
   RedundantSystem system(model_);
-  const ConstraintRank rank = system.rank(time_, bodies_.data());
+  const ConstraintRank rank = system.rank(time_, bodies_.data(), redundant_);
   out.time = time_;
-  out.pivot = 1.0 / rank.condition;
+  out.pivot = redundant_ > 0 ? std::pow(rank.smallest_singular_value, 2) : 1.0 / rank.condition;
   out.singular_value = rank.smallest_singular_value;
+  out.rank_changed = changed_;
   if (rank.weakest >= 0) out.element = model_->elements[idx(rank.weakest)].name;
   return out;
 }

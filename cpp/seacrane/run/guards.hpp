@@ -53,27 +53,35 @@ class EnergyWatch {
 
 /// How near constraints came to depending on each other, and where.
 struct RankReport {
-  double pivot = 1.0;           // smallest d_i / S_ii: what earlier rows leave of a row, masses included
-  double singular_value = 1.0;  // smallest over largest, by geometry alone; NaN for large systems
-  double time = 0.0;            // s
-  std::string element;          // joint or driver with the largest part in it; empty for large systems
+  double pivot = 1.0;  // smallest d_i / S_ii: what earlier rows leave of a row, masses included; with
+                       // redundant rows the square of the singular value
+  double singular_value = 1.0;  // smallest but those of redundant rows over largest, by geometry alone; NaN
+                                // for large systems
+  double time = 0.0;          // s
+  std::string element;        // joint or driver with the largest part in it; empty for large systems
+  bool rank_changed = false;  // rows independent before were not enforced, or the start was singular
 };
 
 /// Keeps the state at which constraints came nearest to depending on each other, by the ratio that every
 /// factorisation tells anyway.
 class RankWatch {
  public:
-  /// Whether S_ii / d_i here is clearly above all before: then the state is to be kept. It grows by a tenth
-  /// at least each time, so that a run keeps few.
-  bool sees(double condition) const { return condition > 1.1 * worst_; }
-  /// `bodies`: the state of the bodies of `model`.
-  void keep(double t, double condition, const std::shared_ptr<const Model>& model, const double* bodies);
-  /// Evaluates the model at the state kept; nothing where there are no constraints, or
-  /// redundant ones from the start.
+  /// Whether the ratio here is clearly above all before, or the rank has changed: then the state is to be
+  /// kept. The ratio grows by a tenth at least each time, so that a run keeps few.
+  bool sees(const Dependence& found) const {
+    return found.ratio > 1.1 * worst_ || (!changed_ && (found.lost_rank() || found.gained_rank()));
+  }
+  /// `bodies`: the state of the bodies of `model`, whose rows they are.
+  void keep(double t, const Dependence& found, const std::shared_ptr<const Model>& model,
+            const double* bodies);
+  /// Evaluates the model at the state kept, which is its start where that has turned out to be singular;
+  /// nothing where there are no constraints.
   std::optional<RankReport> report() const;
 
  private:
   double worst_ = 0.5, time_ = 0.0;  // every ratio is at least 1: the first is kept
+  bool changed_ = false;
+  int redundant_ = 0;
   std::shared_ptr<const Model> model_;
   std::vector<double> bodies_;
 };

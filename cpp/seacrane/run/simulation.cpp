@@ -263,7 +263,7 @@ void Simulation::write(double t, double* y, Recording& out) {
   if (out.wants_solution()) {
     system.derivative(t, bodies, rate_.data());
     // The tree factors no constraints of its own joints.
-    if (options_.formulation == "recursive") watch_rank(t, system.condition(), bodies);
+    if (now_->other) watch_rank_at(t, bodies);
   } else {
     system.evaluate_terms(t, bodies, rate_.data());
   }
@@ -298,14 +298,17 @@ void Simulation::step(double limit) {
     explain(error, integrator(), now_->stepped, now_->system);
   }
   if (integrator().is_adaptive()) stall_.step(time());
-  watch_rank(time(), now_->loads.condition(), nullptr);
+  const Dependence found = now_->stepped.take_dependence();
+  if (!rank_.sees(found)) return;
+  write_present(output_state_.data());
+  rank_.keep(time(), found, now_->stepped_model(), now_->stepped_bodies(output_state_.data()));
 }
 
-/// `bodies`: the state at t; null: the present one.
-void Simulation::watch_rank(double t, double condition, const double* bodies) {
-  if (now_->model->redundant || !rank_.sees(condition)) return;
-  if (!bodies) write_present(output_state_.data());
-  rank_.keep(t, condition, now_->model, bodies ? bodies : output_state_.data());
+/// At an output, of the rows described: those that are stepped are fewer in the recursive form.
+void Simulation::watch_rank_at(double t, const double* bodies) {
+  if (now_->stepped.take_dependence().ratio > 0.0) return;
+  const Dependence found = now_->system.take_dependence();
+  if (rank_.sees(found)) rank_.keep(t, found, now_->model, bodies);
 }
 
 /// A coordinate that turns keeps its joint closed however wrong it is: where no error is estimated, only the

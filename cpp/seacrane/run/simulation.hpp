@@ -93,7 +93,7 @@ class Simulation {
   void land(double now, double jump);
   void check_turning() const;
   [[noreturn]] void report_open(double t) const;
-  void watch_rank(double t, double condition, const double* bodies);
+  void watch_rank_at(double t, const double* bodies);
   void check_inputs(const std::vector<double>& slots) const;
   void apply_inputs();
   bool resume(const State& given);

@@ -29,6 +29,7 @@ struct Stepper {
 
   /// The state of the bodies that are stepped, merged ones as one.
   const double* stepped_bodies(const double* bodies);
+  const std::shared_ptr<const Model>& stepped_model() const { return model->merged ? model->merged : model; }
 
  private:
   std::vector<double> merged_state_;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "seacrane/dynamics/inertia.hpp"
 
@@ -93,8 +94,23 @@ void LoopClosure::factor(const RowBlock<double>* blocks, const Mat6d* mass,
   }
   const double pivots = decompose(g_);
   condition_ = cancelled / pivots;
+  left_out_ = 0;
+  ratio_ = 1.0 / std::max(0.0, open * pivots);
   dependent_ = !(open * pivots * kConditionLimit > 1.0) && !is_independent(blocks, mass, bodies, tree);
-  if (dependent_) reduce();
+  if (!dependent_) return;
+  for (double value : eigen_.eigenvalues()) left_out_ += value > kSingularCut ? 0 : 1;
+  reduce();
+  most_left_out_ = std::max(most_left_out_, left_out_);
+}
+
+Dependence LoopClosure::take_dependence() {
+  if (rows_.empty()) return {};
+  redundant_ = redundant_rows(model_, redundant_, left_out_);
+  // Rows redundant from the start leave nothing of the worst one, always.
+  if (redundant_ > 0 && redundant_ <= left_out_) {
+    ratio_ = redundant_ < rows() ? 1.0 / std::max(0.0, eigen_.eigenvalues()[redundant_]) : 1.0;
+  }
+  return {ratio_, redundant_, left_out_, std::exchange(most_left_out_, 0)};
 }
 
 /// Whether geometry alone, with every mass one, tells the rows apart; else `basis_` holds the combinations
@@ -103,7 +119,7 @@ void LoopClosure::factor(const RowBlock<double>* blocks, const Mat6d* mass,
 bool LoopClosure::is_independent(const RowBlock<double>* blocks, const Mat6d* mass,
                                  const BodyKinematics<double>* bodies, ArticulatedTree& tree) {
   for (std::size_t b = 0; b < shape_mass_.size(); ++b) {
-    shape_mass_[b] = rigid_mass_matrix(model_.bodies[b], bodies[b].rotation) / model_.bodies[b].mass;
+    shape_mass_[b] = shape_mass_matrix(model_.bodies[b], bodies[b].rotation);
   }
   tree.factor(shape_mass_.data());
   gather(blocks, tree, shape_);

@@ -37,6 +37,7 @@ class LoopClosure {
                         RedundantSystem& terms) const;
   /// How much cancels in the entries of G, times largest over smallest pivot.
   double condition() const { return condition_; }
+  Dependence take_dependence();
   /// False where rows depend on each other at the last factor().
   bool regular() const { return !dependent_; }
   /// Those of the last solve().
@@ -64,8 +65,9 @@ class LoopClosure {
   VecXd free_, scale_, combined_, multipliers_;
   Eigen::LDLT<MatXd> ldlt_;
   Eigen::SelfAdjointEigenSolver<MatXd> eigen_;
-  double condition_ = 1.0;
+  double condition_ = 1.0, ratio_ = 1.0;
   bool dependent_ = false;
+  int redundant_ = -1, left_out_ = 0, most_left_out_ = 0;  // combinations of rows; -1: not told yet
 };
 
 }  // namespace seacrane

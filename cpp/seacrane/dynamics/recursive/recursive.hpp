@@ -44,6 +44,7 @@ class RecursiveSystem final : public Formulation {
   double condition() const override {
     return std::max(articulated_.condition(mass_.data()), loops_.condition());
   }
+  Dependence take_dependence() override { return loops_.take_dependence(); }
 
  private:
   struct Layout {

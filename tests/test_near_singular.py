@@ -1,0 +1,152 @@
+"""Constraints that come to depend on each other during a run, and bodies that only look as if they did."""
+
+from __future__ import annotations
+
+import warnings
+
+import numpy as np
+import pytest
+from multibody_runs import ramp
+from numpy.typing import NDArray
+from reference_problems import bricard
+from scipy.integrate import solve_ivp
+
+from seacrane import Scene, simulate
+from seacrane.validity import NearSingularWarning
+
+FORMULATIONS = ("redundant", "recursive")
+GRAVITY = 9.80665
+
+
+def folding(start: float, *, pins: int = 1, rate: float | None = None) -> Scene:
+    """A crank, and a link as long from its tip to a slider: they fold together where the crank is at 90 deg.
+
+    Every pin but the first is redundant. Without a driver's `rate` the crank turns freely, at 1 rad/s.
+    """
+    scene = Scene(name="folding", gravity=0.0)
+    tip, end = (np.cos(start), 0.0, np.sin(start)), (2.0 * np.cos(start), 0.0, 0.0)
+    turning = 1.0 if rate is None else 0.0
+    scene.add_body(name="crank", mass=1.0, inertia=[1, 1, 1], angular_velocity=(0, -turning, 0))
+    scene.add_body(
+        name="slider",
+        mass=1.0,
+        inertia=[1, 1, 1],
+        position=end,
+        velocity=(-2.0 * turning * np.sin(start), 0, 0),
+    )
+    for i in range(pins):
+        scene.add_joint(
+            kind="revolute",
+            name=f"pin {i}",
+            first="ground",
+            second="crank",
+            point=(0, 0.2 * i, 0),
+            axis=(0, -1, 0),
+        )
+    scene.add_joint(
+        kind="prismatic", name="guide", first="ground", second="slider", point=end, axis=(1, 0, 0)
+    )
+    scene.add_joint(kind="distance", name="link", first="crank", second="slider", point=tip, second_point=end)
+    if rate is not None:
+        scene.add_driver(name="turn", joint="pin 0", curve=ramp(rate))
+    return scene
+
+
+def without_redundancy_warning() -> None:
+    warnings.filterwarnings("ignore", message=".*are redundant")
+
+
+@pytest.mark.parametrize("formulation", FORMULATIONS)
+def test_rank_is_watched_beside_redundant_joints(formulation: str) -> None:
+    """Ten times nearer to the fold the singular value is ten times smaller, and the link is named."""
+    found = []
+    for gap in (0.1, 0.01):
+        t_end = (0.5 * np.pi - 0.5 - gap) / 0.2
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            without_redundancy_warning()
+            stats = simulate(
+                folding(0.5, pins=2, rate=0.2), t_end=t_end, formulation=formulation, max_step=0.05
+            ).stats
+        assert stats["smallest_pivot_joint"] == "link"
+        assert stats["smallest_pivot_at_s"] == pytest.approx(t_end, abs=0.1)
+        assert stats["rank_changed"] == 0
+        found.append(float(stats["smallest_singular_value"]))
+    assert found[0] / found[1] == pytest.approx(10.0, rel=0.1)
+
+
+@pytest.mark.parametrize("formulation", FORMULATIONS)
+def test_a_run_with_redundant_joints_into_a_singular_position_warns(formulation: str) -> None:
+    scene = folding(0.5, pins=2, rate=0.2)
+    with warnings.catch_warnings():
+        without_redundancy_warning()
+        with pytest.warns(NearSingularWarning, match=r"joint 'link'.*at t = 5.35"):
+            simulate(scene, t_end=(0.5 * np.pi - 0.5 - 1e-5) / 0.2, formulation=formulation, max_step=0.05)
+
+
+@pytest.mark.parametrize("formulation", FORMULATIONS)
+def test_redundant_joints_that_stay_so_are_no_singular_position(formulation: str) -> None:
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        without_redundancy_warning()
+        stats = simulate(bricard.scene(), t_end=1.0, rtol=1e-8, formulation=formulation).stats
+    assert 0.01 < float(stats["smallest_singular_value"]) < 1.0
+    assert stats["rank_changed"] == 0
+
+
+@pytest.mark.parametrize("formulation", FORMULATIONS)
+def test_a_start_in_a_singular_position_is_told(formulation: str) -> None:
+    """What looks like a redundant joint is a fold that the crank turns out of."""
+    with warnings.catch_warnings():
+        without_redundancy_warning()
+        with pytest.warns(NearSingularWarning, match=r"at t = 0 s"):
+            stats = simulate(folding(0.5 * np.pi), t_end=0.5, formulation=formulation).stats
+    assert stats["rank_changed"] == 1
+
+
+@pytest.mark.parametrize("formulation", FORMULATIONS)
+def test_a_bifurcation_between_outputs_is_told(formulation: str) -> None:
+    """A sliding hinge lets Bricard's loop branch at 0.89 s, where no output is."""
+    scene = bricard.scene(last="cylindrical")
+    with pytest.warns(NearSingularWarning, match=r"joint 'hinge \d'.*at t = 0\.8[89]"):
+        result = simulate(
+            scene,
+            t_end=1.4,
+            dt_out=0.7,
+            rtol=1e-8,
+            formulation=formulation,
+            channels=["position", "energy_balance"],
+        )
+    assert np.abs(result["energy_balance"]).max() > 1e-4  # what the warning is about
+
+
+def pendulum(inertia: float, t: float) -> NDArray[np.float64]:
+    """Place of a point 1 m from a hinge about y, let go level."""
+    share = GRAVITY / (1.0 + inertia)
+    found = solve_ivp(
+        lambda _, y: (y[1], -share * np.cos(y[0])),
+        (0.0, t),
+        (0.0, 0.0),
+        method="DOP853",
+        rtol=1e-12,
+        atol=1e-12,
+    )
+    return np.array((np.cos(found.y[0, -1]), 0.0, np.sin(found.y[0, -1])))
+
+
+@pytest.mark.parametrize("formulation", FORMULATIONS)
+@pytest.mark.parametrize("inertia", [1e-4, 1e-8, 1e-10, 1e-12, 1e-20])
+def test_a_body_of_next_to_no_inertia_hangs_on_a_hinge_that_is_not_redundant(
+    inertia: float, formulation: str
+) -> None:
+    scene = Scene(name="plumb", gravity=GRAVITY)
+    scene.add_body(name="bob", mass=1.0, inertia=[inertia] * 3, position=(1, 0, 0))
+    scene.add_joint(
+        kind="revolute", name="hinge", first="ground", second="bob", point=(0, 0, 0), axis=(0, 1, 0)
+    )
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        result = simulate(scene, t_end=2.0, rtol=1e-10, formulation=formulation)
+    assert np.abs(result["position"][-1, 0] - pendulum(inertia, 2.0)).max() < 1e-8
+    assert np.abs(result["constraint_error"]).max() < 1e-12
+    assert np.abs(result["energy_balance"]).max() < 1e-8
