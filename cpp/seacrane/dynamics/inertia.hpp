@@ -48,8 +48,9 @@ inline Mat6d rigid_mass_matrix(const BodyModel& body, const Mat3d& rotation) {
 
 /// The same of a body of mass one and of its shape only.
 inline Mat6d shape_mass_matrix(const BodyModel& body, const Mat3d& rotation) {
-  return rigid_mass_matrix(1.0, rotation * body.center_of_mass,
-                           (rotation * body.shape) * rotation.transpose());
+  return rigid_mass_matrix(body.mass, rotation * body.center_of_mass,
+                           (rotation * body.shape) * rotation.transpose()) /
+         body.mass;
 }
 
 /// Vessel: rigid body about the reference point plus added mass in the yaw-following frame. Returns b.
@@ -82,11 +83,11 @@ inline Vec6d solve_inertia(const BodyInertia& inertia, const Vec6d& load) {
   return out;
 }
 
-/// D M1^-1 of six padded rows of mass one and of the body's shape: geometry without masses.
+/// D M1^-1 of six padded rows with the body's shape divided by its mass: geometry without masses.
 inline void rows_over_shape(const BodyModel& body, const BodyKinematics<double>& k, const Mat6d& d,
                             Mat6d& dw) {
   const Vec3d c = k.rotation * body.center_of_mass;
-  const Mat3d angular = k.rotation * body.inverse_shape * k.rotation.transpose();
+  const Mat3d angular = body.mass * (k.rotation * body.inverse_shape * k.rotation.transpose());
   // Velocity of the state point = that of the centre of mass + c x omega.
   const Mat3d cross = skew<double>(c);
   dw.leftCols<3>() = d.leftCols<3>();

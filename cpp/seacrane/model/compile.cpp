@@ -208,11 +208,14 @@ class Compiler {
         if (e.first == b) arm = std::max(arm, (e.first_point - body.center_of_mass).norm());
         if (e.second == b) arm = std::max(arm, (e.second_point - body.center_of_mass).norm());
       }
-      const Eigen::SelfAdjointEigenSolver<Mat3d> axes(body.inertia / body.mass);
-      const Vec3d square = axes.eigenvalues().cwiseMax(std::pow(kLeastGyration * arm, 2));
-      body.shape = axes.eigenvectors() * square.asDiagonal() * axes.eigenvectors().transpose();
-      body.inverse_shape =
-          axes.eigenvectors() * square.cwiseInverse().asDiagonal() * axes.eigenvectors().transpose();
+      const double least = body.mass * std::pow(kLeastGyration * arm, 2);
+      const Eigen::SelfAdjointEigenSolver<Mat3d> axes(body.inertia);
+      body.shape = body.inertia;
+      body.inverse_shape = body.inverse_inertia;
+      if (axes.eigenvalues()[0] >= least) continue;
+      const Vec3d moments = axes.eigenvalues().cwiseMax(least);
+      body.shape = axes.eigenvectors() * moments.asDiagonal() * axes.eigenvectors().transpose();
+      body.inverse_shape = body.shape.inverse();
     }
   }
 

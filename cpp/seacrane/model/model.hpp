@@ -21,7 +21,7 @@ struct BodyModel {
   double mass = 0.0;
   Mat3d inertia;  // about the centre of mass, body axes
   Mat3d inverse_inertia;
-  Mat3d shape, inverse_shape;  // inertia over mass, by which geometry is judged
+  Mat3d shape, inverse_shape;  // the inertia by which geometry is judged
   Vec3d center_of_mass;        // from the state point, body axes
   Vec3d state_point;           // from the body origin, body axes
   int vessel = -1;             // index of the vessel element on this body
