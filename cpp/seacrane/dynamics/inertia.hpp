@@ -26,31 +26,28 @@ inline Vec6d compact_inertia(const BodyModel& body, const BodyKinematics<double>
   return bias;
 }
 
-/// Mass matrix about a point from which the centre of mass is at c, eq (12); c and the inertia about the
-/// centre of mass in inertial axes.
-inline Mat6d rigid_mass_matrix(double mass, const Vec3d& c, const Mat3d& inertia) {
+/// Rigid-body mass matrix about the state point, eq (12), in inertial axes; `inertia` about the centre of
+/// mass, body axes.
+inline Mat6d rigid_mass_matrix(const BodyModel& body, const Mat3d& rotation, const Mat3d& inertia) {
+  const Vec3d c = rotation * body.center_of_mass;
   const Mat3d s = skew<double>(c);
   Mat6d m;
-  m.topLeftCorner<3, 3>() = mass * Mat3d::Identity();
-  m.topRightCorner<3, 3>() = -mass * s;
-  m.bottomLeftCorner<3, 3>() = mass * s;
-  m.bottomRightCorner<3, 3>() = inertia;
-  m.bottomRightCorner<3, 3>() += (mass * c) * -c.transpose();  // -m s s = m (c.c - c c^T)
-  m.diagonal().tail<3>().array() += mass * c.squaredNorm();
+  m.topLeftCorner<3, 3>() = body.mass * Mat3d::Identity();
+  m.topRightCorner<3, 3>() = -body.mass * s;
+  m.bottomLeftCorner<3, 3>() = body.mass * s;
+  m.bottomRightCorner<3, 3>() = (rotation * inertia) * rotation.transpose();
+  m.bottomRightCorner<3, 3>() += (body.mass * c) * -c.transpose();  // -m s s = m (c.c - c c^T)
+  m.diagonal().tail<3>().array() += body.mass * c.squaredNorm();
   return m;
 }
 
-/// Rigid-body mass matrix about the state point in inertial axes.
 inline Mat6d rigid_mass_matrix(const BodyModel& body, const Mat3d& rotation) {
-  return rigid_mass_matrix(body.mass, rotation * body.center_of_mass,
-                           (rotation * body.inertia) * rotation.transpose());
+  return rigid_mass_matrix(body, rotation, body.inertia);
 }
 
-/// The same of a body of mass one and of its shape only.
+/// The same with the body's shape, for a mass of one.
 inline Mat6d shape_mass_matrix(const BodyModel& body, const Mat3d& rotation) {
-  return rigid_mass_matrix(body.mass, rotation * body.center_of_mass,
-                           (rotation * body.shape) * rotation.transpose()) /
-         body.mass;
+  return rigid_mass_matrix(body, rotation, body.shape) / body.mass;
 }
 
 /// Vessel: rigid body about the reference point plus added mass in the yaw-following frame. Returns b.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <queue>
 #include <set>
 #include <stdexcept>
@@ -98,12 +99,18 @@ void check_regular(const Model& m, const RedundantSystem& system) {
 
 void close(Model& m, RedundantSystem& system) {
   double* y = m.initial_state.data();
+  std::vector<double> best = m.initial_state;
+  double least = std::numeric_limits<double>::infinity();
   try {
-    for (int i = 0; i < kRestarts; ++i) {
+    for (int i = 0; i < kRestarts && !(least < 1e-12); ++i) {
       ++m.assembly.iterations;
       system.project(0.0, y, false);
-      if (system.residual(0.0, y).position < 1e-12) break;
+      const double left = system.residual(0.0, y).position;
+      if (!(left < least)) continue;  // what does not close wanders
+      least = left;
+      best = m.initial_state;
     }
+    m.initial_state = best;
   } catch (const std::domain_error& error) {
     throw SceneError("scene '" + m.description.name +
                      "': its joints do not close from the described poses; " + error.what());
