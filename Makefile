@@ -1,7 +1,8 @@
 # make demo     the paper's figures and report in out/demo
 # make test     everything that CI checks: lint, types, formatting, C++ tests (plain and sanitized), Python tests
 # make build    the package in .venv, rebuilt only where something changed
-# make nightly  longer tests, and ThreadSanitizer (make cpp-tsan);  make bench  benchmarks;  make stubs  python/seacrane/_core.pyi
+# make nightly  longer tests, ThreadSanitizer (make cpp-tsan), the stability atlas (make extremes) and benchmarks (make bench)
+# make stubs    python/seacrane/_core.pyi
 # make bench-peers  the same crane in Pinocchio, MuJoCo, Exudyn and NumPy, in an environment of their own;
 #                   either of the two with BENCH_ARGS=--publish writes into benchmarks/ (on an idle machine)
 # make fuzz     hostile files, guided by coverage: CASES for each kind of file (a million take hours), counts
@@ -13,7 +14,7 @@ SHELL := /bin/bash
 .SHELLFLAGS := -euo pipefail -c
 .DELETE_ON_ERROR:
 .DEFAULT_GOAL := build
-.PHONY: demo test build nightly bench bench-peers stubs format clean distclean lint cpp-test cpp-sanitize \
+.PHONY: demo test build nightly bench bench-peers extremes stubs format clean distclean lint cpp-test cpp-sanitize \
         cpp-tsan python-test fuzz system-packages FORCE
 
 ifndef PYTHON
@@ -106,7 +107,11 @@ test:
 nightly: build .venv/.installed-dev
 	$(BIN)/python -m pytest -m nightly $(PYTEST_ARGS)
 	$(MAKE) --no-print-directory cpp-tsan
+	$(MAKE) --no-print-directory extremes
 	$(MAKE) --no-print-directory bench
+
+extremes: build .venv/.installed-dev
+	$(BIN)/seacrane extremes --out out/extremes $(EXTREMES_ARGS)
 
 bench: build .venv/.installed-dev
 	$(BIN)/python benchmarks/run.py $(BENCH_ARGS)

@@ -57,9 +57,9 @@ struct RankReport {
                        // redundant rows the square of the singular value
   double singular_value = 1.0;  // smallest but those of redundant rows over largest, by geometry alone; NaN
                                 // for large systems
-  double time = 0.0;          // s
-  std::string element;        // joint or driver with the largest part in it; empty for large systems
-  bool rank_changed = false;  // rows independent before were not enforced, or the start was singular
+  double time = 0.0;            // s
+  std::string element;          // joint or driver with the largest part in it; empty for large systems
+  bool rank_changed = false;    // rows independent before were not enforced, or the start was singular
 };
 
 /// Keeps the state at which constraints came nearest to depending on each other, by the ratio that every
