@@ -10,7 +10,7 @@ import pytest
 from multibody_runs import record
 from reference_problems import bricard
 
-from seacrane import Evaluator, Scene
+from seacrane import Evaluator, Scene, SceneError
 
 G = 9.80665
 
@@ -182,3 +182,21 @@ def test_bricard_moves_like_its_twin_with_one_sliding_hinge(formulation: str) ->
     assert np.max(out[0]["constraint_error"]) < 1e-9
     # Nothing but weight: the energy of the start.
     assert np.max(np.abs(out[0]["energy_balance"])) < 1e-6 * 9.81
+
+
+def test_redundant_joints_in_a_system_too_large_for_them_are_refused() -> None:
+    """Few enough constraints, and too many bodies: what depends on the rest could not be left out."""
+    scene = door([0.0, 1.0])
+    scene.name = "chain"
+    for i in range(1, 180):
+        scene.add_body(name=f"link {i}", mass=1.0, inertia=(0.1, 0.1, 0.1), position=(i + 1.0, 0.0, 0.0))
+        first = f"link {i - 1}" if i > 1 else "door"
+        scene.add_joint(
+            kind="spherical", name=f"ball {i}", first=first, second=f"link {i}", point=(i + 0.5, 0, 0)
+        )
+    with pytest.raises(
+        SceneError, match=r"'chain': has redundant joints .* 180 bodies .* remove the redundant"
+    ):
+        scene.compile()
+    del scene.joints["hinge 1"]
+    scene.compile()

@@ -119,7 +119,7 @@ def test_rows_of_four_bars_stay_on_their_branch(loops: int, formulation: str) ->
 
 
 def test_forty_loops_of_redundant_joints_are_refused_by_name() -> None:
-    with pytest.raises(SceneError, match="more than 600 constraints; remove the redundant ones"):
+    with pytest.raises(SceneError, match=r"with more than 600 constraints, .* remove the redundant ones"):
         run(four_bars.scene(40), 0.1, 0.1, {}, "position")
 
 

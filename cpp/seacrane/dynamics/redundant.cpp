@@ -19,7 +19,6 @@ constexpr double kShapeConditionLimit = 1e7;
 /// Relative singular value below which a combination of rows is not enforced. Change-point four-bars pass
 /// their singular position onto the right branch with 1e-4, and lose it with 1e-6.
 constexpr double kSingularCut = 1e-4;
-constexpr int kDenseLimit = 1500;     // unknowns; above it the dense fall-back would not be affordable
 constexpr double kEulerLimit = 1e-3;  // cos(phi_y); negative: a step jumped over +-90 deg
 
 void add_transpose(const RowBlock<double>& block, int side, int rows, const double* lambda, Vec6d& out) {

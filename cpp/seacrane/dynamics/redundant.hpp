@@ -22,6 +22,9 @@ struct ConstraintResidual {
   double position = 0.0, rate = 0.0;
 };
 
+/// Unknowns, six a body and one a row, above which the dense fall-back would not be affordable.
+constexpr int kDenseLimit = 1500;
+
 /// Rank of D at one state, a basis of ker(D^T) (empty for large systems) and the largest S_ii / d_i. The
 /// smallest singular value over the largest that is asked for, by geometry alone, with the element that takes
 /// the largest part in that combination of rows (NaN and -1 for large systems).
@@ -88,6 +91,8 @@ class RedundantSystem final : public Formulation {
   ConstraintResidual residual(double t, const double* y);
   /// As residual(), with the rows that the last evaluation left.
   ConstraintResidual residual_here(const double* y);
+  /// Whether combinations of rows that depend on the others can be left out: not in large systems.
+  bool solves_dependent_rows() const { return row_space_.has_value(); }
   /// The singular value told is the smallest but `skipped`.
   ConstraintRank rank(double t, const double* y, int skipped = 0);
   /// Nanoseconds per evaluation by part, each repeated `count` times at (t, y).

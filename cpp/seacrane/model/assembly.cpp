@@ -196,10 +196,12 @@ void assemble(Model& model) {
   report.rank = found.rank;
   report.condition = found.condition;
   model.redundant = found.rank < model.rows();
-  if (model.redundant && !dense) {
-    throw SceneError("scene '" + model.description.name +
-                     "': has redundant joints (S_ii/d_i = " + to_text(found.condition) + ") and more than " +
-                     std::to_string(kDenseRows) + " constraints; remove the redundant ones");
+  if (model.redundant && !(dense && system.solves_dependent_rows())) {
+    throw SceneError("scene '" + model.description.name + "': has redundant joints (S_ii/d_i = " +
+                     to_text(found.condition) + "), " + std::to_string(model.body_count()) + " bodies and " +
+                     std::to_string(model.rows()) + " constraints; with more than " +
+                     std::to_string(kDenseRows) + " constraints, or " + std::to_string(kDenseLimit) +
+                     " of them and six a body together, remove the redundant ones");
   }
   if (model.redundant) mark_redundant(model, found.null_space);
 }
