@@ -151,6 +151,7 @@ std::optional<RankReport> RankWatch::report() const {
   const ConstraintRank rank = system.rank(time_, bodies_.data(), redundant_);
   out.time = time_;
   out.pivot = redundant_ > 0 ? std::pow(rank.smallest_singular_value, 2) : 1.0 / rank.condition;
+  if (!std::isfinite(out.pivot)) return std::nullopt;  // redundant rows of a set too large to tell them
   out.singular_value = rank.smallest_singular_value;
   out.rank_changed = changed_;
   if (rank.weakest >= 0) out.element = model_->elements[idx(rank.weakest)].name;
