@@ -17,9 +17,10 @@ from seacrane.extremes import committed, rows, stability_atlas, workers
 from seacrane.extremes.axes import AXES
 from seacrane.extremes.axis import Case
 from seacrane.extremes.measure import Reference, measure, points_on_bodies, reference
-from seacrane.extremes.methods import DEFAULT, QUICK, Method, every
+from seacrane.extremes.methods import DEFAULT, QUICK, every
 from seacrane.extremes.rows import Row
 from seacrane.extremes.vessel_axes import _turn_of
+from seacrane.method import Method
 
 NO_REFERENCE = Reference(points=None, motion=rows.UNKNOWN, uncertainty=rows.UNKNOWN, known="")
 

@@ -10,8 +10,8 @@ from seacrane import ChatteringError, simulate
 from seacrane.extremes.axes import AXES
 from seacrane.extremes.axis import Case
 from seacrane.extremes.measure import Reference, measure, reference
-from seacrane.extremes.methods import Method
 from seacrane.extremes.workers import Group
+from seacrane.method import Method
 from seacrane.result import Result
 
 

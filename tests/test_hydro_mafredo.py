@@ -1,7 +1,7 @@
 """MaFreDo's ``.dhyd`` files, and MaFreDo as a second reader of OrcaFlex models.
 
-MaFreDo 2026.3.1 and later need Python 3.12; where it cannot be imported, its tests are skipped; files of its
-layout are written here.
+MaFreDo 2026.3.1 and later need Python 3.12, and are a part of the tests' environment from there on; files of
+its layout are written here.
 """
 
 from __future__ import annotations
@@ -9,6 +9,7 @@ from __future__ import annotations
 import dataclasses
 import importlib
 import itertools
+import sys
 from pathlib import Path
 from typing import Any
 
@@ -31,14 +32,12 @@ from seacrane.hydro import (
 
 
 def library() -> Any:
-    """MaFreDo, or None: some of its versions do not even compile on older Pythons."""
-    try:
-        return importlib.import_module("mafredo")
-    except (ImportError, SyntaxError):
-        return None
+    return importlib.import_module("mafredo")
 
 
-needs_mafredo = pytest.mark.skipif(library() is None, reason="MaFreDo cannot be imported")
+needs_mafredo = pytest.mark.skipif(
+    sys.version_info < (3, 12), reason="MaFreDo is written in the syntax of Python 3.12"
+)
 
 
 @pytest.fixture(scope="module")

@@ -12,10 +12,10 @@ from trade_scenes import pendulum
 
 from seacrane import Scene, SceneError, Trade, cases, integrator_names, simulate, trade
 from seacrane.hydro import shipped_database
+from seacrane.method import Method
 from seacrane.trading import measure, rungs, settings_grid, study
 from seacrane.trading.quantities import compare, quantities_of
 from seacrane.trading.rows import Row, RowFile
-from seacrane.trading.settings_grid import Setting
 
 T_END = 6.0
 TIGHT = {"integrator": "dop853", "rtol": 1e-11}
@@ -134,7 +134,7 @@ def test_a_setting_that_does_not_exist_is_a_row_with_its_reason(case2: Scene) ->
     span = measure.Span(
         t_end=1.0, dt_out=0.1, repeats=1, quantities=quantities_of(case2, case2.compile(), ["roll"])
     )
-    setting = Setting(formulation="recursive", integrator="ida", rtol=1e-3)
+    setting = Method(formulation="recursive", integrator="ida", rtol=1e-3)
     row = Row(formulation="recursive", integrator="ida", rtol=1e-3, dt=0.0, memory="", waves="", rung="full")
     done = measure.measure(case2, setting, span, {"roll": np.zeros((11, 1, 1))}, row)
     assert not done.stable and "solves the redundant equations" in done.reason
@@ -208,7 +208,7 @@ def test_a_weight_in_place_of_the_payload_hangs_as_the_payload_in_calm_water() -
         formulation="auto", integrator="dop853", rtol=1e-9, dt=0.0, memory="", waves="", rung=rungs.WEIGHT
     )
     done = measure.measure(
-        scene, Setting(formulation="auto", integrator="dop853", rtol=1e-9), span, truth, row
+        scene, Method(formulation="auto", integrator="dop853", rtol=1e-9), span, truth, row
     )
     assert done.stable, done.reason
     assert done.error("payload_position") < 1e-6 and done.error("hook_tension") < 1.0

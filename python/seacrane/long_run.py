@@ -125,7 +125,7 @@ def simulate_to_file(
             run.close()
         raise
     run.close()
-    warn_of(run.found.values())
+    warn_of(run.found)
     return StreamedResult(
         path=run.file.path, checkpoint=run.checkpoint, outputs=run.file.outputs, stats=run.file.stats,
         interrupted=run.interrupted,
@@ -141,7 +141,6 @@ class _FileRun(Run):
         self.file = ResultFile(path)
         self.checkpoint = path.with_suffix(".state")
         self.every = every
-        self.found: dict[tuple[type[Warning], str], Finding] = {}
         if not resume:
             self.file.create()
             super().__init__(scene, capacity=CAPACITY, **settings)
@@ -179,13 +178,14 @@ class _FileRun(Run):
 
     def judged(self, found: list[Finding]) -> list[Finding]:
         """As `Run.judged`: what the first piece of outputs out of range tells of each object."""
-        for category, message in found:
-            self.found.setdefault((category, message.partition(":")[0]), (category, message))
-        return list(self.found.values())
+        first: dict[tuple[type[Warning], str], Finding] = {}
+        for category, message in (*self.found, *found):
+            first.setdefault((category, message.partition(":")[0]), (category, message))
+        return list(first.values())
 
     def stats(self) -> dict[str, Any]:
         """As `Run.stats`, with what has been out of range."""
-        validity = {"validity": as_text(self.found.values())} if self.found else {}
+        validity = {"validity": as_text(self.found)} if self.found else {}
         return {**super().stats(), **validity}
 
     def explain(self, error: SeacraneError) -> None:

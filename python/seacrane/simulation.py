@@ -144,6 +144,7 @@ class Run:
             scene.waves.warn_of_repeats(self.t_end - self.start.time)
         self._fastest_mode = fastest_mode(self.model)  # before the run, so that Ctrl-C need not wait for it
         self.interrupted = False
+        self.found: list[Finding] = []  # out of range, as the last result tells
 
     def advance(self, t_end: float, progress: Callable[[float], None] | None = None) -> bool:
         """Step to t_end (s); False when Ctrl-C stopped it."""
@@ -227,9 +228,9 @@ class Run:
         if self._wanted is not None:
             channels = {name: values for name, values in channels.items() if name in self._wanted}
         scene, stats = self.scene, self.stats()
-        found = self.judged(findings(scene, arrays["time"], channels, stats))
-        if found:
-            stats["validity"] = as_text(found)
+        self.found = self.judged(findings(scene, arrays["time"], channels, stats))
+        if self.found:
+            stats["validity"] = as_text(self.found)
         return Result.from_arrays(
             time=arrays["time"],
             arrays=channels,
@@ -421,7 +422,7 @@ def finished(run: Run, controllers: Sequence[SampledController] = (), *, progres
     """Advance a run to its end, or to where Ctrl-C stops it, and return its result."""
     drive(run, controllers, progress=progress)
     result = run.result()
-    warn_of(findings(run.scene, result.time, result.channels, result.stats))
+    warn_of(run.found)
     return result
 
 

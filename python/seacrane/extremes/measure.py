@@ -14,9 +14,9 @@ from numpy.typing import NDArray
 from seacrane.errors import SceneError, SimulationError
 from seacrane.extremes import rows
 from seacrane.extremes.axis import Case
-from seacrane.extremes.methods import Method
 from seacrane.extremes.rows import UNKNOWN, Row
 from seacrane.frames import rotation_matrix
+from seacrane.method import Method
 from seacrane.simulation import Run
 
 Array = NDArray[np.float64]

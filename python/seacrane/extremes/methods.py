@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
-from typing import Any
 
 from seacrane import _core
+from seacrane.method import Method
 from seacrane.simulation import RESIDUAL_INTEGRATORS
 
 FORMULATIONS = ("recursive", "redundant")
@@ -33,31 +32,6 @@ TOLERANCES: dict[str, tuple[float, ...]] = {
     "ida": (1e-6,),
 }
 OTHER_TOLERANCES = (1e-3, 1e-6)  # of a method that neither list knows
-
-
-@dataclass(frozen=True, kw_only=True)
-class Method:
-    """One choice of the numerics; `rtol` and `dt` are 0 where they are left to `simulate`."""
-
-    formulation: str
-    integrator: str
-    rtol: float = 0.0
-    dt: float = 0.0
-
-    @property
-    def setting(self) -> str:
-        """The tolerance or the step, in words."""
-        return f"rtol={self.rtol:g}" if self.rtol else f"dt={self.dt:g}" if self.dt else ""
-
-    @property
-    def name(self) -> str:
-        """All of it, in words."""
-        return " ".join(part for part in (self.formulation, self.integrator, self.setting) if part)
-
-    def arguments(self) -> dict[str, Any]:
-        """Keyword arguments of `Run`."""
-        size = {"rtol": self.rtol} if self.rtol else {"dt": self.dt} if self.dt else {}
-        return {"formulation": self.formulation, "integrator": self.integrator, **size}
 
 
 DEFAULT = Method(formulation="auto", integrator="dopri5")

@@ -14,8 +14,9 @@ from typing import Any
 
 from seacrane.errors import SeacraneError
 from seacrane.extremes import rows
-from seacrane.extremes.methods import DEFAULT, Method
+from seacrane.extremes.methods import DEFAULT
 from seacrane.extremes.rows import Row
+from seacrane.method import Method
 
 DEFAULT_LIMIT_S = 20.0  # the default setting must end, not be cut off, on a slow machine too
 BUSY = 8.0  # times more wall than processor time on a busy machine

@@ -10,11 +10,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane.errors import SceneError, SeacraneError
+from seacrane.method import Method
 from seacrane.simulation import simulate
 from seacrane.trading import rungs
 from seacrane.trading.quantities import PAYLOAD, Quantity, compare
 from seacrane.trading.rows import NOT_DEFINED, Row
-from seacrane.trading.settings_grid import TIGHT, Setting
+from seacrane.trading.settings_grid import TIGHT
 
 if TYPE_CHECKING:
     from seacrane.result import Result
@@ -34,7 +35,7 @@ class Span:
     repeats: int
     quantities: Mapping[str, Quantity]
 
-    def run(self, scene: Scene, setting: Setting, *, repeats: int | None = None, **also: Any) -> Result:
+    def run(self, scene: Scene, setting: Method, *, repeats: int | None = None, **also: Any) -> Result:
         """The quickest of equal runs, recording what the quantities need."""
         wanted = {channel for quantity in self.quantities.values() for channel in quantity.channels}
         wanted |= {*CHECKS, *also.pop("channels", ())}
@@ -87,13 +88,12 @@ def reference(scene: Scene, span: Span) -> Reference:
     runs: dict[str, dict[str, Array]] = {}
     refused: dict[str, str] = {}
     for setting in TIGHT:
-        name = f"{setting.formulation} {setting.integrator} {setting.text}"
         try:
             result = span.run(scene, setting, repeats=1)
         except SeacraneError as error:
-            refused[name] = str(error)
+            refused[setting.name] = str(error)
             continue
-        runs[name] = {key: quantity.values(result) for key, quantity in span.quantities.items()}
+        runs[setting.name] = {key: quantity.values(result) for key, quantity in span.quantities.items()}
     if len(runs) < 2:
         raise SceneError(
             f"scene {scene.name!r}: only {len(runs)} of {len(TIGHT)} reference runs work, and one cannot be "
@@ -106,7 +106,7 @@ def reference(scene: Scene, span: Span) -> Reference:
     return Reference(values=first, uncertainty=spread, runs=tuple(runs), refused=refused)
 
 
-def measure(scene: Scene, setting: Setting, span: Span, truth: Mapping[str, Array], row: Row) -> Row:
+def measure(scene: Scene, setting: Method, span: Span, truth: Mapping[str, Array], row: Row) -> Row:
     """The row of a numerical setting or of a scene with one thing changed, filled in."""
     from dataclasses import replace
 
@@ -136,7 +136,7 @@ def measure(scene: Scene, setting: Setting, span: Span, truth: Mapping[str, Arra
 
 
 def measure_variant(
-    variant: rungs.Variant, setting: Setting, span: Span, truth: Mapping[str, Array], row: Row
+    variant: rungs.Variant, setting: Method, span: Span, truth: Mapping[str, Array], row: Row
 ) -> Row:
     """As `measure`, of a scene that has yet to be made; a fitted memory is named by its states."""
     from dataclasses import replace
@@ -150,7 +150,7 @@ def measure_variant(
     )
 
 
-def _run(scene: Scene, setting: Setting, span: Span, rung: str) -> tuple[Result, float]:
+def _run(scene: Scene, setting: Method, span: Span, rung: str) -> tuple[Result, float]:
     """The run, and the wall time of a run that it rests on (s)."""
     if rung == rungs.WEIGHT:
         return span.run(rungs.payload_as_weight(scene), setting), 0.0

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from seacrane import _core
 from seacrane.errors import SeacraneError
+from seacrane.method import Method
 
 if TYPE_CHECKING:
     from seacrane.scene import Scene
@@ -45,34 +45,14 @@ TRIAL = 0.2  # s of simulated time that tell whether a method takes its steps fr
 QUICK_INTEGRATORS = ("tsit5", "dop853", "rk4", "semi-implicit-euler")
 
 
-@dataclass(frozen=True, kw_only=True)
-class Setting:
-    """One choice of the numerics, as `simulate` takes it; `dt` 0 where the tolerance counts, and reverse."""
-
-    formulation: str
-    integrator: str
-    rtol: float = 0.0
-    dt: float = 0.0
-
-    @property
-    def text(self) -> str:
-        """The tolerance or the step."""
-        return f"rtol={self.rtol:g}" if self.rtol else f"dt={self.dt:g}"
-
-    def arguments(self) -> dict[str, Any]:
-        """Keyword arguments of `simulate`."""
-        size = {"rtol": self.rtol} if self.rtol else {"dt": self.dt}
-        return {"formulation": self.formulation, "integrator": self.integrator, **size}
-
-
-def settings(scene: Scene, *, quick: bool) -> Iterator[Setting]:
+def settings(scene: Scene, *, quick: bool) -> Iterator[Method]:
     """All settings of the grid; `quick` takes every third tolerance of a few integrators."""
     names = QUICK_INTEGRATORS if quick else _core.integrator_names()
     sizes = [(name, *_sizes(scene, name)) for name in names]
     for formulation in FORMULATIONS:
         for name, size, values in sizes:
             for value in values[1::3] if quick else values:
-                yield Setting(formulation=formulation, integrator=name, **{size: value})
+                yield Method(formulation=formulation, integrator=name, **{size: value})
 
 
 def _sizes(scene: Scene, name: str) -> tuple[str, tuple[float, ...]]:
@@ -101,12 +81,12 @@ def _takes_dt(scene: Scene, name: str) -> bool:
 
 
 TIGHT = (
-    Setting(formulation="recursive", integrator="dop853", rtol=1e-12),
-    Setting(formulation="recursive", integrator="verner76", rtol=1e-12),
-    Setting(formulation="redundant", integrator="dop853", rtol=1e-12),
-    Setting(formulation="redundant", integrator="verner76", rtol=1e-12),
+    Method(formulation="recursive", integrator="dop853", rtol=1e-12),
+    Method(formulation="recursive", integrator="verner76", rtol=1e-12),
+    Method(formulation="redundant", integrator="dop853", rtol=1e-12),
+    Method(formulation="redundant", integrator="verner76", rtol=1e-12),
 )
 """The reference's runs; they differ in equations and in method, so that their difference is its error."""
 
-PHYSICS = Setting(formulation="auto", integrator="dop853", rtol=1e-8)
+PHYSICS = Method(formulation="auto", integrator="dop853", rtol=1e-8)
 """Numerics of the physics rungs: an error far below what leaving physics out brings."""
