@@ -93,6 +93,16 @@ def test_speeds_that_are_not_in_every_file(tmp_path: Path) -> None:
         load_database(stem)
 
 
+@pytest.mark.filterwarnings("ignore::seacrane.hydro.EncounterFrequencyWarning")
+def test_a_speed_that_files_print_with_other_digits_is_listed_once(tmp_path: Path) -> None:
+    """Knots in m/s: seven digits in .re1 and .re8, five decimals in .re2."""
+    run = VeresRun(speeds=(0.0, 5.1444446, 10.288889), omega=np.linspace(0.2, 2.4, 5))
+    stem = run.write(tmp_path, leave_out={".re7": [5.1444446, 10.288889]})
+    with pytest.warns(PartialSetWarning, match=r"speeds 5\.14444, 10\.2889 m/s are not in every file"):
+        assert load_database(stem).speed == 0.0
+    assert available_speeds(stem) == (0.0,)
+
+
 def test_a_speed_given_twice(tmp_path: Path) -> None:
     stem = VeresRun(speeds=(4.0, 4.0), omega=np.linspace(0.2, 2.4, 5)).write(tmp_path)
     with pytest.raises(FileFormatError, match=r"box\.re7: speed 4 m/s is given twice"):

@@ -17,12 +17,14 @@ from seacrane import (
     FlowCoefficients,
     Scene,
     SceneError,
+    _core,
     add_current,
     add_wind,
     gust_curve,
     simulate,
 )
 from seacrane.load_kinds import kind_of
+from seacrane.sea import jonswap, realise_waves
 from seacrane.wind import npd_spectrum
 
 Array = NDArray[np.float64]
@@ -216,6 +218,28 @@ def test_gusts_have_the_variance_of_their_spectrum() -> None:
     assert np.abs(again[:, 0] - other[:, 0]).max() > 1.0
     with pytest.raises(SceneError, match="gust: duration is -1"):
         gust_curve(mean_speed=20.0, duration=-1.0)
+
+
+def test_gusts_and_waves_of_one_seed_share_no_random_number(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Streams drawn for the gust are none of a sea's: phases of both are uncorrelated, not the same."""
+    drawn: list[tuple[int, float]] = []
+    uniform = _core.philox_uniform
+
+    def spy(*, seed: int, stream: int, index: int) -> float:
+        drawn.append((stream, uniform(seed=seed, stream=stream, index=index)))
+        return drawn[-1][1]
+
+    monkeypatch.setattr(_core, "philox_uniform", spy)
+    gust_curve(mean_speed=12.0, duration=20.0, seed=1)
+    streams = sorted({stream for stream, _ in drawn})
+    assert len(streams) == 2 and streams[0] > 3 * 10**6
+    waves = realise_waves(jonswap(hs=2.0, tp=8.0), seed=1, direction=0.0)
+    wave_phase = np.array(waves.phase) / (2.0 * np.pi)
+    for stream in streams:
+        own = np.array([value for used, value in drawn if used == stream])
+        assert len(own) == len(wave_phase) == 200
+        assert not set(own) & set(wave_phase)
+        assert abs(np.corrcoef(own, wave_phase)[0, 1]) < 0.25  # 200 independent pairs: 0.07
 
 
 def test_a_scene_file_keeps_wind_and_current(tmp_path: Path) -> None:

@@ -12,6 +12,7 @@ from seacrane.errors import SceneError
 
 Array = NDArray[np.float64]
 SLOWEST, FASTEST = 1.0 / 600.0, 0.5  # Hz: the spectrum is one of an hour's wind, fitted from 1/600 Hz on
+FREQUENCY_STREAM, PHASE_STREAM = 2**32, 2**32 + 1  # of Philox; a sea counts its own up from 0
 
 
 def npd_spectrum(frequency: ArrayLike, *, mean_speed: float, height: float = 10.0) -> Array:
@@ -54,7 +55,8 @@ def gust_curve(
     height : float
         m.
     seed, count : int
-        Of phases and frequencies (one in each of `count` bins of equal ratio), by Philox as for waves.
+        Of phases and frequencies (one in each of `count` bins of equal ratio), by Philox as for waves, in
+        streams of their own: wind and waves of one seed have nothing in common.
 
     Returns
     -------
@@ -74,7 +76,7 @@ def gust_curve(
     edges = np.geomspace(SLOWEST, FASTEST, count + 1)
     jitter, phase = (
         np.array([_core.philox_uniform(seed=seed, stream=stream, index=i) for i in range(count)])
-        for stream in (0, 1)
+        for stream in (FREQUENCY_STREAM, PHASE_STREAM)
     )
     frequency = edges[:-1] + jitter * np.diff(edges)
     density = npd_spectrum(frequency, mean_speed=mean_speed, height=height)

@@ -115,8 +115,10 @@ def _listed(values: Sequence[float]) -> str:
 def choose_speed(found: VeresSet, speed: float | None) -> float:
     """The speed to read, with warnings about the others."""
     common = common_speeds(found)
-    every = [value for file in found.files() for value in _of(file)]
-    partial = sorted({value for value in every if not any(same_speed(value, other) for other in common)})
+    partial: list[float] = []
+    for value in sorted(value for file in found.files() for value in _of(file)):
+        if not any(same_speed(value, other) for other in (*common, *partial)):
+            partial.append(value)
     if partial:
         warn_caller(
             f"{found.stem}: speeds {_listed(partial)} are not in every file of the set; only the common "
