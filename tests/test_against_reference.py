@@ -68,8 +68,8 @@ def quick_case2() -> Scene:
 def wave_load(scene: Scene) -> Callable[[float], Array]:
     """F(t) = Re sum a X exp(i (w t + eps)) at the mean position, the inertial origin."""
     waves = scene.waves
-    assert waves is not None and waves.position == (0.0, 0.0)
-    force = (waves.amplitude * np.exp(1j * waves.phase))[:, None] * waves.transfer
+    assert waves is not None and waves.hull().position == (0.0, 0.0)
+    force = (waves.amplitude * np.exp(1j * waves.phase))[:, None] * waves.hull().transfer
     return lambda t: np.asarray((np.exp(1j * waves.omega * t) @ force).real, dtype=float)
 
 

@@ -15,6 +15,7 @@ from seacrane import (
     Curve,
     Evaluator,
     Frame,
+    HullLoads,
     Run,
     SampledController,
     Scene,
@@ -495,7 +496,15 @@ def test_two_vessels_on_one_body() -> None:
 @pytest.mark.parametrize(
     ("changes", "parts"),
     [
-        case("body not a vessel", {"body": "b"}, "wave load", "'b' is not a vessel"),
+        case(
+            "body not a vessel",
+            {"hulls": {"b": HullLoads(transfer=np.ones((1, 6)))}},
+            "wave load",
+            "'b' is not a vessel",
+        ),
+        case("hulls a list", {"hulls": []}, "hulls is []", "HullLoads"),
+        case("heading nan", {"heading": NAN}, "heading is nan", "finite"),
+        case("tables no tables", {"force_by_heading": 3.0}, "force_by_heading is 3.0", "ByHeading"),
         case("amplitude nan", {"amplitude": [NAN]}, "waves on 'a'", "amplitude"),
         case("omega negative", {"omega": [-1.0]}, "waves on 'a'", "omega"),
         case("lengths differ", {"phase": [0.0, 1.0]}, "waves on 'a'"),
@@ -515,10 +524,16 @@ def test_waves(changes: dict[str, Any], parts: tuple[str, ...]) -> None:
         "amplitude": [1.0],
         "phase": [0.0],
         "direction": [0.0],
-        "transfer": np.ones((1, 6)),
     }
-    scene.waves = Waves(**{"body": "a", **one, **changes})
-    refused(scene.compile, *parts)
+    fields = HullLoads.__dataclass_fields__
+    hull = {"transfer": np.ones((1, 6)), **{name: v for name, v in changes.items() if name in fields}}
+    sea = {name: v for name, v in changes.items() if name not in fields}
+
+    def compiled() -> None:
+        scene.waves = Waves(**{"hulls": {"a": HullLoads(**hull)}, **one, **sea})
+        scene.compile()
+
+    refused(compiled, *parts)
 
 
 @pytest.mark.parametrize(

@@ -155,29 +155,31 @@ def test_coefficients_are_interpolated_in_frequency_and_heading_and_mirrored() -
         scene = moored(direction_deg=direction_deg)
         add_drift(scene, drifting(ship))
         assert scene.waves is not None
-        assert scene.waves.drift is not None
+        assert scene.waves.hull().drift is not None
         expected = np.array([ship(w, np.radians(direction_deg)) for w in scene.waves.omega])
         scale = np.abs(expected).max(axis=0) + 1e-9
         # Cubic in frequency exactly; a sine over 15 deg to 4e-4 by splines.
-        assert np.all(np.abs(scene.waves.drift - expected) < 2e-3 * scale)
+        assert np.all(np.abs(scene.waves.hull().drift - expected) < 2e-3 * scale)
     port, starboard = moored(direction_deg=50.0), moored(direction_deg=-50.0)
     for scene in (port, starboard):
         add_drift(scene, drifting(ship))
     assert port.waves is not None
     assert starboard.waves is not None
     mirror = np.array([1.0, -1.0, 1.0, -1.0, 1.0, -1.0])
-    np.testing.assert_allclose(port.waves.drift, starboard.waves.drift * mirror, rtol=1e-12, atol=1e-9)
+    np.testing.assert_allclose(
+        port.waves.hull().drift, starboard.waves.hull().drift * mirror, rtol=1e-12, atol=1e-9
+    )
 
 
 def test_a_moored_vessel_is_pushed_by_the_mean_drift_and_its_energy_balances(tmp_path: Path) -> None:
     scene = moored()
     add_drift(scene, drifting(ship))
     assert scene.waves is not None
-    assert scene.waves.drift is not None
+    assert scene.waves.hull().drift is not None
     result = simulate(scene, t_end=100.0, dt_out=0.5, rtol=1e-8)
     assert np.abs(result.channels["energy_balance"]).max() < 1e-6 * result.channels["absolute_work"][-1]
-    load = _core.DriftLoad(scene.waves.components(), coefficient=scene.waves.drift)
-    scale = np.array(scene.waves.amplitude) @ np.abs(scene.waves.drift) * np.sum(scene.waves.amplitude)
+    load = _core.DriftLoad(scene.waves.components(), coefficient=scene.waves.hull().drift)
+    scale = np.array(scene.waves.amplitude) @ np.abs(scene.waves.hull().drift) * np.sum(scene.waves.amplitude)
     error = np.abs(result.channels["drift_force"] - load.evaluate(result.time))
     assert np.all(error <= 2e-9 * scale)
     calm = simulate(moored(), t_end=100.0, dt_out=0.5, rtol=1e-8)
@@ -196,23 +198,23 @@ def test_drift_at_the_actual_position(drift_first: bool) -> None:
         step(scene, drifting(ship))
     waves = scene.waves
     assert waves is not None
-    assert waves.force_by_heading is not None
-    assert waves.drift_by_heading is not None
+    assert waves.hull().force_by_heading is not None
+    assert waves.hull().drift_by_heading is not None
     load = _core.PositionedWaveLoad(
         waves.components(),
-        headings=waves.force_by_heading.heading,
-        transfer=waves.force_by_heading.values,
-        drift_headings=waves.drift_by_heading.heading,
-        drift=waves.drift_by_heading.values,
+        headings=waves.hull().force_by_heading.heading,
+        transfer=waves.hull().force_by_heading.values,
+        drift_headings=waves.hull().drift_by_heading.heading,
+        drift=waves.hull().drift_by_heading.values,
     )
     yaw = 0.35
     turned = moored(direction_deg=135.0 - np.degrees(yaw))
     add_drift(turned, drifting(ship))
     assert turned.waves is not None
-    assert turned.waves.drift is not None
-    scale = np.array(waves.amplitude) @ np.abs(turned.waves.drift) * np.sum(waves.amplitude) + 1e-6
+    assert turned.waves.hull().drift is not None
+    scale = np.array(waves.amplitude) @ np.abs(turned.waves.hull().drift) * np.sum(waves.amplitude) + 1e-6
     for t in TIMES:
-        expected = double_sum(waves.components(), turned.waves.drift, t, 40.0, 9.0)
+        expected = double_sum(waves.components(), turned.waves.hull().drift, t, 40.0, 9.0)
         assert np.all(np.abs(load.evaluate(t, x=40.0, y=9.0, yaw=yaw)[1] - expected) < 1e-11 * scale)
     result = simulate(scene, t_end=3.0, dt_out=1.0)
     motion = result.channels["vessel_motion"][-1]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ctypes
+import re
 import warnings
 from pathlib import Path
 from typing import Any
@@ -23,13 +24,13 @@ from seacrane import (
     simulate,
 )
 from seacrane.cases import vessel
+from seacrane.hull_range import MeanHeadingWarning
 from seacrane.output_times import OutputMemoryError
 from seacrane.report import report_html
 from seacrane.step_advice import STABLE_UP_TO
 from seacrane.validity import (
     FullTurnWarning,
     LargeHeelWarning,
-    MeanHeadingWarning,
     NearSingularWarning,
     OutsideDatabaseWarning,
     PushingLinkWarning,
@@ -259,12 +260,15 @@ def test_heel_beyond_the_linear_restoring_warns() -> None:
 
 def test_yaw_away_from_the_mean_heading_warns_with_loads_of_the_mean_only() -> None:
     ship = vessel(hs=1.0)
-    motion = np.zeros((3, 6))
-    motion[1, 5] = -0.5
-    found = judged(ship, [0.0, 1.0, 2.0], {"vessel_motion": motion})
-    assert "yaw reaches 28.6 deg at t = 1 s" in found[MeanHeadingWarning]
-    assert not judged(vessel(hs=0.0), [0.0, 1.0, 2.0], {"vessel_motion": motion})
-    assert not judged(vessel(hs=1.0, phase="actual"), [0.0, 1.0, 2.0], {"vessel_motion": motion})
+    time, motion = np.linspace(0.0, 100.0, 201), np.zeros((201, 6))
+    motion[:, 5] = 0.5 * np.sin(2.0 * np.pi / 8.0 * time)  # as fast as the waves
+    assert not judged(ship, time, {"vessel_motion": motion})
+    motion[100:, 5] -= 0.5
+    found = judged(ship, time, {"vessel_motion": motion})
+    reached = re.search(r"'vessel': yaw reaches (\S+) deg", found[MeanHeadingWarning])
+    assert reached and float(reached[1]) == pytest.approx(np.degrees(0.5), abs=0.5)
+    assert not judged(vessel(hs=0.0), time, {"vessel_motion": motion})
+    assert not judged(vessel(hs=1.0, phase="actual"), time, {"vessel_motion": motion})
 
 
 def test_motions_beyond_the_database_warn() -> None:

@@ -11,7 +11,7 @@ import pytest
 from hypothesis import HealthCheck, Phase, assume, example, given, seed, settings
 from hypothesis import strategies as st
 
-from seacrane import Curve, Scene, SceneError, SimulationError, Waves, sea, simulate, spline_curve
+from seacrane import Curve, HullLoads, Scene, SceneError, SimulationError, Waves, sea, simulate, spline_curve
 
 NAN, INF = float("nan"), float("inf")
 SETTINGS = settings(
@@ -209,10 +209,13 @@ def test_curves(kind: str, data: st.DataObject) -> None:
     run_for_some_steps(scene)
 
 
+HULL: dict[str, Any] = {
+    "transfer": np.ones((2, 6), dtype=complex), "position": (0.0, 0.0), "heading": 0.0,
+    "force_by_heading": None, "drift": None, "drift_by_heading": None,
+}  # fmt: skip
 WAVES: dict[str, Any] = {
-    "body": "hull", "omega": [0.5, 0.7], "amplitude": [0.1, 0.2], "phase": [0.0, 1.0],
-    "direction": [0.0, 0.5], "transfer": np.ones((2, 6), dtype=complex),
-    "position": (0.0, 0.0), "relative_bound": 1e-9, "depth": INF,
+    "omega": [0.5, 0.7], "amplitude": [0.1, 0.2], "phase": [0.0, 1.0], "direction": [0.0, 0.5],
+    "hulls": {"hull": HullLoads(**HULL)}, "relative_bound": 1e-9, "depth": INF,
     "evaluation": "exact", "negligible": 1e-9,
 }  # fmt: skip
 
@@ -226,6 +229,18 @@ def test_waves(key: str, value: Any) -> None:
     waves = refused(lambda: Waves(**(WAVES | {key: value})), (SceneError, ValueError, TypeError))
     if waves is not None:
         scene.waves = waves
+        run_for_some_steps(scene)
+
+
+@seed(29)
+@SETTINGS
+@given(key=st.sampled_from(sorted(HULL)), value=HOSTILE)
+def test_loads_on_a_hull(key: str, value: Any) -> None:
+    scene = base()
+    scene.add_vessel(**CALLS["add_vessel"])
+    hull = refused(lambda: HullLoads(**(HULL | {key: value})), (SceneError, ValueError, TypeError))
+    if hull is not None:
+        scene.waves = Waves(**(WAVES | {"hulls": {"hull": hull}}))
         run_for_some_steps(scene)
 
 

@@ -15,7 +15,18 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from seacrane import Curve, FileFormatError, Frame, Scene, SceneError, StateSpaceBlock, Waves, cases, simulate
+from seacrane import (
+    Curve,
+    FileFormatError,
+    Frame,
+    HullLoads,
+    Scene,
+    SceneError,
+    StateSpaceBlock,
+    Waves,
+    cases,
+    simulate,
+)
 from seacrane import scene_file as module
 from seacrane.scene_file import load_scene, save_scene
 
@@ -28,13 +39,17 @@ WITH_FOLDER = settings(
 def waves(body: str) -> Waves:
     generator = np.random.default_rng(3)
     return Waves(
-        body=body,
         omega=np.array([0.5, 0.7, 1.1]),
         amplitude=generator.uniform(0.01, 0.02, 3),
         phase=generator.uniform(0.0, 6.0, 3),
         direction=generator.uniform(-3.0, 3.0, 3),
-        transfer=generator.normal(size=(3, 6)) + 1j * generator.normal(size=(3, 6)),
-        position=(THIRD, -0.0),
+        hulls={
+            body: HullLoads(
+                transfer=generator.normal(size=(3, 6)) + 1j * generator.normal(size=(3, 6)),
+                position=(THIRD, -0.0),
+                heading=-THIRD,
+            )
+        },
         relative_bound=0.0,
         information={"seed": 3, "repeat_period_s": math.inf, "realised_hs": np.float64(THIRD)},
     )
@@ -180,6 +195,20 @@ def test_saving_a_loaded_scene_gives_the_same_file(tmp_path: Path) -> None:
     assert (tmp_path / "a.json").read_bytes() == (tmp_path / "b.json").read_bytes()
 
 
+def test_a_file_from_before_several_hulls_reads_as_the_same_scene(tmp_path: Path) -> None:
+    save_scene(every_kind(), tmp_path / "scene.json")
+    data = json.loads((tmp_path / "scene.json").read_text())
+    (hull,) = data["waves"].pop("hulls")
+    del hull["heading"]
+    data["waves"] |= hull
+    (tmp_path / "old.json").write_text(json.dumps(data))
+    old = load_scene(tmp_path / "old.json").waves
+    assert old is not None
+    expected = every_kind().waves
+    assert expected is not None
+    assert plain(old.changed(heading=-THIRD)) == plain(expected)
+
+
 def test_water_depth(tmp_path: Path) -> None:
     for depth in (math.inf, 40.0):
         scene = every_kind()
@@ -309,7 +338,10 @@ BROKEN: list[tuple[str, Callable[[dict[str, Any]], Any], tuple[str, ...]]] = [
     ("memory shape", lambda d: d["vessels"][0]["memory"][0]["b"].pop(), ("memory[0].b: has 1 entries",)),
     ("kinematics", lambda d: d["vessels"][0].update(kinematics="x"), ("vessels[0]", "kinematics 'x'")),
     ("waves cut", lambda d: d["waves"]["phase"].pop(), ("waves.phase: has 2 entries; give 3",)),
-    ("transfer cut", lambda d: d["waves"]["transfer_imaginary"][1].pop(), ("transfer_imaginary[1]: has 5",)),
+    ("transfer cut", lambda d: d["waves"]["hulls"][0]["transfer_imaginary"][1].pop(),
+     ("hulls[0].transfer_imaginary[1]: has 5",)),
+    ("hull twice", lambda d: d["waves"].update(hulls=2 * d["waves"]["hulls"]),
+     ("waves.hulls[1].body is 'hull'", "every vessel once")),
     ("waves a list", lambda d: d.update(waves=[]), ("waves is []",)),
     ("recorded joint", lambda d: d["recorded"][0].update(joint="x"), ("recorded[0]", "no joint 'x'")),
     ("notes a list", lambda d: d.update(notes=[]), ("notes is []", "give an object")),

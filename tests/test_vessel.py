@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from seacrane import Curve, Result, Scene, State, Waves, simulate
+from seacrane import Curve, HullLoads, Result, Scene, State, Waves, simulate
 from seacrane.hydro import HydroDatabase, shipped_database, vessel_parameters
 from seacrane.hydro.vessel import RollDampingWarning, rigid_mass_matrix
 from seacrane.vessel import add_vessel
@@ -56,12 +56,11 @@ def regular_wave(
 ) -> Waves:
     direction = np.radians(heading_deg)
     return Waves(
-        body="vessel",
         omega=np.array([omega]),
         amplitude=np.array([amplitude]),
         phase=np.array([phase]),
         direction=np.array([direction]),
-        transfer=database.force_at([omega], direction).reshape(1, 6),
+        hulls={"vessel": HullLoads(transfer=database.force_at([omega], direction).reshape(1, 6))},
         relative_bound=0.0,
     )
 
@@ -87,7 +86,7 @@ def steady_state(
     scene.waves = waves
     result = simulate(scene, t_end=t_end, dt_out=period / 16.0, rtol=1e-10, channels=["vessel_motion"])
     found = complex_amplitude(result, omega, start=t_end - 4.0 * period)
-    force = waves.transfer[0] * waves.amplitude[0] * np.exp(1j * waves.phase[0])
+    force = waves.hull().transfer[0] * waves.amplitude[0] * np.exp(1j * waves.phase[0])
     return found, np.linalg.solve(impedance(database, scene, waves.omega)[0], force)
 
 

@@ -12,7 +12,17 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from seacrane import ByHeading, Curve, Scene, SceneError, Waves, _core, simulate, use_actual_position
+from seacrane import (
+    ByHeading,
+    Curve,
+    HullLoads,
+    Scene,
+    SceneError,
+    Waves,
+    _core,
+    simulate,
+    use_actual_position,
+)
 from seacrane.hydro import HydroDatabase, shipped_database
 from seacrane.vessel import add_sea, add_vessel
 
@@ -83,15 +93,18 @@ def regular_sea(*, omega: float, direction_deg: float) -> Waves:
     direction = np.radians(direction_deg)
     heading, _ = database().full_circle()
     return Waves(
-        body="vessel",
         omega=np.array([omega]),
         amplitude=np.array([0.8]),
         phase=np.array([0.3]),
         direction=np.array([direction]),
-        transfer=database().force_at(np.array([omega]), direction),
-        force_by_heading=ByHeading(
-            heading=heading, values=database().force_at(np.array([omega])[None, :], heading[:, None])
-        ),
+        hulls={
+            "vessel": HullLoads(
+                transfer=database().force_at(np.array([omega]), direction),
+                force_by_heading=ByHeading(
+                    heading=heading, values=database().force_at(np.array([omega])[None, :], heading[:, None])
+                ),
+            )
+        },
     )
 
 
@@ -118,14 +131,13 @@ def test_a_towed_vessel_meets_the_encounter_frequency(direction_deg: float, yaw:
     assert np.all(error < 1e-7 * np.abs(transfer).max())
 
 
-def actual_scene(**changes: Any) -> Scene:
+def actual_scene(*, evaluation: str = "table", **changes: Any) -> Scene:
     scene = Scene(name="actual")
     add_vessel(scene, database(), mooring_period=100.0)
     add_sea(scene, database(), hs=3.0, tp=8.0, direction_deg=60.0, count=40)
     use_actual_position(scene, database())
-    if changes:
-        assert scene.waves is not None
-        scene.waves = replace(scene.waves, **changes)
+    assert scene.waves is not None
+    scene.waves = replace(scene.waves.changed(**changes), evaluation=evaluation)
     return scene
 
 
@@ -179,9 +191,11 @@ def test_a_scene_file_keeps_the_loads_of_all_headings(tmp_path: Path) -> None:
     again = Scene.load(tmp_path / "scene.json")
     assert scene.waves is not None
     assert again.waves is not None
-    assert again.waves.force_by_heading is not None
-    assert scene.waves.force_by_heading is not None
-    np.testing.assert_array_equal(again.waves.force_by_heading.values, scene.waves.force_by_heading.values)
+    assert again.waves.hull().force_by_heading is not None
+    assert scene.waves.hull().force_by_heading is not None
+    np.testing.assert_array_equal(
+        again.waves.hull().force_by_heading.values, scene.waves.hull().force_by_heading.values
+    )
     first, second = (simulate(s, t_end=5.0, dt_out=1.0) for s in (scene, again))
     np.testing.assert_array_equal(first.channels["vessel_motion"], second.channels["vessel_motion"])
 
@@ -223,5 +237,5 @@ def test_headings_must_cover_the_circle() -> None:
 def positioned_values() -> ByHeading:
     waves = actual_scene().waves
     assert waves is not None
-    assert waves.force_by_heading is not None
-    return waves.force_by_heading
+    assert waves.hull().force_by_heading is not None
+    return waves.hull().force_by_heading

@@ -10,7 +10,7 @@ import pytest
 
 from seacrane import Run, Scene, SceneError, _core, cases
 from seacrane.wave_selection import kept_components, without_negligible
-from seacrane.waves import ByHeading, Waves
+from seacrane.waves import ByHeading, HullLoads, Waves
 
 
 def sea(count: int = 40, *, seed: int = 2) -> Waves:
@@ -18,12 +18,11 @@ def sea(count: int = 40, *, seed: int = 2) -> Waves:
     random = np.random.default_rng(seed)
     transfer = random.normal(size=(count, 6)) + 1j * random.normal(size=(count, 6))
     return Waves(
-        body="vessel",
         omega=np.sort(random.uniform(0.3, 2.0, count)),
         amplitude=10.0 ** random.uniform(-14.0, 0.0, count),
         phase=random.uniform(0.0, 6.0, count),
         direction=np.full(count, 0.4),
-        transfer=1e5 * transfer,
+        hulls={"vessel": HullLoads(transfer=1e5 * transfer)},
     )
 
 
@@ -32,8 +31,8 @@ def test_the_bound_holds_in_every_load_at_every_time(negligible: float) -> None:
     waves = replace(sea(), negligible=negligible)
     fewer = without_negligible(waves)
     assert (fewer.omega.size < 40) == (negligible > 0.0)
-    full, kept = (_core.ExactWaveLoad(w.components(), transfer=w.transfer) for w in (waves, fewer))
-    most = np.abs(waves.transfer).T @ waves.amplitude
+    full, kept = (_core.ExactWaveLoad(w.components(), transfer=w.hull().transfer) for w in (waves, fewer))
+    most = np.abs(waves.hull().transfer).T @ waves.amplitude
     times = np.linspace(0.0, 500.0, 400)
     difference = np.abs(full.evaluate(times) - kept.evaluate(times)).max(axis=0)
     assert (difference <= (negligible + 1e-13) * most).all()
@@ -44,7 +43,7 @@ def test_the_bound_holds_in_every_load_at_every_time(negligible: float) -> None:
 def test_one_more_component_would_break_the_bound() -> None:
     waves = replace(sea(), negligible=1e-6)
     kept = kept_components(waves)
-    magnitude = waves.amplitude[:, None] * np.abs(np.hstack([waves.transfer, np.ones((40, 1))]))
+    magnitude = waves.amplitude[:, None] * np.abs(np.hstack([waves.hull().transfer, np.ones((40, 1))]))
     share = magnitude / magnitude.sum(axis=0)
     smallest = np.flatnonzero(kept)[np.argmin(share[kept].max(axis=1))]
     assert (share[~kept].sum(axis=0) + share[smallest]).max() > 1e-6
@@ -58,17 +57,20 @@ def test_loads_over_the_heading_and_drift_count_too() -> None:
     values[:, 1:3] = 1.0
     values[1, 0] = 1e12
     headings = np.array([0.0, 0.5, 1.0])
-    by_heading = replace(plain, force_by_heading=ByHeading(heading=headings, values=values))
+    by_heading = plain.changed(force_by_heading=ByHeading(heading=headings, values=values))
     assert list(kept_components(by_heading)) == [True, True, True, False]
     drift = np.array([[0.0] * 6, [1.0] * 6, [1.0] * 6, [1e24] * 6])
-    slow = replace(
-        by_heading,
+    slow = by_heading.changed(
         drift=drift,
         drift_by_heading=ByHeading(heading=headings, values=np.tile(drift, (3, 1, 1))),
     )
     assert list(kept_components(slow)) == [True, True, True, True]
     fewer = without_negligible(by_heading)
-    assert fewer.force_by_heading is not None and fewer.force_by_heading.values.shape == (3, 3, 6)
+    assert fewer.hull().force_by_heading is not None and fewer.hull().force_by_heading.values.shape == (
+        3,
+        3,
+        6,
+    )
 
 
 def test_a_series_by_fft_and_arrays_that_do_not_fit_are_left_alone() -> None:

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from seacrane import RepeatingSeaWarning, Scene, SceneError, Waves, _core, simulate
+from seacrane import HullLoads, RepeatingSeaWarning, Scene, SceneError, Waves, _core, simulate
 from seacrane.hydro import shipped_database
 from seacrane.vessel import add_vessel
 from seacrane.wave_series import grid_of
@@ -25,14 +25,17 @@ def uniform(count: int = 80, step: float = 0.02, first: float = 20.0, **changes:
     omega = np.repeat(step * (first + np.arange(count // 2)), 2)
     size = np.array([1e5, 1e5, 1e6, 1e6, 1e7, 1e6])
     values: dict[str, Any] = {
-        "body": "vessel",
         "omega": omega,
         "amplitude": rng.uniform(0.01, 0.1, count),
         "phase": rng.uniform(0.0, 6.28, count),
         "direction": rng.uniform(0.0, 6.28, count),
-        "transfer": size * (rng.normal(size=(count, 6)) + 1j * rng.normal(size=(count, 6))),
-        "position": (15.0, -30.0),
-        "drift": 1e4 * rng.normal(size=(count, 6)),
+        "hulls": {
+            "vessel": HullLoads(
+                transfer=size * (rng.normal(size=(count, 6)) + 1j * rng.normal(size=(count, 6))),
+                position=(15.0, -30.0),
+                drift=1e4 * rng.normal(size=(count, 6)),
+            )
+        },
         "evaluation": "fft",
     }
     return Waves(**{**values, **changes})
@@ -42,10 +45,10 @@ def tables(waves: Waves) -> tuple[Any, Any, Any, Any]:
     """Exact load and its table, drift and its table."""
     from seacrane.wave_series import drift_table, wave_table
 
-    sea = waves.components()
-    exact = _core.ExactWaveLoad(sea, transfer=waves.transfer, position=waves.position)
-    drift = _core.DriftLoad(sea, coefficient=waves.drift, position=waves.position)
-    return exact, wave_table(waves, exact), drift, drift_table(waves, drift)
+    sea, hull = waves.components(), waves.hull()
+    exact = _core.ExactWaveLoad(sea, transfer=hull.transfer, position=hull.position)
+    drift = _core.DriftLoad(sea, coefficient=hull.drift, position=hull.position)
+    return exact, wave_table(waves, hull, exact), drift, drift_table(waves, hull, drift)
 
 
 @pytest.mark.parametrize("first", [20.0, 20.5])
@@ -62,7 +65,7 @@ def test_the_series_is_the_sum_within_the_bound(first: float, relative_bound: fl
     assert np.all(table.error_bound <= relative_bound * exact.magnitude() * (1.0 + 1e-9))
     assert table.stored_knots * table.step == pytest.approx(period, rel=1e-12)
     difference = np.abs(slow.evaluate(times) - drift.evaluate(times)).max(axis=0)
-    size = np.array(waves.amplitude) @ np.abs(np.asarray(waves.drift)) * np.sum(waves.amplitude)
+    size = np.array(waves.amplitude) @ np.abs(np.asarray(waves.hull().drift)) * np.sum(waves.amplitude)
     assert np.all(difference <= slow.error_bound + rounding * size)
 
 

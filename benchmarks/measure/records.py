@@ -136,10 +136,11 @@ def _waves(scene: Scene) -> dict[str, Any]:
     waves = scene.waves
     if waves is None or np.isfinite(waves.depth):
         raise ValueError(f"scene {scene.name!r}: the rival's records are made for deep water")
+    hull = waves.hull()
     wavenumber = waves.omega**2 / 9.80665
-    along = waves.position[0] * np.cos(waves.direction) + waves.position[1] * np.sin(waves.direction)
+    along = hull.position[0] * np.cos(waves.direction) + hull.position[1] * np.sin(waves.direction)
     elevation = waves.amplitude * np.exp(1j * (waves.phase - wavenumber * along))
-    force = waves.transfer * elevation[:, None]
+    force = hull.transfer * elevation[:, None]
     return {
         "omega": waves.omega.tolist(),
         "force_real": force.real.tolist(),

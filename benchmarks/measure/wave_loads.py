@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from seacrane import Scene, Waves
+from seacrane import HullLoads, Scene, Waves
 from seacrane.environment import force_by_heading
 from seacrane.hydro import HydroDatabase, shipped_database
 from seacrane.sea import ExactWaveLoad, WaveTable, jonswap
@@ -51,7 +51,7 @@ def _row(calm: Scene, database: HydroDatabase, count: int, repeats: int) -> list
         "exact": replace(waves, evaluation="exact"),
         "table": waves,
         "fft": replace(waves, evaluation="fft"),
-        "actual": replace(waves, force_by_heading=force_by_heading(database, waves.omega)),
+        "actual": waves.changed(force_by_heading=force_by_heading(database, waves.omega)),
     }
     models, setup, cost = {}, {}, dict.fromkeys(kinds, np.inf)
     for kind, sea in kinds.items():
@@ -63,7 +63,7 @@ def _row(calm: Scene, database: HydroDatabase, count: int, repeats: int) -> list
         for kind, model in models.items():
             calls = max(200, 400_000 // count) if kind in ("exact", "actual") else 20_000
             cost[kind] = min(cost[kind], evaluation_ns(model, repeats=1, count=calls))
-    exact = ExactWaveLoad(waves.components(), transfer=waves.transfer)
+    exact = ExactWaveLoad(waves.components(), transfer=waves.hull().transfer)
     period_h = 2.0 * np.pi / (waves.omega[1] - waves.omega[0]) / 3600.0
     above = [cost[kind] - cost["calm"] for kind in ("exact", "table", "fft", "actual")]
     return [count, *above, WaveTable(exact).step, setup["table"], setup["fft"], period_h]
@@ -78,11 +78,11 @@ def _sea(database: HydroDatabase, count: int) -> Waves:
     spectrum = jonswap(hs=2.0, tp=8.0)
     density = np.array([spectrum.density(w) for w in omega])
     direction = np.radians(135.0)
+    transfer = np.concatenate([database.force_at(part, direction) for part in np.array_split(omega, 10)])
     return Waves(
-        body="vessel",
         omega=omega,
         amplitude=np.sqrt(2.0 * density * step),
         phase=np.random.default_rng(1).uniform(0.0, 2.0 * np.pi, omega.size),
         direction=np.full(omega.size, direction),
-        transfer=np.concatenate([database.force_at(part, direction) for part in np.array_split(omega, 10)]),
+        hulls={"vessel": HullLoads(transfer=transfer)},
     )

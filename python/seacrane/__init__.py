@@ -45,6 +45,13 @@ if TYPE_CHECKING:
         response_statistics,
         response_summed,
     )
+    from seacrane.hull_range import (
+        ForwardSpeedWarning,
+        MeanHeadingWarning,
+        MeanPositionWarning,
+        MooringTurnWarning,
+        NoWaveLoadsWarning,
+    )
     from seacrane.hydro import HydroDatabase, load_database
     from seacrane.inverse import Balance, balance, driven, inverse_dynamics, reflected_inertia
     from seacrane.limits import add_end_stop, add_friction, add_seat, add_soft_stop, add_wire
@@ -64,14 +71,13 @@ if TYPE_CHECKING:
     from seacrane.validity import (
         FullTurnWarning,
         LargeHeelWarning,
-        MeanHeadingWarning,
         NearSingularWarning,
         OutsideDatabaseWarning,
         PushingLinkWarning,
     )
     from seacrane.version import __version__
     from seacrane.vessel import add_vessel
-    from seacrane.waves import ByHeading, RepeatingSeaWarning, Waves
+    from seacrane.waves import ByHeading, HullLoads, RepeatingSeaWarning, Waves
     from seacrane.wind import gust_curve
 
 _HOME = {
@@ -85,17 +91,22 @@ _HOME = {
     "FileFormatError": "errors",
     "FlowCoefficients": "environment",
     "FlowForce": "_core",
+    "ForwardSpeedWarning": "hull_range",
     "Frame": "_core",
     "Friction": "_core",
     "FullTurnWarning": "validity",
+    "HullLoads": "waves",
     "HydroDatabase": "hydro",
     "LargeHeelWarning": "validity",
     "Limit": "_core",
     "LinearModel": "linear_system",
-    "MeanHeadingWarning": "validity",
+    "MeanHeadingWarning": "hull_range",
+    "MeanPositionWarning": "hull_range",
     "Model": "_core",
+    "MooringTurnWarning": "hull_range",
     "NaturalModes": "modal_analysis",
     "NearSingularWarning": "validity",
+    "NoWaveLoadsWarning": "hull_range",
     "OutputMemoryError": "output_times",
     "OutsideDatabaseWarning": "validity",
     "PushingLinkWarning": "validity",
@@ -165,17 +176,22 @@ __all__ = [
     "FileFormatError",
     "FlowCoefficients",
     "FlowForce",
+    "ForwardSpeedWarning",
     "Frame",
     "Friction",
     "FullTurnWarning",
+    "HullLoads",
     "HydroDatabase",
     "LargeHeelWarning",
     "Limit",
     "LinearModel",
     "MeanHeadingWarning",
+    "MeanPositionWarning",
     "Model",
+    "MooringTurnWarning",
     "NaturalModes",
     "NearSingularWarning",
+    "NoWaveLoadsWarning",
     "OutputMemoryError",
     "OutsideDatabaseWarning",
     "PushingLinkWarning",

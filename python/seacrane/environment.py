@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import warnings
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
@@ -194,26 +194,32 @@ def add_current(
     return element
 
 
-def use_actual_position(scene: Scene, database: HydroDatabase) -> None:
+def use_actual_position(scene: Scene, database: HydroDatabase, *, vessel: str | None = None) -> None:
     """Take wave loads at the vessel's position and heading of the moment instead of the mean ones.
 
     Phases follow the vessel (a moving one meets the encounter frequency), and force RAOs its heading
     relative to the waves, by the same splines as `HydroDatabase.force_at`. All components are summed in every
     evaluation. Call it after `add_sea`.
 
+    Parameters
+    ----------
+    scene : Scene
+    database : HydroDatabase
+    vessel : str, optional
+        Body of the vessel; default: the only one in the sea.
+
     Raises
     ------
     SceneError
-        Without a sea, or if the database's headings do not cover the circle.
+        Without a sea, for a vessel that is not in it, or if the database's headings do not cover the circle.
     ValueError
         For components outside the database's frequencies.
     """
     waves = _sea_of(scene, "loads at the actual position")
-    force = force_by_heading(database, waves.omega)
-    drift = None
-    if waves.drift is not None:
+    force, drift = force_by_heading(database, waves.omega), None
+    if waves.hull(vessel).drift is not None:
         drift = _drift_by_heading(database, waves.omega, "hold")  # add_drift has judged the range
-    scene.waves = replace(waves, force_by_heading=force, drift_by_heading=drift)
+    scene.waves = waves.changed(vessel, force_by_heading=force, drift_by_heading=drift)
     scene.notes.update(wave_phase="actual")
 
 
@@ -251,7 +257,13 @@ def force_by_heading(database: HydroDatabase, omega: Array) -> ByHeading:
     return ByHeading(heading=heading, values=np.stack([weights @ at_heading for at_heading in table]))
 
 
-def add_drift(scene: Scene, database: HydroDatabase, *, outside: Literal["error", "hold"] = "error") -> None:
+def add_drift(
+    scene: Scene,
+    database: HydroDatabase,
+    *,
+    vessel: str | None = None,
+    outside: Literal["error", "hold"] = "error",
+) -> None:
     """Add the slowly varying wave drift load from mean drift coefficients, by Newman's approximation.
 
     F(t) = sum_ik a_i a_k (D_i + D_k) / 2 cos(theta_i - theta_k) with the coefficients D of the database at
@@ -264,25 +276,24 @@ def add_drift(scene: Scene, database: HydroDatabase, *, outside: Literal["error"
     scene : Scene
     database : HydroDatabase
         With `drift`.
+    vessel : str, optional
+        Body of the vessel; default: the only one in the sea.
     outside : str
         "error", or "hold": components beyond the frequencies of the coefficients take those of the nearest.
 
     Raises
     ------
     SceneError
-        Without a sea or without drift coefficients.
+        Without a sea or without drift coefficients, or for a vessel that is not in the sea.
     ValueError
         For components outside the coefficients' frequencies or in a gap of more than 45 deg between headings.
     """
     waves = _sea_of(scene, "drift")
-    by_heading = None
-    if waves.force_by_heading is not None:
+    hull, by_heading = waves.hull(vessel), None
+    if hull.force_by_heading is not None:
         by_heading = _drift_by_heading(database, waves.omega, outside)
-    scene.waves = replace(
-        waves,
-        drift=_drift_at(database, waves.omega, waves.direction, outside),
-        drift_by_heading=by_heading,
-    )
+    drift = _drift_at(database, waves.omega, waves.direction - hull.heading, outside)
+    scene.waves = waves.changed(vessel, drift=drift, drift_by_heading=by_heading)
     scene.notes.update(drift="newman")
 
 

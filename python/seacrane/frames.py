@@ -25,6 +25,24 @@ def rotation_matrix(quaternion: Any) -> Array:
     return matrix
 
 
+def heading_of(quaternion: Any) -> float:
+    """Yaw of yaw-pitch-roll angles, rad."""
+    r = rotation_matrix(quaternion)
+    return float(np.arctan2(r[1, 0], r[0, 0]))
+
+
+def rotation_about_z(angle: float) -> Array:
+    """(3, 3), rad."""
+    c, s = np.cos(angle), np.sin(angle)
+    return np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
+
+
+def quaternion_product(first: Any, second: Any) -> Array:
+    """Of the rotation `second` followed by `first`, (4,), scalar first."""
+    (w, *u), (p, *v) = np.asarray(first, dtype=float), np.asarray(second, dtype=float)
+    return np.array([w * p - np.dot(u, v), *(w * np.array(v) + p * np.array(u) + np.cross(u, v))])
+
+
 def _direction(what: str, value: Any) -> Array:
     try:
         vector = np.asarray(value, dtype=float)

@@ -137,20 +137,22 @@ def response_summed(
     SceneError
         Without waves, or as `linear_model`.
     """
-    linear = _linear(scene, state)
-    sea = linear.scene.waves if waves is None else waves
+    described = scene.scene if isinstance(scene, LinearModel) else scene
+    sea = described.waves if waves is None else waves
     if sea is None:
-        raise SceneError(f"scene {linear.scene.name!r}: has no waves; add a sea or give waves")
-    if sea.body != linear.vessel:
-        raise SceneError(f"waves: act on {sea.body!r}, the linear model has them on {linear.vessel!r}")
-    components = _core.WaveComponents(
-        omega=sea.omega, amplitude=sea.amplitude, phase=sea.phase, direction=sea.direction, depth=sea.depth
-    )
+        raise SceneError(f"scene {described.name!r}: has no waves; add a sea or give waves")
+    if isinstance(scene, Scene):
+        scene, state = linear_model(scene, state=state, vessel=next(iter(sea.hulls), None)), None
+    linear = _linear(scene, state)
+    components = sea.components()
     omega, direction = np.array(components.omega), np.array(components.direction)
-    along = np.cos(direction) * sea.position[0] + np.sin(direction) * sea.position[1]
-    phase = np.array(components.phase) - np.array(components.wavenumber) * along
-    wave = np.array(components.amplitude) * np.exp(1j * phase)
-    x = linear.response(omega=omega, force=wave[:, None] * np.asarray(sea.transfer).reshape(-1, 6))
+    x: Complex = np.zeros((omega.size, len(linear.a)), dtype=complex)
+    for vessel, hull in sea.hulls.items():
+        along = np.cos(direction) * hull.position[0] + np.sin(direction) * hull.position[1]
+        phase = np.array(components.phase) - np.array(components.wavenumber) * along
+        wave = np.array(components.amplitude) * np.exp(1j * phase)
+        force = wave[:, None] * np.asarray(hull.transfer).reshape(-1, 6)
+        x += linear.excited(vessel).response(omega=omega, force=force)
     amplitude = x @ linear.output(body=body, point=point).T
     return SummedResponse(omega=omega, amplitude=amplitude, state_amplitude=x)
 

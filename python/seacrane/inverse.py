@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from seacrane import _core
 from seacrane.errors import SceneError
+from seacrane.frames import heading_of, rotation_about_z
 from seacrane.scene import GROUND, Scene
 
 Array = NDArray[np.float64]
@@ -27,8 +28,8 @@ class Balance:
 
     Attributes
     ----------
-    vessel_wrench : ndarray, shape (6,), or None
-        Force (N) and moment (N m) on the vessel about its origin, inertial axes; None without a vessel.
+    vessel_wrenches : mapping of str to ndarray, shape (6,)
+        By the vessel's body: force (N) and moment (N m) on it about its origin, inertial axes.
     loads : mapping of str to float
         Along each actuated joint coordinate, by actuator name: N (cylinders, positive pushes) or N m.
     weight : float
@@ -37,10 +38,20 @@ class Balance:
         Their common centre of mass at the start, inertial frame, m.
     """
 
-    vessel_wrench: Array | None
+    vessel_wrenches: Mapping[str, Array]
     loads: Mapping[str, float]
     weight: float
     weight_center: Array
+
+    @property
+    def vessel_wrench(self) -> Array | None:
+        """The wrench on the only vessel; None without one, SceneError with several."""
+        if len(self.vessel_wrenches) > 1:
+            raise SceneError(
+                f"balance: vessels {', '.join(map(repr, self.vessel_wrenches))} have a wrench each; take it "
+                "from vessel_wrenches by its name"
+            )
+        return next(iter(self.vessel_wrenches.values()), None)
 
 
 def _locked(scene: Scene, *, hold_vessels: bool = True) -> Scene:
@@ -57,6 +68,22 @@ def _hold(scene: Scene, body: str, motions: Mapping[str, _core.Curve]) -> None:
     """Prescribe coordinates of a body relative to its described pose, inertial axes."""
     joint = f"{body}.motion"
     scene.add_joint(kind="free", name=joint, first=GROUND, second=body, point=scene.bodies[body].position)
+    _drive(scene, joint, motions)
+
+
+def hold_vessel(scene: Scene, body: str, motions: Mapping[str, _core.Curve]) -> None:
+    """Prescribe a vessel's motions as `vessel_motion` records them: from upright at its described heading."""
+    start, joint = scene.bodies[body], f"{body}.motion"
+    heading = rotation_about_z(heading_of(start.quaternion))
+    scene.add_joint(
+        kind="free", name=joint, first=GROUND, second=body,
+        first_frame=_core.Frame(point=start.position, axes=heading),
+        second_frame=_core.Frame(point=np.zeros(3), axes=np.eye(3)),
+    )  # fmt: skip
+    _drive(scene, joint, motions)
+
+
+def _drive(scene: Scene, joint: str, motions: Mapping[str, _core.Curve]) -> None:
     for motion, curve in motions.items():
         scene.add_driver(joint=joint, coordinate=motion, curve=curve, name=f"{joint}.{motion}")
 
@@ -100,16 +127,15 @@ def balance(scene: Scene) -> Balance:
             f"body {body!r}: accelerates by {terms['acceleration'][worst]:.3g} (m/s2 or rad/s2) with all "
             "driven coordinates held; describe it at its rest pose"
         )
-    wrench = None
+    wrenches = {}
     for vessel in scene.vessels.values():
         names = [f"{vessel.body}.motion.{motion}" for motion in SIX]
-        wrench = _multipliers(model, names, time=0.0, state=state)
-        break
+        wrenches[vessel.body] = _multipliers(model, names, time=0.0, state=state)
     actuated = list(scene.actuators)
     loads = _multipliers(model, [_driver_name(name) for name in actuated], time=0.0, state=state)
     weight, center = _weight(scene)
     return Balance(
-        vessel_wrench=wrench,
+        vessel_wrenches=wrenches,
         loads=dict(zip(actuated, loads.tolist(), strict=True)),
         weight=weight,
         weight_center=center,

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 from seacrane import _core
 from seacrane.checked import shaped_of
 from seacrane.errors import SceneError
-from seacrane.frames import rotation_matrix
+from seacrane.frames import rotation_about_z, rotation_matrix
 from seacrane.reduced_coordinates import NEUTRAL, ReducedCoordinates, Terms
 from seacrane.rest_state import at_rest, equilibrium, held, state_values
 from seacrane.scene import Scene
@@ -153,6 +153,15 @@ class LinearModel:
             x[:, i] = (load[:, i] + x[:, i + 1 :] @ triangle[i, i + 1 :]) / pivot
         return np.asarray(x @ unitary.T * scale)
 
+    def excited(self, vessel: str) -> LinearModel:
+        """The same model with waves on another vessel, by its body; raises SceneError if there is none."""
+        name = _wave_body(self.scene, vessel)
+        assert name is not None
+        b, dof = np.zeros_like(self.b), self.degrees_of_freedom
+        values = np.array(self.state.values)
+        b[dof : 2 * dof] = _excitation(self._terms.model, values, name, self.basis, self.mass)
+        return replace(self, vessel=name, b=b)
+
     def full_state(self, x: ArrayLike) -> _core.State:
         """State of the scene for small x (n,), on the constraints; a run may start from it."""
         values = np.asarray(x, dtype=float)
@@ -209,10 +218,8 @@ def linear_model(scene: Scene, *, state: _core.State | None = None, vessel: str 
     basis = coordinates.basis
     b = np.zeros((len(a), 6))
     if name is not None:
-        k, dof = list(model.bodies).index(name), coordinates.size
-        heading = _yaw_axes(model, values, k, paper=model.paper_kinematics)
-        load = basis[6 * k : 6 * k + 6].T @ heading
-        b[dof : 2 * dof] = np.linalg.solve(basis.T @ matrices["mass"] @ basis, load)
+        dof = coordinates.size
+        b[dof : 2 * dof] = _excitation(model, values, name, basis, matrices["mass"])
     return LinearModel(
         scene=scene,
         state=_core.State(time=rest.time, values=values, inputs=np.zeros(model.slots)),
@@ -225,6 +232,13 @@ def linear_model(scene: Scene, *, state: _core.State | None = None, vessel: str 
         neutral=neutral,
         _terms=terms,
     )
+
+
+def _excitation(model: _core.Model, values: Array, vessel: str, basis: Array, mass: Array) -> Array:
+    """Accelerations of the coordinates per wave load on a vessel, (degrees of freedom, 6)."""
+    k = list(model.bodies).index(vessel)
+    load = basis[6 * k : 6 * k + 6].T @ _yaw_axes(model, values, k, paper=model.paper_kinematics)
+    return np.asarray(np.linalg.solve(basis.T @ mass @ basis, load))
 
 
 def _state_matrix(coordinates: ReducedCoordinates, poses: Array) -> tuple[Array, Array]:
@@ -264,8 +278,8 @@ def _require_rest(terms: Terms, values: Array) -> None:
 
 def _wave_body(scene: Scene, wanted: str | None) -> str | None:
     floating = [vessel.body for vessel in scene.vessels.values()]
-    if wanted is None and scene.waves is not None:
-        wanted = scene.waves.body
+    if wanted is None and scene.waves is not None and len(scene.waves.hulls) == 1:
+        wanted = scene.waves.body_of()
     if wanted is None and len(floating) == 1:
         wanted = floating[0]
     if wanted is None and floating:
@@ -280,5 +294,4 @@ def _yaw_axes(model: _core.Model, values: Array, body: int, *, paper: bool) -> A
     at = model.pose_index(body)
     r = rotation_matrix(values[at + 3 : at + 7])
     yaw = 0.0 if paper else float(np.arctan2(r[1, 0], r[0, 0]))
-    turn = np.array([[np.cos(yaw), -np.sin(yaw), 0.0], [np.sin(yaw), np.cos(yaw), 0.0], [0.0, 0.0, 1.0]])
-    return np.kron(np.eye(2), turn)
+    return np.asarray(np.kron(np.eye(2), rotation_about_z(yaw)))

@@ -446,7 +446,7 @@ class Scene:
                 *self.loads.values(),
             ],
             vessels=list(self.vessels.values()),
-            wave_loads=[] if self.waves is None else [self.waves.compile(prune=merge)],
+            wave_loads=[] if self.waves is None else self.waves.compile(prune=merge),
             coordinates=list(self.recorded.values()),
             merge=merge,
         )

@@ -103,7 +103,7 @@ def _elements(scene: Scene) -> Rows:
         )
     )
     rows.append(("springs", [f"{name} ({s.first} to {s.second})" for name, s in scene.springs.items()]))
-    rows.append(("waves", [] if scene.waves is None else [scene.waves.body]))
+    rows.append(("waves", [] if scene.waves is None else list(scene.waves.hulls)))
     return [(label, names) for label, names in rows if names]
 
 

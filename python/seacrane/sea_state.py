@@ -1,21 +1,23 @@
-"""A sea and its loads on a vessel, in a scene."""
+"""A sea and its loads on the vessels of a scene."""
 
 from __future__ import annotations
 
 import math
 import warnings
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
 from seacrane import _core
-from seacrane.checked import flag_of, number_of
+from seacrane.checked import flag_of, number_of, shaped_of
 from seacrane.environment import add_drift, use_actual_position
 from seacrane.errors import SceneError
+from seacrane.frames import heading_of
 from seacrane.scene import Scene
 from seacrane.sea import SeaState, Spreading, WaveSystem, cos_2s, jonswap
-from seacrane.waves import Waves
+from seacrane.waves import HullLoads, Waves
 
 if TYPE_CHECKING:
     from seacrane.hydro import HydroDatabase
@@ -51,12 +53,17 @@ def add_sea(
     seed: int | None = None,
     count: int | None = None,
     sea: SeaState | None = None,
-    relative_bound: float = 1e-9,
-    evaluation: str = "table",
+    position: Any = None,
+    heading_deg: float | None = None,
+    relative_bound: float | None = None,
+    evaluation: str | None = None,
     phase: Literal["mean", "actual"] = "mean",
     drift: bool = False,
 ) -> None:
-    """Add a sea and its force-RAO loads on the vessel.
+    """Add a sea and its force-RAO loads on a vessel, or put one more vessel into the sea that is there.
+
+    A scene has one sea, with phases from the origin of the inertial frame. For every further vessel call it
+    again, with the same sea or without any argument of it.
 
     Parameters
     ----------
@@ -79,12 +86,17 @@ def add_sea(
         Of the realisation (1, 200 components); see `seacrane.sea.realise_waves`.
     sea : SeaState
         In place of all of these from hs on: any spectra, several wave systems, measured waves.
+    position : array_like, shape (2,)
+        Where the vessel's loads are taken, (x, y), m, inertial frame; default: where its body starts.
+    heading_deg : float
+        At which heading, deg from +x towards +y; default: that of its body at the start.
     relative_bound : float
-        Error bound of the load table over the sum of component magnitudes; 0: exact sum in every evaluation.
+        Error bound of the load table over the sum of component magnitudes (1e-9); 0: exact sum in every
+        evaluation.
     evaluation : str
-        "table", "fft" (needs components of uniform placement) or "exact"; see `seacrane.Waves`.
+        "table" (default), "fft" (needs components of uniform placement) or "exact"; see `seacrane.Waves`.
     phase : str
-        "mean": loads at the vessel's mean position and heading. "actual": at those of the moment, see
+        "mean": loads at that position and heading. "actual": at those of the moment, see
         `seacrane.use_actual_position`.
     drift : bool
         Adds Newman's slow drift, see `seacrane.add_drift`.
@@ -92,15 +104,15 @@ def add_sea(
     Raises
     ------
     SceneError
-        For a value out of range, or `sea` beside what it replaces; ValueError for a frequency outside the
-        database.
+        For a value out of range, `sea` beside what it replaces, a second sea, or a vessel that is not there;
+        ValueError for a frequency outside the database.
 
     Warns
     -----
     SteepSeaWarning
         A sea steeper than any that stands.
     DepthMismatchWarning
-        A `sea` of another water depth than the database.
+        A sea of another water depth than the database.
     """
     arguments = {"hs": hs, "tp": tp, "gamma": gamma, "spectrum": spectrum, "direction_deg": direction_deg,
                  "spreading": spreading, "seed": seed, "count": count}  # fmt: skip
@@ -108,49 +120,106 @@ def add_sea(
     if phase not in ("mean", "actual"):
         raise SceneError(f"sea: phase is {phase!r}; choose 'mean' or 'actual'")
     flag_of("sea: drift", drift)
-    if sea is not None:
-        if given:
-            raise SceneError(f"sea: given beside {', '.join(given)}; put these into the SeaState")
-        if not isinstance(sea, SeaState):
-            raise SceneError(f"sea is {sea!r}; give a SeaState")
-        _check_depth(sea, database)
-        notes: dict[str, Any] = {"sea": sea.description()}
-    else:
+    if sea is not None and given:
+        raise SceneError(f"sea: given beside {', '.join(given)}; put these into the SeaState")
+    if sea is None and given.get("hs") == 0.0:
+        scene.waves = None
+        return
+    waves, notes = _sea_of(scene, vessel, sea, given)
+    waves = _evaluated(waves, relative_bound=relative_bound, evaluation=evaluation)
+    _check_depth(waves.depth, database)
+    place, heading = _pose(scene, vessel, position, heading_deg)
+    transfer = _transfer(database, waves.omega, waves.direction - heading)
+    hull = HullLoads(transfer=transfer, position=place, heading=heading)
+    scene.waves = replace(waves, hulls={**waves.hulls, vessel: hull})
+    if drift:
+        add_drift(scene, database, vessel=vessel)
+    if phase == "actual":
+        use_actual_position(scene, database, vessel=vessel)
+    scene.notes.update(notes, waves_relative_bound=waves.relative_bound)
+
+
+def _sea_of(
+    scene: Scene, vessel: str, sea: SeaState | None, given: dict[str, Any]
+) -> tuple[Waves, dict[str, Any]]:
+    """The sea asked for with the notes on it; in a scene that has a sea, that one, if it is no other."""
+    there = scene.waves
+    if there is not None and sea is None and not given:
+        return there, {}
+    asked, notes = _realised(sea, given)
+    if there is None:
+        return asked, notes
+    arrays = ("omega", "amplitude", "phase", "direction", "depth")
+    if not all(np.array_equal(getattr(there, name), getattr(asked, name)) for name in arrays):
+        raise SceneError(
+            f"sea: vessel {vessel!r} is given another sea than {', '.join(map(repr, there.hulls))} has, and "
+            "a scene has one; leave out what describes it to put the vessel into that sea, put several wave "
+            "systems into one SeaState, or set scene.waves = None before a new sea"
+        )
+    return there, {}
+
+
+def _realised(sea: SeaState | None, given: dict[str, Any]) -> tuple[Waves, dict[str, Any]]:
+    """A sea with no vessel in it yet, and the notes on it."""
+    if sea is None:
         chosen = DEFAULTS | given
-        if chosen["hs"] == 0.0:
-            scene.waves = None
-            return
-        if gamma is not None and chosen["spectrum"] != "jonswap":
+        if "gamma" in given and chosen["spectrum"] != "jonswap":
             raise SceneError(f"gamma: {chosen['spectrum']!r} has no free peak enhancement; leave gamma out")
         sea, notes = _one_system(**chosen)
+    elif isinstance(sea, SeaState):
+        notes = {"sea": sea.description()}
+    else:
+        raise SceneError(f"sea is {sea!r}; give a SeaState")
     realised = sea.realise()
     waves = realised.waves
-    omega, direction = np.array(waves.omega), np.array(waves.direction)
-    scene.waves = Waves(
-        body=vessel,
-        omega=omega,
+    if len(realised.systems) > 1:
+        notes["realised_hs_of_systems"] = {system.name: system.hs for system in realised.systems}
+    return Waves(
+        omega=np.array(waves.omega),
         amplitude=np.array(waves.amplitude),
         phase=np.array(waves.phase),
-        direction=direction,
-        transfer=_transfer(database, omega, direction),
-        relative_bound=relative_bound,
+        direction=np.array(waves.direction),
+        hulls={},
         depth=sea.depth,
-        evaluation=evaluation,
         information={
             "seed": sea.seed,
             "realised_hs": realised.hs,
-            "wave_components": int(omega.size),
+            "wave_components": len(waves.omega),
             "repeat_period_s": float(realised.repeat.time),
             "repeat_found": int(realised.repeat.found),
         },
-    )
-    if drift:
-        add_drift(scene, database)
-    if phase == "actual":
-        use_actual_position(scene, database)
-    if len(realised.systems) > 1:
-        notes["realised_hs_of_systems"] = {system.name: system.hs for system in realised.systems}
-    scene.notes.update(notes, waves_relative_bound=relative_bound)
+    ), notes
+
+
+def _evaluated(waves: Waves, **given: Any) -> Waves:
+    """With the settings given; vessels of one sea share them."""
+    given = {name: value for name, value in given.items() if value is not None}
+    for name, value in given.items():
+        if waves.hulls and value != getattr(waves, name):
+            raise SceneError(
+                f"sea: {name} is {value!r}, that of {', '.join(map(repr, waves.hulls))} is "
+                f"{getattr(waves, name)!r}; vessels in one sea share it, leave it out"
+            )
+    return replace(waves, **given)
+
+
+def _pose(
+    scene: Scene, vessel: str, position: Any, heading_deg: float | None
+) -> tuple[tuple[float, float], float]:
+    """Where a vessel's loads are taken: (x, y) and heading, as its body starts where they are not given."""
+    body = scene.bodies.get(vessel)
+    if body is None:
+        known = ", ".join(repr(v.body) for v in scene.vessels.values()) or "none"
+        raise SceneError(f"sea: there is no vessel {vessel!r}, the scene has {known}; call add_vessel first")
+    x, y = body.position[:2] if position is None else shaped_of("sea: position", position, (2,))
+    heading = heading_of(body.quaternion)
+    if heading_deg is not None:
+        heading = float(np.radians(number_of("sea: heading_deg", heading_deg)))
+    if not np.isfinite([x, y, heading]).all():
+        raise SceneError(
+            f"sea: loads of {vessel!r} are taken at x, y, heading {x}, {y}, {heading}; give finite ones"
+        )
+    return (float(x), float(y)), heading
 
 
 def _one_system(
@@ -189,11 +258,11 @@ def _spectrum(name: str, hs: float, tp: float, gamma: float | Literal["dnv"]) ->
     )
 
 
-def _check_depth(sea: SeaState, database: HydroDatabase) -> None:
-    if not math.isclose(sea.depth, database.depth, rel_tol=0.01):
+def _check_depth(depth: float, database: HydroDatabase) -> None:
+    if not math.isclose(depth, database.depth, rel_tol=0.01):
         warnings.warn(
             f"database {database.name!r}: forces are for a depth of {database.depth:g} m, the sea is "
-            f"{sea.depth:g} m deep: where waves feel the bottom, loads and wavelengths disagree; set "
+            f"{depth:g} m deep: where waves feel the bottom, loads and wavelengths disagree; set "
             "SeaState(depth=...) to the database's",
             DepthMismatchWarning,
             stacklevel=3,

@@ -242,6 +242,7 @@ class Run:
             drivers=list(scene.drivers),
             links=[name for name, joint in scene.joints.items() if joint.kind == "distance"],
             limits=[name for name, _ in self.model.limits],
+            vessels=list(scene.vessels),
             events=self.events(),
             stats=stats,
             interrupted=self.interrupted,
@@ -382,8 +383,8 @@ def simulate(
 
     Warns
     -----
-    LargeHeelWarning, MeanHeadingWarning, OutsideDatabaseWarning, PushingLinkWarning, FullTurnWarning,
-    NearSingularWarning
+    LargeHeelWarning, MeanPositionWarning, MeanHeadingWarning, ForwardSpeedWarning, MooringTurnWarning,
+    NoWaveLoadsWarning, OutsideDatabaseWarning, PushingLinkWarning, FullTurnWarning, NearSingularWarning
         After the run, when its motions left the range in which the models hold; also in `stats`, as
         "validity". See docs/troubleshooting.md.
     """

@@ -9,6 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane.caller import warn_caller
+from seacrane.hull_range import hull_findings, motions
+from seacrane.vessel_notes import noted
 
 if TYPE_CHECKING:
     from seacrane.scene import Scene
@@ -18,7 +20,6 @@ Channels = Mapping[str, Array]
 Finding = tuple[type[Warning], str]
 
 LARGEST_HEEL = np.radians(20.0)  # of roll and pitch: the sine of it is 2 % off, a righting arm 10 % and more
-LARGEST_YAW = np.radians(15.0)
 SINGULAR = 1e-4  # relative singular value below which combinations of constraints are not enforced
 FOREIGN_SHARE = 0.2  # of the energy of a motion, outside the database
 LEAST_RATE = 1e-3  # m/s, rad/s: motions below it do not matter
@@ -28,10 +29,6 @@ MOTIONS = ("surge", "sway", "heave", "roll", "pitch", "yaw")
 
 class LargeHeelWarning(UserWarning):
     """Roll or pitch beyond 20 deg: the linear restoring and the wave loads are those of an upright hull."""
-
-
-class MeanHeadingWarning(UserWarning):
-    """Yaw beyond 15 deg, with wave loads of the mean heading: of a direction that the hull has left."""
 
 
 class OutsideDatabaseWarning(UserWarning):
@@ -53,7 +50,7 @@ class NearSingularWarning(UserWarning):
 def findings(scene: Scene, time: Array, channels: Channels, stats: Mapping[str, Any]) -> list[Finding]:
     """All that is out of range in a run: warning classes and messages. Channels left out are not judged."""
     found: list[Finding] = []
-    for look in (_heel, _yaw, _frequencies, _links, _turns):
+    for look in (_heel, hull_findings, _frequencies, _links, _turns):
         found += look(scene, time, channels)
     return found + _singular(scene, stats)
 
@@ -76,65 +73,54 @@ def _worst(time: Array, values: Array) -> tuple[float, float]:
 
 
 def _heel(scene: Scene, time: Array, channels: Channels) -> list[Finding]:
-    if "vessel_motion" not in channels:
-        return []
+    return [
+        (
+            LargeHeelWarning,
+            f"vessel {vessel.name!r}: {name} reaches {np.degrees(angle):.3g} deg at t = {at:.6g} s, beyond "
+            f"{np.degrees(LARGEST_HEEL):.0f} deg: restoring is linear and wave loads are those of "
+            "the upright hull, so that righting moments and capsize are not told. Lower the sea or "
+            "the load, add roll damping, or take motions beyond as an alarm only",
+        )
+        for vessel, motion in motions(scene, channels)
+        for name in ("roll", "pitch")
+        for angle, at in [_worst(time, motion[:, MOTIONS.index(name)])]
+        if angle > LARGEST_HEEL
+    ]
+
+
+def _frequencies(scene: Scene, time: Array, channels: Channels) -> list[Finding]:
+    """Energy of a vessel's velocities above its database's highest frequency, motion by motion."""
     found: list[Finding] = []
-    for motion in ("roll", "pitch"):
-        angle, at = _worst(time, channels["vessel_motion"][:, MOTIONS.index(motion)])
-        if angle > LARGEST_HEEL:
+    for vessel, motion in motions(scene, channels):
+        band = noted(scene, "database_omega", vessel.body)
+        if band is None or time.size < FEWEST_OUTPUTS:
+            continue
+        worst, share = _foreign(time, motion, band[1])
+        if share > FOREIGN_SHARE:
             found.append(
                 (
-                    LargeHeelWarning,
-                    f"vessel: {motion} reaches {np.degrees(angle):.3g} deg at t = {at:.6g} s, beyond "
-                    f"{np.degrees(LARGEST_HEEL):.0f} deg: restoring is linear and wave loads are those of "
-                    "the upright hull, so that righting moments and capsize are not told. Lower the sea or "
-                    "the load, add roll damping, or take motions beyond as an alarm only",
+                    OutsideDatabaseWarning,
+                    f"vessel {vessel.name!r}: {share:.0%} of the energy of {MOTIONS[worst]} is above "
+                    f"{band[1]:.4g} rad/s, where database {noted(scene, 'database', vessel.body)!r} ends: "
+                    "added mass and damping are guessed there. Compute the database to higher frequencies, "
+                    "or look for what shakes the vessel that fast",
                 )
             )
     return found
 
 
-def _yaw(scene: Scene, time: Array, channels: Channels) -> list[Finding]:
-    if "vessel_motion" not in channels or scene.waves is None or scene.waves.force_by_heading is not None:
-        return []
-    angle, at = _worst(time, channels["vessel_motion"][:, 5])
-    if angle <= LARGEST_YAW:
-        return []
-    return [
-        (
-            MeanHeadingWarning,
-            f"vessel: yaw reaches {np.degrees(angle):.3g} deg at t = {at:.6g} s, and wave loads are those of "
-            "the mean heading: they act from a direction that the hull has left. Use phase='actual' in "
-            "add_sea (seacrane.use_actual_position), or a stiffer mooring",
-        )
-    ]
-
-
-def _frequencies(scene: Scene, time: Array, channels: Channels) -> list[Finding]:
-    """Energy of the vessel's velocities above the database's highest frequency, motion by motion."""
-    band = scene.notes.get("database_omega")
-    if "vessel_motion" not in channels or band is None or time.size < FEWEST_OUTPUTS:
-        return []
+def _foreign(time: Array, motion: Array, highest: float) -> tuple[int, float]:
+    """The motion with the largest share of energy above a frequency (rad/s), and that share."""
     step = float(time[1] - time[0])
     even = int(time.size) - (abs(time[-1] - time[-2] - step) > 1e-6 * step)  # the last output may be early
-    rate = np.diff(channels["vessel_motion"][:even], axis=0) / step
+    rate = np.diff(motion[:even], axis=0) / step
     rate = rate - rate.mean(axis=0)
     energy = np.abs(np.fft.rfft(rate * np.hanning(len(rate))[:, None], axis=0)) ** 2
     omega = 2.0 * np.pi * np.fft.rfftfreq(len(rate), step)
     total = energy.sum(axis=0)
-    share = energy[omega > band[1]].sum(axis=0) / np.where(total > 0.0, total, 1.0)
+    share = energy[omega > highest].sum(axis=0) / np.where(total > 0.0, total, 1.0)
     share[rate.std(axis=0) < LEAST_RATE] = 0.0
-    worst = int(share.argmax())
-    if share[worst] <= FOREIGN_SHARE:
-        return []
-    return [
-        (
-            OutsideDatabaseWarning,
-            f"vessel: {share[worst]:.0%} of the energy of {MOTIONS[worst]} is above {band[1]:.4g} rad/s, "
-            f"where database {scene.notes.get('database', '')!r} ends: added mass and damping are guessed "
-            "there. Compute the database to higher frequencies, or look for what shakes the vessel that fast",
-        )
-    ]
+    return int(share.argmax()), float(share.max())
 
 
 def _hangs(scene: Scene, link: str) -> bool:

@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 from functools import lru_cache
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from seacrane import _core
+from seacrane.checked import number_of, shaped_of
 from seacrane.errors import SceneError
 from seacrane.scene import Scene
 from seacrane.sea_state import add_sea as add_sea
+from seacrane.vessel_notes import note_on
 
 if TYPE_CHECKING:
     from seacrane.hydro import HydroDatabase, MemoryModel, RetardationModel
@@ -26,12 +28,14 @@ def add_vessel(
     database: HydroDatabase,
     *,
     name: str = "vessel",
+    position: Any = (0.0, 0.0, 0.0),
+    heading_deg: float = 0.0,
     memory: str = "per-pair",
     kinematics: str = "yaw_following",
     mooring_period: float | None = MOORING_PERIOD,
     mooring_damping: float = MOORING_DAMPING,
 ) -> None:
-    """Add a vessel with its body frame on the inertial frame: origin at the database's reference point.
+    """Add a vessel, upright; its body frame has its origin at the database's reference point.
 
     Parameters
     ----------
@@ -40,6 +44,10 @@ def add_vessel(
         Hydrodynamics of the vessel without the bodies that the scene models itself.
     name : str
         Of the body and of its hydrodynamics.
+    position : array_like, shape (3,)
+        Of the reference point at the start, where its mooring has no load: x, y, z, m, inertial frame.
+    heading_deg : float
+        At the start, deg from +x towards +y.
     memory : str
         "per-pair": fluid memory as one state-space model per pair of motions, eqs (28)-(31). "passive": one
         model per group of coupled motions, proven passive and with fewer states. "convolution": the
@@ -57,7 +65,7 @@ def add_vessel(
     Raises
     ------
     SceneError
-        For a memory model that this version does not have.
+        For a memory model that this version does not have, or a place or heading that is no finite number.
 
     Warns
     -----
@@ -70,12 +78,15 @@ def add_vessel(
     if memory not in MEMORY:
         raise SceneError(f"memory {memory!r} is not available in this version; choose {' or '.join(MEMORY)}")
     warn_of_water(database, gravity=scene.gravity)
+    half = 0.5 * np.radians(number_of(f"vessel {name!r}: heading_deg", heading_deg))
     parameters = vessel_parameters(database, memory=None if memory == "none" else _memory(database, memory))
     scene.add_body(
         name=name,
         mass=parameters.mass,
         inertia=parameters.inertia,
         center_of_mass=parameters.centre_of_mass,
+        position=shaped_of(f"vessel {name!r}: position", position, (3,)),
+        quaternion=(np.cos(half), 0.0, 0.0, np.sin(half)),
     )
     heavy = parameters.mass * np.array([1.0, 1.0, 0.0]) + np.diag(parameters.added_mass)[[0, 1, 5]]
     heavy[2] += parameters.inertia[2, 2] + parameters.mass * float(np.sum(parameters.centre_of_mass[:2] ** 2))
@@ -92,7 +103,8 @@ def add_vessel(
         kinematics=kinematics,
     )
     band = [float(database.omega[0]), float(database.omega[-1])]
-    scene.notes.update(database=database.name, database_omega=band, memory=memory, kinematics=kinematics)
+    note_on(scene, name, database=database.name, database_omega=band, memory=memory)
+    scene.notes.update(kinematics=kinematics)
 
 
 def _without_yaw(restoring: NDArray[np.float64]) -> NDArray[np.float64]:

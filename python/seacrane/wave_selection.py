@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from seacrane.checked import number_of
 
 if TYPE_CHECKING:
-    from seacrane.waves import ByHeading, Waves
+    from seacrane.waves import ByHeading, HullLoads, Waves
 
 Array = NDArray[np.float64]
 
@@ -20,10 +20,10 @@ def without_negligible(waves: Waves) -> Waves:
     """The same sea without its smallest components.
 
     Components are left out, smallest first, while the magnitudes of all that are left out stay below
-    `waves.negligible` times the sum of the magnitudes of all, in each of the six loads, in the elevation and
-    in the slow drift. The first two can then never differ by more, at any time; slow drift, a product of two
-    sums, to first order. At least one component stays, and all do in a series made by FFT, which costs the
-    same with fewer.
+    `waves.negligible` times the sum of the magnitudes of all, in each of the six loads on every vessel, in
+    the elevation and in the slow drift. The first two can then never differ by more, at any time; slow drift,
+    a product of two sums, to first order. At least one component stays, and all do in a series made by FFT,
+    which costs the same with fewer.
 
     Raises
     ------
@@ -37,16 +37,22 @@ def without_negligible(waves: Waves) -> Waves:
     def some(table: ByHeading | None) -> ByHeading | None:
         return None if table is None else replace(table, values=np.asarray(table.values)[:, kept])
 
+    def fewer(hull: HullLoads) -> HullLoads:
+        return replace(
+            hull,
+            transfer=np.asarray(hull.transfer)[kept],
+            force_by_heading=some(hull.force_by_heading),
+            drift=None if hull.drift is None else np.asarray(hull.drift)[kept],
+            drift_by_heading=some(hull.drift_by_heading),
+        )
+
     return replace(
         waves,
         omega=np.asarray(waves.omega)[kept],
         amplitude=np.asarray(waves.amplitude)[kept],
         phase=np.asarray(waves.phase)[kept],
         direction=np.asarray(waves.direction)[kept],
-        transfer=np.asarray(waves.transfer)[kept],
-        force_by_heading=some(waves.force_by_heading),
-        drift=None if waves.drift is None else np.asarray(waves.drift)[kept],
-        drift_by_heading=some(waves.drift_by_heading),
+        hulls={body: fewer(hull) for body, hull in waves.hulls.items()},
     )
 
 
@@ -71,22 +77,26 @@ def kept_components(waves: Waves) -> NDArray[np.bool_]:
 
 def _magnitudes(waves: Waves) -> Array | None:
     """What each component adds at most, (n, channels); none where arrays do not fit together."""
-    n = np.size(waves.omega)
-    tables = [np.asarray(t.values) for t in (waves.force_by_heading, waves.drift_by_heading) if t is not None]
-    rows = [waves.omega, waves.amplitude, waves.phase, waves.direction, waves.transfer, waves.drift]
-    if any(np.shape(a)[:1] != (n,) for a in rows if a is not None) or any(
-        t.shape[1:2] != (n,) for t in tables
-    ):
+    n, hulls = np.size(waves.omega), waves.hulls.values()
+    tables = [np.asarray(table.values) for hull in hulls
+              for table in (hull.force_by_heading, hull.drift_by_heading) if table is not None]  # fmt: skip
+    rows: list[Any] = [waves.omega, waves.amplitude, waves.phase, waves.direction]
+    rows += [array for hull in hulls for array in (hull.transfer, hull.drift) if array is not None]
+    if any(np.shape(a)[:1] != (n,) for a in rows) or any(t.shape[1:2] != (n,) for t in tables):
         return None
     amplitude = np.abs(np.asarray(waves.amplitude, dtype=float))[:, None]
-    columns = [amplitude, amplitude * np.abs(np.asarray(waves.transfer))]
+    return np.hstack([amplitude, *(part for hull in hulls for part in _loads(amplitude, hull))])
+
+
+def _loads(amplitude: Array, hull: HullLoads) -> list[Array]:
+    columns = [amplitude * np.abs(np.asarray(hull.transfer))]
     # Slow drift multiplies two sums of sqrt(D) a: leaving out a share of one changes it by twice that share.
-    if waves.drift is not None:
-        columns.append(2.0 * amplitude * np.sqrt(np.abs(np.asarray(waves.drift))))
-    if waves.force_by_heading is not None:
-        columns.append(amplitude * np.abs(np.asarray(waves.force_by_heading.values)).max(axis=0))
-    if waves.drift_by_heading is not None:
+    if hull.drift is not None:
+        columns.append(2.0 * amplitude * np.sqrt(np.abs(np.asarray(hull.drift))))
+    if hull.force_by_heading is not None:
+        columns.append(amplitude * np.abs(np.asarray(hull.force_by_heading.values)).max(axis=0))
+    if hull.drift_by_heading is not None:
         columns.append(
-            2.0 * amplitude * np.sqrt(np.abs(np.asarray(waves.drift_by_heading.values)).max(axis=0))
+            2.0 * amplitude * np.sqrt(np.abs(np.asarray(hull.drift_by_heading.values)).max(axis=0))
         )
-    return np.hstack(columns)
+    return columns

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from seacrane import _core
 
 if TYPE_CHECKING:
-    from seacrane.waves import Waves
+    from seacrane.waves import HullLoads, Waves
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -58,12 +58,12 @@ def grid_of(omega: Array) -> tuple[float, NDArray[np.int64]]:
     )
 
 
-def wave_table(waves: Waves, load: _core.ExactWaveLoad) -> _core.WaveTable:
+def wave_table(waves: Waves, hull: HullLoads, load: _core.ExactWaveLoad) -> _core.WaveTable:
     """The first-order load's table over one period, within `waves.relative_bound`."""
     step, number = grid_of(np.asarray(waves.omega, dtype=float))
     count = _knot_count(step, number, _core.WaveTable.largest_step(load, relative_bound=waves.relative_bound))
-    transfer = np.asarray(waves.transfer, dtype=complex)
-    weight = np.column_stack([transfer, np.ones(len(number))]) * _phasors(waves, load)[:, None]
+    transfer = np.asarray(hull.transfer, dtype=complex)
+    weight = np.column_stack([transfer, np.ones(len(number))]) * _phasors(hull, load)[:, None]
     knots = np.empty((count, 3, 7))
     for order in range(3):
         spectrum = np.zeros((count // 2 + 1, 7), dtype=complex)
@@ -73,14 +73,14 @@ def wave_table(waves: Waves, load: _core.ExactWaveLoad) -> _core.WaveTable:
     return _core.WaveTable(load, relative_bound=waves.relative_bound, period=2.0 * np.pi / step, knots=knots)
 
 
-def drift_table(waves: Waves, load: _core.DriftLoad) -> _core.DriftTable:
+def drift_table(waves: Waves, hull: HullLoads, load: _core.DriftLoad) -> _core.DriftTable:
     """The slow drift's table over one period: products of its envelopes' series and their derivatives."""
     step, number = grid_of(np.asarray(waves.omega, dtype=float))
     count = _knot_count(
         step, number, _core.DriftTable.largest_step(load, relative_bound=waves.relative_bound)
     )
-    coefficient = np.asarray(waves.drift, dtype=float)
-    weight = np.column_stack([coefficient, np.ones(len(number))]) * _phasors(waves, load)[:, None]
+    coefficient = np.asarray(hull.drift, dtype=float)
+    weight = np.column_stack([coefficient, np.ones(len(number))]) * _phasors(hull, load)[:, None]
     series = []
     for order in range(3):
         spectrum = np.zeros((count, 7), dtype=complex)
@@ -97,9 +97,9 @@ def drift_table(waves: Waves, load: _core.DriftLoad) -> _core.DriftTable:
     return _core.DriftTable(load, relative_bound=waves.relative_bound, period=2.0 * np.pi / step, knots=knots)
 
 
-def _phasors(waves: Waves, load: _core.ExactWaveLoad | _core.DriftLoad) -> Complex:
-    """a exp(i phase) at the mean position, shape (n,)."""
-    sea, (x, y) = load.waves, waves.position
+def _phasors(hull: HullLoads, load: _core.ExactWaveLoad | _core.DriftLoad) -> Complex:
+    """a exp(i phase) where the loads are taken, shape (n,)."""
+    sea, (x, y) = load.waves, hull.position
     along = x * np.cos(sea.direction) + y * np.sin(sea.direction)
     return np.asarray(sea.amplitude * np.exp(1j * (sea.phase - sea.wavenumber * along)))
 

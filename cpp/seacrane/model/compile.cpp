@@ -268,6 +268,11 @@ class Compiler {
       v.mean_position = start.position;
       v.mean_yaw = roll_pitch_yaw<double>(rotation_from_quaternion<double>(start.quaternion))[2];
       model_.paper_kinematics = d.kinematics == VesselKinematics::paper;
+      if (model_.paper_kinematics && std::fabs(v.mean_yaw) > 1e-9) {
+        throw SceneError("vessel '" + d.name +
+                         "': kinematics 'paper' act along the inertial axes, and it starts at a heading of " +
+                         to_text(v.mean_yaw) + " rad; start it at 0, or use 'yaw_following'");
+      }
       model_.vessels.push_back(v);
     }
     for (const auto& d : scene_.wave_loads) {

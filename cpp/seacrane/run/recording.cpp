@@ -22,6 +22,22 @@ std::size_t distance_count(const Model& m) {
   return count;
 }
 
+/// A channel of every vessel: with one, without an axis of vessels.
+std::vector<std::size_t> by_vessel(const Model& m, std::vector<std::size_t> shape) {
+  if (m.vessels.size() > 1) shape.insert(shape.begin(), m.vessels.size());
+  return shape;
+}
+
+const WaveComponents& sea_of(const WaveLoadDescription& load) {
+  if (load.positioned) return load.positioned->waves();
+  return load.exact ? load.exact->waves() : load.table->exact()->waves();
+}
+
+bool any_drift(const Model& m) {
+  return std::any_of(m.wave_loads.begin(), m.wave_loads.end(),
+                     [](const WaveLoad& wave) { return wave.sources.has_drift(); });
+}
+
 /// The one list of channels; what a scene does not hold is left out.
 std::vector<Offer> offers(const Model& m) {
   const std::size_t n = m.bodies.size();
@@ -32,7 +48,7 @@ std::vector<Offer> offers(const Model& m) {
                             {"euler_xyz", {n, 3}, true},
                             {"acceleration", {n, 3}, false},
                             {"angular_acceleration", {n, 3}, false}};
-  if (!m.vessels.empty()) out.push_back({"vessel_motion", {6}, true});
+  if (!m.vessels.empty()) out.push_back({"vessel_motion", by_vessel(m, {6}), true});
   if (!m.coordinates.empty()) {
     out.push_back({"coordinate", {m.coordinates.size()}, true});
     out.push_back({"coordinate_rate", {m.coordinates.size()}, true});
@@ -45,9 +61,9 @@ std::vector<Offer> offers(const Model& m) {
   }
   if (distance_count(m) > 0) out.push_back({"tension", {distance_count(m)}, true});
   if (!m.wave_loads.empty()) {
-    out.push_back({"wave_elevation", {}, true});
-    out.push_back({"wave_force", {6}, true});
-    if (m.wave_loads.front().sources.has_drift()) out.push_back({"drift_force", {6}, true});
+    out.push_back({"wave_elevation", by_vessel(m, {}), true});
+    out.push_back({"wave_force", by_vessel(m, {6}), true});
+    if (any_drift(m)) out.push_back({"drift_force", by_vessel(m, {6}), true});
   }
   if (!m.limits.empty()) {
     out.push_back({"limit_force", {m.limits.size()}, true});
@@ -186,16 +202,29 @@ void Recording::write_quaternions(const RedundantSystem& system) {
   }
 }
 
-void Recording::write_vessel(const RedundantSystem& system) {
+void Recording::write_vessels(double t, const RedundantSystem& system) {
   if (double* out = at_.vessel_motion) {
-    const Vessel& vessel = model_->vessels.front();
-    const BodyKinematics<double>& k = system.bodies()[idx(vessel.body)];
-    view<3>(out) = vessel.displacement(k);
-    view<3>(out + 3) = vessel.angles_from_mean(YawFrame<double>(k));
+    for (const Vessel& vessel : model_->vessels) {
+      const BodyKinematics<double>& k = system.bodies()[idx(vessel.body)];
+      view<3>(out) = vessel.displacement(k);
+      view<3>(out + 3) = vessel.angles_from_mean(YawFrame<double>(k));
+      out += 6;
+    }
   }
-  if (double* out = at_.wave_elevation) *out = system.waves(0).elevation();
-  if (double* out = at_.wave_force) view<6>(out) = system.waves(0).force();
-  if (double* out = at_.drift_force) view<6>(out) = system.waves(0).drift();
+  const auto& loads = model_->wave_loads;
+  if (double* out = at_.wave_elevation; out && loads.size() < model_->vessels.size()) {
+    // Of vessels that the waves do not load, where they rest.
+    for (const Vessel& vessel : model_->vessels) {
+      *out++ = sea_of(loads.front().sources).elevation(t, vessel.mean_position.x(), vessel.mean_position.y());
+    }
+  }
+  for (std::size_t i = 0; i < loads.size(); ++i) {
+    const WaveForces& waves = system.waves(i);
+    const std::size_t v = idx(loads[i].vessel);
+    if (double* out = at_.wave_elevation) out[v] = waves.elevation();
+    if (double* out = at_.wave_force) view<6>(out + 6 * v) = waves.force();
+    if (double* out = at_.drift_force) view<6>(out + 6 * v) = waves.drift();
+  }
 }
 
 void Recording::write_joint_coordinates(double t, const RedundantSystem& system) {
@@ -260,7 +289,7 @@ void Recording::write_reactions(const RedundantSystem& system) {
 void Recording::append(double t, const double* y, RedundantSystem& system, const Kept& kept) {
   write_bodies(system);
   write_quaternions(system);
-  write_vessel(system);
+  write_vessels(t, system);
   write_joint_coordinates(t, system);
   write_reactions(system);
   if (double* out = at_.constraint_error) *out = kept.after.position;

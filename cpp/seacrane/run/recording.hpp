@@ -65,7 +65,7 @@ class Recording {
 
   void write_bodies(RedundantSystem& system);
   void write_quaternions(const RedundantSystem& system);
-  void write_vessel(const RedundantSystem& system);
+  void write_vessels(double t, const RedundantSystem& system);
   void write_joint_coordinates(double t, const RedundantSystem& system);
   void write_reactions(const RedundantSystem& system);
 

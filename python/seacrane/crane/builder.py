@@ -16,6 +16,7 @@ from seacrane.crane import data_file, statics
 from seacrane.crane.geometry import BODIES, CraneGeometry, plane_axes
 from seacrane.crane.mass_properties import MassProperties, combine
 from seacrane.errors import SceneError
+from seacrane.frames import quaternion_product, rotation_matrix
 
 if TYPE_CHECKING:
     from seacrane.scene import Scene
@@ -317,13 +318,16 @@ class KnuckleBoomCrane:
         ----------
         scene : Scene
         base : str
-            Body that carries the crane ("ground" for a fixed base). A vessel must be described with its body
-            frame on the inertial frame, because poses and joints are given in the vessel frame.
+            Body that carries the crane, wherever it is described ("ground" for a fixed base).
         foot, theta, s1, s2
             As `bodies`.
         payload : Payload or None
         """
         place: dict[str, Any] = {"foot": foot, "theta": theta, "s1": s1, "s2": s2}
+        origin, turn = np.zeros(3), np.array([1.0, 0.0, 0.0, 0.0])
+        if base in scene.bodies:
+            origin, turn = np.array(scene.bodies[base].position), np.array(scene.bodies[base].quaternion)
+        to_inertial = rotation_matrix(turn)
         records = self.bodies(**place)
         if payload is not None:
             records.append(self.payload_body(payload, **place))
@@ -333,13 +337,16 @@ class KnuckleBoomCrane:
                 mass=body.mass,
                 inertia=body.inertia,
                 center_of_mass=body.center_of_mass,
-                position=body.position,
-                quaternion=body.quaternion,
+                position=origin + to_inertial @ body.position,
+                quaternion=quaternion_product(turn, body.quaternion),
             )
         for joint in self.joints(**place, base=base, payload=payload):
-            scene.add_joint(
-                kind=joint.kind, name=joint.name, first=joint.first, second=joint.second, **_used(joint)
-            )
+            used = _used(joint)
+            used |= {
+                key: origin + to_inertial @ used[key] for key in ("point", "second_point") if key in used
+            }
+            used |= {key: to_inertial @ used[key] for key in ("axis", "second_axis") if key in used}
+            scene.add_joint(kind=joint.kind, name=joint.name, first=joint.first, second=joint.second, **used)
 
 
 def _link(tip: Array, payload: Payload) -> JointRecord:

@@ -29,12 +29,30 @@ def _single(quantity: str, unit: str, values: Array) -> Panel:
     return Panel(quantity=quantity, unit=unit, lines=(Line(label="", values=values),))
 
 
-def _vessel(result: Result) -> list[Panel]:
-    motion = result["vessel_motion"]
+def _by_vessel(result: Result, channel: str) -> dict[str, Array]:
+    """The values of every vessel, by its name; of the only one as "vessel"."""
+    names = result.coords.get("vessel", ())
+    return {name: result[channel][:, i] for i, name in enumerate(names)} or {"vessel": result[channel]}
+
+
+def _vessels(result: Result) -> list[Panel]:
     return [
-        Panel(quantity="vessel", unit="m", lines=_lines(MOTIONS[:3], motion[:, :3])),
-        Panel(quantity="vessel", unit="deg", lines=_lines(MOTIONS[3:], np.rad2deg(motion[:, 3:]))),
+        panel
+        for name, motion in _by_vessel(result, "vessel_motion").items()
+        for panel in (
+            Panel(quantity=name, unit="m", lines=_lines(MOTIONS[:3], motion[:, :3])),
+            Panel(quantity=name, unit="deg", lines=_lines(MOTIONS[3:], np.rad2deg(motion[:, 3:]))),
+        )
     ]
+
+
+def _elevation(result: Result) -> list[Panel]:
+    at = _by_vessel(result, "wave_elevation")
+    lines = tuple(
+        Line(label=name if len(at) > 1 else "", values=values, colour=i)
+        for i, (name, values) in enumerate(at.items())
+    )
+    return [Panel(quantity="wave elevation", unit="m", lines=lines)]
 
 
 def _last_body(result: Result) -> list[Panel]:
@@ -61,8 +79,8 @@ def _joint_forces(result: Result) -> list[Panel]:
 
 # Which channel brings which panels; a channel the run has not is left out of the picture.
 PANELS: dict[str, Callable[[Result], list[Panel]]] = {
-    "vessel_motion": _vessel,
-    "wave_elevation": lambda r: [_single("wave elevation", "m", r["wave_elevation"])],
+    "vessel_motion": _vessels,
+    "wave_elevation": _elevation,
     "position": _last_body,
     "slew_angle": lambda r: [_single("slew angle", "deg", np.rad2deg(r["slew_angle"]))],
     "stroke": _strokes,

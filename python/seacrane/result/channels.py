@@ -18,10 +18,16 @@ class Channel:
     dims: tuple[str, ...]
     unit: str
     long_name: str
+    by_vessel: bool = False
+
+    def dims_of(self, axes: int) -> tuple[str, ...]:
+        """Dimensions of an array with so many axes: with several vessels, "vessel" comes after time."""
+        several = self.by_vessel and axes == len(self.dims) + 1
+        return ("time", "vessel", *self.dims[1:]) if several else self.dims
 
 
-def _channel(dims: str, unit: str, long_name: str) -> Channel:
-    return Channel(dims=("time", *dims.split()), unit=unit, long_name=long_name)
+def _channel(dims: str, unit: str, long_name: str, *, by_vessel: bool = False) -> Channel:
+    return Channel(dims=("time", *dims.split()), unit=unit, long_name=long_name, by_vessel=by_vessel)
 
 
 _SIX = "m (surge, sway, heave), rad (roll, pitch, yaw)"
@@ -37,7 +43,7 @@ CHANNELS: Mapping[str, Channel] = MappingProxyType(
         "quaternion": _channel("body wxyz", "1", "orientation, scalar first, body to inertial"),
         "euler_xyz": _channel("body axis", "rad", "XYZ Euler angles, R = Rx Ry Rz, body to inertial"),
         "vessel_motion": _channel(
-            "motion", _SIX, "vessel's reference point from rest, and yaw-pitch-roll angles"
+            "motion", _SIX, "vessel's reference point from rest, and yaw-pitch-roll angles", by_vessel=True
         ),
         "coordinate": _channel("joint_coordinate", "m or rad", "joint coordinate, second body to first"),
         "coordinate_rate": _channel("joint_coordinate", "m/s or rad/s", "rate of the joint coordinate"),
@@ -56,9 +62,15 @@ CHANNELS: Mapping[str, Channel] = MappingProxyType(
         "reaction_moment": _channel(
             "joint axis", "N m", "constraint moment on the second body, inertial frame, at the joint point"
         ),
-        "wave_elevation": _channel("", "m", "undisturbed wave elevation where wave loads take their phase"),
-        "wave_force": _channel("motion", _WRENCH, "wave load on the vessel at its reference point"),
-        "drift_force": _channel("motion", _WRENCH, "slow drift load on the vessel at its reference point"),
+        "wave_elevation": _channel(
+            "", "m", "undisturbed wave elevation where wave loads take their phase", by_vessel=True
+        ),
+        "wave_force": _channel(
+            "motion", _WRENCH, "wave load on the vessel at its reference point", by_vessel=True
+        ),
+        "drift_force": _channel(
+            "motion", _WRENCH, "slow drift load on the vessel at its reference point", by_vessel=True
+        ),
         "limit_force": _channel("limit", "N or N m", "tension of a wire, push of a stop, pressure on a seat"),
         "impact_loss": _channel("", "J", "mechanical energy lost in impacts of limits since the start"),
         "constraint_error": _channel("", "m or rad", "largest absolute constraint residual"),

@@ -10,7 +10,7 @@ import numpy as np
 
 from seacrane.errors import FileFormatError
 from seacrane.netcdf_limits import require_size
-from seacrane.result.channels import CHANNELS, attributes
+from seacrane.result.channels import attributes
 from seacrane.result.events import NUMBERS, PREFIX, Event, event_arrays, events_from_arrays
 
 if TYPE_CHECKING:
@@ -26,6 +26,7 @@ NAMED = {
     "driver": "drivers",
     "link": "links",
     "limit": "limits",
+    "vessel": "vessels",
 }
 
 
@@ -41,7 +42,7 @@ def write_netcdf(path: Path, result: Result) -> None:
             file.createDimension(dim, len(names))
             file.createVariable(dim, str, (dim,))[:] = np.array(names, dtype=object)
         for name, array in result.channels.items():
-            variable = file.createVariable(name, "f8", CHANNELS[name].dims, compression="zlib", complevel=1)
+            variable = file.createVariable(name, "f8", result.dims[name], compression="zlib", complevel=1)
             variable[:] = array
         for name in ("time", *result.channels):
             file[name].setncatts(attributes(name))

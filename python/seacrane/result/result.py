@@ -107,6 +107,10 @@ def checked_stats(stats: Mapping[str, Any]) -> dict[str, Stat]:
     return plain
 
 
+def _dims(channels: Mapping[str, Array]) -> dict[str, tuple[str, ...]]:
+    return {name: CHANNELS[name].dims_of(array.ndim) for name, array in channels.items()}
+
+
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
 class Result:
     """What one run recorded. Build it with `Result.from_arrays`, or read it with `Result.load`.
@@ -122,7 +126,7 @@ class Result:
         Dimension names of each channel.
     coords : mapping of str to tuple of str
         Names along every dimension but time: `body`, `joint`, `cylinder`, `axis`, `motion`, `wxyz`,
-        `joint_coordinate`, `actuator`, `driver`, `link`, `limit`; only those in use.
+        `joint_coordinate`, `actuator`, `driver`, `link`, `limit`, `vessel` (of several); only those in use.
     stats : mapping of str to str, int or float
         Version, settings and counters of the run: the attributes of the saved file.
     interrupted : bool
@@ -147,7 +151,7 @@ class Result:
         object.__setattr__(self, "channels", MappingProxyType(dict(self.channels)))
         object.__setattr__(self, "coords", MappingProxyType(dict(self.coords)))
         object.__setattr__(self, "stats", MappingProxyType(dict(self.stats)))
-        object.__setattr__(self, "dims", MappingProxyType({n: CHANNELS[n].dims for n in self.channels}))
+        object.__setattr__(self, "dims", MappingProxyType(_dims(self.channels)))
 
     def __repr__(self) -> str:
         stopped = ", interrupted" if self.interrupted else ""
@@ -181,6 +185,7 @@ class Result:
         drivers: Sequence[str] = (),
         links: Sequence[str] = (),
         limits: Sequence[str] = (),
+        vessels: Sequence[str] = (),
         events: Sequence[Event] = (),
         stats: Mapping[str, Any],
         interrupted: bool = False,
@@ -195,9 +200,9 @@ class Result:
         arrays : mapping of str to array_like
             Channels by the names of `CHANNELS`. Arrays of float64 are taken over without a copy and
             made read-only; the caller must not write to them through another view.
-        bodies, joints, cylinders, coordinates, actuators, drivers, links, limits : sequence of str
+        bodies, joints, cylinders, coordinates, actuators, drivers, links, limits, vessels : sequence of str
             Names along the dimensions `body`, `joint`, `cylinder`, `joint_coordinate`, `actuator`, `driver`,
-            `link` and `limit`, in the order of the arrays.
+            `link`, `limit` and `vessel`, in the order of the arrays.
         events : sequence of Event
             In order of time.
         stats : mapping
@@ -224,6 +229,7 @@ class Result:
             "driver": drivers,
             "link": links,
             "limit": limits,
+            "vessel": vessels,
         }
         coords = {dim: _checked_names(dim, names) for dim, names in named.items()}
         coords |= {"axis": AXES, "motion": MOTIONS, "wxyz": QUATERNION}
@@ -231,9 +237,10 @@ class Result:
         for name, values in arrays.items():
             if name not in CHANNELS:
                 raise ValueError(f"channel {name!r} is unknown; choose from {', '.join(CHANNELS)}")
-            shape = (checked_time.size, *(len(coords[dim]) for dim in CHANNELS[name].dims[1:]))
+            dims = CHANNELS[name].dims_of(np.ndim(values))
+            shape = (checked_time.size, *(len(coords[dim]) for dim in dims[1:]))
             channels[name] = _checked_array(name, values, shape, interrupted)
-        used = {dim for name in channels for dim in CHANNELS[name].dims}
+        used = {dim for dims in _dims(channels).values() for dim in dims}
         return cls(
             time=checked_time,
             channels=channels,
@@ -294,8 +301,7 @@ class Result:
         import xarray
 
         variables = {
-            name: (CHANNELS[name].dims, array.copy(), attributes(name))
-            for name, array in self.channels.items()
+            name: (self.dims[name], array.copy(), attributes(name)) for name, array in self.channels.items()
         }
         if self.events:
             for name, array in event_arrays(self.events).items():

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from seacrane.errors import FileFormatError
 from seacrane.result.atomic import atomic_write, space_left
-from seacrane.result.channels import CHANNELS, attributes
+from seacrane.result.channels import attributes
 from seacrane.result.netcdf import add_events
 from seacrane.result.result import checked_stats
 
@@ -178,7 +178,7 @@ class ResultFile:
                     file.createVariable(dim, str, (dim,))[:] = np.array(names, dtype=object)
                 for name, array in piece.channels.items():
                     chunks = (self.rows, *array.shape[1:])
-                    file.createVariable(name, "f8", CHANNELS[name].dims, compression="zlib", complevel=1,
+                    file.createVariable(name, "f8", piece.dims[name], compression="zlib", complevel=1,
                                         chunksizes=chunks, fill_value=np.nan)  # fmt: skip
                 for name in ("time", *piece.channels):
                     file[name].setncatts(attributes(name))

@@ -182,7 +182,7 @@ def _with_estimate(case: _Case, done: Sequence[_Done], errors: Mapping[str, floa
 def _table_may_show(case: _Case, result: Result) -> bool:
     """Whether the bound of the wave table, as a part of the motion, exceeds a limit."""
     waves = case.scene.waves
-    if waves is None or waves.evaluation != "table" or waves.force_by_heading is not None:
+    if waves is None or waves.evaluation != "table" or not waves.has_tables():
         return False
     motions = case.motions(result)
     return any(waves.relative_bound * motions[n] > limit for n, limit in case.limits.items())

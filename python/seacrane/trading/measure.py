@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane.errors import SceneError, SeacraneError
+from seacrane.frames import heading_of
 from seacrane.method import Method
 from seacrane.simulation import simulate
 from seacrane.trading import rungs
@@ -18,6 +19,7 @@ from seacrane.trading.rows import NOT_DEFINED, Row
 from seacrane.trading.settings_grid import TIGHT
 
 if TYPE_CHECKING:
+    from seacrane.linear_system import LinearModel
     from seacrane.result import Result
     from seacrane.scene import Scene
 
@@ -204,12 +206,13 @@ def frequency_domain(scene: Scene, span: Span, truth: Mapping[str, Array], start
 
     begun = time.perf_counter()
     try:
-        linear = linear_model(scene)
-        times = span.dt_out * np.arange(len(next(iter(truth.values()))))
+        hulls = {} if scene.waves is None else scene.waves.hulls
+        linear = linear_model(scene, vessel=next(iter(hulls), None))
+        times: Array = span.dt_out * np.arange(len(next(iter(truth.values()))), dtype=float)
         values: dict[str, Array] = {}
-        (vessel,) = scene.vessels.values()
         if "roll" in truth:
-            values["roll"] = response_summed(linear, body=vessel.body).at(times)[:, 3, None, None]
+            rolls = [_roll(linear, vessel.body, times) for vessel in scene.vessels.values()]
+            values["roll"] = np.stack(rolls, axis=1)[:, :, None]
         if "payload_position" in truth:
             moved = response_summed(linear, body=PAYLOAD).at(times)[:, :3]
             values["payload_position"] = (start + moved)[:, None]
@@ -225,6 +228,15 @@ def frequency_domain(scene: Scene, span: Span, truth: Mapping[str, Array], start
         stable=True,
         reason=f"has no {', '.join(left_out)}" if left_out else "",
     )
+
+
+def _roll(linear: LinearModel, body: str, times: Array) -> Array:
+    """Of a vessel about its own axis, rad."""
+    from seacrane.frequency_domain import response_summed
+
+    heading = heading_of(linear.scene.bodies[body].quaternion)
+    rotation = response_summed(linear, body=body).at(times)[:, 3:]
+    return np.asarray(np.cos(heading) * rotation[:, 0] + np.sin(heading) * rotation[:, 1])
 
 
 def _drift(result: Result) -> float:

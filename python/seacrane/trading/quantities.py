@@ -138,7 +138,7 @@ def _offered(scene: Scene) -> dict[str, Quantity]:
                 name="roll",
                 unit="rad",
                 channels=("vessel_motion",),
-                values=lambda result: result["vessel_motion"][:, ROLL, None, None],
+                values=lambda result: result["vessel_motion"][..., ROLL].reshape(result.time.size, -1, 1),
             )
         )
     driven = {actuator.joint for actuator in scene.actuators.values()}

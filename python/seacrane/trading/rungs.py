@@ -13,9 +13,10 @@ from numpy.typing import NDArray
 from seacrane import _core
 from seacrane.channel_names import LINK
 from seacrane.errors import SceneError
-from seacrane.inverse import SIX, _hold, driven
+from seacrane.inverse import SIX, driven, hold_vessel
 from seacrane.scene import Scene
 from seacrane.vessel import add_vessel
+from seacrane.vessel_notes import noted
 
 if TYPE_CHECKING:
     from seacrane.hydro import HydroDatabase
@@ -45,7 +46,8 @@ class Variant:
 
 def memory_name(scene: Scene) -> str:
     """Kind of fluid memory of a scene."""
-    return str(scene.notes.get("memory", "none" if not scene.vessels else "as described"))
+    kinds = [noted(scene, "memory", vessel.body) or "as described" for vessel in scene.vessels.values()]
+    return ", ".join(dict.fromkeys(kinds)) or "none"
 
 
 def waves_name(scene: Scene) -> str:
@@ -64,7 +66,7 @@ def variants(scene: Scene, database: HydroDatabase | None, *, quick: bool) -> It
         yield Variant(memory=memory, waves=name, rung=FULL, build=build)
     if scene.actuators:
         yield Variant(memory=memory, waves=waves, rung=LOCKED, build=lambda: locked(scene))
-        if scene.vessels:
+        if len(scene.vessels) == 1:
             yield Variant(memory=memory, waves=waves, rung=PRESCRIBED, build=lambda: scene)
     if hanging(scene):
         yield Variant(memory=memory, waves=waves, rung=WEIGHT, build=lambda: scene)
@@ -139,13 +141,13 @@ def _wave_variants(scene: Scene, *, quick: bool) -> Iterator[tuple[str, Callable
     waves = scene.waves
     if waves is None:
         return
-    if waves.force_by_heading is None:
+    if waves.has_tables():
         if waves_name(scene) != "exact":
             yield "exact", partial(scene.copy, waves=replace(waves, evaluation="exact"))
         if not quick:
             coarse = replace(waves, evaluation="table", relative_bound=BOUND)
             yield f"table bound {BOUND:g}", partial(scene.copy, waves=coarse)
-    if waves.force_by_heading is None and waves.drift is None:
+    if all(hull.force_by_heading is None and hull.drift is None for hull in waves.hulls.values()):
         for share in SHARES:
             count = int(np.ceil(share * len(waves.omega)))
             fewer = partial(scene.copy, waves=strongest(waves, count))
@@ -154,14 +156,16 @@ def _wave_variants(scene: Scene, *, quick: bool) -> Iterator[tuple[str, Callable
 
 def strongest(waves: Any, count: int) -> Any:
     """The sea of the components with the largest load on any motion, relative to that motion's largest."""
-    load = np.abs(np.asarray(waves.transfer)) * np.abs(waves.amplitude)[:, None]
+    transfer = np.hstack([np.asarray(hull.transfer) for hull in waves.hulls.values()])
+    load = np.abs(transfer) * np.abs(waves.amplitude)[:, None]
     largest = load.max(axis=0)
     share = (load / np.where(largest > 0.0, largest, 1.0)).max(axis=1)
     kept = np.sort(np.argsort(-share, kind="stable")[:count])
     parts = {
         name: np.asarray(getattr(waves, name))[kept] for name in ("omega", "amplitude", "phase", "direction")
     }
-    return replace(waves, transfer=np.asarray(waves.transfer)[kept], **parts)
+    hulls = {body: replace(h, transfer=np.asarray(h.transfer)[kept]) for body, h in waves.hulls.items()}
+    return replace(waves, hulls=hulls, **parts)
 
 
 def locked(scene: Scene) -> Scene:
@@ -189,7 +193,7 @@ def with_prescribed_vessel(scene: Scene, times: Array, motion: Array) -> Scene:
     out = scene.copy(waves=None)
     out.vessels[vessel.name] = _changed(vessel, memory=[])
     curves = {name: spline_curve(times=times, values=motion[:, i]) for i, name in enumerate(SIX)}
-    _hold(out, vessel.body, curves)
+    hold_vessel(out, vessel.body, curves)
     return out
 
 

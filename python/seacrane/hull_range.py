@@ -1,0 +1,198 @@
+"""Where hulls left what their wave loads and moorings hold for: each a warning, once, after the run."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from seacrane.frames import heading_of, rotation_about_z
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from seacrane import _core
+    from seacrane.scene import Scene
+    from seacrane.waves import HullLoads, Waves
+
+Array = NDArray[np.float64]
+Finding = tuple[type[Warning], str]
+
+LARGEST_PHASE = (
+    0.3  # rad, of the slow drift over the wavelength of the peak: 30 % of the load is out of phase
+)
+LARGEST_TURN = np.radians(10.0)
+LARGEST_SHIFT = 0.1  # of the encounter frequency from the wave's, as a share
+SLOW = 2.0  # peak periods: what two running means over so many leave of a motion is slow
+BINS = 32  # of the band, in which the peak is looked for
+
+
+class MeanPositionWarning(UserWarning):
+    """A vessel drifted away from where its wave loads are taken: their phase is that of another place."""
+
+
+class MeanHeadingWarning(UserWarning):
+    """A vessel turned away from the heading at which its wave loads are taken."""
+
+
+class ForwardSpeedWarning(UserWarning):
+    """A vessel makes way through waves, and its hydrodynamics are those of zero speed."""
+
+
+class MooringTurnWarning(UserWarning):
+    """A vessel turned beyond half a turn, where a mooring that is a spring in yaw pulls the other way."""
+
+
+class NoWaveLoadsWarning(UserWarning):
+    """A vessel is in a sea that does not load it."""
+
+
+def motions(scene: Scene, channels: Mapping[str, Array]) -> Iterator[tuple[_core.VesselHydrodynamics, Array]]:
+    """Every vessel with its six motions (n, 6), as far as they are recorded."""
+    recorded = channels.get("vessel_motion")
+    if recorded is not None:
+        for i, vessel in enumerate(scene.vessels.values()):
+            yield vessel, recorded if recorded.ndim == 2 else recorded[:, i]
+
+
+def hull_findings(scene: Scene, time: Array, channels: Mapping[str, Array]) -> list[Finding]:
+    """What is out of range of wave loads and moorings, vessel by vessel."""
+    found: list[Finding] = []
+    for vessel, motion in motions(scene, channels):
+        found += _moored(vessel, time, motion)
+        if scene.waves is None:
+            continue
+        if vessel.body not in scene.waves.hulls:
+            found.append((NoWaveLoadsWarning, _unloaded(vessel.name, scene.waves)))
+            continue
+        hull = scene.waves.hulls[vessel.body]
+        if hull.force_by_heading is None:
+            found += _posed(scene, vessel, hull, time, motion)
+        found += _under_way(scene.waves, vessel.name, time, motion)
+    return found
+
+
+def peak_frequency(waves: Waves) -> float:
+    """rad/s, where the energy of the components is densest."""
+    omega, energy = np.asarray(waves.omega, dtype=float), np.asarray(waves.amplitude, dtype=float) ** 2
+    dense, edges = np.histogram(omega, bins=BINS, weights=energy)
+    at = np.digitize(omega, edges[1:-1])
+    weight = energy * (dense[at] / max(dense.max(), np.finfo(float).tiny)) ** 4
+    return float(np.average(omega, weights=weight)) if weight.any() else float(omega.max())
+
+
+def slowly(time: Array, values: Array, period: float) -> Array:
+    """Values (n, k) less their motions at the peak period (s): two running means."""
+    step = float(time[1] - time[0]) if time.size > 1 else period
+    half = min(round(0.5 * SLOW * period / step), time.size)
+    for _ in range(2 if half > 0 else 0):
+        total = np.concatenate([np.zeros((1, values.shape[1])), np.cumsum(values, axis=0)])
+        last = np.minimum(np.arange(time.size) + half + 1, time.size)
+        first = np.maximum(np.arange(time.size) - half, 0)
+        values = (total[last] - total[first]) / (last - first)[:, None]
+    return values
+
+
+def _posed(
+    scene: Scene, vessel: _core.VesselHydrodynamics, hull: HullLoads, time: Array, motion: Array
+) -> list[Finding]:
+    """How far the hull is, slowly, from the place and heading of its loads."""
+    assert scene.waves is not None
+    start = scene.bodies[vessel.body]
+    heading = heading_of(start.quaternion)
+    place = motion[:, :2] @ rotation_about_z(heading)[:2, :2].T + start.position[:2] - hull.position
+    yaw = np.unwrap(motion[:, 5]) + np.angle(np.exp(1j * (heading - hull.heading)))
+    omega, wavenumber, spread = _sea(scene.waves)
+
+    def phase(where: Array) -> Array:
+        return np.asarray(wavenumber * np.sqrt(np.einsum("ni,ij,nj->n", where, spread, where)))
+
+    # A mean is never farther than what it is taken of.
+    if phase(place).max() <= LARGEST_PHASE and np.abs(yaw).max() <= LARGEST_TURN:
+        return []
+    slow = slowly(time, np.column_stack([place, yaw]), 2.0 * np.pi / omega)
+    found: list[Finding] = []
+    far, turned = phase(slow[:, :2]), np.abs(slow[:, 2])
+    way_out = (
+        "take them where the vessel is by phase='actual' in add_sea (seacrane.use_actual_position), where it "
+        "is on the average by position and heading_deg there, or moor it stiffer"
+    )
+    if far.max() > LARGEST_PHASE:
+        at = int(far.argmax())
+        found.append(
+            (
+                MeanPositionWarning,
+                f"vessel {vessel.name!r}: is {np.hypot(*slow[at, :2]):.3g} m from where its wave loads are "
+                f"taken at t = {time[at]:.6g} s, {far[at]:.2g} rad of the phase of the longest-lasting waves "
+                f"(limit {LARGEST_PHASE}): {way_out}",
+            )
+        )
+    if turned.max() > LARGEST_TURN:
+        at = int(turned.argmax())
+        found.append(
+            (
+                MeanHeadingWarning,
+                f"vessel {vessel.name!r}: yaw reaches {np.degrees(turned[at]):.3g} deg from the heading at "
+                f"which its wave loads are taken, at t = {time[at]:.6g} s (limit "
+                f"{np.degrees(LARGEST_TURN):.0f}): they come from where they do not; {way_out}",
+            )
+        )
+    return found
+
+
+def _sea(waves: Waves) -> tuple[float, float, Array]:
+    """Peak frequency, wavenumber there, and the mean of e e^T over the directions of travel e."""
+    omega, components = peak_frequency(waves), waves.components()
+    order = np.argsort(components.omega)
+    wavenumber = np.interp(omega, np.array(components.omega)[order], np.array(components.wavenumber)[order])
+    travel = np.column_stack([np.cos(waves.direction), np.sin(waves.direction)])
+    energy = np.asarray(waves.amplitude, dtype=float) ** 2
+    spread = (travel.T * energy) @ travel / max(energy.sum(), np.finfo(float).tiny)
+    return omega, float(wavenumber), spread
+
+
+def _under_way(waves: Waves, name: str, time: Array, motion: Array) -> list[Finding]:
+    if time.size < 2:
+        return []
+    rate = np.diff(motion[:, :2], axis=0) / np.diff(time)[:, None]
+    omega, wavenumber, _ = _sea(waves)
+    if wavenumber * np.hypot(*rate.T).max() <= LARGEST_SHIFT * omega:
+        return []
+    speed = np.hypot(*slowly(time[1:], rate, 2.0 * np.pi / omega).T)
+    at = int(speed.argmax())
+    shift = wavenumber * speed[at] / omega
+    if shift <= LARGEST_SHIFT:
+        return []
+    return [
+        (
+            ForwardSpeedWarning,
+            f"vessel {name!r}: makes {speed[at]:.3g} m/s at t = {time[at + 1]:.6g} s, and its hydrodynamics "
+            f"are those of zero speed: waves are met up to {shift:.0%} faster or slower, and added mass, "
+            "damping and wave loads change with it, which the time domain does not know. Slow it down, or "
+            "moor it",
+        )
+    ]
+
+
+def _moored(vessel: _core.VesselHydrodynamics, time: Array, motion: Array) -> list[Finding]:
+    passed = np.abs(np.diff(motion[:, 5])) > np.pi
+    if vessel.mooring_stiffness[2] == 0.0 or not passed.any():
+        return []
+    at = int(np.argmax(passed)) + 1
+    return [
+        (
+            MooringTurnWarning,
+            f"vessel {vessel.name!r}: passes half a turn from its rest at t = {time[at]:.6g} s, where its "
+            "mooring in yaw, a spring of the angle to the nearest whole turn, pulls the other way: it does "
+            "not stop a turning vessel. Give it a stiffer mooring, or look for what turns it",
+        )
+    ]
+
+
+def _unloaded(name: str, waves: Waves) -> str:
+    return (
+        f"vessel {name!r}: floats in the sea that loads {', '.join(map(repr, waves.hulls))}, and has no wave "
+        f"loads itself; call add_sea(scene, database, vessel={name!r}) with its database"
+    )
