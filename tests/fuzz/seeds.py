@@ -178,7 +178,17 @@ def hull_seeds() -> None:
 
 def scene_seeds(folder: Path) -> None:
     scene_file.save_scene(every_kind(), folder / "scene.json")
-    put("scene", "every-kind", json.dumps(json.loads((folder / "scene.json").read_bytes())).encode())
+    data = json.loads((folder / "scene.json").read_bytes())
+    put("scene", "every-kind", json.dumps(data).encode())
+    zero = np.zeros((2, 3, 6)).tolist()
+    headings = [0.0, 3.0]
+    hull = data["waves"]["hulls"][0]
+    hull |= {"force_by_heading": {"heading": headings, "real": zero, "imaginary": zero}, "drift": zero[0]}
+    hull |= {"drift_by_heading": {"heading": headings, "real": zero}}
+    put("scene", "hull-of-all-headings", json.dumps(data).encode())
+    del data["waves"]["hulls"]
+    data["waves"] |= {key: value for key, value in hull.items() if key != "heading"}
+    put("scene", "from-before-several-hulls", json.dumps(data).encode())
 
 
 def netcdf_seeds(folder: Path, hull: HydroDatabase) -> None:
