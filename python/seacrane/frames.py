@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 import numpy as np
@@ -27,8 +28,8 @@ def rotation_matrix(quaternion: Any) -> Array:
 
 def heading_of(quaternion: Any) -> float:
     """Yaw of yaw-pitch-roll angles, rad."""
-    r = rotation_matrix(quaternion)
-    return float(np.arctan2(r[1, 0], r[0, 0]))
+    w, x, y, z = (float(part) for part in quaternion)
+    return math.atan2(2.0 * (x * y + w * z), w * w + x * x - y * y - z * z)
 
 
 def rotation_about_z(angle: float) -> Array:

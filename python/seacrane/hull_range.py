@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -26,6 +28,7 @@ LARGEST_PHASE = (
 LARGEST_TURN = np.radians(10.0)
 LARGEST_SHIFT = 0.1  # of the encounter frequency from the wave's, as a share
 SLOW = 2.0  # peak periods: what two running means over so many leave of a motion is slow
+TINY = float(np.finfo(float).tiny)
 BINS = 32  # of the band, in which the peak is looked for
 
 
@@ -60,27 +63,61 @@ def motions(scene: Scene, channels: Mapping[str, Array]) -> Iterator[tuple[_core
 def hull_findings(scene: Scene, time: Array, channels: Mapping[str, Array]) -> list[Finding]:
     """What is out of range of wave loads and moorings, vessel by vessel."""
     found: list[Finding] = []
+    waves = scene.waves
+    peak = None if waves is None else Peak.of(waves)
     for vessel, motion in motions(scene, channels):
         found += _moored(vessel, time, motion)
-        if scene.waves is None:
+        if waves is None or peak is None:
             continue
-        if vessel.body not in scene.waves.hulls:
-            found.append((NoWaveLoadsWarning, _unloaded(vessel.name, scene.waves)))
+        if vessel.body not in waves.hulls:
+            found.append((NoWaveLoadsWarning, _unloaded(vessel.name, waves)))
             continue
-        hull = scene.waves.hulls[vessel.body]
+        hull = waves.hulls[vessel.body]
         if hull.force_by_heading is None:
-            found += _posed(scene, vessel, hull, time, motion)
-        found += _under_way(scene.waves, vessel.name, time, motion)
+            found += _posed(scene.bodies[vessel.body], vessel.name, hull, peak, time, motion)
+        found += _under_way(peak, vessel.name, time, motion)
     return found
+
+
+@dataclass(frozen=True, kw_only=True)
+class Peak:
+    """Of a sea: frequency (rad/s) and wavenumber (1/m) where its energy is densest, and the mean of e e^T
+    over the directions of travel e."""
+
+    omega: float
+    wavenumber: float
+    spread: Array
+
+    @classmethod
+    def of(cls, waves: Waves) -> Peak:
+        """By the components."""
+        components = waves.components()
+        omega = peak_frequency(waves)
+        nearest = int(np.argmin(np.abs(np.asarray(waves.omega) - omega)))
+        travel = np.stack([np.cos(waves.direction), np.sin(waves.direction)])
+        energy = np.asarray(waves.amplitude, dtype=float) ** 2
+        spread = (travel * energy) @ travel.T / max(energy.sum(), TINY)
+        return cls(omega=omega, wavenumber=float(components.wavenumber[nearest]), spread=spread)
+
+    @property
+    def period(self) -> float:
+        """s."""
+        return 2.0 * np.pi / self.omega
+
+    def phase(self, place: Array) -> Array:
+        """Of waves at the peak, over displacements (n, 2), m: root mean square over the directions, rad."""
+        return np.asarray(self.wavenumber * np.sqrt(np.sum((place @ self.spread) * place, axis=1)))
 
 
 def peak_frequency(waves: Waves) -> float:
     """rad/s, where the energy of the components is densest."""
     omega, energy = np.asarray(waves.omega, dtype=float), np.asarray(waves.amplitude, dtype=float) ** 2
-    dense, edges = np.histogram(omega, bins=BINS, weights=energy)
-    at = np.digitize(omega, edges[1:-1])
-    weight = energy * (dense[at] / max(dense.max(), np.finfo(float).tiny)) ** 4
-    return float(np.average(omega, weights=weight)) if weight.any() else float(omega.max())
+    lowest = omega.min()
+    width = omega.max() - lowest or 1.0
+    at = ((omega - lowest) * (BINS / width)).astype(int)
+    dense = np.bincount(at, weights=energy)
+    weight = energy * (dense[at] / max(dense.max(), TINY)) ** 4
+    return float(weight @ omega / weight.sum()) if weight.any() else float(lowest)
 
 
 def slowly(time: Array, values: Array, period: float) -> Array:
@@ -96,25 +133,19 @@ def slowly(time: Array, values: Array, period: float) -> Array:
 
 
 def _posed(
-    scene: Scene, vessel: _core.VesselHydrodynamics, hull: HullLoads, time: Array, motion: Array
+    start: _core.Body, name: str, hull: HullLoads, peak: Peak, time: Array, motion: Array
 ) -> list[Finding]:
     """How far the hull is, slowly, from the place and heading of its loads."""
-    assert scene.waves is not None
-    start = scene.bodies[vessel.body]
     heading = heading_of(start.quaternion)
-    place = motion[:, :2] @ rotation_about_z(heading)[:2, :2].T + start.position[:2] - hull.position
-    yaw = np.unwrap(motion[:, 5]) + np.angle(np.exp(1j * (heading - hull.heading)))
-    omega, wavenumber, spread = _sea(scene.waves)
-
-    def phase(where: Array) -> Array:
-        return np.asarray(wavenumber * np.sqrt(np.einsum("ni,ij,nj->n", where, spread, where)))
-
+    place = motion[:, :2] @ rotation_about_z(heading)[:2, :2].T + (start.position[:2] - hull.position)
+    turn = math.remainder(heading - hull.heading, 2.0 * np.pi)
     # A mean is never farther than what it is taken of.
-    if phase(place).max() <= LARGEST_PHASE and np.abs(yaw).max() <= LARGEST_TURN:
+    near = peak.phase(place).max() <= LARGEST_PHASE
+    if near and np.abs(motion[:, 5]).max() + abs(turn) <= LARGEST_TURN:
         return []
-    slow = slowly(time, np.column_stack([place, yaw]), 2.0 * np.pi / omega)
+    slow = slowly(time, np.column_stack([place, np.unwrap(motion[:, 5]) + turn]), peak.period)
     found: list[Finding] = []
-    far, turned = phase(slow[:, :2]), np.abs(slow[:, 2])
+    far, turned = peak.phase(slow[:, :2]), np.abs(slow[:, 2])
     way_out = (
         "take them where the vessel is by phase='actual' in add_sea (seacrane.use_actual_position), where it "
         "is on the average by position and heading_deg there, or moor it stiffer"
@@ -124,7 +155,7 @@ def _posed(
         found.append(
             (
                 MeanPositionWarning,
-                f"vessel {vessel.name!r}: is {np.hypot(*slow[at, :2]):.3g} m from where its wave loads are "
+                f"vessel {name!r}: is {np.hypot(*slow[at, :2]):.3g} m from where its wave loads are "
                 f"taken at t = {time[at]:.6g} s, {far[at]:.2g} rad of the phase of the longest-lasting waves "
                 f"(limit {LARGEST_PHASE}): {way_out}",
             )
@@ -134,7 +165,7 @@ def _posed(
         found.append(
             (
                 MeanHeadingWarning,
-                f"vessel {vessel.name!r}: yaw reaches {np.degrees(turned[at]):.3g} deg from the heading at "
+                f"vessel {name!r}: yaw reaches {np.degrees(turned[at]):.3g} deg from the heading at "
                 f"which its wave loads are taken, at t = {time[at]:.6g} s (limit "
                 f"{np.degrees(LARGEST_TURN):.0f}): they come from where they do not; {way_out}",
             )
@@ -142,27 +173,15 @@ def _posed(
     return found
 
 
-def _sea(waves: Waves) -> tuple[float, float, Array]:
-    """Peak frequency, wavenumber there, and the mean of e e^T over the directions of travel e."""
-    omega, components = peak_frequency(waves), waves.components()
-    order = np.argsort(components.omega)
-    wavenumber = np.interp(omega, np.array(components.omega)[order], np.array(components.wavenumber)[order])
-    travel = np.column_stack([np.cos(waves.direction), np.sin(waves.direction)])
-    energy = np.asarray(waves.amplitude, dtype=float) ** 2
-    spread = (travel.T * energy) @ travel / max(energy.sum(), np.finfo(float).tiny)
-    return omega, float(wavenumber), spread
-
-
-def _under_way(waves: Waves, name: str, time: Array, motion: Array) -> list[Finding]:
+def _under_way(peak: Peak, name: str, time: Array, motion: Array) -> list[Finding]:
     if time.size < 2:
         return []
     rate = np.diff(motion[:, :2], axis=0) / np.diff(time)[:, None]
-    omega, wavenumber, _ = _sea(waves)
-    if wavenumber * np.hypot(*rate.T).max() <= LARGEST_SHIFT * omega:
+    if peak.wavenumber * np.hypot(*rate.T).max() <= LARGEST_SHIFT * peak.omega:
         return []
-    speed = np.hypot(*slowly(time[1:], rate, 2.0 * np.pi / omega).T)
+    speed = np.hypot(*slowly(time[1:], rate, peak.period).T)
     at = int(speed.argmax())
-    shift = wavenumber * speed[at] / omega
+    shift = peak.wavenumber * speed[at] / peak.omega
     if shift <= LARGEST_SHIFT:
         return []
     return [
