@@ -26,6 +26,7 @@ add_vessel(scene, database)
 linear = linear_model(scene)
 print("standard deviation over infinite time         heave [m]  roll [deg]  pitch [deg]")
 for systems in ([head_on], [wind], [swell], [wind, swell]):
+    scene.waves = None  # a scene has one sea at a time
     add_sea(scene, database, sea=SeaState(systems=systems, seed=1))
     std = response_summed(linear, waves=scene.waves, body="vessel").std
     name = " + ".join(system.name for system in systems)
