@@ -136,15 +136,6 @@ def test_leaving_out_every_second_heading_and_frequency_changes_little() -> None
     ).max() < 0.05  # the full table is about 16 times better
 
 
-def test_frequencies_outside_are_refused_or_carry_no_load() -> None:
-    database = small()
-    with pytest.raises(ValueError, match=r"omega = 2\.5 rad/s is outside 0\.2 to 2\.4"):
-        database.force_at([1.0, 2.5], 0.0)
-    found = database.force_at([1.0, 2.5, 0.1], 0.0, outside="zero")
-    assert np.all(found[1:] == 0.0)
-    assert np.all(found[0] == database.force_at(1.0, 0.0))
-
-
 @pytest.mark.parametrize("value", [np.nan, np.inf])
 def test_force_at_refuses_numbers_that_are_not_finite(value: float) -> None:
     with pytest.raises(ValueError, match="finite"):

@@ -9,6 +9,8 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from seacrane.errors import SceneError
+from seacrane.hydro.beyond_band import with_limits
 from seacrane.hydro.data_warnings import LARGEST_HEADING_GAP
 from seacrane.hydro.database_arrays import check_increasing, freeze
 from seacrane.hydro.drift import DriftCoefficients
@@ -154,7 +156,7 @@ class HydroDatabase:
             )
 
     def force_at(
-        self, omega: ArrayLike, heading: ArrayLike, *, outside: Literal["error", "zero"] = "error"
+        self, omega: ArrayLike, heading: ArrayLike, *, outside: Literal["error", "limits"] = "error"
     ) -> ComplexArray:
         """Complex wave excitation per metre of amplitude, by cubic splines in frequency and heading.
 
@@ -162,8 +164,8 @@ class HydroDatabase:
         ----------
         omega, heading : rad/s and rad, broadcast against each other; headings wrap, and are mirrored where
             the vessel is port-starboard symmetric.
-        outside : what to do with frequencies beyond the database: ``"error"``, or ``"zero"`` (they carry no
-            load).
+        outside : what to do with frequencies beyond the database: ``"error"``, or ``"limits"``: below it the
+            force tends to the hydrostatic one of a long wave, above it there is none.
 
         Returns
         -------
@@ -171,30 +173,31 @@ class HydroDatabase:
 
         Raises
         ------
-        ValueError : a frequency outside the range (unless ``outside="zero"``), a value that is not finite, or
-            a heading in a gap of more than 45 degrees between the database's headings.
+        SceneError : a frequency outside the range (unless ``outside="limits"``), a value that is not finite,
+            or a heading in a gap of more than 45 degrees between the database's headings.
         """
+        if outside not in ("error", "limits"):
+            raise SceneError(f"database {self.name!r}: outside is {outside!r}; choose 'error' or 'limits'")
         wanted_omega, wanted_heading = np.broadcast_arrays(
             np.asarray(omega, float), np.asarray(heading, float)
         )
         shape = wanted_omega.shape
         w, b = wanted_omega.ravel(), wanted_heading.ravel()
         if not (np.all(np.isfinite(w)) and np.all(np.isfinite(b))):
-            raise ValueError(f"database {self.name!r}: frequencies and headings must be finite numbers")
+            raise SceneError(f"database {self.name!r}: frequencies and headings must be finite numbers")
         slack = 1e-9 * self.omega[-1]
         beyond = (w < self.omega[0] - slack) | (w > self.omega[-1] + slack)
         if outside == "error" and np.any(beyond):
-            raise ValueError(
+            raise SceneError(
                 f"database {self.name!r}: omega = {w[beyond][0]:.6g} rad/s is outside {self.omega[0]:.6g} to "
-                f"{self.omega[-1]:.6g} rad/s; narrow the sea's band, or pass outside='zero'"
+                f"{self.omega[-1]:.6g} rad/s; ask within it, or pass outside='limits'"
             )
         in_frequency = spline_weights(self.omega, np.clip(w, self.omega[0], self.omega[-1]))
         circle, table = self.full_circle()
         in_heading = self._heading_weights(circle, b)
         by_heading = (in_heading @ table.reshape(len(circle), -1)).reshape(len(b), len(self.omega), 6)
         force = np.einsum("qn,qnd->qd", in_frequency, by_heading)
-        force[beyond] = 0.0
-        return np.asarray(force.reshape(*shape, 6))
+        return with_limits(self, w, force).reshape(*shape, 6)
 
     def full_circle(self) -> tuple[FloatArray, ComplexArray]:
         """Headings (k,) within [0, 2 pi), the mirrored ones added, and their forces (k, n, 6); new arrays."""
@@ -213,7 +216,7 @@ class HydroDatabase:
         nearest = distance.argmin(axis=1)
         off = distance[np.arange(len(heading)), nearest] > 1e-6
         if np.any(off):
-            raise ValueError(
+            raise SceneError(
                 f"database {self.name!r}: heading {np.degrees(heading[off][0]):.6g} deg is not among the "
                 f"stored ones, whose largest gap is {np.degrees(gap):.3g} deg; above 45 deg "
                 "nothing is interpolated"

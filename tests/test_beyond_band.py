@@ -1,0 +1,137 @@
+"""Wave loads beyond the frequencies of a database: long-wave limit below, nothing above, what is left out."""
+
+from __future__ import annotations
+
+import dataclasses
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from seacrane import SceneError
+from seacrane.hydro import HydroDatabase, shipped_database
+from seacrane.hydro.beyond_band import LOADS, without_load
+from seacrane.hydro.dispersion import wavenumber
+from seacrane.sea import jonswap, realise_waves
+
+Array = NDArray[np.float64]
+HEADINGS = np.radians([0.0, 30.0, 45.0, 75.0, 90.0, 135.0, 180.0])
+LENGTH, BREADTH, DRAUGHT, DEPTH = 60.0, 14.0, 4.0, 20.0
+
+
+def cut(low: float, high: float) -> HydroDatabase:
+    """The shipped table with its ends taken away."""
+    return shipped_database().select(omega=(low - 1e-9, high + 1e-9))
+
+
+def test_frequencies_outside_are_refused_by_name() -> None:
+    database = cut(0.2, 2.4)
+    with pytest.raises(SceneError, match=r"omega = 2\.5 rad/s is outside 0\.2 to 2\.4 .*outside='limits'"):
+        database.force_at([1.0, 2.5], 0.0)
+    with pytest.raises(SceneError, match="outside is 'zero'; choose 'error' or 'limits'"):
+        database.force_at(2.5, 0.0, outside="zero")  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize("depth", [np.inf, 15.0])
+def test_the_longest_waves_lift_the_hull_by_its_restoring(depth: float) -> None:
+    database = dataclasses.replace(cut(0.3, 2.5), depth=depth)
+    found = database.force_at([0.0, 1e-6], HEADINGS[:, None], outside="limits")
+    heave = np.broadcast_to(database.restoring[:, 2], found.shape)
+    np.testing.assert_allclose(found, heave, atol=1e-4 * np.abs(heave).max())
+
+
+def test_loads_meet_at_the_ends_of_the_band_and_stay_within_it() -> None:
+    database = cut(0.3, 2.5)
+    inside = np.linspace(0.3, 2.5, 50)
+    np.testing.assert_array_equal(
+        database.force_at(inside, 0.7), database.force_at(inside, 0.7, outside="limits")
+    )
+    end, just_below = (database.force_at(w, 0.7, outside="limits") for w in (0.3, 0.3 * (1.0 - 1e-6)))
+    np.testing.assert_allclose(just_below, end, atol=1e-5 * np.abs(end).max())
+    assert np.all(database.force_at([2.5001, 4.0], 0.7, outside="limits") == 0.0)
+
+
+def below_band_error(low: float) -> float:
+    """Largest error from 0.1 rad/s to the cut, over the largest force of its motion."""
+    full = shipped_database()
+    omega = np.arange(0.1, low - 1e-6, 0.05)[:, None]
+    size = np.abs(full.force).max(axis=(0, 1))
+    got = cut(low, 3.1).force_at(omega, HEADINGS, outside="limits")
+    return float((np.abs(got - full.force_at(omega, HEADINGS)) / size).max())
+
+
+def test_a_table_cut_from_below_gives_back_what_it_lost() -> None:
+    """No load there would err by 1; the error falls at least with the square of the frequency."""
+    errors = np.array([below_band_error(low) for low in (0.6, 0.45, 0.3)])
+    assert errors[2] < 0.04 and errors[0] < 0.5
+    orders = np.log(errors[:-1] / errors[1:]) / np.log([0.6 / 0.45, 0.45 / 0.3])
+    assert np.all(orders > 2.0)
+
+
+def froude_krylov_box(omega: Array) -> NDArray[np.complex128]:
+    """Undisturbed pressure of a following wave on the bottom of a box, in closed form (heave, pitch)."""
+    k = wavenumber(omega, g=9.81, depth=DEPTH)
+    pressure = 1025.0 * 9.81 * np.cosh(k * (DEPTH - DRAUGHT)) / np.cosh(k * DEPTH)
+    half = 0.5 * k * LENGTH
+    force = np.zeros((omega.size, 6), dtype=complex)
+    force[:, 2] = pressure * BREADTH * 2.0 * np.sin(half) / k
+    force[:, 4] = 2.0j * pressure * BREADTH * (np.sin(half) - half * np.cos(half)) / k**2
+    return force
+
+
+def test_a_box_in_shallow_water_follows_its_closed_form_below_the_table() -> None:
+    omega = np.linspace(0.2, 1.5, 27)
+    base = shipped_database().select(omega=slice(0, omega.size))
+    stiffness = 1025.0 * 9.81 * LENGTH * BREADTH
+    box = dataclasses.replace(
+        base,
+        omega=omega,
+        depth=DEPTH,
+        rho=1025.0,
+        g=9.81,
+        restoring=np.diag([0.0, 0.0, stiffness, 1e7, stiffness * LENGTH**2 / 12.0, 0.0]),
+        force=np.broadcast_to(froude_krylov_box(omega), base.force.shape).copy(),
+        memory=None,
+        trusted_band=None,
+    )
+    longer = np.linspace(0.01, 0.19, 10)
+    error = np.abs(box.force_at(longer, 0.0, outside="limits") - froude_krylov_box(longer))
+    size = np.abs(froude_krylov_box(omega)).max(axis=0)
+    assert np.all(error[:, [2, 4]] < 0.02 * size[[2, 4]])
+
+
+def sea_above(high: float, tp: float, heading: float) -> tuple[HydroDatabase, dict[str, Array]]:
+    """A table that ends early, and the components of a sea that the shipped one holds in full."""
+    waves = realise_waves(jonswap(hs=2.0, tp=tp), seed=1, direction=heading, count=200, omega_max=3.1)
+    arrays = {"omega": waves.omega, "amplitude": waves.amplitude, "direction": waves.direction}
+    return cut(0.1, high), {name: np.array(value) for name, value in arrays.items()}
+
+
+@pytest.mark.parametrize("high", [1.5, 2.0])
+@pytest.mark.parametrize("heading", HEADINGS)
+def test_what_carries_no_load_is_estimated_within_a_factor_of_three(high: float, heading: float) -> None:
+    """Against the true forces that were cut away; loads that the heading does not excite are left out."""
+    part, sea = sea_above(high, 4.5, heading)
+    found = without_load(part, **sea)
+    above = sea["omega"] > high
+    energy = 0.5 * sea["amplitude"] ** 2
+    assert found.energy == pytest.approx(energy[above].sum() / energy.sum(), rel=1e-12)
+    each = energy[:, None] * np.abs(shipped_database().force_at(sea["omega"], sea["direction"])) ** 2
+    whole = each.sum(axis=0)
+    excited = whole > 1e-6 * np.array([1.0, 1.0, 1.0, 1e3, 1e3, 1e3]) * whole[:3].max()
+    truth = float(np.max(each[above].sum(axis=0)[excited] / whole[excited]))
+    assert truth / 3.0 < found.variance < 3.0 * truth
+    assert found.load in LOADS
+
+
+def test_a_head_sea_is_not_judged_by_roll() -> None:
+    part, sea = sea_above(2.0, 6.0, np.pi)
+    assert without_load(part, **sea).load in ("surge", "heave", "pitch")
+
+
+def test_a_sea_within_the_band_leaves_nothing_out_and_one_above_it_everything() -> None:
+    part, sea = sea_above(3.1, 6.0, 1.0)
+    assert without_load(part, **sea).energy == without_load(part, **sea).variance == 0.0
+    above = sea["omega"] > 0.4
+    everything = without_load(cut(0.1, 0.4), **{name: values[above] for name, values in sea.items()})
+    assert everything.energy == pytest.approx(1.0) and everything.variance == pytest.approx(1.0)
