@@ -103,8 +103,14 @@ def test_a_box_in_shallow_water_follows_its_closed_form_below_the_table() -> Non
 def sea_above(high: float, tp: float, heading: float) -> tuple[HydroDatabase, dict[str, Array]]:
     """A table that ends early, and the components of a sea that the shipped one holds in full."""
     waves = realise_waves(jonswap(hs=2.0, tp=tp), seed=1, direction=heading, count=200, omega_max=3.1)
-    arrays = {"omega": waves.omega, "amplitude": waves.amplitude, "direction": waves.direction}
-    return cut(0.1, high), {name: np.array(value) for name, value in arrays.items()}
+    return loaded(cut(0.1, high), *(np.array(x) for x in (waves.omega, waves.amplitude, waves.direction)))
+
+
+def loaded(
+    part: HydroDatabase, omega: Array, amplitude: Array, direction: Array
+) -> tuple[HydroDatabase, dict[str, Array]]:
+    force = part.force_at(omega, direction, outside="limits")
+    return part, {"omega": omega, "amplitude": amplitude, "direction": direction, "force": force}
 
 
 @pytest.mark.parametrize("high", [1.5, 2.0])
@@ -133,5 +139,6 @@ def test_a_sea_within_the_band_leaves_nothing_out_and_one_above_it_everything() 
     part, sea = sea_above(3.1, 6.0, 1.0)
     assert without_load(part, **sea).energy == without_load(part, **sea).variance == 0.0
     above = sea["omega"] > 0.4
-    everything = without_load(cut(0.1, 0.4), **{name: values[above] for name, values in sea.items()})
+    part, sea = loaded(cut(0.1, 0.4), *(sea[name][above] for name in ("omega", "amplitude", "direction")))
+    everything = without_load(part, **sea)
     assert everything.energy == pytest.approx(1.0) and everything.variance == pytest.approx(1.0)

@@ -30,13 +30,17 @@ def drifting(coefficient: Any, *, headings: int = 13, symmetric: bool = True) ->
     heading = np.linspace(0.0, np.pi if symmetric else 2.0 * np.pi, headings, endpoint=symmetric)
     table = np.array([[coefficient(w, b) for w in omega] for b in heading])
     drift = SimpleNamespace(heading=heading, omega=omega, coefficient=table)
+    hull = database()
     return SimpleNamespace(
         name="drifting",
         drift=drift,
         port_starboard_symmetric=symmetric,
-        omega=database().omega,
-        full_circle=database().full_circle,
-        force_at=database().force_at,
+        omega=hull.omega,
+        restoring=hull.restoring,
+        g=hull.g,
+        depth=hull.depth,
+        full_circle=hull.full_circle,
+        force_at=hull.force_at,
     )
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import json
 from pathlib import Path
 
@@ -9,9 +10,11 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from seacrane import Scene, _core, add_sea, add_vessel, cases, simulate
+from seacrane import Scene, WavesWithoutLoadWarning, _core, add_sea, add_vessel, cases, simulate
 from seacrane.errors import SceneError
 from seacrane.hydro import shipped_database
+from seacrane.hydro.dispersion import wavenumber
+from seacrane.hydro.drift import DriftCoefficients
 from seacrane.sea import (
     MeasuredWaves,
     SeaState,
@@ -21,7 +24,6 @@ from seacrane.sea import (
     realise_waves,
     torsethaugen,
 )
-from seacrane.sea_state import DepthMismatchWarning
 
 WIND = WaveSystem(
     spectrum=jonswap(hs=1.5, tp=6.5, gamma="dnv"), direction_deg=150.0, spreading=cos_2s(8.0), name="wind sea"
@@ -241,8 +243,122 @@ def test_plain_arguments_of_add_sea() -> None:
         afloat(hs="2")
     with pytest.raises(SceneError, match="spectrum 'torset' is unknown"):
         afloat(spectrum="torset")
-    with pytest.warns(DepthMismatchWarning, match="the sea is 30 m deep"):
+    with pytest.raises(
+        SceneError, match=r"it is 30 m deep.* differ by up to \d+%; take SeaState\(depth=inf\)"
+    ):
         afloat(sea=SeaState(systems=[WIND], depth=30.0))
+    deep = afloat(sea=SeaState(systems=[WIND], depth=500.0)).waves  # deep water for every wave of it
+    assert deep is not None and deep.depth == 500.0
+
+
+def test_a_sea_is_as_deep_as_its_database() -> None:
+    """Crests of a swell over 20 m of water run as fast there as its dispersion says."""
+    shallow = dataclasses.replace(shipped_database(), depth=20.0)
+    scene = Scene(name="shallow")
+    add_vessel(scene, shallow, memory="none")
+    add_sea(scene, shallow, tp=14.0)
+    waves = scene.waves
+    assert waves is not None and waves.depth == 20.0
+    k = wavenumber(waves.omega, g=9.80665, depth=20.0)
+    place, time = (150.0, -40.0), 7.0
+    along = place[0] * np.cos(waves.direction) + place[1] * np.sin(waves.direction)
+    by_hand = np.sum(waves.amplitude * np.cos(waves.omega * time - k * along + waves.phase))
+    elevation = waves.components().elevation(np.array([time]), x=place[0], y=place[1])
+    assert elevation[0] == pytest.approx(by_hand, abs=1e-9)
+    plain = afloat(tp=14.0).waves
+    assert plain is not None and np.array_equal(plain.amplitude, waves.amplitude)
+    assert abs(plain.components().elevation(np.array([time]), x=place[0], y=place[1])[0] - by_hand) > 0.05
+
+
+def test_vessels_in_one_sea_share_its_depth() -> None:
+    shallow = dataclasses.replace(shipped_database(), depth=20.0)
+    scene = Scene(name="two")
+    add_vessel(scene, shipped_database(), memory="none")
+    add_vessel(scene, shallow, name="barge", memory="none", position=(0.0, 60.0, 0.0))
+    add_sea(scene, shipped_database(), tp=12.0)
+    for arguments in ({}, {"tp": 12.0}):
+        with pytest.raises(SceneError, match=r"sea of vessel 'barge': it is inf m deep, .* for 20 m"):
+            add_sea(scene, shallow, vessel="barge", **arguments)
+    assert scene.waves is not None and list(scene.waves.hulls) == ["vessel"]
+
+
+def test_short_seas_are_kept_whole_and_load_the_vessel_within_its_band() -> None:
+    database = shipped_database()
+    scene = afloat(tp=5.0, hs=1.5)
+    waves = scene.waves
+    assert waves is not None and waves.omega.max() > 3.7 > database.omega[-1] == 3.1
+    inside = waves.omega <= 3.1
+    assert np.all(waves.hull().transfer[~inside] == 0.0)
+    expected = database.force_at(waves.omega[inside], waves.direction[inside])
+    np.testing.assert_array_equal(waves.hull().transfer[inside], expected)
+    realised = SeaState(systems=[WaveSystem(spectrum=jonswap(hs=1.5, tp=5.0), direction_deg=135.0)], seed=1)
+    result = simulate(scene, t_end=5.0, dt_out=0.5)
+    elevation = realised.realise().waves.elevation(result.time)
+    np.testing.assert_allclose(result["wave_elevation"], elevation, atol=1e-7)
+    assert 0.0 < result.stats["wave_energy_without_load"] < 0.02
+    assert 0.0 < result.stats["load_variance_without_load"] < 0.02
+    assert afloat(tp=8.0).waves.information["wave_energy_without_load"] == 0.0  # type: ignore[union-attr]
+
+
+def test_waves_that_put_no_load_on_a_vessel_are_warned_of_by_name() -> None:
+    short = shipped_database().select(omega=(0.1, 1.5))
+    scene = Scene(name="short table")
+    add_vessel(scene, shipped_database(), memory="none")
+    with pytest.warns(WavesWithoutLoadWarning, match=r"waves on 'vessel': those above 1\.5 rad/s") as caught:
+        add_sea(scene, short, tp=6.0, direction_deg=90.0)
+    assert caught[0].filename == __file__
+    assert scene.waves is not None and scene.waves.information["load_variance_without_load"] > 0.1
+
+
+def test_loads_at_the_actual_position_and_drift_have_the_same_limits() -> None:
+    database = dataclasses.replace(
+        shipped_database().select(omega=(0.4, 2.0)),
+        drift=DriftCoefficients(
+            heading=np.radians(np.arange(0.0, 360.0, 30.0)), omega=np.linspace(0.4, 2.0, 9),
+            coefficient=np.ones((12, 9, 6)),
+        ),
+        port_starboard_symmetric=False,
+        heading=shipped_database().full_circle()[0],
+        force=shipped_database().select(omega=(0.4, 2.0)).full_circle()[1],
+    )  # fmt: skip
+    scene = Scene(name="turning")
+    add_vessel(scene, shipped_database(), memory="none")
+    add_sea(scene, database, tp=7.0, direction_deg=60.0, phase="actual", drift=True)
+    waves = scene.waves
+    assert waves is not None and waves.omega.min() < 0.4 and waves.omega.max() > 2.0
+    table = waves.hull().force_by_heading
+    assert table is not None and waves.hull().drift is not None
+    at_60 = int(np.argmin(np.abs(table.heading - np.radians(60.0))))
+    size = np.abs(waves.hull().transfer).max()
+    np.testing.assert_allclose(table.values[at_60], waves.hull().transfer, atol=1e-9 * size)
+    assert np.all(table.values[:, waves.omega > 2.0] == 0.0)
+
+
+def test_calm_water_takes_the_notes_of_the_sea_before_with_it() -> None:
+    scene = afloat(sea=SeaState(systems=[WIND, SWELL], seed=3), phase="actual")
+    before = set(Scene(name="none").notes) | set(afloat(hs=0.0).notes)
+    assert set(scene.notes) - before == {
+        "sea",
+        "realised_hs_of_systems",
+        "wave_phase",
+        "waves_relative_bound",
+    }
+    add_sea(scene, shipped_database(), hs=0.0)
+    assert scene.waves is None and set(scene.notes) == before
+    add_sea(scene, shipped_database(), hs=1.0)
+    assert "sea" not in scene.notes and scene.notes["hs"] == 1.0
+    scene.waves = None
+    add_sea(scene, shipped_database(), sea=SeaState(systems=[WIND], seed=3))
+    assert "hs" not in scene.notes and "wave_phase" not in scene.notes
+
+
+def test_the_command_line_runs_short_seas(tmp_path: Path) -> None:
+    from seacrane.cli import main
+    from seacrane.result import Result
+
+    options = "--tp 5 --hs 1.5 --t-end 1 --integrator rk4 --dt 0.1 --memory none"
+    assert main(["run", "vessel", "--out", str(tmp_path), *options.split()]) == 0
+    assert Result.load(tmp_path / "vessel.nc").stats["wave_energy_without_load"] > 0.0
 
 
 def test_the_command_line_chooses_the_sea(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

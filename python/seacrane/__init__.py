@@ -65,7 +65,7 @@ if TYPE_CHECKING:
     from seacrane.sampled_controller import SampledController
     from seacrane.scene import Scene
     from seacrane.sea import SeaState, WaveSystem
-    from seacrane.sea_state import add_sea
+    from seacrane.sea_state import WavesWithoutLoadWarning, add_sea
     from seacrane.simulation import Run, simulate
     from seacrane.trading import Trade, trade
     from seacrane.validity import (
@@ -131,6 +131,7 @@ _HOME = {
     "VesselHydrodynamics": "_core",
     "WaveSystem": "sea",
     "Waves": "waves",
+    "WavesWithoutLoadWarning": "sea_state",
     "__version__": "version",
     "add_current": "environment",
     "add_drift": "environment",
@@ -216,6 +217,7 @@ __all__ = [
     "VesselHydrodynamics",
     "WaveSystem",
     "Waves",
+    "WavesWithoutLoadWarning",
     "__version__",
     "add_current",
     "add_drift",

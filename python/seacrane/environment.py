@@ -212,8 +212,6 @@ def use_actual_position(scene: Scene, database: HydroDatabase, *, vessel: str | 
     ------
     SceneError
         Without a sea, for a vessel that is not in it, or if the database's headings do not cover the circle.
-    ValueError
-        For components outside the database's frequencies.
     """
     waves = _sea_of(scene, "loads at the actual position")
     force, drift = force_by_heading(database, waves.omega), None
@@ -230,7 +228,7 @@ def force_by_heading(database: HydroDatabase, omega: Array) -> ByHeading:
     ----------
     database : HydroDatabase
     omega : ndarray, shape (n,)
-        rad/s.
+        rad/s; beyond the database's as `HydroDatabase.force_at` with ``outside="limits"``.
 
     Returns
     -------
@@ -241,9 +239,8 @@ def force_by_heading(database: HydroDatabase, omega: Array) -> ByHeading:
     ------
     SceneError
         If the headings do not cover the circle.
-    ValueError
-        For a frequency outside those of the database.
     """
+    from seacrane.hydro.beyond_band import with_limits
     from seacrane.hydro.interpolation import spline_weights
 
     heading, table = database.full_circle()
@@ -252,9 +249,9 @@ def force_by_heading(database: HydroDatabase, omega: Array) -> ByHeading:
             f"database {database.name!r}: headings {np.degrees(heading).round(3).tolist()} deg leave gaps "
             "above 45 deg; a vessel that turns needs them all round"
         )
-    database.force_at(np.array([omega.min(), omega.max()]), heading[0])  # refuses frequencies outside
     weights = spline_weights(database.omega, np.clip(omega, database.omega[0], database.omega[-1]))
-    return ByHeading(heading=heading, values=np.stack([weights @ at_heading for at_heading in table]))
+    values = np.stack([weights @ at_heading for at_heading in table])
+    return ByHeading(heading=heading, values=with_limits(database, omega, values))
 
 
 def add_drift(
@@ -284,9 +281,8 @@ def add_drift(
     Raises
     ------
     SceneError
-        Without a sea or without drift coefficients, or for a vessel that is not in the sea.
-    ValueError
-        For components outside the coefficients' frequencies or in a gap of more than 45 deg between headings.
+        Without a sea or without drift coefficients, for a vessel that is not in the sea, or for components
+        outside the coefficients' frequencies or in a gap of more than 45 deg between headings.
     """
     waves = _sea_of(scene, "drift")
     hull, by_heading = waves.hull(vessel), None
@@ -316,10 +312,10 @@ def _circle_of(database: HydroDatabase, omega: Array, outside: str) -> tuple[Arr
     if outside not in ("error", "hold"):
         raise SceneError(f"drift: outside is {outside!r}; choose 'error' or 'hold'")
     if outside == "error" and beyond.size:
-        raise ValueError(
+        raise SceneError(
             f"database {database.name!r}: omega = {beyond[0]:.6g} rad/s is outside the drift coefficients' "
             f"{drift.omega[0]:.6g} to {drift.omega[-1]:.6g} rad/s; narrow the sea's band, or pass "
-            "outside='hold'"
+            "outside='hold' to add_drift"
         )
     weights = spline_weights(drift.omega, np.clip(omega, drift.omega[0], drift.omega[-1]))
     heading, values = drift.heading, np.einsum("qn,mnd->mqd", weights, drift.coefficient)
@@ -348,7 +344,7 @@ def _drift_at(database: HydroDatabase, omega: Array, direction: Array, outside: 
     elif np.all(distance.min(axis=1) < 1e-6):
         weights = np.eye(len(heading))[distance.argmin(axis=1)]
     else:
-        raise ValueError(
+        raise SceneError(
             f"database {database.name!r}: drift coefficients at headings "
             f"{np.degrees(heading).round(3).tolist()} deg say nothing about all directions of this sea; gaps "
             "above 45 deg are not interpolated"

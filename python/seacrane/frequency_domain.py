@@ -62,7 +62,7 @@ def motion_rao(
     Raises
     ------
     SceneError
-        As `linear_model`; ValueError for frequencies outside the database.
+        As `linear_model`, or for frequencies outside the database.
     """
     linear = _linear(scene, state)
     w, b = np.broadcast_arrays(np.asarray(omega, dtype=float), np.asarray(heading, dtype=float))

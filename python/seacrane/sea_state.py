@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import math
-import warnings
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any, Literal
 
@@ -11,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane import _core
+from seacrane.caller import warn_caller
 from seacrane.checked import flag_of, number_of, shaped_of
 from seacrane.environment import add_drift, use_actual_position
 from seacrane.errors import SceneError
@@ -35,8 +34,14 @@ DEFAULTS: dict[str, Any] = {
 AT_ONCE = 4096  # components whose transfer is interpolated together, to bound the memory it takes
 
 
-class DepthMismatchWarning(UserWarning):
-    """Waves of one water depth act through forces computed for another: both are wrong in shallow water."""
+LEAST_DIFFERENCE = 0.01  # of a wavenumber, between the depths of the sea and of a database
+MOST_WITHOUT_LOAD = 0.02  # of the variance of a load
+NOTES = ("sea", "spectrum", "hs", "tp", "gamma", "wave_direction_deg", "spreading", "realised_hs_of_systems",
+         "waves_relative_bound", "wave_phase", "drift")  # fmt: skip
+
+
+class WavesWithoutLoadWarning(UserWarning):
+    """Waves above the frequencies of a database carry no load that matters: motions come out too small."""
 
 
 def add_sea(
@@ -99,20 +104,24 @@ def add_sea(
         "mean": loads at that position and heading. "actual": at those of the moment, see
         `seacrane.use_actual_position`.
     drift : bool
-        Adds Newman's slow drift, see `seacrane.add_drift`.
+        Adds Newman's slow drift, see `seacrane.add_drift`; components beyond its coefficients take those of
+        the nearest.
+
+    The sea is as deep as the database, or as `sea` says. It keeps all its components: loads at frequencies
+    that the database does not hold follow from `HydroDatabase.force_at` with ``outside="limits"``.
 
     Raises
     ------
     SceneError
-        For a value out of range, `sea` beside what it replaces, a second sea, or a vessel that is not there;
-        ValueError for a frequency outside the database.
+        For a value out of range, `sea` beside what it replaces, a second sea, a vessel that is not there, or
+        a sea whose waves have another length at its depth than at the database's.
 
     Warns
     -----
     SteepSeaWarning
         A sea steeper than any that stands.
-    DepthMismatchWarning
-        A sea of another water depth than the database.
+    WavesWithoutLoadWarning
+        More than 2 % of the variance of a load is that of waves above the database's frequencies.
     """
     arguments = {"hs": hs, "tp": tp, "gamma": gamma, "spectrum": spectrum, "direction_deg": direction_deg,
                  "spreading": spreading, "seed": seed, "count": count}  # fmt: skip
@@ -124,29 +133,39 @@ def add_sea(
         raise SceneError(f"sea: given beside {', '.join(given)}; put these into the SeaState")
     if sea is None and given.get("hs") == 0.0:
         scene.waves = None
+        _forget(scene)
         return
-    waves, notes = _sea_of(scene, vessel, sea, given)
+    waves, notes = _sea_of(scene, database, vessel, sea, given)
     waves = _evaluated(waves, relative_bound=relative_bound, evaluation=evaluation)
-    _check_depth(waves.depth, database)
+    _check_depth(waves, database, vessel)
     place, heading = _pose(scene, vessel, position, heading_deg)
     transfer = _transfer(database, waves.omega, waves.direction - heading)
     hull = HullLoads(transfer=transfer, position=place, heading=heading)
-    scene.waves = replace(waves, hulls={**waves.hulls, vessel: hull})
+    if scene.waves is None:
+        _forget(scene)
+    information = _with_shares(waves, database, vessel, hull)
+    scene.waves = replace(waves, hulls={**waves.hulls, vessel: hull}, information=information)
     if drift:
-        add_drift(scene, database, vessel=vessel)
+        add_drift(scene, database, vessel=vessel, outside="hold")
     if phase == "actual":
         use_actual_position(scene, database, vessel=vessel)
     scene.notes.update(notes, waves_relative_bound=waves.relative_bound)
 
 
+def _forget(scene: Scene) -> None:
+    """Take the notes of a sea that is gone out of the scene."""
+    for name in NOTES:
+        scene.notes.pop(name, None)
+
+
 def _sea_of(
-    scene: Scene, vessel: str, sea: SeaState | None, given: dict[str, Any]
+    scene: Scene, database: HydroDatabase, vessel: str, sea: SeaState | None, given: dict[str, Any]
 ) -> tuple[Waves, dict[str, Any]]:
     """The sea asked for with the notes on it; in a scene that has a sea, that one, if it is no other."""
     there = scene.waves
     if there is not None and sea is None and not given:
         return there, {}
-    asked, notes = _realised(sea, given)
+    asked, notes = _realised(sea, given, database.depth if there is None else there.depth)
     if there is None:
         return asked, notes
     arrays = ("omega", "amplitude", "phase", "direction", "depth")
@@ -159,13 +178,13 @@ def _sea_of(
     return there, {}
 
 
-def _realised(sea: SeaState | None, given: dict[str, Any]) -> tuple[Waves, dict[str, Any]]:
-    """A sea with no vessel in it yet, and the notes on it."""
+def _realised(sea: SeaState | None, given: dict[str, Any], depth: float) -> tuple[Waves, dict[str, Any]]:
+    """A sea with no vessel in it yet, of that depth where it is not a SeaState, and the notes on it."""
     if sea is None:
         chosen = DEFAULTS | given
         if "gamma" in given and chosen["spectrum"] != "jonswap":
             raise SceneError(f"gamma: {chosen['spectrum']!r} has no free peak enhancement; leave gamma out")
-        sea, notes = _one_system(**chosen)
+        sea, notes = _one_system(**chosen, depth=depth)
     elif isinstance(sea, SeaState):
         notes = {"sea": sea.description()}
     else:
@@ -232,6 +251,7 @@ def _one_system(
     spreading: float | Spreading | None,
     seed: int,
     count: int,
+    depth: float,
 ) -> tuple[SeaState, dict[str, Any]]:
     """The sea of plain arguments, and the notes on it."""
     density = _spectrum(spectrum, number_of("sea: hs", hs), number_of("sea: tp", tp), gamma)
@@ -242,7 +262,7 @@ def _one_system(
              "wave_direction_deg": direction_deg}  # fmt: skip
     if spreading is not None:
         notes["spreading"] = {"kind": spreading.kind, "exponent": spreading.exponent}
-    return SeaState(systems=[system], seed=seed), notes
+    return SeaState(systems=[system], seed=seed, depth=depth), notes
 
 
 def _spectrum(name: str, hs: float, tp: float, gamma: float | Literal["dnv"]) -> _core.Spectrum:
@@ -258,20 +278,51 @@ def _spectrum(name: str, hs: float, tp: float, gamma: float | Literal["dnv"]) ->
     )
 
 
-def _check_depth(depth: float, database: HydroDatabase) -> None:
-    if not math.isclose(depth, database.depth, rel_tol=0.01):
-        warnings.warn(
-            f"database {database.name!r}: forces are for a depth of {database.depth:g} m, the sea is "
-            f"{depth:g} m deep: where waves feel the bottom, loads and wavelengths disagree; set "
-            "SeaState(depth=...) to the database's",
-            DepthMismatchWarning,
-            stacklevel=3,
+def _check_depth(waves: Waves, database: HydroDatabase, vessel: str) -> None:
+    from seacrane.hydro.dispersion import wavenumber
+
+    there, computed = (
+        wavenumber(waves.omega, g=database.g, depth=depth) for depth in (waves.depth, database.depth)
+    )
+    difference = float(np.max(np.abs(there / computed - 1.0)))
+    if difference > LEAST_DIFFERENCE:
+        raise SceneError(
+            f"sea of vessel {vessel!r}: it is {waves.depth:g} m deep, the forces of database "
+            f"{database.name!r} are for {database.depth:g} m, and wavenumbers differ by up to "
+            f"{difference:.0%}; take SeaState(depth={database.depth:g}), or a database of the sea's depth"
         )
+
+
+def _with_shares(waves: Waves, database: HydroDatabase, vessel: str, hull: HullLoads) -> dict[str, Any]:
+    """What is reported of the sea, with what of it puts no load on a vessel; of several the largest."""
+    from seacrane.hydro.beyond_band import without_load
+
+    left_out = without_load(
+        database,
+        omega=waves.omega,
+        amplitude=waves.amplitude,
+        direction=waves.direction - hull.heading,
+        force=hull.transfer,
+    )
+    if left_out.variance > MOST_WITHOUT_LOAD:
+        warn_caller(
+            f"waves on {vessel!r}: those above {database.omega[-1]:.4g} rad/s, where database "
+            f"{database.name!r} ends, put no load on it: {left_out.energy:.2%} of the energy of the waves, "
+            f"and about {left_out.variance:.1%} of the variance of its {left_out.load} load. Compute the "
+            "database to higher frequencies, or take its motions in this sea for too small",
+            WavesWithoutLoadWarning,
+        )
+    shares = {"wave_energy_without_load": left_out.energy, "load_variance_without_load": left_out.variance}
+    known = waves.information
+    return {**known, **{name: max(share, known.get(name, 0.0)) for name, share in shares.items()}}
 
 
 def _transfer(
     database: HydroDatabase, omega: NDArray[np.float64], direction: NDArray[np.float64]
 ) -> NDArray[np.complex128]:
     starts = range(0, omega.size, AT_ONCE)
-    rows = [database.force_at(omega[i : i + AT_ONCE], direction[i : i + AT_ONCE]) for i in starts]
+    rows = [
+        database.force_at(omega[i : i + AT_ONCE], direction[i : i + AT_ONCE], outside="limits")
+        for i in starts
+    ]
     return np.concatenate(rows).astype(complex).reshape(-1, 6)

@@ -18,6 +18,7 @@ ComplexArray = NDArray[np.complex128]
 
 END = 0.8  # of the highest frequency: the slope of the forces is fitted from there on
 FEWEST = 3  # frequencies of that fit
+AT_ONCE = 256  # headings, to bound the memory it takes
 SLIGHT = 1e-3  # of the variance that the same waves would give a load from its worst heading
 LOADS = ("surge", "sway", "heave", "roll", "pitch", "yaw")
 
@@ -71,7 +72,12 @@ class WithoutLoad:
 
 
 def without_load(
-    database: HydroDatabase, *, omega: FloatArray, amplitude: FloatArray, direction: FloatArray
+    database: HydroDatabase,
+    *,
+    omega: FloatArray,
+    amplitude: FloatArray,
+    direction: FloatArray,
+    force: ComplexArray,
 ) -> WithoutLoad:
     """What the components of a sea above the band would add.
 
@@ -82,17 +88,16 @@ def without_load(
     Parameters
     ----------
     omega, amplitude, direction : (n,) rad/s, m, rad relative to the vessel.
+    force : (n, 6) on the vessel per amplitude, none above the band; N/m and N m/m.
     """
     energy = 0.5 * amplitude**2
     above = omega > database.omega[-1] * (1.0 + 1e-9)
     if not np.any(above):
         return WithoutLoad(energy=0.0, variance=0.0, load=LOADS[0])
-    inside = ~above
-    known = database.force_at(omega[inside], direction[inside], outside="limits")
-    carried = energy[inside] @ np.abs(known) ** 2
+    carried = energy @ np.abs(force) ** 2
     missing = energy[above] @ _tail(database, omega[above], direction[above]) ** 2
     whole = carried + missing
-    judged = whole > SLIGHT * (energy[inside] @ _worst_heading(database, omega[inside]) ** 2)
+    judged = whole > SLIGHT * (energy[~above] @ _worst_heading(database, omega[~above]) ** 2)
     share = np.where(judged, missing / np.where(judged, whole, 1.0), 0.0)
     worst = int(share.argmax())
     return WithoutLoad(
@@ -111,7 +116,8 @@ def _tail(database: HydroDatabase, omega: FloatArray, direction: FloatArray) -> 
     end = database.omega[database.omega >= END * database.omega[-1]]
     end = end if end.size >= FEWEST else database.omega[-FEWEST:]
     heading, of_component = np.unique(direction, return_inverse=True)
-    force = np.abs(database.force_at(end[None, :], heading[:, None]))
+    parts = np.array_split(heading, -(-heading.size // AT_ONCE))
+    force = np.abs(np.concatenate([database.force_at(end[None, :], part[:, None]) for part in parts]))
     least = 1e-9 * np.abs(database.force).max(axis=(0, 1)) + 1e-300
     level, x = np.log(np.maximum(force, least)), np.log(end / database.omega[-1])
     spread = x - x.mean()
