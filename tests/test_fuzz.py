@@ -6,40 +6,19 @@ Long runs, guided by coverage: `make fuzz`.
 from __future__ import annotations
 
 import random
-import signal
 import subprocess
 import sys
 import time
 from collections import Counter
-from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
 
 import pytest
+from fuzz.limits import Hang
 from fuzz.mutate import mutate_text
 from fuzz.targets import TARGETS, Target, cases, quiet
 
 SHORT_RUN = 0.4  # s of processor time for each target
-LONGEST = 2.0  # s of processor time for one case
 MOST_CASES = 400
-
-
-@pytest.fixture
-def alarm() -> Iterator[None]:
-    """A case that takes longer than two seconds of processor time fails."""
-
-    def hang(*_: Any) -> None:
-        raise TimeoutError(f"a case took more than {LONGEST} s of processor time")
-
-    before = signal.signal(signal.SIGVTALRM, hang)
-    yield
-    signal.setitimer(signal.ITIMER_VIRTUAL, 0.0)
-    signal.signal(signal.SIGVTALRM, before)
-
-
-def run(target: Target, case: bytes, folder: Path) -> str:
-    signal.setitimer(signal.ITIMER_VIRTUAL, LONGEST)
-    return target.run(case, folder)
 
 
 def needs(target: Target) -> None:
@@ -48,7 +27,7 @@ def needs(target: Target) -> None:
 
 
 @pytest.mark.parametrize("name", TARGETS)
-def test_corpus(name: str, tmp_path: Path, alarm: None) -> None:
+def test_corpus(name: str, tmp_path: Path) -> None:
     """Each case is read or refused by name; the seeds are read."""
     target = TARGETS[name]
     needs(target)
@@ -56,13 +35,13 @@ def test_corpus(name: str, tmp_path: Path, alarm: None) -> None:
     found: Counter[str] = Counter()
     with quiet():
         for path in cases(target):
-            found[run(target, path.read_bytes(), tmp_path)] += 1
+            found[target.run(path.read_bytes(), tmp_path)] += 1
     assert found["value"] >= 1
     assert found["no case"] == 0
 
 
 @pytest.mark.parametrize("name", TARGETS)
-def test_short_run(name: str, tmp_path: Path, alarm: None) -> None:
+def test_short_run(name: str, tmp_path: Path) -> None:
     """Seeded mutations of the corpus: the same cases each time, as many as the time allows."""
     target = TARGETS[name]
     needs(target)
@@ -75,8 +54,8 @@ def test_short_run(name: str, tmp_path: Path, alarm: None) -> None:
         for _ in range(MOST_CASES):
             case = mutate(generator.choice(pool), generator)
             try:
-                run(target, case, tmp_path)
-            except Exception:
+                target.run(case, tmp_path)
+            except (Exception, Hang):
                 (tmp_path / "unsound").write_bytes(case)
                 print(f"the case is in {tmp_path / 'unsound'}")
                 raise

@@ -24,7 +24,8 @@ def test_package_is_installed_not_imported_from_the_source_tree(repository: Path
 def test_import_leaves_the_heavy_libraries_alone() -> None:
     loaded = run_python("import seacrane, sys; print(*sys.modules)").split()
     assert "seacrane" in loaded
-    assert not {"scipy", "xarray", "matplotlib", "pandas", "h5netcdf", "netCDF4", "tqdm"} & set(loaded)
+    heavy = {"scipy", "xarray", "matplotlib", "pandas", "h5netcdf", "h5py", "netCDF4", "tqdm"}
+    assert not heavy & set(loaded)
 
 
 def test_type_information_ships() -> None:
@@ -62,4 +63,4 @@ def test_command_line_entry_point() -> None:
 def test_run_time_requirements_exclude_solvers_and_development_tools() -> None:
     always = [line for line in metadata.requires("seacrane") or [] if "extra ==" not in line]
     names = {re.split(r"[^A-Za-z0-9_-]", line)[0] for line in always}
-    assert names == {"numpy", "scipy", "xarray", "netCDF4", "matplotlib", "tqdm", "tomli"}
+    assert names == {"numpy", "scipy", "xarray", "netCDF4", "h5py", "matplotlib", "tqdm", "tomli"}

@@ -32,19 +32,25 @@ def plain_data(what: str, value: Any) -> Any:
 
 
 def notes_from_node(node: Node) -> dict[str, Any]:
-    """What `plain_data` made of the notes; raises FileFormatError."""
+    """What `plain_data` made of the notes, in the parsed document itself; raises FileFormatError."""
     if not isinstance(node.value, dict):
         node.fail("give an object")
     try:
-        out = {key: _restored(value) for key, value in node.value.items()}
+        for key, value in node.value.items():
+            node.value[key] = _restored(value)
     except RecursionError as error:
         raise FileFormatError(f"{node.path}: is nested too deeply") from error
-    return out
+    return node.value
 
 
 def _restored(value: Any) -> Any:
+    """The value with infinities in place of their objects; a copy would take as much memory again."""
     if isinstance(value, dict):
-        if set(value) == {INFINITE} and value[INFINITE] in (1, -1):
+        if value.keys() == {INFINITE} and value[INFINITE] in (1, -1):
             return math.copysign(math.inf, value[INFINITE])
-        return {key: _restored(item) for key, item in value.items()}
-    return [_restored(item) for item in value] if isinstance(value, list) else value
+        for key, item in value.items():
+            value[key] = _restored(item)
+    elif isinstance(value, list):
+        for i, item in enumerate(value):
+            value[i] = _restored(item)
+    return value

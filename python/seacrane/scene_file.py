@@ -9,6 +9,8 @@ from __future__ import annotations
 
 import json
 import os
+import re
+from collections import Counter
 from pathlib import Path
 from typing import Any
 
@@ -21,11 +23,13 @@ from seacrane.plain_data import notes_from_node, plain_data
 from seacrane.result.atomic import atomic_write
 from seacrane.scene import Scene
 from seacrane.scene_node import Node
+from seacrane.shown import shown
 from seacrane.wave_file import waves_from_node, waves_to_data
+from seacrane.whole_file import read_whole
 
 FORMAT = "seacrane scene"
 VERSION = 1
-LARGEST_FILE = 32 * 2**20  # bytes; JSON takes up to 25 times its size in memory when it is parsed
+LARGEST_FILE = 32 * 2**20  # bytes; JSON takes up to 40 times its size in memory when it is parsed
 
 _FRAME = {"point": (3,), "axes": (3, 3)}
 _ARRAYS: dict[str, dict[str, tuple[int, ...]]] = {
@@ -79,6 +83,21 @@ _ADD = {
     "vessels": "add_vessel",
 }
 _ADDED_LATER: dict[str, Any] = {"loads": []}  # entries that older files of this version do not have
+_STARTS = {
+    b"\x89HDF": "a NetCDF file (Result.load or load_database)",
+    b"CDF": "a NetCDF file (load_database)",
+    b"ISO-10303-21": "a STEP model",
+    b"seacrane state": "a state (load_state)",
+    b"<": "XML, such as a URDF model",
+    b"[": "a JSON list",
+}
+_SUFFIXES = {
+    ".toml": "TOML, as of a crane (KnuckleBoomCrane.load)",
+    ".py": "a Python script (seacrane run)",
+    ".yml": "YAML, as of an OrcaFlex model (load_database)",
+    ".yaml": "YAML, as of an OrcaFlex model (load_database)",
+    ".stl": "a surface (Hull.from_stl)",
+}
 _SETTINGS = ("gravity", "baumgarte", "length_scale")
 
 
@@ -195,10 +214,11 @@ def _scene(root: Node) -> Scene:
 
 
 def _parse(path: Path) -> Any:
-    with path.open("rb") as file:
-        data = file.read(LARGEST_FILE + 1)
-    if len(data) > LARGEST_FILE:
-        raise FileFormatError(f"{path.name}: is larger than {LARGEST_FILE} bytes, which no scene file is")
+    data = read_whole(path, LARGEST_FILE, "no scene file is")
+    if not re.match(rb"\s*\{", data):
+        raise FileFormatError(
+            f"{path.name}: is {_kind(path, data)}, no scene file, which is JSON as Scene.save writes it"
+        )
     try:
         return json.loads(data.decode("utf-8"), object_pairs_hook=_unique, parse_constant=_no_constant)
     except json.JSONDecodeError as error:
@@ -214,12 +234,22 @@ def _parse(path: Path) -> Any:
         raise FileFormatError(f"{path.name}: {error}") from error
 
 
+def _kind(path: Path, data: bytes) -> str:
+    """What a file that is no JSON object seems to be, by its first bytes, else by its suffix."""
+    if not data.strip():
+        return "empty"
+    for start, kind in _STARTS.items():
+        if data.startswith(start):
+            return kind
+    return _SUFFIXES.get(path.suffix.lower(), "something else")
+
+
 def _unique(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
     out = dict(pairs)
     if len(out) != len(pairs):
-        keys = [key for key, _ in pairs]
-        twice = next(key for key in keys if keys.count(key) > 1)
-        raise ValueError(f"key {twice!r} occurs twice in one object; remove one")
+        counts = Counter(key for key, _ in pairs)
+        twice = next(key for key, count in counts.items() if count > 1)
+        raise ValueError(f"key {shown(twice)} occurs twice in one object; remove one")
     return out
 
 
@@ -311,7 +341,7 @@ def _block_back(node: Node) -> _core.StateSpaceBlock:
     node.expect(("inputs", "outputs", "a", "b", "c", "d", "state_scale"))
     inputs = [item.whole() for item in node.at("inputs").items()]
     outputs = [item.whole() for item in node.at("outputs").items()]
-    states = len(node.at("a").items())
+    states = len(node.at("a").values())
     return _core.StateSpaceBlock(
         inputs=inputs,
         outputs=outputs,

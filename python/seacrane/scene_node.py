@@ -47,7 +47,7 @@ class Node:
             raise FileFormatError(f"{self.path}: has no {missing[0]!r}; add it")
         if unknown:
             raise FileFormatError(
-                f"{self.path}: has an unknown entry {unknown[0]!r}; known are {', '.join(keys)}"
+                f"{self.path}: has an unknown entry {shown(unknown[0])}; known are {', '.join(keys)}"
             )
 
     def at(self, key: str) -> Node:
@@ -56,11 +56,16 @@ class Node:
             raise FileFormatError(f"{self.path}: has no {key!r}; add it")
         return Node(self.value[key], f"{self.path}{'.' if ': ' in self.path else ': '}{key}")
 
-    def items(self) -> list[Node]:
-        """The members of a list."""
+    def values(self) -> list[Any]:
+        """The members of a list as they are."""
         if not isinstance(self.value, list):
             self.fail("give a list")
-        return [Node(value, f"{self.path}[{i}]") for i, value in enumerate(self.value)]
+        return self.value
+
+    def items(self) -> Iterator[Node]:
+        """The members of a list, one after the other: a node takes a hundred times what a number does."""
+        for i, value in enumerate(self.values()):
+            yield Node(value, f"{self.path}[{i}]")
 
     def text(self) -> str:
         """A text."""
@@ -94,13 +99,21 @@ class Node:
 
     def array(self, shape: tuple[int, ...]) -> Array:
         """Numbers of that shape, -1 standing for any length; an empty list has every length 0."""
-        items = self.items()
-        if shape[0] not in (-1, len(items)):
-            raise FileFormatError(f"{self.path}: has {len(items)} entries; give {shape[0]}")
+        values = self.values()
+        if shape[0] not in (-1, len(values)):
+            raise FileFormatError(f"{self.path}: has {len(values)} entries; give {shape[0]}")
         if len(shape) == 1:
-            return np.array([item.number() for item in items], dtype=float)
-        rows = [item.array(shape[1:]) for item in items]
+            return self._numbers(values)
+        rows = [item.array(shape[1:]) for item in self.items()]
         return np.array(rows, dtype=float).reshape(len(rows), *shape[1:])
+
+    def _numbers(self, values: list[Any]) -> Array:
+        if {int, float}.issuperset(map(type, values)):
+            with contextlib.suppress(OverflowError):
+                array = np.array(values, dtype=float)
+                if np.isfinite(array).all():
+                    return array
+        return np.array([item.number() for item in self.items()], dtype=float)  # names the one that is none
 
     def curve(self) -> _core.Curve:
         """A reference curve, as `Curve.to_pieces` gives it."""

@@ -59,7 +59,7 @@ def waves_from_node(node: Node) -> Waves:
     if isinstance(node.value, dict):
         node = Node({**_ADDED_LATER, **_one_hull_as_list(node.value)}, node.path)
     node.expect(("relative_bound", "depth", *_ARRAYS, *_ADDED_LATER, "hulls", "information"))
-    depth, count = node.at("depth"), len(node.at("omega").items())
+    depth, count = node.at("depth"), len(node.at("omega").values())
     hulls: dict[str, HullLoads] = {}
     for entry in node.at("hulls").items():
         if isinstance(entry.value, dict):

@@ -21,10 +21,11 @@ from veres_writer import VeresRun
 
 from fuzz.netcdf_spec import spec_of
 from fuzz.targets import CORPUS
-from seacrane import cases, scene_file, simulate
+from seacrane import Scene, add_end_stop, cases, scene_file, simulate
 from seacrane.crane.data_file import DEFAULT_PATH
 from seacrane.hydro import HydroDatabase, motion_response, shipped_database
 from seacrane.hydro.drift import DriftCoefficients
+from seacrane.result import Result
 
 G = 9.80665
 
@@ -208,7 +209,21 @@ def netcdf_seeds(folder: Path, hull: HydroDatabase) -> None:
     result = simulate(cases.case1(), t_end=1.0, dt_out=0.5)
     result.save(folder / "run.nc")
     put("result", "run", spec_of(folder / "run.nc"))
+    pendulum().save(folder / "small.nc")
+    put("result", "small", spec_of(folder / "small.nc"))
     put("result-bytes", "run", (folder / "run.nc").read_bytes())
+
+
+def pendulum() -> Result:
+    """Few channels, outputs and events: a case of it is written ten times as fast as one of a crane."""
+    scene = Scene(name="pendulum")
+    scene.add_body(name="bob", mass=1.0, inertia=np.eye(3), position=(0.0, 0.0, 0.0))
+    scene.add_joint(name="slide", kind="prismatic", first="ground", second="bob")
+    add_end_stop(scene, joint="slide", minimum=-1.0)
+    full = simulate(scene, t_end=1.0, dt_out=0.5)
+    channels = {name: full[name] for name in ("position", "energy_balance")}
+    coords = {dim: full.coords[dim] for dim in ("body", "axis")}
+    return dataclasses.replace(full, channels=channels, coords=coords)
 
 
 def small_memory() -> Any:

@@ -13,12 +13,16 @@ from typing import Any
 
 import numpy as np
 
+from fuzz.limits import bounded
 from fuzz.mutate import mutate_json, mutate_text
 from fuzz.netcdf_spec import build
 from seacrane import sea
 from seacrane.crane import KnuckleBoomCrane
 from seacrane.errors import FileFormatError, SceneError
+from seacrane.hdf5_structure import Structure
 from seacrane.hydro import Hull, HydroDatabase, capytaine, orcaflex, veres, wamit
+from seacrane.netcdf_limits import LARGEST_DATABASE as LARGEST
+from seacrane.netcdf_limits import NETCDF_ERRORS
 from seacrane.result import Result
 from seacrane.scene_file import load_scene
 from seacrane.state_file import load_state
@@ -45,6 +49,7 @@ class Target:
     beside: str | None = None
     refusals: tuple[type[Exception], ...] = (FileFormatError,)
     netcdf: bool = False
+    unfolds: bool = False  # compressed arrays, of which the file says how large they are
 
     def place(self, folder: Path) -> None:
         """The files that stand beside a case."""
@@ -54,14 +59,20 @@ class Target:
                     (folder / file.name).write_bytes(file.read_bytes())
 
     def run(self, case: bytes, folder: Path) -> str:
-        """Read a case: "value", "refused", or "no case"; anything unsound raises."""
+        """Read a case: "value", "refused", or "no case"; anything unsound raises.
+
+        That is: another exception, a message that floods, a number that is not finite, more time or memory
+        than its size allows.
+        """
         path = folder / self.file
         if not self.netcdf:
             path.write_bytes(case)
         elif not build(case, path):
             return "no case"
         try:
-            value = self.read(path)
+            unfolded = (lambda: announced(path)) if self.unfolds else None
+            with bounded(path.stat().st_size, unfolded):
+                value = self.read(path)
         except self.refusals as error:
             if len(str(error)) > LONGEST_MESSAGE + len(str(path)):
                 length, start = len(str(error)), str(error)[:200]
@@ -69,6 +80,16 @@ class Target:
             return "refused"
         require_finite(self.name, value)
         return "value"
+
+
+def announced(path: Path) -> int:
+    """Bytes of the arrays of a NetCDF file, as far as they are not refused for their size."""
+    structure = Structure(path, LARGEST, "")
+    try:
+        structure.check()
+    except (FileFormatError, *NETCDF_ERRORS):
+        return 0
+    return structure.arrays
 
 
 def require_finite(place: str, value: Any) -> None:
@@ -161,7 +182,7 @@ def _state(path: Path) -> Any:
 
 
 def _result(path: Path) -> Any:
-    found = Result.load(path)
+    found = Result.load(path, largest=LARGEST)
     return [] if found.interrupted else list(found.channels.values())
 
 
@@ -186,8 +207,8 @@ def _set_targets(
 def _netcdf_targets(name: str, file: str, read: Callable[[Path], Any], module: str) -> list[Target]:
     """Files written from mutated specifications, and files mutated byte by byte."""
     return [
-        Target(name, name, file, read, (module,), mutate_json, netcdf=True),
-        Target(f"{name}-bytes", name, file, read, (module,), None),
+        Target(name, name, file, read, (module,), mutate_json, netcdf=True, unfolds=True),
+        Target(f"{name}-bytes", name, file, read, (module,), None, unfolds=True),
     ]
 
 

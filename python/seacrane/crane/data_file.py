@@ -13,6 +13,7 @@ from typing import Any
 from seacrane.crane.mass_properties import Box, Member, Point, Tube
 from seacrane.errors import FileFormatError
 from seacrane.shown import shown
+from seacrane.whole_file import read_whole
 
 DEFAULT_PATH = Path(__file__).resolve().parent.parent / "data" / "knuckle_boom_250t.toml"
 SCHEMA = 1
@@ -338,11 +339,7 @@ def load(path: str | Path | None = None) -> CraneData:
     """
     path = DEFAULT_PATH if path is None else Path(path)
     try:
-        with path.open("rb") as file:
-            content = file.read(LARGEST_FILE + 1)
-        if len(content) > LARGEST_FILE:
-            raise FileFormatError(f"{path}: is larger than {LARGEST_FILE} bytes, which no crane file is.")
-        text = content.decode("utf-8")
+        text = read_whole(path, LARGEST_FILE, "no crane file is").decode("utf-8")
     except (OSError, UnicodeDecodeError) as error:
         raise FileFormatError(f"crane data file {path} cannot be read ({error}); check the path.") from error
     return parse(text, source=str(path))

@@ -18,7 +18,7 @@ from seacrane.errors import FileFormatError
 from seacrane.hydro.database import PORT_STARBOARD, HydroDatabase
 from seacrane.hydro.dispersion import wavenumber
 from seacrane.hydro.equivalent_box import equivalent_box
-from seacrane.netcdf_limits import LARGEST_DATABASE, NETCDF_ERRORS, TOO_LARGE, require_size
+from seacrane.netcdf_limits import NETCDF_ERRORS, open_netcdf
 from seacrane.shown import shown
 
 if TYPE_CHECKING:
@@ -57,13 +57,10 @@ def read_capytaine(
     source = Path(path)
     if not source.is_file():
         raise FileFormatError(f"{source}: no such file; give the path of a Capytaine NetCDF file")
-    import netCDF4
     import xarray
 
     try:
-        with netCDF4.Dataset(source, "r") as file:
-            require_size(source, file, LARGEST_DATABASE, TOO_LARGE)
-        with xarray.open_dataset(source) as opened:
+        with open_netcdf(source), xarray.open_dataset(source) as opened:
             dataset = opened.load()
         return _convert(source, dataset, mass_matrix, restoring)
     except FileFormatError:
@@ -76,12 +73,12 @@ def read_capytaine(
 
 def is_capytaine(path: Path) -> bool:
     """Whether a NetCDF file holds radiation results by Capytaine's names."""
-    import netCDF4
-
     try:
-        with netCDF4.Dataset(path, "r") as file:
+        with open_netcdf(path) as file:
             return "added_mass" in file.variables and "radiating_dof" in file.dimensions
-    except (OSError, RuntimeError):
+    except FileFormatError:
+        raise
+    except NETCDF_ERRORS:
         return False
 
 

@@ -13,9 +13,11 @@ from numpy.typing import NDArray
 from seacrane.errors import FileFormatError
 from seacrane.hydro.hull_panels import end_cap, lofted
 from seacrane.shown import shown
+from seacrane.whole_file import read_whole
 
 FloatArray = NDArray[np.float64]
 
+LARGEST_FILE = 16 * 2**20  # bytes: half a million points
 LARGEST = 1e9  # m: areas and volumes do not overflow
 
 
@@ -118,7 +120,7 @@ def read_offset_table(path: str | PathLike[str]) -> OffsetTable:
     """
     source = Path(path)
     try:
-        lines = source.read_text(encoding="utf-8-sig").splitlines()
+        lines = read_whole(source, LARGEST_FILE, "give fewer points").decode("utf-8-sig").splitlines()
     except (OSError, UnicodeDecodeError) as error:
         raise FileFormatError(f"{source}: cannot be read ({error}); give a text file x,y,z") from error
     stations: dict[float, list[list[float]]] = {}

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane.errors import FileFormatError
+from seacrane.whole_file import read_whole
 
 FloatArray = NDArray[np.float64]
 
@@ -35,7 +36,7 @@ def read_stl(path: str | PathLike[str]) -> FloatArray:
     """
     source = Path(path)
     try:
-        content = source.read_bytes()
+        content = read_whole(source, fix="export a coarser surface")
     except OSError as error:
         raise FileFormatError(f"{source}: cannot be read ({error}); give the path of an STL file") from error
     triangles = _binary(content) if _is_binary(content) else _ascii(source, content)

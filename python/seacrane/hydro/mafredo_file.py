@@ -18,7 +18,7 @@ from seacrane.caller import warn_caller
 from seacrane.errors import FileFormatError
 from seacrane.hydro.database import MOTIONS
 from seacrane.hydro.reader_warnings import AssumedSymmetryWarning
-from seacrane.netcdf_limits import LARGEST_DATABASE, NETCDF_ERRORS, TOO_LARGE, require_size
+from seacrane.netcdf_limits import NETCDF_ERRORS, open_netcdf
 
 FloatArray = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
@@ -49,12 +49,8 @@ def read_mafredo(path: Path) -> MafredoData:
     ------
     FileFormatError : no such form, damaged, or of different grids in its parts.
     """
-    import netCDF4
-
     try:
-        with netCDF4.Dataset(path, "r") as file:
-            file.set_auto_mask(False)
-            require_size(path, file, LARGEST_DATABASE, TOO_LARGE)
+        with open_netcdf(path) as file:
             return _read(path, file)
     except FileFormatError:
         raise

@@ -15,7 +15,7 @@ from seacrane.errors import FileFormatError
 from seacrane.hydro.database import MOTIONS, AdditionalMatrices, HydroDatabase, RollDamping
 from seacrane.hydro.drift import DriftCoefficients
 from seacrane.hydro.memory_model import FitRow, MemoryBlock, MemoryModel, Passivity
-from seacrane.netcdf_limits import LARGEST_DATABASE, NETCDF_ERRORS, TOO_LARGE, require_size
+from seacrane.netcdf_limits import NETCDF_ERRORS, open_netcdf
 
 if TYPE_CHECKING:
     import xarray
@@ -79,14 +79,11 @@ def load_database_file(path: str | PathLike[str]) -> HydroDatabase:
     ------
     FileFormatError : the file is missing, damaged, or not one of ours.
     """
-    import netCDF4
-
     source = Path(path)
     if not source.is_file():
         raise FileFormatError(f"{source}: no such file; give the path of a hydrodynamic database")
     try:
-        with netCDF4.Dataset(source, "r") as file:
-            file.set_auto_mask(False)
+        with open_netcdf(source) as file:
             if getattr(file, "format", None) != FORMAT:
                 raise FileFormatError(
                     f"{source}: a NetCDF file, but not a seacrane hydrodynamic database; save one with "
@@ -97,7 +94,6 @@ def load_database_file(path: str | PathLike[str]) -> HydroDatabase:
                     f"{source}: format version {int(file.format_version)} is newer than this seacrane reads "
                     f"({FORMAT_VERSION}); update seacrane"
                 )
-            require_size(source, file, LARGEST_DATABASE, TOO_LARGE)
             return _read(file)
     except FileFormatError:
         raise

@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 
 from seacrane.errors import FileFormatError
 from seacrane.shown import shown
+from seacrane.whole_file import read_whole
 
 FloatArray = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
@@ -200,9 +201,7 @@ def _document(path: Path) -> dict[str, Any]:
         ) from None
     loader = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
     try:
-        if path.stat().st_size > LARGEST_FILE:
-            raise FileFormatError(f"{path}: above {LARGEST_FILE} bytes; save the vessel type alone")
-        text = path.read_bytes().decode("utf-8-sig")
+        text = read_whole(path, LARGEST_FILE, "save the vessel type alone").decode("utf-8-sig")
         depth = 0
         for event in yaml.parse(text, Loader=loader):
             depth += isinstance(event, yaml.CollectionStartEvent) - isinstance(event, yaml.CollectionEndEvent)

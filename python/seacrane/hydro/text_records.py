@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane.errors import FileFormatError
+from seacrane.whole_file import read_whole
 
 FloatArray = NDArray[np.float64]
 
@@ -20,7 +21,7 @@ class TextRecords:
     def __init__(self, path: Path) -> None:
         self.path = path
         try:
-            self._lines = path.read_bytes().decode("latin-1").splitlines()
+            self._lines = read_whole(path).decode("latin-1").splitlines()
         except OSError as error:
             raise FileFormatError(
                 f"{path}: cannot be read ({error.strerror}); check the path and its rights"

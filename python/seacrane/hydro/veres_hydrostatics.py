@@ -39,7 +39,7 @@ ROWS = {
     "r66": "Yaw radius of gyration",
 }
 TONNES = 1000.0
-NUMBER = re.compile(r"^[-+]?(\d+\.?\d*|\.\d+)([EeDd][-+]?\d+)?\*?$")
+NUMBER = re.compile(r"^[-+]?(\d+(?:\.\d*)?|\.\d+)([EeDd][-+]?\d+)?\*?$")
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane.errors import FileFormatError
+from seacrane.whole_file import read_whole
 
 FloatArray = NDArray[np.float64]
 
@@ -223,7 +224,7 @@ class _ListDirected:
 
 def _lines(path: Path) -> list[str]:
     try:
-        return path.read_bytes().decode("latin-1").replace("\r", "").rstrip("\n").split("\n")
+        return read_whole(path).decode("latin-1").replace("\r", "").rstrip("\n").split("\n")
     except OSError as error:
         raise FileFormatError(
             f"{path}: cannot be read ({error.strerror}); check the path and its rights"

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane.errors import FileFormatError
+from seacrane.whole_file import read_whole
 
 FloatArray = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
@@ -125,7 +126,7 @@ def read_restoring(path: Path) -> FloatArray:
 def _read(path: Path, widths: tuple[int, ...]) -> _Table:
     """All rows of a file; a first line of text (option NUMHDR) is passed over."""
     try:
-        text = path.read_bytes().decode("latin-1")
+        text = read_whole(path).decode("latin-1")
     except OSError as error:
         raise FileFormatError(
             f"{path}: cannot be read ({error.strerror}); check the path and its rights"

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from seacrane.errors import FileFormatError
-from seacrane.netcdf_limits import require_size
+from seacrane.netcdf_limits import open_netcdf
 from seacrane.result.channels import attributes
 from seacrane.result.events import NUMBERS, PREFIX, Event, event_arrays, events_from_arrays
 
@@ -68,11 +68,8 @@ def read_arrays(path: Path, largest: int, channels: Sequence[str] | None = None)
 
     FileFormatError beyond `largest` bytes.
     """
-    import netCDF4
-
-    with netCDF4.Dataset(path, "r") as file:
-        file.set_auto_mask(False)
-        require_size(path, file, largest, "raise it with Result.load(path, largest=...) if the file is yours")
+    fix = "raise it with Result.load(path, largest=...) if the file is yours"
+    with open_netcdf(path, largest, fix) as file:
         if "time" not in file.variables:
             raise FileFormatError(f"{path} has no variable 'time'; it is not a seacrane result")
         stats = {name: file.getncattr(name) for name in file.ncattrs()}

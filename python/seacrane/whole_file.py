@@ -1,0 +1,38 @@
+"""The one place where a file is taken into memory whole: never more than a file of its kind may have."""
+
+from __future__ import annotations
+
+import errno
+import stat
+from pathlib import Path
+
+from seacrane.errors import FileFormatError
+
+LARGEST_TABLE = 128 * 2**20  # bytes; VERES files of ten speeds take a few dozen MiB
+
+
+def read_whole(path: Path, largest: int = LARGEST_TABLE, fix: str = "export less into one file") -> bytes:
+    """The bytes of a file.
+
+    Parameters
+    ----------
+    path : Path
+    largest : int
+        Bytes that a file of this kind may have.
+    fix : str
+        What the message asks for where it has more.
+
+    Raises
+    ------
+    FileFormatError
+        If the file is larger.
+    OSError
+        If it cannot be read, or is a device or a pipe, which may have no end.
+    """
+    found = path.stat()
+    if not (stat.S_ISREG(found.st_mode) or stat.S_ISDIR(found.st_mode)):
+        raise OSError(errno.EINVAL, "is a device or a pipe, no file", str(path))
+    if found.st_size > largest:
+        raise FileFormatError(f"{path}: is larger than {largest} bytes; {fix}")
+    with path.open("rb") as file:
+        return file.read(found.st_size)
