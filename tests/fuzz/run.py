@@ -119,7 +119,7 @@ def _child(name: str, options: argparse.Namespace) -> int:
     harness = Harness(target, home, folder, options)
     seed = int.from_bytes(os.urandom(4), "little") & 0x7FFFFFFF
     arguments = [sys.argv[0], str(grown), f"-artifact_prefix={home}/", f"-seed={seed}"]
-    arguments += ["-max_len=80000", "-timeout=60", "-rss_limit_mb=4096", "-detect_leaks=0", "-verbosity=0"]
+    arguments += ["-max_len=120000", "-timeout=60", "-rss_limit_mb=4096", "-detect_leaks=0", "-verbosity=0"]
     mutator: dict[str, Any] = {}
     if target.mutate is not None:
         mutator["custom_mutator"] = harness.mutate

@@ -6,9 +6,12 @@ import dataclasses
 import json
 import sys
 import tempfile
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
+import h5py
+import netCDF4
 import numpy as np
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
@@ -23,6 +26,7 @@ from fuzz.netcdf_spec import spec_of
 from fuzz.targets import CORPUS
 from seacrane import Scene, add_end_stop, cases, scene_file, simulate
 from seacrane.crane.data_file import DEFAULT_PATH
+from seacrane.hdf5_structure import HEAP
 from seacrane.hydro import HydroDatabase, motion_response, shipped_database
 from seacrane.hydro.drift import DriftCoefficients
 from seacrane.result import Result
@@ -211,7 +215,61 @@ def netcdf_seeds(folder: Path, hull: HydroDatabase) -> None:
     put("result", "run", spec_of(folder / "run.nc"))
     pendulum().save(folder / "small.nc")
     put("result", "small", spec_of(folder / "small.nc"))
+    put("result-bytes", "small", (folder / "small.nc").read_bytes())
+    hostile_hdf5(folder)
     put("result-bytes", "run", (folder / "run.nc").read_bytes())
+
+
+def hostile_hdf5(folder: Path) -> None:
+    """The smallest files of what HDF5 allows and no NetCDF writer makes."""
+    text = h5py.string_dtype()
+
+    def packed(file: h5py.File) -> None:
+        file.create_dataset("a", (4,), text, chunks=(2,), compression="gzip")
+
+    def folded(file: h5py.File) -> None:
+        made = h5py.h5p.create(h5py.h5p.DATASET_CREATE)
+        made.set_chunk((4,))
+        made.set_deflate(1)
+        made.set_deflate(1)
+        h5py.h5d.create(file.id, b"a", h5py.h5t.IEEE_F64LE, h5py.h5s.create_simple((4,)), made)
+
+    kinds: dict[str, Callable[[h5py.File], Any]] = {
+        "itself": lambda file: file.__setitem__("a", file["/"]),
+        "link": lambda file: file.__setitem__("a", h5py.SoftLink("/b")),
+        "deep": lambda file: file.create_group("/".join("abcdefghijkl")),
+        "elsewhere": lambda file: file.create_dataset("a", (1,), "f8", external=[("b", 0, 8)]),
+        "ragged": lambda file: file.create_dataset("a", (2,), h5py.vlen_dtype("f8")),
+        "ragged-attribute": lambda file: h5py.h5a.create(
+            file.id, b"a", h5py.h5t.vlen_create(h5py.h5t.IEEE_F64LE), h5py.h5s.create_simple((2,))
+        ),
+        "texts": lambda file: file.create_dataset("a", (2,), text).__setitem__(0, "b"),
+        "texts-in-chunks": lambda file: file.create_dataset("a", (2,), text, chunks=(2,)).__setitem__(0, "b"),
+        "text-attributes": lambda file: file.attrs.create("a", ["b", "c"], dtype=text),
+        "large": lambda file: file.create_dataset("a", (2**31,), "f8", chunks=(8,)),
+        "large-chunk": lambda file: file.create_dataset("a", (1,), "f8", maxshape=(None,), chunks=(2**28,)),
+        "packed-texts": packed,
+        "folded-twice": folded,
+    }
+    for name, fill in kinds.items():
+        with h5py.File(folder / name, "w", libver="latest") as file:
+            fill(file)
+        put("result-bytes", name, (folder / name).read_bytes())
+    damaged = bytearray((CORPUS / "result-bytes" / "texts").read_bytes())
+    heap = damaged.index(HEAP)
+    damaged[heap + 16 : heap + 32] = bytes(16)
+    put("result-bytes", "damaged-heap", damaged)
+    with h5py.File(folder / "block", "w", userblock_size=512):
+        pass
+    put("result-bytes", "user-block", (folder / "block").read_bytes())
+    for name, size in (("classic", 2), ("classic-large", 2**28)):
+        with netCDF4.Dataset(folder / name, "w", format="NETCDF3_64BIT_OFFSET") as file:
+            file.set_fill_off()
+            file.createDimension("time", size)
+            for variable in ("time", "a", "b"):
+                file.createVariable(variable, "f8", ("time",))
+        with (folder / name).open("rb") as written:
+            put("result-bytes", name, written.read(400))
 
 
 def pendulum() -> Result:

@@ -186,6 +186,7 @@ def _result(path: Path) -> Any:
     return [] if found.interrupted else list(found.channels.values())
 
 
+_NETCDF = ("netcdf_limits.py", "hdf5_structure.py")
 _SCENE = ("scene_file.py", "scene_node.py", "wave_file.py", "plain_data.py", "load_kinds.py")
 _ORCAFLEX = ("hydro/orcaflex.py", "hydro/orcaflex_model.py")
 _VERES = tuple(
@@ -207,8 +208,8 @@ def _set_targets(
 def _netcdf_targets(name: str, file: str, read: Callable[[Path], Any], module: str) -> list[Target]:
     """Files written from mutated specifications, and files mutated byte by byte."""
     return [
-        Target(name, name, file, read, (module,), mutate_json, netcdf=True, unfolds=True),
-        Target(f"{name}-bytes", name, file, read, (module,), None, unfolds=True),
+        Target(name, name, file, read, (module, *_NETCDF), mutate_json, netcdf=True, unfolds=True),
+        Target(f"{name}-bytes", name, file, read, (module, *_NETCDF), None, unfolds=True),
     ]
 
 
