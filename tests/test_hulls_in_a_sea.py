@@ -332,6 +332,29 @@ def test_the_linear_model_sums_the_loads_of_all_hulls() -> None:
     assert rungs.PRESCRIBED not in names and rungs.LINEAR in names
 
 
+def test_joined_hulls_move_as_their_linear_model_under_the_loads_of_both() -> None:
+    scene = Scene(name="joined")
+    add_vessel(scene, database(), name="ship", position=(-30.0, 20.0, 0.0), heading_deg=25.0)
+    add_vessel(scene, database(), name="barge", position=(60.0, 40.0, 0.0), heading_deg=100.0)
+    for body in ("ship", "barge"):
+        add_sea(scene, database(), vessel=body, hs=0.02, tp=8.0, count=10, direction_deg=70.0)
+    apart = float(np.hypot(90.0, 20.0))
+    scene.add_spring(name="hawser", first="ship", second="barge", stiffness=2e7, natural_length=apart)
+    linear = linear_model(scene, vessel="ship")
+    summed = {body: response_summed(linear, body=body) for body in ("ship", "barge")}
+    start = linear.full_state(summed["ship"].state_at(0.0))
+    result = simulate(scene, t_end=30.0, dt_out=0.5, start=start, channels=["vessel_motion"])
+    alone = scene.copy(springs={})
+    for body, heading_deg in (("ship", 25.0), ("barge", 100.0)):
+        turn = rotation_about_z(np.radians(heading_deg))
+        expected = summed[body].at(result.time) @ np.kron(np.eye(2), turn)
+        got = result.select("vessel_motion", vessel=body)
+        scale = np.abs(expected).max(axis=0)
+        assert np.all(np.abs(got - expected).max(axis=0) < 0.01 * np.maximum(scale, 1e-2 * scale.max()))
+        free = response_summed(alone, body=body).at(result.time) @ np.kron(np.eye(2), turn)
+        assert np.abs(free - expected)[:, :2].max() > 0.05 * scale[:2].max()  # the hawser carries
+
+
 def carried(pose: Pose) -> Scene:
     scene = Scene(name="carried")
     add_vessel(scene, database(), **pose.place())
