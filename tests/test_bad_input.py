@@ -25,9 +25,11 @@ from seacrane import (
     StateSpaceBlock,
     Waves,
     _core,
+    inverse_dynamics,
     simulate,
     spline_curve,
 )
+from seacrane.crane import KnuckleBoomCrane, Payload
 
 NAN, INF = float("nan"), float("inf")
 KINDS = (
@@ -695,6 +697,51 @@ def test_controllers(function: Any, error: type[Exception], parts: tuple[str, ..
 @pytest.mark.parametrize("period", [0.0, -1.0, NAN, INF, "fast", None])
 def test_controller_period(period: Any) -> None:
     refused(lambda: SampledController(period=period, function=lambda t, m: {}), "period is", str(period))
+
+
+@pytest.mark.parametrize(
+    "call",
+    [
+        pytest.param(lambda s: s.add_point_force(name="f", body="bob", force=["1", "2", "3"]), id="force"),
+        pytest.param(
+            lambda s: s.add_point_force(name="f", body="bob", force=np.array(["1", "2", "3"])), id="array"
+        ),
+        pytest.param(lambda s: s.add_point_force(name="f", body="bob", force=[1.0, "2", 3.0]), id="one text"),
+        pytest.param(
+            lambda s: s.add_point_force(name="f", body="bob", force=np.array([1, b"2", 3], dtype=object)),
+            id="bytes",
+        ),
+        pytest.param(lambda s: s.add_body(name="x", mass=1, inertia=["1", "1", "1"]), id="inertia"),
+        pytest.param(
+            lambda s: s.add_body(name="x", mass=1, inertia=[1, 1, 1], position=("0", 0, 0)), id="position"
+        ),
+        pytest.param(
+            lambda s: s.add_joint(
+                kind="revolute", name="j", first="ground", second="bob", axis=("0", "0", "1")
+            ),
+            id="axis",
+        ),
+        pytest.param(
+            lambda s: s.add_spring(name="s", first="ground", second="bob", lengths=["1", "2"], forces=[0, 1]),
+            id="lengths",
+        ),
+        pytest.param(
+            lambda s: s.add_force_table(name="t", body="bob", times=["0", "1"], loads=np.zeros((2, 6))),
+            id="times",
+        ),
+        pytest.param(lambda s: KnuckleBoomCrane.load().add_to(s, foot=("33", "10", "10")), id="foot"),
+        pytest.param(lambda s: Payload(mass="20e3"), id="payload"),
+        pytest.param(lambda s: inverse_dynamics(s, times=["0", "1"]), id="times of inverse dynamics"),
+        pytest.param(lambda s: Run(s, t_end=1.0).set_inputs({"motor.force": "1"}), id="input"),
+        pytest.param(
+            lambda s: s.add_body(name="x", mass=1, inertia=np.array(["2026-01-01"] * 3, dtype="M8[D]")),
+            id="dates",
+        ),
+    ],
+)
+def test_texts_that_read_as_numbers_are_no_numbers(call: Any) -> None:
+    with pytest.raises(SceneError, match="give .*number"):
+        call(pendulum())
 
 
 def test_controller_function() -> None:

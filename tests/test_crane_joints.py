@@ -227,6 +227,7 @@ class Recorder:
     def __init__(self) -> None:
         self.bodies: dict[str, dict[str, Any]] = {}
         self.joints: dict[str, dict[str, Any]] = {}
+        self.ranges: dict[str, tuple[float, float]] = {}
 
     def add_body(self, *, name: str, **values: Any) -> None:
         self.bodies[name] = values
@@ -235,6 +236,9 @@ class Recorder:
         assert {values["first"], values["second"]} <= {*self.bodies, "ground", "vessel"}
         self.joints[name] = values
 
+    def add_range(self, *, joint: str, minimum: float, maximum: float) -> None:
+        self.ranges[joint] = (minimum, maximum)
+
 
 def test_add_to_a_scene() -> None:
     scene = Recorder()
@@ -242,6 +246,9 @@ def test_add_to_a_scene() -> None:
     assert list(scene.bodies) == [*BODIES, "payload"]
     assert sum(body["mass"] for body in scene.bodies.values()) == pytest.approx(400e3)
     assert scene.joints["deck"]["first"] == "ground"
+    strokes = {"main_cylinder": PLACE["s1"], "knuckle_cylinder": PLACE["s2"]}
+    for cylinder, stroke in strokes.items():
+        assert scene.ranges[cylinder] == (-stroke, getattr(CRANE.data, cylinder).stroke - stroke)
     used = {name: set(values) - {"kind", "first", "second"} for name, values in scene.joints.items()}
     assert used["deck"] == used["D"] == used["G"] == {"point"}
     assert used["A"] == used["C"] == used["F"] == used["main_cylinder"] == {"point", "axis"}

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from seacrane import Curve, HullLoads, Result, Scene, State, Waves, simulate
+from seacrane import Curve, HullLoads, Result, Scene, State, Waves, _core, simulate
 from seacrane.hydro import HydroDatabase, shipped_database, vessel_parameters
 from seacrane.hydro.vessel import RollDampingWarning, rigid_mass_matrix
 from seacrane.vessel import add_vessel
@@ -175,6 +175,38 @@ def rest_under_vertical_force(database: HydroDatabase, point: Array, force: floa
         return np.asarray(c @ eta - force * height)
 
     return np.asarray(fsolve(residual, np.linalg.solve(c, force * np.array([1.0, y, -x])), xtol=1e-10))
+
+
+def described_at(scene: Scene, height: float) -> Scene:
+    """The scene with its vessel described above the water's rest, m."""
+    old = scene.bodies["vessel"]
+    scene.bodies["vessel"] = _core.Body(
+        name="vessel", mass=old.mass, inertia=old.inertia, center_of_mass=old.center_of_mass,
+        position=(0.0, 0.0, height),
+    )  # fmt: skip
+    return scene
+
+
+@pytest.mark.parametrize("kinematics", ["yaw_following", "paper"])
+def test_a_vessel_described_above_its_rest_starts_there_and_heaves_about_it(kinematics: str) -> None:
+    """The same motion as from a state 1 m above rest, and back at rest on still water."""
+    database = damped(shipped_database(), 0.3)
+
+    def still() -> Scene:
+        scene = Scene()
+        add_vessel(scene, database, memory="none", kinematics=kinematics)
+        return scene
+
+    result = simulate(described_at(still(), 1.0), t_end=60.0, rtol=1e-9)
+    heave = result["vessel_motion"][:, 2]
+    first = _core.initial_state(still().compile())
+    lifted = np.array(first.values)
+    lifted[2] += 1.0
+    twin = simulate(still(), t_end=60.0, rtol=1e-9, start=State(time=0.0, values=lifted, inputs=first.inputs))
+    assert heave[0] == 1.0
+    assert heave.min() < -0.1
+    assert abs(heave[-1]) < 1e-3
+    np.testing.assert_allclose(result["vessel_motion"], twin["vessel_motion"], atol=1e-9)
 
 
 @pytest.mark.parametrize(("y", "z"), [(10.0, 0.0), (-8.0, 0.0), (12.0, 15.0)])

@@ -63,6 +63,7 @@ py::dict assembly_report(const Model& m) {
   out["largest_translation_m"] = a.largest_translation;
   out["largest_rotation_rad"] = a.largest_rotation;
   out["most_moved_body"] = a.most_moved;
+  out["open"] = a.open;
   out["residual_before"] = a.residual_before;
   out["residual_after"] = a.residual_after;
   out["rate_residual_after"] = a.rate_residual_after;

@@ -1,5 +1,7 @@
 #include "seacrane/sea/wave_components.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 #include <memory>
 #include <string>
@@ -74,6 +76,16 @@ Stretching stretching_of(const std::string& name) {
   throw py::value_error("wave kinematics: stretching is '" + name + "'; give 'wheeler' or 'none'");
 }
 
+/// Every point above any crest that this sea can have: a depth where z, upwards, is due.
+void warn_of_air(const WaveComponents& waves, const Doubles& z) {
+  double crest = 0.0;
+  for (const double amplitude : waves.amplitude()) crest += std::abs(amplitude);
+  const double* end = z.data() + z.size();
+  const double* lowest = std::min_element(z.data(), end);
+  if (lowest == end || *lowest <= crest) return;
+  py::module_::import("seacrane.plausible").attr("warn_of_air")(*lowest, crest);
+}
+
 WaveKinematics kinematics_at(const WaveComponents& waves, const py::object& time, const py::object& x,
                              const py::object& y, const py::object& z, const std::string& stretching,
                              double density) {
@@ -81,6 +93,7 @@ WaveKinematics kinematics_at(const WaveComponents& waves, const py::object& time
   require_finite_points(at);
   sea::require_positive(density, "wave kinematics", "density", "kg/m3");
   const Stretching kind = stretching_of(stretching);
+  warn_of_air(waves, at[3]);
   WaveKinematics out{shaped_like<double>(at[0], 1), shaped_like<double>(at[0], 3),
                      shaped_like<double>(at[0], 3), shaped_like<double>(at[0], 1),
                      shaped_like<bool>(at[0], 1)};

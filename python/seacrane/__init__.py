@@ -28,6 +28,7 @@ if TYPE_CHECKING:
         VesselHydrodynamics,
         integrator_names,
     )
+    from seacrane.assembled import AssemblyWarning
     from seacrane.curves import spline_curve
     from seacrane.environment import (
         DoubleCountedDampingWarning,
@@ -38,6 +39,7 @@ if TYPE_CHECKING:
         use_actual_position,
     )
     from seacrane.errors import ChatteringError, FileFormatError, SceneError, SeacraneError, SimulationError
+    from seacrane.following import FullTurnWarning, OutsideRangeWarning, SoftGainsWarning
     from seacrane.frequency_domain import (
         ResponseStatistics,
         SummedResponse,
@@ -60,6 +62,14 @@ if TYPE_CHECKING:
     from seacrane.long_run import StreamedResult, simulate_to_file
     from seacrane.modal_analysis import NaturalModes, natural_modes
     from seacrane.output_times import OutputMemoryError
+    from seacrane.plausible import (
+        AngleUnitWarning,
+        BallastWarning,
+        CompassDirectionWarning,
+        DepthSignWarning,
+        MassUnitWarning,
+    )
+    from seacrane.references import DriverImpulseWarning
     from seacrane.rest_state import equilibrium
     from seacrane.result import Event, Result
     from seacrane.sampled_controller import SampledController
@@ -69,7 +79,6 @@ if TYPE_CHECKING:
     from seacrane.simulation import Run, simulate
     from seacrane.trading import Trade, trade
     from seacrane.validity import (
-        FullTurnWarning,
         LargeHeelWarning,
         NearSingularWarning,
         OutsideDatabaseWarning,
@@ -81,11 +90,17 @@ if TYPE_CHECKING:
     from seacrane.wind import gust_curve
 
 _HOME = {
+    "AngleUnitWarning": "plausible",
+    "AssemblyWarning": "assembled",
     "Balance": "inverse",
+    "BallastWarning": "plausible",
     "ByHeading": "waves",
     "ChatteringError": "errors",
+    "CompassDirectionWarning": "plausible",
     "Curve": "_core",
+    "DepthSignWarning": "plausible",
     "DoubleCountedDampingWarning": "environment",
+    "DriverImpulseWarning": "references",
     "Evaluator": "_core",
     "Event": "result",
     "FileFormatError": "errors",
@@ -94,12 +109,13 @@ _HOME = {
     "ForwardSpeedWarning": "hull_range",
     "Frame": "_core",
     "Friction": "_core",
-    "FullTurnWarning": "validity",
+    "FullTurnWarning": "following",
     "HullLoads": "waves",
     "HydroDatabase": "hydro",
     "LargeHeelWarning": "validity",
     "Limit": "_core",
     "LinearModel": "linear_system",
+    "MassUnitWarning": "plausible",
     "MeanHeadingWarning": "hull_range",
     "MeanPositionWarning": "hull_range",
     "Model": "_core",
@@ -109,6 +125,7 @@ _HOME = {
     "NoWaveLoadsWarning": "hull_range",
     "OutputMemoryError": "output_times",
     "OutsideDatabaseWarning": "validity",
+    "OutsideRangeWarning": "following",
     "PushingLinkWarning": "validity",
     "RepeatingSeaWarning": "waves",
     "ResponseStatistics": "frequency_domain",
@@ -121,6 +138,7 @@ _HOME = {
     "SeaState": "sea",
     "SeacraneError": "errors",
     "SimulationError": "errors",
+    "SoftGainsWarning": "following",
     "SoftStop": "_core",
     "State": "_core",
     "StateSpaceBlock": "_core",
@@ -167,11 +185,17 @@ _HOME = {
 _MODULES = ("cases", "crane", "hydro", "sea")
 
 __all__ = [
+    "AngleUnitWarning",
+    "AssemblyWarning",
     "Balance",
+    "BallastWarning",
     "ByHeading",
     "ChatteringError",
+    "CompassDirectionWarning",
     "Curve",
+    "DepthSignWarning",
     "DoubleCountedDampingWarning",
+    "DriverImpulseWarning",
     "Evaluator",
     "Event",
     "FileFormatError",
@@ -186,6 +210,7 @@ __all__ = [
     "LargeHeelWarning",
     "Limit",
     "LinearModel",
+    "MassUnitWarning",
     "MeanHeadingWarning",
     "MeanPositionWarning",
     "Model",
@@ -195,6 +220,7 @@ __all__ = [
     "NoWaveLoadsWarning",
     "OutputMemoryError",
     "OutsideDatabaseWarning",
+    "OutsideRangeWarning",
     "PushingLinkWarning",
     "RepeatingSeaWarning",
     "ResponseStatistics",
@@ -207,6 +233,7 @@ __all__ = [
     "SeaState",
     "SeacraneError",
     "SimulationError",
+    "SoftGainsWarning",
     "SoftStop",
     "State",
     "StateSpaceBlock",

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import Any
 
 import numpy as np
@@ -57,14 +58,18 @@ def vector_of(what: str, value: Any) -> list[float]:
 
 
 def numbers_of(what: str, value: Any) -> Array:
-    """An array of floats of any shape."""
+    """An array of floats of any shape; no texts that read like numbers, no dates."""
     try:
         array = np.asarray(value)
-        if array.dtype.kind == "c":
+        if array.dtype.kind not in "biufO" or any(isinstance(item, (str, bytes)) for item in _objects(array)):
             raise TypeError
         return np.asarray(array, dtype=float)
     except (TypeError, ValueError, OverflowError) as error:
         raise SceneError(f"{what} is {shown(value)}; give numbers") from error
+
+
+def _objects(array: NDArray[Any]) -> Iterable[Any]:
+    return array.flat if array.dtype.kind == "O" else ()
 
 
 def shaped_of(what: str, value: Any, shape: tuple[int, ...]) -> Array:

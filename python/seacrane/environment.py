@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from seacrane import _core
 from seacrane.checked import curve_of, name_of, number_of, shaped_of, text_of, vector_of
 from seacrane.errors import SceneError
+from seacrane.plausible import direction_of
 from seacrane.scene import Scene
 from seacrane.waves import ByHeading, Waves
 
@@ -133,7 +134,7 @@ def add_wind(
         point=shaped_of(f"{what}: point", point, (3,)),
         density=number_of(f"{what}: density", density),
         speed=curve_of(f"{what}: speed", speed),
-        direction=float(np.radians(number_of(f"{what}: direction_deg", direction_deg))),
+        direction=float(np.radians(direction_of(f"{what}: direction_deg", direction_deg))),
         frontal_area=number_of(f"{what}: frontal_area", frontal_area),
         lateral_area=number_of(f"{what}: lateral_area", lateral_area),
         length=number_of(f"{what}: length", length),

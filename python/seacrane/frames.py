@@ -8,7 +8,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from seacrane.checked import numbers_of
 from seacrane.errors import SceneError
+from seacrane.shown import shown
 
 Array = NDArray[np.float64]
 
@@ -44,11 +46,20 @@ def quaternion_product(first: Any, second: Any) -> Array:
     return np.array([w * p - np.dot(u, v), *(w * np.array(v) + p * np.array(u) + np.cross(u, v))])
 
 
+def euler_matrix(angles: Any) -> Array:
+    """Body-to-inertial matrix (3, 3) of XYZ Euler angles (3,), R = Rx Ry Rz."""
+    (cx, cy, cz), (sx, sy, sz) = np.cos(angles), np.sin(angles)
+    about_x = np.array([[1, 0, 0], [0, cx, -sx], [0, sx, cx]])
+    about_y = np.array([[cy, 0, sy], [0, 1, 0], [-sy, 0, cy]])
+    about_z = np.array([[cz, -sz, 0], [sz, cz, 0], [0, 0, 1]])
+    return np.asarray(about_x @ about_y @ about_z)
+
+
 def _direction(what: str, value: Any) -> Array:
     try:
-        vector = np.asarray(value, dtype=float)
-    except (TypeError, ValueError) as error:
-        raise SceneError(f"{what} is {value!r}; give three numbers") from error
+        vector = numbers_of(what, value)
+    except SceneError as error:
+        raise SceneError(f"{what} is {shown(value)}; give three numbers") from error
     length = np.linalg.norm(vector) if vector.shape == (3,) else np.nan
     if not np.isfinite(length) or length == 0.0:
         raise SceneError(f"{what} is {value!r}; give three finite numbers, not all zero")

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane import _core
+from seacrane.checked import numbers_of
 from seacrane.errors import SceneError
 from seacrane.frames import heading_of, rotation_about_z
 from seacrane.scene import GROUND, Scene
@@ -240,7 +241,7 @@ def inverse_dynamics(
         *scene.actuators,
         *(f"{body}.{motion}" for body, curves in motions.items() for motion in curves),
     ]
-    instants = np.atleast_1d(np.asarray(times, dtype=float))
+    instants = np.atleast_1d(numbers_of("inverse dynamics: times", times))
     rows = _follow(model, names, instants)
     return {label: rows[:, i].copy() for i, label in enumerate(labels)}
 

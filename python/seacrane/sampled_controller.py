@@ -64,6 +64,23 @@ def called_at(
     return inputs
 
 
+def only_setter(
+    inputs: Mapping[str, Any], controller: SampledController, setters: dict[str, SampledController]
+) -> None:
+    """Note who sets each input; SimulationError where another controller of the run has set it before."""
+    for name in inputs:
+        other = setters.setdefault(name, controller)
+        if other is not controller:
+            raise SimulationError(
+                f"controller: {_called(controller)} sets input {name!r}, which {_called(other)} sets too: "
+                "the last would win; let one controller return their sum, or give each an actuator of its own"
+            )
+
+
+def _called(controller: SampledController) -> str:
+    return repr(getattr(controller.function, "__qualname__", controller.function))
+
+
 def next_call(controller: SampledController, now: float, start: float) -> float:
     """When it is due after `now`, s."""
     with np.errstate(over="ignore"):

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane import _core
+from seacrane.assembled import warn_of_moves
 from seacrane.checked import curve_of, flag_of, name_of, number_of, numbers_of, shaped_of, text_of, vector_of
 from seacrane.errors import SceneError
 from seacrane.frames import axes_across, axes_along, rotation_matrix
@@ -21,6 +22,17 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 GROUND = "ground"
 STANDARD_GRAVITY = 9.80665
+
+
+@dataclass(frozen=True, kw_only=True)
+class Range:
+    """Where a joint coordinate is meant to stay, m or rad, such as a cylinder's stroke."""
+
+    name: str
+    joint: str
+    coordinate: str
+    minimum: float
+    maximum: float
 
 
 @dataclass(kw_only=True)
@@ -59,6 +71,7 @@ class Scene:
     vessels: dict[str, _core.VesselHydrodynamics] = field(default_factory=dict)
     waves: Waves | None = None
     recorded: dict[str, tuple[str, str]] = field(default_factory=dict)
+    ranges: dict[str, Range] = field(default_factory=dict)
     notes: dict[str, Any] = field(default_factory=dict)
 
     def _insert(self, kind: str, table: dict[str, Any], element: Any) -> Any:
@@ -405,6 +418,32 @@ class Scene:
             )
         self.recorded[name] = (joint, coordinate)
 
+    def add_range(
+        self,
+        *,
+        joint: str,
+        minimum: float,
+        maximum: float,
+        coordinate: str | None = None,
+        name: str | None = None,
+    ) -> Range:
+        """Tell where a joint coordinate is meant to stay, m or rad; it exerts no load (`add_end_stop` does).
+
+        A reference that leaves it is refused when a run starts, a motion that does is warned of after the run
+        (OutsideRangeWarning). A crane adds the strokes of its data file.
+        """
+        coordinate = self._coordinate("range", joint, coordinate)
+        name = name_of("range", name, joint)
+        low = number_of(f"range {name!r}: minimum", minimum)
+        high = number_of(f"range {name!r}: maximum", maximum)
+        if not low < high:
+            raise SceneError(
+                f"range {name!r}: minimum is {low} and maximum {high}; the minimum must be below the maximum"
+            )
+        element = Range(name=name, joint=joint, coordinate=coordinate, minimum=low, maximum=high)
+        inserted: Range = self._insert("range", self.ranges, element)
+        return inserted
+
     def _coordinate(self, kind: str, joint: str, coordinate: str | None) -> str:
         if text_of(f"{kind}: joint", joint) not in self.joints:
             raise SceneError(f"{kind}: there is no joint {joint!r}; add it first")
@@ -426,6 +465,7 @@ class Scene:
 
         Warns
         -----
+        AssemblyWarning : names bodies that closing the joints moved, by more than 0.01 m or 0.01 rad.
         UserWarning : names joints that are redundant: their reactions are minimum-norm, not unique.
         """
         model = _core.compile(
@@ -450,6 +490,7 @@ class Scene:
             coordinates=list(self.recorded.values()),
             merge=merge,
         )
+        warn_of_moves(self, model)
         if model.redundant:
             import warnings
 

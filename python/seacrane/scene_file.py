@@ -11,6 +11,7 @@ import json
 import os
 import re
 from collections import Counter
+from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
@@ -82,7 +83,7 @@ _ADD = {
     "force_tables": "add_force_table",
     "vessels": "add_vessel",
 }
-_ADDED_LATER: dict[str, Any] = {"loads": []}  # entries that older files of this version do not have
+_ADDED_LATER: dict[str, Any] = {"loads": [], "ranges": []}  # what older files of this version lack
 _STARTS = {
     b"\x89HDF": "a NetCDF file (Result.load or load_database)",
     b"CDF": "a NetCDF file (load_database)",
@@ -181,6 +182,7 @@ def load_scene(path: str | os.PathLike[str]) -> Scene:
         "loads",
         "waves",
         "recorded",
+        "ranges",
         "notes",
     )
     root.expect(fields)
@@ -206,6 +208,12 @@ def _scene(root: Node) -> Scene:
         node.expect(("name", "joint", "coordinate"))
         with node.scene_errors():
             scene.record_coordinate(**{key: node.at(key).text() for key in ("name", "joint", "coordinate")})
+    for node in root.at("ranges").items():
+        node.expect(("name", "joint", "coordinate", "minimum", "maximum"))
+        limits: dict[str, Any] = {key: node.at(key).text() for key in ("name", "joint", "coordinate")}
+        limits |= {key: node.at(key).number() for key in ("minimum", "maximum")}
+        with node.scene_errors():
+            scene.add_range(**limits)
     waves = root.at("waves")
     if waves.value is not None:
         scene.waves = waves_from_node(waves)
@@ -274,6 +282,7 @@ def _described(scene: Scene) -> dict[str, Any]:
         {"name": name, "joint": joint, "coordinate": coordinate}
         for name, (joint, coordinate) in scene.recorded.items()
     ]
+    out["ranges"] = [asdict(limit) for limit in scene.ranges.values()]
     out["notes"] = plain_data(f"scene {scene.name!r}: notes", scene.notes)
     return out
 

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from seacrane import _core
+from seacrane.assembled import moves
 
 if TYPE_CHECKING:
     from seacrane.scene import Scene
@@ -41,7 +42,7 @@ def scene_report(scene: Scene) -> dict[str, Rows]:
         "size": _size(scene, model),
         "elements": _elements(scene),
         "merged": _merged(model),
-        "assembly": _assembly(model),
+        "assembly": _assembly(scene, model),
         "left out": _left_out(scene, model),
         "cost": _cost(model),
     }
@@ -116,7 +117,7 @@ def _merged(model: _core.Model) -> Rows:
     return [(label, names) for label, names in rows if names]
 
 
-def _assembly(model: _core.Model) -> Rows:
+def _assembly(scene: Scene, model: _core.Model) -> Rows:
     found = model.assembly
     rows: Rows = [
         ("constraint residual as described [m or rad]", found["residual_before"]),
@@ -128,6 +129,10 @@ def _assembly(model: _core.Model) -> Rows:
     ]
     if found["most_moved_body"]:
         rows.append(("body moved most", found["most_moved_body"]))
+    moved = [f"{name}: {m:.4g} m, {rad:.4g} rad" for name, m, rad in moves(scene, model)]
+    if moved:
+        rows.append(("bodies moved by assembly", moved))
+        rows.append(("open as described [m or rad]", [f"{name}: {gap:.4g}" for name, gap in found["open"]]))
     if model.constraints:
         rows.append(("rank of the constraints", found["rank"]))
         rows.append(("redundant constraints", model.constraints - found["rank"]))

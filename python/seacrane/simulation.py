@@ -13,9 +13,18 @@ from seacrane import _core
 from seacrane.channel_names import core_channels, named_channels
 from seacrane.checked import number_of, numbers_of
 from seacrane.errors import SceneError, SeacraneError, SimulationError
+from seacrane.joint_coordinates import ANGLES
 from seacrane.linearise import fastest_mode
 from seacrane.output_times import output_times
-from seacrane.sampled_controller import SampledController, called_at, checked_controllers, next_call
+from seacrane.plausible import warn_of_description
+from seacrane.references import check_references
+from seacrane.sampled_controller import (
+    SampledController,
+    called_at,
+    checked_controllers,
+    next_call,
+    only_setter,
+)
 from seacrane.scene import Scene
 from seacrane.step_advice import step_advice
 from seacrane.validity import Finding, as_text, findings, warn_of
@@ -50,6 +59,12 @@ def _slots(scene: Scene) -> dict[str, slice]:
         out[f"{name}.force"] = slice(at, at + 3)
         at += 3
     return out
+
+
+def _steered(scene: Scene, inputs: Array) -> set[str]:
+    """Actuators whose inputs are not zero."""
+    pairs = np.reshape(np.asarray(inputs)[: 2 * len(scene.actuators)], (-1, 2))
+    return {name for name, pair in zip(scene.actuators, pairs, strict=True) if np.any(pair != 0.0)}
 
 
 class Run:
@@ -129,6 +144,9 @@ class Run:
             self.settings["energy_limit"] = energy_limit = number_of("energy_limit", energy_limit)
             if not energy_limit > 0.0:
                 raise SceneError(f"energy_limit is {energy_limit}; give a positive number, such as 1e-3")
+        described = start is None
+        check_references(scene, model, start=self.start.time, end=t_end, described=described)
+        warn_of_description(scene, start=self.start.time, end=t_end, described=described)
         made_of = core_channels(wanted, known)
         values = self.model.channel_values(made_of)
         outputs = output_times(
@@ -144,6 +162,7 @@ class Run:
             scene.waves.warn_of_repeats(self.t_end - self.start.time)
         self._fastest_mode = fastest_mode(self.model)  # before the run, so that Ctrl-C need not wait for it
         self.interrupted = False
+        self.steered = _steered(scene, self.start.inputs)
         self.found: list[Finding] = []  # out of range, as the last result tells
 
     def advance(self, t_end: float, progress: Callable[[float], None] | None = None) -> bool:
@@ -175,8 +194,19 @@ class Run:
                 raise SceneError(
                     f"input {name!r} is {value!r}; give {slots[places[name]].size} finite number(s)"
                 )
+            self._check_turn(name, float(new[0] - slots[places[name]][0]))
             slots[places[name]] = new
         self.core.set_inputs(slots)
+        self.steered |= _steered(self.scene, slots)
+
+    def _check_turn(self, name: str, jump: float) -> None:
+        """An actuator takes the turn of an angle that is nearest to its reference."""
+        owner, _, kind = name.rpartition(".")
+        if kind == "reference" and self.scene.actuators[owner].coordinate in ANGLES and abs(jump) >= np.pi:
+            raise SceneError(
+                f"input {name!r} jumps by {np.degrees(jump):.6g} deg, half a turn or more: it would turn the "
+                "short way; lead it there in smaller steps"
+            )
 
     def _channels(self, arrays: dict[str, Array]) -> dict[str, Array]:
         return named_channels(self.scene, {k: v for k, v in arrays.items() if k != "time"})
@@ -228,7 +258,7 @@ class Run:
         if self._wanted is not None:
             channels = {name: values for name, values in channels.items() if name in self._wanted}
         scene, stats = self.scene, self.stats()
-        self.found = self.judged(findings(scene, arrays["time"], channels, stats))
+        self.found = self.judged(findings(scene, arrays["time"], channels, stats, self.steered))
         if self.found:
             stats["validity"] = as_text(self.found)
         return Result.from_arrays(
@@ -384,9 +414,12 @@ def simulate(
     Warns
     -----
     LargeHeelWarning, MeanPositionWarning, MeanHeadingWarning, ForwardSpeedWarning, MooringTurnWarning,
-    NoWaveLoadsWarning, OutsideDatabaseWarning, PushingLinkWarning, FullTurnWarning, NearSingularWarning
+    NoWaveLoadsWarning, OutsideDatabaseWarning, PushingLinkWarning, FullTurnWarning, OutsideRangeWarning,
+    SoftGainsWarning, NearSingularWarning
         After the run, when its motions left the range in which the models hold; also in `stats`, as
         "validity". See docs/troubleshooting.md.
+    DriverImpulseWarning, AngleUnitWarning, CompassDirectionWarning, MassUnitWarning, BallastWarning
+        Before it, when the description most likely does not say what was meant. See docs/mistakes.md.
     """
     controllers = checked_controllers(controllers)
     given = {"integrator": integrator, "rtol": rtol, "dt": dt, "spectral_radius": spectral_radius}
@@ -454,12 +487,15 @@ def _advance(
     run: Run, t_end: float, controllers: Sequence[SampledController], report: Callable[[float], None] | None
 ) -> None:
     due = [run.start.time for _ in controllers]
+    setters: dict[str, SampledController] = {}
     while True:
         now = run.core.time
         called: dict[str, Any] = {}
         for i, controller in enumerate(controllers):
             if due[i] <= now and now < t_end:
-                called.update(called_at(controller, now, run.measure))
+                inputs = called_at(controller, now, run.measure)
+                only_setter(inputs, controller, setters)
+                called.update(inputs)
                 due[i] = next_call(controller, now, run.start.time)
         if called:
             run.set_inputs(called)

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from seacrane.caller import warn_caller
+from seacrane.following import FullTurnWarning, following
 from seacrane.hull_range import hull_findings, motions
 from seacrane.vessel_notes import noted
 
@@ -39,20 +40,25 @@ class PushingLinkWarning(UserWarning):
     """A link of constant length pushed: a wire would have gone slack, and snapped tight later."""
 
 
-class FullTurnWarning(UserWarning):
-    """An angle passed half a turn: its record jumps there, and so does the error an actuator sees."""
-
-
 class NearSingularWarning(UserWarning):
     """Constraints came to depend on each other: the mechanism could branch, and reactions are not unique."""
 
 
-def findings(scene: Scene, time: Array, channels: Channels, stats: Mapping[str, Any]) -> list[Finding]:
-    """All that is out of range in a run: warning classes and messages. Channels left out are not judged."""
+def findings(
+    scene: Scene,
+    time: Array,
+    channels: Channels,
+    stats: Mapping[str, Any],
+    steered: Collection[str] = (),
+) -> list[Finding]:
+    """All that is out of range in a run: warning classes and messages. Channels left out are not judged.
+
+    `steered` names actuators that a controller has moved: they do not follow their references alone.
+    """
     found: list[Finding] = []
     for look in (_heel, hull_findings, _frequencies, _links, _turns):
         found += look(scene, time, channels)
-    return found + _singular(scene, stats)
+    return found + following(scene, time, channels, steered) + _singular(scene, stats)
 
 
 def as_text(found: Iterable[Finding]) -> str:

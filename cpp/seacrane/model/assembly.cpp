@@ -160,6 +160,17 @@ void report_moves(const Model& m, const std::vector<double>& before, AssemblyRep
   }
 }
 
+/// Elements open as described, worst first.
+std::vector<std::pair<std::string, double>> open_elements(const Model& m, const RedundantSystem& system) {
+  std::vector<std::pair<std::string, double>> out;
+  for (std::size_t e = 0; e < m.elements.size(); ++e) {
+    const double gap = largest(m.elements[e], system.blocks()[e].phi);
+    if (gap > kClosed) out.emplace_back(m.elements[e].name, gap);
+  }
+  std::stable_sort(out.begin(), out.end(), [](const auto& a, const auto& b) { return a.second > b.second; });
+  return out;
+}
+
 void mark_redundant(Model& m, const MatXd& null_space) {
   for (auto& e : m.elements) {
     if (e.rows == 0) continue;
@@ -181,6 +192,7 @@ void assemble(Model& model) {
   const std::shared_ptr<const Model> view(&model, [](const Model*) {});
   RedundantSystem system(view);
   report.residual_before = system.residual(0.0, y.data()).position;
+  report.open = open_elements(model, system);
   check_regular(model, system);
   close(model, system);
   const ConstraintResidual after = system.residual(0.0, y.data());

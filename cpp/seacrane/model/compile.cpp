@@ -265,7 +265,8 @@ class Compiler {
         throw SceneError("vessel '" + d.name + "': " + error.what());
       }
       const BodyDescription& start = scene_.bodies[idx(index_.at(d.body))];
-      v.mean_position = start.position;
+      // At rest on the still water: a hull described above or below it starts there, and heaves.
+      v.mean_position = {start.position.x(), start.position.y(), 0.0};
       v.mean_yaw = roll_pitch_yaw<double>(rotation_from_quaternion<double>(start.quaternion))[2];
       model_.paper_kinematics = d.kinematics == VesselKinematics::paper;
       if (model_.paper_kinematics && std::fabs(v.mean_yaw) > 1e-9) {

@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "seacrane/dynamics/block_schur.hpp"
@@ -56,6 +57,7 @@ struct StateLayout {
 struct AssemblyReport {
   double largest_translation = 0.0, largest_rotation = 0.0;  // of any body, m and rad
   std::string most_moved;
+  std::vector<std::pair<std::string, double>> open;  // elements that were, as described, by m or rad
   double residual_before = 0.0, residual_after = 0.0, rate_residual_after = 0.0;
   double velocity_change = 0.0;
   int iterations = 0;

@@ -12,11 +12,13 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 
+from seacrane.checked import number_of, numbers_of
 from seacrane.crane import data_file, statics
 from seacrane.crane.geometry import BODIES, CraneGeometry, plane_axes
 from seacrane.crane.mass_properties import MassProperties, combine
 from seacrane.errors import SceneError
 from seacrane.frames import quaternion_product, rotation_matrix
+from seacrane.plausible import angle_of, warn_of_density
 
 if TYPE_CHECKING:
     from seacrane.scene import Scene
@@ -97,6 +99,11 @@ class Payload:
         Edges along body x, y and z, m.
     link_length : float
         Tip to the centroid of the top, m.
+
+    Warns
+    -----
+    MassUnitWarning
+        Lighter than foam: tonnes given for kg.
     """
 
     mass: float = 10.0e3
@@ -106,9 +113,11 @@ class Payload:
     def __post_init__(self) -> None:
         values = {"mass": self.mass, "link_length": self.link_length}
         values |= {f"size[{index}]": edge for index, edge in enumerate(self.size)}
-        for name, value in values.items():
+        for name, given in values.items():
+            value = number_of(f"payload: {name}", given)
             if not (math.isfinite(value) and value > 0.0):
                 raise SceneError(f"payload: {name} is {value!r}; it must be finite and greater than zero.")
+        warn_of_density("payload", self.mass, math.prod(self.size))
 
     @property
     def inertia(self) -> Array:
@@ -118,7 +127,7 @@ class Payload:
 
 
 def _vector(name: str, value: Vector | Array) -> Array:
-    vector = np.array(value, dtype=float)
+    vector = numbers_of(f"crane: {name}", value).copy()
     if vector.shape != (3,) or not np.all(np.isfinite(vector)):
         raise SceneError(f"crane: {name} is {value!r}; give three finite numbers (x, y, z) in m.")
     return vector
@@ -209,6 +218,7 @@ class KnuckleBoomCrane:
             A value is not finite, or a stroke is out of range.
         """
         origin = _vector("foot", foot)
+        angle_of("crane: theta", number_of("crane: theta", theta))
         pose = self.geometry.pose(theta=theta, s1=s1, s2=s2)
         pitch = self.geometry.plane_pose(s1=s1, s2=s2).pitch()
         records = []
@@ -312,7 +322,7 @@ class KnuckleBoomCrane:
         s2: float = 0.0,
         payload: Payload | None = None,
     ) -> None:
-        """Add the crane, and a payload hanging at rest, to a scene.
+        """Add the crane, and a payload hanging at rest, to a scene; its strokes keep the data file's range.
 
         Parameters
         ----------
@@ -347,6 +357,9 @@ class KnuckleBoomCrane:
             }
             used |= {key: to_inertial @ used[key] for key in ("axis", "second_axis") if key in used}
             scene.add_joint(kind=joint.kind, name=joint.name, first=joint.first, second=joint.second, **used)
+        for name, stroke in {"main_cylinder": s1, "knuckle_cylinder": s2}.items():
+            longest = getattr(self.data, name).stroke
+            scene.add_range(joint=name, minimum=-stroke, maximum=longest - stroke)
 
 
 def _link(tip: Array, payload: Payload) -> JointRecord:

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from seacrane import _core
 from seacrane.checked import name_of, number_of, shaped_of, vector_of
 from seacrane.errors import SceneError
+from seacrane.plausible import direction_of
 from seacrane.sea.spectra import tabulated_spectrum
 
 if TYPE_CHECKING:
@@ -84,7 +85,7 @@ class MeasuredWaves:
         if not 0.0 <= number_of(f"{self._object}: taper", self.taper) <= 1.0:
             raise SceneError(f"{self._object}: taper is {self.taper}; give a share from 0 to 1")
         point = shaped_of(f"{self._object}: position", self.position, (2,))
-        angle = number_of(f"{self._object}: direction_deg", self.direction_deg)
+        angle = direction_of(f"{self._object}: direction_deg", self.direction_deg)
         for name, value in (("direction_deg", angle), ("position", point)):
             if not np.all(np.isfinite(value)):
                 raise SceneError(f"{self._object}: {name} is {value}; give finite numbers")

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from seacrane import _core
 from seacrane.checked import number_of, text_of
 from seacrane.errors import SceneError
+from seacrane.plausible import direction_of
 from seacrane.sea.measured import MeasuredWaves
 from seacrane.sea.spectra import warn_if_breaking
 from seacrane.sea.spreading import Spreading
@@ -47,6 +48,8 @@ class WaveSystem:
     -----
     SteepSeaWarning
         Above the steepness at which real waves break.
+    AngleUnitWarning, CompassDirectionWarning
+        A direction that looks like radians, or like a compass bearing.
     """
 
     spectrum: _core.Spectrum
@@ -63,7 +66,7 @@ class WaveSystem:
             raise SceneError(f"{what}: spectrum is {self.spectrum!r}; give a Spectrum, such as jonswap(...)")
         if self.spreading is not None and not isinstance(self.spreading, Spreading):
             raise SceneError(f"{what}: spreading is {self.spreading!r}; give cos_2s(...), cos_n(...) or None")
-        if not np.isfinite(number_of(f"{what}: direction_deg", self.direction_deg)):
+        if not np.isfinite(direction_of(f"{what}: direction_deg", self.direction_deg)):
             raise SceneError(f"{what}: direction_deg is {self.direction_deg}; give a finite angle in deg")
         warn_if_breaking(what, self.spectrum, stacklevel=3)
 

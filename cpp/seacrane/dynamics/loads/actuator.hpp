@@ -15,7 +15,8 @@ struct ActuatorDescription {
 };
 
 /// State feedback on a joint coordinate: force = feed_forward + stiffness (reference - q) +
-/// damping (reference rate - q rate), along the coordinate, on both bodies; N or N m.
+/// damping (reference rate - q rate), along the coordinate, on both bodies; N or N m. An angle is known to
+/// whole turns only: the turn nearest to the reference counts.
 struct Actuator {
   static constexpr const char* kind = "actuator";
   using Description = ActuatorDescription;
@@ -54,7 +55,7 @@ struct Actuator {
     const auto& kb = in.bodies[coordinate.joint.second];
     const CurveValue ref = reference.at(in.time, in.curve_limit);
     const T error = T(ref.value + in.slots[slot + 1]) - row.value;
-    const T wrapped = coordinate.kind == CoordinateKind::angle ? wrap_angle<T>(error) : error;
+    const T wrapped = is_angular(coordinate.kind) ? wrap_angle<T>(error) : error;
     return T(feed_forward.at(in.time, in.curve_limit).value + in.slots[slot]) + T(stiffness) * wrapped +
            T(damping) * (T(ref.rate) - coordinate_rate<T>(row, ka, kb));
   }

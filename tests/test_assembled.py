@@ -1,0 +1,90 @@
+"""What assembly changes of a description is told, with names and sizes, and small corrections are not."""
+
+from __future__ import annotations
+
+import warnings
+
+import numpy as np
+import pytest
+
+from seacrane import AssemblyWarning, Curve, Scene
+from seacrane.assembled import LARGEST_MOVE, LARGEST_TURN, moves
+
+ARM = 20.0  # m, hinge to the centre of the boom
+
+
+def boom(angle: float = 0.0, **body: object) -> Scene:
+    """A boom on a hinge whose driver starts at `angle` from the described pose."""
+    scene = Scene(name="boom")
+    scene.add_body(name="boom", mass=1e3, inertia=[1e3, 1e4, 1e4], position=(ARM, 0, 0), **body)
+    scene.add_joint(
+        kind="revolute", name="hinge", first="ground", second="boom", point=(0, 0, 0), axis=(0, 0, 1)
+    )
+    scene.add_driver(joint="hinge", curve=Curve.constant(value=angle))
+    return scene
+
+
+@pytest.mark.parametrize("orientation", ["quaternion", "euler_xyz"])
+@pytest.mark.parametrize("angle", [-np.pi / 2, 1.0, 0.02])
+def test_a_driver_that_starts_off_the_described_pose_is_told_with_what_it_moved(
+    angle: float, orientation: str
+) -> None:
+    scene = boom(angle)
+    scene.orientation = orientation
+    with pytest.warns(AssemblyWarning, match=r"body 'boom' by .* open, m or rad: 'hinge.angle' by") as caught:
+        model = scene.compile()
+    assert caught[0].filename == __file__
+    ((name, moved, turned),) = moves(scene, model)
+    assert name == "boom"
+    assert moved == pytest.approx(2.0 * ARM * np.sin(abs(angle) / 2.0), rel=1e-9)  # the chord
+    assert turned == pytest.approx(abs(angle), rel=1e-7)
+    assert model.assembly["open"] == [("hinge.angle", pytest.approx(abs(angle)))]
+
+
+def test_corrections_below_the_stated_distance_are_not_told() -> None:
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        boom(0.9 * LARGEST_MOVE / ARM).compile()
+        boom(0.0).compile()
+
+
+def test_the_distance_goes_with_the_scene_s_length_scale() -> None:
+    scene = boom(0.9 * LARGEST_TURN)
+    scene.length_scale = 20.0  # a chord of 0.18 m, and a turn below 0.01 rad
+    assert moves(scene, scene.compile()) == []
+    scene.length_scale = 1.0
+    with pytest.warns(AssemblyWarning):
+        assert [name for name, _, _ in moves(scene, scene.compile())] == ["boom"]
+
+
+def test_the_report_holds_what_was_moved_and_what_was_open() -> None:
+    with pytest.warns(AssemblyWarning):
+        rows = dict(boom(0.5).report()["assembly"])
+    assert rows["bodies moved by assembly"] == ["boom: 9.896 m, 0.5 rad"]
+    assert rows["open as described [m or rad]"] == ["hinge.angle: 0.5"]
+    assert "bodies moved by assembly" not in dict(boom().report()["assembly"])
+
+
+def test_a_described_velocity_that_joints_do_not_allow_is_told() -> None:
+    """The boom's centre is said to move along x at 1 m/s, and its driver holds it."""
+    with pytest.warns(AssemblyWarning, match=r"do not allow the described velocities: body 'boom' by 1 m/s"):
+        boom(velocity=(1.0, 0.0, 0.0)).compile()
+
+
+def test_a_driver_s_own_rate_moves_what_is_described_at_rest_without_a_word() -> None:
+    scene = boom()
+    scene.drivers.clear()
+    scene.add_driver(joint="hinge", curve=Curve.pieces(starts=[0.0], coefficients=[[0, 0.1, 0, 0, 0, 0]]))
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        scene.compile()
+
+
+def test_a_hull_said_to_move_alone_keeps_its_speed_or_it_is_told() -> None:
+    """Momentum: 100 t at 2 m/s take 10 t at rest along, at 2 / 1.1 m/s."""
+    scene = Scene(gravity=0.0)
+    scene.add_body(name="hull", mass=100e3, inertia=[1e6, 1e6, 1e6], velocity=(2.0, 0.0, 0.0))
+    scene.add_body(name="load", mass=10e3, inertia=[1e4, 1e4, 1e4])
+    scene.add_joint(kind="weld", name="lashing", first="hull", second="load", point=(0, 0, 0))
+    with pytest.warns(AssemblyWarning, match=rf"body 'hull' by {2.0 - 2.0 / 1.1:.4g} m/s"):
+        scene.compile()

@@ -1,0 +1,247 @@
+"""Each row of docs/mistakes.md: the mistake in a script as a user would write it, and what answers it."""
+
+from __future__ import annotations
+
+import re
+import warnings
+from collections.abc import Callable
+from functools import lru_cache
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import seacrane
+from seacrane import (
+    Curve,
+    SampledController,
+    Scene,
+    SeaState,
+    WaveSystem,
+    add_sea,
+    add_vessel,
+    add_wind,
+    balance,
+    driven,
+    equilibrium,
+    simulate,
+)
+from seacrane.crane import KnuckleBoomCrane, Payload
+from seacrane.environment import FlowCoefficients
+from seacrane.hydro import shipped_database
+from seacrane.sea import jonswap
+
+PAGE = (Path(__file__).parents[1] / "docs" / "mistakes.md").read_text()
+JOINTS = {"slew": "A", "main": "main_cylinder", "knuckle": "knuckle_cylinder"}
+
+
+def answers() -> dict[str, list[str]]:
+    """The page's rows: the mistake, and the warnings or errors that answer it."""
+    rows = [line.split("|")[1:-1] for line in PAGE.splitlines() if line.startswith("| ")]
+    return {row[0].strip(): re.findall(r"`(\w+(?:Warning|Error))`", row[2]) for row in rows[1:]}
+
+
+ROWS = answers()
+
+
+def lift(*, mass: float = 20e3, theta: float = 0.0, ballast: bool = True, sea: float | None = None) -> Scene:
+    """The lift of the README, its drives without gains."""
+    database = shipped_database()
+    scene = Scene(name="lift")
+    add_vessel(scene, database)
+    if sea is not None:
+        add_sea(scene, database, hs=2.0, tp=8.0, direction_deg=sea, seed=1)
+    KnuckleBoomCrane.load().add_to(scene, base="vessel", theta=theta, payload=Payload(mass=mass))
+    for name, joint in JOINTS.items():
+        scene.record_coordinate(joint=joint)
+        scene.add_actuator(name=name, joint=joint)
+    if ballast:
+        held = balance(scene)
+        x, y, _ = held.weight_center
+        scene.add_point_force(name="ballast", body="vessel", point=(x, y, 0.0), force=(0, 0, held.weight))
+    return scene
+
+
+def controlled(omega: float, *, feed_forward: bool = True) -> Scene:
+    """The crane on land, its drives held by gains of that frequency (rad/s)."""
+    scene = Scene(name="crane")
+    KnuckleBoomCrane.load().add_to(scene, base="ground", payload=Payload(mass=20e3))
+    for name, joint in JOINTS.items():
+        scene.add_actuator(name=name, joint=joint)
+    held, inertia = balance(scene), seacrane.reflected_inertia(scene)
+    scene.actuators.clear()
+    for name, joint in JOINTS.items():
+        gains = {"stiffness": inertia[name] * omega**2, "damping": 1.6 * omega * inertia[name]}
+        load = held.loads[name] if feed_forward else 0.0
+        scene.add_actuator(name=name, joint=joint, feed_forward=load, **gains)
+    return scene
+
+
+def move(end: float, *, until: float = 4.0) -> Curve:
+    return Curve.quintic(start_time=0.0, end_time=until, start=0.0, end=end)
+
+
+def degrees_for_radians() -> None:
+    simulate(driven(lift(), references={"slew": move(-90.0)}), t_end=5.0)
+
+
+def a_pose_in_degrees() -> None:
+    lift(theta=-90.0, ballast=False)
+
+
+def radians_for_degrees() -> None:
+    lift(sea=np.pi * 3 / 4, ballast=False)
+
+
+def compass_bearing() -> None:
+    lift(sea=315.0, ballast=False)
+
+
+def wind_where_it_comes_from() -> None:
+    scene = lift(sea=180.0)
+    circle = np.linspace(0.0, np.pi, 5)
+    drag = FlowCoefficients(
+        angle=circle, x=np.cos(circle), y=np.array([0.0, 0.6, 0.8, 0.6, 0.0]), yaw=0.0 * circle
+    )
+    areas = {"frontal_area": 500.0, "lateral_area": 1500.0, "length": 115.0}
+    add_wind(scene, coefficients=drag, speed=12.0, direction_deg=0.0, **areas)
+    simulate(driven(scene), t_end=1.0)
+
+
+def payload_in_tonnes() -> None:
+    Payload(mass=20.0)
+
+
+def body_in_tonnes() -> None:
+    scene = lift()
+    load = scene.bodies["payload"]
+    del scene.bodies["payload"]
+    scene.add_body(name="payload", mass=20.0, inertia=[70.0, 70.0, 80.0], position=load.position)
+    simulate(driven(scene), t_end=1.0)
+
+
+def depth_above_water() -> None:
+    sea = SeaState(systems=[WaveSystem(spectrum=jonswap(hs=2.0, tp=8.0), direction_deg=180.0)], seed=1)
+    sea.realise().waves.kinematics(time=0.0, x=0.0, y=0.0, z=[10.0, 30.0])
+
+
+def negative_water_depth() -> None:
+    SeaState(systems=[WaveSystem(spectrum=jonswap(hs=2.0, tp=8.0), direction_deg=180.0)], depth=-60.0)
+
+
+def no_ballast() -> None:
+    simulate(driven(lift(ballast=False)), t_end=1.0)
+
+
+def soft_gains() -> None:
+    simulate(controlled(0.5, feed_forward=False), t_end=20.0)
+
+
+def a_constant_beyond_half_a_turn() -> None:
+    scene = controlled(5.0)
+    slew = scene.actuators.pop("slew")
+    scene.add_actuator(
+        name="slew", joint="A", stiffness=slew.stiffness, damping=slew.damping, reference=np.radians(270.0)
+    )
+    simulate(scene, t_end=1.0)
+
+
+def more_than_half_a_turn_recorded() -> None:
+    scene = lift()
+    simulate(driven(scene, references={"slew": move(np.radians(270.0), until=40.0)}), t_end=41.0)
+
+
+def strokes_out_of_range() -> None:
+    simulate(driven(lift(), references={"main": move(-4.0)}), t_end=5.0)
+
+
+def strokes_left_in_a_run() -> None:
+    scene = Scene(name="no load along the cylinders")
+    KnuckleBoomCrane.load().add_to(scene, base="ground", s1=1.0, s2=1.0)
+    simulate(scene, t_end=3.0)
+
+
+def a_hoist_in_no_time() -> None:
+    step = Curve.constant(value=0.0).then(time=1.0, curve=Curve.constant(value=2.0))
+    simulate(driven(lift(), references={"main": step}), t_end=2.0)
+
+
+def a_hoist_at_once_at_full_speed() -> None:
+    ramp = Curve.pieces(starts=[1.0, 2.0], coefficients=[[0, 0.2, 0, 0, 0, 0], [0.2, 0, 0, 0, 0, 0]])
+    simulate(driven(lift(), references={"main": ramp}), t_end=3.0)
+
+
+def a_reference_that_starts_elsewhere() -> None:
+    driven(lift(), references={"slew": Curve.constant(value=-0.5)}).compile()
+
+
+def two_controllers() -> None:
+    both = [SampledController(period=0.1, function=lambda t, m: {"slew.force": 1.0}) for _ in range(2)]
+    simulate(controlled(5.0), t_end=1.0, controllers=both)
+
+
+def forces_as_text() -> None:
+    lift(ballast=False).add_point_force(name="pull", body="payload", force=["1e3", "0", "0"])
+
+
+SCRIPTS: dict[str, list[Callable[[], None]]] = {
+    "degrees where radians are meant": [degrees_for_radians, a_pose_in_degrees],
+    "radians where degrees are meant": [radians_for_degrees],
+    "compass directions": [compass_bearing, wind_where_it_comes_from],
+    "tonnes for kilograms": [payload_in_tonnes, body_in_tonnes],
+    "depth with the wrong sign": [depth_above_water, negative_water_depth],
+    "ballast left out": [no_ballast],
+    "gains too soft": [soft_gains],
+    "angles beyond half a turn": [a_constant_beyond_half_a_turn, more_than_half_a_turn_recorded],
+    "strokes beyond the cylinder": [strokes_out_of_range, strokes_left_in_a_run],
+    "motions in no time": [a_hoist_in_no_time, a_hoist_at_once_at_full_speed],
+    "a start that joints do not allow": [a_reference_that_starts_elsewhere],
+    "two masters of one input": [two_controllers],
+    "texts for numbers": [forces_as_text],
+}
+
+
+def test_the_page_and_these_scripts_hold_the_same_mistakes() -> None:
+    assert list(ROWS) == list(SCRIPTS)
+
+
+@pytest.mark.parametrize("name", [name for row in ROWS.values() for name in row])
+def test_every_answer_on_the_page_is_a_public_class(name: str) -> None:
+    assert issubclass(getattr(seacrane, name), (Warning, seacrane.errors.SeacraneError))
+
+
+@lru_cache
+def answer(script: Callable[[], None]) -> tuple[frozenset[str], frozenset[str]]:
+    """Names of the classes that answer a script, and the files that its warnings name."""
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        try:
+            script()
+            refused = []
+        except seacrane.errors.SeacraneError as error:
+            refused = [type(error).__name__]
+    names = [warning.category.__name__ for warning in caught]
+    return frozenset([*names, *refused]), frozenset(warning.filename for warning in caught)
+
+
+@pytest.mark.parametrize("script", [s for scripts in SCRIPTS.values() for s in scripts])
+def test_a_mistake_is_answered_by_name_at_the_user_s_line(script: Callable[[], None]) -> None:
+    mistake = next(m for m, scripts in SCRIPTS.items() if script in scripts)
+    names, files = answer(script)
+    assert names & set(ROWS[mistake])
+    assert files <= {__file__}
+
+
+@pytest.mark.parametrize("mistake", SCRIPTS)
+def test_every_answer_of_a_row_is_given_by_one_of_its_scripts(mistake: str) -> None:
+    assert set().union(*(answer(script)[0] for script in SCRIPTS[mistake])) >= set(ROWS[mistake])
+
+
+def test_the_same_scripts_without_the_mistake_warn_of_nothing() -> None:
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        ready = lift(sea=135.0)
+        simulate(driven(ready, references={"slew": move(-np.pi / 2, until=45.0)}), t_end=60.0)
+        simulate(controlled(5.0), t_end=5.0)
+        without = driven(lift(ballast=False))
+        simulate(without, t_end=1.0, start=equilibrium(without))
