@@ -740,7 +740,7 @@ def test_controller_period(period: Any) -> None:
     ],
 )
 def test_texts_that_read_as_numbers_are_no_numbers(call: Any) -> None:
-    with pytest.raises(SceneError, match="give .*number"):
+    with pytest.raises(SceneError, match=r"give .*number"):
         call(pendulum())
 
 

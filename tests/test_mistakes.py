@@ -245,3 +245,38 @@ def test_the_same_scripts_without_the_mistake_warn_of_nothing() -> None:
         simulate(controlled(5.0), t_end=5.0)
         without = driven(lift(ballast=False))
         simulate(without, t_end=1.0, start=equilibrium(without))
+
+
+def loaded_to_port(heading: float) -> Scene:
+    """A hull at a heading with 300 t welded on, 20 m before its origin and 8 m to port."""
+    scene = Scene(name="deck load")
+    add_vessel(scene, shipped_database())
+    hull = scene.bodies.pop("vessel")
+    turn = (np.cos(heading / 2.0), 0.0, 0.0, np.sin(heading / 2.0))
+    scene.add_body(
+        name="vessel",
+        mass=hull.mass,
+        inertia=hull.inertia,
+        center_of_mass=hull.center_of_mass,
+        quaternion=turn,
+    )
+    cosine, sine = np.cos(heading), np.sin(heading)
+    place = (20.0 * cosine - 8.0 * sine, 20.0 * sine + 8.0 * cosine, 5.0)
+    scene.add_body(name="load", mass=300e3, inertia=[1e6, 1e6, 1e6], position=place)
+    scene.add_joint(kind="weld", name="lashing", first="vessel", second="load")
+    return scene
+
+
+@pytest.mark.parametrize("heading", [0.0, np.pi / 2, -2.0])
+def test_the_heel_that_missing_ballast_is_said_to_give_is_that_of_the_rest_state(heading: float) -> None:
+    """On any heading; the rest state also feels the load's height, which the estimate leaves out."""
+    scene = loaded_to_port(heading)
+    with pytest.warns(seacrane.BallastWarning) as caught:
+        simulate(scene, t_end=0.1)
+    words = re.search(
+        r"heel it by (\S+) deg, trim it by (\S+) deg and lift it by (\S+) m", str(caught[0].message)
+    )
+    assert words is not None
+    said = [float(word) for word in words.groups()]
+    rest = simulate(scene, t_end=0.1, start=equilibrium(scene))["vessel_motion"][0]
+    np.testing.assert_allclose(said, [*np.degrees(rest[3:5]), rest[2]], rtol=0.1)

@@ -174,42 +174,41 @@ def _warn_of_ballast(scene: Scene) -> None:
     if scene.springs or scene.function_forces or scene.force_tables:
         return
     for vessel in scene.vessels.values():
-        carried = _carried(scene, vessel.body) or set()
         hull = scene.bodies[vessel.body]
-        load = np.zeros(3)  # heave, roll, pitch
-        if not any(scene.bodies[name].gravity for name in carried - {vessel.body}):
-            continue
-        for name in carried - {vessel.body}:
-            body = scene.bodies[name]
-            if body.gravity:
-                load += _lifted(scene, name, body.center_of_mass, -body.mass * scene.gravity, hull.position)
-        for force in scene.point_forces.values():
-            if force.body in carried:
-                load += _lifted(scene, force.body, force.point, float(force.force[2]), hull.position)
+        carried = _carried(scene, vessel.body)
+        weights = [scene.bodies[name] for name in carried - {vessel.body} if scene.bodies[name].gravity]
         restoring = np.asarray(vessel.restoring)[2:5, 2:5]
-        if not np.all(np.diag(restoring) > 0.0) or np.linalg.matrix_rank(restoring) < 3:
+        if not weights or not np.all(np.diag(restoring) > 0.0):
             continue
-        moved = np.linalg.solve(restoring, load) - [hull.position[2], 0.0, 0.0]
-        heel = float(np.max(np.abs(moved[1:])))
-        if heel > LARGEST_HEEL or abs(moved[0]) > LARGEST_SINKAGE:
-            warn_caller(
-                f"vessel {vessel.name!r}: starts out of balance: the weights it carries would heel it by "
-                f"{np.degrees(moved[1]):.3g} deg, trim it by {np.degrees(moved[2]):.3g} deg and lift it by "
-                f"{moved[0]:.3g} m, so that it swings from the start. Add ballast as in the README "
-                "(seacrane.balance and a point force), or start from seacrane.equilibrium(scene)",
-                BallastWarning,
-            )
+        held = [force for force in scene.point_forces.values() if force.body in carried]
+        bodies = [*weights, *(scene.bodies[force.body] for force in held)]
+        points = np.array([*(body.center_of_mass for body in weights), *(force.point for force in held)])
+        turned = rotation_matrix([body.quaternion for body in bodies]) @ points[:, :, None]
+        arms = np.array([body.position for body in bodies]) + turned[:, :, 0] - hull.position
+        bow = rotation_matrix(hull.quaternion)[:2, 0]
+        bow = bow / np.hypot(*bow)
+        forward, port = arms[:, :2] @ bow, arms[:, :2] @ [-bow[1], bow[0]]
+        lift = np.array([*(-body.mass * scene.gravity for body in weights), *(f.force[2] for f in held)])
+        load = [lift.sum(), lift @ port, -lift @ forward]
+        _warn_of_balance(vessel, np.linalg.lstsq(restoring, load)[0], float(hull.position[2]))
 
 
-def _lifted(scene: Scene, body: str, point: Array, force: float, origin: Array) -> Array:
-    """Heave force, roll and pitch moment about the vessel's origin of a vertical force on a body."""
-    described = scene.bodies[body]
-    arm = described.position + rotation_matrix(described.quaternion) @ point - origin
-    return force * np.array([1.0, arm[1], -arm[0]])
+def _warn_of_balance(vessel: _core.VesselHydrodynamics, rest: Array, start: float) -> None:
+    """`rest`: heave, roll and pitch at which the weights balance, from the described pose at `start`."""
+    heave, roll, pitch = rest[0] - start, rest[1], rest[2]
+    if max(abs(roll), abs(pitch)) <= LARGEST_HEEL and abs(heave) <= LARGEST_SINKAGE:
+        return
+    warn_caller(
+        f"vessel {vessel.name!r}: starts out of balance: its loads would heel it by {np.degrees(roll):.3g} "
+        f"deg, trim it by {np.degrees(pitch):.3g} deg and lift it by {heave:.3g} m, so that it swings from "
+        "the start. Add ballast (seacrane.balance and a point force, as in the README), or start from "
+        "seacrane.equilibrium(scene)",
+        BallastWarning,
+    )
 
 
-def _carried(scene: Scene, vessel: str) -> set[str] | None:
-    """Bodies whose weight comes to the vessel; None where another support shares it."""
+def _carried(scene: Scene, vessel: str) -> set[str]:
+    """Bodies whose weight comes to the vessel; none where another support shares it."""
     stopped = {load.joint for load in scene.loads.values() if hasattr(load, "joint")}
     driven = {driver.joint for driver in scene.drivers.values()}
     neighbours: dict[str, list[str]] = {}
@@ -224,4 +223,4 @@ def _carried(scene: Scene, vessel: str) -> set[str] | None:
         open_ += new
     floating = {v.body for v in scene.vessels.values()}
     alone = found <= set(scene.bodies) and found & floating == {vessel}
-    return found if alone else None
+    return found if alone else set()

@@ -91,12 +91,13 @@ class _Pieces:
     def at(self, piece: NDArray[np.intp], time: Array) -> tuple[Array, Array]:
         """Value and rate of some pieces, each at its time."""
         s = time - self.starts[piece]
-        c = self.coefficients[piece]
+        value, slope = np.zeros_like(s), np.zeros_like(s)
+        for c in self.coefficients[piece].T[::-1]:
+            slope = value + slope * s
+            value = c + value * s
         amplitude, omega, phase = self.cosines[piece].T
-        powers = s[:, None] ** np.arange(6)
-        value = np.sum(c * powers, axis=1) + amplitude * np.cos(omega * s + phase)
-        slope = np.sum(c[:, 1:] * np.arange(1, 6) * powers[:, :5], axis=1)
-        return value, slope - amplitude * omega * np.sin(omega * s + phase)
+        angle = omega * s + phase
+        return value + amplitude * np.cos(angle), slope - amplitude * omega * np.sin(angle)
 
     def jumps(self, start: float, end: float) -> tuple[Array, Array, Array]:
         """Times within a run where a piece begins, and by what value and rate jump there."""
