@@ -14,6 +14,7 @@ from seacrane.checked import flag_of, number_of, shaped_of
 from seacrane.environment import add_drift, use_actual_position
 from seacrane.errors import SceneError
 from seacrane.frames import heading_of
+from seacrane.plausible import direction_of
 from seacrane.scene import Scene
 from seacrane.sea import SeaState, Spreading, WaveSystem, cos_2s, jonswap
 from seacrane.waves import HullLoads, Waves
@@ -233,7 +234,7 @@ def _pose(
     x, y = body.position[:2] if position is None else shaped_of("sea: position", position, (2,))
     heading = heading_of(body.quaternion)
     if heading_deg is not None:
-        heading = float(np.radians(number_of("sea: heading_deg", heading_deg)))
+        heading = float(np.radians(direction_of("sea: heading_deg", heading_deg)))
     if not np.isfinite([x, y, heading]).all():
         raise SceneError(
             f"sea: loads of {vessel!r} are taken at x, y, heading {x}, {y}, {heading}; give finite ones"

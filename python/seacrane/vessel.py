@@ -9,8 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane import _core
-from seacrane.checked import number_of, shaped_of
+from seacrane.checked import shaped_of
 from seacrane.errors import SceneError
+from seacrane.plausible import direction_of
 from seacrane.scene import Scene
 from seacrane.sea_state import add_sea as add_sea
 from seacrane.vessel_notes import note_on
@@ -45,7 +46,8 @@ def add_vessel(
     name : str
         Of the body and of its hydrodynamics.
     position : array_like, shape (3,)
-        Of the reference point at the start, where its mooring has no load: x, y, z, m, inertial frame.
+        Of the reference point at the start, m, inertial frame. Its mooring has no load at this x and y; it
+        floats at rest at z = 0, and heaves from another z.
     heading_deg : float
         At the start, deg from +x towards +y.
     memory : str
@@ -71,6 +73,8 @@ def add_vessel(
     -----
     WaterMismatchWarning
         The scene's gravity is not the database's; `vessel_parameters` has warnings of its own.
+    AngleUnitWarning, CompassDirectionWarning
+        A heading that looks like radians, or like a compass bearing.
     """
     from seacrane.hydro import vessel_parameters
     from seacrane.hydro.data_warnings import warn_of_water
@@ -78,7 +82,7 @@ def add_vessel(
     if memory not in MEMORY:
         raise SceneError(f"memory {memory!r} is not available in this version; choose {' or '.join(MEMORY)}")
     warn_of_water(database, gravity=scene.gravity)
-    half = 0.5 * np.radians(number_of(f"vessel {name!r}: heading_deg", heading_deg))
+    half = 0.5 * np.radians(direction_of(f"vessel {name!r}: heading_deg", heading_deg))
     parameters = vessel_parameters(database, memory=None if memory == "none" else _memory(database, memory))
     scene.add_body(
         name=name,
