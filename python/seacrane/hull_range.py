@@ -94,8 +94,8 @@ class Peak:
         components = waves.components()
         omega = peak_frequency(waves)
         nearest = int(np.argmin(np.abs(np.asarray(waves.omega) - omega)))
-        travel = np.stack([np.cos(waves.direction), np.sin(waves.direction)])
-        energy = np.asarray(waves.amplitude, dtype=float) ** 2
+        travel = np.stack([np.cos(components.direction), np.sin(components.direction)])
+        energy = np.asarray(components.amplitude) ** 2
         spread = (travel * energy) @ travel.T / max(energy.sum(), TINY)
         return cls(omega=omega, wavenumber=float(components.wavenumber[nearest]), spread=spread)
 
@@ -111,7 +111,8 @@ class Peak:
 
 def peak_frequency(waves: Waves) -> float:
     """rad/s, where the energy of the components is densest."""
-    omega, energy = np.asarray(waves.omega, dtype=float), np.asarray(waves.amplitude, dtype=float) ** 2
+    omega = np.asarray(waves.omega, dtype=float)
+    energy = np.broadcast_to(np.asarray(waves.amplitude, dtype=float) ** 2, omega.shape)
     lowest = omega.min()
     width = omega.max() - lowest or 1.0
     at = ((omega - lowest) * (BINS / width)).astype(int)
