@@ -34,6 +34,8 @@ COUNTERS = {
     "compiled_constraints": "compiled constraints",
     "wave_components": "wave components",
     "realised_hs": "realised Hs [m]",
+    "wave_energy_without_load": "share of the waves' energy above the database's frequencies",
+    "load_variance_without_load": "the same of the variance of a vessel's load, estimated",
     "seed": "seed",
     "fastest_mode_per_s": "fastest mode at the start [1/s]",
     "formulation": "formulation",
