@@ -6,7 +6,18 @@ import numpy as np
 import pytest
 from event_scenes import GRAVITY, INERTIA, MASS, lift, pushed
 
-from seacrane import Result, Run, Scene, add_end_stop, add_friction, add_soft_stop, add_wire, cases, simulate
+from seacrane import (
+    Result,
+    Run,
+    Scene,
+    SimulationError,
+    add_end_stop,
+    add_friction,
+    add_soft_stop,
+    add_wire,
+    cases,
+    simulate,
+)
 
 
 def test_stop_holds_while_it_is_pushed_and_lets_go_when_the_load_turns() -> None:
@@ -125,3 +136,37 @@ def test_cylinder_of_a_crane_afloat_runs_onto_its_stop(formulation: str) -> None
     assert np.all(result.select("limit_force", limit="link")[held] > 0.0)
     assert np.abs(result["energy_balance"]).max() < 1e-8 * result["absolute_work"][-1]
     assert result["constraint_error"].max() < 1e-9
+
+
+def tumbler(coordinate: str, bound: float, turning: tuple[float, float, float]) -> Scene:
+    """A free body that pitches, with a stop on another angle."""
+    scene = Scene(name="tumbler", gravity=0.0)
+    scene.add_body(name="body", mass=MASS, inertia=INERTIA, angular_velocity=turning)
+    scene.add_joint(kind="free", name="air", first="ground", second="body")
+    add_end_stop(scene, joint="air", coordinate=coordinate, minimum=-bound, maximum=bound, restitution=1.0)
+    return scene
+
+
+@pytest.mark.parametrize("method", [{}, {"integrator": "rk4", "dt": 0.7}])
+@pytest.mark.parametrize("coordinate", ["roll", "yaw"])
+def test_a_stop_on_roll_or_yaw_is_not_carried_through_a_pitch_of_90_deg(
+    coordinate: str, method: dict[str, float]
+) -> None:
+    """Not even by a step that leaps over it. Roll and yaw jump by 180 deg there, which is no impact."""
+    scene = tumbler(coordinate, 3.0, (0.0, 1.0, 0.0))
+    with pytest.raises(
+        SimulationError, match=rf"limit '.*' on joint 'air': pitch is near 90 deg .* where {coordinate} is"
+    ) as error:
+        simulate(scene, t_end=5.0, **method)
+    result = error.value.result
+    assert result is not None
+    assert result.events == ()
+    assert result.time[-1] < 1.6
+    assert np.abs(result["energy_balance"]).max() < 1e-6
+
+
+def test_a_stop_on_roll_keeps_energy_at_a_pitch_that_has_one() -> None:
+    result = simulate(tumbler("roll", 0.3, (0.5, 0.4, 0.3)), t_end=3.0, rtol=1e-9)
+    assert len(result.events) >= 3
+    assert {e.kind for e in result.events} == {"rebound"}
+    assert np.abs(result["energy_balance"]).max() < 1e-8

@@ -303,3 +303,22 @@ def test_a_state_with_limits_of_another_scene_is_refused() -> None:
     wrong = State(time=0.9, values=slack.values, inputs=slack.inputs, closed=["wire"])
     with pytest.raises(SceneError, match=r"limit 'wire' is to hold, but open by 0\.\d+ m"):
         Run(pendulum(), t_end=1.0, start=wrong)
+
+
+@pytest.mark.parametrize("restitution", [0.3, 0.9])
+@pytest.mark.parametrize("make", [ball, pendulum])
+def test_rebounds_shorter_than_a_step_neither_sink_into_a_limit_nor_end_the_run(
+    make: Any, restitution: float
+) -> None:
+    """They end in a contact; by a method of order 1 the overlap falls like the step squared."""
+    overlaps = []
+    for step in (0.02, 0.005):
+        scene = make(restitution=restitution)
+        result = simulate(scene, t_end=8.0, dt_out=0.002, integrator="semi-implicit-euler", dt=step)
+        at = result.select("position", body="ball")
+        gap = at[:, 2] if make is ball else LENGTH - np.linalg.norm(at, axis=1)
+        overlaps.append(-gap.min())
+        again = simulate(scene, t_end=8.1, start=result.state, integrator="semi-implicit-euler", dt=step)
+        assert again.time[-1] == pytest.approx(8.1)
+    assert overlaps[0] < 1e-3
+    assert overlaps[1] < 6e-5

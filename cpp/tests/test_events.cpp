@@ -121,6 +121,24 @@ TEST_CASE("models of a set hold its rows only, and the elements of all") {
   CHECK(closed->elements[static_cast<std::size_t>(closed->limits.front().element)].name == "buffer");
 }
 
+TEST_CASE("a set of limits that leaves no rows of redundant ones is stepped") {
+  SceneDescription scene = hanging(0.0);
+  scene.bodies.push_back(body_at("box", 3.0, Vec3d(0.5, 0, -2)));
+  scene.joints.push_back({"weld", "weld", "box", "ball", {Vec3d(-0.5, 0, 0), Mat3d::Identity()}, {}});
+  scene.joints.push_back({"rod", "distance", "box", "ball", {}, {}, 0.5});
+  scene.loads_of<PointForce>().push_back({"lift", "ball", Vec3d::Zero(), Vec3d(0, 0, 120)});
+  const auto model = compile(scene);
+  REQUIRE(model->redundant);
+  for (const std::string formulation : {"redundant", "recursive"}) {
+    CAPTURE(formulation);
+    Simulation run(model, initial_state(*model), options_for(*model, formulation, 0.5));
+    run.advance(0.5, going);
+    REQUIRE(run.events().size() == 1);
+    CHECK(run.events().front().kind == EventKind::release);
+    CHECK(std::abs(last(run.recording(), "energy_balance")) < 1e-8);
+  }
+}
+
 TEST_CASE("a state with limits that the scene does not have is refused") {
   const auto model = compile(hanging(1.0));
   State state = initial_state(*model);

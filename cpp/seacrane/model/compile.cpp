@@ -394,12 +394,9 @@ std::shared_ptr<const Model> compile_set(const Model& model, ClosedSet closed) {
   const std::shared_ptr<Model> out = described_model(model.description, model.limits, closed, scene);
   out->merges = model.merges;
   out->initial_state = model.initial_state;
-  out->redundant = model.redundant;
   MergePlan plan = model.merges ? plan_merge(scene) : no_merge(scene);
   if (plan.merges()) {
-    auto merged = std::make_shared<Model>(Compiler(scene, std::move(plan)).run());
-    merged->redundant = model.redundant;
-    out->merged = std::move(merged);
+    out->merged = std::make_shared<Model>(Compiler(scene, std::move(plan)).run());
   }
   return out;
 }

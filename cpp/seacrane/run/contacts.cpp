@@ -1,20 +1,29 @@
 #include "seacrane/run/contacts.hpp"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <string>
 #include <utility>
 
+#include "seacrane/run/complementarity.hpp"
+
 namespace seacrane {
 namespace {
 
-constexpr double kMisfit = 1e-3;     // m or rad: of a state that is none of the scene
-constexpr double kTouch = 1e-10;     // m or rad: gaps below it are closed, and overlaps rounding
-constexpr double kStill = 1e-9;      // m/s or rad/s: rates that are rounding
-constexpr double kFall = 1e-9;       // m/s2 or rad/s2: likewise
-constexpr double kRounding = 1e-12;  // of the largest impulse
-constexpr double kLikelyDip = 0.25;  // of the smaller end: an estimated minimum below it is looked at
+constexpr double kMisfit = 1e-3;  // m or rad: of a state that is none of the scene
+constexpr double kTouch = 1e-10;  // m or rad: gaps below it are closed, and overlaps rounding
+constexpr double kParted = 1e-9;  // m or rad: closed limits further open cannot all hold
+constexpr double kStill = 1e-9;   // m/s or rad/s: rates that are rounding
+constexpr double kFall = 1e-9;    // m/s2 or rad/s2: likewise
+constexpr double kFallSpeed =
+    1e-3;  // of the sticking_speed: an overlap that grows slower is one of the method
+constexpr double kRounding = 1e-12;       // of the largest impulse
+constexpr double kSingularPitch = 0.05;   // cos(pitch) below which roll and yaw tell too little
+constexpr double kLikelyDip = 0.25;       // of the smaller end: an estimated minimum below it is looked at
+constexpr double kNoShare = 1e-9;         // of the largest force: limits that carry less let go
+constexpr double kDependentImpact = 1e4;  // times the impulse that one body alone would take: rows depend
 constexpr std::size_t kChatterCount = 64;
 constexpr double kChatterTime = 1e-6;  // s
 
@@ -28,7 +37,9 @@ std::string at_time(double t) {
 /// that is negative at first and positive at last; its value there.
 std::pair<double, double> least_of_cubic(double y0, double m0, double y1, double m1) {
   const double rise = y1 - y0, b = 3.0 * rise - 2.0 * m0 - m1, a = m0 + m1 - 2.0 * rise;
-  const double s = -m0 / (b + std::sqrt(std::max(0.0, b * b - 3.0 * a * m0)));
+  const double root = std::sqrt(std::max(0.0, b * b - 3.0 * a * m0));
+  // Of two forms of one number the one without cancellation; rounding may still leave the step.
+  const double s = std::clamp(b > 0.0 ? -m0 / (b + root) : (root - b) / (3.0 * a), 0.0, 1.0);
   return {s, y0 + s * (m0 + s * (b + s * a))};
 }
 
@@ -38,6 +49,12 @@ std::pair<double, double> least_of_parabola(double y0, double ym, double y1) {
   const double s = c > 0.0 ? -b / (2.0 * c) : 0.0;
   if (!(s > 0.0 && s < 1.0)) return {0.0, y0};
   return {s, y0 + s * (b + s * c)};
+}
+
+/// Roll and yaw jump where pitch passes 90 deg.
+bool has_pole(const Limit& limit) {
+  const CoordinateKind kind = limit.coordinate.kind;
+  return limit.kind == LimitKind::stop && (kind == CoordinateKind::roll || kind == CoordinateKind::yaw);
 }
 
 double acceleration_of(const CoordinateRow<double>& row, const Vec6d& first, const Vec6d& second) {
@@ -64,14 +81,23 @@ Contacts::Contacts(const Model& model, SetStepper stepper)
       after_(model.limits.size()),
       bodies_(idx(model.layout.size)),
       rate_(idx(model.layout.size)),
-      middle_(model.limits.size()) {}
+      middle_(model.limits.size()),
+      axis_before_(model.limits.size(), Vec3d::UnitX()),
+      axis_after_(model.limits.size(), Vec3d::UnitX()) {}
 
 Contacts::Watched Contacts::gap(const Limit& limit, const RedundantSystem& system) const {
   const auto& bodies = system.bodies();
   const CoordinateRow<double> row = evaluate_limit(limit, bodies.data());
   const JointData& joint = limit.coordinate.joint;
   const double rate = coordinate_rate(row, bodies[idx(joint.first)], bodies[idx(joint.second)]);
-  return {limit.side * row.value, limit.side * rate};
+  return {limit.side * row.value, limit.side * rate, 0.0};
+}
+
+/// How far a limit that holds is open all the same: projection shares what rows that contradict each other
+/// leave. With the rows last evaluated.
+double Contacts::slack(const Limit& limit, const Stepper& at) {
+  if (limit.kind == LimitKind::seat) return 0.0;
+  return limit.side * at.system.blocks()[idx(limit.element)].phi[0];
 }
 
 void Contacts::check(Stepper& at, double t, const double* bodies) const {
@@ -118,10 +144,45 @@ void Contacts::watch(Stepper& at, double t, const double* bodies) {
   for (std::size_t i = 0; i < after_.size(); ++i) {
     const Limit& limit = at.model->limits[i];
     if (limit.element >= 0) {
-      after_[i] = {limit_force(limit, at.system, at.system.multipliers().data()), 0.0};
+      after_[i] = {limit_force(limit, at.system, at.system.multipliers().data()), 0.0, slack(limit, at)};
     } else if (limit.kind != LimitKind::seat) {
       after_[i] = gap(limit, at.system);
     }
+  }
+  read_axes(at);
+}
+
+void Contacts::read_axes(const Stepper& at) {
+  for (std::size_t i = 0; i < axis_after_.size(); ++i) {
+    const Limit& limit = at.model->limits[i];
+    if (!has_pole(limit)) continue;
+    const JointData& joint = limit.coordinate.joint;
+    const auto& k = at.system.bodies();
+    const JointGeometry<double> g(joint, k[idx(joint.first)], k[idx(joint.second)]);
+    axis_after_[i] = g.a.transpose() * g.b.col(0);
+  }
+}
+
+void Contacts::start(Stepper& at, double t, const double* bodies) {
+  watch(at, t, bodies);
+  axis_before_ = axis_after_;
+  check_poles(t);
+}
+
+/// Within 3 deg of pitch 90 deg, at the end of the step or on the way there.
+void Contacts::check_poles(double t) const {
+  for (std::size_t i = 0; i < model_.limits.size(); ++i) {
+    const Limit& limit = model_.limits[i];
+    if (!has_pole(limit)) continue;
+    const Vec3d &from = axis_before_[i], &to = axis_after_[i], way = from.cross(to);
+    const bool passed =
+        from.head<2>().dot(to.head<2>()) < 0.0 && std::abs(way.z()) < kSingularPitch * way.norm();
+    if (!passed && to.head<2>().norm() >= kSingularPitch) continue;
+    throw std::domain_error(
+        "limit '" + limit.name + "' on joint '" + model_.description.joints[idx(limit.joint)].name +
+        "': pitch is near 90 deg at t = " + at_time(t) + " s, where " + limit.described.coordinate +
+        " is not defined; keep pitch within bounds by a stop, or take a joint whose "
+        "frame keeps its pitch small");
   }
 }
 
@@ -162,42 +223,100 @@ std::optional<double> Contacts::find(Stepper& at) {
   const double start = integrator.previous_time(), end = integrator.time();
   if (at.model->closed != 0) look_inside(at);
   before_.swap(after_);
+  axis_before_.swap(axis_after_);
   at.stepped.write_bodies(end, integrator.state(), bodies_.data());
   watch(at, end, bodies_.data());
   std::optional<double> first;
+  const auto found = [&](double t, std::size_t i, bool parted) {
+    first = t;
+    found_ = static_cast<int>(i);
+    parted_ = parted;
+  };
   for (std::size_t i = 0; i < after_.size(); ++i) {
+    if (after_[i].slack > kParted) {
+      const double t = locate_parting(at, i);
+      if (!first || t < *first) found(t, i, true);
+    }
     Dip d = dip(at, i);
     if (d.part == 0.0) continue;
     const Limit& limit = at.model->limits[i];
-    const double until = d.part == 1.0 ? end : start + d.part * (end - start);
+    const double until = d.part == 1.0 ? end : std::min(end, start + d.part * (end - start));
     if (!d.negative) {
       integrator.interpolate(until, probe_.data());
       d.value = watched_value(at, limit, until, probe_.data());
       if (!(d.value < (limit.element < 0 ? -kTouch : 0.0))) continue;
     }
-    const double t = locate(at, i, until, d.value);
-    if ((first && *first <= t) || (limit.element < 0 && !approached(at, limit, t))) continue;
-    first = t;
-    found_ = static_cast<int>(i);
-    unresolved_ = limit.element < 0 && before_[i].value < -kTouch;
+    const auto t =
+        limit.element < 0 ? locate_overlap(at, i, until, d.value) : locate(at, i, start, until, d.value, 0.0);
+    if (t && (!first || *t < *first)) found(*t, i, false);
   }
+  if (first) {
+    integrator.interpolate(*first, probe_.data());
+    at.stepped.project(*first, probe_.data(), false);
+    at.stepped.write_bodies(*first, probe_.data(), bodies_.data());
+    at.system.read_kinematics(*first, bodies_.data());
+    read_axes(at);
+  }
+  check_poles(first.value_or(end));
   return first;
 }
 
-/// A gap that is negative and does not get smaller is an error of the integration, after a release above all.
-bool Contacts::approached(Stepper& at, const Limit& limit, double t) {
-  at.integrator->interpolate(t, probe_.data());
-  watched_value(at, limit, t, probe_.data());
-  return gap(limit, at.system).rate < -kStill;
+/// Where a gap that is negative at `until` closes; nothing where it does not get smaller there: that overlap
+/// is an error of the integration, after a release above all. A bound that is left and reached again is
+/// searched from where the gap is largest on: rounding at the start would pass for the bound reached. A hop
+/// too low to be told from none ends there, and the limit holds.
+std::optional<double> Contacts::locate_overlap(Stepper& at, std::size_t i, double until, double value) {
+  const Watched& from = before_[i];
+  const Limit& limit = at.model->limits[i];
+  const double start = at.integrator->previous_time();
+  const auto gap_at = [&](double t, const double* y) {
+    watched_value(at, limit, t, y);
+    return gap(limit, at.system);
+  };
+  const auto look = [&](double t) {
+    at.integrator->interpolate(t, probe_.data());
+    return gap_at(t, probe_.data());
+  };
+  if (from.value > kTouch) return locate(at, i, start, until, value, 0.0);
+  if (from.rate <= kStill) {
+    if (from.value <= -kTouch) return start;
+    const double t = locate(at, i, start, until, value, kTouch);
+    const bool falls = look(t).rate < -std::max(kStill, kFallSpeed * limit.sticking_speed);
+    return falls || value < -0.1 * kMisfit ? std::optional(t) : std::nullopt;
+  }
+  const double last_rate = look(until).rate;
+  if (!(last_rate < 0.0)) return std::nullopt;
+  const double top = at.integrator
+                         ->locate([&](double t, const double* y) {
+                           if (t <= start) return from.rate;
+                           return t >= until ? last_rate : gap_at(t, y).rate;
+                         })
+                         .value_or(until);
+  return look(top).value > 0.0 ? locate(at, i, top, until, value, 0.0) : top;
 }
 
-/// A step starts with nothing negative but rounding, whatever the sign of that.
-double Contacts::locate(Stepper& at, std::size_t i, double until, double value) {
-  const double start = at.integrator->previous_time();
-  const double at_start = std::max(before_[i].value, -1e-3 * value);
+/// Where limits that hold cannot all do so any more.
+double Contacts::locate_parting(Stepper& at, std::size_t i) {
+  const double start = at.integrator->previous_time(), end = at.integrator->time();
   const auto located = at.integrator->locate([&](double t, const double* y) {
-    if (t <= start) return at_start;
-    return t >= until ? value : watched_value(at, at.model->limits[i], t, y);
+    if (t <= start) return std::max(kParted - before_[i].slack, 1e-3 * kParted);
+    if (t >= end) return kParted - after_[i].slack;
+    std::copy_n(y, at.stepped.size(), state_.data());
+    at.stepped.project(t, state_.data(), false);
+    at.stepped.write_bodies(t, state_.data(), bodies_.data());
+    at.system.residual(t, bodies_.data());
+    return kParted - slack(at.model->limits[i], at);
+  });
+  return located.value_or(end);
+}
+
+/// Where a quantity falls below -`level` between `since` and `until`, where it is `value`. It starts with
+/// nothing negative but rounding, whatever the sign of that.
+double Contacts::locate(Stepper& at, std::size_t i, double since, double until, double value, double level) {
+  const double first = std::max(before_[i].value, -1e-3 * value) + level;
+  const auto located = at.integrator->locate([&](double t, const double* y) {
+    if (t <= since) return first;
+    return (t >= until ? value : watched_value(at, at.model->limits[i], t, y)) + level;
   });
   return located.value_or(until);
 }
@@ -223,8 +342,7 @@ ClosedSet Contacts::pass(double t, double* bodies, ClosedSet closed) {
   stalled_ = t - last_pass_ <= kChatterTime / static_cast<double>(kChatterCount) ? stalled_ + 1 : 0;
   last_pass_ = t;
   if (stalled_ >= kChatterCount) report_chatter(t, found_, "passes that took no time");
-  late_ = unresolved_ ? late_ + 1 : 0;
-  if (late_ >= kChatterCount) report_chatter(t, found_, "rebounds shorter than a step");
+  if (parted_) return part(t, bodies, closed);
   const ClosedSet bit = bit_of(found_);
   if ((closed & bit) != 0) {
     note({t, found_, EventKind::release});
@@ -265,9 +383,202 @@ ClosedSet Contacts::settle(double t, double* bodies, ClosedSet closed) {
       note({t, wrong, holds(closed, wrong) ? EventKind::contact : EventKind::release});
     }
   }
-  throw ChatteringError("scene '" + model_.description.name +
-                        "': no set of its limits is consistent at t = " + at_time(t) +
-                        " s (friction-free contacts that depend on each other); remove redundant stops");
+  return settle_dependent(t, bodies, closed);
+}
+
+/// Of limits that cannot all hold the loosest lets go, of equally loose ones the one that carries least,
+/// until the others can.
+ClosedSet Contacts::part(double t, double* bodies, ClosedSet closed) {
+  const int count = static_cast<int>(model_.limits.size());
+  for (;;) {
+    Stepper& at = stepper_(closed);
+    at.system.project(t, bodies, false);
+    at.system.derivative(t, bodies, rate_.data());
+    double widest = 0.5 * kParted, least = 0.0;
+    int loosest = -1;
+    for (const bool choosing : {false, true}) {
+      for (int i = 0; i < count; ++i) {
+        const Limit& limit = at.model->limits[idx(i)];
+        if (limit.element < 0) continue;
+        const double open = slack(limit, at);
+        const double force = limit_force(limit, at.system, at.system.multipliers().data());
+        if (!choosing) {
+          widest = std::max(widest, open);
+        } else if (open >= 0.9 * widest && (loosest < 0 || force < least)) {
+          loosest = i;
+          least = force;
+        }
+      }
+    }
+    if (loosest < 0) return settle(t, bodies, closed);
+    closed &= ~bit_of(loosest);
+    note({t, loosest, EventKind::release});
+  }
+}
+
+/// Contacts that depend on each other, where pivoting may go round in circles: impulses and forces of least
+/// energy, without rebound. Limits that need not carry share the load where all of them push.
+ClosedSet Contacts::settle_dependent(double t, double* bodies, ClosedSet closed) {
+  const int count = static_cast<int>(model_.limits.size());
+  ClosedSet seats = 0;
+  for (int i = 0; i < count; ++i) {
+    if (model_.limits[idx(i)].kind == LimitKind::seat) seats |= closed & bit_of(i);
+  }
+  for (;;) {
+    const ClosedSet next = least_energy(t, bodies, closed, seats);
+    for (int i = 0; i < count; ++i) {
+      if (holds(next, i) != holds(closed, i))
+        note({t, i, holds(next, i) ? EventKind::contact : EventKind::release});
+    }
+    closed = next;
+    Stepper& at = stepper_(closed);
+    at.system.project(t, bodies, false);
+    at.system.derivative(t, bodies, rate_.data());
+    int lifted = -1;
+    for (int i = 0; i < count; ++i) {
+      const Limit& limit = at.model->limits[idx(i)];
+      const bool pulls =
+          limit.element >= 0 && limit_force(limit, at.system, at.system.multipliers().data()) < 0.0;
+      if (pulls && holds(seats, i)) lifted = i;
+      if (!pulls || holds(seats, i)) continue;
+      throw ChatteringError("scene '" + model_.description.name +
+                            "': no set of its limits is consistent at t = " + at_time(t) +
+                            " s (friction-free contacts that depend on each other); remove redundant stops");
+    }
+    if (lifted < 0) return closed;
+    seats &= ~bit_of(lifted);
+  }
+}
+
+/// The limits that hold beside `seats` by the forces of least energy, after an impact of least energy where
+/// any of them is approached.
+ClosedSet Contacts::least_energy(double t, double* bodies, ClosedSet closed, ClosedSet seats) {
+  Stepper& at = stepper_(seats);
+  RedundantSystem& system = at.system;
+  system.derivative(t, bodies, rate_.data());
+  std::vector<int> near;
+  for (int i = 0; i < static_cast<int>(model_.limits.size()); ++i) {
+    const Limit& limit = at.model->limits[idx(i)];
+    if (limit.kind == LimitKind::seat) continue;
+    const Watched g = gap(limit, system);
+    if (holds(closed, i) || (g.value <= kTouch && g.rate <= kStill)) near.push_back(i);
+  }
+  const auto n = static_cast<Eigen::Index>(near.size());
+  std::vector<Vec6d> load(idx(model_.body_count()) + 1, Vec6d::Zero()), change(load);
+  std::vector<double> right(idx(at.model->rows()), 0.0), impulse(right);
+  const auto limit_of = [&](Eigen::Index i) -> const Limit& {
+    return at.model->limits[idx(near[static_cast<std::size_t>(i)])];
+  };
+  const auto push = [&](const Limit& limit, double force) {
+    const CoordinateRow<double> row = evaluate_limit(limit, system.bodies().data());
+    load[idx(limit.coordinate.joint.first)] += force * limit.side * row.da;
+    load[idx(limit.coordinate.joint.second)] += force * limit.side * row.db;
+  };
+  const auto along = [&](const Limit& limit, const std::vector<Vec6d>& motion) {
+    const CoordinateRow<double> row = evaluate_limit(limit, system.bodies().data());
+    return limit.side * (row.da.dot(motion[idx(limit.coordinate.joint.first)]) +
+                         row.db.dot(motion[idx(limit.coordinate.joint.second)]));
+  };
+  const auto respond = [&] {
+    load.back().setZero();
+    system.solve(load, right, change, impulse);
+    for (Vec6d& one : load) one.setZero();
+  };
+  MatXd g(n, n);
+  VecXd rate(n), fall(n);
+  for (Eigen::Index j = 0; j < n; ++j) {
+    push(limit_of(j), 1.0);
+    respond();
+    for (Eigen::Index i = 0; i < n; ++i) g(i, j) = along(limit_of(i), change);
+    rate[j] = gap(limit_of(j), system).rate;
+  }
+  if (n > 0 && rate.minCoeff() < -kStill) {
+    const VecXd hit = complementary_forces(g, rate), after = rate + g * hit;
+    double lost = 0.0, driver_work = 0.0;
+    for (Eigen::Index j = 0; j < n; ++j) {
+      push(limit_of(j), hit[j]);
+      lost -= 0.5 * hit[j] * (rate[j] + after[j]);
+    }
+    respond();
+    for (const ElementModel& element : at.model->elements) {
+      const auto e = static_cast<std::size_t>(&element - at.model->elements.data());
+      if (element.driver) driver_work += impulse[idx(element.row)] * system.blocks()[e].nu[0];
+    }
+    book(bodies, change, driver_work, lost);
+    rate = after;
+    system.derivative(t, bodies, rate_.data());
+  }
+  std::vector<Eigen::Index> stay;
+  for (Eigen::Index j = 0; j < n; ++j) {
+    if (rate[j] <= kStill) stay.push_back(j);
+  }
+  const auto& a = system.acceleration();
+  for (Eigen::Index j = 0; j < n; ++j) {
+    const JointData& joint = limit_of(j).coordinate.joint;
+    const CoordinateRow<double> row = evaluate_limit(limit_of(j), system.bodies().data());
+    fall[j] = limit_of(j).side * acceleration_of(row, a[idx(joint.first)], a[idx(joint.second)]);
+  }
+  const MatXd g_stay = g(stay, stay);
+  const VecXd fall_stay = fall(stay), force = complementary_forces(g_stay, fall_stay),
+              left = g_stay * force + fall_stay;
+  ClosedSet carry = 0, idle = 0;
+  const double none = kFall + kNoShare * (stay.empty() ? 0.0 : fall_stay.cwiseAbs().maxCoeff());
+  for (std::size_t k = 0; k < stay.size(); ++k) {
+    const auto at_k = static_cast<Eigen::Index>(k);
+    const ClosedSet bit = bit_of(near[static_cast<std::size_t>(stay[k])]);
+    if (force[at_k] > 0.0) {
+      carry |= bit;
+    } else if (left[at_k] <= none) {
+      idle |= bit;
+    }
+  }
+  return seats | carry | sharing(t, bodies, seats | carry, idle);
+}
+
+/// Those of `idle` that push when they hold beside `carry`, and let that push.
+ClosedSet Contacts::sharing(double t, const double* bodies, ClosedSet carry, ClosedSet idle) {
+  const int count = static_cast<int>(model_.limits.size());
+  while (idle != 0) {
+    Stepper& at = stepper_(carry | idle);
+    at.system.derivative(t, bodies, rate_.data());
+    double least = 0.0, most = 0.0;
+    int weakest = -1;
+    for (int i = 0; i < count; ++i) {
+      const Limit& limit = at.model->limits[idx(i)];
+      if (limit.element < 0 || limit.kind == LimitKind::seat) continue;
+      const double force = limit_force(limit, at.system, at.system.multipliers().data());
+      most = std::max(most, force);
+      if (weakest >= 0 && force >= least) continue;
+      least = force;
+      weakest = i;
+    }
+    if (least > kNoShare * most) break;
+    idle = holds(idle, weakest) ? idle & ~bit_of(weakest) : 0;
+  }
+  return idle;
+}
+
+/// The impulse that limit `i` takes in an impact, over what its two bodies alone would: large where rows
+/// nearly depend on each other, and turn a slow impact into one that stops the motion.
+double Contacts::amplification(Stepper& at, int i, double impulse, double speed) const {
+  const Limit& limit = at.model->limits[idx(i)];
+  const JointData& joint = limit.coordinate.joint;
+  const CoordinateRow<double> row = evaluate_limit(limit, at.system.bodies().data());
+  double mobility = 0.0;
+  for (const auto& [body, d] : {std::pair(joint.first, row.da), std::pair(joint.second, row.db)}) {
+    if (body < model_.body_count()) mobility += d.dot(at.system.mass_matrix(body).lu().solve(d));
+  }
+  return std::abs(impulse) * mobility / std::max(std::abs(speed), kStill);
+}
+
+/// Adds the change of twists by an impact; work takes up what it changed.
+void Contacts::book(double* bodies, const std::vector<Vec6d>& change, double driver_work, double lost) {
+  for (int b = 0; b < model_.body_count(); ++b) {
+    view<6>(bodies + model_.layout.twist(b)) += change[idx(b)];
+  }
+  bodies[model_.layout.work] += driver_work - lost;
+  bodies[model_.layout.work + 1] += std::abs(driver_work) + std::abs(lost);
+  energy_lost_ += lost;
 }
 
 /// What is hit at the same time as limit `found`, or touched and approached then. `slow`: none of them faster
@@ -303,18 +614,19 @@ ClosedSet Contacts::hit(double t, double* bodies, ClosedSet closed, int found) {
     const double pull = -kRounding * largest;
     int pulls = 0;
     while (pulls < count && !(holds(kept, pulls) && impact.impulse[idx(pulls)] < pull)) ++pulls;
-    if (pulls < count && !slow) {
+    bool dependent = false;
+    for (int i = 0; slow && pulls < count && i < count; ++i) {
+      dependent = dependent ||
+                  (holds(struck, i) && holds(kept, i) &&
+                   amplification(at, i, impact.impulse[idx(i)], impact.speed[idx(i)]) > kDependentImpact);
+    }
+    if (pulls < count && (!slow || dependent)) {
       kept &= ~bit_of(pulls);
       continue;
     }
-    for (int b = 0; b < model_.body_count(); ++b) {
-      view<6>(bodies + model_.layout.twist(b)) += impact.change[idx(b)];
-    }
     double lost = 0.0;
     for (int i = 0; i < count; ++i) lost += impact.lost[idx(i)];
-    bodies[model_.layout.work] += impact.driver_work - lost;
-    bodies[model_.layout.work + 1] += std::abs(impact.driver_work) + std::abs(lost);
-    energy_lost_ += lost;
+    book(bodies, impact.change, impact.driver_work, lost);
     for (int i = 0; i < count; ++i) {
       if (holds(closed, i) && !holds(kept, i)) note({t, i, EventKind::release});
       if (!holds(struck, i) || !holds(kept, i)) continue;

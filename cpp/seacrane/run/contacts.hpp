@@ -37,7 +37,10 @@ struct Event {
 /// impact keeps momentum, M (v+ - v-) = D^T Lambda over all rows that hold, and each limit that is hit sends
 /// its coordinate back at -restitution times the rate of approach (Newton). Where several limits are
 /// involved, those whose impulse or multiplier would pull are let go, least index first (Murty's principal
-/// pivoting), but by impulse only where something is faster than its sticking_speed.
+/// pivoting), but by impulse only where something is faster than its sticking_speed. Limits that depend on
+/// each other share their load as long as all of them push and their positions agree; where these contradict
+/// each other the loosest goes slack, and where pivoting goes round in circles the least energy tells who
+/// holds.
 class Contacts {
  public:
   /// The stepper of a set: made when first asked for.
@@ -56,7 +59,7 @@ class Contacts {
   /// The same without an event: at the start.
   ClosedSet settle(double t, double* bodies, ClosedSet closed);
   /// Starts watching from the state (t, bodies) of `at`.
-  void watch(Stepper& at, double t, const double* bodies);
+  void start(Stepper& at, double t, const double* bodies);
 
   const std::vector<Event>& events() const { return events_; }
   double energy_lost() const { return energy_lost_; }
@@ -66,6 +69,7 @@ class Contacts {
  private:
   struct Watched {
     double value = 0.0, rate = 0.0;
+    double slack = 0.0;  // of a limit that holds
   };
   struct Dip {
     double part = 0.0;  // of the step; 0: none
@@ -85,12 +89,23 @@ class Contacts {
   /// What must not be negative, at (t, y) of the stepped form.
   double watched_value(Stepper& at, const Limit& limit, double t, const double* y);
   void evaluate(Stepper& at, double t, const double* bodies);
+  static double slack(const Limit& limit, const Stepper& at);
+  void watch(Stepper& at, double t, const double* bodies);
+  void read_axes(const Stepper& at);
+  void check_poles(double t) const;
   void look_inside(Stepper& at);
   Dip dip(Stepper& at, std::size_t limit) const;
-  bool approached(Stepper& at, const Limit& limit, double t);
-  double locate(Stepper& at, std::size_t limit, double until, double value);
+  std::optional<double> locate_overlap(Stepper& at, std::size_t limit, double until, double value);
+  double locate_parting(Stepper& at, std::size_t limit);
+  double locate(Stepper& at, std::size_t limit, double since, double until, double value, double level);
   ClosedSet struck_with(Stepper& at, double t, const double* bodies, int found, bool& slow);
   ClosedSet hit(double t, double* bodies, ClosedSet closed, int found);
+  ClosedSet part(double t, double* bodies, ClosedSet closed);
+  ClosedSet settle_dependent(double t, double* bodies, ClosedSet closed);
+  ClosedSet least_energy(double t, double* bodies, ClosedSet closed, ClosedSet seats);
+  ClosedSet sharing(double t, const double* bodies, ClosedSet carry, ClosedSet idle);
+  double amplification(Stepper& at, int limit, double impulse, double speed) const;
+  void book(double* bodies, const std::vector<Vec6d>& change, double driver_work, double lost);
   Impact collide(Stepper& at, double t, const double* bodies, ClosedSet struck);
   void note(const Event& event);
   [[noreturn]] void report_chatter(double t, int limit, const std::string& what) const;
@@ -100,13 +115,13 @@ class Contacts {
   std::vector<Event> events_;
   double energy_lost_ = 0.0;
   int found_ = 0;
+  bool parted_ = false;  // found: limits that cannot all hold
   double last_pass_ = -1e300;
   std::size_t stalled_ = 0;              // passes in a row that took no time
-  bool unresolved_ = false;              // the impact found is one that the step before went through
-  std::size_t late_ = 0;                 // such impacts in a row
   std::vector<Watched> before_, after_;  // by limit, at both ends of the last step
   std::vector<double> state_, probe_, bodies_, rate_;
-  std::vector<double> middle_;  // forces of closed limits in the middle of the step
+  std::vector<double> middle_;                   // forces of closed limits in the middle of the step
+  std::vector<Vec3d> axis_before_, axis_after_;  // the second body's x axis in the first's frame, likewise
 };
 
 }  // namespace seacrane

@@ -200,7 +200,7 @@ void Simulation::go_on(double t, ClosedSet closed) {
 void Simulation::watch_limits() {
   if (!contacts_) return;
   write_present(output_state_.data());
-  contacts_->watch(*now_, time(), output_state_.data());
+  contacts_->start(*now_, time(), output_state_.data());
 }
 
 /// Time of the next jump of a reference curve.
