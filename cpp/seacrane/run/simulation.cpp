@@ -184,6 +184,9 @@ bool Simulation::pass_event() {
 void Simulation::go_on(double t, ClosedSet closed) {
   Stepper& next = stepper_of(closed);
   const bool same = &next == now_ && next.started;
+  // What another set's stepper was left with, and what settling found, is no residual of the steps.
+  keep_open();
+  next.stepped.take_residual_before_projection();
   now_ = &next;
   stepped_state_.resize(now_->stepped.size());
   now_->stepped.read_bodies(t, output_state_.data(), stepped_state_.data());
@@ -256,8 +259,9 @@ void Simulation::write(double t, double* y, Recording& out) {
   RedundantSystem& system = now_->system;
   Formulation& stepped = now_->stepped;
   stepped.project(t, y, false);
-  const double before = std::max(open_, stepped.take_residual_before_projection());
-  open_ = 0.0;
+  keep_open();
+  const double before = std::exchange(open_, 0.0);
+  written_ = {t, before};
   double* const bodies = output_state_.data();
   stepped.write_bodies(t, y, bodies);
   if (out.wants_solution()) {
@@ -276,6 +280,8 @@ void Simulation::write(double t, double* y, Recording& out) {
   out.append(t, bodies, system, {after, before, balance, impact_loss});
   energy_.check(t, bodies, system, balance, bodies[model_->layout.work + 1], energy);
 }
+
+void Simulation::keep_open() { open_ = std::max(open_, now_->stepped.take_residual_before_projection()); }
 
 void Simulation::record_until(double t) {
   const auto& times = options_.output_times;
@@ -325,11 +331,15 @@ void Simulation::check_turning() const {
   }
 }
 
-/// The end of a step that went as far as it should.
+/// The end of a step that went as far as it should. An output at a sample comes after it, as in a run that
+/// goes on from there.
 void Simulation::land(double now, double jump) {
-  record_until(now);
   // The memory's load goes on smoothly over a sample: no derivative is thrown away.
-  if (now >= now_->system.next_sample()) sample_histories(now);
+  if (now >= now_->system.next_sample()) {
+    record_until(std::nextafter(now, -std::numeric_limits<double>::infinity()));
+    sample_histories(now);
+  }
+  record_until(now);
   if (now < jump) return;
   // A curve jumps here: go on from the other side with a fresh derivative.
   find_jump(now);
@@ -382,7 +392,12 @@ Recording Simulation::snapshot() {
   const std::vector<std::string> names = channel_names(*model_, false);
   Recording out(*model_, {names.begin(), names.end()}, 1);
   std::copy_n(integrator().state(), stepped_state_.size(), stepped_state_.data());
+  keep_open();
+  const double open = open_;
+  const Written written = written_;
   write(integrator().time(), stepped_state_.data(), out);
+  open_ = open;
+  written_ = written;
   return out;
 }
 
@@ -393,14 +408,16 @@ void Simulation::write_present(double* bodies) const {
 State Simulation::state() {
   std::vector<double> values(idx(model_->layout.size));
   write_present(values.data());
-  open_ = std::max(open_, now_->stepped.take_residual_before_projection());
+  keep_open();
+  // A run that goes on writes an output at its start once more.
+  const double open = written_.time == time() ? std::max(open_, written_.open) : open_;
   return {time(),
           std::move(values),
           inputs_,
           now_->system.histories(),
           {now_->stepped.name(), options_.integrator, integrator().save(), present_rate()},
           names_of(model_->limits, now_->model->closed),
-          RecordHistory{start_energy_, start_work_, open_, contacts_ ? contacts_->energy_lost() : 0.0,
+          RecordHistory{start_energy_, start_work_, open, contacts_ ? contacts_->energy_lost() : 0.0,
                         recording_.last_quaternions()},
           state_parts(*model_)};
 }

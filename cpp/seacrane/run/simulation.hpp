@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <set>
@@ -85,12 +86,19 @@ class Simulation {
   const std::string& limit_name(int limit) const { return model_->limits[idx(limit)].name; }
 
  private:
+  /// Time of the last output, and the residual written with it.
+  struct Written {
+    double time = std::numeric_limits<double>::quiet_NaN(), open = 0.0;
+  };
+
   Integrator& integrator() const { return *now_->integrator; }
   double find_jump(double now);
   void record_until(double t);
   void write(double t, double* y, Recording& out);
   void step(double limit);
   void land(double now, double jump);
+  /// Takes what projection has found since into open_.
+  void keep_open();
   void check_turning() const;
   [[noreturn]] void report_open(double t) const;
   void watch_rank_at(double t, const double* bodies);
@@ -127,6 +135,7 @@ class Simulation {
   double output_time_ = 0.0;  // of output_state_ at an event
   double start_energy_ = 0.0, start_work_ = 0.0;
   double open_ = 0.0;  // largest residual before projection since the last output, as far as taken
+  Written written_;
   double wall_seconds_ = 0.0;
 };
 
