@@ -10,7 +10,16 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from seacrane import Scene, WavesWithoutLoadWarning, _core, add_sea, add_vessel, cases, simulate
+from seacrane import (
+    Scene,
+    WavesWithoutLoadWarning,
+    _core,
+    add_sea,
+    add_vessel,
+    cases,
+    simulate,
+    use_actual_position,
+)
 from seacrane.errors import SceneError
 from seacrane.hydro import shipped_database
 from seacrane.hydro.dispersion import wavenumber
@@ -280,6 +289,8 @@ def test_vessels_in_one_sea_share_its_depth() -> None:
         with pytest.raises(SceneError, match=r"sea of vessel 'barge': it is inf m deep, .* for 20 m"):
             add_sea(scene, shallow, vessel="barge", **arguments)
     assert scene.waves is not None and list(scene.waves.hulls) == ["vessel"]
+    with pytest.raises(SceneError, match="sea of vessel 'vessel': it is inf m deep"):
+        use_actual_position(scene, shallow)
 
 
 def test_short_seas_are_kept_whole_and_load_the_vessel_within_its_band() -> None:

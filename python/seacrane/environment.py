@@ -24,6 +24,7 @@ AIR = 1.226  # kg/m3 at 15 deg C, DNV-RP-C205
 SEA_WATER = 1025.0  # kg/m3
 PORT_STARBOARD = np.array([1.0, -1.0, -1.0])  # of x, y, yaw
 HORIZONTAL = [0, 1, 5]
+LEAST_DIFFERENCE = 0.01  # of a wavenumber, between the depths of a sea and of a database
 
 
 class DoubleCountedDampingWarning(UserWarning):
@@ -212,12 +213,14 @@ def use_actual_position(scene: Scene, database: HydroDatabase, *, vessel: str | 
     Raises
     ------
     SceneError
-        Without a sea, for a vessel that is not in it, or if the database's headings do not cover the circle.
+        Without a sea, for a vessel that is not in it, for a database of another depth, or if its headings do
+        not cover the circle.
     """
     waves = _sea_of(scene, "loads at the actual position")
     force, drift = force_by_heading(database, waves.omega), None
     if waves.hull(vessel).drift is not None:
         drift = _drift_by_heading(database, waves.omega, "hold")  # add_drift has judged the range
+    require_depth(waves, database, waves.body_of(vessel))
     scene.waves = waves.changed(vessel, force_by_heading=force, drift_by_heading=drift)
     scene.notes.update(wave_phase="actual")
 
@@ -282,16 +285,34 @@ def add_drift(
     Raises
     ------
     SceneError
-        Without a sea or without drift coefficients, for a vessel that is not in the sea, or for components
-        outside the coefficients' frequencies or in a gap of more than 45 deg between headings.
+        Without a sea or without drift coefficients, for a vessel that is not in the sea, for a database of
+        another depth, or for components outside the coefficients' frequencies or in a gap of more than 45 deg
+        between headings.
     """
     waves = _sea_of(scene, "drift")
     hull, by_heading = waves.hull(vessel), None
     if hull.force_by_heading is not None:
         by_heading = _drift_by_heading(database, waves.omega, outside)
     drift = _drift_at(database, waves.omega, waves.direction - hull.heading, outside)
+    require_depth(waves, database, waves.body_of(vessel))
     scene.waves = waves.changed(vessel, drift=drift, drift_by_heading=by_heading)
     scene.notes.update(drift="newman")
+
+
+def require_depth(waves: Waves, database: HydroDatabase, vessel: str) -> None:
+    """Refuse a database computed at a depth where the waves of a sea have another length than in that sea."""
+    from seacrane.hydro.dispersion import wavenumber
+
+    there, computed = (
+        wavenumber(waves.omega, g=database.g, depth=depth) for depth in (waves.depth, database.depth)
+    )
+    difference = float(np.max(np.abs(there / computed - 1.0)))
+    if difference > LEAST_DIFFERENCE:
+        raise SceneError(
+            f"sea of vessel {vessel!r}: it is {waves.depth:g} m deep, the forces of database "
+            f"{database.name!r} are for {database.depth:g} m, and wavenumbers differ by up to "
+            f"{difference:.0%}; take SeaState(depth={database.depth:g}), or a database of the sea's depth"
+        )
 
 
 def _sea_of(scene: Scene, what: str) -> Waves:

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from seacrane import _core
 from seacrane.caller import warn_caller
 from seacrane.checked import flag_of, number_of, shaped_of
-from seacrane.environment import add_drift, use_actual_position
+from seacrane.environment import add_drift, require_depth, use_actual_position
 from seacrane.errors import SceneError
 from seacrane.frames import heading_of
 from seacrane.plausible import direction_of
@@ -35,7 +35,6 @@ DEFAULTS: dict[str, Any] = {
 AT_ONCE = 4096  # components whose transfer is interpolated together, to bound the memory it takes
 
 
-LEAST_DIFFERENCE = 0.01  # of a wavenumber, between the depths of the sea and of a database
 MOST_WITHOUT_LOAD = 0.02  # of the variance of a load
 NOTES = ("sea", "spectrum", "hs", "tp", "gamma", "wave_direction_deg", "spreading", "realised_hs_of_systems",
          "waves_relative_bound", "wave_phase", "drift")  # fmt: skip
@@ -138,7 +137,7 @@ def add_sea(
         return
     waves, notes = _sea_of(scene, database, vessel, sea, given)
     waves = _evaluated(waves, relative_bound=relative_bound, evaluation=evaluation)
-    _check_depth(waves, database, vessel)
+    require_depth(waves, database, vessel)
     place, heading = _pose(scene, vessel, position, heading_deg)
     transfer = _transfer(database, waves.omega, waves.direction - heading)
     hull = HullLoads(transfer=transfer, position=place, heading=heading)
@@ -277,21 +276,6 @@ def _spectrum(name: str, hs: float, tp: float, gamma: float | Literal["dnv"]) ->
         f"spectrum {name!r} is unknown; choose 'jonswap', 'pierson-moskowitz' or 'torsethaugen', "
         "or give a SeaState"
     )
-
-
-def _check_depth(waves: Waves, database: HydroDatabase, vessel: str) -> None:
-    from seacrane.hydro.dispersion import wavenumber
-
-    there, computed = (
-        wavenumber(waves.omega, g=database.g, depth=depth) for depth in (waves.depth, database.depth)
-    )
-    difference = float(np.max(np.abs(there / computed - 1.0)))
-    if difference > LEAST_DIFFERENCE:
-        raise SceneError(
-            f"sea of vessel {vessel!r}: it is {waves.depth:g} m deep, the forces of database "
-            f"{database.name!r} are for {database.depth:g} m, and wavenumbers differ by up to "
-            f"{difference:.0%}; take SeaState(depth={database.depth:g}), or a database of the sea's depth"
-        )
 
 
 def _with_shares(waves: Waves, database: HydroDatabase, vessel: str, hull: HullLoads) -> dict[str, Any]:
