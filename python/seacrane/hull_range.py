@@ -157,7 +157,7 @@ def _posed(
             (
                 MeanPositionWarning,
                 f"vessel {name!r}: is {np.hypot(*slow[at, :2]):.3g} m from where its wave loads are "
-                f"taken at t = {time[at]:.6g} s, {far[at]:.2g} rad of the phase of the longest-lasting waves "
+                f"taken at t = {time[at]:.6g} s, {far[at]:.2g} rad of the phase of waves at the peak "
                 f"(limit {LARGEST_PHASE}): {way_out}",
             )
         )
@@ -168,7 +168,7 @@ def _posed(
                 MeanHeadingWarning,
                 f"vessel {name!r}: yaw reaches {np.degrees(turned[at]):.3g} deg from the heading at "
                 f"which its wave loads are taken, at t = {time[at]:.6g} s (limit "
-                f"{np.degrees(LARGEST_TURN):.0f}): they come from where they do not; {way_out}",
+                f"{np.degrees(LARGEST_TURN):.0f}): the hull has left their direction; {way_out}",
             )
         )
     return found
