@@ -58,6 +58,11 @@ def test_random_scenes_with_limits_go_on_bit_for_bit(tmp_path: Path) -> None:
     assert unequal(range(24), tmp_path / "run.state") == {}
 
 
+def test_a_run_goes_on_bit_for_bit_into_the_set_of_limits_of_its_start(tmp_path: Path) -> None:
+    """Left before the stop and come back to after it: the assembled model, not one compiled anew."""
+    assert unequal(range(794, 795), tmp_path / "run.state") == {}
+
+
 @pytest.mark.nightly
 def test_many_random_scenes_with_limits_go_on_bit_for_bit(tmp_path: Path) -> None:
     assert unequal(range(2000, 2400), tmp_path / "run.state") == {}

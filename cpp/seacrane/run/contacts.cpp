@@ -321,10 +321,13 @@ double Contacts::locate(Stepper& at, std::size_t i, double since, double until, 
   return located.value_or(until);
 }
 
+/// Rebounds between several limits at one time are one impact, which ends by itself: times count.
 void Contacts::note(const Event& event) {
   events_.push_back(event);
-  if (events_.size() < kChatterCount) return;
-  const double since = events_[events_.size() - kChatterCount].time;
+  if (!instants_.empty() && instants_.back() == event.time) return;
+  instants_.push_back(event.time);
+  if (instants_.size() < kChatterCount) return;
+  const double since = instants_[instants_.size() - kChatterCount];
   if (event.time - since > kChatterTime) return;
   report_chatter(event.time, event.limit, "events within " + to_text(kChatterTime) + " s");
 }

@@ -113,6 +113,7 @@ class Contacts {
   const Model& model_;
   SetStepper stepper_;
   std::vector<Event> events_;
+  std::vector<double> instants_;  // of the events
   double energy_lost_ = 0.0;
   int found_ = 0;
   bool parted_ = false;  // found: limits that cannot all hold

@@ -32,10 +32,13 @@ void add(const Counters& more, Counters& sum) {
   sum.restarts += more.restarts;
 }
 
-std::shared_ptr<const Model> model_of(const std::shared_ptr<const Model>& model, const State& start) {
-  if (!start.closed) return model;
-  const ClosedSet closed = set_of(model->limits, *start.closed);
+/// The set that holds at the start is the assembled model itself, wherever a run began: its rank is known.
+std::shared_ptr<const Model> model_of(const std::shared_ptr<const Model>& model, ClosedSet closed) {
   return closed == model->closed ? model : compile_set(*model, closed);
+}
+
+ClosedSet closed_at(const Model& model, const State& start) {
+  return start.closed ? set_of(model.limits, *start.closed) : model.closed;
 }
 
 }  // namespace
@@ -71,7 +74,7 @@ Simulation::Simulation(std::shared_ptr<const Model> model, State start, RunOptio
     if (!std::isfinite(v)) throw std::invalid_argument("state: holds a value that is not finite");
   }
   output_time_ = start.time;
-  steppers_.push_back(std::make_unique<Stepper>(model_of(model_, start), options_));
+  steppers_.push_back(std::make_unique<Stepper>(model_of(model_, closed_at(*model_, start)), options_));
   now_ = steppers_.front().get();
   stepped_state_.resize(now_->stepped.size());
   check_inputs(inputs_);
@@ -147,7 +150,7 @@ Stepper& Simulation::stepper_of(ClosedSet closed) {
   const auto known = std::find_if(steppers_.begin(), steppers_.end(),
                                   [&](const auto& s) { return s->model->closed == closed; });
   const bool fresh = known == steppers_.end();
-  if (fresh) steppers_.push_back(std::make_unique<Stepper>(compile_set(*model_, closed), options_));
+  if (fresh) steppers_.push_back(std::make_unique<Stepper>(model_of(model_, closed), options_));
   Stepper& at = fresh ? *steppers_.back() : **known;
   for (RedundantSystem* system : {&at.system, &at.loads}) {
     system->set_inputs(inputs_);
