@@ -20,7 +20,7 @@ SHELL := /bin/bash
 ifndef PYTHON
 PYTHON := $(shell .ci/find-python)
 endif
-JOBS ?= $(shell nproc 2>/dev/null || echo 2)
+JOBS ?= $(shell .ci/cores)
 BIN := .venv/bin
 PIP := $(BIN)/python -m pip --disable-pip-version-check
 STAMPS := build/stamps

@@ -413,3 +413,37 @@ def test_json_has_no_words_for_infinity() -> None:
 def test_tables_align_their_columns() -> None:
     lines = text_table(("check", "value"), [("a", "1.5"), ("longer name", "2")]).splitlines()
     assert lines == ["check        value", "a            1.5", "longer name  2"]
+
+
+TWO_HINGES = """
+import warnings
+
+import seacrane
+
+
+def scene():
+    warnings.warn("look here", UserWarning)
+    out = seacrane.Scene(name="door")
+    out.add_body(name="door", mass=30.0, inertia=[[1, 0, 0], [0, 1, 0], [0, 0, 1]], position=(0.5, 0, 0))
+    for z in (-0.8, 0.8):
+        out.add_joint(name=f"hinge {z}", kind="revolute", first="ground", second="door",
+                      point=(0, 0, z), axis=(0, 0, 1))
+    return out
+"""
+
+
+@pytest.mark.parametrize("launcher", ["module", "program"])
+def test_warnings_name_the_users_line_or_none(launcher: str, tmp_path: Path) -> None:
+    """Not the line of the program that starts the command."""
+    script = tmp_path / "door.py"
+    script.write_text(TWO_HINGES)
+    program = [sys.executable, "-m", "seacrane"]
+    if launcher == "program":
+        program = [str(Path(sys.executable).with_name("seacrane"))]
+    command = [*program, "run", str(script), "--out", str(tmp_path), "--t-end", "0.1"]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+    told = [line for line in done.stderr.splitlines() if "redundant" in line]
+    start = "seacrane run: UserWarning: scene 'door': constraints"
+    assert told and all(line.startswith(start) for line in told)
+    assert f"{script}:8: UserWarning: look here" in done.stderr

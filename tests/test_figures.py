@@ -8,8 +8,10 @@ from typing import Any
 
 import numpy as np
 import pytest
+from matplotlib import cbook
 from test_result import BODIES, crane_result, crane_run, smooth_step, vessel_result
 
+from seacrane import Frame, Scene, simulate
 from seacrane.figures import (
     Line,
     Panel,
@@ -27,6 +29,7 @@ from seacrane.figures import (
     save_sheet,
 )
 from seacrane.figures.findings import amplitude_at, slew_stop
+from seacrane.figures.panel import draw
 from seacrane.figures.pose import complete_skeleton, posed_lines, rotation_matrix, wire_line
 from seacrane.result import MOTIONS, Result
 
@@ -265,9 +268,47 @@ def test_rotation_matrix_agrees_with_scipy(angle: float) -> None:
 def test_the_overview_shows_what_was_recorded(tmp_path: Path) -> None:
     full = {panel.quantity for panel in overview_sheet(crane_result(t_end=5.0)).panels}
     alone = {panel.quantity for panel in overview_sheet(vessel_result(t_end=5.0)).panels}
-    assert {"stroke", "link tension", "joint force", "payload position"} <= full
-    assert alone == {"vessel", "wave elevation", "vessel position", "energy balance"}
+    assert {"stroke", "link tension", "joint force"} <= full
+    assert alone == {"vessel", "wave elevation", "energy balance"}
     image_size(save_figure(plot_overview(crane_result(t_end=5.0)), tmp_path / "overview.png"))
+
+
+def hung(*hangers: str) -> Scene:
+    """Bodies hung one below the other, and one that is added last and hangs on nothing."""
+    scene = Scene(name="hung")
+    above, z = "ground", 0.0
+    for name in hangers:
+        z -= 2.0
+        scene.add_body(name=name, mass=100.0, inertia=np.eye(3), position=(0.0, 0.0, z))
+        scene.add_joint(
+            name=f"to {name}", kind="distance", first=above, second=name, first_frame=Frame(),
+            second_frame=Frame(), length=2.0,
+        )  # fmt: skip
+        above = name
+    scene.add_body(name="bystander", mass=1.0, inertia=np.eye(3), position=(50.0, 0.0, 0.0))
+    return scene
+
+
+@pytest.mark.parametrize(("bodies", "payload"), [((), []), (("box",), ["box"]), (("hook", "box"), ["box"])])
+def test_the_overview_draws_what_hangs_lowest(bodies: tuple[str, ...], payload: list[str]) -> None:
+    """Not the body that was added last; none where nothing hangs."""
+    result = simulate(hung(*bodies), t_end=0.1)
+    panels = [panel.quantity for panel in overview_sheet(result).panels if "position" in panel.quantity]
+    assert panels == [f"{name} position" for name in payload]
+
+
+@pytest.mark.parametrize("name", ["$x^$", "a$b", "$\\frac$ $", "x^2_3", "_hidden", "100 $ and 5 $"])
+def test_names_are_drawn_as_they_are(name: str, tmp_path: Path) -> None:
+    """Dollars begin no formula, and a name that begins with an underscore is in the legend."""
+    lines = tuple(Line(label=label, values=np.arange(3.0)) for label in (name, "other"))
+    panel = Panel(quantity=name, unit="m", lines=lines)
+    other = Panel(quantity="q", unit="m", lines=(Line(label="", values=np.arange(3.0)),))
+    figure = draw(Sheet(title=name, caption="", abscissa=np.arange(3.0), panels=(panel, other)))
+    save_figure(figure, tmp_path / "figure.png")
+    (legend,) = [axes.get_legend() for axes in figure.axes if axes.get_legend()]
+    drawn = [text.get_text().replace(r"\$", "$").strip() for text in legend.get_texts()]
+    assert drawn == [name, "other"]
+    assert cbook.is_math_text(legend.get_texts()[0].get_text()) is False
 
 
 def test_an_overview_of_nothing_is_refused() -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import re
 import subprocess
 import sys
@@ -64,3 +65,19 @@ def test_run_time_requirements_exclude_solvers_and_development_tools() -> None:
     always = [line for line in metadata.requires("seacrane") or [] if "extra ==" not in line]
     names = {re.split(r"[^A-Za-z0-9_-]", line)[0] for line in always}
     assert names == {"numpy", "scipy", "xarray", "netCDF4", "h5py", "matplotlib", "tqdm", "tomli"}
+
+
+def test_make_builds_on_every_core(repository: Path) -> None:
+    """Whatever OMP_NUM_THREADS says, which is about threads; fewer only by the control group."""
+    environment = {key: value for key, value in os.environ.items() if key != "JOBS"}
+    found = [
+        subprocess.run(
+            ["make", "-s", "--eval", "cores: ; @echo $(JOBS)", "cores"],
+            cwd=repository, env=environment | more, capture_output=True, text=True, check=True,
+        ).stdout
+        for more in ({"OMP_NUM_THREADS": "1"}, {"OMP_THREAD_LIMIT": "1"}, {"OMP_NUM_THREADS": "64"})
+    ]  # fmt: skip
+    quota = Path("/sys/fs/cgroup/cpu.max")
+    limited = quota.is_file() and not quota.read_text().startswith("max")
+    assert len(set(found)) == 1
+    assert limited or int(found[0]) == len(os.sched_getaffinity(0))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import warnings
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -10,7 +11,8 @@ import pytest
 from multibody_runs import record
 from reference_problems import bricard
 
-from seacrane import Evaluator, Scene, SceneError
+from seacrane import Evaluator, Scene, SceneError, simulate
+from seacrane.simulation import Run
 
 G = 9.80665
 
@@ -75,6 +77,21 @@ def test_a_hinge_and_a_ball_hold_one_motion_twice(formulation: str) -> None:
         out = record(scene, 1.0, formulation=formulation)
     # The hinge's moments hold the same two tilts as the ball's forces across: three shared in all.
     np.testing.assert_allclose(out["reaction_force"][:, :, 2].sum(axis=1), 30.0 * G, rtol=1e-9)
+
+
+@pytest.mark.parametrize("way", ["compile", "simulate", "report", "run"])
+def test_the_warning_names_the_users_line(way: str) -> None:
+    """However deep in the package the scene was compiled."""
+    scene = door([-0.8, 0.8])
+    ways: dict[str, Any] = {
+        "compile": scene.compile,
+        "simulate": lambda: simulate(scene, t_end=0.01),
+        "report": scene.report,
+        "run": lambda: Run(scene, t_end=0.01),
+    }
+    with pytest.warns(UserWarning, match="redundant") as caught:
+        ways[way]()
+    assert {Path(warning.filename) for warning in caught} == {Path(__file__)}
 
 
 def test_multipliers_are_the_shortest_of_all_that_balance() -> None:

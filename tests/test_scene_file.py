@@ -425,3 +425,26 @@ def test_a_file_with_any_stretch_replaced_loads_or_is_refused(
         assert isinstance(load_scene(path), Scene)
     except FileFormatError as error:
         assert str(error).startswith("lift.json")
+
+
+OTHERS = {
+    "crane.toml": (b"name = 'crane'\n", "TOML, as of a crane"),
+    "crane.urdf": (b'<?xml version="1.0"?>\n<robot name="crane"/>\n', "XML, such as a URDF model"),
+    "hook.step": (b"ISO-10303-21;\nHEADER;\n", "a STEP model"),
+    "run.nc": (b"\x89HDF\r\n\x1a\n", "a NetCDF file"),
+    "lift.py": (b"import seacrane\n", "a Python script"),
+    "ship.yml": (b"General:\n  Units: SI\n", "YAML, as of an OrcaFlex model"),
+    "empty.json": (b" \n", "empty"),
+    "list.json": (b"[1, 2]", "a JSON list"),
+    "run.state": (b"seacrane state\n{}", "a state"),
+    "notes.txt": (b"hello", "something else"),
+}
+
+
+@pytest.mark.parametrize("name", OTHERS)
+def test_a_file_of_another_kind_is_named_as_what_it_is(name: str, tmp_path: Path) -> None:
+    """Not as malformed JSON."""
+    content, kind = OTHERS[name]
+    (tmp_path / name).write_bytes(content)
+    with pytest.raises(FileFormatError, match=f"{name}: is {kind}.*no scene file.*Scene.save"):
+        load_scene(tmp_path / name)

@@ -8,8 +8,10 @@ from typing import Any
 
 import numpy as np
 import pytest
+from test_scene_file import every_kind
 
-from seacrane import Curve, Scene, SceneError, cases
+from seacrane import Curve, Scene, SceneError, add_end_stop, add_friction, add_soft_stop, cases
+from seacrane import scene_report as scene_report_module
 from seacrane.scene_report import scene_report
 
 
@@ -162,3 +164,24 @@ def test_all_but_the_cost_is_the_same_at_every_call() -> None:
 def test_a_scene_that_does_not_compile_has_no_report() -> None:
     with pytest.raises(SceneError, match="no bodies"):
         Scene().report()
+
+
+def test_every_load_is_in_the_report() -> None:
+    """One of each kind, and one of a kind that the report does not know."""
+
+    class Balloon:
+        name, body = "balloon", "block"
+
+    scene = every_kind()
+    joint = next(name for name, found in scene.joints.items() if found.kind in ("prismatic", "revolute"))
+    add_end_stop(scene, joint=joint, minimum=-50.0)
+    add_soft_stop(scene, joint=joint, minimum=-60.0, stiffness=1e4)
+    add_friction(scene, joint=joint, load=1.0, speed=1e-3)
+    scene.loads["balloon"] = Balloon()
+    rows = dict(scene_report_module._elements(scene))
+    told = " ".join(name for names in rows.values() for name in names)
+    tables = (scene.point_forces, scene.springs, scene.force_tables, scene.function_forces, scene.loads)
+    for table in (*tables, scene.vessels, scene.actuators, scene.drivers):
+        for name in table:
+            assert name in told, name
+    assert rows["other loads"] == ["balloon (block)"]

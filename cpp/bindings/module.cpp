@@ -28,6 +28,19 @@ void translate(std::exception_ptr pointer) {
   }
 }
 
+/// What users hold tells what it is, in one way (seacrane.described) for all.
+void bind_repr(const py::module_& m) {
+  const py::object described = py::cpp_function(
+      [](const py::object& self) {
+        return py::module_::import("seacrane.described").attr("described")(self).cast<std::string>();
+      },
+      py::name("__repr__"), py::arg("self"));
+  for (const auto& [name, member] : m.attr("__dict__").cast<py::dict>()) {
+    if (!PyType_Check(member.ptr()) || member.attr("__dict__").contains("__repr__")) continue;
+    py::setattr(member, "__repr__", py::reinterpret_steal<py::object>(PyInstanceMethod_New(described.ptr())));
+  }
+}
+
 }  // namespace
 
 PYBIND11_MODULE(_core, m) {
@@ -39,4 +52,5 @@ PYBIND11_MODULE(_core, m) {
   bind_model(m);
   bind_simulation(m);
   bind_strip(m);
+  bind_repr(m);
 }

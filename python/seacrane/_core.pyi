@@ -34,6 +34,8 @@ class Curve:
         """
         From `start` at `start_time` to `end` at `end_time`, at rest with zero acceleration at both ends, held before and after. Raises SceneError when the times do not increase.
         """
+    def __repr__(self) -> str:
+        ...
     def evaluate(self, times: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> numpy.typing.NDArray[numpy.float64]:
         """
         Values, rates and accelerations, shape (n, 3), at times (n,) in s.
@@ -125,6 +127,8 @@ class WaveKinematics:
     """
     Answer of `WaveComponents.kinematics`. Arrays of the shape of the points; vectors have three inertial components last. In air velocity, acceleration and pressure are zero.
     """
+    def __repr__(self) -> str:
+        ...
     @property
     def acceleration(self) -> numpy.typing.NDArray[numpy.float64]:
         """
@@ -396,6 +400,8 @@ class DriftLoad:
     """
     def __init__(self, waves: WaveComponents, *, coefficient: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, n]"], position: tuple[typing.SupportsFloat | typing.SupportsIndex, typing.SupportsFloat | typing.SupportsIndex] = (0.0, 0.0)) -> None:
         ...
+    def __repr__(self) -> str:
+        ...
     def evaluate(self, times: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], *, derivative: typing.SupportsInt | typing.SupportsIndex = 0) -> numpy.typing.NDArray[numpy.float64]:
         """
         Forces (N) and moments (N m) at times (s): shape times.shape + (6,); `derivative` 0, 1 or 2.
@@ -461,6 +467,8 @@ class PositionedWaveLoad:
     """
     def __init__(self, waves: WaveComponents, *, headings: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], transfer: typing.Annotated[numpy.typing.ArrayLike, numpy.complex128], drift_headings: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex] = [], drift: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None) -> None:
         ...
+    def __repr__(self) -> str:
+        ...
     def evaluate(self, time: typing.SupportsFloat | typing.SupportsIndex, *, x: typing.SupportsFloat | typing.SupportsIndex = 0.0, y: typing.SupportsFloat | typing.SupportsIndex = 0.0, yaw: typing.SupportsFloat | typing.SupportsIndex = 0.0) -> tuple[numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.float64], float]:
         """
         First-order load (6,), slow drift (6,), in yaw-following axes, and elevation (m) at one time (s) and pose (m, rad).
@@ -476,6 +484,8 @@ class WaveLoads:
     """
     def __init__(self, *, name: str, body: str, exact: ExactWaveLoad = None, table: WaveTable = None, drift: DriftLoad = None, drift_table: DriftTable = None, positioned: PositionedWaveLoad = None) -> None:
         ...
+    def __repr__(self) -> str:
+        ...
     @property
     def name(self) -> str:
         ...
@@ -484,6 +494,8 @@ class Body:
     A rigid body: inertia (3, 3) in kg m2 about the centre of mass in body axes, pose of the body origin in the inertial frame, quaternion (w, x, y, z) body to inertial. Immutable.
     """
     def __init__(self, *, name: str, mass: typing.SupportsFloat | typing.SupportsIndex, inertia: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 3]"], center_of_mass: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ..., position: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ..., quaternion: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[4, 1]"] = ..., velocity: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ..., angular_velocity: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ..., gravity: bool = True) -> None:
+        ...
+    def __repr__(self) -> str:
         ...
     @property
     def angular_velocity(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
@@ -534,6 +546,8 @@ class Frame:
     """
     def __init__(self, *, point: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ..., axes: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 3]"] = ...) -> None:
         ...
+    def __repr__(self) -> str:
+        ...
     @property
     def axes(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 3]"]:
         ...
@@ -545,6 +559,8 @@ class Joint:
     A joint between two bodies ('ground' is the inertial frame); may close a loop. Kinds: weld, revolute, prismatic, cylindrical, universal, spherical, planar, distance, free.
     """
     def __init__(self, *, name: str, kind: str, first: str, second: str, first_frame: Frame, second_frame: Frame, length: typing.SupportsFloat | typing.SupportsIndex = 0.0) -> None:
+        ...
+    def __repr__(self) -> str:
         ...
     @property
     def first(self) -> str:
@@ -575,6 +591,8 @@ class Driver:
     """
     def __init__(self, *, name: str, joint: str, coordinate: str, curve: Curve) -> None:
         ...
+    def __repr__(self) -> str:
+        ...
     @property
     def coordinate(self) -> str:
         ...
@@ -592,6 +610,8 @@ class Actuator:
     State feedback on a joint coordinate q: feed_forward + stiffness (reference - q) + damping (reference rate - q rate), N (N/m, N s/m) or N m (N m/rad, N m s/rad).
     """
     def __init__(self, *, name: str, joint: str, coordinate: str, stiffness: typing.SupportsFloat | typing.SupportsIndex = 0.0, damping: typing.SupportsFloat | typing.SupportsIndex = 0.0, feed_forward: Curve = ..., reference: Curve = ...) -> None:
+        ...
+    def __repr__(self) -> str:
         ...
     @property
     def coordinate(self) -> str:
@@ -620,6 +640,8 @@ class PointForce:
     """
     def __init__(self, *, name: str, body: str, point: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], force: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], body_axes: bool = False) -> None:
         ...
+    def __repr__(self) -> str:
+        ...
     @property
     def body(self) -> str:
         ...
@@ -640,6 +662,8 @@ class Spring:
     Tension between two body-fixed points: stiffness (N/m) times elongation, or a table of tension (N) over length (m), plus damping (N s/m) times the rate of length.
     """
     def __init__(self, *, name: str, first: str, second: str, first_point: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], second_point: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], stiffness: typing.SupportsFloat | typing.SupportsIndex = 0.0, damping: typing.SupportsFloat | typing.SupportsIndex = 0.0, natural_length: typing.SupportsFloat | typing.SupportsIndex = 0.0, lengths: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex] = [], forces: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex] = []) -> None:
+        ...
+    def __repr__(self) -> str:
         ...
     @property
     def damping(self) -> float:
@@ -677,6 +701,8 @@ class ForceTable:
     """
     def __init__(self, *, name: str, body: str, point: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], times: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], wrenches: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, 6]"]) -> None:
         ...
+    def __repr__(self) -> str:
+        ...
     @property
     def body(self) -> str:
         ...
@@ -698,6 +724,8 @@ class FunctionForce:
     """
     def __init__(self, *, name: str, body: str, address: typing.SupportsInt | typing.SupportsIndex, parameters: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex] = []) -> None:
         ...
+    def __repr__(self) -> str:
+        ...
     @property
     def body(self) -> str:
         ...
@@ -709,6 +737,8 @@ class StateSpaceBlock:
     Fluid memory x' = A x + B u, mu = C x + D u between motions 0 (surge) ... 5 (yaw), eqs (29)-(30).
     """
     def __init__(self, *, inputs: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex], outputs: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex], a: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, n]"], b: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, n]"], c: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, n]"], d: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, n]"], state_scale: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, 1]"] = ...) -> None:
+        ...
+    def __repr__(self) -> str:
         ...
     @property
     def a(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]:
@@ -737,6 +767,8 @@ class RetardationFunctions:
     """
     def __init__(self, *, step: typing.SupportsFloat | typing.SupportsIndex, kernel: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> None:
         ...
+    def __repr__(self) -> str:
+        ...
     @property
     def kernel(self) -> numpy.typing.NDArray[numpy.float64]:
         """
@@ -752,6 +784,8 @@ class VesselHydrodynamics:
     Linear hydrodynamics of a body about its origin (the reference point): added mass, damping and restoring (6, 6), quadratic damping (6,), mooring stiffness and damping of surge, sway, yaw (3,), memory blocks or retardation functions. kinematics: 'yaw_following' (default) or 'paper', eqs (17)-(31).
     """
     def __init__(self, *, name: str, body: str, added_mass: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[6, 6]"] = ..., linear_damping: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[6, 6]"] = ..., quadratic_damping: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[6, 1]"] = ..., restoring: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[6, 6]"] = ..., mooring_stiffness: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ..., mooring_damping: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ..., memory: collections.abc.Sequence[StateSpaceBlock] | RetardationFunctions = [], kinematics: str = 'yaw_following') -> None:
+        ...
+    def __repr__(self) -> str:
         ...
     @property
     def added_mass(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[6, 6]"]:
@@ -792,6 +826,8 @@ class FlowForce:
     flow goes, from the bow towards port, by periodic cubic splines. Immutable.
     """
     def __init__(self, *, name: str, body: str, point: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], density: typing.SupportsFloat | typing.SupportsIndex, speed: Curve, direction: typing.SupportsFloat | typing.SupportsIndex, frontal_area: typing.SupportsFloat | typing.SupportsIndex, lateral_area: typing.SupportsFloat | typing.SupportsIndex, length: typing.SupportsFloat | typing.SupportsIndex, angles: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], coefficients: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, 3]"]) -> None:
+        ...
+    def __repr__(self) -> str:
         ...
     @property
     def angles(self) -> list[float]:
@@ -850,6 +886,8 @@ class Limit:
     """
     def __init__(self, *, name: str, kind: str, joint: str, coordinate: str = '', minimum: typing.SupportsFloat | typing.SupportsIndex = -10000000.0, maximum: typing.SupportsFloat | typing.SupportsIndex = 10000000.0, restitution: typing.SupportsFloat | typing.SupportsIndex = 0.0, sticking_speed: typing.SupportsFloat | typing.SupportsIndex = 0.001) -> None:
         ...
+    def __repr__(self) -> str:
+        ...
     @property
     def coordinate(self) -> str:
         ...
@@ -880,6 +918,8 @@ class Friction:
     """
     def __init__(self, *, name: str, joint: str, coordinate: str, load: typing.SupportsFloat | typing.SupportsIndex, speed: typing.SupportsFloat | typing.SupportsIndex) -> None:
         ...
+    def __repr__(self) -> str:
+        ...
     @property
     def coordinate(self) -> str:
         ...
@@ -900,6 +940,8 @@ class SoftStop:
     Compliant bounds of a joint coordinate: stiffness p (1 + damping p') back where it is beyond one by p, never a pull; N/m and s/m, or N m/rad and s/rad; see seacrane.add_soft_stop. Immutable.
     """
     def __init__(self, *, name: str, joint: str, coordinate: str, minimum: typing.SupportsFloat | typing.SupportsIndex = -10000000.0, maximum: typing.SupportsFloat | typing.SupportsIndex = 10000000.0, stiffness: typing.SupportsFloat | typing.SupportsIndex, damping: typing.SupportsFloat | typing.SupportsIndex = 0.0) -> None:
+        ...
+    def __repr__(self) -> str:
         ...
     @property
     def coordinate(self) -> str:
@@ -926,6 +968,8 @@ class Model:
     """
     A compiled scene: immutable, shareable between threads.
     """
+    def __repr__(self) -> str:
+        ...
     def channel_names(self, defaults_only: bool = True) -> list[str]:
         ...
     def channel_values(self, names: collections.abc.Set[str]) -> int:
@@ -1025,6 +1069,8 @@ class Evaluator:
     """
     def __init__(self, model: Model, formulation: str = 'redundant') -> None:
         ...
+    def __repr__(self) -> str:
+        ...
     def accelerations(self, t: typing.SupportsFloat | typing.SupportsIndex, y: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 6]"]:
         """
         Accelerations of the bodies' state points by the formulation, m/s2 and rad/s2, (bodies, 6).
@@ -1071,6 +1117,8 @@ class TwistHistory:
     """
     def __init__(self, *, start: typing.SupportsFloat | typing.SupportsIndex, intervals: typing.SupportsInt | typing.SupportsIndex, recent: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, 6]"], quadrature: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, 6]"]) -> None:
         ...
+    def __repr__(self) -> str:
+        ...
     @property
     def intervals(self) -> int:
         ...
@@ -1095,6 +1143,8 @@ class StepHistory:
     """
     def __init__(self, *, formulation: str, integrator: str, values: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], rate: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> None:
         ...
+    def __repr__(self) -> str:
+        ...
     @property
     def formulation(self) -> str:
         ...
@@ -1116,6 +1166,8 @@ class RecordHistory:
     What recording keeps from output to output, used where `steps` is: energy and work (J) that energy_balance is counted from, the largest residual before projection since the last output (m or rad), energy lost in impacts (J), and the last recorded quaternions.
     """
     def __init__(self, *, start_energy: typing.SupportsFloat | typing.SupportsIndex, start_work: typing.SupportsFloat | typing.SupportsIndex, open: typing.SupportsFloat | typing.SupportsIndex, impact_loss: typing.SupportsFloat | typing.SupportsIndex, quaternions: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> None:
+        ...
+    def __repr__(self) -> str:
         ...
     @property
     def impact_loss(self) -> float:
@@ -1152,6 +1204,8 @@ class State:
         Reads what save() wrote; FileFormatError for a damaged file, and for a state of other parts than those of `scene`, where one is given.
         """
     def __init__(self, *, time: typing.SupportsFloat | typing.SupportsIndex, values: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], inputs: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], histories: collections.abc.Sequence[TwistHistory] = [], steps: StepHistory = ..., closed: collections.abc.Sequence[str] | None = None, record: RecordHistory | None = None, parts: collections.abc.Sequence[str] = []) -> None:
+        ...
+    def __repr__(self) -> str:
         ...
     def save(self, path: typing.Any) -> None:
         """
@@ -1200,6 +1254,8 @@ class Simulation:
     One run of a model: advance(), inputs, recorded channels. Not for several threads.
     """
     def __init__(self, *, model: Model, start: State, integrator: str, rtol: typing.SupportsFloat | typing.SupportsIndex, dt: typing.SupportsFloat | typing.SupportsIndex, max_step: typing.SupportsFloat | typing.SupportsIndex, output_times: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], channels: collections.abc.Set[str], formulation: str = 'redundant', spectral_radius: typing.SupportsFloat | typing.SupportsIndex | None = None, energy_limit: typing.SupportsFloat | typing.SupportsIndex = 0.0, capacity: typing.SupportsInt | typing.SupportsIndex = 0) -> None:
+        ...
+    def __repr__(self) -> str:
         ...
     def advance(self, t_end: typing.SupportsFloat | typing.SupportsIndex, progress: typing.Any = None) -> bool:
         """

@@ -59,6 +59,13 @@ def _recorded(scene: Scene, joint: str) -> int | None:
     return joints.index(joint) if joint in joints else None
 
 
+def payload_of(scene: Scene) -> list[str]:
+    """The bodies that hang on links or wires and carry no other by one."""
+    hanging = [joint for joint in scene.joints.values() if joint.kind == "distance"]
+    carrying = {joint.first for joint in hanging}
+    return list(dict.fromkeys(joint.second for joint in hanging if joint.second not in carrying))
+
+
 def named_channels(scene: Scene, arrays: dict[str, Array]) -> dict[str, Array]:
     """Adds stroke, stroke_rate, cylinder_force, slew_angle, slew_torque and link_tension of a crane."""
     out = dict(arrays)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import warnings
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Literal
 
@@ -10,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane import _core
+from seacrane.caller import warn_caller
 from seacrane.checked import curve_of, name_of, number_of, shaped_of, text_of, vector_of
 from seacrane.errors import SceneError
 from seacrane.plausible import direction_of
@@ -186,12 +186,11 @@ def add_current(
     for vessel in scene.vessels.values():
         linear, quadratic = np.diag(vessel.linear_damping), np.asarray(vessel.quadratic_damping)
         if vessel.body == body and np.any(np.abs([*linear[HORIZONTAL], *quadratic[HORIZONTAL]]) > 0.0):
-            warnings.warn(
+            warn_caller(
                 f"flow force {name!r}: vessel {vessel.name!r} has viscous damping in surge, sway or yaw "
                 f"(linear {linear[HORIZONTAL].tolist()}, quadratic {quadratic[HORIZONTAL].tolist()}), which "
                 "the current load contains too; slow motions are damped twice. Set one of them to zero",
                 DoubleCountedDampingWarning,
-                stacklevel=2,
             )
     return element
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import warnings
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -10,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from seacrane import _core
+from seacrane.caller import warn_caller
 from seacrane.checked import number_of
 from seacrane.errors import SceneError
 from seacrane.linear_system import LinearModel, linear_model
@@ -281,11 +281,11 @@ def _frequencies(linear: LinearModel, low: float, high: float) -> Array:
         if not low < value.imag < high or modes.damping_ratio[i] > BROAD:
             continue
         if modes.damping_ratio[i] < UNDAMPED:
-            warnings.warn(
+            warn_caller(
                 f"scene {linear.scene.name!r}: mode {modes.label(i)!r} at {value.imag:.4g} rad/s has a "
                 f"damping ratio of {modes.damping_ratio[i]:.2g}: the variance of its resonance has no "
                 "finite value; add damping",
-                stacklevel=3,
+                UserWarning,
             )
             continue
         width = abs(value.real)

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from seacrane import _core
 from seacrane.assembled import warn_of_moves
+from seacrane.caller import warn_caller
 from seacrane.checked import curve_of, flag_of, name_of, number_of, numbers_of, shaped_of, text_of, vector_of
 from seacrane.errors import SceneError
 from seacrane.frames import axes_across, axes_along, rotation_matrix
@@ -73,6 +74,17 @@ class Scene:
     recorded: dict[str, tuple[str, str]] = field(default_factory=dict)
     ranges: dict[str, Range] = field(default_factory=dict)
     notes: dict[str, Any] = field(default_factory=dict)
+
+    def __repr__(self) -> str:
+        tables = ("bodies", "joints", "drivers", "actuators", "point_forces", "springs", "force_tables",
+                  "function_forces", "loads", "vessels")  # fmt: skip
+        held = [
+            f"{len(getattr(self, table))} {table.replace('_', ' ')}"
+            for table in tables
+            if getattr(self, table)
+        ]
+        sea = ["waves"] if self.waves is not None else []
+        return f"<Scene {self.name!r}: {', '.join([*held, *sea]) or 'empty'}>"
 
     def _insert(self, kind: str, table: dict[str, Any], element: Any) -> Any:
         if element.name in table:
@@ -492,13 +504,11 @@ class Scene:
         )
         warn_of_moves(self, model)
         if model.redundant:
-            import warnings
-
-            warnings.warn(
+            warn_caller(
                 f"scene {self.name!r}: constraints of {', '.join(model.redundant)} are redundant "
                 f"({model.constraints - model.assembly['rank']} more than needed); motion is unique, these "
                 "reactions are not: the minimum-norm ones are given",
-                stacklevel=2,
+                UserWarning,
             )
         return model
 

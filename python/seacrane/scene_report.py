@@ -15,6 +15,10 @@ if TYPE_CHECKING:
 
 Rows = list[tuple[str, Any]]
 REPETITIONS = 500  # of each part when its cost is measured
+LABELS = {
+    "FlowForce": "wind and current",
+    **dict.fromkeys(("Limit", "Friction", "SoftStop"), "limits and friction"),
+}
 WORK_STATES = 2  # the work integral and its absolute counterpart
 
 
@@ -91,21 +95,25 @@ def _elements(scene: Scene) -> Rows:
         "point forces": scene.point_forces,
         "force tables": scene.force_tables,
         "C functions": scene.function_forces,
-        "wind and current": {name: e for name, e in scene.loads.items() if hasattr(e, "body")},
         "vessels": scene.vessels,
     }
     for label, table in loads.items():
         rows.append((label, [f"{name} ({element.body})" for name, element in table.items()]))
-    on_joints = {name: e for name, e in scene.loads.items() if hasattr(e, "joint")}
-    rows.append(
-        (
-            "limits and friction",
-            [f"{name} ({e.joint} {e.coordinate or 'one way'})" for name, e in on_joints.items()],
-        )
-    )
+    rows += _loads_by_kind(scene)
     rows.append(("springs", [f"{name} ({s.first} to {s.second})" for name, s in scene.springs.items()]))
     rows.append(("waves", [] if scene.waves is None else list(scene.waves.hulls)))
     return [(label, names) for label, names in rows if names]
+
+
+def _loads_by_kind(scene: Scene) -> Rows:
+    """Every load that was added by `Scene.add_load`, known kind or not."""
+    kinds: dict[str, list[str]] = {}
+    for name, load in scene.loads.items():
+        joint, body = getattr(load, "joint", None), getattr(load, "body", None)
+        place = body if joint is None else f"{joint} {load.coordinate or 'one way'}"
+        label = LABELS.get(type(load).__name__, "other loads")
+        kinds.setdefault(label, []).append(name if place is None else f"{name} ({place})")
+    return list(kinds.items())
 
 
 def _merged(model: _core.Model) -> Rows:

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane import _core
-from seacrane.channel_names import core_channels, named_channels
+from seacrane.channel_names import core_channels, named_channels, payload_of
 from seacrane.checked import number_of, numbers_of
 from seacrane.errors import SceneError, SeacraneError, SimulationError
 from seacrane.joint_coordinates import ANGLES
@@ -165,6 +165,9 @@ class Run:
         self.steered = _steered(scene, self.start.inputs)
         self.found: list[Finding] = []  # out of range, as the last result tells
 
+    def __repr__(self) -> str:
+        return f"<Run of {self.scene.name!r}: {self.formulation}, {self.integrator}, at {self.core.time:g} s>"
+
     def advance(self, t_end: float, progress: Callable[[float], None] | None = None) -> bool:
         """Step to t_end (s); False when Ctrl-C stopped it."""
         if not self.core.advance(float(t_end), progress):
@@ -220,6 +223,7 @@ class Run:
         return {
             "seacrane_version": __version__,
             "scene": scene.name,
+            "payload": "\n".join(payload_of(scene)) or None,
             "formulation": self.formulation,
             "integrator": self.integrator,
             "settings": self.settings,

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from typing import Any
@@ -11,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane import _core
+from seacrane.caller import warn_caller
 from seacrane.checked import number_of, text_of
 from seacrane.errors import SceneError
 from seacrane.shown import shown
@@ -119,6 +119,10 @@ class Waves:
         if not isinstance(hulls, Mapping) or not all(isinstance(h, HullLoads) for h in hulls.values()):
             raise SceneError(f"waves: hulls is {shown(hulls)}; give HullLoads by the vessel's body")
 
+    def __repr__(self) -> str:
+        on = ", ".join(map(repr, self.hulls)) or "no vessel"
+        return f"<Waves: {np.size(self.omega)} components on {on}, depth {self.depth:g} m>"
+
     def hull(self, body: str | None = None) -> HullLoads:
         """Loads on a vessel, by its body; without a name, on the only one. SceneError if there is no such."""
         return self.hulls[self.body_of(body)]
@@ -177,11 +181,10 @@ class Waves:
 
         period = 2.0 * np.pi / grid_of(np.asarray(self.omega, dtype=float))[0]
         if duration > period:
-            warnings.warn(
+            warn_caller(
                 f"waves: repeat after {period:.6g} s, the run takes {duration:.6g} s: what "
                 "comes later adds nothing to extremes or statistics; put more components into the same band",
                 RepeatingSeaWarning,
-                stacklevel=4,
             )
 
     def _loads_on(self, body: str) -> _core.WaveLoads:

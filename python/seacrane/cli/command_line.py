@@ -5,10 +5,14 @@ from __future__ import annotations
 import argparse
 import os
 import sys
-from collections.abc import Sequence
+import warnings
+from collections.abc import Callable, Sequence
+from functools import partial
 from importlib import import_module
+from pathlib import Path
 from typing import Any, NoReturn
 
+PACKAGE = Path(__file__).parents[1]
 FAILED, MISUSED, INTERRUPTED = 1, 2, 130
 DESCRIPTION = "Offshore crane, payload and vessel moving together in waves."
 SCENE_HELP = "case1, case2, case3, vessel (the vessel alone in waves), or a scene file (data only)"
@@ -163,6 +167,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def _run_command(chosen: argparse.Namespace) -> int:
+    usual = warnings.formatwarning
+    warnings.formatwarning = partial(_one_line, f"seacrane {chosen.command}", usual)
     try:
         status: int = import_module(f"seacrane.cli.{chosen.command}_command").run(chosen)
         sys.stdout.flush()
@@ -174,6 +180,24 @@ def _run_command(chosen: argparse.Namespace) -> int:
         return FAILED
     except Exception as error:
         return _complain(chosen, explain(error), FAILED)
+    finally:
+        warnings.formatwarning = usual
+
+
+def _one_line(
+    command: str,
+    usual: Callable[..., str],
+    message: Warning | str,
+    category: type[Warning],
+    filename: str,
+    lineno: int,
+    line: str | None = None,
+) -> str:
+    """A warning as errors are told; with its place only where that is a line of the user's own script."""
+    place = Path(filename)
+    if place.exists() and place.resolve() != Path(sys.argv[0]).resolve() and place.parent != PACKAGE:
+        return usual(message, category, filename, lineno, line)
+    return f"{command}: {category.__name__}: {message}\n"
 
 
 def _complain(chosen: argparse.Namespace, text: str, status: int) -> int:

@@ -55,10 +55,13 @@ def _elevation(result: Result) -> list[Panel]:
     return [Panel(quantity="wave elevation", unit="m", lines=lines)]
 
 
-def _last_body(result: Result) -> list[Panel]:
-    body = result.coords["body"][-1]
+def _payload(result: Result) -> list[Panel]:
+    """What hangs on a link or wire, as the run noted it."""
+    bodies = str(result.stats.get("payload", "")).splitlines()
     return [
         Panel(quantity=f"{body} position", unit="m", lines=_lines(AXES, result.select("position", body=body)))
+        for body in bodies
+        if body in result.coords["body"]
     ]
 
 
@@ -81,7 +84,7 @@ def _joint_forces(result: Result) -> list[Panel]:
 PANELS: dict[str, Callable[[Result], list[Panel]]] = {
     "vessel_motion": _vessels,
     "wave_elevation": _elevation,
-    "position": _last_body,
+    "position": _payload,
     "slew_angle": lambda r: [_single("slew angle", "deg", np.rad2deg(r["slew_angle"]))],
     "stroke": _strokes,
     "cylinder_force": _cylinder_forces,

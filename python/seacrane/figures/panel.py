@@ -102,6 +102,12 @@ class Picture:
     data: Path | None = None
 
 
+def plain(text: str) -> str:
+    """A user's text as it is: `$` would begin a formula, and a label that begins with `_` would be hidden."""
+    escaped = text.replace("$", r"\$")
+    return f" {escaped}" if escaped.startswith("_") else escaped
+
+
 def draw(sheet: Sheet) -> Figure:
     """Draw a sheet.
 
@@ -134,17 +140,16 @@ def draw(sheet: Sheet) -> Figure:
         handles, names = cells[0].get_legend_handles_labels()
         columns = min(6, len(names))
         figure.legend(handles, names, loc="outside lower center", ncols=columns, fontsize=9, frameon=False)
-    figure.suptitle(sheet.title, fontsize=11)
+    figure.suptitle(plain(sheet.title), fontsize=11)
     return figure
 
 
 def _draw_panel(cell: Axes, panel: Panel, abscissa: Array, *, legend: bool) -> None:
     for line in panel.lines:
         colour = COLOURS[line.colour % len(COLOURS)]
-        cell.plot(
-            abscissa, line.values, line.style, color=colour, label=line.label, linewidth=1.1, markersize=4
-        )
-    cell.set_ylabel(f"{panel.quantity} [{panel.unit}]")
+        label = plain(line.label)
+        cell.plot(abscissa, line.values, line.style, color=colour, label=label, linewidth=1.1, markersize=4)
+    cell.set_ylabel(plain(f"{panel.quantity} [{panel.unit}]"))
     cell.margins(x=0)
     cell.grid(True, linewidth=0.4, alpha=0.6)
     if legend and len(panel.lines) > 1:  # above the panel: no curve is covered

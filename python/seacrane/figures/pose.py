@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from seacrane.figures.panel import COLOURS, Picture, save_figure, save_table
+from seacrane.figures.panel import COLOURS, Picture, plain, save_figure, save_table
 from seacrane.result import Result
 
 if TYPE_CHECKING:
@@ -178,5 +178,5 @@ def _draw_line(axes: Any, body: str, number: int, line: Array, order: int) -> No
     own = {"vessel": "0.6", "payload": "#8B0000"}
     colour = own.get(body, COLOURS[order % len(COLOURS)])
     width = 0.8 if hull else 4.0 if body.endswith("barrel") else 1.6
-    label = body if number == 0 else None
+    label = plain(body) if number == 0 else None
     axes.plot(*line.T, color=colour, linewidth=width, label=label, solid_capstyle="butt")

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import warnings
 from dataclasses import replace
 from typing import Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from seacrane.caller import warn_caller
 from seacrane.hydro.database import HydroDatabase
 from seacrane.hydro.hull import Hull
 from seacrane.hydro.hull_solution import HullSolution, symmetric_solution
@@ -213,22 +213,20 @@ def _require_afloat(
             )
     excess = mass / displaced - 1.0
     if abs(excess) > DISPLACEMENT_LIMIT:
-        warnings.warn(
+        warn_caller(
             f"hull {hull.name!r}: mass {mass:.6g} kg is {100.0 * excess:+.1f} % off the displaced "
             f"{displaced:.6g} kg: without another vertical load it would float at another draught, where "
             "added mass, damping and forces differ. Change the draught, or add what it carries as bodies",
             FloatingPositionWarning,
-            stacklevel=4,
         )
     lever = centre[0] - hull.hydrostatics.centre_of_buoyancy[0]
     trim = mass * g * lever / restoring[4, 4]
     if abs(trim) > TRIM_LIMIT:
-        warnings.warn(
+        warn_caller(
             f"hull {hull.name!r}: the centre of gravity lies {lever:+.4g} m forward of the centre of "
             f"buoyancy (x = {hull.hydrostatics.centre_of_buoyancy[0]:.4g} m); the hull would trim by "
             f"{np.degrees(trim):+.3g} deg, which the database leaves out. Move one over the other",
             FloatingPositionWarning,
-            stacklevel=4,
         )
 
 

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-import warnings
-
 import numpy as np
 from numpy.typing import NDArray
 
 from seacrane import _core
+from seacrane.caller import warn_caller
 from seacrane.hydro.hull import Hull
 from seacrane.hydro.hull_solution import HullSolution
 
@@ -51,12 +50,11 @@ def strip_solution(
     cut = hull.sections(x)
     hanging = 2.0 * float(np.trapezoid([s.apart for s in cut], x)) / hull.hydrostatics.volume
     if hanging > HANGING:
-        warnings.warn(
+        warn_caller(
             f"hull {hull.name!r}: {100.0 * hanging:.2g} % of the volume hangs apart under water (a bulb "
             "ahead of the stem, a pod) and is left out by strip theory: its added mass and wave force are "
             "missing. Use method='capytaine' to have them",
             SubmergedPartWarning,
-            stacklevel=4,
         )
     solved = _core.strip_theory(
         x=x,

@@ -5,7 +5,8 @@ from __future__ import annotations
 import json
 import math
 import os
-from collections.abc import Mapping, Sequence
+from collections import Counter
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from types import MappingProxyType
@@ -79,7 +80,7 @@ def _checked_time(values: Any) -> Array:
 def _checked_names(dim: str, names: Sequence[str]) -> tuple[str, ...]:
     names = tuple(str(name) for name in names)
     if len(set(names)) != len(names):
-        twice = sorted({name for name in names if names.count(name) > 1})
+        twice = sorted(name for name, count in Counter(names).items() if count > 1)
         raise ValueError(f"{dim} names must differ; given more than once: {', '.join(twice)}")
     return names
 
@@ -112,8 +113,10 @@ def _dims(channels: Mapping[str, Array]) -> dict[str, tuple[str, ...]]:
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
-class Result:
-    """What one run recorded. Build it with `Result.from_arrays`, or read it with `Result.load`.
+class Result(Mapping[str, Array]):
+    """What one run recorded, a mapping of its channels by name.
+
+    Build it with `Result.from_arrays`, or read it with `Result.load`.
 
     Attributes
     ----------
@@ -258,6 +261,20 @@ class Result:
         except KeyError:
             known = ", ".join(self.channels) or "nothing"
             raise KeyError(f"no channel {name!r} in this result; it holds {known}") from None
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self.channels)
+
+    def __len__(self) -> int:
+        """The number of channels."""
+        return len(self.channels)
+
+    __eq__ = object.__eq__  # two results are the same only if they are one: a mapping would compare arrays
+    __hash__ = object.__hash__
+
+    def __bool__(self) -> bool:
+        """True also without channels: a result is there."""
+        return True
 
     def select(self, channel: str, /, **names: str) -> Array:
         """A channel at named coordinates, as a read-only view.

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from seacrane.figures.panel import plain
 from seacrane.trading import rungs
 
 if TYPE_CHECKING:
@@ -85,7 +86,7 @@ def _draw(axes: Axes, trade: Trade, quantity: str) -> None:
     axes.xaxis.set_minor_formatter(NullFormatter())
     axes.set_xlabel("wall time per simulated second [s]")
     axes.set_ylabel(f"largest error [{trade.quantities[quantity].unit}]")
-    axes.set_title(quantity.replace("_", " "))
+    axes.set_title(plain(quantity.replace("_", " ")))
     axes.grid(alpha=0.3)
 
 

@@ -1,0 +1,82 @@
+"""What a user sees of an object at a prompt: never an address, never pages of numbers."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import pytest
+from test_scene_file import every_kind
+
+import seacrane
+from seacrane import Curve, Scene, _core, add_soft_stop, cases
+from seacrane.simulation import Run
+
+
+def held() -> dict[str, Any]:
+    """One of each thing that scripts hold, by the name of its class."""
+    scene = every_kind()
+    joint = next(name for name, j in scene.joints.items() if j.kind in ("prismatic", "revolute"))
+    add_soft_stop(scene, joint=joint, minimum=-100.0, stiffness=1e5)
+    case = cases.case2()
+    model = case.compile()
+    things: list[Any] = [
+        scene,
+        case,
+        model,
+        case.waves,
+        Curve.constant(value=2.0),
+        _core.initial_state(model),
+    ]
+    things += [Run(case, model=model, t_end=1.0), next(iter(scene.joints.values())).first_frame]
+    tables = ("bodies", "joints", "drivers", "actuators", "point_forces", "springs", "force_tables", "loads")
+    for table in (*tables, "vessels"):
+        things += getattr(scene, table).values()
+    return {type(thing).__name__: thing for thing in things}
+
+
+HELD = held()
+
+
+@pytest.mark.parametrize("kind", HELD)
+def test_what_a_user_holds_tells_what_it_is(kind: str) -> None:
+    text = repr(HELD[kind])
+    assert text.startswith(f"<{kind}")
+    assert " object at 0x" not in text and "array(" not in text
+    assert 10 < len(text) < 400
+    assert getattr(HELD[kind], "name", "") in text
+
+
+def test_a_repr_holds_the_numbers() -> None:
+    body = Scene().add_body(name="bob", mass=2500.0, inertia=np.eye(3), position=(1.0, 2.0, 3.5))
+    assert "'bob'" in repr(body) and "mass 2500" in repr(body) and "position (1, 2, 3.5)" in repr(body)
+
+
+def test_no_class_of_the_core_is_an_address() -> None:
+    classes = [member for member in vars(_core).values() if isinstance(member, type)]
+    assert len(classes) > 20
+    assert [kind.__name__ for kind in classes if "__repr__" not in vars(kind)] == []
+
+
+MAPPING: dict[str, Callable[[seacrane.Result], Any]] = {
+    "in": lambda result: "position" in result,
+    "not in": lambda result: "nonsense" not in result,
+    "list": lambda result: list(result) == list(result.channels),
+    "len": lambda result: len(result) == len(result.channels) > 3,
+    "keys": lambda result: list(result.keys()) == list(result.channels),
+    "items": lambda result: all(values is result[name] for name, values in result.items()),
+    "get": lambda result: result.get("nonsense") is None and result.get("position") is result["position"],
+    "dict": lambda result: dict(result).keys() == result.channels.keys(),
+    "itself": lambda result: bool(result) and result == result and result != dict(result) and hash(result),
+}
+
+
+@pytest.fixture(scope="module")
+def result() -> seacrane.Result:
+    return seacrane.simulate(cases.case2(), t_end=0.2)
+
+
+@pytest.mark.parametrize("use", MAPPING)
+def test_a_result_is_a_mapping_of_its_channels(use: str, result: seacrane.Result) -> None:
+    assert MAPPING[use](result)
