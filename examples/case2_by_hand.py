@@ -11,7 +11,7 @@ from pathlib import Path
 
 import numpy as np
 
-from seacrane import Curve, Scene, balance, cases, reflected_inertia, simulate
+from seacrane import Curve, Scene, balance, cases, feed_forward, reflected_inertia, simulate
 from seacrane.crane import KnuckleBoomCrane, Payload
 from seacrane.frames import rotation_matrix
 from seacrane.hydro import shipped_database
@@ -21,7 +21,8 @@ CRANE = KnuckleBoomCrane.load()  # the numbers of the crane data file, with cent
 PAYLOAD = Payload(mass=10e3, size=(6.0, 6.0, 4.0), link_length=8.0)
 FOOT = (33.0, 10.0, 10.0)  # m, in the vessel: forward, to port, up
 DRIVES = {"slew": "A", "main": "main_cylinder", "knuckle": "knuckle_cylinder"}
-TARGETS = {"slew": -np.pi / 2, "main": 2.0, "knuckle": 2.0}  # rad, m, m; reached after 45 s
+TARGETS = {"slew": -np.pi / 2, "main": 2.0, "knuckle": 2.0}  # rad, m, m
+MOVE_END = 45.0  # s
 
 
 def add_bodies(scene: Scene, **pose: float) -> None:
@@ -75,7 +76,7 @@ def inertias() -> dict[str, float]:
 
 
 def scene() -> Scene:
-    """Vessel, crane, payload, sea; drives held by state feedback around their balance loads."""
+    """Vessel, crane, payload, sea; drives by state feedback around the loads that hold each pose at rest."""
     database = shipped_database()
     out = Scene(name="case2_by_hand")
     add_vessel(out, database, name="vessel", memory="per-pair")
@@ -90,6 +91,11 @@ def scene() -> Scene:
     held = balance(out)  # loads that keep it at rest
     x, y, _ = held.weight_center
     out.add_point_force(name="balance", body="vessel", point=(x, y, 0.0), force=(0.0, 0.0, held.weight))
+    moves = {
+        name: Curve.quintic(start_time=0.0, end_time=MOVE_END, start=0.0, end=target)
+        for name, target in TARGETS.items()
+    }
+    loads = feed_forward(out, references=moves, times=np.linspace(0.0, MOVE_END, 10))
     out.actuators.clear()
     frequency, damping = 2 * np.pi * 0.8, 0.8
     for name, inertia in inertias().items():
@@ -98,8 +104,8 @@ def scene() -> Scene:
             joint=DRIVES[name],
             stiffness=inertia * frequency**2,
             damping=2 * damping * frequency * inertia,
-            feed_forward=held.loads[name],
-            reference=Curve.quintic(start_time=0.0, end_time=45.0, start=0.0, end=TARGETS[name]),
+            feed_forward=loads[name],
+            reference=moves[name],
         )
     return out
 
@@ -112,8 +118,11 @@ def main() -> None:
         x, y, z = body.position + rotation_matrix(body.quaternion) @ body.center_of_mass
         print(f"{name:18} {body.mass / 1e3:9.1f}   {x:7.2f} {y:7.2f} {z:7.2f}")
     for name, drive in full.actuators.items():
-        load = drive.feed_forward.evaluate(np.zeros(1))[0, 0]
-        print(f"{name:8} stiffness {drive.stiffness:.4g}, damping {drive.damping:.4g}, balance {load:.4g}")
+        first, last = drive.feed_forward.evaluate([0.0, MOVE_END])[:, 0]
+        print(
+            f"{name:8} stiffness {drive.stiffness:.4g}, damping {drive.damping:.4g}, "
+            f"feed-forward {first:.4g} to {last:.4g}"
+        )
 
     by_hand, ready_made = simulate(full), simulate(cases.case2())
     apart = np.abs(by_hand["position"] - ready_made["position"]).max()

@@ -120,11 +120,17 @@ def actuator_records(scene: Scene) -> list[dict[str, Any]]:
             "joint": actuator.joint,
             "stiffness": actuator.stiffness,
             "damping": actuator.damping,
-            "feedforward": float(actuator.feed_forward.evaluate(np.zeros(1))[0][0]),
+            "feedforward": feed_forward_record(actuator.feed_forward),
             "reference": reference_record(name),
         }
         for name, actuator in scene.actuators.items()
     ]
+
+
+def feed_forward_record(curve: Curve) -> dict[str, Any]:
+    pieces = curve.to_pieces()
+    assert not np.any(pieces["cosines"])
+    return {"kind": "polynomials", "starts": pieces["starts"], "coefficients": pieces["coefficients"]}
 
 
 def driver_records(scene: Scene) -> list[dict[str, Any]]:

@@ -134,7 +134,7 @@ def still(scene: Scene) -> Scene:
     scene.actuators.clear()
     for name, a in actuators.items():
         scene.add_actuator(name=name, joint=a.joint, stiffness=a.stiffness, damping=a.damping,
-                           feed_forward=a.feed_forward)  # fmt: skip
+                           feed_forward=float(a.feed_forward.evaluate([0.0])[0, 0]))  # fmt: skip
     return scene
 
 

@@ -11,6 +11,7 @@ import pytest
 from trade_scenes import pendulum
 
 from seacrane import Scene, SceneError, Trade, cases, integrator_names, simulate, trade
+from seacrane.checked import curve_of
 from seacrane.hydro import shipped_database
 from seacrane.method import Method
 from seacrane.trading import measure, rungs, settings_grid, study
@@ -198,7 +199,7 @@ def test_a_weight_in_place_of_the_payload_hangs_as_the_payload_in_calm_water() -
         scene.actuators[name] = rungs._core.Actuator(
             name=name, joint=scene.actuators[name].joint, coordinate=scene.actuators[name].coordinate,
             stiffness=scene.actuators[name].stiffness, damping=scene.actuators[name].damping,
-            feed_forward=scene.actuators[name].feed_forward,
+            feed_forward=curve_of("start", scene.actuators[name].feed_forward.evaluate([0.0])[0, 0]),
         )  # fmt: skip
     quantities = quantities_of(scene, scene.compile(), None)
     span = measure.Span(t_end=5.0, dt_out=0.1, repeats=1, quantities=quantities)

@@ -86,12 +86,23 @@ def _quintic(name: str, curve: Curve) -> dict[str, Any]:
     return {"kind": "quintic", "start": float(low), "end": float(high), "t_start": start, "t_end": end}
 
 
+def _feed_forward(name: str, curve: Curve) -> float | dict[str, Any]:
+    """A number where it is one for ever."""
+    pieces = curve.to_pieces()
+    coefficients = np.array(pieces["coefficients"])
+    if np.any(pieces["cosines"]):
+        raise ValueError(f"actuator {name!r}: its feed-forward swings, which the rival's records do not hold")
+    if not np.any(coefficients[:, 1:]) and np.ptp(coefficients[:, 0]) == 0.0:
+        return float(coefficients[0, 0])
+    return {"kind": "polynomials", "starts": pieces["starts"], "coefficients": coefficients.tolist()}
+
+
 def _actuator(actuator: Any) -> dict[str, Any]:
     return {
         "joint": actuator.joint,
         "stiffness": actuator.stiffness,
         "damping": actuator.damping,
-        "feedforward": float(actuator.feed_forward.evaluate(np.zeros(1))[0, 0]),
+        "feedforward": _feed_forward(actuator.name, actuator.feed_forward),
         "reference": _quintic(actuator.name, actuator.reference),
     }
 

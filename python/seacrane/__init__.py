@@ -69,6 +69,7 @@ if TYPE_CHECKING:
         DepthSignWarning,
         MassUnitWarning,
     )
+    from seacrane.quasi_static import feed_forward, quasi_static_loads
     from seacrane.references import DriverImpulseWarning
     from seacrane.rest_state import equilibrium
     from seacrane.result import Event, Result
@@ -165,6 +166,7 @@ _HOME = {
     "driven": "inverse",
     "equilibrium": "rest_state",
     "fastest_mode": "linearise",
+    "feed_forward": "quasi_static",
     "gust_curve": "wind",
     "integrator_names": "_core",
     "inverse_dynamics": "inverse",
@@ -173,6 +175,7 @@ _HOME = {
     "load_database": "hydro",
     "motion_rao": "frequency_domain",
     "natural_modes": "modal_analysis",
+    "quasi_static_loads": "quasi_static",
     "reflected_inertia": "inverse",
     "response_statistics": "frequency_domain",
     "response_summed": "frequency_domain",
@@ -263,6 +266,7 @@ __all__ = [
     "equilibrium",
     "errors",
     "fastest_mode",
+    "feed_forward",
     "gust_curve",
     "hydro",
     "integrator_names",
@@ -272,6 +276,7 @@ __all__ = [
     "load_database",
     "motion_rao",
     "natural_modes",
+    "quasi_static_loads",
     "reflected_inertia",
     "response_statistics",
     "response_summed",

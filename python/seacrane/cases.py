@@ -5,14 +5,17 @@ Where the paper is silent the values are our choice; `docs/paper.md` lists them.
 
 from __future__ import annotations
 
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import NDArray
 
-from seacrane import _core
+from seacrane import _core, quasi_static
 from seacrane.crane import FOOT, KnuckleBoomCrane, Payload
-from seacrane.inverse import balance, reflected_inertia
+from seacrane.errors import SceneError
+from seacrane.inverse import Balance, balance, reflected_inertia
 from seacrane.scene import Scene
 from seacrane.sea_state import add_sea
 from seacrane.vessel import add_vessel
@@ -27,6 +30,7 @@ NATURAL_FREQUENCY = 2.0 * np.pi * 0.8  # rad/s of every controlled coordinate
 DAMPING_RATIO = 0.8
 MOVE_END = 45.0  # s
 OSCILLATION_START, OSCILLATION_PERIOD = 50.0, 5.0  # s, case 3
+CASE_END = 100.0  # s
 SLEW_END = -np.pi / 2.0
 STROKE_END = 2.0  # m, cases 1 and 2
 
@@ -96,19 +100,60 @@ def _afloat(
     return scene
 
 
-def _lift(
-    name: str, *, payload: Payload | None, references: dict[str, _core.Curve], options: dict[str, Any]
-) -> Scene:
-    options = dict(options)
-    fixed = {key: options.pop(key, default) for key, default in _OPTIONS.items()}
-    foot = fixed.pop("foot")
-    scene = _afloat(name, sea=options, **fixed)
-    crane = KnuckleBoomCrane.load()
-    crane.add_to(scene, base="vessel", foot=foot, payload=payload)
+@dataclass(frozen=True, eq=False)
+class _Motion:
+    """References by actuator, and the times through which their feed-forward is laid."""
+
+    references: dict[str, _core.Curve]
+    times: NDArray[np.float64]
+    period: float | None = None
+
+
+def _crane_afloat(
+    name: str, *, payload: Payload | None, foot: Any, options: dict[str, Any]
+) -> tuple[Scene, Balance]:
+    """Vessel and crane, balanced at the start, its actuators without control; and what balances it."""
+    fixed = {key: options.get(key, default) for key, default in _OPTIONS.items()}
+    sea = {key: value for key, value in options.items() if key not in _OPTIONS}
+    scene = _afloat(name, sea=sea, **fixed)
+    KnuckleBoomCrane.load().add_to(scene, base="vessel", foot=foot, payload=payload)
     for actuator, joint in ACTUATORS.items():
         scene.record_coordinate(joint=joint)
         scene.add_actuator(name=actuator, joint=joint)
     start = balance(scene)
+    scene.add_point_force(
+        name="balance",
+        body="vessel",
+        point=(start.weight_center[0], start.weight_center[1], 0.0),
+        force=(0.0, 0.0, start.weight),
+    )
+    return scene, start
+
+
+def _lift(
+    name: str,
+    *,
+    payload: Payload | None,
+    motion: _Motion,
+    foot: Any = FOOT,
+    feed_forward: str = "references",
+    **options: Any,
+) -> Scene:
+    if feed_forward not in ("references", "start"):
+        raise SceneError(f"{name}: feed_forward is {feed_forward!r}; choose 'references' or 'start'")
+    options["database"] = database = _database(options.get("database"))
+    scene, start = _crane_afloat(name, payload=payload, foot=foot, options=options)
+    loads = {actuator: _core.Curve.constant(value=load) for actuator, load in start.loads.items()}
+    if feed_forward == "references":
+        mooring_period = options.get("mooring_period", _OPTIONS["mooring_period"])
+        load = payload and replace(payload, size=(payload.size[0], payload.size[1], payload.size[2]))
+        try:
+            loads = _quasi_static(motion, load, tuple(foot), database, mooring_period)
+        except SceneError as error:
+            raise SceneError(
+                f"{name}: no rest state at every pose of the crane, as its feed-forward needs; lift less, or "
+                f"pass feed_forward='start' for the constant loads of the start ({error})"
+            ) from error
     scene.actuators.clear()
     for actuator, joint in ACTUATORS.items():
         stiffness, damping = _gains()[actuator]
@@ -117,16 +162,26 @@ def _lift(
             joint=joint,
             stiffness=stiffness,
             damping=damping,
-            feed_forward=start.loads[actuator],
-            reference=references[actuator],
+            feed_forward=loads[actuator],
+            reference=motion.references[actuator],
         )
-    scene.add_point_force(
-        name="balance",
-        body="vessel",
-        point=(start.weight_center[0], start.weight_center[1], 0.0),
-        force=(0.0, 0.0, start.weight),
-    )
     return scene
+
+
+@lru_cache(maxsize=8)
+def _quasi_static(
+    motion: _Motion,
+    payload: Payload | None,
+    foot: tuple[float, ...],
+    database: HydroDatabase,
+    mooring_period: float | None,
+) -> dict[str, _core.Curve]:
+    """Quasi-static balance along the motion; neither sea nor fluid memory nor kinematics matter at rest."""
+    options = {"memory": "none", "database": database, "mooring_period": mooring_period, "hs": 0.0}
+    scene, _ = _crane_afloat("at rest", payload=payload, foot=foot, options=options)
+    return quasi_static.feed_forward(
+        scene, references=motion.references, times=motion.times, period=motion.period
+    )
 
 
 _OPTIONS: dict[str, Any] = {
@@ -134,7 +189,6 @@ _OPTIONS: dict[str, Any] = {
     "kinematics": "yaw_following",
     "database": None,
     "mooring_period": 200.0,
-    "foot": FOOT,
 }
 
 
@@ -142,8 +196,22 @@ def _move(end: float) -> _core.Curve:
     return _core.Curve.quintic(start_time=0.0, end_time=MOVE_END, start=0.0, end=end)
 
 
-def _swing_out() -> dict[str, _core.Curve]:
-    return {"slew": _move(SLEW_END), "main": _move(STROKE_END), "knuckle": _move(STROKE_END)}
+def _swing_out() -> _Motion:
+    references = {"slew": _move(SLEW_END), "main": _move(STROKE_END), "knuckle": _move(STROKE_END)}
+    return _Motion(references, np.linspace(0.0, MOVE_END, 10))
+
+
+def _swing_out_and_oscillate() -> _Motion:
+    omega = 2.0 * np.pi / OSCILLATION_PERIOD
+    swing = _core.Curve.harmonic(start_time=OSCILLATION_START, offset=3.0, amplitude=1.0, omega=omega)
+    stroke = _move(4.0).then(time=OSCILLATION_START, curve=swing)
+    references = {"slew": _move(SLEW_END), "main": stroke, "knuckle": stroke}
+    move, rest = np.linspace(0.0, MOVE_END, 10), np.arange(MOVE_END, CASE_END + 0.1, 0.5)
+    return _Motion(references, np.append(move, rest[1:]), OSCILLATION_PERIOD)
+
+
+_SWING_OUT = _swing_out()
+_SWING_OUT_AND_OSCILLATE = _swing_out_and_oscillate()
 
 
 def case1(**options: Any) -> Scene:
@@ -152,20 +220,20 @@ def case1(**options: Any) -> Scene:
     Parameters
     ----------
     **options
-        Of `vessel`, and foot (3,): place of the crane's foot in the vessel frame, m.
+        Of `vessel`, and
+
+        - foot (3,): place of the crane's foot in the vessel frame, m;
+        - feed_forward: "references" (default), the quasi-static loads along the motion, by
+          `seacrane.feed_forward`; or "start", the constant loads of the start: strokes then end short.
     """
-    return _lift("case1", payload=None, references=_swing_out(), options=options)
+    return _lift("case1", payload=None, motion=_SWING_OUT, **options)
 
 
 def case2(*, payload: Payload | None = None, **options: Any) -> Scene:
     """Case 2: as case 1, with the payload (default 10 t on an 8 m link)."""
-    return _lift("case2", payload=payload or Payload(), references=_swing_out(), options=options)
+    return _lift("case2", payload=payload or Payload(), motion=_SWING_OUT, **options)
 
 
 def case3(**options: Any) -> Scene:
     """Case 3: slew 0 to -90 deg, strokes 0 to 4 m, from 50 s on 3 + cos(2 pi t / 5) m; no payload."""
-    omega = 2.0 * np.pi / OSCILLATION_PERIOD
-    swing = _core.Curve.harmonic(start_time=OSCILLATION_START, offset=3.0, amplitude=1.0, omega=omega)
-    stroke = _move(4.0).then(time=OSCILLATION_START, curve=swing)
-    references = {"slew": _move(SLEW_END), "main": stroke, "knuckle": stroke}
-    return _lift("case3", payload=None, references=references, options=options)
+    return _lift("case3", payload=None, motion=_SWING_OUT_AND_OSCILLATE, **options)

@@ -143,6 +143,12 @@ def balance(scene: Scene) -> Balance:
     )
 
 
+def actuator_loads(scene: Scene, held: Scene, state: _core.State) -> Array:
+    """Loads of the drivers that hold a scene's actuators, by actuator, at a state of the held scene."""
+    names = [_driver_name(name) for name in scene.actuators]
+    return _multipliers(held.compile(), names, time=state.time, state=np.array(state.values))
+
+
 def _weight(scene: Scene) -> tuple[float, Array]:
     from seacrane.frames import rotation_matrix
 

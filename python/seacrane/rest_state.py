@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Iterator
 from typing import Any
 
 import numpy as np
@@ -85,11 +86,17 @@ def equilibrium(scene: Scene, *, state: _core.State | None = None, time: float =
     end = number_of("equilibrium: time", time)
     if not (np.isfinite(end) and end >= 0.0):
         raise SceneError(f"equilibrium: time is {end} s; give a finite time, zero or later")
-    stages = np.linspace(0.0, end, min(int(np.ceil(end / STAGE)), MOST_STAGES) + 1)
+    return next(rest_states(scene, times=[end]))
+
+
+def rest_states(scene: Scene, *, times: Iterable[float]) -> Iterator[_core.State]:
+    """States at rest at times that increase, each found from the one before along the references."""
     found = _rest(scene, 0.0, None)
-    for stage in stages[1:]:
-        found = _rest(scene, float(stage), _followed(scene, found, float(stage)))
-    return found
+    for time in times:
+        stages = min(int(np.ceil((time - found.time) / STAGE)), MOST_STAGES)
+        for stage in np.linspace(found.time, time, stages + 1)[1:]:
+            found = _rest(scene, float(stage), _followed(scene, found, float(stage)))
+        yield found
 
 
 def _followed(scene: Scene, state: _core.State, time: float) -> Array:

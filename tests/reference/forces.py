@@ -32,11 +32,13 @@ class Actuators:
         self.is_angle = coordinates.is_angle[self.slot]
         self.first, self.second = coordinates.first[self.slot], coordinates.second[self.slot]
         self.axis, self.p1 = coordinates.axis[self.slot], coordinates.p1[self.slot]
-        self.stiffness, self.damping, self.feedforward = (
-            np.array([float(r.get(key, 0.0)) for r in records])
-            for key in ("stiffness", "damping", "feedforward")
+        self.stiffness, self.damping = (
+            np.array([float(r.get(key, 0.0)) for r in records]) for key in ("stiffness", "damping")
         )
-        self.curves = [reference_curves.from_record(r.get("reference", 0.0)) for r in records]
+        self.curves, self.feedforward = (
+            [reference_curves.from_record(r.get(key, 0.0)) for r in records]
+            for key in ("reference", "feedforward")
+        )
 
     def loads(self, t: float, s: Array, s_rate: Array) -> Array:
         """Signed actuator loads, N or N m."""
@@ -46,7 +48,8 @@ class Actuators:
         error = reference[:, 0] - s[self.slot]
         error = np.where(self.is_angle, [wrap(e) for e in error], error)
         error_rate = reference[:, 1] - s_rate[self.slot]
-        return np.asarray(self.stiffness * error + self.damping * error_rate + self.feedforward)
+        forward = np.array([curve(t)[0] for curve in self.feedforward])
+        return np.asarray(self.stiffness * error + self.damping * error_rate + forward)
 
     def apply(self, loads: Array, s_rate: Array, x: VectorMotion, wrench: Array) -> float:
         """Add the loads, equal and opposite on the same line; returns their power."""

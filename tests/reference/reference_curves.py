@@ -5,6 +5,8 @@ Records (all of them also accepted as a plain number, meaning a constant):
 - ``{"kind": "constant", "value": v}``
 - ``{"kind": "quintic", "start": a, "end": b, "t_start": t0, "t_end": t1}``  (rest to rest, held outside)
 - ``{"kind": "cosine", "mean": m, "amplitude": a, "period": T, "phase": p}``  m + a cos(2 pi t / T + p)
+- ``{"kind": "polynomials", "starts": [t0, ...], "coefficients": [[c0, ..., c5], ...]}``  of t - start, each
+  piece from its start on; the first value is held before
 - ``{"kind": "sequence", "switch": [t1, ...], "pieces": [curve, curve, ...]}``  piece k holds from switch k-1
 """
 
@@ -63,6 +65,23 @@ def cosine(mean: float, amplitude: float, period: float, phase: float = 0.0) -> 
     return ReferenceCurve(curve)
 
 
+def polynomials(starts: list[float], coefficients: list[list[float]]) -> ReferenceCurve:
+    """Pieces of polynomials that join smoothly."""
+
+    def curve(t: float) -> Triple:
+        if t < starts[0]:
+            return coefficients[0][0], 0.0, 0.0
+        i = bisect.bisect_right(starts, t) - 1
+        s, value, rate, half = t - starts[i], 0.0, 0.0, 0.0
+        for c in reversed(coefficients[i]):
+            half = half * s + rate
+            rate = rate * s + value
+            value = value * s + c
+        return value, rate, 2.0 * half
+
+    return ReferenceCurve(curve)
+
+
 def sequence(switch: list[float], pieces: list[ReferenceCurve]) -> ReferenceCurve:
     """Piece k from time switch[k-1] (included) to switch[k]."""
     if len(pieces) != len(switch) + 1 or sorted(switch) != list(switch):
@@ -89,6 +108,7 @@ def from_record(record: Any) -> ReferenceCurve:
         "constant": constant,
         "quintic": quintic,
         "cosine": cosine,
+        "polynomials": polynomials,
     }
     if kind not in makers:
         raise ValueError(f"reference curve kind {kind!r} is unknown; use one of {[*makers, 'sequence']}")

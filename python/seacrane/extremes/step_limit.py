@@ -23,6 +23,7 @@ from seacrane.errors import SceneError, SimulationError
 from seacrane.extremes.altered import change_actuator
 from seacrane.extremes.crane_axes import held_crane
 from seacrane.linear_system import LinearModel, linear_model
+from seacrane.rest_state import held
 from seacrane.scene import Scene
 from seacrane.simulation import RESIDUAL_INTEGRATORS, Run
 
@@ -65,10 +66,7 @@ def _crane(factor: float) -> Scene:
 
 def _afloat() -> Scene:
     """Case 2 in calm water, its references held at the start."""
-    scene = cases.case2(hs=0.0)
-    for name in list(scene.actuators):
-        change_actuator(scene, name, reference=_core.Curve.constant(value=0.0))
-    return scene
+    return held(cases.case2(hs=0.0))
 
 
 SCENES: dict[str, Callable[[], Scene]] = {
