@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from reference_problems import four_bars
 from trade_scenes import pendulum, promise, shares, summary
 
 from seacrane import SampledController, SceneError, cases, simulate
@@ -29,6 +30,34 @@ def test_promises_hold_on_200_random_scenes(capsys: pytest.CaptureFixture[str]) 
     of_all = held.pop("all runs within twice the cheapest")
     assert min(held.values()) >= 0.95, held
     assert of_all >= 0.4, of_all  # the second run has its price
+
+
+def four_bar_error(limit: float) -> tuple[float, float]:
+    """True and estimated error of two four-bars through their singular positions, m."""
+    result = simulate(four_bars.scene(2, planar=False), t_end=10.0, dt_out=0.05, accuracy={"position": limit})
+    angle, _ = four_bars.turned(2, result.time)
+    middle = 0.5 * np.column_stack([np.sin(angle), np.cos(angle)])
+    found = result.select("position", body="post 0")[:, [0, 2]], result.select("position", body="coupler 1")
+    coupler = found[1][:, [0, 2]] - [1.5, 0.0] - 2.0 * middle
+    error = max(np.linalg.norm(part, axis=1).max() for part in (found[0] - middle, coupler))
+    return float(error), float(result.stats["error_estimate_position"])
+
+
+@pytest.mark.filterwarnings("ignore::seacrane.NearSingularWarning")
+def test_errors_that_are_alike_by_chance_do_not_hide_each_other() -> None:
+    """The errors of tsit5 at 3e-4 and 3e-5 are alike here: their difference tells a third of them."""
+    for limit in (1e-2, 1e-3, 1e-4):
+        error, estimate = four_bar_error(limit)
+        assert error <= estimate <= limit, (error, estimate, limit)
+
+
+@pytest.mark.filterwarnings("ignore::seacrane.NearSingularWarning")
+def test_what_a_singular_position_costs_is_told_and_not_promised_away() -> None:
+    """Rows left out there shift the motion by 1e-7 m at every tolerance alike, so that runs agree."""
+    with pytest.raises(
+        SceneError, match=r"cannot be reached: .* set by a singular position of the mechanism"
+    ):
+        four_bar_error(1e-8)
 
 
 def test_a_tighter_limit_gives_a_smaller_error_and_states_its_estimate() -> None:

@@ -79,6 +79,7 @@ if TYPE_CHECKING:
     from seacrane.sea_state import WavesWithoutLoadWarning, add_sea
     from seacrane.simulation import Run, simulate
     from seacrane.trading import Trade, trade
+    from seacrane.trading.fixed_step import StepError, step_error
     from seacrane.validity import (
         LargeHeelWarning,
         NearSingularWarning,
@@ -143,6 +144,7 @@ _HOME = {
     "SoftStop": "_core",
     "State": "_core",
     "StateSpaceBlock": "_core",
+    "StepError": "trading.fixed_step",
     "StreamedResult": "long_run",
     "SummedResponse": "frequency_domain",
     "Trade": "trading",
@@ -182,6 +184,7 @@ _HOME = {
     "simulate": "simulation",
     "simulate_to_file": "long_run",
     "spline_curve": "curves",
+    "step_error": "trading.fixed_step",
     "trade": "trading",
     "use_actual_position": "environment",
 }
@@ -240,6 +243,7 @@ __all__ = [
     "SoftStop",
     "State",
     "StateSpaceBlock",
+    "StepError",
     "StreamedResult",
     "SummedResponse",
     "Trade",
@@ -284,6 +288,7 @@ __all__ = [
     "simulate",
     "simulate_to_file",
     "spline_curve",
+    "step_error",
     "trade",
     "use_actual_position",
 ]

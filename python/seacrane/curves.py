@@ -11,7 +11,7 @@ from seacrane.errors import SceneError
 
 
 def spline_curve(*, times: Any, values: Any) -> Curve:
-    """Quintic spline through samples, held at rest before the first of them.
+    """Quintic spline through samples, held at rest before the first of them and after the last.
 
     Parameters
     ----------
@@ -23,8 +23,8 @@ def spline_curve(*, times: Any, values: Any) -> Curve:
     Returns
     -------
     Curve
-        With continuous derivatives up to the fourth; it goes on with the last polynomial after the last
-        sample.
+        With continuous derivatives up to the fourth between the samples; at the first and last of them
+        its derivatives jump where the samples do not begin and end at rest.
 
     Raises
     ------
@@ -40,4 +40,8 @@ def spline_curve(*, times: Any, values: Any) -> Curve:
         raise SceneError("curve: times must increase and all samples be finite")
     pieces = PPoly.from_spline(make_interp_spline(t, x, k=5))
     kept = np.diff(pieces.x) > 0.0
-    return Curve.pieces(starts=pieces.x[:-1][kept].tolist(), coefficients=pieces.c[::-1].T[kept].tolist())
+    hold = [float(x[-1]), 0.0, 0.0, 0.0, 0.0, 0.0]
+    return Curve.pieces(
+        starts=[*pieces.x[:-1][kept].tolist(), float(t[-1])],
+        coefficients=[*pieces.c[::-1].T[kept].tolist(), hold],
+    )

@@ -26,6 +26,8 @@ PESSIMISM = 1.5  # further, on the error expected before any run
 STEP = 10.0  # to a tighter tolerance, or a looser one to compare with, where errors do not tell how far
 COARSE = 0.1  # of the motion: a difference above it is no error that linearised equations describe
 ROUNDING = 1e-10  # tolerance below which rounding may set the error, and only runs of like tolerance tell
+CUT_SHORT = 0.1  # restarts over steps from which on the tolerance does not set the error of a loose run
+SINGULAR = "a singular position of the mechanism, where constraints depend on each other: keep away from it"
 AMPLIFIED = 1e4  # error over the expected one from which the motion itself, not rounding, sets the limit
 
 
@@ -36,7 +38,7 @@ class _Case:
     scene: Scene
     quantities: Mapping[str, Quantity]
     limits: Mapping[str, float]
-    run: Callable[[Scene, Method], Result]
+    run: Callable[..., Result]  # scene, setting, and a formulation other than the one asked for
 
     def differences(self, one: Result, other: Result) -> dict[str, float]:
         return {name: compare(q.values(one), q.values(other)).largest for name, q in self.quantities.items()}
@@ -95,10 +97,11 @@ def simulate_to_accuracy(
     needed = {channel for quantity in measured.values() for channel in quantity.channels}
     wanted = None if channels is None else sorted({*channels, *needed})
 
-    def run(changed: Scene, setting: Method) -> Result:
+    def run(changed: Scene, setting: Method, other_formulation: str | None = None) -> Result:
+        chosen = settings if other_formulation is None else {**settings, "formulation": other_formulation}
         settled = Run(
             changed, model=model if changed is scene else None, channels=wanted,
-            integrator=setting.name, rtol=setting.tolerance, **settings,
+            integrator=setting.name, rtol=setting.tolerance, **chosen,
         )  # fmt: skip
         return finished(settled, progress=progress)
 
@@ -116,7 +119,7 @@ def _converged(case: _Case) -> Result:
         done.append(_run(case, setting))
         if done[-1].result.interrupted:
             break
-        errors, known = _errors(case, done[-1], done[-2])
+        errors, known = _errors(case, done)
         if case.excess(errors) <= 1.0:
             return _with_estimate(case, done, errors)
         if setting.tolerance <= TIGHTEST:
@@ -149,25 +152,49 @@ def first_setting(scene: Scene, quantities: Mapping[str, Quantity], limits: Mapp
     return setting_for(smallest / (SAFETY * PESSIMISM))
 
 
-def _errors(case: _Case, tight: _Done, loose: _Done) -> tuple[dict[str, float], bool]:
-    """Estimated errors of the tighter run, and whether they tell which setting would do."""
-    differences, motions = case.differences(tight.result, loose.result), case.motions(tight.result)
-    ratio = tight.setting.error / loose.setting.error
-    factor = SAFETY * ratio / (1.0 - ratio)
-    linear = {name: d <= COARSE * motions[name] for name, d in differences.items()}
-    errors = {name: d * (factor if linear[name] else max(factor, 1.0)) for name, d in differences.items()}
-    return errors, all(linear.values()) and tight.setting.tolerance > ROUNDING
+def _errors(case: _Case, done: Sequence[_Done]) -> tuple[dict[str, float], bool]:
+    """Estimated errors of the last run, and whether they tell which setting would do.
+
+    Every looser run has its say: two errors alone may be alike by chance where a motion amplifies them.
+    """
+    tight = done[-1]
+    motions = case.motions(tight.result)
+    looser = [one for one in done[:-1] if one.setting.error > tight.setting.error]
+    differences = [case.differences(tight.result, one.result) for one in looser]
+    ratios = [tight.setting.error / one.setting.error for one in looser]
+    factors = [SAFETY * ratio / (1.0 - ratio) for ratio in ratios]
+    last = differences[-1]
+    errors = {name: max(f * d[name] for f, d in zip(factors, differences, strict=True)) for name in last}
+    linear = {name: d <= COARSE * motions[name] for name, d in last.items()}
+    by_tolerance = not _cut_short(looser[-1].result)
+    errors |= {name: max(errors[name], d) for name, d in last.items() if not (linear[name] and by_tolerance)}
+    return errors, all(linear.values()) and by_tolerance and tight.setting.tolerance > ROUNDING
+
+
+def _cut_short(result: Result) -> bool:
+    """Whether hard stops, not the tolerance, set the length of many steps."""
+    return int(result.stats["restarts"]) > CUT_SHORT * int(result.stats["steps"])
 
 
 def _with_estimate(case: _Case, done: Sequence[_Done], errors: Mapping[str, float]) -> Result:
+    """The last run, with what differences of tolerance do not tell added to its errors."""
     last = done[-1]
     runs = [one.result for one in done]
+    if last.result.stats.get("rank_changed"):
+        other = _other_formulation(case, last)
+        if other.interrupted:
+            return other
+        apart = case.differences(last.result, other)
+        unexplained = {name: max(apart[name] - error, 0.0) for name, error in errors.items()}
+        errors = _added(errors, unexplained, SAFETY)
+        runs.append(other)
+        if case.excess(errors) > 1.0:
+            raise SceneError(_unreachable(case, errors, SINGULAR))
     if _table_may_show(case, last.result):
         exact = case.run(_with_exact_waves(case.scene), last.setting)
         if exact.interrupted:
             return exact
-        of_table = case.differences(last.result, exact)
-        errors = {name: error + of_table[name] for name, error in errors.items()}
+        errors = _added(errors, case.differences(last.result, exact), 1.0)
         runs.append(exact)
         if case.excess(errors) > 1.0:
             raise SceneError(_unreachable(case, errors, _bound_of_table(case.scene)))
@@ -177,6 +204,17 @@ def _with_estimate(case: _Case, done: Sequence[_Done], errors: Mapping[str, floa
     for name, limit in case.limits.items():
         stats |= {f"accuracy_{name}": limit, f"error_estimate_{name}": errors[name]}
     return replace(last.result, stats=stats)
+
+
+def _added(errors: Mapping[str, float], more: Mapping[str, float], factor: float) -> dict[str, float]:
+    return {name: error + factor * more[name] for name, error in errors.items()}
+
+
+def _other_formulation(case: _Case, done: _Done) -> Result:
+    """The same run in the other coordinates: at a singular position both leave combinations of rows out, of
+    rows of their own, and what that does to the motion no tolerance changes."""
+    other = "redundant" if done.result.stats["formulation"] == "recursive" else "recursive"
+    return case.run(case.scene, done.setting, other)
 
 
 def _table_may_show(case: _Case, result: Result) -> bool:
