@@ -31,6 +31,7 @@ from seacrane.hydro import (
     read_stl,
     read_veres,
 )
+from seacrane.hydro.veres_files import read_drift
 from seacrane.result import Result
 from seacrane.scene_file import load_scene
 
@@ -369,6 +370,19 @@ def test_cost_of_files_made_large(name: str, tmp_path: Path) -> None:
     with quiet():
         for _ in range(6):
             target.run(grown(generator.choice(pool), LARGE, generator), tmp_path)
+
+
+def test_many_speeds(tmp_path: Path) -> None:
+    """Each is compared with its neighbour, not with all."""
+    target = TARGETS["veres-re2"]
+    target.place(tmp_path)
+    head = (CORPUS / "veres" / "box.re2").read_text().splitlines()[:8]
+    count = 20_000
+    rows = [line for i in range(count) for line in (f"{i}.0 0.0", "0.5 0.0 0.0 0.0")]
+    text = "\n".join([*head, f"{count} 1 1", *rows, ""])
+    (tmp_path / "box.re2").write_text(text)
+    with bounded(len(text)):
+        assert len(read_drift(tmp_path / "box.re2").cases) == count
 
 
 def test_a_number_of_many_digits_in_a_hydrostatics_file(tmp_path: Path) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import pairwise
 from pathlib import Path
 from typing import TypeVar
 
@@ -232,7 +233,7 @@ def _one_omega(records: TextRecords, omega: FloatArray) -> FloatArray:
 
 def _distinct(path: Path, cases: list[Case]) -> tuple[Case, ...]:
     """The cases, none of whose speeds may occur twice."""
-    for i, case in enumerate(cases):
-        if any(same_speed(case.speed, other.speed) for other in cases[:i]):
-            raise FileFormatError(f"{path}: speed {case.speed:g} m/s is given twice; export the file again")
+    for case, other in pairwise(sorted(cases, key=lambda case: case.speed)):
+        if same_speed(case.speed, other.speed):
+            raise FileFormatError(f"{path}: speed {other.speed:g} m/s is given twice; export the file again")
     return tuple(cases)
