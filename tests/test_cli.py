@@ -158,7 +158,7 @@ def test_the_runs_file_holds_what_the_design_lists(
     stats = (
         "seacrane_version scene formulation integrator settings seed realised_hs simulated_s wall_s "
         "evaluations steps rejected_steps states coordinates constraints degrees_of_freedom "
-        "compiled_coordinates compiled_constraints wave_components fastest_mode_per_s"
+        "compiled_coordinates compiled_constraints wave_components"
     )
     assert sorted(result.coords["body"]) == sorted(bodies.split())
     assert sorted(result.coords["joint"]) == sorted(joints.split())

@@ -21,7 +21,10 @@ from seacrane import (
     SceneError,
     SimulationError,
     State,
+    StiffWarning,
+    linearise,
     simulate,
+    stiffness,
 )
 from seacrane.cases import vessel
 from seacrane.hull_range import MeanHeadingWarning
@@ -127,6 +130,50 @@ def test_the_limits_told_are_those_of_the_methods(method: str) -> None:
     with pytest.raises((SimulationError, AssertionError)):
         left = simulate(slide(1.0), dt=1.05 * limit, **settings)
         assert np.abs(left["velocity"][:, 0, 0]).max() < 1e3
+
+
+def held(mode: float) -> Scene:
+    """Two boxes on slides: one critically damped at `mode` (rad/s), one slow."""
+    scene = Scene(name="held")
+    for i, (name, speed) in enumerate((("stiff", mode), ("slow", 1.0))):
+        place = (0, float(i), 0)
+        scene.add_body(name=name, mass=1.0, inertia=[1, 1, 1], position=place, velocity=(0.1, 0, 0))
+        scene.add_joint(
+            kind="prismatic", name=f"{name} rail", first="ground", second=name, point=place, axis=(1, 0, 0)
+        )
+        scene.add_actuator(name=name, joint=f"{name} rail", stiffness=speed**2, damping=2.0 * speed)
+    return scene
+
+
+@pytest.mark.parametrize("integrator", ["dopri5", "dop853", "bs32"])
+def test_a_run_that_one_fast_mode_makes_slow_tells_the_mode_and_the_body(integrator: str) -> None:
+    with pytest.warns(StiffWarning, match=r"mode, (\S+) per s .* moves body 'stiff'") as caught:
+        result = simulate(held(5e3), t_end=20.0, integrator=integrator, channels=["position"])
+    told = re.search(r"mode, (\S+) per s", str(caught[0].message))
+    assert told is not None
+    # A double eigenvalue: half of its digits are told.
+    assert float(told[1]) == pytest.approx(5e3, rel=1e-3)
+    assert "fastest mode" in str(result.stats["validity"])
+
+
+@pytest.mark.parametrize(("mode", "integrator"), [(5e3, "rosenbrock"), (5e3, "cvode-bdf"), (5.0, "dopri5")])
+def test_a_run_that_is_not_slow_looks_for_no_mode(
+    mode: float, integrator: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(linearise, "jacobian", None)
+    monkeypatch.setattr(stiffness, "jacobian", None)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        result = simulate(held(mode), t_end=20.0, integrator=integrator, channels=["position"])
+    assert "fastest_mode_per_s" not in result.stats
+
+
+def test_a_fast_motion_that_the_outputs_show_is_no_stiffness() -> None:
+    """As many steps, but what takes them is what was asked for."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        result = simulate(held(5e3), t_end=20.0, dt_out=0.001, channels=["position"])
+    assert int(result.stats["steps"]) > 10_000
 
 
 def test_a_collapsed_step_names_the_state_and_what_to_try() -> None:

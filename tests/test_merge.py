@@ -179,6 +179,39 @@ def test_a_pendulum_with_a_weld_is_the_compound_pendulum() -> None:
     assert model.merge["coordinates"] == 6
 
 
+def welded_bob() -> Scene:
+    """Two links, the second with a bob welded on, held by springs of controllers."""
+    scene = Scene(name="welded bob")
+    for i, (name, first) in enumerate((("upper", "ground"), ("lower", "upper"))):
+        scene.add_body(name=name, mass=1.0, inertia=[0.1] * 3, position=(i + 0.5, 0, 0))
+        scene.add_joint(
+            kind="revolute", name=f"{name} pin", first=first, second=name, point=(i, 0, 0), axis=(0, 1, 0)
+        )
+        scene.add_actuator(name=name, joint=f"{name} pin", stiffness=5.0, damping=0.1)
+    scene.add_body(name="bob", mass=1.0, inertia=[0.1] * 3, position=(2, 0, 0))
+    scene.add_joint(kind="weld", name="weld", first="lower", second="bob", point=(2, 0, 0))
+    return scene
+
+
+# rk4-exact-memory wants fluid memory; cvode-adams compiles a scene of its own, with Baumgarte's terms.
+@pytest.mark.parametrize(
+    "integrator", sorted(set(_core.integrator_names()) - {"rk4-exact-memory", "cvode-adams"})
+)
+def test_merging_costs_no_integrator_evaluations(integrator: str) -> None:
+    """A capability lost on the way to the merged bodies, such as a Jacobian, costs several times as many."""
+    counts = []
+    for merge in (True, False):
+        scene = welded_bob()
+        run = Run(
+            scene, t_end=1.0, model=scene.compile(merge=merge), integrator=integrator,
+            dt=0.01 if integrator.startswith("generalized-alpha") else 0.02 * (integrator == "ark-mri"),
+            formulation="redundant", rtol=1e-4,
+        )  # fmt: skip
+        run.advance(1.0)
+        counts.append(run.core.statistics()["evaluations"])
+    assert counts[0] == pytest.approx(counts[1], rel=0.2)
+
+
 def test_two_vessels_and_the_ground_stay_apart() -> None:
     scene = Scene(gravity=0.0)
     for i, name in enumerate(("one", "mast", "two", "quay")):

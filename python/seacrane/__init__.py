@@ -78,6 +78,7 @@ if TYPE_CHECKING:
     from seacrane.sea import SeaState, WaveSystem
     from seacrane.sea_state import WavesWithoutLoadWarning, add_sea
     from seacrane.simulation import Run, simulate
+    from seacrane.stiffness import StiffWarning
     from seacrane.trading import Trade, trade
     from seacrane.trading.fixed_step import StepError, step_error
     from seacrane.validity import (
@@ -145,6 +146,7 @@ _HOME = {
     "State": "_core",
     "StateSpaceBlock": "_core",
     "StepError": "trading.fixed_step",
+    "StiffWarning": "stiffness",
     "StreamedResult": "long_run",
     "SummedResponse": "frequency_domain",
     "Trade": "trading",
@@ -244,6 +246,7 @@ __all__ = [
     "State",
     "StateSpaceBlock",
     "StepError",
+    "StiffWarning",
     "StreamedResult",
     "SummedResponse",
     "Trade",

@@ -26,7 +26,8 @@ from seacrane.sampled_controller import (
     only_setter,
 )
 from seacrane.scene import Scene
-from seacrane.step_advice import step_advice
+from seacrane.step_advice import STABLE_UP_TO, step_advice
+from seacrane.stiffness import stiffness
 from seacrane.validity import Finding, as_text, findings, warn_of
 from seacrane.version import __version__
 
@@ -160,10 +161,10 @@ class Run:
         )  # fmt: skip
         if scene.waves is not None:
             scene.waves.warn_of_repeats(self.t_end - self.start.time)
-        self._fastest_mode = fastest_mode(self.model)  # before the run, so that Ctrl-C need not wait for it
         self.interrupted = False
         self.steered = _steered(scene, self.start.inputs)
         self.found: list[Finding] = []  # out of range, as the last result tells
+        self.slow: list[Finding] = []  # what made the run slow, known at its end
 
     def __repr__(self) -> str:
         return f"<Run of {self.scene.name!r}: {self.formulation}, {self.integrator}, at {self.core.time:g} s>"
@@ -235,7 +236,6 @@ class Run:
             "compiled_constraints": tree["loop_rows"] if recursive else model.merge["constraints"],
             "memory_states": model.memory_states,
             "history_samples": model.history_samples,
-            "fastest_mode_per_s": self._fastest_mode,
             **statistics,
             **sea,
         }
@@ -262,7 +262,8 @@ class Run:
         if self._wanted is not None:
             channels = {name: values for name, values in channels.items() if name in self._wanted}
         scene, stats = self.scene, self.stats()
-        self.found = self.judged(findings(scene, arrays["time"], channels, stats, self.steered))
+        found = findings(scene, arrays["time"], channels, stats, self.steered)
+        self.found = self.judged(found + self.slow)
         if self.found:
             stats["validity"] = as_text(self.found)
         return Result.from_arrays(
@@ -283,6 +284,13 @@ class Run:
             state=self.last_state() if most is None else None,
         )
 
+    def look_for_stiffness(self) -> None:
+        """Find what made the run slow, where one mode did."""
+        last = self.last_state()
+        states = [self.start] if last is None else [self.start, last]
+        self.slow = stiffness(self.model, list(self.scene.bodies), states, self.stats())
+        self.found = self.judged(self.slow)
+
     def last_state(self) -> _core.State | None:
         """The present state, or None where its rate cannot be found."""
         try:
@@ -296,9 +304,11 @@ class Run:
     def explain(self, error: SeacraneError) -> None:
         """Hang what has been recorded on an error that ends the run, and what its fixed step could be."""
         self.interrupted = True
-        step = self.settings["dt"] or (self.core.time - self.start.time) / max(self._steps(), 1)
-        advice = step_advice(self.integrator, step, self._fastest_mode)
-        if isinstance(error, SimulationError) and advice:
+        advice = ""
+        if isinstance(error, SimulationError) and self.integrator in STABLE_UP_TO:
+            step = self.settings["dt"] or (self.core.time - self.start.time) / max(self._steps(), 1)
+            advice = step_advice(self.integrator, step, fastest_mode(self.model))
+        if advice:
             error.args = (f"{error}. {advice}",)
         with contextlib.suppress(MemoryError):
             error.result = self.result()
@@ -422,6 +432,8 @@ def simulate(
     SoftGainsWarning, NearSingularWarning
         After the run, when its motions left the range in which the models hold; also in `stats`, as
         "validity". See docs/troubleshooting.md.
+    StiffWarning
+        After a slow run, when one fast mode set the steps of its explicit method; in `stats` likewise.
     DriverImpulseWarning, AngleUnitWarning, CompassDirectionWarning, MassUnitWarning, BallastWarning
         Before it, when the description most likely does not say what was meant. See docs/mistakes.md.
     """
@@ -485,6 +497,8 @@ def drive(run: Run, controllers: Sequence[SampledController] = (), *, progress: 
         raise stopped from error
     finally:
         close()
+    if not run.interrupted:
+        run.look_for_stiffness()
 
 
 def _advance(

@@ -29,9 +29,21 @@ struct Dependence {
 int redundant_rows(const Model& model, int known, int left_out);
 
 /// A system of bodies in some choice of coordinates, which can be told from the poses and twists of all
-/// bodies (the state of the redundant form, StateLayout) and back without loss.
+/// bodies (the state of the redundant form, StateLayout) and back without loss. What a System may leave out a
+/// formulation has to answer: one that stands for another must not lose any of it unseen.
 class Formulation : public System {
  public:
+  bool project(double t, double* y, bool evaluated_here) override = 0;
+  bool has_projection() const override = 0;
+  std::size_t position_size() const override = 0;
+  void move(double h, double* y) override = 0;
+  bool move_jacobian(double h, const double* y, double* out) override = 0;
+  bool jacobian(double t, const double* y, double* out) override = 0;
+  std::string missing_fast_part() const override = 0;
+  void split(double t, const double* y) override = 0;
+  void fast_derivative(double t, const double* y, double* ydot) override = 0;
+  std::vector<LinearBlock> linear_blocks() const override = 0;
+
   virtual const char* name() const = 0;
   /// Typical magnitude per state component; infinity: not in the error norm.
   virtual std::vector<double> scale() const = 0;

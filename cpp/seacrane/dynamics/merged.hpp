@@ -29,6 +29,9 @@ class MergedSystem final : public Formulation {
   Dependence take_dependence() override { return stepped().take_dependence(); }
   std::size_t position_size() const override { return stepped().position_size(); }
   void move(double h, double* y) override { stepped().move(h, y); }
+  bool move_jacobian(double h, const double* y, double* out) override {
+    return stepped().move_jacobian(h, y, out);
+  }
   std::string missing_fast_part() const override { return stepped().missing_fast_part(); }
   void split(double t, const double* y) override { stepped().split(t, y); }
   void fast_derivative(double t, const double* y, double* ydot) override {

@@ -26,6 +26,7 @@ class RecursiveSystem final : public Formulation {
   bool jacobian(double t, const double* y, double* out) override;
   std::size_t position_size() const override { return idx(tree_.positions); }
   void move(double h, double* y) override;
+  bool move_jacobian(double /*h*/, const double* /*y*/, double* /*out*/) override { return false; }
   std::vector<LinearBlock> linear_blocks() const override;
   std::string missing_fast_part() const override;
   void split(double t, const double* y) override;
