@@ -47,7 +47,7 @@ bool AdaptiveStep::end_is_finite() {
 double AdaptiveStep::starting_step(double remaining) {
   const double size_of_state = norm_.norm(state_.data(), state_.data());
   // An estimate can be zero at the level of rounding, and would let every step pass.
-  if (size_of_state * rounding > 1.0) {
+  if (norm_.over_tolerances(state_.data()) * rounding > 1.0) {
     fail(0.0, IntegrationError::no_component, "the tolerances are far below the rounding of the state");
   }
   const double size_of_slope = norm_.norm(start_derivative_.data(), state_.data());

@@ -125,10 +125,8 @@ bool EmbeddedPair<Tableau>::try_step(double h, double t_end) {
 template <class Tableau>
 double EmbeddedPair<Tableau>::error(double h) const {
   const Slopes k = slopes();
-  const double* const absolute = norm_.absolute();
-  const double relative = norm_.relative();
   const auto tolerance = [&](std::size_t i) {
-    return absolute[i] + relative * std::max(std::abs(state_[i]), std::abs(end_state_[i]));
+    return norm_.tolerance(i, std::max(std::abs(state_[i]), std::abs(end_state_[i])));
   };
   double sum = 0.0, low = 0.0;
   for (std::size_t i = 0; i < size(); ++i) {
@@ -153,7 +151,7 @@ std::size_t EmbeddedPair<Tableau>::dominant_component(double) const {
   double largest = -1.0;
   for (std::size_t i = 0; i < size(); ++i) {
     const double slope = LinearCombination<Error, stages + 1>::slope(k, i);
-    const double ratio = std::abs(slope) / (norm_.absolute()[i] + norm_.relative() * std::abs(state_[i]));
+    const double ratio = std::abs(slope) / norm_.tolerance(i, std::abs(state_[i]));
     if (ratio > largest) {
       largest = ratio;
       worst = i;

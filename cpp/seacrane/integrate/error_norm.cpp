@@ -45,7 +45,16 @@ ErrorNorm::ErrorNorm(const Tolerances& tolerances, std::size_t size)
 double ErrorNorm::norm(const double* vector, const double* y) const {
   double sum = 0.0;
   for (std::size_t i = 0; i < absolute_.size(); ++i) {
-    const double ratio = vector[i] / (absolute_[i] + relative_ * std::abs(y[i]));
+    const double ratio = vector[i] / tolerance(i, std::abs(y[i]));
+    sum += ratio * ratio;
+  }
+  return std::sqrt(sum * inverse_count_);
+}
+
+double ErrorNorm::over_tolerances(const double* y) const {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < absolute_.size(); ++i) {
+    const double ratio = y[i] / (absolute_[i] + relative_ * std::abs(y[i]));
     sum += ratio * ratio;
   }
   return std::sqrt(sum * inverse_count_);
@@ -54,7 +63,7 @@ double ErrorNorm::norm(const double* vector, const double* y) const {
 double ErrorNorm::distance(const double* a, const double* b) const {
   double sum = 0.0;
   for (std::size_t i = 0; i < absolute_.size(); ++i) {
-    const double ratio = (a[i] - b[i]) / (absolute_[i] + relative_ * std::abs(a[i]));
+    const double ratio = (a[i] - b[i]) / tolerance(i, std::abs(a[i]));
     sum += ratio * ratio;
   }
   return std::sqrt(sum * inverse_count_);
@@ -62,7 +71,7 @@ double ErrorNorm::distance(const double* a, const double* b) const {
 
 void ErrorNorm::weights(const double* y, double* w) const {
   for (std::size_t i = 0; i < absolute_.size(); ++i) {
-    w[i] = weight_scale_ / (absolute_[i] + relative_ * std::abs(y[i]));
+    w[i] = weight_scale_ / tolerance(i, std::abs(y[i]));
   }
 }
 

@@ -1,17 +1,24 @@
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 namespace seacrane {
 
-/// Error tolerances: |error_i| is measured against absolute[i] + relative * |y_i|.
+/// Error tolerances: |error_i| is measured against absolute[i] + relative * |y_i|, but never against less
+/// than kRounding * |y_i|, which no method can tell.
 struct Tolerances {
   double relative;
   /// One value per component, or a single one for all. Infinity takes a component (a quadrature of
   /// work, say) out of the error norm.
   std::vector<double> absolute;
 };
+
+/// Rounding of an evaluation and of the sums over a step, relative to the value.
+constexpr double kRounding = 16.0 * std::numeric_limits<double>::epsilon();
 
 /// Root mean square of an error over the included components, each divided by its tolerance.
 class ErrorNorm {
@@ -22,11 +29,17 @@ class ErrorNorm {
   std::size_t size() const { return absolute_.size(); }
   double relative() const { return relative_; }
   const double* absolute() const { return absolute_.data(); }
+  /// What an error of component i is measured against, where its magnitude is `size`.
+  double tolerance(std::size_t i, double size) const {
+    return std::max(absolute_[i] + relative_ * size, kRounding * size);
+  }
   /// 1 / (number of components in the norm).
   double inverse_count() const { return inverse_count_; }
 
   /// Norm of `vector` at the state y.
   double norm(const double* vector, const double* y) const;
+  /// Norm of y over the tolerances alone, without regard to rounding.
+  double over_tolerances(const double* y) const;
   /// Norm of a - b at the state a.
   double distance(const double* a, const double* b) const;
   /// Reciprocal tolerances w, scaled so that sqrt(mean over all components of (w e)^2) is norm(e).

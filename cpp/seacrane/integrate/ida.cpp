@@ -13,6 +13,9 @@
 namespace seacrane {
 namespace {
 
+/// Factors of the wanted over the last step between which IDA keeps the last one: its own are 1 and 2.
+constexpr double kNoSmaller = 1.0, kGrows = 2.0, kNeverGrows = 1e3;
+
 /// Tolerances for the unknowns of the residual form. One value, or one per unknown, is taken as it is. One
 /// per state component of the System is given to the differential unknowns in their order; the algebraic
 /// ones get infinity here, and a size of their own at each restart.
@@ -54,6 +57,11 @@ struct FreeIda {
 ///
 /// The stabilised form keeps the constraints to the tolerance of the Newton iteration; state() is in
 /// addition projected, as a copy that does not feed back.
+///
+/// A step that failed the error test is held before it may grow again, for as many steps as IDA wants to see
+/// of equal length before it raises the order. Else order 1 is a trap: of equal steps it sees no error in
+/// what it damps, the same in every step, so it doubles them, then sees the change, and halves them, for
+/// ever.
 class Ida final : public SundialsIntegrator {
  public:
   Ida(System& system, ResidualSystem& residual, const IntegratorOptions& options)
@@ -83,6 +91,7 @@ class Ida final : public SundialsIntegrator {
   bool error_estimates(N_Vector errors, N_Vector weights) const override;
   void create();
   void size_multipliers();
+  void hold_after_failure();
   void project(double t);
   double typical(std::size_t j) const;
   double multiplier_tolerance() const;
@@ -108,6 +117,8 @@ class Ida final : public SundialsIntegrator {
   ErrorNorm norm_;
   std::size_t n_;
   double multiplier_size_ = 1.0;
+  long failures_ = 0;  // of the error test since the last restart
+  int held_ = 0;       // steps before the next may grow
   std::vector<double> derivative_, trial_, trial_derivative_, trial_residual_, differential_;
   // Written by dense_output(), which is const to the caller.
   mutable std::vector<double> dense_;
@@ -136,6 +147,7 @@ void Ida::create() {
 void Ida::restart() {
   residual_.expand(time_, state_.data(), solution_.data(), derivative_.data());
   size_multipliers();
+  failures_ = held_ = 0;
   if (memory_) {
     require(IDAReInit(memory_.get(), time_, solution_vector_.get(), derivative_vector_.get()), "IDAReInit");
     return;
@@ -226,9 +238,22 @@ double Ida::advance(double t_limit) {
   const int flag = IDASolve(memory_.get(), t_limit, &reached, solution_vector_.get(),
                             derivative_vector_.get(), IDA_ONE_STEP);
   if (flag < 0) fail("the implicit step");
+  hold_after_failure();
   residual_.contract(reached, solution_.data(), state_.data());
   project(reached);
   return reached;
+}
+
+void Ida::hold_after_failure() {
+  void* const memory = memory_.get();
+  long failures = 0;
+  int order = 1;
+  IDAGetNumErrTestFails(memory, &failures);
+  IDAGetLastOrder(memory, &order);
+  held_ = failures > failures_ ? order + 2 : std::max(held_ - 1, 0);
+  failures_ = failures;
+  require(IDASetEtaFixedStepBounds(memory, kNoSmaller, held_ > 0 ? kNeverGrows : kGrows),
+          "IDASetEtaFixedStepBounds");
 }
 
 void Ida::project(double t) {

@@ -189,7 +189,7 @@ double RosenbrockW::error(double h) const {
   double sum = 0.0;
   for (std::size_t i = 0; i < size(); ++i) {
     const double size_of_state = std::max(std::abs(state_[i]), std::abs(end_state_[i]));
-    const double ratio = error_slope(i) / (norm_.absolute()[i] + norm_.relative() * size_of_state);
+    const double ratio = error_slope(i) / norm_.tolerance(i, size_of_state);
     sum += ratio * ratio;
   }
   return h * std::sqrt(sum * norm_.inverse_count());
@@ -197,7 +197,7 @@ double RosenbrockW::error(double h) const {
 
 std::size_t RosenbrockW::dominant_component(double) const {
   const auto ratio = [&](std::size_t i) {
-    return std::abs(error_slope(i)) / (norm_.absolute()[i] + norm_.relative() * std::abs(state_[i]));
+    return std::abs(error_slope(i)) / norm_.tolerance(i, std::abs(state_[i]));
   };
   std::size_t worst = 0;
   for (std::size_t i = 1; i < size(); ++i) {
