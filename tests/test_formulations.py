@@ -17,6 +17,8 @@ from random_loops import nearly_flat, shape_of
 from random_scenes import Shape, build, moving, shapes
 from reference.classic import Link
 from reference.mechanisms import SliderCrank
+from reference_problems import bricard
+from test_redundant_joints import bars
 
 from seacrane import Evaluator, Model, Run, Scene, SceneError, cases, integrator_names, simulate
 
@@ -360,3 +362,62 @@ def test_auto_takes_the_formulation_that_the_scene_allows() -> None:
     assert simulate(cases.vessel(kinematics="paper"), t_end=0.1).stats["formulation"] == "redundant"
     assert simulate(door(), t_end=0.1, integrator="ida").stats["formulation"] == "redundant"
     assert simulate(crank(), t_end=0.1).stats["formulation"] == "redundant"
+
+
+def hanging_chain(links: int, *, door: bool = False, load: float = 0.0) -> Scene:
+    """Links of 1 kg; a door on two hinges beside them, or a load on the last one and a rod to the ground."""
+    scene = Scene(name="chain", gravity=9.81)
+    before, at = "ground", np.zeros(3)
+    for i in range(links):
+        angle = 0.6 + 0.2 * np.sin(3.0 * i)
+        along, half = np.array([np.sin(angle), 0.0, -np.cos(angle)]), 0.5 * (angle - 0.5 * np.pi)
+        scene.add_body(name=f"link {i}", mass=1.0, inertia=[0.01, 1 / 12, 1 / 12], position=at + 0.5 * along,
+                       quaternion=(np.cos(half), 0, -np.sin(half), 0))  # fmt: skip
+        scene.add_joint(
+            kind="revolute", name=f"pin {i}", first=before, second=f"link {i}", point=at, axis=(0, 1, 0)
+        )
+        before, at = f"link {i}", at + along
+    if load:
+        scene.add_body(name="load", mass=load, inertia=[load] * 3, position=at)
+        scene.add_joint(kind="spherical", name="hook", first=before, second="load", point=at)
+        scene.add_body(name="bob", mass=1.0, inertia=[1.0] * 3, position=(50, 0, -3))
+        scene.add_joint(
+            kind="distance", name="rod", first="ground", second="bob", point=(50, 0, 0),
+            second_point=(50, 0, -3),
+        )  # fmt: skip
+    if door:
+        scene.add_body(name="door", mass=100.0, inertia=[10.0] * 3, position=(50, 0.5, 0))
+        for k in range(2):
+            scene.add_joint(
+                kind="revolute", name=f"hinge {k}", first="ground", second="door", point=(50, 0, k),
+                axis=(0, 0, 1),
+            )  # fmt: skip
+    return scene
+
+
+def chosen(scene: Scene) -> str:
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", UserWarning)
+        return Run(scene, t_end=1.0).formulation
+
+
+def test_auto_keeps_a_chain_recursive_beside_a_door_on_two_hinges() -> None:
+    """One redundant joint would make all of the redundant form dense; the chain moves as it does alone."""
+    alone, beside = hanging_chain(30), hanging_chain(30, door=True)
+    assert chosen(beside) == "recursive"
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", UserWarning)
+        runs = [simulate(s, t_end=0.3, rtol=1e-9, channels=["position"]) for s in (alone, beside)]
+    np.testing.assert_allclose(runs[1]["position"][:, :30], runs[0]["position"], atol=1e-7)
+
+
+def test_auto_takes_the_recursive_form_for_a_light_wire_under_a_heavy_load() -> None:
+    assert chosen(hanging_chain(30, load=1e5)) == "recursive"
+    assert chosen(hanging_chain(30)) == "recursive"
+
+
+@pytest.mark.parametrize("scene", [bars(2), bars(3), bricard.scene(), hanging_chain(1, door=True)],
+                         ids=["parallelogram", "three cranks", "bricard", "door"])  # fmt: skip
+def test_auto_stays_with_the_redundant_form_where_a_loop_is_small(scene: Scene) -> None:
+    """There the recursive form saves little in an evaluation, and takes many times the steps at a fold."""
+    assert chosen(scene) == "redundant"

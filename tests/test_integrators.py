@@ -24,6 +24,84 @@ def test_error_falls_with_the_tolerance(integrator: str) -> None:
     assert errors[1] < 1e-4, errors
 
 
+def turning_about_a_ball(speed: float) -> Scene:
+    """A body without weight that turns about its ball joint: its centre stays on a circle, at 0.5 m."""
+    scene = Scene(name="ball", gravity=0.0)
+    scene.add_body(
+        name="body",
+        mass=1.0,
+        inertia=[1 / 12] * 3,
+        center_of_mass=(0.5, 0, 0),
+        angular_velocity=(0, speed, 0),
+    )
+    scene.add_joint(kind="spherical", name="ball", first="ground", second="body", point=(0, 0, 0))
+    return scene
+
+
+def test_errors_of_ida_on_a_turning_body_fall_with_the_tolerance() -> None:
+    """Order 1 damps a steady rotation by as much in every step, which its error estimate does not see."""
+    errors, steps = [], []
+    for rtol in (1e-4, 1e-5, 1e-6, 1e-7, 1e-8):
+        result = simulate(turning_about_a_ball(8.0), t_end=5.0, integrator="ida", rtol=rtol)
+        errors.append(np.abs(result["position"][:, 0, 0] - 0.5 * np.cos(8.0 * result.time)).max())
+        steps.append(int(result.stats["steps"]))
+        assert np.abs(result["energy_balance"]).max() < 1e3 * rtol
+    assert errors[0] < 5e-3
+    assert errors[2] < 1e-4
+    assert errors[4] < 1e-6
+    assert max(steps) < 10_000
+
+
+def test_ida_refuses_redundant_joints_by_name() -> None:
+    scene = turning_about_a_ball(1.0)
+    scene.add_joint(kind="spherical", name="other", first="ground", second="body", point=(0, 0, 1))
+    with (
+        pytest.warns(UserWarning, match="redundant"),
+        pytest.raises(SceneError, match=r"'ida' is not available here: the joints ball, other are redundant"),
+    ):
+        simulate(scene, t_end=1.0, integrator="ida")
+
+
+def fast_crank(speed: float, *, crank: float = 0.01, rod: float = 0.03) -> Scene:
+    """A slider-crank of centimetres, its crank up, without weight."""
+    scene = Scene(name="fast crank", gravity=0.0)
+    reach, tip = np.sqrt(rod**2 - crank**2), np.array([speed * crank, 0.0, 0.0])
+    lean = 0.5 * np.arcsin(crank / rod)
+    bodies: dict[str, dict[str, Any]] = {
+        "crank": {"position": (0, 0, crank / 2), "velocity": tip / 2, "angular_velocity": (0, speed, 0)},
+        "rod": {"position": (reach / 2, 0, crank / 2), "velocity": tip,
+                "quaternion": (np.cos(lean), 0, np.sin(lean), 0)},
+        "slider": {"position": (reach, 0, 0), "velocity": tip},
+    }  # fmt: skip
+    for name, state in bodies.items():
+        scene.add_body(name=name, mass=0.1, inertia=[1e-5] * 3, **state)
+    end = (reach, 0, 0)
+    scene.add_joint(kind="revolute", name="shaft", first="ground", second="crank", axis=(0, 1, 0))
+    scene.add_joint(kind="spherical", name="pin", first="crank", second="rod", point=(0, 0, crank))
+    scene.add_joint(kind="universal", name="cross", first="rod", second="slider", point=end, axis=(0, 1, 0),
+                    second_axis=(0, 0, 1))  # fmt: skip
+    scene.add_joint(
+        kind="prismatic", name="guide", first="ground", second="slider", point=end, axis=(1, 0, 0)
+    )
+    return scene
+
+
+@pytest.mark.parametrize("formulation", ["redundant", "recursive"])
+@pytest.mark.parametrize(("integrator", "rtol", "limit"), [
+    ("cvode-bdf", 1e-7, 1e-8),
+    ("cvode-bdf", 1e-8, 1e-8),
+    ("dop853", 1e-13, 1e-11),
+])  # fmt: skip
+def test_a_mechanism_of_1400_rad_per_s_is_no_obstacle(
+    integrator: str, rtol: float, limit: float, formulation: str
+) -> None:
+    """Tolerances are absolute, some 1e-13 of such speeds: below what evaluations and projections resolve."""
+    settings: dict[str, Any] = {"t_end": 0.002, "dt_out": 0.001, "formulation": formulation}
+    found = simulate(fast_crank(1400.0), integrator=integrator, rtol=rtol, **settings)
+    exact_enough = simulate(fast_crank(1400.0), integrator="dop853", rtol=1e-10, **settings)
+    assert np.abs(found["position"] - exact_enough["position"]).max() < limit
+
+
 def tumbling() -> Scene:
     """A free body that tumbles: no constraint, no projection, an exact copy of SciPy's problem."""
     scene = Scene(gravity=9.81)

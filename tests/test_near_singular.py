@@ -120,6 +120,61 @@ def test_a_bifurcation_between_outputs_is_told(formulation: str) -> None:
     assert np.abs(result["energy_balance"]).max() > 1e-4  # what the warning is about
 
 
+def chain(links: int, *, hinges: int = 1, lean: float = 0.0) -> Scene:
+    """A beam on `hinges` hinges on one line, and links of 1 m and 20 kg from it, leaning by `lean` rad."""
+    scene = Scene(name="chain", gravity=GRAVITY)
+    scene.add_body(name="beam", mass=50.0, inertia=[5.0] * 3)
+    for i in range(hinges):
+        scene.add_joint(
+            kind="revolute", name=f"hinge {i}", first="ground", second="beam", point=(0, i, 0), axis=(0, 1, 0)
+        )
+    along = np.array([np.sin(lean), 0.0, -np.cos(lean)])
+    before = "beam"
+    for i in range(links):
+        scene.add_body(
+            name=f"link {i}",
+            mass=20.0,
+            inertia=[0.02, 1.7, 1.7],
+            position=(i + 0.5) * along,
+            quaternion=(np.cos(0.5 * lean), 0, -np.sin(0.5 * lean), 0),
+            angular_velocity=(0, 0.1 * (-1) ** i * lean, 0),
+        )
+        scene.add_joint(
+            kind="revolute",
+            name=f"pin {i}",
+            first=before,
+            second=f"link {i}",
+            point=i * along,
+            axis=(0, 1, 0),
+        )
+        before = f"link {i}"
+    return scene
+
+
+@pytest.mark.parametrize("formulation", FORMULATIONS)
+@pytest.mark.parametrize("links", [24, 40])
+def test_a_long_chain_at_rest_is_not_singular(links: int, formulation: str) -> None:
+    """Its smallest singular value falls as n^-2, and none of its rows depends on others."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        stats = simulate(chain(links), t_end=0.1, formulation=formulation).stats
+    assert float(stats["smallest_singular_value"]) < 1e-4
+    assert stats["rank_changed"] == 0
+
+
+def test_a_long_chain_on_redundant_hinges_keeps_all_its_joints() -> None:
+    """Beside redundant rows the redundant form would leave out a combination of the chain's."""
+    places = []
+    for hinges in (1, 2):
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            without_redundancy_warning()
+            result = simulate(chain(30, hinges=hinges, lean=0.5), t_end=0.2, rtol=1e-9)
+        assert result.stats["formulation"] == "recursive"
+        places.append(result["position"][-1])
+    np.testing.assert_allclose(places[1], places[0], atol=1e-7)
+
+
 def pendulum(inertia: float, t: float) -> NDArray[np.float64]:
     """Place of a point 1 m from a hinge about y, let go level."""
     share = GRAVITY / (1.0 + inertia)

@@ -1,6 +1,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <iterator>
 
 #include "test_integrate_problems.hpp"
 
@@ -121,7 +122,11 @@ TEST_CASE("the order of every method is measured") {
   std::vector<std::string> all = integrator_names();
   std::ranges::sort(measured);
   std::ranges::sort(all);
-  CHECK(measured == all);
+  std::vector<std::string> either;
+  std::ranges::set_symmetric_difference(measured, all, std::back_inserter(either));
+  std::string not_in_both;
+  for (const std::string& name : either) not_in_both += name + " ";
+  CHECK(not_in_both == "");
 }
 
 TEST_CASE("dense output of the one-step methods has its order") {

@@ -53,7 +53,7 @@ BodyKinematics<double> closed(const JointData& j, const BodyKinematics<double>& 
 TEST_CASE("D of every joint type is the derivative of phi, gamma that of -D v, on and off the constraint") {
   Random random(1);
   for_each_joint_type([&]<class Type>(std::size_t) {
-    CAPTURE(Type::kind);
+    CAPTURE(std::string(Type::kind));
     for (int trial = 0; trial < 20; ++trial) {
       const JointData j = random_joint(random);
       const auto a = random.kinematics();
@@ -72,7 +72,7 @@ TEST_CASE("D of every joint type is the derivative of phi, gamma that of -D v, o
 TEST_CASE("a joint type has the rows it states, independent where the joint is closed") {
   Random random(2);
   for_each_joint_type([&]<class Type>(std::size_t) {
-    CAPTURE(Type::kind);
+    CAPTURE(std::string(Type::kind));
     const JointData j = random_joint(random);
     const auto a = random.kinematics();
     const bool universal = std::string(Type::kind) == "universal";

@@ -13,6 +13,7 @@ from seacrane import _core
 from seacrane.channel_names import core_channels, named_channels, payload_of
 from seacrane.checked import number_of, numbers_of
 from seacrane.errors import SceneError, SeacraneError, SimulationError
+from seacrane.formulation_cost import recursive_pays
 from seacrane.joint_coordinates import ANGLES
 from seacrane.linearise import fastest_mode
 from seacrane.output_times import output_times
@@ -114,6 +115,8 @@ class Run:
         ):
             scene = scene.copy(baumgarte=BAUMGARTE_OF_ADAMS)
             model = scene.compile()
+        if integrator == "ida":
+            _refuse_redundant_joints(model)
         self.scene = scene
         self.model = model
         known = self.model.channel_names(defaults_only=False)
@@ -314,6 +317,17 @@ class Run:
             error.result = self.result()
 
 
+def _refuse_redundant_joints(model: _core.Model) -> None:
+    """SceneError where joints that are stepped depend on each other: `ida` solves for each multiplier."""
+    stepped = [name for name in model.redundant if name not in model.merge["dropped"]]
+    if stepped:
+        raise SceneError(
+            f"integrator 'ida' is not available here: the joints {', '.join(stepped)} are redundant, and it "
+            "solves for every reaction; give one of them more freedom, or choose a method that projects, as "
+            "'cvode-bdf' does"
+        )
+
+
 def _formulation(asked: str, model: _core.Model, integrator: str) -> str:
     """The formulation to step; SceneError for a combination that does not exist."""
     if asked not in FORMULATIONS:
@@ -334,7 +348,9 @@ def _formulation(asked: str, model: _core.Model, integrator: str) -> str:
     if asked == "recursive" and reason:
         raise SceneError(f"formulation 'recursive' is not available here: {reason}; choose 'redundant'")
     if asked == "auto":
-        return "redundant" if reason or model.tree["loop_rows"] else "recursive"
+        if reason:
+            return "redundant"
+        return "recursive" if model.tree["loop_rows"] == 0 or recursive_pays(model) else "redundant"
     return asked
 
 
@@ -396,8 +412,8 @@ def simulate(
     formulation : str
         "redundant": six velocities per body and multipliers, the paper's. "recursive": the same motion in
         the coordinates of a tree of bodies, cylinder loops in closed form, other loops by a small block of
-        constraints; several times faster. "auto" (default) takes it where it leaves no constraints and the
-        integrator allows.
+        constraints; several times faster. "auto" (default) takes it where it leaves no constraints, or where
+        the redundant one would be solved densely at far more cost, and the integrator allows.
     channels : sequence of str, optional
         What to record; default: all default channels of the scene.
     controllers : sequence of SampledController

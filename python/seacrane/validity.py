@@ -21,7 +21,6 @@ Channels = Mapping[str, Array]
 Finding = tuple[type[Warning], str]
 
 LARGEST_HEEL = np.radians(20.0)  # of roll and pitch: the sine of it is 2 % off, a righting arm 10 % and more
-SINGULAR = 1e-4  # relative singular value below which combinations of constraints are not enforced
 FOREIGN_SHARE = 0.2  # of the energy of a motion, outside the database
 LEAST_RATE = 1e-3  # m/s, rad/s: motions below it do not matter
 FEWEST_OUTPUTS = 32
@@ -175,9 +174,9 @@ def _turns(scene: Scene, time: Array, channels: Channels) -> list[Finding]:
 
 
 def _singular(scene: Scene, stats: Mapping[str, Any]) -> list[Finding]:
-    value = stats.get("smallest_singular_value")
-    if value is None or (value >= SINGULAR and not stats.get("rank_changed")):
+    if not stats.get("rank_changed"):
         return []
+    value = stats["smallest_singular_value"]
     return [
         (
             NearSingularWarning,

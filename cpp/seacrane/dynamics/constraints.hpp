@@ -1,8 +1,21 @@
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+
 #include "seacrane/model/model.hpp"
 
 namespace seacrane {
+
+/// Residual, m or rad, below which projection leaves positions as they are: 1e-13, but less where bodies turn
+/// fast. What is left open lets speeds jump, by so many rad/s times as much, when it is closed one day; the
+/// history of a multistep method does not survive jumps beyond its tolerance.
+inline double position_tolerance(const BodyKinematics<double>* bodies, int count) {
+  constexpr double usual = 1e-13, slow = 10.0;  // rad/s
+  double squared = slow * slow;
+  for (int b = 0; b < count; ++b) squared = std::max(squared, bodies[b].angular_velocity.squaredNorm());
+  return usual * (slow * slow / squared);
+}
 
 /// Evaluates the rows of every joint and driver, each kind with its like; `blocks` by element.
 inline void evaluate_constraints(const Model& model, double t, double curve_limit,

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "seacrane/dynamics/constraints.hpp"
 #include "seacrane/dynamics/redundant.hpp"
 
 /// Drift removal on position and velocity level in the mass metric, and what is left of it.
@@ -137,7 +138,8 @@ bool RedundantSystem::project(double t, double* y, bool evaluated_here) {
   double worst = position_residual();
   before_projection_ = std::max(before_projection_, worst);
   bool changed = false;
-  for (int i = 0; worst > kProjectionTolerance && i < kProjectionIterations; ++i) {
+  const double tolerance = position_tolerance(bodies_.data(), m.body_count());
+  for (int i = 0; worst > tolerance && i < kProjectionIterations; ++i) {
     for (std::size_t e = 0; e < m.elements.size(); ++e) {
       for (int r = 0; r < m.elements[e].rows; ++r) residual_[idx(m.elements[e].row + r)] = blocks_[e].phi[r];
     }

@@ -9,16 +9,13 @@
 namespace seacrane {
 
 /// Error tolerances: |error_i| is measured against absolute[i] + relative * |y_i|, but never against less
-/// than kRounding * |y_i|, which no method can tell.
+/// than the rounding of y_i, which no method can tell.
 struct Tolerances {
   double relative;
   /// One value per component, or a single one for all. Infinity takes a component (a quadrature of
   /// work, say) out of the error norm.
   std::vector<double> absolute;
 };
-
-/// Rounding of an evaluation and of the sums over a step, relative to the value.
-constexpr double kRounding = 16.0 * std::numeric_limits<double>::epsilon();
 
 /// Root mean square of an error over the included components, each divided by its tolerance.
 class ErrorNorm {
@@ -31,7 +28,8 @@ class ErrorNorm {
   const double* absolute() const { return absolute_.data(); }
   /// What an error of component i is measured against, where its magnitude is `size`.
   double tolerance(std::size_t i, double size) const {
-    return std::max(absolute_[i] + relative_ * size, kRounding * size);
+    const double asked = absolute_[i] + relative_ * size;
+    return std::max(asked, std::min(rounding * size, most_eased * asked));
   }
   /// 1 / (number of components in the norm).
   double inverse_count() const { return inverse_count_; }
@@ -48,6 +46,11 @@ class ErrorNorm {
   double typical(std::size_t i) const;
 
  private:
+  /// Of an evaluation and of the sums over a step, relative to the value.
+  static constexpr double rounding = 16.0 * std::numeric_limits<double>::epsilon();
+  /// Tolerances further below rounding are no oversight: steps collapse, and say so.
+  static constexpr double most_eased = 1e4;
+
   double relative_;
   std::vector<double> absolute_;
   double inverse_count_;

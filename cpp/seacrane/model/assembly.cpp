@@ -15,7 +15,8 @@ namespace {
 
 constexpr double kClosed = 1e-9;  // m, rad: a loop open by more than this is contradictory
 constexpr int kRestarts = 6;      // of the projection's own Newton iterations
-constexpr int kDenseRows = 600;   // above, redundancy is told from the pivots alone
+constexpr int kDenseRows = 600;   // above, rows are taken for independent unless their pivots tell otherwise
+constexpr double kSuspicious = 1e5;  // largest S_ii / d_i of rows that need no closer look
 
 double largest(const ElementModel& e, const Vec6d& phi) {
   return e.rows == 0 ? 0.0 : phi.head(e.rows).cwiseAbs().maxCoeff();
@@ -179,6 +180,12 @@ void mark_redundant(Model& m, const MatXd& null_space) {
   }
 }
 
+bool depend(const Model& m, RedundantSystem& system) {
+  std::vector<double> rate(system.size());
+  system.derivative(0.0, m.initial_state.data(), rate.data());
+  return system.condition() > kSuspicious && system.rank(0.0, m.initial_state.data()).rank < m.rows();
+}
+
 }  // namespace
 
 void assemble(Model& model) {
@@ -186,14 +193,14 @@ void assemble(Model& model) {
   AssemblyReport& report = model.assembly;
   const std::vector<double> before = model.initial_state;
   std::vector<double>& y = model.initial_state;
-  const bool dense = model.rows() <= kDenseRows;
   // The Newton steps are minimum-norm while the rank is unknown.
-  model.redundant = dense;
+  model.redundant = model.rows() <= kDenseRows;
   const std::shared_ptr<const Model> view(&model, [](const Model*) {});
   RedundantSystem system(view);
   report.residual_before = system.residual(0.0, y.data()).position;
   report.open = open_elements(model, system);
   check_regular(model, system);
+  if (!model.redundant && system.solves_dependent_rows()) model.redundant = depend(model, system);
   close(model, system);
   const ConstraintResidual after = system.residual(0.0, y.data());
   report.residual_after = after.position;
@@ -208,12 +215,12 @@ void assemble(Model& model) {
   report.rank = found.rank;
   report.condition = found.condition;
   model.redundant = found.rank < model.rows();
-  if (model.redundant && !(dense && system.solves_dependent_rows())) {
-    throw SceneError("scene '" + model.description.name + "': has redundant joints (S_ii/d_i = " +
-                     to_text(found.condition) + "), " + std::to_string(model.body_count()) + " bodies and " +
-                     std::to_string(model.rows()) + " constraints; with more than " +
-                     std::to_string(kDenseRows) + " constraints, or " + std::to_string(kDenseLimit) +
-                     " of them and six a body together, remove the redundant ones");
+  if (model.redundant && !system.solves_dependent_rows()) {
+    throw SceneError("scene '" + model.description.name +
+                     "': has redundant joints (S_ii/d_i = " + to_text(found.condition) + "), " +
+                     std::to_string(model.body_count()) + " bodies and " + std::to_string(model.rows()) +
+                     " constraints; with more than " + std::to_string(kDenseLimit) +
+                     " constraints and velocities, six a body, remove the redundant ones");
   }
   if (model.redundant) mark_redundant(model, found.null_space);
 }

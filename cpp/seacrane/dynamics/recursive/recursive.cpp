@@ -201,7 +201,8 @@ bool RecursiveSystem::project(double t, double* y, bool evaluated_here) {
     loops_.add_load(blocks_.data(), loops_.solve(residual_), load_.data());
     articulated_.solve(load_.data(), false, acceleration_.data(), speed_rate_.data());
   };
-  for (int i = 0; worst > kProjectionTolerance && i < kProjectionIterations; ++i) {
+  const double tolerance = position_tolerance(terms_.bodies().data(), model_.body_count());
+  for (int i = 0; worst > tolerance && i < kProjectionIterations; ++i) {
     impulse();
     move_positions(y, acceleration_.data());
     changed = true;
