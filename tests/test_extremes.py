@@ -266,12 +266,12 @@ def test_hangs_and_crashes_are_told_and_the_rest_goes_on() -> None:
 
 def test_a_scene_that_cannot_be_made_is_a_row_of_its_own() -> None:
     groups = [
-        workers.Group(axis="wave-period", value=1.0, methods=(DEFAULT,), limit_s=1.0),
+        workers.Group(axis="wave-period", value=-1.0, methods=(DEFAULT,), limit_s=1.0),
         workers.Group(axis="no such axis", value=1.0, methods=(DEFAULT,), limit_s=1.0),
     ]
     refused, unnamed = list(workers.run_all(groups, 1))
     assert refused.verdict == rows.REFUSED
-    assert "outside" in refused.message
+    assert "tp is -1" in refused.message
     assert unnamed.verdict == rows.UNNAMED
     assert "KeyError" in unnamed.message
 
