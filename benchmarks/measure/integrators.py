@@ -129,7 +129,7 @@ def table(points: list[Point], uncertainty: float, *, repeats: int) -> Section:
             f"ark-erk at rtol 1e-10 differs from that reference by {uncertainty:.1e} m. cvode-adams cannot "
             "project and uses Baumgarte stabilisation; of ark-mri the evaluations of the fast part, the "
             "actuators', are not counted; rosenbrock, generalized-alpha, ark-dirk, ark-imex, "
-            "cvode-bdf and ida form their Jacobians by differences, which take many of their evaluations."
+            "cvode-bdf and ida take exact Jacobians, which are not counted either."
         ),
         head=["integrator", "setting", "CPU, ms", "over fastest", "evaluations",
               "payload error, m", "cylinder force error, N", "stopped because"],
