@@ -9,6 +9,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).parents[1]
 PYTHON, CPP = ROOT / "python" / "seacrane", ROOT / "cpp" / "seacrane"
+BINDINGS = ROOT / "cpp" / "bindings"
 THROW = re.compile(
     r"throw (?:std::domain_error|IntegrationError|ChatteringError)\("
     r"|\bfail\(|last_error = |reason = |std::string text ="
@@ -20,7 +21,7 @@ LITERAL = re.compile(r'"((?:[^"\\]|\\.)*)"')
 def stops_of_cpp() -> dict[str, str]:
     """Words of every statement that ends a run, by file and line."""
     out: dict[str, str] = {}
-    for path in sorted(CPP.rglob("*.[ch]pp")):
+    for path in sorted([*CPP.rglob("*.[ch]pp"), *BINDINGS.rglob("*.[ch]pp")]):
         if path.parent.name in ("model", "sea", "strip", "math", "joints", "loads", "hydro"):
             continue  # checks of descriptions: SceneError
         text = path.read_text()

@@ -137,7 +137,7 @@ def test_a_run_writes_its_file_and_a_summary(
 ) -> None:
     done, folder = lift
     assert done.returncode == 0, done.stderr
-    assert sorted(path.name for path in folder.iterdir()) == ["case2.nc", "case2.state"]
+    assert sorted(path.name for path in folder.iterdir()) == ["case2.nc"]
     assert "times real time" in done.stdout and "worst constraint error" in done.stdout
     assert f"saved {folder / 'case2.nc'}" in done.stdout
 

@@ -109,6 +109,32 @@ def test_a_later_run_is_not_touched_by_an_earlier_ctrl_c() -> None:
     assert told["more"] == [False, 2.0]
 
 
+def test_ctrl_c_several_times_in_a_row_loses_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Pressed again while outputs are brought home; test_streaming.py has the same for runs to a file."""
+    result = Run.result
+
+    def pressed(run: Run, most: int | None = None) -> Any:
+        for _ in range(3):
+            signal.raise_signal(signal.SIGINT)
+        found = result(run, most)
+        signal.raise_signal(signal.SIGINT)
+        return found
+
+    def press(now: float, measured: Any) -> dict[str, float]:
+        if now > 1.0:
+            signal.raise_signal(signal.SIGINT)
+        return {}
+
+    monkeypatch.setattr(Run, "result", pressed)
+    ticks = [SampledController(period=0.5, function=press)]
+    told = simulate(ball_on_a_pin(), t_end=1e6, dt_out=0.5, controllers=ticks)
+    assert told.interrupted
+    assert told.time[-1] == 1.5
+    assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
+    with pytest.raises(KeyboardInterrupt):
+        signal.raise_signal(signal.SIGINT)
+
+
 def test_an_exception_of_another_signal_is_not_taken_for_ctrl_c() -> None:
     told = run_script(
         "def alarm(number, frame):\n    raise TimeoutError('time is up')\n"
@@ -238,6 +264,7 @@ def after(limit: float, error: BaseException | None = None, **inputs: Any) -> Sa
 ENDS: dict[str, tuple[type[Exception], dict[str, Any]]] = {
     "integration": (SimulationError, {"integrator": "rk4", "dt": 0.41}),
     "controller": (SimulationError, {"controllers": [after(1.0, KeyError("wire"))]}),
+    "exit in a controller": (SimulationError, {"controllers": [after(1.0, SystemExit(3))]}),
     "memory in a controller": (SimulationError, {"controllers": [after(1.0, MemoryError())]}),
     "inputs": (SceneError, {"controllers": [after(1.0, **{"engine.force": 1.0})]}),
 }
@@ -261,6 +288,48 @@ def test_what_was_recorded_before_an_error_is_kept(name: str, tmp_path: Path) ->
 
     again = Result.load(partial.save(tmp_path / "partial.nc"))
     assert np.array_equal(again["position"], partial["position"])
+
+
+def test_what_another_signals_handler_raises_carries_what_was_recorded() -> None:
+    def alarm(number: int, frame: Any) -> None:
+        raise TimeoutError("time is up")
+
+    before = signal.signal(signal.SIGALRM, alarm)
+    signal.setitimer(signal.ITIMER_REAL, 0.2)
+    try:
+        with pytest.raises(TimeoutError) as caught:
+            simulate(ball_on_a_pin(), t_end=1e6, dt_out=10.0)
+    finally:
+        signal.signal(signal.SIGALRM, before)
+    assert caught.value.result.interrupted  # type: ignore[attr-defined]
+
+
+BAD_NOTES: dict[str, tuple[Any, str]] = {
+    "an object": (object(), r"notes\['x'\] is a object"),
+    "not a number": (float("nan"), "is not a number"),
+    "a set": ([{1}], r"notes\['x'\]\[0\] is a set"),
+}
+
+
+@pytest.mark.parametrize("name", BAD_NOTES)
+def test_notes_that_no_file_can_hold_are_refused_before_the_run(name: str) -> None:
+    scene = ball_on_a_pin()
+    scene.notes["x"], words = BAD_NOTES[name]
+    with pytest.raises(SceneError, match=words):
+        Run(scene, t_end=1.0)
+    scene.notes["x"] = scene.notes
+    with pytest.raises(SceneError, match="contain themselves"):
+        Run(scene, t_end=1.0)
+
+
+def test_notes_of_every_plain_kind_reach_the_result_and_settings_stay_its_own(tmp_path: Path) -> None:
+    scene = ball_on_a_pin()
+    scene.notes.update(limit=np.inf, table=np.eye(2), place=tmp_path, rtol="looked fine to me")
+    settings = json.loads(str(simulate(scene, t_end=0.1).stats["settings"]))
+    assert settings["table"] == [[1.0, 0.0], [0.0, 1.0]]
+    assert settings["place"] == str(tmp_path)
+    assert settings["limit"] == {"$infinite": 1}
+    assert settings["rtol"] == 1e-6
 
 
 def test_memory_that_runs_out_in_the_loop_leaves_what_was_recorded(monkeypatch: pytest.MonkeyPatch) -> None:

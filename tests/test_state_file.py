@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import json
+import os
 import subprocess
 import sys
 from pathlib import Path
@@ -16,6 +17,7 @@ from test_restart import SCENES
 
 from seacrane import (
     FileFormatError,
+    Result,
     Run,
     Scene,
     SceneError,
@@ -260,6 +262,35 @@ def test_a_step_that_no_run_left_is_refused(saved: Path) -> None:
     saved.write_bytes(bytes(body) + hashlib.sha256(body).digest())
     with pytest.raises(SceneError, match="holds a step of -1"):
         simulate(SCENES["chain"](), t_end=1.0, start=State.load(saved))
+
+
+def test_a_state_does_not_replace_a_result(saved: Path, tmp_path: Path) -> None:
+    result = simulate(SCENES["chain"](), t_end=0.5)
+    path = result.save(tmp_path / "chain.nc")
+    assert result.state is not None
+    with pytest.raises(FileExistsError, match=r"chain\.nc is there and is not a state file"):
+        result.state.save(path)
+    assert Result.load(path).time.size == result.time.size
+    result.state.save(saved)
+    assert State.load(saved) == result.state
+
+
+def test_devices_folders_and_protected_files_are_not_replaced_and_links_are_followed(tmp_path: Path) -> None:
+    state = Run(SCENES["chain"](), t_end=1.0).state
+    with pytest.raises(OSError, match="is a device"):
+        state.save(os.devnull)
+    assert Path(os.devnull).is_char_device()
+    with pytest.raises(OSError, match="is a folder"):
+        state.save(tmp_path)
+    path, link = tmp_path / "a.state", tmp_path / "link.state"
+    link.symlink_to(path)
+    for _ in range(2):
+        state.save(link)
+        assert link.is_symlink()
+        assert State.load(path) == state
+    path.chmod(0o444)
+    with pytest.raises(OSError, match="is write-protected"):
+        state.save(path)
 
 
 def test_an_older_file_stays_when_a_state_cannot_be_written(

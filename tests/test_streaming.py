@@ -28,6 +28,7 @@ from seacrane import (
     simulate_to_file,
 )
 from seacrane.result import stream
+from seacrane.result.partial_file import PartialFile, Piece
 from seacrane.sea.spectra import SteepSeaWarning
 
 GENEROUS = 60.0  # s
@@ -67,13 +68,13 @@ def stopping_after(
     append = stream.ResultFile.append
     done = []
 
-    def counted(file: stream.ResultFile, piece: Result, *, interrupted: bool) -> None:
-        done.append(piece)
+    def counted(file: stream.ResultFile, result: Result, **given: Any) -> None:
+        done.append(result)
         if len(done) == pieces:
             if error is not None:
                 raise error
             signal.raise_signal(signal.SIGINT)
-        append(file, piece, interrupted=interrupted)
+        append(file, result, **given)
 
     monkeypatch.setattr(stream.ResultFile, "append", counted)
 
@@ -88,7 +89,8 @@ def test_a_file_holds_what_simulate_returns(outputs: int, tmp_path: Path) -> Non
     assert not read.interrupted
     for name in set(whole.stats) - {"wall_s"}:
         assert whole.stats[name] == read.stats[name] == told.stats[name]
-    assert sorted(p.name for p in tmp_path.iterdir()) == ["run.nc", "run.state"]
+    assert [p.name for p in tmp_path.iterdir()] == ["run.nc"]
+    assert read.state == whole.state
 
 
 def test_whole_turns_go_on_from_piece_to_piece_and_over_a_stop(tmp_path: Path) -> None:
@@ -108,10 +110,10 @@ def test_a_stopped_run_goes_on_to_the_same_file(
     scene = cases.case2(memory=memory)
     # Long enough for the loop to ask Python several times, also on a machine ten times as fast.
     settings: dict[str, Any] = {"t_end": 300.0, "dt_out": 0.1, "rtol": 1e-11}
-    for pieces in (1, 2):
+    for pieces in (2, 3):
         with monkeypatch.context() as patch:
             stopping_after(pieces, patch)
-            told = simulate_to_file(scene, tmp_path / "run.nc", resume=pieces > 1, **settings)
+            told = simulate_to_file(scene, tmp_path / "run.nc", resume=pieces > 2, **settings)
         assert told.interrupted
         partial = told.load()
         assert partial.interrupted
@@ -160,7 +162,6 @@ import sys
 from pathlib import Path
 from seacrane import cases, simulate_to_file
 from seacrane.result import stream
-from seacrane.sea.spectra import SteepSeaWarning
 stream.MOST_ROWS = 16
 simulate_to_file(cases.case2(), Path(sys.argv[1]) / "run.nc", t_end=1e5, dt_out=0.5, checkpoint_every=20.0)
 """
@@ -168,22 +169,26 @@ simulate_to_file(cases.case2(), Path(sys.argv[1]) / "run.nc", t_end=1e5, dt_out=
 
 def test_a_killed_run_leaves_outputs_and_a_state_to_go_on_from(tmp_path: Path) -> None:
     process = subprocess.Popen([sys.executable, "-c", KILLED, str(tmp_path)])
-    until = time.monotonic() + GENEROUS
-    while not (tmp_path / "run.state").exists():
+    until, left = time.monotonic() + GENEROUS, stream.partial_path(tmp_path / "run.nc")
+    while not (left.exists() and left.stat().st_size > 2e5):
         assert time.monotonic() < until
         time.sleep(0.05)
-    time.sleep(0.3)
+    growing = Result.load(left)
+    assert growing.interrupted
+    assert growing.state is not None
     process.kill()
     process.wait()
-    partial = Result.load(stream.partial_path(tmp_path / "run.nc"))
-    assert partial.interrupted
-    assert partial.time.size > 16
+    partial = Result.load(left)
+    assert partial.time.size >= growing.time.size > 16
     t_end = float(partial.time[-1]) + 20.0
     settings: dict[str, Any] = {"t_end": t_end, "dt_out": 0.5}
-    with pytest.raises(FileExistsError, match=r"run\.partial\.nc is there from a run that was killed"):
+    with pytest.raises(FileExistsError, match=r"run\.nc\.partial holds .* stopped or killed: resume=True"):
         simulate_to_file(cases.case2(), tmp_path / "run.nc", **settings)
+    with pytest.raises(FileNotFoundError, match=r"its run has left .*run\.nc\.partial"):
+        Result.load(tmp_path / "run.nc")
     told = simulate_to_file(cases.case2(), tmp_path / "run.nc", resume=True, **settings)
     same(simulate(cases.case2(), **settings), told.load())
+    assert [p.name for p in tmp_path.iterdir()] == ["run.nc"]
 
 
 FULL = """
@@ -191,7 +196,6 @@ import resource, sys, json
 from pathlib import Path
 from seacrane import cases, simulate_to_file, Result
 from seacrane.result import stream
-from seacrane.sea.spectra import SteepSeaWarning
 stream.MOST_ROWS = 64
 path = Path(sys.argv[1]) / "run.nc"
 resource.setrlimit(resource.RLIMIT_FSIZE, (int(sys.argv[2]), int(sys.argv[2])))
@@ -208,13 +212,17 @@ def test_a_full_disk_leaves_the_outputs_that_had_room(tmp_path: Path) -> None:
         capture_output=True, text=True, check=True, timeout=GENEROUS,
     )  # fmt: skip
     text = json.loads(run.stdout)
-    assert "could not write" in text and "run.nc" in text and "the outputs until then" in text
-    partial = Result.load(tmp_path / "run.nc")
+    left = stream.partial_path(tmp_path / "run.nc")
+    partial = Result.load(left)
     assert partial.interrupted
     assert partial.time.size > 300
+    assert "could not write" in text
+    assert f"the outputs until {partial.time[-1]:.6g} s are kept in {left}" in text
     assert all(np.isfinite(values).all() for values in partial.channels.values())
-    assert not list(tmp_path.glob("*.partial.nc"))
-    assert not (tmp_path / "run.state").exists()
+    assert [p.name for p in tmp_path.iterdir()] == [left.name]
+    settings: dict[str, Any] = {"t_end": float(partial.time[-1]) + 10.0, "dt_out": 0.5}
+    told = simulate_to_file(cases.case2(), tmp_path / "run.nc", resume=True, **settings)
+    same(simulate(cases.case2(), **settings), told.load())
 
 
 def test_a_write_that_fails_once_is_made_up_for_at_the_end(
@@ -247,69 +255,190 @@ def test_an_error_in_a_controller_leaves_the_file(tmp_path: Path) -> None:
 def test_ctrl_c_while_a_piece_is_written_waits_for_it(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    dataset = stream._dataset
+    """Pressed before and after every write of it, and while the result's file is made."""
+    append, finish = PartialFile.append, stream.ResultFile.finish
     seen = []
 
-    def pressed(path: Path) -> Any:
-        if not seen:
-            signal.raise_signal(signal.SIGINT)
-        seen.append(path)
-        return dataset(path)
+    def pressed(file: PartialFile, piece: Piece) -> None:
+        seen.append(piece)
+        signal.raise_signal(signal.SIGINT)
+        append(file, piece)
+        signal.raise_signal(signal.SIGINT)
 
-    monkeypatch.setattr(stream, "_dataset", pressed)
+    def pressed_again(file: stream.ResultFile, *, reached_end: bool) -> Path:
+        signal.raise_signal(signal.SIGINT)
+        return finish(file, reached_end=reached_end)
+
+    monkeypatch.setattr(PartialFile, "append", pressed)
+    monkeypatch.setattr(stream.ResultFile, "finish", pressed_again)
     told = simulate_to_file(spinner(), tmp_path / "run.nc", t_end=1e5, dt_out=1.0)
     assert told.interrupted
-    assert told.outputs == told.load().time.size >= 16
+    assert told.outputs == told.load().time.size == sum(piece.outputs for piece in seen) >= 1
     assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
 
 
-READER = """
-import sys, netCDF4
-file = netCDF4.Dataset(sys.argv[1], "r")
-print(file["time"][:].size, flush=True)
-sys.stdin.readline()
-print(file["time"][:].size, flush=True)
-"""
-
-
-def test_a_program_that_reads_the_file_does_not_stop_the_run(tmp_path: Path) -> None:
-    """Its lock is its own: it keeps what it opened, and the run goes on."""
-    path, readers = tmp_path / "run.nc", []
+def test_a_growing_result_is_read_at_any_time(tmp_path: Path) -> None:
+    path, seen = tmp_path / "run.nc", []
 
     def look(now: float, measured: Any) -> dict[str, float]:
-        if now > 50.0 and not readers:
-            readers.append(
-                subprocess.Popen(
-                    [sys.executable, "-c", READER, str(stream.partial_path(path))],
-                    stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True,
-                )
-            )  # fmt: skip
-            assert readers[0].stdout is not None
-            assert int(readers[0].stdout.readline()) >= 16
+        seen.append(Result.load(stream.partial_path(path), channels=["velocity"]))
         return {}
 
-    ticks = [SampledController(period=1.0, function=look)]
-    told = simulate_to_file(spinner(), path, t_end=100.0, controllers=ticks)
-    left, _ = readers[0].communicate("go on\n", timeout=GENEROUS)
-    assert told.outputs == told.load().time.size == 1001
-    assert 16 <= int(left) < 1001
-    assert sorted(p.name for p in tmp_path.iterdir()) == ["run.nc", "run.state"]
+    ticks = [SampledController(period=10.0, function=look)]
+    told = simulate_to_file(spinner(), path, t_end=100.0, controllers=ticks, checkpoint_every=5.0)
+    whole = told.load()
+    for one in seen:
+        assert np.array_equal(one["velocity"], whole["velocity"][: one.time.size])
+    assert [one.time.size for one in seen] == sorted(one.time.size for one in seen)
+    assert seen[-1].time[-1] >= 80.0
+    assert [p.name for p in tmp_path.iterdir()] == ["run.nc"]
 
 
-def test_outputs_without_a_time_do_not_count(tmp_path: Path) -> None:
-    """A piece whose writing was broken off."""
-    import netCDF4
+@pytest.mark.parametrize("cut", range(1, 200, 17))
+def test_a_record_that_was_broken_off_does_not_count(cut: int, tmp_path: Path) -> None:
+    left = left_behind(tmp_path)
+    whole = Result.load(left)
+    data = left.read_bytes()
+    last = len(data) - cut
+    left.write_bytes(data[:last])
+    shorter = Result.load(left)
+    left.write_bytes(data[:last] + bytes(cut))  # room that was given and not filled
+    for partial in (shorter, Result.load(left)):
+        assert 0 < partial.time.size < whole.time.size
+        assert partial.state is not None
+        assert partial.time[-1] <= partial.state.time < whole.time[-1]
+        assert np.array_equal(partial["velocity"], whole["velocity"][: partial.time.size])
 
-    told = simulate_to_file(spinner(), tmp_path / "run.nc", t_end=5.0)
-    with netCDF4.Dataset(told.path, "a") as file:
-        file["velocity"][51:60] = 1.0
-    assert Result.load(told.path).time.size == 51
+
+def left_behind(folder: Path, **settings: Any) -> Path:
+    """What a killed run of the spinner leaves."""
+    code = (
+        "import os, sys; sys.path.insert(0, sys.argv[1])\n"
+        "from test_streaming import *\n"
+        "def look(now, measured):\n    if now > 9.0:\n        os._exit(1)\n    return {}\n"
+        "simulate_to_file(spinner(), sys.argv[2], t_end=20.0, checkpoint_every=1.0,"
+        " controllers=[SampledController(period=0.5, function=look)], **eval(sys.argv[3]))"
+    )
+    subprocess.run(
+        [sys.executable, "-c", code, str(Path(__file__).parent), str(folder / "run.nc"), repr(settings)],
+        check=False,
+    )
+    return stream.partial_path(folder / "run.nc")
+
+
+def test_a_partial_file_removed_under_its_writer_costs_nothing(tmp_path: Path) -> None:
+    path = tmp_path / "run.nc"
+
+    def remove(now: float, measured: Any) -> dict[str, float]:
+        stream.partial_path(path).unlink(missing_ok=True)
+        return {}
+
+    ticks = [SampledController(period=3.0, function=remove)]
+    told = simulate_to_file(spinner(), path, t_end=20.0, controllers=ticks, checkpoint_every=1.0)
+    assert told.load().time.size == told.outputs == 201
+    assert [p.name for p in tmp_path.iterdir()] == ["run.nc"]
+
+
+def test_two_runs_of_one_process_do_not_write_one_file(tmp_path: Path) -> None:
+    def second(now: float, measured: Any) -> dict[str, float]:
+        with pytest.raises(FileExistsError, match=r"run\.nc\.partial is being written by another run"):
+            simulate_to_file(spinner(), tmp_path / "run.nc", t_end=1.0, overwrite=True)
+        return {}
+
+    ticks = [SampledController(period=5.0, function=second)]
+    assert simulate_to_file(spinner(), tmp_path / "run.nc", t_end=10.0, controllers=ticks).outputs == 101
+
+
+REPLACED: dict[str, tuple[dict[str, Any], str | None]] = {
+    "the same": ({}, None),
+    "a later end": ({"t_end": 3.0}, None),
+    "an earlier end": ({"t_end": 1.0}, "has t_end 2.0, this run 1.0"),
+    "another tolerance": ({"rtol": 1e-8}, "has rtol 1e-06, this run 1e-08"),
+    "another interval": ({"dt_out": 0.2}, "has dt_out 0.1, this run 0.2"),
+    "other channels": ({"channels": ["velocity"]}, "has channels"),
+    "controllers": (
+        {"controllers": [SampledController(period=1.0, function=lambda now, measured: {})]},
+        "controllers, whose code cannot be compared",
+    ),
+}
+
+
+@pytest.mark.parametrize("name", REPLACED)
+def test_only_the_same_run_replaces_a_result_unasked(name: str, tmp_path: Path) -> None:
+    change, words = REPLACED[name]
+    path = tmp_path / "run.nc"
+    simulate_to_file(spinner(), path, t_end=2.0)
+    given: dict[str, Any] = {"t_end": 2.0, **change}
+    if words is not None:
+        before = path.read_bytes()
+        with pytest.raises(FileExistsError, match=words):
+            simulate_to_file(spinner(), path, **given)
+        assert path.read_bytes() == before
+        given["overwrite"] = True
+    assert simulate_to_file(spinner(), path, **given).load().time[-1] == given["t_end"]
+    assert [p.name for p in tmp_path.iterdir()] == ["run.nc"]
+
+
+def test_a_result_of_another_scene_or_of_anything_else_is_not_replaced(tmp_path: Path) -> None:
+    path = tmp_path / "run.nc"
+    for write in (lambda: path.write_text("a letter"), lambda: simulate(spinner(), t_end=1.0).save(path)):
+        write()
+        with pytest.raises(FileExistsError, match="is there and"):
+            simulate_to_file(spinner(), path, t_end=2.0)
+    other = spinner()
+    other.add_spring(name="soft", first="ground", second="king", stiffness=1.0)
+    simulate_to_file(other, path, t_end=2.0, overwrite=True)
+    with pytest.raises(FileExistsError, match="is of another scene"):
+        simulate_to_file(spinner(), path, t_end=2.0)
+
+
+def test_a_run_that_stops_early_leaves_an_older_result_alone(tmp_path: Path) -> None:
+    path = tmp_path / "run.nc"
+    simulate_to_file(spinner(), path, t_end=20.0)
+    before = path.read_bytes()
+
+    def fail(now: float, measured: Any) -> dict[str, float]:
+        if now > 5.0:
+            raise KeyboardInterrupt
+        return {}
+
+    ticks = [SampledController(period=0.5, function=fail)]
+    told = simulate_to_file(spinner(), path, t_end=20.0, controllers=ticks, overwrite=True)
+    assert told.interrupted
+    assert path.read_bytes() == before
+    assert told.path == stream.partial_path(path)
+    assert told.load().time[-1] == pytest.approx(5.5)
+    told = simulate_to_file(spinner(), path, t_end=20.0, resume=True)
+    assert told.load().time.size == 201
+    assert [p.name for p in tmp_path.iterdir()] == ["run.nc"]
+
+
+def test_a_file_without_a_state_does_not_ask_to_be_resumed(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("seacrane.long_run._FileRun.last_state", lambda run: None)
+    path = tmp_path / "run.nc"
+    simulate_to_file(spinner(), path, t_end=1.0)
+    with pytest.raises(FileFormatError, match="holds no state to go on from: overwrite=True starts"):
+        simulate_to_file(spinner(), path, t_end=2.0, resume=True)
+    assert Result.load(path).time.size == 11
+
+
+def test_where_nothing_can_be_written_nothing_is_said_to_be_kept(tmp_path: Path) -> None:
+    """A folder that takes no files: here it is one of the system's, for tests may run as its owner."""
+    for folder in (Path("/proc/self/fdinfo"), Path("/sys")):
+        if folder.is_dir():
+            with pytest.raises(OSError, match=r"could not write .*run\.nc: (?!.*kept)"):
+                simulate_to_file(spinner(), folder / "run.nc", t_end=1.0)
+    with pytest.raises(OSError, match="is a device"):
+        simulate_to_file(spinner(), Path(os.devnull), t_end=1.0)
 
 
 REFUSED: dict[str, tuple[dict[str, Any], type[Exception], str]] = {
     "other rtol": ({"rtol": 1e-3}, FileFormatError, "has rtol 1e-06, this run 0.001"),
     "other outputs": ({"dt_out": 0.2}, FileFormatError, "has dt_out 0.1, this run 0.2"),
-    "other integrator": ({"integrator": "rk4"}, FileFormatError, "left by 'dopri5'"),
+    "other integrator": ({"integrator": "rk4"}, FileFormatError, "has integrator 'dopri5', this run 'rk4'"),
+    "other channels": ({"channels": ["velocity"]}, FileFormatError, "has channels"),
     "start": ({"start": None}, SceneError, "start cannot be given"),
     "checkpoints": ({"checkpoint_every": -1.0}, SceneError, "make it positive"),
     "end": ({"t_end": 1.0}, SceneError, "before the start"),
@@ -328,19 +457,17 @@ def test_what_cannot_be_gone_on_with_is_refused_and_left_alone(name: str, tmp_pa
 
 def test_files_that_are_missing_or_foreign_are_named(tmp_path: Path) -> None:
     path = tmp_path / "run.nc"
-    with pytest.raises(FileNotFoundError, match=r"no state file .*run\.state"):
+    with pytest.raises(FileNotFoundError, match=r"no result file .*run\.nc to go on with"):
         simulate_to_file(spinner(), path, t_end=2.0, resume=True)
     with pytest.raises(OSError, match="there is no folder"):
         simulate_to_file(spinner(), tmp_path / "none" / "run.nc", t_end=2.0)
     simulate_to_file(spinner(), path, t_end=2.0)
-    with pytest.raises(FileFormatError, match=r"run\.state: is the state of another scene"):
+    with pytest.raises(FileFormatError, match=r"run\.nc is of another scene"):
         simulate_to_file(cases.case2(), path, t_end=3.0, resume=True)
     path.write_bytes(b"no result")
     with pytest.raises(FileFormatError, match="is not a result"):
         simulate_to_file(spinner(), path, t_end=3.0, resume=True)
-    path.unlink()
-    with pytest.raises(FileNotFoundError, match="no result file"):
-        simulate_to_file(spinner(), path, t_end=3.0, resume=True)
+    assert [p.name for p in tmp_path.iterdir()] == ["run.nc"]
 
 
 MEMORY = """
@@ -350,7 +477,7 @@ from seacrane import cases, simulate_to_file
 path = Path(sys.argv[1]) / "run.nc"
 peak = []
 for dt_out in (10.0, 0.02):
-    simulate_to_file(cases.case2(), path, t_end=400.0, dt_out=dt_out)
+    simulate_to_file(cases.case2(), path, t_end=400.0, dt_out=dt_out, overwrite=True)
     peak.append(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss)
 print(peak[1] - peak[0])
 """

@@ -7,6 +7,7 @@
 #include "seacrane/dynamics/redundant.hpp"
 #include "seacrane/run/recording.hpp"
 #include "vector_state.hpp"
+#include "without_gil.hpp"
 
 using namespace seacrane;
 using Array = py::array_t<double, py::array::c_style | py::array::forcecast>;
@@ -184,7 +185,7 @@ class Evaluator {
   void repeat(double t, const Array& y, long count, double dt) {
     check(y);
     std::vector<double> state(stepped().size()), rate(stepped().size());
-    py::gil_scoped_release release;
+    const WithoutGil released;
     clear_vector_state();
     stepped().read_bodies(t, y.data(), state.data());
     for (long i = 0; i < count; ++i) {
@@ -275,7 +276,7 @@ void bind_evaluator(py::module_& m) {
 }  // namespace
 
 void bind_model(py::module_& m) {
-  py::class_<Model, std::shared_ptr<Model>>(m, "Model",
+  py::class_<Model, std::shared_ptr<Model>>(m, "Model", py::dynamic_attr(),
                                             "A compiled scene: immutable, shareable between threads.")
       .def_property_readonly("name", [](const Model& x) { return x.description.name; })
       .def_property_readonly("tree", &tree_of,

@@ -4,6 +4,7 @@
 #include "seacrane/integrate/integration_error.hpp"
 #include "seacrane/model/validate.hpp"
 #include "seacrane/run/contacts.hpp"
+#include "without_gil.hpp"
 
 namespace {
 
@@ -53,4 +54,6 @@ PYBIND11_MODULE(_core, m) {
   bind_simulation(m);
   bind_strip(m);
   bind_repr(m);
+  bind_copies();
+  bind_exit();
 }

@@ -9,6 +9,7 @@
 
 #include "bindings.hpp"
 #include "seacrane/sea/exact_wave_load.hpp"
+#include "without_gil.hpp"
 
 using Doubles = py::array_t<double, py::array::c_style | py::array::forcecast>;
 
@@ -22,7 +23,7 @@ py::array_t<double> at_times(const Doubles& times, std::size_t first, std::size_
   const double* t = times.data();
   double* target = out.mutable_data();
   const py::ssize_t count = times.size();
-  const py::gil_scoped_release release;
+  const WithoutGil released;
   for (py::ssize_t i = 0; i < count; ++i) {
     if (!std::isfinite(t[i])) throw std::invalid_argument("wave load: a time is not finite; give times in s");
     double channels[seacrane::wave_channels];

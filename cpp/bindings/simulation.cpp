@@ -2,6 +2,7 @@
 
 #include "bindings.hpp"
 #include "seacrane/integrate/stability_polynomial.hpp"
+#include "turns.hpp"
 #include "vector_state.hpp"
 
 using namespace seacrane;
@@ -72,6 +73,75 @@ py::dict statistics(const Simulation& s) {
   out["wall_s"] = r.wall_seconds;
   out["states"] = s.state_size();
   return out;
+}
+
+py::list events(const Simulation& s) {
+  py::list out;
+  for (const Event& e : s.events()) {
+    out.append(
+        py::make_tuple(e.time, s.limit_name(e.limit), to_text(e.kind), e.speed, e.impulse, e.energy_lost));
+  }
+  return out;
+}
+
+/// A simulation that threads may share: one at a time is inside. A run that goes on lets the others in every
+/// 20 ms, between two steps.
+class SharedSimulation {
+ public:
+  SharedSimulation(std::shared_ptr<const Model> model, const State& start, RunOptions options)
+      : simulation_(std::move(model), start, std::move(options)) {}
+
+  bool advance(double t_end, const py::object& progress) {
+    const Turn turn(turns_);
+    if (advancing_) {
+      throw std::domain_error(
+          "run: is advanced already, by another thread or by whom it calls; give each thread a run of its "
+          "own");
+    }
+    const Advancing mark(advancing_);
+    const WithoutGil released;
+    clear_vector_state();
+    return simulation_.advance(t_end, [&](double time) {
+      if (WithoutGil::should_return()) return false;
+      const Turns::Pause pause(turns_);
+      return ask_python(time, progress);
+    });
+  }
+
+  template <class Function>
+  auto alone(const Function& function) {
+    const Turn turn(turns_);
+    return function(simulation_);
+  }
+
+  void enter() { turns_.take(); }
+  void leave() { turns_.give(); }
+
+ private:
+  struct Turn {
+    explicit Turn(Turns& all) : turns(all) { turns.take(); }
+    ~Turn() { turns.give(); }
+    Turn(const Turn&) = delete;
+    Turn& operator=(const Turn&) = delete;
+    Turns& turns;
+  };
+  struct Advancing {
+    explicit Advancing(bool& mark) : flag(mark) { flag = true; }
+    ~Advancing() { flag = false; }
+    Advancing(const Advancing&) = delete;
+    Advancing& operator=(const Advancing&) = delete;
+    bool& flag;
+  };
+
+  Turns turns_;
+  bool advancing_ = false;
+  Simulation simulation_;
+};
+
+/// A function of the simulation as a method that waits for its turn.
+template <class Function>
+auto alone(Function function) {
+  return [function](SharedSimulation& s) { return s.alone(function); };
 }
 
 using Rows = Eigen::Matrix<double, Eigen::Dynamic, 6, Eigen::RowMajor>;
@@ -218,8 +288,12 @@ void bind_simulation(py::module_& m) {
         "Coefficients of the stability polynomial of an explicit Runge-Kutta method, lowest power first: a "
         "step "
         "h of y' = lambda y multiplies y by R(h lambda). Empty for an integrator that has no tableau here.");
-  py::class_<Simulation>(m, "Simulation",
-                         "One run of a model: advance(), inputs, recorded channels. Not for several threads.")
+  using S = SharedSimulation;
+  py::class_<S>(
+      m, "Simulation",
+      "One run of a model: advance(), inputs, recorded channels. Threads may share it: one at a time "
+      "is inside; advance() lets the others in every 20 ms, between two steps. In a with statement "
+      "it is this thread's until the end of it.")
       .def(py::init([](const std::shared_ptr<Model>& model, const State& start, std::string integrator,
                        double rtol, double dt, double max_step, const Array& output_times,
                        std::set<std::string> names, std::string formulation,
@@ -235,48 +309,47 @@ void bind_simulation(py::module_& m) {
              options.output_times = to_vector(output_times);
              options.channels = std::move(names);
              options.capacity = capacity;
-             return std::make_unique<Simulation>(model, start, std::move(options));
+             return std::make_unique<S>(model, start, std::move(options));
            }),
            py::kw_only(), py::arg("model").none(false), py::arg("start"), py::arg("integrator"),
            py::arg("rtol"), py::arg("dt"), py::arg("max_step"), py::arg("output_times"), py::arg("channels"),
            py::arg("formulation") = "redundant", py::arg("spectral_radius") = py::none(),
            py::arg("energy_limit") = 0.0, py::arg("capacity") = 0)
+      .def("advance", &S::advance, py::arg("t_end"), py::arg("progress") = py::none(),
+           "Steps to t_end (s) without the GIL; returns False when Ctrl-C stopped it, or the interpreter "
+           "ends. "
+           "progress(time) is called now and then. SimulationError while the run is advanced already.")
+      .def("__enter__",
+           [](const py::object& self) {
+             self.cast<S&>().enter();
+             return self;
+           })
+      .def("__exit__", [](S& s, const py::object&, const py::object&, const py::object&) { s.leave(); })
+      .def_property_readonly("time", alone([](Simulation& s) { return s.time(); }))
+      .def_property_readonly("state", alone([](Simulation& s) { return s.state(); }), "copy")
       .def(
-          "advance",
-          [](Simulation& s, double t_end, const py::object& progress) {
-            py::gil_scoped_release release;
-            clear_vector_state();
-            return s.advance(t_end, [&](double time) { return ask_python(time, progress); });
+          "set_inputs",
+          [](S& s, const Array& slots) {
+            s.alone([&](Simulation& run) { run.set_inputs(to_vector(slots)); });
           },
-          py::arg("t_end"), py::arg("progress") = py::none(),
-          "Steps to t_end (s) without the GIL; returns False when Ctrl-C stopped it. progress(time) is "
-          "called now and then.")
-      .def_property_readonly("time", &Simulation::time)
-      .def_property_readonly("state", &Simulation::state, "copy")
-      .def(
-          "set_inputs", [](Simulation& s, const Array& slots) { s.set_inputs(to_vector(slots)); },
           py::arg("slots"), "Sets the zero-order-held inputs from now on.")
       .def(
-          "channels", [](const Simulation& s, std::size_t most) { return channels(s.recording(), most); },
+          "channels",
+          [](S& s, std::size_t most) {
+            return s.alone([most](Simulation& run) { return channels(run.recording(), most); });
+          },
           py::arg("most") = std::numeric_limits<std::ptrdiff_t>::max(),
           "Recorded arrays by name, time first (copies), of no more than the first `most` outputs.")
-      .def_property_readonly(
-          "recorded", [](const Simulation& s) { return s.recording().count(); }, "Outputs recorded.")
-      .def("drop", &Simulation::drop_rows, py::arg("count"), "Drops the first `count` outputs recorded.")
+      .def_property_readonly("recorded", alone([](Simulation& s) { return s.recording().count(); }),
+                             "Outputs recorded.")
       .def(
-          "snapshot", [](Simulation& s) { return channels(s.snapshot(), 1); },
-          "All channels at the present time, arrays of one row.")
-      .def(
-          "events",
-          [](const Simulation& s) {
-            std::vector<std::tuple<double, std::string, std::string, double, double, double>> out;
-            for (const Event& e : s.events()) {
-              out.emplace_back(e.time, s.limit_name(e.limit), to_text(e.kind), e.speed, e.impulse,
-                               e.energy_lost);
-            }
-            return out;
-          },
-          "(time in s, limit, kind, speed of approach in m/s or rad/s, impulse in N s or N m s, energy lost "
-          "in J) of all events so far.")
-      .def("statistics", &statistics);
+          "drop",
+          [](S& s, std::size_t count) { s.alone([count](Simulation& run) { run.drop_rows(count); }); },
+          py::arg("count"), "Drops the first `count` outputs recorded.")
+      .def("snapshot", alone([](Simulation& s) { return channels(s.snapshot(), 1); }),
+           "All channels at the present time, arrays of one row.")
+      .def("events", alone([](Simulation& s) { return events(s); }),
+           "(time in s, limit, kind, speed of approach in m/s or rad/s, impulse in N s or N m s, energy lost "
+           "in J) of all events so far.")
+      .def("statistics", alone([](Simulation& s) { return statistics(s); }));
 }

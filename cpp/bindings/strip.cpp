@@ -5,6 +5,7 @@
 #include "bindings.hpp"
 #include "seacrane/strip/section_radiation.hpp"
 #include "seacrane/strip/strip_theory.hpp"
+#include "without_gil.hpp"
 
 using namespace seacrane::strip;
 using Doubles = py::array_t<double, py::array::c_style | py::array::forcecast>;
@@ -131,6 +132,7 @@ py::array each(const std::vector<Of>& items, Item Of::*member, const std::vector
 }
 
 void ask_python() {
+  if (WithoutGil::should_return()) throw std::domain_error("strip theory: the interpreter is ending");
   const py::gil_scoped_acquire acquire;
   if (PyErr_CheckSignals() != 0) throw py::error_already_set();
 }
@@ -140,7 +142,7 @@ py::dict bound_section_radiation(const Doubles& points, const Doubles& omega, do
   const HalfSection section = to_section(points, "points");
   const std::vector<double> w = to_vector(omega, "omega");
   const SectionRadiation r = [&] {
-    const py::gil_scoped_release release;
+    const WithoutGil released;
     return section_radiation(section, w, {rho, g, panels}, &ask_python);
   }();
   const std::vector<py::ssize_t> n{static_cast<py::ssize_t>(w.size())};
@@ -161,7 +163,7 @@ py::dict bound_strip_theory(const Doubles& x, const std::vector<Doubles>& sectio
     input.sections.push_back(to_section(sections[i], "sections[" + std::to_string(i) + "]"));
   }
   const StripResult r = [&] {
-    const py::gil_scoped_release release;
+    const WithoutGil released;
     return strip_theory(input, &ask_python);
   }();
   const auto n = static_cast<py::ssize_t>(input.omega.size());

@@ -59,7 +59,7 @@ py::array_t<double> elevation(const WaveComponents& waves, const py::object& tim
   double* target = out.mutable_data();
   const py::ssize_t count = out.size();
   const double *t = at[0].data(), *px = at[1].data(), *py_ = at[2].data();
-  const py::gil_scoped_release release;
+  const WithoutGil released;
   clear_vector_state();
   for (py::ssize_t i = 0; i < count; ++i) target[i] = waves.elevation(t[i], px[i], py_[i]);
   return out;
@@ -102,7 +102,7 @@ WaveKinematics kinematics_at(const WaveComponents& waves, const py::object& time
   bool* wet = out.submerged.mutable_data();
   const py::ssize_t count = at[0].size();
   const double *t = at[0].data(), *px = at[1].data(), *py_ = at[2].data(), *pz = at[3].data();
-  const py::gil_scoped_release release;
+  const WithoutGil released;
   clear_vector_state();
   for (py::ssize_t i = 0; i < count; ++i) {
     const WaveParticle particle = kinematics(waves, t[i], px[i], py_[i], pz[i], kind);
@@ -186,7 +186,7 @@ ValueError
       .def("autocorrelation", py::vectorize(&WaveComponents::autocorrelation), py::arg("lag"),
            "Autocorrelation coefficient of the elevation at one point, for lags in s, any shape.")
       .def("repeat_period", &WaveComponents::repeat_period, py::arg("horizon") = 10800.0,
-           py::call_guard<py::gil_scoped_release>(),
+           py::call_guard<WithoutGil>(),
            "First time after the initial decay at which the autocorrelation is 0.99 again, s; `found` is "
            "False "
            "when it is proven that there is none before `horizon`.")

@@ -10,13 +10,18 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from seacrane import _core
+import numpy as np
+
 from seacrane.checked import number_of
-from seacrane.errors import FileFormatError, SceneError, SeacraneError
-from seacrane.result.stream import ResultFile
+from seacrane.errors import FileFormatError, SceneError
+from seacrane.interrupts import Interrupts
+from seacrane.result.result import checked_stats
+from seacrane.result.stream import DIGEST, Left, ResultFile, difference, rows_of_piece
 from seacrane.sampled_controller import SampledController, checked_controllers
 from seacrane.simulation import Run, drive
+from seacrane.state_file import state_from_bytes, state_to_bytes
 from seacrane.validity import Finding, as_text, warn_of
+from seacrane.version import __version__
 
 if TYPE_CHECKING:
     from seacrane.result import Result
@@ -33,9 +38,8 @@ class StreamedResult:
     Attributes
     ----------
     path : Path
-        NetCDF file, as `Result.save` writes it.
-    checkpoint : Path
-        State file, to go on from.
+        Where the outputs are, with the state where the run stopped: a NetCDF file, as `Result.save` writes
+        it; or <name>.partial, if the run stopped before its end and an older result has the name.
     outputs : int
         Outputs in the file.
     stats : mapping
@@ -45,7 +49,6 @@ class StreamedResult:
     """
 
     path: Path
-    checkpoint: Path
     outputs: int
     stats: Mapping[str, Any]
     interrupted: bool
@@ -64,30 +67,34 @@ def simulate_to_file(
     t_end: float = 100.0,
     checkpoint_every: float | None = None,
     resume: bool = False,
+    overwrite: bool = False,
     controllers: Sequence[SampledController] = (),
     progress: bool = False,
     **settings: Any,
 ) -> StreamedResult:
     """Simulate a scene and write its outputs to a file while the run goes on.
 
-    Outputs leave memory in pieces. Until the run ends, or is stopped by Ctrl-C or an error, the file is
-    called <name>.partial.nc, which other programs may read. Beside it goes <name>.state, from which
-    ``resume=True`` goes on: the file then holds, bit for bit, the outputs of a run that was not stopped
-    (methods of SUNDIALS restart there).
+    Outputs leave memory in pieces, each with the state where it ends. Until the run ends, they are added to
+    <name>.partial, which `Result.load` reads at any time and which is whole whenever the process is killed.
+    The result's own file is made of it when the run ends, or is stopped by Ctrl-C or an error.
+    ``resume=True`` goes on from either: the file then holds, bit for bit, the outputs of a run that was not
+    stopped (methods of SUNDIALS restart there).
 
     Parameters
     ----------
     scene : Scene
     path : path
-        NetCDF file; an older one of that name is replaced when the run ends.
+        NetCDF file. An older one is replaced when the run has reached its end, if it is of the same scene,
+        method and outputs and does not end later.
     t_end : float
         End time, s.
     checkpoint_every : float, optional
-        Simulated time between two states on disk, s, for runs that may be killed; default: only where the
-        run stops.
+        Simulated time between two pieces, s, for runs that may be killed; default: where a piece has 2 MiB
+        or 4096 outputs.
     resume : bool
-        Go on from the state and the outputs that an earlier call left, with its settings; `t_end` may be
-        later.
+        Go on with what an earlier call left, with its scene and its settings; `t_end` may be later.
+    overwrite : bool
+        Replace whatever has the name, and drop what a killed run left.
     controllers : sequence of SampledController
         As `simulate`. A run that goes on calls them anew from there.
     progress : bool
@@ -105,8 +112,10 @@ def simulate_to_file(
         As `simulate`; the file holds the outputs until then.
     FileFormatError
         If what is to be gone on from is damaged, or of another scene or other settings.
+    FileExistsError
+        If another run writes this file, or left something that `overwrite` would have to allow to replace.
     OSError
-        If the disk is full, or the folder is missing; the file holds what there was room for.
+        If the disk is full, or the folder is missing; the message says where the outputs until then are.
     """
     for name in NOT_STREAMED:
         if name in settings:
@@ -116,59 +125,99 @@ def simulate_to_file(
         raise SceneError(f"checkpoint_every is {every} s; make it positive")
     given = checked_controllers(controllers)
     chosen = {name: value for name, value in settings.items() if value is not None}
-    run = _FileRun(scene, Path(path), every, resume, {"t_end": t_end, **chosen})
-    try:
-        drive(run, given, progress=progress)
-    except BaseException:
-        run.interrupted = True
-        with contextlib.suppress(OSError):  # the disk is full: the file holds what there was room for
-            run.close()
-        raise
-    run.close()
+    file = ResultFile(Path(path))
+    with Interrupts() as interrupts:
+        file.claim()
+        try:
+            unlike = "" if overwrite else _unlike(scene, given)
+            run = _FileRun(scene, file, every, resume, overwrite, unlike, {"t_end": t_end, **chosen})
+            try:
+                drive(run, given, interrupts, progress=progress)
+            except BaseException:
+                run.interrupted = True
+                with contextlib.suppress(OSError):  # the error at hand tells more
+                    run.close()
+                raise
+            where = run.close()
+        finally:
+            file.release()
     warn_of(run.found)
-    return StreamedResult(
-        path=run.file.path, checkpoint=run.checkpoint, outputs=run.file.outputs, stats=run.file.stats,
-        interrupted=run.interrupted,
-    )  # fmt: skip
+    return StreamedResult(path=where, outputs=file.outputs, stats=file.stats, interrupted=run.interrupted)
+
+
+def _unlike(scene: Scene, controllers: Sequence[SampledController]) -> str:
+    """Why nobody can tell whether another run is the same."""
+    if controllers:
+        return "this run has controllers, whose code cannot be compared"
+    if scene.function_forces:
+        return "this scene has C functions, which cannot be compared"
+    return ""
 
 
 class _FileRun(Run):
     """A run whose outputs leave it for a file."""
 
     def __init__(
-        self, scene: Scene, path: Path, every: float, resume: bool, settings: Mapping[str, Any]
+        self,
+        scene: Scene,
+        file: ResultFile,
+        every: float,
+        resume: bool,
+        overwrite: bool,
+        unlike: str,
+        settings: Mapping[str, Any],
     ) -> None:
-        self.file = ResultFile(path)
-        self.checkpoint = path.with_suffix(".state")
+        from seacrane.scene_file import scene_digest
+
+        self.file = file
         self.every = every
-        if not resume:
-            self.file.create()
+        self.digest = scene_digest(scene)
+        left = file.left() if resume else None
+        if left is None:
+            if not overwrite:
+                file.require_no_partial()
             super().__init__(scene, capacity=CAPACITY, **settings)
         else:
-            state = _core.State.load(self.checkpoint, scene=scene)
-            first = self.file.first_output()
-            super().__init__(scene, capacity=CAPACITY, start=state, outputs_from=first, **settings)
-            self._go_on(state)
+            if left.piece.stats.get(DIGEST) != self.digest:
+                self._refuse(left, difference(left.piece.stats, (), {**left.piece.stats, **self._own()}, ()))
+            state = state_from_bytes(left.piece.state, left.source)
+            super().__init__(scene, capacity=CAPACITY, start=state, outputs_from=left.first, **settings)
+        arrays = self._channels(self.core.channels(0))
+        widths = {name: int(np.prod(values.shape[1:])) for name, values in arrays.items()
+                  if self._wanted is None or name in self._wanted}  # fmt: skip
+        channels = list(widths)
+        stats = checked_stats(self.stats())
+        if left is not None:
+            old_channels = [name for name in left.piece.arrays if name != "time"]
+            self._refuse(left, difference(left.piece.stats, old_channels, stats, channels))
+        if not (overwrite or (left is not None and not left.end)):
+            file.require_same(stats, channels, unlike)
+        self._rows = rows_of_piece(sum(widths.values()))
+        if left is None:
+            file.begin()
+            self._keep()
+        else:
+            file.go_on(left)
+            # What was recorded at the very start of this piece is in the file.
+            self.core.drop(int((self.core.channels()["time"] <= self.start.time).sum()))
         self._due = self.start.time + every
 
-    def _go_on(self, state: _core.State) -> None:
-        steps = state.steps
-        if (steps.formulation, steps.integrator) != (self.formulation, self.integrator):
+    def _own(self) -> dict[str, Any]:
+        return {DIGEST: self.digest, "seacrane_version": __version__}
+
+    def _refuse(self, left: Left, reason: str) -> None:
+        if reason:
             raise FileFormatError(
-                f"{self.checkpoint} was left by {steps.integrator!r}, {steps.formulation!r}, this run takes "
-                f"{self.integrator!r}, {self.formulation!r}: give the settings of the run that stopped"
+                f"{left.source} {reason}: give the scene and the settings of the run that stopped, or leave "
+                "resume out"
             )
-        self.file.reopen(state.time, self.settings)
-        # What was recorded at the very start of this piece is in the file.
-        self.core.drop(int((self.core.channels()["time"] <= state.time).sum()))
 
     def advance(self, t_end: float, progress: Callable[[float], None] | None = None) -> bool:
         """As `Run.advance`; outputs leave memory meanwhile."""
 
         def look(now: float) -> None:
-            self._keep_whole_pieces()
-            if now >= self._due:
-                self._save_state()
+            if now >= self._due or self.core.recorded >= self._rows:
+                self._keep()
             if progress is not None:
                 progress(now)
 
@@ -184,39 +233,28 @@ class _FileRun(Run):
         return list(first.values())
 
     def stats(self) -> dict[str, Any]:
-        """As `Run.stats`, with what has been out of range."""
+        """As `Run.stats`, with the scene, and with what has been out of range."""
         validity = {"validity": as_text(self.found)} if self.found else {}
-        return {**super().stats(), **validity}
+        return {**super().stats(), DIGEST: self.digest, **validity}
 
-    def explain(self, error: SeacraneError) -> None:
+    def explain(self, error: BaseException) -> None:
         """The file explains."""
 
-    def close(self) -> None:
-        """Write what is left, and the state where the run stopped."""
-        try:
-            self._save_state()
-        finally:
-            self.file.finish()
+    def close(self) -> Path:
+        """Write what is left, make the result's file, and return where the outputs are."""
+        reached_end = not self.interrupted and self.core.time >= self.t_end
+        self._keep(interrupted=not reached_end)
+        return self.file.finish(reached_end=reached_end)
 
-    def _keep_whole_pieces(self) -> None:
-        # They end where the file's chunks do: those are compressed once.
-        count = self.core.recorded - (self.file.outputs + self.core.recorded) % self.file.rows
-        if count > 0:
-            self._keep(count)
-
-    def _keep(self, count: int) -> None:
-        self.file.append(self.result(count), interrupted=True)
-        self.core.drop(count)
-
-    def _save_state(self) -> None:
-        """All outputs, then the state: it never is ahead of them."""
-        if self.core.recorded:
-            self._keep(self.core.recorded)
-        self.file.describe(
-            self.stats(), self.events(), interrupted=self.interrupted or self.core.time < self.t_end
-        )
-        state = self.last_state()
-        if state is not None:
-            self.file.sync()
-            state.save(self.checkpoint)
+    def _keep(self, *, interrupted: bool = True) -> None:
+        """Write all outputs with the state where they end, and drop them."""
+        with self.core:
+            count = self.core.recorded
+            result = self.result(count) if count else None
+            state = self.last_state()
+            self.file.append(
+                result, stats=checked_stats(self.stats()), events=self.events(), interrupted=interrupted,
+                state=b"" if state is None else state_to_bytes(state),
+            )  # fmt: skip
+            self.core.drop(count)
         self._due = self.core.time + self.every

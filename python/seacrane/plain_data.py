@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import os
 from collections.abc import Mapping, Sequence
 from typing import Any
 
@@ -18,17 +19,27 @@ def plain_data(what: str, value: Any) -> Any:
     """Notes as JSON data; infinities, for which JSON has no word, as objects."""
     if isinstance(value, (np.generic, np.ndarray)):
         value = value.tolist()
+    if isinstance(value, os.PathLike):
+        value = os.fspath(value)
     if isinstance(value, float) and math.isinf(value):
         return {INFINITE: int(math.copysign(1, value))}
+    if isinstance(value, float) and math.isnan(value):
+        raise SceneError(f"{what} is not a number; leave it out")
     if value is None or isinstance(value, (str, bool, int, float)):
         return value
     if isinstance(value, Mapping):
         return {str(key): plain_data(f"{what}[{key!r}]", item) for key, item in value.items()}
     if isinstance(value, Sequence) and not isinstance(value, (bytes, bytearray)):
         return [plain_data(f"{what}[{i}]", item) for i, item in enumerate(value)]
-    raise SceneError(
-        f"{what} is a {type(value).__name__}; a scene file takes numbers, texts, lists and mappings"
-    )
+    raise SceneError(f"{what} is a {type(value).__name__}; notes are numbers, texts, lists and mappings")
+
+
+def plain_notes(scene: str, notes: Mapping[str, Any]) -> dict[str, Any]:
+    """The notes of a scene as JSON data; raises SceneError for what is none."""
+    try:
+        return {key: plain_data(f"scene {scene!r}: notes[{key!r}]", value) for key, value in notes.items()}
+    except RecursionError as error:
+        raise SceneError(f"scene {scene!r}: its notes contain themselves; give plain data") from error
 
 
 def notes_from_node(node: Node) -> dict[str, Any]:

@@ -55,7 +55,7 @@ def called_at(
     """The inputs it returns; SimulationError when it raises, or returns something else."""
     try:
         inputs = controller.function(now, measure())
-    except Exception as error:
+    except (Exception, SystemExit) as error:  # sys.exit() would take the outputs along
         raise SimulationError(
             f"controller: raised {type(error).__name__} at t = {now:.6g} s: {error}"
         ) from error

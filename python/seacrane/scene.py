@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from copy import deepcopy
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any
 
@@ -75,6 +76,12 @@ class Scene:
     ranges: dict[str, Range] = field(default_factory=dict)
     notes: dict[str, Any] = field(default_factory=dict)
 
+    def __post_init__(self) -> None:
+        for key in self.__dataclass_fields__:  # a table belongs to one scene
+            if isinstance(getattr(self, key), dict):
+                setattr(self, key, dict(getattr(self, key)))
+        self.notes = deepcopy(self.notes)
+
     def __repr__(self) -> str:
         tables = ("bodies", "joints", "drivers", "actuators", "point_forces", "springs", "force_tables",
                   "function_forces", "loads", "vessels")  # fmt: skip
@@ -85,6 +92,16 @@ class Scene:
         ]
         sea = ["waves"] if self.waves is not None else []
         return f"<Scene {self.name!r}: {', '.join([*held, *sea]) or 'empty'}>"
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Scene):
+            return NotImplemented
+        from seacrane.scene_file import described
+
+        return described(self) == described(other) and self.function_forces == other.function_forces
+
+    def __copy__(self) -> Scene:
+        return self.copy()
 
     def _insert(self, kind: str, table: dict[str, Any], element: Any) -> Any:
         if element.name in table:
@@ -510,16 +527,12 @@ class Scene:
                 "reactions are not: the minimum-norm ones are given",
                 UserWarning,
             )
+        model.compiled_from = (self.copy(), merge)
         return model
 
     def copy(self, **changes: Any) -> Scene:
         """A scene with the same elements, which may be changed without touching this one."""
-        tables = {
-            key: dict(getattr(self, key))
-            for key in self.__dataclass_fields__
-            if isinstance(getattr(self, key), dict)
-        }
-        return replace(self, **{**tables, **changes})
+        return replace(self, **changes)
 
     def report(self) -> dict[str, list[tuple[str, Any]]]:
         """What the compiled model holds: {section: [(name, value), ...]}."""
@@ -539,6 +552,15 @@ class Scene:
         from seacrane.scene_file import load_scene
 
         return load_scene(path)
+
+
+def compiled(scene: Scene, merge: bool) -> _core.Model:
+    """The model of a scene: how a pickled model comes back."""
+    import warnings
+
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # given when it was compiled first
+        return scene.compile(merge=merge)
 
 
 _VESSEL_SHAPES: dict[str, tuple[int, ...]] = {

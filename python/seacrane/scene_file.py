@@ -7,6 +7,7 @@ the frames of `Scene`. Numbers are written with as many digits as it takes to re
 
 from __future__ import annotations
 
+import hashlib
 import json
 import os
 import re
@@ -125,7 +126,7 @@ def save_scene(scene: Scene, path: str | os.PathLike[str]) -> None:
             "C functions in the script that loads the scene"
         )
     try:
-        text = json.dumps(_described(scene), indent=1, allow_nan=False)
+        text = json.dumps(described(scene), indent=1, allow_nan=False)
         _scene(Node(json.loads(text), f"scene {scene.name!r}"))
     except SceneError:
         raise
@@ -187,6 +188,14 @@ def load_scene(path: str | os.PathLike[str]) -> Scene:
     )
     root.expect(fields)
     return _scene(root)
+
+
+def scene_digest(scene: Scene) -> str:
+    """SHA-256 of what a scene describes: equal for scenes that move alike. Notes do not count, and of C
+    functions only their names."""
+    data = described(scene.copy(notes={}))
+    data["function_forces"] = [[force.name, force.body] for force in scene.function_forces.values()]
+    return hashlib.sha256(json.dumps(data).encode("ascii")).hexdigest()
 
 
 def _scene(root: Node) -> Scene:
@@ -265,7 +274,7 @@ def _no_constant(name: str) -> Any:
     raise ValueError(f"{name} is not a number; give a finite one")
 
 
-def _described(scene: Scene) -> dict[str, Any]:
+def described(scene: Scene) -> dict[str, Any]:
     """The scene as plain data."""
     out: dict[str, Any] = {
         "format": FORMAT,

@@ -14,9 +14,11 @@ from seacrane.channel_names import core_channels, named_channels, payload_of
 from seacrane.checked import number_of, numbers_of
 from seacrane.errors import SceneError, SeacraneError, SimulationError
 from seacrane.formulation_cost import recursive_pays
+from seacrane.interrupts import Interrupts
 from seacrane.joint_coordinates import ANGLES
 from seacrane.linearise import fastest_mode
 from seacrane.output_times import output_times
+from seacrane.plain_data import plain_notes
 from seacrane.plausible import warn_of_description
 from seacrane.references import check_references
 from seacrane.sampled_controller import (
@@ -137,11 +139,11 @@ class Run:
             spectral_radius = number_of("spectral_radius", spectral_radius)
         self.t_end = t_end
         self.first = self.start.time if outputs_from is None else number_of("outputs_from", outputs_from)
-        self.settings = {
+        self.settings: dict[str, Any] = {
             "t_end": float(t_end), "dt_out": float(dt_out), "rtol": float(rtol), "dt": float(dt),
             "max_step": float(max_step), "orientation": scene.orientation, "baumgarte": scene.baumgarte,
-            **scene.notes,
         }  # fmt: skip
+        self.settings = plain_notes(scene.name, scene.notes) | self.settings
         if spectral_radius is not None:
             self.settings["spectral_radius"] = spectral_radius
         if energy_limit is not None:
@@ -168,6 +170,7 @@ class Run:
         self.steered = _steered(scene, self.start.inputs)
         self.found: list[Finding] = []  # out of range, as the last result tells
         self.slow: list[Finding] = []  # what made the run slow, known at its end
+        self._require_plain_stats()
 
     def __repr__(self) -> str:
         return f"<Run of {self.scene.name!r}: {self.formulation}, {self.integrator}, at {self.core.time:g} s>"
@@ -192,6 +195,10 @@ class Run:
     def set_inputs(self, values: Mapping[str, Any]) -> None:
         """Set inputs by name from now on; see `SampledController`."""
         places = _slots(self.scene)
+        with self.core:
+            self._set_inputs(values, places)
+
+    def _set_inputs(self, values: Mapping[str, Any], places: Mapping[str, slice]) -> None:
         slots = np.array(self.core.state.inputs)
         for name, value in values.items():
             if name not in places:
@@ -243,6 +250,15 @@ class Run:
             **sea,
         }
 
+    def _require_plain_stats(self) -> None:
+        """What a result could not hold is refused now, not when the run is over."""
+        from seacrane.result.result import checked_stats
+
+        try:
+            checked_stats(self.stats())
+        except ValueError as error:
+            raise SceneError(f"scene {self.scene.name!r}: {error}") from error
+
     def events(self) -> list[Event]:
         """What limits did so far."""
         from seacrane.result import Event
@@ -258,6 +274,10 @@ class Run:
 
     def result(self, most: int | None = None) -> Result:
         """What has been recorded so far; with `most`, no more than its first outputs, and no state."""
+        with self.core:
+            return self._result(most)
+
+    def _result(self, most: int | None) -> Result:
         from seacrane.result import Result
 
         arrays = self.core.channels() if most is None else self.core.channels(most)
@@ -304,7 +324,7 @@ class Run:
     def _steps(self) -> int:
         return int(self.core.statistics()["steps"])
 
-    def explain(self, error: SeacraneError) -> None:
+    def explain(self, error: BaseException) -> None:
         """Hang what has been recorded on an error that ends the run, and what its fixed step could be."""
         self.interrupted = True
         advice = ""
@@ -313,8 +333,8 @@ class Run:
             advice = step_advice(self.integrator, step, fastest_mode(self.model))
         if advice:
             error.args = (f"{error}. {advice}",)
-        with contextlib.suppress(MemoryError):
-            error.result = self.result()
+        with contextlib.suppress(MemoryError, AttributeError):  # errors of others that take no attributes
+            error.result = self.result()  # type: ignore[attr-defined]
 
 
 def _refuse_redundant_joints(model: _core.Model) -> None:
@@ -486,31 +506,34 @@ def _refuse_beside_accuracy(chosen: Mapping[str, Any], controllers: Sequence[Sam
 
 def finished(run: Run, controllers: Sequence[SampledController] = (), *, progress: bool = False) -> Result:
     """Advance a run to its end, or to where Ctrl-C stops it, and return its result."""
-    drive(run, controllers, progress=progress)
-    result = run.result()
+    with Interrupts() as interrupts:
+        drive(run, controllers, interrupts, progress=progress)
+        result = run.result()
     warn_of(run.found)
     return result
 
 
-def drive(run: Run, controllers: Sequence[SampledController] = (), *, progress: bool = False) -> None:
+def drive(
+    run: Run, controllers: Sequence[SampledController], interrupts: Interrupts, *, progress: bool = False
+) -> None:
     """Advance a run to its end, or to where Ctrl-C stops it.
 
     What ends it otherwise is raised as by `simulate`, and carries what `Run.explain` hangs on it.
     """
     report, close = _progress(run.start.time, run.t_end, progress)
     try:
-        _advance(run, run.t_end, controllers, report)
+        _advance(run, run.t_end, controllers, interrupts, report)
     except KeyboardInterrupt:  # between two pieces of the loop, or inside a controller
         run.interrupted = True
-    except SeacraneError as error:
-        run.explain(error)
-        raise
     except MemoryError as error:
         stopped = SimulationError(
             f"run: memory ran out at t = {run.core.time:.6g} s; record fewer channels, or a longer dt_out"
         )
         run.explain(stopped)
         raise stopped from error
+    except BaseException as error:  # also what another signal's handler raises
+        run.explain(error)
+        raise
     finally:
         close()
     if not run.interrupted:
@@ -518,21 +541,32 @@ def drive(run: Run, controllers: Sequence[SampledController] = (), *, progress: 
 
 
 def _advance(
-    run: Run, t_end: float, controllers: Sequence[SampledController], report: Callable[[float], None] | None
+    run: Run,
+    t_end: float,
+    controllers: Sequence[SampledController],
+    interrupts: Interrupts,
+    report: Callable[[float], None] | None,
 ) -> None:
+    def look(now: float) -> None:
+        if report is not None:
+            report(now)
+        interrupts.take()
+
     due = [run.start.time for _ in controllers]
     setters: dict[str, SampledController] = {}
     while True:
+        interrupts.take()
         now = run.core.time
         called: dict[str, Any] = {}
         for i, controller in enumerate(controllers):
             if due[i] <= now and now < t_end:
-                inputs = called_at(controller, now, run.measure)
+                with interrupts.at_once():
+                    inputs = called_at(controller, now, run.measure)
                 only_setter(inputs, controller, setters)
                 called.update(inputs)
                 due[i] = next_call(controller, now, run.start.time)
         if called:
             run.set_inputs(called)
         stop = min([t_end, *due])
-        if not run.advance(stop, report) or stop >= t_end:
+        if not run.advance(stop, look) or stop >= t_end:
             return

@@ -38,9 +38,25 @@ def save_state(state: _core.State, path: str | os.PathLike[str]) -> None:
 
     Raises
     ------
+    FileExistsError
+        If the name is that of another kind of file, such as a result.
     OSError
         If it cannot be written; an older file of that name stays.
     """
+    path = Path(path)
+    if path.is_file() and path.stat().st_size and not _is_state(path):
+        raise FileExistsError(f"{path} is there and is not a state file; give another name")
+    with atomic_write(path) as draft:
+        draft.write_bytes(state_to_bytes(state))
+
+
+def _is_state(path: Path) -> bool:
+    with path.open("rb") as file:
+        return file.read(len(MAGIC)) == MAGIC
+
+
+def state_to_bytes(state: _core.State) -> bytes:
+    """The contents of a state file."""
     steps, record = state.steps, state.record
     arrays: dict[str, Any] = {
         "time": [state.time],
@@ -70,8 +86,7 @@ def save_state(state: _core.State, path: str | os.PathLike[str]) -> None:
     body = b"".join(
         [MAGIC, json.dumps(header).encode("ascii"), b"\n", *(values.tobytes() for values in flat.values())]
     )
-    with atomic_write(Path(path)) as draft:
-        draft.write_bytes(body + hashlib.sha256(body).digest())
+    return body + hashlib.sha256(body).digest()
 
 
 def load_state(path: str | os.PathLike[str], *, scene: Scene | None = None) -> _core.State:
@@ -94,16 +109,24 @@ def load_state(path: str | os.PathLike[str], *, scene: Scene | None = None) -> _
     path = Path(path)
     if not path.is_file():
         raise FileNotFoundError(f"no state file {path}")
-    header, arrays = _checked(path)
-    try:
-        state = _state(header, arrays)
-    except (KeyError, TypeError, ValueError) as error:
-        raise FileFormatError(f"{path}: is not a state: {error}; save the state again") from error
+    size = path.stat().st_size
+    if size > LARGEST_FILE:
+        raise FileFormatError(f"{path}: has {size} bytes, a state file no more than {LARGEST_FILE}")
+    state = state_from_bytes(path.read_bytes(), path)
     if scene is not None:
         own = _core.initial_state(scene.compile()).parts
         if state.parts and state.parts != own:
             raise FileFormatError(f"{path}: {_difference(state.parts, own)}; give a state of this scene")
     return state
+
+
+def state_from_bytes(data: bytes, path: Path) -> _core.State:
+    """What `state_to_bytes` made, found in a file; raises FileFormatError."""
+    header, arrays = _checked(data, path)
+    try:
+        return _state(header, arrays)
+    except (KeyError, TypeError, ValueError) as error:
+        raise FileFormatError(f"{path}: is not a state: {error}; save the state again") from error
 
 
 def _difference(parts: list[str], own: list[str]) -> str:
@@ -113,12 +136,8 @@ def _difference(parts: list[str], own: list[str]) -> str:
     return f"is the state of another scene: it holds {there} where the scene has {here}"
 
 
-def _checked(path: Path) -> tuple[dict[str, Any], dict[str, Array]]:
-    """Header and arrays of a file that is whole."""
-    size = path.stat().st_size
-    if size > LARGEST_FILE:
-        raise FileFormatError(f"{path}: has {size} bytes, a state file no more than {LARGEST_FILE}")
-    data = path.read_bytes()
+def _checked(data: bytes, path: Path) -> tuple[dict[str, Any], dict[str, Array]]:
+    """Header and arrays of a state that is whole."""
     if not data.startswith(MAGIC):
         raise FileFormatError(f"{path}: is not a state file; give one that State.save wrote")
     body, digest = memoryview(data)[:-DIGEST], data[-DIGEST:]

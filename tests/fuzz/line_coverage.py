@@ -18,7 +18,8 @@ ROOT = Path(__file__).resolve().parents[2]
 LEAST = 90.0
 # Functions in the readers' files that write, draw or describe.
 WRITERS = re.compile(
-    r"(save|add_events|write|_write|_put|to_xarray|_described|_element$|_memory$|_block$|waves_to_data|_hull_to_data|plain_data|load_to_data|kind_of"
+    r"(save|add_events|_add_|write|_write|_put|to_xarray|described|scene_digest|_element$|_memory$|_block$|waves_to_data"
+    r"|_hull_to_data|plain_data|load_to_data|kind_of|state_to_bytes|_is_state|shape$|rows$"
     r"|spectrum)"
 )
 sys.path.insert(0, str(ROOT / "tests"))

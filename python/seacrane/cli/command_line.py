@@ -58,10 +58,15 @@ def _add_run(commands: Any) -> None:
     run.add_argument("--spectral-radius", metavar="R", type=float, help="of generalized-alpha, 0 to 1")
     run.add_argument("--formulation", choices=("redundant", "recursive", "auto"), help="equations of motion")
     run.add_argument(
-        "--checkpoint-every", metavar="S", type=float, help="simulated time between two states on disk, s"
+        "--checkpoint-every", metavar="S", type=float, help="simulated time between two writes to disk, s"
     )
     run.add_argument(
         "--resume", action="store_true", help="go on with the run that DIR holds, stopped or killed"
+    )
+    run.add_argument(
+        "--overwrite",
+        action="store_true",
+        help="replace a result of another scene or other settings, and what a killed run left",
     )
     run.add_argument("--progress", action="store_true", help="show a progress bar")
     case = run.add_argument_group("the built-in cases", "these choose the vessel and the sea of a named case")

@@ -27,10 +27,10 @@ def run(arguments: argparse.Namespace) -> int:
     path = folder / f"{name}.nc"
     told = simulate_to_file(
         scene, path, checkpoint_every=arguments.checkpoint_every, resume=arguments.resume,
-        progress=arguments.progress, **settings,
+        overwrite=arguments.overwrite, progress=arguments.progress, **settings,
     )  # fmt: skip
     print(summary(told.load(SUMMARISED)))
-    print(f"saved {path}, and where it stopped in {told.checkpoint}")
+    print(f"saved {told.path}")
     return INTERRUPTED if told.interrupted else 0
 
 

@@ -6,6 +6,7 @@ import contextlib
 import os
 import secrets
 import shutil
+import stat
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -14,23 +15,52 @@ from pathlib import Path
 def atomic_write(path: Path) -> Iterator[Path]:
     """A draft beside `path` that takes its name if the block succeeds, and is removed if it fails.
 
+    Where `path` is a link, the file that it names is replaced, not the link.
+
     Raises
     ------
     OSError
-        Naming the target, the cause and the space left, if the draft cannot be written.
+        Naming the target, the cause and the space left, if the draft cannot be written, or if what has the
+        name is a folder, a device or write-protected.
     """
-    draft = path.with_name(f".{path.name}.{secrets.token_hex(4)}.tmp")
+    target = path.resolve()
+    draft = target.with_name(f".{target.name}.{secrets.token_hex(4)}.tmp")
     try:
-        if not path.parent.is_dir():
-            raise OSError(f"there is no folder {path.parent}; create it first")
+        require_replaceable(path)
         yield draft
         with draft.open("rb+") as file:
             os.fsync(file.fileno())
-        draft.replace(path)
+        draft.replace(target)
+        sync_folder(target.parent)
     except OSError as error:
-        raise OSError(f"could not write {path}: {error}{space_left(path.parent)}") from error
+        raise OSError(f"could not write {path}: {error}{space_left(target.parent)}") from error
     finally:
-        draft.unlink(missing_ok=True)
+        _discard(draft)
+
+
+def require_replaceable(path: Path) -> None:
+    """Raise OSError unless a file may get this name."""
+    if not path.resolve().parent.is_dir():
+        raise OSError(f"there is no folder {path.parent}; create it first")
+    if not path.exists():
+        return
+    mode = path.stat().st_mode
+    if stat.S_ISDIR(mode):
+        raise OSError("it is a folder; give the name of a file")
+    if not stat.S_ISREG(mode):
+        raise OSError("it is a device, a pipe or a socket; give the name of a file")
+    if not mode & 0o222:
+        raise OSError("it is write-protected; give another name, or chmod u+w")
+
+
+def sync_folder(folder: Path) -> None:
+    """Have the disk hold the names in a folder."""
+    number = os.open(folder, os.O_RDONLY)
+    try:
+        with contextlib.suppress(OSError):  # file systems that cannot
+            os.fsync(number)
+    finally:
+        os.close(number)
 
 
 def space_left(folder: Path) -> str:
@@ -38,3 +68,10 @@ def space_left(folder: Path) -> str:
         return f" ({shutil.disk_usage(folder).free / 1e6:.0f} MB free in {folder})"
     except OSError:
         return ""
+
+
+def _discard(draft: Path) -> None:
+    """Its room too, which it would keep while a library that failed to write it holds it open."""
+    with contextlib.suppress(FileNotFoundError):
+        os.truncate(draft, 0)
+        draft.unlink()

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import math
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -12,9 +14,6 @@ from seacrane.errors import FileFormatError
 from seacrane.netcdf_limits import open_netcdf
 from seacrane.result.channels import attributes
 from seacrane.result.events import NUMBERS, PREFIX, Event, event_arrays, events_from_arrays
-
-if TYPE_CHECKING:
-    from seacrane.result.result import Result
 
 # Dimensions whose names belong to the scene, and the arguments of `Result.from_arrays` that take them.
 NAMED = {
@@ -28,37 +27,85 @@ NAMED = {
     "limit": "limits",
     "vessel": "vessels",
 }
+STATE, STATE_DIMENSION = "state", "state_byte"
+LARGEST_CHUNKS = 2**21  # bytes of one chunk of all channels
+MOST_ROWS, LEAST_ROWS = 4096, 16
 
 
-def write_netcdf(path: Path, result: Result) -> None:
-    """Write a result under exactly this name."""
+@dataclass(frozen=True, kw_only=True)
+class Contents:
+    """What a result's file holds beside its outputs; names as in `Result`.
+
+    Attributes
+    ----------
+    outputs : int
+        How many.
+    dims : mapping of str to tuple of str
+        Of each channel.
+    state : bytes
+        As a state file; empty where there is none.
+    """
+
+    outputs: int
+    dims: Mapping[str, tuple[str, ...]]
+    coords: Mapping[str, Sequence[str]]
+    stats: Mapping[str, Any]
+    events: Sequence[Event]
+    interrupted: bool
+    state: bytes
+
+    def shape(self, dims: Sequence[str]) -> tuple[int, ...]:
+        """Of one output of a channel."""
+        return tuple(len(self.coords[dim]) for dim in dims[1:])
+
+    @property
+    def rows(self) -> int:
+        """Outputs that a chunk of the file holds."""
+        width = 1 + sum(math.prod(self.shape(dims)) for dims in self.dims.values())
+        return min(max(LEAST_ROWS, min(MOST_ROWS, LARGEST_CHUNKS // (8 * width))), self.outputs)
+
+
+def write_netcdf(path: Path, contents: Contents, blocks: Iterable[Mapping[str, Any]]) -> None:
+    """Write a result under exactly this name.
+
+    Blocks hold "time" and the channels of outputs that follow each other, whole chunks except for the last.
+    """
     import netCDF4
 
     with netCDF4.Dataset(path, "w", format="NETCDF4") as file:
-        file.setncatts({**result.stats, "interrupted": int(result.interrupted)})
-        file.createDimension("time", result.time.size)
-        file.createVariable("time", "f8", ("time",))[:] = result.time
-        for dim, names in result.coords.items():
+        file.setncatts({**contents.stats, "interrupted": int(contents.interrupted)})
+        file.createDimension("time", contents.outputs)
+        _add_variable(file, "time", ("time",), contents)
+        for dim, names in contents.coords.items():
             file.createDimension(dim, len(names))
             file.createVariable(dim, str, (dim,))[:] = np.array(names, dtype=object)
-        for name, array in result.channels.items():
-            variable = file.createVariable(name, "f8", result.dims[name], compression="zlib", complevel=1)
-            variable[:] = array
-        for name in ("time", *result.channels):
-            file[name].setncatts(attributes(name))
-        if result.events:
-            add_events(file, result.events, 0)
+        for name, dims in contents.dims.items():
+            _add_variable(file, name, dims, contents)
+        at = 0
+        for block in blocks:
+            count = len(block["time"])
+            for name in ("time", *contents.dims):
+                file[name][at : at + count] = block[name]
+            at += count
+        if contents.events:
+            _add_events(file, contents.events)
+        if contents.state:
+            file.createDimension(STATE_DIMENSION, len(contents.state))
+            file.createVariable(STATE, "u1", (STATE_DIMENSION,))[:] = np.frombuffer(contents.state, "u1")
 
 
-def add_events(file: Any, events: Sequence[Event], place: int) -> None:
-    """Write events from a place in a file's list on, which is made if there is none."""
-    made = "event" not in file.dimensions
-    if made:
-        file.createDimension("event", None)
+def _add_variable(file: Any, name: str, dims: tuple[str, ...], contents: Contents) -> None:
+    chunks = (contents.rows, *contents.shape(dims))
+    variable = file.createVariable(
+        name, "f8", dims, compression="zlib", complevel=1, chunksizes=chunks, fill_value=False
+    )
+    variable.setncatts(attributes(name))
+
+
+def _add_events(file: Any, events: Sequence[Event]) -> None:
+    file.createDimension("event", len(events))
     for name, array in event_arrays(events).items():
-        if made:
-            file.createVariable(name, str if array.dtype == object else "f8", ("event",))
-        file[name][place : place + len(events)] = array
+        file.createVariable(name, str if array.dtype == object else "f8", ("event",))[:] = array
     for key, (unit, long_name) in NUMBERS.items():
         file[PREFIX + key].setncatts({"units": unit, "long_name": long_name})
 
@@ -74,14 +121,12 @@ def read_arrays(path: Path, largest: int, channels: Sequence[str] | None = None)
             raise FileFormatError(f"{path} has no variable 'time'; it is not a seacrane result")
         stats = {name: file.getncattr(name) for name in file.ncattrs()}
         interrupted = bool(stats.pop("interrupted", 0))
-        time = np.asarray(file["time"][:])
-        outputs = _timed(time)
         return {
-            "time": time[outputs],
+            "time": np.asarray(file["time"][:]),
             "arrays": {
-                name: variable[outputs]
+                name: variable[:]
                 for name, variable in file.variables.items()
-                if name != "time"
+                if name not in ("time", STATE)
                 and name not in file.dimensions
                 and "event" not in variable.dimensions
                 and (channels is None or name in channels)
@@ -102,11 +147,13 @@ def read_arrays(path: Path, largest: int, channels: Sequence[str] | None = None)
             else (),
             "stats": stats,
             "interrupted": interrupted,
+            "state": _state(path, file),
         }
 
 
-def _timed(time: Any) -> slice:
-    """All outputs, without those at the end whose writing was broken off before they had a time."""
-    if time.ndim == 1 and time.dtype.kind == "f" and np.isnan(time[-1:]).any():
-        return slice(int(np.argmax(np.isnan(time))))
-    return slice(None)
+def _state(path: Path, file: Any) -> Any:
+    if STATE not in file.variables:
+        return None
+    from seacrane.state_file import state_from_bytes
+
+    return state_from_bytes(file[STATE][:].tobytes(), path)

@@ -21,7 +21,9 @@ from seacrane.result.atomic import atomic_write
 from seacrane.result.channels import AXES, CHANNELS, MOTIONS, QUATERNION, attributes
 from seacrane.result.events import TEXTS as EVENT_TEXTS
 from seacrane.result.events import Event, checked_events, event_arrays
-from seacrane.result.netcdf import read_arrays, write_netcdf
+from seacrane.result.netcdf import Contents, read_arrays, write_netcdf
+from seacrane.result.partial_file import is_partial
+from seacrane.result.stream import partial_path, read_partial
 
 if TYPE_CHECKING:
     import xarray
@@ -137,8 +139,7 @@ class Result(Mapping[str, Array]):
     events : tuple of Event
         What wires, end stops and seats did, in order of time.
     state : State or None
-        Where the run stopped, to go on from by ``simulate(start=...)``. `save` leaves it out: a result that
-        was read from a file, or pickled, has none.
+        Where the run stopped, to go on from by ``simulate(start=...)``.
     """
 
     time: Array
@@ -171,6 +172,7 @@ class Result(Mapping[str, Array]):
             dict(self.stats),
             self.interrupted,
             self.events,
+            self.state,
         )
         return _rebuild, parts
 
@@ -349,10 +351,18 @@ class Result(Mapping[str, Array]):
         path = Path(path)
         with atomic_write(path) as draft:
             try:
-                write_netcdf(draft, self)
+                write_netcdf(draft, self._contents(), [{"time": self.time, **self.channels}])
             except RuntimeError as error:  # the HDF5 library's failures to write arrive as RuntimeError
                 raise OSError(f"the NetCDF library reports: {error}") from error
         return path
+
+    def _contents(self) -> Contents:
+        from seacrane.state_file import state_to_bytes
+
+        return Contents(
+            outputs=self.time.size, dims=self.dims, coords=self.coords, stats=self.stats, events=self.events,
+            interrupted=self.interrupted, state=b"" if self.state is None else state_to_bytes(self.state),
+        )  # fmt: skip
 
     @classmethod
     def load(
@@ -367,7 +377,7 @@ class Result(Mapping[str, Array]):
         Parameters
         ----------
         path : path
-            NetCDF4 file.
+            NetCDF4 file, or the .partial of a run that goes on or was killed.
         channels : sequence of str, optional
             Take only those, as far as the file holds them; default: all.
         largest : int
@@ -388,9 +398,14 @@ class Result(Mapping[str, Array]):
         """
         path = Path(path)
         if not path.is_file():
-            raise FileNotFoundError(f"no result file {path}")
+            started = partial_path(path)
+            raise FileNotFoundError(
+                f"no result file {path}"
+                + (f"; its run has left {started} so far" if started.is_file() else "")
+            )
         try:
-            return cls.from_arrays(**read_arrays(path, largest, channels))
+            read = read_partial if is_partial(path) else read_arrays
+            return cls.from_arrays(**read(path, largest, channels))
         except NETCDF_ERRORS as error:
             if isinstance(error, SeacraneError):
                 raise
@@ -404,9 +419,11 @@ def _rebuild(
     stats: dict[str, Stat],
     interrupted: bool,
     events: tuple[Event, ...],
+    state: State | None,
 ) -> Result:
     for array in (time, *channels.values()):
         array.setflags(write=False)
     return Result(
-        time=time, channels=channels, coords=coords, stats=stats, interrupted=interrupted, events=events
-    )
+        time=time, channels=channels, coords=coords, stats=stats, interrupted=interrupted, events=events,
+        state=state,
+    )  # fmt: skip

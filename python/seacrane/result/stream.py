@@ -1,15 +1,11 @@
-"""Result files that grow while a run goes on."""
+"""Results that grow on disk while a run goes on."""
 
 from __future__ import annotations
 
-import contextlib
-import fcntl
+import dataclasses
 import json
-import os
-import shutil
-import signal
-import threading
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -17,187 +13,315 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane.errors import FileFormatError
-from seacrane.result.atomic import atomic_write, space_left
-from seacrane.result.channels import attributes
-from seacrane.result.netcdf import add_events
-from seacrane.result.result import checked_stats
+from seacrane.netcdf_limits import NETCDF_ERRORS, open_netcdf
+from seacrane.result.atomic import atomic_write, require_replaceable, space_left
+from seacrane.result.events import Event
+from seacrane.result.netcdf import NAMED, Contents, write_netcdf
+from seacrane.result.partial_file import PartialFile, Piece, pieces_of
 
 if TYPE_CHECKING:
-    from seacrane.result.events import Event
     from seacrane.result.result import Result
 
 Array = NDArray[np.float64]
-LARGEST_PIECE = 2**21  # bytes: what Ctrl-C may have to wait for
+LARGEST_PIECE = 2**21  # bytes
+LARGEST = 2**50  # bytes: what goes on is read piece by piece
 MOST_ROWS, LEAST_ROWS = 4096, 16
-MARGIN = 2**18  # bytes, beyond the numbers themselves, for what the NetCDF library writes about them
 TURNING = "slew_angle"  # counted on over whole turns, which one piece does not know of
 COUNTERS = ("wall_s", "evaluations", "fast_evaluations", "steps", "rejected_steps", "jacobians",
             "newton_iterations", "projections", "restarts", "dense_solves")  # fmt: skip
+DIGEST = "scene_digest"  # of a scene's description, among the stats of a result
+METHOD = (DIGEST, "formulation", "integrator")
+SETTINGS = ("dt_out", "rtol", "dt", "max_step", "spectral_radius", "energy_limit", "baumgarte")
 
 
 def partial_path(path: Path) -> Path:
-    """Where a result is while its run goes on."""
-    return path.with_name(f"{path.stem}.partial{path.suffix}")
+    """Where the outputs of a result are while its run goes on."""
+    return path.with_name(f"{path.name}.partial")
+
+
+def rows_of_piece(width: int) -> int:
+    """Outputs of so many numbers that are written at once."""
+    return max(LEAST_ROWS, min(MOST_ROWS, LARGEST_PIECE // (8 * max(width, 1))))
+
+
+@dataclass(frozen=True, kw_only=True)
+class Left:
+    """What a run that stopped left to go on from: its outputs until a state.
+
+    Attributes
+    ----------
+    source : Path
+        Where it is.
+    piece : Piece
+        The last outputs, and the state where they end.
+    first : float
+        Time of the first output, s.
+    outputs : int
+        All outputs until the state.
+    events : int
+        All events until the state.
+    end : int
+        Where the piece ends in a partial file; 0 where it is of a result's file.
+    """
+
+    source: Path
+    piece: Piece = field(repr=False)
+    first: float
+    outputs: int
+    events: int
+    end: int
 
 
 class ResultFile:
-    """A result on disk to which outputs are added; between two additions it is closed and whole.
+    """A result on disk to which outputs are added.
 
-    It has the name of `partial_path` until `finish` gives it its own.
+    They are in the file of `partial_path` until `finish` makes the result's own.
     """
 
     def __init__(self, path: Path) -> None:
         self.path = path
-        self.draft = partial_path(path)
         self.outputs = 0
-        self.rows = MOST_ROWS
+        self.stats: dict[str, Any] = {}
+        self._partial = PartialFile(partial_path(path))
+        self._source: Path | None = None
+        self._nothing: Mapping[str, Array] = {}
+        self._coords: Mapping[str, Sequence[str]] = {}
+        self._last_time = -np.inf
         self._last_angle: float | None = None
         self._events = self._events_of_run = 0
         self._before: Mapping[str, Any] = {}
-        self.stats: dict[str, Any] = {}
 
-    def create(self) -> None:
-        """Take the place of the file; raises FileExistsError if a run that was killed left one there."""
-        if not self.path.parent.is_dir():
-            raise OSError(
-                f"could not write {self.path}: there is no folder {self.path.parent}; create it first"
-            )
-        if self.draft.exists():
+    def claim(self) -> None:
+        """Keep other writers away until `release`; OSError if there is one, or if nothing can be written."""
+        try:
+            require_replaceable(self.path)
+            self._partial.claim()
+        except FileExistsError:
+            raise
+        except OSError as error:
+            raise OSError(f"could not write {self.path}: {error.strerror or error}") from error
+
+    def release(self) -> None:
+        """Give the files up to others."""
+        self._partial.release()
+
+    def begin(self) -> None:
+        """Start anew; what a killed run left is dropped."""
+        self._partial.keep_until(0)
+
+    def require_no_partial(self) -> None:
+        """Raise FileExistsError if a run that was killed left outputs."""
+        for piece, _ in self._partial.pieces():
+            advice = "resume=True (--resume) goes on with it, " if piece.state else ""
             raise FileExistsError(
-                f"{self.draft} is there from a run that was killed, or still goes on: resume it, or move it"
+                f"{self._partial.path} holds the outputs of a run that was stopped or killed: {advice}"
+                "overwrite=True (--overwrite) drops it"
             )
 
-    def first_output(self) -> float:
-        """Time of the first output of what a run that stopped left, s."""
-        return float(self._left()[0][0])
+    def require_same(self, stats: Mapping[str, Any], channels: Sequence[str], unlike: str) -> None:
+        """Raise FileExistsError unless the result of that name may be replaced by one of these stats.
 
-    def reopen(self, until: float, settings: Mapping[str, Any]) -> None:
-        """Go on in the file of a run that stopped, after its outputs until a time (s).
+        It may where it is of the same scene, method and outputs, and does not end later. `unlike` says why
+        that cannot be told; empty: it can.
+        """
+        if not self.path.exists():
+            return
+        try:
+            old, old_channels, _ = _described(self.path)
+            reason = unlike or difference(old, old_channels, stats, channels)
+            ends = [json.loads(some["settings"])["t_end"] for some in (old, stats)]
+            if not reason and ends[0] > ends[1]:
+                reason = f"has t_end {ends[0]!r}, this run {ends[1]!r}"
+        except NETCDF_ERRORS:
+            reason = "was not written by a run to a file"
+        if reason:
+            raise FileExistsError(
+                f"{self.path} is there and {reason}: overwrite=True (--overwrite) replaces it; or give "
+                "another name"
+            )
+
+    def left(self) -> Left:
+        """What an earlier run left to go on from.
 
         Raises
         ------
+        FileNotFoundError
+            If there is nothing.
         FileFormatError
-            If it is the file of a run with other settings (of a result's `stats`; t_end may differ).
+            If there is no state, or the files are damaged.
         """
-        times, self._before, angles, events = self._left()
-        old, new = (
-            json.loads(stats["settings"]) for stats in (self._before, {"settings": json.dumps(settings)})
-        )
-        for name in sorted({*old, *new} - {"t_end"}):
-            if old.get(name) != new.get(name):
+        found: Left | None = None
+        outputs = events = 0
+        first: float | None = None
+        for piece, end in self._partial.pieces():
+            first = float(piece.arrays["time"][0]) if first is None else first
+            outputs, events = outputs + piece.outputs, events + len(piece.events)
+            if piece.state:
+                found = Left(source=self._partial.path, piece=piece, first=first, outputs=outputs,
+                             events=events, end=end)  # fmt: skip
+        if found is not None:
+            return found
+        if not self.path.is_file():
+            if first is not None:
                 raise FileFormatError(
-                    f"{self.path} has {name} {old.get(name)!r}, this run {new.get(name)!r}: give the "
-                    "settings of the run that stopped"
+                    f"{self._partial.path} holds no state to go on from: overwrite=True starts the run anew"
                 )
-        self.outputs = int(np.searchsorted(times, until, "right"))
-        self._events = int(np.searchsorted(events, until, "right"))
-        if angles is not None and self.outputs:
-            self._last_angle = float(angles[self.outputs - 1])
-        if not self.draft.exists():
-            self.path.replace(self.draft)
-
-    def _left(self) -> tuple[Array, dict[str, Any], Array | None, Array]:
-        """Times, attributes, turning angle and times of events in what a run left."""
-        import netCDF4
-
-        source = self.draft if self.draft.exists() else self.path
-        if not source.is_file():
             raise FileNotFoundError(f"no result file {self.path} to go on with")
-        try:
-            with netCDF4.Dataset(source, "r") as file:
-                file.set_auto_mask(False)
-                times = np.asarray(file["time"][:])
-                attributes = {name: file.getncattr(name) for name in file.ncattrs()}
-                attributes["settings"]
-                if not file.dimensions["time"].isunlimited():
-                    raise ValueError("its outputs were written all at once")
-                self.rows = int(file["time"].chunking()[0])
-                angles = file[TURNING][:] if TURNING in file.variables else None
-                events = file["event_time"][:] if "event_time" in file.variables else np.empty(0)
-        except (OSError, RuntimeError, LookupError, TypeError, ValueError) as error:
-            raise FileFormatError(f"{source} is not a result that a run left: {error}") from error
-        times = times[np.isfinite(times)]
-        if not times.size:
-            raise FileFormatError(f"{source} holds no outputs; start the run anew")
-        return times, attributes, angles, events
+        return self._left_in_result()
 
-    def append(self, piece: Result, *, interrupted: bool) -> None:
-        """Add the outputs of a result.
+    def _left_in_result(self) -> Left:
+        from seacrane.result.result import Result
+        from seacrane.state_file import state_to_bytes
+
+        try:
+            stats, channels, coords = _described(self.path)
+            result = Result.load(self.path, channels=[], largest=LARGEST)
+            if DIGEST not in stats:
+                raise ValueError("it does not tell its scene")
+        except NETCDF_ERRORS as error:
+            raise FileFormatError(f"{self.path} is not a result that a run left: {error}") from error
+        if result.state is None:
+            raise FileFormatError(
+                f"{self.path} holds no state to go on from: overwrite=True starts the run anew"
+            )
+        until = result.state.time
+        piece = Piece(
+            arrays={name: np.empty(0) for name in ("time", *channels)}, coords=coords, stats=stats,
+            events=[event for event in result.events if event.time <= until],
+            state=state_to_bytes(result.state),
+        )  # fmt: skip
+        return Left(source=self.path, piece=piece, first=float(result.time[0]),
+                    outputs=int(np.searchsorted(result.time, until, "right")),
+                    events=len(piece.events), end=0)  # fmt: skip
+
+    def go_on(self, left: Left) -> None:
+        """Add to what a run left from now on."""
+        if left.end:
+            self._partial.keep_until(left.end)
+            self._count(left.piece)
+        else:
+            self._copy_result(left)
+            self._source = left.source
+        self._coords, self._before = left.piece.coords, left.piece.stats
+        self.outputs, self._events = left.outputs, left.events
+
+    def _copy_result(self, left: Left) -> None:
+        """A state is with the last piece alone: until it is there, the result is what to go on from."""
+        self._partial.keep_until(0)
+        with open_netcdf(left.source, LARGEST) as file:
+            names = list(left.piece.arrays)
+            rows = rows_of_piece(sum(int(np.prod(file[name].shape[1:])) for name in names))
+            for at in range(0, left.outputs, rows):
+                last = at + rows >= left.outputs
+                piece = dataclasses.replace(
+                    left.piece,
+                    arrays={name: file[name][at : min(at + rows, left.outputs)] for name in names},
+                    events=left.piece.events if last else (),
+                    state=left.piece.state if last else b"",
+                )
+                self._partial.append(piece)
+                self._count(piece)
+
+    def append(
+        self,
+        result: Result | None,
+        *,
+        stats: Mapping[str, Any],
+        events: Sequence[Event],
+        state: bytes,
+        interrupted: bool,
+    ) -> None:
+        """Add the outputs of a result that are not there yet, and the state where they end.
+
+        Parameters
+        ----------
+        result : Result, optional
+            None: there are no new outputs.
+        stats, events
+            Of the run until now, as a result has them.
+        state : bytes
+            As `state_to_bytes` gives it.
+        interrupted : bool
+            False at the end of the run.
 
         Raises
         ------
         OSError
-            If the disk has no room for them; the file then is as it was before.
+            If the disk has no room for them; the files then are as they were before.
         """
-        with _whole(), self._named_errors():
-            if not self.draft.exists():
-                self._define(piece)
-            else:
-                _reserve(self.draft, 8 * sum(array.size for array in piece.channels.values()))
-            with _dataset(self.draft) as file:
-                rows = slice(self.outputs, self.outputs + piece.time.size)
-                for name, values in piece.channels.items():
-                    file[name][rows] = self._continued(values) if name == TURNING else values
-                file["time"][rows] = piece.time  # last: outputs without a time do not count
-                self._add_events(file, piece.events)
-                file.setncatts(self._stats(piece.stats, interrupted))
-        if TURNING in piece.channels:
-            self._last_angle = float(self._continued(piece.channels[TURNING])[-1])
-        self.outputs += piece.time.size
-
-    def describe(self, stats: Mapping[str, Any], events: Sequence[Event], *, interrupted: bool) -> None:
-        """Bring counters and events up to date."""
-        with _whole(), self._named_errors():
-            _reserve(self.draft, 0)
-            with _dataset(self.draft) as file:
-                self._add_events(file, events)
-                file.setncatts(self._stats(checked_stats(stats), interrupted))
-
-    def sync(self) -> None:
-        """Have the disk hold what has been written."""
-        with self.draft.open("rb+") as file:
-            os.fsync(file.fileno())
-
-    def finish(self) -> None:
-        """Give the file its own name; nothing if there is none."""
-        if self.draft.exists():
-            self.sync()
-            self.draft.replace(self.path)
-
-    def _define(self, piece: Result) -> None:
-        import netCDF4
-
-        width = sum(array[0].size for array in piece.channels.values())
-        self.rows = max(LEAST_ROWS, min(MOST_ROWS, LARGEST_PIECE // (8 * max(width, 1))))
+        if result is not None:
+            new = slice(int(np.searchsorted(result.time, self._last_time, "right")), None)
+            arrays = {name: array[new] for name, array in {"time": result.time, **result.channels}.items()}
+            self._coords = result.coords
+        else:
+            arrays = dict(self._nothing)
+        if TURNING in arrays and arrays[TURNING].size:
+            arrays[TURNING] = self._continued(arrays[TURNING])
+        new_events = events[self._events_of_run :]
+        stats = self._stats(stats, self._events + len(new_events))
+        piece = Piece(arrays=arrays, coords=self._coords, stats=stats, events=new_events,
+                      interrupted=interrupted, state=state)  # fmt: skip
         try:
-            with netCDF4.Dataset(self.draft, "w", format="NETCDF4") as file:
-                file.createDimension("time", None)
-                file.createVariable("time", "f8", ("time",), chunksizes=(self.rows,), fill_value=np.nan)
-                for dim, names in piece.coords.items():
-                    file.createDimension(dim, len(names))
-                    file.createVariable(dim, str, (dim,))[:] = np.array(names, dtype=object)
-                for name, array in piece.channels.items():
-                    chunks = (self.rows, *array.shape[1:])
-                    file.createVariable(name, "f8", piece.dims[name], compression="zlib", complevel=1,
-                                        chunksizes=chunks, fill_value=np.nan)  # fmt: skip
-                for name in ("time", *piece.channels):
-                    file[name].setncatts(attributes(name))
-            _reserve(self.draft, 8 * (width + 1) * piece.time.size)
-        except BaseException:
-            self.draft.unlink(missing_ok=True)
-            raise
+            self._partial.append(piece)
+        except OSError as error:
+            kept = (
+                f"the outputs until {self._last_time:.6g} s are kept in {self._partial.path}"
+                if self.outputs
+                else "nothing was written"
+            )
+            why = f"{error.strerror or error}{space_left(self.path.parent)}"
+            raise OSError(f"could not write {self.path}: {why}; {kept}") from error
+        self._count(piece)
+        self._events_of_run = len(events)
 
-    def _add_events(self, file: Any, events: Sequence[Event]) -> None:
-        """Those of this run's events that are not in the file yet."""
-        new = events[self._events_of_run :]
-        if new:
-            add_events(file, new, self._events)
-            self._events += len(new)
-            self._events_of_run = len(events)
+    def _count(self, piece: Piece) -> None:
+        if piece.outputs:
+            self._last_time = float(piece.arrays["time"][-1])
+            self._last_angle = float(piece.arrays[TURNING][-1]) if TURNING in piece.arrays else None
+        self._nothing = {name: array[:0] for name, array in piece.arrays.items()}
+        self.outputs, self._events = self.outputs + piece.outputs, self._events + len(piece.events)
+        self.stats = dict(piece.stats)
 
-    def _stats(self, stats: Mapping[str, Any], interrupted: bool) -> dict[str, Any]:
+    def finish(self, *, reached_end: bool) -> Path:
+        """Make the result's file, and return where the outputs are.
+
+        A run that stopped before its end leaves an older result alone, unless it has gone on with it.
+
+        Raises
+        ------
+        OSError
+            If there is no room; the partial file then holds everything.
+        """
+        if not reached_end and self.path.exists() and self._source is None:
+            return self._partial.path
+        try:
+            with atomic_write(self.path) as draft:
+                self._write(draft)
+        except (OSError, RuntimeError) as error:  # failures of the HDF5 library arrive as RuntimeError
+            where = (
+                f"all outputs are in {self._partial.path}, and resume=True makes the file of them once it can"
+                if self._partial.is_there()
+                else f"the outputs were in {self._partial.path}, which somebody has removed"
+            )
+            raise OSError(f"{error}; {where}") from error
+        self._partial.release(remove=True)
+        return self.path
+
+    def _write(self, draft: Path) -> None:
+        events: list[Event] = []
+        outputs, last, state = 0, None, b""
+        for piece, _ in self._partial.pieces():
+            outputs += piece.outputs
+            events += piece.events
+            last, state = piece, piece.state or state
+        assert last is not None
+        contents = Contents(outputs=outputs, dims=last.dims, coords=last.coords, stats=last.stats,
+                            events=events, interrupted=last.interrupted, state=state)  # fmt: skip
+        write_netcdf(draft, contents, _blocks((piece for piece, _ in self._partial.pieces()), contents.rows))
+
+    def _stats(self, stats: Mapping[str, Any], events: int) -> dict[str, Any]:
         """Of all pieces of the run: counters and simulated time of the one before are added."""
-        out = {**stats, "interrupted": int(interrupted)}
+        out = dict(stats)
         for name in ("simulated_s", *COUNTERS):
             if name in self._before and name in stats:
                 out[name] = stats[name] + self._before[name]
@@ -205,8 +329,7 @@ class ResultFile:
         if lines:
             out["validity"] = "\n".join(dict.fromkeys(lines))
         if "events" in stats:
-            out["events"] = self._events
-        self.stats = {name: value for name, value in out.items() if name != "interrupted"}
+            out["events"] = events
         return out
 
     def _continued(self, angle: Array) -> Array:
@@ -216,74 +339,86 @@ class ResultFile:
         continued: Array = angle + turn * np.round((self._last_angle - angle[0]) / turn)
         return continued
 
-    @contextlib.contextmanager
-    def _named_errors(self) -> Iterator[None]:
-        try:
-            yield
-        except (
-            OSError,
-            RuntimeError,
-        ) as error:  # the HDF5 library's failures to write arrive as RuntimeError
-            raise OSError(
-                f"could not write {self.path}: {error}{space_left(self.path.parent)}; the outputs until then "
-                "are kept there"
-            ) from error
+
+def difference(
+    old: Mapping[str, Any], old_channels: Sequence[str], new: Mapping[str, Any], channels: Sequence[str]
+) -> str:
+    """What tells two runs apart by their stats and channels, in words; empty: they are the same but for
+    their ends."""
+    if old.get(DIGEST) != new[DIGEST]:
+        version, own = old.get("seacrane_version"), new["seacrane_version"]
+        written = f" (or was written by seacrane {version}, this is {own})" if version != own else ""
+        return f"is of another scene{written}"
+    settings = [json.loads(some["settings"]) for some in (old, new)]
+    pairs = {name: (old.get(name), new.get(name)) for name in METHOD}
+    pairs |= {name: (settings[0].get(name), settings[1].get(name)) for name in SETTINGS}
+    pairs["channels"] = (", ".join(sorted(old_channels)), ", ".join(sorted(channels)))
+    for name, (there, here) in pairs.items():
+        if there != here:
+            return f"has {name} {there!r}, this run {here!r}"
+    return ""
 
 
-@contextlib.contextmanager
-def _dataset(path: Path) -> Iterator[Any]:
-    import netCDF4
-
-    for attempts_left in reversed(range(5)):
-        _leave_to_readers(path)
-        try:
-            file = netCDF4.Dataset(path, "a")
-            break
-        except OSError:
-            if not attempts_left:
-                raise
-    with file:
-        yield file
-
-
-def _leave_to_readers(path: Path) -> None:
-    """A program that reads a NetCDF file locks it: it keeps that file, and the run goes on in a copy."""
+def read_partial(path: Path, largest: int, channels: Sequence[str] | None = None) -> dict[str, Any]:
+    """What is in the file of a run that goes on, as `netcdf.read_arrays` gives it."""
+    parts: dict[str, list[Array]] = {}
+    events: list[Event] = []
+    last, state, total = None, b"", 0
     with path.open("rb") as file:
-        try:
-            fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        except BlockingIOError:
-            with atomic_write(path) as draft:
-                shutil.copyfile(path, draft)
+        for piece, _ in pieces_of(file, path):
+            for name, array in piece.arrays.items():
+                if name == "time" or channels is None or name in channels:
+                    parts.setdefault(name, []).append(array)
+                    total += array.nbytes
+            if total > largest:
+                raise FileFormatError(
+                    f"{path}: its arrays take more than {largest / 2**20:g} MiB; raise it with "
+                    "Result.load(path, largest=...) if the file is yours"
+                )
+            events += piece.events
+            last, state = piece, piece.state or state
+    if last is None:
+        raise FileFormatError(f"{path}: holds no outputs yet")
+    from seacrane.state_file import state_from_bytes
+
+    arrays = {name: np.concatenate(several) for name, several in parts.items()}
+    return {
+        "time": arrays.pop("time"),
+        "arrays": arrays,
+        **{argument: last.coords[dim] for dim, argument in NAMED.items() if dim in last.coords},
+        "events": events,
+        "stats": last.stats,
+        "interrupted": last.interrupted,
+        "state": state_from_bytes(state, path) if state else None,
+    }
 
 
-def _reserve(path: Path, size: int) -> None:
-    """Have the disk promise room for so many bytes more: without, the NetCDF library leaves a torn file."""
-    if not hasattr(os, "posix_fallocate"):
-        return
-    with path.open("rb+") as file:
-        end = file.seek(0, os.SEEK_END)
-        try:
-            os.posix_fallocate(file.fileno(), end, size + MARGIN)
-        except OSError:
-            file.truncate(end)
-            raise
+def _described(path: Path) -> tuple[dict[str, Any], list[str], dict[str, list[str]]]:
+    """Stats, channels and names along dimensions of a result's file."""
+    with open_netcdf(path, LARGEST) as file:
+        stats = {name: file.getncattr(name) for name in file.ncattrs() if name != "interrupted"}
+        stats = {
+            name: value.item() if isinstance(value, np.generic) else value for name, value in stats.items()
+        }
+        json.loads(stats["settings"])
+        channels = [name for name, variable in file.variables.items()
+                    if variable.dimensions[:1] == ("time",) and name != "time"]  # fmt: skip
+        dims = {dim for name in channels for dim in file[name].dimensions[1:]}
+        return stats, channels, {dim: [str(name) for name in file[dim][:]] for dim in sorted(dims)}
 
 
-@contextlib.contextmanager
-def _whole() -> Iterator[None]:
-    """Holds Ctrl-C back until the block is done."""
-    if threading.current_thread() is not threading.main_thread():
-        yield
-        return
-    pressed: list[int] = []
-    before = signal.getsignal(signal.SIGINT)
-    if before is None:  # set by another program: not ours to replace
-        yield
-        return
-    signal.signal(signal.SIGINT, lambda number, frame: pressed.append(number))
-    try:
-        yield
-    finally:
-        signal.signal(signal.SIGINT, before)
-        if pressed:
-            signal.raise_signal(signal.SIGINT)
+def _blocks(pieces: Iterator[Piece], rows: int) -> Iterator[dict[str, Array]]:
+    """Arrays of the pieces, cut anew to so many outputs each."""
+    held: list[Mapping[str, Array]] = []
+    count = 0
+    for piece in pieces:
+        held.append(piece.arrays)
+        count += piece.outputs
+        if count < rows:
+            continue
+        joined = {name: np.concatenate([arrays[name] for arrays in held]) for name in held[0]}
+        whole = count - count % rows
+        yield {name: array[:whole] for name, array in joined.items()}
+        held, count = [{name: array[whole:] for name, array in joined.items()}], count - whole
+    if count:
+        yield {name: np.concatenate([arrays[name] for arrays in held]) for name in held[0]}

@@ -1,0 +1,232 @@
+"""The file of a run that goes on: pieces of its outputs, each with the state where it ends.
+
+A file is the line "seacrane partial result" and records. A record is its length (8 bytes), a body, and the
+SHA-256 of both. A body is a line of JSON, the arrays that it lists as little-endian doubles, and the state
+as in a state file. Records are added at the end and never changed: whenever the writer is killed, what comes
+before the last one is whole, and a record that was broken off is known by its length or its checksum.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import fcntl
+import hashlib
+import json
+import os
+import struct
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any, BinaryIO
+
+import numpy as np
+from numpy.typing import NDArray
+
+from seacrane.errors import FileFormatError
+from seacrane.result.channels import CHANNELS
+from seacrane.result.events import Event
+
+Array = NDArray[np.float64]
+MAGIC = b"seacrane partial result\n"
+LENGTH = struct.Struct("<Q")
+DIGEST = hashlib.sha256().digest_size
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Piece:
+    """Outputs of a run from one moment to another.
+
+    Attributes
+    ----------
+    arrays : mapping of str to ndarray
+        "time" and the channels.
+    coords : mapping of str to sequence of str
+        As `Result.coords`.
+    stats : mapping
+        As `Result.stats`, of all of the run until here.
+    events : sequence of Event
+        Of this piece.
+    interrupted : bool
+        False for the last piece of a run that reached its end.
+    state : bytes
+        Where the piece ends, as a state file; empty where there is none.
+    """
+
+    arrays: Mapping[str, Array]
+    coords: Mapping[str, Sequence[str]]
+    stats: Mapping[str, Any]
+    events: Sequence[Event] = ()
+    interrupted: bool = True
+    state: bytes = field(default=b"", repr=False)
+
+    @property
+    def outputs(self) -> int:
+        """How many."""
+        return int(self.arrays["time"].size)
+
+    @property
+    def dims(self) -> dict[str, tuple[str, ...]]:
+        """Of each channel."""
+        return {name: CHANNELS[name].dims_of(array.ndim) for name, array in self.arrays.items()
+                if name != "time"}  # fmt: skip
+
+    def to_bytes(self) -> bytes:
+        """The body of a record."""
+        header = {
+            "arrays": [[name, list(array.shape)] for name, array in self.arrays.items()],
+            "coords": {dim: list(names) for dim, names in self.coords.items()},
+            "stats": dict(self.stats),
+            "events": [vars(event) for event in self.events],
+            "interrupted": self.interrupted,
+            "state": len(self.state),
+        }
+        numbers = (np.ascontiguousarray(array, dtype="<f8").tobytes() for array in self.arrays.values())
+        return b"".join([json.dumps(header).encode("ascii"), b"\n", *numbers, self.state])
+
+    @classmethod
+    def from_bytes(cls, body: bytes) -> Piece:
+        """What `to_bytes` made; ValueError, KeyError or TypeError for anything else."""
+        end = body.index(b"\n") + 1
+        header = json.loads(body[:end])
+        arrays = {}
+        for name, shape in header["arrays"]:
+            count = int(np.prod(shape, dtype=object))
+            if not all(type(n) is int and n >= 0 for n in shape) or 8 * count > len(body) - end:
+                raise ValueError(f"array {name!r} of shape {shape} does not fit")
+            arrays[name] = np.frombuffer(body, "<f8", count, end).reshape(shape).astype(np.float64)
+            end += 8 * count
+        if end + header["state"] != len(body) or len({len(array) for array in arrays.values()}) != 1:
+            raise ValueError("arrays and state do not fill the record")
+        return cls(
+            arrays=arrays,
+            coords=header["coords"],
+            stats=header["stats"],
+            events=[Event(**event) for event in header["events"]],
+            interrupted=bool(header["interrupted"]),
+            state=body[end:],
+        )
+
+
+def is_partial(path: Path) -> bool:
+    """Whether a file is one of these."""
+    with path.open("rb") as file:
+        return file.read(len(MAGIC)) == MAGIC
+
+
+def pieces_of(file: BinaryIO, name: str | Path) -> Iterator[tuple[Piece, int]]:
+    """All whole pieces, and the places where they end.
+
+    Raises
+    ------
+    FileFormatError
+        For a file of another kind, or a whole record that is no piece.
+    """
+    file.seek(0)
+    start = file.read(len(MAGIC))
+    if start != MAGIC:
+        if MAGIC.startswith(start):
+            return  # broken off before anything was in it
+        raise FileFormatError(f"{name}: is not the file of a run; move it away")
+    while True:
+        head = file.read(LENGTH.size)
+        if len(head) < LENGTH.size:
+            return
+        (length,) = LENGTH.unpack(head)
+        if length > os.fstat(file.fileno()).st_size - file.tell() - DIGEST:
+            return
+        body = file.read(length)
+        end = file.tell() + DIGEST
+        if file.read(DIGEST) != hashlib.sha256(head + body).digest():
+            return
+        try:
+            piece = Piece.from_bytes(body)
+        except (LookupError, TypeError, ValueError, RecursionError) as error:
+            raise FileFormatError(f"{name}: holds a piece that no run wrote: {error}") from error
+        del body
+        yield piece, end
+        file.seek(end)
+
+
+class PartialFile:
+    """Such a file, open for one writer: another one is refused while this one lives."""
+
+    def __init__(self, path: Path) -> None:
+        self.path = path
+        self._number = -1
+        self._end = 0
+
+    def claim(self) -> None:
+        """Open the file, made if absent, for this writer alone.
+
+        Raises
+        ------
+        FileExistsError
+            If another writer has it.
+        OSError
+            If it cannot be made.
+        """
+        while self._number < 0:
+            self._number = os.open(self.path, os.O_RDWR | os.O_CREAT | os.O_CLOEXEC, 0o666)
+            try:
+                fcntl.flock(self._number, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            except BlockingIOError:
+                self._close()
+                raise FileExistsError(
+                    f"{self.path} is being written by another run; wait for its end, or give another name"
+                ) from None
+            except OSError:
+                pass  # a file system that cannot lock
+            if not self.is_there():  # the run that had it has finished in between
+                self._close()
+
+    def is_there(self) -> bool:
+        """Whether the file still has its name: nobody moved, removed or replaced it."""
+        try:
+            return os.path.samestat(os.fstat(self._number), os.stat(self.path))
+        except FileNotFoundError:
+            return False
+
+    def pieces(self) -> Iterator[tuple[Piece, int]]:
+        """As `pieces_of`."""
+        with os.fdopen(os.dup(self._number), "rb") as file:
+            yield from pieces_of(file, self.path)
+
+    def keep_until(self, end: int) -> None:
+        """Go on after a place where a piece ends; 0: after nothing."""
+        os.ftruncate(self._number, end)
+        self._end = end or os.pwrite(self._number, MAGIC, 0)
+
+    def append(self, piece: Piece) -> None:
+        """Add a piece, which the disk holds when this returns.
+
+        Raises
+        ------
+        OSError
+            If there is no room; what was there before stays as it was.
+        """
+        body = piece.to_bytes()
+        head = LENGTH.pack(len(body))
+        left = memoryview(head + body + hashlib.sha256(head + body).digest())
+        at = self._end
+        try:
+            while left:
+                count = os.pwrite(self._number, left, at)
+                at, left = at + count, left[count:]
+            os.fsync(self._number)
+        except BaseException:
+            with contextlib.suppress(OSError):
+                os.ftruncate(self._number, self._end)
+            raise
+        self._end = at
+
+    def release(self, *, remove: bool = False) -> None:
+        """Give it up, and remove it where it holds nothing, or nothing of use any more."""
+        if self._number < 0:
+            return
+        if (remove or os.fstat(self._number).st_size <= len(MAGIC)) and self.is_there():
+            self.path.unlink()
+        self._close()
+
+    def _close(self) -> None:
+        os.close(self._number)
+        self._number = -1

@@ -1,0 +1,189 @@
+"""Scenes, their elements, models and states are copied, pickled and compared by value."""
+
+from __future__ import annotations
+
+import copy
+import ctypes
+import dataclasses
+import pickle
+import re
+import subprocess
+import sys
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from test_scene_file import every_kind
+
+from seacrane import (
+    Curve,
+    FlowForce,
+    Result,
+    Run,
+    Scene,
+    SceneError,
+    _core,
+    add_end_stop,
+    add_friction,
+    add_soft_stop,
+    cases,
+    simulate,
+)
+
+
+def all_kinds() -> Scene:
+    scene = every_kind()
+    add_end_stop(scene, joint="pin", maximum=2.0, restitution=0.1)
+    add_friction(scene, joint="pin", load=1.0 / 3.0, speed=0.1)
+    add_soft_stop(scene, joint="sleeve", stiffness=1e5, minimum=-1.0)
+    angles = np.linspace(-np.pi, np.pi, 8, endpoint=False)
+    scene.add_load(
+        FlowForce(name="wind", body="hull", point=(0, 0, 1), density=1.2, speed=Curve.constant(value=9.0),
+                  direction=0.3, frontal_area=10.0, lateral_area=20.0, length=30.0, angles=angles,
+                  coefficients=np.cos(np.outer(angles, [1, 2, 3])))
+    )  # fmt: skip
+    return scene
+
+
+def pickled(value: Any) -> Any:
+    return pickle.loads(pickle.dumps(value))
+
+
+COPIES = {"pickle": pickled, "deepcopy": copy.deepcopy, "copy": copy.copy}
+
+
+@pytest.mark.parametrize("how", COPIES)
+@pytest.mark.parametrize("memory", ["per-pair", "convolution"])
+def test_a_copied_scene_moves_alike_to_the_bit(how: str, memory: str) -> None:
+    scene = cases.case2(memory=memory)
+    other = COPIES[how](scene)
+    assert other == scene
+    assert other is not scene
+    one, two = (simulate(each, t_end=1.0) for each in (scene, other))
+    for name, values in one.channels.items():
+        assert np.array_equal(values, two[name]), name
+    assert one.state == two.state
+
+
+@pytest.mark.parametrize("how", COPIES)
+def test_every_kind_is_copied_by_value(how: str) -> None:
+    scene = all_kinds()
+    other = COPIES[how](scene)
+    assert other == scene
+    for field in dataclasses.fields(Scene):
+        table = getattr(scene, field.name)
+        if isinstance(table, dict) and field.name not in ("notes", "function_forces"):
+            assert table, field.name
+            for name, element in table.items():
+                assert COPIES[how](element) == element, name
+
+
+@pytest.mark.parametrize("how", [*COPIES.values(), Scene.copy, dataclasses.replace])
+def test_copies_are_independent(how: Any) -> None:
+    scene = cases.case2()
+    scene.notes["list"] = [1]
+    other = how(scene)
+    for field in dataclasses.fields(Scene):
+        table = getattr(other, field.name)
+        if isinstance(table, dict) and field.name != "notes":
+            table.clear()
+    other.notes["list"].append(2)
+    assert len(scene.bodies) == 10
+    assert scene.notes["list"] == [1]
+    assert other != scene
+
+
+def described_classes() -> list[type]:
+    """Classes of the core that are made by named arguments and come back from a pickle."""
+    found = [one for one in vars(_core).values() if isinstance(one, type) and hasattr(one, "__setstate__")]
+    assert len(found) >= 19
+    return [one for one in found if "__init__" in vars(one)]
+
+
+@pytest.mark.parametrize("kind", described_classes(), ids=lambda kind: kind.__name__)
+def test_what_is_pickled_is_all_that_the_constructor_takes(kind: type) -> None:
+    """A new argument must not get lost on the way."""
+    told = re.search(r"__init__\(self: [^,)]*, \*(.*)\) -> None", kind.__init__.__doc__ or "")
+    scene = all_kinds()
+    run = Run(cases.case2(memory="convolution"), t_end=1.0)
+    run.advance(0.5)
+    state = run.state
+    block = cases.vessel().vessels["vessel"].memory[0]
+    joint = next(iter(scene.joints.values()))
+    samples = [state, state.steps, state.record, *state.histories, block, joint.first_frame,
+               Curve.constant(value=1.0)]  # fmt: skip
+    samples += [run.scene.vessels["vessel"].memory]
+    for field in dataclasses.fields(Scene):
+        if isinstance(getattr(scene, field.name), dict):
+            samples += getattr(scene, field.name).values()
+    (sample, *_) = [one for one in samples if type(one) is kind]
+    if kind is not Curve:  # made by Curve.pieces
+        assert told is not None
+        assert set(sample.__getstate__()) == set(re.findall(r", (\w+): ", told.group(1)))
+    assert pickled(sample) == sample
+    assert hash(pickled(sample)) == hash(sample)
+    assert sample != 3
+
+
+def test_values_that_differ_are_not_equal() -> None:
+    assert Curve.constant(value=1.0) == Curve.constant(value=1.0) != Curve.constant(value=2.0)
+    assert _core.Frame() != _core.Frame(point=(1.0, 0.0, 0.0))
+    run = Run(cases.case2(), t_end=1.0)
+    before = run.state
+    assert run.state == before
+    run.advance(0.5)
+    assert run.state != before
+    assert cases.case2() == cases.case2() != cases.case2(seed=2)
+
+
+CHILD = """
+import pickle, sys
+import numpy as np
+from seacrane import Run
+scene, model, state = pickle.load(open(sys.argv[1], "rb"))
+run = Run(scene, model=model, start=state, t_end=2.0)
+run.advance(2.0)
+pickle.dump(run.state, open(sys.argv[1], "wb"))
+"""
+
+
+def test_scene_model_and_state_reach_another_process(tmp_path: Path) -> None:
+    scene = cases.case2()
+    run = Run(scene, t_end=2.0)
+    run.advance(1.0)
+    path = tmp_path / "run.pickle"
+    path.write_bytes(pickle.dumps((scene, run.model, run.state)))
+    subprocess.run([sys.executable, "-c", CHILD, str(path)], check=True)
+    run.advance(2.0)
+    assert pickle.loads(path.read_bytes()) == run.state
+
+
+def test_a_model_is_pickled_as_it_was_compiled() -> None:
+    scene = cases.case1()
+    model = scene.compile(merge=False)
+    scene.bodies.clear()
+    again = pickled(model)
+    assert np.array_equal(again.initial_state, model.initial_state)
+    assert again.merge == model.merge
+    assert copy.deepcopy(model) is model
+
+
+def test_a_result_keeps_its_state_in_files_and_pickles(tmp_path: Path) -> None:
+    result = simulate(cases.case1(), t_end=1.0)
+    for again in (pickled(result), Result.load(result.save(tmp_path / "one.nc"))):
+        assert again.state == result.state
+        assert simulate(cases.case1(), t_end=2.0, start=again.state).time[-1] == 2.0
+
+
+def test_c_functions_are_copied_here_and_refused_elsewhere() -> None:
+    kind = ctypes.CFUNCTYPE(None, ctypes.c_double, *[ctypes.POINTER(ctypes.c_double)] * 3)
+    function = kind(lambda t, state, parameters, wrench: None)
+    scene = Scene()
+    scene.add_body(name="box", mass=1.0, inertia=(1.0, 1.0, 1.0))
+    address = ctypes.cast(function, ctypes.c_void_p).value
+    assert address is not None
+    scene.add_function_force(name="pull", body="box", address=address)
+    assert copy.deepcopy(scene) == scene
+    with pytest.raises(SceneError, match="function force 'pull': its C function has no address in another"):
+        pickle.dumps(scene)

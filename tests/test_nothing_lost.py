@@ -1,0 +1,228 @@
+"""What was written is never lost or mixed: random kills, two writers, stale states and full disks."""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import random
+import resource
+import signal
+import subprocess
+import time
+from collections.abc import Callable, Iterator
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from seacrane import Result, Scene, simulate, simulate_to_file
+from seacrane.result.stream import partial_path
+
+SETTINGS: dict[str, Any] = {"t_end": 40.0, "dt_out": 0.05}
+SAMPLE, MANY = 5, 200
+REFUSED, FULL = 3, 4  # how a writer ends
+
+Check = Callable[[int, Path], None]
+
+
+def pendulum(stiffness: float = 0.0) -> Scene:
+    scene = Scene(name="pendulum")
+    scene.add_body(name="bob", mass=2.0, inertia=(0.1, 0.1, 0.1), position=(1.0, 0.0, 0.0))
+    scene.add_joint(
+        kind="revolute", name="pin", first="ground", second="bob", point=(0, 0, 0), axis=(0, 1, 0)
+    )
+    scene.add_actuator(name="motor", joint="pin", stiffness=stiffness)
+    return scene
+
+
+@cache
+def reference(stiffness: float = 0.0, t_end: float = SETTINGS["t_end"]) -> Result:
+    return simulate(pendulum(stiffness), **{**SETTINGS, "t_end": t_end})
+
+
+def writer(path: Path, stiffness: float = 0.0, room: int | None = None, **settings: Any) -> int:
+    """The number of a process that runs a pendulum to a file."""
+    number = os.fork()
+    if number:
+        return number
+    ends = 1
+    try:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), 2)
+        if room is not None:
+            resource.setrlimit(resource.RLIMIT_FSIZE, (room, room))
+        simulate_to_file(pendulum(stiffness), path, **{**SETTINGS, "checkpoint_every": 0.5, **settings})
+        ends = 0
+    except FileExistsError:
+        ends = REFUSED
+    except OSError:
+        ends = FULL
+    finally:
+        os._exit(ends)
+
+
+def ended(number: int) -> int:
+    """How a writer ended; -9 where it was killed."""
+    return os.waitstatus_to_exitcode(os.waitpid(number, 0)[1])
+
+
+def killed_somewhere(path: Path, rng: random.Random, **given: Any) -> None:
+    """A writer, killed while it writes or as it ends."""
+    number = writer(path, **given)
+    until = time.monotonic() + 20.0
+    while time.monotonic() < until and not (path.exists() or list(path.parent.glob("*.partial*"))):
+        time.sleep(1e-4)
+    time.sleep(rng.uniform(0.0, 0.25))
+    os.kill(number, signal.SIGKILL)
+    ended(number)
+
+
+def is_start_of(result: Result, whole: Result) -> bool:
+    """Whether a result holds the first outputs of another, bit for bit."""
+    n = result.time.size
+    return np.array_equal(result.time, whole.time[:n]) and all(
+        np.array_equal(values, whole[name][:n]) for name, values in result.channels.items()
+    )
+
+
+def left_at(path: Path) -> list[Result]:
+    """All that is there, read."""
+    return [Result.load(one) for one in (path, partial_path(path)) if one.exists()]
+
+
+def kill(seed: int, path: Path) -> None:
+    """Whenever a run is killed, its outputs can be read, and it goes on as if it had not been."""
+    rng = random.Random(seed)
+    killed_somewhere(path, rng)
+    if not left_at_once(path):
+        return
+    for result in left_at(path):
+        assert is_start_of(result, reference())
+        assert result.state is None or result.state.time >= result.time[-1]
+    told = simulate_to_file(pendulum(), path, resume=True, **SETTINGS)
+    assert told.outputs == reference().time.size
+    assert is_start_of(told.load(), reference())
+
+
+def left_at_once(path: Path) -> bool:
+    """Whether the writer came as far as its first piece."""
+    left = partial_path(path)
+    return path.exists() or (left.exists() and left.stat().st_size > 100)
+
+
+def two_writers(seed: int, path: Path) -> None:
+    """Only one of two processes writes a file; the other is refused, whatever it runs."""
+    rng = random.Random(seed)
+    stiffness = [0.0, rng.choice([0.0, 5.0])]
+    numbers = [writer(path, stiffness[0])]
+    time.sleep(rng.uniform(0.0, 0.1))
+    numbers.append(writer(path, stiffness[1]))
+    ends = [ended(number) for number in numbers]
+    assert set(ends) <= {0, REFUSED}
+    assert 0 in ends
+    if stiffness[0] != stiffness[1]:
+        assert REFUSED in ends
+    written = [one for one, end in zip(stiffness, ends, strict=True) if end == 0]
+    result = Result.load(path)
+    assert result.time.size == reference().time.size
+    assert any(is_start_of(result, reference(one)) for one in written)
+    assert not partial_path(path).exists()
+
+
+def stale(seed: int, path: Path) -> None:
+    """Several scenes and settings under one name, some killed, some resumed: each is whole or refused."""
+    rng = random.Random(seed)
+    for _ in range(4):
+        stiffness, t_end = rng.choice([0.0, 5.0]), rng.choice([20.0, SETTINGS["t_end"]])
+        if rng.random() < 0.4:
+            before = contents(path)
+            killed_somewhere(path, rng, stiffness=stiffness, t_end=t_end)
+            assert all(contents(path)[name] == data for name, data in before.items() if name == path.name)
+            continue
+        resume, overwrite = rng.random() < 0.5, rng.random() < 0.3
+        before = contents(path)
+        given = {"resume": resume, "overwrite": overwrite, **SETTINGS, "t_end": t_end}
+        try:
+            told = simulate_to_file(pendulum(stiffness), path, **given)
+        except (OSError, ValueError):
+            assert contents(path) == before
+            continue
+        result = told.load()
+        assert result.time.size == told.outputs
+        assert np.diff(result.time).max() < 1.5 * SETTINGS["dt_out"]
+        assert result.time[-1] == t_end
+        whole = reference(stiffness, t_end)
+        # Where a finished run went on to a later end, it landed on its first one.
+        np.testing.assert_allclose(result["position"], whole["position"], atol=1e-3)
+
+
+def contents(path: Path) -> dict[str, bytes]:
+    return {one.name: one.read_bytes() for one in path.parent.iterdir() if not one.name.endswith(".tmp")}
+
+
+def full_disk(seed: int, path: Path) -> None:
+    """Where room ends, what had room can be read, and the run goes on when there is more."""
+    room = random.Random(seed).randrange(0, 900_000)
+    assert ended(writer(path, room=room)) in (0, FULL)
+    whole_there = left_at_once(path)
+    for result in left_at(path) if whole_there else []:
+        assert is_start_of(result, reference())
+        assert result.state is not None
+    told = simulate_to_file(pendulum(), path, resume=whole_there, **SETTINGS)
+    assert is_start_of(told.load(), reference())
+    assert [one.name for one in path.parent.iterdir()] == [path.name]
+
+
+@contextlib.contextmanager
+def small_disk(folder: Path, size: int) -> Iterator[Path]:
+    """A disk of so many bytes; skips where this user may not mount one."""
+    folder.mkdir()
+    made = subprocess.run(["mount", "-t", "tmpfs", "-o", f"size={size}", "tmpfs", str(folder)], check=False,
+                          capture_output=True)  # fmt: skip
+    if made.returncode:
+        pytest.skip("this user may not mount a small disk; the limit of file sizes is tested instead")
+    try:
+        yield folder
+    finally:
+        subprocess.run(["umount", "-l", str(folder)], check=True)
+
+
+CHECKS: dict[str, Check] = {"kill": kill, "two writers": two_writers, "stale": stale, "full disk": full_disk}
+
+
+@pytest.mark.parametrize("name", CHECKS)
+def test_a_sample_of_what_may_happen_to_a_file(name: str, tmp_path: Path) -> None:
+    reference()
+    for seed in range(SAMPLE):
+        (tmp_path / str(seed)).mkdir()
+        CHECKS[name](seed, tmp_path / str(seed) / "run.nc")
+
+
+@pytest.mark.nightly
+@pytest.mark.parametrize("name", CHECKS)
+def test_whatever_happens_to_a_file_it_is_whole_and_unmixed(name: str, tmp_path: Path) -> None:
+    reference()
+    for seed in range(SAMPLE, SAMPLE + MANY):
+        (tmp_path / str(seed)).mkdir()
+        CHECKS[name](seed, tmp_path / str(seed) / "run.nc")
+
+
+def test_a_small_disk_leaves_the_outputs_that_had_room(tmp_path: Path) -> None:
+    """The disk itself is full, for the result's own file too."""
+    with small_disk(tmp_path / "disk", 600_000) as disk:
+        with pytest.raises(OSError, match=r"No space left on .*; the outputs until [0-9.]+ s are kept in"):
+            simulate_to_file(pendulum(), disk / "run.nc", checkpoint_every=1.0, **{**SETTINGS, "t_end": 1e4})
+        (left,) = left_at(disk / "run.nc")
+        assert left.time.size > 16
+        assert left.state is not None
+        os.sync()
+
+
+def test_a_failed_save_gives_its_room_back(tmp_path: Path) -> None:
+    with small_disk(tmp_path / "disk", 300_000) as disk:
+        for _ in range(3):
+            with pytest.raises(OSError, match=r"could not write .*run\.nc"):
+                reference(0.0, 400.0).save(disk / "run.nc")
+            assert not list(disk.iterdir())
+            assert os.statvfs(disk).f_bavail * os.statvfs(disk).f_frsize > 250_000

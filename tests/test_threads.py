@@ -1,0 +1,129 @@
+"""Threads that share a run, and threads that the interpreter's end finds in the loop."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+import threading
+from typing import Any
+
+import numpy as np
+import pytest
+
+from seacrane import Run, SimulationError, cases
+
+GENEROUS = 120.0  # s
+
+
+def test_a_run_is_read_while_another_thread_advances_it() -> None:
+    """Every reading is of one instant between two steps, and the run ends in the bits of one left alone."""
+    scene = cases.case2()
+    settings: dict[str, Any] = {"t_end": 400.0, "dt_out": 1.0}
+    alone, run = Run(scene, **settings), Run(scene, **settings)
+    alone.advance(400.0)
+    thread = threading.Thread(target=run.advance, args=(400.0,))
+    thread.start()
+    readings = 0
+    while thread.is_alive():
+        with run.core:
+            state, measured, result = run.state, run.measure(), run.result()
+        assert measured["constraint_error"] < 1e-9
+        assert state.time >= result.time[-1] > state.time - 1.5
+        assert result.state == state
+        readings += 1
+    thread.join()
+    assert readings > 0
+    assert np.array_equal(run.state.values, alone.state.values)
+    whole = alone.result()
+    for name, values in run.result().channels.items():
+        assert np.array_equal(values, whole[name]), name
+
+
+def test_readers_in_several_threads_take_turns() -> None:
+    run = Run(cases.case2(), t_end=1e6, dt_out=1.0)
+    done = threading.Event()
+    failures: list[BaseException] = []
+
+    def read() -> None:
+        try:
+            while not done.is_set():
+                assert run.measure()["constraint_error"] < 1e-9
+                assert run.result().time.size >= 1
+        except BaseException as error:
+            failures.append(error)
+
+    readers = [threading.Thread(target=read) for _ in range(3)]
+    for thread in readers:
+        thread.start()
+    for t_end in range(10, 110, 10):
+        assert run.advance(float(t_end))
+        run.set_inputs({"slew.force": 1.0})
+    done.set()
+    for thread in readers:
+        thread.join()
+    assert not failures
+    assert run.core.time == 100.0
+
+
+def test_a_run_that_is_advanced_already_says_so() -> None:
+    run = Run(cases.case2(), t_end=1e6, dt_out=10.0)
+    told: list[str] = []
+
+    class Enough(Exception):
+        pass
+
+    def look(now: float) -> None:
+        for advance in (lambda: run.advance(2e6), lambda: told.append(f"{run.state.time == now}")):
+            try:
+                advance()
+            except SimulationError as error:
+                told.append(str(error))
+        raise Enough
+
+    with pytest.raises(Enough):
+        run.advance(1e6, look)
+    assert "is advanced already" in told[0]
+    assert told[1] == "True"
+    assert run.advance(run.core.time + 1.0)
+
+
+EXIT = """
+import threading, time
+from seacrane import SampledController, cases, simulate
+scene = cases.case2()
+ticks = [SampledController(period=0.1, function=lambda now, measured: {})]
+def work(number):
+    while True:
+        simulate(scene, t_end=[0.5, 1e7, 50.0][number], controllers=ticks if number else [])
+for number in range(3):
+    threading.Thread(target=work, args=(number,), daemon=True).start()
+time.sleep(0.3)
+"""
+
+
+@pytest.mark.parametrize("times", [2, pytest.param(24, marks=pytest.mark.nightly)])
+def test_the_interpreter_ends_while_threads_are_in_the_loop(times: int) -> None:
+    for _ in range(times):
+        ended = subprocess.run([sys.executable, "-c", EXIT], capture_output=True, text=True, timeout=GENEROUS)
+        assert ended.returncode == 0, ended.stderr
+        assert "FATAL" not in ended.stderr
+
+
+FORK = """
+import os, threading, time
+from seacrane import cases, simulate
+threading.Thread(target=simulate, args=(cases.case2(),), kwargs={"t_end": 1e7}, daemon=True).start()
+time.sleep(0.3)
+child = os.fork()
+if child:
+    assert os.waitpid(child, 0)[1] == 0
+else:
+    simulate(cases.vessel(), t_end=1.0)
+"""
+
+
+def test_a_forked_process_does_not_wait_for_its_parents_threads() -> None:
+    ended = subprocess.run(
+        [sys.executable, "-W", "ignore", "-c", FORK], capture_output=True, text=True, timeout=GENEROUS
+    )
+    assert ended.returncode == 0, ended.stderr
