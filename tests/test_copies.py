@@ -36,6 +36,7 @@ def all_kinds() -> Scene:
     scene = every_kind()
     add_end_stop(scene, joint="pin", maximum=2.0, restitution=0.1)
     add_friction(scene, joint="pin", load=1.0 / 3.0, speed=0.1)
+    scene.add_range(joint="pin", minimum=-2.0, maximum=2.0)
     add_soft_stop(scene, joint="sleeve", stiffness=1e5, minimum=-1.0)
     angles = np.linspace(-np.pi, np.pi, 8, endpoint=False)
     scene.add_load(

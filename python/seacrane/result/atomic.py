@@ -71,7 +71,14 @@ def space_left(folder: Path) -> str:
 
 
 def _discard(draft: Path) -> None:
-    """Its room too, which it would keep while a library that failed to write it holds it open."""
+    """Its room too: a library that failed to write it holds it open, and would go on to the end of the
+    process."""
     with contextlib.suppress(FileNotFoundError):
-        os.truncate(draft, 0)
+        found = draft.stat()
         draft.unlink()
+        null = os.open(os.devnull, os.O_RDWR)
+        for number in map(int, os.listdir("/dev/fd")):
+            with contextlib.suppress(OSError):  # of the folder that was listed
+                if os.path.samestat(os.fstat(number), found):
+                    os.dup2(null, number, inheritable=False)
+        os.close(null)
