@@ -137,7 +137,6 @@ def chain(links: int, *, hinges: int = 1, lean: float = 0.0) -> Scene:
             inertia=[0.02, 1.7, 1.7],
             position=(i + 0.5) * along,
             quaternion=(np.cos(0.5 * lean), 0, -np.sin(0.5 * lean), 0),
-            angular_velocity=(0, 0.1 * (-1) ** i * lean, 0),
         )
         scene.add_joint(
             kind="revolute",
