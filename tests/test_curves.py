@@ -22,6 +22,13 @@ def test_a_spline_holds_its_last_value() -> None:
         assert at(curve, time) == pytest.approx([-0.5 * np.pi, 0.0, 0.0], abs=1e-12)
 
 
+def test_a_splines_ends_are_its_breakpoints_and_its_samples_are_not() -> None:
+    assert spline_curve(times=TIMES, values=SWING).breakpoints == [0.0, 45.0]
+    rest = 0.5 * (1.0 - np.cos(np.pi * TIMES / 45.0))  # at rest at both ends, but for its acceleration
+    assert spline_curve(times=TIMES + 2.0, values=rest).breakpoints == [2.0, 47.0]
+    assert spline_curve(times=TIMES, values=np.full(91, 0.3)).breakpoints == []
+
+
 def test_every_curve_is_at_rest_at_its_first_value_before_it_starts() -> None:
     curves = {
         "quintic": (Curve.quintic(start_time=2.0, end_time=5.0, start=0.4, end=3.0), 0.4),
@@ -47,3 +54,11 @@ def test_what_curves_do_beyond_their_end() -> None:
     gust = gust_curve(mean_speed=10.0, duration=20.0, count=20)
     assert at(gust, 20.0) == at(gust, 500.0)
     assert at(gust, 500.0)[1:] == [0.0, 0.0]
+
+
+def test_a_jump_of_any_size_beyond_rounding_is_a_breakpoint() -> None:
+    for size, kinks in ((1e-9, [1.0]), (1e-15, [])):
+        step = Curve.constant(value=1.0).then(time=1.0, curve=Curve.constant(value=1.0 + size))
+        assert step.breakpoints == kinks, size
+    small = Curve.constant(value=0.0).then(time=1.0, curve=Curve.constant(value=1e-9))
+    assert small.breakpoints == [1.0]

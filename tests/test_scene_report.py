@@ -72,7 +72,7 @@ def test_reference_jumps_are_counted() -> None:
     scene.add_actuator(
         joint="pin", reference=Curve.constant(value=0.0).then(time=3.0, curve=Curve.constant(value=1.0))
     )
-    assert section(scene, "size")["times where a reference jumps"] == 1
+    assert section(scene, "size")["times where a curve has a kink"] == 1
 
 
 def test_assembly_tells_what_it_moved() -> None:

@@ -81,7 +81,7 @@ def test_case_2_tells_the_error_of_its_own_step() -> None:
 @pytest.mark.parametrize(
     ("given", "says"),
     [
-        ({"integrator": "dopri5", "dt": 0.1}, "'dopri5' is none of fixed step"),
+        ({"integrator": "dopri5", "dt": 0.1}, "'dopri5' chooses its own steps"),
         ({"integrator": "rk4", "dt": 0.0}, "dt is 0.0 s"),
         ({"integrator": "rk4", "dt": float("nan")}, "dt is nan s"),
         ({"integrator": "rk4", "dt": 0.1, "quantities": ["roll"]}, "'roll' is unknown"),

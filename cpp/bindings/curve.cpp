@@ -42,8 +42,9 @@ void bind_curve(py::module_& m) {
   py::class_<Curve>(m, "Curve",
                     R"(A reference as a function of time: pieces of quintic polynomials plus one cosine each.
 
-Before its first piece a curve holds its first value at rest; the last piece goes on for ever. Values are in
-the unit of what the curve drives (m or rad), times in s. Immutable.)")
+Before its first piece a curve holds its first value at rest; its last piece goes on for ever: a polynomial
+as the polynomial that it is. Values are in the unit of what the curve drives (m, rad, N, N m or m/s), times
+in s. Immutable.)")
       .def_static("constant", &Curve::constant, py::kw_only(), py::arg("value"), "One value at all times.")
       .def_static(
           "quintic", &Curve::quintic, py::kw_only(), py::arg("start_time"), py::arg("end_time"),
@@ -57,7 +58,7 @@ the unit of what the curve drives (m or rad), times in s. Immutable.)")
           "pieces", &from_pieces, py::kw_only(), py::arg("starts"), py::arg("coefficients"),
           py::arg("cosines") = std::vector<std::array<double, 3>>{},
           "Pieces from their start times on: coefficients (n, 6) of powers of (t - start), cosines (n, 3) "
-          "of amplitude, omega, phase.")
+          "of amplitude, omega, phase. The last piece goes on as it is: end with a constant to hold a value.")
       .def("then", &Curve::then, py::kw_only(), py::arg("time"), py::arg("curve"),
            "This curve until `time`, the other one afterwards (at its own clock).")
       .def("evaluate", &evaluate, py::arg("times"),

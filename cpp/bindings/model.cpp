@@ -1,5 +1,7 @@
 #include "seacrane/model/model.hpp"
 
+#include <set>
+
 #include "bindings.hpp"
 #include "seacrane/dynamics/merged.hpp"
 #include "seacrane/dynamics/recursive/body_tree.hpp"
@@ -328,7 +330,22 @@ void bind_model(py::module_& m) {
           "channel limit_force.")
       .def_property_readonly("slots", [](const Model& x) { return x.slot_count; })
       .def_property_readonly(
-          "breakpoints", [](const Model& x) { return x.breakpoints; }, "s")
+          "breakpoints",
+          [](const Model& x) {
+            std::set<double> times;
+            for (const Kink& kink : x.kinks) times.insert(kink.time);
+            return std::vector<double>(times.begin(), times.end());
+          },
+          "Times (s) at which curves of drivers and loads are not smooth.")
+      .def_property_readonly(
+          "kinks",
+          [](const Model& x) {
+            std::vector<std::pair<double, std::array<double, 4>>> out;
+            for (const Kink& kink : x.kinks) out.emplace_back(kink.time, kink.jump);
+            return out;
+          },
+          "(time, jumps) by time, one for each curve that is not smooth there: of velocity, acceleration and "
+          "its first two derivatives, at the described start, over the scale of the state (1/s^p).")
       .def_property_readonly(
           "redundant", [](const Model& x) { return x.assembly.redundant; },
           "Names of elements whose reactions are not unique.")

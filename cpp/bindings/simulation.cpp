@@ -326,6 +326,10 @@ void bind_simulation(py::module_& m) {
            })
       .def("__exit__", [](S& s, const py::object&, const py::object&, const py::object&) { s.leave(); })
       .def_property_readonly("time", alone([](Simulation& s) { return s.time(); }))
+      .def_property_readonly("order", alone([](Simulation& s) { return s.order(); }),
+                             "Order of the method, the highest where it varies.")
+      .def_property_readonly("adaptive", alone([](Simulation& s) { return s.is_adaptive(); }),
+                             "Whether the method chooses its steps.")
       .def_property_readonly("state", alone([](Simulation& s) { return s.state(); }), "copy")
       .def(
           "set_inputs",

@@ -27,6 +27,7 @@ class Broken final : public Integrator {
   Counters counters() const override { return {}; }
   int order() const override { return 1; }
   bool is_adaptive() const override { return false; }
+  double step_in_use() const override { return 1.0; }
   std::vector<double> save() const override { return {}; }
   void load(std::span<const double>) override {}
 };

@@ -76,7 +76,7 @@ def _size(scene: Scene, model: _core.Model) -> Rows:
         ("work states", WORK_STATES),
         ("input slots", model.slots),
         ("wave components", 0 if scene.waves is None else len(scene.waves.omega)),
-        ("times where a reference jumps", len(model.breakpoints)),
+        ("times where a curve has a kink", len(model.breakpoints)),
         ("orientation", scene.orientation),
         ("gravity [m/s2]", scene.gravity),
         ("Baumgarte frequency [1/s]", model.baumgarte),

@@ -63,6 +63,11 @@ double AdaptiveStep::starting_step(double remaining) {
   return std::max(std::min(100.0 * h0, h1), 2.0 * smallest_step(time_));
 }
 
+double AdaptiveStep::step_in_use() const {
+  const double step = step_ > 0.0 ? step_ : std::numeric_limits<double>::infinity();
+  return max_step_ > 0.0 ? std::min(step, max_step_) : step;
+}
+
 void AdaptiveStep::collapse() const {
   if (max_step_ > 0.0 && max_step_ < smallest_step(time_)) {
     fail(max_step_, IntegrationError::no_component,

@@ -15,6 +15,7 @@ class AdaptiveStep : public OneStepIntegrator {
   AdaptiveStep(std::string name, System& system, const IntegratorOptions& options, int estimate_power);
 
   bool is_adaptive() const final { return true; }
+  double step_in_use() const final;
   void step(double t_limit) final;
 
  protected:

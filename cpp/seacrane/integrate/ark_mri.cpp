@@ -56,6 +56,7 @@ class ArkodeMultirate final : public SundialsIntegrator {
 
   int order() const override { return method_order; }
   bool is_adaptive() const override { return false; }
+  double step_in_use() const override { return length_; }
 
  private:
   struct Free {

@@ -18,6 +18,7 @@ class FixedStep : public OneStepIntegrator {
   FixedStep(std::string name, System& system, const IntegratorOptions& options, double default_step);
 
   bool is_adaptive() const final { return false; }
+  double step_in_use() const final { return length_; }
   void step(double t_limit) final;
   void interpolate(double t, double* y) const override;
 

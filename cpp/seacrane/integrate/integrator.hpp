@@ -79,6 +79,10 @@ class Integrator {
   /// Order of the method; the highest one for a method of variable order.
   virtual int order() const = 0;
   virtual bool is_adaptive() const = 0;
+  /// Longest step that step() would take now (s); infinity where it is not chosen yet.
+  virtual double step_in_use() const = 0;
+  /// Steps after which a method is back at the length and order that it had before a reset.
+  virtual double steps_lost_by_reset() const { return 0.0; }
 
   /// What load() needs to go on. The own one-step methods then continue bit for bit; the SUNDIALS methods
   /// keep time and state only (no public call saves their history), so load() restarts them.

@@ -42,10 +42,16 @@ void SundialsIntegrator::init(double t0, const double* y0) {
   counters_ = before_restart_ = Counters{};
   started_ = false;
   must_restart_ = true;
+  step_before_restart_ = std::numeric_limits<double>::infinity();
   carried_ = false;
 }
 
+double SundialsIntegrator::step_in_use() const {
+  return must_restart_ ? step_before_restart_ : attempted_step();
+}
+
 void SundialsIntegrator::reset(double t, const double* y) {
+  if (!must_restart_) step_before_restart_ = std::max(attempted_step(), time_ - previous_time_);
   set_state(t, y);
   ++counters_.restarts;
   must_restart_ = true;

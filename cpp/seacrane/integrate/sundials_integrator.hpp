@@ -28,6 +28,8 @@ class SundialsIntegrator : public Integrator {
   void reset(double t, const double* y) final;
   Counters counters() const final;
   bool is_adaptive() const override { return true; }
+  double step_in_use() const override;
+  double steps_lost_by_reset() const final { return 20.0; }
   std::vector<double> save() const final;
   void load(std::span<const double> saved) final;
 
@@ -92,6 +94,7 @@ class SundialsIntegrator : public Integrator {
   sundials::Vector errors_vector_, weights_vector_;
   bool started_ = false;
   bool must_restart_ = true;
+  double step_before_restart_ = 0.0;  // s: what a restarted solver starts with is shorter
   // The last step was too short for the solver: the state was carried over.
   bool carried_ = false;
 };

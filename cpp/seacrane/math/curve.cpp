@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 #include <string>
 
@@ -24,7 +25,49 @@ CurveValue evaluate(const Curve::Piece& p, double t) {
   return out;
 }
 
-bool jumps(double a, double b) { return std::abs(a - b) > 1e-7 * (1.0 + std::abs(a) + std::abs(b)); }
+constexpr double kRounding = 1e-10;       // over the terms of a derivative, of which digits cancel
+constexpr double kValueRounding = 1e-13;  // over the value, per length of a piece: of a spline's coefficients
+
+/// Value and first three derivatives of a piece, and the sizes of the terms that they are sums of.
+struct Side {
+  std::array<double, 4> value{}, terms{};
+};
+
+Side held(double value) { return {{value}, {std::abs(value)}}; }
+
+Side side_of(const Curve::Piece& p, double t) {
+  const double s = t - p.start, cosine = std::cos(p.omega * s + p.phase),
+               sine = std::sin(p.omega * s + p.phase);
+  const double waves[4] = {cosine, -sine, -cosine, sine};
+  Side out;
+  double amplitude = p.amplitude;
+  for (std::size_t k = 0; k < 4; ++k, amplitude *= p.omega) {
+    out.value[k] = amplitude * waves[k];
+    out.terms[k] = std::abs(amplitude);
+    double power = 1.0;
+    for (std::size_t n = k; n < 6; ++n, power *= s) {
+      double term = p.coefficients[n] * power;
+      for (std::size_t i = 0; i < k; ++i) term *= static_cast<double>(n - i);
+      out.value[k] += term;
+      out.terms[k] += std::abs(term);
+    }
+  }
+  return out;
+}
+
+/// Whether something jumps between pieces of that length at least; what does not is made equal.
+bool find_jumps(const Side& before, const Side& after, double length, CurveKink& kink) {
+  bool any = false;
+  double rounding = kValueRounding * (before.terms[0] + after.terms[0]);
+  for (std::size_t k = 0; k < 4; ++k, rounding /= length) {
+    const bool jumps = std::abs(after.value[k] - before.value[k]) >
+                       kRounding * (before.terms[k] + after.terms[k]) + rounding;
+    kink.before[k] = before.value[k];
+    kink.after[k] = jumps ? after.value[k] : before.value[k];
+    any = any || jumps;
+  }
+  return any;
+}
 
 }  // namespace
 
@@ -118,19 +161,30 @@ CurveValue Curve::at(double t, double before) const {
   return evaluate(*(next - 1), t);
 }
 
+std::vector<CurveKink> Curve::kinks() const {
+  std::vector<CurveKink> out;
+  for (std::size_t i = 0; i < pieces_.size(); ++i) {
+    const double t = pieces_[i].start;
+    const Side after = side_of(pieces_[i], t),
+               before = i > 0 ? side_of(pieces_[i - 1], t) : held(after.value[0]);
+    double length = std::numeric_limits<double>::infinity();
+    if (i > 0) length = t - pieces_[i - 1].start;
+    if (i + 1 < pieces_.size()) length = std::min(length, pieces_[i + 1].start - t);
+    CurveKink kink{t};
+    if (find_jumps(before, after, length, kink)) out.push_back(kink);
+  }
+  return out;
+}
+
 std::vector<double> Curve::breakpoints(int derivatives) const {
   std::vector<double> out;
-  const auto check = [&](const CurveValue& before, const Piece& p) {
-    const CurveValue after = evaluate(p, p.start);
-    if (jumps(before.value, after.value) || (derivatives > 0 && jumps(before.rate, after.rate)) ||
-        (derivatives > 1 && jumps(before.acceleration, after.acceleration))) {
-      out.push_back(p.start);
+  for (const CurveKink& kink : kinks()) {
+    bool jumps = false;
+    for (std::size_t k = 0; k <= static_cast<std::size_t>(derivatives); ++k) {
+      jumps = jumps || kink.before[k] != kink.after[k];
     }
-  };
-  const CurveValue first = evaluate(pieces_.front(), pieces_.front().start);
-  check({first.value, 0.0, 0.0}, pieces_.front());
-  for (std::size_t i = 1; i < pieces_.size(); ++i)
-    check(evaluate(pieces_[i - 1], pieces_[i].start), pieces_[i]);
+    if (jumps) out.push_back(kink.time);
+  }
   return out;
 }
 

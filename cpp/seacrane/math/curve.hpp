@@ -11,8 +11,17 @@ struct CurveValue {
   double value = 0.0, rate = 0.0, acceleration = 0.0;
 };
 
+/// Where a curve is not smooth: its value and first three derivatives on either side. What differs by
+/// rounding only is given as equal.
+struct CurveKink {
+  double time = 0.0;
+  std::array<double, 4> before{}, after{};
+
+  double jump(std::size_t derivative) const { return after[derivative] - before[derivative]; }
+};
+
 /// A reference curve of time: pieces of a quintic polynomial plus one cosine, each from its start on.
-/// Before the first start the first value is held at rest.
+/// Before the first start the first value is held at rest; the last piece goes on for ever.
 class Curve {
  public:
   struct Piece {
@@ -37,8 +46,9 @@ class Curve {
   /// the limit from the left in all its stages.
   CurveValue at(double t, double before = std::numeric_limits<double>::infinity()) const;
   const std::vector<Piece>& pieces() const { return pieces_; }
-  /// Times where the value or one of its first `derivatives` (0 to 2) derivatives jumps: integration
-  /// restarts there.
+  /// Starts of pieces where the value or one of its first three derivatives jumps.
+  std::vector<CurveKink> kinks() const;
+  /// Times where the value or one of its first `derivatives` (0 to 3) derivatives jumps.
   std::vector<double> breakpoints(int derivatives = 2) const;
 
  private:

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <set>
 
 #include "seacrane/dynamics/merged.hpp"
 #include "seacrane/model/assembly.hpp"
@@ -41,7 +40,6 @@ class Compiler {
     vessels();
     layout();
     start();
-    breakpoints();
     return std::move(model_);
   }
 
@@ -339,18 +337,6 @@ class Compiler {
     }
   }
 
-  void breakpoints() {
-    std::set<double> times;
-    for (const auto& d : model_.drivers)
-      for (double t : d.curve.breakpoints()) times.insert(t);
-    for_each_load_type([&]<class Load>() {
-      if constexpr (requires(const Load& load) { load.collect_breakpoints(times); }) {
-        for (const Load& load : std::get<std::vector<Load>>(model_.loads)) load.collect_breakpoints(times);
-      }
-    });
-    model_.breakpoints.assign(times.begin(), times.end());
-  }
-
   const SceneDescription& scene_;
   Model model_;
   std::map<std::string, int> index_;  // of described bodies
@@ -363,6 +349,16 @@ std::shared_ptr<Model> described_model(const SceneDescription& scene, const std:
   auto model = std::make_shared<Model>(Compiler(with_rows, no_merge(with_rows), limits, closed).run());
   if (!limits.empty()) model->description = scene;
   return model;
+}
+
+/// Kinks with all limits open. A stop that holds takes what a load does: what its own force does then must be
+/// stopped at none the less, for it may let go.
+std::vector<Kink> kinks_when_open(const Model& model, ClosedSet closed) {
+  if (closed == 0) return find_kinks(model);
+  const SceneDescription scene = scene_of(model.description, model.limits, 0);
+  const std::shared_ptr<Model> open = described_model(model.description, model.limits, 0, scene);
+  open->initial_state = model.initial_state;
+  return find_kinks(*open);
 }
 
 }  // namespace
@@ -386,6 +382,7 @@ std::shared_ptr<const Model> compile(const SceneDescription& scene, bool merge) 
     assemble(*merged);
     model->merged = std::move(merged);
   }
+  model->kinks = kinks_when_open(*model, closed);
   return model;
 }
 
@@ -394,6 +391,7 @@ std::shared_ptr<const Model> compile_set(const Model& model, ClosedSet closed) {
   const std::shared_ptr<Model> out = described_model(model.description, model.limits, closed, scene);
   out->merges = model.merges;
   out->initial_state = model.initial_state;
+  out->kinks = model.kinks;
   MergePlan plan = model.merges ? plan_merge(scene) : no_merge(scene);
   if (plan.merges()) {
     out->merged = std::make_shared<Model>(Compiler(scene, std::move(plan)).run());

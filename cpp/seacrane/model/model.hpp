@@ -11,6 +11,7 @@
 #include "seacrane/dynamics/loads/registry.hpp"
 #include "seacrane/hydro/vessel.hpp"
 #include "seacrane/model/description.hpp"
+#include "seacrane/model/kinks.hpp"
 #include "seacrane/model/merge.hpp"
 
 namespace seacrane {
@@ -84,7 +85,7 @@ struct Model {
   StateLayout layout;
   double translation_scale = 0.0, rotation_scale = 0.0;  // typical magnitudes, m and rad, rates alike
   std::vector<double> scale;  // typical magnitude per state component; infinity: not in the error norm
-  std::vector<double> breakpoints;
+  std::vector<Kink> kinks;    // by time
   std::vector<double> initial_state;
   AssemblyReport assembly;
   bool redundant = false;  // rank of D below its rows

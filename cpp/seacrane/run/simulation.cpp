@@ -84,6 +84,7 @@ Simulation::Simulation(std::shared_ptr<const Model> model, State start, RunOptio
         std::make_unique<Contacts>(*model_, [this](ClosedSet set) -> Stepper& { return stepper_of(set); });
     contacts_->check(*now_, start.time, start.values.data());
   }
+  if (Switches::any(*model_)) switches_ = std::make_unique<Switches>();
   RedundantSystem& system = now_->system;
   double* const bodies = output_state_.data();
   system.project(start.time, bodies, false);
@@ -94,7 +95,7 @@ Simulation::Simulation(std::shared_ptr<const Model> model, State start, RunOptio
                                 " s; give a state of this scene at its own time");
   }
   system.take_residual_before_projection();
-  find_jump(start.time);
+  find_stop(start.time);
   start_histories(*now_, start.time, bodies, start.histories);
   start_energy_ = system.energy(start.time, bodies);
   start_work_ = output_state_[idx(model_->layout.work)];
@@ -170,7 +171,7 @@ bool Simulation::pass_event() {
   integrator().interpolate(t, stepped_state_.data());
   now_->stepped.project(t, stepped_state_.data(), false);
   now_->stepped.write_bodies(t, stepped_state_.data(), output_state_.data());
-  find_jump(t);
+  find_stop(t);
   ClosedSet closed = now_->model->closed;
   try {
     closed = contacts_->pass(t, output_state_.data(), closed);
@@ -203,18 +204,39 @@ void Simulation::go_on(double t, ClosedSet closed) {
   watch_limits();
 }
 
+/// Takes a step that crossed a kink of a load again, up to the crossing: what was stepped has seen both
+/// sides.
+bool Simulation::step_back() {
+  const std::optional<double> found = switches_->find(*now_);
+  if (!found) return false;
+  switch_at_ = *found;
+  std::copy_n(integrator().previous_state(), stepped_state_.size(), stepped_state_.data());
+  integrator().reset(integrator().previous_time(), stepped_state_.data());
+  return true;
+}
+
 void Simulation::watch_limits() {
+  switch_at_ = std::numeric_limits<double>::infinity();
+  if (switches_) switches_->watch(*now_, time(), integrator().state());
   if (!contacts_) return;
   write_present(output_state_.data());
   contacts_->start(*now_, time(), output_state_.data());
 }
 
-/// Time of the next jump of a reference curve.
-double Simulation::find_jump(double now) {
-  const auto& stops = model_->breakpoints;
-  while (next_breakpoint_ < stops.size() && stops[next_breakpoint_] <= now) ++next_breakpoint_;
-  const double stop =
-      next_breakpoint_ < stops.size() ? stops[next_breakpoint_] : std::numeric_limits<double>::infinity();
+/// Time of the next kink that matters to a step of the present length. Those beyond it are left to the steps
+/// that come near them: the integrator must know of a stop a little beyond its step, no further.
+double Simulation::find_stop(double now) {
+  const std::vector<Kink>& kinks = now_->model->kinks;
+  while (next_kink_ < kinks.size() && kinks[next_kink_].time <= now) ++next_kink_;
+  double stop = std::numeric_limits<double>::infinity();
+  if (next_kink_ < kinks.size()) {
+    const double h = integrator().step_in_use(), lost = integrator().steps_lost_by_reset();
+    const auto here = kinks.begin() + static_cast<std::ptrdiff_t>(next_kink_);
+    const auto far = std::find_if(here, kinks.end(), [&](const Kink& k) {
+      return k.time - now > 2.0 * h || k.matters(h, options_.tolerance, lost);
+    });
+    if (far != kinks.end() && far->time - now <= 2.0 * h) stop = far->time;
+  }
   now_->system.set_curve_limit(stop);
   now_->loads.set_curve_limit(stop);
   return stop;
@@ -336,16 +358,17 @@ void Simulation::check_turning() const {
 
 /// The end of a step that went as far as it should. An output at a sample comes after it, as in a run that
 /// goes on from there.
-void Simulation::land(double now, double jump) {
+void Simulation::land(double now, double stop) {
   // The memory's load goes on smoothly over a sample: no derivative is thrown away.
   if (now >= now_->system.next_sample()) {
     record_until(std::nextafter(now, -std::numeric_limits<double>::infinity()));
     sample_histories(now);
   }
   record_until(now);
-  if (now < jump) return;
-  // A curve jumps here: go on from the other side with a fresh derivative.
-  find_jump(now);
+  if (now < stop) return;
+  // A curve or a load has a kink here: go on from the other side with a fresh derivative.
+  switch_at_ = std::numeric_limits<double>::infinity();
+  find_stop(now);
   std::copy_n(integrator().state(), stepped_state_.size(), stepped_state_.data());
   now_->stepped.project(now, stepped_state_.data(), false);
   integrator().reset(now, stepped_state_.data());
@@ -357,11 +380,12 @@ bool Simulation::advance(double t_end, const std::function<bool(double)>& keep_g
   auto asked = start;
   bool going = true;
   while (going && integrator().time() < t_end) {
-    const double jump = find_jump(integrator().time());
-    step(std::min({jump, now_->system.next_sample(), t_end}));
+    const double stop = std::min(find_stop(integrator().time()), switch_at_);
+    step(std::min({stop, now_->system.next_sample(), t_end}));
     const double now = integrator().time();
+    if (switches_ && step_back()) continue;
     if (!integrator().is_adaptive()) check_turning();
-    if (!contacts_ || !pass_event()) land(now, jump);
+    if (!contacts_ || !pass_event()) land(now, stop);
     if (Clock::now() - asked > kAskInterval) {
       wall_seconds_ += seconds_since(asked);
       going = !keep_going || keep_going(integrator().time());

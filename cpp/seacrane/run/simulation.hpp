@@ -13,6 +13,7 @@
 #include "seacrane/run/record_history.hpp"
 #include "seacrane/run/recording.hpp"
 #include "seacrane/run/stepper.hpp"
+#include "seacrane/run/switches.hpp"
 
 namespace seacrane {
 
@@ -59,7 +60,7 @@ struct RunStatistics {
   std::optional<RankReport> rank;
 };
 
-/// One run of one Model: steps, lands on breakpoints, records at the times asked for.
+/// One run of one Model: steps, lands on kinks of curves, records at the times asked for.
 class Simulation {
  public:
   Simulation(std::shared_ptr<const Model> model, State start, RunOptions options);
@@ -80,6 +81,9 @@ class Simulation {
   void set_inputs(const std::vector<double>& slots);
   int state_size() const { return static_cast<int>(now_->stepped.size()); }
   const char* formulation() const { return now_->stepped.name(); }
+  /// Order of the method, the highest one where it varies, and whether it chooses its own steps.
+  int order() const { return now_->integrator->order(); }
+  bool is_adaptive() const { return now_->integrator->is_adaptive(); }
   /// What limits did so far, in order of time.
   const std::vector<Event>& events() const;
   bool has_limits() const { return contacts_ != nullptr; }
@@ -92,11 +96,11 @@ class Simulation {
   };
 
   Integrator& integrator() const { return *now_->integrator; }
-  double find_jump(double now);
+  double find_stop(double now);
   void record_until(double t);
   void write(double t, double* y, Recording& out);
   void step(double limit);
-  void land(double now, double jump);
+  void land(double now, double stop);
   /// Takes what projection has found since into open_.
   void keep_open();
   void check_turning() const;
@@ -114,6 +118,7 @@ class Simulation {
   /// The stepper of a set of limits, with the inputs, curves and histories of the present one.
   Stepper& stepper_of(ClosedSet closed);
   bool pass_event();
+  bool step_back();
   void go_on(double t, ClosedSet closed);
   void sample_histories(double now);
   /// The state at time() in bodies' poses and twists.
@@ -123,14 +128,16 @@ class Simulation {
   RunOptions options_;
   std::vector<std::unique_ptr<Stepper>> steppers_;  // by set of limits, in the order of their first use
   Stepper* now_ = nullptr;
-  Counters before_;                     // of steppers before their last start
-  std::unique_ptr<Contacts> contacts_;  // null: the scene has no limits
+  Counters before_;                                             // of steppers before their last start
+  std::unique_ptr<Contacts> contacts_;                          // null: the scene has no limits
+  std::unique_ptr<Switches> switches_;                          // null: no load has a kink in the state
+  double switch_at_ = std::numeric_limits<double>::infinity();  // where the next step is to end on one
   Recording recording_;
   RankWatch rank_;
   StallWatch stall_;
   EnergyWatch energy_;
   std::vector<double> inputs_;
-  std::size_t next_output_ = 0, next_breakpoint_ = 0;
+  std::size_t next_output_ = 0, next_kink_ = 0;
   std::vector<double> stepped_state_, output_state_, rate_;
   double output_time_ = 0.0;  // of output_state_ at an event
   double start_energy_ = 0.0, start_work_ = 0.0;

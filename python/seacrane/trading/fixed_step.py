@@ -21,15 +21,6 @@ if TYPE_CHECKING:
     from seacrane.trading.quantities import Quantity
 
 Array = NDArray[np.float64]
-ORDERS = {
-    "semi-implicit-euler": 1,
-    "rk4": 4,
-    "rk4-exact-memory": 4,
-    "rk-low-storage": 4,
-    "generalized-alpha": 2,
-    "generalized-alpha-index2": 2,
-    "ark-mri": 3,
-}
 CONFIRMED = 0.5  # of a difference: how far it may be from what the next longer step and the order make of it
 ROUNDING = 1e-11  # of the motion: differences below it are rounding, and show no order
 
@@ -110,21 +101,19 @@ def step_error(
     step = number_of("dt", dt)
     if not (math.isfinite(step) and step > 0.0):
         raise SceneError(f"dt is {step} s; give the positive step whose error is asked for")
-    if integrator not in ORDERS:
-        raise SceneError(
-            f"integrator {integrator!r} is none of fixed step: choose one of {', '.join(ORDERS)}; for those "
-            "that choose their own steps give accuracy= to simulate()"
-        )
-    order = ORDERS[integrator]
     model = scene.compile()
     measured = quantities_of(scene, model, quantities)
     channels = sorted({channel for quantity in measured.values() for channel in quantity.channels})
     runs: list[dict[str, Array]] = []
+    order = 0
     for longer in (1.0, 2.0, 4.0):
         run = Run(
             scene, model=model, t_end=t_end, dt_out=dt_out, integrator=integrator, dt=longer * step,
             formulation=formulation, spectral_radius=spectral_radius, start=start, channels=channels,
         )  # fmt: skip
+        if run.core.adaptive:
+            raise SceneError(f"integrator {integrator!r} chooses its own steps: give accuracy= to simulate()")
+        order = run.core.order
         try:
             result = finished(run)
         except SimulationError:

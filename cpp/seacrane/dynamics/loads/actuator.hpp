@@ -43,10 +43,15 @@ struct Actuator {
             context.slots(2)};
   }
 
-  /// The reference and its rate enter the load, of the feed-forward only the value.
-  void collect_breakpoints(std::set<double>& times) const {
-    for (double t : reference.breakpoints(1)) times.insert(t);
-    for (double t : feed_forward.breakpoints(0)) times.insert(t);
+  std::vector<LoadKinks> kinks() const {
+    return {kinks_of(reference, stiffness, damping), kinks_of(feed_forward, 1.0)};
+  }
+
+  void add_unit(int /*component*/, const LoadInput<double>& in, Vec6d* wrenches) const {
+    const int a = coordinate.joint.first, b = coordinate.joint.second;
+    const CoordinateRow<double> row = evaluate_coordinate<double>(coordinate, in.bodies[a], in.bodies[b]);
+    wrenches[a] += row.da;
+    wrenches[b] += row.db;
   }
 
   template <class T>

@@ -1,7 +1,7 @@
 #pragma once
 
+#include <array>
 #include <cmath>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -85,8 +85,32 @@ struct FlowForce {
     return f;
   }
 
-  void collect_breakpoints(std::set<double>& times) const {
-    for (double t : speed.breakpoints(0)) times.insert(t);
+  /// Of what a speed u jumps by, the load sees (u - v)^2, with a velocity v of the body of up to 0.5 m/s.
+  std::vector<LoadKinks> kinks() const {
+    Vec3d largest = Vec3d::Zero();
+    for (const Vec3d& at : load) largest = largest.cwiseMax(at.cwiseAbs());
+    LoadKinks out;
+    for (const CurveKink& kink : speed.kinks()) {
+      const std::array<double, 3> jump = {square(kink.after, 0) - square(kink.before, 0),
+                                          square(kink.after, 1) - square(kink.before, 1),
+                                          square(kink.after, 2) - square(kink.before, 2)};
+      LoadKink& of = out.emplace_back();
+      of.time = kink.time;
+      of.jump.setZero(3, 4);
+      for (const int p : {1, 2, 3}) of.jump.col(p) = jump[idx(p - 1)] * largest;
+    }
+    return {out};
+  }
+
+  /// Components: along the bow and across it, N, and the moment about z, N m.
+  void add_unit(int component, const LoadInput<double>& in, Vec6d* wrenches) const {
+    const auto& k = in.bodies[body];
+    const Vec3d lever = k.rotation * point, ahead = k.rotation * bow;
+    Vec3d force = Vec3d::Zero();
+    if (component == 0) force = Vec3d(ahead.x(), ahead.y(), 0.0).stableNormalized();
+    if (component == 1) force = Vec3d(-ahead.y(), ahead.x(), 0.0).stableNormalized();
+    wrenches[body].head<3>() += force;
+    wrenches[body].tail<3>() += lever.cross(force) + (component == 2 ? 1.0 : 0.0) * Vec3d::UnitZ();
   }
 
   /// True on bodies that are fixed to the ground: no load, no work.
@@ -119,6 +143,13 @@ struct FlowForce {
   }
 
  private:
+  /// Derivatives of u^2 + u (1 m/s).
+  static double square(const std::array<double, 4>& u, int order) {
+    if (order == 0) return u[0] * u[0] + u[0];
+    if (order == 1) return 2.0 * u[0] * u[1] + u[1];
+    return 2.0 * (u[1] * u[1] + u[0] * u[2]) + u[2];
+  }
+
   static constexpr double largest_gap = 0.25 * PeriodicKnots::turn * (1.0 + 1e-9);
 };
 

@@ -54,6 +54,29 @@ struct ForceTable {
     return {on.body, on.point, d.times, d.wrenches};
   }
 
+  std::vector<LoadKinks> kinks() const {
+    LoadKinks out;
+    Vec6d before = Vec6d::Zero();
+    for (std::size_t i = 0; i < times.size(); ++i) {
+      Vec6d after = Vec6d::Zero();
+      if (i + 1 < times.size()) after = (wrenches[i + 1] - wrenches[i]) / (times[i + 1] - times[i]);
+      LoadKink& kink = out.emplace_back();
+      kink.time = times[i];
+      kink.jump.setZero(6, 4);
+      kink.jump.col(2) = after - before;
+      before = after;
+    }
+    return {out};
+  }
+
+  /// Components: force and moment.
+  void add_unit(int component, const LoadInput<double>& in, Vec6d* wrenches) const {
+    const Vec6d unit = Vec6d::Unit(component);
+    const Vec3d force = unit.head<3>(), lever = in.bodies[body].rotation * point;
+    wrenches[body] += unit;
+    wrenches[body].tail<3>() += lever.cross(force);
+  }
+
   /// True on bodies that are fixed to the ground: no load, no work.
   bool moves_nothing(int ground) const { return body == ground; }
 

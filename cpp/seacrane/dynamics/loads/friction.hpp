@@ -50,6 +50,8 @@ struct Friction {
     return {context.coordinate(d.coordinate), d.load, d.speed};
   }
 
+  static std::vector<LoadKinks> kinks() { return {}; }
+
   bool moves_nothing(int /*ground*/) const { return coordinate.joint.first == coordinate.joint.second; }
 
   template <class T>

@@ -43,6 +43,9 @@ struct FunctionForce {
     return {on.body, on.point, on.axes, d.function, d.parameters};
   }
 
+  /// What the function makes of time is not known.
+  static std::vector<LoadKinks> kinks() { return {}; }
+
   /// True on bodies that are fixed to the ground: no load, no work.
   bool moves_nothing(int ground) const { return body == ground; }
 

@@ -37,6 +37,9 @@ struct PointForce {
     return {on.body, on.point, on.axes, d.force, d.body_axes, context.slots(3)};
   }
 
+  /// Inputs, which add to it, are held between calls of a controller, and those restart the integration.
+  static std::vector<LoadKinks> kinks() { return {}; }
+
   /// True on bodies that are fixed to the ground: no load, no work.
   bool moves_nothing(int ground) const { return body == ground; }
 

@@ -47,6 +47,9 @@ struct SoftStop {
     return {context.coordinate(d.coordinate), d.minimum, d.maximum, d.stiffness, d.damping};
   }
 
+  /// Its kinks are in the state.
+  static std::vector<LoadKinks> kinks() { return {}; }
+
   bool moves_nothing(int /*ground*/) const { return coordinate.joint.first == coordinate.joint.second; }
 
   template <class T>

@@ -54,6 +54,9 @@ struct SpringDamper {
     return {a.body, b.body, a.point, b.point, d.stiffness, d.damping, d.natural_length, d.lengths, d.forces};
   }
 
+  /// A table over length has its kinks in the state.
+  static std::vector<LoadKinks> kinks() { return {}; }
+
   /// True between two points of one rigid body: forces cancel and do no work.
   bool moves_nothing(int /*ground*/) const { return first == second; }
 

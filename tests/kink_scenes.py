@@ -1,0 +1,193 @@
+"""Scenes whose elements follow a curve of time, for tests of kinks."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+
+from seacrane import (
+    Curve,
+    FlowCoefficients,
+    Scene,
+    add_end_stop,
+    add_friction,
+    add_soft_stop,
+    add_wind,
+    add_wire,
+)
+
+CART = 4.0  # kg
+
+
+def cart(speed: float = 0.0) -> Scene:
+    """A mass on a rail along x, without gravity."""
+    scene = Scene(name="cart", gravity=0.0)
+    scene.add_body(name="cart", mass=CART, inertia=(1.0, 1.0, 1.0), velocity=(speed, 0.0, 0.0))
+    scene.add_joint(kind="prismatic", name="rail", first="ground", second="cart", axis=(1.0, 0.0, 0.0))
+    return scene
+
+
+def slewing(torque: Curve | float = 0.0, **actuator: object) -> Scene:
+    """A rotor with a payload on a wire of 18 m."""
+    scene = Scene(name="slewing", gravity=9.81)
+    scene.add_body(name="rotor", mass=1e5, inertia=(2e7, 2e7, 2e7))
+    scene.add_body(name="payload", mass=2e4, inertia=(1e3, 1e3, 1e3), position=(25.0, 0.0, 12.0))
+    scene.add_joint(kind="revolute", name="slew", first="ground", second="rotor", axis=(0.0, 0.0, 1.0))
+    scene.add_joint(
+        kind="distance", name="wire", first="rotor", second="payload", point=(25.0, 0.0, 30.0),
+        second_point=(25.0, 0.0, 12.0),
+    )  # fmt: skip
+    scene.add_actuator(name="drive", joint="slew", feed_forward=torque, **actuator)  # type: ignore[arg-type]
+    return scene
+
+
+def pendulum_on(scene: Scene) -> Scene:
+    """A rod below a cart."""
+    scene.gravity = 9.81
+    scene.add_body(name="rod", mass=1.0, inertia=(0.1, 0.1, 0.1), position=(0.0, 0.0, -0.8))
+    scene.add_joint(kind="revolute", name="pin", first="cart", second="rod", axis=(0.0, 1.0, 0.0))
+    return scene
+
+
+def held(scene: Scene) -> Scene:
+    """A cart held by a soft spring."""
+    scene.add_spring(
+        name="hold", first="ground", second="cart", first_point=(-20.0, 0.0, 0.0), stiffness=6.0, damping=1.0,
+        natural_length=20.0,
+    )  # fmt: skip
+    return scene
+
+
+def by_feed_forward(curve: Curve) -> Scene:
+    scene = held(pendulum_on(cart()))
+    scene.add_actuator(name="drive", joint="rail", feed_forward=curve)
+    return scene
+
+
+def by_reference(curve: Curve) -> Scene:
+    scene = pendulum_on(cart())
+    scene.add_actuator(name="drive", joint="rail", stiffness=40.0, damping=12.0, reference=curve)
+    return scene
+
+
+def by_driver(curve: Curve) -> Scene:
+    scene = pendulum_on(cart())
+    scene.add_driver(joint="rail", curve=curve)
+    return scene
+
+
+def by_force_table(curve: Curve) -> Scene:
+    """Its table takes the curve at every half second."""
+    scene = held(pendulum_on(cart()))
+    times = np.linspace(0.0, 20.0, 41)
+    loads = np.zeros((41, 6))
+    loads[:, 0] = curve.evaluate(times)[:, 0]
+    scene.add_force_table(name="push", body="cart", times=times, loads=loads)
+    return scene
+
+
+def by_wind(curve: Curve) -> Scene:
+    scene = held(pendulum_on(cart()))
+    angle = np.linspace(0.0, np.pi, 13)
+    zero = np.zeros_like(angle)
+    coefficients = FlowCoefficients(angle=angle, x=0.8 * np.cos(angle), y=zero, yaw=zero)
+    add_wind(
+        scene, coefficients=coefficients, speed=curve, direction_deg=0.0, body="cart", frontal_area=0.5,
+        lateral_area=0.5, length=1.0,
+    )  # fmt: skip
+    return scene
+
+
+ELEMENTS: dict[str, Callable[[Curve], Scene]] = {
+    "feed-forward": by_feed_forward,
+    "reference": by_reference,
+    "driver": by_driver,
+    "force table": by_force_table,
+    "wind": by_wind,
+}
+
+
+def random_curve(rng: np.random.Generator, *, continuous: bool = False) -> Curve:
+    """Two to six stretches, each of which goes on from the one before with a jump of its value, rate or
+    acceleration, or of nothing below them; `continuous`: value and rate do not jump."""
+    starts = np.concatenate([[0.5], 0.5 + np.cumsum(rng.uniform(0.3, 5.0, int(rng.integers(1, 6))))])
+    pieces = []
+    value = rate = 0.0
+    for start, end in zip(starts, [*starts[1:], starts[-1] + 3.0], strict=True):
+        kind = rng.integers(3)
+        if kind == 0 and not continuous:
+            value += rng.normal()
+        if kind == 1 and not continuous:
+            rate = 0.5 * rng.normal()
+        acceleration, span = 0.4 * rng.normal(), end - start
+        target = rng.normal()  # the cubic brings the curve near it
+        cubic = (target - value - rate * span - 0.5 * acceleration * span**2) / span**3
+        pieces.append([value, rate, 0.5 * acceleration, cubic, 0.0, 0.0])
+        value, rate = (
+            value + rate * span + 0.5 * acceleration * span**2 + cubic * span**3,
+            rate + acceleration * span + 3.0 * cubic * span**2,
+        )
+    end = [value, rate if continuous else 0.0, 0.0, 0.0, 0.0, 0.0]
+    return Curve.pieces(starts=[*starts, starts[-1] + 3.0], coefficients=[*pieces, end])
+
+
+def random_slew(rng: np.random.Generator) -> Scene:
+    """Slewing by torque or by reference, the payload on a rod or on a wire, with a stop or without."""
+    curve = random_curve(rng)
+    if rng.random() < 0.5:
+        scene = slewing(scaled(curve, 2e6))
+    else:
+        scene = slewing(0.0, stiffness=4e7, damping=3e7, reference=scaled(curve, 0.3))
+    if rng.random() < 0.5:
+        add_wire(scene, joint="wire")
+    kind = rng.integers(4)
+    if kind == 0:
+        add_soft_stop(scene, joint="slew", minimum=-0.15, maximum=0.15, stiffness=3e8, damping=0.3)
+    if kind == 1:
+        add_end_stop(scene, joint="slew", minimum=-0.15, maximum=0.15, restitution=0.3)
+    if kind == 2:
+        add_friction(scene, joint="slew", load=3e5, speed=0.02)
+    return scene
+
+
+def random_cart(rng: np.random.Generator) -> Scene:
+    """A cart and its pendulum behind a random curve, with a stop or without."""
+    element = str(rng.choice(list(ELEMENTS)))
+    scene = ELEMENTS[element](random_curve(rng, continuous=element == "driver"))
+    if element != "driver" and rng.random() < 0.4:
+        if rng.random() < 0.5:
+            add_soft_stop(scene, joint="rail", minimum=-0.3, maximum=0.3, stiffness=2e3, damping=0.2)
+        else:
+            add_end_stop(scene, joint="rail", minimum=-0.3, maximum=0.3)
+    return scene
+
+
+def random_snatch(rng: np.random.Generator) -> Scene:
+    """A ball on a wire, thrown so that it may go slack and snatch."""
+    scene = Scene(name="snatch")
+    length = rng.uniform(1.0, 4.0)
+    scene.add_body(
+        name="ball", mass=3.0, inertia=(0.1, 0.2, 0.3), position=(0.0, 0.0, -length),
+        velocity=(np.sqrt(9.81 * length) * rng.uniform(0.5, 2.1), 0.3 * rng.normal(), 0.0),
+    )  # fmt: skip
+    scene.add_joint(
+        kind="distance", name="wire", first="ground", second="ball", point=(0.0, 0.0, 0.0),
+        second_point=(0.0, 0.0, -length),
+    )  # fmt: skip
+    add_wire(scene, joint="wire")
+    return scene
+
+
+def scaled(curve: Curve, factor: float) -> Curve:
+    pieces = curve.to_pieces()
+    return Curve.pieces(
+        starts=pieces["starts"], coefficients=(factor * np.array(pieces["coefficients"])).tolist()
+    )
+
+
+def random_kinked(rng: np.random.Generator) -> Scene:
+    """Kinks, stops, wires and slewing, by turns."""
+    make = rng.choice(np.array([random_slew, random_slew, random_cart, random_cart, random_snatch]))
+    scene: Scene = make(rng)
+    return scene

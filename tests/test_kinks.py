@@ -1,0 +1,220 @@
+"""Kinks of curves over time and of loads over the state: offered with their size, and stopped at."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from kink_scenes import CART as MASS
+from kink_scenes import ELEMENTS, cart, random_curve, slewing
+
+from seacrane import Curve, Result, Scene, add_soft_stop, cases, integrator_names, simulate
+
+SCALE = 0.1  # m and m/s, of the tolerances
+JUMPS = (0.5, -0.8, 1.2)  # of value, rate and acceleration
+
+
+def bent(*jumps: float, time: float = 2.0) -> Curve:
+    """Zero, then a parabola that jumps in value, rate and acceleration."""
+    value, rate, acceleration = jumps
+    return Curve.constant(value=0.0).then(
+        time=time,
+        curve=Curve.pieces(starts=[time], coefficients=[[value, rate, 0.5 * acceleration, 0.0, 0.0, 0.0]]),
+    )
+
+
+def worst(result: Result, reference: Result, body: str | None = None) -> float:
+    apart = result["position"] - reference["position"]
+    if body is not None:
+        apart = apart[:, [list(result.bodies).index(body)]]
+    return float(np.linalg.norm(apart, axis=-1).max())
+
+
+# What is offered
+
+
+def test_an_actuators_feed_forward_offers_value_rate_and_acceleration() -> None:
+    scene = cart()
+    scene.add_actuator(name="drive", joint="rail", feed_forward=bent(*JUMPS))
+    ((time, jumps),) = scene.compile().kinks
+    assert time == 2.0
+    np.testing.assert_allclose(jumps, [0.0, *(abs(j) / MASS / SCALE for j in JUMPS)], rtol=1e-12)
+
+
+def test_an_actuators_reference_offers_what_stiffness_and_damping_make_of_it() -> None:
+    scene = cart()
+    scene.add_actuator(name="drive", joint="rail", stiffness=3.0, damping=0.5, reference=bent(*JUMPS))
+    ((_, jumps),) = scene.compile().kinks
+    v, r, a = JUMPS
+    force = [3.0 * v + 0.5 * r, 3.0 * r + 0.5 * a, 3.0 * a]
+    np.testing.assert_allclose(jumps, [0.0, *(abs(j) / MASS / SCALE for j in force)], rtol=1e-12)
+
+
+def test_a_driver_offers_jumps_of_the_state_and_of_its_accelerations() -> None:
+    scene = cart()
+    cubic = Curve.pieces(starts=[1.0], coefficients=[[0.0, 0.0, 0.5 * 0.7, -0.3 / 6.0, 0.0, 0.0]])
+    scene.add_driver(joint="rail", curve=cubic)
+    ((_, jumps),) = scene.compile().kinks
+    np.testing.assert_allclose(jumps, [0.0, 0.7 / SCALE, 0.3 / SCALE, 0.0], rtol=1e-12)
+    scene.drivers.clear()
+    scene.add_driver(joint="rail", curve=bent(0.0, 0.2, 0.0))
+    assert scene.compile().kinks[0][1][0] == pytest.approx(0.2 / SCALE)
+
+
+def test_a_force_table_offers_the_jumps_of_its_slope_its_ends_included() -> None:
+    scene = cart()
+    loads = np.zeros((4, 6))
+    loads[:, 0] = [0.0, 1.0, 1.0, 3.0]
+    scene.add_force_table(name="push", body="cart", times=[1.0, 2.0, 4.0, 5.0], loads=loads)
+    kinks = scene.compile().kinks
+    assert [time for time, _ in kinks] == [1.0, 2.0, 4.0, 5.0]
+    np.testing.assert_allclose([j[2] * MASS * SCALE for _, j in kinks], [1.0, 1.0, 2.0, 2.0], rtol=1e-12)
+
+
+def test_kinks_of_the_wind_are_those_of_its_speed_squared() -> None:
+    scene = ELEMENTS["wind"](Curve.constant(value=10.0).then(time=3.0, curve=Curve.constant(value=20.0)))
+    slower = ELEMENTS["wind"](Curve.constant(value=10.0).then(time=3.0, curve=Curve.constant(value=15.0)))
+    (_, jump), (_, less) = scene.compile().kinks[0], slower.compile().kinks[0]
+    assert jump[1] / less[1] == pytest.approx((400.0 - 100.0 + 10.0) / (225.0 - 100.0 + 5.0))
+
+
+@pytest.mark.parametrize("element", ELEMENTS)
+def test_every_element_that_takes_a_curve_offers_its_kinks(element: str) -> None:
+    times = scene_times(ELEMENTS[element](bent(0.0, 0.8, 0.3)))
+    assert 2.0 in times
+    assert not scene_times(ELEMENTS[element](Curve.constant(value=0.0)))
+
+
+def scene_times(scene: Scene) -> list[float]:
+    return list(scene.compile().breakpoints)
+
+
+def test_the_papers_first_two_cases_have_no_kinks() -> None:
+    assert scene_times(cases.case1()) == [] == scene_times(cases.case2())
+
+
+# What is done about them
+
+
+def test_a_kink_of_the_slew_torque_does_not_break_an_accuracy() -> None:
+    torque = Curve.harmonic(amplitude=4e6, omega=2.0 * np.pi / 12.0, phase=-0.5 * np.pi)
+    scene = slewing(torque.then(time=12.0, curve=Curve.constant(value=0.0)))
+    span: dict[str, Any] = {"t_end": 40.0, "dt_out": 0.5}
+    reference = simulate(scene, integrator="dop853", rtol=1e-11, **span)
+    for limit in (1e-1, 1e-2, 1e-3, 1e-4, 1e-6):
+        result = simulate(scene, accuracy={"position": limit}, **span)
+        assert worst(result, reference) <= result.stats["error_estimate_position"] <= limit
+
+
+@pytest.mark.parametrize(
+    "integrator", ["rk4", "dopri5", "dop853", "ark-erk", "cvode-bdf", "generalized-alpha"]
+)
+def test_a_run_restarts_at_a_kink_that_matters_and_not_at_one_that_does_not(integrator: str) -> None:
+    extra = []
+    for size in (0.0, 1e-9, 5.0):
+        scene = cart()
+        scene.add_actuator(
+            name="drive", joint="rail", stiffness=8.0, damping=1.0,
+            feed_forward=Curve.harmonic(amplitude=3.0, omega=1.3),
+        )  # fmt: skip
+        scene.add_actuator(name="kick", joint="rail", feed_forward=bent(0.0, size, 0.0, time=2.03))
+        extra.append(simulate(scene, t_end=6.0, integrator=integrator, dt=0.05).stats["restarts"])
+    assert extra == [extra[0], extra[0], extra[0] + 1]
+
+
+@pytest.mark.parametrize("integrator", ["rk4", "rk-low-storage"])
+def test_a_fixed_step_keeps_its_order_over_a_kink(integrator: str) -> None:
+    """x'' = F / m with F bent at 2.03 s, between two steps: closed form; without the stop the order is 2."""
+    scene = cart()
+    scene.add_actuator(
+        name="drive", joint="rail", stiffness=8.0, reference=0.0, feed_forward=bent(0.0, 5.0, 0.0, time=2.03)
+    )
+    errors = []
+    for dt in (0.1, 0.05):
+        result = simulate(scene, t_end=4.0, dt_out=0.1, integrator=integrator, dt=dt)
+        w, since = np.sqrt(8.0 / MASS), np.maximum(result.time - 2.03, 0.0)
+        exact = 5.0 / 8.0 * (since - np.sin(w * since) / w)
+        errors.append(np.abs(result["position"][:, 0, 0] - exact).max())
+    assert np.log2(errors[0] / errors[1]) > 3.5, errors
+
+
+def recorded(samples: int) -> Scene:
+    """A cart on a spring, pushed by a record of something smooth."""
+    scene = cart()
+    scene.add_actuator(name="hold", joint="rail", stiffness=2.0, damping=0.4)
+    times, loads = np.linspace(0.0, 100.0, samples), np.zeros((samples, 6))
+    loads[:, 0] = 3.0 * np.sin(1.1 * times) + 2.0 * np.sin(0.37 * times + 1.0)
+    scene.add_force_table(name="record", body="cart", times=times, loads=loads)
+    return scene
+
+
+def test_a_record_of_ten_thousand_samples_is_not_ten_thousand_restarts() -> None:
+    scene = recorded(10_001)
+    truth = simulate(scene, t_end=100.0, integrator="dopri5", rtol=1e-6, max_step=0.01)
+    for rtol in (1e-2, 1e-4, 1e-6):
+        for integrator in ("dopri5", "verner76", "cvode-bdf"):
+            result = simulate(scene, t_end=100.0, rtol=rtol, integrator=integrator)
+            assert result.stats["restarts"] < 100, (integrator, rtol, result.stats["restarts"])
+            assert integrator == "cvode-bdf" or worst(result, truth) < 10.0 * rtol, (integrator, rtol)
+    tight = simulate(scene, t_end=100.0, rtol=1e-9)
+    assert tight.stats["restarts"] > 9_000  # steps of more than a sample would not meet the tolerance
+
+
+def test_each_sample_of_a_coarse_record_is_a_stop() -> None:
+    scene = recorded(101)
+    result = simulate(scene, t_end=100.0)
+    assert result.stats["restarts"] >= 98
+
+
+@settings(max_examples=12, deadline=None)
+@given(seed=st.integers(0, 2**32 - 1), element=st.sampled_from(sorted(ELEMENTS)))
+def test_random_curves_with_kinks_keep_an_accuracy_through_every_element(seed: int, element: str) -> None:
+    rng = np.random.default_rng(seed)
+    scene = ELEMENTS[element](random_curve(rng, continuous=element == "driver"))
+    span: dict[str, Any] = {"t_end": 20.0, "dt_out": 0.25}
+    reference = simulate(scene, integrator="dop853", rtol=1e-11, max_step=0.05, **span)
+    motion = float(np.abs(reference["position"] - reference["position"][0]).max())
+    limit = max(motion, 0.01) * 10.0 ** rng.uniform(-6.0, -2.0)
+    result = simulate(scene, accuracy={"position": limit}, **span)
+    assert worst(result, reference) <= limit, (seed, element, limit)
+
+
+# Kinks in the state
+
+
+def bouncing(damping: float) -> Scene:
+    scene = cart(speed=1.0)
+    add_soft_stop(scene, joint="rail", minimum=-1.0, maximum=1.0, stiffness=400.0, damping=damping)
+    return scene
+
+
+def corners() -> Scene:
+    """A cart between corners of a table of tension."""
+    scene = cart(speed=2.0)
+    scene.add_spring(
+        name="table", first="ground", second="cart", first_point=(-5.0, 0.0, 0.0),
+        lengths=[3.0, 4.5, 5.2, 6.0, 9.0], forces=[-60.0, -20.0, 0.0, 5.0, 90.0],
+    )  # fmt: skip
+    return scene
+
+
+@pytest.mark.parametrize("make", [lambda: bouncing(0.0), lambda: bouncing(0.8), corners])
+def test_a_fixed_step_keeps_its_order_over_kinks_in_the_state(make: Callable[[], Scene]) -> None:
+    """Where a soft stop is touched and left, and at the corners of a table; without them the order is 2."""
+    scene = make()
+    reference = simulate(scene, t_end=6.0, integrator="dop853", rtol=1e-12)
+    errors = [worst(simulate(scene, t_end=6.0, integrator="rk4", dt=dt), reference) for dt in (0.01, 0.0025)]
+    assert np.log2(errors[0] / errors[1]) / 2.0 > 3.5, errors
+
+
+@pytest.mark.parametrize("integrator", sorted({*integrator_names()} - {"ark-mri", "rk4-exact-memory"}))
+def test_every_integrator_passes_kinks_in_the_state(integrator: str) -> None:
+    scene = bouncing(0.5)
+    reference = simulate(scene, t_end=4.0, integrator="dop853", rtol=1e-12)
+    result = simulate(scene, t_end=4.0, integrator=integrator, dt=1e-3, rtol=1e-7)
+    order_one = integrator == "semi-implicit-euler"
+    assert worst(result, reference) < (2e-2 if order_one else 1e-4)
