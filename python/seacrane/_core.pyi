@@ -11,8 +11,9 @@ class Curve:
     """
     A reference as a function of time: pieces of quintic polynomials plus one cosine each.
     
-    Before its first piece a curve holds its first value at rest; the last piece goes on for ever. Values are in
-    the unit of what the curve drives (m or rad), times in s. Immutable.
+    Before its first piece a curve holds its first value at rest; its last piece goes on for ever: a polynomial
+    as the polynomial that it is. Values are in the unit of what the curve drives (m, rad, N, N m or m/s), times
+    in s. Immutable.
     """
     @staticmethod
     def constant(*, value: typing.SupportsFloat | typing.SupportsIndex) -> Curve:
@@ -27,7 +28,7 @@ class Curve:
     @staticmethod
     def pieces(*, starts: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], coefficients: collections.abc.Sequence[typing.Annotated[collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(6)"]], cosines: collections.abc.Sequence[typing.Annotated[collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(3)"]] = []) -> Curve:
         """
-        Pieces from their start times on: coefficients (n, 6) of powers of (t - start), cosines (n, 3) of amplitude, omega, phase.
+        Pieces from their start times on: coefficients (n, 6) of powers of (t - start), cosines (n, 3) of amplitude, omega, phase. The last piece goes on as it is: end with a constant to hold a value.
         """
     @staticmethod
     def quintic(*, start_time: typing.SupportsFloat | typing.SupportsIndex, end_time: typing.SupportsFloat | typing.SupportsIndex, start: typing.SupportsFloat | typing.SupportsIndex, end: typing.SupportsFloat | typing.SupportsIndex) -> Curve:
@@ -1200,7 +1201,7 @@ class Model:
     @property
     def breakpoints(self) -> list[float]:
         """
-        s
+        Times (s) at which curves of drivers and loads are not smooth.
         """
     @property
     def compiled_from(self) -> tuple:
@@ -1238,6 +1239,11 @@ class Model:
     def initial_state(self) -> numpy.typing.NDArray[numpy.float64]:
         """
         Consistent start (copy): poses, twists, memory states, work.
+        """
+    @property
+    def kinks(self) -> list[tuple[float, typing.Annotated[list[float], "FixedSize(4)"]]]:
+        """
+        (time, jumps) by time, one for each curve that is not smooth there: of velocity, acceleration and its first two derivatives, at the described start, over the scale of the state (1/s^p).
         """
     @property
     def limits(self) -> list[tuple[str, bool]]:
@@ -1551,6 +1557,16 @@ class Simulation:
         """
     def statistics(self) -> dict:
         ...
+    @property
+    def adaptive(self) -> bool:
+        """
+        Whether the method chooses its steps.
+        """
+    @property
+    def order(self) -> int:
+        """
+        Order of the method, the highest where it varies.
+        """
     @property
     def recorded(self) -> int:
         """
