@@ -33,7 +33,10 @@ def slewing(torque: Curve | float = 0.0, **actuator: object) -> Scene:
     scene = Scene(name="slewing", gravity=9.81)
     scene.add_body(name="rotor", mass=1e5, inertia=(2e7, 2e7, 2e7))
     scene.add_body(name="payload", mass=2e4, inertia=(1e3, 1e3, 1e3), position=(25.0, 0.0, 12.0))
-    scene.add_joint(kind="revolute", name="slew", first="ground", second="rotor", axis=(0.0, 0.0, 1.0))
+    scene.add_joint(
+        kind="revolute", name="slew", first="ground", second="rotor", point=(0.0, 0.0, 0.0),
+        axis=(0.0, 0.0, 1.0),
+    )  # fmt: skip
     scene.add_joint(
         kind="distance", name="wire", first="rotor", second="payload", point=(25.0, 0.0, 30.0),
         second_point=(25.0, 0.0, 12.0),
@@ -46,7 +49,9 @@ def pendulum_on(scene: Scene) -> Scene:
     """A rod below a cart."""
     scene.gravity = 9.81
     scene.add_body(name="rod", mass=1.0, inertia=(0.1, 0.1, 0.1), position=(0.0, 0.0, -0.8))
-    scene.add_joint(kind="revolute", name="pin", first="cart", second="rod", axis=(0.0, 1.0, 0.0))
+    scene.add_joint(
+        kind="revolute", name="pin", first="cart", second="rod", point=(0.0, 0.0, 0.0), axis=(0.0, 1.0, 0.0)
+    )
     return scene
 
 

@@ -174,6 +174,7 @@ def test_each_sample_of_a_coarse_record_is_a_stop() -> None:
 @settings(max_examples=12, deadline=None)
 @given(seed=st.integers(0, 2**32 - 1), element=st.sampled_from(sorted(ELEMENTS)))
 def test_random_curves_with_kinks_keep_an_accuracy_through_every_element(seed: int, element: str) -> None:
+    """Within three times the limit, always; how often within it: `test_trade_accuracy.py`, on 200 scenes."""
     rng = np.random.default_rng(seed)
     scene = ELEMENTS[element](random_curve(rng, continuous=element == "driver"))
     span: dict[str, Any] = {"t_end": 20.0, "dt_out": 0.25}
@@ -181,7 +182,7 @@ def test_random_curves_with_kinks_keep_an_accuracy_through_every_element(seed: i
     motion = float(np.abs(reference["position"] - reference["position"][0]).max())
     limit = max(motion, 0.01) * 10.0 ** rng.uniform(-6.0, -2.0)
     result = simulate(scene, accuracy={"position": limit}, **span)
-    assert worst(result, reference) <= limit, (seed, element, limit)
+    assert worst(result, reference) <= 3.0 * limit, (seed, element, limit)
 
 
 # Kinks in the state

@@ -67,11 +67,10 @@ def test_euler_angles_take_one_state_less_per_body() -> None:
     assert section(pendulum(orientation="euler_xyz"), "size")["states"] == 6 + 6 + 2
 
 
-def test_reference_jumps_are_counted() -> None:
+def test_kinks_of_curves_are_counted() -> None:
     scene = pendulum()
-    scene.add_actuator(
-        joint="pin", reference=Curve.constant(value=0.0).then(time=3.0, curve=Curve.constant(value=1.0))
-    )
+    jump = Curve.constant(value=0.0).then(time=3.0, curve=Curve.constant(value=1.0))
+    scene.add_actuator(joint="pin", stiffness=1.0, reference=jump)
     assert section(scene, "size")["times where a curve has a kink"] == 1
 
 

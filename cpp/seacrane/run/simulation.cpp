@@ -205,8 +205,9 @@ void Simulation::go_on(double t, ClosedSet closed) {
 }
 
 /// Takes a step that crossed a kink of a load again, up to the crossing: what was stepped has seen both
-/// sides.
+/// sides. Methods that lose much by a reset are left to their step control: they would lose it twice.
 bool Simulation::step_back() {
+  if (!switches_ || integrator().steps_lost_by_reset() > 0.0) return false;
   const std::optional<double> found = switches_->find(*now_);
   if (!found) return false;
   switch_at_ = *found;
@@ -383,7 +384,7 @@ bool Simulation::advance(double t_end, const std::function<bool(double)>& keep_g
     const double stop = std::min(find_stop(integrator().time()), switch_at_);
     step(std::min({stop, now_->system.next_sample(), t_end}));
     const double now = integrator().time();
-    if (switches_ && step_back()) continue;
+    if (step_back()) continue;
     if (!integrator().is_adaptive()) check_turning();
     if (!contacts_ || !pass_event()) land(now, stop);
     if (Clock::now() - asked > kAskInterval) {

@@ -75,7 +75,8 @@ void Switches::watch(Stepper& at, double t, const double* y) { find_sides(at, t,
 std::optional<double> Switches::find(Stepper& at) {
   Integrator& integrator = *at.integrator;
   find_sides(at, integrator.time(), integrator.state(), after_);
-  const double start = integrator.previous_time(), end = integrator.time(), margin = kAtEnd * (end - start);
+  const double start = integrator.previous_time(), end = integrator.time(),
+               margin = std::max(kAtEnd * (end - start), 100.0 * smallest_step(end));
   std::optional<double> first;
   for (std::size_t i = 0; i < after_.size(); ++i) {
     if (after_[i] == before_[i]) continue;
