@@ -215,9 +215,9 @@ def test_whatever_happens_to_a_file_it_is_whole_and_unmixed(name: str, tmp_path:
 
 def test_a_small_disk_leaves_the_outputs_that_had_room(tmp_path: Path) -> None:
     """The disk itself is full, for the result's own file too."""
-    with small_disk(tmp_path / "disk", 600_000) as disk:
+    with small_disk(tmp_path / "disk", 6_000_000) as disk:
         with pytest.raises(OSError, match=r"No space left on .*; the outputs until [0-9.]+ s are kept in"):
-            simulate_to_file(pendulum(), disk / "run.nc", checkpoint_every=1.0, **{**SETTINGS, "t_end": 1e4})
+            simulate_to_file(pendulum(), disk / "run.nc", checkpoint_every=1.0, **{**SETTINGS, "t_end": 1e5})
         (left,) = left_at(disk / "run.nc")
         assert left.time.size > 16
         assert left.state is not None

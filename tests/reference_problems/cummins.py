@@ -59,7 +59,7 @@ def trapezoidal(step: float, t_end: float) -> Array:
         states = ahead @ states
     sea = waves()
     force = (
-        sea.transfer[0]
+        sea.hull().transfer[0]
         * AMPLITUDE
         * np.exp(1j * (sea.phase[0] + OMEGA * step * np.arange(count + 1)[:, None]))
     )
