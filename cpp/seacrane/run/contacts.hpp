@@ -3,6 +3,7 @@
 #include <functional>
 #include <optional>
 #include <stdexcept>
+#include <string>
 #include <vector>
 
 #include "seacrane/run/stepper.hpp"
@@ -108,6 +109,7 @@ class Contacts {
   void book(double* bodies, const std::vector<Vec6d>& change, double driver_work, double lost);
   Impact collide(Stepper& at, double t, const double* bodies, ClosedSet struck);
   void note(const Event& event);
+  static std::string at_time(double t);
   [[noreturn]] void report_chatter(double t, int limit, const std::string& what) const;
 
   const Model& model_;

@@ -1,0 +1,388 @@
+// Which limits hold from an event on: impacts, and limits that would pull.
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "seacrane/run/complementarity.hpp"
+#include "seacrane/run/contact_tolerances.hpp"
+#include "seacrane/run/contacts.hpp"
+
+namespace seacrane {
+namespace {
+
+constexpr double kFall = 1e-9;            // m/s2 or rad/s2: accelerations that are rounding
+constexpr double kRounding = 1e-12;       // of the largest impulse
+constexpr double kNoShare = 1e-9;         // of the largest force: limits that carry less let go
+constexpr double kDependentImpact = 1e4;  // times the impulse that one body alone would take: rows depend
+constexpr std::size_t kChatterCount = 64;
+constexpr double kChatterTime = 1e-6;  // s
+
+double acceleration_of(const CoordinateRow<double>& row, const Vec6d& first, const Vec6d& second) {
+  return row.da.dot(first) + row.db.dot(second) - row.gamma;
+}
+
+}  // namespace
+
+/// Rebounds between several limits at one time are one impact, which ends by itself: times count.
+void Contacts::note(const Event& event) {
+  events_.push_back(event);
+  if (!instants_.empty() && instants_.back() == event.time) return;
+  instants_.push_back(event.time);
+  if (instants_.size() < kChatterCount) return;
+  const double since = instants_[instants_.size() - kChatterCount];
+  if (event.time - since > kChatterTime) return;
+  report_chatter(event.time, event.limit, "events within " + to_text(kChatterTime) + " s");
+}
+
+void Contacts::report_chatter(double t, int limit, const std::string& what) const {
+  const Limit& at = model_.limits[idx(limit)];
+  throw ChatteringError("limit '" + at.name + "' on joint '" + model_.description.joints[idx(at.joint)].name +
+                        "': chatters, " + std::to_string(kChatterCount) + " " + what +
+                        " at t = " + at_time(t) +
+                        " s; give a sticking_speed above the speed of its last rebounds, a lower "
+                        "restitution, shorter steps or a soft stop");
+}
+
+ClosedSet Contacts::pass(double t, double* bodies, ClosedSet closed) {
+  stalled_ = t - last_pass_ <= kChatterTime / static_cast<double>(kChatterCount) ? stalled_ + 1 : 0;
+  last_pass_ = t;
+  if (stalled_ >= kChatterCount) report_chatter(t, found_, "passes that took no time");
+  if (parted_) return part(t, bodies, closed);
+  const ClosedSet bit = bit_of(found_);
+  if ((closed & bit) != 0) {
+    note({t, found_, EventKind::release});
+    return settle(t, bodies, closed & ~bit);
+  }
+  return settle(t, bodies, hit(t, bodies, closed, found_));
+}
+
+ClosedSet Contacts::settle(double t, double* bodies, ClosedSet closed) {
+  const int count = static_cast<int>(model_.limits.size());
+  for (int turn = 0; turn < 4 * count + 16; ++turn) {
+    Stepper& at = stepper_(closed);
+    at.system.project(t, bodies, false);
+    at.system.derivative(t, bodies, rate_.data());
+    int wrong = 0;
+    bool struck = false;
+    for (; wrong < count; ++wrong) {
+      const Limit& limit = at.model->limits[idx(wrong)];
+      if (limit.element >= 0) {
+        if (limit_force(limit, at.system, at.system.multipliers().data()) < 0.0) break;
+        continue;
+      }
+      if (limit.kind == LimitKind::seat) continue;
+      const Watched g = gap(limit, at.system);
+      if (g.value > kTouch || g.rate > kStill) continue;
+      struck = g.rate < -kStill;
+      const JointData& joint = limit.coordinate.joint;
+      const auto& a = at.system.acceleration();
+      const CoordinateRow<double> row = evaluate_limit(limit, at.system.bodies().data());
+      if (struck || limit.side * acceleration_of(row, a[idx(joint.first)], a[idx(joint.second)]) < -kFall)
+        break;
+    }
+    if (wrong == count) return closed;
+    if (struck) {
+      closed = hit(t, bodies, closed, wrong);
+    } else {
+      closed ^= bit_of(wrong);
+      note({t, wrong, holds(closed, wrong) ? EventKind::contact : EventKind::release});
+    }
+  }
+  return settle_dependent(t, bodies, closed);
+}
+
+/// Of limits that cannot all hold the loosest lets go, of equally loose ones the one that carries least,
+/// until the others can.
+ClosedSet Contacts::part(double t, double* bodies, ClosedSet closed) {
+  const int count = static_cast<int>(model_.limits.size());
+  for (;;) {
+    Stepper& at = stepper_(closed);
+    at.system.project(t, bodies, false);
+    at.system.derivative(t, bodies, rate_.data());
+    double widest = 0.5 * kParted, least = 0.0;
+    int loosest = -1;
+    for (const bool choosing : {false, true}) {
+      for (int i = 0; i < count; ++i) {
+        const Limit& limit = at.model->limits[idx(i)];
+        if (limit.element < 0) continue;
+        const double open = slack(limit, at);
+        const double force = limit_force(limit, at.system, at.system.multipliers().data());
+        if (!choosing) {
+          widest = std::max(widest, open);
+        } else if (open >= 0.9 * widest && (loosest < 0 || force < least)) {
+          loosest = i;
+          least = force;
+        }
+      }
+    }
+    if (loosest < 0) return settle(t, bodies, closed);
+    closed &= ~bit_of(loosest);
+    note({t, loosest, EventKind::release});
+  }
+}
+
+/// Contacts that depend on each other, where pivoting may go round in circles: impulses and forces of least
+/// energy, without rebound. Limits that need not carry share the load where all of them push.
+ClosedSet Contacts::settle_dependent(double t, double* bodies, ClosedSet closed) {
+  const int count = static_cast<int>(model_.limits.size());
+  ClosedSet seats = 0;
+  for (int i = 0; i < count; ++i) {
+    if (model_.limits[idx(i)].kind == LimitKind::seat) seats |= closed & bit_of(i);
+  }
+  for (;;) {
+    const ClosedSet next = least_energy(t, bodies, closed, seats);
+    for (int i = 0; i < count; ++i) {
+      if (holds(next, i) != holds(closed, i))
+        note({t, i, holds(next, i) ? EventKind::contact : EventKind::release});
+    }
+    closed = next;
+    Stepper& at = stepper_(closed);
+    at.system.project(t, bodies, false);
+    at.system.derivative(t, bodies, rate_.data());
+    int lifted = -1;
+    for (int i = 0; i < count; ++i) {
+      const Limit& limit = at.model->limits[idx(i)];
+      const bool pulls =
+          limit.element >= 0 && limit_force(limit, at.system, at.system.multipliers().data()) < 0.0;
+      if (pulls && holds(seats, i)) lifted = i;
+      if (!pulls || holds(seats, i)) continue;
+      throw ChatteringError("scene '" + model_.description.name +
+                            "': no set of its limits is consistent at t = " + at_time(t) +
+                            " s (friction-free contacts that depend on each other); remove redundant stops");
+    }
+    if (lifted < 0) return closed;
+    seats &= ~bit_of(lifted);
+  }
+}
+
+/// The limits that hold beside `seats` by the forces of least energy, after an impact of least energy where
+/// any of them is approached.
+ClosedSet Contacts::least_energy(double t, double* bodies, ClosedSet closed, ClosedSet seats) {
+  Stepper& at = stepper_(seats);
+  RedundantSystem& system = at.system;
+  system.derivative(t, bodies, rate_.data());
+  std::vector<int> near;
+  for (int i = 0; i < static_cast<int>(model_.limits.size()); ++i) {
+    const Limit& limit = at.model->limits[idx(i)];
+    if (limit.kind == LimitKind::seat) continue;
+    const Watched g = gap(limit, system);
+    if (holds(closed, i) || (g.value <= kTouch && g.rate <= kStill)) near.push_back(i);
+  }
+  const auto n = static_cast<Eigen::Index>(near.size());
+  std::vector<Vec6d> load(idx(model_.body_count()) + 1, Vec6d::Zero()), change(load);
+  std::vector<double> right(idx(at.model->rows()), 0.0), impulse(right);
+  const auto limit_of = [&](Eigen::Index i) -> const Limit& {
+    return at.model->limits[idx(near[static_cast<std::size_t>(i)])];
+  };
+  const auto push = [&](const Limit& limit, double force) {
+    const CoordinateRow<double> row = evaluate_limit(limit, system.bodies().data());
+    load[idx(limit.coordinate.joint.first)] += force * limit.side * row.da;
+    load[idx(limit.coordinate.joint.second)] += force * limit.side * row.db;
+  };
+  const auto along = [&](const Limit& limit, const std::vector<Vec6d>& motion) {
+    const CoordinateRow<double> row = evaluate_limit(limit, system.bodies().data());
+    return limit.side * (row.da.dot(motion[idx(limit.coordinate.joint.first)]) +
+                         row.db.dot(motion[idx(limit.coordinate.joint.second)]));
+  };
+  const auto respond = [&] {
+    load.back().setZero();
+    system.solve(load, right, change, impulse);
+    for (Vec6d& one : load) one.setZero();
+  };
+  MatXd g(n, n);
+  VecXd rate(n), fall(n);
+  for (Eigen::Index j = 0; j < n; ++j) {
+    push(limit_of(j), 1.0);
+    respond();
+    for (Eigen::Index i = 0; i < n; ++i) g(i, j) = along(limit_of(i), change);
+    rate[j] = gap(limit_of(j), system).rate;
+  }
+  if (n > 0 && rate.minCoeff() < -kStill) {
+    const VecXd hit = complementary_forces(g, rate), after = rate + g * hit;
+    double lost = 0.0, driver_work = 0.0;
+    for (Eigen::Index j = 0; j < n; ++j) {
+      push(limit_of(j), hit[j]);
+      lost -= 0.5 * hit[j] * (rate[j] + after[j]);
+    }
+    respond();
+    for (const ElementModel& element : at.model->elements) {
+      const auto e = static_cast<std::size_t>(&element - at.model->elements.data());
+      if (element.driver) driver_work += impulse[idx(element.row)] * system.blocks()[e].nu[0];
+    }
+    book(bodies, change, driver_work, lost);
+    rate = after;
+    system.derivative(t, bodies, rate_.data());
+  }
+  std::vector<Eigen::Index> stay;
+  for (Eigen::Index j = 0; j < n; ++j) {
+    if (rate[j] <= kStill) stay.push_back(j);
+  }
+  const auto& a = system.acceleration();
+  for (Eigen::Index j = 0; j < n; ++j) {
+    const JointData& joint = limit_of(j).coordinate.joint;
+    const CoordinateRow<double> row = evaluate_limit(limit_of(j), system.bodies().data());
+    fall[j] = limit_of(j).side * acceleration_of(row, a[idx(joint.first)], a[idx(joint.second)]);
+  }
+  const MatXd g_stay = g(stay, stay);
+  const VecXd fall_stay = fall(stay), force = complementary_forces(g_stay, fall_stay),
+              left = g_stay * force + fall_stay;
+  ClosedSet carry = 0, idle = 0;
+  const double none = kFall + kNoShare * (stay.empty() ? 0.0 : fall_stay.cwiseAbs().maxCoeff());
+  for (std::size_t k = 0; k < stay.size(); ++k) {
+    const auto at_k = static_cast<Eigen::Index>(k);
+    const ClosedSet bit = bit_of(near[static_cast<std::size_t>(stay[k])]);
+    if (force[at_k] > 0.0) {
+      carry |= bit;
+    } else if (left[at_k] <= none) {
+      idle |= bit;
+    }
+  }
+  return seats | carry | sharing(t, bodies, seats | carry, idle);
+}
+
+/// Those of `idle` that push when they hold beside `carry`, and let that push.
+ClosedSet Contacts::sharing(double t, const double* bodies, ClosedSet carry, ClosedSet idle) {
+  const int count = static_cast<int>(model_.limits.size());
+  while (idle != 0) {
+    Stepper& at = stepper_(carry | idle);
+    at.system.derivative(t, bodies, rate_.data());
+    double least = 0.0, most = 0.0;
+    int weakest = -1;
+    for (int i = 0; i < count; ++i) {
+      const Limit& limit = at.model->limits[idx(i)];
+      if (limit.element < 0 || limit.kind == LimitKind::seat) continue;
+      const double force = limit_force(limit, at.system, at.system.multipliers().data());
+      most = std::max(most, force);
+      if (weakest >= 0 && force >= least) continue;
+      least = force;
+      weakest = i;
+    }
+    if (least > kNoShare * most) break;
+    idle = holds(idle, weakest) ? idle & ~bit_of(weakest) : 0;
+  }
+  return idle;
+}
+
+/// The impulse that limit `i` takes in an impact, over what its two bodies alone would: large where rows
+/// nearly depend on each other, and turn a slow impact into one that stops the motion.
+double Contacts::amplification(Stepper& at, int i, double impulse, double speed) const {
+  const Limit& limit = at.model->limits[idx(i)];
+  const JointData& joint = limit.coordinate.joint;
+  const CoordinateRow<double> row = evaluate_limit(limit, at.system.bodies().data());
+  double mobility = 0.0;
+  for (const auto& [body, d] : {std::pair(joint.first, row.da), std::pair(joint.second, row.db)}) {
+    if (body < model_.body_count()) mobility += d.dot(at.system.mass_matrix(body).lu().solve(d));
+  }
+  return std::abs(impulse) * mobility / std::max(std::abs(speed), kStill);
+}
+
+/// Adds the change of twists by an impact; work takes up what it changed.
+void Contacts::book(double* bodies, const std::vector<Vec6d>& change, double driver_work, double lost) {
+  for (int b = 0; b < model_.body_count(); ++b) {
+    view<6>(bodies + model_.layout.twist(b)) += change[idx(b)];
+  }
+  bodies[model_.layout.work] += driver_work - lost;
+  bodies[model_.layout.work + 1] += std::abs(driver_work) + std::abs(lost);
+  energy_lost_ += lost;
+}
+
+/// What is hit at the same time as limit `found`, or touched and approached then. `slow`: none of them faster
+/// than its sticking_speed.
+ClosedSet Contacts::struck_with(Stepper& at, double t, const double* bodies, int found, bool& slow) {
+  at.system.read_kinematics(t, bodies);
+  ClosedSet out = 0;
+  slow = true;
+  for (int i = 0; i < static_cast<int>(model_.limits.size()); ++i) {
+    const Limit& limit = at.model->limits[idx(i)];
+    if (limit.element >= 0 || limit.kind == LimitKind::seat) continue;
+    const Watched g = gap(limit, at.system);
+    const bool here = i == found ? g.rate <= kStill : g.value <= kTouch && g.rate < -kStill;
+    if (!here) continue;
+    out |= bit_of(i);
+    slow = slow && -g.rate <= limit.sticking_speed;
+  }
+  return out;
+}
+
+/// A slow impact lets nothing go: limits that hit and free each other by turns would otherwise do so without
+/// end, slower and slower. What would pull then, settle() opens by its force.
+ClosedSet Contacts::hit(double t, double* bodies, ClosedSet closed, int found) {
+  const int count = static_cast<int>(model_.limits.size());
+  bool slow = true;
+  const ClosedSet struck = struck_with(stepper_(closed), t, bodies, found, slow);
+  ClosedSet kept = closed | struck;
+  for (;;) {
+    Stepper& at = stepper_(kept);
+    const Impact impact = collide(at, t, bodies, struck);
+    double largest = 0.0;
+    for (const double impulse : impact.impulse) largest = std::max(largest, std::abs(impulse));
+    const double pull = -kRounding * largest;
+    int pulls = 0;
+    while (pulls < count && !(holds(kept, pulls) && impact.impulse[idx(pulls)] < pull)) ++pulls;
+    bool dependent = false;
+    for (int i = 0; slow && pulls < count && i < count; ++i) {
+      dependent = dependent ||
+                  (holds(struck, i) && holds(kept, i) &&
+                   amplification(at, i, impact.impulse[idx(i)], impact.speed[idx(i)]) > kDependentImpact);
+    }
+    if (pulls < count && (!slow || dependent)) {
+      kept &= ~bit_of(pulls);
+      continue;
+    }
+    double lost = 0.0;
+    for (int i = 0; i < count; ++i) lost += impact.lost[idx(i)];
+    book(bodies, impact.change, impact.driver_work, lost);
+    for (int i = 0; i < count; ++i) {
+      if (holds(closed, i) && !holds(kept, i)) note({t, i, EventKind::release});
+      if (!holds(struck, i) || !holds(kept, i)) continue;
+      const bool back = impact.rebounds[idx(i)];
+      note({t, i, back ? EventKind::rebound : EventKind::contact, impact.speed[idx(i)],
+            impact.impulse[idx(i)], impact.lost[idx(i)]});
+      if (back) kept &= ~bit_of(i);
+    }
+    return kept;
+  }
+}
+
+/// The impact in which the limits of `at` hold and those of `struck` are hit.
+Contacts::Impact Contacts::collide(Stepper& at, double t, const double* bodies, ClosedSet struck) {
+  RedundantSystem& system = at.system;
+  const auto count = model_.limits.size(), rows = idx(at.model->rows());
+  Impact out;
+  out.impulse.assign(count, 0.0);
+  out.speed.assign(count, 0.0);
+  out.lost.assign(count, 0.0);
+  out.rebounds.assign(count, false);
+  system.derivative(t, bodies, rate_.data());
+  std::vector<double> before(rows), right(rows), impulse(rows);
+  system.rate_residual(bodies, before.data());
+  for (std::size_t r = 0; r < rows; ++r) right[r] = -before[r];
+  for (std::size_t i = 0; i < count; ++i) {
+    const Limit& limit = at.model->limits[i];
+    if (limit.element < 0 || !holds(struck, static_cast<int>(i))) continue;
+    const auto row = idx(at.model->elements[idx(limit.element)].row);
+    out.speed[i] = -limit.side * before[row];
+    out.rebounds[i] = limit.restitution > 0.0 && out.speed[i] > limit.sticking_speed;
+    if (out.rebounds[i]) right[row] *= 1.0 + limit.restitution;
+  }
+  out.change.assign(idx(model_.body_count()) + 1, Vec6d::Zero());
+  system.solve(std::vector<Vec6d>(out.change), right, out.change, impulse);
+  for (std::size_t i = 0; i < count; ++i) {
+    const Limit& limit = at.model->limits[i];
+    if (limit.element < 0) continue;
+    out.impulse[i] = limit_force(limit, system, impulse.data());
+    if (!holds(struck, static_cast<int>(i))) continue;
+    const auto row = idx(at.model->elements[idx(limit.element)].row);
+    out.lost[i] = -impulse[row] * (before[row] + 0.5 * right[row]);
+  }
+  for (std::size_t e = 0; e < at.model->elements.size(); ++e) {
+    const ElementModel& element = at.model->elements[e];
+    if (element.driver) out.driver_work += impulse[idx(element.row)] * system.blocks()[e].nu[0];
+  }
+  return out;
+}
+
+}  // namespace seacrane
