@@ -59,7 +59,7 @@ def test_the_fft_takes_uniform_seas_and_refuses_jittered_ones() -> None:
 
 
 def test_wrong_words_are_refused() -> None:
-    with pytest.raises(SceneError, match="phase is 'true'; choose 'mean' or 'actual'"):
+    with pytest.raises(SceneError, match="phase is 'true'; choose 'mean', 'slow' or 'actual'"):
         scene_of(phase="true")
     with pytest.raises(SceneError, match="drift is 'newman'; give True or False"):
         scene_of(drift="newman")

@@ -70,7 +70,7 @@ def test_a_drift_along_the_waves_beyond_the_phase_warns_and_across_them_does_not
         assert set(found) <= {MeanPositionWarning}
         if expected:
             assert "'hull': is " in found[MeanPositionWarning]
-            assert "phase='actual'" in found[MeanPositionWarning]
+            assert "phase='slow'" in found[MeanPositionWarning]
             assert str(result.stats["validity"]) == found[MeanPositionWarning]
 
 

@@ -144,6 +144,8 @@ SEAS: list[dict[str, Any]] = [
     {"memory": "none"},
     {"memory": "convolution"},
     {"phase": "actual", "count": 20},
+    {"phase": "slow", "count": 20},
+    {"phase": "slow", "count": 20, "memory": "convolution"},
 ]
 
 

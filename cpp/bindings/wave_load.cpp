@@ -255,14 +255,16 @@ transfer : array_like of complex, shape (m, components, 6)
     X at each heading for each component's frequency, N/m and N m/m. Copied.
 drift_headings, drift : array_like, shapes (p,) and (p, components, 6), optional
     D over its headings, N/m2 and N m/m2. Copied.
+cutoff : float
+    rad/s: in a run the loads are those of the position and heading below this frequency; 0: of the moment.
 
 Raises
 ------
 ValueError
-    A wrong shape, a value that is not finite or a gap between headings.)")
+    A wrong shape, a value that is not finite or out of range, or a gap between headings.)")
       .def(py::init([](const WaveComponents& waves, const std::vector<double>& headings,
                        const Complexes& transfer, const std::vector<double>& drift_headings,
-                       const std::optional<Doubles>& drift) {
+                       const std::optional<Doubles>& drift, double cutoff) {
              // A complex number lies in memory as its real and imaginary part.
              auto force = heading_table<12>("force by heading", headings, waves.size(),
                                             reinterpret_cast<const double*>(transfer.data()), transfer, 6);
@@ -271,10 +273,11 @@ ValueError
                slow = heading_table<6>("drift by heading", drift_headings, waves.size(), drift->data(),
                                        *drift, 6);
              }
-             return std::make_shared<PositionedWaveLoad>(waves, std::move(force), std::move(slow));
+             return std::make_shared<PositionedWaveLoad>(waves, std::move(force), std::move(slow), cutoff);
            }),
            py::arg("waves"), py::kw_only(), py::arg("headings"), py::arg("transfer"),
-           py::arg("drift_headings") = std::vector<double>{}, py::arg("drift") = py::none())
+           py::arg("drift_headings") = std::vector<double>{}, py::arg("drift") = py::none(),
+           py::arg("cutoff") = 0.0)
       .def(
           "evaluate",
           [](const PositionedWaveLoad& load, double time, double x, double y, double yaw) {

@@ -212,8 +212,8 @@ inline void make_vessel(SceneDescription& scene, const std::string& body) {
 }
 
 /// A slider-crank on a vessel in wind, and slow drift from its table or, with the first-order loads, at the
-/// actual position.
-inline SceneDescription at_sea(bool actual) {
+/// actual position, or below a cut-off frequency at the slow one.
+inline SceneDescription at_sea(bool actual, double cutoff = 0.0) {
   SceneDescription scene = slider_crank("hull");
   make_vessel(scene, "hull");
   WaveLoadDescription& waves = scene.wave_loads.front();
@@ -222,7 +222,7 @@ inline SceneDescription at_sea(bool actual) {
   if (actual) {
     waves.positioned = std::make_shared<const PositionedWaveLoad>(
         waves.exact->waves(), ForceByHeading("force", headings, 3, values.data()),
-        DriftByHeading("drift", headings, 3, values.data()));
+        DriftByHeading("drift", headings, 3, values.data()), cutoff);
   } else {
     waves.drift = std::make_shared<const DriftLoad>(waves.exact->waves(), MatXd::Constant(3, 6, 2.0));
     waves.drift_table = std::make_shared<const DriftTable>(waves.drift);

@@ -19,7 +19,7 @@ std::vector<SceneDescription> scenes() {
   }
   SceneDescription euler = slider_crank();
   euler.orientation = Orientation::euler_xyz;
-  return {slider_crank(), floating, light, euler, at_sea(true), at_sea(false)};
+  return {slider_crank(), floating, light, euler, at_sea(true), at_sea(true, 0.7), at_sea(false)};
 }
 
 /// Also loops whose rows depend on each other, which an eigendecomposition solves.

@@ -279,10 +279,11 @@ TEST_CASE("exact Jacobian: drivers on angles and displacements, Baumgarte, Euler
   }
 }
 
-TEST_CASE("exact Jacobian: a vessel with memory, waves at the mean and at the actual position, drift, wind") {
+TEST_CASE("exact Jacobian: a vessel with memory, waves at its mean, actual and slow position, drift, wind") {
   SceneDescription calm = slider_crank("hull");
   make_vessel(calm, "hull");
-  for (const SceneDescription& scene : {calm, at_sea(false), at_sea(true), with_convolution()}) {
+  for (const SceneDescription& scene :
+       {calm, at_sea(false), at_sea(true), at_sea(true, 0.7), with_convolution()}) {
     check_redundant(scene, 8);
     check_recursive(scene, 8);
     check_residual(scene, 8);
@@ -323,7 +324,8 @@ TEST_CASE("kinematics of the tree on dual numbers are those of the run") {
 }
 
 TEST_CASE("exact Jacobian: nothing is allocated after the first one") {
-  for (const SceneDescription& scene : {slider_crank(), at_sea(true), at_sea(false), with_convolution()}) {
+  for (const SceneDescription& scene :
+       {slider_crank(), at_sea(true, 0.7), at_sea(false), with_convolution()}) {
     RedundantSystem system(compile(scene));
     RecursiveSystem tree(system);
     GearGuptaLeimkuhler residual(system);

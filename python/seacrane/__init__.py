@@ -37,6 +37,7 @@ if TYPE_CHECKING:
         add_drift,
         add_wind,
         use_actual_position,
+        use_slow_position,
     )
     from seacrane.errors import ChatteringError, FileFormatError, SceneError, SeacraneError, SimulationError
     from seacrane.following import FullTurnWarning, OutsideRangeWarning, SoftGainsWarning
@@ -189,6 +190,7 @@ _HOME = {
     "step_error": "trading.fixed_step",
     "trade": "trading",
     "use_actual_position": "environment",
+    "use_slow_position": "environment",
 }
 _MODULES = ("cases", "crane", "hydro", "sea")
 
@@ -294,6 +296,7 @@ __all__ = [
     "step_error",
     "trade",
     "use_actual_position",
+    "use_slow_position",
 ]
 
 

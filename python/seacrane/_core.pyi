@@ -472,13 +472,15 @@ class PositionedWaveLoad:
         X at each heading for each component's frequency, N/m and N m/m. Copied.
     drift_headings, drift : array_like, shapes (p,) and (p, components, 6), optional
         D over its headings, N/m2 and N m/m2. Copied.
+    cutoff : float
+        rad/s: in a run the loads are those of the position and heading below this frequency; 0: of the moment.
     
     Raises
     ------
     ValueError
-        A wrong shape, a value that is not finite or a gap between headings.
+        A wrong shape, a value that is not finite or out of range, or a gap between headings.
     """
-    def __init__(self, waves: WaveComponents, *, headings: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], transfer: typing.Annotated[numpy.typing.ArrayLike, numpy.complex128], drift_headings: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex] = [], drift: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None) -> None:
+    def __init__(self, waves: WaveComponents, *, headings: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], transfer: typing.Annotated[numpy.typing.ArrayLike, numpy.complex128], drift_headings: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex] = [], drift: typing.Annotated[numpy.typing.ArrayLike, numpy.float64] | None = None, cutoff: typing.SupportsFloat | typing.SupportsIndex = 0.0) -> None:
         ...
     def __repr__(self) -> str:
         ...

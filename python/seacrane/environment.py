@@ -24,6 +24,7 @@ AIR = 1.226  # kg/m3 at 15 deg C, DNV-RP-C205
 SEA_WATER = 1025.0  # kg/m3
 PORT_STARBOARD = np.array([1.0, -1.0, -1.0])  # of x, y, yaw
 HORIZONTAL = [0, 1, 5]
+SLOW_SHARE = 0.2  # of the peak frequency: motions below are slow
 LEAST_DIFFERENCE = 0.01  # of a wavenumber, between the depths of a sea and of a database
 
 
@@ -215,13 +216,53 @@ def use_actual_position(scene: Scene, database: HydroDatabase, *, vessel: str | 
         Without a sea, for a vessel that is not in it, for a database of another depth, or if its headings do
         not cover the circle.
     """
-    waves = _sea_of(scene, "loads at the actual position")
+    scene.waves = _with_headings(_sea_of(scene, "loads at the actual position"), database, vessel, cutoff=0.0)
+    scene.notes.update(wave_phase="actual")
+
+
+def use_slow_position(
+    scene: Scene, database: HydroDatabase, *, vessel: str | None = None, cutoff: float | None = None
+) -> None:
+    """Take wave loads at the slow part of the vessel's position and heading.
+
+    First-order loads belong to the position about which a hull oscillates: at that of the moment its motion
+    in the waves is counted a second time. The fast part of surge, sway and yaw, that above the cut-off, is
+    kept as nine states of the vessel: each motion through the high-pass filter
+    s^2 (s + 2 w) / (s^3 + 2 w s^2 + 2 w^2 s + w^3), w the cut-off, from zero at the start. What is left
+    follows a steady drift without lag, and keeps 2 (w / omega)^2 of a motion at omega far above w. Otherwise
+    as `use_actual_position`, at the same cost. Call it after `add_sea`.
+
+    Parameters
+    ----------
+    scene : Scene
+    database : HydroDatabase
+    vessel : str, optional
+        Body of the vessel; default: the only one in the sea.
+    cutoff : float
+        rad/s, between slow drift and waves; default: a fifth of the frequency at the sea's peak.
+
+    Raises
+    ------
+    SceneError
+        As `use_actual_position`, or for a cut-off that is not positive.
+    """
+    from seacrane.hull_range import peak_frequency
+
+    waves = _sea_of(scene, "loads at the slow position")
+    cutoff = SLOW_SHARE * peak_frequency(waves) if cutoff is None else number_of("sea: cutoff", cutoff)
+    if not (np.isfinite(cutoff) and cutoff > 0.0):
+        raise SceneError(f"sea: cutoff is {cutoff} rad/s; give a frequency between slow drift and waves")
+    scene.waves = _with_headings(waves, database, vessel, cutoff=cutoff)
+    scene.notes.update(wave_phase="slow")
+
+
+def _with_headings(waves: Waves, database: HydroDatabase, vessel: str | None, *, cutoff: float) -> Waves:
+    """The sea with loads of all headings on a vessel."""
     force, drift = force_by_heading(database, waves.omega), None
     if waves.hull(vessel).drift is not None:
         drift = _drift_by_heading(database, waves.omega, "hold")  # add_drift has judged the range
     require_depth(waves, database, waves.body_of(vessel))
-    scene.waves = waves.changed(vessel, force_by_heading=force, drift_by_heading=drift)
-    scene.notes.update(wave_phase="actual")
+    return waves.changed(vessel, force_by_heading=force, drift_by_heading=drift, cutoff=cutoff)
 
 
 def force_by_heading(database: HydroDatabase, omega: Array) -> ByHeading:

@@ -148,8 +148,8 @@ def _posed(
     found: list[Finding] = []
     far, turned = peak.phase(slow[:, :2]), np.abs(slow[:, 2])
     way_out = (
-        "take them where the vessel is by phase='actual' in add_sea (seacrane.use_actual_position), where it "
-        "is on the average by position and heading_deg there, or moor it stiffer"
+        "take them where the vessel slowly goes by phase='slow' in add_sea (seacrane.use_slow_position), "
+        "where it is on the average by position and heading_deg there, or moor it stiffer"
     )
     if far.max() > LARGEST_PHASE:
         at = int(far.argmax())

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from seacrane import _core
 from seacrane.caller import warn_caller
 from seacrane.checked import flag_of, number_of, shaped_of
-from seacrane.environment import add_drift, require_depth, use_actual_position
+from seacrane.environment import add_drift, require_depth, use_actual_position, use_slow_position
 from seacrane.errors import SceneError
 from seacrane.frames import heading_of
 from seacrane.plausible import direction_of
@@ -62,7 +62,7 @@ def add_sea(
     heading_deg: float | None = None,
     relative_bound: float | None = None,
     evaluation: str | None = None,
-    phase: Literal["mean", "actual"] = "mean",
+    phase: Literal["mean", "slow", "actual"] = "mean",
     drift: bool = False,
 ) -> None:
     """Add a sea and its force-RAO loads on a vessel, or put one more vessel into the sea that is there.
@@ -101,8 +101,8 @@ def add_sea(
     evaluation : str
         "table" (default), "fft" (needs components of uniform placement) or "exact"; see `seacrane.Waves`.
     phase : str
-        "mean": loads at that position and heading. "actual": at those of the moment, see
-        `seacrane.use_actual_position`.
+        "mean": loads at that position and heading. "slow": at the slow part of those of the moment, see
+        `seacrane.use_slow_position`. "actual": at those of the moment, see `seacrane.use_actual_position`.
     drift : bool
         Adds Newman's slow drift, see `seacrane.add_drift`; components beyond its coefficients take those of
         the nearest.
@@ -126,8 +126,8 @@ def add_sea(
     arguments = {"hs": hs, "tp": tp, "gamma": gamma, "spectrum": spectrum, "direction_deg": direction_deg,
                  "spreading": spreading, "seed": seed, "count": count}  # fmt: skip
     given = {name: value for name, value in arguments.items() if value is not None}
-    if phase not in ("mean", "actual"):
-        raise SceneError(f"sea: phase is {phase!r}; choose 'mean' or 'actual'")
+    if phase not in ("mean", "slow", "actual"):
+        raise SceneError(f"sea: phase is {phase!r}; choose 'mean', 'slow' or 'actual'")
     flag_of("sea: drift", drift)
     if sea is not None and given:
         raise SceneError(f"sea: given beside {', '.join(given)}; put these into the SeaState")
@@ -149,6 +149,8 @@ def add_sea(
         add_drift(scene, database, vessel=vessel, outside="hold")
     if phase == "actual":
         use_actual_position(scene, database, vessel=vessel)
+    if phase == "slow":
+        use_slow_position(scene, database, vessel=vessel)
     scene.notes.update(notes, waves_relative_bound=waves.relative_bound)
 
 

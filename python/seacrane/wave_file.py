@@ -21,6 +21,7 @@ _HULL_ADDED_LATER: dict[str, Any] = {
     "force_by_heading": None,
     "drift": None,
     "drift_by_heading": None,
+    "cutoff": 0.0,
 }
 _HULL = ("body", "position", *_TRANSFER, *_HULL_ADDED_LATER)
 
@@ -39,7 +40,7 @@ def waves_to_data(waves: Waves) -> dict[str, Any]:
 def _hull_to_data(body: str, hull: HullLoads) -> dict[str, Any]:
     transfer = np.asarray(hull.transfer, dtype=complex)
     out: dict[str, Any] = {"body": body, "position": [float(x) for x in hull.position]}
-    out["heading"] = float(hull.heading)
+    out["heading"], out["cutoff"] = float(hull.heading), float(hull.cutoff)
     out |= {"transfer_real": transfer.real.tolist(), "transfer_imaginary": transfer.imag.tolist()}
     force, drift = hull.force_by_heading, hull.drift_by_heading
     if force is not None:
@@ -98,6 +99,7 @@ def _hull_from_node(node: Node, count: int) -> HullLoads:
         force_by_heading=_by_heading(node.at("force_by_heading"), count, complex_values=True),
         drift=None if drift.value is None else drift.array((count, 6)),
         drift_by_heading=_by_heading(node.at("drift_by_heading"), count, complex_values=False),
+        cutoff=node.at("cutoff").number(),
     )
 
 

@@ -59,7 +59,10 @@ class HullLoads:
     drift : ndarray, shape (n, 6), optional
         Mean drift load per squared amplitude at each component, N/m2 and N m/m2: adds Newman's slow drift.
     drift_by_heading : ByHeading, optional
-        The same over the heading, for loads at the actual position.
+        The same over the heading, for loads at the actual or the slow position.
+    cutoff : float
+        rad/s: with `force_by_heading`, loads are those at the position and heading below this frequency; 0:
+        at those of the moment.
     """
 
     transfer: NDArray[np.complex128]
@@ -68,10 +71,21 @@ class HullLoads:
     force_by_heading: ByHeading | None = None
     drift: Array | None = None
     drift_by_heading: ByHeading | None = None
+    cutoff: float = 0.0
 
     def __post_init__(self) -> None:
         if not np.isfinite(number_of("waves: heading", self.heading)):
             raise SceneError(f"waves: heading is {self.heading}; give a finite number, rad")
+        cutoff = number_of("waves: cutoff", self.cutoff)
+        if not (np.isfinite(cutoff) and cutoff >= 0.0):
+            raise SceneError(
+                f"waves: cutoff is {self.cutoff} rad/s; give the frequency below which a motion is slow, or 0"
+            )
+        if cutoff and self.force_by_heading is None:
+            raise SceneError(
+                f"waves: cutoff is {self.cutoff} rad/s and there is no force_by_heading; loads at one place "
+                "have no slow position, take seacrane.use_slow_position, or cutoff=0"
+            )
         for name in ("force_by_heading", "drift_by_heading"):
             table = getattr(self, name)
             if table is not None and not isinstance(table, ByHeading):
@@ -200,12 +214,16 @@ class Waves:
         if force is None or (hull.drift is not None and drift is None):
             raise ValueError("drift at the actual position needs drift_by_heading")
         if self.evaluation == "fft":
-            raise ValueError("loads at the actual position have no table; choose evaluation='exact'")
+            raise ValueError("loads at the actual or slow position have no table; choose evaluation='exact'")
         slow: dict[str, Any] = {}
         if drift is not None:
             slow = {"drift_headings": np.asarray(drift.heading).tolist(), "drift": drift.values}
         positioned = _core.PositionedWaveLoad(
-            self.components(), headings=np.asarray(force.heading).tolist(), transfer=force.values, **slow
+            self.components(),
+            headings=np.asarray(force.heading).tolist(),
+            transfer=force.values,
+            cutoff=hull.cutoff,
+            **slow,
         )
         return {"positioned": positioned}
 

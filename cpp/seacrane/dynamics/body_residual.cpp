@@ -63,6 +63,7 @@ BodyResidual::BodyResidual(const Model& model, const std::vector<int>* counted)
   for (const Vessel& vessel : model.vessels) most = std::max(most, vessel.memory_states());
   memory_state_.resize(idx(most));
   memory_rate_.resize(idx(most));
+  wave_slopes_.resize(model.vessels.size());
   touched_.reserve(bodies_.size());
 }
 
@@ -223,11 +224,11 @@ void BodyResidual::add_waves(int b) {
     const YawFrame<Scalar> frame(bodies_[idx(b)]);
     Vec6<Scalar> force = system_->waves(i).sum().cast<Scalar>();
     if (wave.sources.positioned) {
-      const Vec3d& place = system_->bodies()[idx(b)].position;
-      double slopes[6][3];
-      wave.sources.positioned->slopes(t_, place.x(), place.y(), frame.yaw.value, slopes);
+      const Vec3d pose = system_->wave_pose(wave, held_.memory);
+      WaveSlopes& slopes = wave_slopes_[idx(wave.vessel)];
+      wave.sources.positioned->slopes(t_, pose[0], pose[1], pose[2], slopes.over_pose);
       for (int k = 0; k < 6; ++k) {
-        const double* over = slopes[k];
+        const double* over = slopes.over_pose[k];
         force[k] += over[2] * (frame.yaw - Scalar(frame.yaw.value));
         force[k].slope[0] += over[0];
         force[k].slope[1] += over[1];
@@ -236,7 +237,9 @@ void BodyResidual::add_waves(int b) {
     const Vec6<Scalar> inertial = frame.to_inertial(force);
     wrench_[idx(b)].force += inertial.head<3>();
     wrench_[idx(b)].moment += inertial.tail<3>();
-    sum_.add_power(force.dot(frame.twist));
+    const Scalar power = force.dot(frame.twist);
+    wave_slopes_[idx(wave.vessel)].direction = power.value < 0.0 ? -1.0 : 1.0;
+    sum_.add_power(power);
   }
 }
 

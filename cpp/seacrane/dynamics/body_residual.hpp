@@ -53,6 +53,15 @@ class BodyResidual {
   /// Rates of the memory states of the body's vessel.
   const std::vector<Scalar>& memory_rates() const { return memory_rate_; }
 
+  /// Of the wave load on a vessel, in its yaw frame: slopes over the x, y and yaw where it is taken, and the
+  /// sign of its power.
+  struct WaveSlopes {
+    double over_pose[6][3] = {};
+    double direction = 1.0;
+  };
+  /// Of a vessel whose body has been differentiated.
+  const WaveSlopes& wave_slopes(std::size_t vessel) const { return wave_slopes_[vessel]; }
+
  private:
   static Slopes slopes(const Wrench<Scalar>& w);
   void seed(const BodyKinematics<double>& k, BodyKinematics<Scalar>& out) const;
@@ -75,6 +84,7 @@ class BodyResidual {
   std::vector<Wrench<Scalar>> wrench_, second_wrench_;
   std::vector<Wrench<double>> moved_wrench_;
   std::vector<Scalar> right_, rate_, position_, memory_state_, memory_rate_;
+  std::vector<WaveSlopes> wave_slopes_;  // by vessel
   std::vector<int> touched_;
   LoadSum<Scalar> sum_{};
 };

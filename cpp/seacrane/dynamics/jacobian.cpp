@@ -9,13 +9,17 @@ namespace seacrane {
 std::vector<MemoryMatrices> memory_matrices(const Model& model) {
   std::vector<MemoryMatrices> out;
   for (const Vessel& vessel : model.vessels) {
-    const int n = vessel.memory_states();
+    const int n = vessel.memory_states(), fluid = vessel.fluid_states();
     MemoryMatrices& m = out.emplace_back(MemoryMatrices{MatXd::Zero(n, n), MatXd::Zero(6, n)});
-    for (int j = 0; j < n; ++j) {
-      const VecXd unit = VecXd::Unit(n, j);
+    for (int j = 0; j < fluid; ++j) {
+      const VecXd unit = VecXd::Unit(fluid, j);
       Vec6d mu = Vec6d::Zero();
       std::get<Memory>(vessel.memory).evaluate<double>(Vec6d::Zero(), unit.data(), m.a.col(j).data(), mu);
       m.c.col(j) = mu;
+    }
+    for (int j = fluid; j < n; ++j) {
+      const VecXd unit = VecXd::Unit(n - fluid, j - fluid);
+      vessel.fast->rates<double>(Vec3d::Zero(), unit.data(), m.a.col(j).data() + fluid);
     }
   }
   return out;
@@ -23,9 +27,17 @@ std::vector<MemoryMatrices> memory_matrices(const Model& model) {
 
 double memory_power_sign(const Vessel& vessel, const YawFrame<double>& frame, const double* x,
                          double* x_rate) {
+  if (vessel.fluid_states() == 0) return 1.0;
   Vec6d mu = Vec6d::Zero();
   std::get<Memory>(vessel.memory).evaluate<double>(frame.twist, x, x_rate, mu);
   return sign(-frame.twist.dot(mu));
+}
+
+void write_wave_slopes(const Vessel& vessel, const BodyResidual::WaveSlopes& slopes, MatXd& c) {
+  if (!vessel.fast) return;
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 6; ++j) c(j, vessel.fluid_states() + 3 * i) = slopes.over_pose[j][i];
+  }
 }
 
 TurningMatrix turning(Orientation orientation, const double* angles) {
@@ -147,7 +159,13 @@ void RedundantJacobian::write_memory_columns(const double* y, double* out) {
       load_[idx(vessel.body)] = frame.to_inertial(unit);
       solve_column(response_.col(i).data(), frame.twist[i], direction * frame.twist[i]);
     }
+    const BodyResidual::WaveSlopes& waves = residual_.wave_slopes(v);
+    write_wave_slopes(vessel, waves, memory_[v].c);
     jacobian.middleCols(vessel.memory_offset, states).noalias() = -response_ * memory_[v].c;
+    for (int i = vessel.fluid_states(); i < states; ++i) {
+      jacobian(m.layout.work + 1, vessel.memory_offset + i) +=
+          (direction - waves.direction) * frame.twist.dot(memory_[v].c.col(i));
+    }
     jacobian.block(vessel.memory_offset, vessel.memory_offset, states, states) += memory_[v].a;
   }
 }

@@ -10,7 +10,7 @@ class RedundantSystem;
 
 inline double sign(double x) { return x < 0.0 ? -1.0 : 1.0; }
 
-/// x' = a x + ..., mu = c x + ... of every vessel's memory.
+/// x' = a x + ..., mu = c x + ... of every vessel's memory and fast motion.
 struct MemoryMatrices {
   MatXd a, c;
 };
@@ -18,6 +18,9 @@ std::vector<MemoryMatrices> memory_matrices(const Model& model);
 /// Sign of the memory's power at x; `x_rate` is scratch.
 double memory_power_sign(const Vessel& vessel, const YawFrame<double>& frame, const double* x,
                          double* x_rate);
+
+/// Into c, how the wave load changes with the vessel's fast motion.
+void write_wave_slopes(const Vessel& vessel, const BodyResidual::WaveSlopes& slopes, MatXd& c);
 
 /// Rotation vector (inertial axes) per change of the orientation's variables: 3 x 4 or 3 x 3.
 using TurningMatrix = Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, 4>;

@@ -1,24 +1,8 @@
-#include <algorithm>
-#include <variant>
-
+#include "seacrane/dynamics/jacobian.hpp"
 #include "seacrane/dynamics/redundant.hpp"
 
 namespace seacrane {
 namespace {
-
-/// A of x' = A x + B u, one column per state: the rates under a unit state at rest.
-MatXd dynamics(const Memory& memory) {
-  const Vec6d rest = Vec6d::Zero();
-  Vec6d load = Vec6d::Zero();
-  MatXd a(memory.states(), memory.states());
-  VecXd x = VecXd::Zero(memory.states());
-  for (int j = 0; j < memory.states(); ++j) {
-    x[j] = 1.0;
-    memory.evaluate<double>(rest, x.data(), a.col(j).data(), load);
-    x[j] = 0.0;
-  }
-  return a;
-}
 
 /// End of the diagonal block of `a` that starts at `first`.
 int end_of_block(const MatXd& a, int first) {
@@ -35,13 +19,12 @@ int end_of_block(const MatXd& a, int first) {
 
 std::vector<LinearBlock> RedundantSystem::linear_blocks() const {
   std::vector<LinearBlock> out;
-  for (const Vessel& vessel : model_->vessels) {
-    const auto* memory = std::get_if<Memory>(&vessel.memory);
-    if (!memory) continue;
-    const MatXd a = dynamics(*memory);
-    for (int first = 0; first < memory->states();) {
+  const std::vector<MemoryMatrices> memory = memory_matrices(*model_);
+  for (std::size_t v = 0; v < memory.size(); ++v) {
+    const MatXd& a = memory[v].a;
+    for (int first = 0; first < a.rows();) {
       const int end = end_of_block(a, first);
-      LinearBlock block{idx(vessel.memory_offset + first), idx(end - first), {}};
+      LinearBlock block{idx(model_->vessels[v].memory_offset + first), idx(end - first), {}};
       for (int i = first; i < end; ++i) {
         for (int j = first; j < end; ++j) block.a.push_back(a(i, j));
       }

@@ -36,8 +36,10 @@ std::string RedundantSystem::describe_memory(int state) const {
     const Vessel& vessel = model_->vessels[v];
     const int own = state - (vessel.memory_offset - model_->layout.memory);
     if (own < 0 || own >= vessel.memory_states()) continue;
-    return "memory state " + std::to_string(own) + " of vessel " +
-           in_quotes(model_->description.vessels[v].name);
+    const std::string of = " of vessel " + in_quotes(model_->description.vessels[v].name);
+    const int fluid = vessel.fluid_states();
+    if (own >= fluid) return "state " + std::to_string(own - fluid) + " of the fast motion" + of;
+    return "memory state " + std::to_string(own) + of;
   }
   return "memory state " + std::to_string(state);
 }
@@ -77,7 +79,7 @@ std::string RedundantSystem::non_finite_load(double t, const double* y) {
   if (found.empty() && bad < memory_rate.size()) {
     found = "rate of " + describe_memory(static_cast<int>(bad)) + ": it is " + to_text(memory_rate[bad]);
   }
-  check("waves", [&](auto& sum) { apply_waves(t, sum); });
+  check("waves", [&](auto& sum) { apply_waves(t, y + m.layout.memory, sum); });
   return found;
 }
 

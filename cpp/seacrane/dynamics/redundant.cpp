@@ -135,12 +135,21 @@ void RedundantSystem::apply_hydrodynamics(const LoadInput<double>& input, const 
   }
 }
 
-void RedundantSystem::apply_waves(double t, LoadSum<double>& sum) {
+Vec3d RedundantSystem::wave_pose(const WaveLoad& wave, const double* memory) const {
+  const Vessel& vessel = model_->vessels[idx(wave.vessel)];
+  const Vec3d& place = bodies_[idx(wave.body)].position;
+  const Vec3d pose(place.x(), place.y(), frames_[idx(wave.vessel)].yaw);
+  if (!vessel.fast) return pose;
+  const int own = vessel.memory_offset - model_->layout.memory + vessel.fluid_states();
+  return pose - FastMotion::of(memory + own);
+}
+
+void RedundantSystem::apply_waves(double t, const double* memory, LoadSum<double>& sum) {
   const Model& m = *model_;
   for (std::size_t i = 0; i < m.wave_loads.size(); ++i) {
     const WaveLoad& wave = m.wave_loads[i];
     const YawFrame<double>& frame = frames_[idx(wave.vessel)];
-    waves_[i].evaluate(t, bodies_[idx(wave.body)].position, frame.yaw);
+    waves_[i].evaluate(t, wave_pose(wave, memory));
     const Vec6d force = waves_[i].sum();
     const Vec6d inertial = m.paper_kinematics ? force : frame.to_inertial(force);
     wrench_[idx(wave.body)].force += inertial.head<3>();
@@ -159,7 +168,7 @@ void RedundantSystem::evaluate_wrenches(double t, const double* memory, double* 
     for (const Load& load : std::get<std::vector<Load>>(m.loads)) load.template apply<double>(input, sum);
   });
   apply_hydrodynamics(input, memory, memory_rate, sum);
-  apply_waves(t, sum);
+  apply_waves(t, memory, sum);
   power_ = sum.power;
   absolute_power_ = sum.absolute_power;
 }

@@ -109,6 +109,8 @@ class RedundantSystem final : public Formulation {
   const std::vector<double>& multipliers() const { return lambda_; }
   const std::vector<RowBlock<double>>& blocks() const { return blocks_; }
   const WaveForces& waves(std::size_t load) const { return waves_[load]; }
+  /// x, y and yaw of the vessel where its wave loads are taken; `memory`: the memory part of a state.
+  Vec3d wave_pose(const WaveLoad& wave, const double* memory) const;
   LoadInput<double> load_input(double t) const { return {t, curve_limit_, bodies_.data(), slots_.data()}; }
   const std::vector<BodyInertia>& inertia() const { return inertia_; }
   /// Loads minus velocity terms per body, and the mass matrix: M vdot = load + D^T lambda.
@@ -152,7 +154,7 @@ class RedundantSystem final : public Formulation {
   void evaluate_loads(double t, const double* y, double* ydot);
   void apply_hydrodynamics(const LoadInput<double>& input, const double* memory, double* memory_rate,
                            LoadSum<double>& sum);
-  void apply_waves(double t, LoadSum<double>& sum);
+  void apply_waves(double t, const double* memory, LoadSum<double>& sum);
   void factor();
   void factor_dense();
   void solve_dense();

@@ -99,12 +99,14 @@ void ResidualJacobian::write_memory_columns(const double* y, Eigen::Map<MatXd>& 
     if (states == 0) continue;
     const YawFrame<double>& frame = system_->frame(static_cast<int>(v));
     const double direction = memory_power_sign(vessel, frame, y + at, column_.data());
+    const BodyResidual::WaveSlopes& waves = residual_.wave_slopes(v);
+    write_wave_slopes(vessel, waves, memory_[v].c);
     for (int i = 0; i < states; ++i) {
       const Vec6d mu = memory_[v].c.col(i);
       const double power = frame.twist.dot(mu);
       out.block<6, 1>(m.layout.twist(vessel.body), at + i) = over_mass(vessel.body, frame.to_inertial(mu));
       out(m.layout.work, at + i) = power;
-      out(m.layout.work + 1, at + i) = direction * power;
+      out(m.layout.work + 1, at + i) = (i < vessel.fluid_states() ? direction : waves.direction) * power;
     }
     out.block(at, at, states, states) = -memory_[v].a;
   }

@@ -7,11 +7,11 @@ WaveForces::WaveForces(const WaveLoadDescription& sources) : sources_(&sources) 
   if (sources.drift_table) drift_block_ = sources.drift_table->make_block();
 }
 
-void WaveForces::evaluate(double t, const Vec3d& position, double yaw) {
+void WaveForces::evaluate(double t, const Vec3d& pose) {
   const WaveLoadDescription& s = *sources_;
   if (s.positioned) {
     PositionedLoad load;
-    s.positioned->evaluate(t, position.x(), position.y(), yaw, load);
+    s.positioned->evaluate(t, pose[0], pose[1], pose[2], load);
     force_ = view<6>(load.force);
     drift_ = view<6>(load.drift);
     elevation_ = load.elevation;

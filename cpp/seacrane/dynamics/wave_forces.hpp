@@ -11,7 +11,8 @@ class WaveForces {
  public:
   explicit WaveForces(const WaveLoadDescription& sources);
 
-  void evaluate(double t, const Vec3d& position, double yaw);
+  /// `pose`: x, y (m) and yaw (rad) of the vessel.
+  void evaluate(double t, const Vec3d& pose);
 
   /// First order; slow drift; N and N m.
   const Vec6d& force() const { return force_; }

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <cmath>
+#include <optional>
 #include <variant>
 
 #include "seacrane/dynamics/loads/load.hpp"
 #include "seacrane/hydro/convolution.hpp"
+#include "seacrane/hydro/fast_motion.hpp"
 #include "seacrane/hydro/memory.hpp"
 #include "seacrane/math/rotation.hpp"
 
@@ -90,12 +92,15 @@ struct Vessel {
   Vec3d mean_position;
   double mean_yaw = 0.0;
   std::variant<Memory, Convolution> memory;
-  int memory_offset = 0;  // in the state vector
+  std::optional<FastMotion> fast;  // where wave loads are those of the slow pose
+  int memory_offset = 0;           // in the state vector
 
-  int memory_states() const {
+  int fluid_states() const {
     const auto* models = std::get_if<Memory>(&memory);
     return models ? models->states() : 0;
   }
+  /// Of the fluid memory, then of the fast motion.
+  int memory_states() const { return fluid_states() + (fast ? FastMotion::states : 0); }
 
   /// -R A d/dt(R^T v) = -(R A R^T) vdot - bias: bias of the added mass, inertial axes.
   template <class T>
@@ -121,7 +126,9 @@ struct Vessel {
     const auto& k = in.bodies[body];
     damp(f, out);
     restore(f, k, out);
-    if (memory_states() > 0) {
+    const int fluid = fluid_states();
+    if (fast) fast->rates<T>({k.velocity[0], k.velocity[1], f.yaw_rate}, x + fluid, x_rate + fluid);
+    if (fluid > 0) {
       Vec6<T> mu = Vec6<T>::Zero();
       std::get<Memory>(memory).template evaluate<T>(f.twist, x, x_rate, mu);
       radiate(f, mu, out);

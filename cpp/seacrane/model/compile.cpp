@@ -276,7 +276,11 @@ class Compiler {
     }
     for (const auto& d : scene_.wave_loads) {
       const int b = place(d.body).body;
-      model_.wave_loads.push_back({b, model_.bodies[idx(b)].vessel, d});
+      const int v = model_.bodies[idx(b)].vessel;
+      model_.wave_loads.push_back({b, v, d});
+      if (d.positioned && d.positioned->cutoff() > 0.0) {
+        model_.vessels[idx(v)].fast = FastMotion{d.positioned->cutoff()};
+      }
     }
   }
 
@@ -308,12 +312,13 @@ class Compiler {
     for (std::size_t v = 0; v < model_.vessels.size(); ++v) {
       int i = model_.vessels[v].memory_offset;
       const auto* blocks = std::get_if<std::vector<StateSpaceBlock>>(&scene_.vessels[v].memory);
-      if (blocks == nullptr) continue;
-      for (const auto& block : *blocks) {
+      for (const auto& block : blocks ? *blocks : std::vector<StateSpaceBlock>()) {
         for (Eigen::Index k = 0; k < block.a.rows(); ++k) {
           scale[idx(i++)] = block.state_scale.size() ? block.state_scale[k] : 1.0;
         }
       }
+      if (!model_.vessels[v].fast) continue;
+      for (int k = 0; k < FastMotion::states; ++k) scale[idx(i++)] = k < 6 ? length : kRotationScale;
     }
   }
 
@@ -361,6 +366,15 @@ std::vector<Kink> kinks_when_open(const Model& model, ClosedSet closed) {
   return find_kinks(*open);
 }
 
+void start_fast_motions(Model& model) {
+  std::vector<double>& y = model.initial_state;
+  for (const Vessel& vessel : model.vessels) {
+    if (!vessel.fast) continue;
+    const double* twist = &y[idx(model.layout.twist(vessel.body))];
+    vessel.fast->start({twist[0], twist[1], twist[5]}, &y[idx(vessel.memory_offset + vessel.fluid_states())]);
+  }
+}
+
 }  // namespace
 
 std::shared_ptr<const Model> compile(const SceneDescription& scene, bool merge) {
@@ -372,6 +386,7 @@ std::shared_ptr<const Model> compile(const SceneDescription& scene, bool merge) 
   const std::shared_ptr<Model> model = described_model(scene, limits, closed, start);
   model->merges = merge;
   assemble(*model);
+  start_fast_motions(*model);
   check_start(*model);
   MergePlan plan = merge ? plan_merge(start) : no_merge(start);
   if (plan.merges()) {

@@ -141,8 +141,12 @@ void check_vessels(const SceneDescription& scene, const SceneNames& names) {
       Check("vessel", v.name).fail("kinematics differ from those of '" + scene.vessels.front().name + "'");
     }
   }
+  std::set<std::string> slow;
   for (const auto& w : scene.wave_loads) {
     const Check c("wave load", w.name);
+    if (w.positioned && w.positioned->cutoff() > 0.0 && !slow.insert(w.body).second) {
+      c.fail("body '" + w.body + "' has a slow position already; one load has it");
+    }
     if (floating.count(w.body) == 0) c.fail("body '" + w.body + "' is not a vessel; add its hydrodynamics");
     if (!w.exact && !w.table && !w.positioned) c.fail("has no wave components");
     if (w.positioned && scene.vessels.front().kinematics == VesselKinematics::paper) {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <stdexcept>
+#include <string>
 #include <utility>
 
 #include "seacrane/math/dual.hpp"
@@ -10,8 +12,13 @@
 
 namespace seacrane {
 
-PositionedWaveLoad::PositionedWaveLoad(WaveComponents waves, ForceByHeading force, DriftByHeading drift)
-    : waves_(std::move(waves)), force_(std::move(force)), drift_(std::move(drift)) {
+PositionedWaveLoad::PositionedWaveLoad(WaveComponents waves, ForceByHeading force, DriftByHeading drift,
+                                       double cutoff)
+    : waves_(std::move(waves)), force_(std::move(force)), drift_(std::move(drift)), cutoff_(cutoff) {
+  if (!std::isfinite(cutoff) || cutoff < 0.0) {
+    throw std::invalid_argument("cut-off is " + std::to_string(cutoff) +
+                                " rad/s; make it positive, or 0 for loads at the pose of the moment");
+  }
   for (std::size_t i = 0; i < waves_.size(); ++i) {
     const double k = waves_.wavenumber()[i], b = waves_.direction()[i];
     along_x_.push_back(k * std::cos(b));

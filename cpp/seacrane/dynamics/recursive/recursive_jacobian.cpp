@@ -275,7 +275,12 @@ void RecursiveJacobian::write_memory_columns(const double* y, double* out) {
       load_[idx(vessel.body)] = frame.to_inertial(Vec6d(Vec6d::Unit(i)));
       solve(to_fluid_.col(i).data(), frame.twist[i], direction * frame.twist[i]);
     }
+    const BodyResidual::WaveSlopes& waves = residual_.wave_slopes(v);
+    write_wave_slopes(vessel, waves, memory_[v].c);
     jacobian.middleCols(at, states).noalias() = -to_fluid_ * memory_[v].c;
+    for (int i = vessel.fluid_states(); i < states; ++i) {
+      jacobian(n - 1, at + i) += (direction - waves.direction) * frame.twist.dot(memory_[v].c.col(i));
+    }
     jacobian.block(at, at, states, states) += memory_[v].a;
   }
 }
