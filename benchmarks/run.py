@@ -29,7 +29,7 @@ from measure import (
 from measure.machine import machine
 from measure.section import Section
 
-from seacrane.result.atomic import atomic_write
+from seacrane.files.atomic import atomic_write
 
 HERE = Path(__file__).resolve().parent
 INTRODUCTION = """# Benchmarks

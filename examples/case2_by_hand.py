@@ -13,9 +13,9 @@ import numpy as np
 
 from seacrane import Curve, Scene, balance, cases, feed_forward, reflected_inertia, simulate
 from seacrane.crane import KnuckleBoomCrane, Payload
-from seacrane.frames import rotation_matrix
 from seacrane.hydro import shipped_database
-from seacrane.vessel import add_sea, add_vessel
+from seacrane.inputs.frames import rotation_matrix
+from seacrane.scene.vessel import add_sea, add_vessel
 
 CRANE = KnuckleBoomCrane.load()  # the numbers of the crane data file, with centres of mass and inertias
 PAYLOAD = Payload(mass=10e3, size=(6.0, 6.0, 4.0), link_length=8.0)

@@ -13,7 +13,7 @@ import numpy as np
 
 from seacrane import Curve, Scene, balance, reflected_inertia, simulate
 from seacrane.hydro import shipped_database
-from seacrane.vessel import add_sea, add_vessel
+from seacrane.scene.vessel import add_sea, add_vessel
 
 y = 10.0  # m, of the crane's plane
 foot, A, B, C = (33.0, y, 10.0), (33.0, y, 16.5), (28.8, y, 21.1), (32.0, y, 27.8)

@@ -11,10 +11,10 @@ from seacrane import (
     Scene,
     cases,
 )
+from seacrane.analysis.rest_state import held
 from seacrane.crane import KnuckleBoomCrane, Payload
 from seacrane.hydro import shipped_database, vessel_parameters
 from seacrane.hydro.vessel import rigid_mass_matrix
-from seacrane.rest_state import held
 
 Array = NDArray[np.float64]
 

@@ -11,7 +11,7 @@ from reference.mechanisms import SingleCoordinate, SliderCrank
 
 from seacrane import Curve, Run, Scene
 from seacrane.crane import KnuckleBoomCrane, Payload
-from seacrane.frames import rotation_matrix
+from seacrane.inputs.frames import rotation_matrix
 
 Array = NDArray[np.float64]
 ACTUATORS = {"slew": "A", "main": "main_cylinder", "knuckle": "knuckle_cylinder"}

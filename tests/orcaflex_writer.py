@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from seacrane.hydro import HydroDatabase, motion_response, rigid_mass_matrix, shipped_database
-from seacrane.hydro.orcaflex_model import ADDED_MASS, DAMPING, INERTIA, RAO_ROWS, STIFFNESS
+from seacrane.hydro.readers.orcaflex_model import ADDED_MASS, DAMPING, INERTIA, RAO_ROWS, STIFFNESS
 
 G = 9.80665
 EVENTS = {"crest": 0.0, "zero down-crossing": 90.0, "trough": 180.0, "zero up-crossing": 270.0}

@@ -183,7 +183,7 @@ class Builder:
 
     def frame(self, joint: Any) -> tuple[Array, Array]:
         """Joint point and axes in the inertial frame."""
-        from seacrane.frames import rotation_matrix
+        from seacrane.inputs.frames import rotation_matrix
 
         if joint.first == "ground":
             return np.array(joint.first_frame.point), np.array(joint.first_frame.axes)

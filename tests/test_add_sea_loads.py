@@ -9,8 +9,8 @@ import pytest
 
 from seacrane import Scene, SceneError, add_drift, add_sea, use_actual_position
 from seacrane.hydro import DriftCoefficients, HydroDatabase, shipped_database
+from seacrane.scene.vessel import add_vessel
 from seacrane.sea import SeaState, WaveSystem, jonswap
-from seacrane.vessel import add_vessel
 
 
 def with_drift() -> HydroDatabase:

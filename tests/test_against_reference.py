@@ -19,8 +19,8 @@ from reference.system import System
 from seacrane import Scene, cases, driven, simulate
 from seacrane._core import Curve
 from seacrane.crane import FOOT, KnuckleBoomCrane, Payload
-from seacrane.frames import rotation_matrix
 from seacrane.hydro import shipped_database, vessel_parameters
+from seacrane.inputs.frames import rotation_matrix
 
 Array = NDArray[np.float64]
 

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from seacrane import AssemblyWarning, Curve, Scene
-from seacrane.assembled import LARGEST_MOVE, LARGEST_TURN, moves
+from seacrane.description.assembled import LARGEST_MOVE, LARGEST_TURN, moves
 
 ARM = 20.0  # m, hinge to the centre of the boom
 

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from seacrane import SceneError
 from seacrane.hydro import HydroDatabase, shipped_database
-from seacrane.hydro.beyond_band import LOADS, without_load
+from seacrane.hydro.database.beyond_band import LOADS, without_load
 from seacrane.hydro.dispersion import wavenumber
 from seacrane.sea import jonswap, realise_waves
 

@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 
 from seacrane import Evaluator, Result, Run, Scene, balance, cases, driven, simulate, spline_curve
 from seacrane.crane import FOOT, KnuckleBoomCrane, Payload
-from seacrane.frames import rotation_matrix
 from seacrane.hydro import shipped_database
+from seacrane.inputs.frames import rotation_matrix
 
 Array = NDArray[np.float64]
 G = 9.80665

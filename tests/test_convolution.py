@@ -27,13 +27,13 @@ from seacrane import (
     load_database,
     simulate,
 )
+from seacrane.analysis.scene_report import scene_report
 from seacrane.hydro import (
     HydroDatabase,
     retardation_functions,
     shipped_database,
     vessel_parameters,
 )
-from seacrane.scene_report import scene_report
 
 Array = NDArray[np.float64]
 CHANNELS = ["vessel_motion", "energy_balance", "absolute_work"]

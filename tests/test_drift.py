@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from seacrane import Scene, SceneError, _core, add_drift, simulate, use_actual_position
 from seacrane.hydro import HydroDatabase, shipped_database
-from seacrane.vessel import add_sea, add_vessel
+from seacrane.scene.vessel import add_sea, add_vessel
 
 Array = NDArray[np.float64]
 TIMES = np.array([0.0, 3.3, 47.0, 600.0])

@@ -11,16 +11,16 @@ from typing import Any
 
 import numpy as np
 import pytest
+from stability_atlas import committed, rows, stability_atlas, workers
+from stability_atlas.axes import AXES
+from stability_atlas.axis import Case
+from stability_atlas.measure import Reference, measure, points_on_bodies, reference
+from stability_atlas.methods import DEFAULT, QUICK, every
+from stability_atlas.rows import Row
+from stability_atlas.vessel_axes import _turn_of
 
 from seacrane import SceneError, cases, cli
-from seacrane.extremes import committed, rows, stability_atlas, workers
-from seacrane.extremes.axes import AXES
-from seacrane.extremes.axis import Case
-from seacrane.extremes.measure import Reference, measure, points_on_bodies, reference
-from seacrane.extremes.methods import DEFAULT, QUICK, every
-from seacrane.extremes.rows import Row
-from seacrane.extremes.vessel_axes import _turn_of
-from seacrane.method import Method
+from seacrane.run.method import Method
 
 NO_REFERENCE = Reference(points=None, motion=rows.UNKNOWN, uncertainty=rows.UNKNOWN, known="")
 
@@ -79,7 +79,7 @@ def test_a_second_call_runs_nothing_again(quick: Path, monkeypatch: pytest.Monke
     def fail(groups: Any, jobs: int) -> Any:
         raise AssertionError(f"{len(groups)} groups are run again")
 
-    monkeypatch.setattr("seacrane.extremes.study.run_all", fail)
+    monkeypatch.setattr("stability_atlas.study.run_all", fail)
     lines = (quick / "extremes_rows.jsonl").read_text().splitlines()
     again = stability_atlas(out=quick, quick=True, axes=["payload", "heel"], figures=False, progress=False)
     assert {row.axis for row in again.rows} == {"payload", "heel"}
@@ -169,10 +169,10 @@ def test_how_a_run_ends_is_told_apart(monkeypatch: pytest.MonkeyPatch) -> None:
     stopped = verdict(Method(formulation="redundant", integrator="rk4", dt=0.02), wild)
     assert stopped.verdict == rows.STOPPED
     assert "vessel" in stopped.message
-    monkeypatch.setattr("seacrane.extremes.measure.Run.advance", raising(RuntimeError("mystery")))
+    monkeypatch.setattr("stability_atlas.measure.Run.advance", raising(RuntimeError("mystery")))
     assert verdict(DEFAULT).verdict == rows.UNNAMED
     monkeypatch.undo()
-    monkeypatch.setattr("seacrane.extremes.measure.CHECKS", ("not there",))
+    monkeypatch.setattr("stability_atlas.measure.CHECKS", ("not there",))
     assert verdict(DEFAULT).verdict == rows.UNNAMED
 
 
@@ -184,7 +184,7 @@ def raising(error: Exception) -> Callable[..., None]:
 
 
 def test_a_value_that_is_not_finite_is_found(monkeypatch: pytest.MonkeyPatch) -> None:
-    import seacrane.extremes.measure as module
+    import stability_atlas.measure as module
 
     real = module.run_within
 

@@ -6,11 +6,11 @@ import warnings
 
 import numpy as np
 import pytest
+from stability_atlas.duration_axes import HOUR
+from stability_atlas.mechanism_axes import AXES as MECHANISMS
+from stability_atlas.vessel_axes import AXES as VESSELS
 
 from seacrane import cases, simulate
-from seacrane.extremes.duration_axes import HOUR
-from seacrane.extremes.mechanism_axes import AXES as MECHANISMS
-from seacrane.extremes.vessel_axes import AXES as VESSELS
 
 TUMBLE = next(axis for axis in MECHANISMS if axis.name == "tumble")
 FOUR_BAR = next(axis for axis in MECHANISMS if axis.name == "four-bar")

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-import seacrane.rest_state
+import seacrane.analysis.rest_state
 from seacrane import (
     Curve,
     Scene,
@@ -105,13 +105,13 @@ def test_strokes_end_at_their_references(case: object) -> None:
 def test_a_case_is_built_with_a_few_static_solutions(monkeypatch: pytest.MonkeyPatch) -> None:
     """Poses that come back are solved once, and a case that is built again solves none."""
     solved: list[float] = []
-    rest = seacrane.rest_state._rest
+    rest = seacrane.analysis.rest_state._rest
 
     def counted(scene: Scene, time: float, values: Array | None) -> object:
         solved.append(time)
         return rest(scene, time, values)
 
-    monkeypatch.setattr(seacrane.rest_state, "_rest", counted)
+    monkeypatch.setattr(seacrane.analysis.rest_state, "_rest", counted)
     cases._quasi_static.cache_clear()
     cases.case3()
     assert 10 < len(solved) < 30

@@ -359,8 +359,8 @@ def test_the_end_of_the_slew_is_found_despite_the_controls_ripple() -> None:
 
 
 def test_the_databases_plots_hold_its_numbers(tmp_path: Path) -> None:
+    from seacrane.figures.hydro import chosen_headings, save_hydro_figures
     from seacrane.hydro import motion_response, shipped_database
-    from seacrane.hydro_figures import chosen_headings, save_hydro_figures
 
     database = shipped_database()
     pictures = {

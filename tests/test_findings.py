@@ -18,9 +18,9 @@ from seacrane.figures.findings import (
     slew_stop,
 )
 from seacrane.figures.paper import PaperRuns
-from seacrane.frames import rotation_matrix
 from seacrane.hydro import shipped_database, vessel_parameters
 from seacrane.hydro.vessel import rigid_mass_matrix
+from seacrane.inputs.frames import rotation_matrix
 from seacrane.result import MOTIONS
 
 Array = NDArray[np.float64]

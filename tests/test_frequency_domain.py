@@ -25,10 +25,10 @@ from seacrane import (
     response_summed,
     simulate,
 )
+from seacrane.analysis.rest_state import held
 from seacrane.hydro import shipped_database
-from seacrane.rest_state import held
+from seacrane.scene.vessel import add_sea
 from seacrane.sea import jonswap
-from seacrane.vessel import add_sea
 
 Array = NDArray[np.float64]
 OMEGA = np.array([0.35, 0.45, 0.6, 0.8, 1.0, 1.3, 1.8])

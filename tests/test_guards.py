@@ -22,16 +22,16 @@ from seacrane import (
     SimulationError,
     State,
     StiffWarning,
-    linearise,
     simulate,
-    stiffness,
 )
+from seacrane.analysis import linearise
 from seacrane.cases import vessel
-from seacrane.hull_range import MeanHeadingWarning
-from seacrane.output_times import OutputMemoryError
-from seacrane.report import report_html
-from seacrane.step_advice import STABLE_UP_TO
-from seacrane.validity import (
+from seacrane.figures.report import report_html
+from seacrane.run import stiffness
+from seacrane.run.output_times import OutputMemoryError
+from seacrane.run.step_advice import STABLE_UP_TO
+from seacrane.validity.hull_range import MeanHeadingWarning
+from seacrane.validity.range import (
     FullTurnWarning,
     LargeHeelWarning,
     NearSingularWarning,
@@ -235,7 +235,7 @@ def pendulum() -> Scene:
     return scene
 
 
-@pytest.mark.filterwarnings("ignore::seacrane.validity.FullTurnWarning")
+@pytest.mark.filterwarnings("ignore::seacrane.validity.range.FullTurnWarning")
 def test_energy_limit_stops_by_name_and_keeps_the_outputs() -> None:
     settings: dict[str, Any] = {"t_end": 20.0, "integrator": "semi-implicit-euler", "dt": 0.02}
     free = simulate(pendulum(), **settings)

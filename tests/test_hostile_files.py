@@ -20,9 +20,10 @@ from fuzz.limits import bounded
 from fuzz.netcdf_spec import build
 from fuzz.targets import CORPUS, TARGETS, Target, cases, quiet
 
-from seacrane import hdf5_structure
 from seacrane.crane.data_file import load as load_crane
+from seacrane.description.file import load_scene
 from seacrane.errors import FileFormatError
+from seacrane.files import hdf5_structure
 from seacrane.hydro import (
     HydroDatabase,
     read_capytaine,
@@ -31,9 +32,8 @@ from seacrane.hydro import (
     read_stl,
     read_veres,
 )
-from seacrane.hydro.veres_files import read_drift
+from seacrane.hydro.readers.veres_files import read_drift
 from seacrane.result import Result
-from seacrane.scene_file import load_scene
 
 LITTLE = 64 * 2**20  # bytes: what refusing a small file may take
 

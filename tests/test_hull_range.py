@@ -21,9 +21,9 @@ from seacrane import (
     add_vessel,
     simulate,
 )
-from seacrane.hull_range import LARGEST_PHASE, peak_frequency, slowly
 from seacrane.hydro import shipped_database
-from seacrane.validity import findings
+from seacrane.validity.hull_range import LARGEST_PHASE, peak_frequency, slowly
+from seacrane.validity.range import findings
 
 G = 9.80665
 

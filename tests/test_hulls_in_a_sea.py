@@ -32,9 +32,9 @@ from seacrane import (
     use_slow_position,
 )
 from seacrane.crane import KnuckleBoomCrane, Payload
-from seacrane.frames import rotation_about_z
+from seacrane.description.file import load_scene
 from seacrane.hydro import DriftCoefficients, HydroDatabase, shipped_database
-from seacrane.scene_file import load_scene
+from seacrane.inputs.frames import rotation_about_z
 from seacrane.trading import rungs
 from seacrane.trading.quantities import quantities_of
 

@@ -30,8 +30,8 @@ from seacrane.hydro import (
     shipped_database,
     vessel_parameters,
 )
-from seacrane.hydro.data_warnings import warn_of_water
-from seacrane.vessel import add_vessel
+from seacrane.hydro.database.data_warnings import warn_of_water
+from seacrane.scene.vessel import add_vessel
 
 
 @contextmanager

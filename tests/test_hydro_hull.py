@@ -7,8 +7,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from seacrane.hydro.hydrostatics import panel_hydrostatics
-from seacrane.hydro.parametric_hull import ParametricHull
+from seacrane.hydro.hull.hydrostatics import panel_hydrostatics
+from seacrane.hydro.hull.parametric_hull import ParametricHull
 
 RHO, G = 1025.0, 9.81
 VOLUME = 14.0e6 / RHO

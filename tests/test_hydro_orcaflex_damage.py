@@ -16,7 +16,7 @@ from orcaflex_writer import hull_part, model, text_of, write
 
 from seacrane.errors import FileFormatError
 from seacrane.hydro import PartialSetWarning, load_database, read_orcaflex
-from seacrane.hydro.orcaflex_model import INERTIA, RAO_ROWS, STIFFNESS
+from seacrane.hydro.readers.orcaflex_model import INERTIA, RAO_ROWS, STIFFNESS
 
 pytest.importorskip("yaml", reason="needs the extra 'orcaflex'")
 

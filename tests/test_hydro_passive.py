@@ -26,19 +26,19 @@ from seacrane.hydro import (
     fit_memory,
     load_database,
     memory_rows,
-    memory_trade,
-    passive,
     passivity_certificate,
     require_passive,
     shipped_database,
     vessel_parameters,
 )
-from seacrane.hydro.certificate import certify
-from seacrane.hydro.identification import r_squared
-from seacrane.hydro.memory_model import RADIATION
-from seacrane.hydro.oscillators import GroupData, Oscillators, _Problem, first_guess, fit_oscillators
-from seacrane.hydro.passive import motion_groups
-from seacrane.vessel import add_vessel
+from seacrane.hydro.memory.certificate import certify
+from seacrane.hydro.memory.fit import passive
+from seacrane.hydro.memory.fit import trade as memory_trade
+from seacrane.hydro.memory.identification import r_squared
+from seacrane.hydro.memory.model import RADIATION
+from seacrane.hydro.memory.oscillators import GroupData, Oscillators, _Problem, first_guess, fit_oscillators
+from seacrane.hydro.memory.passive import motion_groups
+from seacrane.scene.vessel import add_vessel
 
 Array = NDArray[np.float64]
 

@@ -24,7 +24,7 @@ from seacrane.hydro import (
     read_veres,
     read_veres_hydrostatics,
 )
-from seacrane.hydro.veres_files import read_drift, read_matrices
+from seacrane.hydro.readers.veres_files import read_drift, read_matrices
 
 TO_OURS = np.array([-1.0, -1.0, 1.0])  # surge, sway, yaw
 

@@ -12,8 +12,8 @@ from multibody_runs import quaternion_about
 from numpy.typing import NDArray
 
 from seacrane import FlowCoefficients, Scene, _core, add_wind, cases, equilibrium, linear_model, simulate
-from seacrane.linearise import jacobian
-from seacrane.reduced_coordinates import Terms
+from seacrane.analysis.linearise import jacobian
+from seacrane.analysis.reduced_coordinates import Terms
 
 Array = NDArray[np.float64]
 

@@ -189,7 +189,7 @@ def test_joint_frames_may_lie_anywhere_on_their_bodies() -> None:
     runs = []
     for shift in (np.zeros(3), np.array([0.4, -0.3, 0.2])):
         scene = Scene()
-        from seacrane.frames import rotation_matrix
+        from seacrane.inputs.frames import rotation_matrix
 
         scene.add_body(
             name="flap",

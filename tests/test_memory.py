@@ -11,9 +11,9 @@ from reference.convolution import kernel_of_damping, memory_force
 from reference.vessel import MemoryModel as ReferenceMemory
 
 from seacrane import Result, Scene, cases, simulate
-from seacrane.frames import rotation_matrix
 from seacrane.hydro import shipped_database, vessel_parameters
 from seacrane.hydro.vessel import rigid_mass_matrix
+from seacrane.inputs.frames import rotation_matrix
 
 Array = NDArray[np.float64]
 STEP = 0.02  # s

@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 from seacrane import Curve, Run, Scene, _core, cases
-from seacrane.environment import FlowCoefficients, add_wind
-from seacrane.scene_report import scene_report
+from seacrane.analysis.scene_report import scene_report
+from seacrane.scene.wind_current_drift import FlowCoefficients, add_wind
 
 TURNED = np.array([0.8, 0.2, -0.4, 0.4])  # unit quaternion
 COMPARED = ("position", "velocity", "angular_velocity", "acceleration", "reaction_force", "reaction_moment")

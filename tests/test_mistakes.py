@@ -27,8 +27,8 @@ from seacrane import (
     simulate,
 )
 from seacrane.crane import KnuckleBoomCrane, Payload
-from seacrane.environment import FlowCoefficients
 from seacrane.hydro import shipped_database
+from seacrane.scene.wind_current_drift import FlowCoefficients
 from seacrane.sea import jonswap
 
 PAGE = (Path(__file__).parents[1] / "docs" / "mistakes.md").read_text()

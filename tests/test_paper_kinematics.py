@@ -9,9 +9,9 @@ import pytest
 from numpy.typing import NDArray
 
 from seacrane import Evaluator, Result, SceneError, cases, simulate
-from seacrane.frames import rotation_matrix
 from seacrane.hydro import shipped_database, vessel_parameters
 from seacrane.hydro.vessel import rigid_mass_matrix
+from seacrane.inputs.frames import rotation_matrix
 
 Array = NDArray[np.float64]
 PHI = np.array([0.21, -0.17, 0.4])

@@ -21,7 +21,7 @@ from reference.mechanisms import SliderCrank
 
 from seacrane import Curve, Scene, driven
 from seacrane.crane import KnuckleBoomCrane, Payload
-from seacrane.frames import rotation_matrix
+from seacrane.inputs.frames import rotation_matrix
 
 G = 9.80665
 CRANK = SliderCrank(Link(1.5, 0.08, 0.4, 0.15), (0.0, 0.3, 0.2), 1.2, 1.5, (0.02, 0.25, 0.24), 2.0)

@@ -12,7 +12,7 @@ from multibody_runs import record
 from reference_problems import bricard
 
 from seacrane import Evaluator, Scene, SceneError, simulate
-from seacrane.simulation import Run
+from seacrane.run.simulation import Run
 
 G = 9.80665
 

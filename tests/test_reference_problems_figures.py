@@ -15,7 +15,7 @@ from reference_problems.problems import CRANK
 
 from seacrane import Result, Scene, cases, simulate
 from seacrane.crane import KnuckleBoomCrane, Payload
-from seacrane.frames import rotation_matrix
+from seacrane.inputs.frames import rotation_matrix
 
 Array = NDArray[np.float64]
 

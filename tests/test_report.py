@@ -12,7 +12,15 @@ import pytest
 from test_result import crane_result, crane_run, vessel_result
 
 from seacrane.figures import Finding, Picture, overview_sheet, save_sheet
-from seacrane.report import energy_closure, format_value, report_html, speed, versions, worst, write_report
+from seacrane.figures.report import (
+    energy_closure,
+    format_value,
+    report_html,
+    speed,
+    versions,
+    worst,
+    write_report,
+)
 from seacrane.result import Result
 
 SCENE = {"counts": [("bodies", 10), ("joints", 11)], "dropped": [("waves <0.1 %>", [3, 4.5])]}

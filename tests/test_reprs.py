@@ -11,7 +11,7 @@ from test_scene_file import every_kind
 
 import seacrane
 from seacrane import Curve, Scene, _core, add_soft_stop, cases
-from seacrane.simulation import Run
+from seacrane.run.simulation import Run
 
 
 def held() -> dict[str, Any]:

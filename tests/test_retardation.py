@@ -10,7 +10,7 @@ import pytest
 from numpy.typing import NDArray
 
 from seacrane.hydro import MemoryFitWarning, retardation_functions, shipped_database, vessel_parameters
-from seacrane.hydro.retardation import cosine_transform, transform
+from seacrane.hydro.memory.retardation import cosine_transform, transform
 
 Array = NDArray[np.float64]
 DECAY, RINGING = 0.35, 0.9  # 1/s, of the closed-form kernel

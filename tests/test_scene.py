@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from seacrane import Curve, Frame, Run, SampledController, Scene, SceneError, _core, simulate
-from seacrane.frames import axes_along, rotation_matrix
+from seacrane.inputs.frames import axes_along, rotation_matrix
 
 QUARTER = (np.sqrt(0.5), 0.0, 0.0, np.sqrt(0.5))  # 90 deg about z
 

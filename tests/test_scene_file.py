@@ -27,8 +27,8 @@ from seacrane import (
     cases,
     simulate,
 )
-from seacrane import scene_file as module
-from seacrane.scene_file import load_scene, save_scene
+from seacrane.description import file as module
+from seacrane.description.file import load_scene, save_scene
 
 THIRD = 1.0 / 3.0
 WITH_FOLDER = settings(

@@ -11,8 +11,8 @@ import pytest
 from test_scene_file import every_kind
 
 from seacrane import Curve, Scene, SceneError, add_end_stop, add_friction, add_soft_stop, cases
-from seacrane import scene_report as scene_report_module
-from seacrane.scene_report import scene_report
+from seacrane.analysis import scene_report as scene_report_module
+from seacrane.analysis.scene_report import scene_report
 
 
 def section(scene: Scene, name: str) -> dict[str, Any]:

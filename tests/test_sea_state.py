@@ -22,8 +22,8 @@ from seacrane import (
 )
 from seacrane.errors import SceneError
 from seacrane.hydro import shipped_database
+from seacrane.hydro.database.drift import DriftCoefficients
 from seacrane.hydro.dispersion import wavenumber
-from seacrane.hydro.drift import DriftCoefficients
 from seacrane.sea import (
     MeasuredWaves,
     SeaState,

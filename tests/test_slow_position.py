@@ -25,9 +25,9 @@ from seacrane import (
     use_actual_position,
     use_slow_position,
 )
-from seacrane.environment import force_by_heading
-from seacrane.hull_range import peak_frequency
 from seacrane.hydro import shipped_database
+from seacrane.scene.wind_current_drift import force_by_heading
+from seacrane.validity.hull_range import peak_frequency
 
 Array = NDArray[np.float64]
 CUTOFF = 0.5  # rad/s, of hulls that are driven: high, so that transients are short

@@ -27,7 +27,7 @@ from seacrane import (
     integrator_names,
     simulate,
 )
-from seacrane.state_file import DIGEST, MAGIC
+from seacrane.files.state import DIGEST, MAGIC
 
 Array = NDArray[np.float64]
 STOP, END = 0.43, 0.9

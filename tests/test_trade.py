@@ -11,9 +11,9 @@ import pytest
 from trade_scenes import pendulum
 
 from seacrane import Scene, SceneError, Trade, cases, integrator_names, simulate, trade
-from seacrane.checked import curve_of
 from seacrane.hydro import shipped_database
-from seacrane.method import Method
+from seacrane.inputs.checked import curve_of
+from seacrane.run.method import Method
 from seacrane.trading import measure, rungs, settings_grid, study
 from seacrane.trading.quantities import compare, quantities_of
 from seacrane.trading.rows import Row, RowFile

@@ -194,7 +194,7 @@ def test_the_tip_velocity_is_the_velocity_of_the_links_upper_end() -> None:
     result = simulate(scene, t_end=5.0, dt_out=0.01, integrator="dop853", rtol=1e-10)
     velocity = quantities_of(scene, scene.compile(), ["tip_velocity"])["tip_velocity"].values(result)[:, 0]
     joint, body = scene.joints["link"], scene.bodies["knuckle_jib"]
-    from seacrane.frames import rotation_matrix
+    from seacrane.inputs.frames import rotation_matrix
 
     lever = np.asarray(joint.first_frame.point) - np.asarray(body.center_of_mass)
     turn = rotation_matrix(result.select("quaternion", body="knuckle_jib"))

@@ -24,7 +24,7 @@ from seacrane import (
     use_actual_position,
 )
 from seacrane.hydro import HydroDatabase, shipped_database
-from seacrane.vessel import add_sea, add_vessel
+from seacrane.scene.vessel import add_sea, add_vessel
 
 Array = NDArray[np.float64]
 G = 9.80665

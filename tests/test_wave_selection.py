@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 from seacrane import Run, Scene, SceneError, _core, cases
-from seacrane.wave_selection import kept_components, without_negligible
-from seacrane.waves import ByHeading, HullLoads, Waves
+from seacrane.description.wave_selection import kept_components, without_negligible
+from seacrane.description.waves import ByHeading, HullLoads, Waves
 
 
 def sea(count: int = 40, *, seed: int = 2) -> Waves:

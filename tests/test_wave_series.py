@@ -21,9 +21,9 @@ from seacrane import (
     _core,
     simulate,
 )
+from seacrane.description.wave_series import grid_of
 from seacrane.hydro import shipped_database
-from seacrane.vessel import add_vessel
-from seacrane.wave_series import grid_of
+from seacrane.scene.vessel import add_vessel
 
 Array = NDArray[np.float64]
 
@@ -52,7 +52,7 @@ def uniform(count: int = 80, step: float = 0.02, first: float = 20.0, **changes:
 
 def tables(waves: Waves) -> tuple[Any, Any, Any, Any]:
     """Exact load and its table, drift and its table."""
-    from seacrane.wave_series import drift_table, wave_table
+    from seacrane.description.wave_series import drift_table, wave_table
 
     sea, hull = waves.components(), waves.hull()
     exact = _core.ExactWaveLoad(sea, transfer=hull.transfer, position=hull.position)

@@ -23,9 +23,9 @@ from seacrane import (
     gust_curve,
     simulate,
 )
-from seacrane.load_kinds import kind_of
+from seacrane.description.loads import kind_of
+from seacrane.scene.gusts import npd_spectrum
 from seacrane.sea import jonswap, realise_waves
-from seacrane.wind import npd_spectrum
 
 Array = NDArray[np.float64]
 MASS = 2e6

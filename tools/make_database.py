@@ -14,9 +14,9 @@ from pathlib import Path
 import numpy as np
 
 from seacrane.hydro import Hull, HydroDatabase, ParametricHull, fit_memory
-from seacrane.hydro.hull_capytaine import capytaine_solution
-from seacrane.hydro.hull_database import database_of_solution
-from seacrane.hydro.hull_solution import HullSolution, symmetric_solution
+from seacrane.hydro.hull.by_capytaine import capytaine_solution
+from seacrane.hydro.hull.hull_database import database_of_solution
+from seacrane.hydro.hull.solution import HullSolution, symmetric_solution
 
 RHO, G = 1025.0, 9.81
 MASS = 14.0e6

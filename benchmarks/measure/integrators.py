@@ -142,7 +142,7 @@ def figure(points: list[Point], path: Path) -> None:
     from matplotlib.figure import Figure
     from matplotlib.ticker import NullFormatter
 
-    from seacrane.result.atomic import atomic_write
+    from seacrane.files.atomic import atomic_write
 
     picture = Figure(figsize=(9.0, 3.8), layout="constrained")
     axes = picture.subplots(1, 2, sharey=True)

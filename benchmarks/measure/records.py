@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane import Curve, Scene
-from seacrane.frames import rotation_matrix
-from seacrane.scene import GROUND
+from seacrane.description.scene import GROUND
+from seacrane.inputs.frames import rotation_matrix
 
 Array = NDArray[np.float64]
 

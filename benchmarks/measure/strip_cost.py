@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from seacrane import _core
-from seacrane.hydro.parametric_hull import ParametricHull
+from seacrane.hydro.hull.parametric_hull import ParametricHull
 
 from .section import Section
 from .timing import best_seconds

@@ -9,10 +9,10 @@ from typing import Any
 import numpy as np
 
 from seacrane import HullLoads, Scene, Waves
-from seacrane.environment import force_by_heading
 from seacrane.hydro import HydroDatabase, shipped_database
+from seacrane.scene.vessel import add_vessel
+from seacrane.scene.wind_current_drift import force_by_heading
 from seacrane.sea import ExactWaveLoad, WaveTable, jonswap
-from seacrane.vessel import add_vessel
 
 from .exponent import exponent
 from .section import Section

@@ -19,7 +19,7 @@ from measure.machine import machine
 from measure.section import Section
 from system import COMPONENTS, ten_body_scene
 
-from seacrane.result.atomic import atomic_write
+from seacrane.files.atomic import atomic_write
 
 HERE = Path(__file__).resolve().parent
 LEVELS = (1e-2, 1e-4, 1e-6)  # m

@@ -20,7 +20,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 from measure.records import scene_records
 
 from seacrane import Scene, cases
-from seacrane.frames import rotation_matrix
+from seacrane.inputs.frames import rotation_matrix
 
 Array = NDArray[np.float64]
 

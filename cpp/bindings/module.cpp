@@ -29,11 +29,11 @@ void translate(std::exception_ptr pointer) {
   }
 }
 
-/// What users hold tells what it is, in one way (seacrane.described) for all.
+/// What users hold tells what it is, in one way (seacrane.inputs.described) for all.
 void bind_repr(const py::module_& m) {
   const py::object described = py::cpp_function(
       [](const py::object& self) {
-        return py::module_::import("seacrane.described").attr("described")(self).cast<std::string>();
+        return py::module_::import("seacrane.inputs.described").attr("described")(self).cast<std::string>();
       },
       py::name("__repr__"), py::arg("self"));
   for (const auto& [name, member] : m.attr("__dict__").cast<py::dict>()) {

@@ -199,7 +199,7 @@ void bind_steps(py::module_& m) {
           "rate", [](const S& s) { return to_array(s.rate); }, "copy");
 }
 
-py::module_ state_file() { return py::module_::import("seacrane.state_file"); }
+py::module_ state_file() { return py::module_::import("seacrane.files.state"); }
 
 void bind_record(py::module_& m) {
   using R = RecordHistory;

@@ -28,9 +28,37 @@ if TYPE_CHECKING:
         VesselHydrodynamics,
         integrator_names,
     )
-    from seacrane.assembled import AssemblyWarning
-    from seacrane.curves import spline_curve
-    from seacrane.environment import (
+    from seacrane.analysis.frequency_domain import (
+        ResponseStatistics,
+        SummedResponse,
+        motion_rao,
+        response_statistics,
+        response_summed,
+    )
+    from seacrane.analysis.inverse import Balance, balance, driven, inverse_dynamics, reflected_inertia
+    from seacrane.analysis.linear_system import LinearModel, linear_model
+    from seacrane.analysis.linearise import fastest_mode, jacobian
+    from seacrane.analysis.modal_analysis import NaturalModes, natural_modes
+    from seacrane.analysis.quasi_static import feed_forward, quasi_static_loads
+    from seacrane.analysis.rest_state import equilibrium
+    from seacrane.description.assembled import AssemblyWarning
+    from seacrane.description.curves import spline_curve
+    from seacrane.description.references import DriverImpulseWarning
+    from seacrane.description.scene import Scene
+    from seacrane.description.waves import ByHeading, HullLoads, RepeatingSeaWarning, Waves
+    from seacrane.errors import ChatteringError, FileFormatError, SceneError, SeacraneError, SimulationError
+    from seacrane.hydro import HydroDatabase, load_database
+    from seacrane.result import Event, Result
+    from seacrane.run.output_times import OutputMemoryError
+    from seacrane.run.sampled_controller import SampledController
+    from seacrane.run.simulation import Run, simulate
+    from seacrane.run.stiffness import StiffWarning
+    from seacrane.run.to_file import StreamedResult, simulate_to_file
+    from seacrane.scene.gusts import gust_curve
+    from seacrane.scene.limits import add_end_stop, add_friction, add_seat, add_soft_stop, add_wire
+    from seacrane.scene.sea import WavesWithoutLoadWarning, add_sea
+    from seacrane.scene.vessel import add_vessel
+    from seacrane.scene.wind_current_drift import (
         DoubleCountedDampingWarning,
         FlowCoefficients,
         add_current,
@@ -39,158 +67,130 @@ if TYPE_CHECKING:
         use_actual_position,
         use_slow_position,
     )
-    from seacrane.errors import ChatteringError, FileFormatError, SceneError, SeacraneError, SimulationError
-    from seacrane.following import FullTurnWarning, OutsideRangeWarning, SoftGainsWarning
-    from seacrane.frequency_domain import (
-        ResponseStatistics,
-        SummedResponse,
-        motion_rao,
-        response_statistics,
-        response_summed,
-    )
-    from seacrane.hull_range import (
+    from seacrane.sea import SeaState, WaveSystem
+    from seacrane.trading import Trade, trade
+    from seacrane.trading.fixed_step import StepError, step_error
+    from seacrane.validity.following import FullTurnWarning, OutsideRangeWarning, SoftGainsWarning
+    from seacrane.validity.hull_range import (
         ForwardSpeedWarning,
         MeanHeadingWarning,
         MeanPositionWarning,
         MooringTurnWarning,
         NoWaveLoadsWarning,
     )
-    from seacrane.hydro import HydroDatabase, load_database
-    from seacrane.inverse import Balance, balance, driven, inverse_dynamics, reflected_inertia
-    from seacrane.limits import add_end_stop, add_friction, add_seat, add_soft_stop, add_wire
-    from seacrane.linear_system import LinearModel, linear_model
-    from seacrane.linearise import fastest_mode, jacobian
-    from seacrane.long_run import StreamedResult, simulate_to_file
-    from seacrane.modal_analysis import NaturalModes, natural_modes
-    from seacrane.output_times import OutputMemoryError
-    from seacrane.plausible import (
+    from seacrane.validity.plausible import (
         AngleUnitWarning,
         BallastWarning,
         CompassDirectionWarning,
         DepthSignWarning,
         MassUnitWarning,
     )
-    from seacrane.quasi_static import feed_forward, quasi_static_loads
-    from seacrane.references import DriverImpulseWarning
-    from seacrane.rest_state import equilibrium
-    from seacrane.result import Event, Result
-    from seacrane.sampled_controller import SampledController
-    from seacrane.scene import Scene
-    from seacrane.sea import SeaState, WaveSystem
-    from seacrane.sea_state import WavesWithoutLoadWarning, add_sea
-    from seacrane.simulation import Run, simulate
-    from seacrane.stiffness import StiffWarning
-    from seacrane.trading import Trade, trade
-    from seacrane.trading.fixed_step import StepError, step_error
-    from seacrane.validity import (
+    from seacrane.validity.range import (
         LargeHeelWarning,
         NearSingularWarning,
         OutsideDatabaseWarning,
         PushingLinkWarning,
     )
     from seacrane.version import __version__
-    from seacrane.vessel import add_vessel
-    from seacrane.waves import ByHeading, HullLoads, RepeatingSeaWarning, Waves
-    from seacrane.wind import gust_curve
 
 _HOME = {
-    "AngleUnitWarning": "plausible",
-    "AssemblyWarning": "assembled",
-    "Balance": "inverse",
-    "BallastWarning": "plausible",
-    "ByHeading": "waves",
+    "AngleUnitWarning": "validity.plausible",
+    "AssemblyWarning": "description.assembled",
+    "Balance": "analysis.inverse",
+    "BallastWarning": "validity.plausible",
+    "ByHeading": "description.waves",
     "ChatteringError": "errors",
-    "CompassDirectionWarning": "plausible",
+    "CompassDirectionWarning": "validity.plausible",
     "Curve": "_core",
-    "DepthSignWarning": "plausible",
-    "DoubleCountedDampingWarning": "environment",
-    "DriverImpulseWarning": "references",
+    "DepthSignWarning": "validity.plausible",
+    "DoubleCountedDampingWarning": "scene.wind_current_drift",
+    "DriverImpulseWarning": "description.references",
     "Evaluator": "_core",
     "Event": "result",
     "FileFormatError": "errors",
-    "FlowCoefficients": "environment",
+    "FlowCoefficients": "scene.wind_current_drift",
     "FlowForce": "_core",
-    "ForwardSpeedWarning": "hull_range",
+    "ForwardSpeedWarning": "validity.hull_range",
     "Frame": "_core",
     "Friction": "_core",
-    "FullTurnWarning": "following",
-    "HullLoads": "waves",
+    "FullTurnWarning": "validity.following",
+    "HullLoads": "description.waves",
     "HydroDatabase": "hydro",
-    "LargeHeelWarning": "validity",
+    "LargeHeelWarning": "validity.range",
     "Limit": "_core",
-    "LinearModel": "linear_system",
-    "MassUnitWarning": "plausible",
-    "MeanHeadingWarning": "hull_range",
-    "MeanPositionWarning": "hull_range",
+    "LinearModel": "analysis.linear_system",
+    "MassUnitWarning": "validity.plausible",
+    "MeanHeadingWarning": "validity.hull_range",
+    "MeanPositionWarning": "validity.hull_range",
     "Model": "_core",
-    "MooringTurnWarning": "hull_range",
-    "NaturalModes": "modal_analysis",
-    "NearSingularWarning": "validity",
-    "NoWaveLoadsWarning": "hull_range",
-    "OutputMemoryError": "output_times",
-    "OutsideDatabaseWarning": "validity",
-    "OutsideRangeWarning": "following",
-    "PushingLinkWarning": "validity",
-    "RepeatingSeaWarning": "waves",
-    "ResponseStatistics": "frequency_domain",
+    "MooringTurnWarning": "validity.hull_range",
+    "NaturalModes": "analysis.modal_analysis",
+    "NearSingularWarning": "validity.range",
+    "NoWaveLoadsWarning": "validity.hull_range",
+    "OutputMemoryError": "run.output_times",
+    "OutsideDatabaseWarning": "validity.range",
+    "OutsideRangeWarning": "validity.following",
+    "PushingLinkWarning": "validity.range",
+    "RepeatingSeaWarning": "description.waves",
+    "ResponseStatistics": "analysis.frequency_domain",
     "Result": "result",
     "RetardationFunctions": "_core",
-    "Run": "simulation",
-    "SampledController": "sampled_controller",
-    "Scene": "scene",
+    "Run": "run.simulation",
+    "SampledController": "run.sampled_controller",
+    "Scene": "description.scene",
     "SceneError": "errors",
     "SeaState": "sea",
     "SeacraneError": "errors",
     "SimulationError": "errors",
-    "SoftGainsWarning": "following",
+    "SoftGainsWarning": "validity.following",
     "SoftStop": "_core",
     "State": "_core",
     "StateSpaceBlock": "_core",
     "StepError": "trading.fixed_step",
-    "StiffWarning": "stiffness",
-    "StreamedResult": "long_run",
-    "SummedResponse": "frequency_domain",
+    "StiffWarning": "run.stiffness",
+    "StreamedResult": "run.to_file",
+    "SummedResponse": "analysis.frequency_domain",
     "Trade": "trading",
     "TwistHistory": "_core",
     "VesselHydrodynamics": "_core",
     "WaveSystem": "sea",
-    "Waves": "waves",
-    "WavesWithoutLoadWarning": "sea_state",
+    "Waves": "description.waves",
+    "WavesWithoutLoadWarning": "scene.sea",
     "__version__": "version",
-    "add_current": "environment",
-    "add_drift": "environment",
-    "add_end_stop": "limits",
-    "add_friction": "limits",
-    "add_sea": "sea_state",
-    "add_seat": "limits",
-    "add_soft_stop": "limits",
-    "add_vessel": "vessel",
-    "add_wind": "environment",
-    "add_wire": "limits",
-    "balance": "inverse",
-    "driven": "inverse",
-    "equilibrium": "rest_state",
-    "fastest_mode": "linearise",
-    "feed_forward": "quasi_static",
-    "gust_curve": "wind",
+    "add_current": "scene.wind_current_drift",
+    "add_drift": "scene.wind_current_drift",
+    "add_end_stop": "scene.limits",
+    "add_friction": "scene.limits",
+    "add_sea": "scene.sea",
+    "add_seat": "scene.limits",
+    "add_soft_stop": "scene.limits",
+    "add_vessel": "scene.vessel",
+    "add_wind": "scene.wind_current_drift",
+    "add_wire": "scene.limits",
+    "balance": "analysis.inverse",
+    "driven": "analysis.inverse",
+    "equilibrium": "analysis.rest_state",
+    "fastest_mode": "analysis.linearise",
+    "feed_forward": "analysis.quasi_static",
+    "gust_curve": "scene.gusts",
     "integrator_names": "_core",
-    "inverse_dynamics": "inverse",
-    "jacobian": "linearise",
-    "linear_model": "linear_system",
+    "inverse_dynamics": "analysis.inverse",
+    "jacobian": "analysis.linearise",
+    "linear_model": "analysis.linear_system",
     "load_database": "hydro",
-    "motion_rao": "frequency_domain",
-    "natural_modes": "modal_analysis",
-    "quasi_static_loads": "quasi_static",
-    "reflected_inertia": "inverse",
-    "response_statistics": "frequency_domain",
-    "response_summed": "frequency_domain",
-    "simulate": "simulation",
-    "simulate_to_file": "long_run",
-    "spline_curve": "curves",
+    "motion_rao": "analysis.frequency_domain",
+    "natural_modes": "analysis.modal_analysis",
+    "quasi_static_loads": "analysis.quasi_static",
+    "reflected_inertia": "analysis.inverse",
+    "response_statistics": "analysis.frequency_domain",
+    "response_summed": "analysis.frequency_domain",
+    "simulate": "run.simulation",
+    "simulate_to_file": "run.to_file",
+    "spline_curve": "description.curves",
     "step_error": "trading.fixed_step",
     "trade": "trading",
-    "use_actual_position": "environment",
-    "use_slow_position": "environment",
+    "use_actual_position": "scene.wind_current_drift",
+    "use_slow_position": "scene.wind_current_drift",
 }
 _MODULES = ("cases", "crane", "hydro", "sea")
 

@@ -12,13 +12,14 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from seacrane import _core, quasi_static
+from seacrane import _core
+from seacrane.analysis import quasi_static
+from seacrane.analysis.inverse import Balance, balance, reflected_inertia
 from seacrane.crane import FOOT, KnuckleBoomCrane, Payload
+from seacrane.description.scene import Scene
 from seacrane.errors import SceneError
-from seacrane.inverse import Balance, balance, reflected_inertia
-from seacrane.scene import Scene
-from seacrane.sea_state import add_sea
-from seacrane.vessel import add_vessel
+from seacrane.scene.sea import add_sea
+from seacrane.scene.vessel import add_vessel
 
 if TYPE_CHECKING:
     import os

@@ -24,11 +24,12 @@ from veres_writer import VeresRun
 
 from fuzz.netcdf_spec import spec_of
 from fuzz.targets import CORPUS
-from seacrane import Scene, add_end_stop, cases, scene_file, simulate
+from seacrane import Scene, add_end_stop, cases, simulate
 from seacrane.crane.data_file import DEFAULT_PATH
-from seacrane.hdf5_structure import HEAP
+from seacrane.description import file as scene_file
+from seacrane.files.hdf5_structure import HEAP
 from seacrane.hydro import HydroDatabase, motion_response, shipped_database
-from seacrane.hydro.drift import DriftCoefficients
+from seacrane.hydro.database.drift import DriftCoefficients
 from seacrane.result import Result
 
 G = 9.80665

@@ -18,14 +18,15 @@ from fuzz.mutate import mutate_json, mutate_text
 from fuzz.netcdf_spec import build
 from seacrane import sea
 from seacrane.crane import KnuckleBoomCrane
+from seacrane.description.file import load_scene
 from seacrane.errors import FileFormatError, SceneError
-from seacrane.hdf5_structure import Structure
-from seacrane.hydro import Hull, HydroDatabase, capytaine, orcaflex, veres, wamit
-from seacrane.netcdf_limits import LARGEST_DATABASE as LARGEST
-from seacrane.netcdf_limits import NETCDF_ERRORS
+from seacrane.files.hdf5_structure import Structure
+from seacrane.files.netcdf_limits import LARGEST_DATABASE as LARGEST
+from seacrane.files.netcdf_limits import NETCDF_ERRORS
+from seacrane.files.state import load_state
+from seacrane.hydro import Hull, HydroDatabase
+from seacrane.hydro.readers import capytaine, orcaflex, veres, wamit
 from seacrane.result import Result
-from seacrane.scene_file import load_scene
-from seacrane.state_file import load_state
 
 CORPUS = Path(__file__).parent / "corpus"
 LONGEST_MESSAGE = 2000  # characters: what a file holds may not flood the screen

@@ -15,8 +15,8 @@ from reference.mechanisms import SliderCrank
 from test_vessel import moored, regular_wave, steady_state
 
 from seacrane import Result, Scene, simulate
-from seacrane.frames import rotation_matrix
 from seacrane.hydro import shipped_database
+from seacrane.inputs.frames import rotation_matrix
 
 from . import andrews, andrews_equations, bricard, cummins, four_bars, governor, pendulums, tops
 from .comparison import Comparison

@@ -23,7 +23,7 @@ def run(arguments: argparse.Namespace) -> int:
     rows: list[dict[str, Any]] = [{name: getattr(row, name) for name in COLUMNS} for row in database.check()]
     print(to_json(rows) if arguments.json else _as_text(rows))
     if arguments.out is not None:
-        from seacrane.hydro_figures import save_hydro_figures
+        from seacrane.figures.hydro import save_hydro_figures
 
         pictures = save_hydro_figures(database=database, folder=output_folder(arguments.out))
         if not arguments.json:
@@ -33,7 +33,7 @@ def run(arguments: argparse.Namespace) -> int:
 
 def _with_memory(database: HydroDatabase) -> HydroDatabase:
     """The database with its memory, fitted here once where it holds none and has frequencies for it."""
-    from seacrane.hydro.memory import enough_frequencies, fit_memory
+    from seacrane.hydro.memory.fit import enough_frequencies, fit_memory
 
     if database.memory is not None or not enough_frequencies(database):
         return database
@@ -41,6 +41,6 @@ def _with_memory(database: HydroDatabase) -> HydroDatabase:
 
 
 def _as_text(rows: list[dict[str, Any]]) -> str:
-    from seacrane.report import format_value
+    from seacrane.figures.report import format_value
 
     return text_table(COLUMNS, [[format_value(row[name]) for name in COLUMNS] for row in rows])

@@ -58,7 +58,7 @@ def run(arguments: argparse.Namespace) -> int:
 def _simulate(name: str) -> Result:
     """The quickest of equal runs, or the first that is interrupted."""
     import seacrane.cases as cases
-    from seacrane.simulation import simulate
+    from seacrane.run.simulation import simulate
 
     case, options = RUNS[name]
     scene = getattr(cases, case)(**options)
@@ -71,7 +71,7 @@ def _simulate(name: str) -> Result:
 
 
 def _pace(result: Result) -> str:
-    from seacrane.report import speed
+    from seacrane.figures.report import speed
 
     fast = speed(result)
     pace = f", {fast:.0f} times real time" if fast is not None else ""
@@ -91,7 +91,7 @@ def _write_report(
     folder: Path, runs: dict[str, Result], pictures: list[Picture], findings: list[Finding]
 ) -> Path:
     import seacrane.cases as cases
-    from seacrane.report import write_report
+    from seacrane.figures.report import write_report
 
     return write_report(
         folder / "report.html",

@@ -17,7 +17,7 @@ def run(arguments: argparse.Namespace) -> int:
             to_json({section: [{"name": n, "value": v} for n, v in rows] for section, rows in report.items()})
         )
         return 0
-    from seacrane.report import format_value
+    from seacrane.figures.report import format_value
 
     for number, (section, rows) in enumerate(report.items()):
         print(("\n" if number else "") + section)

@@ -20,7 +20,7 @@ def run(arguments: argparse.Namespace) -> int:
     """Simulate and summarise; 130 if the run was interrupted."""
     name, scene = load_scene(arguments.scene, arguments, scripts=True)
     folder = output_folder(arguments.out)
-    from seacrane.long_run import simulate_to_file
+    from seacrane.run.to_file import simulate_to_file
 
     given = {setting: getattr(arguments, setting) for setting in SETTINGS}
     settings = {setting: value for setting, value in given.items() if value is not None}
@@ -36,7 +36,7 @@ def run(arguments: argparse.Namespace) -> int:
 
 def summary(result: Result) -> str:
     """What a run cost and how well it kept its invariants, in a few lines."""
-    from seacrane.report import energy_closure, speed, worst
+    from seacrane.figures.report import energy_closure, speed, worst
 
     stats = result.stats
     fast = speed(result)

@@ -12,16 +12,16 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 
-from seacrane.checked import number_of, numbers_of
 from seacrane.crane import data_file, statics
 from seacrane.crane.geometry import BODIES, CraneGeometry, plane_axes
 from seacrane.crane.mass_properties import MassProperties, combine
 from seacrane.errors import SceneError
-from seacrane.frames import quaternion_product, rotation_matrix
-from seacrane.plausible import angle_of, warn_of_density
+from seacrane.inputs.checked import number_of, numbers_of
+from seacrane.inputs.frames import quaternion_product, rotation_matrix
+from seacrane.validity.plausible import angle_of, warn_of_density
 
 if TYPE_CHECKING:
-    from seacrane.scene import Scene
+    from seacrane.description.scene import Scene
 
 Array = npt.NDArray[np.float64]
 Vector = tuple[float, float, float]

@@ -12,8 +12,8 @@ from typing import Any
 
 from seacrane.crane.mass_properties import Box, Member, Point, Tube
 from seacrane.errors import FileFormatError
-from seacrane.shown import shown
-from seacrane.whole_file import read_whole
+from seacrane.files.whole_file import read_whole
+from seacrane.inputs.shown import shown
 
 DEFAULT_PATH = Path(__file__).resolve().parent.parent / "data" / "knuckle_boom_250t.toml"
 SCHEMA = 1

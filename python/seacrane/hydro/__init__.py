@@ -8,31 +8,38 @@ from os import PathLike
 from pathlib import Path
 
 from seacrane.errors import FileFormatError
-from seacrane.hydro.capytaine import is_capytaine, read_capytaine
-from seacrane.hydro.certificate import (
+from seacrane.hydro.database.check import CheckRow, memory_rows
+from seacrane.hydro.database.data_warnings import (
+    DampingWarning,
+    HeadingGapWarning,
+    WaterMismatchWarning,
+    warn_of_data,
+)
+from seacrane.hydro.database.database import AdditionalMatrices, HydroDatabase, RollDamping
+from seacrane.hydro.database.drift import DriftCoefficients
+from seacrane.hydro.database.motion import motion_response, natural_frequency
+from seacrane.hydro.database.transform import QuadraticDampingWarning
+from seacrane.hydro.hull.by_strip_theory import SubmergedPartWarning
+from seacrane.hydro.hull.hull import Hull
+from seacrane.hydro.hull.hull_database import FloatingPositionWarning, hydro_from_hull
+from seacrane.hydro.hull.hydrostatics import Hydrostatics
+from seacrane.hydro.hull.offsets import OffsetTable, read_offset_table
+from seacrane.hydro.hull.parametric_hull import ParametricHull
+from seacrane.hydro.hull.stl import read_stl
+from seacrane.hydro.memory.audit import MemoryMismatchWarning, NonPassiveMemoryWarning
+from seacrane.hydro.memory.certificate import (
     PassivityCertificate,
     PassivityError,
     passivity_certificate,
     require_passive,
 )
-from seacrane.hydro.check import CheckRow, memory_rows
-from seacrane.hydro.data_warnings import DampingWarning, HeadingGapWarning, WaterMismatchWarning, warn_of_data
-from seacrane.hydro.database import AdditionalMatrices, HydroDatabase, RollDamping
-from seacrane.hydro.drift import DriftCoefficients
-from seacrane.hydro.hull import Hull
-from seacrane.hydro.hull_database import FloatingPositionWarning, hydro_from_hull
-from seacrane.hydro.hull_offsets import OffsetTable, read_offset_table
-from seacrane.hydro.hull_stl import read_stl
-from seacrane.hydro.hull_strip import SubmergedPartWarning
-from seacrane.hydro.hydrostatics import Hydrostatics
-from seacrane.hydro.memory import InfiniteFrequencyWarning, fit_memory
-from seacrane.hydro.memory_audit import MemoryMismatchWarning, NonPassiveMemoryWarning
-from seacrane.hydro.memory_model import FitRow, MemoryBlock, MemoryModel, Passivity
-from seacrane.hydro.memory_trade import MemoryTradeRow, memory_trade
-from seacrane.hydro.motion import motion_response, natural_frequency
-from seacrane.hydro.orcaflex import read_orcaflex
-from seacrane.hydro.parametric_hull import ParametricHull
-from seacrane.hydro.reader_warnings import (
+from seacrane.hydro.memory.fit import InfiniteFrequencyWarning, fit_memory
+from seacrane.hydro.memory.model import FitRow, MemoryBlock, MemoryModel, Passivity
+from seacrane.hydro.memory.retardation import RetardationModel, retardation_functions
+from seacrane.hydro.memory.trade import MemoryTradeRow, memory_trade
+from seacrane.hydro.readers.capytaine import is_capytaine, read_capytaine
+from seacrane.hydro.readers.orcaflex import read_orcaflex
+from seacrane.hydro.readers.reader_warnings import (
     AssumedDensityWarning,
     AssumedInertiaWarning,
     AssumedSymmetryWarning,
@@ -41,11 +48,10 @@ from seacrane.hydro.reader_warnings import (
     PartialSetWarning,
     SeveralSpeedsWarning,
 )
-from seacrane.hydro.retardation import RetardationModel, retardation_functions
-from seacrane.hydro.transform import QuadraticDampingWarning
-from seacrane.hydro.veres import read_veres
-from seacrane.hydro.veres_hydrostatics import VeresHydrostatics, read_veres_hydrostatics
-from seacrane.hydro.veres_set import find_stem, veres_speeds
+from seacrane.hydro.readers.veres import read_veres
+from seacrane.hydro.readers.veres_hydrostatics import VeresHydrostatics, read_veres_hydrostatics
+from seacrane.hydro.readers.veres_set import find_stem, veres_speeds
+from seacrane.hydro.readers.wamit import is_wamit, read_wamit
 from seacrane.hydro.vessel import (
     MemoryFitWarning,
     RigidPart,
@@ -54,7 +60,6 @@ from seacrane.hydro.vessel import (
     rigid_mass_matrix,
     vessel_parameters,
 )
-from seacrane.hydro.wamit import is_wamit, read_wamit
 
 __all__ = [
     "AdditionalMatrices",

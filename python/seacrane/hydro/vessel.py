@@ -9,17 +9,17 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from seacrane.caller import warn_caller
-from seacrane.hydro.data_warnings import warn_of_damping
-from seacrane.hydro.encounter import require_zero_speed
-from seacrane.hydro.memory import fit_memory
-from seacrane.hydro.memory_audit import warn_of_lost_passivity, warn_of_mismatch
-from seacrane.hydro.memory_model import MemoryModel
-from seacrane.hydro.motion import natural_frequency
-from seacrane.hydro.retardation import RetardationModel
+from seacrane.hydro.database.data_warnings import warn_of_damping
+from seacrane.hydro.database.encounter import require_zero_speed
+from seacrane.hydro.database.motion import natural_frequency
+from seacrane.hydro.memory.audit import warn_of_lost_passivity, warn_of_mismatch
+from seacrane.hydro.memory.fit import fit_memory
+from seacrane.hydro.memory.model import MemoryModel
+from seacrane.hydro.memory.retardation import RetardationModel
+from seacrane.inputs.caller import warn_caller
 
 if TYPE_CHECKING:
-    from seacrane.hydro.database import HydroDatabase
+    from seacrane.hydro.database.database import HydroDatabase
 
 FloatArray = NDArray[np.float64]
 

@@ -1,6 +1,6 @@
 """What a run recorded: named arrays, their dimensions and units, files and datasets."""
 
-from seacrane.result.atomic import atomic_write
+from seacrane.files.atomic import atomic_write
 from seacrane.result.channels import AXES, CHANNELS, MOTIONS, Channel
 from seacrane.result.events import Event
 from seacrane.result.result import Result

@@ -16,8 +16,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane.errors import FileFormatError, SeacraneError
-from seacrane.netcdf_limits import NETCDF_ERRORS
-from seacrane.result.atomic import atomic_write
+from seacrane.files.atomic import atomic_write
+from seacrane.files.netcdf_limits import NETCDF_ERRORS
 from seacrane.result.channels import AXES, CHANNELS, MOTIONS, QUATERNION, attributes
 from seacrane.result.events import TEXTS as EVENT_TEXTS
 from seacrane.result.events import Event, checked_events, event_arrays
@@ -357,7 +357,7 @@ class Result(Mapping[str, Array]):
         return path
 
     def _contents(self) -> Contents:
-        from seacrane.state_file import state_to_bytes
+        from seacrane.files.state import state_to_bytes
 
         return Contents(
             outputs=self.time.size, dims=self.dims, coords=self.coords, stats=self.stats, events=self.events,

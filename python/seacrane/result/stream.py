@@ -13,8 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane.errors import FileFormatError
-from seacrane.netcdf_limits import NETCDF_ERRORS, open_netcdf
-from seacrane.result.atomic import atomic_write, require_replaceable, space_left
+from seacrane.files.atomic import atomic_write, require_replaceable, space_left
+from seacrane.files.netcdf_limits import NETCDF_ERRORS, open_netcdf
 from seacrane.result.events import Event
 from seacrane.result.netcdf import NAMED, Contents, write_netcdf
 from seacrane.result.partial_file import PartialFile, Piece, pieces_of
@@ -170,8 +170,8 @@ class ResultFile:
         return self._left_in_result()
 
     def _left_in_result(self) -> Left:
+        from seacrane.files.state import state_to_bytes
         from seacrane.result.result import Result
-        from seacrane.state_file import state_to_bytes
 
         try:
             stats, channels, coords = _described(self.path)
@@ -379,7 +379,7 @@ def read_partial(path: Path, largest: int, channels: Sequence[str] | None = None
             last, state = piece, piece.state or state
     if last is None:
         raise FileFormatError(f"{path}: holds no outputs yet")
-    from seacrane.state_file import state_from_bytes
+    from seacrane.files.state import state_from_bytes
 
     arrays = {name: np.concatenate(several) for name, several in parts.items()}
     return {

@@ -9,10 +9,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane import _core
-from seacrane.checked import name_of, number_of, shaped_of, vector_of
 from seacrane.errors import SceneError
-from seacrane.plausible import direction_of
+from seacrane.inputs.checked import name_of, number_of, shaped_of, vector_of
 from seacrane.sea.spectra import tabulated_spectrum
+from seacrane.validity.plausible import direction_of
 
 if TYPE_CHECKING:
     from seacrane.sea.spreading import Spreading

@@ -10,8 +10,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from seacrane import _core
-from seacrane.checked import number_of, numbers_of
 from seacrane.errors import SceneError
+from seacrane.inputs.checked import number_of, numbers_of
 
 # Peak period over mean periods of x^-5 exp(-5/4 x^-4), from its moments in closed form.
 PEAK_OVER_TZ = (1.25 * math.pi) ** 0.25

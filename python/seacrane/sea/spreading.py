@@ -8,8 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from seacrane.checked import number_of
 from seacrane.errors import SceneError
+from seacrane.inputs.checked import number_of
 
 LARGEST_EXPONENT = 1e4
 

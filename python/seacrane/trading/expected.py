@@ -10,10 +10,10 @@ import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from seacrane.channel_names import LINK
+from seacrane.run.channel_names import LINK
 
 if TYPE_CHECKING:
-    from seacrane.scene import Scene
+    from seacrane.description.scene import Scene
     from seacrane.trading.quantities import Quantity
 
 ERROR = {"bs32": (14.0, 0.89), "tsit5": (8.0, 1.1), "verner76": (0.8, 1.065)}  # factor, power

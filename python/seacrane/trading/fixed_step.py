@@ -10,14 +10,14 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from seacrane.checked import number_of
 from seacrane.errors import SceneError, SimulationError
-from seacrane.simulation import Run, finished
+from seacrane.inputs.checked import number_of
+from seacrane.run.simulation import Run, finished
 from seacrane.trading.quantities import compare, quantities_of
 
 if TYPE_CHECKING:
     from seacrane import _core
-    from seacrane.scene import Scene
+    from seacrane.description.scene import Scene
     from seacrane.trading.quantities import Quantity
 
 Array = NDArray[np.float64]

@@ -10,18 +10,18 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane.errors import SceneError, SeacraneError
-from seacrane.frames import heading_of
-from seacrane.method import Method
-from seacrane.simulation import simulate
+from seacrane.inputs.frames import heading_of
+from seacrane.run.method import Method
+from seacrane.run.simulation import simulate
 from seacrane.trading import rungs
 from seacrane.trading.quantities import PAYLOAD, Quantity, compare
 from seacrane.trading.rows import NOT_DEFINED, Row
 from seacrane.trading.settings_grid import TIGHT
 
 if TYPE_CHECKING:
-    from seacrane.linear_system import LinearModel
+    from seacrane.analysis.linear_system import LinearModel
+    from seacrane.description.scene import Scene
     from seacrane.result import Result
-    from seacrane.scene import Scene
 
 Array = NDArray[np.float64]
 LONG = 0.3  # s of wall time from which on one run tells the cost
@@ -63,7 +63,7 @@ def wall(result: Result) -> float:
 
 
 def _offered(scene: Scene) -> set[str]:
-    from seacrane.channel_names import CRANE_CHANNELS
+    from seacrane.run.channel_names import CRANE_CHANNELS
 
     known = set(scene.compile().channel_names(defaults_only=False))
     return known | {name for name, parts in CRANE_CHANNELS.items() if set(parts) & known}
@@ -173,8 +173,8 @@ def _values(quantity: Quantity, result: Result) -> Array | None:
 
 def _of_weight(scene: Scene, result: Result) -> dict[str, Array]:
     """Tension is the weight; the payload hangs plumb under the tip."""
-    from seacrane.channel_names import LINK
-    from seacrane.frames import rotation_matrix
+    from seacrane.inputs.frames import rotation_matrix
+    from seacrane.run.channel_names import LINK
 
     joint = scene.joints[LINK]
     payload, body = scene.bodies[joint.second], scene.bodies[joint.first]
@@ -201,8 +201,8 @@ def frequency_domain(scene: Scene, span: Span, truth: Mapping[str, Array], start
     import time
     from dataclasses import replace
 
-    from seacrane.frequency_domain import response_summed
-    from seacrane.linear_system import linear_model
+    from seacrane.analysis.frequency_domain import response_summed
+    from seacrane.analysis.linear_system import linear_model
 
     begun = time.perf_counter()
     try:
@@ -232,7 +232,7 @@ def frequency_domain(scene: Scene, span: Span, truth: Mapping[str, Array], start
 
 def _roll(linear: LinearModel, body: str, times: Array) -> Array:
     """Of a vessel about its own axis, rad."""
-    from seacrane.frequency_domain import response_summed
+    from seacrane.analysis.frequency_domain import response_summed
 
     heading = heading_of(linear.scene.bodies[body].quaternion)
     rotation = response_summed(linear, body=body).at(times)[:, 3:]

@@ -9,14 +9,14 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from seacrane.channel_names import CRANE_CHANNELS, CYLINDERS, LINK
 from seacrane.errors import SceneError
-from seacrane.frames import rotation_matrix
+from seacrane.inputs.frames import rotation_matrix
+from seacrane.run.channel_names import CRANE_CHANNELS, CYLINDERS, LINK
 
 if TYPE_CHECKING:
     from seacrane import _core
+    from seacrane.description.scene import Scene
     from seacrane.result import Result
-    from seacrane.scene import Scene
 
 Array = NDArray[np.float64]
 PAYLOAD = "payload"
@@ -103,7 +103,7 @@ def quantities_of(scene: Scene, model: _core.Model, names: Iterable[str] | None)
 
 def limits_of(quantities: Mapping[str, Quantity], accuracy: Mapping[str, Any]) -> dict[str, float]:
     """Accuracies as positive numbers; raises SceneError for what is none or is not measured."""
-    from seacrane.checked import number_of
+    from seacrane.inputs.checked import number_of
 
     if not accuracy:
         raise SceneError("accuracy is empty; give at least one quantity and its largest error")

@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from seacrane.result.atomic import atomic_write
+from seacrane.files.atomic import atomic_write
 from seacrane.trading.quantities import ErrorMeasures
 
 NOT_DEFINED = math.nan

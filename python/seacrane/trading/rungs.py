@@ -11,16 +11,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane import _core
-from seacrane.channel_names import LINK
+from seacrane.analysis.inverse import SIX, driven, hold_vessel
+from seacrane.description.scene import Scene
+from seacrane.description.vessel_notes import noted
 from seacrane.errors import SceneError
-from seacrane.inverse import SIX, driven, hold_vessel
-from seacrane.scene import Scene
-from seacrane.vessel import add_vessel
-from seacrane.vessel_notes import noted
+from seacrane.run.channel_names import LINK
+from seacrane.scene.vessel import add_vessel
 
 if TYPE_CHECKING:
     from seacrane.hydro import HydroDatabase
-    from seacrane.hydro.memory_model import MemoryModel
+    from seacrane.hydro.memory.model import MemoryModel
 
 Array = NDArray[np.float64]
 FULL, LOCKED, PRESCRIBED, WEIGHT, LINEAR = (
@@ -187,7 +187,7 @@ def with_prescribed_vessel(scene: Scene, times: Array, motion: Array) -> Scene:
     """
     if len(scene.vessels) != 1:
         raise SceneError(f"scene {scene.name!r}: has {len(scene.vessels)} vessels; one is prescribed")
-    from seacrane.curves import spline_curve
+    from seacrane.description.curves import spline_curve
 
     (vessel,) = scene.vessels.values()
     out = scene.copy(waves=None)

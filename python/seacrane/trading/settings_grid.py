@@ -7,10 +7,10 @@ from typing import TYPE_CHECKING
 
 from seacrane import _core
 from seacrane.errors import SeacraneError
-from seacrane.method import Method
+from seacrane.run.method import Method
 
 if TYPE_CHECKING:
-    from seacrane.scene import Scene
+    from seacrane.description.scene import Scene
 
 FORMULATIONS = ("recursive", "redundant")
 COARSE = (1e-1, 1e-2, 1e-3, 1e-4)
@@ -66,7 +66,7 @@ def _sizes(scene: Scene, name: str) -> tuple[str, tuple[float, ...]]:
 
 def _takes_dt(scene: Scene, name: str) -> bool:
     """Whether half the step makes more steps; False for a method that refuses the scene."""
-    from seacrane.simulation import simulate
+    from seacrane.run.simulation import simulate
 
     try:
         runs = [

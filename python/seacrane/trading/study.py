@@ -12,8 +12,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from seacrane.checked import number_of
 from seacrane.errors import SceneError
+from seacrane.inputs.checked import number_of
 from seacrane.trading import rungs
 from seacrane.trading.measure import Reference, Span, frequency_domain, measure, measure_variant, reference
 from seacrane.trading.quantities import Quantity, limits_of, quantities_of
@@ -25,8 +25,8 @@ if TYPE_CHECKING:
     import xarray
     from matplotlib.figure import Figure
 
+    from seacrane.description.scene import Scene
     from seacrane.hydro import HydroDatabase
-    from seacrane.scene import Scene
 
 REPEATS = 3  # runs of each setting; the quickest counts
 
@@ -145,13 +145,13 @@ class Trade:
 
     def plot(self) -> Figure:
         """Work-precision diagrams: error of each quantity over the wall time per simulated second."""
-        from seacrane.trading.diagram import work_precision
+        from seacrane.figures.trade import work_precision
 
         return work_precision(self)
 
     def save(self, folder: str | os.PathLike[str]) -> None:
         """Write trade.csv and trade.png into a folder."""
-        from seacrane.result.atomic import atomic_write
+        from seacrane.files.atomic import atomic_write
 
         units = {name: quantity.unit for name, quantity in self.quantities.items()}
         on_front = front(self.rows, next(iter(self.quantities)))

@@ -1,0 +1,1 @@
+"""Rest, statics, inverse dynamics and linear theory of a scene."""

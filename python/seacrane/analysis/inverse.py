@@ -1,0 +1,299 @@
+"""Static balance, inverse dynamics and driven scenes: which loads does a motion need?
+
+All three prescribe coordinates by drivers and read their multipliers (DESIGN, "Multibody").
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from seacrane import _core
+from seacrane.description.scene import GROUND, Scene
+from seacrane.errors import SceneError
+from seacrane.inputs.checked import numbers_of
+from seacrane.inputs.frames import heading_of, rotation_about_z
+
+Array = NDArray[np.float64]
+Motion = Mapping[tuple[str, str], _core.Curve]
+SIX = ("x", "y", "z", "roll", "pitch", "yaw")
+
+
+@dataclass(frozen=True, kw_only=True)
+class Balance:
+    """Loads that hold a scene at rest as described.
+
+    Attributes
+    ----------
+    vessel_wrenches : mapping of str to ndarray, shape (6,)
+        By the vessel's body: force (N) and moment (N m) on it about its origin, inertial axes.
+    loads : mapping of str to float
+        Along each actuated joint coordinate, by actuator name: N (cylinders, positive pushes) or N m.
+    weight : float
+        Of all bodies that have weight, N.
+    weight_center : ndarray, shape (3,)
+        Their common centre of mass at the start, inertial frame, m.
+    """
+
+    vessel_wrenches: Mapping[str, Array]
+    loads: Mapping[str, float]
+    weight: float
+    weight_center: Array
+
+    @property
+    def vessel_wrench(self) -> Array | None:
+        """The wrench on the only vessel; None without one, SceneError with several."""
+        if len(self.vessel_wrenches) > 1:
+            raise SceneError(
+                f"balance: vessels {', '.join(map(repr, self.vessel_wrenches))} have a wrench each; take it "
+                "from vessel_wrenches by its name"
+            )
+        return next(iter(self.vessel_wrenches.values()), None)
+
+
+def _locked(scene: Scene, *, hold_vessels: bool = True) -> Scene:
+    """The scene with its actuators replaced by drivers at rest, vessels held, without waves."""
+    out = driven(scene, references={name: _core.Curve.constant(value=0.0) for name in scene.actuators})
+    out = out.copy(waves=None, springs=dict(scene.springs))
+    if hold_vessels:
+        for vessel in scene.vessels.values():
+            _hold(out, vessel.body, {motion: _core.Curve.constant(value=0.0) for motion in SIX})
+    return out
+
+
+def _hold(scene: Scene, body: str, motions: Mapping[str, _core.Curve]) -> None:
+    """Prescribe coordinates of a body relative to its described pose, inertial axes."""
+    joint = f"{body}.motion"
+    scene.add_joint(kind="free", name=joint, first=GROUND, second=body, point=scene.bodies[body].position)
+    _drive(scene, joint, motions)
+
+
+def hold_vessel(scene: Scene, body: str, motions: Mapping[str, _core.Curve]) -> None:
+    """Prescribe a vessel's motions as `vessel_motion` records them: from upright at its described heading."""
+    start, joint = scene.bodies[body], f"{body}.motion"
+    heading = rotation_about_z(heading_of(start.quaternion))
+    scene.add_joint(
+        kind="free", name=joint, first=GROUND, second=body,
+        first_frame=_core.Frame(point=start.position, axes=heading),
+        second_frame=_core.Frame(point=np.zeros(3), axes=np.eye(3)),
+    )  # fmt: skip
+    _drive(scene, joint, motions)
+
+
+def _drive(scene: Scene, joint: str, motions: Mapping[str, _core.Curve]) -> None:
+    for motion, curve in motions.items():
+        scene.add_driver(joint=joint, coordinate=motion, curve=curve, name=f"{joint}.{motion}")
+
+
+def _multipliers(model: _core.Model, names: Sequence[str], *, time: float, state: Array) -> Array:
+    """Loads of drivers at one state."""
+    run = _core.Simulation(
+        model=model,
+        start=_core.State(time=time, values=state, inputs=np.zeros(model.slots)),
+        integrator="rk4",
+        rtol=1e-6,
+        dt=0.0,
+        max_step=0.0,
+        output_times=np.array([time]),
+        channels={"driver_force"},
+    )
+    loads = run.channels()["driver_force"][0]
+    drivers = [name for name, kind, _, _ in model.elements if kind == "driver"]
+    return np.array([loads[drivers.index(name)] for name in names])
+
+
+def balance(scene: Scene) -> Balance:
+    """Loads that keep the described scene at rest.
+
+    Drivers hold the vessel's six motions and every actuated coordinate; what hangs is taken to hang at
+    rest. Waves are left out.
+
+    Raises
+    ------
+    SceneError
+        If a body would accelerate although everything driven is held (it is described off its rest pose).
+    """
+    held = _locked(scene)
+    model = held.compile()
+    state = np.array(model.initial_state)
+    terms = _core.Evaluator(model).terms(0.0, state)
+    worst = int(np.argmax(np.abs(terms["acceleration"])))
+    if abs(terms["acceleration"][worst]) > 1e-6:
+        body = model.bodies[worst // 6]
+        raise SceneError(
+            f"body {body!r}: accelerates by {terms['acceleration'][worst]:.3g} (m/s2 or rad/s2) with all "
+            "driven coordinates held; describe it at its rest pose"
+        )
+    wrenches = {}
+    for vessel in scene.vessels.values():
+        names = [f"{vessel.body}.motion.{motion}" for motion in SIX]
+        wrenches[vessel.body] = _multipliers(model, names, time=0.0, state=state)
+    actuated = list(scene.actuators)
+    loads = _multipliers(model, [_driver_name(name) for name in actuated], time=0.0, state=state)
+    weight, center = _weight(scene)
+    return Balance(
+        vessel_wrenches=wrenches,
+        loads=dict(zip(actuated, loads.tolist(), strict=True)),
+        weight=weight,
+        weight_center=center,
+    )
+
+
+def actuator_loads(scene: Scene, held: Scene, state: _core.State) -> Array:
+    """Loads of the drivers that hold a scene's actuators, by actuator, at a state of the held scene."""
+    names = [_driver_name(name) for name in scene.actuators]
+    return _multipliers(held.compile(), names, time=state.time, state=np.array(state.values))
+
+
+def _weight(scene: Scene) -> tuple[float, Array]:
+    from seacrane.inputs.frames import rotation_matrix
+
+    floating = {vessel.body for vessel in scene.vessels.values()}
+    masses, centers = [], []
+    for body in scene.bodies.values():
+        if body.gravity and body.name not in floating:
+            masses.append(body.mass)
+            centers.append(body.position + rotation_matrix(body.quaternion) @ body.center_of_mass)
+    total = float(np.sum(masses))
+    center = np.zeros(3) if not masses else np.average(centers, axis=0, weights=masses)
+    return total * scene.gravity, center
+
+
+def _driver_name(actuator: str) -> str:
+    return f"{actuator} driven"
+
+
+def driven(scene: Scene, *, references: Mapping[str, _core.Curve] | None = None) -> Scene:
+    """The scene with every actuator replaced by a driver that follows its reference exactly.
+
+    Simulating it answers "which cylinder forces does this crane motion need in these waves": the result's
+    cylinder_force and slew_torque are the drivers' loads.
+
+    Parameters
+    ----------
+    scene : Scene
+    references : mapping of str to Curve, optional
+        By actuator name, instead of the actuators' own references.
+    """
+    chosen = {name: actuator.reference for name, actuator in scene.actuators.items()}
+    for name, curve in (references or {}).items():
+        if name not in chosen:
+            raise SceneError(
+                f"actuator {name!r} does not exist; this scene has {', '.join(chosen) or 'none'}"
+            )
+        chosen[name] = curve
+    out = scene.copy(actuators={})
+    for name, actuator in scene.actuators.items():
+        out.add_driver(
+            joint=actuator.joint, coordinate=actuator.coordinate, curve=chosen[name], name=_driver_name(name)
+        )
+    return out
+
+
+def inverse_dynamics(
+    scene: Scene,
+    *,
+    times: Any,
+    references: Mapping[str, _core.Curve] | None = None,
+    body_motion: Mapping[str, Mapping[str, _core.Curve]] | None = None,
+) -> dict[str, Array]:
+    """Loads along prescribed motions of everything, by algebra at each instant.
+
+    Parameters
+    ----------
+    scene : Scene
+        Its actuators' references are prescribed; its waves and memory act as loads only at rest (memory
+        states are zero), so use `driven` and `simulate` where they matter.
+    times : array_like, shape (n,)
+        s.
+    references : mapping of str to Curve, optional
+        By actuator name, instead of the actuators' own references.
+    body_motion : mapping of str to mapping of str to Curve
+        For each body that the joints leave free: curves of "x y z" (m) and "roll pitch yaw" (rad) relative
+        to its described pose. Vessels not named are held.
+
+    Returns
+    -------
+    dict of str to ndarray
+        Actuator name to load (n,), N or N m; "<body>.<motion>" to the load along that motion.
+
+    Raises
+    ------
+    SceneError
+        If the prescribed motions leave a degree of freedom open: use `driven` and `simulate` for that.
+    """
+    out = driven(scene, references=references).copy(waves=None)
+    motions = {
+        vessel.body: {m: _core.Curve.constant(value=0.0) for m in SIX} for vessel in scene.vessels.values()
+    }
+    motions |= {body: dict(curves) for body, curves in (body_motion or {}).items()}
+    for body, curves in motions.items():
+        if body not in scene.bodies:
+            raise SceneError(f"body {body!r} does not exist; this scene has {', '.join(scene.bodies)}")
+        _hold(out, body, curves)
+    model = out.compile()
+    if model.degrees_of_freedom > 0:
+        raise SceneError(
+            f"scene {scene.name!r}: {model.degrees_of_freedom} degree(s) of freedom are not prescribed; give "
+            "body_motion for them, or simulate driven(scene)"
+        )
+    names = [_driver_name(name) for name in scene.actuators]
+    names += [f"{body}.motion.{motion}" for body, curves in motions.items() for motion in curves]
+    labels = [
+        *scene.actuators,
+        *(f"{body}.{motion}" for body, curves in motions.items() for motion in curves),
+    ]
+    instants = np.atleast_1d(numbers_of("inverse dynamics: times", times))
+    rows = _follow(model, names, instants)
+    return {label: rows[:, i].copy() for i, label in enumerate(labels)}
+
+
+def _follow(model: _core.Model, names: Sequence[str], times: Array) -> Array:
+    """Driver loads at each time; the pose is projected from one instant onto the next."""
+    evaluator = _core.Evaluator(model)
+    state = np.array(model.initial_state)
+    now, rows = 0.0, []
+    for time in times:
+        for intermediate in np.linspace(now, time, max(2, int(abs(time - now) / 0.05) + 2))[1:]:
+            state = evaluator.project(float(intermediate), state)
+        residual, _ = evaluator.residual(float(time), state)
+        if residual > 1e-8:
+            raise SceneError(
+                f"the prescribed motion cannot be assembled at t = {time:.6g} s: {residual:.3g} m or rad open"
+            )
+        now = float(time)
+        rows.append(_multipliers(model, names, time=now, state=state))
+    return np.array(rows)
+
+
+def reflected_inertia(scene: Scene) -> dict[str, float]:
+    """Inertia that each actuator feels at the described pose: the others locked, the vessel held.
+
+    Returns
+    -------
+    dict of str to float
+        By actuator name: kg (cylinders) or kg m2 (slew).
+    """
+    out = {}
+    for name in scene.actuators:
+        loads = []
+        for acceleration in (0.0, 1.0):
+            curve = _core.Curve.pieces(
+                starts=[0.0], coefficients=[[0.0, 0.0, 0.5 * acceleration, 0.0, 0.0, 0.0]]
+            )
+            held = _locked(scene.copy())
+            held.drivers.pop(_driver_name(name))
+            actuator = scene.actuators[name]
+            held.add_driver(
+                joint=actuator.joint, coordinate=actuator.coordinate, curve=curve, name=_driver_name(name)
+            )
+            model = held.compile()
+            loads.append(
+                _multipliers(model, [_driver_name(name)], time=0.0, state=np.array(model.initial_state))[0]
+            )
+        out[name] = float(loads[1] - loads[0])
+    return out

@@ -1,0 +1,297 @@
+"""A scene linearised about a state at rest: x' = A x + B f in minimal coordinates, memory states included."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from seacrane import _core
+from seacrane.analysis.reduced_coordinates import NEUTRAL, ReducedCoordinates, Terms
+from seacrane.analysis.rest_state import at_rest, equilibrium, held, state_values
+from seacrane.description.scene import Scene
+from seacrane.errors import SceneError
+from seacrane.inputs.checked import shaped_of
+from seacrane.inputs.frames import rotation_about_z, rotation_matrix
+
+Array = NDArray[np.float64]
+Complex = NDArray[np.complex128]
+REST = 1e-6  # m/s2, m/s and the like: what may be left of motion at a state that is given
+RESONANCE = 1e-9  # relative distance of a frequency from an undamped mode
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class LinearModel:
+    """x' = a x + b f, with x = (coordinates, speeds, memory states) of small motions about rest.
+
+    A displacement of all bodies is ``basis @ coordinates``: per body a translation (m) of its state point
+    (the centre of mass; the reference point of a vessel) and a rotation vector (rad), inertial axes.
+
+    Attributes
+    ----------
+    scene : Scene
+        As described (its waves and references included).
+    state : State
+        At rest; the time is that of the held references.
+    bodies : tuple of str
+    vessel : str or None
+        Body on which the waves act.
+    a : ndarray, shape (n, n)
+        n = 2 degrees of freedom + memory states; 1/s.
+    b : ndarray, shape (n, 6)
+        Per wave load on the vessel about its origin, in axes that follow its yaw; N and N m.
+    basis : ndarray, shape (6 bodies, degrees of freedom)
+        Orthonormal.
+    mass : ndarray, shape (6 bodies, 6 bodies)
+        Of all bodies about their state points, added mass at infinite frequency included; kg, kg m2.
+    neutral : ndarray, shape (degrees of freedom, k)
+        Directions in which nothing brings the system back.
+    """
+
+    scene: Scene
+    state: _core.State
+    bodies: tuple[str, ...]
+    vessel: str | None
+    a: Array
+    b: Array
+    basis: Array
+    mass: Array
+    neutral: Array
+    _terms: Terms
+
+    @property
+    def degrees_of_freedom(self) -> int:
+        """Number of coordinates."""
+        return int(self.basis.shape[1])
+
+    @property
+    def memory_states(self) -> int:
+        """Number of memory states."""
+        return int(len(self.a) - 2 * self.degrees_of_freedom)
+
+    def output(self, *, body: str, point: ArrayLike = (0.0, 0.0, 0.0)) -> Array:
+        """C (6, n): translation (m) of a point of a body and rotation vector (rad) of the body from x.
+
+        Parameters
+        ----------
+        body : str
+        point : array_like, shape (3,)
+            Body coordinates, from the body origin, m.
+
+        Returns
+        -------
+        ndarray, shape (6, n)
+            Inertial axes.
+
+        Raises
+        ------
+        SceneError
+            For a body that does not exist, or a point that is not three finite numbers.
+        """
+        if body not in self.bodies:
+            raise SceneError(f"body {body!r} does not exist; this scene has {', '.join(self.bodies)}")
+        place = shaped_of(f"body {body!r}: point", point, (3,))
+        if not np.all(np.isfinite(place)):
+            raise SceneError(f"body {body!r}: point is {place.tolist()}; give finite numbers")
+        k = self.bodies.index(body)
+        rows = self.basis[6 * k : 6 * k + 6]
+        floating = {vessel.body for vessel in self.scene.vessels.values()}
+        start = np.zeros(3) if body in floating else np.asarray(self.scene.bodies[body].center_of_mass)
+        lever = self._rotation(k) @ (place - start)
+        out = np.zeros((6, len(self.a)))
+        # dr + dtheta x lever
+        out[:3, : self.degrees_of_freedom] = rows[:3] + np.cross(rows[3:].T, lever).T
+        out[3:, : self.degrees_of_freedom] = rows[3:]
+        return out
+
+    def _rotation(self, body: int) -> Array:
+        at = self._terms.model.pose_index(body)
+        return rotation_matrix(np.array(self.state.values)[at + 3 : at + 7])
+
+    def response(self, *, omega: ArrayLike, force: ArrayLike) -> Complex:
+        """Complex amplitudes of x under wave loads Re force exp(i omega t), in the steady state.
+
+        Parameters
+        ----------
+        omega : array_like, shape (k,)
+            rad/s.
+        force : array_like of complex, shape (k, 6)
+            N and N m.
+
+        Returns
+        -------
+        ndarray of complex, shape (k, n)
+
+        Raises
+        ------
+        SceneError
+            Without a vessel, for values that are not finite, or at the frequency of an undamped mode.
+        """
+        from scipy.linalg import matrix_balance, schur
+
+        if self.vessel is None:
+            raise SceneError(f"scene {self.scene.name!r}: has no vessel on which waves act; add one")
+        w, f = np.asarray(omega, dtype=float), np.asarray(force, dtype=complex)
+        if w.ndim != 1 or f.shape != (w.size, 6) or not (np.all(np.isfinite(w)) and np.all(np.isfinite(f))):
+            raise SceneError(
+                f"omega has shape {w.shape}, force {f.shape}; give (k,) and (k, 6) finite numbers"
+            )
+        # Memory states may be 1e6 times larger than motions: unbalanced, the triangular form loses motions.
+        balanced, (scale, _) = matrix_balance(self.a, permute=False, separate=True)
+        triangle, unitary = schur(balanced, output="complex")
+        load = (f @ self.b.T / scale) @ unitary.conj()
+        x = np.zeros(load.shape, dtype=complex)
+        for i in reversed(range(len(self.a))):
+            pivot = 1j * w - triangle[i, i]
+            near = np.abs(pivot) < RESONANCE * np.abs(w)
+            if np.any(near):
+                raise SceneError(
+                    f"scene {self.scene.name!r}: omega = {w[near][0]:.9g} rad/s is that of an undamped mode; "
+                    "add damping, or leave the frequency out"
+                )
+            x[:, i] = (load[:, i] + x[:, i + 1 :] @ triangle[i, i + 1 :]) / pivot
+        return np.asarray(x @ unitary.T * scale)
+
+    def excited(self, vessel: str) -> LinearModel:
+        """The same model with waves on another vessel, by its body; raises SceneError if there is none."""
+        name = _wave_body(self.scene, vessel)
+        assert name is not None
+        b, dof = np.zeros_like(self.b), self.degrees_of_freedom
+        values = np.array(self.state.values)
+        b[dof : 2 * dof] = _excitation(self._terms.model, values, name, self.basis, self.mass)
+        return replace(self, vessel=name, b=b)
+
+    def full_state(self, x: ArrayLike) -> _core.State:
+        """State of the scene for small x (n,), on the constraints; a run may start from it."""
+        values = np.asarray(x, dtype=float)
+        if values.shape != (len(self.a),):
+            raise SceneError(f"x has shape {values.shape}; give ({len(self.a)},)")
+        dof, terms = self.degrees_of_freedom, self._terms
+        y = terms.moved(
+            np.array(self.state.values),
+            displacement=self.basis @ values[:dof],
+            twist=self.basis @ values[dof : 2 * dof],
+        )
+        y[terms.memory] += values[2 * dof :]
+        y = terms.evaluator.project(terms.time, y)
+        return _core.State(time=terms.time, values=y, inputs=np.zeros(terms.model.slots))
+
+
+def linear_model(scene: Scene, *, state: _core.State | None = None, vessel: str | None = None) -> LinearModel:
+    """Linearise a scene about a state at rest, its references held.
+
+    The quaternions do not appear: poses are perturbed by translations and rotation vectors within the null
+    space of the constraints, so the model has exactly 2 degrees of freedom + memory states. Loads
+    proportional to u |u| have no linear part at rest and drop out.
+
+    Parameters
+    ----------
+    scene : Scene
+    state : State, optional
+        At rest, its time that of the references. Default: ``equilibrium(scene)``.
+    vessel : str, optional
+        Body on which waves act. Default: that of the scene's waves, or the only vessel.
+
+    Raises
+    ------
+    SceneError
+        If something moves or accelerates at the state, the vessel is not clear, or its memory is a
+        convolution.
+    """
+    rest = equilibrium(scene) if state is None else state
+    values = state_values(scene.copy(orientation="quaternion") if state is None else scene, rest)
+    model = held(scene, time=rest.time).compile()
+    if model.history_samples:
+        raise SceneError(
+            f"scene {scene.name!r}: its fluid memory is a convolution, which has no states to linearise; "
+            "add the vessel with memory='per-pair' or 'passive'"
+        )
+    terms = Terms(model, time=rest.time)
+    _require_rest(terms, terms.checked(values))
+    values = at_rest(model, values)
+    coordinates = ReducedCoordinates.at(terms, values)
+    name = _wave_body(scene, vessel)
+    matrices = terms.evaluator.terms(terms.time, values)
+    poses = coordinates.pose_columns()
+    a, neutral = _state_matrix(coordinates, poses)
+    basis = coordinates.basis
+    b = np.zeros((len(a), 6))
+    if name is not None:
+        dof = coordinates.size
+        b[dof : 2 * dof] = _excitation(model, values, name, basis, matrices["mass"])
+    return LinearModel(
+        scene=scene,
+        state=_core.State(time=rest.time, values=values, inputs=np.zeros(model.slots)),
+        bodies=tuple(model.bodies),
+        vessel=name,
+        a=a,
+        b=b,
+        basis=basis,
+        mass=np.asarray(matrices["mass"]),
+        neutral=neutral,
+        _terms=terms,
+    )
+
+
+def _excitation(model: _core.Model, values: Array, vessel: str, basis: Array, mass: Array) -> Array:
+    """Accelerations of the coordinates per wave load on a vessel, (degrees of freedom, 6)."""
+    k = list(model.bodies).index(vessel)
+    load = basis[6 * k : 6 * k + 6].T @ _yaw_axes(model, values, k, paper=model.paper_kinematics)
+    return np.asarray(np.linalg.solve(basis.T @ mass @ basis, load))
+
+
+def _state_matrix(coordinates: ReducedCoordinates, poses: Array) -> tuple[Array, Array]:
+    """A, and the directions of no stiffness, in which the columns of A are exactly zero."""
+    bodies, dof, basis = coordinates.terms.bodies, coordinates.size, coordinates.basis
+    memory = coordinates.terms.model.memory_states
+
+    def reduced(columns: Array) -> Array:
+        return np.concatenate([basis.T @ columns[: 6 * bodies], columns[6 * bodies :]])
+
+    _, size, vt = np.linalg.svd(basis.T @ poses[: 6 * bodies])
+    held_in, neutral = vt[size > NEUTRAL].T, vt[size <= NEUTRAL].T
+    a = np.zeros((2 * dof + memory, 2 * dof + memory))
+    a[:dof, dof : 2 * dof] = np.eye(dof)
+    a[dof:, :dof] = reduced(poses) @ held_in @ held_in.T
+    a[dof:, dof : 2 * dof] = reduced(coordinates.twist_columns())
+    a[dof:, 2 * dof :] = reduced(coordinates.memory_columns())
+    return a, neutral
+
+
+def _require_rest(terms: Terms, values: Array) -> None:
+    rates = terms.rates(values)
+    moving = np.abs(values[terms.twists])
+    accelerating = np.abs(rates[: 6 * terms.bodies])
+    for what, unit, size in (
+        ("moves", "m/s or rad/s", moving),
+        ("accelerates", "m/s2 or rad/s2", accelerating),
+    ):
+        worst = int(np.argmax(size))
+        if size[worst] > REST:
+            name = terms.model.bodies[worst // 6]
+            raise SceneError(
+                f"body {name!r}: {what} by {size[worst]:.3g} {unit} at the state to be "
+                "linearised; pass it through seacrane.equilibrium first"
+            )
+
+
+def _wave_body(scene: Scene, wanted: str | None) -> str | None:
+    floating = [vessel.body for vessel in scene.vessels.values()]
+    if wanted is None and scene.waves is not None and len(scene.waves.hulls) == 1:
+        wanted = scene.waves.body_of()
+    if wanted is None and len(floating) == 1:
+        wanted = floating[0]
+    if wanted is None and floating:
+        raise SceneError(f"scene {scene.name!r}: has vessels {', '.join(floating)}; name one as vessel")
+    if wanted is not None and wanted not in floating:
+        raise SceneError(f"vessel {wanted!r} does not exist; vessels here: {', '.join(floating) or 'none'}")
+    return wanted
+
+
+def _yaw_axes(model: _core.Model, values: Array, body: int, *, paper: bool) -> Array:
+    """(6, 6) from axes that follow the vessel's yaw to inertial ones; the paper's loads are inertial."""
+    at = model.pose_index(body)
+    r = rotation_matrix(values[at + 3 : at + 7])
+    yaw = 0.0 if paper else float(np.arctan2(r[1, 0], r[0, 0]))
+    return np.asarray(np.kron(np.eye(2), rotation_about_z(yaw)))

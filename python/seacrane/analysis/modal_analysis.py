@@ -1,0 +1,149 @@
+"""Natural periods, damping ratios and mode shapes of a scene about rest, memory states included."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from seacrane import _core
+from seacrane.analysis.linear_system import LinearModel, linear_model
+from seacrane.description.scene import Scene
+
+Array = NDArray[np.float64]
+Complex = NDArray[np.complex128]
+MOTIONS = ("surge", "sway", "heave", "roll", "pitch", "yaw")
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class NaturalModes:
+    """Free oscillations Re shape exp(eigenvalue t), slowest first.
+
+    Attributes
+    ----------
+    eigenvalues : ndarray of complex, shape (k,)
+        Of the oscillations, positive imaginary part, 1/s.
+    shapes : ndarray of complex, shape (k, bodies, 6)
+        Translation of each body's state point and rotation vector, inertial axes; the largest entry is 1.
+    energy_share : ndarray, shape (k, bodies, 6)
+        Of the kinetic energy, by body and motion; sums to 1 for each mode.
+    mechanical_share : ndarray, shape (k,)
+        Participation of coordinates and speeds; the rest to 1 is that of memory states.
+    real_eigenvalues : ndarray
+        Of what decays or grows without oscillation, 1/s.
+    neutral : int
+        Directions in which nothing brings the system back.
+    state_vectors : ndarray of complex, shape (k, n)
+        Eigenvectors in x of the `LinearModel`, scaled as the shapes.
+    bodies : tuple of str
+    """
+
+    eigenvalues: Complex
+    shapes: Complex
+    energy_share: Array
+    mechanical_share: Array
+    real_eigenvalues: Array
+    neutral: int
+    state_vectors: Complex
+    bodies: tuple[str, ...]
+
+    @property
+    def natural_period(self) -> Array:
+        """2 pi / |eigenvalue|, s."""
+        return np.asarray(2.0 * np.pi / np.abs(self.eigenvalues))
+
+    @property
+    def damped_period(self) -> Array:
+        """2 pi / imaginary part, s: what a decay shows."""
+        return np.asarray(2.0 * np.pi / self.eigenvalues.imag)
+
+    @property
+    def damping_ratio(self) -> Array:
+        """Fraction of critical; negative for what grows."""
+        return np.asarray(-self.eigenvalues.real / np.abs(self.eigenvalues))
+
+    def label(self, mode: int) -> str:
+        """Body and motion with most of the kinetic energy, as "vessel roll"."""
+        body, motion = divmod(int(np.argmax(self.energy_share[mode])), 6)
+        return f"{self.bodies[body]} {MOTIONS[motion]}"
+
+    def find(self, label: str) -> int:
+        """Index of the mode of that label with the largest mechanical share.
+
+        Raises
+        ------
+        ValueError
+            If no mode has the label.
+        """
+        labels = [self.label(i) for i in range(len(self.eigenvalues))]
+        found = [i for i, name in enumerate(labels) if name == label]
+        if not found:
+            raise ValueError(f"no mode is {label!r}; there are {', '.join(sorted(set(labels)))}")
+        return max(found, key=lambda i: float(self.mechanical_share[i]))
+
+    def table(self, *, least_mechanical_share: float = 0.5) -> str:
+        """Rows of label, natural period (s), damping ratio and mechanical share.
+
+        Modes below that share are those of the fluid memory, which no motion shows by itself.
+        """
+        rows = [f"{'mode':24}{'period [s]':>12}{'damping [%]':>13}{'mechanical':>12}"]
+        for i, share in enumerate(self.mechanical_share):
+            if share >= least_mechanical_share:
+                rows.append(
+                    f"{self.label(i):24}{self.natural_period[i]:12.3f}{100.0 * self.damping_ratio[i]:13.3f}"
+                    f"{share:12.3f}"
+                )
+        return "\n".join(rows)
+
+
+def natural_modes(scene: Scene | LinearModel, *, state: _core.State | None = None) -> NaturalModes:
+    """Natural modes of a scene with its references held, fluid memory included.
+
+    Parameters
+    ----------
+    scene : Scene or LinearModel
+    state : State, optional
+        At rest; default ``equilibrium(scene)``. Not with a LinearModel.
+
+    Raises
+    ------
+    SceneError
+        As `linear_model`.
+    """
+    linear = scene if isinstance(scene, LinearModel) else linear_model(scene, state=state)
+    free = _without_neutral_positions(linear)
+    values, right = np.linalg.eig(free.T @ linear.a @ free)
+    participation = np.abs(right * np.linalg.pinv(right).T)
+    mechanical = 2 * linear.degrees_of_freedom - linear.neutral.shape[1]
+    share = participation[:mechanical].sum(axis=0) / participation.sum(axis=0)
+    # Rounding splits double real eigenvalues into pairs with tiny imaginary parts.
+    oscillating = np.flatnonzero(values.imag > 1e-7 * np.maximum(np.abs(values), 1.0))
+    real = values.real[np.abs(values.imag) <= 1e-7 * np.maximum(np.abs(values), 1.0)]
+    order = oscillating[np.argsort(np.abs(values[oscillating]))]
+    vectors = (free @ right[:, order]).T.astype(complex)
+    motion = vectors[:, : linear.degrees_of_freedom] @ linear.basis.T
+    largest = motion[np.arange(len(order)), np.argmax(np.abs(motion), axis=1)]
+    motion, vectors = motion / largest[:, None], vectors / largest[:, None]
+    energy = np.real(motion.conj() * (motion @ linear.mass.T))
+    return NaturalModes(
+        eigenvalues=values[order],
+        shapes=motion.reshape(len(order), -1, 6),
+        energy_share=(energy / energy.sum(axis=1, keepdims=True)).reshape(len(order), -1, 6),
+        mechanical_share=share[order],
+        real_eigenvalues=np.sort(real),
+        neutral=int(linear.neutral.shape[1]),
+        state_vectors=vectors,
+        bodies=linear.bodies,
+    )
+
+
+def _without_neutral_positions(linear: LinearModel) -> Array:
+    """Orthonormal columns spanning x but for the positions that nothing depends on."""
+    dof, size = linear.degrees_of_freedom, len(linear.a)
+    k = linear.neutral.shape[1]
+    complement = np.linalg.svd(linear.neutral)[0][:, k:] if k else np.eye(dof)
+    free = np.zeros((size, size - k))
+    free[:dof, : dof - k] = complement
+    free[dof:, dof - k :] = np.eye(size - dof)
+    return free

@@ -1,0 +1,186 @@
+"""What drivers and actuators are asked to follow, looked at before a run: jumps, ranges, half turns."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import partial
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from seacrane import _core
+from seacrane.description.joint_coordinates import ANGLES, coordinate_at, start_pose, wrapped
+from seacrane.errors import SceneError
+from seacrane.inputs.caller import warn_caller
+
+if TYPE_CHECKING:
+    from seacrane.description.scene import Range, Scene
+
+Array = NDArray[np.float64]
+JUMP = 1e-6  # m or rad: what projection closes without a word
+RATE_JUMP = 1e-3  # m/s or rad/s, as much as matters
+BEYOND = 1e-9  # m or rad
+HALF_A_TURN = np.pi * (1.0 - 1e-9)
+PLACES = 17  # looked at in each piece of a reference
+PER_PERIOD, MOST_PERIODS = 16, 100
+
+
+class DriverImpulseWarning(UserWarning):
+    """A driver's rate jumps: what it drives takes an impulse, whose work is in no energy."""
+
+
+@dataclass(frozen=True)
+class Reference:
+    """A curve that a joint coordinate is to follow, and who says so."""
+
+    owner: str
+    joint: str
+    coordinate: str
+    curve: _core.Curve
+
+
+def references(scene: Scene) -> Iterator[Reference]:
+    """Curves of drivers, and of actuators that hold to their reference."""
+    for name, driver in scene.drivers.items():
+        yield Reference(f"driver {name!r}", driver.joint, driver.coordinate, driver.curve)
+    for name, actuator in scene.actuators.items():
+        if actuator.stiffness > 0.0:
+            yield Reference(f"actuator {name!r}", actuator.joint, actuator.coordinate, actuator.reference)
+
+
+def check_references(scene: Scene, model: _core.Model, *, start: float, end: float, described: bool) -> None:
+    """Raise SceneError for references that cannot be meant, from `start` to `end` (s) of a run.
+
+    `described`: the run starts at the described pose.
+
+    Raises
+    ------
+    SceneError
+        A driver's curve jumps; a reference leaves the range of its coordinate; an angle's reference starts
+        half a turn or more from it, or jumps by as much.
+
+    Warns
+    -----
+    DriverImpulseWarning
+        A driver's rate jumps.
+    """
+    for reference in references(scene):
+        for limit in scene.ranges.values():
+            if (limit.joint, limit.coordinate) == (reference.joint, reference.coordinate):
+                _check_range(reference, limit, start, end)
+    for name, driver in scene.drivers.items():
+        _check_jumps(name, driver, start, end)
+    for name, actuator in scene.actuators.items():
+        if actuator.coordinate in ANGLES and actuator.stiffness > 0.0:
+            _check_turns(scene, model, name, start, end, described)
+
+
+class _Pieces:
+    """A curve's pieces, to be evaluated up to their ends too."""
+
+    def __init__(self, curve: _core.Curve) -> None:
+        data = curve.to_pieces()
+        self.starts = np.asarray(data["starts"], dtype=float)
+        self.coefficients = np.asarray(data["coefficients"], dtype=float)
+        self.cosines = np.zeros((len(self.starts), 3))
+        if len(data["cosines"]):
+            self.cosines[:] = data["cosines"]
+
+    def at(self, piece: NDArray[np.intp], time: Array) -> tuple[Array, Array]:
+        """Value and rate of some pieces, each at its time."""
+        s = time - self.starts[piece]
+        value, slope = np.zeros_like(s), np.zeros_like(s)
+        for c in self.coefficients[piece].T[::-1]:
+            slope = value + slope * s
+            value = c + value * s
+        amplitude, omega, phase = self.cosines[piece].T
+        angle = omega * s + phase
+        return value + amplitude * np.cos(angle), slope - amplitude * omega * np.sin(angle)
+
+    def jumps(self, start: float, end: float) -> tuple[Array, Array, Array]:
+        """Times within a run where a piece begins, and by what value and rate jump there."""
+        at = np.flatnonzero((self.starts > start) & (self.starts < end))
+        time = self.starts[at]
+        after = self.at(at, time)
+        before = self.at(np.maximum(at - 1, 0), time)
+        rate = np.where(at > 0, before[1], 0.0)  # held at rest before the first piece
+        return time, after[0] - before[0], after[1] - rate
+
+    def samples(self, start: float, end: float) -> tuple[Array, Array]:
+        """Times within a run, many in every piece, its ends among them, and the values there."""
+        first = max(int(np.searchsorted(self.starts, start, side="right")) - 1, 0)
+        last = max(int(np.searchsorted(self.starts, end, side="left")), first + 1)
+        begin = np.maximum(self.starts[first:last], start)
+        stop = np.append(self.starts[first + 1 : last], end)
+        periods = np.abs(self.cosines[first:last, 1]) * (stop - begin) / (2.0 * np.pi)
+        count = np.where(periods > 0.0, PER_PERIOD * np.minimum(periods, MOST_PERIODS), 0.0) + PLACES
+        count = count.astype(int)
+        piece = np.repeat(np.arange(first, last), count)
+        place = np.concatenate([np.linspace(0.0, 1.0, n) for n in count])
+        time = begin[piece - first] + place * np.maximum(stop - begin, 0.0)[piece - first]
+        return time, self.at(piece, time)[0]
+
+
+def _check_range(reference: Reference, limit: Range, start: float, end: float) -> None:
+    times, values = _Pieces(reference.curve).samples(start, end)
+    beyond = np.maximum(limit.minimum - values, values - limit.maximum)
+    worst = int(beyond.argmax())
+    if beyond[worst] <= BEYOND:
+        return
+    raise SceneError(
+        f"{reference.owner}: asks for {reference.joint}.{reference.coordinate} = {values[worst]:.6g} at t = "
+        f"{times[worst]:.6g} s, outside its range of {limit.minimum:.6g} to {limit.maximum:.6g} from the "
+        f"described pose; keep the reference inside, or change scene.ranges[{limit.name!r}] if the range is "
+        "wrong"
+    )
+
+
+def _check_jumps(name: str, driver: _core.Driver, start: float, end: float) -> None:
+    times, value, rate = _Pieces(driver.curve).jumps(start, end)
+    what = f"driver {name!r}: {driver.joint}.{driver.coordinate}"
+    unit = "m"
+    if driver.coordinate in ANGLES:
+        value, unit = wrapped(value), "rad"  # whole turns move nothing
+    if np.any(np.abs(value) > JUMP):
+        at = int(np.argmax(np.abs(value) > JUMP))
+        raise SceneError(
+            f"{what} jumps by {value[at]:.6g} {unit} at t = {times[at]:.6g} s: that moves what it drives in "
+            "no time and without work; join the pieces by a Curve.quintic, or let an actuator follow the jump"
+        )
+    if np.any(np.abs(rate) > RATE_JUMP):
+        at = int(np.argmax(np.abs(rate)))
+        warn_caller(
+            f"{what} jumps in rate by {rate[at]:.4g} {unit}/s at t = {times[at]:.6g} s: what it drives takes "
+            "an impulse there, which is in no recorded force and whose work is in no energy; join the pieces "
+            "smoothly, as Curve.quintic does",
+            DriverImpulseWarning,
+        )
+
+
+def _check_turns(
+    scene: Scene, model: _core.Model, name: str, start: float, end: float, described: bool
+) -> None:
+    """An angle is known to whole turns only, and an actuator takes the turn nearest to its reference."""
+    actuator = scene.actuators[name]
+    what = f"actuator {name!r}: reference of {actuator.joint}.{actuator.coordinate}"
+    fix = "lead it there by a curve, such as Curve.quintic, that the angle can follow"
+    times, jumps, _ = _Pieces(actuator.reference).jumps(start, end)
+    if np.any(np.abs(jumps) >= HALF_A_TURN):
+        at = int(np.argmax(np.abs(jumps)))
+        raise SceneError(
+            f"{what} jumps by {np.degrees(jumps[at]):.6g} deg at t = {times[at]:.6g} s, half a turn or more: "
+            f"it would turn the short way; {fix}"
+        )
+    if not described:
+        return
+    pose = partial(start_pose, scene, model)
+    angle = float(coordinate_at(scene, actuator.joint, actuator.coordinate, pose)[0])
+    away = float(actuator.reference.evaluate([start])[0, 0]) - angle
+    if abs(away) >= HALF_A_TURN:
+        raise SceneError(
+            f"{what} starts {np.degrees(away):.6g} deg from the angle, which starts at "
+            f"{np.degrees(angle):.6g} deg: half a turn or more, it would turn the short way; {fix}, or count "
+            "the reference from the angle's own start, between -180 and 180 deg"
+        )

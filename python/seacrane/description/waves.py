@@ -1,0 +1,254 @@
+"""A sea and its loads on the vessels in it, as a scene keeps them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from seacrane import _core
+from seacrane.errors import SceneError
+from seacrane.inputs.caller import warn_caller
+from seacrane.inputs.checked import number_of, text_of
+from seacrane.inputs.shown import shown
+
+Array = NDArray[np.float64]
+EVALUATIONS = ("table", "exact", "fft")
+
+
+class RepeatingSeaWarning(UserWarning):
+    """A run is longer than its sea: after one period it meets the same waves, and extremes learn nothing."""
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class ByHeading:
+    """Loads of every wave component over its heading relative to the vessel.
+
+    Attributes
+    ----------
+    heading : ndarray, shape (m,)
+        rad, increasing within one turn, at most 45 deg apart.
+    values : ndarray, shape (m, n, 6), complex or real
+        Force per amplitude (N/m, N m/m), or mean drift per squared amplitude (N/m2, N m/m2), at the
+        frequencies of the n components.
+    """
+
+    heading: Array
+    values: NDArray[Any]
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class HullLoads:
+    """Loads of every component of a sea on one vessel.
+
+    Attributes
+    ----------
+    transfer : ndarray, shape (n, 6), complex
+        Force RAO at each component's direction relative to `heading`, N/m and N m/m about the body origin in
+        the vessel's axes, exp(+i w t).
+    position : tuple of float
+        Where the phase is taken, (x, y), m, inertial frame.
+    heading : float
+        rad, of the vessel where its loads are taken.
+    force_by_heading : ByHeading, optional
+        Force RAOs over the heading. With them loads are those at the vessel's position and heading of the
+        moment, summed exactly; `transfer` then only serves the linear model.
+    drift : ndarray, shape (n, 6), optional
+        Mean drift load per squared amplitude at each component, N/m2 and N m/m2: adds Newman's slow drift.
+    drift_by_heading : ByHeading, optional
+        The same over the heading, for loads at the actual or the slow position.
+    cutoff : float
+        rad/s: with `force_by_heading`, loads are those at the position and heading below this frequency; 0:
+        at those of the moment.
+    """
+
+    transfer: NDArray[np.complex128]
+    position: tuple[float, float] = (0.0, 0.0)
+    heading: float = 0.0
+    force_by_heading: ByHeading | None = None
+    drift: Array | None = None
+    drift_by_heading: ByHeading | None = None
+    cutoff: float = 0.0
+
+    def __post_init__(self) -> None:
+        if not np.isfinite(number_of("waves: heading", self.heading)):
+            raise SceneError(f"waves: heading is {self.heading}; give a finite number, rad")
+        cutoff = number_of("waves: cutoff", self.cutoff)
+        if not (np.isfinite(cutoff) and cutoff >= 0.0):
+            raise SceneError(
+                f"waves: cutoff is {self.cutoff} rad/s; give the frequency below which a motion is slow, or 0"
+            )
+        if cutoff and self.force_by_heading is None:
+            raise SceneError(
+                f"waves: cutoff is {self.cutoff} rad/s and there is no force_by_heading; loads at one place "
+                "have no slow position, take seacrane.use_slow_position, or cutoff=0"
+            )
+        for name in ("force_by_heading", "drift_by_heading"):
+            table = getattr(self, name)
+            if table is not None and not isinstance(table, ByHeading):
+                raise SceneError(f"waves: {name} is {shown(table)}; give a seacrane.ByHeading")
+
+
+@dataclass(frozen=True, kw_only=True)
+class Waves:
+    """One sea and its loads on the vessels in it, as plain arrays.
+
+    Attributes
+    ----------
+    omega, amplitude, phase, direction : ndarray, shape (n,)
+        rad/s, m, rad at the origin of the inertial frame, rad (travelling to, from +x towards +y).
+    hulls : mapping of str to HullLoads
+        By the vessel's body.
+    relative_bound : float
+        Bound on a table's interpolation error over the sum of component magnitudes; 0 sums exactly.
+    depth : float
+        Water depth, m, for the wavenumbers.
+    evaluation : str
+        "table": knots made as a run reaches them. "fft": knots of a whole period made beforehand by FFT, for
+        long records of many components; frequencies must be multiples of one step. "exact": the sum in every
+        evaluation.
+    negligible : float
+        Components whose magnitudes sum to no more than this share of all, in every load and the elevation,
+        are left out when the scene is compiled, 0 to 0.1; 0 leaves out those that add nothing.
+    information : mapping
+        What is reported of the sea (seed, realised Hs, repeat period).
+    """
+
+    omega: Array
+    amplitude: Array
+    phase: Array
+    direction: Array
+    hulls: Mapping[str, HullLoads]
+    relative_bound: float = 1e-9
+    depth: float = float("inf")
+    evaluation: str = "table"
+    negligible: float = 1e-9
+    information: Mapping[str, Any] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        hulls = self.hulls
+        if not isinstance(hulls, Mapping) or not all(isinstance(h, HullLoads) for h in hulls.values()):
+            raise SceneError(f"waves: hulls is {shown(hulls)}; give HullLoads by the vessel's body")
+
+    def __repr__(self) -> str:
+        on = ", ".join(map(repr, self.hulls)) or "no vessel"
+        return f"<Waves: {np.size(self.omega)} components on {on}, depth {self.depth:g} m>"
+
+    def hull(self, body: str | None = None) -> HullLoads:
+        """Loads on a vessel, by its body; without a name, on the only one. SceneError if there is no such."""
+        return self.hulls[self.body_of(body)]
+
+    def body_of(self, body: str | None = None) -> str:
+        """The body asked for, or without a name the only one; SceneError if this sea loads no such vessel."""
+        if body is None and len(self.hulls) == 1:
+            return next(iter(self.hulls))
+        if body is None or body not in self.hulls:
+            asked = (
+                "name one of them" if body is None else f"no vessel {body!r} is in it; add_sea puts one in"
+            )
+            raise SceneError(
+                f"waves: the sea is on {', '.join(map(repr, self.hulls)) or 'no vessel'}; {asked}"
+            )
+        return body
+
+    def changed(self, body: str | None = None, **changes: Any) -> Waves:
+        """The sea with other fields of the `HullLoads` of a vessel; without a name, of the only one."""
+        name = self.body_of(body)
+        return replace(self, hulls={**self.hulls, name: replace(self.hulls[name], **changes)})
+
+    def has_tables(self) -> bool:
+        """Whether any vessel has its loads at one place, where they are functions of time alone."""
+        return any(hull.force_by_heading is None for hull in self.hulls.values())
+
+    def compile(self, *, prune: bool = True) -> list[_core.WaveLoads]:
+        """The loads for the compiled core; raises SceneError for shapes or values that make no sense.
+
+        `prune` leaves out the components that are negligible.
+        """
+        from seacrane.description.wave_selection import without_negligible
+
+        bodies = [text_of("waves: body", body) for body in self.hulls]
+        try:
+            sea = without_negligible(self) if prune else self
+        except (TypeError, ValueError) as error:
+            raise SceneError(f"waves on {', '.join(map(repr, bodies))}: {error}") from error
+        return [sea._loads_on(body) for body in bodies]
+
+    def components(self) -> _core.WaveComponents:
+        """The sea alone."""
+        return _core.WaveComponents(
+            omega=self.omega,
+            amplitude=self.amplitude,
+            phase=self.phase,
+            direction=self.direction,
+            depth=self.depth,
+        )
+
+    def warn_of_repeats(self, duration: float) -> None:
+        """Warn with RepeatingSeaWarning if a series made by FFT is shorter than a run (s)."""
+        if self.evaluation != "fft":
+            return
+        from seacrane.description.wave_series import grid_of
+
+        period = 2.0 * np.pi / grid_of(np.asarray(self.omega, dtype=float))[0]
+        if duration > period:
+            warn_caller(
+                f"waves: repeat after {period:.6g} s, the run takes {duration:.6g} s: what "
+                "comes later adds nothing to extremes or statistics; put more components into the same band",
+                RepeatingSeaWarning,
+            )
+
+    def _loads_on(self, body: str) -> _core.WaveLoads:
+        hull = self.hulls[body]
+        try:
+            loads = self._mean(hull) if hull.force_by_heading is None else self._positioned(hull)
+        except (TypeError, ValueError) as error:
+            raise SceneError(f"waves on {body!r}: {error}") from error
+        return _core.WaveLoads(name=f"waves on {body}", body=body, **loads)
+
+    def _positioned(self, hull: HullLoads) -> dict[str, Any]:
+        force, drift = hull.force_by_heading, hull.drift_by_heading
+        if force is None or (hull.drift is not None and drift is None):
+            raise ValueError("drift at the actual position needs drift_by_heading")
+        if self.evaluation == "fft":
+            raise ValueError("loads at the actual or slow position have no table; choose evaluation='exact'")
+        slow: dict[str, Any] = {}
+        if drift is not None:
+            slow = {"drift_headings": np.asarray(drift.heading).tolist(), "drift": drift.values}
+        positioned = _core.PositionedWaveLoad(
+            self.components(),
+            headings=np.asarray(force.heading).tolist(),
+            transfer=force.values,
+            cutoff=hull.cutoff,
+            **slow,
+        )
+        return {"positioned": positioned}
+
+    def _mean(self, hull: HullLoads) -> dict[str, Any]:
+        if self.evaluation not in EVALUATIONS:
+            raise ValueError(f"evaluation is {self.evaluation!r}; choose {', '.join(EVALUATIONS)}")
+        waves, position = self.components(), hull.position
+        loads: dict[str, Any] = {
+            "exact": _core.ExactWaveLoad(
+                waves, transfer=hull.transfer, position=position, elevation_point=position
+            )
+        }
+        if hull.drift is not None:
+            loads["drift"] = _core.DriftLoad(waves, coefficient=hull.drift, position=position)
+        if self.evaluation == "exact" or not self.relative_bound:
+            return loads
+        from seacrane.description.wave_series import drift_table, wave_table
+
+        bound = self.relative_bound
+        if self.evaluation == "fft":
+            loads["table"] = wave_table(self, hull, loads["exact"])
+            if hull.drift is not None:
+                loads["drift_table"] = drift_table(self, hull, loads["drift"])
+            return loads
+        loads["table"] = _core.WaveTable(loads["exact"], relative_bound=bound)
+        if hull.drift is not None:
+            loads["drift_table"] = _core.DriftTable(loads["drift"], relative_bound=bound)
+        return loads

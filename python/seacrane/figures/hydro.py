@@ -1,0 +1,282 @@
+"""Plots of a hydrodynamic database: added mass, damping, memory and their fits, wave forces, motions."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from seacrane.figures import Line, Panel, Picture, Sheet, draw, save_sheet
+from seacrane.result import MOTIONS
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+    from seacrane.hydro import HydroDatabase, MemoryModel
+
+Array = NDArray[np.float64]
+
+NEGLIGIBLE = 1e-4  # of the geometric mean of the diagonals: such an entry is not drawn
+HEADINGS_DEG = (0, 45, 90, 135, 180)
+HEADING_COLOURS = (0, 1, 2, 3, 6)  # of the palette: told apart in print
+ADDED_MASS_UNITS = ("kg", "kg m", "kg m2")
+DAMPING_UNITS = ("kg/s", "kg m/s", "kg m2/s")
+RETARDATION_UNITS = ("N/m", "N", "N m")
+FAINT = 1e-2  # of a force's largest: its phase is not drawn
+BAND_CAPTION = " Shaded: the band in which the source vouches for its numbers."
+
+
+def drawn_entries(matrices: Array) -> list[tuple[int, int]]:
+    """Entries (j, k), j <= k, of matrices (n, 6, 6) that are not negligible anywhere."""
+    size = np.abs(matrices).max(axis=0)
+    scale = np.sqrt(np.outer(size.diagonal(), size.diagonal()))
+    return [(j, k) for j in range(6) for k in range(j, 6) if size[j, k] > NEGLIGIBLE * scale[j, k] > 0]
+
+
+def matrix_sheet(
+    *,
+    abscissa: tuple[str, str, Array],
+    curves: dict[str, Array],
+    symbol: str,
+    units: tuple[str, str, str],
+    title: str,
+    caption: str = "",
+    band: tuple[float, float] | None = None,
+) -> Sheet:
+    """Every entry of a matrix over frequency or time.
+
+    Parameters
+    ----------
+    abscissa : (str, str, ndarray of shape (n,))
+        Name, unit and values.
+    curves : dict of ndarray, shape (n, 6, 6) or (6, 6)
+        By label, SI. The first decides which entries are drawn; a constant becomes a dotted line.
+    symbol : str
+        A, B or K.
+    units : (str, str, str)
+        Of entries between two translations, one translation and one rotation, two rotations.
+    title, caption : str
+        Heading, and what follows the usual sentence below it.
+    band : (float, float), optional
+        Shaded range.
+    """
+    name, unit_of_abscissa, values = abscissa
+    panels = []
+    for j, k in drawn_entries(next(iter(curves.values()))):
+        lines = [
+            Line(
+                label=label,
+                values=np.broadcast_to(matrices[..., j, k], values.shape).copy(),
+                colour=place,
+                style=":" if matrices.ndim == 2 else ("-", "--")[min(place, 1)],
+            )
+            for place, (label, matrices) in enumerate(curves.items())
+        ]
+        unit = units[(j > 2) + (k > 2)]
+        panels.append(Panel(quantity=f"{symbol}{j + 1}{k + 1}", unit=unit, lines=tuple(lines)))
+    return Sheet(
+        title=title,
+        caption="x forward, y to port, z up; upper triangle, entries that are not negligible." + caption,
+        abscissa=values,
+        abscissa_name=name,
+        abscissa_unit=unit_of_abscissa,
+        panels=tuple(panels),
+        columns=2,
+        shaded=band,
+    )
+
+
+def added_mass_sheet(database: HydroDatabase, memory: MemoryModel | None) -> Sheet:
+    """Added mass, its fit, and its limits at infinite frequency."""
+    curves = {"database": database.added_mass}
+    if memory is not None:
+        curves["memory model"] = memory.frequency_response(database.omega)[0]
+        curves["model, infinite frequency"] = memory.added_mass
+    if database.infinite_frequency_added_mass is not None:
+        curves["database, infinite frequency"] = database.infinite_frequency_added_mass
+    return matrix_sheet(
+        abscissa=("omega", "rad/s", database.omega),
+        curves=curves,
+        symbol="A",
+        units=ADDED_MASS_UNITS,
+        title=f"Added mass, {database.name}",
+        caption=BAND_CAPTION if database.trusted_band else "",
+        band=database.trusted_band,
+    )
+
+
+def damping_sheet(database: HydroDatabase, memory: MemoryModel | None) -> Sheet:
+    """Radiation damping and its fit."""
+    curves = {"database": database.damping}
+    if memory is not None:
+        curves["memory model"] = memory.frequency_response(database.omega)[1]
+    return matrix_sheet(
+        abscissa=("omega", "rad/s", database.omega),
+        curves=curves,
+        symbol="B",
+        units=DAMPING_UNITS,
+        title=f"Radiation damping, {database.name}",
+        caption=BAND_CAPTION if database.trusted_band else "",
+        band=database.trusted_band,
+    )
+
+
+def retardation_sheet(database: HydroDatabase, memory: MemoryModel | None) -> Sheet:
+    """Retardation functions: cosine transform of the damping, and the memory model's impulse response."""
+    from seacrane.hydro.database.relations import retardation_from_damping
+
+    time = np.linspace(0.0, 10.0 * np.sqrt(database.length / database.g), 401)
+    curves = {"from damping": retardation_from_damping(database, time)}
+    if memory is not None:
+        curves["memory model"] = memory.impulse_response(time)
+    return matrix_sheet(
+        abscissa=("time", "s", time),
+        curves=curves,
+        symbol="K",
+        units=RETARDATION_UNITS,
+        title=f"Retardation functions, {database.name}",
+        caption=" Damping is transformed up to the end of the trusted band, joined by straight lines, with "
+        "a tail as omega^-3.",
+    )
+
+
+def chosen_headings(database: HydroDatabase) -> dict[str, int]:
+    """The heading nearest to each of `HEADINGS_DEG`, on either side of a symmetric ship."""
+    chosen = {}
+    for wanted in np.deg2rad(HEADINGS_DEG):
+        sides = (wanted, -wanted) if database.port_starboard_symmetric else (wanted,)
+        away = np.min([np.abs(np.angle(np.exp(1j * (database.heading - side)))) for side in sides], axis=0)
+        index = int(np.argmin(away))
+        chosen[f"{np.rad2deg(database.heading[index]):.4g} deg"] = index
+    return chosen
+
+
+def force_sheet(database: HydroDatabase) -> Sheet:
+    """Amplitude and phase of the wave force per metre of wave amplitude, at a few headings."""
+    headings = chosen_headings(database)
+    size = np.abs(database.force)
+    low, high = database.trusted_band or (0.0, np.inf)
+    doubtful = (database.omega < low - 1e-9) | (database.omega > high + 1e-9)
+    faint = (size < FAINT * size.max(axis=(0, 1))) | doubtful[:, None]
+    phase = np.where(faint, np.nan, np.rad2deg(np.angle(database.force)))
+
+    def panel(quantity: str, unit: str, values: Array, style: str) -> Panel:
+        lines = [
+            Line(label=label, values=values[index], colour=HEADING_COLOURS[place], style=style)
+            for place, (label, index) in enumerate(headings.items())
+        ]
+        return Panel(quantity=quantity, unit=unit, lines=tuple(lines))
+
+    amplitudes = [
+        panel(f"|{motion} force|", "N/m" if i < 3 else "N m/m", size[:, :, i], "-")
+        for i, motion in enumerate(MOTIONS)
+    ]
+    phases = [panel(f"{motion} force phase", "deg", phase[:, :, i], ".") for i, motion in enumerate(MOTIONS)]
+    return Sheet(
+        title=f"Wave forces, {database.name}",
+        caption="Per metre of wave amplitude; the angle is the direction the waves travel to, 0 following. "
+        "Phases are ahead of the crest at the reference point; those outside the trusted band, and of forces "
+        "below 1 % of their largest, are left out.",
+        abscissa=database.omega,
+        abscissa_name="omega",
+        abscissa_unit="rad/s",
+        panels=(*amplitudes, *phases),
+        columns=2,
+        shaded=database.trusted_band,
+    )
+
+
+def motion_sheet(database: HydroDatabase) -> Sheet:
+    """Motions solved from the database, beside the file's own where it holds them."""
+    from seacrane.hydro import motion_response
+
+    solved = motion_response(database)
+    panels = []
+    for i, motion in enumerate(MOTIONS):
+        lines = []
+        for place, (label, index) in enumerate(chosen_headings(database).items()):
+            colour = HEADING_COLOURS[place]
+            lines.append(Line(label=label, values=_degrees(np.abs(solved[index, :, i]), i), colour=colour))
+            if database.motion_rao is not None:
+                values = _degrees(np.abs(database.motion_rao[index, :, i]), i)
+                lines.append(Line(label=f"{label}, file", values=values, colour=colour, style="x"))
+        panels.append(Panel(quantity=f"|{motion}|", unit="m/m" if i < 3 else "deg/m", lines=tuple(lines)))
+    return Sheet(
+        title=f"Motions, {database.name}",
+        caption="Per metre of wave amplitude, solved from mass, added mass, damping, restoring and wave "
+        "forces; crosses are the motions the file holds. The angle is the direction the waves travel to, "
+        "0 following.",
+        abscissa=database.omega,
+        abscissa_name="omega",
+        abscissa_unit="rad/s",
+        panels=tuple(panels),
+        columns=2,
+        shaded=database.trusted_band,
+    )
+
+
+def _degrees(values: Array, motion: int) -> Array:
+    return np.rad2deg(values) if motion > 2 else values
+
+
+SHEETS: dict[str, Callable[[HydroDatabase, MemoryModel | None], Sheet]] = {
+    "added_mass": added_mass_sheet,
+    "damping": damping_sheet,
+    "retardation": retardation_sheet,
+    "wave_force": lambda database, _: force_sheet(database),
+    "motion": lambda database, _: motion_sheet(database),
+}
+
+
+def hydro_figures(
+    *, database: HydroDatabase, what: str | Sequence[str] | None = None, memory: MemoryModel | None = None
+) -> dict[str, Figure]:
+    """Figures of a database, by the names in `SHEETS`; those without any panel are left out.
+
+    Parameters
+    ----------
+    database : HydroDatabase
+        Any database.
+    what : str or sequence of str, optional
+        Names; all if None.
+    memory : MemoryModel, optional
+        Whose curves are drawn over the data; the database's own if None, and none if it has none.
+
+    Raises
+    ------
+    ValueError
+        An unknown name.
+    """
+    names = list(SHEETS) if what is None else [what] if isinstance(what, str) else list(what)
+    for name in names:
+        if name not in SHEETS:
+            raise ValueError(
+                f"database {database.name!r}: there is no figure {name!r}; choose among {', '.join(SHEETS)}"
+            )
+    sheets = {name: SHEETS[name](database, memory or database.memory) for name in names}
+    return {name: draw(sheet) for name, sheet in sheets.items() if sheet.panels}
+
+
+def save_hydro_figures(
+    *, database: HydroDatabase, folder: Path, memory: MemoryModel | None = None
+) -> list[Picture]:
+    """Write added_mass, damping, retardation, wave_force and motion, each as .png and .csv.
+
+    Parameters
+    ----------
+    database : HydroDatabase
+        Any database.
+    folder : Path
+        Existing folder.
+    memory : MemoryModel, optional
+        Whose curves are drawn over the data; the database's own if None, and none if it has none.
+
+    Returns
+    -------
+    list of Picture
+    """
+    sheets = {stem: make(database, memory or database.memory) for stem, make in SHEETS.items()}
+    return [save_sheet(sheet, folder, stem) for stem, sheet in sheets.items() if sheet.panels]

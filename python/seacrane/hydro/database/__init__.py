@@ -1,0 +1,1 @@
+"""Hydrodynamic coefficients of a hull over frequency and heading."""

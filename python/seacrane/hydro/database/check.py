@@ -1,0 +1,247 @@
+"""Self-check of a database: closure of the motion equation, physical matrices, quality of the memory."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from seacrane.hydro.database.coupled import largest_growth_rate
+from seacrane.hydro.database.encounter import encounter_frequency, inside_table
+from seacrane.hydro.database.motion import motion_response, natural_frequency
+from seacrane.hydro.database.relations import (
+    damping_from_forces,
+    infinite_added_mass_from_damping,
+    resolved_by_headings,
+)
+from seacrane.hydro.memory.fit import enough_frequencies, fit_memory
+from seacrane.hydro.memory.model import RADIATION, MemoryModel
+
+if TYPE_CHECKING:
+    from seacrane.hydro.database.database import HydroDatabase
+    from seacrane.hydro.memory.retardation import RetardationModel
+
+FloatArray = NDArray[np.float64]
+ComplexArray = NDArray[np.complex128]
+
+MOTIONS = ("surge", "sway", "heave", "roll", "pitch", "yaw")
+SYMMETRY_LIMIT = 0.03
+DAMPING_LIMIT = -0.01
+FORCE_DAMPING_LIMIT = 0.1
+GROWTH_LIMIT = 1e-9
+KRAMERS_KRONIG_LIMIT = 0.05
+PASSIVITY_LIMIT = 0.0
+
+
+@dataclass(frozen=True, kw_only=True)
+class CheckRow:
+    """One line of the self-check: ``verdict`` is "pass", "fail", or "info" where there is no limit."""
+
+    check: str
+    value: float
+    limit: float | None
+    verdict: str
+
+    def as_dict(self) -> dict[str, str | float | None]:
+        """The row as ``{check, value, limit, verdict}``."""
+        return {"check": self.check, "value": self.value, "limit": self.limit, "verdict": self.verdict}
+
+
+def check_database(database: HydroDatabase) -> list[CheckRow]:
+    """All checks that the database's content allows; docs/hydrodynamics.md says what each value means.
+
+    A database without a memory model has one fitted here, if its band holds enough frequencies and its speed
+    is zero.
+    """
+    rows = [
+        *_closure_rows(database),
+        *_matrix_rows(database),
+        *_natural_period_rows(database),
+        *_relation_rows(database),
+    ]
+    model = database.memory
+    if database.speed != 0.0:
+        return rows
+    if model is None and enough_frequencies(database):
+        model = fit_memory(database=database)
+    return rows if model is None else rows + memory_rows(database, model)
+
+
+def memory_rows(database: HydroDatabase, model: MemoryModel) -> list[CheckRow]:
+    """Quality of a memory model: fits, stability, passivity, and its effect on the motions."""
+    rows = []
+    for row in model.rows:
+        suffix = f"{row.output + 1}{row.input + 1}" + ("" if row.cause == RADIATION else "_additional")
+        rows.append(_at_least(f"memory_r2_added_mass_{suffix}", row.r2_added_mass, model.r2))
+        rows.append(_at_least(f"memory_r2_damping_{suffix}", row.r2_damping, model.r2))
+    slowest = min((row.slowest_decay for row in model.rows), default=np.inf)
+    rows.append(_info("memory_states", float(model.states)))
+    rows.append(_at_least("memory_slowest_decay_per_s", slowest, 0.0, strict=True))
+    rows.append(
+        _info("memory_fastest_pole_per_s", max((row.fastest_pole for row in model.rows), default=0.0))
+    )
+    rows.append(_at_least("memory_passivity_in_band", model.passivity.in_band, PASSIVITY_LIMIT))
+    rows.append(_at_least("memory_passivity_everywhere", model.passivity.minimum, PASSIVITY_LIMIT))
+    rows.append(
+        _at_most("vessel_with_memory_growth_per_s", largest_growth_rate(database, model), GROWTH_LIMIT)
+    )
+    known = database.infinite_frequency_added_mass
+    if known is not None:
+        rows.append(
+            _info(
+                "memory_infinite_added_mass_against_database",
+                _against_range(database, model.added_mass - known),
+            )
+        )
+    return rows + memory_motion_rows(database, model)
+
+
+def _closure_rows(database: HydroDatabase) -> list[CheckRow]:
+    """Motions solved from A, B, C, F against those of the source, within the trusted band.
+
+    At forward speed frequencies of waves and of encounter have to be within it.
+    """
+    if database.motion_rao is None:
+        return []
+    solved = motion_response(database)
+    inside = np.broadcast_to(_inside_band(database), solved.shape[:2])
+    if database.speed != 0.0:
+        encounter = np.abs(encounter_frequency(database))
+        inside = inside & inside_table(database.omega, encounter) & _inside_band(database, encounter)
+    errors = motion_errors(database, solved, database.motion_rao, inside=inside)
+    limits = database.motion_rao_limit.tolist()
+    return [_at_most(f"motion_rao_{name}", errors[i], limits[i]) for i, name in enumerate(MOTIONS)]
+
+
+def motion_errors(
+    database: HydroDatabase,
+    solved: ComplexArray,
+    given: ComplexArray,
+    *,
+    inside: NDArray[np.bool_] | None = None,
+) -> FloatArray:
+    """Largest difference (6,) over the frequencies and headings, by the largest motion of its heading.
+
+    ``inside`` (n,) or (m, n) says which count.
+
+    Motions that symmetry forbids (sway, roll, yaw in head and following sea, surge in beam sea) are noise in
+    files: headings where a motion stays below the source's floor, a share of its largest, are left out.
+    """
+    use = np.broadcast_to(True if inside is None else inside, given.shape[:2])[:, :, None]
+    largest = np.where(use, np.abs(given), 0.0).max(axis=1)
+    error = np.where(use, np.abs(solved - given), 0.0).max(axis=1)
+    counted = largest > database.motion_rao_floor * largest.max(axis=0)
+    return np.asarray(np.where(counted, error / np.where(counted, largest, 1.0), 0.0).max(axis=0))
+
+
+def _matrix_rows(database: HydroDatabase) -> list[CheckRow]:
+    """Symmetry of A and B, semi-definite B, missing surge terms; without limits at forward speed.
+
+    Speed couples heave and pitch, sway and yaw with opposite signs (Salvesen, Tuck and Faltinsen 1970).
+    """
+    rows = []
+    moving = database.speed != 0.0
+    for name, matrix in (("added_mass", database.added_mass), ("damping", database.damping)):
+        scale = np.sqrt(np.abs(np.diagonal(matrix, axis1=1, axis2=2)).max(axis=0))
+        product = np.outer(scale, scale)
+        skew = np.abs(matrix - matrix.swapaxes(1, 2)).max(axis=0)
+        asymmetry = np.where(product > 0.0, skew / np.where(product > 0.0, product, 1.0), 0.0).max()
+        label = f"symmetry_{name}"
+        rows.append(_info(label, asymmetry) if moving else _at_most(label, float(asymmetry), SYMMETRY_LIMIT))
+    label, smallest = "damping_smallest_eigenvalue", _smallest_damping(database.damping)
+    rows.append(_info(label, smallest) if moving else _at_least(label, smallest, DAMPING_LIMIT))
+    rows.append(_info("surge_terms_missing", float(_surge_is_missing(database))))
+    return rows
+
+
+def _surge_is_missing(database: HydroDatabase) -> bool:
+    return not (np.any(database.added_mass[:, 0, :]) or np.any(database.damping[:, 0, :]))
+
+
+def _smallest_damping(damping: FloatArray) -> float:
+    """Smallest eigenvalue of B over all frequencies, scaled by the square roots of its largest diagonals."""
+    peak = np.sqrt(np.maximum(np.diagonal(damping, axis1=1, axis2=2).max(axis=0), 0.0))
+    active = peak > 0.0
+    if not np.any(active):
+        return 0.0
+    scaled = (damping[:, active][:, :, active]) / np.outer(peak[active], peak[active])
+    return float(np.linalg.eigvalsh(0.5 * (scaled + scaled.swapaxes(1, 2)))[:, 0].min())
+
+
+def _natural_period_rows(database: HydroDatabase) -> list[CheckRow]:
+    rows = []
+    for name in ("heave", "roll", "pitch"):
+        omega = natural_frequency(database, MOTIONS.index(name))
+        if omega is not None:
+            rows.append(_info(f"natural_period_{name}_s", 2.0 * np.pi / omega))
+    return rows
+
+
+def _relation_rows(database: HydroDatabase) -> list[CheckRow]:
+    """Damping against the far-field waves, infinite-frequency added mass against the damping."""
+    rows = []
+    radiated = damping_from_forces(database)
+    if radiated is not None:
+        inside = _inside_band(database) & resolved_by_headings(database)
+        strip = _surge_is_missing(database)  # strip theory does not obey the relation: only reported
+        for i, name in enumerate(MOTIONS):
+            peak = float(np.abs(database.damping[:, i, i]).max())
+            if peak > 0.0 and np.any(inside):
+                error = np.abs(radiated - database.damping)[inside, i, i].max() / peak
+                label = f"damping_from_forces_{name}"
+                rows.append(_info(label, error) if strip else _at_most(label, error, FORCE_DAMPING_LIMIT))
+    if database.infinite_frequency_added_mass is not None:
+        estimate = infinite_added_mass_from_damping(database)
+        difference = estimate - database.infinite_frequency_added_mass
+        for i, name in enumerate(MOTIONS):
+            span = float(np.ptp(database.added_mass[:, i, i]))
+            if span > 0.0:
+                rows.append(
+                    _at_most(
+                        f"kramers_kronig_{name}", float(abs(difference[i, i]) / span), KRAMERS_KRONIG_LIMIT
+                    )
+                )
+    return rows
+
+
+def memory_motion_rows(database: HydroDatabase, model: MemoryModel | RetardationModel) -> list[CheckRow]:
+    """Motions with the memory's matrices against those with the data, within the trusted band."""
+    added_mass, damping = model.frequency_response(database.omega)
+    more_mass, more_damping = model.additional_response(database.omega)
+    static = sum((part.restoring for part in database.additional), np.zeros((len(database.omega), 6, 6)))
+    fitted = motion_response(
+        database,
+        added_mass=added_mass + more_mass - static / database.omega[:, None, None] ** 2,
+        damping=damping + more_damping,
+    )
+    errors = motion_errors(database, fitted, motion_response(database), inside=_inside_band(database))
+    return [_info(f"memory_motion_{name}", errors[i]) for i, name in enumerate(MOTIONS)]
+
+
+def _inside_band(database: HydroDatabase, omega: FloatArray | None = None) -> NDArray[np.bool_]:
+    low, high = database.trusted_band or (0.0, np.inf)
+    omega = database.omega if omega is None else omega
+    return np.asarray((omega >= low - 1e-9) & (omega <= high + 1e-9))
+
+
+def _against_range(database: HydroDatabase, difference: FloatArray) -> float:
+    """Largest diagonal difference by the range of the added mass over the frequencies."""
+    span = np.ptp(np.diagonal(database.added_mass, axis1=1, axis2=2), axis=0)
+    return float(np.max(np.abs(np.diag(difference)) / np.where(span > 0.0, span, np.inf)))
+
+
+def _at_most(check: str, value: float, limit: float) -> CheckRow:
+    return CheckRow(
+        check=check, value=float(value), limit=limit, verdict="pass" if value <= limit else "fail"
+    )
+
+
+def _at_least(check: str, value: float, limit: float, *, strict: bool = False) -> CheckRow:
+    good = value > limit if strict else value >= limit
+    return CheckRow(check=check, value=float(value), limit=limit, verdict="pass" if good else "fail")
+
+
+def _info(check: str, value: float) -> CheckRow:
+    return CheckRow(check=check, value=float(value), limit=None, verdict="info")

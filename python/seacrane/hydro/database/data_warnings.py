@@ -1,0 +1,159 @@
+"""What a database can be read with, and yet tell wrong: each a warning that names the consequence."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from seacrane.hydro.database.heading_circle import both_sides, largest_gap
+from seacrane.hydro.dispersion import wavenumber
+from seacrane.inputs.caller import warn_caller
+
+if TYPE_CHECKING:
+    from seacrane.hydro.database.database import HydroDatabase
+
+FloatArray = NDArray[np.float64]
+
+DAMPING_LIMIT = -0.01  # of the largest diagonals, as in the self-check
+LARGEST_HEADING_GAP = np.radians(45.0)
+SAME_WATER = 0.005
+BOX_LIMIT = 1.05  # lengths of files are between perpendiculars, or rounded
+
+
+class DampingWarning(UserWarning):
+    """Damping is negative: a motion gains energy from still water, and may grow."""
+
+
+class HeadingGapWarning(UserWarning):
+    """Headings do not close the circle: seas from within the gap are refused."""
+
+
+class WaterMismatchWarning(UserWarning):
+    """Density, gravity or depth of two sources differ: weights, buoyancy or wave lengths do not fit."""
+
+
+def warn_of_data(database: HydroDatabase) -> None:
+    """All warnings that a database gives without being used; `load_database` asks for them."""
+    warn_of_damping(database)
+    _warn_of_headings(database)
+    _warn_of_box(database)
+
+
+def warn_of_damping(database: HydroDatabase) -> None:
+    """Radiation damping within the trusted band, linear and quadratic damping at any frequency."""
+    low, high = database.trusted_band or (0.0, np.inf)
+    inside = np.flatnonzero((database.omega >= low - 1e-9) & (database.omega <= high + 1e-9))
+    if database.speed == 0.0 and inside.size:
+        lowest = _smallest_eigenvalues(database.damping[inside])
+        if lowest.min() < DAMPING_LIMIT:
+            at = database.omega[inside[int(lowest.argmin())]]
+            _warn_negative(database, f"radiation damping at {at:.4g} rad/s", float(lowest.min()))
+    constant = _smallest_eigenvalues(database.linear_damping[None])
+    if constant.min() < DAMPING_LIMIT:
+        _warn_negative(database, "linear_damping", float(constant.min()))
+    tabulated = database.roll_damping
+    worst = float(database.quadratic_damping.min())
+    if tabulated is not None:
+        worst = min(worst, float(tabulated.linear.min()), float(tabulated.quadratic.min()))
+    if worst < 0.0:
+        warn_caller(
+            f"database {database.name!r}: a coefficient of quadratic or roll damping is {worst:.4g}, below "
+            "zero: the motion gains energy from still water, more the faster it is. Correct its sign",
+            DampingWarning,
+        )
+
+
+def warn_of_water(
+    database: HydroDatabase,
+    *,
+    gravity: float,
+    depth: float | None = None,
+    omega: FloatArray | None = None,
+    what: str = "the scene",
+) -> None:
+    """Compare the database's water with another one's, to half a percent.
+
+    Parameters
+    ----------
+    database : HydroDatabase
+    gravity : m/s2 of ``what``.
+    depth : m (inf: deep) of ``what``; None where it has no waves.
+    omega : (n,) rad/s of its waves, whose lengths are compared.
+    what : named in the warning.
+    """
+    ratio = gravity / database.g
+    if abs(ratio - 1.0) > SAME_WATER:
+        warn_caller(
+            f"database {database.name!r}: g is {database.g:g} m/s2, that of {what} {gravity:g}; the "
+            f"restoring holds weights {abs(ratio - 1.0):.1%} off those of the bodies: heel and trim are off "
+            "alike, and wave lengths too. Give both the same gravity",
+            WaterMismatchWarning,
+        )
+    elif depth is not None and omega is not None and len(omega):
+        waves = wavenumber(omega, g=gravity, depth=depth) / wavenumber(
+            omega, g=database.g, depth=database.depth
+        )
+        worst = int(np.abs(waves - 1.0).argmax())
+        if abs(waves[worst] - 1.0) > SAME_WATER:
+            warn_caller(
+                f"database {database.name!r}: computed for a depth of {database.depth:g} m, {what} has "
+                f"{depth:g} m: at {omega[worst]:.3g} rad/s wavenumbers differ by "
+                f"{abs(waves[worst] - 1.0):.1%}, and so do phases along the ship. Use a database of that "
+                "depth",
+                WaterMismatchWarning,
+            )
+
+
+def _smallest_eigenvalues(damping: FloatArray) -> FloatArray:
+    """Of the symmetric part (n,), by the largest diagonals over all frequencies."""
+    scale = np.sqrt(np.abs(np.diagonal(damping, axis1=1, axis2=2)).max(axis=0))
+    active = scale > 0.0
+    if not np.any(active):
+        off = np.abs(damping).max(axis=(1, 2))
+        return np.asarray(np.where(off > 0.0, -1.0, 0.0))  # coupling alone is indefinite
+    scaled = damping[:, active][:, :, active] / np.outer(scale[active], scale[active])
+    return np.asarray(np.linalg.eigvalsh(0.5 * (scaled + scaled.swapaxes(1, 2)))[:, 0])
+
+
+def _warn_negative(database: HydroDatabase, what: str, value: float) -> None:
+    warn_caller(
+        f"database {database.name!r}: {what} has a negative eigenvalue, {100.0 * value:.3g} % of its largest "
+        "diagonals: a motion in that combination gains energy from still water. Correct the matrices, or "
+        "narrow trusted_band to frequencies that are sound",
+        DampingWarning,
+    )
+
+
+def _warn_of_headings(database: HydroDatabase) -> None:
+    circle = both_sides(database.heading)[0] if database.port_starboard_symmetric else database.heading
+    gap = largest_gap(circle)
+    if gap <= LARGEST_HEADING_GAP + 1e-9:
+        return
+    steps = np.diff(np.append(circle, circle[0] + 2.0 * np.pi))
+    start = float(np.degrees(circle[int(steps.argmax())]))
+    one_side = "" if database.port_starboard_symmetric else " The vessel is not symmetric, so no side mirrors"
+    warn_caller(
+        f"database {database.name!r}: headings leave a gap of {np.degrees(gap):.4g} deg from {start:.4g} "
+        f"deg; a sea from within it is refused, as are short-crested seas that reach it.{one_side}",
+        HeadingGapWarning,
+    )
+
+
+def _warn_of_box(database: HydroDatabase) -> None:
+    """A hull is no larger than the box around it: else mass, density, g or lengths are in other units."""
+    area = database.length * database.breadth
+    filled = {
+        "mass": database.mass_matrix[0, 0] / (database.rho * area * database.draught),
+        "C33": database.restoring[2, 2] / (database.rho * database.g * area),
+    }
+    for name, share in filled.items():
+        if share > BOX_LIMIT:
+            warn_caller(
+                f"database {database.name!r}: its {name} needs {share:.4g} times the box of length, breadth "
+                f"and draught at rho = {database.rho:g} kg/m3, g = {database.g:g} m/s2: weight and buoyancy "
+                "do not fit each other. Check units, density and main dimensions",
+                WaterMismatchWarning,
+            )
+            return

@@ -1,0 +1,1 @@
+"""Hull shapes and their hydrodynamics by strip theory or by Capytaine."""

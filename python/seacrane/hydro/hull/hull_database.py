@@ -1,0 +1,290 @@
+"""`hydro_from_hull`: a hydrodynamic database from the shape of a hull."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Literal
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from seacrane.hydro.database.database import HydroDatabase
+from seacrane.hydro.database.motion import natural_frequency
+from seacrane.hydro.hull.hull import Hull
+from seacrane.hydro.hull.parametric_hull import ParametricHull
+from seacrane.hydro.hull.solution import HullSolution, symmetric_solution
+from seacrane.hydro.vessel import rigid_mass_matrix
+from seacrane.inputs.caller import warn_caller
+
+FloatArray = NDArray[np.float64]
+
+METHODS = ("strip", "capytaine")
+GYRATION = (0.36, 0.25, 0.25)  # of breadth, length, length
+DISPLACEMENT_LIMIT = 0.01  # of the displaced mass
+TRIM_LIMIT = 0.001  # rad
+
+
+class FloatingPositionWarning(UserWarning):
+    """The hull would not float as drawn with this mass and centre of gravity."""
+
+
+def hydro_from_hull(
+    hull: Hull | ParametricHull,
+    *,
+    centre_of_gravity: ArrayLike,
+    mass: float | None = None,
+    radii_of_gyration: ArrayLike | None = None,
+    omega: ArrayLike | None = None,
+    heading: ArrayLike | None = None,
+    speed: float = 0.0,
+    method: Literal["strip", "capytaine"] = "strip",
+    roll_damping_fraction: float = 0.0,
+    trusted_band: tuple[float, float] | None = None,
+    stations: int = 41,
+    rho: float = 1025.0,
+    g: float = 9.81,
+    name: str | None = None,
+) -> HydroDatabase:
+    """Hydrodynamic database of a hull at its drawn waterline in deep water, about the hull's origin.
+
+    Parameters
+    ----------
+    hull : `Hull`, or `ParametricHull` with the default panels of `Hull.from_parametric`.
+    centre_of_gravity : (3,) m from the hull's origin, on the centre plane.
+    mass : kg; None: the displaced mass.
+    radii_of_gyration : (3,) m about the centre of gravity, roll, pitch, yaw; None: 0.36 breadth, 0.25 length,
+        0.25 length.
+    omega : (n,) rad/s, increasing; None: 61 frequencies from waves 50 times as long as the ship to waves of a
+        twentieth of its length.
+    heading : (m,) rad, direction of travel; None: every 5 degrees from 0 to 180.
+    speed : m/s; only 0, as the motions, memory and seas of this package are for zero speed.
+    method : "strip": strip theory, in seconds, no radiation in surge, needs nothing else. "capytaine": 3D
+        panels, minutes, needs the extra ``hydro``.
+    roll_damping_fraction : linear roll damping beside radiation, as a fraction of critical at the natural
+        frequency.
+    trusted_band : (low, high) rad/s; None: what the method says, see docs/hull-hydrodynamics.md.
+    stations : sections of the strip theory, evenly spaced, ends included.
+    rho, g : kg/m3, m/s2.
+    name : of the database; None: the hull's.
+
+    Returns
+    -------
+    HydroDatabase : without a memory model; `fit_memory` makes one.
+
+    Raises
+    ------
+    ValueError : a value out of range, a hull that would capsize, or as the method.
+    ImportError : method "capytaine" without Capytaine.
+
+    Warns
+    -----
+    FloatingPositionWarning : mass and displacement differ by more than 1 %, or the hull would trim by more
+        than 0.001 rad.
+    seacrane.hydro.SubmergedPartWarning : strip theory leaves out a part of the hull.
+    """
+    shape = Hull.from_parametric(hull) if isinstance(hull, ParametricHull) else hull
+    _require_choice(shape.name, method, speed, roll_damping_fraction)
+    for what, value in (("rho", rho), ("g", g), ("mass", 1.0 if mass is None else mass)):
+        if not (np.isfinite(value) and value > 0.0):
+            raise ValueError(f"hull {shape.name!r}: {what} is {value}; give a positive number")
+    centre = _vector(shape.name, "centre_of_gravity", centre_of_gravity)
+    if abs(centre[1]) > 1e-9 * shape.breadth:
+        raise ValueError(
+            f"hull {shape.name!r}: the centre of gravity is at y = {centre[1]:.4g} m; give it on the centre "
+            "plane, and model what lies to one side as bodies"
+        )
+    frequencies = _increasing(shape.name, "omega", _default_omega(shape, g) if omega is None else omega)
+    default_heading = np.radians(np.arange(0.0, 180.1, 5.0))
+    headings = _increasing(shape.name, "heading", default_heading if heading is None else heading)
+    displaced = rho * shape.hydrostatics.volume
+    weight = displaced if mass is None else float(mass)
+    radii = _radii(shape, radii_of_gyration)
+    _require_afloat(shape, _restoring(shape, weight, centre, rho, g), displaced, weight, centre, g)
+    found = _solution(shape, method, frequencies, headings, rho, g, stations)
+    return database_of_solution(
+        shape,
+        symmetric_solution(found, heading=headings, reciprocal=True),
+        omega=frequencies,
+        heading=headings,
+        centre_of_gravity=centre,
+        mass=weight,
+        radii_of_gyration=radii,
+        roll_damping_fraction=roll_damping_fraction,
+        trusted_band=trusted_band,
+        rho=rho,
+        g=g,
+        name=name or shape.name,
+    )
+
+
+def database_of_solution(
+    hull: Hull,
+    solution: HullSolution,
+    *,
+    omega: FloatArray,
+    heading: FloatArray,
+    centre_of_gravity: FloatArray,
+    mass: float,
+    radii_of_gyration: FloatArray,
+    roll_damping_fraction: float,
+    trusted_band: tuple[float, float] | None,
+    rho: float,
+    g: float,
+    name: str,
+) -> HydroDatabase:
+    """The database of a solution that is symmetric already; see `hydro_from_hull`."""
+    inertia = mass * np.diag(radii_of_gyration**2)
+    bare = HydroDatabase(
+        name=name,
+        omega=omega,
+        heading=heading,
+        added_mass=solution.added_mass,
+        damping=solution.damping,
+        zero_frequency_added_mass=solution.added_mass_zero,
+        infinite_frequency_added_mass=solution.added_mass_infinite,
+        restoring=_restoring(hull, mass, centre_of_gravity, rho, g),
+        mass_matrix=rigid_mass_matrix(mass, centre_of_gravity, inertia),
+        force=solution.force,
+        length=hull.length,
+        breadth=hull.breadth,
+        draught=hull.draught,
+        rho=rho,
+        g=g,
+        trusted_band=solution.trusted_band if trusted_band is None else trusted_band,
+        origin=f"origin of the hull on the still waterline, {-hull.extent[0, 0]:.4f} m ahead of its aft end",
+        source=_source(hull, solution, mass, centre_of_gravity, roll_damping_fraction),
+    )
+    if roll_damping_fraction == 0.0:
+        return bare
+    return replace(bare, linear_damping=_roll_damping(bare, roll_damping_fraction))
+
+
+def _solution(
+    hull: Hull,
+    method: str,
+    omega: FloatArray,
+    heading: FloatArray,
+    rho: float,
+    g: float,
+    stations: int,
+) -> HullSolution:
+    """By the method asked for."""
+    if method == "capytaine":
+        from seacrane.hydro.hull.by_capytaine import capytaine_solution
+
+        return capytaine_solution(hull, omega=omega, heading=heading, rho=rho, g=g)
+    from seacrane.hydro.hull.by_strip_theory import strip_solution
+
+    return strip_solution(hull, omega=omega, heading=heading, rho=rho, g=g, stations=stations)
+
+
+def _source(
+    hull: Hull,
+    solution: HullSolution,
+    mass: float,
+    centre: FloatArray,
+    roll_damping_fraction: float,
+) -> str:
+    statics = hull.hydrostatics
+    text = (
+        f"hydro_from_hull: {solution.method}; {hull.source}; volume of the panel mesh {statics.volume:.6f} "
+        f"m3, mass {mass:.6g} kg, centre of gravity x {centre[0]:.6f} m, z {centre[2]:.6f} m for GM_T "
+        f"{statics.metacentric_height(float(centre[2])):.4f} m"
+    )
+    if roll_damping_fraction == 0.0:
+        return text
+    return f"{text}; linear roll damping of {roll_damping_fraction} of critical added in linear_damping"
+
+
+def _restoring(hull: Hull, mass: float, centre: FloatArray, rho: float, g: float) -> FloatArray:
+    x, _, z = centre
+    return hull.hydrostatics.restoring(rho=rho, g=g, centre_of_gravity_z=z, centre_of_gravity_x=x, mass=mass)
+
+
+def _require_afloat(
+    hull: Hull, restoring: FloatArray, displaced: float, mass: float, centre: FloatArray, g: float
+) -> None:
+    """Upright equilibrium: an error for a hull that capsizes, a warning where it sinks or trims."""
+    for i, what in ((3, "roll"), (4, "pitch")):
+        if restoring[i, i] <= 0.0:
+            raise ValueError(
+                f"hull {hull.name!r}: restoring in {what} is {restoring[i, i]:.4g} N m with the centre of "
+                f"gravity {centre[2]:.4g} m above the waterline: it capsizes; lower the centre of gravity"
+            )
+    excess = mass / displaced - 1.0
+    if abs(excess) > DISPLACEMENT_LIMIT:
+        warn_caller(
+            f"hull {hull.name!r}: mass {mass:.6g} kg is {100.0 * excess:+.1f} % off the displaced "
+            f"{displaced:.6g} kg: without another vertical load it would float at another draught, where "
+            "added mass, damping and forces differ. Change the draught, or add what it carries as bodies",
+            FloatingPositionWarning,
+        )
+    lever = centre[0] - hull.hydrostatics.centre_of_buoyancy[0]
+    trim = mass * g * lever / restoring[4, 4]
+    if abs(trim) > TRIM_LIMIT:
+        warn_caller(
+            f"hull {hull.name!r}: the centre of gravity lies {lever:+.4g} m forward of the centre of "
+            f"buoyancy (x = {hull.hydrostatics.centre_of_buoyancy[0]:.4g} m); the hull would trim by "
+            f"{np.degrees(trim):+.3g} deg, which the database leaves out. Move one over the other",
+            FloatingPositionWarning,
+        )
+
+
+def _roll_damping(database: HydroDatabase, fraction: float) -> FloatArray:
+    """Linear damping (6, 6): a fraction of the critical roll damping at the roll natural frequency."""
+    resonance = natural_frequency(database, 3)
+    if resonance is None:
+        raise ValueError(
+            f"hull {database.name!r}: the roll natural frequency lies outside {database.omega[0]:.4g} to "
+            f"{database.omega[-1]:.4g} rad/s; widen omega, or check centre of gravity and radii of gyration"
+        )
+    inertia = database.mass_matrix[3, 3] + np.interp(resonance, database.omega, database.added_mass[:, 3, 3])
+    damping = np.zeros((6, 6))
+    damping[3, 3] = fraction * 2.0 * np.sqrt(database.restoring[3, 3] * inertia)
+    return damping
+
+
+def _require_choice(name: str, method: str, speed: float, fraction: float) -> None:
+    if method not in METHODS:
+        raise ValueError(f"hull {name!r}: method {method!r} is unknown; choose {' or '.join(METHODS)}")
+    if speed != 0.0:
+        raise ValueError(
+            f"hull {name!r}: speed is {speed} m/s; motions, memory and seas of this package are for zero "
+            "speed: pass speed=0.0 (_core.strip_theory has the coefficients at forward speed)"
+        )
+    if not (np.isfinite(fraction) and 0.0 <= fraction < 1.0):
+        raise ValueError(
+            f"hull {name!r}: roll_damping_fraction is {fraction}; give 0 to below 1, such as 0.05"
+        )
+
+
+def _default_omega(hull: Hull, g: float) -> FloatArray:
+    """Deep-water waves from 50 lengths of the ship to a twentieth of it, evenly in frequency."""
+    low, high = np.sqrt(2.0 * np.pi * g / (hull.length * np.array([50.0, 0.05])))
+    return np.linspace(low, high, 61)
+
+
+def _radii(hull: Hull, radii: ArrayLike | None) -> FloatArray:
+    if radii is None:
+        return np.array(GYRATION) * [hull.breadth, hull.length, hull.length]
+    values = _vector(hull.name, "radii_of_gyration", radii)
+    if np.any(values <= 0.0):
+        raise ValueError(f"hull {hull.name!r}: radii_of_gyration are {values} m; give three positive numbers")
+    return values
+
+
+def _vector(name: str, what: str, value: ArrayLike) -> FloatArray:
+    vector = np.asarray(value, dtype=float)
+    if vector.shape != (3,) or not np.all(np.isfinite(vector)):
+        raise ValueError(f"hull {name!r}: {what} is {value!r}; give three finite numbers in m")
+    return vector
+
+
+def _increasing(name: str, what: str, value: ArrayLike) -> FloatArray:
+    row = np.asarray(value, dtype=float)
+    good = row.ndim == 1 and len(row) > 0 and bool(np.all(np.isfinite(row)))
+    low, high = (0.0, np.inf) if what == "omega" else (-1e-12, 2.0 * np.pi)
+    if not good or np.any(np.diff(row) <= 0.0) or row[0] <= low or row[-1] >= high:
+        limits = "above 0 rad/s" if what == "omega" else "from 0 to below 2 pi rad"
+        raise ValueError(f"hull {name!r}: {what} is {value!r}; give increasing numbers {limits}")
+    return row

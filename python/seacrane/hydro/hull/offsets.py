@@ -1,0 +1,168 @@
+"""Offset tables: half sections at stations, from arrays or a text file of x, y, z."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from os import PathLike
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from seacrane.errors import FileFormatError
+from seacrane.files.whole_file import read_whole
+from seacrane.hydro.hull.panels import end_cap, lofted
+from seacrane.inputs.shown import shown
+
+FloatArray = NDArray[np.float64]
+
+LARGEST_FILE = 16 * 2**20  # bytes: half a million points
+LARGEST = 1e9  # m: areas and volumes do not overflow
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class OffsetTable:
+    """Points on the port half of each station; immutable.
+
+    Attributes
+    ----------
+    x : (s,) m, increasing, forward.
+    sections : s arrays (p, 2) of y >= 0 and z in m, along the outline from deck to keel or from keel to deck.
+        An outline whose keel end is off the centre line is closed by a flat bottom.
+    name : text.
+
+    Raises
+    ------
+    ValueError : fewer than two stations, stations that do not increase, points that are not finite or cross
+        the centre line.
+    """
+
+    x: FloatArray
+    sections: tuple[FloatArray, ...]
+    name: str = "offsets"
+
+    def __post_init__(self) -> None:
+        x = np.array(self.x, dtype=float)
+        if x.ndim != 1 or len(x) < 2 or len(x) != len(self.sections):
+            raise ValueError(
+                f"offset table {self.name!r}: {len(self.sections)} sections at stations of shape {x.shape}; "
+                "give two or more stations and one section for each"
+            )
+        if not np.all(np.abs(x) <= LARGEST) or np.any(np.diff(x) <= 0.0):
+            raise ValueError(
+                f"offset table {self.name!r}: stations {shown(x.tolist())} have to increase, forward, "
+                f"in m, {LARGEST:g} at most"
+            )
+        sections = tuple(self._checked(x[i], section) for i, section in enumerate(self.sections))
+        x.flags.writeable = False
+        object.__setattr__(self, "x", x)
+        object.__setattr__(self, "sections", sections)
+
+    def _checked(self, x: float, section: FloatArray) -> FloatArray:
+        """The section as a read-only array, keel last and on the centre line."""
+        points = np.array(section, dtype=float)
+        station = f"offset table {self.name!r}: station x = {x:.6g} m"
+        if points.ndim != 2 or points.shape[1] != 2 or len(points) == 0:
+            raise ValueError(f"{station} has points of shape {points.shape}; give (p, 2), y and z")
+        if not np.all(np.abs(points) <= LARGEST):
+            raise ValueError(
+                f"{station} has a coordinate that is not finite or above {LARGEST:g}; correct the table"
+            )
+        if points[:, 0].min() < 0.0:
+            raise ValueError(f"{station} has y = {points[:, 0].min():.6g} m; give the port half, y >= 0")
+        if points[0, 1] < points[-1, 1]:
+            points = points[::-1]
+        if points[-1, 0] > 0.0:
+            points = np.vstack([points, [0.0, points[-1, 1]]])
+        points = np.ascontiguousarray(points)
+        points.flags.writeable = False
+        return points
+
+    def panels(self, *, draught: float | None = None) -> FloatArray:
+        """Panels (n, 4, 3) of both sides and flat ends, z = 0 on the waterline; not cut there.
+
+        Raises
+        ------
+        ValueError : a draught that is not positive, or a station whose outline begins under water.
+        """
+        keel = min(float(section[:, 1].min()) for section in self.sections)
+        if draught is not None and not (np.isfinite(draught) and draught > 0.0):
+            raise ValueError(f"offset table {self.name!r}: draught is {draught} m; give a positive number")
+        waterline = 0.0 if draught is None else keel + draught
+        level = np.array([0.0, waterline])
+        tolerance = 1e-6 * float(np.ptp(self.x))
+        for x, section in zip(self.x, self.sections, strict=True):
+            if section[0, 1] < waterline - tolerance:
+                raise ValueError(
+                    f"offset table {self.name!r}: station x = {x:.6g} m begins "
+                    f"{waterline - section[0, 1]:.4g} m below the waterline; continue it upwards, or leave "
+                    "it out (a bulb ahead of the stem needs a mesh)"
+                )
+        sections = [section - level for section in self.sections]
+        x_aft, x_fore = float(self.x[0]), float(self.x[-1])
+        ends = [
+            end_cap(x_aft, sections[0], forward=False),
+            end_cap(x_fore, sections[-1], forward=True),
+        ]
+        return np.concatenate([lofted(self.x.tolist(), sections), *ends])
+
+
+def read_offset_table(path: str | PathLike[str]) -> OffsetTable:
+    """Read a text file of three columns x, y, z in m, separated by commas.
+
+    One point a line; the points of a station follow each other along the outline, stations forward or aft.
+    Blank lines and lines that begin with ``#`` are skipped; a first line ``x,y,z`` may name the columns.
+
+    Raises
+    ------
+    seacrane.errors.FileFormatError : missing or malformed, names the line; or no hull, as `OffsetTable`.
+    """
+    source = Path(path)
+    try:
+        lines = read_whole(source, LARGEST_FILE, "give fewer points").decode("utf-8-sig").splitlines()
+    except (OSError, UnicodeDecodeError) as error:
+        raise FileFormatError(f"{source}: cannot be read ({error}); give a text file x,y,z") from error
+    stations: dict[float, list[list[float]]] = {}
+    last: float | None = None
+    for number, line in enumerate(lines, start=1):
+        if _skipped(line, first=not stations):
+            continue
+        x, y, z = _numbers(source, number, line)
+        if x != last and x in stations:
+            raise FileFormatError(
+                f"{source}: line {number}: station x = {x:g} comes back; keep its points together"
+            )
+        stations.setdefault(x, []).append([y, z])
+        last = x
+    try:
+        return _table(source.stem, stations)
+    except ValueError as error:
+        raise FileFormatError(f"{source}: {error}") from error
+
+
+def _skipped(line: str, *, first: bool) -> bool:
+    text = line.strip().lower()
+    header = [column.strip() for column in text.split(",")]
+    return not text or text.startswith("#") or (first and header == ["x", "y", "z"])
+
+
+def _numbers(source: Path, number: int, line: str) -> list[float]:
+    try:
+        values = [float(column) for column in line.split(",")]
+    except ValueError:
+        values = []
+    if len(values) != 3 or not np.all(np.isfinite(values)):
+        raise FileFormatError(
+            f"{source}: line {number}: {line.strip()[:80]!r} is not three finite numbers x,y,z (in m, "
+            "separated by commas)"
+        )
+    return values
+
+
+def _table(name: str, stations: dict[float, list[list[float]]]) -> OffsetTable:
+    """Stations given forward or aft; any other order is for `OffsetTable` to refuse."""
+    x: Sequence[float] = list(stations)
+    if len(x) > 1 and x[0] > x[-1]:
+        x = x[::-1]
+    return OffsetTable(x=np.array(x), sections=tuple(np.array(stations[v]) for v in x), name=name)

@@ -1,0 +1,1 @@
+"""Fluid memory: state-space models, their fits and their passivity."""

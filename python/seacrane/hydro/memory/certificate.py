@@ -1,0 +1,218 @@
+"""`passivity_certificate`: proof, at all frequencies at once, that a memory model delivers no energy.
+
+A model ``K(s) = D + C (s I - A)^-1 B`` is passive where A is stable and ``Phi(i w) = K(i w) + K(i w)^H``
+has no negative eigenvalue at any w. ``Phi`` of a retardation function vanishes at w = 0 and at infinity,
+where the usual Hamiltonian test (Boyd, Balakrishnan & Kabamba 1989, doi 10.1007/BF02551385) is singular. Both
+zeros are divided out first: with ``a`` = 1 rad/s, ``A' = A`` and ``C' = C``::
+
+    (w^2 + a^2)^2 / w^2 Phi(i w)  =  Phi'(i w),   B' = -A^-2 (a^2 I - A^2)^2 B,   D' = -C A B
+
+which holds if ``K(0) = 0`` and C B and C A^-2 B are symmetric (were they not, Phi would be indefinite near
+infinity or zero). Eigenvalues of Phi' change sign only at imaginary eigenvalues of its Hamiltonian matrix.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from seacrane.hydro.memory.model import RADIATION, MemoryBlock, MemoryModel
+
+FloatArray = NDArray[np.float64]
+ComplexArray = NDArray[np.complex128]
+
+SYMMETRY = 1e-8
+NEAR_AXIS = 1e-4  # of 1 + |eigenvalue|: generous, as every candidate is followed up by a sample
+
+
+class PassivityError(ValueError):
+    """A memory model that can deliver energy, where a passive one was asked for."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class PassivityCertificate:
+    """What is proven about the memory of one cause.
+
+    Attributes
+    ----------
+    passive : whether the model is proven passive, by the pencil test.
+    energy : whether the identity is an energy of every block: ``A + A^T <= 0`` and ``B = C^T``, so that
+        ``|x|^2 / 2`` (J) never grows by more than the work done on it. A proof of its own; models that are
+        passive without being written in energy coordinates do not have it.
+    margin : smallest eigenvalue over a dense grid (its sign is proven between the samples), and at zero and
+        infinite frequency, of
+        ``(w^2 + a^2)^2 / w^2 Re K(i w)`` (a = 1 rad/s; without the factor of a zero that the model does not
+        have), each motion scaled by the square root of its largest damping.
+    crossings : rad/s where an eigenvalue of Re K changes sign.
+    zero_at_origin, zero_at_infinity : the zeros divided out.
+    reason : in words.
+    """
+
+    passive: bool
+    energy: bool
+    margin: float
+    crossings: tuple[float, ...]
+    zero_at_origin: bool
+    zero_at_infinity: bool
+    reason: str
+
+
+def passivity_certificate(model: MemoryModel, *, cause: str = RADIATION) -> PassivityCertificate:
+    """Prove, or refute, that all blocks of one ``cause`` together are passive.
+
+    Raises
+    ------
+    ValueError : the model has no block of that cause.
+    """
+    blocks = [block for block in model.blocks if block.cause == cause]
+    if not blocks:
+        known = ", ".join(sorted({block.cause for block in model.blocks})) or "none"
+        raise ValueError(f"the memory model has no block of cause {cause!r}; it has: {known}")
+    return certify(blocks)
+
+
+def require_passive(model: MemoryModel) -> PassivityCertificate:
+    """The certificate of a model's radiation blocks, or `PassivityError` where they are not passive."""
+    certificate = passivity_certificate(model)
+    if not certificate.passive:
+        raise PassivityError(
+            f"the radiation memory is not passive: {certificate.reason}. It can feed energy into a motion; "
+            "use fit_memory(kind='passive')"
+        )
+    return certificate
+
+
+def certify(blocks: Sequence[MemoryBlock]) -> PassivityCertificate:
+    """`passivity_certificate` of a sequence of blocks whose loads add up."""
+    a, b, c, d = _side_by_side(blocks)
+    energy = all(is_energy_form(block) for block in blocks)
+    unstable = float(np.linalg.eigvals(a).real.max())
+    if unstable >= 0.0:
+        return _verdict(False, energy, -np.inf, (), f"a pole grows with {unstable:.3g} 1/s")
+    static = d - c @ np.linalg.solve(a, b)
+    origin = bool(np.abs(static).max() < SYMMETRY * max(np.abs(c @ b).max(), np.abs(d).max()))
+    infinity = not np.any(d)
+    zeros = {"zero_at_origin": origin, "zero_at_infinity": infinity}
+    skewed = _skew_limit(a, b, c, origin=origin, infinity=infinity)
+    if skewed:
+        return _verdict(False, energy, -np.inf, (), skewed, **zeros)
+    shaped, feed = _divide_out(a, b, c, d, origin=origin, infinity=infinity)
+    if np.linalg.eigvalsh(feed)[0] <= 0.0:
+        at = f"its damping is not positive towards infinite frequency ({np.linalg.eigvalsh(feed)[0]:.3g})"
+        return _verdict(False, energy, float(np.linalg.eigvalsh(feed)[0] / 2.0), (), at, **zeros)
+    return _examine(a, shaped, c, feed, energy, zeros)
+
+
+def is_energy_form(block: MemoryBlock) -> bool:
+    """Whether P = I certifies a block: B = C^T exactly, A + A^T <= 0 to rounding, D + D^T >= 0."""
+    same = np.array_equal(block.inputs, block.outputs) and np.array_equal(block.B, block.C.T)
+    if not same or not len(block.A):
+        return False
+    growth = np.linalg.eigvalsh(block.A + block.A.T)[-1]
+    through = np.linalg.eigvalsh(block.D + block.D.T)[0]
+    return bool(growth <= 1e-12 * np.abs(block.A).max() and through >= 0.0)
+
+
+def _side_by_side(blocks: Sequence[MemoryBlock]) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
+    """A, B, C, D of all blocks over the motions they touch, each motion and state scaled to order one."""
+    count = sum(len(block.A) for block in blocks)
+    a, b, c, d = np.zeros((count, count)), np.zeros((count, 6)), np.zeros((6, count)), np.zeros((6, 6))
+    start = 0
+    for block in blocks:
+        rows = slice(start, start + len(block.A))
+        a[rows, rows] = block.A
+        b[rows, block.inputs] = block.B
+        c[block.outputs, rows] = block.C
+        d[np.ix_(block.outputs, block.inputs)] += block.D
+        start += len(block.A)
+    omega = np.geomspace(1e-2, 1e2, 200)
+    damping = _transfer(a, b, c, d, omega).real
+    peak = np.sqrt(np.abs(np.diagonal(damping, axis1=1, axis2=2)).max(axis=0))
+    used = np.flatnonzero(np.any(b, axis=0) | np.any(c, axis=1) | np.any(d, axis=0) | np.any(d, axis=1))
+    peak[peak == 0.0] = 1.0
+    b, c, d = (b / peak)[:, used], (c / peak[:, None])[used], (d / np.outer(peak, peak))[np.ix_(used, used)]
+    size = np.sqrt(np.linalg.norm(b, axis=1).mean() / max(np.linalg.norm(c, axis=0).mean(), 1e-300)) or 1.0
+    return a, b / size, c * size, d
+
+
+def _skew_limit(a: FloatArray, b: FloatArray, c: FloatArray, *, origin: bool, infinity: bool) -> str:
+    """What is wrong where a leading term near zero or infinite frequency is not symmetric, else nothing."""
+    slope = c @ np.linalg.solve(a, np.linalg.solve(a, b))
+    for asked, matrix, where in ((infinity, c @ b, "infinite"), (origin, slope, "zero")):
+        if asked and np.abs(matrix - matrix.T).max() > SYMMETRY * np.abs(matrix).max():
+            return f"it is not symmetric towards {where} frequency, so that its damping is indefinite there"
+    return ""
+
+
+def _divide_out(
+    a: FloatArray, b: FloatArray, c: FloatArray, d: FloatArray, *, origin: bool, infinity: bool
+) -> tuple[FloatArray, FloatArray]:
+    """B' and D' + D'^T of the model with its zeros divided out."""
+    if origin:
+        b = b - np.linalg.solve(a, np.linalg.solve(a, b))
+    if infinity:
+        d, b = -c @ a @ b, b - a @ (a @ b)
+    return b, d + d.T
+
+
+def _examine(
+    a: FloatArray, b: FloatArray, c: FloatArray, feed: FloatArray, energy: bool, zeros: dict[str, bool]
+) -> PassivityCertificate:
+    """Samples between all frequencies where a sign could change, and on a grid for the margin."""
+    at = _singular_frequencies(a, b, c, feed)
+    ends = np.concatenate([[0.0], at, [1e4 * (1.0 + np.abs(np.linalg.eigvals(a)).max())]])
+    middles = 0.5 * (ends[1:] + ends[:-1])
+    omega = np.unique(np.concatenate([[0.0], at, middles, np.geomspace(1e-4, 1e4, 2001)]))
+    lowest = np.linalg.eigvalsh(_hermitian(_transfer(a, b, c, 0.5 * feed, omega)))[:, 0]
+    margin = float(min(lowest.min(), 0.5 * np.linalg.eigvalsh(feed)[0]))
+    if margin > 0.0:
+        return _verdict(True, energy, margin, (), "no eigenvalue of its damping changes sign", **zeros)
+    signs = np.flatnonzero((lowest[1:] > 0.0) != (lowest[:-1] > 0.0))
+    crossings = tuple(float(0.5 * (omega[i] + omega[i + 1])) for i in signs)
+    reason = f"its damping has a negative eigenvalue at {omega[lowest.argmin()]:.3g} rad/s"
+    return _verdict(False, energy, margin, crossings, reason, **zeros)
+
+
+def _singular_frequencies(a: FloatArray, b: FloatArray, c: FloatArray, feed: FloatArray) -> FloatArray:
+    """Positive frequencies (k,) near which the Hamiltonian matrix has imaginary eigenvalues."""
+    inner = a - b @ np.linalg.solve(feed, c)
+    hamiltonian = np.block(
+        [[inner, -b @ np.linalg.solve(feed, b.T)], [c.T @ np.linalg.solve(feed, c), -inner.T]]
+    )
+    values = np.linalg.eigvals(hamiltonian)
+    near = np.abs(values.real) < NEAR_AXIS * (1.0 + np.abs(values))
+    return np.sort(np.abs(values.imag[near]))
+
+
+def _transfer(a: FloatArray, b: FloatArray, c: FloatArray, d: FloatArray, omega: FloatArray) -> ComplexArray:
+    resolvent = 1j * omega[:, None, None] * np.eye(len(a)) - a
+    states = np.linalg.solve(resolvent, np.broadcast_to(b.astype(complex), (len(omega), *b.shape)))
+    return np.asarray(c @ states + d)
+
+
+def _hermitian(matrices: ComplexArray) -> ComplexArray:
+    return np.asarray(0.5 * (matrices + matrices.conj().swapaxes(1, 2)))
+
+
+def _verdict(
+    passive: bool,
+    energy: bool,
+    margin: float,
+    crossings: tuple[float, ...],
+    reason: str,
+    *,
+    zero_at_origin: bool = False,
+    zero_at_infinity: bool = False,
+) -> PassivityCertificate:
+    return PassivityCertificate(
+        passive=passive,
+        energy=energy,
+        margin=margin,
+        crossings=crossings,
+        zero_at_origin=zero_at_origin,
+        zero_at_infinity=zero_at_infinity,
+        reason=reason,
+    )

@@ -1,0 +1,297 @@
+"""`fit_memory`: radiation memory (and that of roll tanks) of a database, per entry or per group."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from typing import TYPE_CHECKING, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from seacrane.hydro.database.encounter import require_zero_speed
+from seacrane.hydro.memory.certificate import require_passive
+from seacrane.hydro.memory.identification import IdentificationData, RationalFit, fit_lowest_order
+from seacrane.hydro.memory.model import RADIATION, FitRow, MemoryBlock, MemoryModel, Passivity
+from seacrane.hydro.memory.passive import fit_passive
+from seacrane.hydro.memory.realisation import realise
+from seacrane.inputs.caller import warn_caller
+
+if TYPE_CHECKING:
+    from seacrane.hydro.database.database import AdditionalMatrices, HydroDatabase
+
+FloatArray = NDArray[np.float64]
+
+ORDERS = range(2, 9)
+NEGLIGIBLE = 1e-6
+FEWEST_FREQUENCIES = 8
+KINDS = ("per-pair", "passive")
+
+
+class InfiniteFrequencyWarning(UserWarning):
+    """No infinite-frequency added mass to compare with: an error of its estimate is a wrong mass always."""
+
+
+def fit_memory(
+    *,
+    database: HydroDatabase,
+    band: tuple[float, float] | None = None,
+    r2: float = 0.99,
+    infinite_frequency: Literal["estimated", "known"] = "estimated",
+    kind: str = "per-pair",
+) -> MemoryModel:
+    """Identify the fluid memory of ``database``.
+
+    Parameters
+    ----------
+    database : added mass and damping, made symmetric here.
+    band : (low, high) in rad/s over which R2 is judged; default: the database's trusted band, else all of it.
+    r2 : coefficient of determination that added mass *and* damping of every entry shall reach; the lowest
+        order that reaches it is taken. An entry that does not reach it at any order keeps its best model, and
+        its row says ``accepted=False``.
+    infinite_frequency : whether each entry's infinite-frequency added mass is estimated with its model, or
+        taken from the database. A panel code's value carries the error of its mesh at wavelengths the mesh
+        cannot resolve, and forcing it on the model costs states and puts poles beyond the data.
+    kind : "per-pair", one single-input model per entry of the matrices; or "passive", one model with common
+        poles per group of coupled motions that cannot deliver energy (`passivity_certificate` proves it).
+
+    Returns
+    -------
+    MemoryModel : symmetric entries (j, k) and (k, j) share one fit but have a block each.
+
+    Warns
+    -----
+    InfiniteFrequencyWarning : the added mass at infinite frequency is estimated, and the database has none to
+        compare the estimate with.
+
+    Raises
+    ------
+    ValueError : a band that holds fewer than eight frequencies, an ``r2`` outside (0, 1), another ``kind``,
+        a known infinite-frequency added mass asked for and not there, or a database of a forward speed.
+
+    Notes
+    -----
+    Entries whose damping and whose variation of added mass stay below 1e-6 of the geometric mean of their
+    diagonals are dropped. Additional matrices (roll tanks) get a static stiffness and a model of their own,
+    in which the retardation function need not vanish at zero frequency, always of the per-pair kind.
+    """
+    require_zero_speed(database)
+    if kind not in KINDS:
+        raise ValueError(f"memory kind {kind!r} is unknown; choose {' or '.join(KINDS)}")
+    if not 0.0 < r2 < 1.0:
+        raise ValueError(f"r2 is {r2}; give a number between 0 and 1")
+    low, high = band or database.trusted_band or (float(database.omega[0]), float(database.omega[-1]))
+    trusted = (database.omega >= low - 1e-9) & (database.omega <= high + 1e-9)
+    if trusted.sum() < FEWEST_FREQUENCIES:
+        raise ValueError(
+            f"database {database.name!r}: the band {low:.4g} to {high:.4g} rad/s holds {trusted.sum()} "
+            "frequencies; widen it to eight or more"
+        )
+    known = database.infinite_frequency_added_mass if infinite_frequency == "known" else None
+    if infinite_frequency == "known" and known is None:
+        raise ValueError(
+            f"database {database.name!r} has no infinite-frequency added mass; pass "
+            "infinite_frequency='estimated'"
+        )
+    if database.infinite_frequency_added_mass is None:
+        warn_caller(
+            f"database {database.name!r} has no infinite-frequency added mass: it is estimated from "
+            f"frequencies up to {database.omega[-1]:.3g} rad/s, and an error in it is a wrong mass in every "
+            "acceleration. Look at the rows memory_motion_* of database.check()",
+            InfiniteFrequencyWarning,
+        )
+    fit = _fit_radiation if kind == "per-pair" else _fit_passive_radiation
+    blocks, rows, added_mass = fit(database, known, trusted, r2)
+    extra_mass, stiffness = np.zeros((6, 6)), np.zeros((6, 6))
+    for part in database.additional:
+        more = _fit_additional(database, part, trusted, r2)
+        blocks += more[0]
+        rows += more[1]
+        extra_mass += more[2]
+        stiffness += more[3]
+    model = MemoryModel(
+        blocks=tuple(blocks),
+        added_mass=added_mass,
+        additional_added_mass=extra_mass,
+        additional_stiffness=stiffness,
+        band=(float(low), float(high)),
+        r2=r2,
+        rows=tuple(rows),
+        passivity=joint_passivity(blocks, database.damping, (float(low), float(high))),
+    )
+    if kind == "passive" and any(row.cause == RADIATION for row in rows):
+        require_passive(model)
+    return model
+
+
+def enough_frequencies(database: HydroDatabase) -> bool:
+    """Whether `fit_memory` has data: no forward speed, and eight frequencies in the trusted band."""
+    low, high = database.trusted_band or (0.0, np.inf)
+    inside = (database.omega >= low - 1e-9) & (database.omega <= high + 1e-9)
+    return bool(database.speed == 0.0 and np.count_nonzero(inside) >= FEWEST_FREQUENCIES)
+
+
+def _fit_radiation(
+    database: HydroDatabase, known: FloatArray | None, trusted: NDArray[np.bool_], r2: float
+) -> tuple[list[MemoryBlock], list[FitRow], FloatArray]:
+    """Blocks, rows and infinite-frequency added mass (6, 6) of the radiation matrices."""
+    blocks: list[MemoryBlock] = []
+    rows: list[FitRow] = []
+    fits: dict[tuple[int, int], RationalFit] = {}
+    infinite = np.zeros((6, 6)) if known is None else 0.5 * (known + known.T)
+    symmetric_a = 0.5 * (database.added_mass + database.added_mass.swapaxes(1, 2))
+    symmetric_b = 0.5 * (database.damping + database.damping.swapaxes(1, 2))
+    for j, k in memory_entries(symmetric_a, symmetric_b, database.omega):
+        data = IdentificationData(
+            omega=database.omega,
+            added_mass=symmetric_a[:, j, k],
+            damping=symmetric_b[:, j, k],
+            trusted=trusted,
+            added_mass_infinite=None if known is None else float(infinite[j, k]),
+            dissipation_limit=_dissipation_limit(fits, j, k),
+        )
+        fit = fits[j, k] = fit_lowest_order(data, r2=r2, orders=ORDERS)
+        infinite[j, k] = infinite[k, j] = fit.added_mass_infinite
+        _append(blocks, rows, fit, j, k, cause=RADIATION, r2=r2)
+    if known is None:
+        infinite = _keep_constant_entries(infinite, symmetric_a, blocks)
+    return blocks, rows, infinite
+
+
+def _fit_passive_radiation(
+    database: HydroDatabase, known: FloatArray | None, trusted: NDArray[np.bool_], r2: float
+) -> tuple[list[MemoryBlock], list[FitRow], FloatArray]:
+    """The same of the passive kind."""
+    symmetric_a = 0.5 * (database.added_mass + database.added_mass.swapaxes(1, 2))
+    symmetric_b = 0.5 * (database.damping + database.damping.swapaxes(1, 2))
+    blocks, rows, infinite = fit_passive(
+        database=database,
+        added_mass=symmetric_a,
+        damping=symmetric_b,
+        entries=memory_entries(symmetric_a, symmetric_b, database.omega),
+        known=None if known is None else 0.5 * (known + known.T),
+        trusted=trusted,
+        r2=r2,
+    )
+    if known is not None:
+        return blocks, rows, 0.5 * (known + known.T)
+    return blocks, rows, _keep_constant_entries(infinite, symmetric_a, blocks)
+
+
+def _fit_additional(
+    database: HydroDatabase, part: AdditionalMatrices, trusted: NDArray[np.bool_], r2: float
+) -> tuple[list[MemoryBlock], list[FitRow], FloatArray, FloatArray]:
+    """Blocks, rows, instantaneous added mass and static stiffness (6, 6) of one additional cause."""
+    blocks: list[MemoryBlock] = []
+    rows: list[FitRow] = []
+    fits: dict[tuple[int, int], RationalFit] = {}
+    mass, stiffness = np.zeros((6, 6)), np.zeros((6, 6))
+    symmetric_a = 0.5 * (part.added_mass + part.added_mass.swapaxes(1, 2))
+    symmetric_b = 0.5 * (part.damping + part.damping.swapaxes(1, 2))
+    for j, k in memory_entries(symmetric_a, symmetric_b, database.omega):
+        data = IdentificationData(
+            omega=database.omega,
+            added_mass=symmetric_a[:, j, k],
+            damping=symmetric_b[:, j, k],
+            trusted=trusted,
+            added_mass_infinite=0.0,
+            zero_at_origin=False,
+            static_stiffness=True,
+            dissipation_limit=_dissipation_limit(fits, j, k),
+        )
+        fit = fits[j, k] = fit_lowest_order(data, r2=r2, orders=ORDERS)
+        stiffness[j, k] = stiffness[k, j] = fit.static_stiffness
+        _append(blocks, rows, fit, j, k, cause=part.cause, r2=r2)
+    return blocks, rows, mass, stiffness
+
+
+def _dissipation_limit(
+    fits: dict[tuple[int, int], RationalFit], j: int, k: int
+) -> Callable[[FloatArray], tuple[FloatArray, FloatArray]]:
+    """Bounds of the fitted damping: a 2 x 2 damping matrix is positive if b_jk^2 <= b_jj b_kk."""
+
+    def limit(omega: FloatArray) -> tuple[FloatArray, FloatArray]:
+        if j == k:
+            return np.zeros_like(omega), np.full_like(omega, np.inf)
+        bound = np.zeros_like(omega)
+        if (j, j) in fits and (k, k) in fits:
+            bound = np.sqrt(
+                np.maximum(fits[j, j].damping(omega), 0.0) * np.maximum(fits[k, k].damping(omega), 0.0)
+            )
+        return -bound, bound
+
+    return limit
+
+
+def memory_entries(
+    added_mass: FloatArray, damping: FloatArray, omega: FloatArray
+) -> Iterator[tuple[int, int]]:
+    """Entries (j <= k) with any memory, judged against the geometric mean of their diagonals."""
+    variation = np.ptp(added_mass, axis=0) * float(np.mean(omega)) + np.abs(damping).max(axis=0)
+    diagonal = np.sqrt(np.diag(variation))
+    for offset in range(6):  # diagonals first: they bound the damping of the others
+        for j in range(6 - offset):
+            k = j + offset
+            if variation[j, k] > NEGLIGIBLE * diagonal[j] * diagonal[k] and variation[j, k] > 0.0:
+                yield j, k
+
+
+def _keep_constant_entries(
+    infinite: FloatArray, added_mass: FloatArray, blocks: list[MemoryBlock]
+) -> FloatArray:
+    """Entries without memory keep their (constant) added mass."""
+    fitted = {(int(j), int(k)) for block in blocks for j in block.outputs for k in block.inputs}
+    kept = infinite.copy()
+    for j in range(6):
+        for k in range(6):
+            if (j, k) not in fitted:
+                kept[j, k] = added_mass[-1, j, k]
+    return kept
+
+
+def _append(
+    blocks: list[MemoryBlock], rows: list[FitRow], fit: RationalFit, j: int, k: int, *, cause: str, r2: float
+) -> None:
+    """Add the blocks (j, k) and (k, j) of one fit, and its row."""
+    for output, input_ in dict.fromkeys([(j, k), (k, j)]):
+        blocks.append(realise(fit.numerator, fit.denominator, output=output, input=input_, cause=cause))
+    poles = np.roots(fit.denominator)
+    rows.append(
+        FitRow(
+            cause=cause,
+            output=j,
+            input=k,
+            order=fit.order,
+            r2_added_mass=fit.r2_added_mass,
+            r2_damping=fit.r2_damping,
+            r2_added_mass_all=fit.r2_added_mass_all,
+            r2_damping_all=fit.r2_damping_all,
+            slowest_decay=float(-poles.real.max()),
+            fastest_pole=float(np.abs(poles).max()),
+            accepted=fit.worst >= r2,
+        )
+    )
+
+
+def joint_passivity(blocks: list[MemoryBlock], damping: FloatArray, band: tuple[float, float]) -> Passivity:
+    """Smallest scaled eigenvalue of the radiation blocks' damping, 1e-3 to 1e3 rad/s, and over ``band``."""
+    radiation = [block for block in blocks if block.cause == RADIATION]
+
+    def smallest(omega: FloatArray) -> tuple[float, float]:
+        total = np.zeros((len(omega), 6, 6))
+        for block in radiation:
+            total[:, block.outputs[:, None], block.inputs] += block.transfer(omega).real
+        lowest = scaled_damping(total, damping)
+        where = int(lowest.argmin())
+        return float(lowest[where]), float(omega[where])
+
+    minimum, at = smallest(np.geomspace(1e-3, 1e3, 4001))
+    in_band, in_band_at = smallest(np.linspace(*band, 1001))
+    return Passivity(minimum=minimum, omega=at, in_band=in_band, in_band_omega=in_band_at)
+
+
+def scaled_damping(damping: FloatArray, data: FloatArray) -> FloatArray:
+    """Smallest eigenvalues (n,) of ``damping`` (n, 6, 6), scaled by the largest diagonals of ``data``."""
+    peak = np.sqrt(np.maximum(np.diagonal(data, axis1=1, axis2=2).max(axis=0), 1e-300))
+    active = peak > 1e-6 * peak.max()
+    scaled = (0.5 * (damping + damping.swapaxes(1, 2)) / np.outer(peak, peak))[:, active][:, :, active]
+    return np.asarray(np.linalg.eigvalsh(scaled)[:, 0])

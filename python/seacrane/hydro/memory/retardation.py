@@ -1,0 +1,287 @@
+"""Retardation functions of a database: the radiation damping as memory in time, for direct convolution."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from seacrane.hydro.memory.fit import FEWEST_FREQUENCIES, memory_entries
+
+if TYPE_CHECKING:
+    from seacrane.hydro.database.database import AdditionalMatrices, HydroDatabase
+
+FloatArray = NDArray[np.float64]
+ComplexArray = NDArray[np.complex128]
+
+LONGEST_STEP = 0.1  # s
+PHASE_PER_STEP = 0.4  # rad, of the database's highest frequency
+DURATIONS = (30.0, 45.0, 60.0, 90.0, 120.0)  # s
+DAMPING_ERROR = 2e-3  # of the damping's largest value in its pair, by which the duration is chosen
+TAPER = 0.2  # of the duration
+TAIL_EXPONENTS = (2.0, 6.0)
+POINTS = 16  # Gauss points per interval of frequency: exact for a cubic times a cosine of some 20 rad
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class RetardationModel:
+    """Memory as functions of time, ``mu(t) = integral_0^T K(tau) v(t - tau) dtau``; the load is ``-mu``.
+
+    Attributes
+    ----------
+    step : s between samples.
+    radiation, additional : (n, 6, 6) K of radiation and of additional causes (roll tanks) at 0, step, 2 step
+        ...; N and N m per (m/s or rad/s) and s.
+    added_mass : (6, 6) infinite-frequency added mass that belongs to ``radiation``.
+    additional_added_mass, additional_stiffness : (6, 6) instantaneous parts of the additional causes.
+    band : (low, high) rad/s over which A_inf and the errors below are taken.
+    error_damping, error_added_mass : (6, 6) root mean square over the band of what the samples return less
+        what the database holds (radiation, made symmetric), over the standard deviation of the data; zero
+        where there is no memory. The second also holds the data's own breach of the Kramers-Kronig relation.
+    tail_share : (6, 6) part of K(0) that the assumed damping above the last frequency contributes.
+    """
+
+    step: float
+    radiation: FloatArray
+    additional: FloatArray
+    added_mass: FloatArray
+    additional_added_mass: FloatArray
+    additional_stiffness: FloatArray
+    band: tuple[float, float]
+    error_damping: FloatArray
+    error_added_mass: FloatArray
+    tail_share: FloatArray
+
+    @property
+    def duration(self) -> float:
+        """Time after which the past is forgotten, s."""
+        return self.step * (len(self.radiation) - 1)
+
+    @property
+    def kernel(self) -> FloatArray:
+        """K of all causes (n, 6, 6), a new array."""
+        return np.asarray(self.radiation + self.additional)
+
+    def frequency_response(self, omega: ArrayLike) -> tuple[FloatArray, FloatArray]:
+        """Radiation added mass and damping (m, 6, 6) that the samples give at positive ``omega`` (m,)."""
+        w = np.atleast_1d(np.asarray(omega, dtype=float))
+        transfer = transform(self.radiation, self.step, w)
+        return self.added_mass + transfer.imag / w[:, None, None], transfer.real
+
+    def additional_response(self, omega: ArrayLike) -> tuple[FloatArray, FloatArray]:
+        """The same of all other causes, stiffness counted as added mass."""
+        w = np.atleast_1d(np.asarray(omega, dtype=float))
+        transfer = transform(self.additional, self.step, w)
+        by_frequency = w[:, None, None]
+        mass = self.additional_added_mass + transfer.imag / by_frequency
+        return mass - self.additional_stiffness / by_frequency**2, transfer.real
+
+
+def retardation_functions(
+    *, database: HydroDatabase, step: float | None = None, duration: float | None = None
+) -> RetardationModel:
+    """Retardation functions ``K(tau) = 2 / pi integral_0^inf B(omega) cos(omega tau) domega`` of a database.
+
+    Parameters
+    ----------
+    database : its damping (made symmetric) gives K, its added mass A_inf.
+    step : s between samples; default: 0.1 s, or less where that exceeds 0.4 rad of the highest frequency.
+    duration : s kept of K, its last fifth tapered to zero by half a cosine; default: the shortest of 30, 45,
+        60, 90 and 120 s that returns the damping of every pair to 0.2 % of its largest value, or the best.
+
+    Returns
+    -------
+    RetardationModel
+
+    Raises
+    ------
+    ValueError : a step or duration that is not positive, or that leaves fewer than 8 or more than 20 000
+        samples; a step beyond half a period of the highest frequency; a band with fewer than 8 frequencies.
+
+    Notes
+    -----
+    Below the first frequency and between the frequencies B is the cubic spline that is even in omega, with
+    B(0) = 0; its transform is exact to rounding. Above the last frequency B falls as omega^-n, with n from
+    2 to 6 such that the slope is that of the last points. What this assumption decides of the added mass
+    within the band is nearly constant there and so becomes part of A_inf, which is the mean over the band of
+    ``A(omega) - Im K(i omega) / omega`` (Ogilvie 1964). Additional matrices (roll tanks) get the same, with a
+    static stiffness beside A_inf: both fitted to the force of the added mass, weighted by the damping.
+    """
+    if step is None:
+        step = min(LONGEST_STEP, PHASE_PER_STEP / float(database.omega[-1]))
+    step = _positive("step", step)
+    if step * database.omega[-1] > np.pi:
+        raise ValueError(
+            f"retardation functions: step is {step} s, more than half a period of the database's highest "
+            f"frequency, {database.omega[-1]:.4g} rad/s; make it shorter"
+        )
+    durations = DURATIONS if duration is None else (_positive("duration", duration),)
+    low, high = database.trusted_band or (float(database.omega[0]), float(database.omega[-1]))
+    inside = (database.omega >= low - 1e-9) & (database.omega <= high + 1e-9)
+    if inside.sum() < FEWEST_FREQUENCIES:
+        raise ValueError(
+            f"database {database.name!r}: the band {low:.4g} to {high:.4g} rad/s holds {inside.sum()} "
+            f"frequencies; retardation functions need {FEWEST_FREQUENCIES} or more"
+        )
+    added_mass, damping = _symmetric(database.added_mass), _symmetric(database.damping)
+    active = np.zeros((6, 6), dtype=bool)
+    for j, k in memory_entries(added_mass, damping, database.omega):
+        active[j, k] = active[k, j] = True
+    damping = damping * active
+    tau: FloatArray = step * np.arange(_samples(durations[-1], step), dtype=float)
+    whole, tail_at_zero = cosine_transform(database.omega, damping, tau)
+    samples = _shortest(database.omega, damping, whole, step, [_samples(d, step) for d in durations])
+    radiation = _tapered(whole[:samples])
+    response = transform(radiation, step, database.omega)
+    estimates = added_mass - response.imag / database.omega[:, None, None]
+    infinite = np.where(active, estimates[inside].mean(axis=0), added_mass[-1])
+    misfit = estimates - infinite
+    additional, mass, stiffness = np.zeros_like(radiation), np.zeros((6, 6)), np.zeros((6, 6))
+    for part in database.additional:
+        more = _additional(database, part, tau[:samples], inside)
+        additional, mass, stiffness = additional + more[0], mass + more[1], stiffness + more[2]
+    return RetardationModel(
+        step=step,
+        radiation=radiation,
+        additional=additional,
+        added_mass=infinite,
+        additional_added_mass=mass,
+        additional_stiffness=stiffness,
+        band=(float(low), float(high)),
+        error_damping=_relative(response.real[inside] - damping[inside], damping[inside], active),
+        error_added_mass=_relative(misfit[inside], added_mass[inside], active),
+        tail_share=_ratio(tail_at_zero, whole[0]),
+    )
+
+
+def cosine_transform(
+    omega: FloatArray, damping: FloatArray, tau: FloatArray
+) -> tuple[FloatArray, FloatArray]:
+    """``2 / pi integral B cos(omega tau) domega`` (n, ...) at ``tau`` (n,), and its tail's part at 0 (...).
+
+    ``damping`` (m, ...) at ``omega`` (m,), positive; see `retardation_functions` for the rest of the axis.
+    """
+    from scipy.interpolate import CubicSpline
+
+    end, last = float(omega[-1]), damping[-1]
+    exponent = _tail_exponent(omega, damping)
+    spline = CubicSpline(
+        np.concatenate([[0.0], omega]),
+        np.concatenate([np.zeros_like(damping[:1]), damping]),
+        bc_type=((1, np.zeros_like(last)), (1, -exponent * last / end)),
+    )
+    nodes, weights = np.polynomial.legendre.leggauss(POINTS)
+    half, middle = 0.5 * np.diff(spline.x), 0.5 * (spline.x[1:] + spline.x[:-1])
+    at = (middle[:, None] + half[:, None] * nodes).ravel()
+    values = (half[:, None] * weights).ravel()[:, None] * spline(at).reshape(len(at), -1)
+    inner = (np.cos(np.outer(tau, at)) @ values).reshape(-1, *last.shape)
+    outer = last * _power_law_transform(exponent, end, tau)
+    return np.asarray(2.0 / np.pi * (inner + outer)), np.asarray(2.0 / np.pi * outer[0])
+
+
+def _power_law_transform(exponent: FloatArray, end: float, tau: FloatArray) -> FloatArray:
+    """``integral_end^inf (end / omega)^n cos(omega tau) domega`` (n, ...) for exponents (...) of 2 or more.
+
+    Along omega = end (1 + i x) the cosine decays instead of turning (Cauchy's theorem): intervals of x that
+    double serve all times.
+    """
+    nodes, weights = np.polynomial.legendre.leggauss(POINTS)
+    knots = np.concatenate([[0.0], 1e-4 * 2.0 ** np.arange(36)])
+    half, middle = 0.5 * np.diff(knots), 0.5 * (knots[1:] + knots[:-1])
+    x = (middle[:, None] + half[:, None] * nodes).ravel()
+    weight = (half[:, None] * weights).ravel()
+    falling = weight[:, None] * (1.0 + 1j * x)[:, None] ** -exponent.ravel()
+    integral = np.exp(-end * np.outer(tau, x)) @ falling
+    turned = 1j * np.exp(1j * end * tau)[:, None] * integral
+    return np.asarray(end * turned.real).reshape(-1, *exponent.shape)
+
+
+def transform(kernel: FloatArray, step: float, omega: FloatArray) -> ComplexArray:
+    """``integral_0^T K(tau) exp(-i omega tau) dtau`` (m, ...) of samples (n, ...), by a cubic spline."""
+    from scipy.interpolate import CubicSpline
+
+    times = step * np.arange(len(kernel))
+    nodes, weights = np.polynomial.legendre.leggauss(4)
+    at = (times[:-1, None] + 0.5 * step * (1.0 + nodes)).ravel()
+    phases = np.exp(-1j * np.outer(omega, at)) * np.tile(0.5 * step * weights, len(kernel) - 1)
+    return np.asarray(np.tensordot(phases, CubicSpline(times, kernel)(at), axes=1))
+
+
+def _tail_exponent(omega: FloatArray, damping: FloatArray) -> FloatArray:
+    """Local exponent of decay at the last frequency, within bounds (3 where there is no damping)."""
+    slope = np.gradient(damping[-4:], omega[-4:], axis=0)[-1]
+    last = damping[-1]
+    safe = np.where(last == 0.0, 1.0, last)
+    exponent = np.where(last == 0.0, 3.0, -slope * omega[-1] / safe)
+    return np.asarray(np.clip(exponent, *TAIL_EXPONENTS))
+
+
+def _shortest(
+    omega: FloatArray, damping: FloatArray, kernel: FloatArray, step: float, candidates: list[int]
+) -> int:
+    """Samples of the shortest kernel that returns the damping well, or of the one that does so best."""
+    largest = np.maximum(np.abs(damping).max(axis=0), 1e-300)
+    errors = []
+    for samples in candidates:
+        back = transform(_tapered(kernel[:samples]), step, omega).real
+        errors.append(float(np.max(np.where(largest > 1e-300, np.abs(back - damping) / largest, 0.0))))
+        if errors[-1] <= DAMPING_ERROR:
+            return samples
+    return candidates[int(np.argmin(errors))]
+
+
+def _tapered(kernel: FloatArray) -> FloatArray:
+    """The kernel with its last fifth taken to zero."""
+    fraction = np.linspace(0.0, 1.0, len(kernel))
+    fade = np.clip((fraction - (1.0 - TAPER)) / TAPER, 0.0, 1.0)
+    return np.asarray(kernel * (0.5 * (1.0 + np.cos(np.pi * fade)))[:, None, None])
+
+
+def _additional(
+    database: HydroDatabase, part: AdditionalMatrices, tau: FloatArray, inside: NDArray[np.bool_]
+) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Kernel (n, 6, 6), instantaneous added mass and static stiffness (6, 6) of one additional cause."""
+    damping, added_mass = _symmetric(part.damping), _symmetric(part.added_mass)
+    kernel = _tapered(cosine_transform(database.omega, damping, tau)[0])
+    omega = database.omega[inside]
+    transfer = transform(kernel, float(tau[1]), omega)
+    rest = (added_mass[inside] - transfer.imag / omega[:, None, None]) * omega[:, None, None] ** 2
+    mass, stiffness = np.zeros((6, 6)), np.zeros((6, 6))
+    columns = np.stack([omega**2, -np.ones_like(omega)], axis=1)
+    for j, k in np.ndindex(6, 6):
+        strength = np.abs(damping[inside, j, k])
+        weight = strength / strength.max() if strength.any() else np.ones_like(omega)
+        target = rest[:, j, k] * weight
+        mass[j, k], stiffness[j, k] = np.linalg.lstsq(columns * weight[:, None], target, rcond=None)[0]
+    return kernel, mass, stiffness
+
+
+def _symmetric(matrices: FloatArray) -> FloatArray:
+    return np.asarray(0.5 * (matrices + matrices.swapaxes(1, 2)))
+
+
+def _relative(misfit: FloatArray, data: FloatArray, active: NDArray[np.bool_]) -> FloatArray:
+    """Root mean square (6, 6) of the misfit over the standard deviation of the data."""
+    return _ratio(np.sqrt(np.mean(misfit**2, axis=0)), data.std(axis=0)) * active
+
+
+def _ratio(part: FloatArray, whole: FloatArray) -> FloatArray:
+    return np.asarray(np.divide(part, whole, out=np.zeros_like(part), where=whole != 0.0))
+
+
+def _samples(duration: float, step: float) -> int:
+    """Samples from 0 to the duration."""
+    count = round(duration / step) + 1
+    if not 8 <= count <= 20_000:
+        raise ValueError(
+            f"retardation functions: {duration} s at steps of {step} s are {count} samples; choose 8 to 20000"
+        )
+    return count
+
+
+def _positive(name: str, value: float) -> float:
+    if not (np.isfinite(value) and value > 0.0):
+        raise ValueError(f"retardation functions: {name} is {value} s; give a positive number")
+    return float(value)

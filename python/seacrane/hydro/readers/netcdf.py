@@ -1,0 +1,307 @@
+"""Our NetCDF form of a `HydroDatabase`: written atomically, read back bit for bit."""
+
+from __future__ import annotations
+
+import os
+import tempfile
+from dataclasses import asdict, astuple, fields
+from os import PathLike
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from seacrane.errors import FileFormatError
+from seacrane.files.netcdf_limits import NETCDF_ERRORS, open_netcdf
+from seacrane.hydro.database.database import MOTIONS, AdditionalMatrices, HydroDatabase, RollDamping
+from seacrane.hydro.database.drift import DriftCoefficients
+from seacrane.hydro.memory.model import FitRow, MemoryBlock, MemoryModel, Passivity
+
+if TYPE_CHECKING:
+    import xarray
+
+FORMAT = "seacrane hydrodynamic database"
+FORMAT_VERSION = 1
+CONVENTION = (
+    "x forward, y port, z up; heading = direction waves travel to, from +x towards +y, rad; exp(+i omega t); "
+    "SI units; loads and motions per metre of wave amplitude, about the reference point"
+)
+_TEXTS = ("name", "origin", "source")
+_NUMBERS = ("rho", "g", "depth", "speed", "length", "breadth", "draught")
+_MATRIX = ("motion", "motion_of")
+_ARRAYS: dict[str, tuple[tuple[str, ...], str]] = {
+    "omega": (("omega",), "rad/s"),
+    "heading": (("heading",), "rad"),
+    "added_mass": (("omega", *_MATRIX), "kg, kg m, kg m2"),
+    "damping": (("omega", *_MATRIX), "N s/m, N s, N m s"),
+    "infinite_frequency_added_mass": (_MATRIX, "kg, kg m, kg m2"),
+    "zero_frequency_added_mass": (_MATRIX, "kg, kg m, kg m2"),
+    "restoring": (_MATRIX, "N/m, N, N m"),
+    "mass_matrix": (_MATRIX, "kg, kg m, kg m2"),
+    "linear_damping": (_MATRIX, "N s/m, N s, N m s"),
+    "quadratic_damping": (("motion",), "N s2/m2, N m s2"),
+    "force": (("heading", "omega", "motion"), "N/m, N m/m"),
+    "motion_rao": (("heading", "omega", "motion"), "m/m, rad/m"),
+    "motion_rao_limit": (("motion",), "1"),
+    "motion_rao_floor": (("motion",), "1"),
+}
+_ROLL = {"linear": ("omega",), "quadratic": ("omega",), "linearised": ("heading", "omega")}
+_DRIFT: dict[str, tuple[tuple[str, ...], str]] = {
+    "heading": (("heading",), "rad"),
+    "omega": (("omega",), "rad/s"),
+    "coefficient": (("heading", "omega", "motion"), "N/m2, N m/m2"),
+}
+_BLOCK_ARRAYS = ("outputs", "inputs", "A", "B", "C", "D", "state_scale")
+_MODEL_MATRICES = ("added_mass", "additional_added_mass", "additional_stiffness")
+
+
+def save_database(database: HydroDatabase, path: str | PathLike[str]) -> None:
+    """Write ``database`` to ``path``: a temporary file beside it, then a rename."""
+    import netCDF4
+
+    target = Path(path)
+    handle, temporary = tempfile.mkstemp(dir=target.parent, prefix=f".{target.name}.", suffix=".part")
+    os.close(handle)
+    try:
+        with netCDF4.Dataset(temporary, "w", format="NETCDF4") as file:
+            _write(file, database)
+        os.chmod(temporary, 0o644)
+        os.replace(temporary, target)
+    except BaseException:
+        Path(temporary).unlink(missing_ok=True)
+        raise
+
+
+def load_database_file(path: str | PathLike[str]) -> HydroDatabase:
+    """Read a file written by `save_database`.
+
+    Raises
+    ------
+    FileFormatError : the file is missing, damaged, or not one of ours.
+    """
+    source = Path(path)
+    if not source.is_file():
+        raise FileFormatError(f"{source}: no such file; give the path of a hydrodynamic database")
+    try:
+        with open_netcdf(source) as file:
+            if getattr(file, "format", None) != FORMAT:
+                raise FileFormatError(
+                    f"{source}: a NetCDF file, but not a seacrane hydrodynamic database; save one with "
+                    "HydroDatabase.save"
+                )
+            if int(file.format_version) > FORMAT_VERSION:
+                raise FileFormatError(
+                    f"{source}: format version {int(file.format_version)} is newer than this seacrane reads "
+                    f"({FORMAT_VERSION}); update seacrane"
+                )
+            return _read(file)
+    except FileFormatError:
+        raise
+    except NETCDF_ERRORS as error:
+        raise FileFormatError(
+            f"{source}: damaged hydrodynamic database ({str(error)[:200]}); fetch or save it again"
+        ) from error
+
+
+def to_xarray(database: HydroDatabase) -> xarray.Dataset:
+    """Labelled copies of the database's arrays."""
+    import xarray
+
+    variables = {}
+    for name, (dimensions, unit) in _ARRAYS.items():
+        value = getattr(database, name)
+        if value is not None and name not in ("omega", "heading"):
+            variables[name] = (dimensions, np.array(value), {"units": unit})
+    for part in database.additional:
+        for name in ("added_mass", "damping", "restoring"):
+            key = f"{name}_{part.cause.replace(' ', '_')}"
+            variables[key] = (("omega", *_MATRIX), np.array(getattr(part, name)), {"cause": part.cause})
+    if database.roll_damping is not None:
+        for name, dimensions in _ROLL.items():
+            variables[f"roll_damping_{name}"] = (
+                dimensions,
+                np.array(getattr(database.roll_damping, name)),
+                {},
+            )
+    coordinates = {
+        "omega": ("omega", np.array(database.omega), {"units": "rad/s"}),
+        "heading": ("heading", np.array(database.heading), {"units": "rad"}),
+        "motion": list(MOTIONS),
+        "motion_of": list(MOTIONS),
+    }
+    attributes = {name: getattr(database, name) for name in (*_TEXTS, *_NUMBERS)}
+    return xarray.Dataset(variables, coordinates, {**attributes, "convention": CONVENTION})
+
+
+def _write(file: Any, database: HydroDatabase) -> None:
+    file.format, file.format_version, file.convention = FORMAT, FORMAT_VERSION, CONVENTION
+    for name in (*_TEXTS, *_NUMBERS):
+        file.setncattr(name, getattr(database, name))
+    file.port_starboard_symmetric = int(database.port_starboard_symmetric)
+    if database.trusted_band is not None:
+        file.trusted_band = np.array(database.trusted_band, dtype=float)
+    sizes = {
+        "omega": len(database.omega),
+        "heading": len(database.heading),
+        "motion": 6,
+        "motion_of": 6,
+        "reim": 2,
+    }
+    for name, size in sizes.items():
+        file.createDimension(name, size)
+    for name, (dimensions, unit) in _ARRAYS.items():
+        value = getattr(database, name)
+        if value is not None:
+            _put(file, name, value, dimensions).units = unit
+    for i, part in enumerate(database.additional):
+        group = file.createGroup(f"additional_{i}")
+        group.cause = part.cause
+        for name in ("added_mass", "damping", "restoring"):
+            _put(group, name, getattr(part, name), ("omega", *_MATRIX))
+    if database.roll_damping is not None:
+        group = file.createGroup("roll_damping")
+        if database.roll_damping.linearised_amplitude is not None:
+            group.linearised_amplitude = float(database.roll_damping.linearised_amplitude)
+        for name, dimensions in _ROLL.items():
+            _put(group, name, getattr(database.roll_damping, name), dimensions)
+    if database.drift is not None:
+        group = file.createGroup("drift")
+        group.createDimension("heading", len(database.drift.heading))
+        group.createDimension("omega", len(database.drift.omega))
+        for name, (dimensions, unit) in _DRIFT.items():
+            _put(group, name, getattr(database.drift, name), dimensions).units = unit
+    if database.memory is not None:
+        _write_memory(file.createGroup("memory"), database.memory)
+
+
+def _write_memory(group: Any, model: MemoryModel) -> None:
+    group.band, group.r2 = np.array(model.band, dtype=float), float(model.r2)
+    group.passivity = np.array([getattr(model.passivity, entry.name) for entry in fields(Passivity)])
+    for name in _MODEL_MATRICES:
+        _put(group, name, getattr(model, name), _MATRIX)
+    shapes = [(len(block.A), len(block.outputs), len(block.inputs)) for block in model.blocks]
+    group.createDimension("block", len(model.blocks))
+    group.createDimension("size", 3)
+    _put(group, "block_shape", np.array(shapes, dtype=np.int64).reshape(-1, 3), ("block", "size"))
+    group.block_cause = "\n".join(block.cause for block in model.blocks)
+    for name in _BLOCK_ARRAYS:
+        flat = [getattr(block, name).ravel() for block in model.blocks]
+        joined = np.concatenate(flat) if flat else np.zeros(0)
+        group.createDimension(f"length_{name}", len(joined))
+        _put(group, name, joined, (f"length_{name}",))
+    rows = [asdict(row) for row in model.rows]
+    group.createDimension("row", len(rows))
+    group.row_cause = "\n".join(row.cause for row in model.rows)
+    for entry in fields(FitRow):
+        if entry.name != "cause":
+            kind = float if entry.type == "float" else np.int64
+            _put(
+                group, f"row_{entry.name}", np.array([row[entry.name] for row in rows], dtype=kind), ("row",)
+            )
+
+
+def _put(group: Any, name: str, value: Any, dimensions: tuple[str, ...]) -> Any:
+    """Store one array, complex ones with a last dimension of real and imaginary part."""
+    array = np.asarray(value)
+    if np.iscomplexobj(array):
+        array, dimensions = np.stack([array.real, array.imag], axis=-1), (*dimensions, "reim")
+    large = array.size > 500
+    variable = group.createVariable(
+        name, array.dtype, dimensions, fill_value=False, zlib=large, complevel=6, shuffle=large
+    )
+    variable[...] = array
+    return variable
+
+
+def _read(file: Any) -> HydroDatabase:
+    values: dict[str, Any] = {name: str(file.getncattr(name)) for name in _TEXTS}
+    values |= {name: float(file.getncattr(name)) for name in _NUMBERS}
+    for name in _ARRAYS:
+        if name in file.variables:
+            values[name] = _get(file, name)
+    band = getattr(file, "trusted_band", None)
+    groups = file.groups
+    additional = [groups[name] for name in sorted(groups) if name.startswith("additional_")]
+    return HydroDatabase(
+        **values,
+        port_starboard_symmetric=bool(file.port_starboard_symmetric),
+        trusted_band=None if band is None else (float(band[0]), float(band[1])),
+        additional=tuple(
+            AdditionalMatrices(
+                cause=str(group.cause),
+                added_mass=_get(group, "added_mass"),
+                damping=_get(group, "damping"),
+                restoring=_get(group, "restoring"),
+            )
+            for group in additional
+        ),
+        roll_damping=_read_roll(groups["roll_damping"]) if "roll_damping" in groups else None,
+        memory=_read_memory(groups["memory"]) if "memory" in groups else None,
+        drift=_read_drift(groups["drift"]) if "drift" in groups else None,
+    )
+
+
+def _read_roll(group: Any) -> RollDamping:
+    amplitude = getattr(group, "linearised_amplitude", None)
+    return RollDamping(
+        **{name: _get(group, name) for name in _ROLL},
+        linearised_amplitude=None if amplitude is None else float(amplitude),
+    )
+
+
+def _read_drift(group: Any) -> DriftCoefficients:
+    return DriftCoefficients(**{name: _get(group, name) for name in _DRIFT})
+
+
+def _read_memory(group: Any) -> MemoryModel:
+    shapes = _get(group, "block_shape")
+    causes = str(group.block_cause).split("\n") if len(shapes) else []
+    flat = {name: _get(group, name) for name in _BLOCK_ARRAYS}
+    start = dict.fromkeys(_BLOCK_ARRAYS, 0)
+    blocks = []
+    for cause, (k, p, m) in zip(causes, shapes.tolist(), strict=True):
+        parts = {}
+        sizes = ((p,), (m,), (k, k), (k, m), (p, k), (p, m), (k,))
+        for name, shape in zip(_BLOCK_ARRAYS, sizes, strict=True):
+            end = start[name] + int(np.prod(shape))
+            parts[name] = flat[name][start[name] : end].reshape(shape)
+            start[name] = end
+        blocks.append(MemoryBlock(cause=cause, **parts))
+    columns = {
+        entry.name: _get(group, f"row_{entry.name}") for entry in fields(FitRow) if entry.name != "cause"
+    }
+    row_causes = str(group.row_cause).split("\n") if len(columns["order"]) else []
+    rows = [
+        FitRow(cause=cause, **{name: _plain(name, column[i]) for name, column in columns.items()})
+        for i, cause in enumerate(row_causes)
+    ]
+    band, passivity = group.band, _passivity(group.passivity)
+    if np.isnan(band).any() or np.isnan(astuple(passivity)).any() or not np.isfinite(group.r2):
+        raise ValueError("memory: band, passivity or r2 is not a number")
+    return MemoryModel(
+        blocks=tuple(blocks),
+        **{name: _get(group, name) for name in _MODEL_MATRICES},
+        band=(float(band[0]), float(band[1])),
+        r2=float(group.r2),
+        rows=tuple(rows),
+        passivity=passivity,
+    )
+
+
+def _passivity(values: Any) -> Passivity:
+    names = [entry.name for entry in fields(Passivity)]
+    return Passivity(**{name: float(value) for name, value in zip(names, values, strict=True)})
+
+
+def _plain(name: str, value: Any) -> Any:
+    """Python scalar of a row's column."""
+    return bool(value) if name == "accepted" else value.item()
+
+
+def _get(group: Any, name: str) -> Any:
+    """Read one array, joining real and imaginary parts."""
+    variable = group.variables[name]
+    array = np.asarray(variable[...])
+    if variable.dimensions[-1:] == ("reim",):
+        return array[..., 0] + 1j * array[..., 1]
+    return array

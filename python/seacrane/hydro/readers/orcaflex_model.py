@@ -1,0 +1,314 @@
+"""Vessel type of an OrcaFlex text model (``.yml``): its numbers in SI, in the file's axes, which are ours.
+
+Axes are x forward, y port, z up; directions are those of travel. Phases are lags or leads relative to a
+crest, a trough or a zero crossing at the phase origin. te and kN; load RAOs per metre of wave amplitude. The
+sign conventions of motions and the wave unit can be changed in OrcaFlex; only its defaults are read.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from seacrane.errors import FileFormatError
+from seacrane.files.whole_file import read_whole
+from seacrane.inputs.shown import shown
+
+FloatArray = NDArray[np.float64]
+ComplexArray = NDArray[np.complex128]
+
+KILO = 1000.0  # te to kg, kN to N
+LARGEST_FILE = 64 * 2**20  # bytes; YAML is read at about 1 MiB/s
+DEEPEST = 40  # levels of a text model; OrcaFlex writes about ten
+DEFAULTS = {
+    "RAOWaveUnit": "amplitude",
+    "SurgePositive": "forward",
+    "SwayPositive": "port",
+    "HeavePositive": "up",
+    "RollPositiveStarboard": "down",
+    "PitchPositiveBow": "down",
+    "YawPositiveBow": "port",
+}
+LAG_OF_EVENT = {"crest": 0.0, "zero down-crossing": 0.5, "trough": 1.0, "zero up-crossing": 1.5}  # pi
+ADDED_MASS = ", ".join(f"AddedMassMatrix{axis}" for axis in ("X", "Y", "Z", "Rx", "Ry", "Rz"))
+DAMPING = ", ".join(f"Damping{axis}" for axis in ("X", "Y", "Z", "Rx", "Ry", "Rz"))
+STIFFNESS = "HydrostaticStiffnessz, HydrostaticStiffnessRx, HydrostaticStiffnessRy"
+INERTIA = "MomentOfInertiaTensorX, MomentOfInertiaTensorY, MomentOfInertiaTensorZ"
+RAO_ROWS = "RAOPeriodOrFrequency, " + ", ".join(
+    f"RAO{motion}Amp, RAO{motion}Phase" for motion in ("Surge", "Sway", "Heave", "Roll", "Pitch", "Yaw")
+)
+
+
+@dataclass(frozen=True, eq=False)
+class Raos:
+    """``values`` (m, n, 6) complex, exp(+i omega t), about ``origin`` with zero phase at ``phase_origin``."""
+
+    heading_deg: FloatArray
+    omega: FloatArray
+    values: ComplexArray
+    origin: FloatArray
+    phase_origin: FloatArray
+
+
+@dataclass(frozen=True, eq=False)
+class VesselType:
+    """One draught of a vessel type, SI; matrices about ``origin``; what is not in the file is None.
+
+    ``omega`` (n,) of the matrices may hold 0 and infinity. ``mass``, ``centre`` and ``inertia`` (about the
+    centre) are of the structure; points are from the origin of the vessel's axes.
+    """
+
+    name: str
+    symmetry: str
+    length: float | None
+    omega: FloatArray
+    added_mass: FloatArray
+    damping: FloatArray
+    origin: FloatArray
+    loads: Raos
+    motions: Raos | None
+    mass: float | None
+    centre: FloatArray
+    inertia: FloatArray
+    stiffness: FloatArray | None
+    other_origin: FloatArray
+    other_linear: FloatArray
+    other_quadratic: FloatArray
+    rho: float | None
+    depth: float
+
+
+@dataclass(frozen=True)
+class _Node:
+    """A place in the document, which its messages name."""
+
+    path: Path
+    place: str
+    value: Any
+
+    def error(self, message: str) -> FileFormatError:
+        return FileFormatError(f"{self.path}, {self.place or 'document'}: {message}")
+
+    def has(self, key: str) -> bool:
+        return isinstance(self.value, dict) and self.value.get(key) is not None
+
+    def at(self, key: str) -> _Node:
+        if not self.has(key):
+            raise self.error(f"{key} is missing; save the whole model as a text data file")
+        return _Node(self.path, f"{self.place}/{key}".lstrip("/"), self.value[key])
+
+    def items(self) -> list[_Node]:
+        if not isinstance(self.value, list):
+            raise self.error("a list is expected")
+        return [_Node(self.path, f"{self.place}[{i + 1}]", value) for i, value in enumerate(self.value)]
+
+    def text(self) -> str:
+        return str(self.value)
+
+    def number(self) -> float:
+        """A number, which YAML 1.1 takes for text when its exponent has no sign (``1e3``)."""
+        try:
+            if isinstance(self.value, bool) or not isinstance(self.value, (int, float, str)):
+                raise ValueError
+            value = float(self.value)
+        except (ValueError, OverflowError):
+            raise self.error(f"{str(self.value)[:40]!r} is not a number") from None
+        if math.isnan(value):
+            raise self.error("not a number (nan)")
+        return value
+
+    def finite(self) -> float:
+        value = self.number()
+        if not math.isfinite(value):
+            raise self.error(f"{value} is not finite")
+        return value
+
+    def table(self, rows: int | None, columns: int) -> FloatArray:
+        """Rows of finite numbers; any number of rows where ``rows`` is None."""
+        lines = self.items()
+        if not lines or (rows is not None and len(lines) != rows):
+            raise self.error(f"{rows or 'some'} rows are expected, found {len(lines)}")
+        for line in lines:
+            if len(line.items()) != columns:
+                raise line.error(f"{columns} numbers are expected, found {len(line.items())}")
+        return np.array([[entry.finite() for entry in line.items()] for line in lines])
+
+    def vector(self, count: int) -> FloatArray:
+        found = self.items()
+        if len(found) != count:
+            raise self.error(f"{count} numbers are expected, found {len(found)}")
+        return np.array([entry.finite() for entry in found])
+
+
+def read_vessel_type(path: Path, *, vessel_type: str | None, draught: str | None) -> VesselType:
+    """Read one draught of one vessel type.
+
+    Raises
+    ------
+    FileFormatError : the document is no OrcaFlex model in SI units, holds several vessel types or draughts
+        and none was chosen, uses conventions other than the defaults, or lacks something.
+    """
+    model = _Node(path, "", _document(path))
+    units = model.at("General").at("UnitsSystem").text() if model.has("General") else "SI"
+    if units != "SI":
+        raise model.error(f"units system {shown(units)}: save the model in SI units")
+    kind = _named(model.at("VesselTypes"), vessel_type, "vessel_type")
+    for key, usual in DEFAULTS.items():
+        if kind.has(key) and kind.at(key).text() != usual:
+            raise kind.error(
+                f"{key} is {shown(kind.at(key).text())}; only {usual!r} is read: change the conventions"
+            )
+    state = _named(kind.at("Draughts"), draught, "draught")
+    origin = _point(state, "ReferenceOrigin")
+    omega, added_mass, damping = _matrices(kind, state)
+    motions = state.has("DisplacementRAOs") and state.at("DisplacementRAOs").has("RAOs")
+    sea = _Node(path, "Environment", model.value.get("Environment") or {})
+    return VesselType(
+        name=f"{kind.at('Name').text()}, {state.at('Name').text()}",
+        symmetry=kind.at("Symmetry").text() if kind.has("Symmetry") else "None",
+        length=kind.at("Length").finite() if kind.has("Length") else None,
+        omega=omega,
+        added_mass=added_mass * KILO,
+        damping=damping * KILO,
+        origin=origin,
+        loads=_raos(kind, state.at("LoadRAOs"), np.full(6, KILO)),
+        motions=_motion_raos(kind, state.at("DisplacementRAOs")) if motions else None,
+        mass=state.at("Mass").finite() * KILO if state.has("Mass") else None,
+        centre=_point(state, "CentreOfMass" if state.has("CentreOfMass") else "CentreOfGravity"),
+        inertia=state.at(INERTIA).table(3, 3) * KILO if state.has(INERTIA) else np.zeros((3, 3)),
+        stiffness=state.at(STIFFNESS).table(3, 3) * KILO if state.has(STIFFNESS) else None,
+        other_origin=_point(state, "OtherDampingOrigin"),
+        other_linear=_six(state, "OtherLinearDamping") * KILO,
+        other_quadratic=_six(state, "OtherQuadraticDamping") * KILO,
+        rho=sea.at("Density").finite() * KILO if sea.has("Density") else None,
+        depth=sea.at("WaterDepth").number() if sea.has("WaterDepth") else math.inf,
+    )
+
+
+def _document(path: Path) -> dict[str, Any]:
+    """The one document of the file; nesting and aliases are looked at before anything is built."""
+    try:
+        import yaml
+    except ImportError:
+        raise FileFormatError(
+            f"{path}: OrcaFlex models need PyYAML; install it with pip install 'seacrane[orcaflex]'"
+        ) from None
+    loader = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
+    try:
+        text = read_whole(path, LARGEST_FILE, "save the vessel type alone").decode("utf-8-sig")
+        depth = 0
+        for event in yaml.parse(text, Loader=loader):
+            depth += isinstance(event, yaml.CollectionStartEvent) - isinstance(event, yaml.CollectionEndEvent)
+            if depth > DEEPEST or isinstance(event, yaml.AliasEvent):
+                line = event.start_mark.line + 1
+                raise FileFormatError(f"{path}, line {line}: nested too deeply or aliased; no OrcaFlex model")
+        found = yaml.load(text, Loader=loader)
+    except OSError as error:
+        raise FileFormatError(f"{path}: cannot be read ({error.strerror}); check the path") from error
+    except UnicodeDecodeError as error:
+        raise FileFormatError(f"{path}: no UTF-8 text ({error.reason}); save the model again") from error
+    except (yaml.YAMLError, ValueError, TypeError) as error:
+        if isinstance(error, FileFormatError):
+            raise
+        mark = getattr(error, "problem_mark", None)
+        line = "" if mark is None else f", line {mark.line + 1}"
+        reason = getattr(error, "problem", None) or str(error).partition("\n")[0]
+        raise FileFormatError(f"{path}{line}: no YAML document ({reason}); save the model again") from error
+    if not isinstance(found, dict):
+        raise FileFormatError(f"{path}, line 1: no OrcaFlex model; save the model as a text data file")
+    return found
+
+
+def _named(nodes: _Node, name: str | None, argument: str) -> _Node:
+    """The entry of a list with that ``Name``, or the only one."""
+    names = [entry.at("Name").text() for entry in nodes.items()]
+    if name is None and len(names) == 1:
+        name = names[0]
+    if name not in names:
+        raise nodes.error(f"holds {', '.join(names)[:200] or 'nothing'}; pass {argument}= with one of these")
+    return _Node(nodes.path, f"{nodes.place}/{name[:60]}", nodes.value[names.index(name)])
+
+
+def _to_omega(kind: _Node, values: Sequence[float]) -> FloatArray:
+    """Frequencies in rad/s of what the file refers to waves by; a period of 0 is infinity."""
+    unit = kind.at("WavesReferredToBy").text()
+    array = np.array(values, dtype=float)
+    if np.any(array < 0.0):
+        raise kind.error(f"period or frequency {array.min():g}; give positive ones")
+    if unit == "period (s)":
+        with np.errstate(divide="ignore"):
+            return np.asarray(2.0 * np.pi / array)
+    if unit in ("frequency (rad/s)", "frequency (Hz)"):
+        return array * (2.0 * np.pi if unit.endswith("(Hz)") else 1.0)
+    raise kind.error(f"WavesReferredToBy is {shown(unit)}; period (s), frequency (rad/s) or (Hz) are known")
+
+
+def _matrices(kind: _Node, state: _Node) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Frequencies, added mass in te and damping in kN s, in the order of the file."""
+    key = "FrequencyDependentAddedMassAndDamping"
+    if not state.has(key):
+        raise state.error(f"{key} is missing; one body with the method 'Frequency dependent' is read")
+    entries = state.at(key).items()
+    omega = _to_omega(kind, [entry.at("AMDPeriodOrFrequency").number() for entry in entries])
+    tables = [[entry.at(name).table(6, 6) for entry in entries] for name in (ADDED_MASS, DAMPING)]
+    return omega, np.array(tables[0]).reshape(-1, 6, 6), np.array(tables[1]).reshape(-1, 6, 6)
+
+
+def _raos(kind: _Node, node: _Node, scale: FloatArray) -> Raos:
+    """A table of amplitudes and phases as complex numbers."""
+    headings = node.at("RAOs").items()
+    if not headings:
+        raise node.error("RAOs is empty; give the load RAOs of the vessel type")
+    tables = [entry.at(RAO_ROWS).table(None, 13) for entry in headings]
+    for entry, table in zip(headings, tables, strict=True):
+        if table.shape != tables[0].shape or np.any(table[:, 0] != tables[0][:, 0]):
+            raise entry.error("periods or frequencies differ from those of the first direction")
+    rows = np.array(tables)
+    origin = _point(node, "RAOOrigin")
+    return Raos(
+        heading_deg=np.array([entry.at("RAODirection").finite() for entry in headings]),
+        omega=_to_omega(kind, rows[0, :, 0].tolist()),
+        values=rows[:, :, 1::2] * scale * np.exp(-1j * _lag(kind, rows[:, :, 2::2])),
+        origin=origin,
+        phase_origin=_point(node, "PhaseOrigin", origin),
+    )
+
+
+def _lag(kind: _Node, phase: FloatArray) -> FloatArray:
+    """Phases as lags behind the crest, rad."""
+    unit, sense = kind.at("RAOPhaseUnitsConvention").text(), kind.at("RAOPhaseConvention").text()
+    event = kind.at("RAOPhaseRelativeToConvention").text()
+    if unit not in ("degrees", "radians") or sense not in ("lags", "leads") or event not in LAG_OF_EVENT:
+        raise kind.error(
+            f"RAO phases as {shown(sense)} in {shown(unit)} relative to {shown(event)}; lags or leads in "
+            f"degrees or radians relative to {', '.join(LAG_OF_EVENT)} are known"
+        )
+    radians = np.radians(phase) if unit == "degrees" else phase
+    return np.asarray((radians if sense == "lags" else -radians) + np.pi * LAG_OF_EVENT[event])
+
+
+def _motion_raos(kind: _Node, node: _Node) -> Raos:
+    """Displacement RAOs; the unit of rotations is a convention of these alone."""
+    unit = kind.at("RAOResponseUnits").text()
+    if unit not in ("degrees", "radians"):
+        raise kind.error(f"RAOResponseUnits is {shown(unit)}; degrees or radians are known")
+    turn = np.pi / 180.0 if unit == "degrees" else 1.0
+    return _raos(kind, node, np.array([1.0, 1.0, 1.0, turn, turn, turn]))
+
+
+def _point(node: _Node, key: str, default: FloatArray | None = None) -> FloatArray:
+    """A point in vessel axes; where it is missing or ``~`` the default, which is the axes' origin."""
+    given = node.at(key).value if node.has(key) else None
+    if given is None or (isinstance(given, list) and all(value is None for value in given)):
+        return np.zeros(3) if default is None else default
+    return node.at(key).vector(3)
+
+
+def _six(node: _Node, key: str) -> FloatArray:
+    return node.at(key).vector(6) if node.has(key) else np.zeros(6)

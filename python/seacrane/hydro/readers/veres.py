@@ -1,0 +1,297 @@
+"""Reader of ShipX/VERES results: ``.re7`` (matrices), ``.re8`` (excitation), ``.re1`` (motions), ``.re2``
+(drift), ``.hyd`` (hydrostatics).
+
+File axes are x aft, y starboard, z up; heading 0 is head sea; time factor exp(+i omega t); LCG positive aft
+of midship; everything refers to the motion point (xmtn aft of midship, centreline, zmtn above the baseline),
+which is also where waves have zero phase. To ours: diag(-1, -1, 1, -1, -1, 1), and direction = heading + 180
+degrees. Drift coefficients: surge and sway by rho g B^2 / L, yaw by rho g B^2, per squared amplitude.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from os import PathLike
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from seacrane.errors import FileFormatError
+from seacrane.hydro.database.database import AdditionalMatrices, HydroDatabase, RollDamping
+from seacrane.hydro.database.drift import DriftCoefficients
+from seacrane.hydro.database.encounter import one_function
+from seacrane.hydro.readers.reader_warnings import EncounterFrequencyWarning, HydrostaticsWarning
+from seacrane.hydro.readers.veres_files import DriftAtSpeed, DriftFile, MatricesAtSpeed, TransferAtSpeed
+from seacrane.hydro.readers.veres_hydrostatics import Loading, contradictions, read_veres_hydrostatics
+from seacrane.hydro.readers.veres_set import (
+    VeresSet,
+    at_speed,
+    choose_speed,
+    find_stem,
+    other_run,
+    read_set,
+    sibling,
+)
+from seacrane.inputs.caller import warn_caller
+
+FloatArray = NDArray[np.float64]
+
+TO_OURS = np.array([-1.0, -1.0, 1.0, -1.0, -1.0, 1.0])
+BOTH_SIDES = np.outer(TO_OURS, TO_OURS)
+DRIFT_MOTIONS = [0, 1, 5]
+ADDITIONAL_CAUSE = "roll tanks and other additional matrices"
+LINEARISED_AMPLITUDE = 5.0  # m, the wave amplitude of the files' linearised roll damping
+CLOSURE_LIMIT = np.array([1e-3, 1e-3, 1e-5, 1e-3, 1e-5, 1e-3])  # of eight digits
+SPEED_CLOSURE_LIMIT = np.full(6, 1e-2)  # interpolated in encounter frequency
+BAND = (0.3, 2.6)  # rad/s
+AGREEMENT = 0.02  # between headings at one encounter frequency, of the geometric mean of the diagonals
+DRIFT_DIGITS = 1e-4  # .re2 gives frequencies and headings in four and two decimals
+HEADING_DIGITS = 6e-3
+
+
+@dataclass(frozen=True, eq=False)
+class _Tables:
+    """The matrices at one speed as functions of frequency (of encounter), in our axes, frequencies rising."""
+
+    added_mass: FloatArray
+    damping: FloatArray
+    additional: AdditionalMatrices
+    roll: FloatArray
+
+
+def read_veres(path: str | PathLike[str], *, speed: float | None = None) -> HydroDatabase:
+    """Read the VERES results at ``path``: a folder that holds one set, the common stem, or one of the files.
+
+    Needs ``.re7`` (version 1 or 2) and ``.re8``; ``.re1`` adds the motion transfer functions, against which
+    `check` compares; ``.re2`` the drift coefficients; ``.hyd`` is compared with the matrices.
+
+    Parameters
+    ----------
+    path : folder, stem or file.
+    speed : which forward speed of the set, m/s; by default the one nearest to zero.
+
+    Returns
+    -------
+    HydroDatabase : the trusted band is the range between 0.3 and 2.6 rad/s that the files cover. At forward
+        speed the matrices are functions of the encounter frequency: those of a beam sea, where encounter and
+        wave frequency are the same, else those of all headings joined.
+
+    Warns
+    -----
+    SeveralSpeedsWarning : the set holds several speeds and ``speed`` is not given.
+    PartialSetWarning : a speed is not in every file.
+    EncounterFrequencyWarning : at forward speed the headings do not agree on one function of the encounter
+        frequency, or do not cover the files' range.
+    HydrostaticsWarning : ``.hyd`` contradicts the matrices.
+
+    Raises
+    ------
+    FileFormatError : a file is missing, truncated, inconsistent with the others, or without that speed; the
+        message names the file and, where there is one, the line.
+    """
+    found = read_set(find_stem(Path(path)))
+    chosen = choose_speed(found, speed)
+    try:
+        database = _convert(found, chosen)
+    except FileFormatError:
+        raise
+    except ValueError as error:
+        raise FileFormatError(f"{found.stem}: {error}") from error
+    _check_hydrostatics(found, chosen)
+    return database
+
+
+def _same_grid(path: Path, case: TransferAtSpeed, matrices: MatricesAtSpeed) -> TransferAtSpeed:
+    """The transfer functions, which must be on the grid of the matrices."""
+    pairs = {
+        "motion point": case.motion_point == matrices.motion_point,
+        "headings": np.array_equal(case.heading, matrices.heading),
+        "frequencies": np.array_equal(case.omega, matrices.omega),
+    }
+    for what, same in pairs.items():
+        if not same:
+            raise other_run(path, what)
+    return case
+
+
+def _convert(found: VeresSet, speed: float) -> HydroDatabase:
+    """The database in our conventions."""
+    case, head = at_speed(found.matrices.cases, speed), found.matrices.header
+    force = _same_grid(found.force.path, at_speed(found.force.cases, speed), case)
+    motion = None
+    if found.motion is not None:
+        motion = _same_grid(found.motion.path, at_speed(found.motion.cases, speed), case)
+    direction = _direction(case.heading)
+    by_heading, by_omega = np.argsort(direction), np.argsort(case.omega)
+    omega = case.omega[by_omega]
+    tables = _tables(found, case, by_omega)
+    restoring = case.blocks[:, :, 4]
+    if np.any(np.abs(restoring - restoring[0, 0]) > 1e-6 * np.abs(restoring).max()):
+        raise ValueError("the restoring matrix depends on heading or frequency; check the .re7 file")
+    extra = tables.additional
+    present = any(np.any(x != 0.0) for x in (extra.added_mass, extra.damping, extra.restoring))
+
+    def of_wave(transfer: TransferAtSpeed) -> NDArray[np.complex128]:
+        return np.asarray(transfer.values[by_heading][:, by_omega] * TO_OURS)
+
+    x_aft, z = case.motion_point
+    return HydroDatabase(
+        name=found.stem.name,
+        omega=omega,
+        heading=direction[by_heading],
+        added_mass=tables.added_mass,
+        damping=tables.damping,
+        restoring=restoring[0, 0] * BOTH_SIDES + 0.0,
+        mass_matrix=found.matrices.mass * BOTH_SIDES + 0.0,
+        force=of_wave(force),
+        motion_rao=None if motion is None else of_wave(motion),
+        motion_rao_limit=CLOSURE_LIMIT if speed == 0.0 else SPEED_CLOSURE_LIMIT,
+        roll_damping=RollDamping(
+            linear=tables.roll[:, 0],
+            quadratic=tables.roll[:, 1],
+            linearised=case.roll[by_heading][:, by_omega, 2],
+            linearised_amplitude=LINEARISED_AMPLITUDE,
+        ),
+        additional=(extra,) if present else (),
+        drift=None if found.drift is None else _drift(found.drift, at_speed(found.drift.cases, speed), case),
+        rho=head.rho,
+        g=head.g,
+        speed=case.speed,
+        length=head.length,
+        breadth=head.breadth,
+        draught=head.draught,
+        origin=(
+            f"motion point of the files: {x_aft:g} m aft of midship, on the centreline, {z:g} m above the "
+            "baseline"
+        ),
+        source=f"ShipX/VERES files {found.stem.name} ({_names(found)}): {found.matrices.title}",
+        trusted_band=_trusted(omega),
+        port_starboard_symmetric=True,
+    )
+
+
+def _names(found: VeresSet) -> str:
+    return ", ".join(file.path.suffix.lower() for file in found.files())
+
+
+def _direction(heading_deg: FloatArray) -> FloatArray:
+    """Directions of travel in [0, 2 pi) of the files' headings."""
+    direction = np.mod(np.radians(heading_deg) + np.pi, 2.0 * np.pi)
+    direction[np.abs(direction - 2.0 * np.pi) < 1e-12] = 0.0
+    return np.asarray(direction)
+
+
+def _tables(found: VeresSet, case: MatricesAtSpeed, by_omega: NDArray[np.intp]) -> _Tables:
+    """The matrices as functions of the frequency of encounter alone."""
+    omega = case.omega[by_omega]
+    ours = case.blocks[:, by_omega] * BOTH_SIDES + 0.0  # + 0.0: no negative zeros
+    roll = case.roll[:, by_omega, :2]
+    if case.speed == 0.0:
+        scale = np.abs(ours[:1]).max(axis=(0, 1), keepdims=True) + 1e-300
+        if np.any(np.abs(ours - ours[:1]) > 1e-5 * scale):
+            raise ValueError(
+                "matrices depend on the heading, which zero speed does not allow; check the files"
+            )
+        blocks, roll = ours[0], roll[0]
+    else:
+        blocks, roll = _of_encounter(found, case, ours, roll, omega)
+    added_mass, added_mass_add, damping, damping_add, _, restoring_add = np.moveaxis(blocks, 1, 0)
+    extra = AdditionalMatrices(
+        cause=ADDITIONAL_CAUSE, added_mass=added_mass_add, damping=damping_add, restoring=restoring_add
+    )
+    return _Tables(added_mass, damping, extra, roll)
+
+
+def _of_encounter(
+    found: VeresSet, case: MatricesAtSpeed, blocks: FloatArray, roll: FloatArray, omega: FloatArray
+) -> tuple[FloatArray, FloatArray]:
+    """Blocks (n, 6, 6, 6) and roll damping (n, 2) from those of every heading, with warnings."""
+    m, n = blocks.shape[:2]
+    along = np.cos(np.radians(case.heading))
+    along[np.abs(along) < 1e-12] = 0.0
+    encounter = omega + case.speed / found.matrices.header.g * np.outer(along, omega**2)
+    flat = np.concatenate([blocks.reshape(m, n, -1), roll], axis=2)
+    joined = one_function(flat, omega=omega, encounter=encounter, band=_trusted(omega) or (0.0, np.inf))
+    _warn_of_range(found.stem, case.speed, joined.known, omega)
+    _warn_of_disagreement(found.stem, case.speed, blocks, joined.difference[:-2].reshape(6, 6, 6))
+    return joined.values[:, :-2].reshape(n, 6, 6, 6), joined.values[:, -2:]
+
+
+def _warn_of_range(stem: Path, speed: float, known: tuple[float, float], omega: FloatArray) -> None:
+    if known[0] > omega[0] * (1.0 + 1e-9) or known[1] < omega[-1] * (1.0 - 1e-9):
+        warn_caller(
+            f"{stem}: at {speed:g} m/s the headings cover encounter frequencies {known[0]:.4g} to "
+            f"{known[1]:.4g} rad/s of {omega[0]:.4g} to {omega[-1]:.4g}; the end values are held beyond, and "
+            "motions there follow from that guess. Add a beam sea to the VERES run",
+            EncounterFrequencyWarning,
+        )
+
+
+def _warn_of_disagreement(stem: Path, speed: float, blocks: FloatArray, difference: FloatArray) -> None:
+    peak = np.sqrt(np.abs(np.diagonal(blocks, axis1=3, axis2=4)).max(axis=(0, 1)))  # (kinds, 6)
+    scale = peak[:, :, None] * peak[:, None, :]
+    relative = np.where(scale > 0.0, difference / np.where(scale > 0.0, scale, 1.0), 0.0)
+    if relative.max() > AGREEMENT:
+        kind, j, k = np.unravel_index(int(relative.argmax()), relative.shape)
+        name = ("A", "A_add", "B", "B_add", "C", "C_add")[int(kind)]
+        warn_caller(
+            f"{stem}: at {speed:g} m/s the headings differ at the same encounter frequency by up to "
+            f"{relative.max():.1%} of the largest diagonals, in {name}{j + 1}{k + 1}; one function is taken "
+            "for all, and motions are off accordingly",
+            EncounterFrequencyWarning,
+        )
+
+
+def _drift(file: DriftFile, case: DriftAtSpeed, matrices: MatricesAtSpeed) -> DriftCoefficients:
+    """Mean loads per squared amplitude in our axes, on the exact grid of the matrices."""
+    for what, rough, exact, digits in (
+        ("headings", case.heading, matrices.heading, HEADING_DIGITS),
+        ("frequencies", case.omega, matrices.omega, DRIFT_DIGITS),
+    ):
+        if len(rough) != len(exact) or np.any(np.abs(rough - exact) > digits):
+            raise other_run(file.path, what)
+    head = file.header
+    force = head.rho * head.g * head.breadth**2
+    scale = force * np.array([1.0 / head.length, 1.0 / head.length, 1.0])
+    direction = _direction(matrices.heading)
+    by_heading, by_omega = np.argsort(direction), np.argsort(matrices.omega)
+    load = np.zeros((*case.values.shape[:2], 6))
+    load[:, :, DRIFT_MOTIONS] = case.values * scale * TO_OURS[DRIFT_MOTIONS]
+    return DriftCoefficients(
+        heading=direction[by_heading],
+        omega=matrices.omega[by_omega],
+        coefficient=load[by_heading][:, by_omega],
+    )
+
+
+def _check_hydrostatics(found: VeresSet, speed: float) -> None:
+    """Warn where the text of ``.hyd`` and the matrices are of different ships or loadings."""
+    path = sibling(found.stem, ".hyd")
+    if path is None:
+        return
+    head, case = found.matrices.header, at_speed(found.matrices.cases, speed)
+    assert head.lcg_aft is not None and head.vcg is not None
+    ship = Loading(
+        mass=found.matrices.mass,
+        restoring=case.blocks[0, 0, 4],
+        lcg_aft=head.lcg_aft,
+        vcg=head.vcg,
+        motion_point=case.motion_point,
+        g=head.g,
+        length=head.length,
+        breadth=head.breadth,
+        draught=head.draught,
+    )
+    different = contradictions(read_veres_hydrostatics(path), ship)
+    if different:
+        warn_caller(
+            f"{path}: contradicts {found.matrices.path.name}: {'; '.join(different)} (SI); the matrices are "
+            "used, and mass, restoring and natural periods may be of another loading",
+            HydrostaticsWarning,
+        )
+
+
+def _trusted(omega: FloatArray) -> tuple[float, float] | None:
+    """The part of 0.3 to 2.6 rad/s that the files cover, or None if that is nothing."""
+    low, high = max(BAND[0], float(omega[0])), min(BAND[1], float(omega[-1]))
+    return (low, high) if low < high else None

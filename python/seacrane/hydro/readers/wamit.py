@@ -1,0 +1,321 @@
+"""Reader of WAMIT results: ``.1 .3 .4 .hst`` (numbers), ``.out`` (g, depth, volume), ``.frc`` (mass).
+
+File axes and headings are ours (x forward, y port, z up; heading = direction of travel from +x towards +y;
+exp(+i omega t)). Dimensions follow the WAMIT manual, chapter 3, with length scale L: A rho L^k and B rho
+omega L^k with k = 3, 4, 5 for no, one, two rotations; C rho g L^(k-1); forces rho g L^2, moments rho g L^3;
+rotations 1/L. Phases in ``.out`` are rounded to degrees and not used.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from os import PathLike
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from seacrane.errors import FileFormatError
+from seacrane.hydro.database.database import HydroDatabase
+from seacrane.hydro.readers.equivalent_box import equivalent_box
+from seacrane.hydro.readers.reader_warnings import (
+    AssumedDensityWarning,
+    AssumedInertiaWarning,
+    PartialSetWarning,
+)
+from seacrane.hydro.readers.wamit_control import (
+    ForceControl,
+    Listing,
+    check_period_output,
+    read_force_control,
+    read_listing,
+)
+from seacrane.hydro.readers.wamit_tables import (
+    Radiation,
+    WaveTable,
+    read_radiation,
+    read_restoring,
+    read_waves,
+)
+from seacrane.hydro.vessel import rigid_mass_matrix
+from seacrane.inputs.caller import warn_caller
+from seacrane.inputs.shown import shown
+
+FloatArray = NDArray[np.float64]
+
+SUFFIXES = (".1", ".3", ".4", ".hst", ".frc", ".out", ".cfg", ".pot")
+NEEDED = (".1", ".3", ".hst", ".out")
+USUAL_DENSITY = 1025.0
+ROTATIONS = np.array([0, 0, 0, 1, 1, 1])
+HASKIND_LIMIT = np.array([0.05, 0.01, 0.01, 0.01, 0.01, 0.01])  # two force methods differ by the mesh's error
+HASKIND_FLOOR = np.array([0.05, 1e-4, 1e-4, 1e-4, 1e-4, 1e-4])  # surge in beam seas is a difference of errors
+DIFFRACTION_LIMIT = np.full(6, 1e-3)  # the forces of .3 themselves, in seven digits
+PANELS_PER_WAVELENGTH = 8.0
+USUAL_RADII = (0.36, 0.25, 0.25)  # of breadth, length, length
+
+
+def read_wamit(path: str | PathLike[str]) -> HydroDatabase:
+    """Read the WAMIT results at ``path``: a folder that holds one set, the common stem, or one of the files.
+
+    Needs ``.1``, ``.3``, ``.hst`` and ``.out``. ``.4`` adds the motions, against which `check` compares;
+    ``.frc``, of either form, the mass. One rigid body at the origin of the waves, zero speed.
+
+    Returns
+    -------
+    HydroDatabase : external damping of ``.frc`` is in ``linear_damping``, external stiffness in
+        ``restoring``. Length, breadth and draught are those of the equivalent box. The trusted band ends
+        where a wave is eight panels long.
+
+    Warns
+    -----
+    AssumedDensityWarning : neither ``.frc`` nor ``.out`` holds a density.
+    AssumedInertiaWarning : no ``.frc``, or one without mass matrix.
+    PartialSetWarning : periods or headings are not the same in all files.
+
+    Raises
+    ------
+    FileFormatError : a file is missing, truncated, damaged or inconsistent with the others; the message names
+        the file and, where there is one, the line.
+    """
+    stem = find_wamit_stem(Path(path))
+    files = {suffix: _sibling(stem, suffix) for suffix in SUFFIXES}
+    for suffix in NEEDED:
+        if files[suffix] is None:
+            raise FileFormatError(
+                f"{stem}{suffix}: no such file; WAMIT needs {', '.join(NEEDED)} of the same stem"
+            )
+    try:
+        return _convert(stem, files)
+    except FileFormatError:
+        raise
+    except ValueError as error:
+        raise FileFormatError(f"{stem}: {error}") from error
+
+
+def find_wamit_stem(path: Path) -> Path:
+    """Common stem (folder and name without suffix) of the set of files that ``path`` points to."""
+    if path.is_dir():
+        stems = sorted({file.with_suffix("") for file in path.iterdir() if file.suffix == ".1"})
+        if len(stems) != 1:
+            found = ", ".join(stem.name for stem in stems) or "none"
+            raise FileFormatError(
+                f"{path}: one .1 file is needed in a WAMIT folder, found: {found}; give the stem"
+            )
+        return stems[0]
+    if _sibling(path, ".1") is None and path.suffix.lower() in SUFFIXES:
+        return path.with_suffix("")
+    return path
+
+
+def is_wamit(path: Path) -> bool:
+    """Whether ``path`` is a folder, stem or file of a WAMIT set."""
+    if path.is_dir():
+        return any(file.suffix == ".1" for file in path.iterdir())
+    stem = find_wamit_stem(path)
+    return any(_sibling(stem, suffix) is not None for suffix in (".1", ".3", ".hst"))
+
+
+def _sibling(stem: Path, suffix: str) -> Path | None:
+    """File of the set with that suffix, in either case."""
+    for name in (stem.name + suffix, stem.name + suffix.upper()):
+        if (stem.parent / name).is_file():
+            return stem.parent / name
+    return None
+
+
+@dataclass(frozen=True, eq=False)
+class _Body:
+    """What turns non-dimensional numbers into SI, and the inertia."""
+
+    listing: Listing
+    rho: float
+    restoring: FloatArray
+    box: tuple[float, float, float]
+    control: ForceControl | None
+
+
+def _convert(stem: Path, files: dict[str, Path | None]) -> HydroDatabase:
+    """The database in SI."""
+    if files[".cfg"] is not None:
+        check_period_output(files[".cfg"])
+    listing = read_listing(_there(files, ".out"))
+    radiation = read_radiation(_there(files, ".1"))
+    force = read_waves(_there(files, ".3"))
+    motion = None if files[".4"] is None else read_waves(files[".4"])
+    control = None if files[".frc"] is None else read_force_control(files[".frc"])
+    _check_periods(listing, radiation.period, _there(files, ".1"))
+    period, heading_deg = _common(stem, radiation, force, motion)
+    rho = _density(stem, listing, control)
+    length_scale, g = listing.length_scale, listing.g
+    power = 3 + np.add.outer(ROTATIONS, ROTATIONS)
+    mass_scale = rho * length_scale**power
+    restoring = read_restoring(_there(files, ".hst")) * rho * g * length_scale ** (power - 1)
+    box = equivalent_box(restoring, listing.volume, rho * g)
+    body = _Body(listing, rho, restoring, box, control)
+    omega = (2.0 * np.pi / period)[::-1]
+    rows = np.searchsorted(radiation.period, period)[::-1]
+    direction, order = _directions(force.path, heading_deg)
+    wave = _Picker(period, heading_deg, order)
+    limits = (radiation.infinite_frequency_added_mass, radiation.zero_frequency_added_mass)
+    infinite, zero = (None if limit is None else limit * mass_scale for limit in limits)
+    stiffness = None if control is None else control.stiffness
+    damping = None if control is None else control.damping
+    haskind = control is None or control.motions_option != 2
+    return HydroDatabase(
+        name=stem.name,
+        omega=omega,
+        heading=direction,
+        added_mass=radiation.added_mass[rows] * mass_scale,
+        damping=radiation.damping[rows] * mass_scale * omega[:, None, None],
+        infinite_frequency_added_mass=infinite,
+        zero_frequency_added_mass=zero,
+        restoring=restoring if stiffness is None else restoring + stiffness,
+        mass_matrix=_mass_matrix(stem, body),
+        force=wave.pick(force) * rho * g * length_scale ** (2 + ROTATIONS),
+        motion_rao=None if motion is None else wave.pick(motion) / length_scale**ROTATIONS,
+        motion_rao_limit=HASKIND_LIMIT if haskind else DIFFRACTION_LIMIT,
+        motion_rao_floor=HASKIND_FLOOR if haskind else np.full(6, 1e-4),
+        linear_damping=np.zeros((6, 6)) if damping is None else damping,
+        rho=rho,
+        g=g,
+        depth=listing.depth,
+        length=box[0],
+        breadth=box[1],
+        draught=box[2],
+        origin=_origin(listing),
+        source=_source(stem, files, listing, haskind),
+        trusted_band=_trusted(body, omega),
+        port_starboard_symmetric=listing.symmetric,
+    )
+
+
+def _there(files: dict[str, Path | None], suffix: str) -> Path:
+    file = files[suffix]
+    assert file is not None
+    return file
+
+
+def _check_periods(listing: Listing, period: FloatArray, path: Path) -> None:
+    """Raise unless the listing goes through every period of the matrices."""
+    for value in period:
+        if not np.any(np.abs(listing.period - value) <= 1e-5 * value):
+            raise FileFormatError(
+                f"{listing.path}, line {listing.last_line}: the file ends without period {value:g} s of "
+                f"{path.name}; it is truncated, or the files are not of one run"
+            )
+
+
+def _common(
+    stem: Path, radiation: Radiation, force: WaveTable, motion: WaveTable | None
+) -> tuple[FloatArray, FloatArray]:
+    """Periods and headings that all files hold, with a warning where one holds more."""
+    periods = [radiation.period, force.period] + ([] if motion is None else [motion.period])
+    headings = [force.heading_deg] + ([] if motion is None else [motion.heading_deg])
+    shared = []
+    for what, unit, lists in (("periods", "s", periods), ("headings", "deg", headings)):
+        common = lists[0][np.all([np.isin(lists[0], other) for other in lists], axis=0)]
+        if len(common) == 0:
+            raise FileFormatError(f"{stem}: .1, .3 and .4 have no {what} in common; use files of one run")
+        dropped = np.setdiff1d(np.concatenate(lists), common)
+        if len(dropped):
+            names = ", ".join(f"{value:g}" for value in dropped[:5]) + (", ..." if len(dropped) > 5 else "")
+            warn_caller(
+                f"{stem}: {what} {names} {unit} are not in every file of the set; the {len(common)} common "
+                "ones are read, and nothing is known beyond them",
+                PartialSetWarning,
+            )
+        shared.append(common)
+    return shared[0], shared[1]
+
+
+def _directions(path: Path, heading_deg: FloatArray) -> tuple[FloatArray, NDArray[np.intp]]:
+    """Directions in [0, 2 pi), rising, and their places in ``heading_deg``; 360 deg beside 0 is dropped."""
+    wrapped = np.round(np.mod(heading_deg, 360.0), 6) % 360.0
+    degrees, order = np.unique(wrapped, return_index=True)
+    repeated = len(wrapped) - len(degrees)
+    if repeated and not (repeated == 1 and np.ptp(heading_deg) == 360.0):
+        raise FileFormatError(f"{path}: headings {shown(heading_deg.tolist())} deg name one direction twice")
+    return np.radians(degrees), order
+
+
+@dataclass(frozen=True, eq=False)
+class _Picker:
+    """The common headings and periods out of a table, directions and frequencies rising."""
+
+    period: FloatArray
+    heading_deg: FloatArray
+    order: NDArray[np.intp]
+
+    def pick(self, table: WaveTable) -> NDArray[np.complex128]:
+        rows = np.searchsorted(table.heading_deg, self.heading_deg)[self.order]
+        columns = np.searchsorted(table.period, self.period)[::-1]
+        return np.asarray(table.values[np.ix_(rows, columns)])
+
+
+def _density(stem: Path, listing: Listing, control: ForceControl | None) -> float:
+    given = None if control is None else control.rho
+    if given is None and listing.rho is None:
+        warn_caller(
+            f"{stem}: neither .frc nor .out holds the water density; 1025 kg/m3 is taken, and every mass, "
+            "stiffness and force is proportional to it",
+            AssumedDensityWarning,
+        )
+        return USUAL_DENSITY
+    if given is not None and listing.rho is not None and abs(given - listing.rho) > 1e-4 * given:
+        raise FileFormatError(
+            f"{stem}: density {given:g} kg/m3 in .frc but {listing.rho:g} in .out; use files of one run"
+        )
+    return float(given if given is not None else listing.rho or USUAL_DENSITY)
+
+
+def _mass_matrix(stem: Path, body: _Body) -> FloatArray:
+    """Mass matrix (6, 6): as given, or the displaced mass with the radii of gyration of ``.frc``."""
+    control, listing = body.control, body.listing
+    if control is not None and control.mass is not None:
+        return control.mass
+    mass = body.rho * listing.volume
+    centre = listing.centre_of_buoyancy.copy()
+    if listing.centre_of_gravity is not None:
+        centre = listing.centre_of_gravity.copy()
+    if control is not None and control.radii is not None and control.height_of_gravity is not None:
+        centre[2] = control.height_of_gravity
+        about_origin = mass * control.radii * np.abs(control.radii)
+        matrix = rigid_mass_matrix(mass, centre, np.zeros((3, 3)))
+        matrix[3:, 3:] = about_origin
+        return matrix
+    if control is not None and control.centre_of_gravity is not None:
+        centre = control.centre_of_gravity
+    length, breadth, _ = body.box
+    radii = np.array(USUAL_RADII) * (breadth, length, length)
+    warn_caller(
+        f"{stem}: no mass matrix in .frc; the displaced mass {mass:.6g} kg with radii of gyration of "
+        f"{radii[0]:.3g}, {radii[1]:.3g}, {radii[2]:.3g} m (0.36 B, 0.25 L, 0.25 L) is taken, and natural "
+        "periods in roll and pitch follow from that guess",
+        AssumedInertiaWarning,
+    )
+    return rigid_mass_matrix(mass, centre, np.diag(mass * radii**2))
+
+
+def _origin(listing: Listing) -> str:
+    height = listing.body_height
+    place = "on the still waterline" if height == 0.0 else f"{height:g} m above the still waterline"
+    return f"origin of the WAMIT body axes, {place}"
+
+
+def _source(stem: Path, files: dict[str, Path | None], listing: Listing, haskind: bool) -> str:
+    read = ", ".join(suffix for suffix in SUFFIXES if files[suffix] is not None and suffix != ".pot")
+    method = "Haskind" if haskind else "diffraction"
+    motions = "" if files[".4"] is None else f"; motions by WAMIT from {method} forces"
+    return f"WAMIT {listing.version} files {stem.name} ({read}): {listing.title}{motions}"
+
+
+def _trusted(body: _Body, omega: FloatArray) -> tuple[float, float] | None:
+    """Up to the frequency whose deep-water wave is eight panels long, panels being equal squares."""
+    if body.listing.panels is None:
+        return None
+    length, breadth, draught = body.box
+    wetted = length * breadth + 2.0 * draught * (length + breadth)
+    sides = 0.5 if body.listing.symmetric else 1.0
+    wavelength = PANELS_PER_WAVELENGTH * np.sqrt(sides * wetted / body.listing.panels)
+    high = min(float(np.sqrt(2.0 * np.pi * body.listing.g / wavelength)), float(omega[-1]))
+    return (float(omega[0]), high) if omega[0] < high else None

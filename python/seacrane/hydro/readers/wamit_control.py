@@ -1,0 +1,273 @@
+"""What the listing (``.out``) and the control files (``.frc``, ``.cfg``) of a WAMIT run say of the body."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Callable
+from dataclasses import dataclass
+from itertools import pairwise
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from seacrane.errors import FileFormatError
+from seacrane.files.whole_file import read_whole
+
+FloatArray = NDArray[np.float64]
+
+NUMBER = r"([-+]?[\d.]+(?:[EeDd][-+]?\d+)?)"
+IOPTN_MOTIONS = 3  # the fourth option of the second line
+
+
+@dataclass(frozen=True, eq=False)
+class Listing:
+    """Head of a ``.out`` file; ``rho`` is None where it holds none (or the placeholder 1).
+
+    ``period`` holds the positive periods in s; ``last_line`` counts the lines, for messages.
+    """
+
+    path: Path
+    version: str
+    title: str
+    g: float
+    length_scale: float
+    depth: float
+    rho: float | None
+    volume: float
+    centre_of_buoyancy: FloatArray
+    centre_of_gravity: FloatArray | None
+    body_height: float
+    symmetric: bool
+    panels: int | None
+    period: FloatArray
+    last_line: int
+
+
+@dataclass(frozen=True, eq=False)
+class ForceControl:
+    """A ``.frc`` file of either form; what its form does not hold is None.
+
+    Form 1 (IALTFRC=1): ``height_of_gravity`` and ``radii`` (3, 3) of gyration, m. Form 2 (IALTFRC=2):
+    ``rho``, ``centre_of_gravity`` (3,), ``mass``, ``damping``, ``stiffness`` (6, 6), all dimensional.
+    ``motions_option`` is 1 for motions from Haskind forces, 2 from diffraction forces, 0 for none.
+    """
+
+    path: Path
+    motions_option: int
+    height_of_gravity: float | None = None
+    radii: FloatArray | None = None
+    rho: float | None = None
+    centre_of_gravity: FloatArray | None = None
+    mass: FloatArray | None = None
+    damping: FloatArray | None = None
+    stiffness: FloatArray | None = None
+
+
+def read_listing(path: Path) -> Listing:
+    """Read the head of the listing and the periods it goes through.
+
+    Raises
+    ------
+    FileFormatError : something needed is missing, or the body is placed away from the origin.
+    """
+    lines = _lines(path)
+    text = "\n".join(lines)
+
+    def find(pattern: str, what: str) -> list[float]:
+        match = re.search(pattern, text)
+        if match is None:
+            raise FileFormatError(
+                f"{path}, line {len(lines)}: the file ends without {what}; it is truncated, or no "
+                "WAMIT listing"
+            )
+        return [_number(path, text, match, group) for group in range(1, 1 + len(match.groups()))]
+
+    def maybe(pattern: str) -> list[float] | None:
+        return find(pattern, "") if re.search(pattern, text) else None
+
+    g, length_scale = find(rf"Gravity:\s+{NUMBER}\s+Length scale:\s+{NUMBER}", "gravity and length scale")
+    volumes = find(rf"Volumes \(VOLX,VOLY,VOLZ\):\s+{NUMBER}\s+{NUMBER}\s+{NUMBER}", "the displaced volumes")
+    triple = rf"\s*:?\s+{NUMBER}\s+{NUMBER}\s+{NUMBER}"
+    buoyancy = find(r"Center of Buoyancy \(Xb,Yb,Zb\)" + triple, "the centre of buoyancy")
+    gravity = maybe(r"Center of Gravity\s+\(Xg,Yg,Zg\)" + triple)
+    if min(g, length_scale, float(np.mean(volumes))) <= 0.0:
+        raise FileFormatError(
+            f"{path}: gravity {g:g}, length scale {length_scale:g} and volumes {volumes} must be positive"
+        )
+    density = maybe(rf"Water density:\s+{NUMBER}")
+    version = re.search(r"WAMIT\s+Version\s+(\S+)", text)
+    symmetry = re.search(r"Symmetry:[^\n]*", text)
+    panels = maybe(r"Total panels:\s+(\d+)")
+    periods = [float(word) for word in re.findall(rf"Wave period \(sec\) =\s*{NUMBER}\s", text)]
+    return Listing(
+        path=path,
+        version=version.group(1) if version else "of unknown version",
+        title=_title(lines),
+        g=g,
+        length_scale=length_scale,
+        depth=_depth(path, text, len(lines)),
+        rho=density[0] if density and density[0] > 1.0 else None,
+        volume=float(np.mean(volumes)),
+        centre_of_buoyancy=np.array(buoyancy),
+        centre_of_gravity=None if gravity is None else np.array(gravity),
+        body_height=_body_height(path, maybe),
+        symmetric=symmetry is not None and "Y=0" in symmetry.group(0).replace(" ", ""),
+        panels=int(panels[0]) if panels and panels[0] >= 1.0 else None,
+        period=np.array(periods),
+        last_line=len(lines),
+    )
+
+
+def read_force_control(path: Path) -> ForceControl:
+    """Read a ``.frc`` file of form 1 or 2, told apart by its fifth line (three radii, or the flag IMASS)."""
+    reader = _ListDirected(path)
+    reader.line("the heading")
+    options = reader.take(9, "the nine options")
+    motions = abs(int(options[IOPTN_MOTIONS]))
+    first = reader.take(1, "VCG or the density")[0]
+    row = reader.take(3, "the first radii of gyration or the centre of gravity")
+    second_form = reader.count_numbers() < 3
+    if second_form and not first > 0.0:
+        raise FileFormatError(f"{path}, line 3: density {first:g}; give a positive one")
+    if not second_form:
+        radii = np.array([row, *(reader.take(3, "radii of gyration") for _ in range(2))])
+        reader.take(1, "NBETAH")
+        return ForceControl(path, motions, height_of_gravity=first, radii=radii)
+    names = ("mass", "damping", "stiffness")
+    matrices = [reader.matrix(f"external {name}") for name in names]
+    reader.take(1, "NBETAH")
+    mass, damping, stiffness = matrices
+    return ForceControl(
+        path,
+        motions,
+        rho=first,
+        centre_of_gravity=np.array(row),
+        mass=mass,
+        damping=damping,
+        stiffness=stiffness,
+    )
+
+
+def check_period_output(path: Path) -> None:
+    """Raise if a ``.cfg`` file makes the numeric files list something else than periods."""
+    for number, line in enumerate(_lines(path), start=1):
+        match = re.match(r"\s*(IPEROUT|IPERIO)\s*=\s*(-?\d+)", line, re.IGNORECASE)
+        if match and match.group(2) != "1":
+            raise FileFormatError(
+                f"{path}, line {number}: {match.group(1)}={match.group(2)[:20]}: the files list frequencies "
+                "or wave numbers; run WAMIT with periods (1)"
+            )
+
+
+class _ListDirected:
+    """Numbers as Fortran's list-directed input takes them: over several lines, rest of a line dropped."""
+
+    def __init__(self, path: Path) -> None:
+        self.path = path
+        self._lines = _lines(path)
+        self._next = 0
+
+    def error(self, message: str) -> FileFormatError:
+        return FileFormatError(f"{self.path}, line {max(self._next, 1)}: {message}")
+
+    def line(self, what: str) -> str:
+        if self._next >= len(self._lines):
+            self._next = len(self._lines) + 1
+            raise self.error(f"the file ends here, before {what}; it is truncated")
+        self._next += 1
+        return self._lines[self._next - 1]
+
+    def take(self, count: int, what: str, *, over_lines: bool = False) -> list[float]:
+        """The next ``count`` numbers, from the start of the next line."""
+        values: list[float] = []
+        while len(values) < count:
+            if values and not over_lines:
+                raise self.error(f"{what}: {count} numbers are expected, found {len(values)}")
+            for word in self.line(what).replace(",", " ").split():
+                if len(values) < count:
+                    values.append(self._value(word, what))
+        return values
+
+    def matrix(self, what: str) -> FloatArray | None:
+        """A flag, and a matrix (6, 6) if it is 1."""
+        flag = self.take(1, f"the flag of the {what}")[0]
+        if flag not in (0.0, 1.0):
+            raise self.error(f"flag {flag:g} of the {what}: 0 or 1 is expected")
+        if flag == 0.0:
+            return None
+        return np.array(self.take(36, f"the {what} matrix", over_lines=True)).reshape(6, 6)
+
+    def count_numbers(self) -> int:
+        """How many numbers the next line starts with, which stays."""
+        words = self.line("IMASS or radii of gyration").replace(",", " ").split()
+        self._next -= 1
+        count = 0
+        for word in words:
+            try:
+                float(word)
+            except ValueError:
+                break
+            count += 1
+        return count
+
+    def _value(self, word: str, what: str) -> float:
+        try:
+            value = float(word.replace("D", "E").replace("d", "e"))
+        except ValueError:
+            raise self.error(f"{what}: {word[:40]!r} is not a number") from None
+        if not math.isfinite(value):
+            raise self.error(f"{what}: {word[:40]!r} is not a finite number")
+        return value
+
+
+def _lines(path: Path) -> list[str]:
+    try:
+        return read_whole(path).decode("latin-1").replace("\r", "").rstrip("\n").split("\n")
+    except OSError as error:
+        raise FileFormatError(
+            f"{path}: cannot be read ({error.strerror}); check the path and its rights"
+        ) from error
+
+
+def _number(path: Path, text: str, match: re.Match[str], group: int) -> float:
+    word = match.group(group)
+    try:
+        value = float(word.replace("D", "E").replace("d", "e"))
+        if not math.isfinite(value):
+            raise ValueError
+        return value
+    except ValueError:
+        line = text.count("\n", 0, match.start()) + 1
+        raise FileFormatError(f"{path}, line {line}: {word[:40]!r} is not a finite number") from None
+
+
+def _depth(path: Path, text: str, last: int) -> float:
+    match = re.search(r"Water depth:\s+(\S+)", text)
+    if match is None:
+        raise FileFormatError(f"{path}, line {last}: the file ends without the water depth; it is truncated")
+    return math.inf if match.group(1).lower().startswith("inf") else _number(path, text, match, 1)
+
+
+def _body_height(path: Path, maybe: Callable[[str], list[float] | None]) -> float:
+    """ZBODY; a body moved or turned in the plane would need its forces moved and its phases shifted."""
+    pattern = rf"XBODY =\s*{NUMBER}\s+YBODY =\s*{NUMBER}\s+ZBODY =\s*{NUMBER}\s+PHIBODY =\s*{NUMBER}"
+    place = maybe(pattern)
+    if place is None:
+        return 0.0
+    x, y, z, angle = place
+    if x != 0.0 or y != 0.0 or angle != 0.0:
+        raise FileFormatError(
+            f"{path}: XBODY, YBODY, PHIBODY are {x:g}, {y:g}, {angle:g}; only a body at the origin of the "
+            "waves is read: set them to zero and run WAMIT again"
+        )
+    return float(z)
+
+
+def _title(lines: list[str]) -> str:
+    """The line under the name of the geometry file."""
+    for line, following in pairwise(lines):
+        if "Geometric Data File" in line:
+            return following.strip()
+    return ""

@@ -1,0 +1,223 @@
+"""Numeric output files of WAMIT (``.1 .3 .4 .hst``), non-dimensional as they are, every row accounted for."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from seacrane.errors import FileFormatError
+from seacrane.files.whole_file import read_whole
+
+FloatArray = NDArray[np.float64]
+ComplexArray = NDArray[np.complex128]
+IntArray = NDArray[np.int64]
+
+ZERO_FREQUENCY_PERIOD = -1.0
+INFINITE_FREQUENCY_PERIOD = 0.0
+PHASE_TOLERANCE = 1e-4  # files hold seven digits of modulus, phase, real and imaginary part
+ROUND_OFF = 1e-8
+
+
+@dataclass(frozen=True, eq=False)
+class _Table:
+    """Rows of numbers (rows, columns), NaN where a row is shorter, and the line of the file of each."""
+
+    path: Path
+    values: FloatArray
+    lines: IntArray
+
+    def error(self, row: int, message: str) -> FileFormatError:
+        return FileFormatError(f"{self.path}, line {int(self.lines[row])}: {message}")
+
+
+@dataclass(frozen=True, eq=False)
+class Radiation:
+    """Contents of a ``.1`` file: periods (n,) in s, rising; added mass and damping (n, 6, 6)."""
+
+    period: FloatArray
+    added_mass: FloatArray
+    damping: FloatArray
+    zero_frequency_added_mass: FloatArray | None
+    infinite_frequency_added_mass: FloatArray | None
+
+
+@dataclass(frozen=True, eq=False)
+class WaveTable:
+    """Contents of a ``.3`` or ``.4`` file: periods (n,) in s and headings (m,) in degrees, both rising, and
+    values (m, n, 6)."""
+
+    path: Path
+    period: FloatArray
+    heading_deg: FloatArray
+    values: ComplexArray
+
+
+def read_radiation(path: Path) -> Radiation:
+    """Read added mass and damping: rows of period, i, j, A, and B where the period is positive."""
+    table = _read(path, (4, 5))
+    period = table.values[:, 0]
+    unknown = np.flatnonzero((period < 0.0) & (period != ZERO_FREQUENCY_PERIOD))
+    if unknown.size:
+        raise table.error(
+            int(unknown[0]),
+            f"period {period[unknown[0]]:g} s; below zero there is only -1, the zero frequency",
+        )
+    bare = np.flatnonzero((period > 0.0) & np.isnan(table.values[:, 4]))
+    if bare.size:
+        raise table.error(int(bare[0]), "no damping: period, i, j, A, B are expected; the file is truncated")
+    motions = 6 * _motion(table, 1) + _motion(table, 2)
+    periods, place = np.unique(period, return_inverse=True)
+    _check_complete(table, place, motions, len(periods), 36, "entry i j")
+    both = np.zeros((2, len(periods), 36))
+    both[:, place, motions] = np.nan_to_num(table.values[:, 3:5].T)
+    added_mass, damping = both.reshape(2, len(periods), 6, 6)
+    special = (ZERO_FREQUENCY_PERIOD, INFINITE_FREQUENCY_PERIOD)
+    limits = [added_mass[np.flatnonzero(periods == limit)] for limit in special]
+    finite = periods > 0.0
+    if not np.any(finite):
+        raise table.error(
+            len(table.lines) - 1, "ends without a positive period; the file is truncated, or of limits alone"
+        )
+    zero, infinite = (limit[0] if len(limit) else None for limit in limits)
+    return Radiation(periods[finite], added_mass[finite], damping[finite], zero, infinite)
+
+
+def read_waves(path: Path) -> WaveTable:
+    """Read exciting forces or motions: rows of period, heading, i, modulus, phase (deg), real, imaginary."""
+    table = _read(path, (7,))
+    rows = np.flatnonzero(table.values[:, 0] > 0.0)
+    if rows.size == 0:
+        raise table.error(
+            len(table.lines) - 1, "ends without a positive period; the file is truncated, or of limits alone"
+        )
+    table = _Table(path, table.values[rows], table.lines[rows])
+    motion = _motion(table, 2)
+    value = _checked_complex(table, motion)
+    periods, in_period = np.unique(table.values[:, 0], return_inverse=True)
+    headings, in_heading = np.unique(table.values[:, 1], return_inverse=True)
+    n, m = len(periods), len(headings)
+    if n * m > len(rows):
+        # Each pair has at least one row: this many periods and headings is damage, and not worth the memory.
+        raise table.error(
+            len(rows) - 1,
+            f"{n} periods and {m} headings, but only {len(rows)} rows; the file is truncated or damaged",
+        )
+    _check_complete(table, in_period * m + in_heading, motion, n * m, 6, "motion")
+    values = np.zeros((m, n, 6), dtype=complex)
+    values[in_heading, in_period, motion] = value
+    return WaveTable(path, periods, headings, values)
+
+
+def read_restoring(path: Path) -> FloatArray:
+    """Read the restoring matrix (6, 6): rows of i, j, C."""
+    table = _read(path, (3,))
+    motions = 6 * _motion(table, 0) + _motion(table, 1)
+    if len(motions) < 36:
+        raise table.error(len(motions) - 1, f"{len(motions)} of 36 entries end here; the file is truncated")
+    _check_complete(table, np.zeros(len(motions), dtype=np.int64), motions, 1, 36, "entry i j")
+    restoring = np.zeros(36)
+    restoring[motions] = table.values[:, 2]
+    return restoring.reshape(6, 6)
+
+
+def _read(path: Path, widths: tuple[int, ...]) -> _Table:
+    """All rows of a file; a first line of text (option NUMHDR) is passed over."""
+    try:
+        text = read_whole(path).decode("latin-1")
+    except OSError as error:
+        raise FileFormatError(
+            f"{path}: cannot be read ({error.strerror}); check the path and its rights"
+        ) from error
+    every = [(number, line) for number, line in enumerate(text.split("\n"), start=1) if line.strip()]
+    if every and not _is_number(every[0][1].split()[0]):
+        del every[0]
+    if not every:
+        raise FileFormatError(f"{path}, line 1: no numbers; the file is empty or truncated")
+    _check_last_line(path, text, every)
+    values = np.full((len(every), widths[-1]), np.nan)
+    for row, (number, line) in enumerate(every):
+        words = line.split()
+        if len(words) not in widths:
+            wanted = " or ".join(str(width) for width in widths)
+            raise FileFormatError(f"{path}, line {number}: {wanted} numbers are expected, found {len(words)}")
+        try:
+            values[row, : len(words)] = [float(word) for word in words]
+        except ValueError:
+            bad = next(word for word in words if not _is_number(word))
+            raise FileFormatError(f"{path}, line {number}: {bad[:40]!r} is not a number") from None
+        if not np.all(np.isfinite(values[row, : len(words)])):
+            raise FileFormatError(f"{path}, line {number}: a number is not finite: {line.strip()[:80]!r}")
+    return _Table(path, values, np.array([number for number, _ in every]))
+
+
+def _check_last_line(path: Path, text: str, every: list[tuple[int, str]]) -> None:
+    """Raise if the last number was cut: lines are of one length, and WAMIT ends each with a line feed."""
+    number, last = every[-1]
+    if not text.endswith("\n") and len(every) > 1 and len(last.rstrip()) < len(every[-2][1].rstrip()):
+        raise FileFormatError(f"{path}, line {number}: shorter than the line before; the file is truncated")
+
+
+def _is_number(word: str) -> bool:
+    try:
+        float(word)
+    except ValueError:
+        return False
+    return True
+
+
+def _motion(table: _Table, column: int) -> IntArray:
+    """Motion indices 0 to 5 from a column that counts from 1."""
+    values = table.values[:, column]
+    bad = np.flatnonzero(~np.isin(values, np.arange(1.0, 7.0)))
+    if bad.size:
+        raise table.error(
+            int(bad[0]),
+            f"motion {values[bad[0]]:g} is not one of 1 to 6; only one rigid body is read",
+        )
+    return values.astype(np.int64) - 1
+
+
+def _checked_complex(table: _Table, motion: IntArray) -> ComplexArray:
+    """Real and imaginary part, which have to agree with modulus and phase of the same row.
+
+    Motions that symmetry forbids are round-off, where WAMIT's four columns do not agree: a share of the
+    largest value of the same motion is allowed.
+    """
+    modulus, phase_deg, real, imaginary = table.values[:, 3:7].T
+    value = real + 1j * imaginary
+    error = np.abs(value - modulus * np.exp(1j * np.radians(phase_deg)))
+    largest = np.zeros(6)
+    np.maximum.at(largest, motion, np.abs(value))
+    bad = np.flatnonzero(error > PHASE_TOLERANCE * np.abs(value) + ROUND_OFF * largest[motion])
+    if bad.size:
+        row = int(bad[0])
+        raise table.error(
+            row,
+            f"modulus {modulus[row]:g} and phase {phase_deg[row]:g} deg are not {real[row]:g} + "
+            f"{imaginary[row]:g}i; the line is damaged",
+        )
+    return np.asarray(value)
+
+
+def _check_complete(
+    table: _Table, group: IntArray, entry: IntArray, groups: int, entries: int, what: str
+) -> None:
+    """Raise unless every group (period, or period and heading) holds the same entries, each once."""
+    key = group.astype(np.int64) * entries + entry
+    _, first = np.unique(key, return_index=True)
+    if len(first) < len(key):
+        again = int(np.setdiff1d(np.arange(len(key)), first)[0])
+        raise table.error(again, f"this {what} was given before; every line has to be another")
+    present = np.zeros(groups * entries, dtype=bool)
+    present[key] = True
+    there = present.reshape(groups, entries)
+    lacking = np.flatnonzero(np.any(there != there.any(axis=0), axis=1))
+    if lacking.size:
+        rows = np.flatnonzero(group == lacking[0])
+        last = int(rows[-1]) if rows.size else len(group) - 1
+        raise table.error(
+            last, f"a line of another {what} is missing about here; the file is truncated or damaged"
+        )

@@ -1,0 +1,90 @@
+"""Values from outside turned into what the core takes, or a SceneError that names object, value and fix."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from seacrane import _core
+from seacrane.errors import SceneError
+from seacrane.inputs.shown import shown
+
+Array = NDArray[np.float64]
+
+
+def text_of(what: str, value: Any, usual: str = "") -> str:
+    """A printable text; None and the empty text stand for the usual one."""
+    if value is None or (isinstance(value, str) and not value):
+        value = usual or value
+    if not isinstance(value, str) or not value.isprintable():
+        raise SceneError(f"{what} is {shown(value)}; give a name, a printable text")
+    return str(value)
+
+
+def name_of(kind: str, value: Any, usual: str = "") -> str:
+    """A printable text that is not empty; None and the empty text stand for the usual one."""
+    name = text_of(f"{kind}: name", value, usual)
+    if not name:
+        raise SceneError(f"{kind}: name is empty; give every element a name")
+    return name
+
+
+def flag_of(what: str, value: Any) -> bool:
+    """A truth value, nothing that merely counts as one."""
+    if not isinstance(value, (bool, np.bool_)):
+        raise SceneError(f"{what} is {shown(value)}; give True or False")
+    return bool(value)
+
+
+def number_of(what: str, value: Any) -> float:
+    """A float; not a text that reads like one."""
+    try:
+        if isinstance(value, (str, bytes)):
+            raise TypeError
+        return float(value)
+    except (TypeError, ValueError, OverflowError) as error:
+        raise SceneError(f"{what} is {shown(value)}; give a number") from error
+
+
+def vector_of(what: str, value: Any) -> list[float]:
+    """A list of floats from a one-dimensional array_like."""
+    array = numbers_of(what, value)
+    if array.ndim != 1:
+        raise SceneError(f"{what} has shape {array.shape}; give one row of numbers")
+    return [float(v) for v in array]
+
+
+def numbers_of(what: str, value: Any) -> Array:
+    """An array of floats of any shape; no texts that read like numbers, no dates."""
+    try:
+        array = np.asarray(value)
+        if array.dtype.kind not in "biufO" or any(isinstance(item, (str, bytes)) for item in _objects(array)):
+            raise TypeError
+        return np.asarray(array, dtype=float)
+    except (TypeError, ValueError, OverflowError) as error:
+        raise SceneError(f"{what} is {shown(value)}; give numbers") from error
+
+
+def _objects(array: NDArray[Any]) -> Iterable[Any]:
+    return array.flat if array.dtype.kind == "O" else ()
+
+
+def shaped_of(what: str, value: Any, shape: tuple[int, ...]) -> Array:
+    """An array of floats of one shape."""
+    array = numbers_of(what, value)
+    if array.shape != shape:
+        raise SceneError(f"{what} has shape {array.shape}; give {shape}")
+    return array
+
+
+def curve_of(what: str, value: Any) -> _core.Curve:
+    """A curve, or a number as a constant one."""
+    if isinstance(value, _core.Curve):
+        return value
+    number = number_of(what, value)
+    if not np.isfinite(number):
+        raise SceneError(f"{what} is {number}; give a finite number or a curve")
+    return _core.Curve.constant(value=number)

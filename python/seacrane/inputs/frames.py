@@ -1,0 +1,88 @@
+"""Small rotations helpers: quaternions, Euler angles and joint axes."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from seacrane.errors import SceneError
+from seacrane.inputs.checked import numbers_of
+from seacrane.inputs.shown import shown
+
+Array = NDArray[np.float64]
+
+
+def rotation_matrix(quaternion: Any) -> Array:
+    """Body-to-inertial matrices (..., 3, 3) of quaternions (..., 4), scalar first."""
+    q = np.asarray(quaternion, dtype=float)
+    w, x, y, z = np.moveaxis(q / np.linalg.norm(q, axis=-1, keepdims=True), -1, 0)
+    rows = [
+        [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
+        [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
+        [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
+    ]
+    matrix: Array = np.stack([np.stack(row, axis=-1) for row in rows], axis=-2)
+    return matrix
+
+
+def heading_of(quaternion: Any) -> float:
+    """Yaw of yaw-pitch-roll angles, rad."""
+    w, x, y, z = (float(part) for part in quaternion)
+    return math.atan2(2.0 * (x * y + w * z), w * w + x * x - y * y - z * z)
+
+
+def rotation_about_z(angle: float) -> Array:
+    """(3, 3), rad."""
+    c, s = np.cos(angle), np.sin(angle)
+    return np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
+
+
+def quaternion_product(first: Any, second: Any) -> Array:
+    """Of the rotation `second` followed by `first`, (4,), scalar first."""
+    (w, *u), (p, *v) = np.asarray(first, dtype=float), np.asarray(second, dtype=float)
+    return np.array([w * p - np.dot(u, v), *(w * np.array(v) + p * np.array(u) + np.cross(u, v))])
+
+
+def euler_matrix(angles: Any) -> Array:
+    """Body-to-inertial matrix (3, 3) of XYZ Euler angles (3,), R = Rx Ry Rz."""
+    (cx, cy, cz), (sx, sy, sz) = np.cos(angles), np.sin(angles)
+    about_x = np.array([[1, 0, 0], [0, cx, -sx], [0, sx, cx]])
+    about_y = np.array([[cy, 0, sy], [0, 1, 0], [-sy, 0, cy]])
+    about_z = np.array([[cz, -sz, 0], [sz, cz, 0], [0, 0, 1]])
+    return np.asarray(about_x @ about_y @ about_z)
+
+
+def _direction(what: str, value: Any) -> Array:
+    try:
+        vector = numbers_of(what, value)
+    except SceneError as error:
+        raise SceneError(f"{what} is {shown(value)}; give three numbers") from error
+    length = np.linalg.norm(vector) if vector.shape == (3,) else np.nan
+    if not np.isfinite(length) or length == 0.0:
+        raise SceneError(f"{what} is {value!r}; give three finite numbers, not all zero")
+    return vector / float(length)
+
+
+def axes_along(what: str, axis: Any) -> Array:
+    """Right-handed axes (columns) with z along `axis`; x is as near as can be to a coordinate axis."""
+    z = _direction(what, axis)
+    nearest = np.zeros(3)
+    nearest[np.argmin(np.abs(z))] = 1.0
+    x = nearest - z * (z @ nearest)
+    x /= np.linalg.norm(x)
+    return np.column_stack([x, np.cross(z, x), z])
+
+
+def axes_across(what: str, first_axis: Array, axis: Any) -> Array:
+    """Axes of the second side of a universal joint: z along `axis`, perpendicular to the first axis."""
+    z = _direction(what, axis)
+    slope = float(abs(z @ first_axis))
+    if slope > 0.1:
+        raise SceneError(
+            f"{what} is {np.degrees(np.arccos(min(slope, 1.0))):.1f} deg from the first axis; "
+            "the axes of a universal joint are perpendicular"
+        )
+    return axes_along(what, axis)

@@ -1,0 +1,1 @@
+"""A run: settings, stepping, outputs to memory or to a file."""

@@ -1,0 +1,73 @@
+"""A run that an explicit method makes slow because one mode is far faster than all that is recorded."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+from seacrane import _core
+from seacrane.analysis.linearise import LARGEST, jacobian
+from seacrane.validity.range import Finding
+
+EXPLICIT = (
+    "heun21", "bs32", "rk43", "dopri5", "tsit5", "verner65", "verner76", "dop853", "ark-erk", "cvode-adams"
+)  # fmt: skip
+MANY_STEPS = 10_000  # fewer are no matter
+STATES_SQUARED_PER_STEP = 5.0  # so many steps cost ten times the eigenvalues of so many states
+NEAR_THE_LIMIT = 1.0  # |eigenvalue| times step; explicit methods stay stable up to 2 to 6
+UNSEEN = 20.0  # |eigenvalue| times output interval: three periods between two outputs
+
+
+class StiffWarning(UserWarning):
+    """One mode is so fast that an explicit method takes short steps for it alone."""
+
+
+def stiffness(
+    model: _core.Model, bodies: list[str], states: list[_core.State], stats: Mapping[str, Any]
+) -> list[Finding]:
+    """The mode that sets the steps of a slow run, looked for only where there are many steps.
+
+    Parameters
+    ----------
+    model : Model
+    bodies : list of str
+        Their names, in the order of the model.
+    states : list of State
+        Where to look; the fastest mode of them counts.
+    stats : mapping
+        Of the run: `Result.stats`.
+    """
+    integrator, steps = str(stats["integrator"]), int(stats["steps"])
+    few = max(MANY_STEPS, int(model.states**2 / STATES_SQUARED_PER_STEP))
+    if integrator not in EXPLICIT or steps < few or model.states > LARGEST:
+        return []
+    step = float(stats["simulated_s"]) / steps
+    mode, body, at = max((*_fastest(model, bodies, state), state.time) for state in states)
+    if mode * step < NEAR_THE_LIMIT or mode * float(stats["settings"]["dt_out"]) < UNSEEN:
+        return []
+    return [
+        (
+            StiffWarning,
+            f"run: {integrator} took {steps} steps of {step:.2g} s on average, about the longest with which "
+            f"it is stable: the fastest mode, {mode:.4g} per s at t = {at:.6g} s, moves body {body!r} most, "
+            "far faster than the outputs show. Soften the gain, spring or stop that holds that body, or take "
+            "integrator='rosenbrock' or 'cvode-bdf', whose steps it does not limit",
+        )
+    ]
+
+
+def _fastest(model: _core.Model, bodies: list[str], state: _core.State) -> tuple[float, str]:
+    """Largest |eigenvalue| (1/s) and the body with the largest speed in it; zero where it is not finite."""
+    values = np.array(state.values)
+    matrix = jacobian(model, state=values, time=state.time)
+    if not np.all(np.isfinite(matrix)):
+        return 0.0, ""
+    eigenvalues, vectors = np.linalg.eig(matrix)
+    worst = int(np.abs(eigenvalues).argmax())
+    scale = np.array(model.scale)
+    size = np.abs(vectors[:, worst]) / scale[np.isfinite(scale)]
+    first = (6 if model.euler_angles else 7) * len(bodies)
+    twists = size[first : first + 6 * len(bodies)]
+    return float(np.abs(eigenvalues[worst])), bodies[int(twists.argmax()) // 6] if bodies else ""

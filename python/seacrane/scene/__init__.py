@@ -1,0 +1,1 @@
+"""What is added to a scene from hydrodynamics, seas, winds and limits."""

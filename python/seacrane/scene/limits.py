@@ -1,0 +1,242 @@
+"""What holds one way only: wires that go slack, end stops, seats that are lifted off; and dry friction.
+
+A limit either holds, and is then a constraint with a reaction, or is open. Which ones hold changes at events,
+located in time by the integrator; see docs/events.md.
+"""
+
+from __future__ import annotations
+
+from seacrane import _core
+from seacrane.description.scene import Scene
+from seacrane.errors import SceneError
+from seacrane.inputs.checked import name_of, number_of, text_of
+
+NO_STOP = 1e7  # m or rad: a bound here or beyond is none
+STICKING_SPEED = 1e-3  # m/s or rad/s
+
+
+def _limit(
+    scene: Scene, kind: str, joint: str, name: str | None, *, coordinate: str = "", **values: float
+) -> _core.Limit:
+    if text_of(f"{kind}: joint", joint) not in scene.joints:
+        raise SceneError(f"{kind}: there is no joint {joint!r}; add it first")
+    name = name_of(kind, name or joint)
+    numbers = {key: number_of(f"{kind} {name!r}: {key}", value) for key, value in values.items()}
+    limit = _core.Limit(name=name, kind=kind, joint=joint, coordinate=coordinate, **numbers)
+    added: _core.Limit = scene.add_load(limit)
+    return added
+
+
+def add_wire(
+    scene: Scene,
+    *,
+    joint: str,
+    restitution: float = 0.0,
+    sticking_speed: float = STICKING_SPEED,
+    name: str | None = None,
+) -> _core.Limit:
+    """Let a distance joint pull only: it goes slack when its tension would turn negative, and snatches.
+
+    Slack, its ends move freely within its length. Stretched again, an impact keeps momentum, in the mass
+    metric, over all joints: M (v+ - v-) = D^T Lambda; the rate of its length turns to -restitution times what
+    it was.
+
+    Parameters
+    ----------
+    scene : Scene
+    joint : str
+        A joint of kind "distance", such as the crane's "link". It starts slack if its points are described
+        closer than its length, by more than 1e-6 of it, or approach each other.
+    restitution : float
+        0 (default: it stays stretched after a snatch) to 1 (no energy is lost).
+    sticking_speed : float
+        m/s; slower snatches do not rebound, so that rebounds come to an end.
+    name : str, optional
+        Default: the joint's.
+
+    Returns
+    -------
+    Limit
+
+    Raises
+    ------
+    SceneError
+        For a joint that is not there; what only the whole scene shows comes with `Scene.compile`.
+    """
+    return _limit(scene, "wire", joint, name, restitution=restitution, sticking_speed=sticking_speed)
+
+
+def add_end_stop(
+    scene: Scene,
+    *,
+    joint: str,
+    coordinate: str | None = None,
+    minimum: float = -NO_STOP,
+    maximum: float = NO_STOP,
+    restitution: float = 0.0,
+    sticking_speed: float = STICKING_SPEED,
+    name: str | None = None,
+) -> _core.Limit:
+    """Keep a joint coordinate within rigid bounds.
+
+    A bound that is hit is an impact as in `add_wire`. It holds, as a constraint, while it has to push, and
+    lets go when it would have to pull. For a stop that gives, see `add_soft_stop`.
+
+    Parameters
+    ----------
+    scene : Scene
+    joint : str
+    coordinate : str, optional
+        Of the joint; default "angle" of a revolute, else "displacement". "z" of a free joint is a deck that
+        its second body stands on, without friction, at the joint's point.
+    minimum, maximum : float
+        m or rad; leave out the one that is not there. An angle needs both, between -pi and pi.
+    restitution, sticking_speed, name
+        As `add_wire`.
+
+    Returns
+    -------
+    Limit
+
+    Raises
+    ------
+    SceneError
+        For a joint that is not there; what only the whole scene shows, such as a start beyond a bound or a
+        driver on the same coordinate, comes with `Scene.compile`.
+    """
+    where = scene._coordinate("stop", joint, coordinate)
+    return _limit(
+        scene, "stop", joint, name, coordinate=where, minimum=minimum, maximum=maximum,
+        restitution=restitution, sticking_speed=sticking_speed,
+    )  # fmt: skip
+
+
+def add_seat(scene: Scene, *, joint: str, name: str | None = None) -> _core.Limit:
+    """Let a weld hold only while its second body is pressed onto the first: a payload that is lifted off.
+
+    The force that the joint exerts on its second body, along z of the joint frame on the first, must not be
+    negative; where it would be, the joint opens and stays open. Sliding and tipping before that are not
+    modelled. To hit the deck again after lift-off, or to set the body down, add a free joint with an end
+    stop.
+
+    Parameters
+    ----------
+    scene : Scene
+    joint : str
+        A weld from the support to what stands on it, its axis z pointing away from the support.
+    name : str, optional
+        Default: the joint's.
+
+    Returns
+    -------
+    Limit
+
+    Raises
+    ------
+    SceneError
+        For a joint that is not there; what only the whole scene shows comes with `Scene.compile`.
+    """
+    return _limit(scene, "seat", joint, name)
+
+
+def add_soft_stop(
+    scene: Scene,
+    *,
+    joint: str,
+    stiffness: float,
+    coordinate: str | None = None,
+    minimum: float = -NO_STOP,
+    maximum: float = NO_STOP,
+    damping: float = 0.0,
+    name: str | None = None,
+) -> _core.SoftStop:
+    """Keep a joint coordinate within bounds that give: stiffness p (1 + damping p') at a depth p beyond one.
+
+    A load, not a constraint: no events, any formulation, steps as short as the stiffness asks for. Never a
+    pull. Damping of this form (K. H. Hunt, F. R. E. Crossley, J. Appl. Mech. 42, 1975) leaves the load
+    continuous when the bound is touched; hit at a low speed v it returns about v (1 - 2/3 damping v).
+
+    Parameters
+    ----------
+    scene : Scene
+    joint, coordinate, minimum, maximum
+        As `add_end_stop`.
+    stiffness : float
+        N/m or N m/rad.
+    damping : float
+        s/m or s/rad.
+    name : str, optional
+        Default: the joint's, and "soft stop".
+
+    Returns
+    -------
+    SoftStop
+
+    Raises
+    ------
+    SceneError
+    """
+    where = scene._coordinate("soft stop", joint, coordinate)
+    name = name_of("soft stop", name or f"{joint} soft stop")
+    what = f"soft stop {name!r}"
+    added: _core.SoftStop = scene.add_load(
+        _core.SoftStop(
+            name=name,
+            joint=joint,
+            coordinate=where,
+            minimum=number_of(f"{what}: minimum", minimum),
+            maximum=number_of(f"{what}: maximum", maximum),
+            stiffness=number_of(f"{what}: stiffness", stiffness),
+            damping=number_of(f"{what}: damping", damping),
+        )
+    )
+    return added
+
+
+def add_friction(
+    scene: Scene,
+    *,
+    joint: str,
+    load: float,
+    speed: float,
+    coordinate: str | None = None,
+    name: str | None = None,
+) -> _core.Friction:
+    """Add dry friction on a joint coordinate: -load tanh(rate / speed).
+
+    Coulomb friction, made smooth: within 1e-4 of it where the coordinate is faster than 5 times `speed`. It
+    does not stick: under a steady F below `load` the coordinate creeps at speed atanh(F / load). A slower
+    `speed` creeps less and makes the equations stiffer, by load / speed.
+
+    Parameters
+    ----------
+    scene : Scene
+    joint, coordinate
+        As `add_end_stop`.
+    load : float
+        N or N m.
+    speed : float
+        m/s or rad/s.
+    name : str, optional
+        Default: the joint's, and "friction".
+
+    Returns
+    -------
+    Friction
+
+    Raises
+    ------
+    SceneError
+    """
+    where = scene._coordinate("friction", joint, coordinate)
+    name = name_of("friction", name or f"{joint} friction")
+    added: _core.Friction = scene.add_load(
+        _core.Friction(
+            name=name,
+            joint=joint,
+            coordinate=where,
+            load=number_of(f"friction {name!r}: load", load),
+            speed=number_of(f"friction {name!r}: speed", speed),
+        )
+    )
+    return added

@@ -1,0 +1,1 @@
+"""Named warnings: where a scene, or its run, leaves the range of what is modelled."""

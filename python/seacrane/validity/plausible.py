@@ -1,0 +1,226 @@
+"""What a description most likely did not mean: each a warning by name, when it is given or a run starts."""
+
+from __future__ import annotations
+
+import math
+from collections import Counter
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from seacrane import _core
+from seacrane.description.joint_coordinates import ANGLES
+from seacrane.description.references import references
+from seacrane.inputs.caller import warn_caller
+from seacrane.inputs.checked import number_of
+from seacrane.inputs.frames import rotation_matrix
+
+if TYPE_CHECKING:
+    from seacrane.description.scene import Scene
+
+Array = NDArray[np.float64]
+TURN = 2.0 * np.pi
+ROUND = np.radians(5.0)  # angles in a script are multiples of it
+EXACT = 1e-9
+COMPASS = 270.0  # deg: from here on a direction is rather a bearing; ours would be -90 to 0
+AGAINST = np.radians(120.0)  # between a wind and waves that it does not raise
+LEAST_ENERGY = 0.01  # of the waves, which runs with the wind
+HEAVIEST_AIR = 10.0  # kg/m3
+LIGHTEST = 5.0  # kg/m3 of a payload's box; polystyrene has 10
+LARGEST_RADIUS = 200.0  # m, of gyration
+HUNG_SHARE = 1e-5  # of the vessel's mass
+LARGEST_HEEL = np.radians(2.0)
+LARGEST_SINKAGE = 2.0  # m
+
+
+class AngleUnitWarning(UserWarning):
+    """An angle looks like degrees where radians are due, or the other way round."""
+
+
+class CompassDirectionWarning(UserWarning):
+    """A direction looks like a compass bearing, clockwise and where it comes from."""
+
+
+class MassUnitWarning(UserWarning):
+    """A mass looks like tonnes where kilograms are due."""
+
+
+class DepthSignWarning(UserWarning):
+    """All points asked for are above any wave: depths were given where z, upwards, is due."""
+
+
+class BallastWarning(UserWarning):
+    """A vessel starts far from where its weights balance: ballast is missing, or misplaced."""
+
+
+def angle_of(what: str, value: float) -> float:
+    """An angle in radians; warns where it is more than a turn."""
+    if abs(value) > TURN:
+        warn_caller(
+            f"{what} is {value:.6g} rad, {abs(value) / TURN:.3g} turns; angles are radians: if these are "
+            f"degrees, give numpy.radians({value:.6g})",
+            AngleUnitWarning,
+        )
+    return value
+
+
+def direction_of(what: str, value: float) -> float:
+    """A direction in degrees; warns where it looks like radians, or like a compass bearing."""
+    degrees = number_of(what, value)
+    if 0.0 < abs(degrees) <= TURN and abs(degrees / ROUND - round(degrees / ROUND)) < EXACT:
+        warn_caller(
+            f"{what} is {degrees:.6g} deg, which is {np.degrees(degrees):.6g} deg in radians; names that end "
+            f"in _deg take degrees: give {np.degrees(degrees):.6g}",
+            AngleUnitWarning,
+        )
+    if COMPASS <= degrees < 360.0:
+        warn_caller(
+            f"{what} is {degrees:.6g} deg: where it goes to, from +x (forward) towards +y (port), which is "
+            f"usually written {degrees - 360.0:.6g}. If it is a compass bearing from where it comes, give "
+            "heading - bearing + 180, with the compass heading of +x",
+            CompassDirectionWarning,
+        )
+    return degrees
+
+
+def warn_of_air(lowest: float, crest: float) -> None:
+    """Warn that the lowest point asked for is above the highest crest a sea can have, m."""
+    warn_caller(
+        f"wave kinematics: all points are above any wave, the lowest at z = {lowest:.6g} m, crests reach "
+        f"{crest:.4g} m at most: all is air there. z points up: a depth of {lowest:.6g} m is z = "
+        f"{-lowest:.6g}",
+        DepthSignWarning,
+    )
+
+
+def warn_of_density(what: str, mass: float, volume: float) -> None:
+    """Warn of a box lighter than foam."""
+    if mass < LIGHTEST * volume:
+        warn_caller(
+            f"{what}: mass is {mass:.6g} kg in {volume:.4g} m3, lighter than foam; masses are kilograms: if "
+            f"these are tonnes, give {mass * 1e3:.6g}",
+            MassUnitWarning,
+        )
+
+
+def warn_of_description(scene: Scene, *, start: float, end: float, described: bool) -> None:
+    """All that a scene tells by itself, from `start` to `end` (s); `described`: from its described pose."""
+    _warn_of_angles(scene, start, end)
+    _warn_of_winds(scene)
+    _warn_of_masses(scene)
+    if described:
+        _warn_of_ballast(scene)
+
+
+def _warn_of_angles(scene: Scene, start: float, end: float) -> None:
+    """An angle that comes to rest whole radians and turns away; what goes on turning is a machine."""
+    for reference in references(scene):
+        if reference.coordinate not in ANGLES:
+            continue
+        (first, _, _), (last, rate, _) = reference.curve.evaluate([start, end])
+        angle = last if last == first else last - first
+        if rate == 0.0 and abs(angle - round(angle)) < EXACT:
+            angle_of(f"{reference.owner}: reference of {reference.joint}.{reference.coordinate}", angle)
+
+
+def _warn_of_winds(scene: Scene) -> None:
+    """Wind against all waves: one of the two directions is where it comes from."""
+    if scene.waves is None:
+        return
+    energy = np.square(np.asarray(scene.waves.amplitude, dtype=float)) * np.ones(len(scene.waves.omega))
+    direction = np.asarray(scene.waves.direction, dtype=float)
+    for name, load in scene.loads.items():
+        if not (isinstance(load, _core.FlowForce) and load.density < HEAVIEST_AIR):
+            continue
+        along = np.cos(direction - load.direction) >= np.cos(AGAINST)
+        if np.sum(energy * along) < LEAST_ENERGY * np.sum(energy):
+            main = float(np.angle(np.sum(energy * np.exp(1j * direction))))
+            warn_caller(
+                f"flow force {name!r}: the wind blows to {np.degrees(load.direction):.4g} deg, the waves run "
+                f"to {np.degrees(main):.4g} deg, against it. Both are where they go to; weather forecasts "
+                "and compasses tell where wind comes from: turn it by 180 deg?",
+                CompassDirectionWarning,
+            )
+
+
+def _warn_of_masses(scene: Scene) -> None:
+    for name, body in scene.bodies.items():
+        radius = math.sqrt(float(np.trace(body.inertia)) / 2.0 / body.mass)
+        if radius > LARGEST_RADIUS:
+            warn_caller(
+                f"body {name!r}: mass {body.mass:.6g} kg and inertia make a radius of gyration of "
+                f"{radius:.4g} m; give both in kg and kg m2: tonnes for kg?",
+                MassUnitWarning,
+            )
+    hulls = [scene.bodies[v.body].mass for v in scene.vessels.values() if v.body in scene.bodies]
+    links = {name: joint for name, joint in scene.joints.items() if joint.kind == "distance"}
+    if not hulls or not links:
+        return
+    joined = Counter(end for joint in scene.joints.values() for end in (joint.first, joint.second))
+    for name, joint in links.items():
+        for end in (joint.first, joint.second):
+            mass = scene.bodies[end].mass if end in scene.bodies else math.inf
+            if joined[end] == 1 and mass < HUNG_SHARE * max(hulls):
+                warn_caller(
+                    f"body {end!r}: {mass:.6g} kg hang on {name!r}, in a scene with a vessel of "
+                    f"{max(hulls):.4g} kg, which does not feel them; masses are kilograms: tonnes for kg?",
+                    MassUnitWarning,
+                )
+
+
+def _warn_of_ballast(scene: Scene) -> None:
+    """Weights on a vessel against forces on it, by its restoring; other loads than these are not judged."""
+    if scene.springs or scene.function_forces or scene.force_tables:
+        return
+    for vessel in scene.vessels.values():
+        hull = scene.bodies[vessel.body]
+        carried = _carried(scene, vessel.body)
+        weights = [scene.bodies[name] for name in carried - {vessel.body} if scene.bodies[name].gravity]
+        restoring = np.asarray(vessel.restoring)[2:5, 2:5]
+        if not weights or not np.all(np.diag(restoring) > 0.0):
+            continue
+        held = [force for force in scene.point_forces.values() if force.body in carried]
+        bodies = [*weights, *(scene.bodies[force.body] for force in held)]
+        points = np.array([*(body.center_of_mass for body in weights), *(force.point for force in held)])
+        turned = rotation_matrix([body.quaternion for body in bodies]) @ points[:, :, None]
+        arms = np.array([body.position for body in bodies]) + turned[:, :, 0] - hull.position
+        bow = rotation_matrix(hull.quaternion)[:2, 0]
+        bow = bow / np.hypot(*bow)
+        forward, port = arms[:, :2] @ bow, arms[:, :2] @ [-bow[1], bow[0]]
+        lift = np.array([*(-body.mass * scene.gravity for body in weights), *(f.force[2] for f in held)])
+        load = [lift.sum(), lift @ port, -lift @ forward]
+        _warn_of_balance(vessel, np.linalg.lstsq(restoring, load)[0], float(hull.position[2]))
+
+
+def _warn_of_balance(vessel: _core.VesselHydrodynamics, rest: Array, start: float) -> None:
+    """`rest`: heave, roll and pitch at which the weights balance, from the described pose at `start`."""
+    heave, roll, pitch = rest[0] - start, rest[1], rest[2]
+    if max(abs(roll), abs(pitch)) <= LARGEST_HEEL and abs(heave) <= LARGEST_SINKAGE:
+        return
+    warn_caller(
+        f"vessel {vessel.name!r}: starts out of balance: its loads would heel it by {np.degrees(roll):.3g} "
+        f"deg, trim it by {np.degrees(pitch):.3g} deg and lift it by {heave:.3g} m, so that it swings from "
+        "the start. Add ballast (seacrane.balance and a point force, as in the README), or start from "
+        "seacrane.equilibrium(scene)",
+        BallastWarning,
+    )
+
+
+def _carried(scene: Scene, vessel: str) -> set[str]:
+    """Bodies whose weight comes to the vessel; none where another support shares it."""
+    stopped = {load.joint for load in scene.loads.values() if hasattr(load, "joint")}
+    driven = {driver.joint for driver in scene.drivers.values()}
+    neighbours: dict[str, list[str]] = {}
+    for name, joint in scene.joints.items():
+        if joint.kind != "free" or name in stopped | driven:
+            neighbours.setdefault(joint.first, []).append(joint.second)
+            neighbours.setdefault(joint.second, []).append(joint.first)
+    found, open_ = {vessel}, [vessel]
+    while open_:
+        new = set(neighbours.get(open_.pop(), ())) - found
+        found |= new
+        open_ += new
+    floating = {v.body for v in scene.vessels.values()}
+    alone = found <= set(scene.bodies) and found & floating == {vessel}
+    return found if alone else set()
