@@ -111,7 +111,7 @@ nightly: build .venv/.installed-dev
 	$(MAKE) --no-print-directory bench
 
 extremes: build .venv/.installed-dev
-	$(BIN)/seacrane extremes --out out/extremes $(EXTREMES_ARGS)
+	PYTHONPATH=studies $(BIN)/python -m stability_atlas --out out/extremes $(EXTREMES_ARGS)
 
 bench: build .venv/.installed-dev
 	$(BIN)/python benchmarks/run.py $(BENCH_ARGS)

@@ -11,6 +11,9 @@ from typing import Any
 
 import numpy as np
 import pytest
+
+from seacrane import SceneError, cases
+from seacrane.run.method import Method
 from stability_atlas import committed, rows, stability_atlas, workers
 from stability_atlas.axes import AXES
 from stability_atlas.axis import Case
@@ -19,17 +22,14 @@ from stability_atlas.methods import DEFAULT, QUICK, every
 from stability_atlas.rows import Row
 from stability_atlas.vessel_axes import _turn_of
 
-from seacrane import SceneError, cases, cli
-from seacrane.run.method import Method
-
 NO_REFERENCE = Reference(points=None, motion=rows.UNKNOWN, uncertainty=rows.UNKNOWN, known="")
 
 
 @pytest.fixture(scope="module")
 def quick(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """`seacrane extremes --quick`, run once; it fails where a promise of the committed list is broken."""
+    """`python -m stability_atlas --quick`, run once; it fails where a promise of the committed list is broken."""
     folder = tmp_path_factory.mktemp("extremes")
-    assert cli.main(["extremes", "--out", str(folder), "--quick"]) == 0
+    assert main(["--out", str(folder), "--quick"]) == 0
     return folder
 
 

@@ -6,11 +6,11 @@ import warnings
 
 import numpy as np
 import pytest
+
+from seacrane import cases, simulate
 from stability_atlas.duration_axes import HOUR
 from stability_atlas.mechanism_axes import AXES as MECHANISMS
 from stability_atlas.vessel_axes import AXES as VESSELS
-
-from seacrane import cases, simulate
 
 TUMBLE = next(axis for axis in MECHANISMS if axis.name == "tumble")
 FOUR_BAR = next(axis for axis in MECHANISMS if axis.name == "four-bar")

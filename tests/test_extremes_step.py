@@ -7,10 +7,10 @@ from math import factorial, inf, isnan
 import numpy as np
 import pytest
 from numpy.polynomial import Polynomial
-from stability_atlas.step_limit import EXPLICIT, found_limit, predicted_limit
 
 from seacrane import Scene, _core
 from seacrane.analysis.linear_system import linear_model
+from stability_atlas.step_limit import EXPLICIT, found_limit, predicted_limit
 
 ORDERS = {"rk4": 4, "rk-low-storage": 4, "heun21": 2, "bs32": 3, "rk43": 4, "dopri5": 5, "tsit5": 5,
           "verner65": 6, "verner76": 7, "dop853": 8}  # fmt: skip

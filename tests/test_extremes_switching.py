@@ -6,14 +6,14 @@ from typing import Any
 
 import numpy as np
 import pytest
-from stability_atlas.axes import AXES
-from stability_atlas.axis import Case
-from stability_atlas.measure import Reference, measure, reference
-from stability_atlas.workers import Group
 
 from seacrane import simulate
 from seacrane.result import Result
 from seacrane.run.method import Method
+from stability_atlas.axes import AXES
+from stability_atlas.axis import Case
+from stability_atlas.measure import Reference, measure, reference
+from stability_atlas.workers import Group
 
 
 @pytest.fixture(scope="module", params=[1e7, 1e9, 1e11])

@@ -1,31 +1,42 @@
-"""``seacrane extremes``: the stability atlas, and whether what must always hold does."""
+"""`python -m stability_atlas`: the stability atlas, and whether what must always hold does."""
 
 from __future__ import annotations
 
 import argparse
 import sys
-from typing import TYPE_CHECKING
+from collections.abc import Sequence
 
 from seacrane.cli.output_folder import output_folder
 from seacrane.cli.tables import text_table
-
-if TYPE_CHECKING:
-    from stability_atlas import Atlas
+from stability_atlas import Atlas, stability_atlas
 
 BROKEN = 1
 
 
-def run(arguments: argparse.Namespace) -> int:
+def main(arguments: Sequence[str] | None = None) -> int:
     """Run the atlas, save its tables and figures, and print what was found; 1 where a promise is broken."""
-    folder = output_folder(arguments.out)
-    from stability_atlas import stability_atlas
-
-    atlas = stability_atlas(out=folder, quick=arguments.quick, axes=arguments.axes)
+    chosen = _parser().parse_args(arguments)
+    folder = output_folder(chosen.out)
+    atlas = stability_atlas(out=folder, quick=chosen.quick, axes=chosen.axes)
     print(summary(atlas))
     print(f"saved {folder / 'extremes.csv'} and extremes_<axis>.png")
     for text in atlas.broken:
-        print(f"seacrane extremes: broken promise: {text}", file=sys.stderr)
+        print(f"stability atlas: broken promise: {text}", file=sys.stderr)
     return BROKEN if atlas.broken else 0
+
+
+def _parser() -> argparse.ArgumentParser:
+    text = "drive every axis of use far beyond it with every method: extremes.csv and heat maps"
+    more = f"{text}; a call that was stopped goes on; fails where something breaks that must always hold"
+    parser = argparse.ArgumentParser(prog="stability_atlas", description=more)
+    parser.add_argument("--out", metavar="DIR", required=True, help="folder to write to; made if absent")
+    parser.add_argument(
+        "--quick", action="store_true", help="few values and methods, and all that must always hold"
+    )
+    parser.add_argument(
+        "--axes", metavar="NAME", nargs="+", help="only these axes; an unknown name lists them all"
+    )
+    return parser
 
 
 def summary(atlas: Atlas) -> str:
@@ -46,3 +57,7 @@ def summary(atlas: Atlas) -> str:
             f"{len(known)} longest stable steps: found over predicted {min(ratios):.3f} to {max(ratios):.3f}"
         )
     return "\n".join(lines)
+
+
+if __name__ == "__main__":
+    sys.exit(main())

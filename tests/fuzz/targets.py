@@ -187,13 +187,20 @@ def _result(path: Path) -> Any:
     return [] if found.interrupted else list(found.channels.values())
 
 
-_NETCDF = ("netcdf_limits.py", "hdf5_structure.py")
-_SCENE = ("scene_file.py", "scene_node.py", "wave_file.py", "plain_data.py", "load_kinds.py")
-_ORCAFLEX = ("hydro/orcaflex.py", "hydro/orcaflex_model.py")
-_VERES = tuple(
-    f"hydro/{name}.py" for name in ("veres", "veres_files", "veres_set", "veres_hydrostatics", "text_records")
+_NETCDF = ("files/netcdf_limits.py", "files/hdf5_structure.py")
+_SCENE = (
+    "description/file.py",
+    "files/node.py",
+    "description/file_waves.py",
+    "files/plain_data.py",
+    "description/loads.py",
 )
-_WAMIT = tuple(f"hydro/{name}.py" for name in ("wamit", "wamit_control", "wamit_tables"))
+_ORCAFLEX = ("hydro/readers/orcaflex.py", "hydro/readers/orcaflex_model.py")
+_VERES = tuple(
+    f"hydro/readers/{name}.py"
+    for name in ("veres", "veres_files", "veres_set", "veres_hydrostatics", "text_records")
+)
+_WAMIT = tuple(f"hydro/readers/{name}.py" for name in ("wamit", "wamit_control", "wamit_tables"))
 _SHAPE = (FileFormatError, ValueError)
 
 
@@ -219,18 +226,18 @@ _ALL = [
     *_set_targets("wamit", "1 3 4 hst frc out cfg", _wamit, _WAMIT),
     Target("orcaflex", "orcaflex", "ship.yml", orcaflex.read_orcaflex, _ORCAFLEX, mutate_json),
     Target("orcaflex-text", "orcaflex", "ship.yml", orcaflex.read_orcaflex, _ORCAFLEX),
-    Target("offsets", "offsets", "hull.txt", _hull_of_offsets, ("hydro/hull_offsets.py",), refusals=_SHAPE),
-    Target("stl", "stl", "hull.stl", _hull_of_stl, ("hydro/hull_stl.py",), refusals=_SHAPE),
+    Target("offsets", "offsets", "hull.txt", _hull_of_offsets, ("hydro/hull/offsets.py",), refusals=_SHAPE),
+    Target("stl", "stl", "hull.stl", _hull_of_stl, ("hydro/hull/stl.py",), refusals=_SHAPE),
     Target("scene", "scene", "scene.json", _scene, _SCENE, mutate_json),
     Target("crane", "crane", "crane.toml", _crane, ("crane/data_file.py",)),
     Target(
         "measured", "measured", "record.json", _measured, ("sea/measured.py",), mutate_json,
         refusals=(SceneError,),
     ),
-    Target("state", "state", "run.state", _state, ("state_file.py",)),
-    *_netcdf_targets("database", "hull.nc", HydroDatabase.load, "hydro/netcdf.py"),
-    *_netcdf_targets("mafredo", "ship.dhyd", _mafredo, "hydro/mafredo_file.py"),
-    *_netcdf_targets("capytaine", "ship.nc", _capytaine, "hydro/capytaine.py"),
+    Target("state", "state", "run.state", _state, ("files/state.py",)),
+    *_netcdf_targets("database", "hull.nc", HydroDatabase.load, "hydro/readers/netcdf.py"),
+    *_netcdf_targets("mafredo", "ship.dhyd", _mafredo, "hydro/readers/mafredo_file.py"),
+    *_netcdf_targets("capytaine", "ship.nc", _capytaine, "hydro/readers/capytaine.py"),
     *_netcdf_targets("result", "run.nc", _result, "result/netcdf.py"),
 ]  # fmt: skip
 TARGETS = {target.name: target for target in _ALL}

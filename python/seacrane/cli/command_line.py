@@ -39,7 +39,6 @@ def build_parser() -> argparse.ArgumentParser:
     _add_report(commands)
     _add_hydro(commands)
     _add_trade(commands)
-    _add_extremes(commands)
     return parser
 
 
@@ -132,19 +131,6 @@ def _add_trade(commands: Any) -> None:
     trade.add_argument("--quick", action="store_true", help="a coarse grid of few integrators")
 
 
-def _add_extremes(commands: Any) -> None:
-    text = "drive every axis of use far beyond it with every method: extremes.csv and heat maps"
-    more = f"{text}; a call that was stopped goes on; fails where something breaks that must always hold"
-    extremes = commands.add_parser("extremes", help=text, description=more)
-    extremes.add_argument("--out", metavar="DIR", required=True, help="folder to write to; made if absent")
-    extremes.add_argument(
-        "--quick", action="store_true", help="few values and methods, and all that must always hold"
-    )
-    extremes.add_argument(
-        "--axes", metavar="NAME", nargs="+", help="only these axes; an unknown name lists them all"
-    )
-
-
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run a command; errors become one line on standard error.
 
@@ -200,7 +186,7 @@ def _one_line(
 ) -> str:
     """A warning as errors are told; with its place only where that is a line of the user's own script."""
     place = Path(filename)
-    if place.exists() and place.resolve() != Path(sys.argv[0]).resolve() and place.parent != PACKAGE:
+    if place.exists() and place.resolve() != Path(sys.argv[0]).resolve() and PACKAGE not in place.parents:
         return usual(message, category, filename, lineno, line)
     return f"{command}: {category.__name__}: {message}\n"
 

@@ -314,7 +314,7 @@ class HydroDatabase:
         return hydro_figures(database=self, what=what)
 
     def check(self) -> list[CheckRow]:
-        """Self-check: closure, symmetry, damping, natural periods, memory; see `seacrane.hydro.database.check`."""
+        """Self-check: closure, symmetry, damping, natural periods, memory; see `check_database`."""
         from seacrane.hydro.database.check import check_database
 
         return check_database(self)
