@@ -15,6 +15,7 @@ import pytest
 from seacrane import SceneError, cases
 from seacrane.run.method import Method
 from stability_atlas import committed, rows, stability_atlas, workers
+from stability_atlas.__main__ import main
 from stability_atlas.axes import AXES
 from stability_atlas.axis import Case
 from stability_atlas.measure import Reference, measure, points_on_bodies, reference
@@ -27,7 +28,7 @@ NO_REFERENCE = Reference(points=None, motion=rows.UNKNOWN, uncertainty=rows.UNKN
 
 @pytest.fixture(scope="module")
 def quick(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """`python -m stability_atlas --quick`, run once; it fails where a promise of the committed list is broken."""
+    """The quick atlas, run once; it fails where a promise of the committed list is broken."""
     folder = tmp_path_factory.mktemp("extremes")
     assert main(["--out", str(folder), "--quick"]) == 0
     return folder
