@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import json
+import os
 import random
 import struct
 import tracemalloc
@@ -267,6 +268,13 @@ def test_more_entries_than_any_database_has(monkeypatch: pytest.MonkeyPatch, sou
     path, read = sound
     monkeypatch.setattr(hdf5_structure, "MOST_ENTRIES", 10)
     refused(lambda: read(path), "holds more than 10 groups, arrays and attributes")
+
+
+def test_a_sparse_file_is_not_read_through(tmp_path: Path) -> None:
+    """All that a file holds is looked at once: one of 100 GB that takes no room on the disk took minutes."""
+    assert build(SEED["result"].read_bytes(), tmp_path / "run.nc")
+    os.truncate(tmp_path / "run.nc", 100 * 2**30)
+    refused(lambda: Result.load(tmp_path / "run.nc"), "has 102400 MiB")
 
 
 def test_larger_results_can_be_asked_for(tmp_path: Path) -> None:

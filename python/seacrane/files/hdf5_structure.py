@@ -17,6 +17,7 @@ import numpy as np
 
 from seacrane.errors import FileFormatError
 
+LOOSEST = 2  # times the bytes of its arrays, which a file may take: all of it is read once
 LARGEST_TEXTS = 128 * 2**20  # bytes; thousands of names, and events by the hundred thousand, take less
 TEXT = 64  # bytes that Python takes for a text beside its characters
 MOST_ENTRIES = 20_000  # groups, arrays and attributes; a result has some 300
@@ -47,6 +48,11 @@ class Structure:
         That is: links and storage that lead to another file, objects that are there twice (groups could then
         hold themselves), filters but deflate, shuffle and checksums, values of variable length but texts.
         """
+        if self.size > LOOSEST * max(self.largest, LARGEST_TEXTS):
+            raise FileFormatError(
+                f"{self.path}: has {self.size / 2**20:.6g} MiB, for arrays of at most "
+                f"{self.largest / 2**20:g} MiB; {self.fix or 'write the file again'}"
+            )
         self._heaps()
         with h5py.File(self.path, "r") as file:
             if file.userblock_size or file.id.get_create_plist().get_sizes() != (8, 8):

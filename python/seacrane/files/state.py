@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 from seacrane import _core
 from seacrane.errors import FileFormatError
 from seacrane.files.atomic import atomic_write
+from seacrane.inputs.shown import shown
 
 if TYPE_CHECKING:
     from seacrane.description.scene import Scene
@@ -133,7 +134,7 @@ def _difference(parts: list[str], own: list[str]) -> str:
     count = max(len(parts), len(own))
     padded = [[*some, *["nothing more"] * (count - len(some))] for some in (parts, own)]
     there, here = next(pair for pair in zip(*padded, strict=True) if pair[0] != pair[1])
-    return f"is the state of another scene: it holds {there} where the scene has {here}"
+    return f"is the state of another scene: it holds {shown(there)} where the scene has {here}"
 
 
 def _checked(data: bytes, path: Path) -> tuple[dict[str, Any], dict[str, Array]]:
@@ -156,7 +157,9 @@ def _checked(data: bytes, path: Path) -> tuple[dict[str, Any], dict[str, Array]]
         arrays[name] = np.frombuffer(body, "<f8", count, at).astype(np.float64)
         at += 8 * count
         if not np.isfinite(arrays[name]).all():
-            raise FileFormatError(f"{path}: {name!r} holds a value that is not finite; save the state again")
+            raise FileFormatError(
+                f"{path}: {shown(name)} holds a value that is not finite; save the state again"
+            )
     return header, arrays
 
 
@@ -166,11 +169,11 @@ def _counts(header: Any, room: int) -> dict[str, int]:
         raise ValueError("it is not an object")
     version = header["version"]
     if version != VERSION:
-        raise ValueError(f"version {version!r}, and this seacrane reads version {VERSION}")
+        raise ValueError(f"version {shown(version)}, and this seacrane reads version {VERSION}")
     counts: dict[str, int] = {}
     for name, count in header["arrays"]:
         if not isinstance(name, str) or name in counts or type(count) is not int or not 0 <= count <= room:
-            raise ValueError(f"array {name!r} of {count!r} numbers does not fit the file")
+            raise ValueError(f"array {shown(name)} of {shown(count)} numbers does not fit the file")
         counts[name] = count
     if 8 * sum(counts.values()) != room:
         raise ValueError(f"arrays of {sum(counts.values())} numbers do not fill the {room} bytes of the file")
@@ -182,9 +185,9 @@ def _state(header: dict[str, Any], arrays: dict[str, Array]) -> _core.State:
     expected = {*_ARRAYS, *(f"history {i} {key}" for i in range(len(intervals))
                             for key in ("start", "recent", "quadrature"))}  # fmt: skip
     if set(arrays) != expected:
-        raise ValueError(f"has arrays {', '.join(arrays)}")
+        raise ValueError(f"has arrays {shown(list(arrays))}")
     if not all(type(n) is int and 0 <= n < 2**62 for n in intervals):
-        raise ValueError(f"intervals are {intervals!r}")
+        raise ValueError(f"intervals are {shown(intervals)}")
     closed = header["closed"]
     if not all(isinstance(text, str) for text in [*parts, *(closed or [])]):
         raise ValueError("parts or closed limits are not texts")
