@@ -134,7 +134,7 @@ def _difference(parts: list[str], own: list[str]) -> str:
     count = max(len(parts), len(own))
     padded = [[*some, *["nothing more"] * (count - len(some))] for some in (parts, own)]
     there, here = next(pair for pair in zip(*padded, strict=True) if pair[0] != pair[1])
-    return f"is the state of another scene: it holds {shown(there)} where the scene has {here}"
+    return f"is the state of another scene: it holds {there[:80]} where the scene has {here}"
 
 
 def _checked(data: bytes, path: Path) -> tuple[dict[str, Any], dict[str, Array]]:
