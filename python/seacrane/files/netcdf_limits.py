@@ -8,7 +8,10 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
+from seacrane.errors import FileFormatError
+
 LARGEST_DATABASE = 512 * 2**20  # bytes; 1,000 frequencies x 72 headings take 20 MiB
+CDF5 = b"CDF\x05"  # classic, with counts of 64 bits
 TOO_LARGE = "no hydrodynamic database is: write it again with fewer frequencies or headings"
 # What the libraries raise for a damaged file, and NumPy for contents of another kind than expected.
 NETCDF_ERRORS = (OSError, RuntimeError, LookupError, AttributeError, TypeError, ValueError, ArithmeticError)
@@ -41,19 +44,34 @@ def open_netcdf(path: Path, largest: int = LARGEST_DATABASE, fix: str = TOO_LARG
 
     if h5py.is_hdf5(path):
         Structure(path, largest, fix).check()
+    elif (kind := _first_bytes(path)) == CDF5:
+        raise FileFormatError(f"{path}: is a NetCDF file of the kind CDF-5; write it as NetCDF-4")
+    elif kind.startswith(b"CDF"):
+        _check_classic(path, largest, fix)
     with netCDF4.Dataset(path, "r") as file:
         file.set_auto_mask(False)
-        if file.data_model.startswith("NETCDF3"):
-            _require_size(path, file, largest, fix)
         yield file
 
 
-def _require_size(path: Path, file: Any, largest: int, fix: str) -> None:
-    """The classic format has no links and no compression, but may announce what was never written."""
+def _first_bytes(path: Path) -> bytes:
+    with path.open("rb") as file:
+        return file.read(len(CDF5))
+
+
+def _check_classic(path: Path, largest: int, fix: str) -> None:
+    """The classic format has no links and no compression, but its header may announce what is not there.
+
+    SciPy reads the header in Python, as far as the file goes; the C library takes memory for all that the
+    header counts, and ends the process where there is none.
+    """
+    from scipy.io import netcdf_file
+
     from seacrane.files.hdf5_structure import too_large
 
     total = 0
-    for name, variable in file.variables.items():
-        total += variable.dtype.itemsize * math.prod(variable.shape)
+    with contextlib.closing(netcdf_file(path, "r", mmap=True)) as file:
+        shapes = {name: (each.itemsize(), each.shape) for name, each in file.variables.items()}
+    for name, (size, shape) in shapes.items():
+        total += size * math.prod(shape)
         if total > largest:
-            raise too_large(path, name, variable.shape, total, largest, fix)
+            raise too_large(path, name, shape, total, largest, fix)
