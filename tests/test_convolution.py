@@ -117,7 +117,7 @@ def test_a_sudden_start_keeps_the_order() -> None:
     assert errors[1] < 1e-5
 
 
-@pytest.mark.parametrize("integrator", ["rk4", "ark-erk", "cvode-adams", "cvode-bdf", "ida"])
+@pytest.mark.parametrize("integrator", ["rk4", "ark-dirk", "cvode-adams", "cvode-bdf", "ida"])
 def test_every_integrator_takes_it(integrator: str, by_states: Array) -> None:
     """At the distance that the quadrature leaves, landing on the samples without a restart."""
     settings = {"dt": 0.01} if integrator == "rk4" else {"rtol": 1e-8}

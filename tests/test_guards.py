@@ -22,6 +22,7 @@ from seacrane import (
     SimulationError,
     State,
     StiffWarning,
+    _core,
     simulate,
 )
 from seacrane.analysis import linearise
@@ -29,7 +30,6 @@ from seacrane.cases import vessel
 from seacrane.figures.report import report_html
 from seacrane.run import stiffness
 from seacrane.run.output_times import OutputMemoryError
-from seacrane.run.step_advice import STABLE_UP_TO
 from seacrane.validity.hull_range import MeanHeadingWarning
 from seacrane.validity.range import (
     FullTurnWarning,
@@ -119,11 +119,10 @@ def test_a_step_beyond_stability_tells_what_has_grown_and_the_longest_step() -> 
     assert "unstable with steps longer than about 0.028 s, and took 0.1 s" in text
 
 
-# rk4-exact-memory refuses a scene without memory, and is rk4 in all else.
-@pytest.mark.parametrize("method", sorted(set(STABLE_UP_TO) - {"rk4-exact-memory"}))
+@pytest.mark.parametrize("method", [m.name for m in _core.integrators() if m.stable_up_to])
 def test_the_limits_told_are_those_of_the_methods(method: str) -> None:
     """Energy over 2000 steps of an undamped oscillator, a little below and above the limit."""
-    limit = STABLE_UP_TO[method]
+    limit = _core.integrator(method).stable_up_to
     settings: dict[str, Any] = {"integrator": method, "t_end": 1900 * limit, "dt_out": 10.0 * limit}
     kept = simulate(slide(1.0), dt=0.95 * limit, **settings)
     assert np.abs(kept["velocity"][:, 0, 0]).max() < 1.0

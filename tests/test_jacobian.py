@@ -207,7 +207,7 @@ def test_linear_model_agrees_with_differences(monkeypatch: pytest.MonkeyPatch) -
     ("integrator", "formulation"),
     [
         (integrator, formulation)
-        for integrator in ("rosenbrock", "cvode-bdf", "ark-dirk", "ark-imex")
+        for integrator in ("rosenbrock", "cvode-bdf", "ark-dirk")
         for formulation in ("redundant", "recursive")
     ]
     + [("ida", "redundant")],

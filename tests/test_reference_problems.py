@@ -26,7 +26,7 @@ LIMITS: dict[str, list[tuple[dict[str, Any], float]]] = {
     "squeezer": [
         ({"rtol": 1e-7}, 1e-9),
         ({"integrator": "verner76", "rtol": 1e-8}, 1e-11),
-        ({"integrator": "ark-erk", "rtol": 1e-6}, 1e-8),
+        ({"integrator": "tsit5", "rtol": 1e-6}, 1e-8),
         ({"integrator": "cvode-bdf", "rtol": 1e-6}, 1e-6),
         ({"integrator": "rk4", "dt": 1e-5}, 1e-9),
     ],

@@ -22,9 +22,9 @@ from seacrane import (
     Scene,
     SceneError,
     State,
+    _core,
     add_wire,
     cases,
-    integrator_names,
     simulate,
 )
 from seacrane.files.state import DIGEST, MAGIC
@@ -32,10 +32,7 @@ from seacrane.files.state import DIGEST, MAGIC
 Array = NDArray[np.float64]
 STOP, END = 0.43, 0.9
 CHANNELS = ["position", "quaternion", "energy_balance", "constraint_error_before_projection"]
-FIXED = {"semi-implicit-euler": 1e-3, "generalized-alpha": 5e-3, "generalized-alpha-index2": 5e-3}
-# By a reset of the solver, and by a solver made anew.
-RESET, MADE_ANEW = ("ark-erk", "ark-dirk", "ark-imex", "cvode-adams", "cvode-bdf"), ("ark-mri", "ida")
-REDUNDANT_ONLY = ("ida", "generalized-alpha", "generalized-alpha-index2")
+STEPS = {1: 1e-3, 2: 5e-3, 4: 0.02}  # s, by order
 
 
 def scenes(name: str) -> Scene:
@@ -45,24 +42,23 @@ def scenes(name: str) -> Scene:
 def all_runs() -> list[tuple[str, str, str]]:
     """Scene, integrator, formulation."""
     out = []
-    for integrator in sorted(set(integrator_names()) - {"rk4-exact-memory"}):
-        for formulation in ["redundant", *(["recursive"] if integrator not in REDUNDANT_ONLY else [])]:
-            out += [("chain", integrator, formulation)] if integrator != "ark-mri" else []
-            if not (integrator == "cvode-adams" and formulation == "recursive"):
-                out.append(("crank", integrator, formulation))
-    for integrator in ("dopri5", "rk4", "rk4-exact-memory"):
+    for method in _core.integrators():
+        for formulation in ["redundant", *(["recursive"] if not method.residual_form else [])]:
+            out.append(("chain", method.name, formulation))
+            if method.projects or formulation == "redundant":
+                out.append(("crank", method.name, formulation))
+    for integrator in ("dopri5", "rk4"):
         for formulation in ("redundant", "recursive"):
             out += [(scene, integrator, formulation) for scene in ("case2", "convolution")]
-    return [one for one in out if one[:2] != ("convolution", "rk4-exact-memory")]
+    return out
 
 
 def begin(one: tuple[str, str, str], start: State | None = None) -> Run:
     name, integrator, formulation = one
-    settings: dict[str, Any] = {"rtol": 1e-4 if integrator == "heun21" else 1e-7}
-    if integrator in FIXED or integrator.startswith("rk"):
-        settings["dt"] = FIXED.get(integrator, 0.02)
-    if integrator == "ark-mri":
-        settings["dt"] = 0.05
+    method = _core.integrator(integrator)
+    settings: dict[str, Any] = {"rtol": 1e-7}
+    if method.setting == "dt":
+        settings["dt"] = STEPS[method.order]
     scene = scenes(name)
     return Run(scene, t_end=END, dt_out=0.1, start=start, integrator=integrator, formulation=formulation,
                channels=CHANNELS, outputs_from=0.0, **settings)  # fmt: skip
@@ -90,9 +86,10 @@ def test_a_run_goes_on_in_a_new_process_bit_for_bit(tmp_path: Path) -> None:
         run = begin(one)
         run.advance(STOP)
         run.state.save(tmp_path / f"{'!'.join(one)}.state")
-        if one[1] in RESET:
+        method = _core.integrator(one[1])
+        if method.restarts and not method.residual_form:  # by a reset of the solver
             run.set_inputs({})
-        elif one[1] in MADE_ANEW:
+        elif method.restarts:  # by a solver made anew
             run = begin(one, run.state)
         run.advance(END)
         runs[one] = told(run)

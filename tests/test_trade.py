@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from trade_scenes import pendulum
 
-from seacrane import Scene, SceneError, Trade, cases, integrator_names, simulate, trade
+from seacrane import Scene, SceneError, Trade, _core, cases, integrator_names, simulate, trade
 from seacrane.hydro import shipped_database
 from seacrane.inputs.checked import curve_of
 from seacrane.run.method import Method
@@ -141,27 +141,23 @@ def test_a_setting_that_does_not_exist_is_a_row_with_its_reason(case2: Scene) ->
     assert not done.stable and "solves the redundant equations" in done.reason
 
 
-def test_every_integrator_of_the_core_is_in_the_grid(case2: Scene) -> None:
-    found = {setting.integrator for setting in settings_grid.settings(case2, quick=False)}
+def test_every_integrator_of_the_core_is_in_the_grid() -> None:
+    found = {setting.integrator for setting in settings_grid.settings(quick=False)}
     assert found == set(integrator_names())
 
 
-@pytest.mark.parametrize(("name", "size"), [("rk4", "dt"), ("semi-implicit-euler", "dt"), ("tsit5", "rtol")])
-def test_a_method_that_no_list_knows_is_set_by_what_changes_its_steps(
-    name: str, size: str, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setattr(settings_grid, "TOLERANCES", {})
-    monkeypatch.setattr(settings_grid, "STEPS", {})
-    assert settings_grid._sizes(pendulum(), name)[0] == size
+def test_a_method_is_set_by_its_step_or_its_tolerance() -> None:
+    for setting in settings_grid.settings(quick=False):
+        takes_step = _core.integrator(setting.integrator).setting == "dt"
+        assert (setting.dt > 0.0, setting.rtol > 0.0) == (takes_step, not takes_step)
 
 
 def test_a_method_that_refuses_the_scene_is_a_row_with_its_reason(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(settings_grid, "QUICK_INTEGRATORS", ("tsit5", "not-yet"))
-    rows = [
-        r for r in trade(pendulum(), t_end=1.0, quick=True, progress=False).rows if r.integrator == "not-yet"
-    ]
+    monkeypatch.setattr(settings_grid, "QUICK_INTEGRATORS", ("tsit5", "ida"))
+    rows = trade(pendulum(), t_end=1.0, quick=True, progress=False).rows
+    rows = [row for row in rows if (row.integrator, row.formulation) == ("ida", "recursive")]
     assert rows and not any(row.stable for row in rows)
-    assert all("unknown integrator" in row.reason for row in rows)
+    assert all("solves the redundant equations" in row.reason for row in rows)
 
 
 def test_memory_orders_are_named_by_their_states_and_come_closer(case2: Scene) -> None:

@@ -16,7 +16,6 @@ from seacrane.trading.quantities import Quantity, compare, quantities_of
 GRID: dict[str, list[dict[str, float]]] = {  # each from loose to tight
     "tsit5": [{"rtol": 10.0**-k} for k in range(1, 10)],
     "bs32": [{"rtol": 10.0**-k} for k in range(1, 4)],
-    "heun21": [{"rtol": 10.0**-k} for k in range(1, 4)],
     "rk4": [{"dt": step} for step in (0.2, 0.1, 0.05, 0.025)],
     "dopri5": [{"rtol": 10.0**-k} for k in range(1, 10, 2)],
     "verner65": [{"rtol": 10.0**-k} for k in range(1, 10)],

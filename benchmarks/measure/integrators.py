@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from seacrane import Model, Scene, SimulationError, cases
+from seacrane import Model, Scene, SimulationError, _core, cases
 
 from .section import Section
 from .timing import Timed, timed_run
@@ -19,32 +19,11 @@ Array = NDArray[np.float64]
 T_END, DT_OUT = 100.0, 1.0  # s; few outputs, so that the methods' own cost shows
 TOLERANCES = (1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8)
 IMPLICIT_TOLERANCES = (1e-3, 1e-4, 1e-5)
-SETTINGS: dict[str, list[dict[str, float]]] = {
-    "semi-implicit-euler": [{"dt": step} for step in (0.02, 0.01, 0.005, 0.002)],
-    "rk4": [{"dt": step} for step in (0.25, 0.2, 0.1, 0.05, 0.025, 0.0125)],
-    "rk4-exact-memory": [{"dt": step} for step in (0.25, 0.2, 0.1, 0.05, 0.025)],
-    "rk-low-storage": [{"dt": step} for step in (0.25, 0.2, 0.1, 0.05, 0.025)],
-    "heun21": [{"rtol": tolerance} for tolerance in TOLERANCES[:3]],
-    "bs32": [{"rtol": tolerance} for tolerance in TOLERANCES[:4]],
-    "rk43": [{"rtol": tolerance} for tolerance in TOLERANCES[:5]],
-    "dopri5": [{"rtol": tolerance} for tolerance in TOLERANCES],
-    "tsit5": [{"rtol": tolerance} for tolerance in TOLERANCES],
-    "verner65": [{"rtol": tolerance} for tolerance in TOLERANCES],
-    "verner76": [{"rtol": tolerance} for tolerance in TOLERANCES],
-    "dop853": [{"rtol": tolerance} for tolerance in TOLERANCES],
-    "rosenbrock": [{"rtol": tolerance} for tolerance in IMPLICIT_TOLERANCES],
-    "generalized-alpha": [{"dt": step} for step in (0.05, 0.025, 0.01)],
-    "generalized-alpha-index2": [{"dt": step} for step in (0.05, 0.025, 0.01)],
-    "ark-erk": [{"rtol": tolerance} for tolerance in TOLERANCES],
-    "ark-dirk": [{"rtol": tolerance} for tolerance in IMPLICIT_TOLERANCES],
-    "ark-imex": [{"rtol": tolerance} for tolerance in IMPLICIT_TOLERANCES],
-    "ark-mri": [{"dt": step, "rtol": rtol} for step, rtol in ((0.2, 1e-3), (0.1, 1e-4), (0.05, 1e-5))],
-    "cvode-adams": [{"rtol": tolerance} for tolerance in TOLERANCES],
-    "cvode-bdf": [{"rtol": tolerance} for tolerance in TOLERANCES[:-1]],
-    "ida": [{"rtol": tolerance} for tolerance in TOLERANCES[:-2]],
-}
+STEPS_OF_ORDER_1 = (0.02, 0.01, 0.005, 0.002)  # s
+STEPS = (0.25, 0.2, 0.1, 0.05, 0.025, 0.0125)  # s
+STEPS_IMPLICIT = (0.05, 0.025, 0.01)  # s
 REFERENCE = {"integrator": "dopri5", "rtol": 1e-11}
-CHECK = {"integrator": "ark-erk", "rtol": 1e-10}
+CHECK = {"integrator": "verner76", "rtol": 1e-11}
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -72,6 +51,16 @@ def _measure(scene: Scene, model: Model, repeats: int, **settings: Any) -> tuple
     return run, run.channels["position"][:, payload], run.channels["actuator_force"][:, cylinders]
 
 
+def settings(method: _core.Integrator) -> tuple[float, ...]:
+    """Steps or tolerances: none tighter than a method of this order and cost of a step is run with."""
+    if method.setting == "dt":
+        explicit = STEPS_OF_ORDER_1 if method.order == 1 else STEPS
+        return STEPS_IMPLICIT if method.uses_jacobian else explicit
+    if method.uses_jacobian:
+        return IMPLICIT_TOLERANCES if method.lowest_order == method.order else TOLERANCES[:-1]
+    return TOLERANCES[:4] if method.order < 4 else TOLERANCES
+
+
 def work_precision(*, repeats: int) -> tuple[list[Point], float]:
     """Every setting of every integrator, and the reference's own uncertainty in position, m."""
     scene = cases.case2()
@@ -79,9 +68,10 @@ def work_precision(*, repeats: int) -> tuple[list[Point], float]:
     _, position, force = _measure(scene, model, 1, **REFERENCE)
     _, check, _ = _measure(scene, model, 1, **CHECK)
     points = []
-    for integrator, settings in SETTINGS.items():
-        for setting in settings:
-            label = ", ".join(f"{name} {value:g}" for name, value in setting.items())
+    for method in _core.integrators():
+        for value in settings(method):
+            integrator, setting = method.name, {method.setting: value}
+            label = f"{method.setting} {value:g}"
             try:
                 run, p, f = _measure(scene, model, repeats, integrator=integrator, **setting)
             except SimulationError as error:
@@ -107,6 +97,7 @@ def _short(error: SimulationError) -> str:
 
 def table(points: list[Point], uncertainty: float, *, repeats: int) -> Section:
     """The points as a table."""
+    implicit = ", ".join(method.name for method in _core.integrators() if method.uses_jacobian)
     fastest = min(point.cpu for point in points if point.cpu is not None)
     rows = [
         [
@@ -126,10 +117,9 @@ def table(points: list[Point], uncertainty: float, *, repeats: int) -> Section:
         text=(
             f"100 s, outputs every {DT_OUT:g} s, best of {repeats}. Errors: largest difference of the "
             "payload's position and of the cylinder forces from dopri5 at rtol 1e-11, over all outputs; "
-            f"ark-erk at rtol 1e-10 differs from that reference by {uncertainty:.1e} m. cvode-adams cannot "
-            "project and uses Baumgarte stabilisation; of ark-mri the evaluations of the fast part, the "
-            "actuators', are not counted; rosenbrock, generalized-alpha, ark-dirk, ark-imex, "
-            "cvode-bdf and ida take exact Jacobians, which are not counted either."
+            f"verner76 at rtol 1e-11 differs from that reference by {uncertainty:.1e} m. cvode-adams cannot "
+            "project and uses Baumgarte stabilisation. Exact Jacobians are not counted as evaluations; these "
+            f"take them: {implicit}."
         ),
         head=["integrator", "setting", "CPU, ms", "over fastest", "evaluations",
               "payload error, m", "cylinder force error, N", "stopped because"],
@@ -150,7 +140,7 @@ def figure(points: list[Point], path: Path) -> None:
         (axes[0], "evaluations", 1.0, "evaluations"),
         (axes[1], "cpu", 1e3, "CPU time, ms"),
     ):
-        for name in SETTINGS:
+        for name in _core.integrator_names():
             run = [point for point in points if point.integrator == name and point.cpu is not None]
             cost = [factor * getattr(point, attribute) for point in run]
             if run:

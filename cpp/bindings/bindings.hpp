@@ -12,6 +12,7 @@ void bind_copies();
 void bind_curve(py::module_& m);
 void bind_elements(py::module_& m);
 void bind_flow_force(py::module_& m);
+void bind_integrators(py::module_& m);
 void bind_limits(py::module_& m);
 void bind_sea(py::module_& m);
 void bind_model(py::module_& m);

@@ -1,7 +1,6 @@
 #include "seacrane/run/simulation.hpp"
 
 #include "bindings.hpp"
-#include "seacrane/integrate/stability_polynomial.hpp"
 #include "turns.hpp"
 #include "vector_state.hpp"
 
@@ -51,7 +50,6 @@ py::dict statistics(const Simulation& s) {
   out["steps"] = r.counters.steps;
   out["rejected_steps"] = r.counters.rejected_steps;
   out["evaluations"] = r.counters.evaluations;
-  out["fast_evaluations"] = r.counters.fast_evaluations;
   out["jacobians"] = r.counters.jacobians;
   out["newton_iterations"] = r.counters.newton_iterations;
   out["projections"] = r.counters.projections;
@@ -283,11 +281,6 @@ void bind_simulation(py::module_& m) {
   m.def(
       "initial_state", [](const std::shared_ptr<Model>& model) { return initial_state(*model); },
       py::arg("model").none(false));
-  m.def("integrator_names", &integrator_names);
-  m.def("stability_polynomial", &stability_polynomial, py::arg("integrator"),
-        "Coefficients of the stability polynomial of an explicit Runge-Kutta method, lowest power first: a "
-        "step "
-        "h of y' = lambda y multiplies y by R(h lambda). Empty for an integrator that has no tableau here.");
   using S = SharedSimulation;
   py::class_<S>(
       m, "Simulation",

@@ -36,11 +36,12 @@ TEST_CASE("the allocation counter counts") {
 }
 
 TEST_CASE("the own methods allocate nothing once they are initialised") {
-  for (const std::string& name : own_methods()) {
+  for (const IntegratorProperties& method : methods(is_own)) {
+    const std::string name = method.name;
     CAPTURE(name);
     Pendulum system(true);
     PendulumResidual residual;
-    const auto integrator = make_integrator(system, &residual, with_tolerance(name, 1e-6));
+    const auto integrator = make_integrator(problem(system, &residual), with_tolerance(name, 1e-6));
     const double start[4] = {1.0, 0.0, 0.0, 0.0};
     integrator->init(0.0, start);
     const EventFunction lowest = [](double, const double* y) { return y[0]; };

@@ -21,14 +21,15 @@ std::vector<double> events_of(Integrator& integrator, double t_end, const EventF
 
 TEST_CASE("a ball thrown up meets the ground at the right time to 1e-12") {
   // The path is a parabola, which every one-step method and its dense output reproduce.
-  for (const std::string name : {"rk4", "rk-low-storage", "heun21", "bs32", "rk43", "dopri5", "tsit5",
-                                 "verner65", "verner76", "dop853", "rosenbrock", "ark-erk"}) {
+  for (const IntegratorProperties& method :
+       methods([](const auto& m) { return is_own(m) && m.dense_order > 1 && !m.residual_form; })) {
+    const std::string name = method.name;
     CAPTURE(name);
     FunctionSystem system(2, [](double, const double* y, double* ydot) {
       ydot[0] = y[1];
       ydot[1] = -9.81;
     });
-    const auto integrator = make_integrator(system, nullptr, with_tolerance(name, 1e-9));
+    const auto integrator = make_integrator(problem(system), with_tolerance(name, 1e-9));
     const double y0[2] = {2.0, 5.0};
     integrator->init(0.0, y0);
     const auto found = events_of(*integrator, 3.0, [](double, const double* y) { return y[0]; });
@@ -40,13 +41,14 @@ TEST_CASE("a ball thrown up meets the ground at the right time to 1e-12") {
 }
 
 TEST_CASE("events of a nonlinear solution are found once each, within the tolerance") {
-  for (const std::string& name : integrator_names()) {
+  for (const IntegratorProperties& method : integrators()) {
+    const std::string name = method.name;
     CAPTURE(name);
     FunctionSystem system = smooth_system();
     SmoothResidual residual;
     IntegratorOptions options = with_tolerance(name, 1e-11);
-    options.fixed_step = name == "ark-mri" ? 0.0025 : 0.005;  // order 3, not 4
-    const auto integrator = make_integrator(system, &residual, options);
+    options.fixed_step = 0.005;
+    const auto integrator = make_integrator(problem(system, &residual), options);
     integrator->init(0.0, smooth_solution(0.0).data());
     const auto found = events_of(*integrator, 9.0, [](double, const double* y) { return y[0]; });
     REQUIRE(found.size() == 3);
@@ -55,13 +57,13 @@ TEST_CASE("events of a nonlinear solution are found once each, within the tolera
       worst = std::max(worst, std::abs(found[i] - (0.5 + static_cast<double>(i)) * std::acos(-1.0)));
     }
     MESSAGE(name, " worst event error ", worst);
-    CHECK(worst < (allowance(name) > 1e-4 ? 10.0 * allowance(name) : 1e-7));
+    CHECK(worst < (allowance(method) > 1e-4 ? 10.0 * allowance(method) : 1e-7));
   }
 }
 
 TEST_CASE("an event is bracketed to rounding, on the side where the sign has changed") {
   FunctionSystem system(1, [](double, const double*, double* ydot) { ydot[0] = 1.0; });
-  const auto integrator = make_integrator(system, nullptr, with_step("dopri5", 1.0));
+  const auto integrator = make_integrator(problem(system), with_step("dopri5", 1.0));
   const double y0 = 0.0;
   integrator->init(0.0, &y0);
   integrator->step(10.0);
@@ -108,7 +110,7 @@ TEST_CASE("an event is bracketed to rounding, on the side where the sign has cha
 TEST_CASE("an event on the constraint itself is not lost between projected steps") {
   // The lowest point, where the Cartesian pendulum's projection moves across the event.
   Pendulum system(true);
-  const auto integrator = make_integrator(system, nullptr, with_tolerance("dopri5", 1e-4));
+  const auto integrator = make_integrator(problem(system), with_tolerance("dopri5", 1e-4));
   const double start[4] = {1.0, 0.0, 0.0, 0.0};
   integrator->init(0.0, start);
   const auto found = events_of(*integrator, 10.0, [](double, const double* y) { return y[0]; });

@@ -14,7 +14,7 @@ struct Custom : std::runtime_error {
 };
 
 /// y' = f(t, y) of one unknown in both forms.
-class Scalar final : public ResidualSystem {
+class Scalar final : public PlainResidual {
  public:
   using Function = std::function<double(double, double)>;
   explicit Scalar(Function f)
@@ -50,10 +50,12 @@ void run_counted(Integrator& integrator, double t_end) {
 }  // namespace
 
 TEST_CASE("a solution that blows up ends in an IntegrationError, not in a NaN or a hang") {
-  for (const std::string& name : integrator_names()) {
+  for (const IntegratorProperties& method : integrators()) {
+    const std::string name = method.name;
     CAPTURE(name);
     Scalar scalar([](double, double y) { return y * y; });
-    const auto integrator = make_integrator(scalar.explicit_form, &scalar, with_tolerance(name, 1e-6));
+    const auto integrator =
+        make_integrator(problem(scalar.explicit_form, &scalar), with_tolerance(name, 1e-6));
     const double y0 = 1.0;
     integrator->init(0.0, &y0);
     try {
@@ -82,9 +84,11 @@ TEST_CASE("a failing solver prints nothing") {
   dup2(fileno(caught), STDOUT_FILENO);
   dup2(fileno(caught), STDERR_FILENO);
   int failures = 0;
-  for (const std::string& name : integrator_names()) {
+  for (const IntegratorProperties& method : integrators()) {
+    const std::string name = method.name;
     Scalar scalar([](double, double y) { return y * y; });
-    const auto integrator = make_integrator(scalar.explicit_form, &scalar, with_tolerance(name, 1e-6));
+    const auto integrator =
+        make_integrator(problem(scalar.explicit_form, &scalar), with_tolerance(name, 1e-6));
     const double y0 = 1.0;
     integrator->init(0.0, &y0);
     try {
@@ -100,37 +104,39 @@ TEST_CASE("a failing solver prints nothing") {
   close(kept_out);
   close(kept_err);
   std::fclose(caught);
-  CHECK(failures == static_cast<int>(integrator_names().size()));
+  CHECK(failures == static_cast<int>(integrators().size()));
   CHECK(printed == 0);
 }
 
 TEST_CASE("an exception of the system reaches the caller, also through C, and the run can go on") {
-  for (const std::string& name : integrator_names()) {
+  for (const IntegratorProperties& method : integrators()) {
+    const std::string name = method.name;
     CAPTURE(name);
     bool broken = true;
     Scalar scalar([&](double t, double y) {
       if (broken && t > 0.5) throw Custom("the sea is gone");
       return -y;
     });
-    const auto integrator = make_integrator(scalar.explicit_form, &scalar, with_tolerance(name, 1e-8));
+    const auto integrator =
+        make_integrator(problem(scalar.explicit_form, &scalar), with_tolerance(name, 1e-8));
     const double y0 = 1.0;
     integrator->init(0.0, &y0);
     CHECK_THROWS_WITH_AS(run_counted(*integrator, 1.0), "the sea is gone", Custom);
     CHECK(integrator->time() <= 0.5);
     CHECK(integrator->state()[0] ==
-          doctest::Approx(std::exp(-integrator->time())).epsilon(std::max(1e-6, 0.1 * allowance(name))));
+          doctest::Approx(std::exp(-integrator->time())).epsilon(std::max(1e-6, 0.1 * allowance(method))));
     double y = 0.0;
     integrator->interpolate(integrator->time(), &y);
     CHECK(y == integrator->state()[0]);
     broken = false;
     run_counted(*integrator, 1.0);
     CHECK(integrator->state()[0] ==
-          doctest::Approx(std::exp(-1.0)).epsilon(std::max(1e-6, 0.1 * allowance(name))));
+          doctest::Approx(std::exp(-1.0)).epsilon(std::max(1e-6, 0.1 * allowance(method))));
   }
 }
 
 TEST_CASE("an exception of the projection reaches the caller and leaves the step undone") {
-  class Breaking final : public SplitSystem {
+  class Breaking final : public PlainSystem, public FirstArePositions<0> {
    public:
     std::size_t size() const override { return 1; }
     void derivative(double, const double* y, double* ydot) override { ydot[0] = -y[0]; }
@@ -143,22 +149,24 @@ TEST_CASE("an exception of the projection reaches the caller and leaves the step
       return false;
     }
   } system;
-  for (const std::string name : {"rk4", "rk4-exact-memory", "rk-low-storage", "bs32", "dopri5", "dop853",
-                                 "rosenbrock", "ark-erk", "ark-dirk", "ark-imex", "ark-mri", "cvode-bdf"}) {
+  for (const IntegratorProperties& method :
+       methods([](const auto& m) { return m.projects && !m.residual_form; })) {
+    const std::string name = method.name;
     CAPTURE(name);
-    const auto integrator = make_integrator(system, nullptr, with_tolerance(name, 1e-8));
+    const auto integrator = make_integrator(problem(system), with_tolerance(name, 1e-8));
     const double y0 = 1.0;
     integrator->init(0.0, &y0);
     CHECK_THROWS_AS(run_counted(*integrator, 1.0), Custom);
     CHECK(integrator->time() <= 0.5);
     CHECK(integrator->state()[0] ==
-          doctest::Approx(std::exp(-integrator->time())).epsilon(std::max(1e-6, 0.1 * allowance(name))));
+          doctest::Approx(std::exp(-integrator->time())).epsilon(std::max(1e-6, 0.1 * allowance(method))));
   }
 }
 
 TEST_CASE("a derivative that is not finite beyond a border makes adaptive methods shorten the step") {
   // Square root of a falling height: y = (1 - t/2)^2 until t = 2; a long step looks below zero.
-  for (const std::string& name : adaptive_methods()) {
+  for (const IntegratorProperties& method : methods(is_adaptive)) {
+    const std::string name = method.name;
     CAPTURE(name);
     int outside = 0;
     Scalar scalar([&](double, double y) {
@@ -168,7 +176,7 @@ TEST_CASE("a derivative that is not finite beyond a border makes adaptive method
     IntegratorOptions options = with_tolerance(name, 1e-6);
     options.initial_step = 1.7;
     options.absolute_tolerance = {1e-3};
-    const auto integrator = make_integrator(scalar.explicit_form, &scalar, options);
+    const auto integrator = make_integrator(problem(scalar.explicit_form, &scalar), options);
     const double y0 = 1.0;
     integrator->init(0.0, &y0);
     run_counted(*integrator, 1.5);
@@ -178,10 +186,12 @@ TEST_CASE("a derivative that is not finite beyond a border makes adaptive method
 }
 
 TEST_CASE("a derivative that is never finite stops every method with its component") {
-  for (const std::string& name : integrator_names()) {
+  for (const IntegratorProperties& method : integrators()) {
+    const std::string name = method.name;
     CAPTURE(name);
     Scalar scalar([](double t, double) { return t < 0.25 ? 1.0 : std::numeric_limits<double>::quiet_NaN(); });
-    const auto integrator = make_integrator(scalar.explicit_form, &scalar, with_tolerance(name, 1e-6));
+    const auto integrator =
+        make_integrator(problem(scalar.explicit_form, &scalar), with_tolerance(name, 1e-6));
     const double y0 = 0.0;
     integrator->init(0.0, &y0);
     try {
@@ -197,10 +207,12 @@ TEST_CASE("a derivative that is never finite stops every method with its compone
 }
 
 TEST_CASE("tolerances far below rounding are refused by the own methods, not met by chance") {
-  for (const std::string& name : adaptive_step_methods) {
+  for (const IntegratorProperties& method :
+       methods([](const auto& m) { return is_own(m) && m.is_adaptive(); })) {
+    const std::string name = method.name;
     CAPTURE(name);
     FunctionSystem system = smooth_system();
-    const auto integrator = make_integrator(system, nullptr, with_tolerance(name, 1e-30));
+    const auto integrator = make_integrator(problem(system), with_tolerance(name, 1e-30));
     integrator->init(0.0, smooth_solution(0.0).data());
     CHECK_THROWS_AS(integrator->step(1.0), IntegrationError);
     CHECK(integrator->time() == 0.0);
@@ -209,25 +221,31 @@ TEST_CASE("tolerances far below rounding are refused by the own methods, not met
 
 TEST_CASE("options and calls that make no sense are refused with a reason") {
   FunctionSystem system = smooth_system();
+  SmoothResidual residual;
   IntegratorOptions options;
   options.name = "euler";
   std::string known;
-  for (const std::string& name : integrator_names()) known += (known.empty() ? "" : ", ") + name;
-  CHECK_THROWS_WITH_AS(make_integrator(system, nullptr, options),
+  for (const IntegratorProperties& method : integrators()) {
+    known += (known.empty() ? "" : ", ") + std::string(method.name);
+  }
+  CHECK_THROWS_WITH_AS(make_integrator(problem(system), options),
                        ("unknown integrator \"euler\"; choose one of " + known).c_str(),
                        std::invalid_argument);
-  for (const std::string name : {"ida", "generalized-alpha", "generalized-alpha-index2"}) {
-    CHECK_THROWS_AS(make_integrator(system, nullptr, with_tolerance(name, 1e-6)), std::invalid_argument);
-  }
+  options.name = "heun21";
+  CHECK_THROWS_WITH_AS(
+      make_integrator(problem(system), options),
+      ("unknown integrator \"heun21\"; earlier versions had it: take \"bs32\", or choose one of " + known)
+          .c_str(),
+      std::invalid_argument);
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const double infinity = std::numeric_limits<double>::infinity();
-  for (const std::string& name : integrator_names()) {
-    if (name == "ida" || name.starts_with("generalized-alpha")) continue;
+  for (const IntegratorProperties& method : integrators()) {
+    const std::string name = method.name;
     CAPTURE(name);
     const auto refused = [&](auto change) {
       IntegratorOptions bad = with_tolerance(name, 1e-6);
       change(bad);
-      CHECK_THROWS_AS(make_integrator(system, nullptr, bad), std::invalid_argument);
+      CHECK_THROWS_AS(make_integrator(problem(system, &residual), bad), std::invalid_argument);
     };
     refused([&](IntegratorOptions& o) { o.relative_tolerance = -1e-6; });
     refused([&](IntegratorOptions& o) { o.relative_tolerance = nan; });
@@ -239,7 +257,7 @@ TEST_CASE("options and calls that make no sense are refused with a reason") {
     refused([&](IntegratorOptions& o) { o.max_step = nan; });
     refused([&](IntegratorOptions& o) { o.initial_step = infinity; });
 
-    const auto integrator = make_integrator(system, nullptr, with_tolerance(name, 1e-6));
+    const auto integrator = make_integrator(problem(system, &residual), with_tolerance(name, 1e-6));
     const double bad_state[3] = {1.0, nan, 1.0};
     CHECK_THROWS_AS(integrator->init(0.0, bad_state), std::invalid_argument);
     integrator->init(0.0, smooth_solution(0.0).data());
@@ -253,24 +271,25 @@ TEST_CASE("options and calls that make no sense are refused with a reason") {
 }
 
 TEST_CASE("a method that needs what the system has not says so") {
-  class Plain final : public System {
-   public:
-    std::size_t size() const override { return 1; }
-    void derivative(double, const double*, double* ydot) override { ydot[0] = 0.0; }
-  } system;
-  for (const std::string name : {"ark-mri", "rk4-exact-memory"}) {
-    CAPTURE(name);
-    try {
-      make_integrator(system, nullptr, with_tolerance(name, 1e-6));
-      FAIL("not refused");
-    } catch (const std::invalid_argument& error) {
-      CHECK(std::string(error.what()).find(name) != std::string::npos);
-    }
+  FunctionSystem system = smooth_system();
+  SmoothResidual residual;
+  for (const IntegratorProperties& method : integrators()) {
+    const IntegratorOptions options = with_tolerance(method.name, 1e-6);
+    const auto refused = [&](const Problem& problem, const char* missing) {
+      const std::string text = "integrator \"" + std::string(method.name) + "\" needs " + missing;
+      CHECK_THROWS_WITH_AS(make_integrator(problem, options), text.c_str(), std::invalid_argument);
+    };
+    if (method.residual_form) refused({system, &system, nullptr}, "the residual form of the system");
+    if (method.uses_positions) refused({system, nullptr, &residual}, "a system that tells its positions");
+    if (!method.residual_form && !method.uses_positions) CHECK(make_integrator({system}, options));
   }
   IntegratorOptions options = with_tolerance("dopri5", 1e-6);
   options.spectral_radius = 0.5;
-  CHECK_THROWS_WITH_AS(make_integrator(system, nullptr, options), doctest::Contains("\"dopri5\""),
-                       std::invalid_argument);
+  CHECK_THROWS_WITH_AS(
+      make_integrator(problem(system), options),
+      doctest::Contains(
+          "\"dopri5\" has no spectral radius to choose; leave it out, or choose \"generalized-alpha\""),
+      std::invalid_argument);
 }
 
 }  // namespace seacrane::test

@@ -13,20 +13,27 @@
 
 namespace seacrane::test {
 
-/// What methods that split the system need, of any system: a part of f counts as fast, and the first
-/// component as linear with a coefficient that is none of its own. The orders hold for every split.
-class SplitSystem : public System {
+/// A system without projection and without a Jacobian of its own.
+class PlainSystem : public System {
  public:
-  std::string missing_fast_part() const override { return ""; }
-  void fast_derivative(double t, const double* y, double* ydot) override {
-    derivative(t, y, ydot);
-    for (std::size_t i = 0; i < size(); ++i) ydot[i] *= 0.4;
-  }
-  std::vector<LinearBlock> linear_blocks() const override { return {{0, 1, {-0.7}}}; }
+  bool has_projection() const override { return false; }
+  bool project(double, double*, bool) override { return false; }
+  bool jacobian(double, const double*, double*) override { return false; }
 };
 
-/// A system given by a function, without projection.
-class FunctionSystem final : public SplitSystem {
+/// The first components are positions and the next as many their rates.
+template <std::size_t positions>
+class FirstArePositions : public PositionMap {
+ public:
+  std::size_t position_size() const override { return positions; }
+  void move(double h, double* y) override {
+    for (std::size_t i = 0; i < positions; ++i) y[i] += h * y[positions + i];
+  }
+  bool move_jacobian(double, const double*, double*) override { return false; }
+};
+
+/// A system given by a function, without projection and without positions.
+class FunctionSystem final : public PlainSystem, public FirstArePositions<0> {
  public:
   using Function = std::function<void(double, const double*, double*)>;
   FunctionSystem(std::size_t size, Function f) : size_(size), f_(std::move(f)) {}
@@ -51,8 +58,19 @@ inline std::vector<double> smooth_solution(double t) {
   return {std::cos(t), std::sin(t), 1.0 / (2.0 - std::sin(t))};
 }
 
+class PlainResidual : public ResidualSystem {
+ public:
+  bool jacobian(double, double, const double*, const double*, double*) override { return false; }
+};
+
+/// All that a method may ask for, of a system that tells its positions.
+template <class Positioned>
+Problem problem(Positioned& system, ResidualSystem* residual = nullptr) {
+  return {system, &system, residual};
+}
+
 /// The smooth system as F(t, y, y') = y' - f(t, y).
-class SmoothResidual final : public ResidualSystem {
+class SmoothResidual final : public PlainResidual {
  public:
   std::size_t size() const override { return 3; }
   void residual(double t, const double* y, const double* ydot, double* r) override {
@@ -80,7 +98,7 @@ inline double pendulum_gravity() {
 
 /// Pendulum of unit mass on the unit circle in Cartesian coordinates (x, y, x', y'), index 1, with
 /// projection on position and velocity level when asked for.
-class Pendulum final : public SplitSystem {
+class Pendulum final : public PlainSystem, public FirstArePositions<2> {
  public:
   explicit Pendulum(bool projects) : projects_(projects) {}
   std::size_t size() const override { return 4; }
@@ -94,11 +112,6 @@ class Pendulum final : public SplitSystem {
     ydot[3] = -tension * y[1] - gravity;
   }
   bool has_projection() const override { return projects_; }
-  std::size_t position_size() const override { return 2; }
-  void move(double h, double* y) override {
-    y[0] += h * y[2];
-    y[1] += h * y[3];
-  }
   bool project(double t, double* y, bool evaluated_here) override {
     if (evaluated_here && (t != evaluated_time || !std::equal(y, y + 4, evaluated_state.data()))) {
       ++false_claims;
@@ -126,7 +139,7 @@ class Pendulum final : public SplitSystem {
 
 /// The same pendulum in the stabilised index-2 form of Gear, Gupta and Leimkuhler:
 /// q' = v - q mu, v' = -q lambda - g, q.q = 1, q.v = 0.
-class PendulumResidual final : public ResidualSystem {
+class PendulumResidual final : public PlainResidual {
  public:
   std::size_t size() const override { return 6; }
   void residual(double, const double* y, const double* ydot, double* r) override {
@@ -152,42 +165,33 @@ class PendulumResidual final : public ResidualSystem {
 };
 
 /// Unit pendulum in its angle, a position: q' = v, v' = -sin q; the system tells positions from velocities.
-class AnglePendulum final : public SplitSystem {
+class AnglePendulum final : public PlainSystem, public FirstArePositions<1> {
  public:
   std::size_t size() const override { return 2; }
   void derivative(double, const double* y, double* ydot) override {
     ydot[0] = y[1];
     ydot[1] = -std::sin(y[0]);
   }
-  std::size_t position_size() const override { return 1; }
-  void move(double h, double* y) override { y[0] += h * y[1]; }
 };
 
-/// Names of the methods with a fixed step, of those with step size control of our own, and of both.
-inline const std::vector<std::string> fixed_step_methods = {
-    "semi-implicit-euler",     "rk4", "rk4-exact-memory", "rk-low-storage", "generalized-alpha",
-    "generalized-alpha-index2"};
-inline const std::vector<std::string> adaptive_step_methods = {
-    "heun21", "bs32", "rk43", "dopri5", "tsit5", "verner65", "verner76", "dop853", "rosenbrock"};
-inline std::vector<std::string> own_methods() {
-  std::vector<std::string> names = fixed_step_methods;
-  names.insert(names.end(), adaptive_step_methods.begin(), adaptive_step_methods.end());
-  return names;
+/// Methods that `wanted` accepts, in the order of the list.
+template <class Wanted>
+std::vector<IntegratorProperties> methods(Wanted&& wanted) {
+  std::vector<IntegratorProperties> found = integrators();
+  std::erase_if(found, [&](const IntegratorProperties& method) { return !wanted(method); });
+  return found;
 }
-inline const std::vector<std::string> sundials_methods = {"ark-erk",     "ark-dirk",  "ark-imex", "ark-mri",
-                                                          "cvode-adams", "cvode-bdf", "ida"};
-inline std::vector<std::string> adaptive_methods() {
-  std::vector<std::string> names = adaptive_step_methods;
-  for (const std::string& name : sundials_methods) {
-    if (name != "ark-mri") names.push_back(name);
-  }
-  return names;
-}
+/// Those that step the System by formulas of our own, of one step.
+inline bool is_own(const IntegratorProperties& method) { return !method.restarts; }
+inline bool takes_explicit_form(const IntegratorProperties& method) { return !method.residual_form; }
+/// With one order at all steps.
+inline bool has_one_order(const IntegratorProperties& method) { return method.lowest_order == method.order; }
+inline bool is_adaptive(const IntegratorProperties& method) { return method.is_adaptive(); }
 
 /// What the default fixed steps of the methods of low order leave where others keep to 1e-4.
-inline double allowance(const std::string& name) {
-  if (name == "semi-implicit-euler") return 2e-2;
-  return name.starts_with("generalized-alpha") ? 2e-3 : 1e-4;
+inline double allowance(const IntegratorProperties& method) {
+  if (method.is_adaptive() || method.order > 2) return 1e-4;
+  return method.order == 1 ? 2e-2 : 2e-3;
 }
 
 inline IntegratorOptions with_tolerance(const std::string& name, double tolerance) {
@@ -195,7 +199,6 @@ inline IntegratorOptions with_tolerance(const std::string& name, double toleranc
   options.name = name;
   options.relative_tolerance = tolerance;
   options.absolute_tolerance = {tolerance};
-  if (name == "ark-mri") options.fixed_step = 0.01;  // of the slow part, which knows no tolerance
   return options;
 }
 

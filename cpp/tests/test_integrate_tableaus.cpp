@@ -6,16 +6,9 @@
 #include <iterator>
 
 #include "rooted_trees.hpp"
-#include "seacrane/integrate/tableaus/bogacki_shampine32.hpp"
 #include "seacrane/integrate/tableaus/carpenter_kennedy.hpp"
-#include "seacrane/integrate/tableaus/dormand_prince54.hpp"
-#include "seacrane/integrate/tableaus/dormand_prince853.hpp"
-#include "seacrane/integrate/tableaus/heun_euler21.hpp"
+#include "seacrane/integrate/tableaus/pairs.hpp"
 #include "seacrane/integrate/tableaus/rang_angermann34.hpp"
-#include "seacrane/integrate/tableaus/runge_kutta43.hpp"
-#include "seacrane/integrate/tableaus/tsitouras54.hpp"
-#include "seacrane/integrate/tableaus/verner65.hpp"
-#include "seacrane/integrate/tableaus/verner76.hpp"
 
 namespace seacrane::test {
 namespace {
@@ -61,9 +54,7 @@ TEST_CASE("there are as many rooted trees as there should be") {
   for (int order = 1; order <= 9; ++order) CHECK(rooted_trees(order).size() == up_to[order - 1]);
 }
 
-TEST_CASE_TEMPLATE("a pair and its dense output have their orders and no more", T, HeunEuler21,
-                   BogackiShampine32, RungeKutta43, DormandPrince54, Tsitouras54, Verner65, Verner76,
-                   DormandPrince853) {
+TEST_CASE_TEMPLATE_DEFINE("a pair and its dense output have their orders and no more", T, orders_of_a_pair) {
   CAPTURE(std::string(T::name));
   const Matrix a = stages_of<T>();
   CHECK(step_defect<T>(a, T::order) < rounding);
@@ -106,10 +97,9 @@ TEST_CASE_TEMPLATE("a pair and its dense output have their orders and no more", 
     for (std::size_t i = j; i < std::size(T::a[0]); ++i) CHECK(T::a[j][i] == 0.0L);
   }
 }
+TEST_CASE_TEMPLATE_APPLY(orders_of_a_pair, tableaus::Pairs);
 
-TEST_CASE_TEMPLATE("no coefficient of a pair can be wrong in its twelfth digit", T, HeunEuler21,
-                   BogackiShampine32, RungeKutta43, DormandPrince54, Tsitouras54, Verner65, Verner76,
-                   DormandPrince853) {
+TEST_CASE_TEMPLATE_DEFINE("no coefficient of a pair can be wrong in its twelfth digit", T, digits_of_a_pair) {
   CAPTURE(std::string(T::name));
   const Matrix a = stages_of<T>();
   const std::vector<long double> error(std::begin(T::error), std::end(T::error));
@@ -134,6 +124,7 @@ TEST_CASE_TEMPLATE("no coefficient of a pair can be wrong in its twelfth digit",
     }
   }
 }
+TEST_CASE_TEMPLATE_APPLY(digits_of_a_pair, tableaus::Pairs);
 
 TEST_CASE("the low-storage method has order 4 as a Runge-Kutta method") {
   using T = CarpenterKennedy;

@@ -23,7 +23,7 @@ from seacrane.analysis.linear_system import LinearModel, linear_model
 from seacrane.analysis.rest_state import held
 from seacrane.description.scene import Scene
 from seacrane.errors import SceneError, SimulationError
-from seacrane.run.simulation import RESIDUAL_INTEGRATORS, Run
+from seacrane.run.simulation import Run
 from stability_atlas.altered import change_actuator
 from stability_atlas.crane_axes import held_crane
 
@@ -38,10 +38,6 @@ MARGIN = np.log(GROWTH) / STEPS  # per step: slower growth than this does not sh
 NEAR = 1.005  # ratio at which bisection ends
 LONGEST = 10.0  # s; beyond, no limit is looked for
 SEMI_IMPLICIT = "semi-implicit-euler"
-EXPLICIT = ("rk4", "rk-low-storage", "heun21", "bs32", "rk43", "dopri5", "tsit5", "verner65", "verner76",
-            "dop853")  # fmt: skip
-UNPREDICTED = ("rk4-exact-memory", "generalized-alpha", "generalized-alpha-index2")
-FIXED = (SEMI_IMPLICIT, "rk4", "rk-low-storage", *UNPREDICTED)
 QUICK = (SEMI_IMPLICIT, "rk4", "dopri5", "tsit5")
 
 
@@ -78,7 +74,7 @@ SCENES: dict[str, Callable[[], Scene]] = {
 
 def step_limits(*, quick: bool = False) -> Iterator[StepLimit]:
     """Limits of every scene, formulation and method; `quick`: one scene and four methods."""
-    names = QUICK if quick else (SEMI_IMPLICIT, *EXPLICIT, *UNPREDICTED)
+    names = QUICK if quick else fixed_step_and_explicit()
     for title, make in list(SCENES.items())[: 1 if quick else None]:
         scene = make()
         linear = linear_model(scene)
@@ -94,6 +90,15 @@ def step_limits(*, quick: bool = False) -> Iterator[StepLimit]:
                     scene=title, formulation=formulation, integrator=name,
                     fastest=float(np.abs(eigenvalues).max()), predicted=predicted, found=found,
                 )  # fmt: skip
+
+
+def fixed_step_and_explicit() -> tuple[str, ...]:
+    """Methods that a longest stable step is looked for of."""
+    return tuple(
+        method.name
+        for method in _core.integrators()
+        if method.setting == "dt" or _core.stability_polynomial(method.name)
+    )
 
 
 def predicted_limit(integrator: str, linear: LinearModel, eigenvalues: NDArray[np.complex128]) -> float:
@@ -164,8 +169,9 @@ def _settles(
     at = np.array([model.twist_index(body) + k for body in range(len(model.bodies)) for k in range(6)])
     pushed[at] += PUSH * scale[at] * np.random.default_rng(1).normal(size=at.size)
     start = _core.State(time=0.0, values=pushed, inputs=linear.state.inputs)
-    size: dict[str, Any] = {"dt": h} if integrator in FIXED else {"rtol": 0.1, "max_step": h}
-    steps = STEPS if integrator not in RESIDUAL_INTEGRATORS else STEPS // 5
+    method = _core.integrator(integrator)
+    size: dict[str, Any] = {"dt": h} if method.setting == "dt" else {"rtol": 0.1, "max_step": h}
+    steps = STEPS if not method.residual_form else STEPS // 5
     run = Run(scene, model=model, start=start, t_end=steps * h, dt_out=steps * h, formulation=formulation,
               integrator=integrator, channels=["position"], **size)  # fmt: skip
     try:

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "seacrane/integrate/position_map.hpp"
 #include "seacrane/integrate/system.hpp"
 #include "seacrane/math/types.hpp"
 
@@ -29,28 +30,22 @@ struct Dependence {
 int redundant_rows(const Model& model, int known, int left_out);
 
 /// A system of bodies in some choice of coordinates, which can be told from the poses and twists of all
-/// bodies (the state of the redundant form, StateLayout) and back without loss. What a System may leave out a
-/// formulation has to answer: one that stands for another must not lose any of it unseen.
+/// bodies (the state of the redundant form, StateLayout) and back without loss.
 class Formulation : public System {
  public:
-  bool project(double t, double* y, bool evaluated_here) override = 0;
-  bool has_projection() const override = 0;
-  std::size_t position_size() const override = 0;
-  void move(double h, double* y) override = 0;
-  bool move_jacobian(double h, const double* y, double* out) override = 0;
-  bool jacobian(double t, const double* y, double* out) override = 0;
-  std::string missing_fast_part() const override = 0;
-  void split(double t, const double* y) override = 0;
-  void fast_derivative(double t, const double* y, double* ydot) override = 0;
-  std::vector<LinearBlock> linear_blocks() const override = 0;
-
   virtual const char* name() const = 0;
+  virtual PositionMap& positions() = 0;
   /// Typical magnitude per state component; infinity: not in the error norm.
   virtual std::vector<double> scale() const = 0;
   virtual void read_bodies(double t, const double* bodies, double* y) = 0;
   virtual void write_bodies(double t, const double* y, double* bodies) = 0;
   /// Accelerations of the bodies' state points at the last derivative(), in the order of the model.
   virtual const std::vector<Vec6d>& accelerations() = 0;
+  /// What `load` alone adds to these accelerations: M^-1 load of the bodies as they are joined, through the
+  /// factors of the last derivative(). Both hold a wrench or an acceleration for each body that is stepped,
+  /// at its state point in inertial axes, and one for the ground at the end. For J^T of unit forces these are
+  /// the columns of M^-1 J^T.
+  virtual void load_response(const std::vector<Vec6d>& load, std::vector<Vec6d>& acceleration) = 0;
   /// The redundant system that its loads come from: inputs, the limit of curves and histories are set there.
   virtual RedundantSystem& loads_from() = 0;
   /// Digits lost at the last derivative(): the factor by which rounding may have grown.

@@ -5,7 +5,7 @@
 
 #include "seacrane/dynamics/redundant.hpp"
 #include "seacrane/dynamics/residual_jacobian.hpp"
-#include "seacrane/integrate/system.hpp"
+#include "seacrane/integrate/residual_system.hpp"
 
 namespace seacrane {
 

@@ -27,17 +27,10 @@ class MergedSystem final : public Formulation {
   bool jacobian(double t, const double* y, double* out) override { return stepped().jacobian(t, y, out); }
   double condition() const override { return stepped().condition(); }
   Dependence take_dependence() override { return stepped().take_dependence(); }
-  std::size_t position_size() const override { return stepped().position_size(); }
-  void move(double h, double* y) override { stepped().move(h, y); }
-  bool move_jacobian(double h, const double* y, double* out) override {
-    return stepped().move_jacobian(h, y, out);
+  PositionMap& positions() override { return stepped().positions(); }
+  void load_response(const std::vector<Vec6d>& load, std::vector<Vec6d>& acceleration) override {
+    stepped().load_response(load, acceleration);
   }
-  std::string missing_fast_part() const override { return stepped().missing_fast_part(); }
-  void split(double t, const double* y) override { stepped().split(t, y); }
-  void fast_derivative(double t, const double* y, double* ydot) override {
-    stepped().fast_derivative(t, y, ydot);
-  }
-  std::vector<LinearBlock> linear_blocks() const override { return stepped().linear_blocks(); }
   const char* name() const override { return stepped().name(); }
   std::vector<double> scale() const override { return stepped().scale(); }
   void read_bodies(double t, const double* bodies, double* y) override;

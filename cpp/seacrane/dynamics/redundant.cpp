@@ -41,7 +41,9 @@ RedundantSystem::RedundantSystem(std::shared_ptr<const Model> model)
   over_mass_.assign(2 * elements, Mat6d::Zero());
   mass_.assign(bodies, Mat6d::Zero());
   values_.assign(m.schur.value_count(), 0.0);
-  for (auto* values : {&lambda_, &gamma_, &residual_}) values->assign(rows, 0.0);
+  for (auto* values : {&lambda_, &gamma_, &residual_, &no_right_, &response_multipliers_}) {
+    values->assign(rows, 0.0);
+  }
   moved_.assign(idx(m.layout.size), 0.0);
   for (const WaveLoad& wave : m.wave_loads) waves_.emplace_back(wave.sources);
   for (std::size_t v = 0; v < m.vessels.size(); ++v) {

@@ -7,7 +7,6 @@
 #include <utility>
 #include <vector>
 
-#include "seacrane/dynamics/actuator_split.hpp"
 #include "seacrane/dynamics/dense_kkt.hpp"
 #include "seacrane/dynamics/formulation.hpp"
 #include "seacrane/dynamics/inertia.hpp"
@@ -38,7 +37,7 @@ struct ConstraintRank {
 
 /// The paper's formulation, eqs (5)-(9), (32)-(35): every body with six velocities, every joint with
 /// multipliers. Holds the scratch of one run; the Model stays untouched.
-class RedundantSystem final : public Formulation {
+class RedundantSystem final : public Formulation, public PositionMap {
  public:
   explicit RedundantSystem(std::shared_ptr<const Model> model);
 
@@ -51,10 +50,12 @@ class RedundantSystem final : public Formulation {
   void read_bodies(double t, const double* bodies, double* y) override;
   void write_bodies(double t, const double* y, double* bodies) override;
   const std::vector<Vec6d>& accelerations() override { return acceleration_; }
+  void load_response(const std::vector<Vec6d>& load, std::vector<Vec6d>& acceleration) override;
   RedundantSystem& loads_from() override { return *this; }
   double condition() const override { return condition_; }
   Dependence take_dependence() override;
   std::string describe(std::size_t component) const override;
+  PositionMap& positions() override { return *this; }
   std::size_t position_size() const override { return static_cast<std::size_t>(model_->layout.velocity); }
   void move(double h, double* y) override;
   bool move_jacobian(double h, const double* y, double* out) override;
@@ -64,11 +65,6 @@ class RedundantSystem final : public Formulation {
   /// What is not finite at (t, y), named with its value: a state, a load, the rows of a joint or what comes
   /// of them; empty where all is. For reports: loads are evaluated one by one.
   std::string non_finite(double t, const double* y);
-  /// Those of the fluid memory.
-  std::vector<LinearBlock> linear_blocks() const override;
-  std::string missing_fast_part() const override;
-  void split(double t, const double* y) override;
-  void fast_derivative(double t, const double* y, double* ydot) override;
   /// Why jacobian() returned false or would; empty when it is there.
   std::string missing_jacobian() const;
 
@@ -189,12 +185,10 @@ class RedundantSystem final : public Formulation {
   std::vector<Mat6d> over_shape_, dense_mass_;
   std::vector<double> shape_values_;
   double condition_ = 1.0;
-  bool regular_ = true;                                   // the Schur complement is accurate enough here
-  bool dependent_ = false;                                // not regular, and rows depend on each other
-  int redundant_ = -1, most_left_out_ = 0;                // combinations of rows; -1: not told yet
-  std::vector<SplitActuator<std::vector<Vec6d>>> split_;  // response: accelerations of the bodies
-  std::vector<Vec6d> split_load_;
-  std::vector<double> split_right_, split_multipliers_;
+  bool regular_ = true;                                  // the Schur complement is accurate enough here
+  bool dependent_ = false;                               // not regular, and rows depend on each other
+  int redundant_ = -1, most_left_out_ = 0;               // combinations of rows; -1: not told yet
+  std::vector<double> no_right_, response_multipliers_;  // of load_response()
   std::optional<RedundantJacobian> jacobian_;
   std::vector<double> jacobian_rate_;
   double power_ = 0.0, absolute_power_ = 0.0;

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <utility>
 
 namespace seacrane {
 namespace {
@@ -21,9 +20,9 @@ constexpr double rounding = 1e-3 * std::numeric_limits<double>::epsilon();
 
 }  // namespace
 
-AdaptiveStep::AdaptiveStep(std::string name, System& system, const IntegratorOptions& options,
-                           int estimate_power)
-    : OneStepIntegrator(std::move(name), system, options),
+AdaptiveStep::AdaptiveStep(const IntegratorProperties& properties, const Problem& problem,
+                           const IntegratorOptions& options, int estimate_power)
+    : OneStepIntegrator(properties, problem, options),
       max_step_(options.max_step),
       power_(1.0 / estimate_power),
       beta_(0.2 * power_),

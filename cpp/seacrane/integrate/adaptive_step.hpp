@@ -1,7 +1,5 @@
 #pragma once
 
-#include <string>
-
 #include "seacrane/integrate/one_step.hpp"
 
 namespace seacrane {
@@ -12,9 +10,9 @@ namespace seacrane {
 class AdaptiveStep : public OneStepIntegrator {
  public:
   /// `estimate_power`: the estimated error of a step of length h falls like h to this power.
-  AdaptiveStep(std::string name, System& system, const IntegratorOptions& options, int estimate_power);
+  AdaptiveStep(const IntegratorProperties& properties, const Problem& problem,
+               const IntegratorOptions& options, int estimate_power);
 
-  bool is_adaptive() const final { return true; }
   double step_in_use() const final;
   void step(double t_limit) final;
 

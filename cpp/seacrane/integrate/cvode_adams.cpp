@@ -2,7 +2,7 @@
 #include <stdexcept>
 
 #include "seacrane/integrate/cvode.hpp"
-#include "seacrane/integrate/registry.hpp"
+#include "seacrane/integrate/registration.hpp"
 
 namespace seacrane {
 namespace {
@@ -12,10 +12,19 @@ namespace {
 /// stabilisation itself.
 class CvodeAdams final : public CvodeIntegrator {
  public:
-  CvodeAdams(System& system, const IntegratorOptions& options)
-      : CvodeIntegrator("cvode-adams", CV_ADAMS, system, options) {}
+  static constexpr IntegratorProperties properties{
+      .name = "cvode-adams",
+      .kind = "multistep, SUNDIALS CVODE",
+      .order = 12,
+      .lowest_order = 1,
+      .dense_order = 0,
+      .projects = false,
+      .restarts = true,
+      .joints = "Baumgarte",
+      .purpose = "smooth motion at tight tolerances, few evaluations"};
 
-  int order() const override { return 12; }
+  CvodeAdams(const Problem& problem, const IntegratorOptions& options)
+      : CvodeIntegrator(properties, CV_ADAMS, problem, options) {}
 
  private:
   void attach_solver(void* memory) override {
@@ -30,9 +39,6 @@ class CvodeAdams final : public CvodeIntegrator {
 
 }  // namespace
 
-std::unique_ptr<Integrator> make_cvode_adams(System& system, ResidualSystem* /*residual*/,
-                                             const IntegratorOptions& options) {
-  return std::make_unique<CvodeAdams>(system, options);
-}
+extern const Registration cvode_adams = registration<CvodeAdams>();
 
 }  // namespace seacrane

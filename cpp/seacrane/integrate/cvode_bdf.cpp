@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "seacrane/integrate/cvode.hpp"
-#include "seacrane/integrate/registry.hpp"
+#include "seacrane/integrate/registration.hpp"
 
 namespace seacrane {
 namespace {
@@ -14,25 +14,26 @@ namespace {
 /// solution only, and the error test stays the formula's own.
 class CvodeBdf final : public CvodeIntegrator {
  public:
-  CvodeBdf(System& system, const IntegratorOptions& options)
-      : CvodeIntegrator("cvode-bdf", CV_BDF, system, options), projected_(size()) {}
+  static constexpr IntegratorProperties properties{.name = "cvode-bdf",
+                                                   .kind = "implicit multistep, SUNDIALS CVODE",
+                                                   .order = 5,
+                                                   .lowest_order = 1,
+                                                   .dense_order = 0,
+                                                   .uses_jacobian = true,
+                                                   .restarts = true,
+                                                   .joints = "projection inside CVODE",
+                                                   .purpose = "stiff elements in long smooth motion"};
 
-  int order() const override { return 5; }
+  CvodeBdf(const Problem& problem, const IntegratorOptions& options)
+      : CvodeIntegrator(properties, CV_BDF, problem, options), projected_(size()) {}
 
  private:
   void attach_solver(void* memory) override;
   int correct(double t, const double* y, double* correction);
 
-  static CvodeBdf& own(void* user_data) { return static_cast<CvodeBdf&>(self(user_data)); }
-  static int jacobian(sunrealtype t, N_Vector y, N_Vector slope, SUNMatrix matrix, void* user_data, N_Vector,
-                      N_Vector, N_Vector) {
-    CvodeBdf& me = own(user_data);
-    return me.dense_jacobian(t, sundials::data(y), sundials::data(slope), me.attempted_step(), me.norm_,
-                             SUNDenseMatrix_Data(matrix));
-  }
   static int projection(sunrealtype t, N_Vector y, N_Vector correction, sunrealtype /*tolerance*/,
                         N_Vector /*error*/, void* user_data) {
-    return own(user_data).correct(t, sundials::data(y), sundials::data(correction));
+    return static_cast<CvodeBdf&>(self(user_data)).correct(t, sundials::data(y), sundials::data(correction));
   }
 
   std::vector<double> projected_;
@@ -43,7 +44,7 @@ void CvodeBdf::attach_solver(void* memory) {
   algebra_.emplace(solution_vector_.get(), context_);
   require(CVodeSetLinearSolver(memory, algebra_->solver.get(), algebra_->matrix.get()),
           "CVodeSetLinearSolver");
-  require(CVodeSetJacFn(memory, jacobian), "CVodeSetJacFn");
+  require(CVodeSetJacFn(memory, dense_jacobian), "CVodeSetJacFn");
   if (!system_.has_projection()) return;
   require(CVodeSetProjFn(memory, projection), "CVodeSetProjFn");
   require(CVodeSetProjErrEst(memory, SUNFALSE), "CVodeSetProjErrEst");
@@ -61,9 +62,6 @@ int CvodeBdf::correct(double t, const double* y, double* correction) {
 
 }  // namespace
 
-std::unique_ptr<Integrator> make_cvode_bdf(System& system, ResidualSystem* /*residual*/,
-                                           const IntegratorOptions& options) {
-  return std::make_unique<CvodeBdf>(system, options);
-}
+extern const Registration cvode_bdf = registration<CvodeBdf>();
 
 }  // namespace seacrane

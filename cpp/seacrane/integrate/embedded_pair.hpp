@@ -8,6 +8,7 @@
 
 #include "seacrane/integrate/adaptive_step.hpp"
 #include "seacrane/integrate/linear_combination.hpp"
+#include "seacrane/integrate/stability_polynomial.hpp"
 
 namespace seacrane {
 
@@ -19,13 +20,20 @@ namespace seacrane {
 template <class Tableau>
 class EmbeddedPair final : public AdaptiveStep {
  public:
-  EmbeddedPair(System& system, const IntegratorOptions& options)
-      : AdaptiveStep(Tableau::name, system, options, estimate_power),
+  static constexpr IntegratorProperties properties{.name = Tableau::name,
+                                                   .kind = Tableau::kind,
+                                                   .order = Tableau::order,
+                                                   .error_order = Tableau::error_order,
+                                                   .dense_order = Tableau::dense_order,
+                                                   .purpose = Tableau::purpose};
+  static std::vector<double> stability_polynomial() { return polynomial_of(Tableau::a, stages); }
+
+  EmbeddedPair(const Problem& problem, const IntegratorOptions& options)
+      : AdaptiveStep(properties, problem, options, estimate_power),
         stage_state_(size()),
         inner_((stages - 1) * size()),
         extra_(Tableau::extra_stages * size()) {}
 
-  int order() const override { return Tableau::order; }
   void interpolate(double t, double* y) const override;
 
  private:

@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <numbers>
-#include <utility>
 
 namespace seacrane {
 
-FixedStep::FixedStep(std::string name, System& system, const IntegratorOptions& options, double default_step)
-    : OneStepIntegrator(std::move(name), system, options),
-      length_(options.fixed_step > 0.0 ? options.fixed_step : default_step),
+FixedStep::FixedStep(const IntegratorProperties& properties, const Problem& problem,
+                     const IntegratorOptions& options)
+    : OneStepIntegrator(properties, problem, options),
+      length_(options.fixed_step > 0.0 ? options.fixed_step : properties.default_step),
       inner_state_(size()),
       quartic_(size()) {
   if (options.max_step > 0.0) length_ = std::min(length_, options.max_step);

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <string>
 #include <vector>
 
 #include "seacrane/integrate/one_step.hpp"
@@ -14,10 +13,8 @@ namespace seacrane {
 /// quartic's O(h^5)). That evaluation is made once, and only for a step somebody looks into.
 class FixedStep : public OneStepIntegrator {
  public:
-  /// `default_step` (s) is taken without a choice of the user.
-  FixedStep(std::string name, System& system, const IntegratorOptions& options, double default_step);
+  FixedStep(const IntegratorProperties& properties, const Problem& problem, const IntegratorOptions& options);
 
-  bool is_adaptive() const final { return false; }
   double step_in_use() const final { return length_; }
   void step(double t_limit) final;
   void interpolate(double t, double* y) const override;

@@ -8,13 +8,11 @@
 #include "seacrane/integrate/dense_lu.hpp"
 #include "seacrane/integrate/difference_jacobian.hpp"
 #include "seacrane/integrate/fixed_step.hpp"
-#include "seacrane/integrate/registry.hpp"
+#include "seacrane/integrate/registration.hpp"
 
 namespace seacrane {
 namespace {
 
-/// Step without a choice of the user (s), half of rk4's: order 2 needs it.
-constexpr double default_step = 0.01;
 constexpr double default_radius = 0.8;
 constexpr int most_iterations = 12;
 /// Newton's last correction of the velocities, in the error norm.
@@ -23,12 +21,9 @@ constexpr double newton_tolerance = 1e-3;
 constexpr double slow_contraction = 0.25;
 constexpr int patience = 6;
 
-enum class Level { position, velocity };
-
 /// Generalised-alpha method of order 2 on the equations of motion with multipliers, M v' = f + D^T lambda,
-/// with the constraints on position level (index 3) or on velocity level (index 2) [J. Chung, G. M. Hulbert,
-/// J. Appl. Mech. 60 (1993) 371; on Lie groups: O. Bruls, A. Cardona, M. Arnold, Mech. Mach. Theory 48 (2012)
-/// 121]:
+/// with the constraints on position level (index 3) [J. Chung, G. M. Hulbert, J. Appl. Mech. 60 (1993) 371;
+/// on Lie groups: O. Bruls, A. Cardona, M. Arnold, Mech. Mach. Theory 48 (2012) 121]:
 ///   (1 - alpha_m) a1 + alpha_m a0 = (1 - alpha_f) v1' + alpha_f v0',
 ///   v1 = v0 + h ((1 - gamma) a0 + gamma a1),
 ///   q1 = q0 moved by h v0 + h^2 ((1/2 - beta) a0 + beta a1), rotations by the exponential.
@@ -38,10 +33,21 @@ enum class Level { position, velocity };
 /// and kept while it contracts.
 class GeneralizedAlpha final : public FixedStep {
  public:
-  GeneralizedAlpha(std::string name, Level level, System& system, ResidualSystem& residual,
-                   const IntegratorOptions& options);
+  static constexpr IntegratorProperties properties{
+      .name = "generalized-alpha",
+      .kind = "implicit, fixed step, constraints on position level (index 3)",
+      .order = 2,
+      .dense_order = 2,
+      .default_step = 0.01,  // half of rk4's: order 2 needs it
+      .uses_jacobian = true,
+      .uses_positions = true,
+      .residual_form = true,
+      .has_spectral_radius = true,
+      .joints = "the method, projection",
+      .purpose = "what finite-element and offshore programs step with, for comparison with them"};
 
-  int order() const override { return 2; }
+  GeneralizedAlpha(const Problem& problem, const IntegratorOptions& options);
+
   void init(double t0, const double* y0) override {
     FixedStep::init(t0, y0);
     forget();
@@ -68,7 +74,7 @@ class GeneralizedAlpha final : public FixedStep {
   double correct(double h);
 
   ResidualSystem& residual_system_;
-  Level level_;
+  PositionMap& position_map_;
   std::size_t positions_, rates_, rows_, unknowns_;
   double alpha_m_, alpha_f_, gamma_, beta_;
   /// a1 changes by this when v1' does by one.
@@ -84,14 +90,13 @@ class GeneralizedAlpha final : public FixedStep {
   double factored_step_ = 0.0;
 };
 
-GeneralizedAlpha::GeneralizedAlpha(std::string name, Level level, System& system, ResidualSystem& residual,
-                                   const IntegratorOptions& options)
-    : FixedStep(std::move(name), system, options, default_step),
-      residual_system_(residual),
-      level_(level),
-      positions_(system.position_size()),
+GeneralizedAlpha::GeneralizedAlpha(const Problem& problem, const IntegratorOptions& options)
+    : FixedStep(properties, problem, options),
+      residual_system_(*problem.residual),
+      position_map_(*problem.positions),
+      positions_(position_map_.position_size()),
       rates_(size() - positions_),
-      rows_((residual.size() - size()) / 2),
+      rows_((residual_system_.size() - size()) / 2),
       unknowns_(rates_ + rows_),
       a_(rates_),
       next_a_(rates_),
@@ -99,12 +104,12 @@ GeneralizedAlpha::GeneralizedAlpha(std::string name, Level level, System& system
       trial_(unknowns_),
       residual_(unknowns_),
       trial_residual_(unknowns_),
-      y_(residual.size()),
-      ydot_(residual.size()),
-      full_residual_(residual.size()),
+      y_(residual_system_.size()),
+      ydot_(residual_system_.size()),
+      full_residual_(residual_system_.size()),
       velocity_change_(size()),
       jacobian_(unknowns_ * unknowns_),
-      full_jacobian_(residual.size() * residual.size()),
+      full_jacobian_(residual_system_.size() * residual_system_.size()),
       move_slopes_(positions_ * rates_),
       lu_(unknowns_) {
   const double radius = options.spectral_radius.value_or(default_radius);
@@ -142,7 +147,7 @@ void GeneralizedAlpha::place(double h, const double* unknown) {
                  (alpha_f_ * start_derivative_[positions_ + i] - alpha_m_ * a_[i]) / (1.0 - alpha_m_);
     v1[i] = v0[i] + h * ((0.5 - beta_) * a_[i] + beta_ * next_a_[i]);
   }
-  if (positions_ > 0) system_.move(h, y_.data());
+  position_map_.move(h, y_.data());
   for (std::size_t i = 0; i < rates_; ++i) {
     v1[i] = v0[i] + h * ((1.0 - gamma_) * a_[i] + gamma_ * next_a_[i]);
     ydot_[positions_ + i] = unknown[i];
@@ -156,9 +161,8 @@ void GeneralizedAlpha::evaluate_residual(double h, double t_end, const double* u
   ++counters_.evaluations;
   residual_system_.residual(t_end, y_.data(), ydot_.data(), full_residual_.data());
   std::copy_n(full_residual_.data() + positions_, rates_, r);
-  const bool on_position = level_ == Level::position;
-  const double scale = 1.0 / (share_ * (on_position ? beta_ * h * h : gamma_ * h));
-  const double* const rows = full_residual_.data() + size() + (on_position ? rows_ : 0);
+  const double scale = 1.0 / (share_ * (beta_ * h * h));
+  const double* const rows = full_residual_.data() + size() + rows_;
   for (std::size_t i = 0; i < rows_; ++i) r[rates_ + i] = scale * rows[i];
   if (all_finite(r, unknowns_)) return;
   const std::size_t bad = first_non_finite(r, unknowns_);
@@ -187,11 +191,10 @@ bool GeneralizedAlpha::exact_jacobian(double h, double t_end) {
     y_[positions_ + i] = state_[positions_ + i] + h * ((0.5 - beta_) * a_[i] + beta_ * next_a_[i]);
   }
   std::copy_n(state_.data(), positions_, y_.data());
-  if (positions_ > 0 && !system_.move_jacobian(h, y_.data(), move_slopes_.data())) return false;
+  if (!position_map_.move_jacobian(h, y_.data(), move_slopes_.data())) return false;
   ++counters_.evaluations;
-  const bool on_position = level_ == Level::position;
-  const double scale = 1.0 / (on_position ? of_motion * h : of_velocity);
-  const std::size_t rows = size() + (on_position ? rows_ : 0);
+  const double scale = 1.0 / (of_motion * h);
+  const std::size_t rows = size() + rows_;
   const auto add = [&](double factor, const double* from, double* column) {
     for (std::size_t i = 0; i < rates_; ++i) column[i] += factor * from[positions_ + i];
     for (std::size_t i = 0; i < rows_; ++i) column[rates_ + i] += factor * scale * from[rows + i];
@@ -305,29 +308,8 @@ void GeneralizedAlpha::load_history(std::span<const double> history) {
   if (step > 0.0) factor(step);
 }
 
-std::unique_ptr<Integrator> make(const char* name, Level level, System& system, ResidualSystem* residual,
-                                 const IntegratorOptions& options) {
-  if (residual == nullptr) {
-    throw std::invalid_argument("integrator \"" + std::string(name) +
-                                "\" needs the residual form of the system");
-  }
-  if (residual->size() > system.size() && system.position_size() == 0) {
-    throw std::invalid_argument("integrator \"" + std::string(name) +
-                                "\" needs a system with constraints to tell its positions");
-  }
-  return std::make_unique<GeneralizedAlpha>(name, level, system, *residual, options);
-}
-
 }  // namespace
 
-std::unique_ptr<Integrator> make_generalized_alpha(System& system, ResidualSystem* residual,
-                                                   const IntegratorOptions& options) {
-  return make("generalized-alpha", Level::position, system, residual, options);
-}
-
-std::unique_ptr<Integrator> make_generalized_alpha_index2(System& system, ResidualSystem* residual,
-                                                          const IntegratorOptions& options) {
-  return make("generalized-alpha-index2", Level::velocity, system, residual, options);
-}
+extern const Registration generalized_alpha = registration<GeneralizedAlpha>();
 
 }  // namespace seacrane

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "seacrane/integrate/difference_jacobian.hpp"
-#include "seacrane/integrate/registry.hpp"
+#include "seacrane/integrate/registration.hpp"
 #include "seacrane/integrate/sundials_integrator.hpp"
 
 namespace seacrane {
@@ -46,10 +46,6 @@ std::vector<double> for_unknowns(const std::vector<double>& absolute, const Resi
   return spread;
 }
 
-struct FreeIda {
-  void operator()(void* memory) const { IDAFree(&memory); }
-};
-
 /// IDA: variable-order BDF on the residual form F(t, y, y') = 0, dense Jacobian F_y + c F_y', exact where the
 /// system has one, else by difference quotients. Algebraic unknowns (multipliers) are kept out of the error
 /// test, where index 2 would make them fail it at any step size; in the Newton iteration they count relative
@@ -64,100 +60,97 @@ struct FreeIda {
 /// ever.
 class Ida final : public SundialsIntegrator {
  public:
-  Ida(System& system, ResidualSystem& residual, const IntegratorOptions& options)
-      : SundialsIntegrator("ida", system, options, residual.size()),
-        residual_(residual),
-        norm_({options.relative_tolerance, for_unknowns(options.absolute_tolerance, residual, system.size())},
-              residual.size()),
-        n_(residual.size()),
+  static constexpr IntegratorProperties properties{
+      .name = "ida",
+      .kind = "implicit multistep, SUNDIALS IDA, residual form",
+      .order = 5,
+      .lowest_order = 1,
+      .dense_order = 0,
+      .uses_jacobian = true,
+      .residual_form = true,
+      .restarts = true,
+      .joints = "stabilised index 2 (Gear, Gupta, Leimkuhler)",
+      .purpose = "a check of all others: other equations, solved by another program"};
+
+  Ida(const Problem& problem, const IntegratorOptions& options)
+      : SundialsIntegrator(
+            properties, problem, options, sundials::ida,
+            {options.relative_tolerance,
+             for_unknowns(options.absolute_tolerance, *problem.residual, problem.system.size())},
+            problem.residual->size()),
+        residual_(*problem.residual),
+        n_(residual_.size()),
         derivative_(n_),
         trial_(n_),
         trial_derivative_(n_),
         trial_residual_(n_),
-        differential_(residual.differential().begin(), residual.differential().end()),
-        dense_(n_),
+        differential_(residual_.differential().begin(), residual_.differential().end()),
         derivative_vector_(sundials::view(derivative_, context_)),
-        differential_vector_(sundials::view(differential_, context_)),
-        dense_vector_(sundials::view(dense_, context_)) {}
-
-  int order() const override { return 5; }
+        differential_vector_(sundials::view(differential_, context_)) {}
 
  private:
-  void restart() override;
+  void expand() override;
+  void contract(double t, const std::vector<double>& unknowns, double* y) const override {
+    residual_.contract(t, unknowns.data(), y);
+  }
+  void* make() override;
+  void attach(void* memory) override;
+  void reinitialise(void* memory) override;
   double advance(double t_limit) override;
-  void dense_output(double t, double* y) const override;
-  Counters solver_counters() const override;
-  double attempted_step() const override;
-  bool error_estimates(N_Vector errors, N_Vector weights) const override;
-  void create();
+  void fill_weights(const double* y, double* w) const override;
   void size_multipliers();
   void hold_after_failure();
-  void project(double t);
   double typical(std::size_t j) const;
   double multiplier_tolerance() const;
-  int fill_weights(const double* y, double* w) const;
   int evaluate_residual(double t, const double* y, const double* ydot, double* r);
   int fill_jacobian(double t, double c, const double* y, const double* ydot, const double* r,
                     SUNMatrix matrix);
 
-  static Ida& self(void* user_data) { return *static_cast<Ida*>(user_data); }
+  static Ida& own(void* user_data) { return static_cast<Ida&>(self(user_data)); }
   static int residual(sunrealtype t, N_Vector y, N_Vector ydot, N_Vector r, void* user_data) {
-    return self(user_data).evaluate_residual(t, sundials::data(y), sundials::data(ydot), sundials::data(r));
-  }
-  static int weigh(N_Vector y, N_Vector weights, void* user_data) {
-    return self(user_data).fill_weights(sundials::data(y), sundials::data(weights));
+    return own(user_data).evaluate_residual(t, sundials::data(y), sundials::data(ydot), sundials::data(r));
   }
   static int jacobian(sunrealtype t, sunrealtype c, N_Vector y, N_Vector ydot, N_Vector r, SUNMatrix matrix,
                       void* user_data, N_Vector, N_Vector, N_Vector) {
-    return self(user_data).fill_jacobian(t, c, sundials::data(y), sundials::data(ydot), sundials::data(r),
-                                         matrix);
+    return own(user_data).fill_jacobian(t, c, sundials::data(y), sundials::data(ydot), sundials::data(r),
+                                        matrix);
   }
 
   ResidualSystem& residual_;
-  ErrorNorm norm_;
   std::size_t n_;
   double multiplier_size_ = 1.0;
   long failures_ = 0;  // of the error test since the last restart
   int held_ = 0;       // steps before the next may grow
   std::vector<double> derivative_, trial_, trial_derivative_, trial_residual_, differential_;
-  // Written by dense_output(), which is const to the caller.
-  mutable std::vector<double> dense_;
-  sundials::Vector derivative_vector_, differential_vector_, dense_vector_;
+  sundials::Vector derivative_vector_, differential_vector_;
   std::optional<sundials::DenseAlgebra> algebra_;
-  std::unique_ptr<void, FreeIda> memory_;
 };
 
-void Ida::create() {
-  memory_.reset(IDACreate(context_.get()));
-  if (!memory_) throw std::runtime_error("ida: IDA could not be created");
-  void* const memory = memory_.get();
+void* Ida::make() {
+  void* memory = IDACreate(context_.get());
+  if (memory == nullptr) return nullptr;
   sundials::record_ida_messages(memory, messages_);
-  require(IDAInit(memory, residual, time_, solution_vector_.get(), derivative_vector_.get()), "IDAInit");
-  require(IDASetUserData(memory, this), "IDASetUserData");
-  require(IDAWFtolerances(memory, weigh), "IDAWFtolerances");
+  if (IDAInit(memory, residual, time_, solution_vector_.get(), derivative_vector_.get()) < 0)
+    IDAFree(&memory);
+  return memory;
+}
+
+void Ida::attach(void* memory) {
   require(IDASetId(memory, differential_vector_.get()), "IDASetId");
   require(IDASetSuppressAlg(memory, SUNTRUE), "IDASetSuppressAlg");
-  require(IDASetMaxStep(memory, options_.max_step), "IDASetMaxStep");
-  require(IDASetInitStep(memory, options_.initial_step), "IDASetInitStep");
   algebra_.emplace(solution_vector_.get(), context_);
   require(IDASetLinearSolver(memory, algebra_->solver.get(), algebra_->matrix.get()), "IDASetLinearSolver");
   require(IDASetJacFn(memory, jacobian), "IDASetJacFn");
 }
 
-void Ida::restart() {
+void Ida::reinitialise(void* memory) {
+  require(IDAReInit(memory, time_, solution_vector_.get(), derivative_vector_.get()), "IDAReInit");
+}
+
+void Ida::expand() {
   residual_.expand(time_, state_.data(), solution_.data(), derivative_.data());
   size_multipliers();
   failures_ = held_ = 0;
-  if (memory_) {
-    require(IDAReInit(memory_.get(), time_, solution_vector_.get(), derivative_vector_.get()), "IDAReInit");
-    return;
-  }
-  try {
-    create();
-  } catch (...) {
-    memory_.reset();
-    throw;
-  }
 }
 
 void Ida::size_multipliers() {
@@ -180,7 +173,7 @@ double Ida::multiplier_tolerance() const {
   return std::max(tolerance, std::numeric_limits<double>::epsilon());
 }
 
-int Ida::fill_weights(const double* y, double* w) const {
+void Ida::fill_weights(const double* y, double* w) const {
   norm_.weights(y, w);
   // Index 2: rounding of multipliers grows like 1 / h, while what they do to velocities shrinks like h.
   const double step = attempted_step(), rounding = 1e3 * std::numeric_limits<double>::epsilon();
@@ -189,7 +182,6 @@ int Ida::fill_weights(const double* y, double* w) const {
   for (std::size_t i = 0; i < n_; ++i) {
     if (differential_[i] == 0.0 && w[i] == 0.0) w[i] = 1.0 / (relative * (multiplier_size_ + std::abs(y[i])));
   }
-  return 0;
 }
 
 double Ida::typical(std::size_t j) const {
@@ -233,70 +225,30 @@ int Ida::fill_jacobian(double t, double c, const double* y, const double* ydot, 
 }
 
 double Ida::advance(double t_limit) {
-  require(IDASetStopTime(memory_.get(), t_limit), "IDASetStopTime");
+  require(solver_.set_stop_time(memory(), t_limit), "IDASetStopTime");
   double reached = time_;
-  const int flag = IDASolve(memory_.get(), t_limit, &reached, solution_vector_.get(),
-                            derivative_vector_.get(), IDA_ONE_STEP);
+  const int flag =
+      IDASolve(memory(), t_limit, &reached, solution_vector_.get(), derivative_vector_.get(), IDA_ONE_STEP);
   if (flag < 0) fail("the implicit step");
   hold_after_failure();
-  residual_.contract(reached, solution_.data(), state_.data());
-  project(reached);
+  contract(reached, solution_, state_.data());
+  project_state(reached);
   return reached;
 }
 
 void Ida::hold_after_failure() {
-  void* const memory = memory_.get();
   long failures = 0;
   int order = 1;
-  IDAGetNumErrTestFails(memory, &failures);
-  IDAGetLastOrder(memory, &order);
+  IDAGetNumErrTestFails(memory(), &failures);
+  IDAGetLastOrder(memory(), &order);
   held_ = failures > failures_ ? order + 2 : std::max(held_ - 1, 0);
   failures_ = failures;
-  require(IDASetEtaFixedStepBounds(memory, kNoSmaller, held_ > 0 ? kNeverGrows : kGrows),
+  require(IDASetEtaFixedStepBounds(memory(), kNoSmaller, held_ > 0 ? kNeverGrows : kGrows),
           "IDASetEtaFixedStepBounds");
-}
-
-void Ida::project(double t) {
-  if (!system_.has_projection()) return;
-  ++counters_.projections;
-  system_.project(t, state_.data(), false);
-  if (check_finite(state_.data(), size()) != 0) {
-    messages_.last_error = "the projected state is not finite";
-    fail("the projection");
-  }
-}
-
-void Ida::dense_output(double t, double* y) const {
-  if (IDAGetDky(memory_.get(), t, 0, dense_vector_.get()) < 0) fail("dense output");
-  residual_.contract(t, dense_.data(), y);
-}
-
-Counters Ida::solver_counters() const {
-  Counters now;
-  IDAGetNumSteps(memory_.get(), &now.steps);
-  IDAGetNumErrTestFails(memory_.get(), &now.rejected_steps);
-  IDAGetNumNonlinSolvIters(memory_.get(), &now.newton_iterations);
-  return now;
-}
-
-double Ida::attempted_step() const {
-  double h = 0.0;
-  IDAGetCurrentStep(memory_.get(), &h);
-  return h;
-}
-
-bool Ida::error_estimates(N_Vector errors, N_Vector weights) const {
-  return IDAGetEstLocalErrors(memory_.get(), errors) >= 0 && IDAGetErrWeights(memory_.get(), weights) >= 0;
 }
 
 }  // namespace
 
-std::unique_ptr<Integrator> make_ida(System& system, ResidualSystem* residual,
-                                     const IntegratorOptions& options) {
-  if (residual == nullptr) {
-    throw std::invalid_argument("integrator \"ida\" needs the residual form of the system");
-  }
-  return std::make_unique<Ida>(system, *residual, options);
-}
+extern const Registration ida = registration<Ida>();
 
 }  // namespace seacrane

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 #include <stdexcept>
-#include <utility>
 
 namespace seacrane {
 namespace {
@@ -20,8 +19,12 @@ void check_step_size(const char* name, double value) {
 
 }  // namespace
 
-Integrator::Integrator(std::string name, std::size_t size)
-    : state_(size), previous_state_(size), name_(std::move(name)), event_state_(size) {
+Integrator::Integrator(const IntegratorProperties& properties, std::size_t size)
+    : state_(size),
+      previous_state_(size),
+      properties_(properties),
+      name_(properties.name),
+      event_state_(size) {
   if (size == 0) throw std::invalid_argument(name_ + ": the system has no state");
 }
 

@@ -9,6 +9,7 @@
 
 #include "seacrane/integrate/error_norm.hpp"
 #include "seacrane/integrate/integration_error.hpp"
+#include "seacrane/integrate/properties.hpp"
 
 namespace seacrane {
 
@@ -17,8 +18,6 @@ struct Counters {
   long steps = 0;
   long rejected_steps = 0;
   long evaluations = 0;
-  /// Of the fast part, by multirate methods.
-  long fast_evaluations = 0;
   long jacobians = 0;
   long newton_iterations = 0;
   long projections = 0;
@@ -49,12 +48,16 @@ using EventFunction = std::function<double(double t, const double* y)>;
 /// Steps a System through time. One object belongs to one run.
 class Integrator {
  public:
-  Integrator(std::string name, std::size_t size);
+  /// `properties` are those of the method's registration, which lasts.
+  Integrator(const IntegratorProperties& properties, std::size_t size);
   virtual ~Integrator() = default;
   Integrator(const Integrator&) = delete;
   Integrator& operator=(const Integrator&) = delete;
 
   const std::string& name() const { return name_; }
+  /// Order of the method; the highest one for a method of variable order.
+  int order() const { return properties_.order; }
+  bool is_adaptive() const { return properties_.is_adaptive(); }
   std::size_t size() const { return state_.size(); }
 
   virtual void init(double t0, const double* y0) = 0;
@@ -76,9 +79,6 @@ class Integrator {
   /// Goes on from a new state: drops what is kept of the derivative's past.
   virtual void reset(double t, const double* y) = 0;
   virtual Counters counters() const = 0;
-  /// Order of the method; the highest one for a method of variable order.
-  virtual int order() const = 0;
-  virtual bool is_adaptive() const = 0;
   /// Longest step that step() would take now (s); infinity where it is not chosen yet.
   virtual double step_in_use() const = 0;
   /// Steps after which a method is back at the length and order that it had before a reset.
@@ -108,6 +108,7 @@ class Integrator {
   std::vector<double> previous_state_;
 
  private:
+  const IntegratorProperties& properties_;
   std::string name_;
   std::vector<double> event_state_;
 };

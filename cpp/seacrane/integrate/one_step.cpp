@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
-#include <utility>
 
 namespace seacrane {
 namespace {
@@ -18,16 +17,17 @@ constexpr std::size_t saved_scalars = 4;
 
 }  // namespace
 
-OneStepIntegrator::OneStepIntegrator(std::string name, System& system, const IntegratorOptions& options)
-    : Integrator(std::move(name), system.size()),
-      system_(system),
-      norm_(options.tolerances(), system.size()),
-      start_derivative_(system.size()),
-      end_state_(system.size()),
-      end_derivative_(system.size()),
+OneStepIntegrator::OneStepIntegrator(const IntegratorProperties& properties, const Problem& problem,
+                                     const IntegratorOptions& options)
+    : Integrator(properties, problem.system.size()),
+      system_(problem.system),
+      norm_(options.tolerances(), size()),
+      start_derivative_(size()),
+      end_state_(size()),
+      end_derivative_(size()),
       error_memory_(fresh_error_memory),
-      refreshed_(system.size()),
-      candidate_(system.size()),
+      refreshed_(size()),
+      candidate_(size()),
       initial_step_(options.initial_step) {
   check_step_sizes(options);
 }

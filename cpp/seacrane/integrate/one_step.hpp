@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "seacrane/integrate/integrator.hpp"
-#include "seacrane/integrate/system.hpp"
+#include "seacrane/integrate/problem.hpp"
 
 namespace seacrane {
 
@@ -19,7 +19,8 @@ namespace seacrane {
 /// derivative is evaluated again.
 class OneStepIntegrator : public Integrator {
  public:
-  OneStepIntegrator(std::string name, System& system, const IntegratorOptions& options);
+  OneStepIntegrator(const IntegratorProperties& properties, const Problem& problem,
+                    const IntegratorOptions& options);
 
   void init(double t0, const double* y0) override;
   void reset(double t, const double* y) override;

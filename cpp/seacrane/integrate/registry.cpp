@@ -1,80 +1,105 @@
 #include "seacrane/integrate/registry.hpp"
 
+#include <span>
 #include <stdexcept>
 
-// The one list of integrators: the name a user gives, and the function of the method's own file that makes
-// it. A new method is added here and nowhere else.
-// clang-format off
-#define SEACRANE_INTEGRATORS(entry)                                \
-  entry("semi-implicit-euler", make_semi_implicit_euler)           \
-  entry("rk4", make_rk4)                                           \
-  entry("rk4-exact-memory", make_rk4_exact_memory)                 \
-  entry("rk-low-storage", make_rk_low_storage)                     \
-  entry("heun21", make_heun21)                                     \
-  entry("bs32", make_bs32)                                         \
-  entry("rk43", make_rk43)                                         \
-  entry("dopri5", make_dopri5)                                     \
-  entry("tsit5", make_tsit5)                                       \
-  entry("verner65", make_verner65)                                 \
-  entry("verner76", make_verner76)                                 \
-  entry("dop853", make_dop853)                                     \
-  entry("rosenbrock", make_rosenbrock)                             \
-  entry("generalized-alpha", make_generalized_alpha)               \
-  entry("generalized-alpha-index2", make_generalized_alpha_index2) \
-  entry("ark-erk", make_ark_erk)                                   \
-  entry("ark-dirk", make_ark_dirk)                                 \
-  entry("ark-imex", make_ark_imex)                                 \
-  entry("ark-mri", make_ark_mri)                                   \
-  entry("cvode-adams", make_cvode_adams)                           \
-  entry("cvode-bdf", make_cvode_bdf)                               \
-  entry("ida", make_ida)
-// clang-format on
+#include "seacrane/integrate/registration.hpp"
 
 namespace seacrane {
 
-#define SEACRANE_DECLARE(name, make) \
-  std::unique_ptr<Integrator> make(System&, ResidualSystem*, const IntegratorOptions&);
-SEACRANE_INTEGRATORS(SEACRANE_DECLARE)
-#undef SEACRANE_DECLARE
+// The one list of integrators, in the order of documents and tables. Each method's own file holds its
+// registration; explicit pairs are listed in tableaus/pairs.hpp.
+extern const Registration semi_implicit_euler, rk4, rk_low_storage;
+std::span<const Registration> explicit_pairs();
+extern const Registration rosenbrock, generalized_alpha, ark_dirk, cvode_adams, cvode_bdf, ida;
 
 namespace {
 
-struct Entry {
-  const char* name;
-  std::unique_ptr<Integrator> (*make)(System&, ResidualSystem*, const IntegratorOptions&);
+std::vector<Registration> all() {
+  std::vector<Registration> out = {semi_implicit_euler, rk4, rk_low_storage};
+  const auto pairs = explicit_pairs();
+  out.insert(out.end(), pairs.begin(), pairs.end());
+  out.insert(out.end(), {rosenbrock, generalized_alpha, ark_dirk, cvode_adams, cvode_bdf, ida});
+  return out;
+}
+
+/// Methods of earlier versions, and what to take in their place.
+constexpr struct {
+  const char *name, *instead;
+} former[] = {
+    {"rk4-exact-memory", "rk4"}, {"heun21", "bs32"},
+    {"rk43", "dopri5"},          {"generalized-alpha-index2", "generalized-alpha"},
+    {"ark-erk", "dopri5"},       {"ark-imex", "rosenbrock"},
+    {"ark-mri", "cvode-bdf"},
 };
 
-#define SEACRANE_LIST(name, make) Entry{name, make},
-constexpr Entry entries[] = {SEACRANE_INTEGRATORS(SEACRANE_LIST)};
-#undef SEACRANE_LIST
+[[noreturn]] void refuse(const std::string& name) {
+  std::string text = "unknown integrator \"" + name + "\"; ";
+  for (const auto& [old, instead] : former) {
+    if (name == old) text += "earlier versions had it: take \"" + std::string(instead) + "\", or ";
+  }
+  text += "choose one of ";
+  std::string known;
+  for (const Registration& method : all()) {
+    known += known.empty() ? "" : ", ";
+    known += method.properties->name;
+  }
+  throw std::invalid_argument(text + known);
+}
 
-void require_spectral_radius(const std::string& name) {
-  if (name.starts_with("generalized-alpha")) return;
-  throw std::invalid_argument("spectral_radius: integrator \"" + name +
-                              "\" has no spectral radius to choose; leave it out, or choose "
-                              "\"generalized-alpha\" or \"generalized-alpha-index2\"");
+Registration find(const std::string& name) {
+  for (const Registration& method : all()) {
+    if (name == method.properties->name) return method;
+  }
+  refuse(name);
+}
+
+std::string quoted(const IntegratorProperties& method) {
+  return "integrator \"" + std::string(method.name) + "\"";
+}
+
+void check(const IntegratorProperties& method, const Problem& problem, const IntegratorOptions& options) {
+  if (options.spectral_radius && !method.has_spectral_radius) {
+    std::string having;
+    for (const Registration& other : all()) {
+      if (!other.properties->has_spectral_radius) continue;
+      having += having.empty() ? "\"" : " or \"";
+      having += std::string(other.properties->name) + "\"";
+    }
+    throw std::invalid_argument("spectral_radius: " + quoted(method) +
+                                " has no spectral radius to choose; leave it out, or choose " + having);
+  }
+  if (method.residual_form && problem.residual == nullptr) {
+    throw std::invalid_argument(quoted(method) + " needs the residual form of the system");
+  }
+  if (method.uses_positions && problem.positions == nullptr) {
+    throw std::invalid_argument(quoted(method) + " needs a system that tells its positions");
+  }
 }
 
 }  // namespace
 
-std::unique_ptr<Integrator> make_integrator(System& system, ResidualSystem* residual,
-                                            const IntegratorOptions& options) {
-  std::string known;
-  for (const Entry& entry : entries) {
-    if (options.name == entry.name) {
-      if (options.spectral_radius) require_spectral_radius(options.name);
-      return entry.make(system, residual, options);
-    }
-    known += known.empty() ? "" : ", ";
-    known += entry.name;
-  }
-  throw std::invalid_argument("unknown integrator \"" + options.name + "\"; choose one of " + known);
+std::unique_ptr<Integrator> make_integrator(const Problem& problem, const IntegratorOptions& options) {
+  const Registration method = find(options.name);
+  check(*method.properties, problem, options);
+  return method.make(problem, options);
 }
 
-std::vector<std::string> integrator_names() {
-  std::vector<std::string> names;
-  for (const Entry& entry : entries) names.emplace_back(entry.name);
-  return names;
+IntegratorProperties integrator_of(const std::string& name) { return *find(name).properties; }
+
+std::vector<IntegratorProperties> integrators() {
+  std::vector<IntegratorProperties> out;
+  for (const Registration& method : all()) out.push_back(*method.properties);
+  return out;
+}
+
+std::vector<double> stability_polynomial(const std::string& integrator) {
+  for (const Registration& method : all()) {
+    if (integrator == method.properties->name && method.stability_polynomial) {
+      return method.stability_polynomial();
+    }
+  }
+  return {};
 }
 
 }  // namespace seacrane

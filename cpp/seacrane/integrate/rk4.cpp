@@ -1,28 +1,34 @@
 #include <vector>
 
 #include "seacrane/integrate/fixed_step.hpp"
-#include "seacrane/integrate/registry.hpp"
+#include "seacrane/integrate/registration.hpp"
 
 namespace seacrane {
 namespace {
-
-/// Step without a choice of the user (s): well inside the 0.15 s or so at which the modes of a crane's
-/// controlled cylinders make the method unstable.
-constexpr double default_step = 0.02;
 
 /// The classical Runge-Kutta method of order 4 with a fixed step [Hairer, Norsett, Wanner, Solving
 /// Ordinary Differential Equations I, II.1]. Four evaluations a step: the one at the end of a step is the
 /// first of the next.
 class ClassicalRungeKutta final : public FixedStep {
  public:
-  ClassicalRungeKutta(System& system, const IntegratorOptions& options)
-      : FixedStep("rk4", system, options, default_step),
+  // The default step is well inside the 0.15 s or so at which the modes of a crane's controlled cylinders
+  // make the method unstable.
+  static constexpr IntegratorProperties properties{
+      .name = "rk4",
+      .kind = "explicit, fixed step",
+      .order = 4,
+      .dense_order = 4,
+      .default_step = 0.02,
+      .stable_up_to = 2.8,
+      .purpose = "equal steps, for real time and for comparison with other programs"};
+  static std::vector<double> stability_polynomial() { return {1.0, 1.0, 1.0 / 2.0, 1.0 / 6.0, 1.0 / 24.0}; }
+
+  ClassicalRungeKutta(const Problem& problem, const IntegratorOptions& options)
+      : FixedStep(properties, problem, options),
         stage_state_(size()),
         k2_(size()),
         k3_(size()),
         k4_(size()) {}
-
-  int order() const override { return 4; }
 
  private:
   void advance(double h, double t_end) override;
@@ -50,9 +56,6 @@ void ClassicalRungeKutta::advance(double h, double /*t_end*/) {
 
 }  // namespace
 
-std::unique_ptr<Integrator> make_rk4(System& system, ResidualSystem* /*residual*/,
-                                     const IntegratorOptions& options) {
-  return std::make_unique<ClassicalRungeKutta>(system, options);
-}
+extern const Registration rk4 = registration<ClassicalRungeKutta>();
 
 }  // namespace seacrane

@@ -7,7 +7,7 @@
 #include "seacrane/integrate/adaptive_step.hpp"
 #include "seacrane/integrate/dense_lu.hpp"
 #include "seacrane/integrate/difference_jacobian.hpp"
-#include "seacrane/integrate/registry.hpp"
+#include "seacrane/integrate/registration.hpp"
 #include "seacrane/integrate/tableaus/rang_angermann34.hpp"
 
 namespace seacrane {
@@ -29,8 +29,17 @@ constexpr double worthwhile_growth = 1.3;
 /// step.
 class RosenbrockW final : public AdaptiveStep {
  public:
-  RosenbrockW(System& system, const IntegratorOptions& options)
-      : AdaptiveStep("rosenbrock", system, options, 3),
+  static constexpr IntegratorProperties properties{
+      .name = "rosenbrock",
+      .kind = "linearly implicit, L-stable (Rang, Angermann)",
+      .order = 3,
+      .error_order = 2,
+      .dense_order = 3,
+      .uses_jacobian = true,
+      .purpose = "stiff elements, at loose tolerances, with limits and restarts that cost nothing"};
+
+  RosenbrockW(const Problem& problem, const IntegratorOptions& options)
+      : AdaptiveStep(properties, problem, options, 3),
         stage_state_(size()),
         sum_(size()),
         slope_(size()),
@@ -39,7 +48,6 @@ class RosenbrockW final : public AdaptiveStep {
     for (auto& k : k_) k.resize(size());
   }
 
-  int order() const override { return 3; }
   void init(double t0, const double* y0) override {
     AdaptiveStep::init(t0, y0);
     forget();
@@ -236,9 +244,6 @@ void RosenbrockW::load_history(std::span<const double> history) {
 
 }  // namespace
 
-std::unique_ptr<Integrator> make_rosenbrock(System& system, ResidualSystem* /*residual*/,
-                                            const IntegratorOptions& options) {
-  return std::make_unique<RosenbrockW>(system, options);
-}
+extern const Registration rosenbrock = registration<RosenbrockW>();
 
 }  // namespace seacrane

@@ -1,36 +1,44 @@
 #include <algorithm>
 
 #include "seacrane/integrate/fixed_step.hpp"
-#include "seacrane/integrate/registry.hpp"
+#include "seacrane/integrate/registration.hpp"
 
 namespace seacrane {
 namespace {
 
-/// Step without a choice of the user (s): a method of order 1 needs short ones.
-constexpr double default_step = 0.002;
-
 /// Semi-implicit (symplectic) Euler method of order 1 [Hairer, Lubich, Wanner, Geometric Numerical
 /// Integration, I.1.2]: velocities move with the accelerations of the start of the step, then positions with
 /// the new velocities; orientations turn by the exponential of the new angular velocity. What is neither
-/// position nor velocity (memory states, work) takes an explicit Euler step, and so does every component of a
-/// system that does not tell its positions. Dense output is linear, of order 1.
+/// position nor velocity (memory states, work) takes an explicit Euler step. Dense output is linear, of
+/// order 1.
 class SemiImplicitEuler final : public FixedStep {
  public:
-  SemiImplicitEuler(System& system, const IntegratorOptions& options)
-      : FixedStep("semi-implicit-euler", system, options, default_step) {}
+  static constexpr IntegratorProperties properties{
+      .name = "semi-implicit-euler",
+      .kind = "explicit, fixed step, symplectic without constraints",
+      .order = 1,
+      .dense_order = 1,
+      .default_step = 0.002,  // order 1 needs short ones
+      .stable_up_to = 2.0,
+      .uses_positions = true,
+      .purpose = "the cheapest step; what game engines and many real-time simulators use"};
 
-  int order() const override { return 1; }
+  SemiImplicitEuler(const Problem& problem, const IntegratorOptions& options)
+      : FixedStep(properties, problem, options), positions_(*problem.positions) {}
+
   void interpolate(double t, double* y) const override;
 
  private:
   void advance(double h, double t_end) override;
+
+  PositionMap& positions_;
 };
 
 void SemiImplicitEuler::advance(double h, double /*t_end*/) {
-  const std::size_t positions = system_.position_size();
+  const std::size_t positions = positions_.position_size();
   std::copy_n(state_.data(), positions, end_state_.data());
   for (std::size_t i = positions; i < size(); ++i) end_state_[i] = state_[i] + h * start_derivative_[i];
-  if (positions > 0) system_.move(h, end_state_.data());
+  positions_.move(h, end_state_.data());
 }
 
 void SemiImplicitEuler::interpolate(double t, double* y) const {
@@ -45,9 +53,6 @@ void SemiImplicitEuler::interpolate(double t, double* y) const {
 
 }  // namespace
 
-std::unique_ptr<Integrator> make_semi_implicit_euler(System& system, ResidualSystem* /*residual*/,
-                                                     const IntegratorOptions& options) {
-  return std::make_unique<SemiImplicitEuler>(system, options);
-}
+extern const Registration semi_implicit_euler = registration<SemiImplicitEuler>();
 
 }  // namespace seacrane

@@ -4,8 +4,6 @@
 // 6.4; the branches for 7.x follow its documentation and headers and have not been compiled.
 
 #include <arkode/arkode_arkstep.h>
-#include <arkode/arkode_erkstep.h>
-#include <arkode/arkode_mristep.h>
 #include <cvode/cvode.h>
 #include <cvode/cvode_ls.h>
 #include <cvode/cvode_proj.h>
@@ -51,6 +49,7 @@ inline SUNContext create_context(MessageLog& log) {
 // One handler, that of the context, serves all solvers.
 inline void record_cvode_messages(void* /*memory*/, MessageLog& /*log*/) {}
 inline void record_ida_messages(void* /*memory*/, MessageLog& /*log*/) {}
+inline void record_ark_messages(void* /*memory*/, MessageLog& /*log*/) {}
 
 #else
 
@@ -71,64 +70,50 @@ inline void record_cvode_messages(void* memory, MessageLog& log) {
 inline void record_ida_messages(void* memory, MessageLog& log) {
   IDASetErrHandlerFn(memory, record_message, &log);
 }
+inline void record_ark_messages(void* memory, MessageLog& log) {
+  ARKStepSetErrHandlerFn(memory, record_message, &log);
+}
 
 #endif
 
-/// The functions that ARKODE's explicit and its general stepper have in common. From 7.1 on they share one
-/// set, and the names of the steppers are deprecated.
-struct ArkodeFunctions {
+// From 7.1 on ARKODE's steppers share one set of functions, and the names of the steppers are deprecated.
+#if SUNDIALS_VERSION_MAJOR > 7 || (SUNDIALS_VERSION_MAJOR == 7 && SUNDIALS_VERSION_MINOR >= 1)
+#define SEACRANE_ARK(function) ARKode##function
+#else
+#define SEACRANE_ARK(function) ARKStep##function
+#endif
+
+/// The functions that CVODE, IDA and ARKODE have in common.
+struct Solver {
+  const char* name;
   void (*free)(void**);
   int (*set_user_data)(void*, void*);
-  int (*set_weights)(void*, ARKEwtFn);
-  int (*set_warnings)(void*, int);
+  int (*set_weights)(void*, int (*)(N_Vector, N_Vector, void*));
   int (*set_max_step)(void*, sunrealtype);
   int (*set_init_step)(void*, sunrealtype);
   int (*set_stop_time)(void*, sunrealtype);
-  int (*reset)(void*, sunrealtype, N_Vector);
-  int (*evolve)(void*, sunrealtype, N_Vector, sunrealtype*, int);
   int (*dense_output)(void*, sunrealtype, int, N_Vector);
   int (*current_step)(void*, sunrealtype*);
   int (*steps)(void*, long*);
   int (*error_test_failures)(void*, long*);
+  int (*newton_iterations)(void*, long*);
   int (*local_errors)(void*, N_Vector);
   int (*weights)(void*, N_Vector);
 };
 
-#define SEACRANE_ARKODE_FUNCTIONS(prefix)                                                                   \
-  ArkodeFunctions {                                                                                         \
-    prefix##Free, prefix##SetUserData, prefix##WFtolerances, prefix##SetMaxHnilWarns, prefix##SetMaxStep,   \
-        prefix##SetInitStep, prefix##SetStopTime, prefix##Reset, prefix##Evolve, prefix##GetDky,            \
-        prefix##GetCurrentStep, prefix##GetNumSteps, prefix##GetNumErrTestFails, prefix##GetEstLocalErrors, \
-        prefix##GetErrWeights                                                                               \
+#define SEACRANE_SOLVER(name, f)                                                                       \
+  Solver {                                                                                             \
+    name, f(Free), f(SetUserData), f(WFtolerances), f(SetMaxStep), f(SetInitStep), f(SetStopTime),     \
+        f(GetDky), f(GetCurrentStep), f(GetNumSteps), f(GetNumErrTestFails), f(GetNumNonlinSolvIters), \
+        f(GetEstLocalErrors), f(GetErrWeights)                                                         \
   }
-
-#if SUNDIALS_VERSION_MAJOR > 7 || (SUNDIALS_VERSION_MAJOR == 7 && SUNDIALS_VERSION_MINOR >= 1)
-#define SEACRANE_ARK(function) ARKode##function
-#define SEACRANE_MRI(function) ARKode##function
-inline ArkodeFunctions explicit_stepper() { return SEACRANE_ARKODE_FUNCTIONS(ARKode); }
-inline ArkodeFunctions general_stepper() { return SEACRANE_ARKODE_FUNCTIONS(ARKode); }
-#else
-#define SEACRANE_ARK(function) ARKStep##function
-#define SEACRANE_MRI(function) MRIStep##function
-inline ArkodeFunctions explicit_stepper() { return SEACRANE_ARKODE_FUNCTIONS(ERKStep); }
-inline ArkodeFunctions general_stepper() { return SEACRANE_ARKODE_FUNCTIONS(ARKStep); }
-#endif
-#undef SEACRANE_ARKODE_FUNCTIONS
-
-#if SUNDIALS_VERSION_MAJOR >= 7
-inline void record_erk_messages(void* /*memory*/, MessageLog& /*log*/) {}
-inline void record_ark_messages(void* /*memory*/, MessageLog& /*log*/) {}
-inline void record_mri_messages(void* /*memory*/, MessageLog& /*log*/) {}
-#else
-inline void record_erk_messages(void* memory, MessageLog& log) {
-  ERKStepSetErrHandlerFn(memory, record_message, &log);
-}
-inline void record_ark_messages(void* memory, MessageLog& log) {
-  ARKStepSetErrHandlerFn(memory, record_message, &log);
-}
-inline void record_mri_messages(void* memory, MessageLog& log) {
-  MRIStepSetErrHandlerFn(memory, record_message, &log);
-}
-#endif
+#define SEACRANE_CVODE(function) CVode##function
+#define SEACRANE_IDA(function) IDA##function
+inline constexpr Solver cvode = SEACRANE_SOLVER("CVODE", SEACRANE_CVODE);
+inline constexpr Solver ida = SEACRANE_SOLVER("IDA", SEACRANE_IDA);
+inline constexpr Solver arkode = SEACRANE_SOLVER("ARKODE", SEACRANE_ARK);
+#undef SEACRANE_IDA
+#undef SEACRANE_CVODE
+#undef SEACRANE_SOLVER
 
 }  // namespace seacrane::sundials

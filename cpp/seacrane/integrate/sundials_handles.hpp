@@ -17,12 +17,6 @@ struct FreeVector {
 struct FreeMatrix {
   void operator()(SUNMatrix matrix) const { SUNMatDestroy(matrix); }
 };
-struct FreeCoupling {
-  void operator()(MRIStepCoupling coupling) const { MRIStepCoupling_Free(coupling); }
-};
-struct FreeInnerStepper {
-  void operator()(MRIStepInnerStepper stepper) const { MRIStepInnerStepper_Free(&stepper); }
-};
 struct FreeLinearSolver {
   void operator()(SUNLinearSolver solver) const { SUNLinSolFree(solver); }
 };
@@ -30,11 +24,16 @@ struct FreeNonlinearSolver {
   void operator()(SUNNonlinearSolver solver) const { SUNNonlinSolFree(solver); }
 };
 
+/// The memory of a solver, freed by the solver's own function.
+struct FreeMemory {
+  void (*free)(void**);
+  void operator()(void* memory) const { free(&memory); }
+};
+
+using Memory = std::unique_ptr<void, FreeMemory>;
 using Context = std::unique_ptr<std::remove_pointer_t<SUNContext>, FreeContext>;
 using Vector = std::unique_ptr<std::remove_pointer_t<N_Vector>, FreeVector>;
 using Matrix = std::unique_ptr<std::remove_pointer_t<SUNMatrix>, FreeMatrix>;
-using Coupling = std::unique_ptr<std::remove_pointer_t<MRIStepCoupling>, FreeCoupling>;
-using InnerStepper = std::unique_ptr<std::remove_pointer_t<MRIStepInnerStepper>, FreeInnerStepper>;
 using LinearSolver = std::unique_ptr<std::remove_pointer_t<SUNLinearSolver>, FreeLinearSolver>;
 using NonlinearSolver = std::unique_ptr<std::remove_pointer_t<SUNNonlinearSolver>, FreeNonlinearSolver>;
 

@@ -21,16 +21,22 @@ void add(Counters& sum, const Counters& part) {
 
 }  // namespace
 
-SundialsIntegrator::SundialsIntegrator(std::string name, System& system, const IntegratorOptions& options,
-                                       std::size_t solved_size)
-    : Integrator(std::move(name), system.size()),
-      system_(system),
+SundialsIntegrator::SundialsIntegrator(const IntegratorProperties& properties, const Problem& problem,
+                                       const IntegratorOptions& options, const sundials::Solver& solver,
+                                       const Tolerances& tolerances, std::size_t unknowns)
+    : Integrator(properties, problem.system.size()),
+      system_(problem.system),
       options_(options),
+      solver_(solver),
+      norm_(tolerances, unknowns),
       context_(sundials::create_context(messages_)),
-      solution_(solved_size),
+      solution_(unknowns),
       solution_vector_(sundials::view(solution_, context_)),
-      errors_(solved_size),
-      weights_(solved_size),
+      memory_(nullptr, sundials::FreeMemory{solver.free}),
+      dense_(unknowns),
+      dense_vector_(sundials::view(dense_, context_)),
+      errors_(unknowns),
+      weights_(unknowns),
       errors_vector_(sundials::view(errors_, context_)),
       weights_vector_(sundials::view(weights_, context_)) {
   if (!context_) throw std::runtime_error("SUNDIALS could not create its context");
@@ -44,6 +50,63 @@ void SundialsIntegrator::init(double t0, const double* y0) {
   must_restart_ = true;
   step_before_restart_ = std::numeric_limits<double>::infinity();
   carried_ = false;
+}
+
+void SundialsIntegrator::create() {
+  memory_.reset(make());
+  if (!memory_) throw std::runtime_error(name() + ": " + solver_.name + " could not be created");
+  require(solver_.set_user_data(memory(), this), "SetUserData");
+  require(solver_.set_weights(memory(), weigh), "WFtolerances");
+  require(solver_.set_max_step(memory(), options_.max_step), "SetMaxStep");
+  require(solver_.set_init_step(memory(), options_.initial_step), "SetInitStep");
+  attach(memory());
+}
+
+void SundialsIntegrator::restart() {
+  expand();
+  if (memory_) {
+    reinitialise(memory());
+    return;
+  }
+  try {
+    create();
+  } catch (...) {
+    memory_.reset();
+    throw;
+  }
+}
+
+int SundialsIntegrator::derivative(sunrealtype t, N_Vector y, N_Vector ydot, void* user_data) {
+  return self(user_data).evaluate(t, sundials::data(y), sundials::data(ydot));
+}
+
+int SundialsIntegrator::weigh(N_Vector y, N_Vector weights, void* user_data) {
+  self(user_data).fill_weights(sundials::data(y), sundials::data(weights));
+  return 0;
+}
+
+double SundialsIntegrator::attempted_step() const {
+  double h = 0.0;
+  solver_.current_step(memory(), &h);
+  return h;
+}
+
+Counters SundialsIntegrator::solver_counters() const {
+  Counters now;
+  solver_.steps(memory(), &now.steps);
+  solver_.error_test_failures(memory(), &now.rejected_steps);
+  solver_.newton_iterations(memory(), &now.newton_iterations);
+  return now;
+}
+
+void SundialsIntegrator::project_state(double t) {
+  if (!system_.has_projection()) return;
+  ++counters_.projections;
+  system_.project(t, state_.data(), false);
+  if (check_finite(state_.data(), size()) != 0) {
+    messages_.last_error = "the projected state is not finite";
+    fail("the projection");
+  }
 }
 
 double SundialsIntegrator::step_in_use() const {
@@ -128,7 +191,8 @@ void SundialsIntegrator::interpolate(double t, double* y) const {
     std::copy(state_.begin(), state_.end(), y);
     return;
   }
-  dense_output(t, y);
+  if (solver_.dense_output(memory(), t, 0, dense_vector_.get()) < 0) fail("dense output");
+  contract(t, dense_, y);
 }
 
 int SundialsIntegrator::check_finite(const double* values, std::size_t size) {
@@ -145,8 +209,13 @@ int SundialsIntegrator::evaluate(double t, const double* y, double* ydot) {
   });
 }
 
-int SundialsIntegrator::dense_jacobian(double t, const double* y, const double* slope, double h,
-                                       const ErrorNorm& norm, double* columns) {
+int SundialsIntegrator::dense_jacobian(sunrealtype t, N_Vector y, N_Vector slope, SUNMatrix matrix,
+                                       void* user_data, N_Vector, N_Vector, N_Vector) {
+  return self(user_data).fill_jacobian(t, sundials::data(y), sundials::data(slope),
+                                       SUNDenseMatrix_Data(matrix));
+}
+
+int SundialsIntegrator::fill_jacobian(double t, const double* y, const double* slope, double* columns) {
   ++counters_.jacobians;
   bool exact = false;
   const int flag = guarded([&] {
@@ -157,14 +226,17 @@ int SundialsIntegrator::dense_jacobian(double t, const double* y, const double* 
   trial_.resize(size());
   trial_slope_.resize(size());
   return difference_jacobian(
-      y, slope, h, norm, trial_, trial_slope_,
+      y, slope, attempted_step(), norm_, trial_, trial_slope_,
       [&](const double* at, double* f) { return evaluate(t, at, f); },
       [&](std::size_t j) { return columns + j * size(); });
 }
 
 std::size_t SundialsIntegrator::dominant_component() const {
   if (bad_component_ != IntegrationError::no_component) return bad_component_;
-  if (!error_estimates(errors_vector_.get(), weights_vector_.get())) return IntegrationError::no_component;
+  if (solver_.local_errors(memory(), errors_vector_.get()) < 0 ||
+      solver_.weights(memory(), weights_vector_.get()) < 0) {
+    return IntegrationError::no_component;
+  }
   std::size_t worst = IntegrationError::no_component;
   double largest = 0.0;
   for (std::size_t i = 0; i < errors_.size(); ++i) {

@@ -1,52 +1,65 @@
 #pragma once
 
+#include <algorithm>
 #include <exception>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "seacrane/integrate/integrator.hpp"
+#include "seacrane/integrate/problem.hpp"
 #include "seacrane/integrate/sundials_handles.hpp"
-#include "seacrane/integrate/system.hpp"
 
 namespace seacrane {
 
-/// What the SUNDIALS methods share: hard stops, exceptions across C, messages, restarts and counters.
+/// What the SUNDIALS methods share: the solver's memory, hard stops, exceptions across C, messages, restarts,
+/// dense output and counters.
 ///
 /// Nothing may be thrown through the C code of the solvers. A callback runs inside guarded(), which keeps
 /// an exception and tells the solver to give up; the step then throws it again. A result that is not
 /// finite is reported to the solver as an error that a shorter step may cure.
 class SundialsIntegrator : public Integrator {
  public:
-  /// `solved_size` is the number of unknowns the solver works on.
-  SundialsIntegrator(std::string name, System& system, const IntegratorOptions& options,
-                     std::size_t solved_size);
+  /// `tolerances` are those of the `unknowns` that the solver works on.
+  SundialsIntegrator(const IntegratorProperties& properties, const Problem& problem,
+                     const IntegratorOptions& options, const sundials::Solver& solver,
+                     const Tolerances& tolerances, std::size_t unknowns);
 
   void init(double t0, const double* y0) final;
   void step(double t_limit) final;
   void interpolate(double t, double* y) const final;
   void reset(double t, const double* y) final;
   Counters counters() const final;
-  bool is_adaptive() const override { return true; }
-  double step_in_use() const override;
+  double step_in_use() const final;
   double steps_lost_by_reset() const final { return 20.0; }
   std::vector<double> save() const final;
   void load(std::span<const double> saved) final;
 
  protected:
-  /// Sets the solver's own start values from time_ and state_ and makes it forget the past.
-  virtual void restart() = 0;
+  /// Sets the unknowns from time_ and state_, and back.
+  virtual void expand() { solution_ = state_; }
+  virtual void contract(double /*t*/, const std::vector<double>& unknowns, double* y) const {
+    std::copy(unknowns.begin(), unknowns.end(), y);
+  }
+  /// The solver's memory, at time_ and solution_; null when it cannot be made.
+  virtual void* make() = 0;
+  /// Chooses formulas and solvers for new memory.
+  virtual void attach(void* memory) = 0;
+  /// Makes the solver forget the past, at time_ and solution_.
+  virtual void reinitialise(void* memory) = 0;
   /// Called before a step that goes on from the last one.
   virtual void prepare_step() {}
   /// One internal step. Fills state_ and returns the time reached, or returns through fail().
   virtual double advance(double t_limit) = 0;
-  /// The solver's dense output at t, in the layout of the System.
-  virtual void dense_output(double t, double* y) const = 0;
-  /// Steps, failed error tests, Newton iterations since the last restart(); evaluations are counted here.
-  virtual Counters solver_counters() const = 0;
-  virtual double attempted_step() const = 0;
-  /// Estimated errors and weights of the last attempt; false when the solver has none.
-  virtual bool error_estimates(N_Vector errors, N_Vector weights) const = 0;
+  virtual void fill_weights(const double* y, double* w) const { norm_.weights(y, w); }
+
+  void* memory() const { return memory_.get(); }
+  double attempted_step() const;
+  /// Projects state_, beside the solver.
+  void project_state(double t);
+  static SundialsIntegrator& self(void* user_data) { return *static_cast<SundialsIntegrator*>(user_data); }
+  /// f for solvers of the explicit form.
+  static int derivative(sunrealtype t, N_Vector y, N_Vector ydot, void* user_data);
 
   /// Throws the exception kept by guarded(), or an IntegrationError for a failed `call`.
   [[noreturn]] void fail(const std::string& call) const;
@@ -64,16 +77,18 @@ class SundialsIntegrator : public Integrator {
   }
   /// f(t, y) for the solver's callbacks: 0, or 1 when the result is not finite.
   int evaluate(double t, const double* y, double* ydot);
-  /// Jacobian of f at (t, y) by columns: the system's own, else by difference quotients; `slope` is f there.
-  /// Our own quotients because those of the solvers take increments from the error weights, which are zero
-  /// for components outside the error norm. Returns what a callback does.
-  int dense_jacobian(double t, const double* y, const double* slope, double h, const ErrorNorm& norm,
-                     double* columns);
+  /// Jacobian of f at (t, y): the system's own, else by difference quotients; `slope` is f there. Our own
+  /// quotients because those of the solvers take increments from the error weights, which are zero for
+  /// components outside the error norm.
+  static int dense_jacobian(sunrealtype t, N_Vector y, N_Vector slope, SUNMatrix matrix, void* user_data,
+                            N_Vector, N_Vector, N_Vector);
   /// 0 when finite, else 1 with the component noted.
   int check_finite(const double* values, std::size_t size);
 
   System& system_;
   IntegratorOptions options_;
+  const sundials::Solver& solver_;
+  ErrorNorm norm_;
   sundials::MessageLog messages_;
   sundials::Context context_;
   // The solver's unknowns. Apart from state_, which a failed step must leave alone.
@@ -85,10 +100,20 @@ class SundialsIntegrator : public Integrator {
   std::size_t bad_component_ = IntegrationError::no_component;
 
  private:
+  void create();
+  void restart();
+  /// Steps, failed error tests, Newton iterations since the last restart(); evaluations are counted here.
+  Counters solver_counters() const;
   std::size_t dominant_component() const;
+  int fill_jacobian(double t, const double* y, const double* slope, double* columns);
+  static int weigh(N_Vector y, N_Vector weights, void* user_data);
 
+  sundials::Memory memory_;
   Counters before_restart_;
-  std::vector<double> trial_, trial_slope_;  // of dense_jacobian()
+  std::vector<double> trial_, trial_slope_;  // of fill_jacobian()
+  // Written by interpolate(), which is const to the caller.
+  mutable std::vector<double> dense_;
+  sundials::Vector dense_vector_;
   // Filled only to name the dominant component of a failure.
   mutable std::vector<double> errors_, weights_;
   sundials::Vector errors_vector_, weights_vector_;

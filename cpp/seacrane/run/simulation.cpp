@@ -25,7 +25,6 @@ void add(const Counters& more, Counters& sum) {
   sum.steps += more.steps;
   sum.rejected_steps += more.rejected_steps;
   sum.evaluations += more.evaluations;
-  sum.fast_evaluations += more.fast_evaluations;
   sum.jacobians += more.jacobians;
   sum.newton_iterations += more.newton_iterations;
   sum.projections += more.projections;

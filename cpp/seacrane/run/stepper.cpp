@@ -44,8 +44,9 @@ Stepper::Stepper(std::shared_ptr<const Model> of, const RunOptions& options)
       stepped(other ? *other : system),
       loads(stepped.loads_from()),
       residual(loads),
-      integrator(make_integrator(stepped, options.formulation == "redundant" ? &residual : nullptr,
-                                 integrator_options(stepped, options))),
+      integrator(make_integrator(
+          {stepped, &stepped.positions(), options.formulation == "redundant" ? &residual : nullptr},
+          integrator_options(stepped, options))),
       merged_state_(loads.size(), 0.0) {}
 
 const double* Stepper::stepped_bodies(const double* bodies) {

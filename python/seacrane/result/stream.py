@@ -27,7 +27,7 @@ LARGEST_PIECE = 2**21  # bytes
 LARGEST = 2**50  # bytes: what goes on is read piece by piece
 MOST_ROWS, LEAST_ROWS = 4096, 16
 TURNING = "slew_angle"  # counted on over whole turns, which one piece does not know of
-COUNTERS = ("wall_s", "evaluations", "fast_evaluations", "steps", "rejected_steps", "jacobians",
+COUNTERS = ("wall_s", "evaluations", "steps", "rejected_steps", "jacobians",
             "newton_iterations", "projections", "restarts", "dense_solves")  # fmt: skip
 DIGEST = "scene_digest"  # of a scene's description, among the stats of a result
 METHOD = (DIGEST, "formulation", "integrator")

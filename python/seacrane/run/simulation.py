@@ -28,7 +28,7 @@ from seacrane.run.sampled_controller import (
     next_call,
     only_setter,
 )
-from seacrane.run.step_advice import STABLE_UP_TO, step_advice
+from seacrane.run.step_advice import step_advice
 from seacrane.run.stiffness import stiffness
 from seacrane.validity.plausible import warn_of_description
 from seacrane.validity.range import Finding, as_text, findings, warn_of
@@ -39,9 +39,8 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 DEFAULT_INTEGRATOR, DEFAULT_RTOL = "dopri5", 1e-6
-RESIDUAL_INTEGRATORS = ("ida", "generalized-alpha", "generalized-alpha-index2")
 FORMULATIONS = ("auto", "recursive", "redundant")
-BAUMGARTE_OF_ADAMS = 5.0  # 1/s: cvode-adams cannot project
+BAUMGARTE = 5.0  # 1/s, of methods that cannot project
 
 
 def _step(name: str, value: Any) -> float:
@@ -108,14 +107,19 @@ class Run:
         model: _core.Model | None = None,
     ) -> None:
         model = scene.compile() if model is None else model
-        self.formulation = _formulation(formulation, model, integrator)
+        if not isinstance(integrator, str):
+            raise SceneError(
+                f"integrator is {integrator!r}; choose one of {', '.join(_core.integrator_names())}"
+            )
+        method = _core.integrator(integrator)
+        self.formulation = _formulation(formulation, model, method)
         if (
-            integrator == "cvode-adams"
+            not method.projects
             and self.formulation == "redundant"
             and scene.baumgarte == 0.0
             and scene.joints
         ):
-            scene = scene.copy(baumgarte=BAUMGARTE_OF_ADAMS)
+            scene = scene.copy(baumgarte=BAUMGARTE)
             model = scene.compile()
         if integrator == "ida":
             _refuse_redundant_joints(model)
@@ -129,10 +133,6 @@ class Run:
         self.start = _core.initial_state(self.model) if start is None else start
         if not isinstance(self.start, _core.State):
             raise SceneError(f"start is {start!r}; give a seacrane.State")
-        if not isinstance(integrator, str):
-            raise SceneError(
-                f"integrator is {integrator!r}; choose one of {', '.join(_core.integrator_names())}"
-            )
         t_end, dt_out, rtol = number_of("t_end", t_end), number_of("dt_out", dt_out), number_of("rtol", rtol)
         dt, max_step = _step("dt", dt), _step("max_step", max_step)
         if spectral_radius is not None:
@@ -328,7 +328,7 @@ class Run:
         """Hang what has been recorded on an error that ends the run, and what its fixed step could be."""
         self.interrupted = True
         advice = ""
-        if isinstance(error, SimulationError) and self.integrator in STABLE_UP_TO:
+        if isinstance(error, SimulationError) and _core.integrator(self.integrator).stable_up_to:
             step = self.settings["dt"] or (self.core.time - self.start.time) / max(self._steps(), 1)
             advice = step_advice(self.integrator, step, fastest_mode(self.model))
         if advice:
@@ -348,21 +348,21 @@ def _refuse_redundant_joints(model: _core.Model) -> None:
         )
 
 
-def _formulation(asked: str, model: _core.Model, integrator: str) -> str:
+def _formulation(asked: str, model: _core.Model, method: _core.Integrator) -> str:
     """The formulation to step; SceneError for a combination that does not exist."""
     if asked not in FORMULATIONS:
         raise SceneError(f"formulation {asked!r} is unknown; choose {', '.join(FORMULATIONS)}")
     reason = None
-    if integrator in RESIDUAL_INTEGRATORS:
-        reason = f"integrator {integrator!r} solves the redundant equations"
+    if method.residual_form:
+        reason = f"integrator {method.name!r} solves the redundant equations"
     elif model.paper_kinematics:
         reason = "kinematics 'paper' has no symmetric mass matrix"
     elif model.baumgarte > 0.0:
         reason = "Baumgarte stabilisation belongs to the redundant equations"
     elif model.euler_angles:
         reason = "orientation 'euler_xyz' is a choice of the redundant state"
-    elif integrator == "cvode-adams" and (model.tree["loop_rows"] or model.limits):
-        reason = "integrator 'cvode-adams' cannot project, and this scene keeps constraints or limits"
+    elif not method.projects and (model.tree["loop_rows"] or model.limits):
+        reason = f"integrator {method.name!r} cannot project, and this scene keeps constraints or limits"
     elif model.tree["speeds"] == 0:
         reason = "the joints of this scene leave nothing to move"
     if asked == "recursive" and reason:
@@ -413,8 +413,8 @@ def simulate(
     dt_out : float
         Output interval, s. Outputs are interpolated, projected, then evaluated; they never shorten steps.
     integrator : str, optional
-        Default "dopri5"; or any other of `seacrane.integrator_names()`; the table in docs/design.md tells
-        them apart.
+        Default "dopri5"; or any other of `seacrane.integrator_names()`; the table in docs/integrators.md
+        tells them apart.
     rtol : float, optional
         Local error per step over the scale of each state (0.1 m, 0.01 rad, 0.1 m/s, 0.01 rad/s; lengths
         times `scene.length_scale`): absolute, so that results do not depend on where the origin is. Default
@@ -424,8 +424,8 @@ def simulate(
     max_step : float
         Longest step, s; 0 sets no limit.
     spectral_radius : float, optional
-        What is left after a step of "generalized-alpha" and "generalized-alpha-index2" of a motion far too
-        fast for it: 1 damps nothing, 0 all in one step; default 0.8. Other integrators have none.
+        What is left after a step of "generalized-alpha" of a motion far too fast for it: 1 damps nothing,
+        0 all in one step; default 0.8. Other integrators have none.
     energy_limit : float, optional
         Stops the run at the first output where `energy_balance` exceeds this share of the absolute work and
         the largest kinetic energy until then; default: never. Not for the paper's kinematics.

@@ -3,81 +3,40 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
 
 from seacrane import _core
-from seacrane.errors import SeacraneError
 from seacrane.run.method import Method
-
-if TYPE_CHECKING:
-    from seacrane.description.scene import Scene
 
 FORMULATIONS = ("recursive", "redundant")
 COARSE = (1e-1, 1e-2, 1e-3, 1e-4)
 MIDDLE = (*COARSE, 1e-5, 1e-6)
 FINE = (*MIDDLE, 1e-7, 1e-8, 1e-9)
-TOLERANCES: dict[str, tuple[float, ...]] = {
-    "heun21": COARSE,
-    "bs32": MIDDLE,
-    "rk43": FINE,
-    "dopri5": FINE,
-    "tsit5": FINE,
-    "verner65": FINE,
-    "verner76": FINE,
-    "dop853": FINE,
-    "rosenbrock": COARSE,
-    "ark-erk": MIDDLE,
-    "ark-dirk": COARSE,
-    "ark-imex": COARSE,
-    "cvode-adams": MIDDLE,
-    "cvode-bdf": MIDDLE,
-    "ida": MIDDLE,
-}
-STEPS: dict[str, tuple[float, ...]] = {  # s
-    "semi-implicit-euler": (0.1, 0.05, 0.02, 0.01, 0.005),
-    "rk4": (0.2, 0.1, 0.05, 0.025, 0.0125),
-    "rk-low-storage": (0.2, 0.1, 0.05, 0.025),
-    "generalized-alpha": (0.1, 0.05, 0.02),
-    "generalized-alpha-index2": (0.1, 0.05, 0.02),
-}
-OTHER_STEPS = (0.1, 0.05, 0.025)  # s, of a method that neither list knows
-TRIAL = 0.2  # s of simulated time that tell whether a method takes its steps from dt
+STEPS_OF_ORDER_1 = (0.1, 0.05, 0.02, 0.01, 0.005)  # s
+STEPS = (0.2, 0.1, 0.05, 0.025, 0.0125)  # s
+STEPS_IMPLICIT = (0.1, 0.05, 0.02)  # s
 QUICK_INTEGRATORS = ("tsit5", "dop853", "rk4", "semi-implicit-euler")
 
 
-def settings(scene: Scene, *, quick: bool) -> Iterator[Method]:
+def settings(*, quick: bool) -> Iterator[Method]:
     """All settings of the grid; `quick` takes every third tolerance of a few integrators."""
-    names = QUICK_INTEGRATORS if quick else _core.integrator_names()
-    sizes = [(name, *_sizes(scene, name)) for name in names]
+    methods = [_core.integrator(name) for name in QUICK_INTEGRATORS] if quick else _core.integrators()
     for formulation in FORMULATIONS:
-        for name, size, values in sizes:
+        for method in methods:
+            values = _values(method)
             for value in values[1::3] if quick else values:
-                yield Method(formulation=formulation, integrator=name, **{size: value})
+                yield Method(formulation=formulation, integrator=method.name, **{method.setting: value})
 
 
-def _sizes(scene: Scene, name: str) -> tuple[str, tuple[float, ...]]:
-    """What an integrator's accuracy is set by, and the values to try."""
-    if name in TOLERANCES:
-        return "rtol", TOLERANCES[name]
-    if name in STEPS:
-        return "dt", STEPS[name]
-    return ("dt", OTHER_STEPS) if _takes_dt(scene, name) else ("rtol", MIDDLE)
-
-
-def _takes_dt(scene: Scene, name: str) -> bool:
-    """Whether half the step makes more steps; False for a method that refuses the scene."""
-    from seacrane.run.simulation import simulate
-
-    try:
-        runs = [
-            simulate(
-                scene, t_end=TRIAL, dt_out=TRIAL, integrator=name, dt=TRIAL / parts, channels=["position"]
-            )
-            for parts in (4, 8)
-        ]
-    except SeacraneError:
-        return False
-    return bool(runs[0].stats["steps"] != runs[1].stats["steps"])
+def _values(method: _core.Integrator) -> tuple[float, ...]:
+    """Tolerances or steps to try: no tighter than a method of this order, at this cost of a step, pays."""
+    if method.setting == "dt":
+        explicit = STEPS_OF_ORDER_1 if method.order == 1 else STEPS
+        return STEPS_IMPLICIT if method.uses_jacobian else explicit
+    if method.lowest_order < method.order:
+        return MIDDLE
+    if method.uses_jacobian:
+        return COARSE
+    return MIDDLE if method.order < 4 else FINE
 
 
 TIGHT = (

@@ -238,7 +238,7 @@ def _tasks(
     """Each empty row, and the function that fills it in."""
     memory, waves = str(metadata["memory"]), str(metadata["waves"])
     tasks: list[tuple[Row, Any]] = []
-    for setting in settings(scene, quick=quick):
+    for setting in settings(quick=quick):
         row = Row(formulation=setting.formulation, integrator=setting.integrator, rtol=setting.rtol,
                   dt=setting.dt, memory=memory, waves=waves, rung=rungs.FULL)  # fmt: skip
         tasks.append((row, lambda row, s=setting: measure(scene, s, span, truth.values, row)))

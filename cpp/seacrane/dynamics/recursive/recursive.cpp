@@ -82,12 +82,6 @@ std::vector<double> RecursiveSystem::scale() const {
   return out;
 }
 
-std::vector<LinearBlock> RecursiveSystem::linear_blocks() const {
-  std::vector<LinearBlock> out = terms_.linear_blocks();
-  for (LinearBlock& block : out) block.first += idx(layout_.memory) - idx(model_.layout.memory);
-  return out;
-}
-
 void RecursiveSystem::place(const double* y) {
   articulated_.place(y, y + layout_.speeds, terms_.kinematics());
 }

@@ -13,7 +13,7 @@ namespace seacrane {
 /// The recursive formulation: positions and speeds of a tree of clusters, O(n); constraint rows only where
 /// the tree leaves a loop or a driver. Loads come from `terms`, the redundant system of the same model, whose
 /// kinematics this one sets. State: positions, speeds, memory, work, |work|.
-class RecursiveSystem final : public Formulation {
+class RecursiveSystem final : public Formulation, public PositionMap {
  public:
   /// Throws std::invalid_argument for the paper's kinematics and Baumgarte stabilisation.
   explicit RecursiveSystem(RedundantSystem& terms);
@@ -24,18 +24,16 @@ class RecursiveSystem final : public Formulation {
   bool has_projection() const override { return true; }
 
   bool jacobian(double t, const double* y, double* out) override;
+  PositionMap& positions() override { return *this; }
   std::size_t position_size() const override { return idx(tree_.positions); }
   void move(double h, double* y) override;
   bool move_jacobian(double /*h*/, const double* /*y*/, double* /*out*/) override { return false; }
-  std::vector<LinearBlock> linear_blocks() const override;
-  std::string missing_fast_part() const override;
-  void split(double t, const double* y) override;
-  void fast_derivative(double t, const double* y, double* ydot) override;
   const char* name() const override { return "recursive"; }
   std::vector<double> scale() const override;
   void read_bodies(double t, const double* bodies, double* y) override;
   void write_bodies(double t, const double* y, double* bodies) override;
   const std::vector<Vec6d>& accelerations() override { return acceleration_; }
+  void load_response(const std::vector<Vec6d>& load, std::vector<Vec6d>& acceleration) override;
   RedundantSystem& loads_from() override { return terms_; }
   double take_residual_before_projection() override;
   std::string describe(std::size_t component) const override;
@@ -73,7 +71,6 @@ class RecursiveSystem final : public Formulation {
   std::vector<RowBlock<double>> blocks_;
   std::vector<double> speed_rate_, position_rate_;
   VecXd residual_, loop_bias_;
-  std::vector<SplitActuator<std::vector<double>>> split_;  // response: rates of the speeds
   std::optional<RecursiveJacobian> jacobian_;
   std::vector<double> jacobian_rate_;
   double before_projection_ = 0.0;

@@ -8,6 +8,8 @@ namespace seacrane::tableaus {
 /// (1989) 321]; dense output of order 3 is the cubic Hermite polynomial of the step.
 struct BogackiShampine32 {
   static constexpr const char* name = "bs32";
+  static constexpr const char* kind = "explicit pair (Bogacki, Shampine)";
+  static constexpr const char* purpose = "the pair of lowest order: loose tolerances";
   static constexpr int order = 3, error_order = 2, dense_order = 3;
   static constexpr std::size_t stages = 3, extra_stages = 0;
   static constexpr long double a[4][3] = {{0}, {1.0L / 2}, {0, 3.0L / 4}, {2.0L / 9, 1.0L / 3, 4.0L / 9}};

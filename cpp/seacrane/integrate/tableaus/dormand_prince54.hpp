@@ -8,6 +8,8 @@ namespace seacrane::tableaus {
 /// Solving Ordinary Differential Equations I, table II.5.2 and section II.6].
 struct DormandPrince54 {
   static constexpr const char* name = "dopri5";
+  static constexpr const char* kind = "explicit pair (Dormand, Prince)";
+  static constexpr const char* purpose = "the default; many other programs have it too";
   static constexpr int order = 5, error_order = 4, dense_order = 4;
   static constexpr std::size_t stages = 6, extra_stages = 0;
   static constexpr long double a[7][6] = {

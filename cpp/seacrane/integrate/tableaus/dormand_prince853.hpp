@@ -9,6 +9,8 @@ namespace seacrane::tableaus {
 /// estimates, of orders 5 and 3, which the code combines.
 struct DormandPrince853 {
   static constexpr const char* name = "dop853";
+  static constexpr const char* kind = "explicit pair (Dormand, Prince, Hairer)";
+  static constexpr const char* purpose = "the tightest tolerances; references";
   static constexpr int order = 8, error_order = 5, low_error_order = 3, dense_order = 7;
   static constexpr std::size_t stages = 12, extra_stages = 3;
   static constexpr long double a[16][15] = {

@@ -8,6 +8,8 @@ namespace seacrane::tableaus {
 /// first column simplifying assumption, Comput. Math. Appl. 62 (2011) 770], with its dense output.
 struct Tsitouras54 {
   static constexpr const char* name = "tsit5";
+  static constexpr const char* kind = "explicit pair (Tsitouras)";
+  static constexpr const char* purpose = "moderate tolerances";
   static constexpr int order = 5, error_order = 4, dense_order = 4;
   static constexpr std::size_t stages = 6, extra_stages = 0;
   static constexpr long double a[7][6] = {

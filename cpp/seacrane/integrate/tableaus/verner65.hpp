@@ -10,6 +10,8 @@ namespace seacrane::tableaus {
 /// smallest coefficients.
 struct Verner65 {
   static constexpr const char* name = "verner65";
+  static constexpr const char* kind = "explicit pair (Verner)";
+  static constexpr const char* purpose = "tight tolerances";
   static constexpr int order = 6, error_order = 5, dense_order = 5;
   static constexpr std::size_t stages = 8, extra_stages = 1;
   static constexpr long double a[10][9] = {

@@ -10,6 +10,8 @@ namespace seacrane::tableaus {
 /// coefficients.
 struct Verner76 {
   static constexpr const char* name = "verner76";
+  static constexpr const char* kind = "explicit pair (Verner)";
+  static constexpr const char* purpose = "tight tolerances; references, as a second method beside `dop853`";
   static constexpr int order = 7, error_order = 6, dense_order = 6;
   static constexpr std::size_t stages = 10, extra_stages = 3;
   static constexpr long double a[14][13] = {
