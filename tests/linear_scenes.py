@@ -14,7 +14,7 @@ from seacrane import (
 from seacrane.analysis.rest_state import held
 from seacrane.crane import KnuckleBoomCrane, Payload
 from seacrane.hydro import shipped_database, vessel_parameters
-from seacrane.hydro.vessel import rigid_mass_matrix
+from seacrane.hydro.data.rigid_mass import rigid_mass_matrix
 
 Array = NDArray[np.float64]
 

@@ -10,9 +10,10 @@ from numpy.typing import NDArray
 
 from seacrane import SceneError
 from seacrane.hydro import HydroDatabase, shipped_database
-from seacrane.hydro.database.beyond_band import LOADS, without_load
-from seacrane.hydro.dispersion import wavenumber
+from seacrane.hydro.data.beyond_band import without_load
+from seacrane.inputs.frames import MOTIONS
 from seacrane.sea import jonswap, realise_waves
+from seacrane.sea.dispersion import wavenumber
 
 Array = NDArray[np.float64]
 HEADINGS = np.radians([0.0, 30.0, 45.0, 75.0, 90.0, 135.0, 180.0])
@@ -127,7 +128,7 @@ def test_what_carries_no_load_is_estimated_within_a_factor_of_three(high: float,
     excited = whole > 1e-6 * np.array([1.0, 1.0, 1.0, 1e3, 1e3, 1e3]) * whole[:3].max()
     truth = float(np.max(each[above].sum(axis=0)[excited] / whole[excited]))
     assert truth / 3.0 < found.variance < 3.0 * truth
-    assert found.load in LOADS
+    assert found.load in MOTIONS
 
 
 def test_a_head_sea_is_not_judged_by_roll() -> None:

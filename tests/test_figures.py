@@ -29,8 +29,8 @@ from seacrane.figures import (
     save_sheet,
 )
 from seacrane.figures.findings import amplitude_at, slew_stop
-from seacrane.figures.panel import draw
 from seacrane.figures.pose import complete_skeleton, posed_lines, rotation_matrix, wire_line
+from seacrane.plotting.panel import draw
 from seacrane.result import MOTIONS, Result
 
 PNG = b"\x89PNG\r\n\x1a\n"
@@ -359,8 +359,8 @@ def test_the_end_of_the_slew_is_found_despite_the_controls_ripple() -> None:
 
 
 def test_the_databases_plots_hold_its_numbers(tmp_path: Path) -> None:
-    from seacrane.figures.hydro import chosen_headings, save_hydro_figures
     from seacrane.hydro import motion_response, shipped_database
+    from seacrane.hydro.database.figures import chosen_headings, save_hydro_figures
 
     database = shipped_database()
     pictures = {

@@ -19,7 +19,7 @@ from seacrane.figures.findings import (
 )
 from seacrane.figures.paper import PaperRuns
 from seacrane.hydro import shipped_database, vessel_parameters
-from seacrane.hydro.vessel import rigid_mass_matrix
+from seacrane.hydro.data.rigid_mass import rigid_mass_matrix
 from seacrane.inputs.frames import rotation_matrix
 from seacrane.result import MOTIONS
 

@@ -30,7 +30,7 @@ from seacrane.hydro import (
     shipped_database,
     vessel_parameters,
 )
-from seacrane.hydro.database.data_warnings import warn_of_water
+from seacrane.hydro.data.data_warnings import warn_of_water
 from seacrane.scene.vessel import add_vessel
 
 

@@ -14,7 +14,7 @@ import xarray
 from seacrane.cli import main
 from seacrane.errors import FileFormatError
 from seacrane.hydro import HydroDatabase, load_database, read_capytaine, shipped_database
-from seacrane.hydro.database.relations import damping_from_forces
+from seacrane.hydro.data.relations import damping_from_forces
 
 ORDER = [4, 1, 5, 0, 3, 2]  # Capytaine's users may name their degrees of freedom in any order
 NAMES = np.array(["Surge", "Sway", "Heave", "Roll", "Pitch", "Yaw"])

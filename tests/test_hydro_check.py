@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from seacrane.hydro import CheckRow, HydroDatabase, load_database, natural_frequency, shipped_database
-from seacrane.hydro.database.relations import damping_from_forces, infinite_added_mass_from_damping
+from seacrane.hydro.data.relations import damping_from_forces, infinite_added_mass_from_damping
 
 
 @pytest.fixture(scope="module")

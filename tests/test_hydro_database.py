@@ -20,7 +20,7 @@ from seacrane.hydro import (
     load_database,
     shipped_database,
 )
-from seacrane.hydro.database.interpolation import spline_weights
+from seacrane.hydro.data.interpolation import spline_weights
 
 PARITY = np.array([1, -1, 1, -1, 1, -1])
 

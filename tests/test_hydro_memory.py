@@ -17,8 +17,8 @@ from seacrane.hydro import (
     memory_rows,
     shipped_database,
 )
+from seacrane.hydro.data.memory_model import RADIATION
 from seacrane.hydro.memory.identification import IdentificationData, fit_lowest_order, fit_order, r_squared
-from seacrane.hydro.memory.model import RADIATION
 from seacrane.hydro.memory.realisation import realise
 
 OMEGA = np.linspace(0.1, 3.0, 59)

@@ -8,9 +8,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from seacrane.figures.hydro import SHEETS, added_mass_sheet, force_sheet, retardation_sheet
 from seacrane.hydro import HydroDatabase, load_database, motion_response, shipped_database
-from seacrane.hydro.database.relations import retardation_from_damping
+from seacrane.hydro.data.relations import retardation_from_damping
+from seacrane.hydro.database.figures import SHEETS, added_mass_sheet, force_sheet, retardation_sheet
 
 NAMES = ["added_mass", "damping", "retardation", "wave_force", "motion"]
 

@@ -31,7 +31,7 @@ from seacrane.hydro import (
     read_veres,
     vessel_parameters,
 )
-from seacrane.hydro.database.encounter import encounter_frequency, wavenumber
+from seacrane.hydro.data.encounter import encounter_frequency, wavenumber
 
 G = 9.81
 

@@ -27,9 +27,9 @@ from seacrane.hydro import (
     shipped_database,
     vessel_parameters,
 )
-from seacrane.hydro.database.coupled import free_vessel_system
-from seacrane.hydro.dispersion import wavenumber
 from seacrane.hydro.memory.certificate import is_energy_form
+from seacrane.hydro.vessel.stability import free_vessel_system
+from seacrane.sea.dispersion import wavenumber
 
 PARITY = np.array([1.0, -1.0, 1.0, -1.0, 1.0, -1.0])
 POINTS = [(7.0, 0.0, 0.0), (0.0, 0.0, -3.0), (-11.0, 4.0, 2.5)]

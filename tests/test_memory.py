@@ -12,7 +12,7 @@ from reference.vessel import MemoryModel as ReferenceMemory
 
 from seacrane import Result, Scene, cases, simulate
 from seacrane.hydro import shipped_database, vessel_parameters
-from seacrane.hydro.vessel import rigid_mass_matrix
+from seacrane.hydro.data.rigid_mass import rigid_mass_matrix
 from seacrane.inputs.frames import rotation_matrix
 
 Array = NDArray[np.float64]

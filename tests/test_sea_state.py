@@ -22,8 +22,7 @@ from seacrane import (
 )
 from seacrane.errors import SceneError
 from seacrane.hydro import shipped_database
-from seacrane.hydro.database.drift import DriftCoefficients
-from seacrane.hydro.dispersion import wavenumber
+from seacrane.hydro.data.drift import DriftCoefficients
 from seacrane.sea import (
     MeasuredWaves,
     SeaState,
@@ -33,6 +32,7 @@ from seacrane.sea import (
     realise_waves,
     torsethaugen,
 )
+from seacrane.sea.dispersion import wavenumber
 
 WIND = WaveSystem(
     spectrum=jonswap(hs=1.5, tp=6.5, gamma="dnv"), direction_deg=150.0, spreading=cos_2s(8.0), name="wind sea"

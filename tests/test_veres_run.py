@@ -13,8 +13,8 @@ from test_vessel import complex_amplitude, impedance, regular_wave
 
 from seacrane import Scene, cases, load_database, simulate
 from seacrane.hydro import HydroDatabase, InfiniteFrequencyWarning, vessel_parameters
-from seacrane.hydro.database.database import RollDamping
-from seacrane.hydro.database.motion import motion_response
+from seacrane.hydro.data.hydro_data import RollDamping
+from seacrane.hydro.data.motion import motion_response
 
 Complex = NDArray[np.complex128]
 AMPLITUDE = 1e-4  # m: adrift the heading wanders in proportion

@@ -10,8 +10,13 @@ import pytest
 from numpy.typing import NDArray
 
 from seacrane import Curve, HullLoads, Result, Scene, State, Waves, _core, simulate
-from seacrane.hydro import HydroDatabase, shipped_database, vessel_parameters
-from seacrane.hydro.vessel import RollDampingWarning, rigid_mass_matrix
+from seacrane.hydro import (
+    HydroDatabase,
+    RollDampingWarning,
+    rigid_mass_matrix,
+    shipped_database,
+    vessel_parameters,
+)
 from seacrane.scene.vessel import add_vessel
 
 Array = NDArray[np.float64]

@@ -83,7 +83,7 @@ void warn_of_air(const WaveComponents& waves, const Doubles& z) {
   const double* end = z.data() + z.size();
   const double* lowest = std::min_element(z.data(), end);
   if (lowest == end || *lowest <= crest) return;
-  py::module_::import("seacrane.validity.plausible").attr("warn_of_air")(*lowest, crest);
+  py::module_::import("seacrane.inputs.plausible").attr("warn_of_air")(*lowest, crest);
 }
 
 WaveKinematics kinematics_at(const WaveComponents& waves, const py::object& time, const py::object& x,

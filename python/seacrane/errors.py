@@ -2,10 +2,36 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, Protocol
 
 if TYPE_CHECKING:
-    from seacrane.result import Result
+    import os
+    from pathlib import Path
+
+    import numpy as np
+    from numpy.typing import NDArray
+
+
+class Recorded(Protocol):
+    """What a run had recorded when it ended: a `seacrane.Result`, as far as this module knows it."""
+
+    @property
+    def time(self) -> NDArray[np.float64]:
+        """Output times, shape (n,), s."""
+
+    @property
+    def interrupted(self) -> bool:
+        """Whether the run stopped before its end."""
+
+    @property
+    def state(self) -> Any:
+        """The last good `seacrane.State`, or None where there is none."""
+
+    def __getitem__(self, channel: str, /) -> NDArray[np.float64]:
+        """A channel, time first."""
+
+    def save(self, path: str | os.PathLike[str]) -> Path:
+        """Write it as NetCDF."""
 
 
 class SeacraneError(Exception):
@@ -18,7 +44,7 @@ class SeacraneError(Exception):
         outside a run.
     """
 
-    result: Result | None = None
+    result: Recorded | None = None
 
 
 class SceneError(SeacraneError, ValueError):

@@ -29,7 +29,7 @@ from seacrane.crane.data_file import DEFAULT_PATH
 from seacrane.description import file as scene_file
 from seacrane.files.hdf5_structure import HEAP
 from seacrane.hydro import HydroDatabase, motion_response, shipped_database
-from seacrane.hydro.database.drift import DriftCoefficients
+from seacrane.hydro.data.drift import DriftCoefficients
 from seacrane.result import Result
 
 G = 9.80665

@@ -235,7 +235,7 @@ _ALL = [
         refusals=(SceneError,),
     ),
     Target("state", "state", "run.state", _state, ("files/state.py",)),
-    *_netcdf_targets("database", "hull.nc", HydroDatabase.load, "hydro/readers/netcdf.py"),
+    *_netcdf_targets("database", "hull.nc", HydroDatabase.load, "hydro/database/netcdf.py"),
     *_netcdf_targets("mafredo", "ship.dhyd", _mafredo, "hydro/readers/mafredo_file.py"),
     *_netcdf_targets("capytaine", "ship.nc", _capytaine, "hydro/readers/capytaine.py"),
     *_netcdf_targets("result", "run.nc", _result, "result/netcdf.py"),

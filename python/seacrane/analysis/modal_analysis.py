@@ -10,10 +10,10 @@ from numpy.typing import NDArray
 from seacrane import _core
 from seacrane.analysis.linear_system import LinearModel, linear_model
 from seacrane.description.scene import Scene
+from seacrane.inputs.frames import MOTIONS
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
-MOTIONS = ("surge", "sway", "heave", "roll", "pitch", "yaw")
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

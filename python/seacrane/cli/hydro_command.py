@@ -23,7 +23,7 @@ def run(arguments: argparse.Namespace) -> int:
     rows: list[dict[str, Any]] = [{name: getattr(row, name) for name in COLUMNS} for row in database.check()]
     print(to_json(rows) if arguments.json else _as_text(rows))
     if arguments.out is not None:
-        from seacrane.figures.hydro import save_hydro_figures
+        from seacrane.hydro.database.figures import save_hydro_figures
 
         pictures = save_hydro_figures(database=database, folder=output_folder(arguments.out))
         if not arguments.json:

@@ -18,7 +18,7 @@ from seacrane.crane.mass_properties import MassProperties, combine
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import number_of, numbers_of
 from seacrane.inputs.frames import quaternion_product, rotation_matrix
-from seacrane.validity.plausible import angle_of, warn_of_density
+from seacrane.inputs.plausible import angle_of, warn_of_density
 
 if TYPE_CHECKING:
     from seacrane.description.scene import Scene

@@ -2,10 +2,10 @@
 
 from seacrane.figures.findings import Finding, paper_findings
 from seacrane.figures.overview import overview_sheet, plot_overview
-from seacrane.figures.panel import Line, Panel, Picture, Sheet, draw, save_figure, save_sheet, save_table
 from seacrane.figures.paper import PaperRuns, paper_motion, save_paper_figures
 from seacrane.figures.pose import Skeleton, box_lines, hull_lines, save_pose_figure
 from seacrane.figures.skeleton import crane_skeleton
+from seacrane.plotting.panel import Line, Panel, Picture, Sheet, draw, save_figure, save_sheet, save_table
 
 __all__ = [
     "Finding",

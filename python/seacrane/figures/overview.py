@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from seacrane.figures.panel import COLOURS, Line, Panel, Sheet, draw
+from seacrane.plotting.panel import COLOURS, Line, Panel, Sheet, draw
 from seacrane.result import AXES, MOTIONS, Result
 
 if TYPE_CHECKING:

@@ -13,9 +13,9 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from seacrane.figures.panel import Line, Panel, Picture, Sheet, save_sheet
 from seacrane.figures.pose import Skeleton, save_pose_figure
 from seacrane.figures.skeleton import crane_skeleton
+from seacrane.plotting.panel import Line, Panel, Picture, Sheet, save_sheet
 from seacrane.result import MOTIONS, Result
 
 Array = NDArray[np.float64]

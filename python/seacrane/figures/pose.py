@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from seacrane.figures.panel import COLOURS, Picture, plain, save_figure, save_table
+from seacrane.plotting.panel import COLOURS, Picture, plain, save_figure, save_table
 from seacrane.result import Result
 
 if TYPE_CHECKING:

@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 
 from seacrane.figures.findings import Finding
-from seacrane.figures.panel import Picture
+from seacrane.plotting.panel import Picture
 from seacrane.result import Result, atomic_write
 
 SceneReport = Mapping[str, Sequence[tuple[str, Any]]]

@@ -3,15 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
+from seacrane.crane import FOOT, BodyRecord, KnuckleBoomCrane, Payload
 from seacrane.figures.pose import rotation_matrix
-
-if TYPE_CHECKING:
-    from seacrane.crane import BodyRecord, KnuckleBoomCrane
 
 Array = NDArray[np.float64]
 
@@ -45,8 +42,6 @@ def crane_skeleton(
         m, in each body's frame, relative to its centre of mass; the first line of `knuckle_jib` ends at the
         crane's tip.
     """
-    from seacrane.crane import FOOT, KnuckleBoomCrane, Payload
-
     crane = crane or KnuckleBoomCrane.load()
     foot = foot or FOOT
     records = {record.name: record for record in crane.bodies(foot=foot)}

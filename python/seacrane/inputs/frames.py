@@ -1,4 +1,4 @@
-"""Small rotations helpers: quaternions, Euler angles and joint axes."""
+"""The six motions, and small helpers for rotations: quaternions, Euler angles and joint axes."""
 
 from __future__ import annotations
 
@@ -13,6 +13,7 @@ from seacrane.inputs.checked import numbers_of
 from seacrane.inputs.shown import shown
 
 Array = NDArray[np.float64]
+MOTIONS = ("surge", "sway", "heave", "roll", "pitch", "yaw")
 
 
 def rotation_matrix(quaternion: Any) -> Array:

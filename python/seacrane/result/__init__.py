@@ -1,7 +1,8 @@
 """What a run recorded: named arrays, their dimensions and units, files and datasets."""
 
 from seacrane.files.atomic import atomic_write
-from seacrane.result.channels import AXES, CHANNELS, MOTIONS, Channel
+from seacrane.inputs.frames import MOTIONS
+from seacrane.result.channels import AXES, CHANNELS, Channel
 from seacrane.result.events import Event
 from seacrane.result.result import Result
 

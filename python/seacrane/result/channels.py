@@ -7,7 +7,6 @@ from dataclasses import dataclass
 from types import MappingProxyType
 
 AXES = ("x", "y", "z")
-MOTIONS = ("surge", "sway", "heave", "roll", "pitch", "yaw")
 QUATERNION = ("w", "x", "y", "z")
 
 

@@ -12,6 +12,7 @@ import numpy as np
 
 from seacrane.errors import FileFormatError
 from seacrane.files.netcdf_limits import open_netcdf
+from seacrane.files.state import state_from_bytes
 from seacrane.result.channels import attributes
 from seacrane.result.events import NUMBERS, PREFIX, Event, event_arrays, events_from_arrays
 
@@ -154,6 +155,4 @@ def read_arrays(path: Path, largest: int, channels: Sequence[str] | None = None)
 def _state(path: Path, file: Any) -> Any:
     if STATE not in file.variables:
         return None
-    from seacrane.files.state import state_from_bytes
-
     return state_from_bytes(file[STATE][:].tobytes(), path)

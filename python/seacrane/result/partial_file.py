@@ -23,8 +23,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane.errors import FileFormatError
+from seacrane.files.state import state_from_bytes
 from seacrane.result.channels import CHANNELS
 from seacrane.result.events import Event
+from seacrane.result.netcdf import NAMED
 
 Array = NDArray[np.float64]
 MAGIC = b"seacrane partial result\n"
@@ -107,6 +109,11 @@ class Piece:
         )
 
 
+def partial_path(path: Path) -> Path:
+    """Where the outputs of a result are while its run goes on."""
+    return path.with_name(f"{path.name}.partial")
+
+
 def is_partial(path: Path) -> bool:
     """Whether a file is one of these."""
     with path.open("rb") as file:
@@ -145,6 +152,38 @@ def pieces_of(file: BinaryIO, name: str | Path) -> Iterator[tuple[Piece, int]]:
         del body
         yield piece, end
         file.seek(end)
+
+
+def read_partial(path: Path, largest: int, channels: Sequence[str] | None = None) -> dict[str, Any]:
+    """What is in the file of a run that goes on, as `netcdf.read_arrays` gives it."""
+    parts: dict[str, list[Array]] = {}
+    events: list[Event] = []
+    last, state, total = None, b"", 0
+    with path.open("rb") as file:
+        for piece, _ in pieces_of(file, path):
+            for name, array in piece.arrays.items():
+                if name == "time" or channels is None or name in channels:
+                    parts.setdefault(name, []).append(array)
+                    total += array.nbytes
+            if total > largest:
+                raise FileFormatError(
+                    f"{path}: its arrays take more than {largest / 2**20:g} MiB; raise it with "
+                    "Result.load(path, largest=...) if the file is yours"
+                )
+            events += piece.events
+            last, state = piece, piece.state or state
+    if last is None:
+        raise FileFormatError(f"{path}: holds no outputs yet")
+    arrays = {name: np.concatenate(several) for name, several in parts.items()}
+    return {
+        "time": arrays.pop("time"),
+        "arrays": arrays,
+        **{argument: last.coords[dim] for dim, argument in NAMED.items() if dim in last.coords},
+        "events": events,
+        "stats": last.stats,
+        "interrupted": last.interrupted,
+        "state": state_from_bytes(state, path) if state else None,
+    }
 
 
 class PartialFile:

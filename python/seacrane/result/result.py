@@ -18,12 +18,13 @@ from numpy.typing import NDArray
 from seacrane.errors import FileFormatError, SeacraneError
 from seacrane.files.atomic import atomic_write
 from seacrane.files.netcdf_limits import NETCDF_ERRORS
-from seacrane.result.channels import AXES, CHANNELS, MOTIONS, QUATERNION, attributes
+from seacrane.files.state import state_to_bytes
+from seacrane.inputs.frames import MOTIONS
+from seacrane.result.channels import AXES, CHANNELS, QUATERNION, attributes
 from seacrane.result.events import TEXTS as EVENT_TEXTS
 from seacrane.result.events import Event, checked_events, event_arrays
 from seacrane.result.netcdf import Contents, read_arrays, write_netcdf
-from seacrane.result.partial_file import is_partial
-from seacrane.result.stream import partial_path, read_partial
+from seacrane.result.partial_file import is_partial, partial_path, read_partial
 
 if TYPE_CHECKING:
     import xarray
@@ -357,8 +358,6 @@ class Result(Mapping[str, Array]):
         return path
 
     def _contents(self) -> Contents:
-        from seacrane.files.state import state_to_bytes
-
         return Contents(
             outputs=self.time.size, dims=self.dims, coords=self.coords, stats=self.stats, events=self.events,
             interrupted=self.interrupted, state=b"" if self.state is None else state_to_bytes(self.state),

@@ -7,7 +7,7 @@ import json
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,12 +15,11 @@ from numpy.typing import NDArray
 from seacrane.errors import FileFormatError
 from seacrane.files.atomic import atomic_write, require_replaceable, space_left
 from seacrane.files.netcdf_limits import NETCDF_ERRORS, open_netcdf
+from seacrane.files.state import state_to_bytes
 from seacrane.result.events import Event
-from seacrane.result.netcdf import NAMED, Contents, write_netcdf
-from seacrane.result.partial_file import PartialFile, Piece, pieces_of
-
-if TYPE_CHECKING:
-    from seacrane.result.result import Result
+from seacrane.result.netcdf import Contents, write_netcdf
+from seacrane.result.partial_file import PartialFile, Piece, partial_path
+from seacrane.result.result import Result
 
 Array = NDArray[np.float64]
 LARGEST_PIECE = 2**21  # bytes
@@ -32,11 +31,6 @@ COUNTERS = ("wall_s", "evaluations", "steps", "rejected_steps", "jacobians",
 DIGEST = "scene_digest"  # of a scene's description, among the stats of a result
 METHOD = (DIGEST, "formulation", "integrator")
 SETTINGS = ("dt_out", "rtol", "dt", "max_step", "spectral_radius", "energy_limit", "baumgarte")
-
-
-def partial_path(path: Path) -> Path:
-    """Where the outputs of a result are while its run goes on."""
-    return path.with_name(f"{path.name}.partial")
 
 
 def rows_of_piece(width: int) -> int:
@@ -170,9 +164,6 @@ class ResultFile:
         return self._left_in_result()
 
     def _left_in_result(self) -> Left:
-        from seacrane.files.state import state_to_bytes
-        from seacrane.result.result import Result
-
         try:
             stats, channels, coords = _described(self.path)
             result = Result.load(self.path, channels=[], largest=LARGEST)
@@ -357,40 +348,6 @@ def difference(
         if there != here:
             return f"has {name} {there!r}, this run {here!r}"
     return ""
-
-
-def read_partial(path: Path, largest: int, channels: Sequence[str] | None = None) -> dict[str, Any]:
-    """What is in the file of a run that goes on, as `netcdf.read_arrays` gives it."""
-    parts: dict[str, list[Array]] = {}
-    events: list[Event] = []
-    last, state, total = None, b"", 0
-    with path.open("rb") as file:
-        for piece, _ in pieces_of(file, path):
-            for name, array in piece.arrays.items():
-                if name == "time" or channels is None or name in channels:
-                    parts.setdefault(name, []).append(array)
-                    total += array.nbytes
-            if total > largest:
-                raise FileFormatError(
-                    f"{path}: its arrays take more than {largest / 2**20:g} MiB; raise it with "
-                    "Result.load(path, largest=...) if the file is yours"
-                )
-            events += piece.events
-            last, state = piece, piece.state or state
-    if last is None:
-        raise FileFormatError(f"{path}: holds no outputs yet")
-    from seacrane.files.state import state_from_bytes
-
-    arrays = {name: np.concatenate(several) for name, several in parts.items()}
-    return {
-        "time": arrays.pop("time"),
-        "arrays": arrays,
-        **{argument: last.coords[dim] for dim, argument in NAMED.items() if dim in last.coords},
-        "events": events,
-        "stats": last.stats,
-        "interrupted": last.interrupted,
-        "state": state_from_bytes(state, path) if state else None,
-    }
 
 
 def _described(path: Path) -> tuple[dict[str, Any], list[str], dict[str, list[str]]]:

@@ -15,9 +15,9 @@ from seacrane.errors import SceneError
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.checked import flag_of, number_of, shaped_of
 from seacrane.inputs.frames import heading_of
+from seacrane.inputs.plausible import direction_of
 from seacrane.scene.wind_current_drift import add_drift, require_depth, use_actual_position, use_slow_position
 from seacrane.sea import SeaState, Spreading, WaveSystem, cos_2s, jonswap
-from seacrane.validity.plausible import direction_of
 
 if TYPE_CHECKING:
     from seacrane.hydro import HydroDatabase
@@ -282,7 +282,7 @@ def _spectrum(name: str, hs: float, tp: float, gamma: float | Literal["dnv"]) ->
 
 def _with_shares(waves: Waves, database: HydroDatabase, vessel: str, hull: HullLoads) -> dict[str, Any]:
     """What is reported of the sea, with what of it puts no load on a vessel; of several the largest."""
-    from seacrane.hydro.database.beyond_band import without_load
+    from seacrane.hydro.data.beyond_band import without_load
 
     left_out = without_load(
         database,

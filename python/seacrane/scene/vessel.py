@@ -13,8 +13,8 @@ from seacrane.description.scene import Scene
 from seacrane.description.vessel_notes import note_on
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import shaped_of
+from seacrane.inputs.plausible import direction_of
 from seacrane.scene.sea import add_sea as add_sea
-from seacrane.validity.plausible import direction_of
 
 if TYPE_CHECKING:
     from seacrane.hydro import HydroDatabase, MemoryModel, RetardationModel
@@ -77,7 +77,7 @@ def add_vessel(
         A heading that looks like radians, or like a compass bearing.
     """
     from seacrane.hydro import vessel_parameters
-    from seacrane.hydro.database.data_warnings import warn_of_water
+    from seacrane.hydro.data.data_warnings import warn_of_water
 
     if memory not in MEMORY:
         raise SceneError(f"memory {memory!r} is not available in this version; choose {' or '.join(MEMORY)}")
@@ -126,8 +126,8 @@ def _without_yaw(restoring: NDArray[np.float64]) -> NDArray[np.float64]:
 def _memory(database: HydroDatabase, kind: str) -> MemoryModel | RetardationModel:
     """The memory of a database, its own if that is of the kind asked for."""
     from seacrane.hydro import fit_memory, retardation_functions
+    from seacrane.hydro.data.memory_model import RADIATION
     from seacrane.hydro.memory.certificate import is_energy_form
-    from seacrane.hydro.memory.model import RADIATION
 
     if kind == "convolution":
         return retardation_functions(database=database)

@@ -14,7 +14,7 @@ from seacrane.description.waves import ByHeading, Waves
 from seacrane.errors import SceneError
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.checked import curve_of, name_of, number_of, shaped_of, text_of, vector_of
-from seacrane.validity.plausible import direction_of
+from seacrane.inputs.plausible import direction_of
 
 if TYPE_CHECKING:
     from seacrane.hydro import HydroDatabase
@@ -284,8 +284,8 @@ def force_by_heading(database: HydroDatabase, omega: Array) -> ByHeading:
     SceneError
         If the headings do not cover the circle.
     """
-    from seacrane.hydro.database.beyond_band import with_limits
-    from seacrane.hydro.database.interpolation import spline_weights
+    from seacrane.hydro.data.excitation import with_limits
+    from seacrane.hydro.data.interpolation import spline_weights
 
     heading, table = database.full_circle()
     if np.diff(np.append(heading, heading[0] + 2.0 * np.pi)).max() > np.pi / 4.0 + 1e-9:
@@ -341,7 +341,7 @@ def add_drift(
 
 def require_depth(waves: Waves, database: HydroDatabase, vessel: str) -> None:
     """Refuse a database computed at a depth where the waves of a sea have another length than in that sea."""
-    from seacrane.hydro.dispersion import wavenumber
+    from seacrane.sea.dispersion import wavenumber
 
     there, computed = (
         wavenumber(waves.omega, g=database.g, depth=depth) for depth in (waves.depth, database.depth)
@@ -363,8 +363,8 @@ def _sea_of(scene: Scene, what: str) -> Waves:
 
 def _circle_of(database: HydroDatabase, omega: Array, outside: str) -> tuple[Array, Array]:
     """Headings all round (m,) and the coefficients there at the frequencies asked for (m, n, 6)."""
-    from seacrane.hydro.database.database import PORT_STARBOARD as SIGNS
-    from seacrane.hydro.database.interpolation import spline_weights
+    from seacrane.hydro.data.heading_circle import PORT_STARBOARD as SIGNS
+    from seacrane.hydro.data.interpolation import spline_weights
 
     drift = getattr(database, "drift", None)
     if drift is None:
@@ -397,7 +397,7 @@ def _drift_by_heading(database: HydroDatabase, omega: Array, outside: str) -> By
 
 def _drift_at(database: HydroDatabase, omega: Array, direction: Array, outside: str) -> Array:
     """Coefficients of every component, shape (n, 6)."""
-    from seacrane.hydro.database.interpolation import spline_weights
+    from seacrane.hydro.data.interpolation import spline_weights
 
     heading, values = _circle_of(database, omega, outside)
     distance = np.abs(np.angle(np.exp(1j * (direction[:, None] - heading))))

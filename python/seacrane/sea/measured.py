@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 from seacrane import _core
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import name_of, number_of, shaped_of, vector_of
+from seacrane.inputs.plausible import direction_of
 from seacrane.sea.spectra import tabulated_spectrum
-from seacrane.validity.plausible import direction_of
 
 if TYPE_CHECKING:
     from seacrane.sea.spreading import Spreading

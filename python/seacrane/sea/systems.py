@@ -12,10 +12,10 @@ from numpy.typing import NDArray
 from seacrane import _core
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import number_of, text_of
+from seacrane.inputs.plausible import direction_of
 from seacrane.sea.measured import MeasuredWaves
 from seacrane.sea.spectra import warn_if_breaking
 from seacrane.sea.spreading import Spreading
-from seacrane.validity.plausible import direction_of
 
 Array = NDArray[np.float64]
 GOLDEN = 0.5 * (np.sqrt(5.0) - 1.0)

@@ -20,7 +20,7 @@ from seacrane.scene.vessel import add_vessel
 
 if TYPE_CHECKING:
     from seacrane.hydro import HydroDatabase
-    from seacrane.hydro.memory.model import MemoryModel
+    from seacrane.hydro.data.memory_model import MemoryModel
 
 Array = NDArray[np.float64]
 FULL, LOCKED, PRESCRIBED, WEIGHT, LINEAR = (

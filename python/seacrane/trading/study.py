@@ -13,8 +13,11 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from seacrane.errors import SceneError
+from seacrane.files.atomic import atomic_write
+from seacrane.hydro import HydroDatabase, shipped_database
 from seacrane.inputs.checked import number_of
 from seacrane.trading import rungs
+from seacrane.trading.diagram import Measured, work_precision
 from seacrane.trading.measure import Reference, Span, frequency_domain, measure, measure_variant, reference
 from seacrane.trading.quantities import Quantity, limits_of, quantities_of
 from seacrane.trading.rows import Row, RowFile, front, write_csv
@@ -26,7 +29,6 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from seacrane.description.scene import Scene
-    from seacrane.hydro import HydroDatabase
 
 REPEATS = 3  # runs of each setting; the quickest counts
 
@@ -145,14 +147,19 @@ class Trade:
 
     def plot(self) -> Figure:
         """Work-precision diagrams: error of each quantity over the wall time per simulated second."""
-        from seacrane.figures.trade import work_precision
-
-        return work_precision(self)
+        measured = [
+            Measured(
+                quantity=name,
+                unit=quantity.unit,
+                front=self.front(name),
+                uncertainty=self.reference.uncertainty[name],
+            )
+            for name, quantity in self.quantities.items()
+        ]
+        return work_precision(self.rows, measured, self.metadata)
 
     def save(self, folder: str | os.PathLike[str]) -> None:
         """Write trade.csv and trade.png into a folder."""
-        from seacrane.files.atomic import atomic_write
-
         units = {name: quantity.unit for name, quantity in self.quantities.items()}
         on_front = front(self.rows, next(iter(self.quantities)))
         write_csv(Path(folder) / "trade.csv", self.rows, units, on_front)
@@ -273,8 +280,6 @@ def _measure_all(tasks: list[tuple[Row, Any]], file: RowFile | None, progress: b
 
 def _shipped(scene: Scene) -> HydroDatabase | None:
     """The shipped database, if the scene's vessel was made from it."""
-    from seacrane.hydro import shipped_database
-
     shipped = shipped_database()
     return shipped if scene.notes.get("database") == shipped.name and len(scene.vessels) == 1 else None
 

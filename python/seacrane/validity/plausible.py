@@ -1,4 +1,4 @@
-"""What a description most likely did not mean: each a warning by name, when it is given or a run starts."""
+"""What a scene most likely did not mean: each a warning by name, when a run starts."""
 
 from __future__ import annotations
 
@@ -13,95 +13,25 @@ from seacrane import _core
 from seacrane.description.joint_coordinates import ANGLES
 from seacrane.description.references import references
 from seacrane.inputs.caller import warn_caller
-from seacrane.inputs.checked import number_of
 from seacrane.inputs.frames import rotation_matrix
+from seacrane.inputs.plausible import CompassDirectionWarning, MassUnitWarning, angle_of
 
 if TYPE_CHECKING:
     from seacrane.description.scene import Scene
 
 Array = NDArray[np.float64]
-TURN = 2.0 * np.pi
-ROUND = np.radians(5.0)  # angles in a script are multiples of it
 EXACT = 1e-9
-COMPASS = 270.0  # deg: from here on a direction is rather a bearing; ours would be -90 to 0
 AGAINST = np.radians(120.0)  # between a wind and waves that it does not raise
 LEAST_ENERGY = 0.01  # of the waves, which runs with the wind
 HEAVIEST_AIR = 10.0  # kg/m3
-LIGHTEST = 5.0  # kg/m3 of a payload's box; polystyrene has 10
 LARGEST_RADIUS = 200.0  # m, of gyration
 HUNG_SHARE = 1e-5  # of the vessel's mass
 LARGEST_HEEL = np.radians(2.0)
 LARGEST_SINKAGE = 2.0  # m
 
 
-class AngleUnitWarning(UserWarning):
-    """An angle looks like degrees where radians are due, or the other way round."""
-
-
-class CompassDirectionWarning(UserWarning):
-    """A direction looks like a compass bearing, clockwise and where it comes from."""
-
-
-class MassUnitWarning(UserWarning):
-    """A mass looks like tonnes where kilograms are due."""
-
-
-class DepthSignWarning(UserWarning):
-    """All points asked for are above any wave: depths were given where z, upwards, is due."""
-
-
 class BallastWarning(UserWarning):
     """A vessel starts far from where its weights balance: ballast is missing, or misplaced."""
-
-
-def angle_of(what: str, value: float) -> float:
-    """An angle in radians; warns where it is more than a turn."""
-    if abs(value) > TURN:
-        warn_caller(
-            f"{what} is {value:.6g} rad, {abs(value) / TURN:.3g} turns; angles are radians: if these are "
-            f"degrees, give numpy.radians({value:.6g})",
-            AngleUnitWarning,
-        )
-    return value
-
-
-def direction_of(what: str, value: float) -> float:
-    """A direction in degrees; warns where it looks like radians, or like a compass bearing."""
-    degrees = number_of(what, value)
-    if 0.0 < abs(degrees) <= TURN and abs(degrees / ROUND - round(degrees / ROUND)) < EXACT:
-        warn_caller(
-            f"{what} is {degrees:.6g} deg, which is {np.degrees(degrees):.6g} deg in radians; names that end "
-            f"in _deg take degrees: give {np.degrees(degrees):.6g}",
-            AngleUnitWarning,
-        )
-    if COMPASS <= degrees < 360.0:
-        warn_caller(
-            f"{what} is {degrees:.6g} deg: where it goes to, from +x (forward) towards +y (port), which is "
-            f"usually written {degrees - 360.0:.6g}. If it is a compass bearing from where it comes, give "
-            "heading - bearing + 180, with the compass heading of +x",
-            CompassDirectionWarning,
-        )
-    return degrees
-
-
-def warn_of_air(lowest: float, crest: float) -> None:
-    """Warn that the lowest point asked for is above the highest crest a sea can have, m."""
-    warn_caller(
-        f"wave kinematics: all points are above any wave, the lowest at z = {lowest:.6g} m, crests reach "
-        f"{crest:.4g} m at most: all is air there. z points up: a depth of {lowest:.6g} m is z = "
-        f"{-lowest:.6g}",
-        DepthSignWarning,
-    )
-
-
-def warn_of_density(what: str, mass: float, volume: float) -> None:
-    """Warn of a box lighter than foam."""
-    if mass < LIGHTEST * volume:
-        warn_caller(
-            f"{what}: mass is {mass:.6g} kg in {volume:.4g} m3, lighter than foam; masses are kilograms: if "
-            f"these are tonnes, give {mass * 1e3:.6g}",
-            MassUnitWarning,
-        )
 
 
 def warn_of_description(scene: Scene, *, start: float, end: float, described: bool) -> None:

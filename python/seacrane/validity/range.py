@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from seacrane.description.vessel_notes import noted
 from seacrane.inputs.caller import warn_caller
+from seacrane.inputs.frames import MOTIONS
 from seacrane.validity.following import FullTurnWarning, following
 from seacrane.validity.hull_range import hull_findings, motions
 
@@ -24,7 +25,6 @@ LARGEST_HEEL = np.radians(20.0)  # of roll and pitch: the sine of it is 2 % off,
 FOREIGN_SHARE = 0.2  # of the energy of a motion, outside the database
 LEAST_RATE = 1e-3  # m/s, rad/s: motions below it do not matter
 FEWEST_OUTPUTS = 32
-MOTIONS = ("surge", "sway", "heave", "roll", "pitch", "yaw")
 
 
 class LargeHeelWarning(UserWarning):

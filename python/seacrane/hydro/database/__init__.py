@@ -1,1 +1,1 @@
-"""Hydrodynamic coefficients of a hull over frequency and heading."""
+"""`HydroDatabase`, one file for each thing that it does."""

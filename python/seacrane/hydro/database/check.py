@@ -3,30 +3,29 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
-from seacrane.hydro.database.coupled import largest_growth_rate
-from seacrane.hydro.database.encounter import encounter_frequency, inside_table
-from seacrane.hydro.database.motion import motion_response, natural_frequency
-from seacrane.hydro.database.relations import (
+from seacrane.hydro.data.encounter import encounter_frequency, inside_table
+from seacrane.hydro.data.hydro_data import HydroData
+from seacrane.hydro.data.memory_model import RADIATION, MemoryModel
+from seacrane.hydro.data.motion import motion_errors, motion_response, natural_frequency
+from seacrane.hydro.data.relations import (
     damping_from_forces,
     infinite_added_mass_from_damping,
     resolved_by_headings,
 )
+from seacrane.hydro.data.trusted_band import in_trusted_band
 from seacrane.hydro.memory.fit import enough_frequencies, fit_memory
-from seacrane.hydro.memory.model import RADIATION, MemoryModel
-
-if TYPE_CHECKING:
-    from seacrane.hydro.database.database import HydroDatabase
-    from seacrane.hydro.memory.retardation import RetardationModel
+from seacrane.hydro.memory.motion_errors import memory_motion_errors
+from seacrane.hydro.memory.retardation import RetardationModel
+from seacrane.hydro.vessel.stability import largest_growth_rate
+from seacrane.inputs.frames import MOTIONS
 
 FloatArray = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
 
-MOTIONS = ("surge", "sway", "heave", "roll", "pitch", "yaw")
 SYMMETRY_LIMIT = 0.03
 DAMPING_LIMIT = -0.01
 FORCE_DAMPING_LIMIT = 0.1
@@ -49,7 +48,7 @@ class CheckRow:
         return {"check": self.check, "value": self.value, "limit": self.limit, "verdict": self.verdict}
 
 
-def check_database(database: HydroDatabase) -> list[CheckRow]:
+def check_database(database: HydroData) -> list[CheckRow]:
     """All checks that the database's content allows; docs/hydrodynamics.md says what each value means.
 
     A database without a memory model has one fitted here, if its band holds enough frequencies and its speed
@@ -69,7 +68,7 @@ def check_database(database: HydroDatabase) -> list[CheckRow]:
     return rows if model is None else rows + memory_rows(database, model)
 
 
-def memory_rows(database: HydroDatabase, model: MemoryModel) -> list[CheckRow]:
+def memory_rows(database: HydroData, model: MemoryModel) -> list[CheckRow]:
     """Quality of a memory model: fits, stability, passivity, and its effect on the motions."""
     rows = []
     for row in model.rows:
@@ -98,7 +97,7 @@ def memory_rows(database: HydroDatabase, model: MemoryModel) -> list[CheckRow]:
     return rows + memory_motion_rows(database, model)
 
 
-def _closure_rows(database: HydroDatabase) -> list[CheckRow]:
+def _closure_rows(database: HydroData) -> list[CheckRow]:
     """Motions solved from A, B, C, F against those of the source, within the trusted band.
 
     At forward speed frequencies of waves and of encounter have to be within it.
@@ -106,37 +105,16 @@ def _closure_rows(database: HydroDatabase) -> list[CheckRow]:
     if database.motion_rao is None:
         return []
     solved = motion_response(database)
-    inside = np.broadcast_to(_inside_band(database), solved.shape[:2])
+    inside = np.broadcast_to(in_trusted_band(database), solved.shape[:2])
     if database.speed != 0.0:
         encounter = np.abs(encounter_frequency(database))
-        inside = inside & inside_table(database.omega, encounter) & _inside_band(database, encounter)
+        inside = inside & inside_table(database.omega, encounter) & in_trusted_band(database, encounter)
     errors = motion_errors(database, solved, database.motion_rao, inside=inside)
     limits = database.motion_rao_limit.tolist()
     return [_at_most(f"motion_rao_{name}", errors[i], limits[i]) for i, name in enumerate(MOTIONS)]
 
 
-def motion_errors(
-    database: HydroDatabase,
-    solved: ComplexArray,
-    given: ComplexArray,
-    *,
-    inside: NDArray[np.bool_] | None = None,
-) -> FloatArray:
-    """Largest difference (6,) over the frequencies and headings, by the largest motion of its heading.
-
-    ``inside`` (n,) or (m, n) says which count.
-
-    Motions that symmetry forbids (sway, roll, yaw in head and following sea, surge in beam sea) are noise in
-    files: headings where a motion stays below the source's floor, a share of its largest, are left out.
-    """
-    use = np.broadcast_to(True if inside is None else inside, given.shape[:2])[:, :, None]
-    largest = np.where(use, np.abs(given), 0.0).max(axis=1)
-    error = np.where(use, np.abs(solved - given), 0.0).max(axis=1)
-    counted = largest > database.motion_rao_floor * largest.max(axis=0)
-    return np.asarray(np.where(counted, error / np.where(counted, largest, 1.0), 0.0).max(axis=0))
-
-
-def _matrix_rows(database: HydroDatabase) -> list[CheckRow]:
+def _matrix_rows(database: HydroData) -> list[CheckRow]:
     """Symmetry of A and B, semi-definite B, missing surge terms; without limits at forward speed.
 
     Speed couples heave and pitch, sway and yaw with opposite signs (Salvesen, Tuck and Faltinsen 1970).
@@ -156,7 +134,7 @@ def _matrix_rows(database: HydroDatabase) -> list[CheckRow]:
     return rows
 
 
-def _surge_is_missing(database: HydroDatabase) -> bool:
+def _surge_is_missing(database: HydroData) -> bool:
     return not (np.any(database.added_mass[:, 0, :]) or np.any(database.damping[:, 0, :]))
 
 
@@ -170,7 +148,7 @@ def _smallest_damping(damping: FloatArray) -> float:
     return float(np.linalg.eigvalsh(0.5 * (scaled + scaled.swapaxes(1, 2)))[:, 0].min())
 
 
-def _natural_period_rows(database: HydroDatabase) -> list[CheckRow]:
+def _natural_period_rows(database: HydroData) -> list[CheckRow]:
     rows = []
     for name in ("heave", "roll", "pitch"):
         omega = natural_frequency(database, MOTIONS.index(name))
@@ -179,12 +157,12 @@ def _natural_period_rows(database: HydroDatabase) -> list[CheckRow]:
     return rows
 
 
-def _relation_rows(database: HydroDatabase) -> list[CheckRow]:
+def _relation_rows(database: HydroData) -> list[CheckRow]:
     """Damping against the far-field waves, infinite-frequency added mass against the damping."""
     rows = []
     radiated = damping_from_forces(database)
     if radiated is not None:
-        inside = _inside_band(database) & resolved_by_headings(database)
+        inside = in_trusted_band(database) & resolved_by_headings(database)
         strip = _surge_is_missing(database)  # strip theory does not obey the relation: only reported
         for i, name in enumerate(MOTIONS):
             peak = float(np.abs(database.damping[:, i, i]).max())
@@ -206,27 +184,13 @@ def _relation_rows(database: HydroDatabase) -> list[CheckRow]:
     return rows
 
 
-def memory_motion_rows(database: HydroDatabase, model: MemoryModel | RetardationModel) -> list[CheckRow]:
+def memory_motion_rows(database: HydroData, model: MemoryModel | RetardationModel) -> list[CheckRow]:
     """Motions with the memory's matrices against those with the data, within the trusted band."""
-    added_mass, damping = model.frequency_response(database.omega)
-    more_mass, more_damping = model.additional_response(database.omega)
-    static = sum((part.restoring for part in database.additional), np.zeros((len(database.omega), 6, 6)))
-    fitted = motion_response(
-        database,
-        added_mass=added_mass + more_mass - static / database.omega[:, None, None] ** 2,
-        damping=damping + more_damping,
-    )
-    errors = motion_errors(database, fitted, motion_response(database), inside=_inside_band(database))
+    errors = memory_motion_errors(database, model)
     return [_info(f"memory_motion_{name}", errors[i]) for i, name in enumerate(MOTIONS)]
 
 
-def _inside_band(database: HydroDatabase, omega: FloatArray | None = None) -> NDArray[np.bool_]:
-    low, high = database.trusted_band or (0.0, np.inf)
-    omega = database.omega if omega is None else omega
-    return np.asarray((omega >= low - 1e-9) & (omega <= high + 1e-9))
-
-
-def _against_range(database: HydroDatabase, difference: FloatArray) -> float:
+def _against_range(database: HydroData, difference: FloatArray) -> float:
     """Largest diagonal difference by the range of the added mass over the frequencies."""
     span = np.ptp(np.diagonal(database.added_mass, axis1=1, axis2=2), axis=0)
     return float(np.max(np.abs(np.diag(difference)) / np.where(span > 0.0, span, np.inf)))

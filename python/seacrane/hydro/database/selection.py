@@ -4,15 +4,15 @@ from __future__ import annotations
 
 import dataclasses
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
+from typing import Any, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
-if TYPE_CHECKING:
-    from seacrane.hydro.database.database import HydroDatabase
+from seacrane.hydro.data.hydro_data import HydroData
 
 FloatArray = NDArray[np.float64]
+Data = TypeVar("Data", bound=HydroData)
 Indices = NDArray[np.intp]
 Choice = tuple[float, float] | slice | Sequence[int] | NDArray[np.integer[Any]] | None
 
@@ -21,9 +21,7 @@ BY_FREQUENCY = ("added_mass", "damping")
 PER_CAUSE = ("added_mass", "damping", "restoring")
 
 
-def selected_database(
-    database: HydroDatabase, omega: Choice, heading: Choice, every: int, every_heading: int
-) -> HydroDatabase:
+def selected_database(database: Data, omega: Choice, heading: Choice, every: int, every_heading: int) -> Data:
     """`HydroDatabase.select`."""
     n = _chosen(database.name, "omega", omega, database.omega, turning=False)
     m = _chosen(database.name, "heading", heading, database.heading, turning=True)
@@ -108,7 +106,7 @@ def _thinned(name: str, what: str, indices: Indices, step: int) -> Indices:
     return indices[::step]
 
 
-def _band(database: HydroDatabase, omega: FloatArray) -> tuple[float, float] | None:
+def _band(database: HydroData, omega: FloatArray) -> tuple[float, float] | None:
     """The trusted band within the frequencies that are left; where only one is inside, the band as it was."""
     if database.trusted_band is None:
         return None

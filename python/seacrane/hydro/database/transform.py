@@ -8,20 +8,19 @@ every matrix X from a motion to a load becomes ``T^T X T``.
 from __future__ import annotations
 
 import dataclasses
-from typing import TYPE_CHECKING, Any
+from typing import Any, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from seacrane.hydro.database.heading_circle import PORT_STARBOARD, both_sides, mirrored_heading
-from seacrane.hydro.dispersion import wavenumber
+from seacrane.hydro.data.heading_circle import PORT_STARBOARD, both_sides, mirrored_heading
+from seacrane.hydro.data.hydro_data import HydroData
 from seacrane.hydro.memory.transform import mirrored_memory, moved_memory
 from seacrane.inputs.caller import warn_caller
-
-if TYPE_CHECKING:
-    from seacrane.hydro.database.database import HydroDatabase
+from seacrane.sea.dispersion import wavenumber
 
 FloatArray = NDArray[np.float64]
+Data = TypeVar("Data", bound=HydroData)
 
 MATRICES = (
     "added_mass",
@@ -48,9 +47,7 @@ def motion_transform(point: FloatArray) -> FloatArray:
     return transform
 
 
-def moved_database(
-    database: HydroDatabase, point: ArrayLike, *, phase_origin: bool, net_lift: float
-) -> HydroDatabase:
+def moved_database(database: Data, point: ArrayLike, *, phase_origin: bool, net_lift: float) -> Data:
     """`HydroDatabase.at`, whose docstring says what each part becomes."""
     r = _point(database, point, net_lift)
     if r[1] != 0.0 and database.port_starboard_symmetric:
@@ -92,7 +89,7 @@ def moved_database(
     return dataclasses.replace(moved, memory=moved_memory(database.memory, transform, moved))
 
 
-def mirrored_database(database: HydroDatabase) -> HydroDatabase:
+def mirrored_database(database: Data) -> Data:
     """`HydroDatabase.mirror`."""
     sign = np.outer(PORT_STARBOARD, PORT_STARBOARD)
     turned = mirrored_heading(database.heading)
@@ -126,7 +123,7 @@ def mirrored_database(database: HydroDatabase) -> HydroDatabase:
     return dataclasses.replace(database, **changes, heading=turned[order], source=source)
 
 
-def _point(database: HydroDatabase, point: ArrayLike, net_lift: float) -> FloatArray:
+def _point(database: HydroData, point: ArrayLike, net_lift: float) -> FloatArray:
     """The new reference point (3,), or a ValueError."""
     r = np.asarray(point, dtype=float)
     if r.shape != (3,) or not np.all(np.isfinite(r)):
@@ -155,7 +152,7 @@ def _unbalanced(r: FloatArray, net_lift: float) -> FloatArray:
     return extra
 
 
-def _phase_shift(database: HydroDatabase, r: FloatArray) -> NDArray[np.complex128]:
+def _phase_shift(database: HydroData, r: FloatArray) -> NDArray[np.complex128]:
     """``exp(+i k (x cos b + y sin b))`` (m, n, 1): waves that had zero phase at the old point get it at r."""
     along = r[0] * np.cos(database.heading) + r[1] * np.sin(database.heading)
     k = wavenumber(database.omega, g=database.g, depth=database.depth)
@@ -167,7 +164,7 @@ def _of_all_that_mix(limits: FloatArray, transform: FloatArray) -> FloatArray:
     return np.asarray(np.where(transform != 0.0, limits, 0.0).max(axis=1))
 
 
-def _warn_quadratic(database: HydroDatabase, transform: FloatArray) -> None:
+def _warn_quadratic(database: HydroData, transform: FloatArray) -> None:
     """Moments move as they are; v |v| of a translation at the old point is no such term at the new one."""
     coupled = np.any(transform[:, 3:] - np.eye(6)[:, 3:], axis=1) & (database.quadratic_damping != 0.0)
     if np.any(coupled):
@@ -181,7 +178,7 @@ def _warn_quadratic(database: HydroDatabase, transform: FloatArray) -> None:
         )
 
 
-def _unfolded(database: HydroDatabase) -> HydroDatabase:
+def _unfolded(database: Data) -> Data:
     """A symmetric vessel with all headings of both sides written out, as one that is not symmetric."""
     heading, source, mirrored = both_sides(database.heading)
     parity = np.where(mirrored[:, None], PORT_STARBOARD, 1.0)[:, None, :]

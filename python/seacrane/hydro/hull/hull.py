@@ -6,17 +6,17 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from os import PathLike
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from seacrane.hydro.hull.hydrostatics import Hydrostatics, area_vectors, panel_hydrostatics, triangles_of
-
-if TYPE_CHECKING:
-    from seacrane.hydro.hull.offsets import OffsetTable
-    from seacrane.hydro.hull.parametric_hull import ParametricHull
-    from seacrane.hydro.hull.sections import Slice
+from seacrane.hydro.hull.mesh import mesh_triangles, require_closed
+from seacrane.hydro.hull.offsets import OffsetTable, read_offset_table
+from seacrane.hydro.hull.panels import along, cut_panels, end_cap, lofted, without_slivers
+from seacrane.hydro.hull.parametric_hull import ParametricHull
+from seacrane.hydro.hull.sections import Slice, slices
+from seacrane.hydro.hull.stl import read_stl
 
 FloatArray = NDArray[np.float64]
 
@@ -102,8 +102,6 @@ class Hull:
 
     def sections(self, x: ArrayLike) -> list[Slice]:
         """Half sections at the stations ``x`` (s,) in m; see `seacrane.hydro.hull.sections.slices`."""
-        from seacrane.hydro.hull.sections import slices
-
         return slices(self.name, self.panels, np.asarray(x, dtype=float))
 
     def remeshed(self, *, stations: int, girth: int) -> Hull:
@@ -116,8 +114,6 @@ class Hull:
         ------
         ValueError : fewer than 2 panels either way, or a hull that is not one outline at every station.
         """
-        from seacrane.hydro.hull.panels import along, end_cap, lofted
-
         if stations < 2 or girth < 2:
             raise ValueError(
                 f"hull {self.name!r}: {stations} x {girth} panels; give 2 or more along the length and around"
@@ -158,8 +154,6 @@ class Hull:
         ------
         ValueError, seacrane.errors.FileFormatError : as `OffsetTable`, `read_offset_table` and `Hull`.
         """
-        from seacrane.hydro.hull.offsets import OffsetTable, read_offset_table
-
         offsets = table if isinstance(table, OffsetTable) else read_offset_table(table)
         panels = _wetted(offsets.name, offsets.panels(draught=draught))
         source = f"offset table {offsets.name!r}, {len(offsets.x)} stations"
@@ -186,8 +180,6 @@ class Hull:
         ------
         ValueError : as `seacrane.hydro.hull.mesh` (open, overlapping or badly oriented) and `Hull`.
         """
-        from seacrane.hydro.hull.mesh import mesh_triangles, require_closed
-
         triangles = mesh_triangles(name, vertices, faces)
         _require_metres(name, triangles)
         if draught is not None:
@@ -205,8 +197,6 @@ class Hull:
         ------
         ValueError, seacrane.errors.FileFormatError : as `from_mesh` and `seacrane.hydro.hull.stl.read_stl`.
         """
-        from seacrane.hydro.hull.stl import read_stl
-
         if not (np.isfinite(scale) and scale > 0.0):
             raise ValueError(f"hull {str(path)!r}: scale is {scale}; give a positive number")
         triangles = scale * read_stl(path)
@@ -221,8 +211,6 @@ class Hull:
 
 def _wetted(name: str, panels: FloatArray) -> FloatArray:
     """The panels below z = 0."""
-    from seacrane.hydro.hull.panels import cut_panels, without_slivers
-
     _require_metres(name, panels)
     tolerance = ON_WATERLINE * float(np.ptp(panels[..., 0]))
     return without_slivers(cut_panels(panels, axis=2, side=-1, tolerance=tolerance))

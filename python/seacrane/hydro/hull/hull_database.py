@@ -8,12 +8,14 @@ from typing import Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from seacrane.hydro.data.motion import natural_frequency
+from seacrane.hydro.data.rigid_mass import rigid_mass_matrix
 from seacrane.hydro.database.database import HydroDatabase
-from seacrane.hydro.database.motion import natural_frequency
+from seacrane.hydro.hull.by_capytaine import capytaine_solution
+from seacrane.hydro.hull.by_strip_theory import strip_solution
 from seacrane.hydro.hull.hull import Hull
 from seacrane.hydro.hull.parametric_hull import ParametricHull
 from seacrane.hydro.hull.solution import HullSolution, symmetric_solution
-from seacrane.hydro.vessel import rigid_mass_matrix
 from seacrane.inputs.caller import warn_caller
 
 FloatArray = NDArray[np.float64]
@@ -170,11 +172,7 @@ def _solution(
 ) -> HullSolution:
     """By the method asked for."""
     if method == "capytaine":
-        from seacrane.hydro.hull.by_capytaine import capytaine_solution
-
         return capytaine_solution(hull, omega=omega, heading=heading, rho=rho, g=g)
-    from seacrane.hydro.hull.by_strip_theory import strip_solution
-
     return strip_solution(hull, omega=omega, heading=heading, rho=rho, g=g, stations=stations)
 
 

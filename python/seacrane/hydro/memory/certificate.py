@@ -19,7 +19,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from seacrane.hydro.memory.model import RADIATION, MemoryBlock, MemoryModel
+from seacrane.hydro.data.memory_model import RADIATION, MemoryBlock, MemoryModel
 
 FloatArray = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]

@@ -3,21 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from typing import TYPE_CHECKING, Literal
+from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
-from seacrane.hydro.database.encounter import require_zero_speed
+from seacrane.hydro.data.encounter import require_zero_speed
+from seacrane.hydro.data.hydro_data import AdditionalMatrices, HydroData
+from seacrane.hydro.data.memory_model import RADIATION, FitRow, MemoryBlock, MemoryModel, Passivity
+from seacrane.hydro.data.trusted_band import in_trusted_band
 from seacrane.hydro.memory.certificate import require_passive
 from seacrane.hydro.memory.identification import IdentificationData, RationalFit, fit_lowest_order
-from seacrane.hydro.memory.model import RADIATION, FitRow, MemoryBlock, MemoryModel, Passivity
 from seacrane.hydro.memory.passive import fit_passive
 from seacrane.hydro.memory.realisation import realise
 from seacrane.inputs.caller import warn_caller
-
-if TYPE_CHECKING:
-    from seacrane.hydro.database.database import AdditionalMatrices, HydroDatabase
 
 FloatArray = NDArray[np.float64]
 
@@ -33,7 +32,7 @@ class InfiniteFrequencyWarning(UserWarning):
 
 def fit_memory(
     *,
-    database: HydroDatabase,
+    database: HydroData,
     band: tuple[float, float] | None = None,
     r2: float = 0.99,
     infinite_frequency: Literal["estimated", "known"] = "estimated",
@@ -123,15 +122,14 @@ def fit_memory(
     return model
 
 
-def enough_frequencies(database: HydroDatabase) -> bool:
+def enough_frequencies(database: HydroData) -> bool:
     """Whether `fit_memory` has data: no forward speed, and eight frequencies in the trusted band."""
-    low, high = database.trusted_band or (0.0, np.inf)
-    inside = (database.omega >= low - 1e-9) & (database.omega <= high + 1e-9)
+    inside = in_trusted_band(database)
     return bool(database.speed == 0.0 and np.count_nonzero(inside) >= FEWEST_FREQUENCIES)
 
 
 def _fit_radiation(
-    database: HydroDatabase, known: FloatArray | None, trusted: NDArray[np.bool_], r2: float
+    database: HydroData, known: FloatArray | None, trusted: NDArray[np.bool_], r2: float
 ) -> tuple[list[MemoryBlock], list[FitRow], FloatArray]:
     """Blocks, rows and infinite-frequency added mass (6, 6) of the radiation matrices."""
     blocks: list[MemoryBlock] = []
@@ -158,7 +156,7 @@ def _fit_radiation(
 
 
 def _fit_passive_radiation(
-    database: HydroDatabase, known: FloatArray | None, trusted: NDArray[np.bool_], r2: float
+    database: HydroData, known: FloatArray | None, trusted: NDArray[np.bool_], r2: float
 ) -> tuple[list[MemoryBlock], list[FitRow], FloatArray]:
     """The same of the passive kind."""
     symmetric_a = 0.5 * (database.added_mass + database.added_mass.swapaxes(1, 2))
@@ -178,7 +176,7 @@ def _fit_passive_radiation(
 
 
 def _fit_additional(
-    database: HydroDatabase, part: AdditionalMatrices, trusted: NDArray[np.bool_], r2: float
+    database: HydroData, part: AdditionalMatrices, trusted: NDArray[np.bool_], r2: float
 ) -> tuple[list[MemoryBlock], list[FitRow], FloatArray, FloatArray]:
     """Blocks, rows, instantaneous added mass and static stiffness (6, 6) of one additional cause."""
     blocks: list[MemoryBlock] = []

@@ -3,19 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
-from seacrane.hydro.database.motion import motion_response
+from seacrane.hydro.data.hydro_data import HydroData
+from seacrane.hydro.data.memory_model import RADIATION, FitRow, MemoryBlock
+from seacrane.hydro.data.motion import motion_errors, motion_response
 from seacrane.hydro.memory.identification import r_squared
-from seacrane.hydro.memory.model import RADIATION, FitRow, MemoryBlock
 from seacrane.hydro.memory.oscillators import GroupData, Oscillators, fit_oscillators
 from seacrane.hydro.memory.realisation import TYPICAL_VELOCITY, largest_states
-
-if TYPE_CHECKING:
-    from seacrane.hydro.database.database import HydroDatabase
 
 FloatArray = NDArray[np.float64]
 Entries = list[tuple[int, int]]
@@ -29,7 +26,7 @@ WEAK_PAIR_MOTION = 0.01  # largest change of any motion that a weak pair may cau
 
 def fit_passive(
     *,
-    database: HydroDatabase,
+    database: HydroData,
     added_mass: FloatArray,
     damping: FloatArray,
     entries: Iterable[tuple[int, int]],
@@ -83,7 +80,7 @@ class _GroupFit:
 
     def __init__(
         self,
-        database: HydroDatabase,
+        database: HydroData,
         added_mass: FloatArray,
         damping: FloatArray,
         group: list[int],
@@ -177,8 +174,6 @@ class _GroupFit:
 
     def _motion_change(self, j: int, k: int, added_mass: FloatArray, damping: FloatArray) -> float:
         """Largest change of any motion, by its largest, with one pair's data replaced by its fit."""
-        from seacrane.hydro.database.check import motion_errors
-
         a, b = self.added_mass.copy(), self.damping.copy()
         for part in self.database.additional:
             a += part.added_mass - part.restoring / self.database.omega[:, None, None] ** 2

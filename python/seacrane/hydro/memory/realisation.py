@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from seacrane.hydro.memory.model import MemoryBlock
+from seacrane.hydro.data.memory_model import MemoryBlock
 
 FloatArray = NDArray[np.float64]
 

@@ -3,15 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from seacrane.hydro.data.hydro_data import AdditionalMatrices, HydroData
 from seacrane.hydro.memory.fit import FEWEST_FREQUENCIES, memory_entries
-
-if TYPE_CHECKING:
-    from seacrane.hydro.database.database import AdditionalMatrices, HydroDatabase
 
 FloatArray = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
@@ -80,7 +77,7 @@ class RetardationModel:
 
 
 def retardation_functions(
-    *, database: HydroDatabase, step: float | None = None, duration: float | None = None
+    *, database: HydroData, step: float | None = None, duration: float | None = None
 ) -> RetardationModel:
     """Retardation functions ``K(tau) = 2 / pi integral_0^inf B(omega) cos(omega tau) domega`` of a database.
 
@@ -240,7 +237,7 @@ def _tapered(kernel: FloatArray) -> FloatArray:
 
 
 def _additional(
-    database: HydroDatabase, part: AdditionalMatrices, tau: FloatArray, inside: NDArray[np.bool_]
+    database: HydroData, part: AdditionalMatrices, tau: FloatArray, inside: NDArray[np.bool_]
 ) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Kernel (n, 6, 6), instantaneous added mass and static stiffness (6, 6) of one additional cause."""
     damping, added_mass = _symmetric(part.damping), _symmetric(part.added_mass)

@@ -4,20 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
-from seacrane.hydro.database.check import memory_motion_rows
+from seacrane.hydro.data.hydro_data import HydroData
+from seacrane.hydro.data.memory_model import RADIATION, MemoryModel
 from seacrane.hydro.memory.certificate import passivity_certificate
 from seacrane.hydro.memory.fit import KINDS as FITTED
 from seacrane.hydro.memory.fit import fit_memory, scaled_damping
-from seacrane.hydro.memory.model import RADIATION, MemoryModel
+from seacrane.hydro.memory.motion_errors import memory_motion_errors
 from seacrane.hydro.memory.retardation import RetardationModel, retardation_functions
-
-if TYPE_CHECKING:
-    from seacrane.hydro.database.database import HydroDatabase
+from seacrane.inputs.frames import MOTIONS
 
 FloatArray = NDArray[np.float64]
 
@@ -64,7 +62,7 @@ class MemoryTradeRow:
 
 
 def memory_trade(
-    database: HydroDatabase, *, targets: Sequence[float] = TARGETS, kinds: Sequence[str] = KINDS
+    database: HydroData, *, targets: Sequence[float] = TARGETS, kinds: Sequence[str] = KINDS
 ) -> list[MemoryTradeRow]:
     """Fit every kind to every R2 in ``targets`` and measure the models; equal models appear once.
 
@@ -90,7 +88,7 @@ def memory_trade(
     return rows
 
 
-def trade_row(database: HydroDatabase, model: MemoryModel, *, kind: str) -> MemoryTradeRow:
+def trade_row(database: HydroData, model: MemoryModel, *, kind: str) -> MemoryTradeRow:
     """Errors and size of one model."""
     radiation = [row for row in model.rows if row.cause == RADIATION]
     states = sum(len(block.A) for block in model.blocks if block.cause == RADIATION)
@@ -113,7 +111,7 @@ def trade_row(database: HydroDatabase, model: MemoryModel, *, kind: str) -> Memo
     )
 
 
-def _convolution_row(database: HydroDatabase) -> MemoryTradeRow:
+def _convolution_row(database: HydroData) -> MemoryTradeRow:
     """The same of the database's retardation functions."""
     model = retardation_functions(database=database)
     worst, error = _worst_motion(database, model)
@@ -137,15 +135,15 @@ def _convolution_row(database: HydroDatabase) -> MemoryTradeRow:
     )
 
 
-def _worst_motion(database: HydroDatabase, model: MemoryModel | RetardationModel) -> tuple[str, float]:
+def _worst_motion(database: HydroData, model: MemoryModel | RetardationModel) -> tuple[str, float]:
     """The motion that the memory changes most, and by how much."""
-    rows = memory_motion_rows(database, model)
-    worst = max(rows, key=lambda row: row.value)
-    return worst.check.removeprefix("memory_motion_"), worst.value
+    errors = memory_motion_errors(database, model)
+    worst = int(errors.argmax())
+    return MOTIONS[worst], float(errors[worst])
 
 
 def _kernel_error(
-    database: HydroDatabase, model: MemoryModel | RetardationModel, pairs: Iterable[tuple[int, int]]
+    database: HydroData, model: MemoryModel | RetardationModel, pairs: Iterable[tuple[int, int]]
 ) -> float:
     """Largest relative misfit of K(i w) over the pairs, within the model's band."""
     low, high = model.band

@@ -3,26 +3,23 @@
 from __future__ import annotations
 
 import dataclasses
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
-from seacrane.hydro.database.heading_circle import PORT_STARBOARD
+from seacrane.hydro.data.heading_circle import PORT_STARBOARD
+from seacrane.hydro.data.hydro_data import HydroData
+from seacrane.hydro.data.memory_model import MemoryBlock, MemoryModel
 from seacrane.hydro.memory.audit import judged_rows
 from seacrane.hydro.memory.fit import joint_passivity
-from seacrane.hydro.memory.model import MemoryBlock, MemoryModel
 from seacrane.hydro.memory.realisation import TYPICAL_VELOCITY, largest_states
-
-if TYPE_CHECKING:
-    from seacrane.hydro.database.database import HydroDatabase
 
 FloatArray = NDArray[np.float64]
 
 MATRICES = ("added_mass", "additional_added_mass", "additional_stiffness")
 
 
-def moved_memory(model: MemoryModel, transform: FloatArray, moved: HydroDatabase) -> MemoryModel:
+def moved_memory(model: MemoryModel, transform: FloatArray, moved: HydroData) -> MemoryModel:
     """``T^T K T``: every block drives, and is driven by, all motions that its own are made of.
 
     Parameters

@@ -16,10 +16,12 @@ from numpy.typing import ArrayLike, NDArray
 
 from seacrane.errors import FileFormatError
 from seacrane.files.netcdf_limits import NETCDF_ERRORS, open_netcdf
-from seacrane.hydro.database.database import PORT_STARBOARD, HydroDatabase
-from seacrane.hydro.dispersion import wavenumber
+from seacrane.hydro.data.heading_circle import PORT_STARBOARD
+from seacrane.hydro.database.database import HydroDatabase
 from seacrane.hydro.readers.equivalent_box import equivalent_box
+from seacrane.hydro.readers.format import Format, is_file_of, of_one_speed, zero_speed
 from seacrane.inputs.shown import shown
+from seacrane.sea.dispersion import wavenumber
 
 if TYPE_CHECKING:
     import xarray
@@ -28,6 +30,7 @@ FloatArray = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
 
 MOTION_NAMES = ("Surge", "Sway", "Heave", "Roll", "Pitch", "Yaw")
+NETCDF = (".nc", ".nc4")
 MATRIX = ("influenced_dof", "radiating_dof")
 SYMMETRY_TOLERANCE = 0.02
 
@@ -302,3 +305,16 @@ def _name(dataset: xarray.Dataset) -> Any:
         if key in dataset.variables:
             return dataset[key].values
     return "unnamed"
+
+
+def _can_open(path: Path) -> bool:
+    return is_file_of(path, NETCDF) and is_capytaine(path)
+
+
+FORMAT = Format(
+    name="Capytaine",
+    files="a NetCDF file (.nc) of Capytaine",
+    can_open=_can_open,
+    read=of_one_speed(read_capytaine),
+    speeds=zero_speed,
+)

@@ -15,21 +15,23 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from seacrane.errors import FileFormatError
+from seacrane.hydro.data.rigid_mass import rigid_mass_matrix
 from seacrane.hydro.database.database import HydroDatabase
-from seacrane.hydro.dispersion import wavenumber
 from seacrane.hydro.readers.equivalent_box import equivalent_box
+from seacrane.hydro.readers.format import Format, is_file_of, of_one_speed, zero_speed
 from seacrane.hydro.readers.mafredo_file import read_mafredo
 from seacrane.hydro.readers.orcaflex_model import KILO, Raos, VesselType, read_vessel_type
 from seacrane.hydro.readers.reader_warnings import AssumedDensityWarning, PartialSetWarning
-from seacrane.hydro.vessel import rigid_mass_matrix
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.shown import shown
+from seacrane.sea.dispersion import wavenumber
 
 FloatArray = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
 
 GRAVITY = 9.80665  # m/s2, OrcaFlex's
 USUAL_DENSITY = 1025.0
+SUFFIXES = (".yml", ".yaml", ".dhyd")
 FORE_AFT = np.array([-1.0, 1.0, 1.0, 1.0, -1.0, -1.0])
 MIRRORS = {
     "None": (False, False),
@@ -328,3 +330,16 @@ def _limit(matrices: FloatArray, where: NDArray[np.bool_]) -> FloatArray | None:
     """The matrix at a limiting frequency, if there is one; MaFreDo's empty databases start with zeros."""
     found = matrices[where]
     return found[0] if len(found) and np.any(found[0]) else None
+
+
+def _can_open(path: Path) -> bool:
+    return is_file_of(path, SUFFIXES)
+
+
+FORMAT = Format(
+    name="OrcaFlex",
+    files="an OrcaFlex model (.yml) or MaFreDo file (.dhyd)",
+    can_open=_can_open,
+    read=of_one_speed(read_orcaflex),
+    speeds=zero_speed,
+)

@@ -17,9 +17,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane.errors import FileFormatError
-from seacrane.hydro.database.database import AdditionalMatrices, HydroDatabase, RollDamping
-from seacrane.hydro.database.drift import DriftCoefficients
-from seacrane.hydro.database.encounter import one_function
+from seacrane.hydro.data.drift import DriftCoefficients
+from seacrane.hydro.data.encounter import one_function
+from seacrane.hydro.data.hydro_data import AdditionalMatrices, RollDamping
+from seacrane.hydro.database.database import HydroDatabase
+from seacrane.hydro.readers.format import Format
 from seacrane.hydro.readers.reader_warnings import EncounterFrequencyWarning, HydrostaticsWarning
 from seacrane.hydro.readers.veres_files import DriftAtSpeed, DriftFile, MatricesAtSpeed, TransferAtSpeed
 from seacrane.hydro.readers.veres_hydrostatics import Loading, contradictions, read_veres_hydrostatics
@@ -28,9 +30,11 @@ from seacrane.hydro.readers.veres_set import (
     at_speed,
     choose_speed,
     find_stem,
+    is_veres,
     other_run,
     read_set,
     sibling,
+    veres_speeds,
 )
 from seacrane.inputs.caller import warn_caller
 
@@ -295,3 +299,12 @@ def _trusted(omega: FloatArray) -> tuple[float, float] | None:
     """The part of 0.3 to 2.6 rad/s that the files cover, or None if that is nothing."""
     low, high = max(BAND[0], float(omega[0])), min(BAND[1], float(omega[-1]))
     return (low, high) if low < high else None
+
+
+FORMAT = Format(
+    name="VERES",
+    files="a ShipX/VERES folder, stem or file (.re7 with .re8, .re1, .re2, .hyd)",
+    can_open=is_veres,
+    read=read_veres,
+    speeds=veres_speeds,
+)

@@ -21,6 +21,7 @@ from seacrane.hydro.readers.veres_files import (
 from seacrane.inputs.caller import warn_caller
 
 SUFFIXES = (".re7", ".re8", ".re1", ".re2", ".hyd")
+MATRICES_AND_FORCE = SUFFIXES[:2]
 
 
 @dataclass(frozen=True, eq=False)
@@ -41,6 +42,14 @@ class VeresSet:
 def veres_speeds(path: Path) -> tuple[float, ...]:
     """Forward speeds (m/s) that every file of the set at ``path`` holds."""
     return common_speeds(read_set(find_stem(path)))
+
+
+def is_veres(path: Path) -> bool:
+    """Whether ``path`` is a folder, stem or file of a VERES set."""
+    if path.is_dir():
+        return any(file.suffix.lower() in MATRICES_AND_FORCE for file in path.iterdir())
+    stem = find_stem(path)
+    return any(sibling(stem, suffix) is not None for suffix in MATRICES_AND_FORCE)
 
 
 def find_stem(path: Path) -> Path:

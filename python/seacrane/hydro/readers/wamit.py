@@ -16,8 +16,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane.errors import FileFormatError
+from seacrane.hydro.data.rigid_mass import rigid_mass_matrix
 from seacrane.hydro.database.database import HydroDatabase
 from seacrane.hydro.readers.equivalent_box import equivalent_box
+from seacrane.hydro.readers.format import Format, of_one_speed, zero_speed
 from seacrane.hydro.readers.reader_warnings import (
     AssumedDensityWarning,
     AssumedInertiaWarning,
@@ -37,7 +39,6 @@ from seacrane.hydro.readers.wamit_tables import (
     read_restoring,
     read_waves,
 )
-from seacrane.hydro.vessel import rigid_mass_matrix
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.shown import shown
 
@@ -319,3 +320,12 @@ def _trusted(body: _Body, omega: FloatArray) -> tuple[float, float] | None:
     wavelength = PANELS_PER_WAVELENGTH * np.sqrt(sides * wetted / body.listing.panels)
     high = min(float(np.sqrt(2.0 * np.pi * body.listing.g / wavelength)), float(omega[-1]))
     return (float(omega[0]), high) if omega[0] < high else None
+
+
+FORMAT = Format(
+    name="WAMIT",
+    files="a WAMIT folder, stem or file (.1 .3 .hst .out, with .4 and .frc)",
+    can_open=is_wamit,
+    read=of_one_speed(read_wamit),
+    speeds=zero_speed,
+)

@@ -2,21 +2,18 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 from numpy.typing import NDArray
 
-from seacrane.hydro.memory.model import MemoryModel
-from seacrane.hydro.vessel import VesselParameters, rigid_mass_matrix, time_domain_vessel
-
-if TYPE_CHECKING:
-    from seacrane.hydro.database.database import HydroDatabase
+from seacrane.hydro.data.hydro_data import HydroData
+from seacrane.hydro.data.memory_model import MemoryModel
+from seacrane.hydro.data.rigid_mass import rigid_mass_matrix
+from seacrane.hydro.vessel.parameters import VesselParameters, time_domain_vessel
 
 FloatArray = NDArray[np.float64]
 
 
-def largest_growth_rate(database: HydroDatabase, model: MemoryModel) -> float:
+def largest_growth_rate(database: HydroData, model: MemoryModel) -> float:
     """Largest real part (1/s) among the eigenvalues of the freely floating vessel with its memory.
 
     Positions of motions without restoring (surge, sway, yaw) are left out of the state: nothing depends on

@@ -9,13 +9,15 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from seacrane.figures import Line, Panel, Picture, Sheet, draw, save_sheet
-from seacrane.result import MOTIONS
+from seacrane.hydro.data.hydro_data import HydroData
+from seacrane.hydro.data.memory_model import MemoryModel
+from seacrane.hydro.data.motion import motion_response
+from seacrane.hydro.data.relations import retardation_from_damping
+from seacrane.inputs.frames import MOTIONS
+from seacrane.plotting.panel import Line, Panel, Picture, Sheet, draw, save_sheet
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
-
-    from seacrane.hydro import HydroDatabase, MemoryModel
 
 Array = NDArray[np.float64]
 
@@ -89,7 +91,7 @@ def matrix_sheet(
     )
 
 
-def added_mass_sheet(database: HydroDatabase, memory: MemoryModel | None) -> Sheet:
+def added_mass_sheet(database: HydroData, memory: MemoryModel | None) -> Sheet:
     """Added mass, its fit, and its limits at infinite frequency."""
     curves = {"database": database.added_mass}
     if memory is not None:
@@ -108,7 +110,7 @@ def added_mass_sheet(database: HydroDatabase, memory: MemoryModel | None) -> She
     )
 
 
-def damping_sheet(database: HydroDatabase, memory: MemoryModel | None) -> Sheet:
+def damping_sheet(database: HydroData, memory: MemoryModel | None) -> Sheet:
     """Radiation damping and its fit."""
     curves = {"database": database.damping}
     if memory is not None:
@@ -124,10 +126,8 @@ def damping_sheet(database: HydroDatabase, memory: MemoryModel | None) -> Sheet:
     )
 
 
-def retardation_sheet(database: HydroDatabase, memory: MemoryModel | None) -> Sheet:
+def retardation_sheet(database: HydroData, memory: MemoryModel | None) -> Sheet:
     """Retardation functions: cosine transform of the damping, and the memory model's impulse response."""
-    from seacrane.hydro.database.relations import retardation_from_damping
-
     time = np.linspace(0.0, 10.0 * np.sqrt(database.length / database.g), 401)
     curves = {"from damping": retardation_from_damping(database, time)}
     if memory is not None:
@@ -143,7 +143,7 @@ def retardation_sheet(database: HydroDatabase, memory: MemoryModel | None) -> Sh
     )
 
 
-def chosen_headings(database: HydroDatabase) -> dict[str, int]:
+def chosen_headings(database: HydroData) -> dict[str, int]:
     """The heading nearest to each of `HEADINGS_DEG`, on either side of a symmetric ship."""
     chosen = {}
     for wanted in np.deg2rad(HEADINGS_DEG):
@@ -154,7 +154,7 @@ def chosen_headings(database: HydroDatabase) -> dict[str, int]:
     return chosen
 
 
-def force_sheet(database: HydroDatabase) -> Sheet:
+def force_sheet(database: HydroData) -> Sheet:
     """Amplitude and phase of the wave force per metre of wave amplitude, at a few headings."""
     headings = chosen_headings(database)
     size = np.abs(database.force)
@@ -189,10 +189,8 @@ def force_sheet(database: HydroDatabase) -> Sheet:
     )
 
 
-def motion_sheet(database: HydroDatabase) -> Sheet:
+def motion_sheet(database: HydroData) -> Sheet:
     """Motions solved from the database, beside the file's own where it holds them."""
-    from seacrane.hydro import motion_response
-
     solved = motion_response(database)
     panels = []
     for i, motion in enumerate(MOTIONS):
@@ -222,7 +220,7 @@ def _degrees(values: Array, motion: int) -> Array:
     return np.rad2deg(values) if motion > 2 else values
 
 
-SHEETS: dict[str, Callable[[HydroDatabase, MemoryModel | None], Sheet]] = {
+SHEETS: dict[str, Callable[[HydroData, MemoryModel | None], Sheet]] = {
     "added_mass": added_mass_sheet,
     "damping": damping_sheet,
     "retardation": retardation_sheet,
@@ -232,13 +230,13 @@ SHEETS: dict[str, Callable[[HydroDatabase, MemoryModel | None], Sheet]] = {
 
 
 def hydro_figures(
-    *, database: HydroDatabase, what: str | Sequence[str] | None = None, memory: MemoryModel | None = None
+    *, database: HydroData, what: str | Sequence[str] | None = None, memory: MemoryModel | None = None
 ) -> dict[str, Figure]:
     """Figures of a database, by the names in `SHEETS`; those without any panel are left out.
 
     Parameters
     ----------
-    database : HydroDatabase
+    database : HydroData
         Any database.
     what : str or sequence of str, optional
         Names; all if None.
@@ -261,13 +259,13 @@ def hydro_figures(
 
 
 def save_hydro_figures(
-    *, database: HydroDatabase, folder: Path, memory: MemoryModel | None = None
+    *, database: HydroData, folder: Path, memory: MemoryModel | None = None
 ) -> list[Picture]:
     """Write added_mass, damping, retardation, wave_force and motion, each as .png and .csv.
 
     Parameters
     ----------
-    database : HydroDatabase
+    database : HydroData
         Any database.
     folder : Path
         Existing folder.

@@ -3,16 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
-from seacrane.hydro.database.interpolation import spline_weights
-from seacrane.hydro.dispersion import wavenumber
-
-if TYPE_CHECKING:
-    from seacrane.hydro.database.database import HydroDatabase
+from seacrane.hydro.data.hydro_data import HydroData
+from seacrane.hydro.data.interpolation import spline_weights
+from seacrane.sea.dispersion import wavenumber
 
 FloatArray = NDArray[np.float64]
 
@@ -33,13 +30,13 @@ class OneFunction:
     known: tuple[float, float]
 
 
-def encounter_frequency(database: HydroDatabase) -> FloatArray:
+def encounter_frequency(database: HydroData) -> FloatArray:
     """``omega - k U cos(heading)`` (m, n) in rad/s; negative where following waves are overtaken."""
     k = wavenumber(database.omega, g=database.g, depth=database.depth)
     return np.asarray(database.omega - database.speed * np.outer(np.cos(database.heading), k))
 
 
-def require_zero_speed(database: HydroDatabase) -> None:
+def require_zero_speed(database: HydroData) -> None:
     """Raise at forward speed, at which the memory and the equations of the time domain do not hold.
 
     Raises

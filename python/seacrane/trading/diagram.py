@@ -2,26 +2,44 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from seacrane.figures.panel import plain
+from seacrane.plotting.panel import plain
 from seacrane.trading import rungs
+from seacrane.trading.rows import Row
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-    from seacrane.trading.rows import Row
-    from seacrane.trading.study import Trade
 
 COLUMNS = 2
 MARKERS = "ovs^Dp*hXP<>d8H"
 SHAPES = {"recursive": "-", "redundant": ":"}
 
 
-def work_precision(trade: Trade) -> Figure:
+@dataclass(frozen=True, kw_only=True)
+class Measured:
+    """What one panel shows.
+
+    Attributes
+    ----------
+    quantity, unit : of the errors.
+    front : rows that no other beats in both wall time and error, by wall time.
+    uncertainty : of the reference.
+    """
+
+    quantity: str
+    unit: str
+    front: Sequence[Row]
+    uncertainty: float
+
+
+def work_precision(rows: Sequence[Row], measured: Sequence[Measured], metadata: Mapping[str, Any]) -> Figure:
     """One panel per quantity: largest error over wall time per simulated second, both logarithmic.
 
     Lines join the tolerances or steps of one integrator, solid in the recursive and dotted in the redundant
@@ -29,14 +47,13 @@ def work_precision(trade: Trade) -> Figure:
     """
     from matplotlib.figure import Figure
 
-    names = list(trade.quantities)
-    down = -(-len(names) // COLUMNS)
+    down = -(-len(measured) // COLUMNS)
     figure = Figure(figsize=(15.0, 5.2 * down), layout="constrained")
     panels = figure.subplots(down, COLUMNS, squeeze=False).ravel()
-    for panel in panels[len(names) :]:
+    for panel in panels[len(measured) :]:
         panel.set_axis_off()
-    for panel, name in zip(panels, names, strict=False):
-        _draw(panel, trade, name)
+    for panel, one in zip(panels, measured, strict=False):
+        _draw(panel, rows, one, metadata)
     handles = {
         label: handle
         for panel in panels
@@ -44,20 +61,21 @@ def work_precision(trade: Trade) -> Figure:
     }
     figure.legend(handles.values(), handles.keys(), loc="outside right upper", fontsize=8)
     figure.suptitle(
-        f"{trade.metadata['scene']}: {trade.metadata['t_end']:g} s, errors at outputs every "
-        f"{trade.metadata['dt_out']:g} s; solid recursive, dotted redundant"
+        f"{metadata['scene']}: {metadata['t_end']:g} s, errors at outputs every "
+        f"{metadata['dt_out']:g} s; solid recursive, dotted redundant"
     )
     return figure
 
 
-def _draw(axes: Axes, trade: Trade, quantity: str) -> None:
+def _draw(axes: Axes, every: Sequence[Row], measured: Measured, metadata: Mapping[str, Any]) -> None:
     from matplotlib.ticker import LogLocator, NullFormatter
 
-    full = (trade.metadata["memory"], trade.metadata["waves"], rungs.FULL)
+    quantity = measured.quantity
+    full = (metadata["memory"], metadata["waves"], rungs.FULL)
     colours: dict[str, Any] = {}
     groups: dict[tuple[str, str], list[Row]] = {}
     fewer: list[Row] = []
-    for row in trade.rows:
+    for row in every:
         if not row.stable or not np.isfinite(row.error(quantity)):
             continue
         if (row.memory, row.waves, row.rung) == full:
@@ -74,18 +92,18 @@ def _draw(axes: Axes, trade: Trade, quantity: str) -> None:
         )  # fmt: skip
         if formulation != "recursive" and (integrator, "recursive") not in groups:
             axes.lines[-1].set_label(integrator)
-    best = trade.front(quantity)
+    best = measured.front
     axes.step(
         [_cost(row) for row in best], [row.error(quantity) for row in best], where="post", color="black",
         linewidth=2.5, alpha=0.35, label="Pareto front",
     )  # fmt: skip
     _mark(axes, fewer, quantity, full)
-    axes.axhspan(0.0, trade.reference.uncertainty[quantity], color="0.85")
+    axes.axhspan(0.0, measured.uncertainty, color="0.85")
     axes.xaxis.set_major_locator(LogLocator(subs=(1.0, 3.0)))
     axes.xaxis.set_major_formatter("{x:g}")
     axes.xaxis.set_minor_formatter(NullFormatter())
     axes.set_xlabel("wall time per simulated second [s]")
-    axes.set_ylabel(f"largest error [{trade.quantities[quantity].unit}]")
+    axes.set_ylabel(f"largest error [{measured.unit}]")
     axes.set_title(plain(quantity.replace("_", " ")))
     axes.grid(alpha=0.3)
 

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from seacrane.result import atomic_write
+from seacrane.files.atomic import atomic_write
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -9,6 +9,7 @@ FloatArray = NDArray[np.float64]
 
 PORT_STARBOARD = np.array([1.0, -1.0, 1.0, -1.0, 1.0, -1.0])
 SAME_HEADING = 1e-6  # rad
+LARGEST_HEADING_GAP = np.radians(45.0)  # above it nothing is interpolated
 
 
 def mirrored_heading(heading: FloatArray) -> FloatArray:

@@ -2,22 +2,18 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 from numpy.typing import NDArray
 
-from seacrane.hydro.database.heading_circle import both_sides, largest_gap
-from seacrane.hydro.dispersion import wavenumber
+from seacrane.hydro.data.heading_circle import LARGEST_HEADING_GAP, both_sides, largest_gap
+from seacrane.hydro.data.hydro_data import HydroData
+from seacrane.hydro.data.trusted_band import in_trusted_band
 from seacrane.inputs.caller import warn_caller
-
-if TYPE_CHECKING:
-    from seacrane.hydro.database.database import HydroDatabase
+from seacrane.sea.dispersion import wavenumber
 
 FloatArray = NDArray[np.float64]
 
 DAMPING_LIMIT = -0.01  # of the largest diagonals, as in the self-check
-LARGEST_HEADING_GAP = np.radians(45.0)
 SAME_WATER = 0.005
 BOX_LIMIT = 1.05  # lengths of files are between perpendiculars, or rounded
 
@@ -34,17 +30,16 @@ class WaterMismatchWarning(UserWarning):
     """Density, gravity or depth of two sources differ: weights, buoyancy or wave lengths do not fit."""
 
 
-def warn_of_data(database: HydroDatabase) -> None:
+def warn_of_data(database: HydroData) -> None:
     """All warnings that a database gives without being used; `load_database` asks for them."""
     warn_of_damping(database)
     _warn_of_headings(database)
     _warn_of_box(database)
 
 
-def warn_of_damping(database: HydroDatabase) -> None:
+def warn_of_damping(database: HydroData) -> None:
     """Radiation damping within the trusted band, linear and quadratic damping at any frequency."""
-    low, high = database.trusted_band or (0.0, np.inf)
-    inside = np.flatnonzero((database.omega >= low - 1e-9) & (database.omega <= high + 1e-9))
+    inside = np.flatnonzero(in_trusted_band(database))
     if database.speed == 0.0 and inside.size:
         lowest = _smallest_eigenvalues(database.damping[inside])
         if lowest.min() < DAMPING_LIMIT:
@@ -66,7 +61,7 @@ def warn_of_damping(database: HydroDatabase) -> None:
 
 
 def warn_of_water(
-    database: HydroDatabase,
+    database: HydroData,
     *,
     gravity: float,
     depth: float | None = None,
@@ -77,7 +72,7 @@ def warn_of_water(
 
     Parameters
     ----------
-    database : HydroDatabase
+    database : HydroData
     gravity : m/s2 of ``what``.
     depth : m (inf: deep) of ``what``; None where it has no waves.
     omega : (n,) rad/s of its waves, whose lengths are compared.
@@ -117,7 +112,7 @@ def _smallest_eigenvalues(damping: FloatArray) -> FloatArray:
     return np.asarray(np.linalg.eigvalsh(0.5 * (scaled + scaled.swapaxes(1, 2)))[:, 0])
 
 
-def _warn_negative(database: HydroDatabase, what: str, value: float) -> None:
+def _warn_negative(database: HydroData, what: str, value: float) -> None:
     warn_caller(
         f"database {database.name!r}: {what} has a negative eigenvalue, {100.0 * value:.3g} % of its largest "
         "diagonals: a motion in that combination gains energy from still water. Correct the matrices, or "
@@ -126,7 +121,7 @@ def _warn_negative(database: HydroDatabase, what: str, value: float) -> None:
     )
 
 
-def _warn_of_headings(database: HydroDatabase) -> None:
+def _warn_of_headings(database: HydroData) -> None:
     circle = both_sides(database.heading)[0] if database.port_starboard_symmetric else database.heading
     gap = largest_gap(circle)
     if gap <= LARGEST_HEADING_GAP + 1e-9:
@@ -141,7 +136,7 @@ def _warn_of_headings(database: HydroDatabase) -> None:
     )
 
 
-def _warn_of_box(database: HydroDatabase) -> None:
+def _warn_of_box(database: HydroData) -> None:
     """A hull is no larger than the box around it: else mass, density, g or lengths are in other units."""
     area = database.length * database.breadth
     filled = {

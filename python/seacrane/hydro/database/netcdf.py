@@ -1,4 +1,4 @@
-"""Our NetCDF form of a `HydroDatabase`: written atomically, read back bit for bit."""
+"""Our NetCDF form of a database: written atomically, read back bit for bit."""
 
 from __future__ import annotations
 
@@ -7,18 +7,21 @@ import tempfile
 from dataclasses import asdict, astuple, fields
 from os import PathLike
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 
 from seacrane.errors import FileFormatError
 from seacrane.files.netcdf_limits import NETCDF_ERRORS, open_netcdf
-from seacrane.hydro.database.database import MOTIONS, AdditionalMatrices, HydroDatabase, RollDamping
-from seacrane.hydro.database.drift import DriftCoefficients
-from seacrane.hydro.memory.model import FitRow, MemoryBlock, MemoryModel, Passivity
+from seacrane.hydro.data.drift import DriftCoefficients
+from seacrane.hydro.data.hydro_data import AdditionalMatrices, HydroData, RollDamping
+from seacrane.hydro.data.memory_model import FitRow, MemoryBlock, MemoryModel, Passivity
+from seacrane.inputs.frames import MOTIONS
 
 if TYPE_CHECKING:
     import xarray
+
+Data = TypeVar("Data", bound=HydroData)
 
 FORMAT = "seacrane hydrodynamic database"
 FORMAT_VERSION = 1
@@ -55,7 +58,7 @@ _BLOCK_ARRAYS = ("outputs", "inputs", "A", "B", "C", "D", "state_scale")
 _MODEL_MATRICES = ("added_mass", "additional_added_mass", "additional_stiffness")
 
 
-def save_database(database: HydroDatabase, path: str | PathLike[str]) -> None:
+def save_database(database: HydroData, path: str | PathLike[str]) -> None:
     """Write ``database`` to ``path``: a temporary file beside it, then a rename."""
     import netCDF4
 
@@ -72,8 +75,8 @@ def save_database(database: HydroDatabase, path: str | PathLike[str]) -> None:
         raise
 
 
-def load_database_file(path: str | PathLike[str]) -> HydroDatabase:
-    """Read a file written by `save_database`.
+def load_database_file(kind: type[Data], path: str | PathLike[str]) -> Data:
+    """Read a file written by `save_database`, as a ``kind`` of `HydroData`.
 
     Raises
     ------
@@ -94,7 +97,7 @@ def load_database_file(path: str | PathLike[str]) -> HydroDatabase:
                     f"{source}: format version {int(file.format_version)} is newer than this seacrane reads "
                     f"({FORMAT_VERSION}); update seacrane"
                 )
-            return _read(file)
+            return _read(kind, file)
     except FileFormatError:
         raise
     except NETCDF_ERRORS as error:
@@ -103,7 +106,7 @@ def load_database_file(path: str | PathLike[str]) -> HydroDatabase:
         ) from error
 
 
-def to_xarray(database: HydroDatabase) -> xarray.Dataset:
+def to_xarray(database: HydroData) -> xarray.Dataset:
     """Labelled copies of the database's arrays."""
     import xarray
 
@@ -133,7 +136,7 @@ def to_xarray(database: HydroDatabase) -> xarray.Dataset:
     return xarray.Dataset(variables, coordinates, {**attributes, "convention": CONVENTION})
 
 
-def _write(file: Any, database: HydroDatabase) -> None:
+def _write(file: Any, database: HydroData) -> None:
     file.format, file.format_version, file.convention = FORMAT, FORMAT_VERSION, CONVENTION
     for name in (*_TEXTS, *_NUMBERS):
         file.setncattr(name, getattr(database, name))
@@ -213,7 +216,7 @@ def _put(group: Any, name: str, value: Any, dimensions: tuple[str, ...]) -> Any:
     return variable
 
 
-def _read(file: Any) -> HydroDatabase:
+def _read(kind: type[Data], file: Any) -> Data:
     values: dict[str, Any] = {name: str(file.getncattr(name)) for name in _TEXTS}
     values |= {name: float(file.getncattr(name)) for name in _NUMBERS}
     for name in _ARRAYS:
@@ -222,7 +225,7 @@ def _read(file: Any) -> HydroDatabase:
     band = getattr(file, "trusted_band", None)
     groups = file.groups
     additional = [groups[name] for name in sorted(groups) if name.startswith("additional_")]
-    return HydroDatabase(
+    return kind(
         **values,
         port_starboard_symmetric=bool(file.port_starboard_symmetric),
         trusted_band=None if band is None else (float(band[0]), float(band[1])),

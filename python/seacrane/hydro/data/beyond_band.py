@@ -1,17 +1,15 @@
-"""Wave excitation beyond the frequencies of a database: what it tends to, and how much is left out."""
+"""Wave excitation above the frequencies of a database: how much of a sea is left out."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
-from seacrane.hydro.dispersion import wavenumber
-
-if TYPE_CHECKING:
-    from seacrane.hydro.database.database import HydroDatabase
+from seacrane.hydro.data.excitation import force_at
+from seacrane.hydro.data.hydro_data import HydroData
+from seacrane.inputs.frames import MOTIONS
 
 FloatArray = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
@@ -20,35 +18,6 @@ END = 0.8  # of the highest frequency: the slope of the forces is fitted from th
 FEWEST = 3  # frequencies of that fit
 AT_ONCE = 256  # headings, to bound the memory it takes
 SLIGHT = 1e-3  # of the variance that the same waves would give a load from its worst heading
-LOADS = ("surge", "sway", "heave", "roll", "pitch", "yaw")
-
-
-def with_limits(database: HydroDatabase, omega: FloatArray, force: ComplexArray) -> ComplexArray:
-    """Forces beyond the band: towards the hydrostatic ones of a long wave below it, none above it.
-
-    A wave much longer than the hull lifts the water around it as one: its force tends to the third column of
-    the restoring matrix, and what is left of it falls with the wavenumber (slope of the surface, and
-    acceleration along it). So below the band F = C_3 + (F_lowest - C_3) k / k_lowest.
-
-    Parameters
-    ----------
-    omega : (n,) rad/s.
-    force : (..., n, 6) N/m and N m/m, beyond the band those of its nearest end.
-
-    Returns
-    -------
-    (..., n, 6), a new array.
-    """
-    out = np.array(force)
-    lowest, highest = database.omega[0], database.omega[-1]
-    slack = 1e-9 * highest
-    below = omega < lowest - slack
-    longest = np.append(np.maximum(omega[below], 1e-9 * lowest), lowest)
-    k = wavenumber(longest, g=database.g, depth=database.depth)
-    share = (k[:-1] / k[-1])[:, None]
-    out[..., below, :] = database.restoring[:, 2] * (1.0 - share) + out[..., below, :] * share
-    out[..., omega > highest + slack, :] = 0.0
-    return out
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -72,7 +41,7 @@ class WithoutLoad:
 
 
 def without_load(
-    database: HydroDatabase,
+    database: HydroData,
     *,
     omega: FloatArray,
     amplitude: FloatArray,
@@ -93,7 +62,7 @@ def without_load(
     energy = 0.5 * amplitude**2
     above = omega > database.omega[-1] * (1.0 + 1e-9)
     if not np.any(above):
-        return WithoutLoad(energy=0.0, variance=0.0, load=LOADS[0])
+        return WithoutLoad(energy=0.0, variance=0.0, load=MOTIONS[0])
     carried = energy @ np.abs(force) ** 2
     missing = energy[above] @ _tail(database, omega[above], direction[above]) ** 2
     whole = carried + missing
@@ -101,23 +70,23 @@ def without_load(
     share = np.where(judged, missing / np.where(judged, whole, 1.0), 0.0)
     worst = int(share.argmax())
     return WithoutLoad(
-        energy=float(energy[above].sum() / energy.sum()), variance=float(share[worst]), load=LOADS[worst]
+        energy=float(energy[above].sum() / energy.sum()), variance=float(share[worst]), load=MOTIONS[worst]
     )
 
 
-def _worst_heading(database: HydroDatabase, omega: FloatArray) -> FloatArray:
+def _worst_heading(database: HydroData, omega: FloatArray) -> FloatArray:
     """Largest magnitudes (n, 6) over all headings."""
     largest = np.abs(database.force).max(axis=0)
     return np.stack([np.interp(omega, database.omega, column) for column in largest.T], axis=1)
 
 
-def _tail(database: HydroDatabase, omega: FloatArray, direction: FloatArray) -> FloatArray:
+def _tail(database: HydroData, omega: FloatArray, direction: FloatArray) -> FloatArray:
     """Magnitudes (n, 6) of the forces above the band."""
     end = database.omega[database.omega >= END * database.omega[-1]]
     end = end if end.size >= FEWEST else database.omega[-FEWEST:]
     heading, of_component = np.unique(direction, return_inverse=True)
     parts = np.array_split(heading, -(-heading.size // AT_ONCE))
-    force = np.abs(np.concatenate([database.force_at(end[None, :], part[:, None]) for part in parts]))
+    force = np.abs(np.concatenate([force_at(database, end[None, :], part[:, None]) for part in parts]))
     least = 1e-9 * np.abs(database.force).max(axis=(0, 1)) + 1e-300
     level, x = np.log(np.maximum(force, least)), np.log(end / database.omega[-1])
     spread = x - x.mean()

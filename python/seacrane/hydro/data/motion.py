@@ -2,22 +2,18 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 from numpy.typing import NDArray
 
-from seacrane.hydro.database.encounter import at_encounter, encounter_frequency, inside_table
-
-if TYPE_CHECKING:
-    from seacrane.hydro.database.database import HydroDatabase
+from seacrane.hydro.data.encounter import at_encounter, encounter_frequency, inside_table
+from seacrane.hydro.data.hydro_data import HydroData
 
 FloatArray = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
 
 
 def motion_response(
-    database: HydroDatabase, *, added_mass: FloatArray | None = None, damping: FloatArray | None = None
+    database: HydroData, *, added_mass: FloatArray | None = None, damping: FloatArray | None = None
 ) -> ComplexArray:
     """Motions (m, n, 6) per metre of wave amplitude, at the database's headings and wave frequencies.
 
@@ -60,7 +56,7 @@ def motion_response(
     return np.asarray(np.where(known[:, :, None], motions, np.nan))
 
 
-def natural_frequency(database: HydroDatabase, motion: int) -> float | None:
+def natural_frequency(database: HydroData, motion: int) -> float | None:
     """Undamped, uncoupled natural frequency (rad/s) of one motion, additional matrices left out.
 
     None where the motion has no restoring, or the resonance lies outside the database. At forward speed it is
@@ -77,3 +73,24 @@ def natural_frequency(database: HydroDatabase, motion: int) -> float | None:
     i = int(falling[0])
     part = balance[i] / (balance[i] - balance[i + 1])
     return float(database.omega[i] + part * (database.omega[i + 1] - database.omega[i]))
+
+
+def motion_errors(
+    database: HydroData,
+    solved: ComplexArray,
+    given: ComplexArray,
+    *,
+    inside: NDArray[np.bool_] | None = None,
+) -> FloatArray:
+    """Largest difference (6,) over the frequencies and headings, by the largest motion of its heading.
+
+    ``inside`` (n,) or (m, n) says which count.
+
+    Motions that symmetry forbids (sway, roll, yaw in head and following sea, surge in beam sea) are noise in
+    files: headings where a motion stays below the source's floor, a share of its largest, are left out.
+    """
+    use = np.broadcast_to(True if inside is None else inside, given.shape[:2])[:, :, None]
+    largest = np.where(use, np.abs(given), 0.0).max(axis=1)
+    error = np.where(use, np.abs(solved - given), 0.0).max(axis=1)
+    counted = largest > database.motion_rao_floor * largest.max(axis=0)
+    return np.asarray(np.where(counted, error / np.where(counted, largest, 1.0), 0.0).max(axis=0))

@@ -2,15 +2,12 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 from numpy.typing import NDArray
 
-from seacrane.hydro.database.interpolation import spline_weights
-
-if TYPE_CHECKING:
-    from seacrane.hydro.database.database import HydroDatabase
+from seacrane.hydro.data.excitation import full_circle
+from seacrane.hydro.data.hydro_data import HydroData
+from seacrane.hydro.data.interpolation import spline_weights
 
 FloatArray = NDArray[np.float64]
 
@@ -21,7 +18,7 @@ TAIL_REACH, TAIL_POINTS = 30.0, 400
 LARGEST_PHASE_STEP = 2.0  # rad between headings: splines through every second or third heading err by 2 %
 
 
-def damping_from_forces(database: HydroDatabase) -> FloatArray | None:
+def damping_from_forces(database: HydroData) -> FloatArray | None:
     """Radiation damping (n, 6, 6) from the exciting forces, or None where the headings do not close.
 
     Energy radiated to all directions, with Haskind's relation in deep water (Newman 1977, Marine
@@ -29,7 +26,7 @@ def damping_from_forces(database: HydroDatabase) -> FloatArray | None:
     """
     if np.isfinite(database.depth) or database.speed != 0.0:
         return None
-    circle, force = database.full_circle()
+    circle, force = full_circle(database)
     if np.diff(np.append(circle, circle[0] + 2.0 * np.pi)).max() > np.radians(20.0):
         return None
     beta = np.arange(HEADINGS) * 2.0 * np.pi / HEADINGS
@@ -40,18 +37,18 @@ def damping_from_forces(database: HydroDatabase) -> FloatArray | None:
     return np.asarray(factor[:, None, None] * product)
 
 
-def resolved_by_headings(database: HydroDatabase) -> NDArray[np.bool_]:
+def resolved_by_headings(database: HydroData) -> NDArray[np.bool_]:
     """Frequencies (n,) whose force pattern the headings resolve, in deep water.
 
     The force from an end of the ship turns by up to ``k L / 2`` radians of phase per radian of heading.
     """
-    circle, _ = database.full_circle()
+    circle, _ = full_circle(database)
     gap = np.diff(np.append(circle, circle[0] + 2.0 * np.pi)).max()
     phase = gap * database.omega**2 / database.g * database.length / 2.0
     return np.asarray(phase <= LARGEST_PHASE_STEP)
 
 
-def infinite_added_mass_from_damping(database: HydroDatabase) -> FloatArray:
+def infinite_added_mass_from_damping(database: HydroData) -> FloatArray:
     """Infinite-frequency added mass (6, 6) that the damping implies, averaged over the trusted band.
 
     Kramers-Kronig (Ogilvie 1964) with the pole subtracted:
@@ -65,7 +62,7 @@ def infinite_added_mass_from_damping(database: HydroDatabase) -> FloatArray:
     return np.asarray(np.mean(estimates, axis=0))
 
 
-def _dispersion_integral(database: HydroDatabase, index: int) -> FloatArray:
+def _dispersion_integral(database: HydroData, index: int) -> FloatArray:
     """``2 / pi`` times the integral above at one of the database's frequencies, (6, 6)."""
     w, end = float(database.omega[index]), float(database.omega[-1])
     fine = np.linspace(0.0, end, FINE_POINTS)
@@ -85,7 +82,7 @@ def _dispersion_integral(database: HydroDatabase, index: int) -> FloatArray:
     return np.asarray(2.0 / np.pi * (body + table[-1] * tail))
 
 
-def retardation_from_damping(database: HydroDatabase, time: FloatArray) -> FloatArray:
+def retardation_from_damping(database: HydroData, time: FloatArray) -> FloatArray:
     """Retardation functions (t, 6, 6) at ``time`` (t,) in s, from the damping alone.
 
     ``K(t) = 2 / pi integral_0^inf B(w) cos(w t) dw`` (Ogilvie 1964), exact for the damping joined by straight

@@ -1,0 +1,1 @@
+"""The hydrodynamics of one vessel as plain values, and what follows from them directly."""

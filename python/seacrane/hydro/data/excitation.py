@@ -1,0 +1,96 @@
+"""Wave excitation at any frequency and heading: splines inside the database, limits beyond its band."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from seacrane.errors import SceneError
+from seacrane.hydro.data.heading_circle import LARGEST_HEADING_GAP, PORT_STARBOARD, both_sides, largest_gap
+from seacrane.hydro.data.hydro_data import HydroData
+from seacrane.hydro.data.interpolation import spline_weights
+from seacrane.sea.dispersion import wavenumber
+
+FloatArray = NDArray[np.float64]
+ComplexArray = NDArray[np.complex128]
+
+
+def force_at(
+    database: HydroData, omega: ArrayLike, heading: ArrayLike, *, outside: str = "error"
+) -> ComplexArray:
+    """`HydroDatabase.force_at`."""
+    if outside not in ("error", "limits"):
+        raise SceneError(f"database {database.name!r}: outside is {outside!r}; choose 'error' or 'limits'")
+    wanted_omega, wanted_heading = np.broadcast_arrays(np.asarray(omega, float), np.asarray(heading, float))
+    shape = wanted_omega.shape
+    w, b = wanted_omega.ravel(), wanted_heading.ravel()
+    if not (np.all(np.isfinite(w)) and np.all(np.isfinite(b))):
+        raise SceneError(f"database {database.name!r}: frequencies and headings must be finite numbers")
+    slack = 1e-9 * database.omega[-1]
+    beyond = (w < database.omega[0] - slack) | (w > database.omega[-1] + slack)
+    if outside == "error" and np.any(beyond):
+        raise SceneError(
+            f"database {database.name!r}: omega = {w[beyond][0]:.6g} rad/s is outside "
+            f"{database.omega[0]:.6g} to {database.omega[-1]:.6g} rad/s; ask within it, or pass "
+            "outside='limits'"
+        )
+    in_frequency = spline_weights(database.omega, np.clip(w, database.omega[0], database.omega[-1]))
+    circle, table = full_circle(database)
+    in_heading = _heading_weights(database, circle, b)
+    by_heading = (in_heading @ table.reshape(len(circle), -1)).reshape(len(b), len(database.omega), 6)
+    force = np.einsum("qn,qnd->qd", in_frequency, by_heading)
+    return with_limits(database, w, force).reshape(*shape, 6)
+
+
+def full_circle(database: HydroData) -> tuple[FloatArray, ComplexArray]:
+    """Headings (k,) within [0, 2 pi), the mirrored ones added, and their forces (k, n, 6); new arrays."""
+    if not database.port_starboard_symmetric:
+        return database.heading.copy(), database.force.copy()
+    heading, source, mirrored = both_sides(database.heading)
+    parity = np.where(mirrored[:, None], PORT_STARBOARD, 1.0)
+    return heading, database.force[source] * parity[:, None, :]
+
+
+def _heading_weights(database: HydroData, circle: FloatArray, heading: FloatArray) -> FloatArray:
+    """Weights (q, k) of the periodic spline over the headings; stored headings are exact in any case."""
+    gap = largest_gap(circle)
+    if gap <= LARGEST_HEADING_GAP + 1e-9:
+        return spline_weights(circle, heading, period=2.0 * np.pi)
+    distance = np.abs(np.angle(np.exp(1j * (heading[:, None] - circle))))
+    nearest = distance.argmin(axis=1)
+    off = distance[np.arange(len(heading)), nearest] > 1e-6
+    if np.any(off):
+        raise SceneError(
+            f"database {database.name!r}: heading {np.degrees(heading[off][0]):.6g} deg is not among the "
+            f"stored ones, whose largest gap is {np.degrees(gap):.3g} deg; above 45 deg "
+            "nothing is interpolated"
+        )
+    return np.asarray(np.eye(len(circle))[nearest])
+
+
+def with_limits(database: HydroData, omega: FloatArray, force: ComplexArray) -> ComplexArray:
+    """Forces beyond the band: towards the hydrostatic ones of a long wave below it, none above it.
+
+    A wave much longer than the hull lifts the water around it as one: its force tends to the third column of
+    the restoring matrix, and what is left of it falls with the wavenumber (slope of the surface, and
+    acceleration along it). So below the band F = C_3 + (F_lowest - C_3) k / k_lowest.
+
+    Parameters
+    ----------
+    omega : (n,) rad/s.
+    force : (..., n, 6) N/m and N m/m, beyond the band those of its nearest end.
+
+    Returns
+    -------
+    (..., n, 6), a new array.
+    """
+    out = np.array(force)
+    lowest, highest = database.omega[0], database.omega[-1]
+    slack = 1e-9 * highest
+    below = omega < lowest - slack
+    longest = np.append(np.maximum(omega[below], 1e-9 * lowest), lowest)
+    k = wavenumber(longest, g=database.g, depth=database.depth)
+    share = (k[:-1] / k[-1])[:, None]
+    out[..., below, :] = database.restoring[:, 2] * (1.0 - share) + out[..., below, :] * share
+    out[..., omega > highest + slack, :] = 0.0
+    return out

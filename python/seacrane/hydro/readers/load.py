@@ -1,0 +1,85 @@
+"""`load_database`: any file that a reader can open."""
+
+from __future__ import annotations
+
+from os import PathLike
+from pathlib import Path
+
+from seacrane.errors import FileFormatError
+from seacrane.hydro.data.data_warnings import warn_of_data
+from seacrane.hydro.database.database import HydroDatabase
+from seacrane.hydro.readers import capytaine, orcaflex, seacrane_netcdf, veres, wamit
+from seacrane.hydro.readers.format import Format
+
+FORMATS = (capytaine.FORMAT, seacrane_netcdf.FORMAT, veres.FORMAT, wamit.FORMAT, orcaflex.FORMAT)
+NAMED = 5  # files in a message
+
+
+def load_database(path: str | PathLike[str], *, speed: float | None = None) -> HydroDatabase:
+    """Read a hydrodynamic database of any supported kind.
+
+    NetCDF of seacrane or Capytaine (told apart by content), ShipX/VERES or WAMIT (folder, stem or any file of
+    the set), OrcaFlex (a text model, or MaFreDo's form).
+
+    Parameters
+    ----------
+    path : file, folder or stem.
+    speed : forward speed in m/s, for VERES files that hold several (`available_speeds`); by default the one
+        nearest to zero.
+
+    Raises
+    ------
+    FileFormatError : nothing readable at ``path``, or not of that speed; the message names the file, the line
+        where there is one, and the supported kinds.
+
+    Warns
+    -----
+    DampingWarning, HeadingGapWarning, WaterMismatchWarning : what was read will give wrong motions.
+    """
+    found, source = _format_of(Path(path))
+    database = found.read(source, speed=speed)
+    warn_of_data(database)
+    return database
+
+
+def available_speeds(path: str | PathLike[str]) -> tuple[float, ...]:
+    """Forward speeds in m/s, rising, that `load_database` can read at ``path``.
+
+    Raises
+    ------
+    FileFormatError : as `load_database`.
+    """
+    found, source = _format_of(Path(path))
+    return found.speeds(source)
+
+
+def _format_of(path: Path) -> tuple[Format, Path]:
+    """The first format that can open a path, and what it shall open: of a folder perhaps the one file."""
+    if path.is_dir():
+        return _format_of_folder(path)
+    for one in FORMATS:
+        if one.can_open(path):
+            return one, path
+    problem = "not of a known kind" if path.exists() else "no such file"
+    raise FileFormatError(f"{path}: {problem}; {_supported()}")
+
+
+def _format_of_folder(folder: Path) -> tuple[Format, Path]:
+    """Of a folder that is a set of files, or that holds one file of a known kind."""
+    sets = [one for one in FORMATS if one.can_open(folder)]
+    if len(sets) > 1:
+        names = " and ".join(one.name for one in sets)
+        raise FileFormatError(f"{folder}: the folder holds {names} files; name one of them")
+    if sets:
+        return sets[0], folder
+    files = [file for file in sorted(folder.iterdir()) if any(one.can_open(file) for one in FORMATS)]
+    if not files:
+        raise FileFormatError(f"{folder}: the folder holds nothing of a known kind; {_supported()}")
+    if len(files) > 1:
+        names = ", ".join(file.name for file in files[:NAMED])
+        raise FileFormatError(f"{folder}: the folder holds several files ({names}), name one of them")
+    return _format_of(files[0])
+
+
+def _supported() -> str:
+    return "supported: " + ", ".join(one.files for one in FORMATS)

@@ -1,0 +1,1 @@
+"""The vessel of the time domain."""

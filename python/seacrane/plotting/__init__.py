@@ -1,0 +1,1 @@
+"""Figures as data: what every picture of the package is drawn with."""

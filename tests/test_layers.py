@@ -1,0 +1,132 @@
+"""The package's rooms lie on floors: imports go down, in no circle, and in plain sight."""
+
+from __future__ import annotations
+
+import ast
+import re
+import subprocess
+import sys
+from collections import defaultdict
+from pathlib import Path
+
+import pytest
+from import_graph import Import, circles, imports, modules, room
+
+# Rooms from the ground up: each may import from those on lines above its own.
+FLOORS = """
+    errors version lazy
+    inputs
+    files
+    plotting
+    description
+    validity sea
+    hydro.data
+    hydro.memory
+    hydro.vessel
+    hydro.database
+    hydro.readers
+    hydro.hull
+    hydro
+    crane
+    analysis
+    result
+    scene
+    run
+    figures
+    trading
+    cases
+    cli
+    __main__
+"""
+HIDDEN = {
+    "cli": "a command imports what it needs, so that --help is quick",
+    "files.netcdf_limits": "h5py is loaded once a file is opened",
+}
+DOCUMENTED_MODULES = {"cases", "crane", "errors", "hydro", "sea"}
+
+
+@pytest.fixture(scope="module")
+def package(repository: Path) -> Path:
+    return repository / "python" / "seacrane"
+
+
+@pytest.fixture(scope="module")
+def arrows(package: Path) -> list[Import]:
+    """Without those of the public face, which imports from everywhere."""
+    return [arrow for arrow in imports(package) if arrow.source]
+
+
+def test_every_room_has_a_floor(package: Path) -> None:
+    files = modules(package)
+    rooms = {room(module, files) for module in files if module}
+    assert rooms == set(FLOORS.split())
+
+
+def test_imports_go_down(package: Path, arrows: list[Import]) -> None:
+    files = modules(package)
+    floor = {name: at for at, line in enumerate(FLOORS.strip().splitlines()) for name in line.split()}
+    wrong = []
+    for arrow in arrows:
+        above, below = (room(module, files) for module in (arrow.source, arrow.target))
+        if above != below and floor.get(below, 99) >= floor.get(above, -1):
+            wrong.append(f"{arrow.source} imports {arrow.target}")
+    assert not wrong
+
+
+def test_no_circle_of_modules(arrows: list[Import]) -> None:
+    """Imports for types alone, and those within a room, count too."""
+    graph: dict[str, set[str]] = defaultdict(set)
+    for arrow in arrows:
+        graph[arrow.source].add(arrow.target)
+    assert circles(graph) == []
+
+
+def test_no_import_of_the_package_is_hidden_in_a_function(arrows: list[Import]) -> None:
+    hidden = [arrow for arrow in arrows if arrow.hidden]
+    used = {place for arrow in hidden for place in HIDDEN if f"{arrow.source}.".startswith(f"{place}.")}
+    others = [
+        f"{arrow.source} imports {arrow.target}"
+        for arrow in hidden
+        if not any(f"{arrow.source}.".startswith(f"{place}.") for place in HIDDEN)
+    ]
+    assert not others
+    assert used == set(HIDDEN), "an exception that nothing needs"
+
+
+def test_the_core_names_modules_that_are_there(repository: Path, package: Path) -> None:
+    sources = (repository / "cpp" / "bindings").glob("*.cpp")
+    named = {
+        name for path in sources for name in re.findall(r'import\("seacrane\.([\w.]+)"\)', path.read_text())
+    }
+    assert named
+    assert named <= set(modules(package))
+
+
+@pytest.mark.parametrize("name", ["seacrane", "seacrane.hydro"])
+def test_a_face_lists_its_public_names_and_nothing_else(name: str, package: Path) -> None:
+    """Even once rooms have been imported, which makes them attributes of the package."""
+    stub = package.joinpath(*name.split(".")[1:], "__init__.pyi")
+    statements = [one for one in ast.parse(stub.read_text()).body if isinstance(one, ast.ImportFrom)]
+    public = sorted(entry.asname or "" for one in statements for entry in one.names)
+    code = (
+        f"import {name} as face, types\n"
+        "values = {one: getattr(face, one) for one in face.__all__}\n"
+        "print(*dir(face))\n"
+        "print(*face.__all__)\n"
+        "print(*[one for one, value in values.items() if isinstance(value, types.ModuleType)])\n"
+        "from seacrane import *\n"
+        "try: face.absent\n"
+        "except AttributeError as error: print(error)\n"
+    )
+    finished = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
+    assert finished.returncode == 0, finished.stderr
+    listed, every, submodules, refused = finished.stdout.splitlines()
+    assert listed.split() == every.split() == public
+    assert set(submodules.split()) == (DOCUMENTED_MODULES if name == "seacrane" else set())
+    assert refused == f"module {name!r} has no attribute 'absent'"
+    assert [one for one in public if one.startswith("_")] in ([], ["__version__"])
+
+
+def test_circles_are_found() -> None:
+    assert circles({"a": {"b"}, "b": {"c"}, "c": {"a", "d"}, "d": set(), "e": {"d"}}) == [["a", "b", "c"]]
+    assert circles({"a": {"b", "c"}, "b": {"d"}, "c": {"d"}}) == []
