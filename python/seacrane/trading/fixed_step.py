@@ -10,13 +10,13 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from seacrane import _core
 from seacrane.errors import SceneError, SimulationError
 from seacrane.inputs.checked import number_of
 from seacrane.run.simulation import Run, finished
 from seacrane.trading.quantities import compare, quantities_of
 
 if TYPE_CHECKING:
-    from seacrane import _core
     from seacrane.description.scene import Scene
     from seacrane.trading.quantities import Quantity
 
@@ -111,9 +111,10 @@ def step_error(
             scene, model=model, t_end=t_end, dt_out=dt_out, integrator=integrator, dt=longer * step,
             formulation=formulation, spectral_radius=spectral_radius, start=start, channels=channels,
         )  # fmt: skip
-        if run.core.adaptive:
+        method = _core.integrator(integrator)
+        if method.setting != "dt":
             raise SceneError(f"integrator {integrator!r} chooses its own steps: give accuracy= to simulate()")
-        order = run.core.order
+        order = method.order
         try:
             result = finished(run)
         except SimulationError:
