@@ -52,13 +52,13 @@ TEST_CASE("every branch: twist is the rate of the pose, bias that of the twist, 
     if constexpr (requires { typename Type::Branch; }) {
       CAPTURE(std::string(Type::kind));
       const OneBranch scene(kind, random);
-      ArticulatedTree tree(scene.tree, 2);
+      ArticulatedTree<double> tree(scene.tree, 2);
       std::vector<BodyKinematics<double>> bodies(3, BodyKinematics<double>::ground());
       const auto q = random_values(random, scene.tree.positions);
       const auto u = random_values(random, scene.tree.speeds);
       std::vector<double> q_rate(q.size());
       tree.place(q.data(), u.data(), bodies.data());
-      tree.position_rates(q.data(), u.data(), bodies.data(), q_rate.data());
+      tree.kinematics().position_rates(q.data(), u.data(), bodies.data(), q_rate.data());
 
       // Rates of the pose along q(t), u constant: position, and R' R^T.
       const auto at = [&](double t) {
@@ -84,9 +84,12 @@ TEST_CASE("every branch: twist is the rate of the pose, bias that of the twist, 
       std::vector<double> u_rate(u.size());
       tree.factor(mass.data());
       tree.solve(load.data(), true, acceleration.data(), u_rate.data());
+      const Cluster& c = scene.tree.clusters[1];
       Vec6d bias = acceleration[1] - acceleration[0];
-      bias.head<3>() -= acceleration[0].tail<3>().cross(tree.reach(1));
-      for (std::size_t i = 6; i < u.size(); ++i) bias -= u_rate[i] * tree.columns()[i];
+      bias.head<3>() -= acceleration[0].tail<3>().cross(tree.kinematics().reach(1));
+      for (int k = 0; k < c.speeds; ++k) {
+        bias -= u_rate[idx(c.u + k)] * tree.kinematics().column(c.members[0], k).vector();
+      }
       CHECK((gained - bias).norm() < kDifference);
 
       std::vector<double> q_back(q.size()), u_back(u.size());
@@ -96,6 +99,50 @@ TEST_CASE("every branch: twist is the rate of the pose, bias that of the twist, 
       CHECK((again[1].position - bodies[1].position).norm() < 1e-14);
       CHECK((again[1].rotation - bodies[1].rotation).norm() < 1e-14);
       CHECK((twist(again[1]) - twist(bodies[1])).norm() < 1e-13);
+    }
+  });
+}
+
+TEST_CASE("every branch: the tree on dual numbers gives the slopes of its accelerations") {
+  Random random(14);
+  for_each_joint_type([&]<class Type>(std::size_t kind) {
+    if constexpr (requires { typename Type::Branch; }) {
+      CAPTURE(std::string(Type::kind));
+      const OneBranch scene(kind, random);
+      const auto q = random_values(random, scene.tree.positions),
+                 q_along = random_values(random, scene.tree.positions),
+                 u = random_values(random, scene.tree.speeds),
+                 u_along = random_values(random, scene.tree.speeds);
+      std::vector<Mat6d> mass(2, Mat6d::Identity());
+      for (Mat6d& m : mass) m.bottomRightCorner<3, 3>() = random.inertia();
+      std::vector<Vec6d> load(3);
+      for (Vec6d& w : load) w << random.vector(), random.vector();
+      // Rates of the speeds, at a distance t along the direction.
+      const auto solve = [&]<class T>(const T& t) {
+        ArticulatedTree<T> tree(scene.tree, 2);
+        std::vector<BodyKinematics<T>> bodies(3, BodyKinematics<T>::ground());
+        std::vector<T> at_q, at_u;
+        for (std::size_t i = 0; i < q.size(); ++i) at_q.push_back(T(q[i]) + T(q_along[i]) * t);
+        for (std::size_t i = 0; i < u.size(); ++i) at_u.push_back(T(u[i]) + T(u_along[i]) * t);
+        std::vector<Mat6<T>> masses;
+        for (const Mat6d& m : mass) masses.push_back(m.cast<T>());
+        std::vector<Vec6<T>> loads, acceleration(3);
+        for (const Vec6d& w : load) loads.push_back(w.cast<T>());
+        std::vector<T> u_rate(u.size());
+        tree.place(at_q.data(), at_u.data(), bodies.data());
+        tree.factor(masses.data());
+        tree.solve(loads.data(), true, acceleration.data(), u_rate.data());
+        return u_rate;
+      };
+      const std::vector<Dual<1>> slopes = solve(Dual<1>::variable(0.0, 0));
+      const VecXd differences = slope([&](double t) -> VecXd {
+        const std::vector<double> u_rate = solve(t);
+        return Eigen::Map<const VecXd>(u_rate.data(), static_cast<Eigen::Index>(u_rate.size()));
+      });
+      const double largest = differences.cwiseAbs().maxCoeff();
+      for (std::size_t i = 0; i < slopes.size(); ++i) {
+        CHECK(std::abs(slopes[i].slope[0] - differences[static_cast<Eigen::Index>(i)]) < 1e-8 * largest);
+      }
     }
   });
 }
@@ -131,7 +178,7 @@ TEST_CASE("accelerations of a tree agree with the redundant formulation, joint b
 
         const BodyTree shape = build_tree(*model);
         CHECK(shape.loops.empty());
-        ArticulatedTree tree(shape, 3);
+        ArticulatedTree<double> tree(shape, 3);
         std::vector<double> q(idx(shape.positions)), u(idx(shape.speeds)), u_rate(idx(shape.speeds));
         auto bodies = redundant.bodies();
         tree.read(bodies.data(), q.data(), u.data());
@@ -166,7 +213,7 @@ TEST_CASE("a strut across a hinge moves and accelerates as its loop of constrain
     std::vector<double> y = moving_state(redundant, 100 + static_cast<std::uint64_t>(trial));
     std::vector<double> ydot(y.size());
     redundant.derivative(0.0, y.data(), ydot.data());
-    ArticulatedTree tree(shape, 5);
+    ArticulatedTree<double> tree(shape, 5);
     std::vector<double> q(idx(shape.positions)), u(idx(shape.speeds)), u_rate(idx(shape.speeds));
     auto bodies = redundant.bodies();
     tree.read(bodies.data(), q.data(), u.data());

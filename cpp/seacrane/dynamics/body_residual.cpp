@@ -79,7 +79,7 @@ void BodyResidual::start(const RedundantSystem& system, double t, const Held& he
 
 void BodyResidual::differentiate(int b) {
   seed(system_->bodies()[idx(b)], bodies_[idx(b)]);
-  for (int other : touched_) wrench_[idx(other)] = second_wrench_[idx(other)] = Wrench<Scalar>();
+  for (int other : touched_) wrench_[idx(other)] = second_wrench_[idx(other)] = BodyLoad<Scalar>();
   touched_.clear();
   for (auto* rows : {&right_, &rate_, &position_}) std::fill(rows->begin(), rows->end(), Scalar());
   const LoadInput<double> now = system_->load_input(t_);
@@ -93,7 +93,7 @@ void BodyResidual::differentiate(int b) {
   bodies_[idx(b)] = constant<Scalar>(system_->bodies()[idx(b)]);
 }
 
-BodyResidual::Slopes BodyResidual::slopes(const Wrench<Scalar>& w) {
+BodyResidual::Slopes BodyResidual::slopes(const BodyLoad<Scalar>& w) {
   Slopes out;
   for (int i = 0; i < 3; ++i) {
     for (int d = 0; d < kDirections; ++d) {
@@ -104,7 +104,7 @@ BodyResidual::Slopes BodyResidual::slopes(const Wrench<Scalar>& w) {
   return out;
 }
 
-Wrench<BodyResidual::Scalar>& BodyResidual::wrench(int b) {
+BodyLoad<BodyResidual::Scalar>& BodyResidual::wrench(int b) {
   if (std::find(touched_.begin(), touched_.end(), b) == touched_.end()) touched_.push_back(b);
   return wrench_[idx(b)];
 }
@@ -137,7 +137,7 @@ void BodyResidual::add_inertia(int b) {
   const Vec3<Scalar> swing = cross<Scalar>(omega, cross<Scalar>(omega, c));
   const Vec3<Scalar> at_center = a + cross<Scalar>(alpha, c) + swing;
   const Vec3<Scalar> force = Scalar(body.mass) * at_center;
-  Wrench<Scalar>& out = wrench(b);
+  BodyLoad<Scalar>& out = wrench(b);
   out.force -= force;
   out.moment -= about_center(alpha) + cross<Scalar>(omega, about_center(omega)) + cross<Scalar>(c, force);
   if (body.vessel < 0) return;
@@ -178,7 +178,7 @@ void BodyResidual::add_differences(const FunctionForce& load) {
   input.bodies = moved_.data();
   const auto at = [&](int direction, double step) {
     moved_[b] = moved(system_->bodies()[b], direction, step);
-    moved_wrench_[b] = Wrench<double>();
+    moved_wrench_[b] = BodyLoad<double>();
     LoadSum<double> out{moved_wrench_.data()};
     load.apply<double>(input, out);
     return (Eigen::Matrix<double, 7, 1>() << moved_wrench_[b].force, moved_wrench_[b].moment, out.power)
@@ -276,10 +276,12 @@ void BodyResidual::add_rows(const RowBlock<Scalar>& block, const ElementModel& e
     for (int side = 0; side < 2; ++side) {
       if (bodies[side] == model_->body_count()) continue;
       const auto b = idx(bodies[side]);
-      Wrench<Scalar>& load = wrench(bodies[side]);
+      BodyLoad<Scalar>& load = wrench(bodies[side]);
       for (int i = 0; i < 6; ++i) {
         const Scalar& d = block.d[side](r, i);
-        const auto part = [&](Wrench<Scalar>& w) -> Scalar& { return i < 3 ? w.force[i] : w.moment[i - 3]; };
+        const auto part = [&](BodyLoad<Scalar>& w) -> Scalar& {
+          return i < 3 ? w.force[i] : w.moment[i - 3];
+        };
         part(load) += held_.multipliers[row] * d;
         if (held_.second_multipliers) part(second_wrench_[b]) += held_.second_multipliers[row] * d;
         right_[row] -= held_.acceleration[b][i] * d;

@@ -63,9 +63,9 @@ class BodyResidual {
   const WaveSlopes& wave_slopes(std::size_t vessel) const { return wave_slopes_[vessel]; }
 
  private:
-  static Slopes slopes(const Wrench<Scalar>& w);
+  static Slopes slopes(const BodyLoad<Scalar>& w);
   void seed(const BodyKinematics<double>& k, BodyKinematics<Scalar>& out) const;
-  Wrench<Scalar>& wrench(int body);
+  BodyLoad<Scalar>& wrench(int body);
   void add_inertia(int body);
   void add_loads(int body, const LoadInput<Scalar>& input);
   void add_differences(const FunctionForce& load);
@@ -81,8 +81,8 @@ class BodyResidual {
   std::vector<char> counted_;  // by element
   std::vector<BodyKinematics<Scalar>> bodies_;
   std::vector<BodyKinematics<double>> moved_;
-  std::vector<Wrench<Scalar>> wrench_, second_wrench_;
-  std::vector<Wrench<double>> moved_wrench_;
+  std::vector<BodyLoad<Scalar>> wrench_, second_wrench_;
+  std::vector<BodyLoad<double>> moved_wrench_;
   std::vector<Scalar> right_, rate_, position_, memory_state_, memory_rate_;
   std::vector<WaveSlopes> wave_slopes_;  // by vessel
   std::vector<int> touched_;

@@ -1,17 +1,11 @@
 #include "seacrane/dynamics/formulation.hpp"
 
-#include <algorithm>
 #include <stdexcept>
 
 #include "seacrane/dynamics/merged.hpp"
 #include "seacrane/dynamics/recursive/recursive.hpp"
 
 namespace seacrane {
-
-int redundant_rows(const Model& model, int known, int left_out) {
-  if (model.assembly.rank > 0) return model.rows() - model.assembly.rank;
-  return known < 0 ? left_out : std::min(known, left_out);
-}
 
 std::unique_ptr<Formulation> make_formulation(const std::string& name, RedundantSystem& bodies) {
   const bool recursive = name == "recursive";

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "seacrane/dynamics/dependence.hpp"
 #include "seacrane/integrate/position_map.hpp"
 #include "seacrane/integrate/system.hpp"
 #include "seacrane/math/types.hpp"
@@ -11,23 +12,6 @@
 namespace seacrane {
 
 class RedundantSystem;
-struct Model;
-
-/// How near constraint rows are to depending on each other, beyond those that do from the start.
-struct Dependence {
-  double ratio = 0.0;  // the inverse of what is left of the worst row, at the last factorisation; 0: no rows
-  int redundant = 0;   // combinations of rows that depend on the others from the start
-  int left_out = 0;    // those not enforced at the last factorisation
-  int most_left_out = 0;  // the same, at any since it was taken last
-
-  bool lost_rank() const { return most_left_out > redundant; }
-  /// The start was the singular position.
-  bool gained_rank() const { return left_out < redundant; }
-};
-
-/// Combinations of rows that depend on the others in the assembled model; of a model that was not assembled,
-/// another set of limits, the fewest left out so far, `known` (-1: none yet) or `left_out`.
-int redundant_rows(const Model& model, int known, int left_out);
 
 /// A system of bodies in some choice of coordinates, which can be told from the poses and twists of all
 /// bodies (the state of the redundant form, StateLayout) and back without loss.

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "seacrane/math/types.hpp"
+#include "seacrane/math/spatial.hpp"
 
 namespace seacrane {
 
@@ -16,11 +16,12 @@ struct BodyKinematics {
   static BodyKinematics ground() {
     return {Vec3<T>::Zero(), Mat3<T>::Identity(), Vec3<T>::Zero(), Vec3<T>::Zero()};
   }
+  Twist<T> twist() const { return {velocity, angular_velocity}; }
 };
 
-/// Force and moment about the body's state point, inertial axes.
+/// Force and moment about the body's state point, inertial axes, as loads add them up.
 template <class T>
-struct Wrench {
+struct BodyLoad {
   Vec3<T> force = Vec3<T>::Zero();
   Vec3<T> moment = Vec3<T>::Zero();
 

@@ -19,9 +19,9 @@ std::string vector_text(const Vec3d& v) {
 }
 
 /// "force ... N, moment ... N m on body ..." of the first wrench that is not finite; empty: all are.
-std::string bad_wrench(const Model& m, const std::vector<Wrench<double>>& wrench) {
+std::string bad_wrench(const Model& m, const std::vector<BodyLoad<double>>& wrench) {
   for (int b = 0; b < m.body_count(); ++b) {
-    const Wrench<double>& w = wrench[idx(b)];
+    const BodyLoad<double>& w = wrench[idx(b)];
     if (w.force.allFinite() && w.moment.allFinite()) continue;
     return "force " + vector_text(w.force) + " N and moment " + vector_text(w.moment) + " N m on body " +
            in_quotes(m.bodies[idx(b)].name);
@@ -51,7 +51,7 @@ std::string RedundantSystem::non_finite_load(double t, const double* y) {
   std::string found;
   const auto check = [&](const std::string& name, auto&& apply) {
     if (!found.empty()) return;
-    for (auto& w : wrench_) w = Wrench<double>();
+    for (auto& w : wrench_) w = BodyLoad<double>();
     LoadSum<double> sum{wrench_.data()};
     apply(sum);
     const std::string bad = bad_wrench(m, wrench_);

@@ -1,3 +1,5 @@
+#include "seacrane/dynamics/projection.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -8,10 +10,7 @@
 namespace seacrane {
 namespace {
 
-constexpr double kProjectionTolerance = 1e-13;
-constexpr int kProjectionIterations = 12;
-constexpr double kRankCut = 3e-6;  // relative singular value of rows that are redundant
-constexpr double kRedundantCondition = 1.0 / (kRankCut * kRankCut);
+constexpr double kRedundantPivot = 1.0 / (kRedundantSingularValue * kRedundantSingularValue);
 
 }  // namespace
 
@@ -135,36 +134,29 @@ bool RedundantSystem::project(double t, double* y, bool evaluated_here) {
     evaluate_rows(t);
     factor();
   }
-  double worst = position_residual();
+  const double worst = position_residual();
   before_projection_ = std::max(before_projection_, worst);
-  bool changed = false;
   const double tolerance = position_tolerance(bodies_.data(), m.body_count());
-  for (int i = 0; worst > tolerance && i < kProjectionIterations; ++i) {
+  const bool moved = projection::close_positions(worst, tolerance, [&](int i) {
     for (std::size_t e = 0; e < m.elements.size(); ++e) {
       for (int r = 0; r < m.elements[e].rows; ++r) residual_[idx(m.elements[e].row + r)] = blocks_[e].phi[r];
     }
     correct();
     move_poses(y);
-    changed = true;
     read_state(t, y);
     evaluate_rows(t);
     if (i >= 2) {  // the frozen factorisation converges too slowly
       evaluate_inertia();
       factor();
     }
-    const double next = position_residual();
-    if (!(next < 0.5 * worst) && next < 1e-11) break;  // rounding
-    worst = next;
-  }
-  for (int i = 0; i < kProjectionIterations; ++i) {
-    const double rate = rate_residual(y, residual_.data());
-    if (!(rate > kProjectionTolerance)) break;
-    correct();
-    move_twists(y);
-    changed = true;
-    if (i >= 2 && rate < 1e-11) break;
-  }
-  return changed;
+    return position_residual();
+  });
+  const bool turned = projection::close_rates([&] { return rate_residual(y, residual_.data()); },
+                                              [&] {
+                                                correct();
+                                                move_twists(y);
+                                              });
+  return moved || turned;
 }
 
 ConstraintResidual RedundantSystem::residual(double t, const double* y) {
@@ -186,12 +178,13 @@ ConstraintRank RedundantSystem::rank(double t, const double* y, int skipped) {
   out.condition = condition_;
   const double shape = shape_condition();
   if (row_space_) {
-    out.rank = row_space_->factor(model_->elements, blocks_.data(), over_shape_.data(), kRankCut);
+    out.rank =
+        row_space_->factor(model_->elements, blocks_.data(), over_shape_.data(), kRedundantSingularValue);
     out.null_space = row_space_->null_space();
     out.smallest_singular_value = row_space_->singular_value(skipped);
     out.weakest = weakest_element(skipped);
   } else {
-    out.rank = model_->rows() - (shape > kRedundantCondition ? 1 : 0);
+    out.rank = model_->rows() - (shape > kRedundantPivot ? 1 : 0);
   }
   return out;
 }

@@ -12,13 +12,6 @@
 namespace seacrane {
 namespace {
 
-/// S_ii / d_i beyond which the Schur complement has lost five digits and pivoted LU takes over.
-constexpr double kConditionLimit = 1e5;
-/// The same of D M1^-1 D^T, with every mass one: beyond it rows may depend on each other.
-constexpr double kShapeConditionLimit = 1e7;
-/// Relative singular value below which a combination of rows is not enforced. Change-point four-bars pass
-/// their singular position onto the right branch with 1e-4, and lose it with 1e-6.
-constexpr double kSingularCut = 1e-4;
 constexpr double kEulerLimit = 1e-3;  // cos(phi_y); negative: a step jumped over +-90 deg
 
 void add_transpose(const RowBlock<double>& block, int side, int rows, const double* lambda, Vec6d& out) {
@@ -162,7 +155,7 @@ void RedundantSystem::apply_waves(double t, const double* memory, LoadSum<double
 
 void RedundantSystem::evaluate_wrenches(double t, const double* memory, double* memory_rate) {
   const Model& m = *model_;
-  for (auto& w : wrench_) w = Wrench<double>();
+  for (auto& w : wrench_) w = BodyLoad<double>();
   const LoadInput<double> input = load_input(t);
   LoadSum<double> sum{wrench_.data()};
   for (const auto& load : m.gravity) load.apply<double>(input, sum);
@@ -198,7 +191,7 @@ void RedundantSystem::factor() {
   });
   m.schur.assemble(blocks_.data(), over_mass_.data(), values_.data());
   condition_ = m.schur.factor(values_.data());
-  regular_ = !dense_ || (!m.redundant && condition_ <= kConditionLimit);
+  regular_ = !dense_ || (!m.redundant && condition_ <= kInaccuratePivot);
   if (!regular_) factor_dense();
 }
 
@@ -216,9 +209,10 @@ double RedundantSystem::shape_condition() {
 /// other, in redundant joints or near a singular position: there only the independent ones are enforced.
 void RedundantSystem::factor_dense() {
   const Model& m = *model_;
-  dependent_ = shape_condition() > kShapeConditionLimit || m.redundant;
+  dependent_ = shape_condition() > kDependentPivot || m.redundant;
   if (dependent_) {
-    const int rank = row_space_->factor(m.elements, blocks_.data(), over_shape_.data(), kSingularCut);
+    const int rank =
+        row_space_->factor(m.elements, blocks_.data(), over_shape_.data(), kEnforcedSingularValue);
     most_left_out_ = std::max(most_left_out_, m.rows() - rank);
   }
   for (int b = 0; b < m.body_count(); ++b) dense_mass_[idx(b)] = symmetric_mass(b);

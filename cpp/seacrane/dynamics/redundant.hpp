@@ -171,7 +171,7 @@ class RedundantSystem final : public Formulation, public PositionMap {
   std::vector<double> slots_;
   double curve_limit_ = std::numeric_limits<double>::infinity();
   std::vector<BodyKinematics<double>> bodies_;
-  std::vector<Wrench<double>> wrench_;
+  std::vector<BodyLoad<double>> wrench_;
   std::vector<BodyInertia> inertia_;
   std::vector<Vec6d> bias_, load_, acceleration_, impulse_;
   std::vector<YawFrame<double>> frames_;

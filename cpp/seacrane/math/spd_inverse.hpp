@@ -7,17 +7,17 @@ namespace seacrane {
 /// Inverse of a small symmetric positive definite matrix, of which only the lower triangle is read, by
 /// a = L D L^T: L^-T D^-1 L^-1. Loops of constant length, which the compiler unrolls; a general solver spends
 /// several times as much on finding out how small the matrix is.
-template <int n>
-Eigen::Matrix<double, n, n> spd_inverse(const Eigen::Matrix<double, n, n>& a) {
-  using Square = Eigen::Matrix<double, n, n>;
+template <int n, class T>
+Eigen::Matrix<T, n, n> spd_inverse(const Eigen::Matrix<T, n, n>& a) {
+  using Square = Eigen::Matrix<T, n, n>;
   Square l = a;  // below the diagonal L
-  double over_pivot[n];
+  T over_pivot[n];
 #pragma GCC unroll 6
   for (int j = 0; j < n; ++j) {
-    over_pivot[j] = 1.0 / l(j, j);
+    over_pivot[j] = T(1) / l(j, j);
 #pragma GCC unroll 6
     for (int k = j + 1; k < n; ++k) {
-      const double factor = l(k, j) * over_pivot[j];
+      const T factor = l(k, j) * over_pivot[j];
 #pragma GCC unroll 6
       for (int i = k; i < n; ++i) l(i, k) -= factor * l(i, j);
     }
@@ -29,7 +29,7 @@ Eigen::Matrix<double, n, n> spd_inverse(const Eigen::Matrix<double, n, n>& a) {
   for (int j = 0; j < n; ++j) {
 #pragma GCC unroll 6
     for (int i = j + 1; i < n; ++i) {
-      double sum = -l(i, j);
+      T sum = -l(i, j);
 #pragma GCC unroll 6
       for (int k = j + 1; k < i; ++k) sum -= l(i, k) * w(k, j);
       w(i, j) = sum;
@@ -40,7 +40,7 @@ Eigen::Matrix<double, n, n> spd_inverse(const Eigen::Matrix<double, n, n>& a) {
   for (int j = 0; j < n; ++j) {
 #pragma GCC unroll 6
     for (int i = j; i < n; ++i) {
-      double sum = i == j ? over_pivot[i] : over_pivot[i] * w(i, j);
+      T sum = i == j ? over_pivot[i] : over_pivot[i] * w(i, j);
 #pragma GCC unroll 6
       for (int k = i + 1; k < n; ++k) sum += w(k, i) * over_pivot[k] * w(k, j);
       out(i, j) = sum;

@@ -16,7 +16,6 @@ namespace {
 constexpr double kClosed = 1e-9;  // m, rad: a loop open by more than this is contradictory
 constexpr int kRestarts = 6;      // of the projection's own Newton iterations
 constexpr int kDenseRows = 600;   // above, rows are taken for independent unless their pivots tell otherwise
-constexpr double kSuspicious = 1e5;  // largest S_ii / d_i of rows that need no closer look
 
 double largest(const ElementModel& e, const Vec6d& phi) {
   return e.rows == 0 ? 0.0 : phi.head(e.rows).cwiseAbs().maxCoeff();
@@ -183,7 +182,7 @@ void mark_redundant(Model& m, const MatXd& null_space) {
 bool depend(const Model& m, RedundantSystem& system) {
   std::vector<double> rate(system.size());
   system.derivative(0.0, m.initial_state.data(), rate.data());
-  return system.condition() > kSuspicious && system.rank(0.0, m.initial_state.data()).rank < m.rows();
+  return system.condition() > kInaccuratePivot && system.rank(0.0, m.initial_state.data()).rank < m.rows();
 }
 
 }  // namespace

@@ -53,7 +53,7 @@ inline LoadKinks kinks_of(const Curve& curve, double value, double rate = 0.0) {
 /// have no potential, for the energy balance.
 template <class T>
 struct LoadSum {
-  Wrench<T>* wrench;
+  BodyLoad<T>* wrench;
   T power = T(0), absolute_power = T(0);
 
   void add_power(const T& p) {

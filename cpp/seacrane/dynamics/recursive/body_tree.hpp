@@ -49,6 +49,7 @@ template <class F>
 void with_joint_type(std::size_t kind, F&& f) {
   for_each_joint_type([&]<class Type>(std::size_t i) {
     if constexpr (requires { typename Type::Branch; }) {
+      static_assert(Type::Branch::speeds < kMostSpeeds, "a joint that holds nothing is no branch");
       if (i == kind) f.template operator()<Type>();
     }
   });

@@ -9,12 +9,6 @@
 namespace seacrane {
 namespace {
 
-/// Free over remaining compliance beyond which rows may depend on each other, as in the redundant form.
-constexpr double kConditionLimit = 1e5;
-/// Eigenvalue, relative to the compliance of free bodies of mass one, below which a combination of rows is
-/// not enforced: the square of the redundant form's singular value, 1e-4.
-constexpr double kSingularCut = 1e-8;
-
 /// Compliance of a free body per unit force and per unit moment, at most.
 Eigen::Vector2d free_compliance(const Model& model, int body) {
   if (body == model.body_count()) return Eigen::Vector2d::Zero();
@@ -50,7 +44,7 @@ LoopClosure::LoopClosure(const Model& model, const BodyTree& tree)
 }
 
 /// g := D M^-1 D^T for the inertias that the tree holds factored.
-void LoopClosure::gather(const RowBlock<double>* blocks, ArticulatedTree& tree, MatXd& g) {
+void LoopClosure::gather(const RowBlock<double>* blocks, ArticulatedTree<double>& tree, MatXd& g) {
   const Eigen::Index n = g.rows();
   for (Eigen::Index c = 0; c < n; ++c) {
     const Row& row = rows_[static_cast<std::size_t>(c)];
@@ -81,7 +75,7 @@ double LoopClosure::decompose(const MatXd& g) {
 }
 
 void LoopClosure::factor(const RowBlock<double>* blocks, const Mat6d* mass,
-                         const BodyKinematics<double>* bodies, ArticulatedTree& tree) {
+                         const BodyKinematics<double>* bodies, ArticulatedTree<double>& tree) {
   gather(blocks, tree, g_);
   double cancelled = 1.0, open = 1.0;
   for (Eigen::Index i = 0; i < g_.rows(); ++i) {
@@ -96,9 +90,9 @@ void LoopClosure::factor(const RowBlock<double>* blocks, const Mat6d* mass,
   condition_ = cancelled / pivots;
   left_out_ = 0;
   ratio_ = 1.0 / std::max(0.0, open * pivots);
-  dependent_ = !(open * pivots * kConditionLimit > 1.0) && !is_independent(blocks, mass, bodies, tree);
+  dependent_ = !(open * pivots * kInaccuratePivot > 1.0) && !is_independent(blocks, mass, bodies, tree);
   if (!dependent_) return;
-  for (double value : eigen_.eigenvalues()) left_out_ += value > kSingularCut ? 0 : 1;
+  for (double value : eigen_.eigenvalues()) left_out_ += value > kEnforcedEigenvalue ? 0 : 1;
   reduce();
   most_left_out_ = std::max(most_left_out_, left_out_);
 }
@@ -117,7 +111,7 @@ Dependence LoopClosure::take_dependence() {
 /// that it does, and columns of zeros. Light bodies between heavy ones and rows that depend on each other
 /// both make G nearly singular: only the latter do so with equal masses.
 bool LoopClosure::is_independent(const RowBlock<double>* blocks, const Mat6d* mass,
-                                 const BodyKinematics<double>* bodies, ArticulatedTree& tree) {
+                                 const BodyKinematics<double>* bodies, ArticulatedTree<double>& tree) {
   for (std::size_t b = 0; b < shape_mass_.size(); ++b) {
     shape_mass_[b] = shape_mass_matrix(model_.bodies[b], bodies[b].rotation);
   }
@@ -141,13 +135,13 @@ bool LoopClosure::is_independent(const RowBlock<double>* blocks, const Mat6d* ma
   scaled_.noalias() = scale_.asDiagonal() * shape_;
   scaled_.array().rowwise() *= scale_.transpose().array();
   eigen_.compute(scaled_);
-  if (eigen_.eigenvalues()[0] > kSingularCut) {
+  if (eigen_.eigenvalues()[0] > kEnforcedEigenvalue) {
     decompose(g_);
     return true;
   }
   basis_.noalias() = scale_.asDiagonal() * eigen_.eigenvectors();
   for (Eigen::Index i = 0; i < n; ++i) {
-    if (!(eigen_.eigenvalues()[i] > kSingularCut)) basis_.col(i).setZero();
+    if (!(eigen_.eigenvalues()[i] > kEnforcedEigenvalue)) basis_.col(i).setZero();
   }
   return false;
 }
@@ -157,7 +151,7 @@ void LoopClosure::reduce() {
   product_.noalias() = g_ * basis_;
   shape_.noalias() = basis_.transpose() * product_;
   for (Eigen::Index i = 0; i < shape_.rows(); ++i) {
-    if (!(eigen_.eigenvalues()[i] > kSingularCut)) shape_(i, i) = 1.0;
+    if (!(eigen_.eigenvalues()[i] > kEnforcedEigenvalue)) shape_(i, i) = 1.0;
   }
   condition_ = 1.0 / decompose(shape_);
 }

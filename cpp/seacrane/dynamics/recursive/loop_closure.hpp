@@ -20,7 +20,7 @@ class LoopClosure {
   int rows() const { return static_cast<int>(rows_.size()); }
   /// G at the tree's last factor(mass), for the rows in `blocks` (by element); the tree is left as it was.
   void factor(const RowBlock<double>* blocks, const Mat6d* mass, const BodyKinematics<double>* bodies,
-              ArticulatedTree& tree);
+              ArticulatedTree<double>& tree);
   /// Multipliers of the smallest motion in the mass metric with D dv = right.
   const VecXd& solve(const VecXd& right);
   /// loads += D^T multipliers.
@@ -50,10 +50,10 @@ class LoopClosure {
     Eigen::Vector2d first_free, second_free;  // compliance of the bodies without joints: force, moment
   };
 
-  void gather(const RowBlock<double>* blocks, ArticulatedTree& tree, MatXd& g);
+  void gather(const RowBlock<double>* blocks, ArticulatedTree<double>& tree, MatXd& g);
   double decompose(const MatXd& g);
   bool is_independent(const RowBlock<double>* blocks, const Mat6d* mass, const BodyKinematics<double>* bodies,
-                      ArticulatedTree& tree);
+                      ArticulatedTree<double>& tree);
   void reduce();
 
   const Model& model_;

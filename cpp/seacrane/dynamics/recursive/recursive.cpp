@@ -6,12 +6,11 @@
 #include <stdexcept>
 
 #include "seacrane/dynamics/constraints.hpp"
+#include "seacrane/dynamics/projection.hpp"
 
 namespace seacrane {
 namespace {
 
-constexpr double kProjectionTolerance = 1e-13;
-constexpr int kProjectionIterations = 12;
 /// Departure of |q|^2 from one at which a quaternion is normalised: its length drifts by truncation only,
 /// and rotations do not depend on it.
 constexpr double kQuaternionDrift = 1e-3;
@@ -118,7 +117,7 @@ void RecursiveSystem::derivative(double t, const double* y, double* ydot) {
     articulated_.solve(load_.data(), true, acceleration_.data(), ydot + layout_.speeds);
     loops_.add_driver_power(blocks_.data(), lambda, terms_);
   }
-  articulated_.position_rates(y, y + layout_.speeds, terms_.bodies().data(), ydot);
+  articulated_.kinematics().position_rates(y, y + layout_.speeds, terms_.bodies().data(), ydot);
   ydot[layout_.work] = terms_.power();
   ydot[layout_.work + 1] = terms_.absolute_power();
 }
@@ -146,7 +145,8 @@ void RecursiveSystem::for_each_quaternion(F&& f) const {
 
 void RecursiveSystem::move(double h, double* y) {
   place(y);
-  articulated_.position_rates(y, y + layout_.speeds, terms_.bodies().data(), position_rate_.data());
+  articulated_.kinematics().position_rates(y, y + layout_.speeds, terms_.bodies().data(),
+                                           position_rate_.data());
   for_each_quaternion([&](int at) {
     const Vec4d q = view<4>(y + at);
     const Vec4d turned = rotate_quaternion(h * turning_of(q, view<4>(&position_rate_[idx(at)])), q);
@@ -161,14 +161,14 @@ void RecursiveSystem::move_positions(double* y, const Vec6d* velocities) {
   for (int b = 0; b < model_.body_count(); ++b) {
     scratch_[idx(b)].angular_velocity = velocities[b].tail<3>();
   }
-  articulated_.position_rates(y, speed_rate_.data(), scratch_.data(), position_rate_.data());
+  articulated_.kinematics().position_rates(y, speed_rate_.data(), scratch_.data(), position_rate_.data());
   for (int i = 0; i < tree_.positions; ++i) y[i] -= position_rate_[idx(i)];
 }
 
 void RecursiveSystem::twists_here() {
   for (int b = 0; b < model_.body_count(); ++b) {
     const BodyKinematics<double>& k = terms_.bodies()[idx(b)];
-    twist_[idx(b)] << k.velocity, k.angular_velocity;
+    twist_[idx(b)] = k.twist().vector();
   }
 }
 
@@ -180,15 +180,18 @@ bool RecursiveSystem::normalise_quaternions(double* y, double drift) const {
 }
 
 bool RecursiveSystem::project(double t, double* y, bool evaluated_here) {
-  bool changed = normalise_quaternions(y, kQuaternionDrift);
-  if (loops_.rows() == 0) return changed;
-  if (!evaluated_here || changed) {
+  const bool normalised = normalise_quaternions(y, kQuaternionDrift);
+  if (loops_.rows() == 0) return normalised;
+  if (!evaluated_here || normalised) {
     place(y);
     terms_.follow_yaw();
     factor(t);
   }
-  loops_.position_residual(blocks_.data(), residual_);
-  double worst = residual_.cwiseAbs().maxCoeff();
+  const auto open = [&] {
+    loops_.position_residual(blocks_.data(), residual_);
+    return residual_.cwiseAbs().maxCoeff();
+  };
+  const double worst = open();
   before_projection_ = std::max(before_projection_, worst);
   const auto impulse = [&] {
     for (auto& load : load_) load.setZero();
@@ -196,29 +199,26 @@ bool RecursiveSystem::project(double t, double* y, bool evaluated_here) {
     articulated_.solve(load_.data(), false, acceleration_.data(), speed_rate_.data());
   };
   const double tolerance = position_tolerance(terms_.bodies().data(), model_.body_count());
-  for (int i = 0; worst > tolerance && i < kProjectionIterations; ++i) {
+  const bool moved = projection::close_positions(worst, tolerance, [&](int /*i*/) {
     impulse();
     move_positions(y, acceleration_.data());
-    changed = true;
     place(y);
     terms_.follow_yaw();
     factor(t);
-    loops_.position_residual(blocks_.data(), residual_);
-    const double next = residual_.cwiseAbs().maxCoeff();
-    if (!(next < 0.5 * worst) && next < 1e-11) break;  // rounding
-    worst = next;
-  }
-  for (int i = 0; i < kProjectionIterations; ++i) {
-    twists_here();
-    loops_.rate_residual(blocks_.data(), twist_.data(), residual_);
-    const double rate = residual_.cwiseAbs().maxCoeff();
-    if (!(rate > kProjectionTolerance) || (i >= 2 && rate < 1e-11)) break;
-    impulse();
-    for (int k = 0; k < tree_.speeds; ++k) y[layout_.speeds + k] -= speed_rate_[idx(k)];
-    changed = true;
-    place(y);
-  }
-  return changed;
+    return open();
+  });
+  const bool turned = projection::close_rates(
+      [&] {
+        twists_here();
+        loops_.rate_residual(blocks_.data(), twist_.data(), residual_);
+        return residual_.cwiseAbs().maxCoeff();
+      },
+      [&] {
+        impulse();
+        for (int k = 0; k < tree_.speeds; ++k) y[layout_.speeds + k] -= speed_rate_[idx(k)];
+        place(y);
+      });
+  return normalised || moved || turned;
 }
 
 double RecursiveSystem::take_residual_before_projection() {

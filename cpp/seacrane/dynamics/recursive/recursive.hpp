@@ -62,7 +62,7 @@ class RecursiveSystem final : public Formulation, public PositionMap {
   RedundantSystem& terms_;
   const Model& model_;
   BodyTree tree_;
-  ArticulatedTree articulated_;
+  ArticulatedTree<double> articulated_;
   LoopClosure loops_;
   Layout layout_;
   std::vector<Mat6d> mass_;

@@ -6,16 +6,6 @@
 #include "seacrane/dynamics/redundant.hpp"
 
 namespace seacrane {
-namespace {
-
-Vec6d moved_wrench(const Vec6d& w, const Vec3d& reach) {
-  Vec6d out = w;
-  out.tail<3>() += reach.cross(w.head<3>());
-  return out;
-}
-
-}  // namespace
-
 RecursiveJacobian::RecursiveJacobian(const Model& model, const BodyTree& tree)
     : model_(&model),
       tree_(tree),
@@ -28,12 +18,9 @@ RecursiveJacobian::RecursiveJacobian(const Model& model, const BodyTree& tree)
       state_(idx(tree.positions + tree.speeds)),
       state_rate_(idx(tree.positions)),
       bodies_(idx(model.body_count()) + 1, BodyKinematics<Scalar>::ground()),
-      column_(idx(tree.columns)),
-      bias_(bodies_.size()),
-      acceleration_(bodies_.size(), Vec6<Scalar>::Zero()),
+      kinematics_(tree, model.body_count()),
+      acceleration_(bodies_.size(), Twist<Scalar>::zero()),
       force_(bodies_.size()),
-      reach_(bodies_.size()),
-      kinematics_{tree_, column_, reach_, bias_},
       motion_(bodies_.size()),
       change_(bodies_.size()),
       torque_(tree.clusters.size()),
@@ -134,15 +121,15 @@ void RecursiveJacobian::read_kinematics() {
 void RecursiveJacobian::spread_acceleration(const double* u_rate) {
   for (const Cluster& c : tree_.clusters) {
     for (const Member& m : c.members) {
-      Vec6<Scalar>& a = acceleration_[idx(m.body)];
-      a.setZero();
+      Twist<Scalar>& a = acceleration_[idx(m.body)];
+      a = Twist<Scalar>::zero();
       if (c.kind != Cluster::floating) {
-        const Vec6<Scalar>& parent = acceleration_[idx(c.parent)];
-        const Vec3<Scalar> turning = parent.tail<3>();
-        a = parent + bias_[idx(m.body)];
-        a.head<3>() += cross<Scalar>(turning, reach_[idx(m.body)]);
+        a = acceleration_[idx(c.parent)];
+        const Vec3<Scalar> turning = a.angular();
+        a += kinematics_.bias(m.body);
+        a.linear() += cross<Scalar>(turning, kinematics_.reach(m.body));
       }
-      for (int k = 0; k < c.speeds; ++k) a += Scalar(u_rate[c.u + k]) * column_[idx(m.column + k)];
+      for (int k = 0; k < c.speeds; ++k) a += Scalar(u_rate[c.u + k]) * kinematics_.column(m, k);
     }
   }
 }
@@ -155,47 +142,46 @@ void RecursiveJacobian::gather() {
   }
   for (int b = 0; b < model_->body_count(); ++b) {
     BodyResidual::Slopes turned;
-    for (int i = 0; i < 6; ++i) turned.row(i) = Eigen::Map<const Row>(acceleration_[idx(b)][i].slope.data());
+    const Vec6<Scalar>& a = acceleration_[idx(b)].vector();
+    for (int i = 0; i < 6; ++i) turned.row(i) = Eigen::Map<const Row>(a[i].slope.data());
     change_[idx(b)].noalias() -= at_->mass[b] * turned;
     const Vec6d p = at_->load[b] - at_->mass[b] * at_->acceleration[b];
-    for (int i = 0; i < 6; ++i) {
-      force_[idx(b)][i] = Scalar(p[i]);
-      Eigen::Map<Row>(force_[idx(b)][i].slope.data()) = change_[idx(b)].row(i);
-    }
+    Vec6<Scalar> force = p.cast<Scalar>();
+    for (int i = 0; i < 6; ++i) Eigen::Map<Row>(force[i].slope.data()) = change_[idx(b)].row(i);
+    force_[idx(b)] = Wrench<Scalar>(force);
   }
-  force_.back().setZero();
+  force_.back() = Wrench<Scalar>::zero();
   for (std::size_t i = tree_.clusters.size(); i-- > 0;) {
     const Cluster& c = tree_.clusters[i];
     torque_[i].setZero();
     for (const Member& m : c.members) {
-      const Vec6<Scalar>& f = force_[idx(m.body)];
+      const Wrench<Scalar>& f = force_[idx(m.body)];
       for (int k = 0; k < c.speeds; ++k) {
-        const Scalar g = column_[idx(m.column + k)].dot(f);
+        const Scalar g = dot(kinematics_.column(m, k), f);
         torque_[i].row(k) += Eigen::Map<const Row>(g.slope.data());
       }
       if (c.kind == Cluster::floating) continue;
-      const Vec3<Scalar> force = f.head<3>();
-      force_[idx(c.parent)] += f;
-      force_[idx(c.parent)].tail<3>() += cross<Scalar>(reach_[idx(m.body)], force);
+      force_[idx(c.parent)].add_shifted_from(kinematics_.reach(m.body), f);
     }
   }
 }
 
 void RecursiveJacobian::write_column(int k, double* column) {
   const Model& m = *model_;
+  const TreeKinematics<double>& tree = at_->tree.kinematics();
   // Torques of clusters as wrenches on their bodies, and opposite ones on what carries these.
   for (auto& load : load_) load.setZero();
   for (std::size_t i = 0; i < tree_.clusters.size(); ++i) {
     const Cluster& c = tree_.clusters[i];
     if (c.speeds == 0) continue;
     Eigen::Matrix<double, 6, Eigen::Dynamic, 0, 6, 6> s(6, c.speeds);
-    for (int j = 0; j < c.speeds; ++j) s.col(j) = at_->tree.columns()[idx(c.members[0].column + j)];
+    for (int j = 0; j < c.speeds; ++j) s.col(j) = tree.column(c.members[0], j).vector();
     const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 6, 6> gram = s.transpose() * s;
     const Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 6, 1> torque = torque_[i].col(k).head(c.speeds);
-    const Vec6d wrench = s * gram.llt().solve(torque);
-    load_[idx(c.body)] += wrench;
+    const Wrench<double> wrench(s * gram.llt().solve(torque));
+    load_[idx(c.body)] += wrench.vector();
     if (c.kind != Cluster::floating) {
-      load_[idx(c.parent)] -= moved_wrench(wrench, at_->tree.reach(c.body));
+      load_[idx(c.parent)] -= wrench.shifted_from(tree.reach(c.body)).vector();
     }
   }
   load_.back().setZero();
@@ -204,7 +190,7 @@ void RecursiveJacobian::write_column(int k, double* column) {
     const ElementModel& element = m.elements[idx(rows_[i].first)];
     const RowBlock<double>& block = at_->blocks[rows_[i].first];
     for (int side = 0; side < 2; ++side) {
-      const Vec6<Scalar>& a = acceleration_[idx(side == 0 ? element.first : element.second)];
+      const Vec6<Scalar>& a = acceleration_[idx(side == 0 ? element.first : element.second)].vector();
       for (int j = 0; j < 6; ++j) turned += block.d[side](rows_[i].second, j) * a[j].slope[idx(k)];
     }
     right_[static_cast<Eigen::Index>(i)] = -turned;

@@ -5,14 +5,13 @@
 #include "seacrane/dynamics/body_residual.hpp"
 #include "seacrane/dynamics/jacobian.hpp"
 #include "seacrane/dynamics/recursive/loop_closure.hpp"
-#include "seacrane/dynamics/recursive/tree_kinematics.hpp"
 
 namespace seacrane {
 
 /// What an evaluation of the recursive formulation left behind.
 struct TreeEvaluation {
   RedundantSystem& terms;
-  ArticulatedTree& tree;
+  ArticulatedTree<double>& tree;
   LoopClosure& loops;
   const Mat6d* mass;               // by body
   const Vec6d* load;               // by body: wrench less velocity terms, multipliers of loops included
@@ -79,9 +78,9 @@ class RecursiveJacobian {
 
   std::vector<Scalar> state_, state_rate_;  // positions and speeds, rates of positions
   std::vector<BodyKinematics<Scalar>> bodies_;
-  std::vector<Vec6<Scalar>> column_, bias_, acceleration_, force_;
-  std::vector<Vec3<Scalar>> reach_;
   TreeKinematics<Scalar> kinematics_;
+  std::vector<Twist<Scalar>> acceleration_;
+  std::vector<Wrench<Scalar>> force_;
   std::vector<Square> motion_;                // by body: its directions over those of the state
   std::vector<BodyResidual::Slopes> change_;  // of p, by body
   std::vector<Eigen::Matrix<double, 6, kDirections>> torque_;  // dg, by cluster

@@ -7,20 +7,22 @@
 
 namespace seacrane {
 
-/// Forward kinematics of a tree of clusters, inertial axes: ArticulatedTree::place() as a template on the
-/// scalar, so that the recursions can be differentiated. Writes what the recursions need: per column the
-/// body's velocity per unit speed, per body the way from the parent's state point and the acceleration with
-/// udot = 0 and the parent at rest.
+/// Forward kinematics of a tree of clusters, inertial axes, on any scalar. Keeps what the recursions of the
+/// dynamics need: each body's twist per unit speed, its reach, the way to its state point from its parent's,
+/// and its bias, the acceleration that it has with udot = 0 and the parent at rest. Nothing is allocated
+/// after construction.
 template <class T>
-struct TreeKinematics {
-  const BodyTree& tree;
-  std::vector<Vec6<T>>& column;
-  std::vector<Vec3<T>>& reach;
-  std::vector<Vec6<T>>& bias;
+class TreeKinematics {
+ public:
+  TreeKinematics(const BodyTree& tree, int bodies)
+      : tree_(tree),
+        column_(idx(tree.columns), Twist<T>::zero()),
+        reach_(idx(bodies), Vec3<T>::Zero()),
+        bias_(idx(bodies), Twist<T>::zero()) {}
 
   /// Poses and twists of all bodies from positions q and speeds u; `bodies` ends with the ground.
-  void place(const T* q, const T* u, BodyKinematics<T>* bodies) const {
-    for (const Cluster& c : tree.clusters) {
+  void place(const T* q, const T* u, BodyKinematics<T>* bodies) {
+    for (const Cluster& c : tree_.clusters) {
       if (c.kind == Cluster::floating) {
         place_floating(c, q + c.q, u + c.u, bodies[c.body]);
       } else {
@@ -29,9 +31,10 @@ struct TreeKinematics {
     }
   }
 
-  /// Rates of the positions for speeds u and the bodies' angular velocities.
+  /// Rates of the positions for speeds u (which need not be those of place()) and the bodies' angular
+  /// velocities that go with them.
   void position_rates(const T* q, const T* u, const BodyKinematics<T>* bodies, T* q_rate) const {
-    for (const Cluster& c : tree.clusters) {
+    for (const Cluster& c : tree_.clusters) {
       if (c.kind == Cluster::floating) {
         std::copy_n(u + c.u, 3, q_rate + c.q);
         branch::turn<T>(q + c.q + 3, branch::vector(u + c.u + 3), q_rate + c.q + 3);
@@ -43,30 +46,39 @@ struct TreeKinematics {
     }
   }
 
+  const BodyTree& tree() const { return tree_; }
+  /// Twist of a body per unit speed k of its cluster, its parent at rest, at the last place().
+  const Twist<T>& column(const Member& m, int k) const { return column_[idx(m.column + k)]; }
+  /// From the parent's state point to the body's, at the last place().
+  const Vec3<T>& reach(int body) const { return reach_[idx(body)]; }
+  const Twist<T>& bias(int body) const { return bias_[idx(body)]; }
+
  private:
-  void place_floating(const Cluster& c, const T* q, const T* u, BodyKinematics<T>& k) const {
+  void place_floating(const Cluster& c, const T* q, const T* u, BodyKinematics<T>& k) {
     k.position = branch::vector(q);
     k.rotation = rotation_from_quaternion<T>(branch::quaternion(q + 3));
     k.velocity = branch::vector(u);
     k.angular_velocity = branch::vector(u + 3);
-    for (int i = 0; i < 6; ++i) column[idx(c.members[0].column + i)] = Vec6<T>::Unit(i);
+    for (int i = 0; i < 6; ++i) column_[idx(c.members[0].column + i)] = Twist<T>::unit(i);
   }
 
-  void place_joint(const Cluster& c, const T* q, const T* u, BodyKinematics<T>* bodies) const {
+  void place_joint(const Cluster& c, const T* q, const T* u, BodyKinematics<T>* bodies) {
     const BodyKinematics<T>& parent = bodies[c.parent];
     BranchMotionOf<T> motion;
-    with_joint_type(c.kind, [&]<class Type>() { Type::Branch::move(c.joint, parent, q, u, motion); });
-    const Vec3<T> lever = motion.rotation * -c.joint.child_point.template cast<T>();
-    place_member(c.members[0], parent, motion, lever, c.speeds, u, bodies[c.body]);
+    with_joint_type(c.kind, [&]<class Type>() {
+      Type::Branch::move(c.joint, parent, q, u, motion);
+      const Vec3<T> lever = motion.rotation * -c.joint.child_point.template cast<T>();
+      place_member<Type::Branch::speeds>(c.members[0], parent, motion, lever, u, bodies[c.body]);
+    });
     if (c.struts > 0) place_struts(c, motion, u[0], bodies);
   }
 
   /// Both parts of a strut turn alike; the lower one is held at its end, the upper one moves with the arm.
   void place_struts(const Cluster& c, const BranchMotionOf<T>& hinge, const T& rate,
-                    BodyKinematics<T>* bodies) const {
+                    BodyKinematics<T>* bodies) {
     const BodyKinematics<T>& parent = bodies[c.parent];
     for (int i = 0; i < c.struts; ++i) {
-      const Strut& s = tree.struts[idx(c.first_strut + i)];
+      const Strut& s = tree_.struts[idx(c.first_strut + i)];
       const Vec3d on_arm = s.arm_point - c.joint.child_point;
       const Vec3<T> arm = hinge.rotation * on_arm.cast<T>();
       const StrutMotionOf<T> m =
@@ -78,40 +90,47 @@ struct TreeKinematics {
       part.reach = parent.rotation * s.base_point.cast<T>();
       part.slide[0] = Vec3<T>::Zero();
       const Vec3<T> lower_lever = part.rotation * -s.lower_end.cast<T>();
-      place_member(c.members[idx(1 + 2 * i)], parent, part, lower_lever, 1, &rate, bodies[s.lower]);
+      place_member<1>(c.members[idx(1 + 2 * i)], parent, part, lower_lever, &rate, bodies[s.lower]);
       part.rotation = m.rotation * s.upper_axes.transpose().cast<T>();
       part.reach = m.end;
       part.slide[0] = m.end_rate;
       part.slide_bias = rate * rate * m.end_bend;
       const Vec3<T> upper_lever = part.rotation * -s.upper_end.cast<T>();
-      place_member(c.members[idx(2 + 2 * i)], parent, part, upper_lever, 1, &rate, bodies[s.upper]);
+      place_member<1>(c.members[idx(2 + 2 * i)], parent, part, upper_lever, &rate, bodies[s.upper]);
     }
   }
 
+  /// A body whose joint point moves over its parent as `motion` says; `lever` leads from there to its state
+  /// point.
+  template <int speeds>
   void place_member(const Member& m, const BodyKinematics<T>& parent, const BranchMotionOf<T>& motion,
-                    const Vec3<T>& lever, int speeds, const T* u, BodyKinematics<T>& body) const {
+                    const Vec3<T>& lever, const T* u, BodyKinematics<T>& body) {
     Vec3<T> slide = Vec3<T>::Zero(), turn = Vec3<T>::Zero();
     for (int i = 0; i < speeds; ++i) {
-      Vec6<T>& s = column[idx(m.column + i)];
       const Vec3<T> linear = motion.slide[i] + cross<T>(motion.turn[i], lever);
-      s << linear, motion.turn[i];
+      column_[idx(m.column + i)] = {linear, motion.turn[i]};
       slide += u[i] * linear;
       turn += u[i] * motion.turn[i];
     }
     const Vec3<T>& w = parent.angular_velocity;
-    const Vec3<T> way = motion.reach + lever;
-    reach[idx(m.body)] = way;
+    const Vec3<T> reach = motion.reach + lever;
+    reach_[idx(m.body)] = reach;
     body.rotation = motion.rotation;
-    body.position = parent.position + way;
-    const Vec3<T> swept = cross<T>(w, way);
+    body.position = parent.position + reach;
+    const Vec3<T> swept = cross<T>(w, reach);
     body.velocity = parent.velocity + swept + slide;
     body.angular_velocity = w + turn;
     // Centripetal, Coriolis, and what the joint's own directions turn.
     const Vec3<T> carried = swept + T(2) * slide, swung = cross<T>(turn, lever);
-    bias[idx(m.body)] << cross<T>(w, carried) + motion.slide_bias + cross<T>(motion.turn_bias, lever) +
-                             cross<T>(turn, swung),
-        cross<T>(w, turn) + motion.turn_bias;
+    bias_[idx(m.body)] = {
+        cross<T>(w, carried) + motion.slide_bias + cross<T>(motion.turn_bias, lever) + cross<T>(turn, swung),
+        cross<T>(w, turn) + motion.turn_bias};
   }
+
+  const BodyTree& tree_;
+  std::vector<Twist<T>> column_;  // by Member::column
+  std::vector<Vec3<T>> reach_;
+  std::vector<Twist<T>> bias_;
 };
 
 }  // namespace seacrane
