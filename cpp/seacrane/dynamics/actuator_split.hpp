@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "seacrane/dynamics/loads/actuator.hpp"
+#include "seacrane/elements/loads/actuator.hpp"
 
 namespace seacrane {
 
