@@ -2,7 +2,7 @@
 #include <vector>
 
 #include "bindings.hpp"
-#include "seacrane/dynamics/loads/flow_force.hpp"
+#include "seacrane/elements/loads/flow_force.hpp"
 #include "seacrane/math/curve.hpp"
 #include "seacrane/model/description.hpp"
 #include "seacrane/run/simulation.hpp"

@@ -1,4 +1,4 @@
-#include "seacrane/dynamics/loads/flow_force.hpp"
+#include "seacrane/elements/loads/flow_force.hpp"
 
 #include "bindings.hpp"
 

@@ -3,6 +3,7 @@
 #include <set>
 
 #include "bindings.hpp"
+#include "seacrane/compile/compile.hpp"
 #include "seacrane/dynamics/merged.hpp"
 #include "seacrane/dynamics/recursive/body_tree.hpp"
 #include "seacrane/dynamics/recursive/recursive.hpp"

@@ -1,8 +1,8 @@
 #include <exception>
 
 #include "bindings.hpp"
+#include "seacrane/elements/check.hpp"
 #include "seacrane/integrate/integration_error.hpp"
-#include "seacrane/model/validate.hpp"
 #include "seacrane/run/contacts.hpp"
 #include "without_gil.hpp"
 

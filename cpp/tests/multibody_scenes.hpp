@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "seacrane/compile/compile.hpp"
 #include "seacrane/dynamics/redundant.hpp"
 #include "seacrane/math/rotation.hpp"
-#include "seacrane/model/model.hpp"
 
 namespace seacrane::test {
 

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "multibody_scenes.hpp"
-#include "seacrane/dynamics/block_schur.hpp"
+#include "seacrane/model/block_schur.hpp"
 
 namespace seacrane::test {
 namespace {

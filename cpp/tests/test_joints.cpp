@@ -3,7 +3,7 @@
 #include <Eigen/SVD>
 
 #include "multibody_scenes.hpp"
-#include "seacrane/dynamics/joints/registry.hpp"
+#include "seacrane/elements/joints/registry.hpp"
 
 namespace seacrane::test {
 namespace {

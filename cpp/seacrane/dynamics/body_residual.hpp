@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "seacrane/dynamics/kinematics.hpp"
+#include "seacrane/elements/kinematics.hpp"
 #include "seacrane/math/dual.hpp"
 #include "seacrane/model/model.hpp"
 

@@ -3,8 +3,8 @@
 #include <string>
 
 #include "seacrane/dynamics/redundant.hpp"
+#include "seacrane/elements/check.hpp"
 #include "seacrane/integrate/error_norm.hpp"
-#include "seacrane/model/validate.hpp"
 
 /// Names for what is not finite, for the report of a run that had to stop; none of it is in the loop.
 namespace seacrane {

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "seacrane/dynamics/constraints.hpp"
-#include "seacrane/hydro/paper_kinematics.hpp"
+#include "seacrane/dynamics/paper_kinematics.hpp"
 
 namespace seacrane {
 namespace {

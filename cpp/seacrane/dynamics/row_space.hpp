@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "seacrane/dynamics/joint_rows.hpp"
+#include "seacrane/elements/joint_rows.hpp"
 
 namespace seacrane {
 

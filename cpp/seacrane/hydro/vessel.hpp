@@ -4,7 +4,7 @@
 #include <optional>
 #include <variant>
 
-#include "seacrane/dynamics/loads/load.hpp"
+#include "seacrane/elements/loads/load.hpp"
 #include "seacrane/hydro/convolution.hpp"
 #include "seacrane/hydro/fast_motion.hpp"
 #include "seacrane/hydro/memory.hpp"

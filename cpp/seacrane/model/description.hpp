@@ -7,48 +7,19 @@
 #include <variant>
 #include <vector>
 
-#include "seacrane/dynamics/loads/registry.hpp"
+#include "seacrane/elements/body.hpp"
+#include "seacrane/elements/driver.hpp"
+#include "seacrane/elements/joint.hpp"
+#include "seacrane/elements/limit.hpp"
+#include "seacrane/elements/loads/registry.hpp"
 #include "seacrane/hydro/convolution.hpp"
 #include "seacrane/hydro/memory.hpp"
-#include "seacrane/math/curve.hpp"
 #include "seacrane/math/types.hpp"
-#include "seacrane/model/limit.hpp"
 #include "seacrane/sea/wave_load.hpp"
 
 /// What the user writes, one value type per kind of element. Names refer to other elements; "ground"
 /// is the inertial frame. Every description is checked by its own validate().
 namespace seacrane {
-
-struct BodyDescription {
-  std::string name;
-  double mass = 0.0;
-  Mat3d inertia = Mat3d::Zero();           // about the centre of mass, body axes
-  Vec3d center_of_mass = Vec3d::Zero();    // from the body origin, body axes
-  Vec3d position = Vec3d::Zero();          // of the body origin, inertial frame
-  Vec4d quaternion = {1, 0, 0, 0};         // body to inertial
-  Vec3d velocity = Vec3d::Zero();          // of the body origin, inertial frame
-  Vec3d angular_velocity = Vec3d::Zero();  // inertial frame
-  bool gravity = true;
-};
-
-/// A joint frame on a body: a point and axes in body coordinates; the joint axis is z.
-struct Frame {
-  Vec3d point = Vec3d::Zero();
-  Mat3d axes = Mat3d::Identity();
-};
-
-struct JointDescription {
-  std::string name, kind, first, second;
-  Frame first_frame, second_frame;
-  double length = 0.0;  // of a distance joint
-  bool open = false;    // holds nothing now: a limit that is not reached, see limit.hpp
-};
-
-struct DriverDescription {
-  std::string name;
-  CoordinateDescription coordinate;
-  Curve curve;
-};
 
 enum class VesselKinematics { yaw_following, paper };
 

@@ -5,8 +5,6 @@
 
 namespace seacrane {
 
-struct Model;
-
 /// A time at which one curve of one element is not smooth, and what that is worth. Entry p: jump of a
 /// derivative of the velocities' rates, of order p - 1, over the scale of the state where it is largest,
 /// 1/s^p; entry 0: of the velocities themselves.
@@ -25,9 +23,5 @@ struct Kink {
   /// jumps of velocity or acceleration.
   bool matters(double h, double tolerance, double lost) const;
 };
-
-/// The one list of all that curves of time do to a model: drivers and loads, by time. Accelerations are those
-/// at the described start.
-std::vector<Kink> find_kinks(const Model& model);
 
 }  // namespace seacrane

@@ -5,14 +5,14 @@
 #include <map>
 #include <numbers>
 
-#include "seacrane/dynamics/redundant.hpp"
-#include "seacrane/model/model.hpp"
+#include "seacrane/elements/joints/registry.hpp"
+#include "seacrane/math/rotation.hpp"
+#include "seacrane/model/description.hpp"
 
 namespace seacrane {
 namespace {
 
 constexpr double kTaut = 1e-6;     // relative to its length: a described wire this short is stretched
-constexpr double kBeyond = 1e-9;   // m or rad
 constexpr double kInwards = 1e-9;  // m/s
 constexpr double kTurn = std::numbers::pi;
 
@@ -119,14 +119,6 @@ CoordinateRow<double> evaluate_limit(const Limit& limit, const BodyKinematics<do
   return {block.phi[0], block.d[0].row(0).transpose(), block.d[1].row(0).transpose(), block.gamma[0]};
 }
 
-double limit_force(const Limit& limit, const RedundantSystem& system, const double* lambda) {
-  const double* own = lambda + system.model().elements[idx(limit.element)].row;
-  if (limit.kind != LimitKind::seat) return limit.side * *own;
-  const JointData& joint = limit.coordinate.joint;
-  const Vec3d normal = system.bodies()[idx(joint.first)].rotation * joint.first_axes.col(2);
-  return normal.dot(view<3>(own));
-}
-
 void check_limits(const SceneDescription& scene, const SceneNames& names) {
   std::map<std::string, std::string> held;
   int count = 0;
@@ -216,21 +208,6 @@ SceneDescription scene_of(const SceneDescription& scene, const std::vector<Limit
     }
   }
   return out;
-}
-
-void check_start(const Model& model) {
-  if (model.limits.empty()) return;
-  const std::shared_ptr<const Model> view(&model, [](const Model*) {});
-  RedundantSystem system(view);
-  system.read_kinematics(0.0, model.initial_state.data());
-  for (std::size_t i = 0; i < model.limits.size(); ++i) {
-    const Limit& limit = model.limits[i];
-    if (holds(model.closed, static_cast<int>(i)) || limit.kind == LimitKind::seat) continue;
-    const double gap = limit.side * evaluate_limit(limit, system.bodies().data()).value;
-    if (gap >= -kBeyond) continue;
-    throw SceneError("limit '" + limit.name + "': the scene starts " + to_text(-gap) +
-                     " m or rad beyond it; start within the bounds, or correct them");
-  }
 }
 
 }  // namespace seacrane

@@ -4,29 +4,12 @@
 #include <string>
 #include <vector>
 
-#include "seacrane/dynamics/joint_coordinate.hpp"
-#include "seacrane/model/check.hpp"
+#include "seacrane/elements/joint_coordinate.hpp"
+#include "seacrane/model/description.hpp"
 
 namespace seacrane {
 
-struct SceneDescription;
-struct Model;
-class RedundantSystem;
-
-inline constexpr double kNoStop = kFarthest;  // m or rad: a bound here or beyond is none
 inline constexpr int kMostLimits = 64;
-
-/// Contact that only pushes, or a wire that only pulls:
-///   wire   a distance joint that holds only while it is stretched
-///   stop   bounds on a joint coordinate
-///   seat   a weld that holds only while it is pressed along z of its first frame; let go, it stays open
-struct LimitDescription {
-  std::string name, kind;
-  CoordinateDescription coordinate;              // of a stop; wires and seats name the joint alone
-  double minimum = -kNoStop, maximum = kNoStop;  // of a stop
-  double restitution = 0.0;
-  double sticking_speed = 1e-3;  // m/s or rad/s: approaches below it don't rebound
-};
 
 enum class LimitKind { wire, stop, seat };
 
@@ -56,10 +39,6 @@ ClosedSet set_of(const std::vector<Limit>& limits, const std::vector<std::string
 /// Distance from the bound, its row of D, its rate: as a driver at the bound would have them.
 CoordinateRow<double> evaluate_limit(const Limit& limit, const BodyKinematics<double>* bodies);
 
-/// Of the multipliers `lambda` of `system`, the part of a limit that holds in the direction in which it can
-/// act: tension of a wire, push of a stop, pressure on a seat.
-double limit_force(const Limit& limit, const RedundantSystem& system, const double* lambda);
-
 /// Checks the limits of a scene whose joints, drivers and names have been checked.
 void check_limits(const SceneDescription& scene, const SceneNames& names);
 /// One entry per bound, in the order described, without the data of coordinates.
@@ -69,7 +48,5 @@ ClosedSet described_set(const SceneDescription& scene, const std::vector<Limit>&
 /// The scene with the rows of the given set only: other wires and seats are left open, closed stops are
 /// drivers at their bound, after the described ones.
 SceneDescription scene_of(const SceneDescription& scene, const std::vector<Limit>& limits, ClosedSet closed);
-/// Refuses a start beyond a bound.
-void check_start(const Model& model);
 
 }  // namespace seacrane

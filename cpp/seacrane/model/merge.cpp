@@ -6,7 +6,7 @@
 #include <numeric>
 #include <optional>
 
-#include "seacrane/dynamics/joints/registry.hpp"
+#include "seacrane/elements/joints/registry.hpp"
 #include "seacrane/math/rotation.hpp"
 
 namespace seacrane {

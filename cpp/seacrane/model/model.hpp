@@ -5,13 +5,14 @@
 #include <utility>
 #include <vector>
 
-#include "seacrane/dynamics/block_schur.hpp"
-#include "seacrane/dynamics/joints/registry.hpp"
-#include "seacrane/dynamics/loads/gravity.hpp"
-#include "seacrane/dynamics/loads/registry.hpp"
+#include "seacrane/elements/joints/registry.hpp"
+#include "seacrane/elements/loads/gravity.hpp"
+#include "seacrane/elements/loads/registry.hpp"
 #include "seacrane/hydro/vessel.hpp"
+#include "seacrane/model/block_schur.hpp"
 #include "seacrane/model/description.hpp"
 #include "seacrane/model/kinks.hpp"
+#include "seacrane/model/limit.hpp"
 #include "seacrane/model/merge.hpp"
 
 namespace seacrane {
@@ -101,11 +102,5 @@ struct Model {
   int rows() const { return schur.rows(); }
   const std::vector<Actuator>& actuators() const { return std::get<std::vector<Actuator>>(loads); }
 };
-
-/// With `merge`, a second model in which bodies that move as one are merged goes with it, for stepping.
-std::shared_ptr<const Model> compile(const SceneDescription& scene, bool merge = true);
-
-/// The model of the same scene in which other limits hold; only `initial_state` is not assembled.
-std::shared_ptr<const Model> compile_set(const Model& model, ClosedSet closed);
 
 }  // namespace seacrane

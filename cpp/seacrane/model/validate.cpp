@@ -6,7 +6,7 @@
 #include <set>
 #include <sstream>
 
-#include "seacrane/dynamics/joints/registry.hpp"
+#include "seacrane/elements/joints/registry.hpp"
 
 namespace seacrane {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "seacrane/model/check.hpp"
+#include "seacrane/elements/check.hpp"
 #include "seacrane/model/description.hpp"
 
 namespace seacrane {

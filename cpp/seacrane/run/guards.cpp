@@ -5,7 +5,7 @@
 #include <exception>
 #include <stdexcept>
 
-#include "seacrane/model/validate.hpp"
+#include "seacrane/elements/check.hpp"
 
 namespace seacrane {
 namespace {

@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "seacrane/dynamics/limit_force.hpp"
 #include "seacrane/run/complementarity.hpp"
 #include "seacrane/run/contact_tolerances.hpp"
 #include "seacrane/run/contacts.hpp"

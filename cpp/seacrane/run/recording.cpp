@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cstring>
 
+#include "seacrane/dynamics/limit_force.hpp"
+
 namespace seacrane {
 namespace {
 

@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "seacrane/model/validate.hpp"
+#include "seacrane/compile/compile.hpp"
 
 namespace seacrane {
 namespace {

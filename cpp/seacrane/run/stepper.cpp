@@ -5,7 +5,7 @@
 
 #include "seacrane/dynamics/merged.hpp"
 #include "seacrane/dynamics/recursive/body_tree.hpp"
-#include "seacrane/model/validate.hpp"
+#include "seacrane/elements/check.hpp"
 #include "seacrane/run/simulation.hpp"
 
 namespace seacrane {

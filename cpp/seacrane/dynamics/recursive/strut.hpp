@@ -4,7 +4,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "seacrane/dynamics/recursive/tree_joint.hpp"
+#include "seacrane/elements/tree_joint.hpp"
 #include "seacrane/math/dual.hpp"
 
 namespace seacrane {

@@ -1,0 +1,436 @@
+#include "seacrane/compile/compile.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include "seacrane/compile/assembly.hpp"
+#include "seacrane/compile/find_kinks.hpp"
+#include "seacrane/dynamics/merged.hpp"
+#include "seacrane/model/validate.hpp"
+
+namespace seacrane {
+namespace {
+
+// Scales of absolute tolerances, typical of a vessel in waves: with them the energy balance of the lift
+// cases closes to 1e-6 of the absolute work at rtol = 1e-6.
+constexpr double kTranslationScale = 0.1;  // m, m/s, times the scene's length scale
+constexpr double kRotationScale = 0.01;    // rad, rad/s: the same at a lever of 10 m
+constexpr double kBeyond = 1e-9;           // m or rad: a start beyond a bound
+constexpr double kLeastGyration = 1e-2;    // over the longest arm of a body, where geometry is judged
+
+class Compiler {
+ public:
+  Compiler(const SceneDescription& scene, MergePlan merge, std::vector<Limit> limits = {},
+           ClosedSet closed = 0)
+      : scene_(scene) {
+    model_.description = scene;
+    model_.merge = std::move(merge);
+    model_.limits = std::move(limits);
+    model_.closed = closed;
+  }
+
+  Model run() {
+    bodies();
+    joints();
+    drivers();
+    shapes();
+    limits();
+    loads();
+    vessels();
+    layout();
+    start();
+    return std::move(model_);
+  }
+
+  // What loads ask for while they are compiled.
+  Attachment attach(const std::string& body, const Vec3d& point) const {
+    const Placement p = place(body);
+    const Vec3d in_body = p.point(point);
+    if (p.body == ground()) return {p.body, in_body, p.axes};
+    return {p.body, in_body - model_.bodies[idx(p.body)].state_point, p.axes};
+  }
+
+  CoordinateData coordinate(const CoordinateDescription& d) const {
+    static const std::map<std::string, CoordinateKind> kinds = {
+        {"angle", CoordinateKind::angle}, {"displacement", CoordinateKind::displacement},
+        {"x", CoordinateKind::x},         {"y", CoordinateKind::y},
+        {"z", CoordinateKind::z},         {"roll", CoordinateKind::roll},
+        {"pitch", CoordinateKind::pitch}, {"yaw", CoordinateKind::yaw}};
+    return {joint_data(*joint_.at(d.joint)), kinds.at(d.coordinate)};
+  }
+
+  JointData joint_data(const JointDescription& d) const {
+    const Attachment first = attach(d.first, d.first_frame.point);
+    const Attachment second = attach(d.second, d.second_frame.point);
+    JointData j;
+    j.first = first.body;
+    j.second = second.body;
+    j.first_point = first.point;
+    j.second_point = second.point;
+    j.first_axes = first.axes * d.first_frame.axes;
+    j.second_axes = second.axes * d.second_frame.axes;
+    j.length = d.length;
+    return j;
+  }
+
+  int slots(int count) {
+    const int first = model_.slot_count;
+    model_.slot_count += count;
+    return first;
+  }
+
+ private:
+  int ground() const { return static_cast<int>(model_.merge.carriers.size()); }
+
+  Placement place(const std::string& body) const {
+    return body == kGround ? Placement{ground()} : model_.merge.places[idx(index_.at(body))];
+  }
+
+  bool within_one_body(const JointDescription& d) const {
+    return place(d.first).body == place(d.second).body;
+  }
+
+  void bodies() {
+    std::map<std::string, int> vessel_on;
+    for (std::size_t v = 0; v < scene_.vessels.size(); ++v)
+      vessel_on[scene_.vessels[v].body] = static_cast<int>(v);
+    for (int b = 0; b < static_cast<int>(scene_.bodies.size()); ++b) index_[scene_.bodies[idx(b)].name] = b;
+    for (int b = 0; b < ground(); ++b) {
+      BodyModel body = merged_body(b);
+      const auto vessel = vessel_on.find(body.name);
+      body.vessel = vessel == vessel_on.end() ? -1 : vessel->second;
+      body.state_point = body.vessel < 0 ? body.center_of_mass : Vec3d::Zero();
+      weigh(b, body);
+      body.center_of_mass -= body.state_point;
+      model_.bodies.push_back(body);
+    }
+  }
+
+  /// Calls f(described body, its place) for what compiled body b carries.
+  template <class F>
+  void for_each_carried(int b, F&& f) const {
+    for (std::size_t i = 0; i < scene_.bodies.size(); ++i) {
+      if (model_.merge.places[i].body == b) f(scene_.bodies[i], model_.merge.places[i]);
+    }
+  }
+
+  /// Mass, centre of mass (from the body origin) and inertia of all that moves as one.
+  BodyModel merged_body(int b) const {
+    BodyModel body;
+    const BodyDescription& carrier = scene_.bodies[idx(model_.merge.carriers[idx(b)])];
+    body.name = carrier.name;
+    int count = 0;
+    Vec3d moment = Vec3d::Zero();
+    for_each_carried(b, [&](const BodyDescription& d, const Placement& p) {
+      ++count;
+      body.mass += d.mass;
+      moment += d.mass * p.point(d.center_of_mass);
+    });
+    body.center_of_mass = count == 1 ? carrier.center_of_mass : Vec3d(moment / body.mass);
+    body.inertia = count == 1 ? carrier.inertia : Mat3d::Zero();
+    for_each_carried(b, [&](const BodyDescription& d, const Placement& p) {
+      if (count == 1) return;
+      const Mat3d s = skew<double>(Vec3d(p.point(d.center_of_mass) - body.center_of_mass));
+      body.inertia += p.axes * d.inertia * p.axes.transpose() - d.mass * s * s;
+    });
+    body.inverse_inertia = body.inertia.inverse();
+    return body;
+  }
+
+  /// One weight for all that a body carries. The vessel's restoring matrix carries its own weight and
+  /// buoyancy.
+  void weigh(int b, const BodyModel& body) {
+    double mass = 0.0;
+    Vec3d moment = Vec3d::Zero();
+    for_each_carried(b, [&](const BodyDescription& d, const Placement& p) {
+      if (!d.gravity || (body.vessel >= 0 && d.name == body.name)) return;
+      mass += d.mass;
+      moment += d.mass * (p.point(d.center_of_mass) - body.state_point);
+    });
+    if (mass > 0.0) model_.gravity.push_back({b, mass * scene_.gravity, moment / mass});
+  }
+
+  void joints() {
+    for (const auto& d : scene_.joints) {
+      joint_[d.name] = &d;
+      if (within_one_body(d)) continue;
+      JointData j = joint_data(d);
+      j.element = static_cast<int>(model_.elements.size());
+      ElementModel e;
+      e.name = d.name;
+      e.kind = d.kind;
+      e.first = j.first;
+      e.second = j.second;
+      e.first_point = j.first_point;
+      e.second_point = j.second_point;
+      for_each_joint_type([&]<class Type>(std::size_t kind) {
+        if (d.kind != Type::kind || d.open) return;
+        e.rows = Type::rows;
+        model_.joints[kind].push_back(j);
+      });
+      model_.elements.push_back(e);
+    }
+  }
+
+  void drivers() {
+    for (const auto& d : scene_.drivers) {
+      if (within_one_body(*joint_.at(d.coordinate.joint))) continue;
+      DriverData driver{coordinate(d.coordinate), d.curve, static_cast<int>(model_.elements.size())};
+      ElementModel e;
+      e.name = d.name;
+      e.kind = "driver";
+      e.rows = 1;
+      e.driver = true;
+      e.first = driver.coordinate.joint.first;
+      e.second = driver.coordinate.joint.second;
+      e.first_point = driver.coordinate.joint.first_point;
+      e.second_point = driver.coordinate.joint.second_point;
+      model_.elements.push_back(e);
+      model_.drivers.push_back(driver);
+    }
+    std::vector<GraphNode> nodes;
+    for (const auto& e : model_.elements) nodes.push_back({e.rows, e.first, e.second});
+    model_.schur = BlockSchur(nodes, model_.body_count());
+    for (std::size_t e = 0; e < nodes.size(); ++e)
+      model_.elements[e].row = model_.schur.row(static_cast<int>(e));
+  }
+
+  /// A body of next to no inertia about its joints' lever arms makes their rows alike without being
+  /// redundant: geometry is judged with radii of gyration of at least a hundredth of the longest arm.
+  void shapes() {
+    for (int b = 0; b < model_.body_count(); ++b) {
+      BodyModel& body = model_.bodies[idx(b)];
+      double arm = 0.0;
+      for (const ElementModel& e : model_.elements) {
+        if (e.first == b) arm = std::max(arm, (e.first_point - body.center_of_mass).norm());
+        if (e.second == b) arm = std::max(arm, (e.second_point - body.center_of_mass).norm());
+      }
+      const double least = body.mass * std::pow(kLeastGyration * arm, 2);
+      const Eigen::SelfAdjointEigenSolver<Mat3d> axes(body.inertia);
+      body.shape = body.inertia;
+      body.inverse_shape = body.inverse_inertia;
+      if (axes.eigenvalues()[0] >= least) continue;
+      const Vec3d moments = axes.eigenvalues().cwiseMax(least);
+      body.shape = axes.eigenvectors() * moments.asDiagonal() * axes.eigenvectors().transpose();
+      body.inverse_shape = body.shape.inverse();
+    }
+  }
+
+  /// Where limits are measured, and the elements of those that hold: closed stops are the last drivers.
+  void limits() {
+    auto element = static_cast<int>(model_.elements.size());
+    for (std::size_t i = model_.limits.size(); i-- > 0;) {
+      Limit& limit = model_.limits[i];
+      const bool here = holds(model_.closed, static_cast<int>(i));
+      if (limit.kind == LimitKind::stop) {
+        limit.coordinate = coordinate(limit.described);
+        limit.element = here ? --element : -1;
+      } else {
+        limit.coordinate.joint = joint_data(scene_.joints[idx(limit.joint)]);
+        limit.element = here ? limit.joint : -1;
+      }
+    }
+  }
+
+  void loads() {
+    for_each_load_type([&]<class Load>() {
+      for (const auto& d : std::get<std::vector<typename Load::Description>>(scene_.loads)) {
+        const Load load = Load::compile(d, *this);
+        if (!load.moves_nothing(ground())) std::get<std::vector<Load>>(model_.loads).push_back(load);
+      }
+    });
+    for (const auto& d : scene_.coordinates) model_.coordinates.push_back(coordinate(d));
+  }
+
+  void vessels() {
+    for (const auto& d : scene_.vessels) {
+      Vessel v;
+      v.body = place(d.body).body;
+      v.added_mass = d.added_mass;
+      v.linear_damping = d.linear_damping;
+      v.quadratic_damping = d.quadratic_damping;
+      v.restoring = d.restoring.block<3, 3>(2, 2);
+      v.mooring_stiffness = d.mooring_stiffness;
+      v.mooring_damping = d.mooring_damping;
+      try {
+        if (const auto* functions = std::get_if<RetardationFunctions>(&d.memory)) {
+          v.memory = Convolution(*functions);
+        } else {
+          v.memory = Memory(std::get<std::vector<StateSpaceBlock>>(d.memory));
+        }
+      } catch (const std::invalid_argument& error) {
+        throw SceneError("vessel '" + d.name + "': " + error.what());
+      }
+      const BodyDescription& start = scene_.bodies[idx(index_.at(d.body))];
+      // At rest on the still water: a hull described above or below it starts there, and heaves.
+      v.mean_position = {start.position.x(), start.position.y(), 0.0};
+      v.mean_yaw = roll_pitch_yaw<double>(rotation_from_quaternion<double>(start.quaternion))[2];
+      model_.paper_kinematics = d.kinematics == VesselKinematics::paper;
+      if (model_.paper_kinematics && std::fabs(v.mean_yaw) > 1e-9) {
+        throw SceneError("vessel '" + d.name +
+                         "': kinematics 'paper' act along the inertial axes, and it starts at a heading of " +
+                         to_text(v.mean_yaw) + " rad; start it at 0, or use 'yaw_following'");
+      }
+      model_.vessels.push_back(v);
+    }
+    for (const auto& d : scene_.wave_loads) {
+      const int b = place(d.body).body;
+      const int v = model_.bodies[idx(b)].vessel;
+      model_.wave_loads.push_back({b, v, d});
+      if (d.positioned && d.positioned->cutoff() > 0.0) {
+        model_.vessels[idx(v)].fast = FastMotion{d.positioned->cutoff()};
+      }
+    }
+  }
+
+  void layout() {
+    StateLayout& s = model_.layout;
+    s.bodies = model_.body_count();
+    s.pose_size = scene_.orientation == Orientation::quaternion ? 7 : 6;
+    s.velocity = s.pose_size * s.bodies;
+    s.memory = s.velocity + 6 * s.bodies;
+    s.work = s.memory;
+    for (auto& v : model_.vessels) {
+      v.memory_offset = s.work;
+      s.work += v.memory_states();
+    }
+    s.size = s.work + 2;
+    scales();
+  }
+
+  void scales() {
+    const StateLayout& s = model_.layout;
+    const double length = model_.translation_scale = kTranslationScale * scene_.length_scale;
+    model_.rotation_scale = kRotationScale;
+    std::vector<double>& scale = model_.scale;
+    scale.assign(idx(s.size), std::numeric_limits<double>::infinity());  // work: not in the error norm
+    for (int b = 0; b < s.bodies; ++b) {
+      for (int i = 0; i < s.pose_size; ++i) scale[idx(s.pose(b) + i)] = i < 3 ? length : kRotationScale;
+      for (int i = 0; i < 6; ++i) scale[idx(s.twist(b) + i)] = i < 3 ? length : kRotationScale;
+    }
+    for (std::size_t v = 0; v < model_.vessels.size(); ++v) {
+      int i = model_.vessels[v].memory_offset;
+      const auto* blocks = std::get_if<std::vector<StateSpaceBlock>>(&scene_.vessels[v].memory);
+      for (const auto& block : blocks ? *blocks : std::vector<StateSpaceBlock>()) {
+        for (Eigen::Index k = 0; k < block.a.rows(); ++k) {
+          scale[idx(i++)] = block.state_scale.size() ? block.state_scale[k] : 1.0;
+        }
+      }
+      if (!model_.vessels[v].fast) continue;
+      for (int k = 0; k < FastMotion::states; ++k) scale[idx(i++)] = k < 6 ? length : kRotationScale;
+    }
+  }
+
+  void start() {
+    const StateLayout& s = model_.layout;
+    std::vector<double>& y = model_.initial_state;
+    y.assign(idx(s.size), 0.0);
+    for (int b = 0; b < s.bodies; ++b) {
+      const BodyDescription& d = scene_.bodies[idx(model_.merge.carriers[idx(b)])];
+      const Vec4d q = d.quaternion.normalized();
+      const Mat3d r = rotation_from_quaternion<double>(q);
+      const Vec3d lever = r * model_.bodies[idx(b)].state_point;
+      view<3>(&y[idx(s.pose(b))]) = d.position + lever;
+      if (s.pose_size == 7) {
+        view<4>(&y[idx(s.pose(b) + 3)]) = q;
+      } else {
+        view<3>(&y[idx(s.pose(b) + 3)]) = euler_xyz_from_rotation(r);
+      }
+      view<3>(&y[idx(s.twist(b))]) = d.velocity + d.angular_velocity.cross(lever);
+      view<3>(&y[idx(s.twist(b) + 3)]) = d.angular_velocity;
+    }
+  }
+
+  const SceneDescription& scene_;
+  Model model_;
+  std::map<std::string, int> index_;  // of described bodies
+  std::map<std::string, const JointDescription*> joint_;
+};
+
+/// A scene with every body by itself and, of its limits, the rows of a set.
+std::shared_ptr<Model> described_model(const SceneDescription& scene, const std::vector<Limit>& limits,
+                                       ClosedSet closed, const SceneDescription& with_rows) {
+  auto model = std::make_shared<Model>(Compiler(with_rows, no_merge(with_rows), limits, closed).run());
+  if (!limits.empty()) model->description = scene;
+  return model;
+}
+
+/// Kinks with all limits open. A stop that holds takes what a load does: what its own force does then must be
+/// stopped at none the less, for it may let go.
+std::vector<Kink> kinks_when_open(const Model& model, ClosedSet closed) {
+  if (closed == 0) return find_kinks(model);
+  const SceneDescription scene = scene_of(model.description, model.limits, 0);
+  const std::shared_ptr<Model> open = described_model(model.description, model.limits, 0, scene);
+  open->initial_state = model.initial_state;
+  return find_kinks(*open);
+}
+
+void start_fast_motions(Model& model) {
+  std::vector<double>& y = model.initial_state;
+  for (const Vessel& vessel : model.vessels) {
+    if (!vessel.fast) continue;
+    const double* twist = &y[idx(model.layout.twist(vessel.body))];
+    vessel.fast->start({twist[0], twist[1], twist[5]}, &y[idx(vessel.memory_offset + vessel.fluid_states())]);
+  }
+}
+
+/// Refuses a start beyond a bound.
+void check_start(const Model& model) {
+  if (model.limits.empty()) return;
+  const std::shared_ptr<const Model> view(&model, [](const Model*) {});
+  RedundantSystem system(view);
+  system.read_kinematics(0.0, model.initial_state.data());
+  for (std::size_t i = 0; i < model.limits.size(); ++i) {
+    const Limit& limit = model.limits[i];
+    if (holds(model.closed, static_cast<int>(i)) || limit.kind == LimitKind::seat) continue;
+    const double gap = limit.side * evaluate_limit(limit, system.bodies().data()).value;
+    if (gap >= -kBeyond) continue;
+    throw SceneError("limit '" + limit.name + "': the scene starts " + to_text(-gap) +
+                     " m or rad beyond it; start within the bounds, or correct them");
+  }
+}
+
+}  // namespace
+
+std::shared_ptr<const Model> compile(const SceneDescription& scene, bool merge) {
+  validate(scene);
+  const std::vector<Limit> limits = list_limits(scene);
+  const ClosedSet closed = described_set(scene, limits);
+  const SceneDescription with_rows = limits.empty() ? SceneDescription() : scene_of(scene, limits, closed);
+  const SceneDescription& start = limits.empty() ? scene : with_rows;
+  const std::shared_ptr<Model> model = described_model(scene, limits, closed, start);
+  model->merges = merge;
+  assemble(*model);
+  start_fast_motions(*model);
+  check_start(*model);
+  MergePlan plan = merge ? plan_merge(start) : no_merge(start);
+  if (plan.merges()) {
+    auto merged = std::make_shared<Model>(Compiler(start, std::move(plan)).run());
+    std::vector<double> state(merged->initial_state);
+    merge_state(*model, *merged, model->initial_state.data(), state.data());
+    merged->initial_state = std::move(state);
+    assemble(*merged);
+    model->merged = std::move(merged);
+  }
+  model->kinks = kinks_when_open(*model, closed);
+  return model;
+}
+
+std::shared_ptr<const Model> compile_set(const Model& model, ClosedSet closed) {
+  const SceneDescription scene = scene_of(model.description, model.limits, closed);
+  const std::shared_ptr<Model> out = described_model(model.description, model.limits, closed, scene);
+  out->merges = model.merges;
+  out->initial_state = model.initial_state;
+  out->kinks = model.kinks;
+  MergePlan plan = model.merges ? plan_merge(scene) : no_merge(scene);
+  if (plan.merges()) {
+    out->merged = std::make_shared<Model>(Compiler(scene, std::move(plan)).run());
+  }
+  return out;
+}
+
+}  // namespace seacrane

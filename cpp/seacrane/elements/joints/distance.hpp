@@ -1,0 +1,65 @@
+#pragma once
+
+#include "seacrane/elements/joint_rows.hpp"
+#include "seacrane/elements/tree_joint.hpp"
+
+namespace seacrane {
+
+/// Constant distance of the two points.
+struct Distance {
+  static constexpr const char* kind = "distance";
+  static constexpr int rows = 1;
+  static constexpr const char* coordinates = "";
+  static constexpr bool parallel_axes = false;  // z axes point the same way
+  static constexpr bool aligned_axes = false;   // x axes too
+
+  template <class T>
+  static void evaluate(const JointGeometry<T>& g, const JointData& joint, RowBlock<T>& out) {
+    rows::distance<T>(g, T(joint.length), out, 0);
+  }
+
+  /// Quaternions of a link frame, whose z axis points from the parent's joint point to the child's, and of
+  /// the child: no direction of the link is singular. Speeds: the link turns about its own x and y axes
+  /// over the parent; the child's angular velocity over the parent's.
+  struct Branch {
+    static constexpr int positions = 8, speeds = 5;
+    static constexpr const char *position_kinds = "aaaaaaaa", *speed_kinds = "aaaaa";  // a: rad, l: m
+
+    template <class T>
+    static void move(const TreeJoint& j, const BodyKinematics<T>& parent, const T* q, const T* u,
+                     BranchMotionOf<T>& out) {
+      const Mat3<T> link = rotation_from_quaternion<T>(branch::quaternion(q));
+      out.rotation = rotation_from_quaternion<T>(branch::quaternion(q + 4));
+      const T length(j.length);
+      out.reach = branch::parent_lever(j, parent) + length * link.col(2);
+      out.slide[0] = -length * link.col(1);
+      out.slide[1] = length * link.col(0);
+      out.turn[0] = out.turn[1] = Vec3<T>::Zero();
+      out.slide_bias = -length * (u[0] * u[0] + u[1] * u[1]) * link.col(2);
+      branch::free_turning(parent, u, 2, out);
+    }
+    template <class T>
+    static void rates(const BodyKinematics<T>& parent, const T* q, const T* u, T* q_rate) {
+      const Mat3<T> link = rotation_from_quaternion<T>(branch::quaternion(q));
+      branch::turn<T>(q, parent.angular_velocity + u[0] * link.col(0) + u[1] * link.col(1), q_rate);
+      branch::turn<T>(q + 4, parent.angular_velocity + branch::vector(u + 2), q_rate + 4);
+    }
+    static void read(const TreeJoint& j, const BodyKinematics<double>& parent,
+                     const BodyKinematics<double>& child, double* q, double* u) {
+      const branch::Gap gap(j, parent, child);
+      Eigen::Index least = 0;
+      gap.offset.cwiseAbs().minCoeff(&least);
+      Mat3d link;
+      link.col(2) = gap.offset.normalized();
+      link.col(0) = Vec3d::Unit(least).cross(link.col(2)).normalized();
+      link.col(1) = link.col(2).cross(link.col(0));
+      view<4>(q) = quaternion_from_rotation(link);
+      view<4>(q + 4) = quaternion_from_rotation(child.rotation);
+      u[0] = -link.col(1).dot(gap.rate) / j.length;
+      u[1] = link.col(0).dot(gap.rate) / j.length;
+      view<3>(u + 2) = gap.turning;
+    }
+  };
+};
+
+}  // namespace seacrane

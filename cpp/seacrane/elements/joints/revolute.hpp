@@ -1,0 +1,44 @@
+#pragma once
+
+#include "seacrane/elements/joint_rows.hpp"
+#include "seacrane/elements/tree_joint.hpp"
+
+namespace seacrane {
+
+/// Rotation about the joint z axis.
+struct Revolute {
+  static constexpr const char* kind = "revolute";
+  static constexpr int rows = 5;
+  static constexpr const char* coordinates = "angle";
+  static constexpr bool parallel_axes = true;  // z axes point the same way
+  static constexpr bool aligned_axes = false;  // x axes too
+
+  template <class T>
+  static void evaluate(const JointGeometry<T>& g, const JointData& /*joint*/, RowBlock<T>& out) {
+    rows::coincident(g, out, 0);
+    rows::parallel_z(g, out, 3);
+  }
+
+  struct Branch : branch::ScalarRates<1> {
+    static constexpr int positions = 1, speeds = 1;
+    static constexpr const char *position_kinds = "a", *speed_kinds = "a";  // a: rad, l: m
+
+    template <class T>
+    static void move(const TreeJoint& j, const BodyKinematics<T>& parent, const T* q, const T* /*u*/,
+                     BranchMotionOf<T>& out) {
+      const Mat3<T> a = branch::parent_axes(j, parent);
+      out.rotation = branch::turn_about_z<T>(a, q[0]) * j.child_axes.transpose().cast<T>();
+      out.reach = branch::parent_lever(j, parent);
+      out.slide[0] = Vec3<T>::Zero();
+      out.turn[0] = a.col(2);
+    }
+    static void read(const TreeJoint& j, const BodyKinematics<double>& parent,
+                     const BodyKinematics<double>& child, double* q, double* u) {
+      const Mat3d a = branch::parent_axes(j, parent);
+      q[0] = branch::turned(a, branch::child_axes(j, child));
+      u[0] = a.col(2).dot(branch::Gap(j, parent, child).turning);
+    }
+  };
+};
+
+}  // namespace seacrane

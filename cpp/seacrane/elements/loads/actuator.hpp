@@ -1,0 +1,84 @@
+#pragma once
+
+#include "seacrane/elements/check.hpp"
+#include "seacrane/elements/joint_coordinate.hpp"
+#include "seacrane/elements/loads/load.hpp"
+#include "seacrane/math/curve.hpp"
+
+namespace seacrane {
+
+struct ActuatorDescription {
+  std::string name;
+  CoordinateDescription coordinate;
+  double stiffness = 0.0, damping = 0.0;
+  Curve feed_forward, reference;
+};
+
+/// State feedback on a joint coordinate: force = feed_forward + stiffness (reference - q) +
+/// damping (reference rate - q rate), along the coordinate, on both bodies; N or N m. An angle is known to
+/// whole turns only: the turn nearest to the reference counts.
+struct Actuator {
+  static constexpr const char* kind = "actuator";
+  using Description = ActuatorDescription;
+
+  CoordinateData coordinate;
+  double stiffness = 0.0, damping = 0.0;
+  Curve feed_forward, reference;
+  int slot = 0;  // inputs: [force added, reference added]
+
+  static void check(const Description& d, const Check& c, SceneNames& names) {
+    names.coordinate(c, d.coordinate);
+    names.input(c, kind, d.name);
+    c.not_negative("stiffness", d.stiffness);
+    c.not_negative("damping", d.damping);
+  }
+
+  template <class Context>
+  static Actuator compile(const Description& d, Context& context) {
+    return {context.coordinate(d.coordinate),
+            d.stiffness,
+            d.damping,
+            d.feed_forward,
+            d.reference,
+            context.slots(2)};
+  }
+
+  std::vector<LoadKinks> kinks() const {
+    return {kinks_of(reference, stiffness, damping), kinks_of(feed_forward, 1.0)};
+  }
+
+  void add_unit(int /*component*/, const LoadInput<double>& in, Vec6d* wrenches) const {
+    const int a = coordinate.joint.first, b = coordinate.joint.second;
+    const CoordinateRow<double> row = evaluate_coordinate<double>(coordinate, in.bodies[a], in.bodies[b]);
+    wrenches[a] += row.da;
+    wrenches[b] += row.db;
+  }
+
+  template <class T>
+  T force(const LoadInput<T>& in, const CoordinateRow<T>& row) const {
+    const auto& ka = in.bodies[coordinate.joint.first];
+    const auto& kb = in.bodies[coordinate.joint.second];
+    const CurveValue ref = reference.at(in.time, in.curve_limit);
+    const T error = T(ref.value + in.slots[slot + 1]) - row.value;
+    const T wrapped = is_angular(coordinate.kind) ? wrap_angle<T>(error) : error;
+    return T(feed_forward.at(in.time, in.curve_limit).value + in.slots[slot]) + T(stiffness) * wrapped +
+           T(damping) * (T(ref.rate) - coordinate_rate<T>(row, ka, kb));
+  }
+
+  /// True between two points of one rigid body: forces cancel and do no work.
+  bool moves_nothing(int /*ground*/) const { return coordinate.joint.first == coordinate.joint.second; }
+
+  template <class T>
+  void apply(const LoadInput<T>& in, LoadSum<T>& out) const {
+    const int a = coordinate.joint.first, b = coordinate.joint.second;
+    const CoordinateRow<T> row = evaluate_coordinate<T>(coordinate, in.bodies[a], in.bodies[b]);
+    const T f = force(in, row);
+    out.wrench[a].force += row.da.template head<3>() * f;
+    out.wrench[a].moment += row.da.template tail<3>() * f;
+    out.wrench[b].force += row.db.template head<3>() * f;
+    out.wrench[b].moment += row.db.template tail<3>() * f;
+    out.add_power(f * coordinate_rate<T>(row, in.bodies[a], in.bodies[b]));
+  }
+};
+
+}  // namespace seacrane

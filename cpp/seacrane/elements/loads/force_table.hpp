@@ -1,0 +1,96 @@
+#pragma once
+
+#include <algorithm>
+#include <vector>
+
+#include "seacrane/elements/check.hpp"
+#include "seacrane/elements/loads/load.hpp"
+
+namespace seacrane {
+
+struct ForceTableDescription {
+  std::string name, body;
+  Vec3d point = Vec3d::Zero();
+  std::vector<double> times;
+  std::vector<Vec6d> wrenches;  // inertial axes, moments about the point
+};
+
+/// A wrench tabulated over time (linear between the times, held outside) at a body-fixed point.
+struct ForceTable {
+  static constexpr const char* kind = "force table";
+  using Description = ForceTableDescription;
+
+  int body = 0;
+  Vec3d point;
+  std::vector<double> times;
+  std::vector<Vec6d> wrenches;  // inertial axes
+
+  Vec6d at(double t) const {
+    if (t <= times.front()) return wrenches.front();
+    if (t >= times.back()) return wrenches.back();
+    const auto next = std::upper_bound(times.begin(), times.end(), t);
+    const auto i = static_cast<std::size_t>(next - times.begin()) - 1;
+    const double s = (t - times[i]) / (times[i + 1] - times[i]);
+    return (1.0 - s) * wrenches[i] + s * wrenches[i + 1];
+  }
+
+  static void check(const Description& d, const Check& c, SceneNames& names) {
+    names.body(c, d.body);
+    c.near("point", d.point);
+    if (d.times.empty() || d.times.size() != d.wrenches.size()) {
+      c.fail("has " + std::to_string(d.times.size()) + " times and " + std::to_string(d.wrenches.size()) +
+             " wrenches; give as many of both");
+    }
+    for (std::size_t i = 0; i < d.times.size(); ++i) {
+      c.finite("times", d.times[i]);
+      c.finite("wrenches", d.wrenches[i]);
+      if (i > 0 && !(d.times[i] > d.times[i - 1])) c.fail("times must increase");
+    }
+  }
+
+  template <class Context>
+  static ForceTable compile(const Description& d, Context& context) {
+    const Attachment on = context.attach(d.body, d.point);
+    return {on.body, on.point, d.times, d.wrenches};
+  }
+
+  std::vector<LoadKinks> kinks() const {
+    LoadKinks out;
+    Vec6d before = Vec6d::Zero();
+    for (std::size_t i = 0; i < times.size(); ++i) {
+      Vec6d after = Vec6d::Zero();
+      if (i + 1 < times.size()) after = (wrenches[i + 1] - wrenches[i]) / (times[i + 1] - times[i]);
+      LoadKink& kink = out.emplace_back();
+      kink.time = times[i];
+      kink.jump.setZero(6, 4);
+      kink.jump.col(2) = after - before;
+      before = after;
+    }
+    return {out};
+  }
+
+  /// Components: force and moment.
+  void add_unit(int component, const LoadInput<double>& in, Vec6d* wrenches) const {
+    const Vec6d unit = Vec6d::Unit(component);
+    const Vec3d force = unit.head<3>(), lever = in.bodies[body].rotation * point;
+    wrenches[body] += unit;
+    wrenches[body].tail<3>() += lever.cross(force);
+  }
+
+  /// True on bodies that are fixed to the ground: no load, no work.
+  bool moves_nothing(int ground) const { return body == ground; }
+
+  template <class T>
+  void apply(const LoadInput<T>& in, LoadSum<T>& out) const {
+    const auto& k = in.bodies[body];
+    const Vec6<T> w = at(in.time).template cast<T>();
+    const Vec3<T> lever = k.rotation * point.cast<T>(), force = w.template head<3>(),
+                  moment = w.template tail<3>();
+    out.wrench[body].add(force, lever);
+    out.wrench[body].moment += moment;
+    out.add_power(force.dot(k.velocity + cross<T>(k.angular_velocity, lever)) +
+                  moment.dot(k.angular_velocity));
+  }
+};
+
+}  // namespace seacrane

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <cmath>
+
+#include "seacrane/elements/check.hpp"
+#include "seacrane/elements/joint_coordinate.hpp"
+#include "seacrane/elements/loads/load.hpp"
+
+namespace seacrane {
+
+/// A load along a joint coordinate, on both bodies. Returns its power.
+template <class T>
+T apply_along(const CoordinateData& coordinate, const CoordinateRow<T>& row, const T& load, const T& rate,
+              LoadSum<T>& out) {
+  const int a = coordinate.joint.first, b = coordinate.joint.second;
+  out.wrench[a].force += row.da.template head<3>() * load;
+  out.wrench[a].moment += row.da.template tail<3>() * load;
+  out.wrench[b].force += row.db.template head<3>() * load;
+  out.wrench[b].moment += row.db.template tail<3>() * load;
+  return load * rate;
+}
+
+struct FrictionDescription {
+  std::string name;
+  CoordinateDescription coordinate;
+  double load = 0.0, speed = 0.0;
+};
+
+/// Dry friction on a joint coordinate, -load tanh(rate / speed), N or N m: Coulomb's to 1e-4 from 5 speeds
+/// on. It does not stick: under a steady load F below `load` the coordinate creeps at speed atanh(F / load).
+struct Friction {
+  static constexpr const char* kind = "friction";
+  using Description = FrictionDescription;
+
+  CoordinateData coordinate;
+  double load = 0.0, speed = 1.0;
+
+  static void check(const Description& d, const Check& c, SceneNames& names) {
+    names.coordinate(c, d.coordinate);
+    c.not_negative("load", d.load);
+    c.finite("speed", d.speed);
+    if (!(d.speed > 0.0)) {
+      c.fail("speed is " + to_text(d.speed) +
+             " m/s or rad/s; give a positive one, where friction has 76 % of its load");
+    }
+  }
+
+  template <class Context>
+  static Friction compile(const Description& d, Context& context) {
+    return {context.coordinate(d.coordinate), d.load, d.speed};
+  }
+
+  static std::vector<LoadKinks> kinks() { return {}; }
+
+  bool moves_nothing(int /*ground*/) const { return coordinate.joint.first == coordinate.joint.second; }
+
+  template <class T>
+  void apply(const LoadInput<T>& in, LoadSum<T>& out) const {
+    using std::tanh;
+    const auto &ka = in.bodies[coordinate.joint.first], &kb = in.bodies[coordinate.joint.second];
+    const CoordinateRow<T> row = evaluate_coordinate<T>(coordinate, ka, kb);
+    const T rate = coordinate_rate<T>(row, ka, kb);
+    const T ratio = rate / T(speed);
+    const T drag = T(-load) * tanh(ratio);
+    out.add_power(apply_along<T>(coordinate, row, drag, rate, out));
+  }
+};
+
+}  // namespace seacrane

@@ -1,0 +1,71 @@
+#pragma once
+
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "seacrane/elements/check.hpp"
+#include "seacrane/elements/loads/load.hpp"
+#include "seacrane/math/rotation.hpp"
+
+namespace seacrane {
+
+/// void f(double t, const double state[13], const double* parameters, double wrench[6]):
+/// state = position, quaternion, velocity, angular velocity of the body origin; wrench about it, inertial
+/// axes.
+using ForceFunction = void (*)(double, const double*, const double*, double*);
+
+struct FunctionForceDescription {
+  std::string name, body;
+  ForceFunction function = nullptr;
+  std::vector<double> parameters;
+};
+
+/// A user's C function called in every evaluation, see ForceFunction.
+struct FunctionForce {
+  static constexpr const char* kind = "function force";
+  using Description = FunctionForceDescription;
+
+  int body = 0;
+  Vec3d origin;  // body origin from the state point, body axes
+  Mat3d axes;    // of the described body
+  ForceFunction function = nullptr;
+  std::vector<double> parameters;
+
+  static void check(const Description& d, const Check& c, SceneNames& names) {
+    names.body(c, d.body);
+    if (d.function == nullptr) c.fail("the function's address is 0; pass a C function pointer");
+  }
+
+  template <class Context>
+  static FunctionForce compile(const Description& d, Context& context) {
+    const Attachment on = context.attach(d.body, Vec3d::Zero());
+    return {on.body, on.point, on.axes, d.function, d.parameters};
+  }
+
+  /// What the function makes of time is not known.
+  static std::vector<LoadKinks> kinks() { return {}; }
+
+  /// True on bodies that are fixed to the ground: no load, no work.
+  bool moves_nothing(int ground) const { return body == ground; }
+
+  template <class T>
+  void apply(const LoadInput<T>& in, LoadSum<T>& out) const {
+    static_assert(std::is_same_v<T, double>, "a C function knows no other scalar");
+    const auto& k = in.bodies[body];
+    const Vec3d lever = k.rotation * origin;
+    const Vec3d velocity = k.velocity + k.angular_velocity.cross(lever);
+    double state[13], wrench[6] = {};
+    view<3>(state) = k.position + lever;
+    view<4>(state + 3) = quaternion_from_rotation(Mat3d(k.rotation * axes));
+    view<3>(state + 7) = velocity;
+    view<3>(state + 10) = k.angular_velocity;
+    function(in.time, state, parameters.data(), wrench);
+    const Vec3d force = view<3>(wrench), moment = view<3>(wrench + 3);
+    out.wrench[body].add(force, lever);
+    out.wrench[body].moment += moment;
+    out.add_power(force.dot(velocity) + moment.dot(k.angular_velocity));
+  }
+};
+
+}  // namespace seacrane

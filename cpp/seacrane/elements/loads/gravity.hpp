@@ -1,0 +1,25 @@
+#pragma once
+
+#include "seacrane/elements/loads/load.hpp"
+
+namespace seacrane {
+
+/// Weight of one body at its centre of mass; z is up.
+struct Gravity {
+  int body = 0;
+  double weight = 0.0;   // N
+  Vec3d center_of_mass;  // from the state point, body axes
+
+  template <class T>
+  void apply(const LoadInput<T>& in, LoadSum<T>& out) const {
+    const Vec3<T> lever = in.bodies[body].rotation * center_of_mass.cast<T>();
+    out.wrench[body].add(Vec3<T>(T(0), T(0), T(-weight)), lever);
+  }
+
+  double potential(const LoadInput<double>& in) const {
+    const auto& k = in.bodies[body];
+    return weight * (k.position + k.rotation * center_of_mass).z();
+  }
+};
+
+}  // namespace seacrane

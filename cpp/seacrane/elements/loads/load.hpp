@@ -1,0 +1,65 @@
+#pragma once
+
+#include <utility>
+#include <vector>
+
+#include "seacrane/elements/kinematics.hpp"
+#include "seacrane/math/curve.hpp"
+
+namespace seacrane {
+
+/// What a load may look at. `bodies` holds all bodies and, last, the ground.
+template <class T>
+struct LoadInput {
+  double time;
+  double curve_limit;  // curve pieces from here on are not used yet, see Curve::at
+  const BodyKinematics<T>* bodies;
+  const double* slots;  // zero-order-held inputs
+};
+
+/// Where a load of a described body acts on the compiled body that carries it.
+struct Attachment {
+  int body = 0;
+  Vec3d point;                     // from the state point, in axes of the compiled body
+  Mat3d axes = Mat3d::Identity();  // of the described body, likewise
+};
+
+/// Where a load over time is not smooth. Column p: what its derivative of order p - 1 jumps by, a row per
+/// component of the load; column 0 is for jumps of the velocities themselves, which only drivers make. Over a
+/// step h such a jump is worth up to jump h^p / p! of velocity.
+struct LoadKink {
+  double time = 0.0;
+  Eigen::Matrix<double, Eigen::Dynamic, 4> jump;
+};
+
+/// Those of one curve or table, by time. Every load has kinks(), a list of these by its curves, and, where
+/// there are some, add_unit(component, input, wrenches), which adds what a unit of a component puts on the
+/// bodies. A load that depends on time has no other way to be stopped at.
+using LoadKinks = std::vector<LoadKink>;
+
+/// Those of `value` times a curve plus `rate` times its rate.
+inline LoadKinks kinks_of(const Curve& curve, double value, double rate = 0.0) {
+  LoadKinks out;
+  for (const CurveKink& kink : curve.kinks()) {
+    LoadKink load{kink.time, Eigen::Matrix<double, 1, 4>::Zero()};
+    for (const int p : {1, 2, 3}) load.jump(0, p) = value * kink.jump(idx(p - 1));
+    for (const int p : {1, 2}) load.jump(0, p) += rate * kink.jump(idx(p));
+    out.push_back(std::move(load));
+  }
+  return out;
+}
+
+/// What loads add up: one wrench per body (the ground's is discarded), and the power of all loads that
+/// have no potential, for the energy balance.
+template <class T>
+struct LoadSum {
+  BodyLoad<T>* wrench;
+  T power = T(0), absolute_power = T(0);
+
+  void add_power(const T& p) {
+    power += p;
+    absolute_power += p < T(0) ? -p : p;
+  }
+};
+
+}  // namespace seacrane

@@ -1,0 +1,58 @@
+#pragma once
+
+#include "seacrane/elements/check.hpp"
+#include "seacrane/elements/loads/load.hpp"
+
+namespace seacrane {
+
+struct PointForceDescription {
+  std::string name, body;
+  Vec3d point = Vec3d::Zero();  // body coordinates
+  Vec3d force = Vec3d::Zero();  // inertial or body axes
+  bool body_axes = false;
+};
+
+/// A force at a body-fixed point, constant in inertial or in body axes; three slots add to it.
+struct PointForce {
+  static constexpr const char* kind = "point force";
+  using Description = PointForceDescription;
+
+  int body = 0;
+  Vec3d point;  // from the state point, body axes
+  Mat3d axes;   // of the described body
+  Vec3d force;
+  bool body_axes = false;
+  int slot = 0;
+
+  static void check(const Description& d, const Check& c, SceneNames& names) {
+    names.body(c, d.body);
+    names.input(c, kind, d.name);
+    c.near("point", d.point);
+    c.finite("force", d.force);
+  }
+
+  template <class Context>
+  static PointForce compile(const Description& d, Context& context) {
+    const Attachment on = context.attach(d.body, d.point);
+    return {on.body, on.point, on.axes, d.force, d.body_axes, context.slots(3)};
+  }
+
+  /// Inputs, which add to it, are held between calls of a controller, and those restart the integration.
+  static std::vector<LoadKinks> kinks() { return {}; }
+
+  /// True on bodies that are fixed to the ground: no load, no work.
+  bool moves_nothing(int ground) const { return body == ground; }
+
+  template <class T>
+  void apply(const LoadInput<T>& in, LoadSum<T>& out) const {
+    const auto& k = in.bodies[body];
+    const Vec3d total = force + view<3>(in.slots + slot);
+    Vec3<T> f = total.cast<T>();
+    if (body_axes) f = k.rotation * (axes * total).template cast<T>();
+    const Vec3<T> lever = k.rotation * point.cast<T>();
+    out.wrench[body].add(f, lever);
+    out.add_power(f.dot(k.velocity + cross<T>(k.angular_velocity, lever)));
+  }
+};
+
+}  // namespace seacrane

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <tuple>
+#include <vector>
+
+#include "seacrane/elements/loads/actuator.hpp"
+#include "seacrane/elements/loads/flow_force.hpp"
+#include "seacrane/elements/loads/force_table.hpp"
+#include "seacrane/elements/loads/friction.hpp"
+#include "seacrane/elements/loads/function_force.hpp"
+#include "seacrane/elements/loads/point_force.hpp"
+#include "seacrane/elements/loads/soft_stop.hpp"
+#include "seacrane/elements/loads/spring_damper.hpp"
+
+namespace seacrane {
+
+/// The one list of loads that a scene describes: a new one is its own file and an entry here.
+using LoadTypes =
+    std::tuple<Actuator, PointForce, SpringDamper, ForceTable, FunctionForce, FlowForce, Friction, SoftStop>;
+
+/// Calls f.template operator()<Load>() for every type of load.
+template <class F>
+constexpr void for_each_load_type(F&& f) {
+  [&]<class... Load>(std::type_identity<std::tuple<Load...>>) {
+    (f.template operator()<Load>(), ...);
+  }(std::type_identity<LoadTypes>{});
+}
+
+template <class Types>
+struct ByLoadType;
+template <class... Load>
+struct ByLoadType<std::tuple<Load...>> {
+  using Descriptions = std::tuple<std::vector<typename Load::Description>...>;
+  using Loads = std::tuple<std::vector<Load>...>;
+};
+
+using LoadDescriptions = ByLoadType<LoadTypes>::Descriptions;
+/// Loads of one kind side by side, dispatched once per kind.
+using LoadsByKind = ByLoadType<LoadTypes>::Loads;
+
+}  // namespace seacrane

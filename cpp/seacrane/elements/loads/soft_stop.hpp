@@ -1,0 +1,80 @@
+#pragma once
+
+#include <numbers>
+
+#include "seacrane/elements/loads/friction.hpp"
+
+namespace seacrane {
+
+struct SoftStopDescription {
+  std::string name;
+  CoordinateDescription coordinate;
+  double minimum = -kFarthest, maximum = kFarthest;
+  double stiffness = 0.0, damping = 0.0;
+};
+
+/// Compliant bounds of a joint coordinate (Hunt, Crossley 1975): stiffness p (1 + damping p') back, where the
+/// coordinate is beyond a bound by p; never a pull. Load and power are continuous where it is touched.
+struct SoftStop {
+  static constexpr const char* kind = "soft stop";
+  using Description = SoftStopDescription;
+
+  CoordinateData coordinate;
+  double minimum = -kFarthest, maximum = kFarthest;
+  double stiffness = 0.0, damping = 0.0;
+
+  static void check(const Description& d, const Check& c, SceneNames& names) {
+    names.coordinate(c, d.coordinate);
+    const bool low = d.minimum > -kFarthest, high = d.maximum < kFarthest;
+    if (!low && !high) c.fail("has neither minimum nor maximum; give at least one");
+    if (!(d.minimum < d.maximum)) {
+      c.fail("minimum is " + to_text(d.minimum) + " and maximum " + to_text(d.maximum) +
+             "; the minimum must be below the maximum");
+    }
+    const std::string& q = d.coordinate.coordinate;
+    const bool turns = q == "angle" || q == "roll" || q == "pitch" || q == "yaw";
+    if (turns && !(d.minimum > -std::numbers::pi && d.maximum < std::numbers::pi)) {
+      c.fail("bounds of an angle are " + to_text(d.minimum) + " and " + to_text(d.maximum) +
+             " rad; give both, between -pi and pi: the other way round would reach them too");
+    }
+    c.finite("stiffness", d.stiffness);
+    if (!(d.stiffness > 0.0)) c.fail("stiffness is " + to_text(d.stiffness) + "; make it positive");
+    c.not_negative("damping", d.damping);
+  }
+
+  template <class Context>
+  static SoftStop compile(const Description& d, Context& context) {
+    return {context.coordinate(d.coordinate), d.minimum, d.maximum, d.stiffness, d.damping};
+  }
+
+  /// Its kinks are in the state.
+  static std::vector<LoadKinks> kinks() { return {}; }
+
+  bool moves_nothing(int /*ground*/) const { return coordinate.joint.first == coordinate.joint.second; }
+
+  template <class T>
+  void apply(const LoadInput<T>& in, LoadSum<T>& out) const {
+    const auto &ka = in.bodies[coordinate.joint.first], &kb = in.bodies[coordinate.joint.second];
+    const CoordinateRow<T> row = evaluate_coordinate<T>(coordinate, ka, kb);
+    const double side = row.value < T(minimum) ? 1.0 : (row.value > T(maximum) ? -1.0 : 0.0);
+    if (side == 0.0) return;
+    const T depth = T(side) * (T(side > 0.0 ? minimum : maximum) - row.value);
+    const T rate = coordinate_rate<T>(row, ka, kb);
+    const T elastic = T(stiffness) * depth;
+    T viscous = T(-side * damping) * rate * elastic;
+    if (elastic + viscous < T(0)) viscous = -elastic;
+    const T total = T(side) * (elastic + viscous);
+    apply_along<T>(coordinate, row, total, rate, out);
+    out.add_power(T(side) * viscous * rate);
+  }
+
+  double potential(const LoadInput<double>& in) const {
+    const double q = evaluate_coordinate<double>(coordinate, in.bodies[coordinate.joint.first],
+                                                 in.bodies[coordinate.joint.second])
+                         .value;
+    const double depth = q < minimum ? minimum - q : (q > maximum ? q - maximum : 0.0);
+    return 0.5 * stiffness * depth * depth;
+  }
+};
+
+}  // namespace seacrane

@@ -1,0 +1,114 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "seacrane/elements/check.hpp"
+#include "seacrane/elements/loads/load.hpp"
+
+namespace seacrane {
+
+struct SpringDescription {
+  std::string name, first, second;
+  Vec3d first_point = Vec3d::Zero(), second_point = Vec3d::Zero();
+  double stiffness = 0.0, damping = 0.0, natural_length = 0.0;
+  std::vector<double> lengths, forces;  // tabulated tension over length, instead of stiffness
+};
+
+/// Tension between two points: stiffness (length - natural_length), or a table of tension over length
+/// (linear between its points, held outside), plus damping times the rate of length.
+struct SpringDamper {
+  static constexpr const char* kind = "spring";
+  using Description = SpringDescription;
+
+  int first = 0, second = 0;
+  Vec3d first_point, second_point;  // from the state points, body axes
+  double stiffness = 0.0, damping = 0.0, natural_length = 0.0;
+  std::vector<double> lengths, forces;
+
+  static void check(const Description& d, const Check& c, SceneNames& names) {
+    names.body(c, d.first, true);
+    names.body(c, d.second, true);
+    if (d.first == d.second) c.fail("joins '" + d.first + "' to itself; name two different bodies");
+    c.near("first_point", d.first_point);
+    c.near("second_point", d.second_point);
+    c.not_negative("stiffness", d.stiffness);
+    c.not_negative("damping", d.damping);
+    c.not_negative("natural_length", d.natural_length);
+    if (d.lengths.size() != d.forces.size() || d.lengths.size() == 1) {
+      c.fail("the table has " + std::to_string(d.lengths.size()) + " lengths and " +
+             std::to_string(d.forces.size()) + " forces; give at least two of each");
+    }
+    for (std::size_t i = 0; i < d.lengths.size(); ++i) {
+      c.finite("lengths", d.lengths[i]);
+      c.finite("forces", d.forces[i]);
+      if (i > 0 && !(d.lengths[i] > d.lengths[i - 1])) c.fail("lengths must increase");
+    }
+  }
+
+  template <class Context>
+  static SpringDamper compile(const Description& d, Context& context) {
+    const Attachment a = context.attach(d.first, d.first_point);
+    const Attachment b = context.attach(d.second, d.second_point);
+    return {a.body, b.body, a.point, b.point, d.stiffness, d.damping, d.natural_length, d.lengths, d.forces};
+  }
+
+  /// A table over length has its kinks in the state.
+  static std::vector<LoadKinks> kinks() { return {}; }
+
+  /// True between two points of one rigid body: forces cancel and do no work.
+  bool moves_nothing(int /*ground*/) const { return first == second; }
+
+  template <class T>
+  void apply(const LoadInput<T>& in, LoadSum<T>& out) const {
+    using std::sqrt;
+    const auto &ka = in.bodies[first], &kb = in.bodies[second];
+    const Vec3<T> lever_a = ka.rotation * first_point.cast<T>(),
+                  lever_b = kb.rotation * second_point.cast<T>();
+    const Vec3<T> d = kb.position + lever_b - ka.position - lever_a;
+    const T length = sqrt(d.dot(d));
+    if (!(length > T(0))) return;  // coincident points: no direction
+    const Vec3<T> n = d / length;
+    const Vec3<T> d_rate = kb.velocity + cross<T>(kb.angular_velocity, lever_b) - ka.velocity -
+                           cross<T>(ka.angular_velocity, lever_a);
+    const T rate = n.dot(d_rate), viscous = T(damping) * rate;
+    const Vec3<T> pull = n * (elastic(length) + viscous);
+    out.wrench[first].add(pull, lever_a);
+    const Vec3<T> back = -pull;
+    out.wrench[second].add(back, lever_b);
+    if (damping != 0.0) out.add_power(-viscous * rate);
+  }
+
+  template <class T>
+  T elastic(const T& length) const {
+    if (lengths.empty()) return T(stiffness) * (length - T(natural_length));
+    if (length <= lengths.front()) return T(forces.front());
+    if (length >= lengths.back()) return T(forces.back());
+    const auto i = segment(length);
+    const double slope = (forces[i + 1] - forces[i]) / (lengths[i + 1] - lengths[i]);
+    return T(forces[i]) + T(slope) * (length - T(lengths[i]));
+  }
+
+  double potential(const LoadInput<double>& in) const {
+    const auto &ka = in.bodies[first], &kb = in.bodies[second];
+    const double length =
+        (kb.position + kb.rotation * second_point - ka.position - ka.rotation * first_point).norm();
+    if (lengths.empty()) return 0.5 * stiffness * (length - natural_length) * (length - natural_length);
+    double energy = std::min(0.0, length - lengths.front()) * forces.front();
+    for (std::size_t i = 0; i + 1 < lengths.size() && lengths[i] < length; ++i) {
+      const double end = std::min(length, lengths[i + 1]);
+      energy += 0.5 * (forces[i] + elastic(end)) * (end - lengths[i]);
+    }
+    return energy + std::max(0.0, length - lengths.back()) * forces.back();
+  }
+
+ private:
+  template <class T>
+  std::size_t segment(const T& length) const {
+    const auto next = std::upper_bound(lengths.begin(), lengths.end(), length);
+    return static_cast<std::size_t>(next - lengths.begin()) - 1;
+  }
+};
+
+}  // namespace seacrane

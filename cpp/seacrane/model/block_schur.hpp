@@ -1,0 +1,64 @@
+#pragma once
+
+#include <vector>
+
+#include "seacrane/elements/joint_rows.hpp"
+
+namespace seacrane {
+
+/// One constraint element (joint or driver) as a node of the joint graph.
+struct GraphNode {
+  int rows = 0;
+  int first = -1, second = -1;  // bodies; `ground` has no inertia and makes no fill
+};
+
+/// Block-sparse L d L^T factorisation of S = D M^-1 D^T along the joint graph: bodies are eliminated
+/// first, then the joints in minimum-degree order. The pattern is fixed; numbers live in a workspace.
+class BlockSchur {
+ public:
+  BlockSchur() = default;
+  BlockSchur(const std::vector<GraphNode>& nodes, int body_count);
+
+  int rows() const { return rows_; }
+  /// First row of an element in the order of elimination, in which multipliers are stored.
+  int row(int element) const { return row_of_[static_cast<std::size_t>(element)]; }
+  std::size_t value_count() const { return value_count_; }
+
+  /// Sums S from D of each element and D M^-1 of each side [2 element + side].
+  void assemble(const RowBlock<double>* blocks, const Mat6d* over_mass, double* values) const;
+  /// In place; returns the largest S_ii / d_i (1 for orthogonal constraints), infinity when a pivot
+  /// is not positive. The ratio is invariant to the scaling of rows and estimates the lost digits.
+  double factor(double* values) const;
+  /// x := S^-1 x.
+  void solve(const double* values, double* x) const;
+
+ private:
+  struct Panel {
+    int width = 0, height = 0, first_row = 0;
+    std::size_t values = 0;  // column-major height x width
+    std::size_t below = 0;   // global rows of the part below the diagonal block
+    std::size_t scatter = 0;
+  };
+  struct Term {
+    int row_side, column_side;  // index into sides
+    int row_count, column_count;
+    int height;
+    std::size_t target;
+  };
+
+  void order(const std::vector<GraphNode>& nodes, const std::vector<std::vector<int>>& adjacency);
+  void collect_terms(const std::vector<GraphNode>& nodes, int body_count);
+  std::size_t entry(int row, int column) const;
+  void eliminate(const double* p, const Panel& panel, double* x) const;
+  void substitute_back(const double* p, const Panel& panel, double* x) const;
+
+  int rows_ = 0;
+  std::size_t value_count_ = 0;
+  std::vector<int> row_of_, panel_of_element_, panel_of_row_;
+  std::vector<Panel> panels_;
+  std::vector<int> below_;
+  std::vector<std::size_t> scatter_;
+  std::vector<Term> terms_;
+};
+
+}  // namespace seacrane
