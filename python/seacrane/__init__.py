@@ -28,6 +28,7 @@ if TYPE_CHECKING:
         VesselHydrodynamics,
         integrator_names,
     )
+    from seacrane.accuracy.step_error import StepError, step_error
     from seacrane.analysis.frequency_domain import (
         ResponseStatistics,
         SummedResponse,
@@ -49,9 +50,11 @@ if TYPE_CHECKING:
     from seacrane.errors import ChatteringError, FileFormatError, SceneError, SeacraneError, SimulationError
     from seacrane.hydro import HydroDatabase, load_database
     from seacrane.result import Event, Result
+    from seacrane.run.method import Method
     from seacrane.run.output_times import OutputMemoryError
+    from seacrane.run.outputs import Outputs
+    from seacrane.run.run import Run
     from seacrane.run.sampled_controller import SampledController
-    from seacrane.run.simulation import Run, simulate
     from seacrane.run.stiffness import StiffWarning
     from seacrane.run.to_file import StreamedResult, simulate_to_file
     from seacrane.scene.gusts import gust_curve
@@ -68,8 +71,8 @@ if TYPE_CHECKING:
         use_slow_position,
     )
     from seacrane.sea import SeaState, WaveSystem
+    from seacrane.simulation import simulate
     from seacrane.trading import Trade, trade
-    from seacrane.trading.fixed_step import StepError, step_error
     from seacrane.validity.following import FullTurnWarning, OutsideRangeWarning, SoftGainsWarning
     from seacrane.validity.hull_range import (
         ForwardSpeedWarning,
@@ -122,12 +125,14 @@ _HOME = {
     "MassUnitWarning": "validity.plausible",
     "MeanHeadingWarning": "validity.hull_range",
     "MeanPositionWarning": "validity.hull_range",
+    "Method": "run.method",
     "Model": "_core",
     "MooringTurnWarning": "validity.hull_range",
     "NaturalModes": "analysis.modal_analysis",
     "NearSingularWarning": "validity.range",
     "NoWaveLoadsWarning": "validity.hull_range",
     "OutputMemoryError": "run.output_times",
+    "Outputs": "run.outputs",
     "OutsideDatabaseWarning": "validity.range",
     "OutsideRangeWarning": "validity.following",
     "PushingLinkWarning": "validity.range",
@@ -135,7 +140,7 @@ _HOME = {
     "ResponseStatistics": "analysis.frequency_domain",
     "Result": "result",
     "RetardationFunctions": "_core",
-    "Run": "run.simulation",
+    "Run": "run.run",
     "SampledController": "run.sampled_controller",
     "Scene": "description.scene",
     "SceneError": "errors",
@@ -146,7 +151,7 @@ _HOME = {
     "SoftStop": "_core",
     "State": "_core",
     "StateSpaceBlock": "_core",
-    "StepError": "trading.fixed_step",
+    "StepError": "accuracy.step_error",
     "StiffWarning": "run.stiffness",
     "StreamedResult": "run.to_file",
     "SummedResponse": "analysis.frequency_domain",
@@ -184,10 +189,10 @@ _HOME = {
     "reflected_inertia": "analysis.inverse",
     "response_statistics": "analysis.frequency_domain",
     "response_summed": "analysis.frequency_domain",
-    "simulate": "run.simulation",
+    "simulate": "simulation",
     "simulate_to_file": "run.to_file",
     "spline_curve": "description.curves",
-    "step_error": "trading.fixed_step",
+    "step_error": "accuracy.step_error",
     "trade": "trading",
     "use_actual_position": "scene.wind_current_drift",
     "use_slow_position": "scene.wind_current_drift",
@@ -223,12 +228,14 @@ __all__ = [
     "MassUnitWarning",
     "MeanHeadingWarning",
     "MeanPositionWarning",
+    "Method",
     "Model",
     "MooringTurnWarning",
     "NaturalModes",
     "NearSingularWarning",
     "NoWaveLoadsWarning",
     "OutputMemoryError",
+    "Outputs",
     "OutsideDatabaseWarning",
     "OutsideRangeWarning",
     "PushingLinkWarning",

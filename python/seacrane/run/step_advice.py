@@ -2,14 +2,7 @@
 
 from __future__ import annotations
 
-# |eigenvalue| times step up to which an oscillation does not grow: rk4 sqrt(8), the others likewise along the
-# imaginary axis, semi-implicit Euler exactly 2.
-STABLE_UP_TO = {
-    "semi-implicit-euler": 2.0,
-    "rk4": 2.8,
-    "rk4-exact-memory": 2.8,
-    "rk-low-storage": 3.3,
-}
+from seacrane.run.integrators import integrator as integrator_of
 
 
 def step_advice(integrator: str, step: float, fastest: float | None) -> str:
@@ -23,8 +16,8 @@ def step_advice(integrator: str, step: float, fastest: float | None) -> str:
     fastest : float or None
         Largest |eigenvalue| at the start, 1/s.
     """
-    limit = STABLE_UP_TO.get(integrator)
-    if limit is None or not fastest or fastest * step <= limit:
+    limit = integrator_of(integrator).stable_up_to
+    if not limit or not fastest or fastest * step <= limit:
         return ""
     return (
         f"The fastest mode at the start is {fastest:.4g} per s: {integrator} is unstable with steps longer "

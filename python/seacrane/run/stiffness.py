@@ -9,11 +9,9 @@ import numpy as np
 
 from seacrane import _core
 from seacrane.analysis.linearise import LARGEST, jacobian
+from seacrane.run.integrators import integrator as integrator_of
 from seacrane.validity.range import Finding
 
-EXPLICIT = (
-    "heun21", "bs32", "rk43", "dopri5", "tsit5", "verner65", "verner76", "dop853", "ark-erk", "cvode-adams"
-)  # fmt: skip
 MANY_STEPS = 10_000  # fewer are no matter
 STATES_SQUARED_PER_STEP = 5.0  # so many steps cost ten times the eigenvalues of so many states
 NEAR_THE_LIMIT = 1.0  # |eigenvalue| times step; explicit methods stay stable up to 2 to 6
@@ -40,8 +38,10 @@ def stiffness(
         Of the run: `Result.stats`.
     """
     integrator, steps = str(stats["integrator"]), int(stats["steps"])
+    method = integrator_of(integrator)
+    adjusts = method.setting == "rtol" and not method.uses_jacobian
     few = max(MANY_STEPS, int(model.states**2 / STATES_SQUARED_PER_STEP))
-    if integrator not in EXPLICIT or steps < few or model.states > LARGEST:
+    if not adjusts or steps < few or model.states > LARGEST:
         return []
     step = float(stats["simulated_s"]) / steps
     mode, body, at = max((*_fastest(model, bodies, state), state.time) for state in states)
