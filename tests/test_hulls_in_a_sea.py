@@ -31,12 +31,12 @@ from seacrane import (
     use_actual_position,
     use_slow_position,
 )
+from seacrane.accuracy.quantities import quantities_of
 from seacrane.crane import KnuckleBoomCrane, Payload
 from seacrane.description.file import load_scene
 from seacrane.hydro import DriftCoefficients, HydroDatabase, shipped_database
 from seacrane.inputs.frames import rotation_about_z
 from seacrane.trading import rungs
-from seacrane.trading.quantities import quantities_of
 
 Array = NDArray[np.float64]
 G = 9.80665

@@ -8,8 +8,9 @@ from seacrane import _core, cases
 from seacrane.analysis.inverse import balance
 from seacrane.crane import KnuckleBoomCrane, Payload
 from seacrane.description.scene import Scene
+from seacrane.experiment.case import Case
 from stability_atlas.altered import change_actuator, change_body, scale_body
-from stability_atlas.axis import Axis, Case
+from stability_atlas.axis import Axis
 
 T_END, DT_OUT = 10.0, 0.25  # s
 WAVES = 40  # components: what they excite matters here, not their statistics

@@ -6,7 +6,8 @@ import numpy as np
 
 from seacrane import cases
 from seacrane.description.scene import Scene
-from stability_atlas.axis import Axis, Case
+from seacrane.experiment.case import Case
+from stability_atlas.axis import Axis
 from stability_atlas.crane_axes import WAVES
 
 HOUR = 3600.0  # s

@@ -6,8 +6,9 @@ import numpy as np
 
 from seacrane import _core
 from seacrane.description.scene import Scene
+from seacrane.experiment.case import Case
 from seacrane.scene.limits import add_end_stop, add_friction, add_soft_stop, add_wire
-from stability_atlas.axis import Axis, Case
+from stability_atlas.axis import Axis
 
 MASS = 1e4  # kg
 
