@@ -10,16 +10,14 @@ from numpy.polynomial import Polynomial
 
 from seacrane import Scene, _core
 from seacrane.analysis.linear_system import linear_model
-from stability_atlas.step_limit import EXPLICIT, found_limit, predicted_limit
-
-ORDERS = {"rk4": 4, "rk-low-storage": 4, "heun21": 2, "bs32": 3, "rk43": 4, "dopri5": 5, "tsit5": 5,
-          "verner65": 6, "verner76": 7, "dop853": 8}  # fmt: skip
+from seacrane.run.integrators import integrator, integrators
+from stability_atlas.step_limit import found_limit, predicted_limit
 
 
-@pytest.mark.parametrize("name", EXPLICIT)
+@pytest.mark.parametrize("name", [m.name for m in integrators() if _core.stability_polynomial(m.name)])
 def test_a_stability_polynomial_is_the_exponential_up_to_its_order(name: str) -> None:
     coefficients = _core.stability_polynomial(name)
-    order = ORDERS[name]
+    order = integrator(name).order
     exact = [1.0 / factorial(k) for k in range(order + 2)]
     np.testing.assert_allclose(coefficients[: order + 1], exact[:-1], rtol=1e-12)
     if len(coefficients) > order + 1:
