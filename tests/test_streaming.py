@@ -455,6 +455,17 @@ def test_what_cannot_be_gone_on_with_is_refused_and_left_alone(name: str, tmp_pa
     assert {path.name: path.read_bytes() for path in tmp_path.iterdir()} == before
 
 
+def test_what_version_0_1_wrote_as_zero_is_a_setting_left_out() -> None:
+    """So that its files can be gone on with; a step that was given is still compared."""
+    stats = {stream.DIGEST: "of the scene", "formulation": "recursive", "integrator": "rk4"}
+    before = {"t_end": 1.0, "dt_out": 0.1, "rtol": 1e-6, "dt": 0.0, "max_step": 0.0, "baumgarte": 0.0}
+    now = {name: value for name, value in before.items() if name not in ("dt", "max_step")}
+    old, new = ({**stats, "settings": json.dumps(settings)} for settings in (before, now))
+    assert stream.difference(old, [], new, []) == ""
+    given = {**stats, "settings": json.dumps({**before, "dt": 0.05})}
+    assert stream.difference(given, [], new, []) == "has dt 0.05, this run None"
+
+
 def test_files_that_are_missing_or_foreign_are_named(tmp_path: Path) -> None:
     path = tmp_path / "run.nc"
     with pytest.raises(FileNotFoundError, match=r"no result file .*run\.nc to go on with"):
