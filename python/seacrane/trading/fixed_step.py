@@ -17,7 +17,7 @@ from seacrane.trading.quantities import compare, quantities_of
 
 if TYPE_CHECKING:
     from seacrane import _core
-    from seacrane.description.scene import Scene
+    from seacrane.scene.scene import Scene
     from seacrane.trading.quantities import Quantity
 
 Array = NDArray[np.float64]

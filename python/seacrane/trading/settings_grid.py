@@ -10,7 +10,7 @@ from seacrane.errors import SeacraneError
 from seacrane.run.method import Method
 
 if TYPE_CHECKING:
-    from seacrane.description.scene import Scene
+    from seacrane.scene.scene import Scene
 
 FORMULATIONS = ("recursive", "redundant")
 COARSE = (1e-1, 1e-2, 1e-3, 1e-4)
