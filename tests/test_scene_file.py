@@ -24,6 +24,7 @@ from seacrane import (
     SceneError,
     SeaProvenance,
     StateSpaceBlock,
+    VesselProvenance,
     Waves,
     cases,
     simulate,
@@ -129,6 +130,8 @@ def every_kind() -> Scene:
     scene.waves = waves("hull")
     scene.record_coordinate(joint="pin", name="angle of the arm")
     scene.record_coordinate(joint="sleeve", coordinate="angle", name="turn")
+    scene.add_roles(prefix="aft ", slew="pin", cylinders={"luff": "sleeve"}, link="wire")
+    scene.provenance["water"] = VesselProvenance(database="hull", omega=(0.1, THIRD * 10), memory="passive")
     scene.notes.update(author="someone", hs=THIRD, tries=[1, 2.5, None, True], nested={"limit": -math.inf})
     return scene
 

@@ -191,6 +191,9 @@ _SCENE = (
     "description/file.py",
     "files/node.py",
     "description/file_waves.py",
+    "description/file_text.py",
+    "description/file_origin.py",
+    "description/old_files.py",
     "files/plain_data.py",
     "description/loads.py",
 )

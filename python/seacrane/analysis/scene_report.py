@@ -9,6 +9,7 @@ import numpy as np
 
 from seacrane import _core
 from seacrane.description.assembled import moves
+from seacrane.description.crane_parts import cylinders, hooks, payloads, slews
 
 if TYPE_CHECKING:
     from seacrane.description.scene import Description
@@ -103,7 +104,14 @@ def elements_of(scene: Description) -> Rows:
     rows += _loads_by_kind(scene)
     rows.append(("springs", [f"{name} ({s.first} to {s.second})" for name, s in scene.springs.items()]))
     rows.append(("waves", [] if scene.waves is None else list(scene.waves.hulls)))
+    rows.append(("crane parts", _crane_parts(scene)))
     return [(label, names) for label, names in rows if names]
+
+
+def _crane_parts(scene: Description) -> list[str]:
+    slew_joints = {label: joint for label, (joint, _) in slews(scene).items()}
+    named = slew_joints | cylinders(scene) | hooks(scene) | payloads(scene)
+    return [f"{label} ({name})" for label, name in named.items()]
 
 
 def _loads_by_kind(scene: Description) -> Rows:

@@ -10,8 +10,6 @@ from __future__ import annotations
 import hashlib
 import json
 import os
-import re
-from collections import Counter
 from collections.abc import Callable
 from dataclasses import asdict
 from pathlib import Path
@@ -23,6 +21,7 @@ from seacrane import _core
 from seacrane.description.bodies import add_body
 from seacrane.description.drives import add_actuator, add_driver
 from seacrane.description.file_origin import provenance_from_node, roles_from_node, roles_to_data
+from seacrane.description.file_text import LARGEST_FILE, parsed
 from seacrane.description.file_waves import waves_from_node, waves_to_data
 from seacrane.description.forces import add_force_table, add_load, add_point_force, add_spring
 from seacrane.description.hydrodynamics import add_hydrodynamics
@@ -35,12 +34,9 @@ from seacrane.errors import FileFormatError, SceneError
 from seacrane.files.atomic import atomic_write
 from seacrane.files.node import Node
 from seacrane.files.plain_data import notes_from_node, plain_data
-from seacrane.files.whole_file import read_whole
-from seacrane.inputs.shown import shown
 
 FORMAT = "seacrane scene"
 VERSION = 1
-LARGEST_FILE = 32 * 2**20  # bytes; JSON takes up to 40 times its size in memory when it is parsed
 
 _FRAME = {"point": (3,), "axes": (3, 3)}
 _ARRAYS: dict[str, dict[str, tuple[int, ...]]] = {
@@ -99,21 +95,6 @@ _ADDED_LATER: dict[str, Any] = {
     "roles": None,
     "provenance": None,
 }  # what older files of this version lack
-_STARTS = {
-    b"\x89HDF": "a NetCDF file (Result.load or load_database)",
-    b"CDF": "a NetCDF file (load_database)",
-    b"ISO-10303-21": "a STEP model",
-    b"seacrane state": "a state (load_state)",
-    b"<": "XML, such as a URDF model",
-    b"[": "a JSON list",
-}
-_SUFFIXES = {
-    ".toml": "TOML, as of a crane (KnuckleBoomCrane.load)",
-    ".py": "a Python script (seacrane run)",
-    ".yml": "YAML, as of an OrcaFlex model (load_database)",
-    ".yaml": "YAML, as of an OrcaFlex model (load_database)",
-    ".stl": "a surface (Hull.from_stl)",
-}
 _SETTINGS = ("gravity", "baumgarte", "length_scale")
 Some = TypeVar("Some", bound=Description)
 
@@ -184,7 +165,7 @@ def load_scene(path: str | os.PathLike[str], scene: Some) -> Some:
         If the file cannot be read.
     """
     place = Path(path).name
-    root = Node(_parse(Path(path)), place)
+    root = Node(parsed(Path(path)), place)
     if not isinstance(root.value, dict) or root.value.get("format") != FORMAT:
         raise FileFormatError(f'{place}: is not a scene file; it has no "format": "{FORMAT}" at its top')
     version = root.at("version").whole()
@@ -258,50 +239,6 @@ def _origin(root: Node, scene: Description) -> None:
         provenance_from_notes(scene)
     else:
         provenance_from_node(provenance, scene)
-
-
-def _parse(path: Path) -> Any:
-    data = read_whole(path, LARGEST_FILE, "no scene file is")
-    if not re.match(rb"\s*\{", data):
-        raise FileFormatError(
-            f"{path.name}: is {_kind(path, data)}, no scene file, which is JSON as Scene.save writes it"
-        )
-    try:
-        return json.loads(data.decode("utf-8"), object_pairs_hook=_unique, parse_constant=_no_constant)
-    except json.JSONDecodeError as error:
-        raise FileFormatError(
-            f"{path.name} line {error.lineno}, column {error.colno}: {error.msg}; truncated or malformed JSON"
-        ) from error
-    except UnicodeDecodeError as error:
-        line = data.count(b"\n", 0, error.start) + 1
-        raise FileFormatError(f"{path.name} line {line}: byte {error.start} is not UTF-8 text") from error
-    except RecursionError as error:
-        raise FileFormatError(f"{path.name}: is nested too deeply to be a scene file") from error
-    except ValueError as error:
-        raise FileFormatError(f"{path.name}: {error}") from error
-
-
-def _kind(path: Path, data: bytes) -> str:
-    """What a file that is no JSON object seems to be, by its first bytes, else by its suffix."""
-    if not data.strip():
-        return "empty"
-    for start, kind in _STARTS.items():
-        if data.startswith(start):
-            return kind
-    return _SUFFIXES.get(path.suffix.lower(), "something else")
-
-
-def _unique(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
-    out = dict(pairs)
-    if len(out) != len(pairs):
-        counts = Counter(key for key, _ in pairs)
-        twice = next(key for key, count in counts.items() if count > 1)
-        raise ValueError(f"key {shown(twice)} occurs twice in one object; remove one")
-    return out
-
-
-def _no_constant(name: str) -> Any:
-    raise ValueError(f"{name} is not a number; give a finite one")
 
 
 def described(scene: Description) -> dict[str, Any]:

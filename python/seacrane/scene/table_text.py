@@ -6,7 +6,6 @@ from html import escape
 from textwrap import wrap
 
 from seacrane.analysis.scene_report import elements_of
-from seacrane.description.crane_parts import cylinders, hooks, payloads, slews
 from seacrane.description.scene import Description
 
 WIDTH = 100  # characters of a line of text
@@ -22,10 +21,6 @@ def rows(scene: Description) -> list[tuple[str, list[str]]]:
             [f"{name} ({limit.minimum:g} to {limit.maximum:g})" for name, limit in scene.ranges.items()],
         )
     )
-    parts = [f"{label} ({drive[0]})" for label, drive in slews(scene).items()]
-    for named in (cylinders(scene), hooks(scene), payloads(scene)):
-        parts += [f"{label} ({name})" for label, name in named.items()]
-    found.append(("crane parts", parts))
     return [(kind, names) for kind, names in found if names]
 
 

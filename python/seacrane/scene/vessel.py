@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from functools import lru_cache
 from typing import Any, overload
 
 import numpy as np
@@ -14,20 +13,12 @@ from seacrane.description.hydrodynamics import add_hydrodynamics
 from seacrane.description.provenance import VesselProvenance
 from seacrane.description.scene import Description
 from seacrane.errors import SceneError
-from seacrane.hydro import (
-    HydroDatabase,
-    MemoryModel,
-    RetardationModel,
-    fit_memory,
-    retardation_functions,
-    vessel_parameters,
-)
+from seacrane.hydro import HydroDatabase, vessel_parameters
 from seacrane.hydro.database.data_warnings import warn_of_water
-from seacrane.hydro.memory.certificate import is_energy_form
-from seacrane.hydro.memory.model import RADIATION
 from seacrane.hydro.vessel import VesselParameters
 from seacrane.inputs.checked import shaped_of
 from seacrane.inputs.shown import shown
+from seacrane.scene.vessel_memory import core_memory, memory_of
 from seacrane.validity.plausible import direction_of
 
 MOORING_PERIOD = 200.0  # s, of surge, sway and yaw (PAPER, "station keeping")
@@ -145,7 +136,7 @@ def _from_database(
         raise SceneError(f"memory {memory!r} is not available in this version; choose {' or '.join(MEMORY)}")
     warn_of_water(database, gravity=scene.gravity)
     half = 0.5 * np.radians(direction_of(f"vessel {name!r}: heading_deg", heading_deg))
-    parameters = vessel_parameters(database, memory=None if memory == "none" else _memory(database, memory))
+    parameters = vessel_parameters(database, memory=None if memory == "none" else memory_of(database, memory))
     add_body(
         scene,
         name=name,
@@ -166,7 +157,7 @@ def _from_database(
         restoring=_without_yaw(parameters.restoring),
         mooring_stiffness=heavy * omega**2,
         mooring_damping=2.0 * mooring_damping * omega * heavy,
-        memory=[] if memory == "none" else _core_memory(parameters.memory),
+        memory=[] if memory == "none" else core_memory(parameters.memory),
         kinematics=kinematics,
     )
     band = (float(database.omega[0]), float(database.omega[-1]))
@@ -190,35 +181,3 @@ def _without_yaw(restoring: NDArray[np.float64]) -> NDArray[np.float64]:
     kept = restoring.copy()
     kept[3:5, 5] = 0.0
     return kept
-
-
-@lru_cache(maxsize=8)
-def _memory(database: HydroDatabase, kind: str) -> MemoryModel | RetardationModel:
-    """The memory of a database, its own if that is of the kind asked for."""
-    if kind == "convolution":
-        return retardation_functions(database=database)
-    own = database.memory
-    if own is not None:
-        joint = all(is_energy_form(block) for block in own.blocks if block.cause == RADIATION)
-        if joint == (kind == "passive"):
-            return own
-    return fit_memory(database=database, kind=kind)
-
-
-def _core_memory(
-    model: MemoryModel | RetardationModel,
-) -> list[_core.StateSpaceBlock] | _core.RetardationFunctions:
-    if isinstance(model, RetardationModel):
-        return _core.RetardationFunctions(step=model.step, kernel=model.kernel)
-    return [
-        _core.StateSpaceBlock(
-            inputs=[int(i) for i in block.inputs],
-            outputs=[int(i) for i in block.outputs],
-            a=block.A,
-            b=block.B,
-            c=block.C,
-            d=block.D,
-            state_scale=block.state_scale,
-        )
-        for block in model.blocks
-    ]
