@@ -44,8 +44,9 @@ if TYPE_CHECKING:
     from seacrane.analysis.rest_state import equilibrium
     from seacrane.description.assembled import AssemblyWarning
     from seacrane.description.curves import spline_curve
+    from seacrane.description.provenance import SeaProvenance, VesselProvenance
     from seacrane.description.references import DriverImpulseWarning
-    from seacrane.description.scene import Scene
+    from seacrane.description.roles import CraneRoles
     from seacrane.description.waves import ByHeading, HullLoads, RepeatingSeaWarning, Waves
     from seacrane.errors import ChatteringError, FileFormatError, SceneError, SeacraneError, SimulationError
     from seacrane.hydro import HydroDatabase, load_database
@@ -58,18 +59,9 @@ if TYPE_CHECKING:
     from seacrane.run.stiffness import StiffWarning
     from seacrane.run.to_file import StreamedResult, simulate_to_file
     from seacrane.scene.gusts import gust_curve
-    from seacrane.scene.limits import add_end_stop, add_friction, add_seat, add_soft_stop, add_wire
-    from seacrane.scene.sea import WavesWithoutLoadWarning, add_sea
-    from seacrane.scene.vessel import add_vessel
-    from seacrane.scene.wind_current_drift import (
-        DoubleCountedDampingWarning,
-        FlowCoefficients,
-        add_current,
-        add_drift,
-        add_wind,
-        use_actual_position,
-        use_slow_position,
-    )
+    from seacrane.scene.scene import Scene
+    from seacrane.scene.sea import WavesWithoutLoadWarning
+    from seacrane.scene.wind_current import DoubleCountedDampingWarning, FlowCoefficients
     from seacrane.sea import SeaState, WaveSystem
     from seacrane.simulation import simulate
     from seacrane.trading import Trade, trade
@@ -104,14 +96,15 @@ _HOME = {
     "ByHeading": "description.waves",
     "ChatteringError": "errors",
     "CompassDirectionWarning": "validity.plausible",
+    "CraneRoles": "description.roles",
     "Curve": "_core",
     "DepthSignWarning": "validity.plausible",
-    "DoubleCountedDampingWarning": "scene.wind_current_drift",
+    "DoubleCountedDampingWarning": "scene.wind_current",
     "DriverImpulseWarning": "description.references",
     "Evaluator": "_core",
     "Event": "result",
     "FileFormatError": "errors",
-    "FlowCoefficients": "scene.wind_current_drift",
+    "FlowCoefficients": "scene.wind_current",
     "FlowForce": "_core",
     "ForwardSpeedWarning": "validity.hull_range",
     "Frame": "_core",
@@ -142,8 +135,9 @@ _HOME = {
     "RetardationFunctions": "_core",
     "Run": "run.run",
     "SampledController": "run.sampled_controller",
-    "Scene": "description.scene",
+    "Scene": "scene.scene",
     "SceneError": "errors",
+    "SeaProvenance": "description.provenance",
     "SeaState": "sea",
     "SeacraneError": "errors",
     "SimulationError": "errors",
@@ -158,20 +152,11 @@ _HOME = {
     "Trade": "trading",
     "TwistHistory": "_core",
     "VesselHydrodynamics": "_core",
+    "VesselProvenance": "description.provenance",
     "WaveSystem": "sea",
     "Waves": "description.waves",
     "WavesWithoutLoadWarning": "scene.sea",
     "__version__": "version",
-    "add_current": "scene.wind_current_drift",
-    "add_drift": "scene.wind_current_drift",
-    "add_end_stop": "scene.limits",
-    "add_friction": "scene.limits",
-    "add_sea": "scene.sea",
-    "add_seat": "scene.limits",
-    "add_soft_stop": "scene.limits",
-    "add_vessel": "scene.vessel",
-    "add_wind": "scene.wind_current_drift",
-    "add_wire": "scene.limits",
     "balance": "analysis.inverse",
     "driven": "analysis.inverse",
     "equilibrium": "analysis.rest_state",
@@ -194,8 +179,6 @@ _HOME = {
     "spline_curve": "description.curves",
     "step_error": "accuracy.step_error",
     "trade": "trading",
-    "use_actual_position": "scene.wind_current_drift",
-    "use_slow_position": "scene.wind_current_drift",
 }
 _MODULES = ("cases", "crane", "hydro", "sea")
 
@@ -207,6 +190,7 @@ __all__ = [
     "ByHeading",
     "ChatteringError",
     "CompassDirectionWarning",
+    "CraneRoles",
     "Curve",
     "DepthSignWarning",
     "DoubleCountedDampingWarning",
@@ -247,6 +231,7 @@ __all__ = [
     "SampledController",
     "Scene",
     "SceneError",
+    "SeaProvenance",
     "SeaState",
     "SeacraneError",
     "SimulationError",
@@ -261,20 +246,11 @@ __all__ = [
     "Trade",
     "TwistHistory",
     "VesselHydrodynamics",
+    "VesselProvenance",
     "WaveSystem",
     "Waves",
     "WavesWithoutLoadWarning",
     "__version__",
-    "add_current",
-    "add_drift",
-    "add_end_stop",
-    "add_friction",
-    "add_sea",
-    "add_seat",
-    "add_soft_stop",
-    "add_vessel",
-    "add_wind",
-    "add_wire",
     "balance",
     "cases",
     "crane",
@@ -302,8 +278,6 @@ __all__ = [
     "spline_curve",
     "step_error",
     "trade",
-    "use_actual_position",
-    "use_slow_position",
 ]
 
 

@@ -22,7 +22,7 @@ from seacrane.files.atomic import atomic_write
 from seacrane.inputs.shown import shown
 
 if TYPE_CHECKING:
-    from seacrane.description.scene import Scene
+    from seacrane.description.scene import Description
 
 Array = NDArray[np.float64]
 MAGIC = b"seacrane state\n"
@@ -90,7 +90,7 @@ def state_to_bytes(state: _core.State) -> bytes:
     return body + hashlib.sha256(body).digest()
 
 
-def load_state(path: str | os.PathLike[str], *, scene: Scene | None = None) -> _core.State:
+def load_state(path: str | os.PathLike[str], *, scene: Description | None = None) -> _core.State:
     """Read what `save_state` wrote, bit for bit.
 
     Parameters

@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
-from seacrane.figures.pose import rotation_matrix
-
-if TYPE_CHECKING:
-    from seacrane.crane import BodyRecord, KnuckleBoomCrane
+from seacrane.crane.builder import FOOT, KnuckleBoomCrane
+from seacrane.crane.payload import Payload
+from seacrane.crane.records import BodyRecord
+from seacrane.inputs.frames import rotation_matrix
 
 Array = NDArray[np.float64]
 
@@ -25,6 +24,7 @@ THROUGH_JOINTS: Mapping[str, tuple[tuple[str, ...], ...]] = {
 # Each cylinder's ends, and the shares of its retracted length that barrel and rod cover.
 CYLINDERS = {"main": ("B", "D"), "knuckle": ("E", "G")}
 BARREL, ROD = (0.0, 0.95), (1.0, 0.1)
+BARRELS = tuple(f"{cylinder}_barrel" for cylinder in CYLINDERS)  # drawn thick
 
 
 def crane_skeleton(
@@ -45,8 +45,6 @@ def crane_skeleton(
         m, in each body's frame, relative to its centre of mass; the first line of `knuckle_jib` ends at the
         crane's tip.
     """
-    from seacrane.crane import FOOT, KnuckleBoomCrane, Payload
-
     crane = crane or KnuckleBoomCrane.load()
     foot = foot or FOOT
     records = {record.name: record for record in crane.bodies(foot=foot)}
