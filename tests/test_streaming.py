@@ -232,7 +232,7 @@ def test_a_write_that_fails_once_is_made_up_for_at_the_end(
         simulate_to_file(cases.case2(), tmp_path / "run.nc", t_end=1e4, dt_out=0.5)
     partial = Result.load(tmp_path / "run.nc")
     same_piece = simulate(cases.case2(), t_end=float(partial.time[-1]), dt_out=0.5)
-    assert partial.time.size > 48
+    assert partial.time.size > 32  # the output at the start, and two pieces of at least 16
     assert np.array_equal(partial["position"][:-2], same_piece["position"][:-2])
 
 
