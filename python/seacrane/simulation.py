@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING
 
 from seacrane import _core
 from seacrane.accuracy.choice import run_to_accuracy
-from seacrane.description.scene import Scene
 from seacrane.result.result import Result
 from seacrane.run.advance import finished
 from seacrane.run.method import Method
@@ -15,6 +14,7 @@ from seacrane.run.outputs import Outputs
 from seacrane.run.run import Run
 from seacrane.run.sampled_controller import SampledController, checked_controllers
 from seacrane.run.shorthand import Shorthand
+from seacrane.scene.scene import Scene
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack

@@ -17,12 +17,11 @@ import numpy as np
 from numpy.polynomial import Polynomial
 from numpy.typing import NDArray
 
-from seacrane import Run, SceneError, SimulationError, _core, cases
+from seacrane import Run, Scene, SceneError, SimulationError, _core, cases
 from seacrane._core import integrator as integrator_of
 from seacrane._core import integrators
 from seacrane.analysis.linear_system import LinearModel, linear_model
 from seacrane.analysis.rest_state import held
-from seacrane.description.scene import Scene
 from seacrane.experiment.grid import method_of
 from seacrane.experiment.row_file import write_table
 from stability_atlas.altered import change_actuator

@@ -24,7 +24,7 @@ from veres_writer import VeresRun
 
 from fuzz.netcdf_spec import spec_of
 from fuzz.targets import CORPUS
-from seacrane import Scene, add_end_stop, cases, simulate
+from seacrane import Scene, cases, simulate
 from seacrane.crane.data_file import DEFAULT_PATH
 from seacrane.description import file as scene_file
 from seacrane.files.hdf5_structure import HEAP
@@ -186,6 +186,7 @@ def scene_seeds(folder: Path) -> None:
     scene_file.save_scene(every_kind(), folder / "scene.json")
     data = json.loads((folder / "scene.json").read_bytes())
     put("scene", "every-kind", json.dumps(data).encode())
+    put("scene", "of-version-0.1", json.dumps(of_version_0_1(data)).encode())
     zero = np.zeros((2, 3, 6)).tolist()
     headings = [0.0, 3.0]
     hull = data["waves"]["hulls"][0]
@@ -195,6 +196,20 @@ def scene_seeds(folder: Path) -> None:
     del data["waves"]["hulls"]
     data["waves"] |= {key: value for key, value in hull.items() if key != "heading"}
     put("scene", "from-before-several-hulls", json.dumps(data).encode())
+
+
+def of_version_0_1(data: dict[str, Any]) -> dict[str, Any]:
+    """The same scene as it was written then: no roles, and notes in place of provenance."""
+    old = json.loads(json.dumps(data))
+    del old["roles"], old["provenance"]
+    old["waves"]["information"] = old["waves"].pop("provenance")
+    old["notes"] |= {"database": {"hull": "ship"}, "database_omega": [0.1, 3], "memory": "none"}
+    for joint in old["joints"]:
+        joint["name"] = {"pin": "A", "wire": "link"}.get(joint["name"], joint["name"])
+    for table in ("actuators", "recorded"):
+        for element in old[table]:
+            element["joint"] = {"pin": "A"}.get(element["joint"], element["joint"])
+    return dict(old)
 
 
 def netcdf_seeds(folder: Path, hull: HydroDatabase) -> None:
@@ -278,7 +293,7 @@ def pendulum() -> Result:
     scene = Scene(name="pendulum")
     scene.add_body(name="bob", mass=1.0, inertia=np.eye(3), position=(0.0, 0.0, 0.0))
     scene.add_joint(name="slide", kind="prismatic", first="ground", second="bob")
-    add_end_stop(scene, joint="slide", minimum=-1.0)
+    scene.add_end_stop(joint="slide", minimum=-1.0)
     full = simulate(scene, t_end=1.0, dt_out=0.5)
     channels = {name: full[name] for name in ("position", "energy_balance")}
     coords = {dim: full.coords[dim] for dim in ("body", "axis")}

@@ -23,9 +23,9 @@ from seacrane.run.shorthand import settled
 
 if TYPE_CHECKING:
     from seacrane import _core
-    from seacrane.description.scene import Scene
     from seacrane.result import Result
     from seacrane.run.sampled_controller import SampledController
+    from seacrane.scene.scene import Scene
 
 SAFETY = 5.0  # on the ratio of two errors, which differs between scenes: the estimate held on 198 of 200
 CHOSEN = {"integrator": "integrator", "rtol": "tolerance", "dt": "step", "spectral_radius": "spectral_radius"}

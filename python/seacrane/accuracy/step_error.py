@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
     from seacrane import _core
     from seacrane.accuracy.quantities import Quantity
-    from seacrane.description.scene import Scene
+    from seacrane.scene.scene import Scene
 
 Array = NDArray[np.float64]
 CONFIRMED = 0.5  # of a difference: how far it may be from what the next longer step and the order make of it

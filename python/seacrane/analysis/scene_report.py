@@ -9,9 +9,10 @@ import numpy as np
 
 from seacrane import _core
 from seacrane.description.assembled import moves
+from seacrane.description.crane_parts import cylinders, hooks, payloads, slews
 
 if TYPE_CHECKING:
-    from seacrane.description.scene import Scene
+    from seacrane.description.scene import Description
 
 Rows = list[tuple[str, Any]]
 REPETITIONS = 500  # of each part when its cost is measured
@@ -22,7 +23,7 @@ LABELS = {
 WORK_STATES = 2  # the work integral and its absolute counterpart
 
 
-def scene_report(scene: Scene) -> dict[str, Rows]:
+def scene_report(scene: Description) -> dict[str, Rows]:
     """Compile a scene and tell what came out.
 
     Parameters
@@ -44,7 +45,7 @@ def scene_report(scene: Scene) -> dict[str, Rows]:
     model = scene.compile()
     report = {
         "size": _size(scene, model),
-        "elements": _elements(scene),
+        "elements": elements_of(scene),
         "merged": _merged(model),
         "assembly": _assembly(scene, model),
         "left out": _left_out(scene, model),
@@ -56,7 +57,7 @@ def scene_report(scene: Scene) -> dict[str, Rows]:
     return report
 
 
-def _size(scene: Scene, model: _core.Model) -> Rows:
+def _size(scene: Description, model: _core.Model) -> Rows:
     bodies = len(model.bodies)
     pose = 7 if scene.orientation == "quaternion" else 6
     return [
@@ -83,7 +84,8 @@ def _size(scene: Scene, model: _core.Model) -> Rows:
     ]
 
 
-def _elements(scene: Scene) -> Rows:
+def elements_of(scene: Description) -> Rows:
+    """Kinds of element that a scene holds, and the elements of each with what they act on."""
     rows: Rows = [("bodies", list(scene.bodies))]
     kinds: dict[str, list[str]] = {}
     for name, joint in scene.joints.items():
@@ -102,11 +104,18 @@ def _elements(scene: Scene) -> Rows:
     rows += _loads_by_kind(scene)
     rows.append(("springs", [f"{name} ({s.first} to {s.second})" for name, s in scene.springs.items()]))
     rows.append(("waves", [] if scene.waves is None else list(scene.waves.hulls)))
+    rows.append(("crane parts", _crane_parts(scene)))
     return [(label, names) for label, names in rows if names]
 
 
-def _loads_by_kind(scene: Scene) -> Rows:
-    """Every load that was added by `Scene.add_load`, known kind or not."""
+def _crane_parts(scene: Description) -> list[str]:
+    slew_joints = {label: joint for label, (joint, _) in slews(scene).items()}
+    named = slew_joints | cylinders(scene) | hooks(scene) | payloads(scene)
+    return [f"{label} ({name})" for label, name in named.items()]
+
+
+def _loads_by_kind(scene: Description) -> Rows:
+    """Every load of `Scene.loads`, known kind or not."""
     kinds: dict[str, list[str]] = {}
     for name, load in scene.loads.items():
         joint, body = getattr(load, "joint", None), getattr(load, "body", None)
@@ -125,7 +134,7 @@ def _merged(model: _core.Model) -> Rows:
     return [(label, names) for label, names in rows if names]
 
 
-def _assembly(scene: Scene, model: _core.Model) -> Rows:
+def _assembly(scene: Description, model: _core.Model) -> Rows:
     found = model.assembly
     rows: Rows = [
         ("constraint residual as described [m or rad]", found["residual_before"]),
@@ -150,7 +159,7 @@ def _assembly(scene: Scene, model: _core.Model) -> Rows:
     return rows
 
 
-def _left_out(scene: Scene, model: _core.Model) -> Rows:
+def _left_out(scene: Description, model: _core.Model) -> Rows:
     """What the scene does not have, and so neither stores nor steps."""
     floating = {vessel.body for vessel in scene.vessels.values()}
     weightless = [n for n, body in scene.bodies.items() if not body.gravity or n in floating]

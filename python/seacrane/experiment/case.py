@@ -10,9 +10,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane import _core
-from seacrane.description.scene import Scene
 from seacrane.run.channel_names import CRANE_CHANNELS
 from seacrane.run.outputs import Outputs
+from seacrane.scene.scene import Scene
 
 Array = NDArray[np.float64]
 

@@ -10,7 +10,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane.accuracy.quantities import Quantity, compare
-from seacrane.description.scene import Scene
 from seacrane.errors import SimulationError
 from seacrane.experiment.case import Case
 from seacrane.experiment.reference import Reference, distance_from_start
@@ -19,6 +18,7 @@ from seacrane.inputs.frames import rotation_matrix
 from seacrane.result.result import Result
 from seacrane.run.method import Method
 from seacrane.run.run import Run
+from seacrane.scene.scene import Scene
 
 Array = NDArray[np.float64]
 Values = Callable[[Result], Mapping[str, Array]]

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from seacrane import _core
 from seacrane._core import Integrator, integrator
-from seacrane.description.scene import Scene
 from seacrane.errors import SceneError
 from seacrane.run.formulation_cost import recursive_pays
 from seacrane.run.method import Method
+from seacrane.scene.scene import Scene
 
 BAUMGARTE = 5.0  # 1/s: of methods that cannot project, where the scene names none
 SOLVES_FOR_MULTIPLIERS = "ida"

@@ -9,9 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane.description.joint_coordinates import ANGLES
-from seacrane.description.scene import Scene
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import numbers_of
+from seacrane.scene.scene import Scene
 
 Array = NDArray[np.float64]
 

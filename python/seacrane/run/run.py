@@ -10,13 +10,11 @@ from numpy.typing import NDArray
 
 from seacrane import _core
 from seacrane.description.references import check_references
-from seacrane.description.scene import Scene
 from seacrane.errors import SceneError, SeacraneError
 from seacrane.inputs.checked import number_of
 from seacrane.result.events import Event
 from seacrane.result.result import Result, checked_stats
-from seacrane.run.channel_names import core_channels, named_channels
-from seacrane.run.coordinate_names import coordinate_names
+from seacrane.run.channel_names import core_channels, named_channels, names_along
 from seacrane.run.formulation import stepped
 from seacrane.run.input_slots import changed_inputs, steered
 from seacrane.run.method import Method
@@ -24,6 +22,7 @@ from seacrane.run.output_times import output_times
 from seacrane.run.outputs import Outputs
 from seacrane.run.shorthand import Shorthand, settled
 from seacrane.run.stats import settings_of, stats_of
+from seacrane.scene.scene import Scene
 from seacrane.validity.plausible import warn_of_description
 from seacrane.validity.range import Finding, as_text, findings
 
@@ -179,7 +178,7 @@ class Run:
             result = Result.from_arrays(
                 time=arrays["time"],
                 arrays=channels,
-                **coordinate_names(scene, self.model),
+                **names_along(scene, self.model),
                 events=self.events(),
                 stats=stats,
                 interrupted=self.interrupted,

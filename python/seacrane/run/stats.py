@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Mapping
 from typing import Any
 
 from seacrane import _core
-from seacrane.description.scene import Scene
+from seacrane.description.file_origin import roles_to_data
+from seacrane.description.origin import origin_settings
 from seacrane.files.plain_data import plain_notes
-from seacrane.run.channel_names import payload_of
+from seacrane.run.channel_names import hanging_bodies
 from seacrane.run.method import Method
 from seacrane.run.outputs import Outputs
+from seacrane.scene.scene import Scene
 from seacrane.version import __version__
 
 
@@ -22,14 +25,16 @@ def settings_of(scene: Scene, t_end: float, method: Method, outputs: Outputs) ->
         "spectral_radius": method.spectral_radius,
         "energy_limit": method.energy_limit,
     }
+    notes = plain_notes(scene.name, scene.notes)
     return {
-        **plain_notes(scene.name, scene.notes),
         "t_end": t_end,
         "dt_out": outputs.dt,
         "rtol": method.used_tolerance,
         **{word: value for word, value in given.items() if value is not None},
         "orientation": scene.orientation,
         "baumgarte": scene.baumgarte,
+        **origin_settings(scene),
+        **({"notes": notes} if notes else {}),
     }
 
 
@@ -44,10 +49,12 @@ def stats_of(
 ) -> dict[str, Any]:
     """`Result.stats` of a run so far; `start` is its start time, s."""
     recursive = formulation == "recursive"
+    cranes = [roles_to_data(roles) for roles in scene.roles.values()]
     return {
         "seacrane_version": __version__,
         "scene": scene.name,
-        "payload": "\n".join(payload_of(scene)) or None,
+        "payload": "\n".join(hanging_bodies(scene)) or None,
+        "cranes": json.dumps(cranes) if cranes else None,
         "formulation": formulation,
         "integrator": method.integrator,
         "settings": settings,
@@ -60,5 +67,5 @@ def stats_of(
         "memory_states": model.memory_states,
         "history_samples": model.history_samples,
         **core.statistics(),
-        **({} if scene.waves is None else dict(scene.waves.information)),
+        **({} if scene.waves is None else scene.waves.provenance.stats()),
     }

@@ -31,7 +31,7 @@ from seacrane.version import __version__
 if TYPE_CHECKING:
     from typing_extensions import Unpack
 
-    from seacrane.description.scene import Scene
+    from seacrane.scene.scene import Scene
 
 CAPACITY = 1024  # outputs to take memory for at first
 

@@ -10,10 +10,11 @@ from functools import partial
 import numpy as np
 from numpy.typing import NDArray
 
-from seacrane.accuracy.quantities import PAYLOAD, Quantity, compare
+from seacrane import _core
+from seacrane.accuracy.quantities import Quantity, compare
 from seacrane.analysis.frequency_domain import response_summed
 from seacrane.analysis.linear_system import LinearModel, linear_model
-from seacrane.description.scene import Scene
+from seacrane.description.crane_parts import hooks, payloads
 from seacrane.errors import SceneError, SeacraneError
 from seacrane.experiment.case import Case
 from seacrane.experiment.measure import channels_of, measured, timed, values_by
@@ -21,8 +22,8 @@ from seacrane.experiment.reference import Reference, reference
 from seacrane.experiment.row import COMPLETED, REFUSED, Row
 from seacrane.inputs.frames import heading_of, rotation_matrix
 from seacrane.result.result import Result
-from seacrane.run.channel_names import LINK
 from seacrane.run.method import Method
+from seacrane.scene.scene import Scene
 from seacrane.trading import rungs
 from seacrane.trading.methods import TIGHT
 
@@ -121,19 +122,28 @@ def _prescribed(bench: Bench, case: Case, method: Method) -> tuple[Case, float]:
 def _values_of_weight(
     quantities: Mapping[str, Quantity], scene: Scene, result: Result
 ) -> Mapping[str, Array]:
-    """Tension is the weight; the payload hangs plumb under the tip."""
-    joint = scene.joints[LINK]
-    payload, body = scene.bodies[joint.second], scene.bodies[joint.first]
-    turn = rotation_matrix(result.select("quaternion", body=joint.first))
-    lever = np.asarray(joint.first_frame.point) - np.asarray(body.center_of_mass)
-    tip = result.select("position", body=joint.first) + turn @ lever
-    out = {"hook_tension": np.full((len(tip), 1, 1), payload.mass * scene.gravity)}
-    spin = np.cross(result.select("angular_velocity", body=joint.first), turn @ lever)
-    out["tip_velocity"] = (result.select("velocity", body=joint.first) + spin)[:, None]
-    if joint.second == PAYLOAD:
-        below = joint.length + float(joint.second_frame.point[2] - payload.center_of_mass[2])
-        out["payload_position"] = (tip - np.array([0.0, 0.0, below]))[:, None]
+    """Tension is the weight; each payload hangs plumb under its tip."""
+    links = [scene.joints[link] for link in hooks(scene).values()]
+    found = [_under_the_tip(scene, result, link) for link in links]
+    out = {name: np.stack([one[name] for one in found], axis=1) for name in found[0]}
+    if [link.second for link in links] != list(payloads(scene).values()):
+        del out["payload_position"]
     return {**values_by(quantities)(result), **out}
+
+
+def _under_the_tip(scene: Scene, result: Result, link: _core.Joint) -> dict[str, Array]:
+    """What `_values_of_weight` tells of one payload, each of shape (n, parts)."""
+    payload, body = scene.bodies[link.second], scene.bodies[link.first]
+    turn = rotation_matrix(result.select("quaternion", body=link.first))
+    lever = np.asarray(link.first_frame.point) - np.asarray(body.center_of_mass)
+    tip = result.select("position", body=link.first) + turn @ lever
+    spin = np.cross(result.select("angular_velocity", body=link.first), turn @ lever)
+    below = link.length + float(link.second_frame.point[2] - payload.center_of_mass[2])
+    return {
+        "hook_tension": np.full((len(tip), 1), payload.mass * scene.gravity),
+        "tip_velocity": np.asarray(result.select("velocity", body=link.first) + spin),
+        "payload_position": tip - np.array([0.0, 0.0, below]),
+    }
 
 
 def frequency_domain(bench: Bench, row: Row) -> Row:
@@ -168,9 +178,10 @@ def _linear_values(case: Case, truth: Mapping[str, Array]) -> dict[str, Array]:
         rolls = [_roll(linear, vessel.body, times) for vessel in scene.vessels.values()]
         values["roll"] = np.stack(rolls, axis=1)[:, :, None]
     if "payload_position" in truth:
-        start = truth["payload_position"][0, 0]
-        moved = response_summed(linear, body=PAYLOAD).at(times)[:, :3]
-        values["payload_position"] = (start + moved)[:, None]
+        start = truth["payload_position"][0]
+        bodies = payloads(scene).values()
+        moved = [response_summed(linear, body=body).at(times)[:, :3] for body in bodies]
+        values["payload_position"] = start + np.stack(moved, axis=1)
     return values
 
 

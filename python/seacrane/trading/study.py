@@ -35,7 +35,7 @@ if TYPE_CHECKING:
     import xarray
     from matplotlib.figure import Figure
 
-    from seacrane.description.scene import Scene
+    from seacrane.scene.scene import Scene
 
 MEASURED = ("wall_s", "simulated_s", "evaluations", "drift", "energy", "stable")
 LINEAR = Method(integrator="none")  # the frequency domain has no integrator
@@ -305,7 +305,8 @@ def _row_file(out: str | os.PathLike[str] | None, experiment: Mapping[str, Any],
 def _shipped(scene: Scene) -> HydroDatabase | None:
     """The shipped database, if the scene's vessel was made from it."""
     shipped = shipped_database()
-    return shipped if scene.notes.get("database") == shipped.name and len(scene.vessels) == 1 else None
+    known = [scene.provenance.get(name) for name in scene.vessels]
+    return shipped if [one and one.database for one in known] == [shipped.name] else None
 
 
 def _or_nan(value: float | None) -> float:
