@@ -295,7 +295,9 @@ def test_a_newer_format_is_refused(tmp_path: Path) -> None:
 
 def test_unknown_files_name_the_supported_kinds(tmp_path: Path) -> None:
     (tmp_path / "some.txt").write_text("hello")
-    with pytest.raises(FileFormatError, match=r"supported: a NetCDF file .* seacrane or Capytaine"):
+    with pytest.raises(
+        FileFormatError, match=r"supported: a NetCDF file .* of Capytaine, .* of seacrane, a ShipX/VERES"
+    ):
         load_database(tmp_path / "some.txt")
     with pytest.raises(FileFormatError, match="no such file"):
         load_database(tmp_path / "absent")

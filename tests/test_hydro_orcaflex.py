@@ -160,3 +160,11 @@ def test_command_line(hull: HydroDatabase, tmp_path: Path, capsys: pytest.Captur
     write(tmp_path, model(hull))
     assert main(["hydro", str(tmp_path)]) == 0
     assert "motion_rao_heave" in capsys.readouterr().out
+
+
+def test_a_file_that_is_no_text(tmp_path: Path) -> None:
+    (tmp_path / "ship.yml").write_bytes(b"\xff\xfe\x00a")
+    with pytest.raises(FileFormatError, match="no UTF-8 text"):
+        load_database(tmp_path / "ship.yml")
+    with pytest.raises(FileFormatError, match="no such file"):
+        read_orcaflex(tmp_path / "absent.yml")

@@ -6,11 +6,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from hypothesis import HealthCheck, given, settings
-from hypothesis import strategies as st
 
-from seacrane.errors import FileFormatError
-from seacrane.hydro import HydroDatabase, read_veres
+from seacrane.hydro import read_veres
 
 TO_FILE = np.array([-1.0, -1.0, 1.0, -1.0, -1.0, 1.0])
 OMEGA = np.array([0.4, 0.7, 1.1])
@@ -98,30 +95,3 @@ def test_round_trip_from_our_axes(tmp_path: Path) -> None:
     assert database.roll_damping is not None
     assert database.roll_damping.quadratic.tolist() == [20000.0, 20001.0, 20002.0]
     assert "1.5 m aft of midship" in database.origin
-
-
-@settings(max_examples=250, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
-@given(data=st.data())
-def test_random_damage_gives_a_database_or_a_named_error(data: st.DataObject, tmp_path: Path) -> None:
-    suffix = data.draw(st.sampled_from(sorted(CONTENT)))
-    text = CONTENT[suffix]
-    start = data.draw(st.integers(0, len(text) - 1))
-    removed = data.draw(st.integers(0, 40))
-    inserted = data.draw(st.text(alphabet="0123456789.-+eEDnaif \n\x00é", max_size=12))
-    write(tmp_path, CONTENT | {suffix: text[:start] + inserted + text[start + removed :]})
-    try:
-        database = read_veres(tmp_path)
-    except FileFormatError as error:
-        assert "box" in str(error)
-    else:
-        assert isinstance(database, HydroDatabase)
-        assert np.all(np.isfinite(database.force))
-
-
-@pytest.mark.parametrize("suffix", sorted(CONTENT))
-def test_every_truncation_is_noticed(suffix: str, tmp_path: Path) -> None:
-    lines = CONTENT[suffix].splitlines()
-    for kept in range(len(lines)):
-        write(tmp_path, CONTENT | {suffix: "\n".join(lines[:kept])})
-        with pytest.raises(FileFormatError, match=rf"box\{suffix}, line \d+"):
-            read_veres(tmp_path)

@@ -30,6 +30,7 @@ def main() -> int:
     meter = coverage.Coverage(data_file=None, source_pkgs=["seacrane"], config_file=False)
     meter.exclude(r"if TYPE_CHECKING:")
     meter.start()
+    from fuzz.damage import damages
     from fuzz.limits import TooDear
     from fuzz.targets import TARGETS, cases, quiet
 
@@ -40,9 +41,10 @@ def main() -> int:
             folder.mkdir()
             target.place(folder)
             grown = [file for root in more for file in sorted((root / target.name / "corpus").glob("*"))]
-            for path in [*cases(target), *grown]:
+            contents = [path.read_bytes() for path in [*cases(target), *grown]]
+            for case in [*contents, *(damage.case() for damage in damages(target.name))]:
                 with contextlib.suppress(TooDear):  # what is watched costs more; test_fuzz.py asks for that
-                    target.run(path.read_bytes(), folder)
+                    target.run(case, folder)
     meter.stop()
     import seacrane
 

@@ -62,8 +62,8 @@ class Target:
     def run(self, case: bytes, folder: Path) -> str:
         """Read a case: "value", "refused", or "no case"; anything unsound raises.
 
-        That is: another exception, a message that floods, a number that is not finite, more time or memory
-        than its size allows.
+        That is: another exception, a message that floods or does not name the file, a number that is not
+        finite, more time or memory than its size allows.
         """
         path = folder / self.file
         if not self.netcdf:
@@ -78,6 +78,8 @@ class Target:
             if len(str(error)) > LONGEST_MESSAGE + len(str(path)):
                 length, start = len(str(error)), str(error)[:200]
                 raise AssertionError(f"a message of {length} characters: {start}") from None
+            if isinstance(error, FileFormatError) and path.stem not in str(error):
+                raise AssertionError(f"a message that does not name the file: {error}") from None
             return "refused"
         require_finite(self.name, value)
         return "value"

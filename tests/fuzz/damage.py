@@ -1,0 +1,68 @@
+"""Damage and the answer that it must get: edits of sound files of the corpus, one a line of ``damage.jsonl``.
+
+A line holds the target, the edit and ``answer``, a pattern that the refusal has to match. Edits: ``replace``
+(a text by another, once), ``line`` and ``text`` (a line, counted from 1, by another; null drops it), ``set``
+(an entry of a JSON document, by its keys; null drops it), or ``whole`` (the text itself).
+"""
+
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from fuzz.targets import CORPUS, TARGETS
+
+SOUND = {"orcaflex": "model", "orcaflex-text": "model"}  # where a target's sound file is not that of a set
+
+
+@dataclass(frozen=True)
+class Damage:
+    """One line of the list."""
+
+    target: str
+    edit: dict[str, Any]
+    answer: str
+
+    def case(self) -> bytes:
+        """The damaged file."""
+        if "whole" in self.edit:
+            return str(self.edit["whole"]).encode()
+        sound = sound_case(self.target)
+        if "replace" in self.edit:
+            old, new = (text.encode() for text in self.edit["replace"])
+            assert old in sound, f"{self.target} does not hold {old!r}"
+            return sound.replace(old, new, 1)
+        if "line" in self.edit:
+            lines = sound.decode().splitlines(keepends=True)
+            text = self.edit["text"]
+            lines[self.edit["line"] - 1] = "" if text is None else f"{text}\n"
+            return "".join(lines).encode()
+        document = json.loads(sound)
+        keys, value = self.edit["set"]
+        entry = document
+        for key in keys[:-1]:
+            entry = entry[key]
+        if value is None:
+            del entry[keys[-1]]
+        else:
+            entry[keys[-1]] = value
+        return json.dumps(document).encode()
+
+
+def sound_case(name: str) -> bytes:
+    """The sound file of a target."""
+    target = TARGETS[name]
+    path = CORPUS / target.beside / target.file if target.beside else CORPUS / name / SOUND[name]
+    return path.read_bytes()
+
+
+def damages(name: str | None = None) -> list[Damage]:
+    """All of the list, or those of one target."""
+    lines = [json.loads(line) for line in Path(CORPUS / "damage.jsonl").read_text().splitlines()]
+    return [
+        Damage(line.pop("target"), line, line.pop("answer"))
+        for line in lines
+        if name in (None, line["target"])
+    ]
