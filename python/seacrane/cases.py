@@ -15,11 +15,9 @@ from numpy.typing import NDArray
 from seacrane import _core
 from seacrane.analysis import quasi_static
 from seacrane.analysis.inverse import Balance, balance, reflected_inertia
-from seacrane.crane import FOOT, KnuckleBoomCrane, Payload
-from seacrane.description.scene import Scene
+from seacrane.crane import FOOT, Payload
 from seacrane.errors import SceneError
-from seacrane.scene.sea import add_sea
-from seacrane.scene.vessel import add_vessel
+from seacrane.scene.scene import Scene
 
 if TYPE_CHECKING:
     import os
@@ -52,9 +50,7 @@ def _gains() -> dict[str, tuple[float, float]]:
     attached, the others locked and the vessel held.
     """
     scene = Scene(name="case 2, final pose")
-    KnuckleBoomCrane.load().add_to(
-        scene, base="ground", theta=SLEW_END, s1=STROKE_END, s2=STROKE_END, payload=Payload()
-    )
+    scene.add_crane(base="ground", theta=SLEW_END, s1=STROKE_END, s2=STROKE_END, payload=Payload())
     for name, joint in ACTUATORS.items():
         scene.add_actuator(name=name, joint=joint)
     inertia = reflected_inertia(scene)
@@ -94,10 +90,10 @@ def _afloat(
 ) -> Scene:
     chosen = _database(database)
     scene = Scene(name=name)
-    add_vessel(scene, chosen, memory=memory, kinematics=kinematics, mooring_period=mooring_period)
+    scene.add_vessel(chosen, memory=memory, kinematics=kinematics, mooring_period=mooring_period)
     if "wave_direction_deg" in sea:
         sea["direction_deg"] = sea.pop("wave_direction_deg")
-    add_sea(scene, chosen, **sea)
+    scene.add_sea(chosen, **sea)
     return scene
 
 
@@ -117,7 +113,7 @@ def _crane_afloat(
     fixed = {key: options.get(key, default) for key, default in _OPTIONS.items()}
     sea = {key: value for key, value in options.items() if key not in _OPTIONS}
     scene = _afloat(name, sea=sea, **fixed)
-    KnuckleBoomCrane.load().add_to(scene, base="vessel", foot=foot, payload=payload)
+    scene.add_crane(base="vessel", foot=foot, payload=payload)
     for actuator, joint in ACTUATORS.items():
         scene.record_coordinate(joint=joint)
         scene.add_actuator(name=actuator, joint=joint)

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 from seacrane import _core
 from seacrane.analysis.linear_system import LinearModel, linear_model
 from seacrane.analysis.modal_analysis import natural_modes
-from seacrane.description.scene import Scene
+from seacrane.description.scene import Description
 from seacrane.description.waves import Waves
 from seacrane.errors import SceneError
 from seacrane.inputs.caller import warn_caller
@@ -29,7 +29,7 @@ GRID_OF_MODE = 120  # more on either side of each resonance
 
 
 def motion_rao(
-    scene: Scene | LinearModel,
+    scene: Description | LinearModel,
     *,
     database: HydroDatabase,
     omega: ArrayLike,
@@ -71,7 +71,7 @@ def motion_rao(
     return np.asarray((x @ linear.output(body=body, point=point).T).reshape(*w.shape, 6))
 
 
-def _linear(scene: Scene | LinearModel, state: _core.State | None) -> LinearModel:
+def _linear(scene: Description | LinearModel, state: _core.State | None) -> LinearModel:
     if isinstance(scene, LinearModel):
         if state is not None:
             raise SceneError("state: a LinearModel has one already; give the Scene with a state")
@@ -113,7 +113,7 @@ class SummedResponse:
 
 
 def response_summed(
-    scene: Scene | LinearModel,
+    scene: Description | LinearModel,
     *,
     body: str,
     point: ArrayLike = (0.0, 0.0, 0.0),
@@ -141,7 +141,7 @@ def response_summed(
     sea = described.waves if waves is None else waves
     if sea is None:
         raise SceneError(f"scene {described.name!r}: has no waves; add a sea or give waves")
-    if isinstance(scene, Scene):
+    if isinstance(scene, Description):
         scene, state = linear_model(scene, state=state, vessel=next(iter(sea.hulls), None)), None
     linear = _linear(scene, state)
     components = sea.components()
@@ -217,7 +217,7 @@ class ResponseStatistics:
 
 
 def response_statistics(
-    scene: Scene | LinearModel,
+    scene: Description | LinearModel,
     *,
     database: HydroDatabase,
     spectrum: _core.Spectrum,

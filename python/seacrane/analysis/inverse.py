@@ -13,7 +13,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane import _core
-from seacrane.description.scene import GROUND, Scene
+from seacrane.description.drives import add_driver
+from seacrane.description.joints import add_joint
+from seacrane.description.scene import GROUND, Description, Some
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import numbers_of
 from seacrane.inputs.frames import heading_of, rotation_about_z
@@ -55,7 +57,7 @@ class Balance:
         return next(iter(self.vessel_wrenches.values()), None)
 
 
-def _locked(scene: Scene, *, hold_vessels: bool = True) -> Scene:
+def _locked(scene: Some, *, hold_vessels: bool = True) -> Some:
     """The scene with its actuators replaced by drivers at rest, vessels held, without waves."""
     out = driven(scene, references={name: _core.Curve.constant(value=0.0) for name in scene.actuators})
     out = out.copy(waves=None, springs=dict(scene.springs))
@@ -65,28 +67,29 @@ def _locked(scene: Scene, *, hold_vessels: bool = True) -> Scene:
     return out
 
 
-def _hold(scene: Scene, body: str, motions: Mapping[str, _core.Curve]) -> None:
+def _hold(scene: Description, body: str, motions: Mapping[str, _core.Curve]) -> None:
     """Prescribe coordinates of a body relative to its described pose, inertial axes."""
     joint = f"{body}.motion"
-    scene.add_joint(kind="free", name=joint, first=GROUND, second=body, point=scene.bodies[body].position)
+    start = scene.bodies[body].position
+    add_joint(scene, kind="free", name=joint, first=GROUND, second=body, point=start)
     _drive(scene, joint, motions)
 
 
-def hold_vessel(scene: Scene, body: str, motions: Mapping[str, _core.Curve]) -> None:
+def hold_vessel(scene: Description, body: str, motions: Mapping[str, _core.Curve]) -> None:
     """Prescribe a vessel's motions as `vessel_motion` records them: from upright at its described heading."""
     start, joint = scene.bodies[body], f"{body}.motion"
     heading = rotation_about_z(heading_of(start.quaternion))
-    scene.add_joint(
-        kind="free", name=joint, first=GROUND, second=body,
+    add_joint(
+        scene, kind="free", name=joint, first=GROUND, second=body,
         first_frame=_core.Frame(point=start.position, axes=heading),
         second_frame=_core.Frame(point=np.zeros(3), axes=np.eye(3)),
     )  # fmt: skip
     _drive(scene, joint, motions)
 
 
-def _drive(scene: Scene, joint: str, motions: Mapping[str, _core.Curve]) -> None:
+def _drive(scene: Description, joint: str, motions: Mapping[str, _core.Curve]) -> None:
     for motion, curve in motions.items():
-        scene.add_driver(joint=joint, coordinate=motion, curve=curve, name=f"{joint}.{motion}")
+        add_driver(scene, joint=joint, coordinate=motion, curve=curve, name=f"{joint}.{motion}")
 
 
 def _multipliers(model: _core.Model, names: Sequence[str], *, time: float, state: Array) -> Array:
@@ -106,7 +109,7 @@ def _multipliers(model: _core.Model, names: Sequence[str], *, time: float, state
     return np.array([loads[drivers.index(name)] for name in names])
 
 
-def balance(scene: Scene) -> Balance:
+def balance(scene: Description) -> Balance:
     """Loads that keep the described scene at rest.
 
     Drivers hold the vessel's six motions and every actuated coordinate; what hangs is taken to hang at
@@ -143,13 +146,13 @@ def balance(scene: Scene) -> Balance:
     )
 
 
-def actuator_loads(scene: Scene, held: Scene, state: _core.State) -> Array:
+def actuator_loads(scene: Description, held: Description, state: _core.State) -> Array:
     """Loads of the drivers that hold a scene's actuators, by actuator, at a state of the held scene."""
     names = [_driver_name(name) for name in scene.actuators]
     return _multipliers(held.compile(), names, time=state.time, state=np.array(state.values))
 
 
-def _weight(scene: Scene) -> tuple[float, Array]:
+def _weight(scene: Description) -> tuple[float, Array]:
     from seacrane.inputs.frames import rotation_matrix
 
     floating = {vessel.body for vessel in scene.vessels.values()}
@@ -167,7 +170,7 @@ def _driver_name(actuator: str) -> str:
     return f"{actuator} driven"
 
 
-def driven(scene: Scene, *, references: Mapping[str, _core.Curve] | None = None) -> Scene:
+def driven(scene: Some, *, references: Mapping[str, _core.Curve] | None = None) -> Some:
     """The scene with every actuator replaced by a driver that follows its reference exactly.
 
     Simulating it answers "which cylinder forces does this crane motion need in these waves": the result's
@@ -188,14 +191,13 @@ def driven(scene: Scene, *, references: Mapping[str, _core.Curve] | None = None)
         chosen[name] = curve
     out = scene.copy(actuators={})
     for name, actuator in scene.actuators.items():
-        out.add_driver(
-            joint=actuator.joint, coordinate=actuator.coordinate, curve=chosen[name], name=_driver_name(name)
-        )
+        place: Any = {"joint": actuator.joint, "coordinate": actuator.coordinate}
+        add_driver(out, **place, curve=chosen[name], name=_driver_name(name))
     return out
 
 
 def inverse_dynamics(
-    scene: Scene,
+    scene: Description,
     *,
     times: Any,
     references: Mapping[str, _core.Curve] | None = None,
@@ -270,7 +272,7 @@ def _follow(model: _core.Model, names: Sequence[str], times: Array) -> Array:
     return np.array(rows)
 
 
-def reflected_inertia(scene: Scene) -> dict[str, float]:
+def reflected_inertia(scene: Description) -> dict[str, float]:
     """Inertia that each actuator feels at the described pose: the others locked, the vessel held.
 
     Returns
@@ -288,9 +290,8 @@ def reflected_inertia(scene: Scene) -> dict[str, float]:
             held = _locked(scene.copy())
             held.drivers.pop(_driver_name(name))
             actuator = scene.actuators[name]
-            held.add_driver(
-                joint=actuator.joint, coordinate=actuator.coordinate, curve=curve, name=_driver_name(name)
-            )
+            place: Any = {"joint": actuator.joint, "coordinate": actuator.coordinate}
+            add_driver(held, **place, curve=curve, name=_driver_name(name))
             model = held.compile()
             loads.append(
                 _multipliers(model, [_driver_name(name)], time=0.0, state=np.array(model.initial_state))[0]

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 from seacrane import _core
 from seacrane.analysis.reduced_coordinates import NEUTRAL, ReducedCoordinates, Terms
 from seacrane.analysis.rest_state import at_rest, equilibrium, held, state_values
-from seacrane.description.scene import Scene
+from seacrane.description.scene import Description
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import shaped_of
 from seacrane.inputs.frames import rotation_about_z, rotation_matrix
@@ -49,7 +49,7 @@ class LinearModel:
         Directions in which nothing brings the system back.
     """
 
-    scene: Scene
+    scene: Description
     state: _core.State
     bodies: tuple[str, ...]
     vessel: str | None
@@ -178,7 +178,9 @@ class LinearModel:
         return _core.State(time=terms.time, values=y, inputs=np.zeros(terms.model.slots))
 
 
-def linear_model(scene: Scene, *, state: _core.State | None = None, vessel: str | None = None) -> LinearModel:
+def linear_model(
+    scene: Description, *, state: _core.State | None = None, vessel: str | None = None
+) -> LinearModel:
     """Linearise a scene about a state at rest, its references held.
 
     The quaternions do not appear: poses are perturbed by translations and rotation vectors within the null
@@ -276,7 +278,7 @@ def _require_rest(terms: Terms, values: Array) -> None:
             )
 
 
-def _wave_body(scene: Scene, wanted: str | None) -> str | None:
+def _wave_body(scene: Description, wanted: str | None) -> str | None:
     floating = [vessel.body for vessel in scene.vessels.values()]
     if wanted is None and scene.waves is not None and len(scene.waves.hulls) == 1:
         wanted = scene.waves.body_of()

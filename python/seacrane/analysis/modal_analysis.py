@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from seacrane import _core
 from seacrane.analysis.linear_system import LinearModel, linear_model
-from seacrane.description.scene import Scene
+from seacrane.description.scene import Description
 from seacrane.inputs.frames import MOTIONS
 
 Array = NDArray[np.float64]
@@ -97,7 +97,7 @@ class NaturalModes:
         return "\n".join(rows)
 
 
-def natural_modes(scene: Scene | LinearModel, *, state: _core.State | None = None) -> NaturalModes:
+def natural_modes(scene: Description | LinearModel, *, state: _core.State | None = None) -> NaturalModes:
     """Natural modes of a scene with its references held, fluid memory included.
 
     Parameters

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from seacrane import _core
 from seacrane.analysis.inverse import actuator_loads, driven
 from seacrane.analysis.rest_state import held, rest_states
-from seacrane.description.scene import Scene
+from seacrane.description.scene import Description
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import number_of, vector_of
 from seacrane.inputs.shown import shown
@@ -22,7 +22,7 @@ AT_REST = 1e-6  # m/s, m/s2, rad/s, rad/s2
 
 
 def quasi_static_loads(
-    scene: Scene, *, times: Any, references: Mapping[str, _core.Curve] | None = None
+    scene: Description, *, times: Any, references: Mapping[str, _core.Curve] | None = None
 ) -> dict[str, Array]:
     """Loads that hold every actuator at rest where its reference is at each time.
 
@@ -65,7 +65,7 @@ def quasi_static_loads(
     return {name: rows[:, i].copy() for i, name in enumerate(scene.actuators)}
 
 
-def _first_of_each_pose(scene: Scene, times: Array) -> Array:
+def _first_of_each_pose(scene: Description, times: Array) -> Array:
     """For each time the first one at which the drivers are where they are then."""
     if scene.force_tables or scene.loads:  # which may change while the pose does not
         return times
@@ -75,7 +75,7 @@ def _first_of_each_pose(scene: Scene, times: Array) -> Array:
 
 
 def feed_forward(
-    scene: Scene,
+    scene: Description,
     *,
     times: Any,
     references: Mapping[str, _core.Curve] | None = None,

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from seacrane import _core
 from seacrane.analysis.reduced_coordinates import NEUTRAL, ReducedCoordinates, Terms
-from seacrane.description.scene import Scene
+from seacrane.description.scene import Description, Some
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import number_of
 
@@ -24,7 +24,7 @@ MOST_STAGES = 200
 FOLLOW = 0.05  # s between projections on drivers
 
 
-def held(scene: Scene, *, time: float = 0.0) -> Scene:
+def held(scene: Some, *, time: float = 0.0) -> Some:
     """The scene without waves, its references, drivers and tabulated forces held at their values at `time`.
 
     Its state of orientation is the quaternion and it has no Baumgarte stabilisation: motions are the same.
@@ -56,7 +56,7 @@ def _frozen(curve: _core.Curve, time: float) -> _core.Curve:
     return _core.Curve.constant(value=float(curve.evaluate([time])[0, 0]))
 
 
-def equilibrium(scene: Scene, *, state: _core.State | None = None, time: float = 0.0) -> _core.State:
+def equilibrium(scene: Description, *, state: _core.State | None = None, time: float = 0.0) -> _core.State:
     """State at rest of the scene with its references held at one time, without waves.
 
     Newton's method on the accelerations in minimal coordinates. Where nothing fixes a position (a vessel
@@ -89,7 +89,7 @@ def equilibrium(scene: Scene, *, state: _core.State | None = None, time: float =
     return next(rest_states(scene, times=[end]))
 
 
-def rest_states(scene: Scene, *, times: Iterable[float]) -> Iterator[_core.State]:
+def rest_states(scene: Description, *, times: Iterable[float]) -> Iterator[_core.State]:
     """States at rest at times that increase, each found from the one before along the references."""
     found = _rest(scene, 0.0, None)
     for time in times:
@@ -99,7 +99,7 @@ def rest_states(scene: Scene, *, times: Iterable[float]) -> Iterator[_core.State
         yield found
 
 
-def _followed(scene: Scene, state: _core.State, time: float) -> Array:
+def _followed(scene: Description, state: _core.State, time: float) -> Array:
     """Poses led along the drivers to a later time; projection takes only small steps."""
     values = np.array(state.values)
     if not scene.drivers:
@@ -111,7 +111,7 @@ def _followed(scene: Scene, state: _core.State, time: float) -> Array:
     return values
 
 
-def state_values(scene: Scene, state: Any) -> Array:
+def state_values(scene: Description, state: Any) -> Array:
     """Values of a state of this scene; raises SceneError where they do not fit."""
     if not isinstance(state, _core.State):
         raise SceneError(f"state is {state!r}; give a seacrane.State")
@@ -123,7 +123,7 @@ def state_values(scene: Scene, state: Any) -> Array:
     return np.array(state.values)
 
 
-def _rest(scene: Scene, time: float, values: Array | None) -> _core.State:
+def _rest(scene: Description, time: float, values: Array | None) -> _core.State:
     model = held(scene, time=time).compile()
     terms = Terms(model, time=time)
     y = at_rest(model, np.array(model.initial_state) if values is None else terms.checked(values))

@@ -11,7 +11,7 @@ from seacrane import _core
 from seacrane.description.assembled import moves
 
 if TYPE_CHECKING:
-    from seacrane.description.scene import Scene
+    from seacrane.description.scene import Description
 
 Rows = list[tuple[str, Any]]
 REPETITIONS = 500  # of each part when its cost is measured
@@ -22,7 +22,7 @@ LABELS = {
 WORK_STATES = 2  # the work integral and its absolute counterpart
 
 
-def scene_report(scene: Scene) -> dict[str, Rows]:
+def scene_report(scene: Description) -> dict[str, Rows]:
     """Compile a scene and tell what came out.
 
     Parameters
@@ -44,7 +44,7 @@ def scene_report(scene: Scene) -> dict[str, Rows]:
     model = scene.compile()
     report = {
         "size": _size(scene, model),
-        "elements": _elements(scene),
+        "elements": elements_of(scene),
         "merged": _merged(model),
         "assembly": _assembly(scene, model),
         "left out": _left_out(scene, model),
@@ -56,7 +56,7 @@ def scene_report(scene: Scene) -> dict[str, Rows]:
     return report
 
 
-def _size(scene: Scene, model: _core.Model) -> Rows:
+def _size(scene: Description, model: _core.Model) -> Rows:
     bodies = len(model.bodies)
     pose = 7 if scene.orientation == "quaternion" else 6
     return [
@@ -83,7 +83,8 @@ def _size(scene: Scene, model: _core.Model) -> Rows:
     ]
 
 
-def _elements(scene: Scene) -> Rows:
+def elements_of(scene: Description) -> Rows:
+    """Kinds of element that a scene holds, and the elements of each with what they act on."""
     rows: Rows = [("bodies", list(scene.bodies))]
     kinds: dict[str, list[str]] = {}
     for name, joint in scene.joints.items():
@@ -105,8 +106,8 @@ def _elements(scene: Scene) -> Rows:
     return [(label, names) for label, names in rows if names]
 
 
-def _loads_by_kind(scene: Scene) -> Rows:
-    """Every load that was added by `Scene.add_load`, known kind or not."""
+def _loads_by_kind(scene: Description) -> Rows:
+    """Every load of `Scene.loads`, known kind or not."""
     kinds: dict[str, list[str]] = {}
     for name, load in scene.loads.items():
         joint, body = getattr(load, "joint", None), getattr(load, "body", None)
@@ -125,7 +126,7 @@ def _merged(model: _core.Model) -> Rows:
     return [(label, names) for label, names in rows if names]
 
 
-def _assembly(scene: Scene, model: _core.Model) -> Rows:
+def _assembly(scene: Description, model: _core.Model) -> Rows:
     found = model.assembly
     rows: Rows = [
         ("constraint residual as described [m or rad]", found["residual_before"]),
@@ -150,7 +151,7 @@ def _assembly(scene: Scene, model: _core.Model) -> Rows:
     return rows
 
 
-def _left_out(scene: Scene, model: _core.Model) -> Rows:
+def _left_out(scene: Description, model: _core.Model) -> Rows:
     """What the scene does not have, and so neither stores nor steps."""
     floating = {vessel.body for vessel in scene.vessels.values()}
     weightless = [n for n, body in scene.bodies.items() if not body.gravity or n in floating]

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 from seacrane.errors import SceneError
 
 if TYPE_CHECKING:
-    from seacrane.description.scene import Scene
+    from seacrane.scene.scene import Scene
 
 CASES = ("case1", "case2", "case3", "vessel")
 SEA_OPTIONS = ("hs", "tp", "wave_direction_deg", "spectrum", "gamma", "spreading", "seed")
@@ -52,7 +52,7 @@ def load_scene(source: str, options: argparse.Namespace, *, scripts: bool) -> tu
         if not scripts:
             raise SceneError(f"{path.name} is a script, and only `seacrane run` executes scripts")
         return path.stem, run_script(path)
-    from seacrane.description.scene import Scene
+    from seacrane.scene.scene import Scene
 
     return path.stem, Scene.load(path)
 
@@ -72,7 +72,7 @@ def run_script(path: Path) -> Scene:
     SceneError
         If the script fails (with its line), defines no ``scene()``, or returns something else.
     """
-    from seacrane.description.scene import Scene
+    from seacrane.scene.scene import Scene
 
     try:
         with _importable(path.resolve().parent):

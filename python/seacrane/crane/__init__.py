@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-from seacrane.crane.builder import FOOT, BodyRecord, JointRecord, KnuckleBoomCrane, Payload
+from seacrane.crane.builder import FOOT, KnuckleBoomCrane
 from seacrane.crane.data_file import CraneData, CylinderData
 from seacrane.crane.geometry import BODIES, CraneGeometry, PlanePose
 from seacrane.crane.mass_properties import Box, MassProperties, Tube
+from seacrane.crane.payload import Payload
+from seacrane.crane.records import BodyRecord, JointRecord
 
 __all__ = [
     "BODIES",

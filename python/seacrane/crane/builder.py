@@ -1,4 +1,4 @@
-"""Bodies and joints of a knuckle-boom crane, ready to be added to a scene."""
+"""A knuckle-boom crane: its bodies and joints at a pose, from its data."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -15,115 +15,17 @@ import numpy.typing as npt
 from seacrane.crane import data_file, statics
 from seacrane.crane.geometry import BODIES, CraneGeometry, plane_axes
 from seacrane.crane.mass_properties import MassProperties, combine
+from seacrane.crane.payload import Payload
+from seacrane.crane.records import BodyRecord, JointRecord
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import number_of, numbers_of
-from seacrane.inputs.frames import quaternion_product, rotation_matrix
-from seacrane.inputs.plausible import angle_of, warn_of_density
-
-if TYPE_CHECKING:
-    from seacrane.description.scene import Scene
+from seacrane.inputs.plausible import angle_of
 
 Array = npt.NDArray[np.float64]
 Vector = tuple[float, float, float]
 
 FOOT: Vector = (33.0, 10.0, 10.0)
 """Crane foot V seen from {0} in the paper's vessel: 33 m forward, 10 m to port, 10 m above."""
-
-
-@dataclass(frozen=True, eq=False, kw_only=True)
-class BodyRecord:
-    """A body of the crane or its payload.
-
-    Attributes
-    ----------
-    name : str
-    mass : float
-        kg.
-    inertia : ndarray, shape (3, 3)
-        About the centre of mass, body axes, kg m2.
-    center_of_mass : ndarray, shape (3,)
-        From the body origin, body axes, m.
-    position : ndarray, shape (3,)
-        Body origin in the vessel frame, m.
-    quaternion : ndarray, shape (4,)
-        Scalar first, body to vessel frame.
-    """
-
-    name: str
-    mass: float
-    inertia: Array
-    center_of_mass: Array
-    position: Array
-    quaternion: Array
-
-
-@dataclass(frozen=True, eq=False, kw_only=True)
-class JointRecord:
-    """A joint of the crane; points and axes in the vessel frame at the described pose, None where unused.
-
-    Attributes
-    ----------
-    name, kind, first, second : str
-    point : ndarray, shape (3,)
-        Joint point, m; for "distance" the point on the first body.
-    second_point : ndarray, shape (3,), or None
-        Point on the second body of a "distance" joint.
-    axis : ndarray, shape (3,), or None
-        Joint axis; for "universal" the axis fixed on the first body.
-    second_axis : ndarray, shape (3,), or None
-        Axis of a "universal" joint fixed on the second body.
-    length : float or None
-        Of a "distance" joint, m.
-    """
-
-    name: str
-    kind: str
-    first: str
-    second: str
-    point: Array
-    second_point: Array | None = None
-    axis: Array | None = None
-    second_axis: Array | None = None
-    length: float | None = None
-
-
-@dataclass(frozen=True, kw_only=True)
-class Payload:
-    """A uniform box hanging on a link of constant length from the crane tip, attached at its top's centroid.
-
-    Attributes
-    ----------
-    mass : float
-        kg.
-    size : (float, float, float)
-        Edges along body x, y and z, m.
-    link_length : float
-        Tip to the centroid of the top, m.
-
-    Warns
-    -----
-    MassUnitWarning
-        Lighter than foam: tonnes given for kg.
-    """
-
-    mass: float = 10.0e3
-    size: Vector = (6.0, 6.0, 4.0)
-    link_length: float = 8.0
-
-    def __post_init__(self) -> None:
-        values = {"mass": self.mass, "link_length": self.link_length}
-        values |= {f"size[{index}]": edge for index, edge in enumerate(self.size)}
-        for name, given in values.items():
-            value = number_of(f"payload: {name}", given)
-            if not (math.isfinite(value) and value > 0.0):
-                raise SceneError(f"payload: {name} is {value!r}; it must be finite and greater than zero.")
-        warn_of_density("payload", self.mass, math.prod(self.size))
-
-    @property
-    def inertia(self) -> Array:
-        """About the centre of mass, body axes, shape (3, 3), kg m2."""
-        x, y, z = (edge**2 for edge in self.size)
-        return np.diag([y + z, z + x, x + y]) * (self.mass / 12.0)
 
 
 def _vector(name: str, value: Vector | Array) -> Array:
@@ -311,56 +213,6 @@ class KnuckleBoomCrane:
             records.append(_link(p["tip"], payload))
         return records
 
-    def add_to(
-        self,
-        scene: Scene,
-        *,
-        base: str = "vessel",
-        foot: Vector = FOOT,
-        theta: float = 0.0,
-        s1: float = 0.0,
-        s2: float = 0.0,
-        payload: Payload | None = None,
-    ) -> None:
-        """Add the crane, and a payload hanging at rest, to a scene; its strokes keep the data file's range.
-
-        Parameters
-        ----------
-        scene : Scene
-        base : str
-            Body that carries the crane, wherever it is described ("ground" for a fixed base).
-        foot, theta, s1, s2
-            As `bodies`.
-        payload : Payload or None
-        """
-        place: dict[str, Any] = {"foot": foot, "theta": theta, "s1": s1, "s2": s2}
-        origin, turn = np.zeros(3), np.array([1.0, 0.0, 0.0, 0.0])
-        if base in scene.bodies:
-            origin, turn = np.array(scene.bodies[base].position), np.array(scene.bodies[base].quaternion)
-        to_inertial = rotation_matrix(turn)
-        records = self.bodies(**place)
-        if payload is not None:
-            records.append(self.payload_body(payload, **place))
-        for body in records:
-            scene.add_body(
-                name=body.name,
-                mass=body.mass,
-                inertia=body.inertia,
-                center_of_mass=body.center_of_mass,
-                position=origin + to_inertial @ body.position,
-                quaternion=quaternion_product(turn, body.quaternion),
-            )
-        for joint in self.joints(**place, base=base, payload=payload):
-            used = _used(joint)
-            used |= {
-                key: origin + to_inertial @ used[key] for key in ("point", "second_point") if key in used
-            }
-            used |= {key: to_inertial @ used[key] for key in ("axis", "second_axis") if key in used}
-            scene.add_joint(kind=joint.kind, name=joint.name, first=joint.first, second=joint.second, **used)
-        for name, stroke in {"main_cylinder": s1, "knuckle_cylinder": s2}.items():
-            longest = getattr(self.data, name).stroke
-            scene.add_range(joint=name, minimum=-stroke, maximum=longest - stroke)
-
 
 def _link(tip: Array, payload: Payload) -> JointRecord:
     top = tip - np.array([0.0, 0.0, payload.link_length])
@@ -373,8 +225,3 @@ def _link(tip: Array, payload: Payload) -> JointRecord:
         second_point=top,
         length=payload.link_length,
     )
-
-
-def _used(joint: JointRecord) -> dict[str, Any]:
-    names = ("point", "second_point", "axis", "second_axis", "length")
-    return {name: getattr(joint, name) for name in names if getattr(joint, name) is not None}

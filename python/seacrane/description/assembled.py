@@ -13,7 +13,7 @@ from seacrane.inputs.frames import rotation_matrix
 
 if TYPE_CHECKING:
     from seacrane import _core
-    from seacrane.description.scene import Scene
+    from seacrane.description.scene import Description
 
 Array = NDArray[np.float64]
 LARGEST_MOVE = 0.01  # m times the scene's length scale: a tenth of the length that tolerances refer to
@@ -26,7 +26,7 @@ class AssemblyWarning(UserWarning):
     """Closing the joints moved bodies from where they were described, or changed a described velocity."""
 
 
-def moves(scene: Scene, model: _core.Model) -> list[tuple[str, float, float]]:
+def moves(scene: Description, model: _core.Model) -> list[tuple[str, float, float]]:
     """Bodies that assembly moved beyond 0.01 m (times the length scale) or 0.01 rad, most first.
 
     Returns
@@ -49,7 +49,7 @@ def moves(scene: Scene, model: _core.Model) -> list[tuple[str, float, float]]:
     return sorted(out, key=lambda move: -max(move[1] / limit, move[2] / LARGEST_TURN))
 
 
-def velocities(scene: Scene, model: _core.Model) -> list[tuple[str, float, float]]:
+def velocities(scene: Description, model: _core.Model) -> list[tuple[str, float, float]]:
     """Bodies described as moving whose velocity assembly changed by more than a hundredth of it.
 
     Returns
@@ -77,7 +77,7 @@ def _length(vector: Array) -> float:
     return float(np.linalg.norm(vector))
 
 
-def warn_of_moves(scene: Scene, model: _core.Model) -> None:
+def warn_of_moves(scene: Description, model: _core.Model) -> None:
     """Warn, at the user's line, of what `moves` and `velocities` find."""
     moved, changed = moves(scene, model), velocities(scene, model)
     if moved:

@@ -12,16 +12,25 @@ import json
 import os
 import re
 from collections import Counter
+from collections.abc import Callable
 from dataclasses import asdict
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 
 from seacrane import _core
+from seacrane.description.bodies import add_body
+from seacrane.description.drives import add_actuator, add_driver
+from seacrane.description.file_origin import provenance_from_node, roles_from_node, roles_to_data
 from seacrane.description.file_waves import waves_from_node, waves_to_data
+from seacrane.description.forces import add_force_table, add_load, add_point_force, add_spring
+from seacrane.description.hydrodynamics import add_hydrodynamics
+from seacrane.description.joints import add_joint
 from seacrane.description.loads import load_from_node, load_to_data
-from seacrane.description.scene import Scene
+from seacrane.description.old_files import provenance_from_notes, roles_by_name
+from seacrane.description.recorded import add_range, record_coordinate
+from seacrane.description.scene import Description
 from seacrane.errors import FileFormatError, SceneError
 from seacrane.files.atomic import atomic_write
 from seacrane.files.node import Node
@@ -74,17 +83,22 @@ _TEXTS = {
 _FLAGS = {"bodies": ("gravity",), "point_forces": ("body_axes",)}
 _CURVES = {"drivers": ("curve",), "actuators": ("feed_forward", "reference")}
 _FRAMES = {"joints": ("first_frame", "second_frame")}
-_ADD = {
-    "bodies": "add_body",
-    "joints": "add_joint",
-    "drivers": "add_driver",
-    "actuators": "add_actuator",
-    "point_forces": "add_point_force",
-    "springs": "add_spring",
-    "force_tables": "add_force_table",
-    "vessels": "add_vessel",
+_ADD: dict[str, Callable[..., Any]] = {
+    "bodies": add_body,
+    "joints": add_joint,
+    "drivers": add_driver,
+    "actuators": add_actuator,
+    "point_forces": add_point_force,
+    "springs": add_spring,
+    "force_tables": add_force_table,
+    "vessels": add_hydrodynamics,
 }
-_ADDED_LATER: dict[str, Any] = {"loads": [], "ranges": []}  # what older files of this version lack
+_ADDED_LATER: dict[str, Any] = {
+    "loads": [],
+    "ranges": [],
+    "roles": None,
+    "provenance": None,
+}  # what older files of this version lack
 _STARTS = {
     b"\x89HDF": "a NetCDF file (Result.load or load_database)",
     b"CDF": "a NetCDF file (load_database)",
@@ -101,9 +115,10 @@ _SUFFIXES = {
     ".stl": "a surface (Hull.from_stl)",
 }
 _SETTINGS = ("gravity", "baumgarte", "length_scale")
+Some = TypeVar("Some", bound=Description)
 
 
-def save_scene(scene: Scene, path: str | os.PathLike[str]) -> None:
+def save_scene(scene: Description, path: str | os.PathLike[str]) -> None:
     """Write a scene to a file, complete or not at all.
 
     Parameters
@@ -127,7 +142,7 @@ def save_scene(scene: Scene, path: str | os.PathLike[str]) -> None:
         )
     try:
         text = json.dumps(described(scene), indent=1, allow_nan=False)
-        _scene(Node(json.loads(text), f"scene {scene.name!r}"))
+        _scene(Node(json.loads(text), f"scene {scene.name!r}"), Description())
     except SceneError:
         raise
     except FileFormatError as error:
@@ -145,17 +160,20 @@ def save_scene(scene: Scene, path: str | os.PathLike[str]) -> None:
         draft.write_bytes(data)
 
 
-def load_scene(path: str | os.PathLike[str]) -> Scene:
-    """Read a scene that `save_scene` wrote; values and names are as they were, to the last bit.
+def load_scene(path: str | os.PathLike[str], scene: Some) -> Some:
+    """Read what `save_scene` wrote into an empty scene; values and names are as they were, to the last bit.
 
     Parameters
     ----------
     path : path-like
+    scene : Scene
+        Empty.
 
     Returns
     -------
     Scene
-        Not compiled: what only the whole scene shows (loops that do not close) comes with `Scene.compile`.
+        The same. Not compiled: what only the whole scene shows (loops that do not close) comes with
+        `Scene.compile`.
 
     Raises
     ------
@@ -184,50 +202,62 @@ def load_scene(path: str | os.PathLike[str]) -> Scene:
         "waves",
         "recorded",
         "ranges",
+        "roles",
+        "provenance",
         "notes",
     )
     root.expect(fields)
-    return _scene(root)
+    return _scene(root, scene)
 
 
-def scene_digest(scene: Scene) -> str:
-    """SHA-256 of what a scene describes: equal for scenes that move alike. Notes do not count, and of C
-    functions only their names."""
-    data = described(scene.copy(notes={}))
+def scene_digest(scene: Description) -> str:
+    """SHA-256 of what a scene describes: equal for scenes that move alike. Notes and provenance do not count,
+    and of C functions only their names."""
+    data = described(scene.copy(notes={}, provenance={}))
     data["function_forces"] = [[force.name, force.body] for force in scene.function_forces.values()]
     return hashlib.sha256(json.dumps(data).encode("ascii")).hexdigest()
 
 
-def _scene(root: Node) -> Scene:
-    scene = Scene(
-        name=root.at("name").text(),
-        orientation=root.at("orientation").text(),
-        gravity=root.at("gravity").number(),
-        baumgarte=root.at("baumgarte").number(),
-        length_scale=root.at("length_scale").number(),
-    )
+def _scene(root: Node, scene: Some) -> Some:
+    scene.name, scene.orientation = root.at("name").text(), root.at("orientation").text()
+    scene.gravity, scene.baumgarte, scene.length_scale = (root.at(key).number() for key in _SETTINGS)
     for kind in _ADD:
         for node in root.at(kind).items():
             _add(scene, kind, node)
     for node in root.at("loads").items():
         element = load_from_node(node)
         with node.scene_errors():
-            scene.add_load(element)
+            add_load(scene, element)
     for node in root.at("recorded").items():
         node.expect(("name", "joint", "coordinate"))
         with node.scene_errors():
-            scene.record_coordinate(**{key: node.at(key).text() for key in ("name", "joint", "coordinate")})
+            texts = {key: node.at(key).text() for key in ("name", "joint", "coordinate")}
+            record_coordinate(scene, **texts)
     for node in root.at("ranges").items():
         node.expect(("name", "joint", "coordinate", "minimum", "maximum"))
         limits: dict[str, Any] = {key: node.at(key).text() for key in ("name", "joint", "coordinate")}
         limits |= {key: node.at(key).number() for key in ("minimum", "maximum")}
         with node.scene_errors():
-            scene.add_range(**limits)
+            add_range(scene, **limits)
     waves = root.at("waves")
     if waves.value is not None:
         scene.waves = waves_from_node(waves)
-    scene.notes.update(notes_from_node(root.at("notes")))
+    scene.notes = notes_from_node(root.at("notes"))
+    _origin(root, scene)
     return scene
+
+
+def _origin(root: Node, scene: Description) -> None:
+    """Roles and provenance; of files without them, what their names and notes tell."""
+    roles, provenance = root.at("roles"), root.at("provenance")
+    if roles.value is None:
+        roles_by_name(scene)
+    else:
+        roles_from_node(roles, scene)
+    if provenance.value is None:
+        provenance_from_notes(scene)
+    else:
+        provenance_from_node(provenance, scene)
 
 
 def _parse(path: Path) -> Any:
@@ -274,7 +304,7 @@ def _no_constant(name: str) -> Any:
     raise ValueError(f"{name} is not a number; give a finite one")
 
 
-def described(scene: Scene) -> dict[str, Any]:
+def described(scene: Description) -> dict[str, Any]:
     """The scene as plain data."""
     out: dict[str, Any] = {
         "format": FORMAT,
@@ -292,6 +322,8 @@ def described(scene: Scene) -> dict[str, Any]:
         for name, (joint, coordinate) in scene.recorded.items()
     ]
     out["ranges"] = [asdict(limit) for limit in scene.ranges.values()]
+    out["roles"] = [roles_to_data(roles) for roles in scene.roles.values()]
+    out["provenance"] = [{"name": name, **asdict(known)} for name, known in scene.provenance.items()]
     out["notes"] = plain_data(f"scene {scene.name!r}: notes", scene.notes)
     return out
 
@@ -320,7 +352,7 @@ def _block(block: _core.StateSpaceBlock) -> dict[str, Any]:
     return {"inputs": list(block.inputs), "outputs": list(block.outputs), **matrices}
 
 
-def _add(scene: Scene, kind: str, node: Node) -> None:
+def _add(scene: Description, kind: str, node: Node) -> None:
     """Check one element's entries, then add it as a script would."""
     arrays, curves, frames = _ARRAYS.get(kind, {}), _CURVES.get(kind, ()), _FRAMES.get(kind, ())
     numbers, texts, flags = _NUMBERS.get(kind, ()), _TEXTS[kind], _FLAGS.get(kind, ())
@@ -339,7 +371,7 @@ def _add(scene: Scene, kind: str, node: Node) -> None:
     if kind == "joints" and arguments["kind"] != "distance" and arguments["length"] == 0.0:
         del arguments["length"]
     with node.scene_errors():
-        getattr(scene, _ADD[kind])(**arguments)
+        _ADD[kind](scene, **arguments)
 
 
 def _frame(node: Node) -> _core.Frame:

@@ -8,10 +8,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from seacrane.description.file_origin import sea_from_node, sea_to_data
+from seacrane.description.old_files import sea_of
+from seacrane.description.provenance import SeaProvenance
 from seacrane.description.waves import ByHeading, HullLoads, Waves
 from seacrane.files.node import Node
-from seacrane.files.plain_data import notes_from_node, plain_data
+from seacrane.files.plain_data import notes_from_node
 
+OLD = "information"  # what version 0.1 calls the provenance
 _ARRAYS = ("omega", "amplitude", "phase", "direction")
 _TRANSFER = ("transfer_real", "transfer_imaginary")
 # Entries that older files do not have.
@@ -33,7 +37,7 @@ def waves_to_data(waves: Waves) -> dict[str, Any]:
     out["evaluation"], out["negligible"] = waves.evaluation, float(waves.negligible)
     out |= {key: np.asarray(getattr(waves, key), dtype=float).tolist() for key in _ARRAYS}
     out["hulls"] = [_hull_to_data(body, hull) for body, hull in waves.hulls.items()]
-    out["information"] = plain_data("waves: information", waves.information)
+    out["provenance"] = sea_to_data(waves.provenance)
     return out
 
 
@@ -59,7 +63,8 @@ def waves_from_node(node: Node) -> Waves:
     """What `waves_to_data` wrote; raises FileFormatError."""
     if isinstance(node.value, dict):
         node = Node({**_ADDED_LATER, **_one_hull_as_list(node.value)}, node.path)
-    node.expect(("relative_bound", "depth", *_ARRAYS, *_ADDED_LATER, "hulls", "information"))
+    told = OLD if isinstance(node.value, dict) and OLD in node.value else "provenance"
+    node.expect(("relative_bound", "depth", *_ARRAYS, *_ADDED_LATER, "hulls", told))
     depth, count = node.at("depth"), len(node.at("omega").values())
     hulls: dict[str, HullLoads] = {}
     for entry in node.at("hulls").items():
@@ -75,10 +80,14 @@ def waves_from_node(node: Node) -> Waves:
         depth=math.inf if depth.value is None else depth.number(),
         evaluation=node.at("evaluation").text(),
         negligible=node.at("negligible").number(),
-        information=notes_from_node(node.at("information")),
+        provenance=_provenance(node.at(told), told),
         hulls=hulls,
         **{key: node.at(key).array((count,)) for key in _ARRAYS},
     )
+
+
+def _provenance(node: Node, told: str) -> SeaProvenance:
+    return sea_of(notes_from_node(node)) if told == OLD else sea_from_node(node)
 
 
 def _one_hull_as_list(data: dict[str, Any]) -> dict[str, Any]:

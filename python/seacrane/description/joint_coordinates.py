@@ -12,7 +12,7 @@ from seacrane.inputs.frames import euler_matrix, rotation_matrix
 
 if TYPE_CHECKING:
     from seacrane import _core
-    from seacrane.description.scene import Scene
+    from seacrane.description.scene import Description
 
 Array = NDArray[np.float64]
 Pose = tuple[Array, Array]
@@ -25,7 +25,7 @@ def wrapped(angle: Array) -> Array:
     return angle - 2.0 * np.pi * np.floor(angle / (2.0 * np.pi) + 0.5)
 
 
-def coordinate_at(scene: Scene, joint: str, coordinate: str, pose: Callable[[str], Pose]) -> Array:
+def coordinate_at(scene: Description, joint: str, coordinate: str, pose: Callable[[str], Pose]) -> Array:
     """Values (n,) of a joint coordinate, m or rad; `pose` tells centre of mass and rotation of a body."""
     described = scene.joints[joint]
     point_a, a = _side(scene, described.first, described.first_frame, pose)
@@ -40,7 +40,7 @@ def coordinate_at(scene: Scene, joint: str, coordinate: str, pose: Callable[[str
     return np.arctan2(between[..., 1, 0], between[..., 0, 0])
 
 
-def _side(scene: Scene, body: str, frame: _core.Frame, pose: Callable[[str], Pose]) -> Pose:
+def _side(scene: Description, body: str, frame: _core.Frame, pose: Callable[[str], Pose]) -> Pose:
     """The joint's point (n, 3) and axes (n, 3, 3) on a body, inertial frame."""
     if body not in scene.bodies:
         return frame.point[None], frame.axes[None]
@@ -48,7 +48,7 @@ def _side(scene: Scene, body: str, frame: _core.Frame, pose: Callable[[str], Pos
     return centre + turn @ (frame.point - scene.bodies[body].center_of_mass), turn @ frame.axes
 
 
-def start_pose(scene: Scene, model: _core.Model, body: str) -> Pose:
+def start_pose(scene: Description, model: _core.Model, body: str) -> Pose:
     """Centre of mass (1, 3) and rotation (1, 3, 3) of a body at the assembled start."""
     index = list(scene.bodies).index(body)
     size = model.twist_index(0) // len(scene.bodies)

@@ -16,7 +16,8 @@ from seacrane.errors import SceneError
 from seacrane.inputs.caller import warn_caller
 
 if TYPE_CHECKING:
-    from seacrane.description.scene import Range, Scene
+    from seacrane.description.range import Range
+    from seacrane.description.scene import Description
 
 Array = NDArray[np.float64]
 JUMP = 1e-6  # m or rad: what projection closes without a word
@@ -41,7 +42,7 @@ class Reference:
     curve: _core.Curve
 
 
-def references(scene: Scene) -> Iterator[Reference]:
+def references(scene: Description) -> Iterator[Reference]:
     """Curves of drivers, and of actuators that hold to their reference."""
     for name, driver in scene.drivers.items():
         yield Reference(f"driver {name!r}", driver.joint, driver.coordinate, driver.curve)
@@ -50,7 +51,9 @@ def references(scene: Scene) -> Iterator[Reference]:
             yield Reference(f"actuator {name!r}", actuator.joint, actuator.coordinate, actuator.reference)
 
 
-def check_references(scene: Scene, model: _core.Model, *, start: float, end: float, described: bool) -> None:
+def check_references(
+    scene: Description, model: _core.Model, *, start: float, end: float, described: bool
+) -> None:
     """Raise SceneError for references that cannot be meant, from `start` to `end` (s) of a run.
 
     `described`: the run starts at the described pose.
@@ -160,7 +163,7 @@ def _check_jumps(name: str, driver: _core.Driver, start: float, end: float) -> N
 
 
 def _check_turns(
-    scene: Scene, model: _core.Model, name: str, start: float, end: float, described: bool
+    scene: Description, model: _core.Model, name: str, start: float, end: float, described: bool
 ) -> None:
     """An angle is known to whole turns only, and an actuator takes the turn nearest to its reference."""
     actuator = scene.actuators[name]

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane import _core
+from seacrane.description.provenance import SeaProvenance
 from seacrane.errors import SceneError
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.checked import number_of, text_of
@@ -84,7 +85,7 @@ class HullLoads:
         if cutoff and self.force_by_heading is None:
             raise SceneError(
                 f"waves: cutoff is {self.cutoff} rad/s and there is no force_by_heading; loads at one place "
-                "have no slow position, take seacrane.use_slow_position, or cutoff=0"
+                "have no slow position, take Scene.use_slow_position, or cutoff=0"
             )
         for name in ("force_by_heading", "drift_by_heading"):
             table = getattr(self, name)
@@ -113,8 +114,8 @@ class Waves:
     negligible : float
         Components whose magnitudes sum to no more than this share of all, in every load and the elevation,
         are left out when the scene is compiled, 0 to 0.1; 0 leaves out those that add nothing.
-    information : mapping
-        What is reported of the sea (seed, realised Hs, repeat period).
+    provenance : SeaProvenance
+        What the sea was made from, and its realisation: seed, realised Hs, repeat period.
     """
 
     omega: Array
@@ -126,7 +127,7 @@ class Waves:
     depth: float = float("inf")
     evaluation: str = "table"
     negligible: float = 1e-9
-    information: Mapping[str, Any] = field(default_factory=dict)
+    provenance: SeaProvenance = field(default_factory=SeaProvenance)
 
     def __post_init__(self) -> None:
         hulls = self.hulls

@@ -1,10 +1,10 @@
 """Pictures of runs: the paper's figures 3 to 10, a quick overview, and the paper's findings as numbers."""
 
+from seacrane.crane.skeleton import crane_skeleton
 from seacrane.figures.findings import Finding, paper_findings
 from seacrane.figures.overview import overview_sheet, plot_overview
 from seacrane.figures.paper import PaperRuns, paper_motion, save_paper_figures
 from seacrane.figures.pose import Skeleton, box_lines, hull_lines, save_pose_figure
-from seacrane.figures.skeleton import crane_skeleton
 from seacrane.plotting.panel import Line, Panel, Picture, Sheet, draw, save_figure, save_sheet, save_table
 
 __all__ = [

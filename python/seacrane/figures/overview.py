@@ -25,6 +25,13 @@ def _lines(names: Sequence[str], values: Array) -> tuple[Line, ...]:
     )
 
 
+def _by_name(result: Result, channel: str, dim: str, values: Array) -> tuple[Line, ...]:
+    """One line, or with several of a kind one for each."""
+    if dim in result.dims[channel]:
+        return _lines(result.coords[dim], values)
+    return (Line(label="", values=values),)
+
+
 def _single(quantity: str, unit: str, values: Array) -> Panel:
     return Panel(quantity=quantity, unit=unit, lines=(Line(label="", values=values),))
 
@@ -75,6 +82,16 @@ def _cylinder_forces(result: Result) -> list[Panel]:
     return [Panel(quantity="cylinder force", unit="kN", lines=lines)]
 
 
+def _slew_angles(result: Result) -> list[Panel]:
+    lines = _by_name(result, "slew_angle", "slew", np.rad2deg(result["slew_angle"]))
+    return [Panel(quantity="slew angle", unit="deg", lines=lines)]
+
+
+def _link_tensions(result: Result) -> list[Panel]:
+    lines = _by_name(result, "link_tension", "hook", result["link_tension"] / 1e3)
+    return [Panel(quantity="link tension", unit="kN", lines=lines)]
+
+
 def _joint_forces(result: Result) -> list[Panel]:
     size = np.linalg.norm(result["reaction_force"], axis=2) / 1e3
     return [Panel(quantity="joint force", unit="kN", lines=_lines(result.coords["joint"], size))]
@@ -85,10 +102,10 @@ PANELS: dict[str, Callable[[Result], list[Panel]]] = {
     "vessel_motion": _vessels,
     "wave_elevation": _elevation,
     "position": _payload,
-    "slew_angle": lambda r: [_single("slew angle", "deg", np.rad2deg(r["slew_angle"]))],
+    "slew_angle": _slew_angles,
     "stroke": _strokes,
     "cylinder_force": _cylinder_forces,
-    "link_tension": lambda r: [_single("link tension", "kN", r["link_tension"] / 1e3)],
+    "link_tension": _link_tensions,
     "reaction_force": _joint_forces,
     "energy_balance": lambda r: [_single("energy balance", "J", r["energy_balance"])],
 }

@@ -13,8 +13,8 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from seacrane.crane.skeleton import BARRELS, crane_skeleton
 from seacrane.figures.pose import Skeleton, save_pose_figure
-from seacrane.figures.skeleton import crane_skeleton
 from seacrane.plotting.panel import Line, Panel, Picture, Sheet, save_sheet
 from seacrane.result import MOTIONS, Result
 
@@ -107,7 +107,7 @@ def figure_7(runs: PaperRuns) -> Sheet:
             unit="m",
             lines=(Line(label="", values=case3.select("stroke", cylinder=name)),),
         )
-        for number, name in ((1, "main"), (2, "knuckle"))
+        for number, name in enumerate(case3.coords["cylinder"], 1)
     ]
     slew = Line(label="", values=np.rad2deg(case3["slew_angle"]))
     panels.append(Panel(quantity="slew angle", unit="deg", lines=(slew,)))
@@ -200,5 +200,5 @@ def save_paper_figures(
         for number, sheet in TIME_FIGURES.items()
     }
     lines = crane_skeleton() if skeleton is None else skeleton
-    pictures[4] = save_pose_figure(result=runs.case2, folder=folder, skeleton=lines)
+    pictures[4] = save_pose_figure(result=runs.case2, folder=folder, skeleton=lines, thick=BARRELS)
     return dict(sorted(pictures.items()))

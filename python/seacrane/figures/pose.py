@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+import json
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from seacrane.inputs.frames import rotation_matrix
 from seacrane.plotting.panel import COLOURS, Picture, plain, save_figure, save_table
 from seacrane.result import Result
 
@@ -19,19 +21,8 @@ Array = NDArray[np.float64]
 Skeleton = Mapping[str, Sequence[Array]]
 """Lines of each body, each of shape (k, 3), m, in the body's frame, relative to its centre of mass."""
 
+HULL = "vessel"  # body that is drawn as a ship
 HALF_TURN = np.array([-1.0, -1.0, 1.0])  # our axes to the paper's: x aft, y starboard, z up
-
-
-def rotation_matrix(quaternion: Array) -> Array:
-    """Rotation of a unit quaternion (scalar first), shape (3, 3), body to inertial."""
-    w, x, y, z = quaternion
-    return np.array(
-        [
-            [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
-            [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
-            [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
-        ]
-    )
 
 
 def hull_lines(
@@ -75,12 +66,19 @@ def complete_skeleton(
                 raise ValueError(
                     f"a line of {body!r} has shape {line.shape}; give finite points (k, 3), k >= 2"
                 )
-    if "vessel" in bodies and "vessel" not in lines:
-        turn, centre = _pose(result, "vessel", 0)
-        lines["vessel"] = [(line - centre) @ turn for line in hull_lines()]
-    if "payload" in bodies and "payload" not in lines:
-        lines["payload"] = box_lines(payload_size)
+    if HULL in bodies and HULL not in lines:
+        turn, centre = _pose(result, HULL, 0)
+        lines[HULL] = [(line - centre) @ turn for line in hull_lines()]
+    for _, payload in _hung(result):
+        lines.setdefault(payload, box_lines(payload_size))
     return lines
+
+
+def _hung(result: Result) -> list[tuple[str, str]]:
+    """Bodies that carry a crane's tip, and what hangs there."""
+    cranes = json.loads(str(result.stats.get("cranes", "[]")))
+    ends = [(crane["tip"]["body"], crane["payload"]) for crane in cranes if crane["tip"] and crane["payload"]]
+    return [(jib, payload) for jib, payload in ends if {jib, payload} <= set(result.coords["body"])]
 
 
 def _pose(result: Result, body: str, index: int) -> tuple[Array, Array]:
@@ -96,20 +94,27 @@ def posed_lines(result: Result, skeleton: Skeleton, index: int) -> Iterator[tupl
             yield body, number, HALF_TURN * (centre + line @ turn.T)
 
 
-def wire_line(result: Result, skeleton: Skeleton, index: int) -> Array | None:
-    """The link from the crane's tip, the last point of the knuckle jib's first line, to the payload's top."""
-    if "payload" not in result.coords["body"] or "knuckle_jib" not in skeleton:
-        return None
-    turn, centre = _pose(result, "knuckle_jib", index)
-    tip = centre + turn @ skeleton["knuckle_jib"][0][-1]
-    turn, centre = _pose(result, "payload", index)
-    height = max(float(line[:, 2].max()) for line in skeleton["payload"])
+def wire_lines(result: Result, skeleton: Skeleton, index: int) -> list[Array]:
+    """Links from tips, the last points of the first lines of what carries them, to the payloads' tops."""
+    return [_wire(result, skeleton, index, *ends) for ends in _hung(result) if set(ends) <= set(skeleton)]
+
+
+def _wire(result: Result, skeleton: Skeleton, index: int, jib: str, payload: str) -> Array:
+    turn, centre = _pose(result, jib, index)
+    tip = centre + turn @ skeleton[jib][0][-1]
+    turn, centre = _pose(result, payload, index)
+    height = max(float(line[:, 2].max()) for line in skeleton[payload])
     ends: Array = HALF_TURN * np.array([tip, centre + turn @ np.array([0.0, 0.0, height])])
     return ends
 
 
 def save_pose_figure(
-    *, result: Result, folder: Path, skeleton: Skeleton | None = None, stem: str = "figure_04"
+    *,
+    result: Result,
+    folder: Path,
+    skeleton: Skeleton | None = None,
+    thick: Collection[str] = (),
+    stem: str = "figure_04",
 ) -> Picture:
     """Write the first and last pose of a run as `stem`.png, and every point drawn as `stem`.csv.
 
@@ -120,8 +125,10 @@ def save_pose_figure(
     folder : Path
         Existing folder.
     skeleton : mapping of str to sequence of ndarray (k, 3), optional
-        Lines of each body relative to its centre of mass in its own frame, m. The first line of
-        `knuckle_jib` ends at the crane's tip. Hull and payload are added where absent.
+        Lines of each body relative to its centre of mass in its own frame, m. The first line of what carries
+        a crane's tip ends there. Hull and payload are added where absent.
+    thick : collection of str
+        Bodies that are drawn thick.
     """
     lines = complete_skeleton(result, skeleton)
     caption = (
@@ -131,9 +138,7 @@ def save_pose_figure(
     rows = []
     for name, index in (("initial", 0), ("final", -1)):
         drawn = list(posed_lines(result, lines, index))
-        wire = wire_line(result, lines, index)
-        if wire is not None:
-            drawn.append(("link", 0, wire))
+        drawn += [("link", number, wire) for number, wire in enumerate(wire_lines(result, lines, index))]
         for body, number, points in drawn:
             rows += [[name, body, number, i, *point] for i, point in enumerate(points.tolist())]
     data = save_table(
@@ -141,26 +146,29 @@ def save_pose_figure(
         rows,
         folder / f"{stem}.csv",
     )
-    image = save_figure(draw_poses(result, lines), folder / f"{stem}.png")
+    image = save_figure(draw_poses(result, lines, thick), folder / f"{stem}.png")
     title = "Figure 4: initial and final pose, case 2"
     return Picture(title=title, caption=caption, image=image, data=data)
 
 
-def draw_poses(result: Result, skeleton: Skeleton) -> Figure:
+def draw_poses(result: Result, skeleton: Skeleton, thick: Collection[str] = ()) -> Figure:
     """First and last pose side by side, in equal scales and limits, seen from port and a little aft."""
     from matplotlib.figure import Figure
 
     figure = Figure(figsize=(13.0, 6.4))
+    own = {HULL: "0.6", **{payload: "#8B0000" for _, payload in _hung(result)}}
     points = np.vstack([line for index in (0, -1) for _, _, line in posed_lines(result, skeleton, index)])
     low, high = points.min(axis=0), points.max(axis=0)
     for place, (name, index) in enumerate((("initial", 0), ("final", -1))):
         box = (0.01 + 0.5 * place, 0.04, 0.44, 0.94)
         axes: Any = figure.add_axes(box, projection="3d", proj_type="ortho")
         for body, number, line in posed_lines(result, skeleton, index):
-            _draw_line(axes, body, number, line, list(skeleton).index(body))
-        wire = wire_line(result, skeleton, index)
-        if wire is not None:
-            axes.plot(*wire.T, color="black", linewidth=1.0, label="link")
+            width = 0.8 if body == HULL else 4.0 if body in thick else 1.6
+            colour = own.get(body, COLOURS[list(skeleton).index(body) % len(COLOURS)])
+            label = plain(body) if number == 0 else None
+            axes.plot(*line.T, color=colour, linewidth=width, label=label, solid_capstyle="butt")
+        for number, wire in enumerate(wire_lines(result, skeleton, index)):
+            axes.plot(*wire.T, color="black", linewidth=1.0, label=None if number else "link")
         axes.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]), zlim=(low[2], high[2]))
         axes.set_box_aspect(high - low, zoom=0.96)
         axes.view_init(elev=20, azim=-60)
@@ -171,12 +179,3 @@ def draw_poses(result: Result, skeleton: Skeleton) -> Figure:
     figure.legend(handles, labels, loc="lower center", ncols=6, fontsize=8, frameon=False)
     figure.suptitle("Figure 4: initial and final pose, case 2 (x aft, y starboard, z up)", fontsize=11)
     return figure
-
-
-def _draw_line(axes: Any, body: str, number: int, line: Array, order: int) -> None:
-    hull = body == "vessel"
-    own = {"vessel": "0.6", "payload": "#8B0000"}
-    colour = own.get(body, COLOURS[order % len(COLOURS)])
-    width = 0.8 if hull else 4.0 if body.endswith("barrel") else 1.6
-    label = plain(body) if number == 0 else None
-    axes.plot(*line.T, color=colour, linewidth=width, label=label, solid_capstyle="butt")

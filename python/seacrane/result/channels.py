@@ -17,16 +17,17 @@ class Channel:
     dims: tuple[str, ...]
     unit: str
     long_name: str
-    by_vessel: bool = False
+    several: str = ""
 
     def dims_of(self, axes: int) -> tuple[str, ...]:
-        """Dimensions of an array with so many axes: with several vessels, "vessel" comes after time."""
-        several = self.by_vessel and axes == len(self.dims) + 1
-        return ("time", "vessel", *self.dims[1:]) if several else self.dims
+        """Dimensions of an array with so many axes: with several vessels (or slew drives, or hooks), theirs
+        comes after time."""
+        more = self.several and axes == len(self.dims) + 1
+        return ("time", self.several, *self.dims[1:]) if more else self.dims
 
 
-def _channel(dims: str, unit: str, long_name: str, *, by_vessel: bool = False) -> Channel:
-    return Channel(dims=("time", *dims.split()), unit=unit, long_name=long_name, by_vessel=by_vessel)
+def _channel(dims: str, unit: str, long_name: str, *, several: str = "") -> Channel:
+    return Channel(dims=("time", *dims.split()), unit=unit, long_name=long_name, several=several)
 
 
 _SIX = "m (surge, sway, heave), rad (roll, pitch, yaw)"
@@ -42,7 +43,7 @@ CHANNELS: Mapping[str, Channel] = MappingProxyType(
         "quaternion": _channel("body wxyz", "1", "orientation, scalar first, body to inertial"),
         "euler_xyz": _channel("body axis", "rad", "XYZ Euler angles, R = Rx Ry Rz, body to inertial"),
         "vessel_motion": _channel(
-            "motion", _SIX, "vessel's reference point from rest, and yaw-pitch-roll angles", by_vessel=True
+            "motion", _SIX, "vessel's reference point from rest, and yaw-pitch-roll angles", several="vessel"
         ),
         "coordinate": _channel("joint_coordinate", "m or rad", "joint coordinate, second body to first"),
         "coordinate_rate": _channel("joint_coordinate", "m/s or rad/s", "rate of the joint coordinate"),
@@ -52,9 +53,11 @@ CHANNELS: Mapping[str, Channel] = MappingProxyType(
         "stroke": _channel("cylinder", "m", "cylinder stroke, extension positive"),
         "stroke_rate": _channel("cylinder", "m/s", "rate of the cylinder stroke"),
         "cylinder_force": _channel("cylinder", "N", "actuator force of the cylinder, positive pushes"),
-        "slew_angle": _channel("", "rad", "slew angle, king relative to tower"),
-        "slew_torque": _channel("", "N m", "actuator torque of the slew drive, on the king"),
-        "link_tension": _channel("", "N", "tension of the link between crane tip and payload"),
+        "slew_angle": _channel("", "rad", "slew angle of the crane", several="slew"),
+        "slew_torque": _channel("", "N m", "actuator torque of the slew drive", several="slew"),
+        "link_tension": _channel(
+            "", "N", "tension of the link between crane tip and payload", several="hook"
+        ),
         "reaction_force": _channel(
             "joint axis", "N", "constraint force on the second body, inertial frame, at the joint point"
         ),
@@ -62,13 +65,13 @@ CHANNELS: Mapping[str, Channel] = MappingProxyType(
             "joint axis", "N m", "constraint moment on the second body, inertial frame, at the joint point"
         ),
         "wave_elevation": _channel(
-            "", "m", "undisturbed wave elevation where wave loads take their phase", by_vessel=True
+            "", "m", "undisturbed wave elevation where wave loads take their phase", several="vessel"
         ),
         "wave_force": _channel(
-            "motion", _WRENCH, "wave load on the vessel at its reference point", by_vessel=True
+            "motion", _WRENCH, "wave load on the vessel at its reference point", several="vessel"
         ),
         "drift_force": _channel(
-            "motion", _WRENCH, "slow drift load on the vessel at its reference point", by_vessel=True
+            "motion", _WRENCH, "slow drift load on the vessel at its reference point", several="vessel"
         ),
         "limit_force": _channel("limit", "N or N m", "tension of a wire, push of a stop, pressure on a seat"),
         "impact_loss": _channel("", "J", "mechanical energy lost in impacts of limits since the start"),

@@ -21,6 +21,8 @@ NAMED = {
     "body": "bodies",
     "joint": "joints",
     "cylinder": "cylinders",
+    "slew": "slews",
+    "hook": "hooks",
     "joint_coordinate": "coordinates",
     "actuator": "actuators",
     "driver": "drivers",

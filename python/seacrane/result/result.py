@@ -132,7 +132,8 @@ class Result(Mapping[str, Array]):
         Dimension names of each channel.
     coords : mapping of str to tuple of str
         Names along every dimension but time: `body`, `joint`, `cylinder`, `axis`, `motion`, `wxyz`,
-        `joint_coordinate`, `actuator`, `driver`, `link`, `limit`, `vessel` (of several); only those in use.
+        `joint_coordinate`, `actuator`, `driver`, `link`, `limit`, and `vessel`, `slew`, `hook` of several;
+        only those in use.
     stats : mapping of str to str, int or float
         Version, settings and counters of the run: the attributes of the saved file.
     interrupted : bool
@@ -186,6 +187,8 @@ class Result(Mapping[str, Array]):
         bodies: Sequence[str] = (),
         joints: Sequence[str] = (),
         cylinders: Sequence[str] = (),
+        slews: Sequence[str] = (),
+        hooks: Sequence[str] = (),
         coordinates: Sequence[str] = (),
         actuators: Sequence[str] = (),
         drivers: Sequence[str] = (),
@@ -206,9 +209,9 @@ class Result(Mapping[str, Array]):
         arrays : mapping of str to array_like
             Channels by the names of `CHANNELS`. Arrays of float64 are taken over without a copy and
             made read-only; the caller must not write to them through another view.
-        bodies, joints, cylinders, coordinates, actuators, drivers, links, limits, vessels : sequence of str
-            Names along the dimensions `body`, `joint`, `cylinder`, `joint_coordinate`, `actuator`, `driver`,
-            `link`, `limit` and `vessel`, in the order of the arrays.
+        bodies, joints, cylinders, slews, hooks, coordinates, actuators, drivers, links, limits, vessels
+            Sequences of str, names along the dimensions `body`, `joint`, `cylinder`, `slew`, `hook`,
+            `joint_coordinate`, `actuator`, `driver`, `link`, `limit` and `vessel`, in the order of arrays.
         events : sequence of Event
             In order of time.
         stats : mapping
@@ -230,6 +233,8 @@ class Result(Mapping[str, Array]):
             "body": bodies,
             "joint": joints,
             "cylinder": cylinders,
+            "slew": slews,
+            "hook": hooks,
             "joint_coordinate": coordinates,
             "actuator": actuators,
             "driver": drivers,

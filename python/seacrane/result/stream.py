@@ -81,7 +81,7 @@ class ResultFile:
         self._nothing: Mapping[str, Array] = {}
         self._coords: Mapping[str, Sequence[str]] = {}
         self._last_time = -np.inf
-        self._last_angle: float | None = None
+        self._last_angle: Array | None = None
         self._events = self._events_of_run = 0
         self._before: Mapping[str, Any] = {}
 
@@ -268,7 +268,7 @@ class ResultFile:
     def _count(self, piece: Piece) -> None:
         if piece.outputs:
             self._last_time = float(piece.arrays["time"][-1])
-            self._last_angle = float(piece.arrays[TURNING][-1]) if TURNING in piece.arrays else None
+            self._last_angle = np.array(piece.arrays[TURNING][-1]) if TURNING in piece.arrays else None
         self._nothing = {name: array[:0] for name, array in piece.arrays.items()}
         self.outputs, self._events = self.outputs + piece.outputs, self._events + len(piece.events)
         self.stats = dict(piece.stats)

@@ -2,21 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
+from seacrane.description.crane_parts import cylinders, hooks, slews
 from seacrane.errors import SceneError
 
 if TYPE_CHECKING:
-    from seacrane.description.scene import Scene
+    from seacrane import _core
+    from seacrane.description.scene import Description
 
 Array = NDArray[np.float64]
-CYLINDERS = {"main": "main_cylinder", "knuckle": "knuckle_cylinder"}
-SLEW = "A"
-LINK = "link"
 CRANE_CHANNELS = {
     "stroke": ("coordinate",),
     "stroke_rate": ("coordinate_rate",),
@@ -41,50 +40,97 @@ def core_channels(wanted: Sequence[str], known: Sequence[str]) -> set[str]:
     return made_of
 
 
-def _drive_load(scene: Scene, arrays: dict[str, Array], joint: str, coordinate: str) -> Array | None:
-    """Load along a joint coordinate: what its actuators and its driver apply together."""
+def names_along(scene: Description, model: _core.Model) -> dict[str, list[str]]:
+    """Names along the dimensions of a scene's channels, as `Result.from_arrays` takes them."""
+    return {
+        "bodies": list(scene.bodies),
+        "joints": list(scene.joints),
+        "cylinders": list(cylinders(scene)),
+        "slews": list(slews(scene)),
+        "hooks": list(hooks(scene)),
+        "coordinates": list(scene.recorded),
+        "actuators": list(scene.actuators),
+        "drivers": list(scene.drivers),
+        "links": _links(scene),
+        "limits": [name for name, _ in model.limits],
+        "vessels": list(scene.vessels),
+    }
+
+
+def hanging_bodies(scene: Description) -> list[str]:
+    """The bodies that hang on links or wires and carry no other by one."""
+    hanging = [scene.joints[name] for name in _links(scene)]
+    carrying = {joint.first for joint in hanging}
+    return list(dict.fromkeys(joint.second for joint in hanging if joint.second not in carrying))
+
+
+def named_channels(scene: Description, arrays: dict[str, Array]) -> dict[str, Array]:
+    """Adds stroke, stroke_rate, cylinder_force, slew_angle, slew_torque and link_tension of cranes.
+
+    Slew and link have no axis of their own where there is one of them.
+    """
+    strokes = {label: (joint, "displacement") for label, joint in cylinders(scene).items()}
+    drives = slews(scene)
+    links = _links(scene)
+    found = {
+        "stroke": _recorded(scene, arrays.get("coordinate"), strokes),
+        "stroke_rate": _recorded(scene, arrays.get("coordinate_rate"), strokes),
+        "cylinder_force": _loads(scene, arrays, strokes),
+        "slew_angle": _turned(_recorded(scene, arrays.get("coordinate"), drives)),
+        "slew_torque": _without_axis_of_one(_loads(scene, arrays, drives)),
+        "link_tension": _without_axis_of_one(
+            _columns(
+                arrays.get("tension"), [links.index(link) for link in hooks(scene).values() if link in links]
+            )
+        ),
+    }
+    out = arrays | {name: values for name, values in found.items() if values is not None}
+    return {name: np.ascontiguousarray(values) for name, values in out.items()}
+
+
+def _links(scene: Description) -> list[str]:
+    """Distance joints, in the order of the core's tensions."""
+    return [name for name, joint in scene.joints.items() if joint.kind == "distance"]
+
+
+def _columns(array: Array | None, places: Sequence[int]) -> Array | None:
+    return None if array is None or not places else array[:, places]
+
+
+def _recorded(scene: Description, array: Array | None, wanted: Mapping[str, tuple[str, str]]) -> Array | None:
+    """Columns of joint coordinates; None unless all of them are recorded."""
+    recorded = list(scene.recorded.values())
+    if not all(place in recorded for place in wanted.values()):
+        return None
+    return _columns(array, [recorded.index(place) for place in wanted.values()])
+
+
+def _loads(
+    scene: Description, arrays: Mapping[str, Array], wanted: Mapping[str, tuple[str, str]]
+) -> Array | None:
+    """Loads along joint coordinates; None unless something is known to act along all of them."""
+    columns = [_drive_load(scene, arrays, place) for place in wanted.values()]
+    known = [column for column in columns if column is not None]
+    return np.column_stack(known) if known and len(known) == len(columns) else None
+
+
+def _drive_load(scene: Description, arrays: Mapping[str, Array], wanted: tuple[str, str]) -> Array | None:
+    """What actuators and the driver apply along a joint coordinate together."""
     actuators = [(actuator.joint, actuator.coordinate) for actuator in scene.actuators.values()]
     drivers = [(driver.joint, driver.coordinate) for driver in scene.drivers.values()]
     loads = [
         arrays[channel][:, i]
         for channel, places in (("actuator_force", actuators), ("driver_force", drivers))
         for i, place in enumerate(places)
-        if place == (joint, coordinate) and channel in arrays
+        if place == wanted and channel in arrays
     ]
     return sum(loads[1:], loads[0].copy()) if loads else None
 
 
-def _recorded(scene: Scene, joint: str) -> int | None:
-    joints = [recorded for recorded, _ in scene.recorded.values()]
-    return joints.index(joint) if joint in joints else None
+def _turned(angles: Array | None) -> Array | None:
+    """Angles counted on over whole turns."""
+    return _without_axis_of_one(None if angles is None else np.unwrap(angles, axis=0))
 
 
-def payload_of(scene: Scene) -> list[str]:
-    """The bodies that hang on links or wires and carry no other by one."""
-    hanging = [joint for joint in scene.joints.values() if joint.kind == "distance"]
-    carrying = {joint.first for joint in hanging}
-    return list(dict.fromkeys(joint.second for joint in hanging if joint.second not in carrying))
-
-
-def named_channels(scene: Scene, arrays: dict[str, Array]) -> dict[str, Array]:
-    """Adds stroke, stroke_rate, cylinder_force, slew_angle, slew_torque and link_tension of a crane."""
-    out = dict(arrays)
-    cylinders = [joint for joint in CYLINDERS.values() if joint in scene.joints]
-    places = [_recorded(scene, joint) for joint in cylinders]
-    columns = [place for place in places if place is not None]
-    for name, channel in (("stroke", "coordinate"), ("stroke_rate", "coordinate_rate")):
-        if cylinders and channel in arrays and len(columns) == len(cylinders):
-            out[name] = arrays[channel][:, columns]
-    loads = [_drive_load(scene, arrays, joint, "displacement") for joint in cylinders]
-    if loads and all(load is not None for load in loads):
-        out["cylinder_force"] = np.column_stack([load for load in loads if load is not None])
-    slew = _recorded(scene, SLEW)
-    if slew is not None and "coordinate" in arrays:
-        out["slew_angle"] = np.unwrap(arrays["coordinate"][:, slew])
-    torque = _drive_load(scene, arrays, SLEW, "angle") if SLEW in scene.joints else None
-    if torque is not None:
-        out["slew_torque"] = torque
-    links = [name for name, joint in scene.joints.items() if joint.kind == "distance"]
-    if LINK in links and "tension" in arrays:
-        out["link_tension"] = arrays["tension"][:, links.index(LINK)]
-    return {name: np.ascontiguousarray(values) for name, values in out.items()}
+def _without_axis_of_one(array: Array | None) -> Array | None:
+    return array[:, 0] if array is not None and array.shape[1] == 1 else array

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import json
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
@@ -11,13 +12,14 @@ from numpy.typing import NDArray
 
 from seacrane import _core
 from seacrane.analysis.linearise import fastest_mode
+from seacrane.description.file_origin import roles_to_data
 from seacrane.description.joint_coordinates import ANGLES
+from seacrane.description.origin import origin_settings
 from seacrane.description.references import check_references
-from seacrane.description.scene import Scene
 from seacrane.errors import SceneError, SeacraneError, SimulationError
 from seacrane.files.plain_data import plain_notes
 from seacrane.inputs.checked import number_of, numbers_of
-from seacrane.run.channel_names import core_channels, named_channels, payload_of
+from seacrane.run.channel_names import core_channels, hanging_bodies, named_channels, names_along
 from seacrane.run.formulation_cost import recursive_pays
 from seacrane.run.interrupts import Interrupts
 from seacrane.run.output_times import output_times
@@ -30,6 +32,7 @@ from seacrane.run.sampled_controller import (
 )
 from seacrane.run.step_advice import step_advice
 from seacrane.run.stiffness import stiffness
+from seacrane.scene.scene import Scene
 from seacrane.validity.plausible import warn_of_description
 from seacrane.validity.range import Finding, as_text, findings, warn_of
 from seacrane.version import __version__
@@ -143,7 +146,9 @@ class Run:
             "t_end": float(t_end), "dt_out": float(dt_out), "rtol": float(rtol), "dt": float(dt),
             "max_step": float(max_step), "orientation": scene.orientation, "baumgarte": scene.baumgarte,
         }  # fmt: skip
-        self.settings = plain_notes(scene.name, scene.notes) | self.settings
+        self.settings |= origin_settings(scene)
+        if scene.notes:
+            self.settings["notes"] = plain_notes(scene.name, scene.notes)
         if spectral_radius is not None:
             self.settings["spectral_radius"] = spectral_radius
         if energy_limit is not None:
@@ -230,11 +235,14 @@ class Run:
         statistics = self.core.statistics()
         scene, model, tree = self.scene, self.model, self.model.tree
         recursive = self.formulation == "recursive"
-        sea = {} if scene.waves is None else dict(scene.waves.information)
+        sea = {} if scene.waves is None else scene.waves.provenance.stats()
         return {
             "seacrane_version": __version__,
             "scene": scene.name,
-            "payload": "\n".join(payload_of(scene)) or None,
+            "payload": "\n".join(hanging_bodies(scene)) or None,
+            "cranes": json.dumps([roles_to_data(roles) for roles in scene.roles.values()])
+            if scene.roles
+            else None,
             "formulation": self.formulation,
             "integrator": self.integrator,
             "settings": self.settings,
@@ -292,15 +300,7 @@ class Run:
         return Result.from_arrays(
             time=arrays["time"],
             arrays=channels,
-            bodies=list(scene.bodies),
-            joints=list(scene.joints),
-            cylinders=[role for role in ("main", "knuckle") if f"{role}_cylinder" in scene.joints],
-            coordinates=list(scene.recorded),
-            actuators=list(scene.actuators),
-            drivers=list(scene.drivers),
-            links=[name for name, joint in scene.joints.items() if joint.kind == "distance"],
-            limits=[name for name, _ in self.model.limits],
-            vessels=list(scene.vessels),
+            **names_along(scene, self.model),
             events=self.events(),
             stats=stats,
             interrupted=self.interrupted,

@@ -24,8 +24,8 @@ from seacrane.validity.range import Finding, as_text, warn_of
 from seacrane.version import __version__
 
 if TYPE_CHECKING:
-    from seacrane.description.scene import Scene
     from seacrane.result import Result
+    from seacrane.scene.scene import Scene
 
 CAPACITY = 1024  # outputs to take memory for at first
 NOT_STREAMED = ("start", "outputs_from", "capacity", "model", "accuracy")

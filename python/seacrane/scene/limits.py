@@ -7,7 +7,8 @@ located in time by the integrator; see docs/events.md.
 from __future__ import annotations
 
 from seacrane import _core
-from seacrane.description.scene import Scene
+from seacrane.description.forces import add_load
+from seacrane.description.scene import Description
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import name_of, number_of, text_of
 
@@ -16,19 +17,19 @@ STICKING_SPEED = 1e-3  # m/s or rad/s
 
 
 def _limit(
-    scene: Scene, kind: str, joint: str, name: str | None, *, coordinate: str = "", **values: float
+    scene: Description, kind: str, joint: str, name: str | None, *, coordinate: str = "", **values: float
 ) -> _core.Limit:
     if text_of(f"{kind}: joint", joint) not in scene.joints:
         raise SceneError(f"{kind}: there is no joint {joint!r}; add it first")
     name = name_of(kind, name or joint)
     numbers = {key: number_of(f"{kind} {name!r}: {key}", value) for key, value in values.items()}
     limit = _core.Limit(name=name, kind=kind, joint=joint, coordinate=coordinate, **numbers)
-    added: _core.Limit = scene.add_load(limit)
+    added: _core.Limit = add_load(scene, limit)
     return added
 
 
 def add_wire(
-    scene: Scene,
+    scene: Description,
     *,
     joint: str,
     restitution: float = 0.0,
@@ -43,7 +44,6 @@ def add_wire(
 
     Parameters
     ----------
-    scene : Scene
     joint : str
         A joint of kind "distance", such as the crane's "link". It starts slack if its points are described
         closer than its length, by more than 1e-6 of it, or approach each other.
@@ -67,7 +67,7 @@ def add_wire(
 
 
 def add_end_stop(
-    scene: Scene,
+    scene: Description,
     *,
     joint: str,
     coordinate: str | None = None,
@@ -84,7 +84,6 @@ def add_end_stop(
 
     Parameters
     ----------
-    scene : Scene
     joint : str
     coordinate : str, optional
         Of the joint; default "angle" of a revolute, else "displacement". "z" of a free joint is a deck that
@@ -104,14 +103,14 @@ def add_end_stop(
         For a joint that is not there; what only the whole scene shows, such as a start beyond a bound or a
         driver on the same coordinate, comes with `Scene.compile`.
     """
-    where = scene._coordinate("stop", joint, coordinate)
+    where = scene.coordinate_of("stop", joint, coordinate)
     return _limit(
         scene, "stop", joint, name, coordinate=where, minimum=minimum, maximum=maximum,
         restitution=restitution, sticking_speed=sticking_speed,
     )  # fmt: skip
 
 
-def add_seat(scene: Scene, *, joint: str, name: str | None = None) -> _core.Limit:
+def add_seat(scene: Description, *, joint: str, name: str | None = None) -> _core.Limit:
     """Let a weld hold only while its second body is pressed onto the first: a payload that is lifted off.
 
     The force that the joint exerts on its second body, along z of the joint frame on the first, must not be
@@ -121,7 +120,6 @@ def add_seat(scene: Scene, *, joint: str, name: str | None = None) -> _core.Limi
 
     Parameters
     ----------
-    scene : Scene
     joint : str
         A weld from the support to what stands on it, its axis z pointing away from the support.
     name : str, optional
@@ -140,7 +138,7 @@ def add_seat(scene: Scene, *, joint: str, name: str | None = None) -> _core.Limi
 
 
 def add_soft_stop(
-    scene: Scene,
+    scene: Description,
     *,
     joint: str,
     stiffness: float,
@@ -158,7 +156,6 @@ def add_soft_stop(
 
     Parameters
     ----------
-    scene : Scene
     joint, coordinate, minimum, maximum
         As `add_end_stop`.
     stiffness : float
@@ -176,10 +173,11 @@ def add_soft_stop(
     ------
     SceneError
     """
-    where = scene._coordinate("soft stop", joint, coordinate)
+    where = scene.coordinate_of("soft stop", joint, coordinate)
     name = name_of("soft stop", name or f"{joint} soft stop")
     what = f"soft stop {name!r}"
-    added: _core.SoftStop = scene.add_load(
+    added: _core.SoftStop = add_load(
+        scene,
         _core.SoftStop(
             name=name,
             joint=joint,
@@ -188,13 +186,13 @@ def add_soft_stop(
             maximum=number_of(f"{what}: maximum", maximum),
             stiffness=number_of(f"{what}: stiffness", stiffness),
             damping=number_of(f"{what}: damping", damping),
-        )
+        ),
     )
     return added
 
 
 def add_friction(
-    scene: Scene,
+    scene: Description,
     *,
     joint: str,
     load: float,
@@ -210,7 +208,6 @@ def add_friction(
 
     Parameters
     ----------
-    scene : Scene
     joint, coordinate
         As `add_end_stop`.
     load : float
@@ -228,15 +225,16 @@ def add_friction(
     ------
     SceneError
     """
-    where = scene._coordinate("friction", joint, coordinate)
+    where = scene.coordinate_of("friction", joint, coordinate)
     name = name_of("friction", name or f"{joint} friction")
-    added: _core.Friction = scene.add_load(
+    added: _core.Friction = add_load(
+        scene,
         _core.Friction(
             name=name,
             joint=joint,
             coordinate=where,
             load=number_of(f"friction {name!r}: load", load),
             speed=number_of(f"friction {name!r}: speed", speed),
-        )
+        ),
     )
     return added

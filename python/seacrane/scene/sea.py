@@ -3,41 +3,29 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any, Literal
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
-from seacrane import _core
-from seacrane.description.scene import Scene
+from seacrane.description.provenance import SeaProvenance
+from seacrane.description.scene import Description
 from seacrane.description.waves import HullLoads, Waves
 from seacrane.errors import SceneError
+from seacrane.hydro import HydroDatabase
+from seacrane.hydro.data.beyond_band import without_load
 from seacrane.inputs.caller import warn_caller
-from seacrane.inputs.checked import flag_of, number_of, shaped_of
+from seacrane.inputs.checked import flag_of, shaped_of
 from seacrane.inputs.frames import heading_of
 from seacrane.inputs.plausible import direction_of
-from seacrane.scene.wind_current_drift import add_drift, require_depth, use_actual_position, use_slow_position
-from seacrane.sea import SeaState, Spreading, WaveSystem, cos_2s, jonswap
+from seacrane.scene.depth import require_depth
+from seacrane.scene.drift import add_drift
+from seacrane.scene.position import use_actual_position, use_slow_position
+from seacrane.scene.realised_sea import realised_sea
+from seacrane.sea import SeaState, Spreading
 
-if TYPE_CHECKING:
-    from seacrane.hydro import HydroDatabase
-
-DEFAULTS: dict[str, Any] = {
-    "hs": 2.0,
-    "tp": 8.0,
-    "gamma": 3.3,
-    "spectrum": "jonswap",
-    "direction_deg": 135.0,
-    "spreading": None,
-    "seed": 1,
-    "count": 200,
-}
 AT_ONCE = 4096  # components whose transfer is interpolated together, to bound the memory it takes
-
-
 MOST_WITHOUT_LOAD = 0.02  # of the variance of a load
-NOTES = ("sea", "spectrum", "hs", "tp", "gamma", "wave_direction_deg", "spreading", "realised_hs_of_systems",
-         "waves_relative_bound", "wave_phase", "drift")  # fmt: skip
 
 
 class WavesWithoutLoadWarning(UserWarning):
@@ -45,7 +33,7 @@ class WavesWithoutLoadWarning(UserWarning):
 
 
 def add_sea(
-    scene: Scene,
+    scene: Description,
     database: HydroDatabase,
     *,
     vessel: str = "vessel",
@@ -72,7 +60,6 @@ def add_sea(
 
     Parameters
     ----------
-    scene : Scene
     database : HydroDatabase
         Whose force transfer is used, at the direction of every component.
     vessel : str
@@ -102,9 +89,9 @@ def add_sea(
         "table" (default), "fft" (needs components of uniform placement) or "exact"; see `seacrane.Waves`.
     phase : str
         "mean": loads at that position and heading. "slow": at the slow part of those of the moment, see
-        `seacrane.use_slow_position`. "actual": at those of the moment, see `seacrane.use_actual_position`.
+        `use_slow_position`. "actual": at those of the moment, see `use_actual_position`.
     drift : bool
-        Adds Newman's slow drift, see `seacrane.add_drift`; components beyond its coefficients take those of
+        Adds Newman's slow drift, see `add_drift`; components beyond its coefficients take those of
         the nearest.
 
     The sea is as deep as the database, or as `sea` says. It keeps all its components: loads at frequencies
@@ -133,43 +120,34 @@ def add_sea(
         raise SceneError(f"sea: given beside {', '.join(given)}; put these into the SeaState")
     if sea is None and given.get("hs") == 0.0:
         scene.waves = None
-        _forget(scene)
         return
-    waves, notes = _sea_of(scene, database, vessel, sea, given)
-    waves = _evaluated(waves, relative_bound=relative_bound, evaluation=evaluation)
+    waves = _evaluated(
+        _sea_of(scene, database, vessel, sea, given), relative_bound=relative_bound, evaluation=evaluation
+    )
     require_depth(waves, database, vessel)
     place, heading = _pose(scene, vessel, position, heading_deg)
     transfer = _transfer(database, waves.omega, waves.direction - heading)
     hull = HullLoads(transfer=transfer, position=place, heading=heading)
-    if scene.waves is None:
-        _forget(scene)
-    information = _with_shares(waves, database, vessel, hull)
-    scene.waves = replace(waves, hulls={**waves.hulls, vessel: hull}, information=information)
+    provenance = _with_shares(waves, database, vessel, hull)
+    scene.waves = replace(waves, hulls={**waves.hulls, vessel: hull}, provenance=provenance)
     if drift:
         add_drift(scene, database, vessel=vessel, outside="hold")
     if phase == "actual":
         use_actual_position(scene, database, vessel=vessel)
     if phase == "slow":
         use_slow_position(scene, database, vessel=vessel)
-    scene.notes.update(notes, waves_relative_bound=waves.relative_bound)
-
-
-def _forget(scene: Scene) -> None:
-    """Take the notes of a sea that is gone out of the scene."""
-    for name in NOTES:
-        scene.notes.pop(name, None)
 
 
 def _sea_of(
-    scene: Scene, database: HydroDatabase, vessel: str, sea: SeaState | None, given: dict[str, Any]
-) -> tuple[Waves, dict[str, Any]]:
-    """The sea asked for with the notes on it; in a scene that has a sea, that one, if it is no other."""
+    scene: Description, database: HydroDatabase, vessel: str, sea: SeaState | None, given: dict[str, Any]
+) -> Waves:
+    """The sea asked for; in a scene that has a sea, that one, if it is no other."""
     there = scene.waves
     if there is not None and sea is None and not given:
-        return there, {}
-    asked, notes = _realised(sea, given, database.depth if there is None else there.depth)
+        return there
+    asked = realised_sea(sea, given, database.depth if there is None else there.depth)
     if there is None:
-        return asked, notes
+        return asked
     arrays = ("omega", "amplitude", "phase", "direction", "depth")
     if not all(np.array_equal(getattr(there, name), getattr(asked, name)) for name in arrays):
         raise SceneError(
@@ -177,39 +155,7 @@ def _sea_of(
             "a scene has one; leave out what describes it to put the vessel into that sea, put several wave "
             "systems into one SeaState, or set scene.waves = None before a new sea"
         )
-    return there, {}
-
-
-def _realised(sea: SeaState | None, given: dict[str, Any], depth: float) -> tuple[Waves, dict[str, Any]]:
-    """A sea with no vessel in it yet, of that depth where it is not a SeaState, and the notes on it."""
-    if sea is None:
-        chosen = DEFAULTS | given
-        if "gamma" in given and chosen["spectrum"] != "jonswap":
-            raise SceneError(f"gamma: {chosen['spectrum']!r} has no free peak enhancement; leave gamma out")
-        sea, notes = _one_system(**chosen, depth=depth)
-    elif isinstance(sea, SeaState):
-        notes = {"sea": sea.description()}
-    else:
-        raise SceneError(f"sea is {sea!r}; give a SeaState")
-    realised = sea.realise()
-    waves = realised.waves
-    if len(realised.systems) > 1:
-        notes["realised_hs_of_systems"] = {system.name: system.hs for system in realised.systems}
-    return Waves(
-        omega=np.array(waves.omega),
-        amplitude=np.array(waves.amplitude),
-        phase=np.array(waves.phase),
-        direction=np.array(waves.direction),
-        hulls={},
-        depth=sea.depth,
-        information={
-            "seed": sea.seed,
-            "realised_hs": realised.hs,
-            "wave_components": len(waves.omega),
-            "repeat_period_s": float(realised.repeat.time),
-            "repeat_found": int(realised.repeat.found),
-        },
-    ), notes
+    return there
 
 
 def _evaluated(waves: Waves, **given: Any) -> Waves:
@@ -225,7 +171,7 @@ def _evaluated(waves: Waves, **given: Any) -> Waves:
 
 
 def _pose(
-    scene: Scene, vessel: str, position: Any, heading_deg: float | None
+    scene: Description, vessel: str, position: Any, heading_deg: float | None
 ) -> tuple[tuple[float, float], float]:
     """Where a vessel's loads are taken: (x, y) and heading, as its body starts where they are not given."""
     body = scene.bodies.get(vessel)
@@ -243,47 +189,8 @@ def _pose(
     return (float(x), float(y)), heading
 
 
-def _one_system(
-    *,
-    hs: float,
-    tp: float,
-    gamma: float | Literal["dnv"],
-    spectrum: str,
-    direction_deg: float,
-    spreading: float | Spreading | None,
-    seed: int,
-    count: int,
-    depth: float,
-) -> tuple[SeaState, dict[str, Any]]:
-    """The sea of plain arguments, and the notes on it."""
-    density = _spectrum(spectrum, number_of("sea: hs", hs), number_of("sea: tp", tp), gamma)
-    if spreading is not None and not isinstance(spreading, Spreading):
-        spreading = cos_2s(spreading)
-    system = WaveSystem(spectrum=density, direction_deg=direction_deg, spreading=spreading, count=count)
-    notes = {"spectrum": spectrum, "hs": hs, "tp": tp, "gamma": density.gamma,
-             "wave_direction_deg": direction_deg}  # fmt: skip
-    if spreading is not None:
-        notes["spreading"] = {"kind": spreading.kind, "exponent": spreading.exponent}
-    return SeaState(systems=[system], seed=seed, depth=depth), notes
-
-
-def _spectrum(name: str, hs: float, tp: float, gamma: float | Literal["dnv"]) -> _core.Spectrum:
-    if name == "jonswap":
-        return jonswap(hs=hs, tp=tp, gamma=gamma)
-    if name == "pierson-moskowitz":
-        return _core.pierson_moskowitz(hs=hs, tp=tp)
-    if name == "torsethaugen":
-        return _core.torsethaugen(hs=hs, tp=tp)
-    raise SceneError(
-        f"spectrum {name!r} is unknown; choose 'jonswap', 'pierson-moskowitz' or 'torsethaugen', "
-        "or give a SeaState"
-    )
-
-
-def _with_shares(waves: Waves, database: HydroDatabase, vessel: str, hull: HullLoads) -> dict[str, Any]:
-    """What is reported of the sea, with what of it puts no load on a vessel; of several the largest."""
-    from seacrane.hydro.data.beyond_band import without_load
-
+def _with_shares(waves: Waves, database: HydroDatabase, vessel: str, hull: HullLoads) -> SeaProvenance:
+    """The sea's provenance, with what of it puts no load on a vessel; of several the largest."""
     left_out = without_load(
         database,
         omega=waves.omega,
@@ -299,9 +206,12 @@ def _with_shares(waves: Waves, database: HydroDatabase, vessel: str, hull: HullL
             "database to higher frequencies, or take its motions in this sea for too small",
             WavesWithoutLoadWarning,
         )
-    shares = {"wave_energy_without_load": left_out.energy, "load_variance_without_load": left_out.variance}
-    known = waves.information
-    return {**known, **{name: max(share, known.get(name, 0.0)) for name, share in shares.items()}}
+    known = waves.provenance
+    return replace(
+        known,
+        wave_energy_without_load=max(left_out.energy, known.wave_energy_without_load or 0.0),
+        load_variance_without_load=max(left_out.variance, known.load_variance_without_load or 0.0),
+    )
 
 
 def _transfer(

@@ -3,29 +3,41 @@
 from __future__ import annotations
 
 from functools import lru_cache
-from typing import TYPE_CHECKING, Any
+from typing import Any, overload
 
 import numpy as np
 from numpy.typing import NDArray
 
 from seacrane import _core
-from seacrane.description.scene import Scene
-from seacrane.description.vessel_notes import note_on
+from seacrane.description.bodies import add_body
+from seacrane.description.hydrodynamics import add_hydrodynamics
+from seacrane.description.provenance import VesselProvenance
+from seacrane.description.scene import Description
 from seacrane.errors import SceneError
+from seacrane.hydro import (
+    HydroDatabase,
+    MemoryModel,
+    RetardationModel,
+    fit_memory,
+    retardation_functions,
+    vessel_parameters,
+)
+from seacrane.hydro.data.data_warnings import warn_of_water
+from seacrane.hydro.data.memory_model import RADIATION
+from seacrane.hydro.memory.certificate import is_energy_form
+from seacrane.hydro.vessel.parameters import VesselParameters
 from seacrane.inputs.checked import shaped_of
 from seacrane.inputs.plausible import direction_of
-from seacrane.scene.sea import add_sea as add_sea
-
-if TYPE_CHECKING:
-    from seacrane.hydro import HydroDatabase, MemoryModel, RetardationModel
+from seacrane.inputs.shown import shown
 
 MOORING_PERIOD = 200.0  # s, of surge, sway and yaw (PAPER, "station keeping")
 MOORING_DAMPING = 0.1  # of critical
 MEMORY = ("per-pair", "passive", "convolution", "none")
 
 
+@overload
 def add_vessel(
-    scene: Scene,
+    scene: Description,
     database: HydroDatabase,
     *,
     name: str = "vessel",
@@ -35,39 +47,67 @@ def add_vessel(
     kinematics: str = "yaw_following",
     mooring_period: float | None = MOORING_PERIOD,
     mooring_damping: float = MOORING_DAMPING,
-) -> None:
-    """Add a vessel, upright; its body frame has its origin at the database's reference point.
+) -> _core.VesselHydrodynamics: ...
+
+
+@overload
+def add_vessel(
+    scene: Description, *, body: str, name: str | None = None, **hydrodynamics: Any
+) -> _core.VesselHydrodynamics: ...
+
+
+def add_vessel(
+    scene: Description,
+    database: HydroDatabase | None = None,
+    *,
+    name: str | None = None,
+    body: str | None = None,
+    **hydrodynamics: Any,
+) -> _core.VesselHydrodynamics:
+    """Add a vessel: from a database, or the hydrodynamics of a body that is there by their matrices.
+
+    From a database it floats upright, and its body frame has its origin at the database's reference point.
 
     Parameters
     ----------
-    scene : Scene
-    database : HydroDatabase
+    database : HydroDatabase, optional
         Hydrodynamics of the vessel without the bodies that the scene models itself.
     name : str
-        Of the body and of its hydrodynamics.
+        Of the hydrodynamics. With a database also of the new body, and "vessel" by default; else the body's.
+    body : str
+        Without a database: the body, about whose origin the matrices are.
     position : array_like, shape (3,)
-        Of the reference point at the start, m, inertial frame. Its mooring has no load at this x and y; it
-        floats at rest at z = 0, and heaves from another z.
+        With a database. Of the reference point at the start, m, inertial frame. Its mooring has no load at
+        this x and y; it floats at rest at z = 0, and heaves from another z.
     heading_deg : float
-        At the start, deg from +x towards +y.
-    memory : str
-        "per-pair": fluid memory as one state-space model per pair of motions, eqs (28)-(31). "passive": one
-        model per group of coupled motions, proven passive and with fewer states. "convolution": the
-        reference, without a fit: the database's retardation functions convolved with the history of the
-        motion, see `seacrane.hydro.retardation_functions`; the steps land on its samples. "none": without
-        radiation damping, as the paper does for comparison. The database's own fitted memory is used where
-        it is of the kind asked for; else one is fitted here, once for each database.
+        With a database. At the start, deg from +x towards +y; default 0.
+    memory : str, or list of StateSpaceBlock, or RetardationFunctions
+        With a database, "per-pair" (default): fluid memory as one state-space model per pair of motions, eqs
+        (28)-(31). "passive": one model per group of coupled motions, proven passive and with fewer states.
+        "convolution": the reference, without a fit: the database's retardation functions convolved with the
+        history of the motion, see `seacrane.hydro.retardation_functions`; the steps land on its samples.
+        "none": without radiation damping, as the paper does for comparison. The database's own fitted memory
+        is used where it is of the kind asked for; else one is fitted here, once for each database. Without a
+        database: the models themselves.
     kinematics : str
         "yaw_following" (default) or "paper", eqs (17)-(31).
     mooring_period : float or None
-        Natural period (s) of soft linear station keeping in surge, sway and yaw; None: no mooring.
+        With a database. Natural period (s) of soft linear station keeping in surge, sway and yaw; default
+        200 s; None: no mooring.
     mooring_damping : float
-        Its damping as a fraction of critical.
+        Its damping as a fraction of critical; default 0.1. Without a database: (3,), N s/m and N m s/rad.
+    added_mass, linear_damping, quadratic_damping, restoring, mooring_stiffness
+        Without a database: see `seacrane.VesselHydrodynamics`.
+
+    Returns
+    -------
+    VesselHydrodynamics
 
     Raises
     ------
     SceneError
-        For a memory model that this version does not have, or a place or heading that is no finite number.
+        For a memory model that this version does not have, a place or heading that is no finite number, or
+        matrices of another shape.
 
     Warns
     -----
@@ -76,15 +116,38 @@ def add_vessel(
     AngleUnitWarning, CompassDirectionWarning
         A heading that looks like radians, or like a compass bearing.
     """
-    from seacrane.hydro import vessel_parameters
-    from seacrane.hydro.data.data_warnings import warn_of_water
+    if database is None:
+        if body is None:
+            raise SceneError("vessel: give a database, or the body whose hydrodynamics the matrices are")
+        return add_hydrodynamics(scene, body=body, name=name, **hydrodynamics)
+    if not isinstance(database, HydroDatabase):
+        raise SceneError(
+            f"vessel: database is {shown(database)}; give a HydroDatabase, as load_database reads"
+        )
+    if body is not None:
+        raise SceneError(f"vessel: body {body!r} is given beside a database, which brings its own; use name=")
+    return _from_database(scene, database, name="vessel" if name is None else name, **hydrodynamics)
 
+
+def _from_database(
+    scene: Description,
+    database: HydroDatabase,
+    *,
+    name: str,
+    position: Any = (0.0, 0.0, 0.0),
+    heading_deg: float = 0.0,
+    memory: str = "per-pair",
+    kinematics: str = "yaw_following",
+    mooring_period: float | None = MOORING_PERIOD,
+    mooring_damping: float = MOORING_DAMPING,
+) -> _core.VesselHydrodynamics:
     if memory not in MEMORY:
         raise SceneError(f"memory {memory!r} is not available in this version; choose {' or '.join(MEMORY)}")
     warn_of_water(database, gravity=scene.gravity)
     half = 0.5 * np.radians(direction_of(f"vessel {name!r}: heading_deg", heading_deg))
     parameters = vessel_parameters(database, memory=None if memory == "none" else _memory(database, memory))
-    scene.add_body(
+    add_body(
+        scene,
         name=name,
         mass=parameters.mass,
         inertia=parameters.inertia,
@@ -92,10 +155,10 @@ def add_vessel(
         position=shaped_of(f"vessel {name!r}: position", position, (3,)),
         quaternion=(np.cos(half), 0.0, 0.0, np.sin(half)),
     )
-    heavy = parameters.mass * np.array([1.0, 1.0, 0.0]) + np.diag(parameters.added_mass)[[0, 1, 5]]
-    heavy[2] += parameters.inertia[2, 2] + parameters.mass * float(np.sum(parameters.centre_of_mass[:2] ** 2))
+    heavy = _horizontal_inertia(parameters)
     omega = 0.0 if mooring_period is None else 2.0 * np.pi / mooring_period
-    scene.add_vessel(
+    added = add_hydrodynamics(
+        scene,
         body=name,
         added_mass=parameters.added_mass,
         linear_damping=parameters.linear_damping,
@@ -106,9 +169,16 @@ def add_vessel(
         memory=[] if memory == "none" else _core_memory(parameters.memory),
         kinematics=kinematics,
     )
-    band = [float(database.omega[0]), float(database.omega[-1])]
-    note_on(scene, name, database=database.name, database_omega=band, memory=memory)
-    scene.notes.update(kinematics=kinematics)
+    band = (float(database.omega[0]), float(database.omega[-1]))
+    scene.provenance[name] = VesselProvenance(database=database.name, omega=band, memory=memory)
+    return added
+
+
+def _horizontal_inertia(parameters: VesselParameters) -> NDArray[np.float64]:
+    """Mass in surge and sway (kg) and inertia in yaw (kg m2) about the reference point, with added mass."""
+    heavy = parameters.mass * np.array([1.0, 1.0, 0.0]) + np.diag(parameters.added_mass)[[0, 1, 5]]
+    heavy[2] += parameters.inertia[2, 2] + parameters.mass * float(np.sum(parameters.centre_of_mass[:2] ** 2))
+    return np.asarray(heavy)
 
 
 def _without_yaw(restoring: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -125,10 +195,6 @@ def _without_yaw(restoring: NDArray[np.float64]) -> NDArray[np.float64]:
 @lru_cache(maxsize=8)
 def _memory(database: HydroDatabase, kind: str) -> MemoryModel | RetardationModel:
     """The memory of a database, its own if that is of the kind asked for."""
-    from seacrane.hydro import fit_memory, retardation_functions
-    from seacrane.hydro.data.memory_model import RADIATION
-    from seacrane.hydro.memory.certificate import is_energy_form
-
     if kind == "convolution":
         return retardation_functions(database=database)
     own = database.memory
@@ -142,8 +208,6 @@ def _memory(database: HydroDatabase, kind: str) -> MemoryModel | RetardationMode
 def _core_memory(
     model: MemoryModel | RetardationModel,
 ) -> list[_core.StateSpaceBlock] | _core.RetardationFunctions:
-    from seacrane.hydro import RetardationModel
-
     if isinstance(model, RetardationModel):
         return _core.RetardationFunctions(step=model.step, kernel=model.kernel)
     return [

@@ -18,8 +18,8 @@ from seacrane.trading.expected import TIGHTEST, Method, probe_of, setting_for, u
 from seacrane.trading.quantities import Quantity, compare, limits_of, quantities_of
 
 if TYPE_CHECKING:
-    from seacrane.description.scene import Scene
     from seacrane.result import Result
+    from seacrane.scene.scene import Scene
 
 SAFETY = 5.0  # on the ratio of two errors, which differs between scenes: the estimate held on 198 of 200
 PESSIMISM = 1.5  # further, on the error expected before any run

@@ -10,10 +10,10 @@ import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from seacrane.run.channel_names import LINK
+from seacrane.description.crane_parts import hooks
 
 if TYPE_CHECKING:
-    from seacrane.description.scene import Scene
+    from seacrane.scene.scene import Scene
     from seacrane.trading.quantities import Quantity
 
 ERROR = {"bs32": (14.0, 0.89), "tsit5": (8.0, 1.1), "verner76": (0.8, 1.065)}  # factor, power
@@ -57,7 +57,7 @@ def unit_error(scene: Scene, quantity: Quantity) -> float:
     if quantity.unit in SCALE:
         return SCALE[quantity.unit]
     if quantity.name == "hook_tension":
-        mass = scene.bodies[scene.joints[LINK].second].mass
+        mass = max(scene.bodies[scene.joints[link].second].mass for link in hooks(scene).values())
     else:
         floating = {vessel.body for vessel in scene.vessels.values()}
         mass = sum(body.mass for body in scene.bodies.values() if body.name not in floating)

@@ -17,7 +17,8 @@ from seacrane.run.simulation import Run, finished
 from seacrane.trading.quantities import compare, quantities_of
 
 if TYPE_CHECKING:
-    from seacrane.description.scene import Scene
+    from seacrane import _core
+    from seacrane.scene.scene import Scene
     from seacrane.trading.quantities import Quantity
 
 Array = NDArray[np.float64]

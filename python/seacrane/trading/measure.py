@@ -9,19 +9,21 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from seacrane.description.crane_parts import hooks, payloads
 from seacrane.errors import SceneError, SeacraneError
-from seacrane.inputs.frames import heading_of
+from seacrane.inputs.frames import heading_of, rotation_matrix
 from seacrane.run.method import Method
 from seacrane.run.simulation import simulate
 from seacrane.trading import rungs
-from seacrane.trading.quantities import PAYLOAD, Quantity, compare
+from seacrane.trading.quantities import Quantity, compare
 from seacrane.trading.rows import NOT_DEFINED, Row
 from seacrane.trading.settings_grid import TIGHT
 
 if TYPE_CHECKING:
+    from seacrane import _core
     from seacrane.analysis.linear_system import LinearModel
-    from seacrane.description.scene import Scene
     from seacrane.result import Result
+    from seacrane.scene.scene import Scene
 
 Array = NDArray[np.float64]
 LONG = 0.3  # s of wall time from which on one run tells the cost
@@ -172,22 +174,28 @@ def _values(quantity: Quantity, result: Result) -> Array | None:
 
 
 def _of_weight(scene: Scene, result: Result) -> dict[str, Array]:
-    """Tension is the weight; the payload hangs plumb under the tip."""
-    from seacrane.inputs.frames import rotation_matrix
-    from seacrane.run.channel_names import LINK
-
-    joint = scene.joints[LINK]
-    payload, body = scene.bodies[joint.second], scene.bodies[joint.first]
-    turn = rotation_matrix(result.select("quaternion", body=joint.first))
-    lever = np.asarray(joint.first_frame.point) - np.asarray(body.center_of_mass)
-    tip = result.select("position", body=joint.first) + turn @ lever
-    out = {"hook_tension": np.full((len(tip), 1, 1), payload.mass * scene.gravity)}
-    spin = np.cross(result.select("angular_velocity", body=joint.first), turn @ lever)
-    out["tip_velocity"] = (result.select("velocity", body=joint.first) + spin)[:, None]
-    if joint.second == PAYLOAD:
-        below = joint.length + float(joint.second_frame.point[2] - payload.center_of_mass[2])
-        out["payload_position"] = (tip - np.array([0.0, 0.0, below]))[:, None]
+    """Tension is the weight; each payload hangs plumb under its tip."""
+    links = [scene.joints[link] for link in hooks(scene).values()]
+    found = [_under_the_tip(scene, result, link) for link in links]
+    out = {name: np.stack([one[name] for one in found], axis=1) for name in found[0]}
+    if [link.second for link in links] != list(payloads(scene).values()):
+        del out["payload_position"]
     return out
+
+
+def _under_the_tip(scene: Scene, result: Result, link: _core.Joint) -> dict[str, Array]:
+    """What `_of_weight` tells of one payload, each of shape (n, parts)."""
+    payload, body = scene.bodies[link.second], scene.bodies[link.first]
+    turn = rotation_matrix(result.select("quaternion", body=link.first))
+    lever = np.asarray(link.first_frame.point) - np.asarray(body.center_of_mass)
+    tip = result.select("position", body=link.first) + turn @ lever
+    spin = np.cross(result.select("angular_velocity", body=link.first), turn @ lever)
+    below = link.length + float(link.second_frame.point[2] - payload.center_of_mass[2])
+    return {
+        "hook_tension": np.full((len(tip), 1), payload.mass * scene.gravity),
+        "tip_velocity": np.asarray(result.select("velocity", body=link.first) + spin),
+        "payload_position": tip - np.array([0.0, 0.0, below]),
+    }
 
 
 def frequency_domain(scene: Scene, span: Span, truth: Mapping[str, Array], start: Array, row: Row) -> Row:
@@ -195,8 +203,8 @@ def frequency_domain(scene: Scene, span: Span, truth: Mapping[str, Array], start
 
     Parameters
     ----------
-    start : ndarray, shape (3,)
-        Payload position at rest, m.
+    start : ndarray, shape (payloads, 3)
+        Positions of the payloads at rest, m.
     """
     import time
     from dataclasses import replace
@@ -214,8 +222,9 @@ def frequency_domain(scene: Scene, span: Span, truth: Mapping[str, Array], start
             rolls = [_roll(linear, vessel.body, times) for vessel in scene.vessels.values()]
             values["roll"] = np.stack(rolls, axis=1)[:, :, None]
         if "payload_position" in truth:
-            moved = response_summed(linear, body=PAYLOAD).at(times)[:, :3]
-            values["payload_position"] = (start + moved)[:, None]
+            bodies = payloads(scene).values()
+            moved = [response_summed(linear, body=body).at(times)[:, :3] for body in bodies]
+            values["payload_position"] = start + np.stack(moved, axis=1)
     except (SeacraneError, ValueError) as error:
         return replace(row, reason=" ".join(str(error).split()))
     errors = {name: compare(truth[name], value) for name, value in values.items()}

@@ -9,17 +9,17 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from seacrane.description.crane_parts import cylinders, hooks, payloads
 from seacrane.errors import SceneError
 from seacrane.inputs.frames import rotation_matrix
-from seacrane.run.channel_names import CRANE_CHANNELS, CYLINDERS, LINK
+from seacrane.run.channel_names import CRANE_CHANNELS
 
 if TYPE_CHECKING:
     from seacrane import _core
-    from seacrane.description.scene import Scene
     from seacrane.result import Result
+    from seacrane.scene.scene import Scene
 
 Array = NDArray[np.float64]
-PAYLOAD = "payload"
 ROLL = 3
 GENERIC = ("position", "velocity")
 
@@ -119,18 +119,19 @@ def limits_of(quantities: Mapping[str, Quantity], accuracy: Mapping[str, Any]) -
 
 
 def _offered(scene: Scene) -> dict[str, Quantity]:
-    links = scene.joints[LINK].kind == "distance" if LINK in scene.joints else False
-    found = []
-    if PAYLOAD in scene.bodies:
+    hung, found = list(payloads(scene).values()), []
+    if hung:
         found.append(
             Quantity(
                 name="payload_position",
                 unit="m",
                 channels=("position",),
-                values=lambda result: result.select("position", body=PAYLOAD)[:, None],
+                values=lambda result: np.stack(
+                    [result.select("position", body=body) for body in hung], axis=1
+                ),
             )
         )
-    if links:
+    if hooks(scene):
         found.append(_tip_velocity(scene))
     if scene.vessels:
         found.append(
@@ -143,37 +144,38 @@ def _offered(scene: Scene) -> dict[str, Quantity]:
         )
     driven = {actuator.joint for actuator in scene.actuators.values()}
     driven |= {driver.joint for driver in scene.drivers.values()}
-    cylinders = [joint for joint in CYLINDERS.values() if joint in scene.joints]
-    if cylinders and driven.issuperset(cylinders):
+    if cylinders(scene) and driven.issuperset(cylinders(scene).values()):
         found.append(_channel("cylinder_force", unit="N"))
-    if links:
+    if hooks(scene):
         found.append(
             Quantity(
                 name="hook_tension",
                 unit="N",
                 channels=("link_tension",),
-                values=lambda result: result["link_tension"][:, None, None],
+                values=lambda result: result["link_tension"].reshape(result.time.size, -1, 1),
             )
         )
     return {quantity.name: quantity for quantity in found}
 
 
 def _tip_velocity(scene: Scene) -> Quantity:
-    """Velocity of the point that the link hangs from, inertial axes."""
-    joint = scene.joints[LINK]
-    body = joint.first
-    lever = np.asarray(joint.first_frame.point) - np.asarray(scene.bodies[body].center_of_mass)
+    """Velocity of the points that links hang from, inertial axes."""
+    links = [scene.joints[link] for link in hooks(scene).values()]
+    levers = [
+        (link.first, np.asarray(link.first_frame.point) - np.asarray(scene.bodies[link.first].center_of_mass))
+        for link in links
+    ]
 
-    def values(result: Result) -> Array:
+    def velocity(result: Result, body: str, lever: Array) -> Array:
         turned = rotation_matrix(result.select("quaternion", body=body)) @ lever
         spin = result.select("angular_velocity", body=body)
-        return np.asarray((result.select("velocity", body=body) + np.cross(spin, turned))[:, None])
+        return np.asarray(result.select("velocity", body=body) + np.cross(spin, turned))
 
     return Quantity(
         name="tip_velocity",
         unit="m/s",
         channels=("velocity", "angular_velocity", "quaternion"),
-        values=values,
+        values=lambda result: np.stack([velocity(result, *lever) for lever in levers], axis=1),
     )
 
 

@@ -12,11 +12,10 @@ from numpy.typing import NDArray
 
 from seacrane import _core
 from seacrane.analysis.inverse import SIX, driven, hold_vessel
-from seacrane.description.scene import Scene
-from seacrane.description.vessel_notes import noted
+from seacrane.description.crane_parts import hooks
+from seacrane.description.provenance import VesselProvenance
 from seacrane.errors import SceneError
-from seacrane.run.channel_names import LINK
-from seacrane.scene.vessel import add_vessel
+from seacrane.scene.scene import Scene
 
 if TYPE_CHECKING:
     from seacrane.hydro import HydroDatabase
@@ -46,7 +45,8 @@ class Variant:
 
 def memory_name(scene: Scene) -> str:
     """Kind of fluid memory of a scene."""
-    kinds = [noted(scene, "memory", vessel.body) or "as described" for vessel in scene.vessels.values()]
+    known = [scene.provenance.get(name, VesselProvenance()).memory for name in scene.vessels]
+    kinds = [kind or "as described" for kind in known]
     return ", ".join(dict.fromkeys(kinds)) or "none"
 
 
@@ -115,12 +115,13 @@ def with_memory(scene: Scene, kind: str, database: HydroDatabase | None, *, r2: 
         if r2 is not None:
             database = replace(database, memory=_fit(database, kind, r2))
         fresh = Scene(name="memory", gravity=scene.gravity)
-        add_vessel(fresh, database, name=vessel.body, memory=kind, kinematics=vessel.kinematics)
+        fresh.add_vessel(database, name=vessel.body, memory=kind, kinematics=vessel.kinematics)
         (fitted,) = fresh.vessels.values()
         changes = {"memory": fitted.memory, "added_mass": fitted.added_mass}
     out = scene.copy()
-    out.vessels[vessel.name] = _changed(vessel, **changes)
-    out.notes["memory"] = kind
+    out.replace(vessel.name, kind="vessel", **changes)
+    known = scene.provenance.get(vessel.name, VesselProvenance())
+    out.provenance[vessel.name] = replace(known, memory=kind)
     return out
 
 
@@ -129,12 +130,6 @@ def _fit(database: HydroDatabase, kind: str, r2: float) -> MemoryModel:
     from seacrane.hydro import fit_memory
 
     return fit_memory(database=database, kind=kind, r2=r2)
-
-
-def _changed(vessel: _core.VesselHydrodynamics, **changes: Any) -> _core.VesselHydrodynamics:
-    kept = ("name", "body", "added_mass", "linear_damping", "quadratic_damping", "restoring",
-            "mooring_stiffness", "mooring_damping", "memory", "kinematics")  # fmt: skip
-    return _core.VesselHydrodynamics(**{**{name: getattr(vessel, name) for name in kept}, **changes})
 
 
 def _wave_variants(scene: Scene, *, quick: bool) -> Iterator[tuple[str, Callable[[], Scene]]]:
@@ -191,18 +186,21 @@ def with_prescribed_vessel(scene: Scene, times: Array, motion: Array) -> Scene:
 
     (vessel,) = scene.vessels.values()
     out = scene.copy(waves=None)
-    out.vessels[vessel.name] = _changed(vessel, memory=[])
+    out.replace(vessel.name, kind="vessel", memory=[])
     curves = {name: spline_curve(times=times, values=motion[:, i]) for i, name in enumerate(SIX)}
     hold_vessel(out, vessel.body, curves)
     return out
 
 
 def hanging(scene: Scene) -> bool:
-    """Whether a payload hangs on a link and on nothing else."""
-    if LINK not in scene.joints or scene.joints[LINK].kind != "distance":
-        return False
-    payload = scene.joints[LINK].second
-    others = [joint for name, joint in scene.joints.items() if name != LINK]
+    """Whether there are payloads, and each hangs on its crane's link and on nothing else."""
+    links = list(hooks(scene).values())
+    return bool(links) and all(_hangs(scene, link) for link in links)
+
+
+def _hangs(scene: Scene, link: str) -> bool:
+    payload = scene.joints[link].second
+    others = [joint for name, joint in scene.joints.items() if name != link]
     elements = [*scene.point_forces.values(), *scene.force_tables.values(), *scene.function_forces.values(),
                 *scene.loads.values()]  # fmt: skip
     return not (
@@ -213,15 +211,16 @@ def hanging(scene: Scene) -> bool:
 
 
 def payload_as_weight(scene: Scene) -> Scene:
-    """The payload replaced by its constant weight at the tip: neither swing nor inertia."""
-    joint = scene.joints[LINK]
+    """Every payload replaced by its constant weight at the tip: neither swing nor inertia."""
     out = scene.copy()
-    payload = out.bodies.pop(joint.second)
-    del out.joints[LINK]
-    out.add_point_force(
-        name="payload weight",
-        body=joint.first,
-        point=joint.first_frame.point,
-        force=(0.0, 0.0, -payload.mass * scene.gravity),
-    )
+    for label, link in hooks(scene).items():
+        joint, payload = scene.joints[link], scene.bodies[scene.joints[link].second]
+        out.remove(link, kind="joint")
+        out.remove(payload.name, kind="body")
+        out.add_point_force(
+            name=f"{label.removesuffix('hook')}payload weight",
+            body=joint.first,
+            point=joint.first_frame.point,
+            force=(0.0, 0.0, -payload.mass * scene.gravity),
+        )
     return out

@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     import xarray
     from matplotlib.figure import Figure
 
-    from seacrane.description.scene import Scene
+    from seacrane.scene.scene import Scene
 
 REPEATS = 3  # runs of each setting; the quickest counts
 
@@ -249,7 +249,7 @@ def _tasks(
         row = Row(formulation=setting.formulation, integrator=setting.integrator, rtol=setting.rtol,
                   dt=setting.dt, memory=memory, waves=waves, rung=rungs.FULL)  # fmt: skip
         tasks.append((row, lambda row, s=setting: measure(scene, s, span, truth.values, row)))
-    start = truth.values["payload_position"][0, 0] if "payload_position" in truth.values else np.zeros(3)
+    start = truth.values["payload_position"][0] if "payload_position" in truth.values else np.zeros((1, 3))
     for variant in rungs.variants(scene, database or _shipped(scene), quick=quick):
         linear = variant.rung == rungs.LINEAR
         row = Row(
@@ -281,7 +281,8 @@ def _measure_all(tasks: list[tuple[Row, Any]], file: RowFile | None, progress: b
 def _shipped(scene: Scene) -> HydroDatabase | None:
     """The shipped database, if the scene's vessel was made from it."""
     shipped = shipped_database()
-    return shipped if scene.notes.get("database") == shipped.name and len(scene.vessels) == 1 else None
+    known = [scene.provenance.get(name) for name in scene.vessels]
+    return shipped if [one and one.database for one in known] == [shipped.name] else None
 
 
 def _digest(scene: Scene, folder: Path) -> str:

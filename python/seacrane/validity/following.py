@@ -13,7 +13,7 @@ from seacrane.inputs.frames import rotation_matrix
 
 if TYPE_CHECKING:
     from seacrane import _core
-    from seacrane.description.scene import Scene
+    from seacrane.description.scene import Description
 
 Array = NDArray[np.float64]
 Channels = Mapping[str, Array]
@@ -38,12 +38,12 @@ class FullTurnWarning(UserWarning):
     """An angle passed half a turn: its record jumps there, and so does the error an actuator sees."""
 
 
-def following(scene: Scene, time: Array, channels: Channels, steered: Collection[str]) -> list[Finding]:
+def following(scene: Description, time: Array, channels: Channels, steered: Collection[str]) -> list[Finding]:
     """What left its range or its reference; `steered`: actuators that a controller has moved."""
     return _ranges(scene, time, channels) + _actuators(scene, time, channels, steered)
 
 
-def _values(scene: Scene, joint: str, coordinate: str, channels: Channels) -> Array | None:
+def _values(scene: Description, joint: str, coordinate: str, channels: Channels) -> Array | None:
     """A coordinate at the outputs (n,), or None where nothing recorded tells it."""
     places = list(scene.recorded.values())
     if "coordinate" in channels and (joint, coordinate) in places:
@@ -59,7 +59,7 @@ def _values(scene: Scene, joint: str, coordinate: str, channels: Channels) -> Ar
     return coordinate_at(scene, joint, coordinate, pose)
 
 
-def _ranges(scene: Scene, time: Array, channels: Channels) -> list[Finding]:
+def _ranges(scene: Description, time: Array, channels: Channels) -> list[Finding]:
     found: list[Finding] = []
     for name, limit in scene.ranges.items():
         values = _values(scene, limit.joint, limit.coordinate, channels)
@@ -82,7 +82,9 @@ def _ranges(scene: Scene, time: Array, channels: Channels) -> list[Finding]:
     return found
 
 
-def _actuators(scene: Scene, time: Array, channels: Channels, steered: Collection[str]) -> list[Finding]:
+def _actuators(
+    scene: Description, time: Array, channels: Channels, steered: Collection[str]
+) -> list[Finding]:
     found: list[Finding] = []
     for name, actuator in scene.actuators.items():
         if name in steered or not _holds(actuator):
@@ -121,7 +123,7 @@ def _passed(name: str, time: Array, error: Array) -> list[Finding]:
     ]
 
 
-def _short(scene: Scene, name: str, error: Array) -> list[Finding]:
+def _short(scene: Description, name: str, error: Array) -> list[Finding]:
     actuator = scene.actuators[name]
     last = error[-max(int(LAST * error.size), 1) :]
     angular = actuator.coordinate in ANGLES

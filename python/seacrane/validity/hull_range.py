@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from seacrane import _core
-    from seacrane.description.scene import Scene
+    from seacrane.description.scene import Description
     from seacrane.description.waves import HullLoads, Waves
 
 Array = NDArray[np.float64]
@@ -52,7 +52,9 @@ class NoWaveLoadsWarning(UserWarning):
     """A vessel is in a sea that does not load it."""
 
 
-def motions(scene: Scene, channels: Mapping[str, Array]) -> Iterator[tuple[_core.VesselHydrodynamics, Array]]:
+def motions(
+    scene: Description, channels: Mapping[str, Array]
+) -> Iterator[tuple[_core.VesselHydrodynamics, Array]]:
     """Every vessel with its six motions (n, 6), as far as they are recorded."""
     recorded = channels.get("vessel_motion")
     if recorded is not None:
@@ -60,7 +62,7 @@ def motions(scene: Scene, channels: Mapping[str, Array]) -> Iterator[tuple[_core
             yield vessel, recorded if recorded.ndim == 2 else recorded[:, i]
 
 
-def hull_findings(scene: Scene, time: Array, channels: Mapping[str, Array]) -> list[Finding]:
+def hull_findings(scene: Description, time: Array, channels: Mapping[str, Array]) -> list[Finding]:
     """What is out of range of wave loads and moorings, vessel by vessel."""
     found: list[Finding] = []
     waves = scene.waves

@@ -17,7 +17,7 @@ from seacrane.inputs.frames import rotation_matrix
 from seacrane.inputs.plausible import CompassDirectionWarning, MassUnitWarning, angle_of
 
 if TYPE_CHECKING:
-    from seacrane.description.scene import Scene
+    from seacrane.description.scene import Description
 
 Array = NDArray[np.float64]
 EXACT = 1e-9
@@ -34,7 +34,7 @@ class BallastWarning(UserWarning):
     """A vessel starts far from where its weights balance: ballast is missing, or misplaced."""
 
 
-def warn_of_description(scene: Scene, *, start: float, end: float, described: bool) -> None:
+def warn_of_description(scene: Description, *, start: float, end: float, described: bool) -> None:
     """All that a scene tells by itself, from `start` to `end` (s); `described`: from its described pose."""
     _warn_of_angles(scene, start, end)
     _warn_of_winds(scene)
@@ -43,7 +43,7 @@ def warn_of_description(scene: Scene, *, start: float, end: float, described: bo
         _warn_of_ballast(scene)
 
 
-def _warn_of_angles(scene: Scene, start: float, end: float) -> None:
+def _warn_of_angles(scene: Description, start: float, end: float) -> None:
     """An angle that comes to rest whole radians and turns away; what goes on turning is a machine."""
     for reference in references(scene):
         if reference.coordinate not in ANGLES:
@@ -54,7 +54,7 @@ def _warn_of_angles(scene: Scene, start: float, end: float) -> None:
             angle_of(f"{reference.owner}: reference of {reference.joint}.{reference.coordinate}", angle)
 
 
-def _warn_of_winds(scene: Scene) -> None:
+def _warn_of_winds(scene: Description) -> None:
     """Wind against all waves: one of the two directions is where it comes from."""
     if scene.waves is None:
         return
@@ -74,7 +74,7 @@ def _warn_of_winds(scene: Scene) -> None:
             )
 
 
-def _warn_of_masses(scene: Scene) -> None:
+def _warn_of_masses(scene: Description) -> None:
     for name, body in scene.bodies.items():
         radius = math.sqrt(float(np.trace(body.inertia)) / 2.0 / body.mass)
         if radius > LARGEST_RADIUS:
@@ -99,7 +99,7 @@ def _warn_of_masses(scene: Scene) -> None:
                 )
 
 
-def _warn_of_ballast(scene: Scene) -> None:
+def _warn_of_ballast(scene: Description) -> None:
     """Weights on a vessel against forces on it, by its restoring; other loads than these are not judged."""
     if scene.springs or scene.function_forces or scene.force_tables:
         return
@@ -137,7 +137,7 @@ def _warn_of_balance(vessel: _core.VesselHydrodynamics, rest: Array, start: floa
     )
 
 
-def _carried(scene: Scene, vessel: str) -> set[str]:
+def _carried(scene: Description, vessel: str) -> set[str]:
     """Bodies whose weight comes to the vessel; none where another support shares it."""
     stopped = {load.joint for load in scene.loads.values() if hasattr(load, "joint")}
     driven = {driver.joint for driver in scene.drivers.values()}

@@ -8,14 +8,13 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from seacrane.description.vessel_notes import noted
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.frames import MOTIONS
 from seacrane.validity.following import FullTurnWarning, following
 from seacrane.validity.hull_range import hull_findings, motions
 
 if TYPE_CHECKING:
-    from seacrane.description.scene import Scene
+    from seacrane.description.scene import Description
 
 Array = NDArray[np.float64]
 Channels = Mapping[str, Array]
@@ -44,7 +43,7 @@ class NearSingularWarning(UserWarning):
 
 
 def findings(
-    scene: Scene,
+    scene: Description,
     time: Array,
     channels: Channels,
     stats: Mapping[str, Any],
@@ -77,7 +76,7 @@ def _worst(time: Array, values: Array) -> tuple[float, float]:
     return float(np.abs(values[at])), float(time[at])
 
 
-def _heel(scene: Scene, time: Array, channels: Channels) -> list[Finding]:
+def _heel(scene: Description, time: Array, channels: Channels) -> list[Finding]:
     return [
         (
             LargeHeelWarning,
@@ -93,20 +92,21 @@ def _heel(scene: Scene, time: Array, channels: Channels) -> list[Finding]:
     ]
 
 
-def _frequencies(scene: Scene, time: Array, channels: Channels) -> list[Finding]:
+def _frequencies(scene: Description, time: Array, channels: Channels) -> list[Finding]:
     """Energy of a vessel's velocities above its database's highest frequency, motion by motion."""
     found: list[Finding] = []
     for vessel, motion in motions(scene, channels):
-        band = noted(scene, "database_omega", vessel.body)
-        if band is None or time.size < FEWEST_OUTPUTS:
+        known = scene.provenance.get(vessel.name)
+        if known is None or known.omega is None or time.size < FEWEST_OUTPUTS:
             continue
-        worst, share = _foreign(time, motion, band[1])
+        highest = known.omega[1]
+        worst, share = _foreign(time, motion, highest)
         if share > FOREIGN_SHARE:
             found.append(
                 (
                     OutsideDatabaseWarning,
                     f"vessel {vessel.name!r}: {share:.0%} of the energy of {MOTIONS[worst]} is above "
-                    f"{band[1]:.4g} rad/s, where database {noted(scene, 'database', vessel.body)!r} ends: "
+                    f"{highest:.4g} rad/s, where database {known.database!r} ends: "
                     "added mass and damping are guessed there. Compute the database to higher frequencies, "
                     "or look for what shakes the vessel that fast",
                 )
@@ -128,14 +128,14 @@ def _foreign(time: Array, motion: Array, highest: float) -> tuple[int, float]:
     return int(share.argmax()), float(share.max())
 
 
-def _hangs(scene: Scene, link: str) -> bool:
+def _hangs(scene: Description, link: str) -> bool:
     """Whether a body hangs on nothing but this link, as on a wire; other links are rods of a mechanism."""
     ends = {scene.joints[link].first, scene.joints[link].second} - {"ground"}
     others = [joint for name, joint in scene.joints.items() if name != link]
     return any(all(end not in (joint.first, joint.second) for joint in others) for end in ends)
 
 
-def _links(scene: Scene, time: Array, channels: Channels) -> list[Finding]:
+def _links(scene: Description, time: Array, channels: Channels) -> list[Finding]:
     links = [name for name, joint in scene.joints.items() if joint.kind == "distance"]
     found: list[Finding] = []
     for i, name in enumerate(links if "tension" in channels else []):
@@ -147,13 +147,13 @@ def _links(scene: Scene, time: Array, channels: Channels) -> list[Finding]:
                     PushingLinkWarning,
                     f"link {name!r}: pushes with {-tension[at]:.4g} N at t = {time[at]:.6g} s, which a wire "
                     "cannot: it would be slack, and its load when it tightens again is not in this result. "
-                    f"seacrane.add_wire(scene, joint={name!r}) makes it a wire",
+                    f"scene.add_wire(joint={name!r}) makes it a wire",
                 )
             )
     return found
 
 
-def _turns(scene: Scene, time: Array, channels: Channels) -> list[Finding]:
+def _turns(scene: Description, time: Array, channels: Channels) -> list[Finding]:
     values = channels.get("coordinate")
     found: list[Finding] = []
     for i, (name, (_, kind)) in enumerate(scene.recorded.items()):
@@ -173,7 +173,7 @@ def _turns(scene: Scene, time: Array, channels: Channels) -> list[Finding]:
     return found
 
 
-def _singular(scene: Scene, stats: Mapping[str, Any]) -> list[Finding]:
+def _singular(scene: Description, stats: Mapping[str, Any]) -> list[Finding]:
     if not stats.get("rank_changed"):
         return []
     value = stats["smallest_singular_value"]

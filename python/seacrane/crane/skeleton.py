@@ -7,8 +7,10 @@ from collections.abc import Mapping
 import numpy as np
 from numpy.typing import NDArray
 
-from seacrane.crane import FOOT, BodyRecord, KnuckleBoomCrane, Payload
-from seacrane.figures.pose import rotation_matrix
+from seacrane.crane.builder import FOOT, KnuckleBoomCrane
+from seacrane.crane.payload import Payload
+from seacrane.crane.records import BodyRecord
+from seacrane.inputs.frames import rotation_matrix
 
 Array = NDArray[np.float64]
 
@@ -22,6 +24,7 @@ THROUGH_JOINTS: Mapping[str, tuple[tuple[str, ...], ...]] = {
 # Each cylinder's ends, and the shares of its retracted length that barrel and rod cover.
 CYLINDERS = {"main": ("B", "D"), "knuckle": ("E", "G")}
 BARREL, ROD = (0.0, 0.95), (1.0, 0.1)
+BARRELS = tuple(f"{cylinder}_barrel" for cylinder in CYLINDERS)  # drawn thick
 
 
 def crane_skeleton(

@@ -1,0 +1,146 @@
+"""A knuckle-boom crane in a scene, with its roles."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from seacrane.crane.builder import FOOT, KnuckleBoomCrane, Vector
+from seacrane.crane.payload import Payload
+from seacrane.crane.records import BodyRecord, JointRecord
+from seacrane.description.bodies import add_body
+from seacrane.description.crane_parts import add_roles
+from seacrane.description.joints import add_joint
+from seacrane.description.recorded import add_range
+from seacrane.description.roles import CraneRoles
+from seacrane.description.scene import Description
+from seacrane.errors import SceneError
+from seacrane.inputs.checked import text_of
+from seacrane.inputs.frames import quaternion_product, rotation_matrix
+from seacrane.inputs.shown import shown
+
+Array = npt.NDArray[np.float64]
+SLEW = "A"
+CYLINDERS = {"main": "main_cylinder", "knuckle": "knuckle_cylinder"}
+TIP_BODY = "knuckle_jib"
+POINTS = ("point", "second_point")
+AXES = ("axis", "second_axis")
+
+
+def add_crane(
+    scene: Description,
+    crane: KnuckleBoomCrane | None = None,
+    *,
+    base: str = "vessel",
+    foot: Vector = FOOT,
+    theta: float = 0.0,
+    s1: float = 0.0,
+    s2: float = 0.0,
+    payload: Payload | None = None,
+    prefix: str = "",
+) -> CraneRoles:
+    """Add a crane, and a payload hanging at rest; its strokes keep the data file's range.
+
+    Parameters
+    ----------
+    crane : KnuckleBoomCrane, optional
+        Default: the 250 t crane that comes with seacrane.
+    base : str
+        Body that carries the crane, wherever it is described ("ground" for a fixed base).
+    foot : (float, float, float)
+        Crane foot in the frame of the base, m.
+    theta, s1, s2 : float
+        Slew angle, rad; strokes of the main and the knuckle cylinder, m.
+    payload : Payload or None
+    prefix : str
+        Begins the names of all bodies and joints of this crane and the labels of its channels, such as
+        "aft "; a scene's cranes need different ones.
+
+    Returns
+    -------
+    CraneRoles
+        Which of the elements are the slew drive, the cylinders, the link, the payload and the tip.
+
+    Raises
+    ------
+    SceneError
+        For names that the scene has already, or values out of range.
+
+    Warns
+    -----
+    AngleUnitWarning
+        A slew angle that looks like degrees.
+    """
+    if crane is None:
+        crane = KnuckleBoomCrane.load()
+    if not isinstance(crane, KnuckleBoomCrane):
+        raise SceneError(f"crane is {shown(crane)}; give a KnuckleBoomCrane, or leave it out")
+    prefix = text_of("crane: prefix", prefix) if prefix else ""
+    if prefix in scene.roles:
+        raise SceneError(f"crane: there is one with prefix {prefix!r}; give this one another, such as 'aft '")
+    place: dict[str, Any] = {"foot": foot, "theta": theta, "s1": s1, "s2": s2}
+    records = crane.bodies(**place)
+    if payload is not None:
+        records.append(crane.payload_body(payload, **place))
+    names = {"": base} | {body.name: prefix + body.name for body in records}
+    frame = _Frame(scene, base)
+    for body in records:
+        frame.add_body(body, names[body.name])
+    for joint in crane.joints(**place, base="", payload=payload):
+        frame.add_joint(joint, prefix + joint.name, names[joint.first], names[joint.second])
+    for name, stroke in zip(CYLINDERS.values(), (s1, s2), strict=True):
+        longest = getattr(crane.data, name).stroke
+        add_range(scene, joint=prefix + name, minimum=-stroke, maximum=longest - stroke)
+    return add_roles(
+        scene,
+        prefix=prefix,
+        slew=prefix + SLEW,
+        cylinders={label: prefix + name for label, name in CYLINDERS.items()},
+        link=None if payload is None else f"{prefix}link",
+        tip=None if payload is not None else frame.in_body(prefix + TIP_BODY, _tip(crane, place)),
+    )
+
+
+def _tip(crane: KnuckleBoomCrane, place: dict[str, Any]) -> Array:
+    """In the frame of the base, m."""
+    foot, pose = place["foot"], {key: place[key] for key in ("theta", "s1", "s2")}
+    return np.asarray(foot, dtype=float) + crane.geometry.tip(**pose)
+
+
+class _Frame:
+    """The frame of a base, in which a crane is described, in a scene."""
+
+    def __init__(self, scene: Description, base: str) -> None:
+        self.scene = scene
+        self.origin, self.turn = np.zeros(3), np.array([1.0, 0.0, 0.0, 0.0])
+        if base in scene.bodies:
+            self.origin = np.array(scene.bodies[base].position)
+            self.turn = np.array(scene.bodies[base].quaternion)
+        self.to_inertial = rotation_matrix(self.turn)
+
+    def add_body(self, body: BodyRecord, name: str) -> None:
+        add_body(
+            self.scene,
+            name=name,
+            mass=body.mass,
+            inertia=body.inertia,
+            center_of_mass=body.center_of_mass,
+            position=self.origin + self.to_inertial @ body.position,
+            quaternion=quaternion_product(self.turn, body.quaternion),
+        )
+
+    def add_joint(self, joint: JointRecord, name: str, first: str, second: str) -> None:
+        given: dict[str, Any] = {key: getattr(joint, key) for key in (*POINTS, *AXES, "length")}
+        used = {key: value for key, value in given.items() if value is not None}
+        used |= {key: self.origin + self.to_inertial @ used[key] for key in POINTS if key in used}
+        used |= {key: self.to_inertial @ used[key] for key in AXES if key in used}
+        add_joint(self.scene, kind=joint.kind, name=name, first=first, second=second, **used)
+
+    def in_body(self, name: str, point: Array) -> tuple[str, Vector]:
+        """A point of the base's frame in the coordinates of a body of the scene."""
+        body = self.scene.bodies[name]
+        at = self.origin + self.to_inertial @ point
+        x, y, z = (rotation_matrix(body.quaternion).T @ (at - body.position)).tolist()
+        return name, (x, y, z)

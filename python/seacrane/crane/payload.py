@@ -1,0 +1,55 @@
+"""What hangs on a crane."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from seacrane.errors import SceneError
+from seacrane.inputs.checked import number_of
+from seacrane.inputs.plausible import warn_of_density
+
+Array = npt.NDArray[np.float64]
+Vector = tuple[float, float, float]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Payload:
+    """A uniform box hanging on a link of constant length from the crane tip, attached at its top's centroid.
+
+    Attributes
+    ----------
+    mass : float
+        kg.
+    size : (float, float, float)
+        Edges along body x, y and z, m.
+    link_length : float
+        Tip to the centroid of the top, m.
+
+    Warns
+    -----
+    MassUnitWarning
+        Lighter than foam: tonnes given for kg.
+    """
+
+    mass: float = 10.0e3
+    size: Vector = (6.0, 6.0, 4.0)
+    link_length: float = 8.0
+
+    def __post_init__(self) -> None:
+        values = {"mass": self.mass, "link_length": self.link_length}
+        values |= {f"size[{index}]": edge for index, edge in enumerate(self.size)}
+        for name, given in values.items():
+            value = number_of(f"payload: {name}", given)
+            if not (math.isfinite(value) and value > 0.0):
+                raise SceneError(f"payload: {name} is {value!r}; it must be finite and greater than zero.")
+        warn_of_density("payload", self.mass, math.prod(self.size))
+
+    @property
+    def inertia(self) -> Array:
+        """About the centre of mass, body axes, shape (3, 3), kg m2."""
+        x, y, z = (edge**2 for edge in self.size)
+        return np.diag([y + z, z + x, x + y]) * (self.mass / 12.0)

@@ -1,0 +1,140 @@
+"""The cranes of a scene: their roles are written here by whoever builds them, and looked up here by name.
+
+Labels are a crane's prefix and the role, such as "main" or "aft main". What a role names and the scene no
+longer has is left out.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+
+from seacrane.description.roles import CraneRoles, Vector
+from seacrane.description.scene import Description
+from seacrane.errors import SceneError
+from seacrane.inputs.checked import shaped_of, text_of
+
+
+def add_roles(
+    scene: Description,
+    *,
+    prefix: str = "",
+    slew: str | tuple[str, str] | None = None,
+    cylinders: Mapping[str, str] | None = None,
+    link: str | None = None,
+    payload: str | None = None,
+    tip: tuple[str, Vector] | None = None,
+) -> CraneRoles:
+    """Tell which elements are the parts of a crane that was described by hand; `add_crane` does it by itself.
+
+    From the roles come the channels stroke, stroke_rate, cylinder_force, slew_angle, slew_torque and
+    link_tension, the quantities of `seacrane.trade`, and what pictures draw.
+
+    Parameters
+    ----------
+    prefix : str
+        Of the crane's labels, such as "aft "; it tells several cranes apart.
+    slew : str or (str, str)
+        Joint of the slew drive, or joint and coordinate.
+    cylinders : mapping of str to str
+        Sliding joint of every cylinder by its label, such as ``{"main": "main_cylinder"}``.
+    link : str
+        Distance joint from the tip to the payload.
+    payload : str
+        Body that hangs; default: the second body of the link.
+    tip : (str, array_like of shape (3,))
+        Body and point in its coordinates, m; default: where the link begins.
+
+    Returns
+    -------
+    CraneRoles
+
+    Raises
+    ------
+    SceneError
+        For a part that is not in the scene, a link that is no distance joint, or a prefix used twice.
+    """
+    what = f"crane {text_of('crane: prefix', prefix)!r}" if prefix else "crane"
+    if prefix in scene.roles:
+        raise SceneError(f"{what}: its prefix {prefix!r} is used twice; give each crane its own")
+    if link is not None:
+        _require(what, "link", link, scene.joints, "joint")
+        if scene.joints[link].kind != "distance":
+            raise SceneError(
+                f"{what}: link {link!r} is a {scene.joints[link].kind} joint; give a distance joint"
+            )
+        payload = scene.joints[link].second if payload is None else payload
+        tip = _start_of(scene, link) if tip is None else tip
+    for label, joint in (cylinders or {}).items():
+        _require(what, f"cylinder {label!r}", joint, scene.joints, "joint")
+    if payload is not None:
+        _require(what, "payload", payload, scene.bodies, "body")
+    roles = CraneRoles(
+        prefix=prefix,
+        slew=None if slew is None else _drive(scene, what, slew),
+        cylinders=cylinders or {},
+        link=link,
+        payload=payload,
+        tip=None if tip is None else _tip(scene, what, tip),
+    )
+    scene.roles[prefix] = roles
+    return roles
+
+
+def _require(what: str, part: str, name: str, table: Mapping[str, object], kind: str) -> None:
+    if text_of(f"{what}: {part}", name) not in table:
+        raise SceneError(f"{what}: its {part} is {kind} {name!r}, which is not in the scene; add it first")
+
+
+def _drive(scene: Description, what: str, slew: str | tuple[str, str]) -> tuple[str, str]:
+    joint, coordinate = (slew, None) if isinstance(slew, str) else slew
+    return joint, scene.coordinate_of(f"{what}: slew", joint, coordinate)
+
+
+def _tip(scene: Description, what: str, tip: tuple[str, Vector]) -> tuple[str, Vector]:
+    body, point = tip
+    _require(what, "tip", body, scene.bodies, "body")
+    x, y, z = (float(value) for value in shaped_of(f"{what}: tip", point, (3,)))
+    return body, (x, y, z)
+
+
+def _start_of(scene: Description, link: str) -> tuple[str, Vector] | None:
+    """Where a link begins, on its first body; None on the ground."""
+    joint = scene.joints[link]
+    x, y, z = np.asarray(joint.first_frame.point).tolist()
+    return (joint.first, (x, y, z)) if joint.first in scene.bodies else None
+
+
+def cylinders(scene: Description) -> dict[str, str]:
+    """Sliding joints of all cylinders, by label."""
+    return {
+        roles.prefix + label: joint
+        for roles in scene.roles.values()
+        for label, joint in roles.cylinders.items()
+        if joint in scene.joints
+    }
+
+
+def slews(scene: Description) -> dict[str, tuple[str, str]]:
+    """Joint and coordinate of every slew drive, by label."""
+    found = {f"{roles.prefix}slew": roles.slew for roles in scene.roles.values() if roles.slew}
+    return {label: slew for label, slew in found.items() if slew[0] in scene.joints}
+
+
+def hooks(scene: Description) -> dict[str, str]:
+    """Distance joints that payloads hang on, by label."""
+    found = {f"{roles.prefix}hook": roles.link for roles in scene.roles.values() if roles.link}
+    return {label: link for label, link in found.items() if link in scene.joints}
+
+
+def payloads(scene: Description) -> dict[str, str]:
+    """Bodies that hang on cranes, by label."""
+    found = {f"{roles.prefix}payload": roles.payload for roles in scene.roles.values() if roles.payload}
+    return {label: body for label, body in found.items() if body in scene.bodies}
+
+
+def tips(scene: Description) -> dict[str, tuple[str, Vector]]:
+    """Body and point in its coordinates (m) of every tip, by label."""
+    found = {f"{roles.prefix}tip": roles.tip for roles in scene.roles.values() if roles.tip}
+    return {label: tip for label, tip in found.items() if tip[0] in scene.bodies}

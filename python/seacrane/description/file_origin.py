@@ -1,0 +1,92 @@
+"""Roles and provenance in a scene file."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from seacrane.description.crane_parts import add_roles
+from seacrane.description.provenance import SEA_KINDS, SeaProvenance, VesselProvenance
+from seacrane.description.roles import CraneRoles
+from seacrane.description.scene import Description
+from seacrane.errors import FileFormatError
+from seacrane.files.node import Node
+from seacrane.files.plain_data import notes_from_node, plain_data
+from seacrane.inputs.shown import shown
+
+_ROLES = ("prefix", "slew", "cylinders", "link", "payload", "tip")
+
+
+def roles_to_data(roles: CraneRoles) -> dict[str, Any]:
+    """As plain data."""
+    slew, tip = roles.slew, roles.tip
+    return {
+        "prefix": roles.prefix,
+        "slew": None if slew is None else {"joint": slew[0], "coordinate": slew[1]},
+        "cylinders": [{"name": name, "joint": joint} for name, joint in roles.cylinders.items()],
+        "link": roles.link,
+        "payload": roles.payload,
+        "tip": None if tip is None else {"body": tip[0], "point": list(tip[1])},
+    }
+
+
+def roles_from_node(node: Node, scene: Description) -> None:
+    """Give a scene the roles that `roles_to_data` wrote; raises FileFormatError."""
+    for entry in node.items():
+        entry.expect(_ROLES)
+        parts = {key: _optional(entry, key) for key in ("slew", "link", "payload", "tip")}
+        found: dict[str, Any] = {"prefix": entry.at("prefix").text(), "cylinders": _cylinders(entry)}
+        found |= {key: None if (part := parts[key]) is None else part.text() for key in ("link", "payload")}
+        if parts["slew"] is not None:
+            found["slew"] = tuple(_texts(parts["slew"], "joint", "coordinate"))
+        if parts["tip"] is not None:
+            parts["tip"].expect(("body", "point"))
+            found["tip"] = (parts["tip"].at("body").text(), parts["tip"].at("point").array((3,)))
+        with entry.scene_errors():
+            add_roles(scene, **found)
+
+
+def _optional(node: Node, key: str) -> Node | None:
+    return None if node.at(key).value is None else node.at(key)
+
+
+def _texts(node: Node, *keys: str) -> list[str]:
+    node.expect(keys)
+    return [node.at(key).text() for key in keys]
+
+
+def _cylinders(node: Node) -> dict[str, str]:
+    return {
+        name: joint for name, joint in (_texts(one, "name", "joint") for one in node.at("cylinders").items())
+    }
+
+
+def provenance_from_node(node: Node, scene: Description) -> None:
+    """Give a scene's vessels the provenance that a file holds; raises FileFormatError."""
+    for entry in node.items():
+        entry.expect(("name", "database", "omega", "memory"))
+        omega = _optional(entry, "omega")
+        low, high = (None, None) if omega is None else omega.array((2,)).tolist()
+        texts = {key: _optional(entry, key) for key in ("database", "memory")}
+        scene.provenance[entry.at("name").text()] = VesselProvenance(
+            omega=None if low is None or high is None else (low, high),
+            **{key: None if text is None else text.text() for key, text in texts.items()},
+        )
+
+
+def sea_to_data(provenance: SeaProvenance) -> dict[str, Any]:
+    """What is known, as plain data."""
+    return dict(plain_data("waves: provenance", {**provenance.settings(), **provenance.stats()}))
+
+
+def sea_from_node(node: Node) -> SeaProvenance:
+    """What `sea_to_data` wrote; raises FileFormatError."""
+    found = notes_from_node(node)
+    for key, value in found.items():
+        if key not in SEA_KINDS:
+            raise FileFormatError(
+                f"{node.path}: has an unknown entry {shown(key)}; known are {', '.join(SEA_KINDS)}"
+            )
+        kind, told = SEA_KINDS[key]
+        if not isinstance(value, kind) or isinstance(value, bool):
+            node.at(key).fail(f"give {told}")
+    return SeaProvenance(**found)

@@ -1,0 +1,109 @@
+"""Loads on bodies of a scene: forces, springs, tables, C functions, and those of their own kinds."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+from seacrane import _core
+from seacrane.description.loads import kind_of
+from seacrane.description.scene import Description
+from seacrane.errors import SceneError
+from seacrane.inputs.checked import flag_of, name_of, number_of, numbers_of, shaped_of, text_of, vector_of
+
+
+def add_point_force(
+    scene: Description,
+    *,
+    name: str,
+    body: str,
+    force: Any,
+    point: Any = (0.0, 0.0, 0.0),
+    body_axes: bool = False,
+) -> _core.PointForce:
+    """A constant force (N) at a point of a body (m, body coordinates), in inertial axes or, with
+    `body_axes`, turning with the body. Input "<name>.force" (3 values) adds to it during a run."""
+    element = _core.PointForce(
+        name=name_of("point force", name),
+        body=text_of(f"point force {name!r}: body", body),
+        point=shaped_of(f"point force {name!r}: point", point, (3,)),
+        force=shaped_of(f"point force {name!r}: force", force, (3,)),
+        body_axes=flag_of(f"point force {name!r}: body_axes", body_axes),
+    )
+    inserted: _core.PointForce = scene.insert("point force", scene.point_forces, element)
+    return inserted
+
+
+def add_spring(
+    scene: Description,
+    *,
+    name: str,
+    first: str,
+    second: str,
+    first_point: Any = (0.0, 0.0, 0.0),
+    second_point: Any = (0.0, 0.0, 0.0),
+    stiffness: float = 0.0,
+    damping: float = 0.0,
+    natural_length: float = 0.0,
+    lengths: Sequence[float] = (),
+    forces: Sequence[float] = (),
+) -> _core.Spring:
+    """A spring-damper between points of two bodies (m, body coordinates): linear (N/m, N s/m, m), or a
+    table of tension `forces` (N) over `lengths` (m)."""
+    element = _core.Spring(
+        name=name_of("spring", name),
+        first=text_of(f"spring {name!r}: first", first),
+        second=text_of(f"spring {name!r}: second", second),
+        first_point=shaped_of(f"spring {name!r}: first_point", first_point, (3,)),
+        second_point=shaped_of(f"spring {name!r}: second_point", second_point, (3,)),
+        stiffness=number_of(f"spring {name!r}: stiffness", stiffness),
+        damping=number_of(f"spring {name!r}: damping", damping),
+        natural_length=number_of(f"spring {name!r}: natural_length", natural_length),
+        lengths=vector_of(f"spring {name!r}: lengths", lengths),
+        forces=vector_of(f"spring {name!r}: forces", forces),
+    )
+    inserted: _core.Spring = scene.insert("spring", scene.springs, element)
+    return inserted
+
+
+def add_force_table(
+    scene: Description, *, name: str, body: str, times: Any, loads: Any, point: Any = (0.0, 0.0, 0.0)
+) -> _core.ForceTable:
+    """Force and moment `loads` (n, 6) in N and N m, inertial axes, about a point of the body (m, body
+    coordinates), over `times` (n,) in s: linear in between, held outside."""
+    rows = numbers_of(f"force table {name!r}: loads", loads)
+    if rows.ndim != 2 or rows.shape[1] != 6:
+        raise SceneError(f"force table {name!r}: loads have shape {rows.shape}; give (n, 6)")
+    element = _core.ForceTable(
+        name=name_of("force table", name),
+        body=text_of(f"force table {name!r}: body", body),
+        point=shaped_of(f"force table {name!r}: point", point, (3,)),
+        times=vector_of(f"force table {name!r}: times", times),
+        wrenches=rows,
+    )
+    inserted: _core.ForceTable = scene.insert("force table", scene.force_tables, element)
+    return inserted
+
+
+def add_function_force(
+    scene: Description, *, name: str, body: str, address: int, parameters: Sequence[float] = ()
+) -> _core.FunctionForce:
+    """A C function called in every evaluation, by its address (`numba.cfunc(...).address` or a `ctypes`
+    pointer): void f(double t, const double* state13, const double* parameters, double* wrench6). State:
+    position, quaternion, velocity, angular velocity of the body origin; wrench about it; inertial axes.
+    """
+    if not isinstance(address, int) or not 0 < address < 2**64:
+        raise SceneError(f"function force {name!r}: address is {address!r}; give the address of a C function")
+    element = _core.FunctionForce(
+        name=name_of("function force", name),
+        body=text_of(f"function force {name!r}: body", body),
+        address=address,
+        parameters=vector_of(f"function force {name!r}: parameters", parameters),
+    )
+    inserted: _core.FunctionForce = scene.insert("function force", scene.function_forces, element)
+    return inserted
+
+
+def add_load(scene: Description, element: Any) -> Any:
+    """Add a described load of a kind in `seacrane.description.loads`, such as a FlowForce; returns it."""
+    return scene.insert(kind_of(element), scene.loads, element)

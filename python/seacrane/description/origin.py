@@ -1,0 +1,35 @@
+"""What a result records of where its scene comes from: databases, memory, sea."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from seacrane.description.provenance import VesselProvenance
+from seacrane.description.scene import Description
+
+
+def origin_settings(scene: Description) -> dict[str, Any]:
+    """Of vessels and sea, by the names of a result's settings; by body where several vessels differ."""
+    found: dict[str, dict[str, Any]] = {}
+    for vessel in scene.vessels.values():
+        known = scene.provenance.get(vessel.name, VesselProvenance())
+        band = None if known.omega is None else list(known.omega)
+        values = {"database": known.database, "database_omega": band, "memory": known.memory}
+        for key, value in {**values, "kinematics": vessel.kinematics}.items():
+            found.setdefault(key, {})[vessel.body] = value
+    hulls = {} if scene.waves is None else scene.waves.hulls
+    for body, hull in hulls.items():
+        if hull.force_by_heading is not None:
+            found.setdefault("wave_phase", {})[body] = "slow" if hull.cutoff else "actual"
+        if hull.drift is not None:
+            found.setdefault("drift", {})[body] = "newman"
+    out = {key: _one(by_body) for key, by_body in found.items()}
+    if scene.waves is not None:
+        out |= {**scene.waves.provenance.settings(), "waves_relative_bound": scene.waves.relative_bound}
+    return {key: value for key, value in out.items() if value is not None}
+
+
+def _one(by_body: dict[str, Any]) -> Any:
+    """The value of all bodies, or the mapping where they differ."""
+    first, *others = by_body.values()
+    return first if all(other == first for other in others) else by_body

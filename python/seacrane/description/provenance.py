@@ -1,0 +1,92 @@
+"""Where the hydrodynamics of a vessel and the waves of a sea come from, as the program records it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+
+@dataclass(frozen=True, kw_only=True)
+class VesselProvenance:
+    """Where a vessel's hydrodynamics come from; None where it is not known.
+
+    Attributes
+    ----------
+    database : str or None
+        Name of the hydrodynamic database.
+    omega : (float, float) or None
+        Its lowest and highest frequency, rad/s.
+    memory : str or None
+        Kind of fluid memory, as `Scene.add_vessel` takes it.
+    """
+
+    database: str | None = None
+    omega: tuple[float, float] | None = None
+    memory: str | None = None
+
+
+@dataclass(frozen=True, kw_only=True)
+class SeaProvenance:
+    """What a sea was made from, and what its realisation came to; None where it is not known.
+
+    Attributes
+    ----------
+    spectrum : str or None
+        Kind of the spectrum of a sea of one wave system.
+    hs, tp, gamma, wave_direction_deg : float or None
+        Its parameters: m, s, peak enhancement, deg.
+    spreading : mapping or None
+        Kind and exponent of its spreading.
+    sea : mapping or None
+        A `SeaState` in plain data, in place of all of these.
+    realised_hs_of_systems : mapping of str to float, or None
+        m, where there are several wave systems.
+    seed : int or None
+    realised_hs : float or None
+        4 sqrt(sum a^2 / 2), m.
+    wave_components, repeat_found : int or None
+    repeat_period_s : float or None
+    wave_energy_without_load, load_variance_without_load : float or None
+        Shares of the waves beyond the database's frequencies.
+    """
+
+    spectrum: str | None = None
+    hs: float | None = None
+    tp: float | None = None
+    gamma: float | None = None
+    wave_direction_deg: float | None = None
+    spreading: Mapping[str, Any] | None = None
+    sea: Mapping[str, Any] | None = None
+    realised_hs_of_systems: Mapping[str, float] | None = None
+    seed: int | None = None
+    realised_hs: float | None = None
+    wave_components: int | None = None
+    repeat_period_s: float | None = None
+    repeat_found: int | None = None
+    wave_energy_without_load: float | None = None
+    load_variance_without_load: float | None = None
+
+    def settings(self) -> dict[str, Any]:
+        """What the sea was made from, as far as it is known."""
+        return self._known(SEA_SETTINGS)
+
+    def stats(self) -> dict[str, Any]:
+        """What its realisation came to, as far as it is known."""
+        return self._known(SEA_STATS)
+
+    def _known(self, names: tuple[str, ...]) -> dict[str, Any]:
+        return {name: getattr(self, name) for name in names if getattr(self, name) is not None}
+
+
+NUMBER = (int, float)
+SEA_KINDS: Mapping[str, tuple[Any, str]] = {  # types of the values, and their names in messages
+    "spectrum": (str, "a text"),
+    **dict.fromkeys(("hs", "tp", "gamma", "wave_direction_deg"), (NUMBER, "a number")),
+    **dict.fromkeys(("spreading", "sea", "realised_hs_of_systems"), (Mapping, "an object")),
+    **dict.fromkeys(("seed", "wave_components", "repeat_found"), (int, "a whole number")),
+    **dict.fromkeys(("realised_hs", "repeat_period_s"), (NUMBER, "a number")),
+    **dict.fromkeys(("wave_energy_without_load", "load_variance_without_load"), (NUMBER, "a number")),
+}
+SEA_SETTINGS = tuple(SEA_KINDS)[:8]
+SEA_STATS = tuple(SEA_KINDS)[8:]

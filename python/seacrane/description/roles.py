@@ -1,0 +1,39 @@
+"""The parts of a crane by the work they do: its slew drive, cylinders, link, payload and tip."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+Vector = tuple[float, float, float]
+
+
+@dataclass(frozen=True, kw_only=True)
+class CraneRoles:
+    """Which elements of a scene are the parts of one crane. Channels, figures and studies read it.
+
+    Attributes
+    ----------
+    prefix : str
+        Begins every label, such as "aft main" of the cylinder "main"; it tells cranes of a scene apart.
+    slew : (str, str) or None
+        Joint and coordinate of the slew drive.
+    cylinders : mapping of str to str
+        Sliding joint of every cylinder, by its label without the prefix.
+    link : str or None
+        Distance joint from the tip to the payload.
+    payload : str or None
+        Body that hangs on it.
+    tip : (str, (float, float, float)) or None
+        Body that carries the tip, and the tip in its coordinates, m.
+    """
+
+    prefix: str = ""
+    slew: tuple[str, str] | None = None
+    cylinders: Mapping[str, str] = field(default_factory=dict)
+    link: str | None = None
+    payload: str | None = None
+    tip: tuple[str, Vector] | None = None
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "cylinders", dict(self.cylinders))

@@ -1,0 +1,106 @@
+"""A sea with no vessel in it yet, from plain arguments or a `SeaState`."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any, Literal
+
+import numpy as np
+
+from seacrane import _core
+from seacrane.description.provenance import SeaProvenance
+from seacrane.description.waves import Waves
+from seacrane.errors import SceneError
+from seacrane.inputs.checked import number_of
+from seacrane.sea import SeaState, Spreading, WaveSystem, cos_2s, jonswap
+
+DEFAULTS: dict[str, Any] = {
+    "hs": 2.0,
+    "tp": 8.0,
+    "gamma": 3.3,
+    "spectrum": "jonswap",
+    "direction_deg": 135.0,
+    "spreading": None,
+    "seed": 1,
+    "count": 200,
+}
+
+
+def realised_sea(sea: SeaState | None, given: dict[str, Any], depth: float) -> Waves:
+    """A sea with no vessel in it yet, of that depth where it is not a SeaState.
+
+    Raises
+    ------
+    SceneError
+        For arguments that make no sea.
+    """
+    if sea is None:
+        chosen = DEFAULTS | given
+        if "gamma" in given and chosen["spectrum"] != "jonswap":
+            raise SceneError(f"gamma: {chosen['spectrum']!r} has no free peak enhancement; leave gamma out")
+        sea, made_from = _one_system(**chosen, depth=depth)
+    elif isinstance(sea, SeaState):
+        made_from = SeaProvenance(sea=sea.description())
+    else:
+        raise SceneError(f"sea is {sea!r}; give a SeaState")
+    realised = sea.realise()
+    waves = realised.waves
+    several = {system.name: system.hs for system in realised.systems} if len(realised.systems) > 1 else None
+    return Waves(
+        omega=np.array(waves.omega),
+        amplitude=np.array(waves.amplitude),
+        phase=np.array(waves.phase),
+        direction=np.array(waves.direction),
+        hulls={},
+        depth=sea.depth,
+        provenance=replace(
+            made_from,
+            realised_hs_of_systems=several,
+            seed=sea.seed,
+            realised_hs=float(realised.hs),
+            wave_components=len(waves.omega),
+            repeat_period_s=float(realised.repeat.time),
+            repeat_found=int(realised.repeat.found),
+        ),
+    )
+
+
+def _one_system(
+    *,
+    hs: float,
+    tp: float,
+    gamma: float | Literal["dnv"],
+    spectrum: str,
+    direction_deg: float,
+    spreading: float | Spreading | None,
+    seed: int,
+    count: int,
+    depth: float,
+) -> tuple[SeaState, SeaProvenance]:
+    """The sea of plain arguments, and what it was made from."""
+    density = _spectrum(spectrum, number_of("sea: hs", hs), number_of("sea: tp", tp), gamma)
+    if spreading is not None and not isinstance(spreading, Spreading):
+        spreading = cos_2s(spreading)
+    system = WaveSystem(spectrum=density, direction_deg=direction_deg, spreading=spreading, count=count)
+    made_from = SeaProvenance(
+        spectrum=spectrum,
+        hs=float(hs),
+        tp=float(tp),
+        gamma=density.gamma,
+        wave_direction_deg=float(direction_deg),
+        spreading=None if spreading is None else {"kind": spreading.kind, "exponent": spreading.exponent},
+    )
+    return SeaState(systems=[system], seed=seed, depth=depth), made_from
+
+
+def _spectrum(name: str, hs: float, tp: float, gamma: float | Literal["dnv"]) -> _core.Spectrum:
+    if name == "jonswap":
+        return jonswap(hs=hs, tp=tp, gamma=gamma)
+    if name == "pierson-moskowitz":
+        return _core.pierson_moskowitz(hs=hs, tp=tp)
+    if name == "torsethaugen":
+        return _core.torsethaugen(hs=hs, tp=tp)
+    raise SceneError(
+        f"spectrum {name!r} is unknown; choose 'jonswap', 'pierson-moskowitz' or 'torsethaugen', "
+        "or give a SeaState"
+    )
