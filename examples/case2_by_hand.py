@@ -15,7 +15,6 @@ from seacrane import Curve, Scene, balance, cases, feed_forward, reflected_inert
 from seacrane.crane import KnuckleBoomCrane, Payload
 from seacrane.hydro import shipped_database
 from seacrane.inputs.frames import rotation_matrix
-from seacrane.scene.vessel import add_sea, add_vessel
 
 CRANE = KnuckleBoomCrane.load()  # the numbers of the crane data file, with centres of mass and inertias
 PAYLOAD = Payload(mass=10e3, size=(6.0, 6.0, 4.0), link_length=8.0)
@@ -79,11 +78,12 @@ def scene() -> Scene:
     """Vessel, crane, payload, sea; drives by state feedback around the loads that hold each pose at rest."""
     database = shipped_database()
     out = Scene(name="case2_by_hand")
-    add_vessel(out, database, name="vessel", memory="per-pair")
-    add_sea(out, database, hs=2.0, tp=8.0, direction_deg=135.0, seed=1)
+    out.add_vessel(database, name="vessel", memory="per-pair")
+    out.add_sea(database, hs=2.0, tp=8.0, direction_deg=135.0, seed=1)
     start = {"theta": 0.0, "s1": 0.0, "s2": 0.0}
     add_bodies(out, **start)
     add_joints(out, "vessel", **start)
+    out.add_roles(slew="A", cylinders={name: DRIVES[name] for name in ("main", "knuckle")}, link="link")
     for name, joint in DRIVES.items():
         out.record_coordinate(joint=joint)
         out.add_actuator(name=name, joint=joint)

@@ -9,13 +9,13 @@ from pathlib import Path
 import numpy as np
 
 from seacrane import Curve, Scene, balance, reflected_inertia, simulate
-from seacrane.crane import KnuckleBoomCrane, Payload
+from seacrane.crane import Payload
 
 JOINTS = {"slew": "A", "main": "main_cylinder", "knuckle": "knuckle_cylinder"}
 ENDS = {"slew": -np.pi / 2, "main": 1.0, "knuckle": 1.0}  # rad, m, m
 
 scene = Scene(name="crane on a fixed base")
-KnuckleBoomCrane.load().add_to(scene, base="ground", payload=Payload(mass=10e3))
+scene.add_crane(base="ground", payload=Payload(mass=10e3))
 for name, joint in JOINTS.items():
     scene.add_actuator(name=name, joint=joint)
     scene.record_coordinate(joint=joint)

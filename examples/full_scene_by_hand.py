@@ -13,7 +13,6 @@ import numpy as np
 
 from seacrane import Curve, Scene, balance, reflected_inertia, simulate
 from seacrane.hydro import shipped_database
-from seacrane.scene.vessel import add_sea, add_vessel
 
 y = 10.0  # m, of the crane's plane
 foot, A, B, C = (33.0, y, 10.0), (33.0, y, 16.5), (28.8, y, 21.1), (32.0, y, 27.8)
@@ -22,8 +21,8 @@ tip, load = (14.6, y, 22.4), (14.6, y, 14.4)
 
 scene = Scene(name="by hand")
 database = shipped_database()
-add_vessel(scene, database)
-add_sea(scene, database, hs=2.0, tp=8.0, direction_deg=135.0, seed=1)
+scene.add_vessel(database)
+scene.add_sea(database, hs=2.0, tp=8.0, direction_deg=135.0, seed=1)
 
 
 def beam(name: str, mass: float, start, end, width: float) -> None:
@@ -69,15 +68,18 @@ scene.add_joint(
     kind="distance", name="link", first="knuckle_jib", second="payload", point=tip, second_point=load
 )
 
+scene.add_roles(  # which parts the channels of a crane are made of
+    slew="A", cylinders={"main": "main_cylinder", "knuckle": "knuckle_cylinder"}, link="link"
+)
+
 motions = {"slew": ("A", -np.pi / 2), "main": ("main_cylinder", 2.0), "knuckle": ("knuckle_cylinder", 2.0)}
 for name, (joint, _) in motions.items():
     scene.record_coordinate(joint=joint)
     scene.add_actuator(name=name, joint=joint)
 rest, felt = balance(scene), reflected_inertia(scene)
-for name, (joint, end) in motions.items():
-    del scene.actuators[name]  # again, with what was found out
-    scene.add_actuator(
-        name=name, joint=joint, stiffness=25.0 * felt[name], damping=8.0 * felt[name],
+for name, (_, end) in motions.items():
+    scene.replace(
+        name, kind="actuator", stiffness=25.0 * felt[name], damping=8.0 * felt[name],
         feed_forward=rest.loads[name],
         reference=Curve.quintic(start_time=0.0, end_time=45.0, start=0.0, end=end),
     )  # fmt: skip

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
-from seacrane import Scene, add_vessel, response_statistics
+from seacrane import Scene, response_statistics
 from seacrane.hydro import Hull, OffsetTable, hydro_from_hull, natural_frequency
 from seacrane.sea import jonswap
 
@@ -29,7 +29,7 @@ for motion, name in ((2, "heave"), (3, "roll"), (4, "pitch")):
         print(f"natural period in {name:5} {2.0 * np.pi / frequency:5.2f} s")
 
 scene = Scene(name="barge")
-add_vessel(scene, database, memory="passive")
+scene.add_vessel(database, memory="passive")
 print("\nHs 2 m, Tp 8 s: significant double amplitudes")
 for degrees in (180.0, 135.0, 90.0):
     found = response_statistics(

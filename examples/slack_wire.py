@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
-from seacrane import Scene, add_wire, simulate
+from seacrane import Scene, simulate
 
 LENGTH, SPEED, GRAVITY = 2.0, 8.0, 9.80665  # m, m/s, m/s2
 
@@ -20,7 +20,7 @@ scene.add_joint(
     kind="distance", name="wire", first="ground", second="ball", point=(0.0, 0.0, 0.0),
     second_point=(0.0, 0.0, -LENGTH),
 )  # fmt: skip
-add_wire(scene, joint="wire")
+scene.add_wire(joint="wire")
 result = simulate(scene, t_end=3.0, dt_out=0.005, rtol=1e-9)
 x, z = (result.select("position", body="ball", axis=axis) for axis in "xz")
 tension = result.select("tension", link="wire")

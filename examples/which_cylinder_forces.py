@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from seacrane import Curve, Scene, driven, inverse_dynamics, simulate
-from seacrane.crane import KnuckleBoomCrane, Payload
+from seacrane.crane import Payload
 
 MOVE = {"slew": (0.0, -np.pi / 2), "main": (0.0, 1.0), "knuckle": (0.0, 1.0)}  # rad, m, m
 JOINTS = {"slew": "A", "main": "main_cylinder", "knuckle": "knuckle_cylinder"}
@@ -18,7 +18,7 @@ JOINTS = {"slew": "A", "main": "main_cylinder", "knuckle": "knuckle_cylinder"}
 def crane(payload: Payload | None) -> Scene:
     """The crane on the ground with its three motions prescribed by references."""
     scene = Scene(name="crane")
-    KnuckleBoomCrane.load().add_to(scene, base="ground", payload=payload)
+    scene.add_crane(base="ground", payload=payload)
     for name, (start, end) in MOVE.items():
         reference = Curve.quintic(start_time=0.0, end_time=20.0, start=start, end=end)
         scene.add_actuator(name=name, joint=JOINTS[name], reference=reference)

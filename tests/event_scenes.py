@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from seacrane import Curve, Scene, add_end_stop, add_seat, add_wire
+from seacrane import Curve, Scene
 
 Array = NDArray[np.float64]
 GRAVITY = 9.80665
@@ -19,8 +19,8 @@ def ball(*, restitution: float = 0.5, height: float = HEIGHT, sticking_speed: fl
     scene = Scene(name="ball")
     scene.add_body(name="ball", mass=MASS, inertia=INERTIA, position=(0.0, 0.0, height))
     scene.add_joint(kind="free", name="air", first="ground", second="ball", point=(0.0, 0.0, height))
-    add_end_stop(
-        scene, joint="air", coordinate="z", minimum=-height, restitution=restitution,
+    scene.add_end_stop(
+        joint="air", coordinate="z", minimum=-height, restitution=restitution,
         sticking_speed=sticking_speed, name="floor",
     )  # fmt: skip
     return scene
@@ -40,7 +40,7 @@ def pendulum(restitution: float = 0.0, **wire: Any) -> Scene:
         kind="distance", name="wire", first="ground", second="ball", point=(0.0, 0.0, 0.0),
         second_point=(0.0, 0.0, -LENGTH),
     )  # fmt: skip
-    add_wire(scene, joint="wire", restitution=restitution, **wire)
+    scene.add_wire(joint="wire", restitution=restitution, **wire)
     return scene
 
 
@@ -107,7 +107,7 @@ def pushed(restitution: float = 0.0) -> Scene:
         feed_forward=Curve.harmonic(amplitude=-30.0, omega=2.0),
     )
     scene.record_coordinate(joint="rail")
-    add_end_stop(scene, joint="rail", minimum=-0.5, maximum=4.0, restitution=restitution)
+    scene.add_end_stop(joint="rail", minimum=-0.5, maximum=4.0, restitution=restitution)
     return scene
 
 
@@ -128,5 +128,5 @@ def lift(rate: float = 0.2, stiffness: float = 2.0e3) -> Scene:
         name="wire", first="hook", second="load", first_point=(0.0, 0.0, 0.0), second_point=(0.0, 0.0, 0.0),
         stiffness=stiffness, natural_length=5.0,
     )  # fmt: skip
-    add_seat(scene, joint="deck")
+    scene.add_seat(joint="deck")
     return scene

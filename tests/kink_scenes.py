@@ -6,16 +6,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from seacrane import (
-    Curve,
-    FlowCoefficients,
-    Scene,
-    add_end_stop,
-    add_friction,
-    add_soft_stop,
-    add_wind,
-    add_wire,
-)
+from seacrane import Curve, FlowCoefficients, Scene
 
 CART = 4.0  # kg
 
@@ -97,8 +88,8 @@ def by_wind(curve: Curve) -> Scene:
     angle = np.linspace(0.0, np.pi, 13)
     zero = np.zeros_like(angle)
     coefficients = FlowCoefficients(angle=angle, x=0.8 * np.cos(angle), y=zero, yaw=zero)
-    add_wind(
-        scene, coefficients=coefficients, speed=curve, direction_deg=0.0, body="cart", frontal_area=0.5,
+    scene.add_wind(
+        coefficients=coefficients, speed=curve, direction_deg=0.0, body="cart", frontal_area=0.5,
         lateral_area=0.5, length=1.0,
     )  # fmt: skip
     return scene
@@ -145,14 +136,14 @@ def random_slew(rng: np.random.Generator) -> Scene:
     else:
         scene = slewing(0.0, stiffness=4e7, damping=3e7, reference=scaled(curve, 0.3))
     if rng.random() < 0.5:
-        add_wire(scene, joint="wire")
+        scene.add_wire(joint="wire")
     kind = rng.integers(4)
     if kind == 0:
-        add_soft_stop(scene, joint="slew", minimum=-0.15, maximum=0.15, stiffness=3e8, damping=0.3)
+        scene.add_soft_stop(joint="slew", minimum=-0.15, maximum=0.15, stiffness=3e8, damping=0.3)
     if kind == 1:
-        add_end_stop(scene, joint="slew", minimum=-0.15, maximum=0.15, restitution=0.3)
+        scene.add_end_stop(joint="slew", minimum=-0.15, maximum=0.15, restitution=0.3)
     if kind == 2:
-        add_friction(scene, joint="slew", load=3e5, speed=0.02)
+        scene.add_friction(joint="slew", load=3e5, speed=0.02)
     return scene
 
 
@@ -162,9 +153,9 @@ def random_cart(rng: np.random.Generator) -> Scene:
     scene = ELEMENTS[element](random_curve(rng, continuous=element == "driver"))
     if element != "driver" and rng.random() < 0.4:
         if rng.random() < 0.5:
-            add_soft_stop(scene, joint="rail", minimum=-0.3, maximum=0.3, stiffness=2e3, damping=0.2)
+            scene.add_soft_stop(joint="rail", minimum=-0.3, maximum=0.3, stiffness=2e3, damping=0.2)
         else:
-            add_end_stop(scene, joint="rail", minimum=-0.3, maximum=0.3)
+            scene.add_end_stop(joint="rail", minimum=-0.3, maximum=0.3)
     return scene
 
 
@@ -180,7 +171,7 @@ def random_snatch(rng: np.random.Generator) -> Scene:
         kind="distance", name="wire", first="ground", second="ball", point=(0.0, 0.0, 0.0),
         second_point=(0.0, 0.0, -length),
     )  # fmt: skip
-    add_wire(scene, joint="wire")
+    scene.add_wire(joint="wire")
     return scene
 
 

@@ -13,16 +13,7 @@ from typing import Any
 import numpy as np
 from random_scenes import CLOSING, KINDS, Shape, build, unit
 
-from seacrane import (
-    Scene,
-    SeacraneError,
-    add_end_stop,
-    add_friction,
-    add_seat,
-    add_soft_stop,
-    add_wire,
-    simulate,
-)
+from seacrane import Scene, SeacraneError, simulate
 from seacrane._core import Body
 
 MISSES = 0.05  # of the work: energy lost or won unseen
@@ -98,10 +89,10 @@ def limit(scene: Scene, rng: np.random.Generator) -> None:
         common = {"restitution": float(rng.choice([0.0, 0.0, 0.3, 1.0]))}
         if joint.kind == "distance":
             if rng.random() < 0.7 and not joint.name.endswith("rod"):
-                add_wire(scene, joint=joint.name, **common)
+                scene.add_wire(joint=joint.name, **common)
         elif joint.kind == "weld":
             if rng.random() < 0.4:
-                add_seat(scene, joint=joint.name)
+                scene.add_seat(joint=joint.name)
         else:
             offered = {
                 "revolute": ["angle"], "prismatic": ["displacement"],
@@ -116,11 +107,11 @@ def limit(scene: Scene, rng: np.random.Generator) -> None:
                 draw = rng.random()
                 low, high = -rng.uniform(0.02, 0.8), rng.uniform(0.02, 0.8)
                 if draw < 0.4:
-                    add_end_stop(scene, minimum=low, maximum=high, name=name, **where, **common)
+                    scene.add_end_stop(minimum=low, maximum=high, name=name, **where, **common)
                 elif draw < 0.5:
-                    add_soft_stop(scene, minimum=low, maximum=high, stiffness=1e3, name=name, **where)
+                    scene.add_soft_stop(minimum=low, maximum=high, stiffness=1e3, name=name, **where)
                 if rng.random() < 0.2:
-                    add_friction(scene, load=3.0, speed=0.05, name=f"{name} friction", **where)
+                    scene.add_friction(load=3.0, speed=0.05, name=f"{name} friction", **where)
 
 
 def limited(seed: int) -> tuple[Scene, dict[str, Any]]:

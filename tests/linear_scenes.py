@@ -12,7 +12,7 @@ from seacrane import (
     cases,
 )
 from seacrane.analysis.rest_state import held
-from seacrane.crane import KnuckleBoomCrane, Payload
+from seacrane.crane import Payload
 from seacrane.hydro import shipped_database, vessel_parameters
 from seacrane.hydro.data.rigid_mass import rigid_mass_matrix
 
@@ -52,6 +52,6 @@ def rod(scene: Scene, name: str, first: str, top: float, *, angle: float = 0.0, 
 def crane_with_payload() -> Scene:
     """The crane on the ground with its payload, held by the controllers of the cases."""
     scene = Scene(name="crane on the ground")
-    KnuckleBoomCrane.load().add_to(scene, base="ground", payload=Payload())
+    scene.add_crane(base="ground", payload=Payload())
     scene.actuators.update(held(cases.case2(hs=0.0)).actuators)
     return scene

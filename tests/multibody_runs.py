@@ -10,7 +10,7 @@ from reference.jets import Jet
 from reference.mechanisms import SingleCoordinate, SliderCrank
 
 from seacrane import Curve, Run, Scene
-from seacrane.crane import KnuckleBoomCrane, Payload
+from seacrane.crane import Payload
 from seacrane.inputs.frames import rotation_matrix
 
 Array = NDArray[np.float64]
@@ -114,7 +114,7 @@ def crane_scene(
 def add_crane(
     scene: Scene, *, base: str, payload: bool, references: dict[str, Curve] | None = None, **pose: float
 ) -> None:
-    KnuckleBoomCrane.load().add_to(scene, base=base, payload=Payload() if payload else None, **pose)
+    scene.add_crane(base=base, payload=Payload() if payload else None, **pose)
     for name, joint in ACTUATORS.items():
         stiffness, damping = GAINS[name]
         scene.add_actuator(

@@ -7,9 +7,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from seacrane import Scene, SceneError, add_drift, add_sea, use_actual_position
+from seacrane import Scene, SceneError
+from seacrane.description.origin import origin_settings
 from seacrane.hydro import DriftCoefficients, HydroDatabase, shipped_database
-from seacrane.scene.vessel import add_vessel
 from seacrane.sea import SeaState, WaveSystem, jonswap
 
 
@@ -23,34 +23,35 @@ def with_drift() -> HydroDatabase:
 
 def scene_of(**options: object) -> Scene:
     scene = Scene(name="sea")
-    add_vessel(scene, shipped_database())
-    add_sea(scene, with_drift(), count=30, **options)  # type: ignore[arg-type]
+    scene.add_vessel(shipped_database())
+    scene.add_sea(with_drift(), count=30, **options)  # type: ignore[arg-type]
     return scene
 
 
 def test_keywords_do_what_the_functions_do() -> None:
     by_keyword, by_hand = scene_of(phase="actual", drift=True), scene_of()
-    add_drift(by_hand, with_drift())
-    use_actual_position(by_hand, with_drift())
+    by_hand.add_drift(with_drift())
+    by_hand.use_actual_position(with_drift())
     one, other = by_keyword.waves, by_hand.waves
     assert one is not None and other is not None
     assert one.hull().force_by_heading is not None and other.hull().force_by_heading is not None
     assert one.hull().drift_by_heading is not None and other.hull().drift_by_heading is not None
     np.testing.assert_array_equal(one.hull().force_by_heading.values, other.hull().force_by_heading.values)
     np.testing.assert_array_equal(one.hull().drift_by_heading.values, other.hull().drift_by_heading.values)
-    assert by_keyword.notes == by_hand.notes
+    assert origin_settings(by_keyword) == origin_settings(by_hand)
+    assert origin_settings(by_keyword)["wave_phase"] == "actual"
     by_keyword.compile()
 
 
 def test_the_fft_takes_uniform_seas_and_refuses_jittered_ones() -> None:
     scene = Scene(name="sea")
-    add_vessel(scene, shipped_database())
+    scene.add_vessel(shipped_database())
     density = jonswap(hs=2.0, tp=8.0)
     for placement in ("uniform", "jittered"):
         system = WaveSystem(spectrum=density, direction_deg=135.0, count=50)
         sea = SeaState(systems=[system], placement=placement)
         scene.waves = None
-        add_sea(scene, shipped_database(), sea=sea, evaluation="fft")
+        scene.add_sea(shipped_database(), sea=sea, evaluation="fft")
         if placement == "uniform":
             scene.compile()
             continue

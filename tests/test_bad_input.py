@@ -29,7 +29,7 @@ from seacrane import (
     simulate,
     spline_curve,
 )
-from seacrane.crane import KnuckleBoomCrane, Payload
+from seacrane.crane import Payload
 
 NAN, INF = float("nan"), float("inf")
 KINDS = (
@@ -728,7 +728,7 @@ def test_controller_period(period: Any) -> None:
             lambda s: s.add_force_table(name="t", body="bob", times=["0", "1"], loads=np.zeros((2, 6))),
             id="times",
         ),
-        pytest.param(lambda s: KnuckleBoomCrane.load().add_to(s, foot=("33", "10", "10")), id="foot"),
+        pytest.param(lambda s: s.add_crane(foot=("33", "10", "10")), id="foot"),
         pytest.param(lambda s: Payload(mass="20e3"), id="payload"),
         pytest.param(lambda s: inverse_dynamics(s, times=["0", "1"]), id="times of inverse dynamics"),
         pytest.param(lambda s: Run(s, t_end=1.0).set_inputs({"motor.force": "1"}), id="input"),

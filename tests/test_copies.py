@@ -16,28 +16,15 @@ import numpy as np
 import pytest
 from test_scene_file import every_kind
 
-from seacrane import (
-    Curve,
-    FlowForce,
-    Result,
-    Run,
-    Scene,
-    SceneError,
-    _core,
-    add_end_stop,
-    add_friction,
-    add_soft_stop,
-    cases,
-    simulate,
-)
+from seacrane import Curve, FlowForce, Result, Run, Scene, SceneError, _core, cases, simulate
 
 
 def all_kinds() -> Scene:
     scene = every_kind()
-    add_end_stop(scene, joint="pin", maximum=2.0, restitution=0.1)
-    add_friction(scene, joint="pin", load=1.0 / 3.0, speed=0.1)
+    scene.add_end_stop(joint="pin", maximum=2.0, restitution=0.1)
+    scene.add_friction(joint="pin", load=1.0 / 3.0, speed=0.1)
     scene.add_range(joint="pin", minimum=-2.0, maximum=2.0)
-    add_soft_stop(scene, joint="sleeve", stiffness=1e5, minimum=-1.0)
+    scene.add_soft_stop(joint="sleeve", stiffness=1e5, minimum=-1.0)
     angles = np.linspace(-np.pi, np.pi, 8, endpoint=False)
     scene.add_load(
         FlowForce(name="wind", body="hull", point=(0, 0, 1), density=1.2, speed=Curve.constant(value=9.0),

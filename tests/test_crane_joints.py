@@ -242,7 +242,7 @@ class Recorder:
 
 def test_add_to_a_scene() -> None:
     scene = Recorder()
-    CRANE.add_to(scene, base="ground", foot=(0.0, 0.0, 0.0), payload=Payload(), **PLACE)
+    scene.add_crane(CRANE, base="ground", foot=(0.0, 0.0, 0.0), payload=Payload(), **PLACE)
     assert list(scene.bodies) == [*BODIES, "payload"]
     assert sum(body["mass"] for body in scene.bodies.values()) == pytest.approx(400e3)
     assert scene.joints["deck"]["first"] == "ground"
@@ -255,7 +255,7 @@ def test_add_to_a_scene() -> None:
     assert used["B"] == used["E"] == {"point", "axis", "second_axis"}
     assert used["link"] == {"point", "second_point", "length"}
     bare = Recorder()
-    CRANE.add_to(bare, foot=FOOT)
+    bare.add_crane(CRANE, foot=FOOT)
     assert "link" not in bare.joints and bare.joints["deck"]["first"] == "vessel"
 
 

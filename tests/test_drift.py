@@ -11,9 +11,8 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from seacrane import Scene, SceneError, _core, add_drift, simulate, use_actual_position
+from seacrane import Scene, SceneError, _core, simulate
 from seacrane.hydro import HydroDatabase, shipped_database
-from seacrane.scene.vessel import add_sea, add_vessel
 
 Array = NDArray[np.float64]
 TIMES = np.array([0.0, 3.3, 47.0, 600.0])
@@ -149,15 +148,15 @@ def test_its_spectrum_is_pinksters() -> None:
 
 def moored(**sea_options: Any) -> Scene:
     scene = Scene(name="moored")
-    add_vessel(scene, database(), mooring_period=100.0)
-    add_sea(scene, database(), **{"hs": 4.0, "tp": 9.0, "count": 40, **sea_options})
+    scene.add_vessel(database(), mooring_period=100.0)
+    scene.add_sea(database(), **{"hs": 4.0, "tp": 9.0, "count": 40, **sea_options})
     return scene
 
 
 def test_coefficients_are_interpolated_in_frequency_and_heading_and_mirrored() -> None:
     for direction_deg in (135.0, 225.0, -10.0):
         scene = moored(direction_deg=direction_deg)
-        add_drift(scene, drifting(ship))
+        scene.add_drift(drifting(ship))
         assert scene.waves is not None
         assert scene.waves.hull().drift is not None
         expected = np.array([ship(w, np.radians(direction_deg)) for w in scene.waves.omega])
@@ -166,7 +165,7 @@ def test_coefficients_are_interpolated_in_frequency_and_heading_and_mirrored() -
         assert np.all(np.abs(scene.waves.hull().drift - expected) < 2e-3 * scale)
     port, starboard = moored(direction_deg=50.0), moored(direction_deg=-50.0)
     for scene in (port, starboard):
-        add_drift(scene, drifting(ship))
+        scene.add_drift(drifting(ship))
     assert port.waves is not None
     assert starboard.waves is not None
     mirror = np.array([1.0, -1.0, 1.0, -1.0, 1.0, -1.0])
@@ -177,7 +176,7 @@ def test_coefficients_are_interpolated_in_frequency_and_heading_and_mirrored() -
 
 def test_a_moored_vessel_is_pushed_by_the_mean_drift_and_its_energy_balances(tmp_path: Path) -> None:
     scene = moored()
-    add_drift(scene, drifting(ship))
+    scene.add_drift(drifting(ship))
     assert scene.waves is not None
     assert scene.waves.hull().drift is not None
     result = simulate(scene, t_end=100.0, dt_out=0.5, rtol=1e-8)
@@ -198,8 +197,8 @@ def test_a_moored_vessel_is_pushed_by_the_mean_drift_and_its_energy_balances(tmp
 @pytest.mark.parametrize("drift_first", [True, False])
 def test_drift_at_the_actual_position(drift_first: bool) -> None:
     scene = moored()
-    for step in (add_drift, use_actual_position) if drift_first else (use_actual_position, add_drift):
-        step(scene, drifting(ship))
+    for step in ("add_drift", "use_actual_position")[:: 1 if drift_first else -1]:
+        getattr(scene, step)(drifting(ship))
     waves = scene.waves
     assert waves is not None
     assert waves.hull().force_by_heading is not None
@@ -213,7 +212,7 @@ def test_drift_at_the_actual_position(drift_first: bool) -> None:
     )
     yaw = 0.35
     turned = moored(direction_deg=135.0 - np.degrees(yaw))
-    add_drift(turned, drifting(ship))
+    turned.add_drift(drifting(ship))
     assert turned.waves is not None
     assert turned.waves.hull().drift is not None
     scale = np.array(waves.amplitude) @ np.abs(turned.waves.hull().drift) * np.sum(waves.amplitude) + 1e-6
@@ -229,19 +228,19 @@ def test_drift_at_the_actual_position(drift_first: bool) -> None:
 def test_what_is_missing_is_named() -> None:
     scene = moored()
     with pytest.raises(SceneError, match="has no drift coefficients"):
-        add_drift(scene, SimpleNamespace(name="plain", drift=None))  # type: ignore[arg-type]
+        scene.add_drift(SimpleNamespace(name="plain", drift=None))  # type: ignore[arg-type]
     with pytest.raises(SceneError, match="needs a sea"):
-        add_drift(Scene(), drifting(ship))
+        Scene().add_drift(drifting(ship))
     narrow = drifting(ship)
     narrow.drift.omega = np.linspace(0.6, 2.0, 25)
     with pytest.raises(ValueError, match=r"omega = 0\.\d+ rad/s is outside .* 0\.6 to 2 rad/s"):
-        add_drift(scene, narrow)
-    add_drift(scene, narrow, outside="hold")
+        scene.add_drift(narrow)
+    scene.add_drift(narrow, outside="hold")
     with pytest.raises(SceneError, match="choose 'error' or 'hold'"):
-        add_drift(scene, narrow, outside="zero")  # type: ignore[arg-type]
+        scene.add_drift(narrow, outside="zero")  # type: ignore[arg-type]
     with pytest.raises(ValueError, match="gaps above 45 deg are not interpolated"):
-        add_drift(moored(direction_deg=100.0), drifting(ship, headings=3))
-    add_drift(moored(direction_deg=90.0), drifting(ship, headings=3))  # a stored heading needs none
+        moored(direction_deg=100.0).add_drift(drifting(ship, headings=3))
+    moored(direction_deg=90.0).add_drift(drifting(ship, headings=3))  # a stored heading needs none
     waves, coefficient = sea()
     coefficient[3, 1] = np.inf
     with pytest.raises(ValueError, match=r"drift load: coefficient\(3, 1\) is inf"):

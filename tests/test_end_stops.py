@@ -6,18 +6,7 @@ import numpy as np
 import pytest
 from event_scenes import GRAVITY, INERTIA, MASS, lift, pushed
 
-from seacrane import (
-    Result,
-    Run,
-    Scene,
-    SimulationError,
-    add_end_stop,
-    add_friction,
-    add_soft_stop,
-    add_wire,
-    cases,
-    simulate,
-)
+from seacrane import Result, Run, Scene, SimulationError, cases, simulate
 
 
 def test_stop_holds_while_it_is_pushed_and_lets_go_when_the_load_turns() -> None:
@@ -70,7 +59,7 @@ def test_several_limits_reached_at_once_share_one_impact() -> None:
     feet = {"a": (1.0, 0.0, 1.0), "b": (-0.5, 0.8, 1.0), "c": (-0.5, -0.8, 1.0)}
     for name, point in feet.items():
         scene.add_joint(kind="free", name=name, first="ground", second="plate", point=point)
-        add_end_stop(scene, joint=name, coordinate="z", minimum=-1.0)
+        scene.add_end_stop(joint=name, coordinate="z", minimum=-1.0)
     result = simulate(scene, t_end=1.0, dt_out=0.05, rtol=1e-9)
     assert {e.name for e in result.events} == set(feet)
     assert all(e.kind == "contact" for e in result.events)
@@ -84,7 +73,7 @@ def test_friction_slows_a_slide_by_its_closed_form() -> None:
     scene = Scene(name="slide", gravity=0.0)
     scene.add_body(name="slide", mass=MASS, inertia=INERTIA, velocity=(start, 0.0, 0.0))
     scene.add_joint(kind="prismatic", name="rail", first="ground", second="slide", axis=(1.0, 0.0, 0.0))
-    add_friction(scene, joint="rail", load=load, speed=speed)
+    scene.add_friction(joint="rail", load=load, speed=speed)
     result = simulate(scene, t_end=1.2, dt_out=0.05, rtol=1e-10)
     # sinh(v / s) falls like exp(-F t / (m s))
     v = speed * np.arcsinh(np.sinh(start / speed) * np.exp(-load * result.time / (MASS * speed)))
@@ -99,7 +88,7 @@ def test_soft_stop_returns_what_is_not_damped() -> None:
         scene = Scene(name="slide", gravity=0.0)
         scene.add_body(name="slide", mass=MASS, inertia=INERTIA, velocity=(start, 0.0, 0.0))
         scene.add_joint(kind="prismatic", name="rail", first="ground", second="slide", axis=(1.0, 0.0, 0.0))
-        add_soft_stop(scene, joint="rail", maximum=0.6, stiffness=stiffness, damping=damping)
+        scene.add_soft_stop(joint="rail", maximum=0.6, stiffness=stiffness, damping=damping)
         return simulate(scene, t_end=1.5, dt_out=0.01, rtol=1e-10, formulation="redundant")
 
     free = slide(0.0)
@@ -121,8 +110,8 @@ def test_soft_stop_returns_what_is_not_damped() -> None:
 def test_cylinder_of_a_crane_afloat_runs_onto_its_stop(formulation: str) -> None:
     """The boom stops, its payload flies on, the wire snatches and lifts the boom off again; then it rests."""
     scene = cases.case2()
-    add_end_stop(scene, joint="main_cylinder", minimum=-1.0, maximum=0.05)
-    add_wire(scene, joint="link")
+    scene.add_end_stop(joint="main_cylinder", minimum=-1.0, maximum=0.05)
+    scene.add_wire(joint="link")
     result = simulate(scene, t_end=8.0, dt_out=0.25, rtol=1e-8, formulation=formulation)
     assert [(e.name, e.kind) for e in result.events[:4]] == [
         ("main_cylinder.maximum", "contact"), ("link", "release"),
@@ -143,7 +132,7 @@ def tumbler(coordinate: str, bound: float, turning: tuple[float, float, float]) 
     scene = Scene(name="tumbler", gravity=0.0)
     scene.add_body(name="body", mass=MASS, inertia=INERTIA, angular_velocity=turning)
     scene.add_joint(kind="free", name="air", first="ground", second="body")
-    add_end_stop(scene, joint="air", coordinate=coordinate, minimum=-bound, maximum=bound, restitution=1.0)
+    scene.add_end_stop(joint="air", coordinate=coordinate, minimum=-bound, maximum=bound, restitution=1.0)
     return scene
 
 

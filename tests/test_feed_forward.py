@@ -31,7 +31,7 @@ def loads_of(curves: dict[str, Curve], times: Array) -> Array:
 
 def on_the_ground(payload: Payload | None) -> Scene:
     scene = Scene(name="crane on a quay")
-    KnuckleBoomCrane.load().add_to(scene, base="ground", payload=payload)
+    scene.add_crane(base="ground", payload=payload)
     for name, joint in cases.ACTUATORS.items():
         scene.add_actuator(name=name, joint=joint)
     return scene

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import json
 from pathlib import Path
 from typing import Any
 
@@ -12,6 +13,7 @@ from matplotlib import cbook
 from test_result import BODIES, crane_result, crane_run, smooth_step, vessel_result
 
 from seacrane import Frame, Scene, simulate
+from seacrane.description.file_origin import roles_to_data
 from seacrane.figures import (
     Line,
     Panel,
@@ -29,7 +31,7 @@ from seacrane.figures import (
     save_sheet,
 )
 from seacrane.figures.findings import amplitude_at, slew_stop
-from seacrane.figures.pose import complete_skeleton, posed_lines, rotation_matrix, wire_line
+from seacrane.figures.pose import complete_skeleton, posed_lines, rotation_matrix, wire_lines
 from seacrane.plotting.panel import draw
 from seacrane.result import MOTIONS, Result
 
@@ -64,6 +66,9 @@ def posed_case2(*, dt: float = 1.0) -> Result:
             quaternion[i, body] = record.quaternion
             position[i, body] = record.position + rotation_matrix(record.quaternion) @ record.center_of_mass
     run["arrays"] |= {"vessel_motion": still}
+    scene = Scene()
+    scene.add_crane(crane, base="ground", payload=payload)
+    run["stats"]["cranes"] = json.dumps([roles_to_data(roles) for roles in scene.roles.values()])
     return Result.from_arrays(**run)
 
 
@@ -202,8 +207,7 @@ def test_the_cranes_lines_meet_at_its_joints(output: int) -> None:
 @pytest.mark.parametrize("output", [0, -1], ids=["initial", "final"])
 def test_the_wire_is_as_long_as_the_link(output: int) -> None:
     result = posed_case2()
-    wire = wire_line(result, complete_skeleton(result, crane_skeleton()), output)
-    assert wire is not None
+    (wire,) = wire_lines(result, complete_skeleton(result, crane_skeleton()), output)
     assert np.linalg.norm(wire[1] - wire[0]) == pytest.approx(8.0, abs=1e-9)
 
 

@@ -27,7 +27,6 @@ from seacrane import (
 )
 from seacrane.analysis.rest_state import held
 from seacrane.hydro import shipped_database
-from seacrane.scene.vessel import add_sea
 from seacrane.sea import jonswap
 
 Array = NDArray[np.float64]
@@ -150,7 +149,7 @@ def test_statistics_are_those_of_the_components() -> None:
     database, heading = shipped_database(), np.radians(135.0)
     scene = cases.vessel(hs=0.0)
     linear = linear_model(scene)
-    add_sea(scene, database, hs=2.0, tp=8.0, direction_deg=135.0, count=4000)
+    scene.add_sea(database, hs=2.0, tp=8.0, direction_deg=135.0, count=4000)
     summed = response_summed(linear, body="vessel", point=TIP, waves=scene.waves)
     statistics = response_statistics(
         linear, database=database, spectrum=jonswap(hs=2.0, tp=8.0), heading=heading, body="vessel", point=TIP

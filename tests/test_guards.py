@@ -319,7 +319,7 @@ def test_yaw_away_from_the_mean_heading_warns_with_loads_of_the_mean_only() -> N
 
 def test_motions_beyond_the_database_warn() -> None:
     ship = vessel(hs=0.0)
-    top = ship.notes["database_omega"][1]
+    _, top = ship.provenance["vessel"].omega or (0.0, 0.0)
     time = np.arange(0.0, 200.0, 0.1)
     for omega, expected in ((0.5 * top, False), (2.0 * top, True)):
         motion = np.zeros((time.size, 6))

@@ -21,8 +21,8 @@ from fuzz.limits import bounded
 from fuzz.netcdf_spec import build
 from fuzz.targets import CORPUS, TARGETS, Target, cases, quiet
 
+from seacrane import Scene
 from seacrane.crane.data_file import load as load_crane
-from seacrane.description.file import load_scene
 from seacrane.errors import FileFormatError
 from seacrane.files import hdf5_structure
 from seacrane.hydro import (
@@ -289,8 +289,8 @@ DEEP = 100_000
 @pytest.mark.parametrize(
     ("name", "text", "read"),
     [
-        ("scene.json", "[" * DEEP, load_scene),
-        ("scene.json", '{"notes":' * DEEP, load_scene),
+        ("scene.json", "[" * DEEP, Scene.load),
+        ("scene.json", '{"notes":' * DEEP, Scene.load),
         ("crane.toml", "a = " + "[" * DEEP, load_crane),
         ("crane.toml", "a = " + "{a = " * DEEP, load_crane),
         ("ship.yml", "[" * DEEP, read_orcaflex),
@@ -341,7 +341,7 @@ def test_keys_that_occur_twice_among_many(tmp_path: Path) -> None:
     keys = ",".join(f'"k{i}":0' for i in [*range(60_000), 59_999])
     (tmp_path / "scene.json").write_text(scene_text(notes={}).replace('"notes": {}', f'"notes": {{{keys}}}'))
     with bounded((tmp_path / "scene.json").stat().st_size):
-        refused(lambda: load_scene(tmp_path / "scene.json"), "key 'k59999' occurs twice")
+        refused(lambda: Scene.load(tmp_path / "scene.json"), "key 'k59999' occurs twice")
 
 
 @pytest.mark.parametrize("entry", ["[]", "{}", "[0]", '{"":0}', "0", '"\u0100"', '"ab"'])
@@ -351,7 +351,7 @@ def test_memory_of_a_scene_file(entry: str, tmp_path: Path) -> None:
     text = scene_text(notes={"x": []}).replace('"x": []', f'"x": [{many}]')
     (tmp_path / "scene.json").write_text(text, encoding="utf-8")
     with bounded(len(text.encode())):
-        load_scene(tmp_path / "scene.json")
+        Scene.load(tmp_path / "scene.json")
 
 
 def test_memory_of_a_table_in_a_scene_file(tmp_path: Path) -> None:
@@ -360,7 +360,7 @@ def test_memory_of_a_table_in_a_scene_file(tmp_path: Path) -> None:
     text = scene_text(force_tables=tables)
     (tmp_path / "scene.json").write_text(text)
     with bounded(len(text)):
-        load_scene(tmp_path / "scene.json")
+        Scene.load(tmp_path / "scene.json")
 
 
 LARGE = 100_000  # bytes

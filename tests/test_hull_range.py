@@ -17,8 +17,6 @@ from seacrane import (
     NoWaveLoadsWarning,
     Result,
     Scene,
-    add_sea,
-    add_vessel,
     simulate,
 )
 from seacrane.hydro import shipped_database
@@ -30,9 +28,9 @@ G = 9.80665
 
 def moored(*, hs: float = 1.0, **vessel: Any) -> Scene:
     scene = Scene(name="moored")
-    add_vessel(scene, shipped_database(), name="hull", **vessel)
+    scene.add_vessel(shipped_database(), name="hull", **vessel)
     if hs:
-        add_sea(scene, shipped_database(), vessel="hull", hs=hs, tp=8.0, direction_deg=0.0, count=40)
+        scene.add_sea(shipped_database(), vessel="hull", hs=hs, tp=8.0, direction_deg=0.0, count=40)
     return scene
 
 
@@ -94,7 +92,7 @@ def test_slow_motions_of_the_mooring_pass_the_low_pass() -> None:
 
 def test_loads_of_another_heading_than_the_start_warn_at_once() -> None:
     scene = moored(hs=0.0, heading_deg=30.0)
-    add_sea(scene, shipped_database(), vessel="hull", hs=1.0, direction_deg=0.0, count=40, heading_deg=0.0)
+    scene.add_sea(shipped_database(), vessel="hull", hs=1.0, direction_deg=0.0, count=40, heading_deg=0.0)
     _, found = told(scene, t_end=60.0)
     assert "'hull': yaw reaches 30" in found[MeanHeadingWarning]
     right = moored(heading_deg=30.0)
@@ -103,7 +101,7 @@ def test_loads_of_another_heading_than_the_start_warn_at_once() -> None:
 
 def test_a_ship_under_way_warns_of_its_place_and_of_its_speed() -> None:
     scene = Scene(name="under way")
-    add_vessel(scene, shipped_database(), name="hull", mooring_period=None)
+    scene.add_vessel(shipped_database(), name="hull", mooring_period=None)
     hull = scene.bodies.pop("hull")
     scene.add_body(
         name="hull", mass=hull.mass, inertia=hull.inertia, center_of_mass=hull.center_of_mass,
@@ -111,13 +109,13 @@ def test_a_ship_under_way_warns_of_its_place_and_of_its_speed() -> None:
     )  # fmt: skip
     _, calm = told(scene, t_end=60.0)
     assert not calm
-    add_sea(scene, shipped_database(), vessel="hull", hs=1.0, count=40)
+    scene.add_sea(shipped_database(), vessel="hull", hs=1.0, count=40)
     result, found = told(scene, t_end=60.0)
     assert result["vessel_motion"][-1, 0] > 100.0
     assert set(found) >= {MeanPositionWarning, ForwardSpeedWarning}
     assert "makes 4." in found[ForwardSpeedWarning]
     scene.waves = None
-    add_sea(scene, shipped_database(), vessel="hull", hs=1.0, count=40, phase="actual")
+    scene.add_sea(shipped_database(), vessel="hull", hs=1.0, count=40, phase="actual")
     assert set(told(scene, t_end=60.0)[1]) == {ForwardSpeedWarning}
 
 
@@ -143,7 +141,7 @@ def test_a_hull_that_turns_beyond_its_mooring_warns() -> None:
 
 def test_the_second_hull_is_judged_too() -> None:
     scene = moored()
-    add_vessel(scene, shipped_database(), name="barge", position=(0.0, 80.0, 0.0))
+    scene.add_vessel(shipped_database(), name="barge", position=(0.0, 80.0, 0.0))
     righting = float(np.asarray(scene.vessels["barge"].restoring)[3, 3])
     scene.add_point_force(
         name="weight", body="barge", point=(0.0, 20.0, 0.0), force=(0.0, 0.0, -0.5 * righting / 20.0)
@@ -151,19 +149,19 @@ def test_the_second_hull_is_judged_too() -> None:
     _, found = told(scene, t_end=60.0)
     assert "'barge': roll reaches" in found[LargeHeelWarning]
     assert found[NoWaveLoadsWarning].startswith("vessel 'barge': floats in the sea that loads 'hull'")
-    add_sea(scene, shipped_database(), vessel="barge")
+    scene.add_sea(shipped_database(), vessel="barge")
     assert NoWaveLoadsWarning not in told(scene, t_end=10.0)[1]
 
 
 def test_the_peak_is_found_from_the_components() -> None:
     scene = Scene(name="peak")
-    add_vessel(scene, shipped_database())
+    scene.add_vessel(shipped_database())
     for tp in (7.0, 10.0, 14.0):
         scene.waves = None
-        add_sea(scene, shipped_database(), tp=tp, count=200)
+        scene.add_sea(shipped_database(), tp=tp, count=200)
         assert scene.waves is not None
         assert peak_frequency(scene.waves) == pytest.approx(2.0 * np.pi / tp, rel=0.1)
     scene.waves = None
-    add_sea(scene, shipped_database(), count=1)
+    scene.add_sea(shipped_database(), count=1)
     assert scene.waves is not None
     assert peak_frequency(scene.waves) == pytest.approx(float(scene.waves.omega[0]), rel=1e-12)

@@ -18,21 +18,13 @@ from seacrane import (
     Scene,
     SceneError,
     Waves,
-    add_current,
-    add_drift,
-    add_sea,
-    add_vessel,
-    add_wind,
     balance,
     linear_model,
     response_summed,
     simulate,
     simulate_to_file,
-    use_actual_position,
-    use_slow_position,
 )
-from seacrane.crane import KnuckleBoomCrane, Payload
-from seacrane.description.file import load_scene
+from seacrane.crane import Payload
 from seacrane.hydro import DriftCoefficients, HydroDatabase, shipped_database
 from seacrane.inputs.frames import rotation_about_z
 from seacrane.trading import rungs
@@ -85,8 +77,8 @@ def blown(scene: Scene, name: str, direction_deg: float) -> None:
         "length": 115.0,
         "direction_deg": direction_deg,
     }
-    add_wind(scene, speed=15.0, frontal_area=700.0, lateral_area=1800.0, name=f"wind on {name}", **given)
-    add_current(scene, speed=0.5, frontal_area=160.0, lateral_area=740.0, name=f"current on {name}", **given)
+    scene.add_wind(speed=15.0, frontal_area=700.0, lateral_area=1800.0, name=f"wind on {name}", **given)
+    scene.add_current(speed=0.5, frontal_area=160.0, lateral_area=740.0, name=f"current on {name}", **given)
 
 
 @dataclass(frozen=True)
@@ -114,10 +106,10 @@ class Weather:
     def of(self, poses: dict[str, Pose]) -> Scene:
         scene = Scene(name="hulls")
         for name, pose in poses.items():
-            add_vessel(scene, database(), name=name, **pose.place())
+            scene.add_vessel(database(), name=name, **pose.place())
         for name in poses:
-            add_sea(
-                scene, database(), vessel=name, hs=2.5, tp=8.0, count=25, direction_deg=self.direction_deg,
+            scene.add_sea(
+                database(), vessel=name, hs=2.5, tp=8.0, count=25, direction_deg=self.direction_deg,
                 spreading=self.spreading, seed=self.seed, phase=self.phase, drift=self.drift,
             )  # fmt: skip
             if self.wind_deg is not None:
@@ -127,7 +119,7 @@ class Weather:
     def moved_to_the_origin(self, pose: Pose) -> Scene:
         """A hull at the origin, heading along x, in the sea, wind and current that are the same to it."""
         scene = Scene(name="moved")
-        add_vessel(scene, database(), name="hull")
+        scene.add_vessel(database(), name="hull")
         asked = self.of({"a": Pose(0.0, 0.0, 0.0)}).waves
         assert asked is not None
         heading = np.radians(pose.heading_deg)
@@ -141,11 +133,11 @@ class Weather:
             hulls={"hull": HullLoads(transfer=database().force_at(asked.omega, direction))},
         )
         if self.drift:
-            add_drift(scene, database())
+            scene.add_drift(database())
         if self.phase == "actual":
-            use_actual_position(scene, database())
+            scene.use_actual_position(database())
         if self.phase == "slow":
-            use_slow_position(scene, database())
+            scene.use_slow_position(database())
         if self.wind_deg is not None:
             blown(scene, "hull", self.wind_deg - pose.heading_deg)
         return scene
@@ -198,10 +190,10 @@ def test_more_hulls_together_are_as_alone_and_as_at_the_origin_of_a_moved_sea(se
 
 def two_hulls(**options: Any) -> Scene:
     scene = Scene(name="two")
-    add_vessel(scene, database(), name="ship")
-    add_vessel(scene, database(), name="barge", position=(60.0, 40.0, 0.0), heading_deg=90.0)
-    add_sea(scene, database(), vessel="ship", count=20, direction_deg=0.0, **options)
-    add_sea(scene, database(), vessel="barge")
+    scene.add_vessel(database(), name="ship")
+    scene.add_vessel(database(), name="barge", position=(60.0, 40.0, 0.0), heading_deg=90.0)
+    scene.add_sea(database(), vessel="ship", count=20, direction_deg=0.0, **options)
+    scene.add_sea(database(), vessel="barge")
     return scene
 
 
@@ -229,8 +221,8 @@ def test_the_place_of_a_hull_that_does_not_move_gives_the_same_load_by_table_and
     loads = []
     for phase in ("mean", "slow", "actual"):
         scene = Scene(name="ahead")
-        add_vessel(scene, database(), position=(60.0, 0.0, 0.0), heading_deg=40.0)
-        add_sea(scene, database(), count=30, phase=phase)  # type: ignore[arg-type]
+        scene.add_vessel(database(), position=(60.0, 0.0, 0.0), heading_deg=40.0)
+        scene.add_sea(database(), count=30, phase=phase)  # type: ignore[arg-type]
         loads.append(simulate(scene, t_end=0.1, channels=["wave_force"])["wave_force"][0])
     for other in loads[1:]:
         np.testing.assert_allclose(loads[0], other, atol=1e-7 * np.abs(loads[0]).max())
@@ -238,8 +230,8 @@ def test_the_place_of_a_hull_that_does_not_move_gives_the_same_load_by_table_and
 
 def test_loads_are_taken_at_a_pose_given_instead_of_the_start() -> None:
     scene = Scene(name="given")
-    add_vessel(scene, database(), position=(5.0, 0.0, 0.0))
-    add_sea(scene, database(), count=20, position=(12.0, -7.0), heading_deg=30.0)
+    scene.add_vessel(database(), position=(5.0, 0.0, 0.0))
+    scene.add_sea(database(), count=20, position=(12.0, -7.0), heading_deg=30.0)
     assert scene.waves is not None
     hull = scene.waves.hull()
     assert hull.position == (12.0, -7.0) and hull.heading == pytest.approx(np.radians(30.0))
@@ -251,36 +243,36 @@ def test_a_second_sea_is_refused_and_the_same_one_is_not() -> None:
     scene = two_hulls(hs=3.0)
     before = scene.waves
     assert before is not None and list(before.hulls) == ["ship", "barge"]
-    add_sea(scene, database(), vessel="barge", hs=3.0, count=20, direction_deg=0.0)
+    scene.add_sea(database(), vessel="barge", hs=3.0, count=20, direction_deg=0.0)
     assert scene.waves is not None and scene.waves.phase is before.phase
     for change in ({"hs": 2.0}, {"tp": 9.0}, {"seed": 2}, {"direction_deg": 5.0}, {"count": 21}):
         given: dict[str, Any] = {"hs": 3.0, "count": 20, "direction_deg": 0.0, **change}
         for vessel in ("ship", "barge"):
             with pytest.raises(SceneError, match=f"'{vessel}' is given another sea than 'ship', 'barge' has"):
-                add_sea(scene, database(), vessel=vessel, **given)
+                scene.add_sea(database(), vessel=vessel, **given)
     with pytest.raises(SceneError, match=r"relative_bound is 0\.1, that of 'ship', 'barge' is 1e-09"):
-        add_sea(scene, database(), vessel="barge", relative_bound=0.1)
+        scene.add_sea(database(), vessel="barge", relative_bound=0.1)
     with pytest.raises(SceneError, match="no vessel 'tug', the scene has 'ship', 'barge'; call add_vessel"):
-        add_sea(scene, database(), vessel="tug")
+        scene.add_sea(database(), vessel="tug")
     with pytest.raises(SceneError, match="the sea is on 'ship', 'barge'; name one of them"):
-        add_drift(scene, database())
+        scene.add_drift(database())
     with pytest.raises(SceneError, match="heading_deg is 'north'"):
-        add_sea(scene, database(), vessel="barge", heading_deg="north")  # type: ignore[arg-type]
+        scene.add_sea(database(), vessel="barge", heading_deg="north")  # type: ignore[arg-type]
     with pytest.raises(SceneError, match="give finite"):
-        add_sea(scene, database(), vessel="barge", position=(np.nan, 0.0))
+        scene.add_sea(database(), vessel="barge", position=(np.nan, 0.0))
 
 
 def test_the_papers_kinematics_refuse_a_heading() -> None:
     scene = Scene(name="paper")
-    add_vessel(scene, database(), kinematics="paper", heading_deg=20.0)
+    scene.add_vessel(database(), kinematics="paper", heading_deg=20.0)
     with pytest.raises(SceneError, match=r"'vessel'.*kinematics 'paper' act along the inertial axes.*0.349"):
         scene.compile()
 
 
 def test_a_hull_may_be_at_the_moments_place_beside_one_at_its_mean() -> None:
     scene = two_hulls()
-    use_actual_position(scene, database(), vessel="barge")
-    add_drift(scene, database(), vessel="ship")
+    scene.use_actual_position(database(), vessel="barge")
+    scene.add_drift(database(), vessel="ship")
     result = simulate(scene, t_end=5.0, dt_out=0.5)
     assert np.abs(result.select("drift_force", vessel="ship")).max() > 1.0
     assert not result.select("drift_force", vessel="barge").any()
@@ -301,7 +293,7 @@ def test_files_and_tables_name_the_vessels(tmp_path: Path) -> None:
         assert other.dims == result.dims and other.coords["vessel"] == ("ship", "barge")
         np.testing.assert_array_equal(other["vessel_motion"], result["vessel_motion"])
     scene.save(tmp_path / "two.json")
-    again = simulate(load_scene(tmp_path / "two.json"), t_end=5.0)
+    again = simulate(Scene.load(tmp_path / "two.json"), t_end=5.0)
     np.testing.assert_array_equal(again["vessel_motion"], result["vessel_motion"])
     rows = dict(scene.report()["elements"])
     assert rows["waves"] == ["ship", "barge"]
@@ -338,10 +330,10 @@ def test_the_linear_model_sums_the_loads_of_all_hulls() -> None:
 
 def test_joined_hulls_move_as_their_linear_model_under_the_loads_of_both() -> None:
     scene = Scene(name="joined")
-    add_vessel(scene, database(), name="ship", position=(-30.0, 20.0, 0.0), heading_deg=25.0)
-    add_vessel(scene, database(), name="barge", position=(60.0, 40.0, 0.0), heading_deg=100.0)
+    scene.add_vessel(database(), name="ship", position=(-30.0, 20.0, 0.0), heading_deg=25.0)
+    scene.add_vessel(database(), name="barge", position=(60.0, 40.0, 0.0), heading_deg=100.0)
     for body in ("ship", "barge"):
-        add_sea(scene, database(), vessel=body, hs=0.02, tp=8.0, count=10, direction_deg=70.0)
+        scene.add_sea(database(), vessel=body, hs=0.02, tp=8.0, count=10, direction_deg=70.0)
     apart = float(np.hypot(90.0, 20.0))
     scene.add_spring(name="hawser", first="ship", second="barge", stiffness=2e7, natural_length=apart)
     linear = linear_model(scene, vessel="ship")
@@ -361,8 +353,8 @@ def test_joined_hulls_move_as_their_linear_model_under_the_loads_of_both() -> No
 
 def carried(pose: Pose) -> Scene:
     scene = Scene(name="carried")
-    add_vessel(scene, database(), **pose.place())
-    KnuckleBoomCrane.load().add_to(scene, base="vessel", theta=0.3, payload=Payload(mass=20e3))
+    scene.add_vessel(database(), **pose.place())
+    scene.add_crane(base="vessel", theta=0.3, payload=Payload(mass=20e3))
     for joint in ("A", "main_cylinder", "knuckle_cylinder"):
         scene.add_actuator(name=joint, joint=joint, stiffness=1e8, damping=1e7)
     return scene
@@ -394,8 +386,8 @@ def test_balance_tells_the_wrench_on_every_vessel() -> None:
 
 def test_a_prescribed_vessel_moves_along_its_own_heading() -> None:
     scene = Scene(name="prescribed")
-    add_vessel(scene, database(), position=(30.0, 10.0, 0.0), heading_deg=-70.0)
-    add_sea(scene, database(), count=20)
+    scene.add_vessel(database(), position=(30.0, 10.0, 0.0), heading_deg=-70.0)
+    scene.add_sea(database(), count=20)
     run = simulate(scene, t_end=8.0, dt_out=0.05, rtol=1e-9)
     held = rungs.with_prescribed_vessel(scene, run.time, run["vessel_motion"])
     again = simulate(held, t_end=8.0, dt_out=0.5, rtol=1e-9)

@@ -31,7 +31,6 @@ from seacrane.hydro import (
     vessel_parameters,
 )
 from seacrane.hydro.data.data_warnings import warn_of_water
-from seacrane.scene.vessel import add_vessel
 
 
 @contextmanager
@@ -59,7 +58,7 @@ def test_good_data_are_silent(shared: Path) -> None:
             load_database(folder)
         vessel_parameters(shipped_database())
         scene = Scene(name="afloat")
-        add_vessel(scene, shipped_database())
+        scene.add_vessel(shipped_database())
         tanker = load_database(shared / "wamit")
         for kind in ("per-pair", "passive"):
             model = fit_memory(database=tanker, kind=kind)
@@ -207,12 +206,12 @@ def test_units_and_water_that_do_not_fit(changes: dict[str, float], message: str
 
 def test_gravity_of_scene_and_database() -> None:
     with silence():  # 9.80665 and 9.81
-        add_vessel(Scene(name="earth"), shipped_database())
+        Scene(name="earth").add_vessel(shipped_database())
     moon = Scene(name="moon", gravity=1.62)
     with pytest.warns(
         WaterMismatchWarning, match=r"g is 9\.81 m/s2, that of the scene 1\.62.*heel and trim"
     ) as told:
-        add_vessel(moon, shipped_database())
+        moon.add_vessel(shipped_database())
     assert told[0].filename == __file__
 
 

@@ -38,7 +38,6 @@ from seacrane.hydro.memory.fit import trade as memory_trade
 from seacrane.hydro.memory.identification import r_squared
 from seacrane.hydro.memory.oscillators import GroupData, Oscillators, _Problem, first_guess, fit_oscillators
 from seacrane.hydro.memory.passive import motion_groups
-from seacrane.scene.vessel import add_vessel
 
 Array = NDArray[np.float64]
 
@@ -373,8 +372,8 @@ def test_saved_and_loaded_without_loss(hull: MemoryModel, tmp_path: Path) -> Non
     assert loaded.rows == hull.rows
     scene, again = Scene(name="one"), Scene(name="two")
     own = dataclasses.replace(database, memory=loaded)
-    add_vessel(scene, own, memory="passive")
-    add_vessel(again, own, memory="per-pair")
+    scene.add_vessel(own, memory="passive")
+    again.add_vessel(own, memory="per-pair")
     assert scene.compile().memory_states == hull.states
     assert again.compile().memory_states == fit_memory(database=own).states
 

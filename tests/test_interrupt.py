@@ -326,10 +326,11 @@ def test_notes_of_every_plain_kind_reach_the_result_and_settings_stay_its_own(tm
     scene = ball_on_a_pin()
     scene.notes.update(limit=np.inf, table=np.eye(2), place=tmp_path, rtol="looked fine to me")
     settings = json.loads(str(simulate(scene, t_end=0.1).stats["settings"]))
-    assert settings["table"] == [[1.0, 0.0], [0.0, 1.0]]
-    assert settings["place"] == str(tmp_path)
-    assert settings["limit"] == {"$infinite": 1}
-    assert settings["rtol"] == 1e-6
+    noted = settings["notes"]
+    assert noted["table"] == [[1.0, 0.0], [0.0, 1.0]]
+    assert noted["place"] == str(tmp_path)
+    assert noted["limit"] == {"$infinite": 1}
+    assert settings["rtol"] == 1e-6 and noted["rtol"] == "looked fine to me"
 
 
 def test_memory_that_runs_out_in_the_loop_leaves_what_was_recorded(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -11,7 +11,7 @@ from linear_scenes import reference_vessel
 from multibody_runs import quaternion_about
 from numpy.typing import NDArray
 
-from seacrane import FlowCoefficients, Scene, _core, add_wind, cases, equilibrium, linear_model, simulate
+from seacrane import FlowCoefficients, Scene, _core, cases, equilibrium, linear_model, simulate
 from seacrane.analysis.linearise import jacobian
 from seacrane.analysis.reduced_coordinates import Terms
 
@@ -121,7 +121,7 @@ def mixture(seed: int, **settings: Any) -> Scene:
     )
     areas: dict[str, Any] = {"frontal_area": 2.0, "lateral_area": 3.0, "length": 2.0}
     top = (0.0, 0.0, 0.4)
-    add_wind(scene, coefficients=flow, speed=6.0, direction_deg=30.0, body="load", point=top, **areas)
+    scene.add_wind(coefficients=flow, speed=6.0, direction_deg=30.0, body="load", point=top, **areas)
     address = ctypes.cast(_swirl, ctypes.c_void_p).value
     assert address is not None
     scene.add_function_force(name="swirl", body="load", address=address, parameters=[0.7])

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from kink_scenes import CART as MASS
 from kink_scenes import ELEMENTS, cart, random_curve, slewing
 
-from seacrane import Curve, Result, Scene, add_soft_stop, cases, integrator_names, simulate
+from seacrane import Curve, Result, Scene, cases, integrator_names, simulate
 
 SCALE = 0.1  # m and m/s, of the tolerances
 JUMPS = (0.5, -0.8, 1.2)  # of value, rate and acceleration
@@ -190,7 +190,7 @@ def test_random_curves_with_kinks_keep_an_accuracy_through_every_element(seed: i
 
 def bouncing(damping: float) -> Scene:
     scene = cart(speed=1.0)
-    add_soft_stop(scene, joint="rail", minimum=-1.0, maximum=1.0, stiffness=400.0, damping=damping)
+    scene.add_soft_stop(joint="rail", minimum=-1.0, maximum=1.0, stiffness=400.0, damping=damping)
     return scene
 
 

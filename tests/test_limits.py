@@ -10,54 +10,42 @@ import numpy as np
 import pytest
 from event_scenes import ball, lift, pendulum, pushed
 
-from seacrane import (
-    Result,
-    Run,
-    Scene,
-    SceneError,
-    add_end_stop,
-    add_friction,
-    add_seat,
-    add_soft_stop,
-    add_wire,
-    cases,
-    simulate,
-)
+from seacrane import Result, Run, Scene, SceneError, cases, simulate
 from seacrane.cli.run_command import summary
 
 
 @pytest.mark.parametrize(
     ("change", "message"),
     [
-        (lambda s: add_end_stop(s, joint="air", coordinate="x"), "neither minimum nor maximum"),
+        (lambda s: s.add_end_stop(joint="air", coordinate="x"), "neither minimum nor maximum"),
         (
-            lambda s: add_end_stop(s, joint="air", coordinate="x", minimum=1.0, maximum=0.0),
+            lambda s: s.add_end_stop(joint="air", coordinate="x", minimum=1.0, maximum=0.0),
             "minimum must be below",
         ),
-        (lambda s: add_end_stop(s, joint="air", coordinate="x", minimum=1.0), "starts 1 m or rad beyond"),
+        (lambda s: s.add_end_stop(joint="air", coordinate="x", minimum=1.0), "starts 1 m or rad beyond"),
         (
-            lambda s: add_end_stop(s, joint="air", coordinate="yaw", minimum=-1.0),
+            lambda s: s.add_end_stop(joint="air", coordinate="yaw", minimum=-1.0),
             "give both, between -pi and pi",
         ),
         (
-            lambda s: add_end_stop(s, joint="air", coordinate="z", minimum=-3.0, name="b"),
+            lambda s: s.add_end_stop(joint="air", coordinate="z", minimum=-3.0, name="b"),
             "'floor' limits already",
         ),
-        (lambda s: add_end_stop(s, joint="nowhere"), "there is no joint 'nowhere'"),
-        (lambda s: add_end_stop(s, joint="air", coordinate="x", minimum=float("nan")), "nan"),
+        (lambda s: s.add_end_stop(joint="nowhere"), "there is no joint 'nowhere'"),
+        (lambda s: s.add_end_stop(joint="air", coordinate="x", minimum=float("nan")), "nan"),
         (
-            lambda s: add_end_stop(s, joint="air", coordinate="x", minimum=-1.0, restitution=1.5),
+            lambda s: s.add_end_stop(joint="air", coordinate="x", minimum=-1.0, restitution=1.5),
             "give 0 to 1",
         ),
-        (lambda s: add_wire(s, joint="air"), "a wire takes a distance joint"),
-        (lambda s: add_seat(s, joint="air"), "a seat takes a weld joint"),
+        (lambda s: s.add_wire(joint="air"), "a wire takes a distance joint"),
+        (lambda s: s.add_seat(joint="air"), "a seat takes a weld joint"),
         (
-            lambda s: add_friction(s, joint="air", coordinate="x", load=-1.0, speed=1.0),
+            lambda s: s.add_friction(joint="air", coordinate="x", load=-1.0, speed=1.0),
             "must not be negative",
         ),
-        (lambda s: add_friction(s, joint="air", coordinate="x", load=1.0, speed=0.0), "give a positive one"),
+        (lambda s: s.add_friction(joint="air", coordinate="x", load=1.0, speed=0.0), "give a positive one"),
         (
-            lambda s: add_soft_stop(s, joint="air", coordinate="x", maximum=1.0, stiffness=0.0),
+            lambda s: s.add_soft_stop(joint="air", coordinate="x", maximum=1.0, stiffness=0.0),
             "make it positive",
         ),
     ],
@@ -71,7 +59,7 @@ def test_contradictions_are_refused_by_name(change: Any, message: str) -> None:
 
 def test_a_driver_and_a_stop_on_one_coordinate_are_refused() -> None:
     scene = lift()
-    add_end_stop(scene, joint="hoist", maximum=3.0)
+    scene.add_end_stop(joint="hoist", maximum=3.0)
     with pytest.raises(SceneError, match=r"driver 'hoist\.displacement' prescribes hoist\.displacement"):
         scene.compile()
 
@@ -97,8 +85,8 @@ def test_events_survive_a_file(tmp_path: Path) -> None:
 
 def test_limits_survive_a_scene_file(tmp_path: Path) -> None:
     scene = pushed(restitution=0.3)
-    add_friction(scene, joint="rail", load=2.0, speed=1e-3)
-    add_soft_stop(scene, joint="rail", maximum=1.0, stiffness=1e4, damping=0.2)
+    scene.add_friction(joint="rail", load=2.0, speed=1e-3)
+    scene.add_soft_stop(joint="rail", maximum=1.0, stiffness=1e4, damping=0.2)
     scene.save(tmp_path / "pushed.json")
     read = Scene.load(tmp_path / "pushed.json")
     again, once = (simulate(s, t_end=1.5, dt_out=0.1) for s in (read, scene))
@@ -132,7 +120,7 @@ def test_a_method_that_cannot_project_takes_the_redundant_form_with_limits() -> 
             kind="distance", name=name, first="ground", second="ball", point=(x, 0.3 * x, 0.0),
             second_point=(0.0, 0.0, -1.0), length=2.5,
         )  # fmt: skip
-        add_wire(scene, joint=name)
+        scene.add_wire(joint=name)
     result = simulate(scene, t_end=3.0, dt_out=0.1, integrator="cvode-adams", rtol=1e-8)
     reference = simulate(scene, t_end=3.0, dt_out=0.1, rtol=1e-10)
     assert result.stats["formulation"] == "redundant"

@@ -10,7 +10,7 @@ import pytest
 
 from seacrane import Curve, Run, Scene, _core, cases
 from seacrane.analysis.scene_report import scene_report
-from seacrane.scene.wind_current_drift import FlowCoefficients, add_wind
+from seacrane.scene.wind_current import FlowCoefficients
 
 TURNED = np.array([0.8, 0.2, -0.4, 0.4])  # unit quaternion
 COMPARED = ("position", "velocity", "angular_velocity", "acceleration", "reaction_force", "reaction_moment")
@@ -83,7 +83,7 @@ def with_loads(scene: Scene) -> Scene:
         angle=angle, x=np.cos(angle), y=np.sin(angle), yaw=0.1 * np.sin(2.0 * angle) + 0.05 * np.sin(angle)
     )
     sizes = {"frontal_area": 0.5, "lateral_area": 0.8, "length": 1.5}
-    add_wind(scene, coefficients=wind, speed=6.0, direction_deg=40.0, body="b", point=(0, 0.2, 0.1), **sizes)
+    scene.add_wind(coefficients=wind, speed=6.0, direction_deg=40.0, body="b", point=(0, 0.2, 0.1), **sizes)
     return scene
 
 

@@ -18,17 +18,14 @@ from seacrane import (
     Scene,
     SeaState,
     WaveSystem,
-    add_sea,
-    add_vessel,
-    add_wind,
     balance,
     driven,
     equilibrium,
     simulate,
 )
-from seacrane.crane import KnuckleBoomCrane, Payload
+from seacrane.crane import Payload
 from seacrane.hydro import shipped_database
-from seacrane.scene.wind_current_drift import FlowCoefficients
+from seacrane.scene.wind_current import FlowCoefficients
 from seacrane.sea import jonswap
 
 PAGE = (Path(__file__).parents[1] / "docs" / "mistakes.md").read_text()
@@ -48,10 +45,10 @@ def lift(*, mass: float = 20e3, theta: float = 0.0, ballast: bool = True, sea: f
     """The lift of the README, its drives without gains."""
     database = shipped_database()
     scene = Scene(name="lift")
-    add_vessel(scene, database)
+    scene.add_vessel(database)
     if sea is not None:
-        add_sea(scene, database, hs=2.0, tp=8.0, direction_deg=sea, seed=1)
-    KnuckleBoomCrane.load().add_to(scene, base="vessel", theta=theta, payload=Payload(mass=mass))
+        scene.add_sea(database, hs=2.0, tp=8.0, direction_deg=sea, seed=1)
+    scene.add_crane(base="vessel", theta=theta, payload=Payload(mass=mass))
     for name, joint in JOINTS.items():
         scene.record_coordinate(joint=joint)
         scene.add_actuator(name=name, joint=joint)
@@ -65,7 +62,7 @@ def lift(*, mass: float = 20e3, theta: float = 0.0, ballast: bool = True, sea: f
 def controlled(omega: float, *, feed_forward: bool = True) -> Scene:
     """The crane on land, its drives held by gains of that frequency (rad/s)."""
     scene = Scene(name="crane")
-    KnuckleBoomCrane.load().add_to(scene, base="ground", payload=Payload(mass=20e3))
+    scene.add_crane(base="ground", payload=Payload(mass=20e3))
     for name, joint in JOINTS.items():
         scene.add_actuator(name=name, joint=joint)
     held, inertia = balance(scene), seacrane.reflected_inertia(scene)
@@ -104,7 +101,7 @@ def wind_where_it_comes_from() -> None:
         angle=circle, x=np.cos(circle), y=np.array([0.0, 0.6, 0.8, 0.6, 0.0]), yaw=0.0 * circle
     )
     areas = {"frontal_area": 500.0, "lateral_area": 1500.0, "length": 115.0}
-    add_wind(scene, coefficients=drag, speed=12.0, direction_deg=0.0, **areas)
+    scene.add_wind(coefficients=drag, speed=12.0, direction_deg=0.0, **areas)
     simulate(driven(scene), t_end=1.0)
 
 
@@ -157,7 +154,7 @@ def strokes_out_of_range() -> None:
 
 def strokes_left_in_a_run() -> None:
     scene = Scene(name="no load along the cylinders")
-    KnuckleBoomCrane.load().add_to(scene, base="ground", s1=1.0, s2=1.0)
+    scene.add_crane(base="ground", s1=1.0, s2=1.0)
     simulate(scene, t_end=3.0)
 
 
@@ -250,7 +247,7 @@ def test_the_same_scripts_without_the_mistake_warn_of_nothing() -> None:
 def loaded_to_port(heading: float) -> Scene:
     """A hull at a heading with 300 t welded on, 20 m before its origin and 8 m to port."""
     scene = Scene(name="deck load")
-    add_vessel(scene, shipped_database())
+    scene.add_vessel(shipped_database())
     hull = scene.bodies.pop("vessel")
     turn = (np.cos(heading / 2.0), 0.0, 0.0, np.sin(heading / 2.0))
     scene.add_body(

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 from scipy.spatial.transform import Rotation
 
-from seacrane import Result, Scene, add_wire, simulate
+from seacrane import Result, Scene, simulate
 
 pytestmark = pytest.mark.filterwarnings("ignore:.*are redundant:UserWarning")
 Array = NDArray[np.float64]
@@ -33,7 +33,7 @@ def payload(top: float, yaw_rate: float) -> Scene:
         scene.add_joint(
             kind="distance", name=f"wire {i}", first="ground", second="load", point=hook, second_point=corner
         )
-        add_wire(scene, joint=f"wire {i}")
+        scene.add_wire(joint=f"wire {i}")
     return scene
 
 

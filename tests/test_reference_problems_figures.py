@@ -14,7 +14,7 @@ from reference_problems import bricard, four_bars, pendulums, tops
 from reference_problems.problems import CRANK
 
 from seacrane import Result, Scene, cases, simulate
-from seacrane.crane import KnuckleBoomCrane, Payload
+from seacrane.crane import Payload
 from seacrane.inputs.frames import rotation_matrix
 
 Array = NDArray[np.float64]
@@ -24,7 +24,7 @@ def thrown_crane() -> Scene:
     """The crane, nothing driving it, on a vessel that turns in empty space."""
     scene = Scene(name="thrown crane", gravity=0.0)
     scene.add_body(name="vessel", mass=4.0e6, inertia=(4e8, 3e9, 3e9), angular_velocity=(0.05, 0.02, 0.1))
-    KnuckleBoomCrane.load().add_to(scene, base="vessel", payload=Payload())
+    scene.add_crane(base="vessel", payload=Payload())
     return scene
 
 

@@ -23,7 +23,6 @@ from seacrane import (
     SoftGainsWarning,
     simulate,
 )
-from seacrane.crane import KnuckleBoomCrane
 
 
 def rail(curve: Curve | None = None, **actuator: object) -> Scene:
@@ -57,7 +56,7 @@ def turned(result: Result) -> float:
 
 def crane() -> Scene:
     scene = Scene(name="crane")
-    KnuckleBoomCrane.load().add_to(scene, base="ground", s1=1.0, s2=1.0)
+    scene.add_crane(base="ground", s1=1.0, s2=1.0)
     return scene
 
 

@@ -10,7 +10,7 @@ import pytest
 from test_scene_file import every_kind
 
 import seacrane
-from seacrane import Curve, Scene, _core, add_soft_stop, cases
+from seacrane import Curve, Scene, _core, cases
 from seacrane.run.simulation import Run
 
 
@@ -18,7 +18,7 @@ def held() -> dict[str, Any]:
     """One of each thing that scripts hold, by the name of its class."""
     scene = every_kind()
     joint = next(name for name, j in scene.joints.items() if j.kind in ("prismatic", "revolute"))
-    add_soft_stop(scene, joint=joint, minimum=-100.0, stiffness=1e5)
+    scene.add_soft_stop(joint=joint, minimum=-100.0, stiffness=1e5)
     case = cases.case2()
     model = case.compile()
     things: list[Any] = [

@@ -22,13 +22,14 @@ from seacrane import (
     HullLoads,
     Scene,
     SceneError,
+    SeaProvenance,
     StateSpaceBlock,
     Waves,
     cases,
     simulate,
 )
 from seacrane.description import file as module
-from seacrane.description.file import load_scene, save_scene
+from seacrane.description.file import save_scene
 
 THIRD = 1.0 / 3.0
 WITH_FOLDER = settings(
@@ -51,7 +52,7 @@ def waves(body: str) -> Waves:
             )
         },
         relative_bound=0.0,
-        information={"seed": 3, "repeat_period_s": math.inf, "realised_hs": np.float64(THIRD)},
+        provenance=SeaProvenance(seed=3, repeat_period_s=math.inf, realised_hs=np.float64(THIRD)),
     )
 
 
@@ -156,7 +157,7 @@ def plain(value: Any) -> Any:
 def test_every_kind_of_element_comes_back_bit_for_bit(tmp_path: Path) -> None:
     scene = every_kind()
     save_scene(scene, tmp_path / "scene.json")
-    back = load_scene(tmp_path / "scene.json")
+    back = Scene.load(tmp_path / "scene.json")
     for name in Scene.__dataclass_fields__:
         assert plain(getattr(back, name)) == plain(getattr(scene, name)), name
     np.testing.assert_array_equal(back.compile().initial_state, scene.compile().initial_state)
@@ -184,14 +185,14 @@ def test_a_loaded_case_runs_to_the_same_bits(tmp_path: Path) -> None:
     first, second = (simulate(each, t_end=2.0) for each in (scene, back))
     for name, values in first.channels.items():
         np.testing.assert_array_equal(second[name], values, err_msg=name)
-    assert back.notes == scene.notes
+    assert back.provenance == scene.provenance and back.roles == scene.roles
     assert back.waves is not None and scene.waves is not None
-    assert dict(back.waves.information) == dict(scene.waves.information)
+    assert back.waves.provenance == scene.waves.provenance
 
 
 def test_saving_a_loaded_scene_gives_the_same_file(tmp_path: Path) -> None:
     save_scene(every_kind(), tmp_path / "a.json")
-    save_scene(load_scene(tmp_path / "a.json"), tmp_path / "b.json")
+    save_scene(Scene.load(tmp_path / "a.json"), tmp_path / "b.json")
     assert (tmp_path / "a.json").read_bytes() == (tmp_path / "b.json").read_bytes()
 
 
@@ -202,7 +203,7 @@ def test_a_file_from_before_several_hulls_reads_as_the_same_scene(tmp_path: Path
     del hull["heading"]
     data["waves"] |= hull
     (tmp_path / "old.json").write_text(json.dumps(data))
-    old = load_scene(tmp_path / "old.json").waves
+    old = Scene.load(tmp_path / "old.json").waves
     assert old is not None
     expected = every_kind().waves
     assert expected is not None
@@ -216,7 +217,7 @@ def test_water_depth(tmp_path: Path) -> None:
             **{**{k: getattr(scene.waves, k) for k in Waves.__dataclass_fields__}, "depth": depth}
         )
         save_scene(scene, tmp_path / "scene.json")
-        loaded = load_scene(tmp_path / "scene.json").waves
+        loaded = Scene.load(tmp_path / "scene.json").waves
         assert loaded is not None and loaded.depth == depth
 
 
@@ -228,7 +229,7 @@ def test_any_finite_number_comes_back(tmp_path: Path, values: list[float]) -> No
     scene.add_point_force(name="f", body="b", force=values[3:])
     scene.notes["values"] = values
     save_scene(scene, tmp_path / "scene.json")
-    back = load_scene(tmp_path / "scene.json")
+    back = Scene.load(tmp_path / "scene.json")
     assert plain([back.bodies, back.point_forces, back.notes]) == plain(
         [scene.bodies, scene.point_forces, scene.notes]
     )
@@ -271,7 +272,7 @@ def test_missing_folder_is_named(tmp_path: Path) -> None:
 
 def test_missing_file(tmp_path: Path) -> None:
     with pytest.raises(FileNotFoundError, match=r"none\.json"):
-        load_scene(tmp_path / "none.json")
+        Scene.load(tmp_path / "none.json")
 
 
 # malformed files
@@ -288,7 +289,7 @@ def refused(tmp_path: Path, content: str | bytes, *parts: str) -> None:
     path = tmp_path / "lift.json"
     path.write_bytes(content if isinstance(content, bytes) else content.encode())
     with pytest.raises(FileFormatError) as caught:
-        load_scene(path)
+        Scene.load(path)
     assert "lift.json" in str(caught.value)
     for part in parts:
         assert part in str(caught.value)
@@ -300,7 +301,7 @@ def test_a_truncated_file_names_its_line(tmp_path: Path, text: str) -> None:
         path = tmp_path / "lift.json"
         path.write_text(text[:length])
         with pytest.raises(FileFormatError, match=r"lift\.json line (\d+), column") as caught:
-            load_scene(path)
+            Scene.load(path)
         named = int(str(caught.value).split("line ")[1].split(",")[0])
         assert last_line - 1 <= named <= last_line
 
@@ -393,7 +394,7 @@ def test_nested_notes(tmp_path: Path, text: str) -> None:
     path = tmp_path / "lift.json"
     path.write_text(data)
     try:
-        assert isinstance(load_scene(path).notes["author"], list)
+        assert isinstance(Scene.load(path).notes["author"], list)
     except FileFormatError as error:  # depends on how deep the caller stands
         assert "nested" in str(error)
 
@@ -422,7 +423,7 @@ def test_a_file_with_any_stretch_replaced_loads_or_is_refused(
     path = tmp_path / "lift.json"
     path.write_bytes(raw[:start] + patch + raw[start + length :])
     try:
-        assert isinstance(load_scene(path), Scene)
+        assert isinstance(Scene.load(path), Scene)
     except FileFormatError as error:
         assert str(error).startswith("lift.json")
 
@@ -447,4 +448,4 @@ def test_a_file_of_another_kind_is_named_as_what_it_is(name: str, tmp_path: Path
     content, kind = OTHERS[name]
     (tmp_path / name).write_bytes(content)
     with pytest.raises(FileFormatError, match=f"{name}: is {kind}.*no scene file.*Scene.save"):
-        load_scene(tmp_path / name)
+        Scene.load(tmp_path / name)

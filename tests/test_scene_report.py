@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from test_scene_file import every_kind
 
-from seacrane import Curve, Scene, SceneError, add_end_stop, add_friction, add_soft_stop, cases
+from seacrane import Curve, Scene, SceneError, cases
 from seacrane.analysis import scene_report as scene_report_module
 from seacrane.analysis.scene_report import scene_report
 
@@ -173,9 +173,9 @@ def test_every_load_is_in_the_report() -> None:
 
     scene = every_kind()
     joint = next(name for name, found in scene.joints.items() if found.kind in ("prismatic", "revolute"))
-    add_end_stop(scene, joint=joint, minimum=-50.0)
-    add_soft_stop(scene, joint=joint, minimum=-60.0, stiffness=1e4)
-    add_friction(scene, joint=joint, load=1.0, speed=1e-3)
+    scene.add_end_stop(joint=joint, minimum=-50.0)
+    scene.add_soft_stop(joint=joint, minimum=-60.0, stiffness=1e4)
+    scene.add_friction(joint=joint, load=1.0, speed=1e-3)
     scene.loads["balloon"] = Balloon()
     rows = dict(scene_report_module._elements(scene))
     told = " ".join(name for names in rows.values() for name in names)

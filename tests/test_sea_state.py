@@ -5,21 +5,14 @@ from __future__ import annotations
 import dataclasses
 import json
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from seacrane import (
-    Scene,
-    WavesWithoutLoadWarning,
-    _core,
-    add_sea,
-    add_vessel,
-    cases,
-    simulate,
-    use_actual_position,
-)
+from seacrane import Scene, WavesWithoutLoadWarning, _core, cases, simulate
+from seacrane.description.origin import origin_settings
 from seacrane.errors import SceneError
 from seacrane.hydro import shipped_database
 from seacrane.hydro.data.drift import DriftCoefficients
@@ -196,10 +189,16 @@ def test_bad_seas_are_named(make: object, message: str) -> None:
         make()  # type: ignore[operator]
 
 
+def sea_of(scene: Scene) -> dict[str, Any]:
+    """What its sea was made from."""
+    assert scene.waves is not None
+    return scene.waves.provenance.settings()
+
+
 def afloat(**sea: object) -> Scene:
     scene = Scene(name="afloat")
-    add_vessel(scene, shipped_database(), memory="none")
-    add_sea(scene, shipped_database(), **sea)
+    scene.add_vessel(shipped_database(), memory="none")
+    scene.add_sea(shipped_database(), **sea)
     return scene
 
 
@@ -211,11 +210,12 @@ def test_every_component_loads_the_vessel_from_its_own_direction(tmp_path: Path)
     for i in (0, 57, 199, 200, 279):
         one = database.force_at(waves.omega[i], waves.direction[i])
         np.testing.assert_allclose(waves.hull().transfer[i], one, rtol=1e-12)
-    assert scene.notes["sea"]["systems"][0]["spreading"] == {"kind": "cos-2s", "exponent": 8.0}
-    assert set(scene.notes["realised_hs_of_systems"]) == {"wind sea", "swell"}
+    made_from = sea_of(scene)
+    assert made_from["sea"]["systems"][0]["spreading"] == {"kind": "cos-2s", "exponent": 8.0}
+    assert set(made_from["realised_hs_of_systems"]) == {"wind sea", "swell"}
     scene.save(tmp_path / "sea.json")
     again = Scene.load(tmp_path / "sea.json")
-    assert again.waves is not None and again.notes["sea"] == scene.notes["sea"]
+    assert again.waves is not None and again.waves.provenance == scene.waves.provenance
     np.testing.assert_array_equal(again.waves.direction, waves.direction)
     result = simulate(scene, t_end=5.0, dt_out=1.0)
     components = SeaState(systems=[WIND, SWELL], seed=3).realise().waves
@@ -240,9 +240,10 @@ def test_a_symmetric_short_crested_head_sea_still_rolls_the_vessel() -> None:
 
 def test_plain_arguments_of_add_sea() -> None:
     scene = afloat(spectrum="torsethaugen", hs=3.0, tp=9.0, spreading=cos_2s(10.0))
-    assert scene.notes["spectrum"] == "torsethaugen" and scene.notes["spreading"]["exponent"] == 10.0
-    assert scene.notes["gamma"] == torsethaugen(hs=3.0, tp=9.0).gamma
-    assert cases.vessel(gamma="dnv", memory="none").notes["gamma"] == 1.0
+    made_from = sea_of(scene)
+    assert made_from["spectrum"] == "torsethaugen" and made_from["spreading"]["exponent"] == 10.0
+    assert made_from["gamma"] == torsethaugen(hs=3.0, tp=9.0).gamma
+    assert sea_of(cases.vessel(gamma="dnv", memory="none"))["gamma"] == 1.0
     assert afloat(hs=0.0).waves is None
     with pytest.raises(SceneError, match="sea: given beside hs, seed; put these into the SeaState"):
         afloat(sea=SeaState(systems=[WIND]), hs=2.0, seed=1)
@@ -264,8 +265,8 @@ def test_a_sea_is_as_deep_as_its_database() -> None:
     """Crests of a swell over 20 m of water run as fast there as its dispersion says."""
     shallow = dataclasses.replace(shipped_database(), depth=20.0)
     scene = Scene(name="shallow")
-    add_vessel(scene, shallow, memory="none")
-    add_sea(scene, shallow, tp=14.0)
+    scene.add_vessel(shallow, memory="none")
+    scene.add_sea(shallow, tp=14.0)
     waves = scene.waves
     assert waves is not None and waves.depth == 20.0
     k = wavenumber(waves.omega, g=9.80665, depth=20.0)
@@ -282,15 +283,15 @@ def test_a_sea_is_as_deep_as_its_database() -> None:
 def test_vessels_in_one_sea_share_its_depth() -> None:
     shallow = dataclasses.replace(shipped_database(), depth=20.0)
     scene = Scene(name="two")
-    add_vessel(scene, shipped_database(), memory="none")
-    add_vessel(scene, shallow, name="barge", memory="none", position=(0.0, 60.0, 0.0))
-    add_sea(scene, shipped_database(), tp=12.0)
+    scene.add_vessel(shipped_database(), memory="none")
+    scene.add_vessel(shallow, name="barge", memory="none", position=(0.0, 60.0, 0.0))
+    scene.add_sea(shipped_database(), tp=12.0)
     for arguments in ({}, {"tp": 12.0}):
         with pytest.raises(SceneError, match=r"sea of vessel 'barge': it is inf m deep, .* for 20 m"):
-            add_sea(scene, shallow, vessel="barge", **arguments)
+            scene.add_sea(shallow, vessel="barge", **arguments)
     assert scene.waves is not None and list(scene.waves.hulls) == ["vessel"]
     with pytest.raises(SceneError, match="sea of vessel 'vessel': it is inf m deep"):
-        use_actual_position(scene, shallow)
+        scene.use_actual_position(shallow)
 
 
 def test_short_seas_are_kept_whole_and_load_the_vessel_within_its_band() -> None:
@@ -308,17 +309,17 @@ def test_short_seas_are_kept_whole_and_load_the_vessel_within_its_band() -> None
     np.testing.assert_allclose(result["wave_elevation"], elevation, atol=1e-7)
     assert 0.0 < result.stats["wave_energy_without_load"] < 0.02
     assert 0.0 < result.stats["load_variance_without_load"] < 0.02
-    assert afloat(tp=8.0).waves.information["wave_energy_without_load"] == 0.0  # type: ignore[union-attr]
+    assert afloat(tp=8.0).waves.provenance.wave_energy_without_load == 0.0  # type: ignore[union-attr]
 
 
 def test_waves_that_put_no_load_on_a_vessel_are_warned_of_by_name() -> None:
     short = shipped_database().select(omega=(0.1, 1.5))
     scene = Scene(name="short table")
-    add_vessel(scene, shipped_database(), memory="none")
+    scene.add_vessel(shipped_database(), memory="none")
     with pytest.warns(WavesWithoutLoadWarning, match=r"waves on 'vessel': those above 1\.5 rad/s") as caught:
-        add_sea(scene, short, tp=6.0, direction_deg=90.0)
+        scene.add_sea(short, tp=6.0, direction_deg=90.0)
     assert caught[0].filename == __file__
-    assert scene.waves is not None and scene.waves.information["load_variance_without_load"] > 0.1
+    assert scene.waves is not None and (scene.waves.provenance.load_variance_without_load or 0.0) > 0.1
 
 
 def test_loads_at_the_actual_position_and_drift_have_the_same_limits() -> None:
@@ -333,8 +334,8 @@ def test_loads_at_the_actual_position_and_drift_have_the_same_limits() -> None:
         force=shipped_database().select(omega=(0.4, 2.0)).full_circle()[1],
     )  # fmt: skip
     scene = Scene(name="turning")
-    add_vessel(scene, shipped_database(), memory="none")
-    add_sea(scene, database, tp=7.0, direction_deg=60.0, phase="actual", drift=True)
+    scene.add_vessel(shipped_database(), memory="none")
+    scene.add_sea(database, tp=7.0, direction_deg=60.0, phase="actual", drift=True)
     waves = scene.waves
     assert waves is not None and waves.omega.min() < 0.4 and waves.omega.max() > 2.0
     table = waves.hull().force_by_heading
@@ -345,22 +346,22 @@ def test_loads_at_the_actual_position_and_drift_have_the_same_limits() -> None:
     assert np.all(table.values[:, waves.omega > 2.0] == 0.0)
 
 
-def test_calm_water_takes_the_notes_of_the_sea_before_with_it() -> None:
+def test_calm_water_takes_the_provenance_of_the_sea_before_with_it() -> None:
     scene = afloat(sea=SeaState(systems=[WIND, SWELL], seed=3), phase="actual")
-    before = set(Scene(name="none").notes) | set(afloat(hs=0.0).notes)
-    assert set(scene.notes) - before == {
+    before = set(origin_settings(afloat(hs=0.0)))
+    assert set(origin_settings(scene)) - before == {
         "sea",
         "realised_hs_of_systems",
         "wave_phase",
         "waves_relative_bound",
     }
-    add_sea(scene, shipped_database(), hs=0.0)
-    assert scene.waves is None and set(scene.notes) == before
-    add_sea(scene, shipped_database(), hs=1.0)
-    assert "sea" not in scene.notes and scene.notes["hs"] == 1.0
+    scene.add_sea(shipped_database(), hs=0.0)
+    assert scene.waves is None and set(origin_settings(scene)) == before
+    scene.add_sea(shipped_database(), hs=1.0)
+    assert "sea" not in sea_of(scene) and sea_of(scene)["hs"] == 1.0
     scene.waves = None
-    add_sea(scene, shipped_database(), sea=SeaState(systems=[WIND], seed=3))
-    assert "hs" not in scene.notes and "wave_phase" not in scene.notes
+    scene.add_sea(shipped_database(), sea=SeaState(systems=[WIND], seed=3))
+    assert "hs" not in sea_of(scene) and "wave_phase" not in origin_settings(scene)
 
 
 def test_the_command_line_runs_short_seas(tmp_path: Path) -> None:

@@ -12,21 +12,9 @@ import pytest
 from numpy.typing import NDArray
 from scipy.signal import lsim
 
-from seacrane import (
-    Curve,
-    Run,
-    Scene,
-    SceneError,
-    _core,
-    add_sea,
-    add_vessel,
-    cases,
-    simulate,
-    use_actual_position,
-    use_slow_position,
-)
+from seacrane import Curve, Run, Scene, SceneError, _core, cases, simulate
 from seacrane.hydro import shipped_database
-from seacrane.scene.wind_current_drift import force_by_heading
+from seacrane.scene.position import force_by_heading
 from seacrane.validity.hull_range import peak_frequency
 
 Array = NDArray[np.float64]
@@ -43,15 +31,15 @@ def slow_gain(omega: float, cutoff: float) -> complex:
 def driven(*, phase: Any, cutoff: float = CUTOFF, **curves: Curve) -> Scene:
     """A hull whose six coordinates are given, in a short-crested sea."""
     scene = Scene(name="driven")
-    add_vessel(scene, shipped_database(), mooring_period=None, memory="none")
+    scene.add_vessel(shipped_database(), mooring_period=None, memory="none")
     scene.add_joint(kind="free", name="tow", first="ground", second="vessel", axis=(0.0, 0.0, 1.0))
     for name in SIX:
         scene.add_driver(joint="tow", coordinate=name, curve=curves.get(name, Curve.constant(value=0.0)))
-    add_sea(scene, shipped_database(), hs=2.0, tp=8.0, count=12)
+    scene.add_sea(shipped_database(), hs=2.0, tp=8.0, count=12)
     if phase == "slow":
-        use_slow_position(scene, shipped_database(), cutoff=cutoff)
+        scene.use_slow_position(shipped_database(), cutoff=cutoff)
     if phase == "actual":
-        use_actual_position(scene, shipped_database())
+        scene.use_actual_position(shipped_database())
     return scene
 
 
@@ -133,8 +121,8 @@ def test_a_steady_drift_is_followed_from_the_start_on() -> None:
 
 def afloat(phase: Any, *, memory: Any = "per-pair", **waves: Any) -> Scene:
     scene = Scene(name="afloat")
-    add_vessel(scene, shipped_database(), mooring_period=120.0, memory=memory)
-    add_sea(scene, shipped_database(), phase=phase, **{"hs": 3.0, "tp": 8.0, "count": 30} | waves)
+    scene.add_vessel(shipped_database(), mooring_period=120.0, memory=memory)
+    scene.add_sea(shipped_database(), phase=phase, **{"hs": 3.0, "tp": 8.0, "count": 30} | waves)
     return scene
 
 
@@ -241,17 +229,17 @@ def test_a_scene_file_keeps_the_cut_off_and_older_ones_have_none(tmp_path: Path)
 def test_the_actual_position_after_the_slow_one_has_no_filter_left() -> None:
     scene = afloat("slow")
     states = scene.compile().memory_states
-    use_actual_position(scene, shipped_database())
+    scene.use_actual_position(shipped_database())
     assert scene.compile().memory_states == states - 9
 
 
 def test_what_makes_no_sense_is_refused_by_name() -> None:
     with pytest.raises(SceneError, match="loads at the slow position needs a sea"):
-        use_slow_position(Scene(name="calm"), shipped_database())
+        Scene(name="calm").use_slow_position(shipped_database())
     scene = afloat("mean")
     for value in (0.0, -1.0, float("nan")):
         with pytest.raises(SceneError, match="give a frequency between slow drift and waves"):
-            use_slow_position(scene, shipped_database(), cutoff=value)
+            scene.use_slow_position(shipped_database(), cutoff=value)
     assert scene.waves is not None
     with pytest.raises(SceneError, match="no force_by_heading"):
         scene.waves.changed(cutoff=0.1)
@@ -263,7 +251,7 @@ def test_what_makes_no_sense_is_refused_by_name() -> None:
     with pytest.raises(SceneError, match="choose evaluation='exact'"):
         slow.compile()
     paper = Scene(name="paper")
-    add_vessel(paper, shipped_database(), kinematics="paper")
+    paper.add_vessel(shipped_database(), kinematics="paper")
     paper.waves = afloat("slow").waves
     with pytest.raises(SceneError, match="yaw_following"):
         paper.compile()

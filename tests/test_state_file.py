@@ -15,18 +15,7 @@ import pytest
 from numpy.typing import NDArray
 from test_restart import SCENES
 
-from seacrane import (
-    FileFormatError,
-    Result,
-    Run,
-    Scene,
-    SceneError,
-    State,
-    _core,
-    add_wire,
-    cases,
-    simulate,
-)
+from seacrane import FileFormatError, Result, Run, Scene, SceneError, State, _core, cases, simulate
 from seacrane.files.state import DIGEST, MAGIC
 
 Array = NDArray[np.float64]
@@ -141,7 +130,7 @@ def on_a_wire() -> Scene:
     )
     scene.add_joint(kind="distance", name="wire", first="ground", second="ball", point=(0.0, 0.0, 0.0),
                     second_point=(0.0, 0.0, -2.0))  # fmt: skip
-    add_wire(scene, joint="wire", restitution=0.5)
+    scene.add_wire(joint="wire", restitution=0.5)
     return scene
 
 

@@ -22,7 +22,6 @@ from seacrane import (
     Scene,
     SceneError,
     SimulationError,
-    add_end_stop,
     cases,
     simulate,
     simulate_to_file,
@@ -130,7 +129,7 @@ def bouncing() -> Scene:
     scene = Scene(name="ball")
     scene.add_body(name="ball", mass=3.0, inertia=(0.1, 0.2, 0.3))
     scene.add_joint(kind="free", name="air", first="ground", second="ball", point=(0.0, 0.0, 0.0))
-    add_end_stop(scene, joint="air", coordinate="z", minimum=-2.0, restitution=0.9, name="floor")
+    scene.add_end_stop(joint="air", coordinate="z", minimum=-2.0, restitution=0.9, name="floor")
     return scene
 
 

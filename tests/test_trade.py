@@ -174,10 +174,10 @@ def test_another_memory_is_that_of_a_case_built_with_it(case2: Scene) -> None:
     changed = rungs.with_memory(case2, "passive", shipped_database())
     mooring = {"mooring_stiffness": built.vessels["vessel"].mooring_stiffness,
                "mooring_damping": built.vessels["vessel"].mooring_damping}  # fmt: skip
-    changed.vessels["vessel"] = rungs._changed(changed.vessels["vessel"], **mooring)
+    changed.replace("vessel", kind="vessel", **mooring)
     one, other = (simulate(scene, t_end=T_END, **TIGHT) for scene in (built, changed))
     assert np.abs(one["position"] - other["position"]).max() < 1e-10  # feed-forward loads differ by rounding
-    assert case2.notes["memory"] == "per-pair"
+    assert case2.provenance["vessel"].memory == "per-pair"
 
 
 def test_a_crane_on_its_own_prescribed_vessel_motion_moves_as_in_the_full_scene(case2: Scene) -> None:

@@ -17,7 +17,6 @@ from seacrane.hydro import (
     shipped_database,
     vessel_parameters,
 )
-from seacrane.scene.vessel import add_vessel
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -27,7 +26,7 @@ G = 9.80665
 def moored(database: HydroDatabase, *, period: float | None = 60.0, damping: float = 0.5) -> Scene:
     """Vessel alone in calm water; short, well damped station keeping lets transients die soon."""
     scene = Scene(name="vessel alone")
-    add_vessel(scene, database, mooring_period=period, mooring_damping=damping)
+    scene.add_vessel(database, mooring_period=period, mooring_damping=damping)
     return scene
 
 
@@ -199,7 +198,7 @@ def test_a_vessel_described_above_its_rest_starts_there_and_heaves_about_it(kine
 
     def still() -> Scene:
         scene = Scene()
-        add_vessel(scene, database, memory="none", kinematics=kinematics)
+        scene.add_vessel(database, memory="none", kinematics=kinematics)
         return scene
 
     result = simulate(described_at(still(), 1.0), t_end=60.0, rtol=1e-9)
@@ -251,7 +250,7 @@ def test_restoring_makes_no_energy_in_a_loop_of_finite_angles() -> None:
     database = replace(shipped_database(), linear_damping=np.zeros((6, 6)))
     scene = Scene(name="undamped")
     with pytest.warns(RollDampingWarning, match="no roll damping"):
-        add_vessel(scene, database, memory="none", mooring_period=60.0, mooring_damping=0.0)
+        scene.add_vessel(database, memory="none", mooring_period=60.0, mooring_damping=0.0)
     model = scene.compile()
     values = np.array(model.initial_state)
     at = model.twist_index(0)

@@ -12,19 +12,8 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from seacrane import (
-    ByHeading,
-    Curve,
-    HullLoads,
-    Scene,
-    SceneError,
-    Waves,
-    _core,
-    simulate,
-    use_actual_position,
-)
+from seacrane import ByHeading, Curve, HullLoads, Scene, SceneError, Waves, _core, simulate
 from seacrane.hydro import HydroDatabase, shipped_database
-from seacrane.scene.vessel import add_sea, add_vessel
 
 Array = NDArray[np.float64]
 G = 9.80665
@@ -112,7 +101,7 @@ def regular_sea(*, omega: float, direction_deg: float) -> Waves:
 def test_a_towed_vessel_meets_the_encounter_frequency(direction_deg: float, yaw: float) -> None:
     speed, omega = 5.0, 0.9
     scene = Scene(name="towed")
-    add_vessel(scene, database(), mooring_period=None, memory="none")
+    scene.add_vessel(database(), mooring_period=None, memory="none")
     scene.add_joint(kind="free", name="tow", first="ground", second="vessel", axis=(0.0, 0.0, 1.0))
     ahead = Curve.pieces(starts=[0.0], coefficients=[[0.0, speed, 0.0, 0.0, 0.0, 0.0]])
     for coordinate in ("x", "y", "z", "roll", "pitch", "yaw"):
@@ -133,9 +122,9 @@ def test_a_towed_vessel_meets_the_encounter_frequency(direction_deg: float, yaw:
 
 def actual_scene(*, evaluation: str = "table", **changes: Any) -> Scene:
     scene = Scene(name="actual")
-    add_vessel(scene, database(), mooring_period=100.0)
-    add_sea(scene, database(), hs=3.0, tp=8.0, direction_deg=60.0, count=40)
-    use_actual_position(scene, database())
+    scene.add_vessel(database(), mooring_period=100.0)
+    scene.add_sea(database(), hs=3.0, tp=8.0, direction_deg=60.0, count=40)
+    scene.use_actual_position(database())
     assert scene.waves is not None
     scene.waves = replace(scene.waves.changed(**changes), evaluation=evaluation)
     return scene
@@ -161,7 +150,7 @@ def test_turning_ship_and_sea_together_changes_nothing() -> None:
     motions = []
     for turn in (0.0, 0.6):
         scene = Scene(name="turned")
-        add_vessel(scene, database(), mooring_period=100.0)
+        scene.add_vessel(database(), mooring_period=100.0)
         hull = scene.bodies["vessel"]
         scene.bodies["vessel"] = _core.Body(
             name="vessel",
@@ -170,8 +159,8 @@ def test_turning_ship_and_sea_together_changes_nothing() -> None:
             center_of_mass=hull.center_of_mass,
             quaternion=(np.cos(turn / 2.0), 0.0, 0.0, np.sin(turn / 2.0)),
         )
-        add_sea(scene, database(), hs=3.0, tp=8.0, direction_deg=60.0 + np.degrees(turn), count=40)
-        use_actual_position(scene, database())
+        scene.add_sea(database(), hs=3.0, tp=8.0, direction_deg=60.0 + np.degrees(turn), count=40)
+        scene.use_actual_position(database())
         motions.append(simulate(scene, t_end=60.0, dt_out=1.0, rtol=1e-9).channels["vessel_motion"])
     assert np.all(np.abs(motions[0] - motions[1]) < 1e-6 * np.abs(motions[0]).max(axis=0))
 
@@ -202,7 +191,7 @@ def test_a_scene_file_keeps_the_loads_of_all_headings(tmp_path: Path) -> None:
 
 def test_what_makes_no_sense_is_refused_by_name() -> None:
     with pytest.raises(SceneError, match="needs a sea; call add_sea first"):
-        use_actual_position(Scene(name="calm"), database())
+        Scene(name="calm").use_actual_position(database())
     with pytest.raises(SceneError, match="choose evaluation='exact'"):
         actual_scene(evaluation="fft").compile()
     force = positioned_values()
@@ -220,7 +209,7 @@ def test_what_makes_no_sense_is_refused_by_name() -> None:
     with pytest.raises(ValueError, match="not finite"):
         positioned(spread_sea()).evaluate(float("nan"))
     paper = Scene(name="paper")
-    add_vessel(paper, database(), kinematics="paper")
+    paper.add_vessel(database(), kinematics="paper")
     paper.waves = actual_scene().waves
     with pytest.raises(SceneError, match="yaw_following"):
         paper.compile()
@@ -231,7 +220,7 @@ def test_headings_must_cover_the_circle() -> None:
         name="beam only", full_circle=lambda: (np.array([0.0, 1.0, 2.0]), np.zeros((3, 1, 6)))
     )
     with pytest.raises(SceneError, match=r"database 'beam only': headings .* leave gaps above 45 deg"):
-        use_actual_position(actual_scene(force_by_heading=None), few)
+        actual_scene(force_by_heading=None).use_actual_position(few)
 
 
 def positioned_values() -> ByHeading:

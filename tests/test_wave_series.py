@@ -23,7 +23,6 @@ from seacrane import (
 )
 from seacrane.description.wave_series import grid_of
 from seacrane.hydro import shipped_database
-from seacrane.scene.vessel import add_vessel
 
 Array = NDArray[np.float64]
 
@@ -80,7 +79,7 @@ def test_the_series_is_the_sum_within_the_bound(first: float, relative_bound: fl
 
 def test_a_run_from_the_series_is_the_run_from_the_sum(tmp_path: Path) -> None:
     scene = Scene(name="series")
-    add_vessel(scene, shipped_database(), mooring_period=100.0)
+    scene.add_vessel(shipped_database(), mooring_period=100.0)
     scene.waves = uniform()
     first = simulate(scene, t_end=20.0, dt_out=1.0, rtol=1e-9)
     scene.save(tmp_path / "series.json")
@@ -137,7 +136,7 @@ def test_knots_of_another_load_are_refused() -> None:
 
 def test_a_run_longer_than_its_sea_is_told_so() -> None:
     scene = Scene(name="long")
-    add_vessel(scene, shipped_database(), mooring_period=100.0, memory="none")
+    scene.add_vessel(shipped_database(), mooring_period=100.0, memory="none")
     scene.waves = uniform(step=0.2, first=2.0, count=10)
     with pytest.warns(RepeatingSeaWarning, match=r"repeat after 31\.4159 s, the run takes 40 s"):
         simulate(scene, t_end=40.0, dt_out=10.0)

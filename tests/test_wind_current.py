@@ -18,8 +18,6 @@ from seacrane import (
     Scene,
     SceneError,
     _core,
-    add_current,
-    add_wind,
     gust_curve,
     simulate,
 )
@@ -71,8 +69,7 @@ def yawed(yaw: float) -> dict[str, Any]:
 def test_the_load_is_what_the_formula_says(yaw: float, direction_deg: float) -> None:
     scene = block(**yawed(yaw), velocity=(1.5, -0.7, 0.4))
     point = np.array([10.0, -4.0, 12.0])
-    add_wind(
-        scene,
+    scene.add_wind(
         coefficients=smooth(),
         speed=20.0,
         direction_deg=direction_deg,
@@ -99,8 +96,7 @@ def test_port_and_starboard_are_mirror_images() -> None:
     loads = []
     for sign in (1.0, -1.0):
         scene = block()
-        add_wind(
-            scene,
+        scene.add_wind(
             coefficients=smooth(),
             speed=15.0,
             direction_deg=sign * 65.0,
@@ -117,8 +113,7 @@ def test_port_and_starboard_are_mirror_images() -> None:
 def test_turning_everything_turns_the_load() -> None:
     base, turned = block(**yawed(0.2)), block(**yawed(1.3))
     for scene, direction_deg in ((base, 50.0), (turned, 50.0 + np.degrees(1.1))):
-        add_wind(
-            scene,
+        scene.add_wind(
             coefficients=smooth(),
             speed=15.0,
             direction_deg=direction_deg,
@@ -136,8 +131,7 @@ def test_turning_everything_turns_the_load() -> None:
 def test_a_drifting_body_takes_up_the_current_as_the_closed_form_says() -> None:
     """m dw/dt = - k w^2 for the speed w through the water: w = w0 / (1 + k w0 t / m)."""
     scene = block(velocity=(-1.0, 0.0, 0.0))
-    add_current(
-        scene,
+    scene.add_current(
         coefficients=smooth(),
         speed=1.5,
         direction_deg=0.0,
@@ -160,8 +154,7 @@ def test_the_load_always_opposes_motion_through_the_medium() -> None:
     for _ in range(40):
         velocity, yaw = rng.normal(size=3), rng.uniform(-3.0, 3.0)
         scene = block(**yawed(yaw), velocity=velocity)
-        add_current(
-            scene,
+        scene.add_current(
             coefficients=smooth(),
             speed=0.8,
             direction_deg=30.0,
@@ -175,15 +168,14 @@ def test_the_load_always_opposes_motion_through_the_medium() -> None:
 
 def test_no_flow_no_load() -> None:
     scene = block(velocity=(0.5, 0.0, 0.0))
-    add_current(scene, coefficients=smooth(), speed=0.5, direction_deg=0.0, body="block", **AREAS)
+    scene.add_current(coefficients=smooth(), speed=0.5, direction_deg=0.0, body="block", **AREAS)
     np.testing.assert_array_equal(wrench(scene), np.zeros(6))
 
 
 def test_gusts_follow_their_curve_and_a_jump_restarts_the_integration() -> None:
     scene = block()
     speed = Curve.constant(value=10.0).then(time=5.0, curve=Curve.constant(value=20.0))
-    add_wind(
-        scene,
+    scene.add_wind(
         coefficients=smooth(),
         speed=speed,
         direction_deg=0.0,
@@ -244,8 +236,7 @@ def test_gusts_and_waves_of_one_seed_share_no_random_number(monkeypatch: pytest.
 
 def test_a_scene_file_keeps_wind_and_current(tmp_path: Path) -> None:
     scene = block(velocity=(-1.0, 0.2, 0.0))
-    add_wind(
-        scene,
+    scene.add_wind(
         coefficients=smooth(),
         speed=gust_curve(mean_speed=12.0, duration=20.0, count=20),
         direction_deg=100.0,
@@ -253,7 +244,7 @@ def test_a_scene_file_keeps_wind_and_current(tmp_path: Path) -> None:
         point=(0.0, 0.0, 9.0),
         **AREAS,
     )
-    add_current(scene, coefficients=smooth(), speed=0.7, direction_deg=-30.0, body="block", **AREAS)
+    scene.add_current(coefficients=smooth(), speed=0.7, direction_deg=-30.0, body="block", **AREAS)
     scene.save(tmp_path / "wind.json")
     again = Scene.load(tmp_path / "wind.json")
     assert list(again.loads) == ["wind", "current"]
@@ -270,12 +261,12 @@ def test_damping_that_counts_twice_is_named() -> None:
     scene = block()
     scene.add_vessel(body="block", quadratic_damping=[0.0, 5e3, 0.0, 0.0, 0.0, 0.0])
     with pytest.warns(DoubleCountedDampingWarning, match="slow motions are damped twice"):
-        add_current(scene, coefficients=smooth(), speed=1.0, direction_deg=0.0, body="block", **AREAS)
+        scene.add_current(coefficients=smooth(), speed=1.0, direction_deg=0.0, body="block", **AREAS)
     roll_only = block()
     roll_only.add_vessel(body="block", quadratic_damping=[0.0, 0.0, 0.0, 5e3, 0.0, 0.0])
     with warnings.catch_warnings():
         warnings.simplefilter("error")
-        add_current(roll_only, coefficients=smooth(), speed=1.0, direction_deg=0.0, body="block", **AREAS)
+        roll_only.add_current(coefficients=smooth(), speed=1.0, direction_deg=0.0, body="block", **AREAS)
 
 
 @pytest.mark.parametrize(
@@ -303,7 +294,7 @@ def test_bad_values_are_refused(change: dict[str, Any], message: str) -> None:
     }
     with pytest.raises(SceneError, match=message):
         scene = block()
-        add_wind(scene, **arguments)
+        scene.add_wind(**arguments)
         scene.compile()
 
 
@@ -327,8 +318,7 @@ def test_bad_coefficients_are_refused(change: dict[str, Any], message: str) -> N
     }
     with pytest.raises(SceneError, match=message):
         scene = block()
-        add_wind(
-            scene,
+        scene.add_wind(
             coefficients=FlowCoefficients(**{**given, **change}),
             speed=1.0,
             direction_deg=0.0,
@@ -342,9 +332,9 @@ def test_names_and_kinds_are_kept_apart() -> None:
     scene = block()
     for expected in (None, "the name is used twice"):
         if expected is None:
-            add_wind(scene, coefficients=smooth(), speed=1.0, direction_deg=0.0, body="block", **AREAS)
+            scene.add_wind(coefficients=smooth(), speed=1.0, direction_deg=0.0, body="block", **AREAS)
         else:
             with pytest.raises(SceneError, match=expected):
-                add_wind(scene, coefficients=smooth(), speed=1.0, direction_deg=0.0, body="block", **AREAS)
+                scene.add_wind(coefficients=smooth(), speed=1.0, direction_deg=0.0, body="block", **AREAS)
     with pytest.raises(SceneError, match="is of no known kind; give one of FlowForce"):
         scene.add_load(3.0)

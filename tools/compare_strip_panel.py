@@ -15,7 +15,7 @@ from make_database import GM_TRANSVERSE, HULL, MASS, RHO, ROLL_DAMPING_FRACTION
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from seacrane import Scene, add_vessel, response_statistics
+from seacrane import Scene, response_statistics
 from seacrane.hydro import Hull, HydroDatabase, hydro_from_hull, shipped_database
 from seacrane.sea import jonswap
 
@@ -99,7 +99,7 @@ def print_motions(panel: HydroDatabase, strip: HydroDatabase) -> None:
     scenes = []
     for database in (panel, strip):
         scene = Scene(name=database.name)
-        add_vessel(scene, database, memory="passive")
+        scene.add_vessel(database, memory="passive")
         scenes.append((scene, database))
     print("| heading deg | motion | panel | strip | strip / panel |\n|---|---|---|---|---|")
     for degrees in HEADINGS_DEG:

@@ -10,8 +10,7 @@ import numpy as np
 
 from seacrane import HullLoads, Scene, Waves
 from seacrane.hydro import HydroDatabase, shipped_database
-from seacrane.scene.vessel import add_vessel
-from seacrane.scene.wind_current_drift import force_by_heading
+from seacrane.scene.position import force_by_heading
 from seacrane.sea import ExactWaveLoad, WaveTable, jonswap
 
 from .exponent import exponent
@@ -27,7 +26,7 @@ def wave_loads(*, repeats: int, counts: tuple[int, ...] = COUNTS) -> Section:
     """One evaluation with waves less one without, by number of components and kind of evaluation."""
     database = shipped_database()
     calm = Scene(name="calm")
-    add_vessel(calm, database)
+    calm.add_vessel(database)
     rows = [_row(calm, database, count, repeats) for count in counts]
     slopes = [exponent(list(counts), [row[k] for row in rows], LARGE) for k in range(1, 5)]
     return Section(

@@ -6,8 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from seacrane import _core
-from seacrane.description.scene import Scene
+from seacrane import Scene, _core
 
 BODY = ("name", "mass", "inertia", "center_of_mass", "position", "quaternion", "velocity", "angular_velocity",
         "gravity")  # fmt: skip

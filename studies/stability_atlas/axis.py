@@ -10,8 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 if TYPE_CHECKING:
-    from seacrane import _core
-    from seacrane.description.scene import Scene
+    from seacrane import Scene, _core
 
 Array = NDArray[np.float64]
 

@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from seacrane import _core, cases
+from seacrane import Scene, _core, cases
 from seacrane.analysis.inverse import balance
-from seacrane.crane import KnuckleBoomCrane, Payload
-from seacrane.description.scene import Scene
+from seacrane.crane import Payload
 from stability_atlas.altered import change_actuator, change_body, scale_body
 from stability_atlas.axis import Axis, Case
 
@@ -50,7 +49,7 @@ def _gains(factor: float) -> Case:
 def held_crane(references: dict[str, _core.Curve] | None = None) -> Scene:
     """The crane on the ground with its payload, balanced, with the gains of case 2."""
     scene = Scene(name="crane on the ground")
-    KnuckleBoomCrane.load().add_to(scene, base="ground", payload=Payload())
+    scene.add_crane(base="ground", payload=Payload())
     for name, joint in cases.ACTUATORS.items():
         scene.add_actuator(name=name, joint=joint)
     loads = balance(scene).loads

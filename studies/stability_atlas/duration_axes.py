@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from seacrane import cases
-from seacrane.description.scene import Scene
+from seacrane import Scene, cases
 from stability_atlas.axis import Axis, Case
 from stability_atlas.crane_axes import WAVES
 

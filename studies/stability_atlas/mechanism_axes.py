@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from seacrane import _core
-from seacrane.description.scene import STANDARD_GRAVITY, Scene
+from seacrane import Scene, _core
+from seacrane.description.scene import STANDARD_GRAVITY
 from stability_atlas.axis import Axis, Case
 
 LENGTH = 10.0  # m, of the pendulum whose support heaves

@@ -18,10 +18,9 @@ import numpy as np
 from numpy.polynomial import Polynomial
 from numpy.typing import NDArray
 
-from seacrane import _core, cases
+from seacrane import Scene, _core, cases
 from seacrane.analysis.linear_system import LinearModel, linear_model
 from seacrane.analysis.rest_state import held
-from seacrane.description.scene import Scene
 from seacrane.errors import SceneError, SimulationError
 from seacrane.run.simulation import Run
 from stability_atlas.altered import change_actuator

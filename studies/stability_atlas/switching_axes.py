@@ -4,9 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from seacrane import _core
-from seacrane.description.scene import Scene
-from seacrane.scene.limits import add_end_stop, add_friction, add_soft_stop, add_wire
+from seacrane import Scene, _core
 from stability_atlas.axis import Axis, Case
 
 MASS = 1e4  # kg
@@ -25,14 +23,14 @@ def _slide(height: float, rate: float = 0.0) -> Scene:
 def _rebound(restitution: float) -> Case:
     """A load that falls by 1 m onto a rigid stop, again and again."""
     scene = _slide(1.0)
-    add_end_stop(scene, joint="guide", minimum=-1.0, restitution=restitution)
+    scene.add_end_stop(joint="guide", minimum=-1.0, restitution=restitution)
     return Case(scene=scene, t_end=10.0, dt_out=0.1)
 
 
 def _soft_stop(stiffness: float) -> Case:
     """A load that falls by 1 m onto an elastic stop."""
     scene = _slide(1.0)
-    add_soft_stop(scene, joint="guide", minimum=-1.0, stiffness=stiffness, damping=0.1)
+    scene.add_soft_stop(joint="guide", minimum=-1.0, stiffness=stiffness, damping=0.1)
     return Case(scene=scene, t_end=5.0, dt_out=0.05)
 
 
@@ -44,7 +42,7 @@ def _friction(speed: float) -> Case:
         joint="guide", stiffness=4e4, damping=1e3,
         reference=_core.Curve.harmonic(amplitude=1.0, omega=1.0, phase=-0.5 * np.pi),
     )  # fmt: skip
-    add_friction(scene, joint="guide", load=1e4, speed=speed)
+    scene.add_friction(joint="guide", load=1e4, speed=speed)
     return Case(scene=scene, t_end=10.0, dt_out=0.1)
 
 
@@ -61,7 +59,7 @@ def _snatch(amplitude: float) -> Case:
     scene.add_driver(
         joint="guide", curve=_core.Curve.harmonic(amplitude=amplitude, omega=2.0, phase=-0.5 * np.pi)
     )
-    add_wire(scene, joint="wire")
+    scene.add_wire(joint="wire")
     return Case(scene=scene, t_end=10.0, dt_out=0.1)
 
 

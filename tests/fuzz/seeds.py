@@ -24,7 +24,7 @@ from veres_writer import VeresRun
 
 from fuzz.netcdf_spec import spec_of
 from fuzz.targets import CORPUS
-from seacrane import Scene, add_end_stop, cases, simulate
+from seacrane import Scene, cases, simulate
 from seacrane.crane.data_file import DEFAULT_PATH
 from seacrane.description import file as scene_file
 from seacrane.files.hdf5_structure import HEAP
@@ -278,7 +278,7 @@ def pendulum() -> Result:
     scene = Scene(name="pendulum")
     scene.add_body(name="bob", mass=1.0, inertia=np.eye(3), position=(0.0, 0.0, 0.0))
     scene.add_joint(name="slide", kind="prismatic", first="ground", second="bob")
-    add_end_stop(scene, joint="slide", minimum=-1.0)
+    scene.add_end_stop(joint="slide", minimum=-1.0)
     full = simulate(scene, t_end=1.0, dt_out=0.5)
     channels = {name: full[name] for name in ("position", "energy_balance")}
     coords = {dim: full.coords[dim] for dim in ("body", "axis")}

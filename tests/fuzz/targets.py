@@ -16,9 +16,8 @@ import numpy as np
 from fuzz.limits import bounded
 from fuzz.mutate import mutate_json, mutate_text
 from fuzz.netcdf_spec import build
-from seacrane import sea
+from seacrane import Scene, sea
 from seacrane.crane import KnuckleBoomCrane
-from seacrane.description.file import load_scene
 from seacrane.errors import FileFormatError, SceneError
 from seacrane.files.hdf5_structure import Structure
 from seacrane.files.netcdf_limits import LARGEST_DATABASE as LARGEST
@@ -147,7 +146,7 @@ def _hull_of_stl(path: Path) -> Any:
 
 def _scene(path: Path) -> Any:
     """A scene that loads has to compile, or to be refused by name."""
-    scene = load_scene(path)
+    scene = Scene.load(path)
     with contextlib.suppress(SceneError):
         scene.compile()
 

@@ -5,15 +5,17 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Any
 
+from seacrane import _core
 from seacrane.description.scene import ELEMENTS, KINDS, Description
 from seacrane.errors import SceneError
+from seacrane.inputs.checked import curve_of
 from seacrane.inputs.shown import shown
 
 EDITED = (*ELEMENTS, "recorded", "ranges")  # tables of what has a name of its own
 OF_A_BODY = ("body", "first", "second")  # attributes that name a body; of a joint it is "joint"
 
 
-def replace_element(scene: Description, name: str, *, kind: str | None = None, **changes: Any) -> Any:
+def replace_element(scene: Description, name: str, /, *, kind: str | None = None, **changes: Any) -> Any:
     """Put a changed element in the place of one that is there.
 
     Parameters
@@ -45,6 +47,9 @@ def replace_element(scene: Description, name: str, *, kind: str | None = None, *
     if unknown or "name" in changes:
         known = ", ".join(argument for argument in arguments if argument != "name")
         raise SceneError(f"{what}: cannot change {[*unknown, 'name'][0]!r}; it has {known}")
+    for argument, value in changes.items():
+        if isinstance(arguments[argument], _core.Curve):
+            changes[argument] = curve_of(f"{what}: {argument}", value)
     try:
         table[name] = type(old)(**{**arguments, **changes})
     except SceneError:
@@ -55,7 +60,7 @@ def replace_element(scene: Description, name: str, *, kind: str | None = None, *
     return table[name]
 
 
-def remove_element(scene: Description, name: str, *, kind: str | None = None) -> None:
+def remove_element(scene: Description, name: str, /, *, kind: str | None = None) -> None:
     """Take an element out of the scene.
 
     Parameters

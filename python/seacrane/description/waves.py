@@ -133,6 +133,8 @@ class Waves:
         hulls = self.hulls
         if not isinstance(hulls, Mapping) or not all(isinstance(h, HullLoads) for h in hulls.values()):
             raise SceneError(f"waves: hulls is {shown(hulls)}; give HullLoads by the vessel's body")
+        if not isinstance(self.provenance, SeaProvenance):
+            raise SceneError(f"waves: provenance is {shown(self.provenance)}; give a seacrane.SeaProvenance")
 
     def __repr__(self) -> str:
         on = ", ".join(map(repr, self.hulls)) or "no vessel"

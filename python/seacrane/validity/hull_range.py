@@ -150,7 +150,7 @@ def _posed(
     found: list[Finding] = []
     far, turned = peak.phase(slow[:, :2]), np.abs(slow[:, 2])
     way_out = (
-        "take them where the vessel slowly goes by phase='slow' in add_sea (seacrane.use_slow_position), "
+        "take them where the vessel slowly goes by phase='slow' in add_sea (Scene.use_slow_position), "
         "where it is on the average by position and heading_deg there, or moor it stiffer"
     )
     if far.max() > LARGEST_PHASE:
@@ -216,5 +216,5 @@ def _moored(vessel: _core.VesselHydrodynamics, time: Array, motion: Array) -> li
 def _unloaded(name: str, waves: Waves) -> str:
     return (
         f"vessel {name!r}: floats in the sea that loads {', '.join(map(repr, waves.hulls))}, and has no wave "
-        f"loads itself; call add_sea(scene, database, vessel={name!r}) with its database"
+        f"loads itself; call scene.add_sea(database, vessel={name!r}) with its database"
     )
