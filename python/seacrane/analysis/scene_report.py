@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from seacrane import _core
+from seacrane.analysis.linearise import fastest_mode
 from seacrane.description.assembled import moves
-
-if TYPE_CHECKING:
-    from seacrane.description.scene import Description
+from seacrane.description.scene import Description
 
 Rows = list[tuple[str, Any]]
 REPETITIONS = 500  # of each part when its cost is measured
@@ -187,7 +186,5 @@ def _cost(model: _core.Model) -> Rows:
 
 
 def _modes(model: _core.Model) -> Rows:
-    from seacrane.analysis.linearise import fastest_mode
-
     fastest = fastest_mode(model)
     return [] if fastest is None else [("fastest_mode_per_s", fastest)]
