@@ -5,25 +5,29 @@ from __future__ import annotations
 import csv
 import json
 from collections.abc import Callable
-from dataclasses import replace
+from dataclasses import asdict, replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 
-from seacrane import SceneError, cases
-from seacrane.run.method import Method
-from stability_atlas import committed, rows, stability_atlas, workers
+from seacrane import Method, SceneError, cases
+from seacrane.accuracy.quantities import ErrorMeasures
+from seacrane.experiment import row as rows
+from seacrane.experiment.case import Case
+from seacrane.experiment.reference import Reference
+from seacrane.experiment.row import Row
+from seacrane.experiment.row_file import RowFile
+from stability_atlas import committed, stability_atlas, workers
 from stability_atlas.__main__ import main
 from stability_atlas.axes import AXES
-from stability_atlas.axis import Case
-from stability_atlas.measure import Reference, measure, points_on_bodies, reference
+from stability_atlas.measure import measure, reference_of
 from stability_atlas.methods import DEFAULT, QUICK, every
-from stability_atlas.rows import Row
+from stability_atlas.points import points_on_bodies
 from stability_atlas.vessel_axes import _turn_of
 
-NO_REFERENCE = Reference(points=None, motion=rows.UNKNOWN, uncertainty=rows.UNKNOWN, known="")
+NO_REFERENCE = Reference()
 
 
 @pytest.fixture(scope="module")
@@ -83,7 +87,7 @@ def test_a_second_call_runs_nothing_again(quick: Path, monkeypatch: pytest.Monke
     monkeypatch.setattr("stability_atlas.study.run_all", fail)
     lines = (quick / "extremes_rows.jsonl").read_text().splitlines()
     again = stability_atlas(out=quick, quick=True, axes=["payload", "heel"], figures=False, progress=False)
-    assert {row.axis for row in again.rows} == {"payload", "heel"}
+    assert {row.case["axis"] for row in again.rows} == {"payload", "heel"}
     assert not again.broken
     # A line that an interrupted call was writing is left out.
     (quick / "extremes_rows.jsonl").write_text("\n".join([*lines, '{"axis": "pay']) + "\n")
@@ -97,10 +101,20 @@ def test_what_makes_no_sense_is_refused(tmp_path: Path) -> None:
         stability_atlas(out=tmp_path / "absent")
 
 
-GOOD = Row(axis="payload", value=10.0, formulation="auto", integrator="dopri5", setting="",
-           verdict=rows.COMPLETED, error=1e-9, left=1e-15, energy=1e-9)  # fmt: skip
+def known(error: float, uncertainty: float = 0.0) -> dict[str, Any]:
+    """Fields of a row whose error and uncertainty are these shares of the motion."""
+    measures = ErrorMeasures(largest=2.0 * error, rms=error, std=error)
+    return {"errors": {"points": measures}, "uncertainty": {"points": 2.0 * uncertainty},
+            "motion": {"points": 2.0}}  # fmt: skip
+
+
+GOOD = Row(case={"axis": "payload", "value": 10.0}, method=DEFAULT, verdict=rows.COMPLETED,
+           left=1e-15, energy=1e-9, **known(1e-9))  # fmt: skip
 OPEN = "joint or driver 'hinge': is open by 0.3 m or rad and projection does not close it"
-STOPPED = replace(GOOD, axis="driven-dead-centre", value=-0.1, verdict=rows.STOPPED, message=OPEN)
+DRIVEN: dict[str, Any] = {"axis": "driven-dead-centre", "value": -0.1}
+STOPPED = replace(GOOD, case=DRIVEN, verdict=rows.STOPPED, message=OPEN)
+HEEL: dict[str, Any] = {"axis": "heel", "value": 10.0}
+RK4 = Method(integrator="rk4", step=0.02)
 
 
 @pytest.mark.parametrize(
@@ -109,15 +123,12 @@ STOPPED = replace(GOOD, axis="driven-dead-centre", value=-0.1, verdict=rows.STOP
         (replace(GOOD, left=1e-6), "constraint error 1e-06, promised 1e-09"),
         (replace(GOOD, left=float("nan")), "constraint error nan"),
         (replace(GOOD, energy=1e-3), "energy error 0.001"),
-        (replace(GOOD, error=0.1), "error 0.1 of the motion"),
+        (replace(GOOD, **known(0.1)), "error 0.1 of the motion"),
         (replace(GOOD, verdict=rows.SLOW, message="granted 20 s"), "slow instead of completed: granted 20 s"),
         (replace(GOOD, verdict=rows.STOPPED, message="collapsed"), "stopped instead of completed: collapsed"),
         (replace(STOPPED, message="something went wrong"), "says nothing of hinge, open by"),
         (replace(STOPPED, verdict=rows.COMPLETED), "completed instead of stopped"),
-        *(
-            (replace(GOOD, axis="heel", integrator="rk4", setting="dt=0.02", verdict=bad, message="x"), bad)
-            for bad in rows.FORBIDDEN
-        ),
+        *((replace(GOOD, case=HEEL, method=RK4, verdict=bad, message="x"), bad) for bad in rows.FORBIDDEN),
     ],
 )
 def test_a_broken_promise_is_told(row: Row, words: str) -> None:
@@ -127,9 +138,9 @@ def test_a_broken_promise_is_told(row: Row, words: str) -> None:
 
 
 def test_an_error_against_a_reference_that_is_not_known_breaks_nothing() -> None:
-    chaos = replace(GOOD, error=0.9, uncertainty=0.8)
+    chaos = replace(GOOD, **known(0.9, 0.8))
     assert committed.broken([chaos], list(AXES)) == []
-    assert committed.broken([replace(chaos, uncertainty=1e-9)], list(AXES)) != []
+    assert committed.broken([replace(chaos, **known(0.9, 1e-9))], list(AXES)) != []
 
 
 def test_every_promise_is_on_an_axis_and_default_runs_cover_it() -> None:
@@ -150,11 +161,11 @@ def empty(method: Method) -> Row:
 
 
 def test_a_run_is_cut_off_when_its_time_is_over() -> None:
-    method = Method(formulation="redundant", integrator="rk4", dt=1e-5)
+    method = Method(formulation="redundant", integrator="rk4", step=1e-5)
     row = measure(short(1e4), method, NO_REFERENCE, 0.05, empty(method))
     assert row.verdict == rows.SLOW
     assert 0 < row.steps < 1e6
-    assert row.wall_s < 10.0
+    assert row.cpu_s < 10.0
     assert "0.05 s of processor time" in row.message
 
 
@@ -167,13 +178,10 @@ def test_how_a_run_ends_is_told_apart(monkeypatch: pytest.MonkeyPatch) -> None:
     assert done.energy < 1e-4
     assert verdict(Method(formulation="recursive", integrator="ida")).verdict == rows.REFUSED
     wild = AXES["memory"].case(-10.0)
-    stopped = verdict(Method(formulation="redundant", integrator="rk4", dt=0.02), wild)
+    stopped = verdict(Method(formulation="redundant", integrator="rk4", step=0.02), wild)
     assert stopped.verdict == rows.STOPPED
     assert "vessel" in stopped.message
-    monkeypatch.setattr("stability_atlas.measure.Run.advance", raising(RuntimeError("mystery")))
-    assert verdict(DEFAULT).verdict == rows.UNNAMED
-    monkeypatch.undo()
-    monkeypatch.setattr("stability_atlas.measure.CHECKS", ("not there",))
+    monkeypatch.setattr("seacrane.run.run.Run.advance", raising(RuntimeError("mystery")))
     assert verdict(DEFAULT).verdict == rows.UNNAMED
 
 
@@ -185,39 +193,42 @@ def raising(error: Exception) -> Callable[..., None]:
 
 
 def test_a_value_that_is_not_finite_is_found(monkeypatch: pytest.MonkeyPatch) -> None:
-    import stability_atlas.measure as module
+    import seacrane.experiment.measure as module
 
-    real = module.run_within
+    real = module.timed
 
     class Spoilt:
-        def __init__(self, run: Any) -> None:
-            self.core, self.start = self, run.start
-            self.run = run
+        """A core that has recorded a value that is not finite."""
+
+        def __init__(self, core: Any) -> None:
+            self._core = core
+
+        def __getattr__(self, name: str) -> Any:
+            return getattr(self._core, name)
 
         def channels(self) -> dict[str, Any]:
-            values = self.run.core.channels()
+            values = dict(self._core.channels())
             values["velocity"][1] = np.nan
-            return dict(values)
+            return values
 
-        def statistics(self) -> Any:
-            return self.run.core.statistics()
+    def spoilt(*arguments: Any, **settings: Any) -> Any:
+        done = real(*arguments, **settings)
+        done.run.core = Spoilt(done.run.core)  # type: ignore[assignment]
+        return done
 
-        @property
-        def time(self) -> float:
-            return float(self.run.core.time)
-
-    monkeypatch.setattr(module, "run_within", lambda *a: (Spoilt(real(*a)[0]), None))
+    monkeypatch.setattr(module, "timed", spoilt)
     row = measure(short(), DEFAULT, NO_REFERENCE, 5.0, empty(DEFAULT))
     assert (row.verdict, row.message) == (rows.NOT_FINITE, "velocity is not finite")
 
 
 def test_errors_are_against_a_reference_that_checks_itself() -> None:
     case = short(10.0)
-    truth = reference(case, 5.0)
-    assert truth.uncertainty < 1e-9
-    loose = Method(formulation="redundant", integrator="bs32", rtol=1e-3)
-    tight = Method(formulation="recursive", integrator="tsit5", rtol=1e-9)
-    errors = [measure(case, method, truth, 5.0, empty(method)).error for method in (loose, tight)]
+    truth = reference_of(case, 5.0)
+    assert truth.uncertainty["points"] < 1e-9 * truth.motion["points"]
+    loose = Method(formulation="redundant", integrator="bs32", tolerance=1e-3)
+    tight = Method(formulation="recursive", integrator="tsit5", tolerance=1e-9)
+    found = [measure(case, method, truth, 5.0, empty(method)) for method in (loose, tight)]
+    errors = [row.relative_error("points") for row in found]
     assert 1e-6 < errors[0] < 1e-1
     assert errors[1] < 1e-7
 
@@ -261,7 +272,7 @@ def test_hangs_and_crashes_are_told_and_the_rest_goes_on() -> None:
     taken: list[Row] = []
     worker.run(replace(group, methods=QUICK[:4]), taken.append)
     assert [row.verdict for row in taken] == ["", rows.CRASHED, rows.HUNG, ""]
-    assert [row.method for row in taken] == [method.name for method in QUICK[:4]]
+    assert [row.method for row in taken] == list(QUICK[:4])
     assert worker.starts == 3
 
 
@@ -288,7 +299,8 @@ def test_phases_far_from_zero_are_known_exactly() -> None:
 
 
 def test_rows_survive_their_file(tmp_path: Path) -> None:
-    file = rows.RowFile(tmp_path / "rows.jsonl")
-    file.add(GOOD)
-    (again,) = rows.RowFile(tmp_path / "rows.jsonl").rows.values()
-    assert json.dumps(again.__dict__) == json.dumps(GOOD.__dict__)
+    file = RowFile(tmp_path / "rows.jsonl", {"study": "test"})
+    file.add(GOOD.key, GOOD)
+    (again,) = RowFile(tmp_path / "rows.jsonl", {"study": "test"}).rows.values()
+    assert json.dumps(asdict(again)) == json.dumps(asdict(GOOD))
+    assert not RowFile(tmp_path / "rows.jsonl", {"study": "another"}).rows

@@ -24,11 +24,11 @@ from seacrane import (
     simulate,
     simulate_to_file,
 )
+from seacrane.accuracy.quantities import quantities_of
 from seacrane.crane import Payload
 from seacrane.hydro import DriftCoefficients, HydroDatabase, shipped_database
 from seacrane.inputs.frames import rotation_about_z
 from seacrane.trading import rungs
-from seacrane.trading.quantities import quantities_of
 
 Array = NDArray[np.float64]
 G = 9.80665

@@ -111,7 +111,7 @@ def test_a_later_run_is_not_touched_by_an_earlier_ctrl_c() -> None:
 
 def test_ctrl_c_several_times_in_a_row_loses_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
     """Pressed again while outputs are brought home; test_streaming.py has the same for runs to a file."""
-    result = Run.result
+    result = Run.judged_result
 
     def pressed(run: Run, most: int | None = None) -> Any:
         for _ in range(3):
@@ -125,7 +125,7 @@ def test_ctrl_c_several_times_in_a_row_loses_nothing(monkeypatch: pytest.MonkeyP
             signal.raise_signal(signal.SIGINT)
         return {}
 
-    monkeypatch.setattr(Run, "result", pressed)
+    monkeypatch.setattr(Run, "judged_result", pressed)
     ticks = [SampledController(period=0.5, function=press)]
     told = simulate(ball_on_a_pin(), t_end=1e6, dt_out=0.5, controllers=ticks)
     assert told.interrupted

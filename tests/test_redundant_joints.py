@@ -11,8 +11,7 @@ import pytest
 from multibody_runs import record
 from reference_problems import bricard
 
-from seacrane import Evaluator, Scene, SceneError, simulate
-from seacrane.run.simulation import Run
+from seacrane import Evaluator, Run, Scene, SceneError, simulate
 
 G = 9.80665
 

@@ -10,8 +10,7 @@ import pytest
 from test_scene_file import every_kind
 
 import seacrane
-from seacrane import Curve, Scene, _core, cases
-from seacrane.run.simulation import Run
+from seacrane import Curve, Run, Scene, _core, cases
 
 
 def held() -> dict[str, Any]:

@@ -7,7 +7,7 @@ import pytest
 from trade_scenes import pendulum
 
 from seacrane import Result, Scene, SceneError, cases, simulate, step_error
-from seacrane.trading.quantities import compare
+from seacrane.accuracy.quantities import compare
 
 METHODS = {"semi-implicit-euler": 1e-3, "rk4": 5e-3, "rk-low-storage": 0.01, "generalized-alpha": 4e-3}
 

@@ -415,7 +415,7 @@ def test_a_run_that_stops_early_leaves_an_older_result_alone(tmp_path: Path) -> 
 def test_a_file_without_a_state_does_not_ask_to_be_resumed(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("seacrane.run.to_file._FileRun.last_state", lambda run: None)
+    monkeypatch.setattr("seacrane.run.run.Run.last_state", lambda run: None)
     path = tmp_path / "run.nc"
     simulate_to_file(spinner(), path, t_end=1.0)
     with pytest.raises(FileFormatError, match="holds no state to go on from: overwrite=True starts"):

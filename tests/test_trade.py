@@ -10,13 +10,17 @@ import numpy as np
 import pytest
 from trade_scenes import pendulum
 
-from seacrane import Scene, SceneError, Trade, _core, cases, integrator_names, simulate, trade
+from seacrane import Method, Run, Scene, SceneError, Trade, cases, integrator_names, simulate, trade
+from seacrane.accuracy.quantities import compare, quantities_of
+from seacrane.experiment.case import Case
+from seacrane.experiment.measure import measured as measured_row
+from seacrane.experiment.reference import Reference
+from seacrane.experiment.row import Row
+from seacrane.experiment.row_file import RowFile
 from seacrane.hydro import shipped_database
 from seacrane.inputs.checked import curve_of
-from seacrane.run.method import Method
-from seacrane.trading import measure, rungs, settings_grid, study
-from seacrane.trading.quantities import compare, quantities_of
-from seacrane.trading.rows import Row, RowFile
+from seacrane.run.integrators import Integrator, integrators
+from seacrane.trading import measure, methods, rungs, study
 
 T_END = 6.0
 TIGHT = {"integrator": "dop853", "rtol": 1e-11}
@@ -44,14 +48,14 @@ def test_the_reference_is_tight_and_settings_converge_towards_it(measured: Trade
     assert 0.0 < measured.reference.uncertainty["payload_position"] < 1e-10
     assert len(measured.reference.runs) == 4
     for formulation in ("recursive", "redundant"):
-        rows = [r for r in measured.rows if (r.formulation, r.integrator) == (formulation, "tsit5")]
-        errors = [row.error("payload_position") for row in rows if row.rung == "full"]
+        rows = [r for r in measured.rows if (r.formulation, r.method.integrator) == (formulation, "tsit5")]
+        errors = [row.error("payload_position") for row in rows if row.case == measured.full_case]
         assert len(errors) == 3 and errors[0] > 10 * errors[1] > 100 * errors[2] > 0.0
 
 
 def test_a_row_holds_what_its_settings_give(case2: Scene, measured: Trade) -> None:
-    row = next(r for r in measured.rows if r.integrator == "rk4" and r.formulation == "recursive")
-    run = simulate(case2, t_end=T_END, formulation="recursive", integrator="rk4", dt=row.dt)
+    row = next(r for r in measured.rows if r.method.integrator == "rk4" and r.formulation == "recursive")
+    run = simulate(case2, t_end=T_END, formulation="recursive", integrator="rk4", dt=row.method.step)
     tight = simulate(case2, t_end=T_END, integrator="verner76", rtol=1e-12)
     distance = np.linalg.norm(
         run.select("position", body="payload") - tight.select("position", body="payload"), axis=-1
@@ -71,8 +75,7 @@ def test_no_row_beats_one_on_the_front(measured: Trade) -> None:
 
 
 def test_the_cheapest_setting_meets_its_limit_when_run(case2: Scene, measured: Trade) -> None:
-    settings = measured.cheapest(payload_position=1e-4, roll=1e-6)
-    run = simulate(case2, t_end=T_END, **settings)
+    run = simulate(case2, t_end=T_END, method=measured.cheapest(payload_position=1e-4, roll=1e-6))
     tight = simulate(case2, t_end=T_END, **TIGHT)
     error = compare(
         tight.select("position", body="payload")[:, None], run.select("position", body="payload")[:, None]
@@ -132,32 +135,38 @@ def test_a_later_call_goes_on_and_another_scene_begins_anew(
 
 
 def test_a_setting_that_does_not_exist_is_a_row_with_its_reason(case2: Scene) -> None:
-    span = measure.Span(
-        t_end=1.0, dt_out=0.1, repeats=1, quantities=quantities_of(case2, case2.compile(), ["roll"])
+    case = Case(scene=case2, t_end=1.0, dt_out=0.1)
+    method = Method(formulation="recursive", integrator="ida", tolerance=1e-3)
+    done = measured_row(
+        case, method, quantities_of(case2, case.model, ["roll"]), Reference(), Row(case={}, method=method)
     )
-    setting = Method(formulation="recursive", integrator="ida", rtol=1e-3)
-    row = Row(formulation="recursive", integrator="ida", rtol=1e-3, dt=0.0, memory="", waves="", rung="full")
-    done = measure.measure(case2, setting, span, {"roll": np.zeros((11, 1, 1))}, row)
-    assert not done.stable and "solves the redundant equations" in done.reason
+    assert not done.stable and "solves the redundant equations" in done.message
 
 
 def test_every_integrator_of_the_core_is_in_the_grid() -> None:
-    found = {setting.integrator for setting in settings_grid.settings(quick=False)}
-    assert found == set(integrator_names())
+    assert {method.integrator for method in methods.measured_methods(quick=False)} == set(integrator_names())
 
 
-def test_a_method_is_set_by_its_step_or_its_tolerance() -> None:
-    for setting in settings_grid.settings(quick=False):
-        takes_step = _core.integrator(setting.integrator).setting == "dt"
-        assert (setting.dt > 0.0, setting.rtol > 0.0) == (takes_step, not takes_step)
+@pytest.mark.parametrize("known", integrators(), ids=lambda known: known.name)
+def test_a_step_changes_what_a_method_of_fixed_step_does_and_no_other(known: Integrator) -> None:
+    """The table of integrators is asked in place of the scene: it tells the truth."""
+    if known.name in ("rk4-exact-memory", "ark-mri"):
+        pytest.skip("refuses a scene without fluid memory or actuators")
+    runs = [
+        Run(pendulum(), t_end=0.2, dt_out=0.2, integrator=known.name, dt=dt, channels=["position"])
+        for dt in (0.05, 0.025)
+    ]
+    assert all(run.advance(0.2) for run in runs)
+    few, many = (run.core.statistics()["steps"] for run in runs)
+    assert (few != many) == (known.setting == "dt") == (not runs[0].core.adaptive)
 
 
-def test_a_method_that_refuses_the_scene_is_a_row_with_its_reason(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(settings_grid, "QUICK_INTEGRATORS", ("tsit5", "ida"))
-    rows = trade(pendulum(), t_end=1.0, quick=True, progress=False).rows
-    rows = [row for row in rows if (row.integrator, row.formulation) == ("ida", "recursive")]
-    assert rows and not any(row.stable for row in rows)
-    assert all("solves the redundant equations" in row.reason for row in rows)
+def test_chosen_methods_are_measured_and_one_that_does_not_exist_is_a_row_with_its_reason() -> None:
+    chosen = [Method(integrator="rk4", step=0.01), Method(integrator="not-yet", tolerance=1e-3)]
+    rows = trade(pendulum(), t_end=1.0, methods=chosen, progress=False).rows
+    assert [row.method for row in rows] == chosen
+    assert rows[0].stable and not rows[1].stable
+    assert "unknown integrator" in rows[1].message
 
 
 def test_memory_orders_are_named_by_their_states_and_come_closer(case2: Scene) -> None:
@@ -198,16 +207,13 @@ def test_a_weight_in_place_of_the_payload_hangs_as_the_payload_in_calm_water() -
             feed_forward=curve_of("start", scene.actuators[name].feed_forward.evaluate([0.0])[0, 0]),
         )  # fmt: skip
     quantities = quantities_of(scene, scene.compile(), None)
-    span = measure.Span(t_end=5.0, dt_out=0.1, repeats=1, quantities=quantities)
     run = simulate(scene, t_end=5.0, dt_out=0.1, **TIGHT)
     truth = {name: quantity.values(run) for name, quantity in quantities.items()}
-    row = Row(
-        formulation="auto", integrator="dop853", rtol=1e-9, dt=0.0, memory="", waves="", rung=rungs.WEIGHT
-    )
-    done = measure.measure(
-        scene, Method(formulation="auto", integrator="dop853", rtol=1e-9), span, truth, row
-    )
-    assert done.stable, done.reason
+    case = Case(scene=scene, t_end=5.0, dt_out=0.1)
+    bench = measure.Bench(case=case, quantities=quantities, truth=Reference(values=truth), repeats=1)
+    method = Method(integrator="dop853", tolerance=1e-9)
+    done = measure.measure(bench, Row(case={"rung": rungs.WEIGHT}, method=method))
+    assert done.stable, done.message
     assert done.error("payload_position") < 1e-6 and done.error("hook_tension") < 1.0
     assert done.error("cylinder_force") < 1.0 and set(done.errors) == set(quantities)
 
@@ -225,9 +231,11 @@ def test_the_strongest_components_carry_the_load(case2: Scene) -> None:
 def test_a_scene_without_a_vessel_is_traded_on_its_numerics(tmp_path: Path) -> None:
     scene = pendulum()
     found = trade(scene, t_end=2.0, quick=True, progress=False)
-    assert list(found.quantities) == ["position", "velocity"] and {r.rung for r in found.rows} == {"full"}
+    assert list(found.quantities) == ["position", "velocity"] and {r.case["rung"] for r in found.rows} == {
+        "full"
+    }
     with pytest.raises(SceneError, match="'depth' is unknown to this scene"):
         trade(scene, quantities=["depth"], t_end=2.0, progress=False)
     with pytest.raises(SceneError, match="is no folder"):
         trade(scene, t_end=2.0, quick=True, progress=False, out=tmp_path / "absent")
-    assert replace(found.rows[0], stable=False).key == found.rows[0].key
+    assert replace(found.rows[0], verdict="stopped").key == found.rows[0].key

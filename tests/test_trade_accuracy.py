@@ -12,7 +12,7 @@ from reference_problems import four_bars
 from trade_scenes import pendulum, promise, shares, summary
 
 from seacrane import SampledController, Scene, SceneError, cases, simulate
-from seacrane.trading.quantities import compare, quantities_of
+from seacrane.accuracy.quantities import compare, quantities_of
 
 
 def test_errors_stay_within_limit_and_estimate() -> None:

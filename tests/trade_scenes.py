@@ -10,8 +10,8 @@ from typing import Any
 import numpy as np
 
 from seacrane import Scene, cases, simulate
+from seacrane.accuracy.quantities import Quantity, compare, quantities_of
 from seacrane.crane import Payload
-from seacrane.trading.quantities import Quantity, compare, quantities_of
 
 GRID: dict[str, list[dict[str, float]]] = {  # each from loose to tight
     "tsit5": [{"rtol": 10.0**-k} for k in range(1, 10)],

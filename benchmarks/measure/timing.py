@@ -13,7 +13,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from seacrane import Evaluator, Model, Run, Scene
+from seacrane import Evaluator, Model, Scene
+from seacrane.experiment.case import Case
+from seacrane.experiment.measure import timed
+from seacrane.run.shorthand import settled
 
 Array = NDArray[np.float64]
 
@@ -42,18 +45,13 @@ def timed_run(
     scene: Scene, *, model: Model | None = None, repeats: int, t_end: float, **settings: Any
 ) -> Timed:
     """Run a scene several times; compiling and preparing are not part of the wall time."""
-    model = scene.compile() if model is None else model
-    wall = cpu = float("inf")
-    run = None
-    for _ in range(repeats):
-        run = Run(scene, model=model, t_end=t_end, **settings)
-        start = time.thread_time()
-        run.advance(t_end)
-        cpu = min(cpu, time.thread_time() - start)
-        wall = min(wall, float(run.core.statistics()["wall_s"]))
-    if run is None:
-        raise ValueError(f"repeats is {repeats}; give at least 1")
-    return Timed(wall=wall, cpu=cpu, counters=run.core.statistics(), channels=run.core.channels())
+    method, outputs = settled(None, None, settings)
+    case = Case(scene=scene, t_end=t_end, dt_out=outputs.dt, compiled=model)
+    done = timed(case, method, outputs.channels, repeats=repeats)
+    if done.stopped is not None:
+        raise done.stopped
+    core = done.run.core
+    return Timed(wall=done.wall_s, cpu=done.cpu_s, counters=core.statistics(), channels=core.channels())
 
 
 def evaluation_ns(model: Model, *, repeats: int, count: int = 4_000, formulation: str = "redundant") -> float:

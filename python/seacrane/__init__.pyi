@@ -22,6 +22,8 @@ from seacrane._core import StateSpaceBlock as StateSpaceBlock
 from seacrane._core import TwistHistory as TwistHistory
 from seacrane._core import VesselHydrodynamics as VesselHydrodynamics
 from seacrane._core import integrator_names as integrator_names
+from seacrane.accuracy.step_error import StepError as StepError
+from seacrane.accuracy.step_error import step_error as step_error
 from seacrane.analysis.frequency_domain import ResponseStatistics as ResponseStatistics
 from seacrane.analysis.frequency_domain import SummedResponse as SummedResponse
 from seacrane.analysis.frequency_domain import motion_rao as motion_rao
@@ -64,10 +66,11 @@ from seacrane.inputs.plausible import DepthSignWarning as DepthSignWarning
 from seacrane.inputs.plausible import MassUnitWarning as MassUnitWarning
 from seacrane.result import Event as Event
 from seacrane.result import Result as Result
+from seacrane.run.method import Method as Method
 from seacrane.run.output_times import OutputMemoryError as OutputMemoryError
+from seacrane.run.outputs import Outputs as Outputs
+from seacrane.run.run import Run as Run
 from seacrane.run.sampled_controller import SampledController as SampledController
-from seacrane.run.simulation import Run as Run
-from seacrane.run.simulation import simulate as simulate
 from seacrane.run.stiffness import StiffWarning as StiffWarning
 from seacrane.run.to_file import StreamedResult as StreamedResult
 from seacrane.run.to_file import simulate_to_file as simulate_to_file
@@ -78,10 +81,9 @@ from seacrane.scene.wind_current import DoubleCountedDampingWarning as DoubleCou
 from seacrane.scene.wind_current import FlowCoefficients as FlowCoefficients
 from seacrane.sea import SeaState as SeaState
 from seacrane.sea import WaveSystem as WaveSystem
+from seacrane.simulation import simulate as simulate
 from seacrane.trading import Trade as Trade
 from seacrane.trading import trade as trade
-from seacrane.trading.fixed_step import StepError as StepError
-from seacrane.trading.fixed_step import step_error as step_error
 from seacrane.validity.following import FullTurnWarning as FullTurnWarning
 from seacrane.validity.following import OutsideRangeWarning as OutsideRangeWarning
 from seacrane.validity.following import SoftGainsWarning as SoftGainsWarning

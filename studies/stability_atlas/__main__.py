@@ -9,6 +9,7 @@ from collections.abc import Sequence
 from seacrane.cli.output_folder import output_folder
 from seacrane.cli.tables import text_table
 from stability_atlas import Atlas, stability_atlas
+from stability_atlas.points import POINTS
 
 BROKEN = 1
 
@@ -43,10 +44,11 @@ def summary(atlas: Atlas) -> str:
     """How the runs of each axis ended, and how well the predicted step limits hold."""
     verdicts = list(dict.fromkeys(row.verdict for row in atlas.rows))
     table = []
-    for axis in dict.fromkeys(row.axis for row in atlas.rows):
-        own = [row for row in atlas.rows if row.axis == axis]
+    for axis in dict.fromkeys(str(row.case["axis"]) for row in atlas.rows):
+        own = [row for row in atlas.rows if row.case["axis"] == axis]
         counts = [str(sum(row.verdict == verdict for row in own)) for verdict in verdicts]
-        errors = [row.error for row in own if row.error == row.error]
+        told = [row.relative_error(POINTS.name) for row in own]
+        errors = [error for error in told if error == error]
         worst = f"{max(errors):.2g}" if errors else ""
         table.append([axis, *counts, worst])
     lines = [text_table(["axis", *verdicts, "largest error of a completed run"], table)] if table else []

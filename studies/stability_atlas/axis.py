@@ -4,38 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
-import numpy as np
-from numpy.typing import NDArray
-
-if TYPE_CHECKING:
-    from seacrane import Scene, _core
-
-Array = NDArray[np.float64]
-
-
-@dataclass(frozen=True, kw_only=True, eq=False)
-class Case:
-    """One scene to run.
-
-    Attributes
-    ----------
-    scene : Scene
-    t_end, dt_out : float
-        s.
-    start : State, optional
-        Where to begin; default: the assembled start.
-    truth : tuple of ndarray, optional
-        Positions (n, bodies, 3) and quaternions (n, bodies, 4) at the outputs, known otherwise than by tight
-        runs of the same scene.
-    """
-
-    scene: Scene
-    t_end: float
-    dt_out: float
-    start: _core.State | None = None
-    truth: tuple[Array, Array] | None = None
+from seacrane.experiment.case import Case
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

@@ -9,9 +9,10 @@ from functools import lru_cache
 from importlib.resources import files
 from typing import Any
 
-from stability_atlas import rows
+from seacrane.experiment import row as rows
+from seacrane.experiment.row import Row
 from stability_atlas.methods import DEFAULT
-from stability_atlas.rows import Row
+from stability_atlas.points import POINTS
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -91,6 +92,7 @@ def _breaks(promise: Promise, row: Row) -> list[str]:
         out.append(f"constraint error {row.left:.3g}, promised {promise.left:g}")
     if row.energy > promise.energy:
         out.append(f"energy error {row.energy:.3g}, promised {promise.energy:g}")
-    if row.error > promise.error and not row.uncertainty > 0.1 * promise.error:
-        out.append(f"error {row.error:.3g} of the motion, promised {promise.error:g}")
+    error = row.relative_error(POINTS.name)
+    if error > promise.error and not row.relative_uncertainty(POINTS.name) > 0.1 * promise.error:
+        out.append(f"error {error:.3g} of the motion, promised {promise.error:g}")
     return out

@@ -7,8 +7,9 @@ import numpy as np
 from seacrane import Scene, _core, cases
 from seacrane.analysis.inverse import balance
 from seacrane.crane import Payload
+from seacrane.experiment.case import Case
 from stability_atlas.altered import change_actuator, change_body, scale_body
-from stability_atlas.axis import Axis, Case
+from stability_atlas.axis import Axis
 
 T_END, DT_OUT = 10.0, 0.25  # s
 WAVES = 40  # components: what they excite matters here, not their statistics

@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from seacrane import Scene, cases
-from stability_atlas.axis import Axis, Case
+from seacrane.experiment.case import Case
+from stability_atlas.axis import Axis
 from stability_atlas.crane_axes import WAVES
 
 HOUR = 3600.0  # s

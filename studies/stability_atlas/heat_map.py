@@ -10,9 +10,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from stability_atlas import rows
+from seacrane.experiment import row as rows
+from seacrane.experiment.row import Row
+from seacrane.files.atomic import atomic_write
 from stability_atlas.axes import AXES
-from stability_atlas.rows import Row
+from stability_atlas.points import POINTS
 from stability_atlas.step_limit import StepLimit, step_limit_figure
 
 if TYPE_CHECKING:
@@ -30,11 +32,9 @@ LEAST, MOST = 1e-9, 1.0  # errors beyond have the colours of these
 
 def save_heat_maps(folder: Path, measured: Sequence[Row], limits: Sequence[StepLimit]) -> None:
     """Write extremes_<axis>.png for every axis that has rows, and extremes_step.png."""
-    from seacrane.files.atomic import atomic_write
-
     figures = {
-        name: heat_map(name, [row for row in measured if row.axis == name])
-        for name in dict.fromkeys(row.axis for row in measured)
+        name: heat_map(name, [row for row in measured if row.case["axis"] == name])
+        for name in dict.fromkeys(str(row.case["axis"]) for row in measured)
     }
     if limits:
         figures["step"] = step_limit_figure(list(limits))
@@ -52,24 +52,26 @@ def heat_map(axis: str, measured: Sequence[Row]) -> Figure:
     from matplotlib.figure import Figure
     from matplotlib.patches import Patch
 
-    runs = Counter(row.value for row in measured)
-    measured = [row for row in measured if runs[row.value] > 1 or max(runs.values()) == 1]
-    methods = list(dict.fromkeys(row.method for row in measured))
-    values = sorted({row.value for row in measured})
+    runs = Counter(float(row.case["value"]) for row in measured)
+    kept = [value for value, count in runs.items() if count > 1 or max(runs.values()) == 1]
+    measured = [row for row in measured if row.case["value"] in kept]
+    methods = list(dict.fromkeys(row.method.name for row in measured))
+    values = sorted(kept)
     figure = Figure(figsize=(4.2 + 0.75 * len(values), 1.9 + 0.19 * len(methods)), layout="constrained")
     axes = figure.subplots()
     error = np.full((len(methods), len(values)), np.nan)
     seen: set[str] = set()
     for row in measured:
-        i, j = methods.index(row.method), values.index(row.value)
-        letter = LETTERS.get(row.verdict, "" if np.isfinite(row.error) else "c")
+        i, j = methods.index(row.method.name), values.index(float(row.case["value"]))
+        found = row.relative_error(POINTS.name)
+        letter = LETTERS.get(row.verdict, "" if np.isfinite(found) else "c")
         if letter:
             colour = COLOURS.get(row.verdict, "white")
             axes.add_patch(_cell(j, i, colour))
             axes.text(j, i, letter, ha="center", va="center", fontsize=7)
             seen.add(letter)
         else:
-            error[i, j] = max(row.error, 1e-300)
+            error[i, j] = max(found, 1e-300)
     image = axes.imshow(
         np.ma.masked_invalid(error), norm=LogNorm(LEAST, MOST), cmap="viridis_r", aspect="auto"
     )
@@ -80,8 +82,9 @@ def heat_map(axis: str, measured: Sequence[Row]) -> Figure:
     axes.set_title(fill(AXES[axis].title, TITLE_WIDTH), fontsize=10)
     axes.set_xlim(-0.5, len(values) - 0.5)
     axes.set_ylim(len(methods) - 0.5, -0.5)
-    known = [row.uncertainty for row in measured if np.isfinite(row.uncertainty)]
-    note = f"reference known within {max(known):.1g} of the motion" if known else "no second reference"
+    known = np.array([row.relative_uncertainty(POINTS.name) for row in measured])
+    known = known[np.isfinite(known)]
+    note = f"reference known within {known.max():.1g} of the motion" if known.size else "no second reference"
     if seen:
         figure.legend(
             handles=[Patch(facecolor="none", label=f"{mark}  {MEANING[mark]}") for mark in sorted(seen)],

@@ -6,7 +6,8 @@ import numpy as np
 
 from seacrane import Scene, _core
 from seacrane.description.scene import STANDARD_GRAVITY
-from stability_atlas.axis import Axis, Case
+from seacrane.experiment.case import Case
+from stability_atlas.axis import Axis
 
 LENGTH = 10.0  # m, of the pendulum whose support heaves
 CUBE = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [1, 1, 1], [0, 1, 1], [0, 0, 1]], dtype=float)

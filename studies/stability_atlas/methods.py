@@ -1,40 +1,44 @@
-"""The numerical settings that an atlas runs: formulation, integrator, and tolerance or step."""
+"""The methods that an atlas runs: formulation, integrator, and tolerance or step."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 
-from seacrane import _core
-from seacrane.run.method import Method
+from seacrane import Method
+from seacrane.experiment.grid import methods
+from seacrane.run.integrators import Integrator
 
-FORMULATIONS = ("recursive", "redundant")
 STEPS = (0.02, 0.005)  # s
 TOLERANCES = (1e-3, 1e-6)
 LOOSE = (1e-3,)  # of a method of low order
 
-DEFAULT = Method(formulation="auto", integrator="dopri5")
+DEFAULT = Method()
 
 QUICK = (
     DEFAULT,
-    Method(formulation="recursive", integrator="tsit5", rtol=1e-3),
-    Method(formulation="redundant", integrator="dop853", rtol=1e-9),
-    Method(formulation="redundant", integrator="rk4", dt=0.02),
-    Method(formulation="recursive", integrator="semi-implicit-euler", dt=0.005),
-    Method(formulation="redundant", integrator="cvode-bdf", rtol=1e-6),
+    Method(formulation="recursive", integrator="tsit5", tolerance=1e-3),
+    Method(formulation="redundant", integrator="dop853", tolerance=1e-9),
+    Method(formulation="redundant", integrator="rk4", step=0.02),
+    Method(formulation="recursive", integrator="semi-implicit-euler", step=0.005),
+    Method(formulation="redundant", integrator="cvode-bdf", tolerance=1e-6),
 )
+
+TIGHT = (
+    Method(formulation="redundant", integrator="verner76", tolerance=1e-11),
+    Method(formulation="recursive", integrator="dop853", tolerance=1e-11),
+    Method(formulation="redundant", integrator="dop853", tolerance=1e-9),
+    Method(formulation="recursive", integrator="verner76", tolerance=1e-9),
+)
+"""Of the references; they differ in equations and in method."""
 
 
 def every() -> Iterator[Method]:
-    """The default, then each formulation, integrator, and tolerance or step.
-
-    What a formulation does not have at all is left out: methods of the residual form solve the redundant
-    equations only.
-    """
+    """The default, then each formulation, integrator, and tolerance or step that exists."""
     yield DEFAULT
-    for formulation in FORMULATIONS:
-        for method in _core.integrators():
-            if formulation == "recursive" and method.residual_form:
-                continue
-            tolerances = TOLERANCES if method.order > 3 else LOOSE
-            for value in STEPS if method.setting == "dt" else tolerances:
-                yield Method(formulation=formulation, integrator=method.name, **{method.setting: value})
+    yield from methods(_values, only_possible=True)
+
+
+def _values(method: Integrator) -> tuple[float, ...]:
+    if method.setting == "dt":
+        return STEPS
+    return TOLERANCES if method.order > 3 else LOOSE

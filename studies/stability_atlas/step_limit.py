@@ -8,21 +8,22 @@ scene at rest, pushed by a hair, either settles or does not.
 
 from __future__ import annotations
 
-import csv
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, fields
+from dataclasses import astuple, dataclass, fields, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.polynomial import Polynomial
 from numpy.typing import NDArray
 
-from seacrane import Scene, _core, cases
+from seacrane import Run, Scene, SceneError, SimulationError, _core, cases
 from seacrane.analysis.linear_system import LinearModel, linear_model
 from seacrane.analysis.rest_state import held
-from seacrane.errors import SceneError, SimulationError
-from seacrane.run.simulation import Run
+from seacrane.experiment.grid import method_of
+from seacrane.experiment.row_file import write_table
+from seacrane.run.integrators import integrator as integrator_of
+from seacrane.run.integrators import integrators
 from stability_atlas.altered import change_actuator
 from stability_atlas.crane_axes import held_crane
 
@@ -35,6 +36,7 @@ STEPS = 800  # of one trial
 START = 20  # steps that a pair may need to reach its longest
 MARGIN = np.log(GROWTH) / STEPS  # per step: slower growth than this does not show in a trial
 NEAR = 1.005  # ratio at which bisection ends
+LOOSE = 0.1  # tolerance at which a pair takes the longest step it may
 LONGEST = 10.0  # s; beyond, no limit is looked for
 SEMI_IMPLICIT = "semi-implicit-euler"
 QUICK = (SEMI_IMPLICIT, "rk4", "dopri5", "tsit5")
@@ -73,7 +75,7 @@ SCENES: dict[str, Callable[[], Scene]] = {
 
 def step_limits(*, quick: bool = False) -> Iterator[StepLimit]:
     """Limits of every scene, formulation and method; `quick`: one scene and four methods."""
-    names = QUICK if quick else fixed_step_and_explicit()
+    names = QUICK if quick else _methods()
     for title, make in list(SCENES.items())[: 1 if quick else None]:
         scene = make()
         linear = linear_model(scene)
@@ -91,13 +93,9 @@ def step_limits(*, quick: bool = False) -> Iterator[StepLimit]:
                 )  # fmt: skip
 
 
-def fixed_step_and_explicit() -> tuple[str, ...]:
-    """Methods that a longest stable step is looked for of."""
-    return tuple(
-        method.name
-        for method in _core.integrators()
-        if method.setting == "dt" or _core.stability_polynomial(method.name)
-    )
+def _methods() -> list[str]:
+    """Methods of fixed step, and those of the core's own whose stability is known from a tableau."""
+    return [m.name for m in integrators() if m.setting == "dt" or _core.stability_polynomial(m.name)]
 
 
 def predicted_limit(integrator: str, linear: LinearModel, eigenvalues: NDArray[np.complex128]) -> float:
@@ -168,11 +166,13 @@ def _settles(
     at = np.array([model.twist_index(body) + k for body in range(len(model.bodies)) for k in range(6)])
     pushed[at] += PUSH * scale[at] * np.random.default_rng(1).normal(size=at.size)
     start = _core.State(time=0.0, values=pushed, inputs=linear.state.inputs)
-    method = _core.integrator(integrator)
-    size: dict[str, Any] = {"dt": h} if method.setting == "dt" else {"rtol": 0.1, "max_step": h}
-    steps = STEPS if not method.residual_form else STEPS // 5
-    run = Run(scene, model=model, start=start, t_end=steps * h, dt_out=steps * h, formulation=formulation,
-              integrator=integrator, channels=["position"], **size)  # fmt: skip
+    known = integrator_of(integrator)
+    steps = STEPS if not known.residual_form else STEPS // 5
+    method = method_of(known, h if known.setting == "dt" else LOOSE, formulation)
+    if known.setting == "rtol":
+        method = replace(method, max_step=h)
+    run = Run(scene, steps * h, method=method, start=start, model=model, dt_out=steps * h,
+              channels=["position"])  # fmt: skip
     try:
         run.advance(steps * h)
     except SimulationError:
@@ -186,15 +186,8 @@ def _settles(
 
 def write_step_limits(path: Path, limits: list[StepLimit]) -> None:
     """As a table."""
-    from seacrane.files.atomic import atomic_write
-
-    names = [field.name for field in fields(StepLimit)]
-    with atomic_write(path) as draft, draft.open("w", newline="", encoding="utf-8") as file:
-        writer = csv.writer(file)
-        writer.writerow([*names, "found/predicted"])
-        for row in limits:
-            values = [getattr(row, name) for name in names] + [row.found / row.predicted]
-            writer.writerow([f"{v:.5g}" if isinstance(v, float) else v for v in values])
+    rows = [[*astuple(row), row.found / row.predicted] for row in limits]
+    write_table(path, [*(field.name for field in fields(StepLimit)), "found/predicted"], rows, digits=5)
 
 
 def step_limit_figure(limits: list[StepLimit]) -> Figure:

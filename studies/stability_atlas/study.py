@@ -4,16 +4,18 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
-from seacrane.errors import SceneError
+from seacrane import SceneError, __version__
+from seacrane.experiment.row import Row
+from seacrane.experiment.row_file import RowFile, completed
 from stability_atlas import committed
 from stability_atlas.axes import AXES
 from stability_atlas.axis import Axis
 from stability_atlas.methods import DEFAULT, QUICK, every
-from stability_atlas.rows import Row, RowFile, write_csv
 from stability_atlas.step_limit import StepLimit, step_limits, write_step_limits
+from stability_atlas.table import write_csv
 from stability_atlas.workers import Group, run_all
 
 STEP = "step"
@@ -75,7 +77,8 @@ def stability_atlas(
     if not folder.is_dir():
         raise SceneError(f"out {str(folder)!r} is no folder; create it first")
     chosen = _chosen(axes)
-    file = RowFile(folder / "extremes_rows.jsonl")
+    experiment = {"study": "stability atlas", "seacrane_version": __version__}
+    file = RowFile(folder / "extremes_rows.jsonl", experiment)
     wanted = [group for axis in chosen for group in _groups(axis, quick=quick)]
     rows = _measure(wanted, file, jobs or min(2, _processors()), progress)
     limits = list(_step_limits(quick, progress)) if axes is None or STEP in axes else []
@@ -125,19 +128,15 @@ def _groups(axis: Axis, *, quick: bool) -> Iterator[Group]:
 
 
 def _measure(wanted: list[Group], file: RowFile, jobs: int, progress: bool) -> list[Row]:
-    from dataclasses import replace
-
-    from tqdm.auto import tqdm
+    def run(keys: list[str]) -> Iterator[tuple[str, Row]]:
+        left = set(keys)
+        missing = [
+            replace(group, methods=methods)
+            for group in wanted
+            if (methods := tuple(m for m in group.methods if group.empty(m).key in left))
+        ]
+        for row in run_all(missing, jobs):
+            yield row.key, row
 
     keys = [group.empty(method).key for group in wanted for method in group.methods]
-    missing = [
-        replace(group, methods=left)
-        for group in wanted
-        if (left := tuple(m for m in group.methods if group.empty(m).key not in file.rows))
-    ]
-    with tqdm(total=len(keys), desc="extremes", unit="run", disable=not progress) as bar:
-        bar.update(len(keys) - sum(len(group.methods) for group in missing))
-        for row in run_all(missing, jobs) if missing else ():
-            file.add(row)
-            bar.update()
-    return [file.rows[key] for key in dict.fromkeys(keys)]
+    return completed(keys, file, run, title="extremes", progress=progress)

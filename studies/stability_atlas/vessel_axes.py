@@ -6,15 +6,16 @@ from dataclasses import replace
 
 import numpy as np
 
-from seacrane import _core, cases
+from seacrane import Method, _core, cases, simulate
 from seacrane.description.scene import STANDARD_GRAVITY
+from seacrane.experiment.case import Case
 from seacrane.sea import steepness_limit
 from stability_atlas.altered import change_body, change_vessel, scaled_memory
-from stability_atlas.axis import Axis, Case
+from stability_atlas.axis import Axis
 from stability_atlas.crane_axes import DT_OUT, WAVES
+from stability_atlas.points import POINTS
 
 T_END = 20.0  # s
-HEADING_DEG = 135.0
 SHORTEST = 6.5  # s: peak period whose sea lies within the frequencies of the shipped database
 PERIODS = np.linspace(2.0, 40.0, 3801)  # s
 
@@ -91,14 +92,12 @@ def _time_origin(t0: float) -> Case:
     # Both factors are integers: their product is exact, and the rest of a whole turn is right to 40 digits.
     turned = [_turn_of(int(w * 2.0**20) * int(t0)) for w in omega]
     twin.waves = replace(scene.waves, phase=np.asarray(waves.phase) + np.array(turned))
-    from seacrane.run.simulation import simulate
-
-    run = simulate(twin, t_end=60.0, dt_out=0.5, integrator="verner76", rtol=1e-11,
-                   channels=["position", "quaternion"])  # fmt: skip
+    tight = Method(integrator="verner76", tolerance=1e-11)
+    run = simulate(twin, t_end=60.0, method=tight, dt_out=0.5, channels=["position", "quaternion"])
     begin = _core.initial_state(scene.compile())
     start = _core.State(time=t0, values=begin.values, inputs=begin.inputs)
-    return Case(scene=scene, t_end=t0 + 60.0, dt_out=0.5, start=start,
-                truth=(np.asarray(run["position"]), np.asarray(run["quaternion"])))  # fmt: skip
+    truth = {POINTS.name: POINTS.values(run)}
+    return Case(scene=scene, t_end=t0 + 60.0, dt_out=0.5, start=start, truth=truth)
 
 
 def _turn_of(numerator: int) -> float:

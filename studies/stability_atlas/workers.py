@@ -12,11 +12,11 @@ from dataclasses import dataclass, replace
 from multiprocessing.connection import Connection
 from typing import Any
 
-from seacrane.errors import SeacraneError
-from seacrane.run.method import Method
-from stability_atlas import rows
+from seacrane import Method, SeacraneError
+from seacrane.experiment import row as rows
+from seacrane.experiment.reference import Reference
+from seacrane.experiment.row import Row
 from stability_atlas.methods import DEFAULT
-from stability_atlas.rows import Row
 
 DEFAULT_LIMIT_S = 20.0  # the default setting must end, not be cut off, on a slow machine too
 BUSY = 8.0  # times more wall than processor time on a busy machine
@@ -35,10 +35,7 @@ class Group:
 
     def empty(self, method: Method) -> Row:
         """The row of a setting, yet to be measured."""
-        return Row(
-            axis=self.axis, value=self.value, formulation=method.formulation, integrator=method.integrator,
-            setting=method.setting,
-        )  # fmt: skip
+        return Row(case={"axis": self.axis, "value": self.value}, method=method)
 
 
 def serve(pipe: Connection) -> None:
@@ -51,28 +48,22 @@ def serve(pipe: Connection) -> None:
 def _serve(pipe: Connection) -> None:
     """Take groups, send rows, one by one; None ends a group."""
     from stability_atlas.axes import AXES
-    from stability_atlas.measure import Reference, measure, reference
+    from stability_atlas.measure import measure, reference_of
 
     while (group := pipe.recv()) is not None:
         case: Any = None
-        truth: Any = None
+        truth = Reference()
         for method in group.methods:
             row = group.empty(method)
             try:
                 if case is None:
                     case = AXES[group.axis].case(group.value)
-                    truth = (
-                        reference(case, group.limit_s)
-                        if group.with_reference
-                        else Reference(points=None, motion=rows.UNKNOWN, uncertainty=rows.UNKNOWN, known="")
-                    )
+                    truth = reference_of(case, group.limit_s) if group.with_reference else Reference()
             except Exception as error:  # the scene itself is refused, or should have been
-                text = " ".join(str(error).split())
                 if isinstance(error, (SeacraneError, ValueError)):
-                    pipe.send(replace(row, verdict=rows.REFUSED, message=text))
+                    pipe.send(row.ended(rows.REFUSED, error))
                 else:
-                    text = f"{type(error).__name__}: {text}"
-                    pipe.send(replace(row, verdict=rows.UNNAMED, message=text))
+                    pipe.send(row.ended(rows.UNNAMED, f"{type(error).__name__}: {error}"))
                 continue
             limit_s = max(group.limit_s, DEFAULT_LIMIT_S) if method == DEFAULT else group.limit_s
             pipe.send(measure(case, method, truth, limit_s, row))

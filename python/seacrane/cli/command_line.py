@@ -52,7 +52,12 @@ def _add_run(commands: Any) -> None:
     run.add_argument("--t-end", metavar="S", type=float, help="end time, s")
     run.add_argument("--dt-out", metavar="S", type=float, help="output interval, s")
     run.add_argument("--integrator", metavar="NAME", help="default dopri5; an unknown name lists them all")
-    run.add_argument("--rtol", metavar="X", type=float, help="relative tolerance of adaptive integrators")
+    run.add_argument(
+        "--rtol",
+        metavar="X",
+        type=float,
+        help="tolerance of adaptive integrators: error per step over the scale of each state",
+    )
     run.add_argument("--dt", metavar="S", type=float, help="step of fixed-step integrators, s")
     run.add_argument("--spectral-radius", metavar="R", type=float, help="of generalized-alpha, 0 to 1")
     run.add_argument("--formulation", choices=("redundant", "recursive", "auto"), help="equations of motion")

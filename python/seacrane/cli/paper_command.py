@@ -21,7 +21,7 @@ RUNS: dict[str, tuple[str, dict[str, Any]]] = {
     "case2": ("case2", {}),
     "case3": ("case3", {}),
 }
-T_END, DT_OUT = 100.0, 0.1
+T_END, DT_OUT = 100.0, 0.1  # s
 REPEATS = 5  # a single wall time of some hundredths of a second says little about cost
 TITLE = "Offshore crane and vessel in waves: the lift cases of Landsverk, Zhou and Hovland"
 SUMMARY = (
@@ -58,13 +58,14 @@ def run(arguments: argparse.Namespace) -> int:
 def _simulate(name: str) -> Result:
     """The quickest of equal runs, or the first that is interrupted."""
     import seacrane.cases as cases
-    from seacrane.run.simulation import simulate
+    from seacrane.run.outputs import Outputs
+    from seacrane.simulation import simulate
 
     case, options = RUNS[name]
     scene = getattr(cases, case)(**options)
     results = []
     for _ in range(REPEATS):
-        results.append(simulate(scene, t_end=T_END, dt_out=DT_OUT))
+        results.append(simulate(scene, T_END, outputs=Outputs(dt=DT_OUT)))
         if results[-1].interrupted:
             return results[-1]
     return min(results, key=lambda result: float(result.stats["wall_s"]))

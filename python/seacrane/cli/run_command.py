@@ -13,21 +13,22 @@ if TYPE_CHECKING:
     from seacrane.result import Result
 
 SUMMARISED = ("constraint_error", "energy_balance", "absolute_work")
-SETTINGS = ("t_end", "dt_out", "integrator", "rtol", "dt", "spectral_radius", "formulation")
+SETTINGS = ("dt_out", "integrator", "rtol", "dt", "spectral_radius", "formulation")
 
 
 def run(arguments: argparse.Namespace) -> int:
     """Simulate and summarise; 130 if the run was interrupted."""
     name, scene = load_scene(arguments.scene, arguments, scripts=True)
     folder = output_folder(arguments.out)
+    from seacrane.run.shorthand import settled
     from seacrane.run.to_file import simulate_to_file
 
-    given = {setting: getattr(arguments, setting) for setting in SETTINGS}
-    settings = {setting: value for setting, value in given.items() if value is not None}
+    method, outputs = settled(None, None, {word: getattr(arguments, word) for word in SETTINGS})
     path = folder / f"{name}.nc"
+    span = {} if arguments.t_end is None else {"t_end": arguments.t_end}
     told = simulate_to_file(
-        scene, path, checkpoint_every=arguments.checkpoint_every, resume=arguments.resume,
-        overwrite=arguments.overwrite, progress=arguments.progress, **settings,
+        scene, path, **span, method=method, outputs=outputs, checkpoint_every=arguments.checkpoint_every,
+        resume=arguments.resume, overwrite=arguments.overwrite, progress=arguments.progress,
     )  # fmt: skip
     print(summary(told.load(SUMMARISED)))
     print(f"saved {told.path}")

@@ -32,7 +32,7 @@ def summary(result: Trade) -> str:
         f"{name} {result.reference.uncertainty[name]:.1g} {result.quantities[name].unit}" for name in names
     )
     rows = [
-        [row.formulation, row.integrator, row.setting, row.memory, row.waves, row.rung,
+        [row.formulation, row.method.integrator, row.method.setting, *map(str, row.case.values()),
          f"{row.wall_s * 1e3:.3g}", *(f"{row.error(name):.2g}" for name in names)]
         for row in result.pareto
     ]  # fmt: skip

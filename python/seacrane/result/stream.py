@@ -342,7 +342,8 @@ def difference(
         return f"is of another scene{written}"
     settings = [json.loads(some["settings"]) for some in (old, new)]
     pairs = {name: (old.get(name), new.get(name)) for name in METHOD}
-    pairs |= {name: (settings[0].get(name), settings[1].get(name)) for name in SETTINGS}
+    # Version 0.1 wrote 0 for what was left to its default.
+    pairs |= {name: (settings[0].get(name) or None, settings[1].get(name) or None) for name in SETTINGS}
     pairs["channels"] = (", ".join(sorted(old_channels)), ", ".join(sorted(channels)))
     for name, (there, here) in pairs.items():
         if there != here:

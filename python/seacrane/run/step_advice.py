@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from seacrane import _core
+from seacrane.run.integrators import integrator as integrator_of
 
 
 def step_advice(integrator: str, step: float, fastest: float | None) -> str:
@@ -16,7 +16,7 @@ def step_advice(integrator: str, step: float, fastest: float | None) -> str:
     fastest : float or None
         Largest |eigenvalue| at the start, 1/s.
     """
-    limit = _core.integrator(integrator).stable_up_to
+    limit = integrator_of(integrator).stable_up_to
     if not limit or not fastest or fastest * step <= limit:
         return ""
     return (

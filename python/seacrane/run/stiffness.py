@@ -9,6 +9,7 @@ import numpy as np
 
 from seacrane import _core
 from seacrane.analysis.linearise import LARGEST, jacobian
+from seacrane.run.integrators import integrator as integrator_of
 from seacrane.validity.range import Finding
 
 MANY_STEPS = 10_000  # fewer are no matter
@@ -37,9 +38,10 @@ def stiffness(
         Of the run: `Result.stats`.
     """
     integrator, steps = str(stats["integrator"]), int(stats["steps"])
-    method = _core.integrator(integrator)
+    method = integrator_of(integrator)
+    adjusts = method.setting == "rtol" and not method.uses_jacobian
     few = max(MANY_STEPS, int(model.states**2 / STATES_SQUARED_PER_STEP))
-    if method.setting == "dt" or method.uses_jacobian or steps < few or model.states > LARGEST:
+    if not adjusts or steps < few or model.states > LARGEST:
         return []
     step = float(stats["simulated_s"]) / steps
     mode, body, at = max((*_fastest(model, bodies, state), state.time) for state in states)

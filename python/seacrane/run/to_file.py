@@ -5,30 +5,35 @@ from __future__ import annotations
 import contextlib
 import math
 import os
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from seacrane.description.file import scene_digest
 from seacrane.errors import FileFormatError, SceneError
 from seacrane.files.state import state_from_bytes, state_to_bytes
 from seacrane.inputs.checked import number_of
-from seacrane.result.result import checked_stats
+from seacrane.result.result import Result, checked_stats
 from seacrane.result.stream import DIGEST, Left, ResultFile, difference, rows_of_piece
+from seacrane.run.advance import drive
 from seacrane.run.interrupts import Interrupts
+from seacrane.run.method import Method
+from seacrane.run.outputs import Outputs
+from seacrane.run.run import Run
 from seacrane.run.sampled_controller import SampledController, checked_controllers
-from seacrane.run.simulation import Run, drive
+from seacrane.run.shorthand import Shorthand, settled
 from seacrane.validity.range import Finding, as_text, warn_of
 from seacrane.version import __version__
 
 if TYPE_CHECKING:
-    from seacrane.result import Result
+    from typing_extensions import Unpack
+
     from seacrane.scene.scene import Scene
 
 CAPACITY = 1024  # outputs to take memory for at first
-NOT_STREAMED = ("start", "outputs_from", "capacity", "model", "accuracy")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -55,22 +60,22 @@ class StreamedResult:
 
     def load(self, channels: Sequence[str] | None = None) -> Result:
         """All of it, or those channels, in memory."""
-        from seacrane.result import Result
-
         return Result.load(self.path, channels=channels)
 
 
 def simulate_to_file(
     scene: Scene,
     path: str | os.PathLike[str],
-    *,
     t_end: float = 100.0,
+    *,
+    method: Method | None = None,
+    outputs: Outputs | None = None,
     checkpoint_every: float | None = None,
     resume: bool = False,
     overwrite: bool = False,
     controllers: Sequence[SampledController] = (),
     progress: bool = False,
-    **settings: Any,
+    **shorthand: Unpack[Shorthand],
 ) -> StreamedResult:
     """Simulate a scene and write its outputs to a file while the run goes on.
 
@@ -88,6 +93,8 @@ def simulate_to_file(
         method and outputs and does not end later.
     t_end : float
         End time, s.
+    method, outputs
+        As `simulate`.
     checkpoint_every : float, optional
         Simulated time between two pieces, s, for runs that may be killed; default: where a piece has 2 MiB
         or 4096 outputs.
@@ -99,8 +106,8 @@ def simulate_to_file(
         As `simulate`. A run that goes on calls them anew from there.
     progress : bool
         Show a progress bar.
-    **settings
-        As `simulate`; not `start` and `accuracy`.
+    **shorthand
+        As `simulate`.
 
     Returns
     -------
@@ -117,31 +124,35 @@ def simulate_to_file(
     OSError
         If the disk is full, or the folder is missing; the message says where the outputs until then are.
     """
-    for name in NOT_STREAMED:
-        if name in settings:
+    for name in ("start", "accuracy"):
+        if name in shorthand:
             raise SceneError(f"{name} cannot be given to a run that is written to a file; leave it out")
     every = math.inf if checkpoint_every is None else number_of("checkpoint_every", checkpoint_every)
     if not every > 0.0:
         raise SceneError(f"checkpoint_every is {every} s; make it positive")
     given = checked_controllers(controllers)
-    chosen = {name: value for name, value in settings.items() if value is not None}
+    method, outputs = settled(method, outputs, shorthand)
     file = ResultFile(Path(path))
     with Interrupts() as interrupts:
         file.claim()
         try:
-            unlike = "" if overwrite else _unlike(scene, given)
-            run = _FileRun(scene, file, every, resume, overwrite, unlike, {"t_end": t_end, **chosen})
+            left = file.left() if resume else None
+            if left is None and not overwrite:
+                file.require_no_partial()
+            digest = scene_digest(scene)
+            run = _begun(scene, t_end, method, outputs, digest, left)
+            writer = _Writer(run, digest, file, every)
+            writer.begin(left, overwrite=overwrite, unlike=_unlike(scene, given))
             try:
-                drive(run, given, interrupts, progress=progress)
+                drive(run, given, interrupts, progress=progress, watch=writer.look)
             except BaseException:
-                run.interrupted = True
                 with contextlib.suppress(OSError):  # the error at hand tells more
-                    run.close()
+                    writer.close()
                 raise
-            where = run.close()
+            where = writer.close()
         finally:
             file.release()
-    warn_of(run.found)
+    warn_of(writer.found)
     return StreamedResult(path=where, outputs=file.outputs, stats=file.stats, interrupted=run.interrupted)
 
 
@@ -154,107 +165,98 @@ def _unlike(scene: Scene, controllers: Sequence[SampledController]) -> str:
     return ""
 
 
-class _FileRun(Run):
-    """A run whose outputs leave it for a file."""
+def _begun(
+    scene: Scene, t_end: float, method: Method, outputs: Outputs, digest: str, left: Left | None
+) -> Run:
+    """The run, from its start or from where one that was stopped left it."""
+    if left is None:
+        return Run(scene, t_end, method=method, outputs=outputs, capacity=CAPACITY)
+    own = {DIGEST: digest, "seacrane_version": __version__}
+    if left.piece.stats.get(DIGEST) != digest:
+        _refuse(left, difference(left.piece.stats, (), {**left.piece.stats, **own}, ()))
+    state = state_from_bytes(left.piece.state, left.source)
+    return Run(
+        scene, t_end, method=method, outputs=outputs, capacity=CAPACITY, start=state, outputs_from=left.first
+    )
 
-    def __init__(
-        self,
-        scene: Scene,
-        file: ResultFile,
-        every: float,
-        resume: bool,
-        overwrite: bool,
-        unlike: str,
-        settings: Mapping[str, Any],
-    ) -> None:
-        from seacrane.description.file import scene_digest
 
-        self.file = file
-        self.every = every
-        self.digest = scene_digest(scene)
-        left = file.left() if resume else None
-        if left is None:
-            if not overwrite:
-                file.require_no_partial()
-            super().__init__(scene, capacity=CAPACITY, **settings)
-        else:
-            if left.piece.stats.get(DIGEST) != self.digest:
-                self._refuse(left, difference(left.piece.stats, (), {**left.piece.stats, **self._own()}, ()))
-            state = state_from_bytes(left.piece.state, left.source)
-            super().__init__(scene, capacity=CAPACITY, start=state, outputs_from=left.first, **settings)
-        arrays = self._channels(self.core.channels(0))
-        widths = {name: int(np.prod(values.shape[1:])) for name, values in arrays.items()
-                  if self._wanted is None or name in self._wanted}  # fmt: skip
-        channels = list(widths)
-        stats = checked_stats(self.stats())
+def _refuse(left: Left, reason: str) -> None:
+    if reason:
+        raise FileFormatError(
+            f"{left.source} {reason}: give the scene and the settings of the run that stopped, or leave "
+            "resume out"
+        )
+
+
+class _Writer:
+    """Moves the outputs of a run from memory to its file, and judges them on the way.
+
+    Attributes
+    ----------
+    found : list of Finding
+        What was out of range so far: of each object the first that was found.
+    """
+
+    def __init__(self, run: Run, digest: str, file: ResultFile, every: float) -> None:
+        self.found: list[Finding] = []
+        self._run, self._file, self._every = run, file, every
+        self._digest = digest
+        arrays = run.wanted(run.core.channels(0))
+        self._widths = {name: int(np.prod(values.shape[1:])) for name, values in arrays.items()}
+        self._rows = rows_of_piece(sum(self._widths.values()))
+        self._due = run.start.time + every
+
+    def begin(self, left: Left | None, *, overwrite: bool, unlike: str) -> None:
+        """Begin the file, or go on with it; FileFormatError or FileExistsError where it is of another run."""
+        channels, stats = list(self._widths), checked_stats(self._stats())
         if left is not None:
             old_channels = [name for name in left.piece.arrays if name != "time"]
-            self._refuse(left, difference(left.piece.stats, old_channels, stats, channels))
+            _refuse(left, difference(left.piece.stats, old_channels, stats, channels))
         if not (overwrite or (left is not None and not left.end)):
-            file.require_same(stats, channels, unlike)
-        self._rows = rows_of_piece(sum(widths.values()))
+            self._file.require_same(stats, channels, unlike)
         if left is None:
-            file.begin()
+            self._file.begin()
             self._keep()
         else:
-            file.go_on(left)
+            self._file.go_on(left)
             # What was recorded at the very start of this piece is in the file.
-            self.core.drop(int((self.core.channels()["time"] <= self.start.time).sum()))
-        self._due = self.start.time + every
+            core = self._run.core
+            core.drop(int((core.channels()["time"] <= self._run.start.time).sum()))
 
-    def _own(self) -> dict[str, Any]:
-        return {DIGEST: self.digest, "seacrane_version": __version__}
-
-    def _refuse(self, left: Left, reason: str) -> None:
-        if reason:
-            raise FileFormatError(
-                f"{left.source} {reason}: give the scene and the settings of the run that stopped, or leave "
-                "resume out"
-            )
-
-    def advance(self, t_end: float, progress: Callable[[float], None] | None = None) -> bool:
-        """As `Run.advance`; outputs leave memory meanwhile."""
-
-        def look(now: float) -> None:
-            if now >= self._due or self.core.recorded >= self._rows:
-                self._keep()
-            if progress is not None:
-                progress(now)
-
-        reached = super().advance(t_end, look)
-        look(self.core.time)
-        return reached
-
-    def judged(self, found: list[Finding]) -> list[Finding]:
-        """As `Run.judged`: what the first piece of outputs out of range tells of each object."""
-        first: dict[tuple[type[Warning], str], Finding] = {}
-        for category, message in (*self.found, *found):
-            first.setdefault((category, message.partition(":")[0]), (category, message))
-        return list(first.values())
-
-    def stats(self) -> dict[str, Any]:
-        """As `Run.stats`, with the scene, and with what has been out of range."""
-        validity = {"validity": as_text(self.found)} if self.found else {}
-        return {**super().stats(), DIGEST: self.digest, **validity}
-
-    def explain(self, error: BaseException) -> None:
-        """The file explains."""
+    def look(self, now: float) -> None:
+        """Write a piece where one is due at this time, s."""
+        if now >= self._due or self._run.core.recorded >= self._rows:
+            self._keep()
 
     def close(self) -> Path:
         """Write what is left, make the result's file, and return where the outputs are."""
-        reached_end = not self.interrupted and self.core.time >= self.t_end
+        run = self._run
+        reached_end = not run.interrupted and run.core.time >= run.t_end
         self._keep(interrupted=not reached_end)
-        return self.file.finish(reached_end=reached_end)
+        return self._file.finish(reached_end=reached_end)
 
     def _keep(self, *, interrupted: bool = True) -> None:
         """Write all outputs with the state where they end, and drop them."""
-        with self.core:
-            count = self.core.recorded
-            result = self.result(count) if count else None
-            state = self.last_state()
-            self.file.append(
-                result, stats=checked_stats(self.stats()), events=self.events(), interrupted=interrupted,
+        run = self._run
+        with run.core:
+            count = run.core.recorded
+            result, found = run.judged_result(count) if count else (None, run.slow)
+            self._find(found)
+            state = run.last_state()
+            self._file.append(
+                result, stats=checked_stats(self._stats()), events=run.events(), interrupted=interrupted,
                 state=b"" if state is None else state_to_bytes(state),
             )  # fmt: skip
-            self.core.drop(count)
-        self._due = self.core.time + self.every
+            run.core.drop(count)
+        self._due = run.core.time + self._every
+
+    def _find(self, found: list[Finding]) -> None:
+        first: dict[tuple[type[Warning], str], Finding] = {}
+        for category, message in (*self.found, *found):
+            first.setdefault((category, message.partition(":")[0]), (category, message))
+        self.found = list(first.values())
+
+    def _stats(self) -> dict[str, Any]:
+        """As `Run.stats`, with the scene, and with what has been out of range."""
+        validity = {"validity": as_text(self.found)} if self.found else {}
+        return {**self._run.stats(), DIGEST: self._digest, **validity}

@@ -8,14 +8,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from seacrane.experiment.row import Row
 from seacrane.plotting.panel import plain
-from seacrane.trading import rungs
-from seacrane.trading.rows import Row
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
-
 
 COLUMNS = 2
 MARKERS = "ovs^Dp*hXP<>d8H"
@@ -28,9 +26,12 @@ class Measured:
 
     Attributes
     ----------
-    quantity, unit : of the errors.
-    front : rows that no other beats in both wall time and error, by wall time.
-    uncertainty : of the reference.
+    quantity, unit : str
+        Of the errors.
+    front : sequence of Row
+        Rows that no other beats in both wall time and error, by wall time.
+    uncertainty : float
+        Of the reference.
     """
 
     quantity: str
@@ -39,7 +40,9 @@ class Measured:
     uncertainty: float
 
 
-def work_precision(rows: Sequence[Row], measured: Sequence[Measured], metadata: Mapping[str, Any]) -> Figure:
+def work_precision(
+    rows: Sequence[Row], measured: Sequence[Measured], full_case: Mapping[str, str], title: str
+) -> Figure:
     """One panel per quantity: largest error over wall time per simulated second, both logarithmic.
 
     Lines join the tolerances or steps of one integrator, solid in the recursive and dotted in the redundant
@@ -53,33 +56,29 @@ def work_precision(rows: Sequence[Row], measured: Sequence[Measured], metadata: 
     for panel in panels[len(measured) :]:
         panel.set_axis_off()
     for panel, one in zip(panels, measured, strict=False):
-        _draw(panel, rows, one, metadata)
+        _draw(panel, rows, one, full_case)
     handles = {
         label: handle
         for panel in panels
         for handle, label in zip(*panel.get_legend_handles_labels(), strict=True)
     }
     figure.legend(handles.values(), handles.keys(), loc="outside right upper", fontsize=8)
-    figure.suptitle(
-        f"{metadata['scene']}: {metadata['t_end']:g} s, errors at outputs every "
-        f"{metadata['dt_out']:g} s; solid recursive, dotted redundant"
-    )
+    figure.suptitle(f"{title}; solid recursive, dotted redundant")
     return figure
 
 
-def _draw(axes: Axes, every: Sequence[Row], measured: Measured, metadata: Mapping[str, Any]) -> None:
+def _draw(axes: Axes, every: Sequence[Row], measured: Measured, full_case: Mapping[str, str]) -> None:
     from matplotlib.ticker import LogLocator, NullFormatter
 
     quantity = measured.quantity
-    full = (metadata["memory"], metadata["waves"], rungs.FULL)
     colours: dict[str, Any] = {}
     groups: dict[tuple[str, str], list[Row]] = {}
     fewer: list[Row] = []
     for row in every:
         if not row.stable or not np.isfinite(row.error(quantity)):
             continue
-        if (row.memory, row.waves, row.rung) == full:
-            groups.setdefault((row.integrator, row.formulation), []).append(row)
+        if row.case == full_case:
+            groups.setdefault((row.method.integrator, row.formulation), []).append(row)
         else:
             fewer.append(row)
     for (integrator, formulation), rows in groups.items():
@@ -97,7 +96,7 @@ def _draw(axes: Axes, every: Sequence[Row], measured: Measured, metadata: Mappin
         [_cost(row) for row in best], [row.error(quantity) for row in best], where="post", color="black",
         linewidth=2.5, alpha=0.35, label="Pareto front",
     )  # fmt: skip
-    _mark(axes, fewer, quantity, full)
+    _mark(axes, fewer, quantity, full_case)
     axes.axhspan(0.0, measured.uncertainty, color="0.85")
     axes.xaxis.set_major_locator(LogLocator(subs=(1.0, 3.0)))
     axes.xaxis.set_major_formatter("{x:g}")
@@ -112,14 +111,13 @@ def _cost(row: Row) -> float:
     return row.wall_s / row.simulated_s
 
 
-def _mark(axes: Axes, rows: list[Row], quantity: str, full: tuple[Any, ...]) -> None:
+def _mark(axes: Axes, rows: list[Row], quantity: str, full: Mapping[str, str]) -> None:
     """Rungs, each labelled by what differs from the full scene; labels keep a distance from each other."""
     height = -np.inf
     low, high = np.log10(axes.get_ylim())
     for row in sorted(rows, key=lambda row: row.error(quantity)):
-        own = (row.memory, row.waves, row.rung)
-        parts = (f"memory {row.memory}", row.waves, row.rung)
-        label = ", ".join(part for part, one, kept in zip(parts, own, full, strict=True) if one != kept)
+        changed = [name for name in full if row.case[name] != full[name]]
+        label = ", ".join(f"memory {row.case[n]}" if n == "memory" else str(row.case[n]) for n in changed)
         axes.loglog(_cost(row), row.error(quantity), "kx", markersize=6)
         height = max(height + 0.028 * (high - low), np.log10(row.error(quantity)))
         place = (1.03 * axes.get_xlim()[1], 10.0**height)

@@ -13,12 +13,13 @@ from numpy.typing import NDArray
 from seacrane import _core
 from seacrane.analysis.inverse import SIX, driven, hold_vessel
 from seacrane.description.crane_parts import hooks
+from seacrane.description.curves import spline_curve
 from seacrane.description.provenance import VesselProvenance
 from seacrane.errors import SceneError
+from seacrane.hydro import HydroDatabase, fit_memory
 from seacrane.scene.scene import Scene
 
 if TYPE_CHECKING:
-    from seacrane.hydro import HydroDatabase
     from seacrane.hydro.data.memory_model import MemoryModel
 
 Array = NDArray[np.float64]
@@ -127,8 +128,6 @@ def with_memory(scene: Scene, kind: str, database: HydroDatabase | None, *, r2: 
 
 @lru_cache(maxsize=16)
 def _fit(database: HydroDatabase, kind: str, r2: float) -> MemoryModel:
-    from seacrane.hydro import fit_memory
-
     return fit_memory(database=database, kind=kind, r2=r2)
 
 
@@ -182,8 +181,6 @@ def with_prescribed_vessel(scene: Scene, times: Array, motion: Array) -> Scene:
     """
     if len(scene.vessels) != 1:
         raise SceneError(f"scene {scene.name!r}: has {len(scene.vessels)} vessels; one is prescribed")
-    from seacrane.description.curves import spline_curve
-
     (vessel,) = scene.vessels.values()
     out = scene.copy(waves=None)
     out.replace(vessel.name, kind="vessel", memory=[])

@@ -2,26 +2,33 @@
 
 from __future__ import annotations
 
-import hashlib
-import json
 import os
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from seacrane.accuracy.quantities import Quantity, limits_of, quantities_of
+from seacrane.description.file import scene_digest
 from seacrane.errors import SceneError
+from seacrane.experiment.case import Case
+from seacrane.experiment.reference import Reference
+from seacrane.experiment.row import Row
+from seacrane.experiment.row_file import RowFile, completed
 from seacrane.files.atomic import atomic_write
 from seacrane.hydro import HydroDatabase, shipped_database
 from seacrane.inputs.checked import number_of
+from seacrane.run.method import Method
+from seacrane.run.outputs import Outputs
+from seacrane.run.shorthand import settled
 from seacrane.trading import rungs
 from seacrane.trading.diagram import Measured, work_precision
-from seacrane.trading.measure import Reference, Span, frequency_domain, measure, measure_variant, reference
-from seacrane.trading.quantities import Quantity, limits_of, quantities_of
-from seacrane.trading.rows import Row, RowFile, front, write_csv
-from seacrane.trading.settings_grid import PHYSICS, settings
+from seacrane.trading.measure import Bench, frequency_domain, measure, measure_variant, tight_reference
+from seacrane.trading.methods import PHYSICS, measured_methods
+from seacrane.trading.table import front, write_csv
 from seacrane.version import __version__
 
 if TYPE_CHECKING:
@@ -30,6 +37,8 @@ if TYPE_CHECKING:
 
     from seacrane.scene.scene import Scene
 
+MEASURED = ("wall_s", "simulated_s", "evaluations", "drift", "energy", "stable")
+LINEAR = Method(integrator="none")  # the frequency domain has no integrator
 REPEATS = 3  # runs of each setting; the quickest counts
 
 
@@ -60,11 +69,17 @@ class Trade:
         import xarray
 
         names = list(self.quantities)
-        data: dict[str, Any] = {
-            name: ("row", np.array([getattr(row, name) for row in self.rows]))
-            for name in ("formulation", "integrator", "setting", "rtol", "dt", "memory", "waves", "rung",
-                         "wall_s", "simulated_s", "evaluations", "drift", "energy", "stable", "reason")
-        }  # fmt: skip
+        columns: dict[str, list[Any]] = {
+            "formulation": [row.formulation for row in self.rows],
+            "integrator": [row.method.integrator for row in self.rows],
+            "setting": [row.method.setting for row in self.rows],
+            "rtol": [_or_nan(row.method.tolerance) for row in self.rows],
+            "dt": [_or_nan(row.method.step) for row in self.rows],
+            **{name: [row.case[name] for row in self.rows] for name in self.full_case},
+            **{name: [getattr(row, name) for row in self.rows] for name in MEASURED},
+            "reason": [row.message for row in self.rows],
+        }
+        data: dict[str, Any] = {name: ("row", np.array(values)) for name, values in columns.items()}
         for name, part in (("error", "largest"), ("rms_error", "rms"), ("std_error", "std")):
             values = [
                 [getattr(row.errors[q], part) if q in row.errors else np.nan for q in names]
@@ -91,8 +106,8 @@ class Trade:
         kept = [row for row, on in zip(self.rows, front(self.rows, quantity), strict=True) if on]
         return sorted(kept, key=lambda row: row.wall_s)
 
-    def cheapest(self, **accuracy: float) -> dict[str, Any]:
-        """Settings of the cheapest run of the full scene whose largest errors stay within the limits.
+    def cheapest(self, **accuracy: float) -> Method:
+        """The method of the cheapest run of the full scene whose largest errors stay within the limits.
 
         Parameters
         ----------
@@ -101,8 +116,8 @@ class Trade:
 
         Returns
         -------
-        dict
-            For ``simulate(scene, **settings)``.
+        Method
+            For ``simulate(scene, method=...)``.
 
         Raises
         ------
@@ -120,8 +135,7 @@ class Trade:
         if not passing:
             raise SceneError(f"accuracy: each of {limits} is reached by some setting, but none reaches all")
         best = min(passing, key=lambda row: row.wall_s)
-        size = {"rtol": best.rtol} if best.rtol else {"dt": best.dt}
-        return {"formulation": best.formulation, "integrator": best.integrator, **size}
+        return replace(best.method, formulation=best.formulation)
 
     def _check_reach(self, name: str, limit: float) -> None:
         unit, known = self.quantities[name].unit, self.reference.uncertainty[name]
@@ -134,7 +148,11 @@ class Trade:
         best = min(rows, key=lambda row: row.error(name), default=None)
         if best is None or best.error(name) > limit:
             least = "none" if best is None else f"{best.error(name):.3g} {unit}"
-            by = "" if best is None else f" ({best.formulation}, {best.integrator}, {best.setting})"
+            by = (
+                ""
+                if best is None
+                else f" ({best.formulation}, {best.method.integrator}, {best.method.setting})"
+            )
             raise SceneError(
                 f"accuracy: {name} of {limit:g} {unit} is beyond this grid: its smallest error is "
                 f"{least}{by}, set by the local error of the time integration; simulate(accuracy=...) tries "
@@ -142,8 +160,12 @@ class Trade:
             )
 
     def _of_full_scene(self) -> list[Row]:
-        memory, waves = self.metadata["memory"], self.metadata["waves"]
-        return [row for row in self.rows if (row.memory, row.waves, row.rung) == (memory, waves, rungs.FULL)]
+        return [row for row in self.rows if dict(row.case) == self.full_case]
+
+    @property
+    def full_case(self) -> dict[str, str]:
+        """What rows of the full scene have as their `case`: memory, waves, rung."""
+        return {"memory": self.metadata["memory"], "waves": self.metadata["waves"], "rung": rungs.FULL}
 
     def plot(self) -> Figure:
         """Work-precision diagrams: error of each quantity over the wall time per simulated second."""
@@ -156,44 +178,51 @@ class Trade:
             )
             for name, quantity in self.quantities.items()
         ]
-        return work_precision(self.rows, measured, self.metadata)
+        about = self.metadata
+        title = f"{about['scene']}: {about['t_end']:g} s, errors at outputs every {about['dt_out']:g} s"
+        return work_precision(self.rows, measured, self.full_case, title)
 
     def save(self, folder: str | os.PathLike[str]) -> None:
         """Write trade.csv and trade.png into a folder."""
-        units = {name: quantity.unit for name, quantity in self.quantities.items()}
         on_front = front(self.rows, next(iter(self.quantities)))
-        write_csv(Path(folder) / "trade.csv", self.rows, units, on_front)
+        write_csv(Path(folder) / "trade.csv", self.rows, list(self.quantities), on_front)
         with atomic_write(Path(folder) / "trade.png") as draft:
             self.plot().savefig(draft, format="png", dpi=110)
 
 
 def trade(
     scene: Scene,
-    *,
-    quantities: Sequence[str] | None = None,
     t_end: float = 100.0,
-    dt_out: float = 0.1,
+    *,
+    outputs: Outputs | None = None,
+    methods: Iterable[Method] | None = None,
+    quantities: Sequence[str] | None = None,
+    dt_out: float | None = None,
     quick: bool = False,
     database: HydroDatabase | None = None,
     progress: bool = True,
     out: str | os.PathLike[str] | None = None,
 ) -> Trade:
-    """Measure what every setting costs and what error it brings, for one scene.
+    """Measure what every method costs and what error it brings, for one scene.
 
     A tight reference comes first: two formulations, two methods. Then every formulation, integrator and
     tolerance or step on the full scene; then, at a tight tolerance, the scene with one part of its physics
-    changed: fluid memory, evaluation of the waves, coupling of crane, payload and vessel. Numerical settings
-    and physics are not crossed: their errors add. What a setting cannot do is a row that is not stable and
-    says why.
+    changed: fluid memory, evaluation of the waves, coupling of crane, payload and vessel. Methods and physics
+    are not crossed: their errors add. What a method cannot do is a row that is not stable and says why.
 
     Parameters
     ----------
     scene : Scene
+    t_end : float
+        End time, s.
+    outputs : Outputs, optional
+        Errors are taken at its times; what is recorded follows from the quantities. `dt_out` (s) is a
+        shorthand for it.
+    methods : iterable of Method, optional
+        What to measure on the full scene; default: a grid of every integrator of the core.
     quantities : sequence of str, optional
         "payload_position", "tip_velocity", "roll", "cylinder_force", "hook_tension", or any channel. Default:
         those of the named ones that the scene has, else position and velocity of all bodies.
-    t_end, dt_out : float
-        s; errors are taken at the outputs.
     quick : bool
         A coarse grid of few integrators.
     database : HydroDatabase, optional
@@ -214,68 +243,63 @@ def trade(
     SceneError
         For an unknown quantity, or a scene of which no two tight runs work.
     """
-    model = scene.compile()
-    measured = quantities_of(scene, model, quantities)
-    span = Span(
-        t_end=number_of("t_end", t_end), dt_out=number_of("dt_out", dt_out), repeats=1 if quick else REPEATS,
-        quantities=measured,
-    )  # fmt: skip
+    _, taken = settled(None, outputs, {} if dt_out is None else {"dt_out": dt_out})
+    case = Case(scene=scene, t_end=number_of("t_end", t_end), dt_out=taken.dt)
+    measured = quantities_of(scene, case.model, quantities)
     metadata = {
-        "scene": scene.name, "seacrane_version": __version__, "t_end": span.t_end, "dt_out": span.dt_out,
+        "scene": scene.name, "seacrane_version": __version__, "t_end": case.t_end, "dt_out": case.dt_out,
         "memory": rungs.memory_name(scene), "waves": rungs.waves_name(scene), "quick": int(quick),
     }  # fmt: skip
-    truth = reference(scene, span)
+    truth = tight_reference(case, measured)
     metadata |= {"reference": truth.runs[0], "checked_by": "; ".join(truth.runs[1:])}
     metadata |= {f"refused {name}": reason for name, reason in truth.refused.items()}
-    file = None
-    if out is not None:
-        key = {**metadata, "quantities": list(measured), "described": _digest(scene, Path(out))}
-        file = RowFile(Path(out) / "trade_rows.jsonl", key)
-    rows = _measure_all(_tasks(scene, span, truth, database, metadata, quick=quick), file, progress)
-    result = Trade(rows=tuple(rows), quantities=measured, reference=truth, metadata=metadata)
+    file = _row_file(out, {**metadata, "quantities": list(measured)}, scene)
+    bench = Bench(case=case, quantities=measured, truth=truth, repeats=1 if quick else REPEATS)
+    tried = measured_methods(quick=quick) if methods is None else methods
+    tasks = dict([*_methods(bench, metadata, tried), *_physics(bench, database, quick=quick)])
+    rows = completed(
+        tasks, file, lambda keys: ((key, tasks[key]()) for key in keys), title="trade", progress=progress
+    )
+    different = {row.key: row for row in reversed(rows)}  # two levels of a memory fit may give one model
+    result = Trade(
+        rows=tuple(reversed(different.values())), quantities=measured, reference=truth, metadata=metadata
+    )
     if out is not None:
         result.save(out)
     return result
 
 
-def _tasks(
-    scene: Scene, span: Span, truth: Reference, database: HydroDatabase | None, metadata: Mapping[str, Any],
-    *, quick: bool,
-) -> list[tuple[Row, Any]]:  # fmt: skip
-    """Each empty row, and the function that fills it in."""
-    memory, waves = str(metadata["memory"]), str(metadata["waves"])
-    tasks: list[tuple[Row, Any]] = []
-    for setting in settings(quick=quick):
-        row = Row(formulation=setting.formulation, integrator=setting.integrator, rtol=setting.rtol,
-                  dt=setting.dt, memory=memory, waves=waves, rung=rungs.FULL)  # fmt: skip
-        tasks.append((row, lambda row, s=setting: measure(scene, s, span, truth.values, row)))
-    start = truth.values["payload_position"][0] if "payload_position" in truth.values else np.zeros((1, 3))
+Task = tuple[str, Callable[[], Row]]  # the key of a row, and what measures it
+
+
+def _methods(bench: Bench, metadata: Mapping[str, Any], methods: Iterable[Method]) -> Iterator[Task]:
+    """One row for each method on the full scene."""
+    full = {"memory": metadata["memory"], "waves": metadata["waves"], "rung": rungs.FULL}
+    for method in methods:
+        row = Row(case=full, method=method)
+        yield row.key, partial(measure, bench, row)
+
+
+def _physics(bench: Bench, database: HydroDatabase | None, *, quick: bool) -> Iterator[Task]:
+    """One row for each scene with less physics, all by the same method."""
+    scene = bench.case.scene
     for variant in rungs.variants(scene, database or _shipped(scene), quick=quick):
-        linear = variant.rung == rungs.LINEAR
-        row = Row(
-            formulation="linear" if linear else PHYSICS.formulation,
-            integrator="none" if linear else PHYSICS.integrator,
-            rtol=0.0 if linear else PHYSICS.rtol, dt=0.0,
-            memory=variant.memory, waves=variant.waves, rung=variant.rung,
-        )  # fmt: skip
-        if linear:
-            tasks.append((row, lambda row: frequency_domain(scene, span, truth.values, start, row)))
+        case = {"memory": variant.memory, "waves": variant.waves, "rung": variant.rung}
+        if variant.rung == rungs.LINEAR:
+            row = Row(case=case, method=LINEAR)
+            yield row.key, partial(frequency_domain, bench, row)
         else:
-            tasks.append((row, lambda row, v=variant: measure_variant(v, PHYSICS, span, truth.values, row)))
-    return tasks
+            row = Row(case=case, method=PHYSICS)
+            yield row.key, partial(measure_variant, bench, variant, row)
 
 
-def _measure_all(tasks: list[tuple[Row, Any]], file: RowFile | None, progress: bool) -> list[Row]:
-    from tqdm.auto import tqdm
-
-    rows: dict[str, Row] = {}
-    for empty, fill in tqdm(tasks, desc="trade", unit="row", disable=not progress):
-        known = file.rows.get(empty.key) if file is not None else None
-        row = fill(empty) if known is None else known
-        if file is not None and known is None:
-            file.add(empty.key, row)
-        rows.setdefault(row.key, row)  # two levels of a memory fit may give one model
-    return list(rows.values())
+def _row_file(out: str | os.PathLike[str] | None, experiment: Mapping[str, Any], scene: Scene) -> RowFile:
+    if out is None:
+        return RowFile(None, experiment)
+    folder = Path(out)
+    if not folder.is_dir():
+        raise SceneError(f"out {str(folder)!r} is no folder; create it first")
+    return RowFile(folder / "trade_rows.jsonl", {**experiment, "described": scene_digest(scene)})
 
 
 def _shipped(scene: Scene) -> HydroDatabase | None:
@@ -285,14 +309,5 @@ def _shipped(scene: Scene) -> HydroDatabase | None:
     return shipped if [one and one.database for one in known] == [shipped.name] else None
 
 
-def _digest(scene: Scene, folder: Path) -> str:
-    """Of everything that describes the scene."""
-    import tempfile
-
-    if not folder.is_dir():
-        raise SceneError(f"out {str(folder)!r} is no folder; create it first")
-    with tempfile.TemporaryDirectory(dir=folder) as place:
-        path = Path(place) / "scene.json"
-        scene.save(path)
-        text = json.loads(path.read_text(encoding="utf-8"))
-    return hashlib.sha256(json.dumps(text, sort_keys=True).encode()).hexdigest()
+def _or_nan(value: float | None) -> float:
+    return np.nan if value is None else value

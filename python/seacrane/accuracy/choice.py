@@ -12,16 +12,23 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
+from seacrane.accuracy.expected import TIGHTEST, expected_error, method_for, probe_of, unit_error
+from seacrane.accuracy.quantities import Quantity, compare, limits_of, quantities_of
 from seacrane.errors import SceneError
-from seacrane.run.simulation import Run, finished
-from seacrane.trading.expected import TIGHTEST, Method, probe_of, setting_for, unit_error
-from seacrane.trading.quantities import Quantity, compare, limits_of, quantities_of
+from seacrane.run.advance import finished
+from seacrane.run.method import Method
+from seacrane.run.outputs import Outputs
+from seacrane.run.run import Run
+from seacrane.run.shorthand import settled
 
 if TYPE_CHECKING:
+    from seacrane import _core
     from seacrane.result import Result
+    from seacrane.run.sampled_controller import SampledController
     from seacrane.scene.scene import Scene
 
 SAFETY = 5.0  # on the ratio of two errors, which differs between scenes: the estimate held on 198 of 200
+CHOSEN = {"integrator": "integrator", "rtol": "tolerance", "dt": "step", "spectral_radius": "spectral_radius"}
 PESSIMISM = 1.5  # further, on the error expected before any run
 STEP = 10.0  # to a tighter tolerance, or a looser one to compare with, where errors do not tell how far
 COARSE = 0.1  # of the motion: a difference above it is no error that linearised equations describe
@@ -38,7 +45,7 @@ class _Case:
     scene: Scene
     quantities: Mapping[str, Quantity]
     limits: Mapping[str, float]
-    run: Callable[..., Result]  # scene, setting, and a formulation other than the one asked for
+    run: Callable[[Scene, Method], Result]
 
     def differences(self, one: Result, other: Result) -> dict[str, float]:
         return {name: compare(q.values(one), q.values(other)).largest for name, q in self.quantities.items()}
@@ -54,29 +61,44 @@ class _Case:
 
 @dataclass(frozen=True, kw_only=True)
 class _Done:
-    """A finished run and its setting."""
+    """A finished run and its method."""
 
-    setting: Method
+    method: Method
     result: Result
 
+    @property
+    def expected(self) -> float:
+        """Its expected error over the scale of a quantity."""
+        return expected_error(self.method)
 
-def simulate_to_accuracy(
+    @property
+    def tolerance(self) -> float:
+        return self.method.used_tolerance
+
+
+def run_to_accuracy(
     scene: Scene,
+    t_end: float,
     accuracy: Mapping[str, Any],
     *,
-    channels: Sequence[str] | None,
+    method: Method | None,
+    outputs: Outputs | None,
+    shorthand: Mapping[str, Any],
+    start: _core.State | None,
+    controllers: Sequence[SampledController],
     progress: bool,
-    **settings: Any,
 ) -> Result:
     """The run whose estimated error meets all limits.
 
     Parameters
     ----------
     scene : Scene
+    t_end : float
+        s.
     accuracy : mapping of str to float
         Largest error over the outputs by quantity, in its unit.
-    channels, progress, **settings
-        As `simulate`.
+    method, outputs, shorthand, start, controllers, progress
+        As `simulate`; the integrator and its tolerance are chosen here, and no controllers can be.
 
     Returns
     -------
@@ -87,69 +109,96 @@ def simulate_to_accuracy(
     Raises
     ------
     SceneError
-        For an accuracy that is no positive number, an unknown quantity, or a limit that cannot be reached.
+        For an accuracy that is no positive number, an unknown quantity, a setting that is chosen here, or a
+        limit that cannot be reached.
     """
+    _refuse_what_is_chosen(method, shorthand, controllers)
+    kept, outputs = settled(method, outputs, shorthand)
     if not isinstance(accuracy, Mapping):
         raise SceneError(f"accuracy is {accuracy!r}; give a mapping such as {{'payload_position': 0.01}}")
     model = scene.compile()
     measured = quantities_of(scene, model, list(accuracy) or None)
     limits = limits_of(measured, accuracy)
     needed = {channel for quantity in measured.values() for channel in quantity.channels}
-    wanted = None if channels is None else sorted({*channels, *needed})
+    asked = outputs.channels
+    recorded = outputs if asked is None else replace(outputs, channels=sorted({*asked, *needed}))
 
-    def run(changed: Scene, setting: Method, other_formulation: str | None = None) -> Result:
-        chosen = settings if other_formulation is None else {**settings, "formulation": other_formulation}
-        settled = Run(
-            changed, model=model if changed is scene else None, channels=wanted,
-            integrator=setting.name, rtol=setting.tolerance, **chosen,
-        )  # fmt: skip
-        return finished(settled, progress=progress)
+    def run(changed: Scene, chosen: Method) -> Result:
+        compiled = model if changed is scene else None
+        one = Run(changed, t_end, method=chosen, outputs=recorded, start=start, model=compiled)
+        return finished(one, progress=progress)
 
-    result = _converged(_Case(scene=scene, quantities=measured, limits=limits, run=run))
-    if channels is None:
+    result = _converged(_Case(scene=scene, quantities=measured, limits=limits, run=run), kept)
+    if asked is None:
         return result
-    return replace(result, channels={name: result.channels[name] for name in channels})
+    return replace(result, channels={name: result.channels[name] for name in asked})
 
 
-def _converged(case: _Case) -> Result:
-    """Runs until the estimate of the last one meets the limits."""
-    setting = first_setting(case.scene, case.quantities, case.limits)
-    done = [_run(case, probe_of(setting) if setting.tolerance > ROUNDING else _looser(setting))]
+def _refuse_what_is_chosen(
+    method: Method | None, shorthand: Mapping[str, Any], controllers: Sequence[SampledController]
+) -> None:
+    """SceneError for an integrator, a tolerance or a step beside an accuracy, and for controllers."""
+    given = {word: shorthand[word] for word in CHOSEN if shorthand.get(word) is not None}
+    if method is not None:
+        chosen = {name: getattr(method, name) for name in CHOSEN.values()}
+        given |= {name: value for name, value in chosen.items() if value != getattr(Method(), name)}
+    if given:
+        named = ", ".join(f"{name}={value!r}" for name, value in given.items())
+        raise SceneError(
+            f"accuracy chooses integrator, rtol and dt itself, and {named} is given too: leave one out"
+        )
+    if controllers:
+        raise SceneError(
+            "accuracy runs the scene more than once, which a sampled controller may not allow: leave out "
+            "controllers or accuracy"
+        )
+
+
+def _converged(case: _Case, kept: Method) -> Result:
+    """Runs until the estimate of the last one meets the limits; `kept` holds what is not chosen here."""
+    first = first_method(case.scene, case.quantities, case.limits)
+    method = _with_setting(kept, first)
+    done = [_run(case, probe_of(method) if method.used_tolerance > ROUNDING else _looser(method))]
     while not done[-1].result.interrupted:
-        done.append(_run(case, setting))
+        done.append(_run(case, method))
         if done[-1].result.interrupted:
             break
         errors, known = _errors(case, done)
         if case.excess(errors) <= 1.0:
             return _with_estimate(case, done, errors)
-        if setting.tolerance <= TIGHTEST:
+        if method.used_tolerance <= TIGHTEST:
             raise SceneError(_unreachable(case, errors))
-        setting = _tighter(setting, case.excess(errors) if known else STEP)
-        if setting.tolerance < ROUNDING and done[-1].setting.tolerance > STEP * 1.1 * setting.tolerance:
-            done.append(_run(case, _looser(setting)))
+        method = _tighter(method, case.excess(errors) if known else STEP)
+        if method.used_tolerance < ROUNDING and done[-1].tolerance > STEP * 1.1 * method.used_tolerance:
+            done.append(_run(case, _looser(method)))
     return done[-1].result
 
 
-def _run(case: _Case, setting: Method) -> _Done:
-    return _Done(setting=setting, result=case.run(case.scene, setting))
+def _run(case: _Case, method: Method) -> _Done:
+    return _Done(method=method, result=case.run(case.scene, method))
 
 
-def _looser(setting: Method) -> Method:
-    return replace(setting, tolerance=STEP * setting.tolerance)
+def _with_setting(method: Method, chosen: Method) -> Method:
+    return replace(method, integrator=chosen.integrator, tolerance=chosen.tolerance)
 
 
-def _tighter(setting: Method, factor: float) -> Method:
-    """A setting whose error is smaller by that factor at least."""
-    found = setting_for(setting.error / factor)
-    if found.error > 0.6 * setting.error:
-        found = replace(setting, tolerance=setting.tolerance / math.sqrt(STEP))
-    return replace(found, tolerance=max(found.tolerance, TIGHTEST))
+def _looser(method: Method) -> Method:
+    return replace(method, tolerance=STEP * method.used_tolerance)
 
 
-def first_setting(scene: Scene, quantities: Mapping[str, Quantity], limits: Mapping[str, float]) -> Method:
+def _tighter(method: Method, factor: float) -> Method:
+    """A method whose error is smaller by that factor at least."""
+    error = expected_error(method)
+    found = _with_setting(method, method_for(error / factor))
+    if expected_error(found) > 0.6 * error:
+        found = replace(method, tolerance=method.used_tolerance / math.sqrt(STEP))
+    return replace(found, tolerance=max(found.used_tolerance, TIGHTEST))
+
+
+def first_method(scene: Scene, quantities: Mapping[str, Quantity], limits: Mapping[str, float]) -> Method:
     """What met such limits in measured trades."""
     smallest = min(limit / unit_error(scene, quantities[name]) for name, limit in limits.items())
-    return setting_for(smallest / (SAFETY * PESSIMISM))
+    return method_for(smallest / (SAFETY * PESSIMISM))
 
 
 def _errors(case: _Case, done: Sequence[_Done]) -> tuple[dict[str, float], bool]:
@@ -159,16 +208,16 @@ def _errors(case: _Case, done: Sequence[_Done]) -> tuple[dict[str, float], bool]
     """
     tight = done[-1]
     motions = case.motions(tight.result)
-    looser = [one for one in done[:-1] if one.setting.error > tight.setting.error]
+    looser = [one for one in done[:-1] if one.expected > tight.expected]
     differences = [case.differences(tight.result, one.result) for one in looser]
-    ratios = [tight.setting.error / one.setting.error for one in looser]
+    ratios = [tight.expected / one.expected for one in looser]
     factors = [SAFETY * ratio / (1.0 - ratio) for ratio in ratios]
     last = differences[-1]
     errors = {name: max(f * d[name] for f, d in zip(factors, differences, strict=True)) for name in last}
     linear = {name: d <= COARSE * motions[name] for name, d in last.items()}
     by_tolerance = not _cut_short(looser[-1].result)
     errors |= {name: max(errors[name], d) for name, d in last.items() if not (linear[name] and by_tolerance)}
-    return errors, all(linear.values()) and by_tolerance and tight.setting.tolerance > ROUNDING
+    return errors, all(linear.values()) and by_tolerance and tight.tolerance > ROUNDING
 
 
 def _cut_short(result: Result) -> bool:
@@ -191,7 +240,7 @@ def _with_estimate(case: _Case, done: Sequence[_Done], errors: Mapping[str, floa
         if case.excess(errors) > 1.0:
             raise SceneError(_unreachable(case, errors, SINGULAR))
     if _table_may_show(case, last.result):
-        exact = case.run(_with_exact_waves(case.scene), last.setting)
+        exact = case.run(_with_exact_waves(case.scene), last.method)
         if exact.interrupted:
             return exact
         errors = _added(errors, case.differences(last.result, exact), 1.0)
@@ -214,7 +263,7 @@ def _other_formulation(case: _Case, done: _Done) -> Result:
     """The same run in the other coordinates: at a singular position both leave combinations of rows out, of
     rows of their own, and what that does to the motion no tolerance changes."""
     other = "redundant" if done.result.stats["formulation"] == "recursive" else "recursive"
-    return case.run(case.scene, done.setting, other)
+    return case.run(case.scene, replace(done.method, formulation=other))
 
 
 def _table_may_show(case: _Case, result: Result) -> bool:
@@ -239,7 +288,7 @@ def _bound_of_table(scene: Scene) -> str:
 def _unreachable(case: _Case, errors: Mapping[str, float], term: str = "") -> str:
     name = max(case.limits, key=lambda quantity: errors[quantity] / case.limits[quantity])
     quantity = case.quantities[name]
-    expected = setting_for(0.0).error * unit_error(case.scene, quantity)
+    expected = expected_error(method_for(0.0)) * unit_error(case.scene, quantity)
     if not term and errors[name] > AMPLIFIED * expected:
         term = (
             "the motion itself, which amplifies the smallest differences: ask for statistics, or a shorter "

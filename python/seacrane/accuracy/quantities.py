@@ -11,7 +11,9 @@ from numpy.typing import NDArray
 
 from seacrane.description.crane_parts import cylinders, hooks, payloads
 from seacrane.errors import SceneError
+from seacrane.inputs.checked import number_of
 from seacrane.inputs.frames import rotation_matrix
+from seacrane.result.channels import CHANNELS
 from seacrane.run.channel_names import CRANE_CHANNELS
 
 if TYPE_CHECKING:
@@ -103,8 +105,6 @@ def quantities_of(scene: Scene, model: _core.Model, names: Iterable[str] | None)
 
 def limits_of(quantities: Mapping[str, Quantity], accuracy: Mapping[str, Any]) -> dict[str, float]:
     """Accuracies as positive numbers; raises SceneError for what is none or is not measured."""
-    from seacrane.inputs.checked import number_of
-
     if not accuracy:
         raise SceneError("accuracy is empty; give at least one quantity and its largest error")
     out = {}
@@ -181,8 +181,6 @@ def _tip_velocity(scene: Scene) -> Quantity:
 
 def _channel(name: str, *, unit: str | None = None) -> Quantity:
     """A channel, every entry of its last dimension for itself unless that is an axis."""
-    from seacrane.result.channels import CHANNELS
-
     vector = CHANNELS[name].dims[-1] in ("axis", "wxyz")
 
     def values(result: Result) -> Array:

@@ -4,22 +4,26 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
-from seacrane import _core
+from seacrane.accuracy.quantities import compare, quantities_of
 from seacrane.errors import SceneError, SimulationError
-from seacrane.inputs.checked import number_of
-from seacrane.run.simulation import Run, finished
-from seacrane.trading.quantities import compare, quantities_of
+from seacrane.run.advance import finished
+from seacrane.run.method import Method
+from seacrane.run.outputs import Outputs
+from seacrane.run.run import Run
+from seacrane.run.shorthand import Shorthand, settled
 
 if TYPE_CHECKING:
+    from typing_extensions import Unpack
+
     from seacrane import _core
+    from seacrane.accuracy.quantities import Quantity
     from seacrane.scene.scene import Scene
-    from seacrane.trading.quantities import Quantity
 
 Array = NDArray[np.float64]
 CONFIRMED = 0.5  # of a difference: how far it may be from what the next longer step and the order make of it
@@ -60,17 +64,15 @@ class StepError:
 
 def step_error(
     scene: Scene,
-    *,
-    integrator: str,
-    dt: float,
-    quantities: Iterable[str] | None = None,
     t_end: float = 100.0,
-    dt_out: float = 0.1,
-    formulation: str = "auto",
-    spectral_radius: float | None = None,
+    *,
+    method: Method | None = None,
+    outputs: Outputs | None = None,
+    quantities: Iterable[str] | None = None,
     start: _core.State | None = None,
+    **shorthand: Unpack[Shorthand],
 ) -> dict[str, StepError]:
-    """Error of a run with a fixed step, from runs with dt, 2 dt and 4 dt.
+    """Error of a run with a fixed step h, from runs with h, 2 h and 4 h.
 
     The first two differ by (2^p - 1) times the error of the first, p the order of the method. That is
     believed where the second and third differ by 2^p times as much, at every output alike.
@@ -78,14 +80,16 @@ def step_error(
     Parameters
     ----------
     scene : Scene
-    integrator : str
-        One of fixed step, such as "rk4" or "generalized-alpha".
-    dt : float
-        s.
+    t_end : float
+        End time, s.
+    method : Method
+        With an integrator of fixed step, such as "rk4" or "generalized-alpha", and its step.
+    outputs : Outputs, optional
+        Errors are taken at its times; what is recorded follows from the quantities.
     quantities : iterable of str, optional
         As in `seacrane.trade`: named ones or channels; default: those that the scene has.
-    t_end, dt_out, formulation, spectral_radius, start
-        As `simulate`.
+    start, **shorthand
+        As `simulate`: ``step_error(scene, integrator="rk4", dt=0.01)``.
 
     Returns
     -------
@@ -97,25 +101,25 @@ def step_error(
     SceneError
         For a step that is no positive number, an integrator that chooses its own, an unknown quantity.
     SimulationError
-        When the run with `dt` cannot go on.
+        When the run with the step itself cannot go on.
     """
-    step = number_of("dt", dt)
-    if not (math.isfinite(step) and step > 0.0):
-        raise SceneError(f"dt is {step} s; give the positive step whose error is asked for")
+    method, outputs = settled(method, outputs, shorthand)
+    if method.step is None:
+        raise SceneError("dt is None; give the positive step whose error is asked for")
     model = scene.compile()
     measured = quantities_of(scene, model, quantities)
     channels = sorted({channel for quantity in measured.values() for channel in quantity.channels})
+    recorded = replace(outputs, channels=channels)
     runs: list[dict[str, Array]] = []
     order = 0
     for longer in (1.0, 2.0, 4.0):
-        run = Run(
-            scene, model=model, t_end=t_end, dt_out=dt_out, integrator=integrator, dt=longer * step,
-            formulation=formulation, spectral_radius=spectral_radius, start=start, channels=channels,
-        )  # fmt: skip
-        method = _core.integrator(integrator)
-        if method.setting != "dt":
-            raise SceneError(f"integrator {integrator!r} chooses its own steps: give accuracy= to simulate()")
-        order = method.order
+        tried = replace(method, step=longer * method.step)
+        run = Run(scene, t_end, method=tried, outputs=recorded, start=start, model=model)
+        if run.core.adaptive:
+            raise SceneError(
+                f"integrator {method.integrator!r} chooses its own steps: give accuracy= to simulate()"
+            )
+        order = run.core.order
         try:
             result = finished(run)
         except SimulationError:

@@ -1,0 +1,75 @@
+"""The formulation that a method steps a scene in, and what a method asks of the scene."""
+
+from __future__ import annotations
+
+from seacrane import _core
+from seacrane.errors import SceneError
+from seacrane.run.formulation_cost import recursive_pays
+from seacrane.run.integrators import Integrator, integrator
+from seacrane.run.method import Method
+from seacrane.scene.scene import Scene
+
+BAUMGARTE = 5.0  # 1/s: of methods that cannot project, where the scene names none
+SOLVES_FOR_MULTIPLIERS = "ida"
+
+
+def stepped(scene: Scene, model: _core.Model | None, method: Method) -> tuple[Scene, _core.Model, str]:
+    """The scene, its compiled model and the formulation that a run with this method steps.
+
+    The scene is another one, stabilised by Baumgarte's method, where its joints have to be kept by an
+    integrator that cannot project.
+
+    Raises
+    ------
+    SceneError
+        For a combination that does not exist.
+    """
+    model = scene.compile() if model is None else model
+    known = integrator(method.integrator)
+    formulation = _formulation(model, method, known)
+    if not known.projects and formulation == "redundant" and scene.baumgarte == 0.0 and scene.joints:
+        scene = scene.copy(baumgarte=BAUMGARTE)
+        model = scene.compile()
+    if known.name == SOLVES_FOR_MULTIPLIERS:
+        _refuse_redundant_joints(model)
+    return scene, model, formulation
+
+
+def _formulation(model: _core.Model, method: Method, known: Integrator) -> str:
+    """The formulation to step; SceneError where the recursive one is asked for and does not exist."""
+    reason = _redundant_because(model, known)
+    if method.formulation == "recursive" and reason:
+        raise SceneError(f"formulation 'recursive' is not available here: {reason}; choose 'redundant'")
+    if method.formulation != "auto":
+        return method.formulation
+    if reason:
+        return "redundant"
+    return "recursive" if model.tree["loop_rows"] == 0 or recursive_pays(model) else "redundant"
+
+
+def _redundant_because(model: _core.Model, known: Integrator) -> str | None:
+    """Why only the redundant formulation will do; None where both will."""
+    if known.residual_form:
+        return f"integrator {known.name!r} solves the redundant equations"
+    if model.paper_kinematics:
+        return "kinematics 'paper' has no symmetric mass matrix"
+    if model.baumgarte > 0.0:
+        return "Baumgarte stabilisation belongs to the redundant equations"
+    if model.euler_angles:
+        return "orientation 'euler_xyz' is a choice of the redundant state"
+    if not known.projects and (model.tree["loop_rows"] or model.limits):
+        return f"integrator {known.name!r} cannot project, and this scene keeps constraints or limits"
+    if model.tree["speeds"] == 0:
+        return "the joints of this scene leave nothing to move"
+    return None
+
+
+def _refuse_redundant_joints(model: _core.Model) -> None:
+    """SceneError where joints that are stepped depend on each other: each multiplier is solved for."""
+    joints = ", ".join(name for name in model.redundant if name not in model.merge["dropped"])
+    if joints:
+        raise SceneError(
+            f"integrator {SOLVES_FOR_MULTIPLIERS!r} is not available here: the joints {joints} are "
+            "redundant, and it solves for every reaction; give one of them more freedom, or choose a method "
+            "that projects, as 'cvode-bdf' does"
+        )

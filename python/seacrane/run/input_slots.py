@@ -1,0 +1,66 @@
+"""Inputs by name: where the core keeps them, and what may be set."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from seacrane.description.joint_coordinates import ANGLES
+from seacrane.errors import SceneError
+from seacrane.inputs.checked import numbers_of
+from seacrane.scene.scene import Scene
+
+Array = NDArray[np.float64]
+
+
+def slots_of(scene: Scene) -> dict[str, slice]:
+    """Places of the inputs, in the order in which the core numbers them."""
+    widths: dict[str, int] = {}
+    for name in scene.actuators:
+        widths |= {f"{name}.force": 1, f"{name}.reference": 1}
+    widths |= {f"{name}.force": 3 for name in scene.point_forces}
+    ends = np.cumsum(list(widths.values()), dtype=int)
+    return {
+        name: slice(int(end) - width, int(end))
+        for (name, width), end in zip(widths.items(), ends, strict=True)
+    }
+
+
+def changed_inputs(scene: Scene, present: Array, values: Mapping[str, Any]) -> Array:
+    """The inputs with some of them replaced by name; SceneError for what is unknown or makes no sense."""
+    places = slots_of(scene)
+    slots = np.array(present)
+    for name, value in values.items():
+        if name not in places:
+            raise SceneError(f"input {name!r} is unknown; this scene has: {', '.join(places) or 'none'}")
+        new = np.atleast_1d(numbers_of(f"input {name!r}", value))
+        old = slots[places[name]]
+        if new.shape != old.shape or not np.isfinite(new).all():
+            raise SceneError(f"input {name!r} is {value!r}; give {old.size} finite number(s)")
+        _check_turn(scene, name, float(new[0] - old[0]))
+        slots[places[name]] = new
+    return slots
+
+
+def _check_turn(scene: Scene, name: str, jump: float) -> None:
+    """An actuator takes the turn of an angle that is nearest to its reference."""
+    owner, _, kind = name.rpartition(".")
+    if kind == "reference" and scene.actuators[owner].coordinate in ANGLES and abs(jump) >= np.pi:
+        raise SceneError(
+            f"input {name!r} jumps by {np.degrees(jump):.6g} deg, half a turn or more: it would turn the "
+            "short way; lead it there in smaller steps"
+        )
+
+
+def steered(scene: Scene, inputs: Array) -> set[str]:
+    """Actuators whose inputs are not zero."""
+    values, places = np.asarray(inputs), slots_of(scene)
+    return {
+        name
+        for name in scene.actuators
+        if np.any(values[places[f"{name}.force"]] != 0.0)
+        or np.any(values[places[f"{name}.reference"]] != 0.0)
+    }

@@ -1,0 +1,218 @@
+"""Run: one run of a compiled scene, to be advanced piece by piece."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from seacrane import _core
+from seacrane.description.references import check_references
+from seacrane.errors import SceneError, SeacraneError
+from seacrane.inputs.checked import number_of
+from seacrane.result.events import Event
+from seacrane.result.result import Result, checked_stats
+from seacrane.run.channel_names import core_channels, named_channels, names_along
+from seacrane.run.formulation import stepped
+from seacrane.run.input_slots import changed_inputs, steered
+from seacrane.run.method import Method
+from seacrane.run.output_times import output_times
+from seacrane.run.outputs import Outputs
+from seacrane.run.shorthand import Shorthand, settled
+from seacrane.run.stats import settings_of, stats_of
+from seacrane.scene.scene import Scene
+from seacrane.validity.plausible import warn_of_description
+from seacrane.validity.range import Finding, as_text, findings
+
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
+
+Array = NDArray[np.float64]
+
+
+class Run:
+    """One run of a compiled scene, to be advanced piece by piece.
+
+    Parameters
+    ----------
+    scene : Scene
+    t_end : float
+        End time, s.
+    method : Method, optional
+        How it is stepped.
+    outputs : Outputs, optional
+        What is recorded, and how often.
+    start : State, optional
+        Where to begin; default: the assembled start of the scene.
+    outputs_from : float, optional
+        Time from which output times are counted, s, not after the start; default: the start. A run that goes
+        on from a `start` so records at the times at which the run before it would have.
+    capacity : int, optional
+        Outputs to take memory for at first; default: all.
+    model : Model, optional
+        The compiled scene, to save compiling it again.
+    **shorthand
+        As `simulate`.
+
+    Attributes
+    ----------
+    scene, model, formulation
+        What is stepped: the scene with stabilised joints where the method cannot project.
+    method, outputs, start, t_end
+        As given, or their defaults.
+    settings : dict
+        Method and outputs by the words of `simulate`, as results record them.
+    core : Simulation
+        The run in the core: time, counters, recorded channels by the core's names.
+    interrupted : bool
+        Whether something stopped it before its end.
+    """
+
+    def __init__(
+        self,
+        scene: Scene,
+        t_end: float,
+        *,
+        method: Method | None = None,
+        outputs: Outputs | None = None,
+        start: _core.State | None = None,
+        outputs_from: float | None = None,
+        capacity: int | None = None,
+        model: _core.Model | None = None,
+        **shorthand: Unpack[Shorthand],
+    ) -> None:
+        self.method, self.outputs = settled(method, outputs, shorthand)
+        self.scene, self.model, self.formulation = stepped(scene, model, self.method)
+        self.start = _start(self.model, start)
+        self.t_end = number_of("t_end", t_end)
+        self.first = self.start.time if outputs_from is None else number_of("outputs_from", outputs_from)
+        begin, end, described = self.start.time, self.t_end, start is None
+        check_references(self.scene, self.model, start=begin, end=end, described=described)
+        warn_of_description(self.scene, start=begin, end=end, described=described)
+        self.settings = settings_of(self.scene, self.t_end, self.method, self.outputs)
+        self.core = _simulation(self, capacity)
+        if self.scene.waves is not None:
+            self.scene.waves.warn_of_repeats(self.t_end - self.start.time)
+        self.interrupted = False
+        self.steered = steered(self.scene, self.start.inputs)
+        self.slow: list[Finding] = []  # what made the run slow, known at its end
+        self._require_plain_stats()
+
+    def __repr__(self) -> str:
+        method = f"{self.formulation}, {self.method.integrator}"
+        return f"<Run of {self.scene.name!r}: {method}, at {self.core.time:g} s>"
+
+    def advance(self, t_end: float, progress: Callable[[float], None] | None = None) -> bool:
+        """Step to t_end (s); False when Ctrl-C stopped it."""
+        if not self.core.advance(float(t_end), progress):
+            self.interrupted = True
+        return not self.interrupted
+
+    @property
+    def state(self) -> _core.State:
+        """The present state: a copy, to go on from by ``Run(scene, start=...)``."""
+        return self.core.state
+
+    def last_state(self) -> _core.State | None:
+        """The present state, or None where its rate cannot be found."""
+        try:
+            return self.core.state
+        except SeacraneError:
+            return None
+
+    def measure(self) -> dict[str, Array]:
+        """All channels at the present instant, by the names of a result."""
+        return {name: values[0] for name, values in self.named(self.core.snapshot()).items()}
+
+    def named(self, arrays: Mapping[str, Array]) -> dict[str, Array]:
+        """Channels of the core by the names of a result."""
+        return named_channels(self.scene, {name: v for name, v in arrays.items() if name != "time"})
+
+    def wanted(self, arrays: Mapping[str, Array]) -> dict[str, Array]:
+        """As `named`, those that the outputs ask for."""
+        asked = self.outputs.channels
+        named = self.named(arrays)
+        return named if asked is None else {name: v for name, v in named.items() if name in set(asked)}
+
+    def set_inputs(self, values: Mapping[str, Any]) -> None:
+        """Set inputs by name from now on; see `SampledController`."""
+        with self.core:
+            slots = changed_inputs(self.scene, np.array(self.core.state.inputs), values)
+            self.core.set_inputs(slots)
+            self.steered |= steered(self.scene, slots)
+
+    def events(self) -> list[Event]:
+        """What limits did so far."""
+        return [
+            Event(time=time, name=name, kind=kind, speed=speed, impulse=impulse, energy_lost=lost)
+            for time, name, kind, speed, impulse, lost in self.core.events()
+        ]
+
+    def stats(self) -> dict[str, Any]:
+        """Version, settings and counters so far: `Result.stats`."""
+        return stats_of(
+            self.scene, self.model, self.formulation, self.method, self.settings, self.core, self.start.time
+        )
+
+    def result(self) -> Result:
+        """What has been recorded so far, with what is out of range in its stats."""
+        return self.judged_result()[0]
+
+    def judged_result(self, most: int | None = None) -> tuple[Result, list[Finding]]:
+        """What has been recorded so far, and what is out of range in it.
+
+        Parameters
+        ----------
+        most : int, optional
+            No more than the first outputs, and no state.
+        """
+        with self.core:
+            arrays = self.core.channels() if most is None else self.core.channels(most)
+            channels, stats = self.wanted(arrays), self.stats()
+            scene = self.scene
+            found = findings(scene, arrays["time"], channels, stats, self.steered) + self.slow
+            if found:
+                stats["validity"] = as_text(found)
+            result = Result.from_arrays(
+                time=arrays["time"],
+                arrays=channels,
+                **names_along(scene, self.model),
+                events=self.events(),
+                stats=stats,
+                interrupted=self.interrupted,
+                state=self.last_state() if most is None else None,
+            )
+        return result, found
+
+    def _require_plain_stats(self) -> None:
+        """What a result could not hold is refused now, not when the run is over."""
+        try:
+            checked_stats(self.stats())
+        except ValueError as error:
+            raise SceneError(f"scene {self.scene.name!r}: {error}") from error
+
+
+def _start(model: _core.Model, given: Any) -> _core.State:
+    state = _core.initial_state(model) if given is None else given
+    if not isinstance(state, _core.State):
+        raise SceneError(f"start is {given!r}; give a seacrane.State")
+    return state
+
+
+def _simulation(run: Run, capacity: int | None) -> _core.Simulation:
+    """The run in the core."""
+    model, method, outputs = run.model, run.method, run.outputs
+    asked = model.channel_names() if outputs.channels is None else list(outputs.channels)
+    channels = core_channels(asked, model.channel_names(defaults_only=False))
+    times = output_times(
+        run.start.time, run.t_end, outputs.dt, first=run.first,
+        values=model.channel_values(channels) if capacity is None else 0,
+    )  # fmt: skip
+    return _core.Simulation(
+        model=model, start=run.start, formulation=run.formulation, integrator=method.integrator,
+        rtol=method.used_tolerance, dt=method.step or 0.0, max_step=method.max_step or 0.0,
+        spectral_radius=method.spectral_radius, energy_limit=method.energy_limit or 0.0,
+        output_times=times, channels=channels, capacity=capacity or 0,
+    )  # fmt: skip

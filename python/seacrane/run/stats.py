@@ -1,0 +1,76 @@
+"""What a result tells of its run: version, settings, sizes, counters."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from typing import Any
+
+from seacrane import _core
+from seacrane.description.file_origin import roles_to_data
+from seacrane.description.origin import origin_settings
+from seacrane.files.plain_data import plain_notes
+from seacrane.run.channel_names import hanging_bodies
+from seacrane.run.method import Method
+from seacrane.run.outputs import Outputs
+from seacrane.scene.scene import Scene
+from seacrane.version import __version__
+
+
+def settings_of(scene: Scene, t_end: float, method: Method, outputs: Outputs) -> dict[str, Any]:
+    """The settings of a run by the words of `simulate`; a word that is absent was left to its default."""
+    given = {
+        "dt": method.step,
+        "max_step": method.max_step,
+        "spectral_radius": method.spectral_radius,
+        "energy_limit": method.energy_limit,
+    }
+    return {
+        **origin_settings(scene),
+        **({"notes": plain_notes(scene.name, scene.notes)} if scene.notes else {}),
+        "t_end": t_end,
+        "dt_out": outputs.dt,
+        "rtol": method.used_tolerance,
+        **{word: value for word, value in given.items() if value is not None},
+        "orientation": scene.orientation,
+        "baumgarte": scene.baumgarte,
+    }
+
+
+def stats_of(
+    scene: Scene,
+    model: _core.Model,
+    formulation: str,
+    method: Method,
+    settings: Mapping[str, Any],
+    core: _core.Simulation,
+    start: float,
+) -> dict[str, Any]:
+    """`Result.stats` of a run so far; `start` is its start time, s."""
+    recursive = formulation == "recursive"
+    return {
+        "seacrane_version": __version__,
+        "scene": scene.name,
+        "payload": "\n".join(hanging_bodies(scene)) or None,
+        "cranes": json.dumps([roles_to_data(roles) for roles in scene.roles.values()])
+        if scene.roles
+        else None,
+        "formulation": formulation,
+        "integrator": method.integrator,
+        "settings": settings,
+        "simulated_s": core.time - start,
+        "coordinates": model.coordinates,
+        "constraints": model.constraints,
+        "degrees_of_freedom": model.degrees_of_freedom,
+        "compiled_coordinates": model.tree["speeds"] if recursive else model.merge["coordinates"],
+        "compiled_constraints": model.tree["loop_rows"] if recursive else model.merge["constraints"],
+        "memory_states": model.memory_states,
+        "history_samples": model.history_samples,
+        **core.statistics(),
+        **({} if scene.waves is None else scene.waves.provenance.stats()),
+    }
+
+
+def _cranes(scene: Scene) -> str | None:
+    """The roles of each crane, as JSON."""
+    return json.dumps([roles_to_data(roles) for roles in scene.roles.values()]) if scene.roles else None

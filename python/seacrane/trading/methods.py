@@ -1,0 +1,49 @@
+"""The methods that a trade measures."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from seacrane.experiment.grid import methods
+from seacrane.run.integrators import Integrator, integrator
+from seacrane.run.method import Method
+
+COARSE = (1e-1, 1e-2, 1e-3, 1e-4)
+MIDDLE = (*COARSE, 1e-5, 1e-6)
+FINE = (*MIDDLE, 1e-7, 1e-8, 1e-9)
+STEPS_OF_ORDER_1 = (0.1, 0.05, 0.02, 0.01, 0.005)  # s
+STEPS = (0.2, 0.1, 0.05, 0.025, 0.0125)  # s
+STEPS_IMPLICIT = (0.1, 0.05, 0.02)  # s
+QUICK_INTEGRATORS = ("tsit5", "dop853", "rk4", "semi-implicit-euler")
+
+TIGHT = (
+    Method(formulation="recursive", integrator="dop853", tolerance=1e-12),
+    Method(formulation="recursive", integrator="verner76", tolerance=1e-12),
+    Method(formulation="redundant", integrator="dop853", tolerance=1e-12),
+    Method(formulation="redundant", integrator="verner76", tolerance=1e-12),
+)
+"""The reference's runs; they differ in equations and in method, so that their difference is its error."""
+
+PHYSICS = Method(formulation="auto", integrator="dop853", tolerance=1e-8)
+"""How the physics rungs are run: an error far below what leaving physics out brings."""
+
+
+def measured_methods(*, quick: bool) -> Iterator[Method]:
+    """All methods of the grid; `quick` takes every third tolerance or step of a few integrators."""
+    if quick:
+        return methods(
+            lambda method: _values(method)[1::3], tried=[integrator(name) for name in QUICK_INTEGRATORS]
+        )
+    return methods(_values)
+
+
+def _values(method: Integrator) -> tuple[float, ...]:
+    """Tolerances or steps to try: no tighter than a method of this order, at this cost of a step, pays."""
+    if method.setting == "dt":
+        explicit = STEPS_OF_ORDER_1 if method.order == 1 else STEPS
+        return STEPS_IMPLICIT if method.uses_jacobian else explicit
+    if method.lowest_order < method.order:
+        return MIDDLE
+    if method.uses_jacobian:
+        return COARSE
+    return MIDDLE if method.order < 4 else FINE

@@ -1,0 +1,53 @@
+"""The table of a trade, and the rows that no other beats."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from seacrane.experiment.row import UNKNOWN, Row
+from seacrane.experiment.row_file import write_table
+
+
+def front(rows: Sequence[Row], quantity: str) -> list[bool]:
+    """Which rows no other beats in both wall time and largest error of a quantity (Pareto)."""
+    usable = [
+        i for i, row in enumerate(rows) if row.stable and np.isfinite([row.error(quantity), row.wall_s]).all()
+    ]
+    on = [False] * len(rows)
+    best = math.inf
+    for i in sorted(usable, key=lambda i: (rows[i].wall_s, rows[i].error(quantity))):
+        if rows[i].error(quantity) < best:
+            best, on[i] = rows[i].error(quantity), True
+    return on
+
+
+def write_csv(path: Path, rows: Sequence[Row], quantities: Sequence[str], on_front: Sequence[bool]) -> None:
+    """Write trade.csv.
+
+    `error_<quantity>` is the largest over time; further columns hold the root mean square
+    `rms_<quantity>`, the error of the standard deviation `std_<quantity>`, and `simulated_s`.
+    """
+    columns = [
+        "formulation", "integrator", "setting", "memory", "waves", "rung", "wall_s", "evaluations",
+        *(f"error_{name}" for name in quantities), "drift", "energy", "stable", "reason", "pareto",
+        *(f"{kind}_{name}" for kind in ("rms", "std") for name in quantities), "simulated_s",
+    ]  # fmt: skip
+    cells = [_cells(row, quantities, pareto) for row, pareto in zip(rows, on_front, strict=True)]
+    write_table(path, columns, cells, digits=6)
+
+
+def _cells(row: Row, quantities: Sequence[str], pareto: bool) -> list[Any]:
+    def errors(part: str) -> list[float]:
+        return [getattr(row.errors[q], part) if q in row.errors else UNKNOWN for q in quantities]
+
+    method, case = row.method, row.case
+    return [
+        row.formulation, method.integrator, method.setting, case["memory"], case["waves"], case["rung"],
+        row.wall_s, row.evaluations, *errors("largest"), row.drift, row.energy, row.stable, row.message,
+        pareto, *errors("rms"), *errors("std"), row.simulated_s,
+    ]  # fmt: skip

@@ -1,0 +1,27 @@
+"""What an atlas measures errors in: points on all bodies, which tell of their turning too."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from seacrane.accuracy.quantities import Quantity
+from seacrane.inputs.frames import rotation_matrix
+from seacrane.result.result import Result
+
+Array = NDArray[np.float64]
+
+
+def points_on_bodies(position: Array, quaternion: Array) -> Array:
+    """The centre of mass, and one metre from it along each body axis: (n, bodies, 4, 3), m."""
+    axes = np.swapaxes(rotation_matrix(quaternion), -1, -2)
+    return np.concatenate([position[..., None, :], position[..., None, :] + axes], axis=-2)
+
+
+def _points(result: Result) -> Array:
+    points = points_on_bodies(np.asarray(result["position"]), np.asarray(result["quaternion"]))
+    return points.reshape(len(points), -1, 3)
+
+
+POINTS = Quantity(name="points", unit="m", channels=("position", "quaternion"), values=_points)
+QUANTITIES = {POINTS.name: POINTS}

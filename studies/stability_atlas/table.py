@@ -1,0 +1,30 @@
+"""extremes.csv: the rows of an atlas as a table."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+from seacrane.experiment.row import UNKNOWN, Row
+from seacrane.experiment.row_file import write_table
+from stability_atlas.points import POINTS
+
+COLUMNS = ("axis", "value", "formulation", "integrator", "setting", "verdict", "error", "uncertainty",
+           "motion", "drift", "left", "energy", "steps", "rejected_steps", "evaluations", "dense_solves",
+           "simulated_s", "cpu_s", "message")  # fmt: skip
+
+
+def write_csv(path: Path, rows: Sequence[Row]) -> None:
+    """All rows; `error` and `uncertainty` are over `motion` (m), empty where there is no number."""
+    write_table(path, COLUMNS, map(_cells, rows), digits=4)
+
+
+def _cells(row: Row) -> list[Any]:
+    name, method = POINTS.name, row.method
+    return [
+        row.case["axis"], row.case["value"], method.formulation, method.integrator, method.setting,
+        row.verdict, row.relative_error(name), row.relative_uncertainty(name), row.motion.get(name, UNKNOWN),
+        row.drift, row.left, row.energy, row.steps, row.rejected_steps, row.evaluations, row.dense_solves,
+        row.simulated_s, row.cpu_s, row.message,
+    ]  # fmt: skip
