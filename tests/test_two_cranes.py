@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 
 from seacrane import Curve, Result, Scene, SceneError, balance, cases, simulate, simulate_to_file
+from seacrane.accuracy.quantities import quantities_of
 from seacrane.crane import Payload
-from seacrane.trading.quantities import quantities_of
 
 FEET = {"": (0.0, 0.0, 0.0), "aft ": (-60.0, 5.0, 0.0)}
 PARTS = {"slew": "A", "main": "main_cylinder", "knuckle": "knuckle_cylinder"}
