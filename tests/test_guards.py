@@ -25,11 +25,11 @@ from seacrane import (
     _core,
     simulate,
 )
+from seacrane._core import integrators
 from seacrane.analysis import linearise
 from seacrane.cases import vessel
 from seacrane.figures.report import report_html
 from seacrane.run import stiffness
-from seacrane.run.integrators import integrators
 from seacrane.run.output_times import OutputMemoryError
 from seacrane.validity.hull_range import MeanHeadingWarning
 from seacrane.validity.range import (
@@ -120,8 +120,7 @@ def test_a_step_beyond_stability_tells_what_has_grown_and_the_longest_step() -> 
     assert "unstable with steps longer than about 0.028 s, and took 0.1 s" in text
 
 
-# rk4-exact-memory refuses a scene without memory, and is rk4 in all else.
-STABLE_UP_TO = {k.name: k.stable_up_to for k in integrators() if k.stable_up_to and "exact" not in k.name}
+STABLE_UP_TO = {k.name: k.stable_up_to for k in integrators() if k.stable_up_to}
 
 
 @pytest.mark.parametrize("method", sorted(STABLE_UP_TO))

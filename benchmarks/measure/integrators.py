@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane import Method, cases
+from seacrane._core import Integrator, integrators
 from seacrane.accuracy.quantities import quantities_of
 from seacrane.experiment.case import Case
 from seacrane.experiment.grid import methods
@@ -17,7 +18,6 @@ from seacrane.experiment.reference import Reference, reference
 from seacrane.experiment.row import Row
 from seacrane.experiment.row_file import RowFile, completed
 from seacrane.files.atomic import atomic_write
-from seacrane.run.integrators import Integrator, integrators
 
 from .section import Section
 

@@ -58,8 +58,8 @@ from seacrane.errors import FileFormatError as FileFormatError
 from seacrane.errors import SceneError as SceneError
 from seacrane.errors import SeacraneError as SeacraneError
 from seacrane.errors import SimulationError as SimulationError
-from seacrane.hydro.database.database import HydroDatabase as HydroDatabase
-from seacrane.hydro.readers.load import load_database as load_database
+from seacrane.hydro import HydroDatabase as HydroDatabase
+from seacrane.hydro import load_database as load_database
 from seacrane.inputs.plausible import AngleUnitWarning as AngleUnitWarning
 from seacrane.inputs.plausible import CompassDirectionWarning as CompassDirectionWarning
 from seacrane.inputs.plausible import DepthSignWarning as DepthSignWarning

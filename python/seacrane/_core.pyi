@@ -6,7 +6,7 @@ import collections.abc
 import numpy
 import numpy.typing
 import typing
-__all__: list[str] = ['Actuator', 'Body', 'Curve', 'DriftLoad', 'DriftTable', 'Driver', 'Evaluator', 'ExactWaveLoad', 'FlowForce', 'ForceTable', 'Frame', 'Friction', 'FunctionForce', 'Joint', 'Limit', 'Model', 'PointForce', 'PositionedWaveLoad', 'RecordHistory', 'RepeatPeriod', 'RetardationFunctions', 'Simulation', 'SoftStop', 'Spectrum', 'Spring', 'State', 'StateSpaceBlock', 'StepHistory', 'TwistHistory', 'VesselHydrodynamics', 'WaveComponents', 'WaveKinematics', 'WaveLoads', 'WaveTable', 'compile', 'dnv_gamma', 'initial_state', 'integrator_names', 'jonswap', 'ochi_hubble', 'philox_uniform', 'pierson_moskowitz', 'realise_waves', 'section_radiation', 'stability_polynomial', 'strip_theory', 'tabulated_density', 'torsethaugen']
+__all__: list[str] = ['Actuator', 'Body', 'Curve', 'DriftLoad', 'DriftTable', 'Driver', 'Evaluator', 'ExactWaveLoad', 'FlowForce', 'ForceTable', 'Frame', 'Friction', 'FunctionForce', 'Integrator', 'Joint', 'Limit', 'Model', 'PointForce', 'PositionedWaveLoad', 'RecordHistory', 'RepeatPeriod', 'RetardationFunctions', 'Simulation', 'SoftStop', 'Spectrum', 'Spring', 'State', 'StateSpaceBlock', 'StepHistory', 'TwistHistory', 'VesselHydrodynamics', 'WaveComponents', 'WaveKinematics', 'WaveLoads', 'WaveTable', 'compile', 'dnv_gamma', 'initial_state', 'integrator', 'integrator_names', 'integrators', 'jonswap', 'ochi_hubble', 'philox_uniform', 'pierson_moskowitz', 'realise_waves', 'section_radiation', 'stability_polynomial', 'strip_theory', 'tabulated_density', 'torsethaugen']
 class Curve:
     """
     A reference as a function of time: pieces of quintic polynomials plus one cosine each.
@@ -1335,6 +1335,92 @@ class Evaluator:
         """
         Nanoseconds per evaluation by part.
         """
+class Integrator:
+    """
+    What an integration method is; see `integrators`.
+    """
+    def __repr__(self) -> str:
+        ...
+    @property
+    def default(self) -> float:
+        """
+        That setting without a choice of the user: a tolerance, or s.
+        """
+    @property
+    def dense_order(self) -> int:
+        """
+        Of the solution inside a step; 0: it varies.
+        """
+    @property
+    def error_order(self) -> int:
+        """
+        Of the embedded method that estimates the error; 0: there is none.
+        """
+    @property
+    def has_spectral_radius(self) -> bool:
+        """
+        `spectral_radius` can be chosen.
+        """
+    @property
+    def joints(self) -> str:
+        """
+        How it keeps joints closed, in words.
+        """
+    @property
+    def kind(self) -> str:
+        """
+        What it is, in words.
+        """
+    @property
+    def lowest_order(self) -> int:
+        """
+        That of `order`, unless the order varies.
+        """
+    @property
+    def name(self) -> str:
+        """
+        By which `simulate` takes it.
+        """
+    @property
+    def order(self) -> int:
+        """
+        The highest one for a method of variable order.
+        """
+    @property
+    def projects(self) -> bool:
+        """
+        It projects the state onto the joints.
+        """
+    @property
+    def purpose(self) -> str:
+        """
+        What it is there for, in words.
+        """
+    @property
+    def residual_form(self) -> bool:
+        """
+        It solves the residual form, which formulation "redundant" has.
+        """
+    @property
+    def restarts(self) -> bool:
+        """
+        It loses its history where a run goes on from a state, or is changed.
+        """
+    @property
+    def setting(self) -> str:
+        """
+        What sets its accuracy: "rtol", or the "dt" of its steps.
+        """
+    @property
+    def stable_up_to(self) -> float:
+        """
+        |eigenvalue| times step up to which an oscillation does not grow, of explicit methods of fixed step; 0: no such limit.
+        """
+    @property
+    def uses_jacobian(self) -> bool:
+        """
+        It solves with the Jacobian, so that fast modes do not limit its steps.
+        """
 class TwistHistory:
     """
     What a convolution keeps of a vessel's motion, in the frame that follows yaw: `recent` (3, 6) at the newest samples, `quadrature` (n, 6) at the quadrature points of the past, newest first; at rest before `start` (s), `intervals` steps of the convolution ago.
@@ -1592,8 +1678,18 @@ def dnv_gamma(*, hs: typing.SupportsFloat | typing.SupportsIndex, tp: typing.Sup
     """
 def initial_state(model: Model) -> State:
     ...
+def integrator(name: str) -> Integrator:
+    """
+    The one of that name; SceneError where there is none.
+    """
 def integrator_names() -> list[str]:
-    ...
+    """
+    Their names alone.
+    """
+def integrators() -> list[Integrator]:
+    """
+    All integration methods, in the order of the documents: a new list.
+    """
 def jonswap(*, hs: typing.SupportsFloat | typing.SupportsIndex, tp: typing.SupportsFloat | typing.SupportsIndex, gamma: typing.SupportsFloat | typing.SupportsIndex = 3.3) -> Spectrum:
     """
     JONSWAP spectrum.

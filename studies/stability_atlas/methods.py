@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from seacrane import Method
+from seacrane._core import Integrator
 from seacrane.experiment.grid import methods
-from seacrane.run.integrators import Integrator
 
 STEPS = (0.02, 0.005)  # s
 TOLERANCES = (1e-3, 1e-6)

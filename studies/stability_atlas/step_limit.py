@@ -18,12 +18,12 @@ from numpy.polynomial import Polynomial
 from numpy.typing import NDArray
 
 from seacrane import Run, Scene, SceneError, SimulationError, _core, cases
+from seacrane._core import integrator as integrator_of
+from seacrane._core import integrators
 from seacrane.analysis.linear_system import LinearModel, linear_model
 from seacrane.analysis.rest_state import held
 from seacrane.experiment.grid import method_of
 from seacrane.experiment.row_file import write_table
-from seacrane.run.integrators import integrator as integrator_of
-from seacrane.run.integrators import integrators
 from stability_atlas.altered import change_actuator
 from stability_atlas.crane_axes import held_crane
 

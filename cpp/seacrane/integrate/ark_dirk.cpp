@@ -25,7 +25,7 @@ class ArkodeDirk final : public SundialsIntegrator {
       .uses_jacobian = true,
       .restarts = true,
       .joints = "projection, restart when it moved the state",
-      .purpose = "stiff elements, at tight tolerances, where limits and kinks restart often"};
+      .purpose = "stiff elements at tighter tolerances"};
 
   ArkodeDirk(const Problem& problem, const IntegratorOptions& options)
       : SundialsIntegrator(properties, problem, options, sundials::arkode, options.tolerances(),

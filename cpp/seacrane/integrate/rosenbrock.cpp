@@ -36,7 +36,7 @@ class RosenbrockW final : public AdaptiveStep {
       .error_order = 2,
       .dense_order = 3,
       .uses_jacobian = true,
-      .purpose = "stiff elements, at loose tolerances, with limits and restarts that cost nothing"};
+      .purpose = "stiff elements at loose tolerances; restarts at limits and kinks cost it little"};
 
   RosenbrockW(const Problem& problem, const IntegratorOptions& options)
       : AdaptiveStep(properties, problem, options, 3),

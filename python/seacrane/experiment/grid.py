@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
 
-from seacrane.run.integrators import Integrator, integrators
+from seacrane._core import Integrator, integrators
 from seacrane.run.method import Method
 
 FORMULATIONS = ("recursive", "redundant")

@@ -6,10 +6,10 @@ import contextlib
 from collections.abc import Callable, Iterator, Sequence
 from typing import Any
 
+from seacrane._core import integrator
 from seacrane.analysis.linearise import fastest_mode
 from seacrane.errors import SimulationError
 from seacrane.result.result import Result
-from seacrane.run.integrators import integrator
 from seacrane.run.interrupts import Interrupts
 from seacrane.run.run import Run
 from seacrane.run.sampled_controller import SampledController, called_at, next_call, only_setter

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from seacrane import _core
+from seacrane._core import Integrator, integrator
 from seacrane.errors import SceneError
 from seacrane.run.formulation_cost import recursive_pays
-from seacrane.run.integrators import Integrator, integrator
 from seacrane.run.method import Method
 from seacrane.scene.scene import Scene
 

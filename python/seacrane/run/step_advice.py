@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from seacrane.run.integrators import integrator as integrator_of
+from seacrane._core import integrator as integrator_of
 
 
 def step_advice(integrator: str, step: float, fastest: float | None) -> str:

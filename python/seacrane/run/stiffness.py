@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 
 from seacrane import _core
+from seacrane._core import integrator as integrator_of
 from seacrane.analysis.linearise import LARGEST, jacobian
-from seacrane.run.integrators import integrator as integrator_of
 from seacrane.validity.range import Finding
 
 MANY_STEPS = 10_000  # fewer are no matter
