@@ -32,6 +32,9 @@ FLOORS = """
     result
     scene
     run
+    accuracy
+    simulation
+    experiment
     figures
     trading
     cases

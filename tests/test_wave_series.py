@@ -21,7 +21,8 @@ from seacrane import (
     _core,
     simulate,
 )
-from seacrane.description.wave_series import grid_of
+from seacrane.description.wave_grid import grid_of
+from seacrane.description.wave_loads import compiled_waves
 from seacrane.hydro import shipped_database
 
 Array = NDArray[np.float64]
@@ -110,9 +111,9 @@ def test_the_grid_is_found_or_refused() -> None:
     jittered = uniform()
     jittered.omega[3] *= 1.0001
     with pytest.raises(SceneError, match="frequencies that are multiples of one step"):
-        jittered.compile()
+        compiled_waves(jittered)
     with pytest.raises(SceneError, match="evaluation is 'spline'; choose table, exact, fft"):
-        uniform(evaluation="spline").compile()
+        compiled_waves(uniform(evaluation="spline"))
 
 
 def test_knots_of_another_load_are_refused() -> None:

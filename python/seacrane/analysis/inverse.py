@@ -18,7 +18,7 @@ from seacrane.description.joints import add_joint
 from seacrane.description.scene import GROUND, Description, Some
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import numbers_of
-from seacrane.inputs.frames import heading_of, rotation_about_z
+from seacrane.inputs.frames import heading_of, rotation_about_z, rotation_matrix
 
 Array = NDArray[np.float64]
 Motion = Mapping[tuple[str, str], _core.Curve]
@@ -153,8 +153,6 @@ def actuator_loads(scene: Description, held: Description, state: _core.State) ->
 
 
 def _weight(scene: Description) -> tuple[float, Array]:
-    from seacrane.inputs.frames import rotation_matrix
-
     floating = {vessel.body for vessel in scene.vessels.values()}
     masses, centers = [], []
     for body in scene.bodies.values():

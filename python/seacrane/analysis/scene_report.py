@@ -3,16 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from seacrane import _core
+from seacrane.analysis.linearise import fastest_mode
 from seacrane.description.assembled import moves
 from seacrane.description.crane_parts import cylinders, hooks, payloads, slews
-
-if TYPE_CHECKING:
-    from seacrane.description.scene import Description
+from seacrane.description.scene import Description
 
 Rows = list[tuple[str, Any]]
 REPETITIONS = 500  # of each part when its cost is measured
@@ -195,7 +194,5 @@ def _cost(model: _core.Model) -> Rows:
 
 
 def _modes(model: _core.Model) -> Rows:
-    from seacrane.analysis.linearise import fastest_mode
-
     fastest = fastest_mode(model)
     return [] if fastest is None else [("fastest_mode_per_s", fastest)]

@@ -2,18 +2,13 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 from numpy.typing import NDArray
 
-from seacrane.description.joint_coordinates import start_pose
+from seacrane import _core
+from seacrane.description.joint_coordinates import Jointed, start_pose
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.frames import rotation_matrix
-
-if TYPE_CHECKING:
-    from seacrane import _core
-    from seacrane.description.scene import Description
 
 Array = NDArray[np.float64]
 LARGEST_MOVE = 0.01  # m times the scene's length scale: a tenth of the length that tolerances refer to
@@ -26,7 +21,7 @@ class AssemblyWarning(UserWarning):
     """Closing the joints moved bodies from where they were described, or changed a described velocity."""
 
 
-def moves(scene: Description, model: _core.Model) -> list[tuple[str, float, float]]:
+def moves(scene: Jointed, model: _core.Model) -> list[tuple[str, float, float]]:
     """Bodies that assembly moved beyond 0.01 m (times the length scale) or 0.01 rad, most first.
 
     Returns
@@ -49,7 +44,7 @@ def moves(scene: Description, model: _core.Model) -> list[tuple[str, float, floa
     return sorted(out, key=lambda move: -max(move[1] / limit, move[2] / LARGEST_TURN))
 
 
-def velocities(scene: Description, model: _core.Model) -> list[tuple[str, float, float]]:
+def velocities(scene: Jointed, model: _core.Model) -> list[tuple[str, float, float]]:
     """Bodies described as moving whose velocity assembly changed by more than a hundredth of it.
 
     Returns
@@ -77,7 +72,7 @@ def _length(vector: Array) -> float:
     return float(np.linalg.norm(vector))
 
 
-def warn_of_moves(scene: Description, model: _core.Model) -> None:
+def warn_of_moves(scene: Jointed, model: _core.Model) -> None:
     """Warn, at the user's line, of what `moves` and `velocities` find."""
     moved, changed = moves(scene, model), velocities(scene, model)
     if moved:

@@ -14,6 +14,7 @@ from seacrane.description.provenance import VesselProvenance
 from seacrane.description.range import Range
 from seacrane.description.roles import CraneRoles
 from seacrane.description.table import Table
+from seacrane.description.wave_loads import compiled_waves
 from seacrane.description.waves import Waves
 from seacrane.errors import SceneError
 from seacrane.inputs.caller import warn_caller
@@ -174,7 +175,7 @@ class Description:
                 *self.loads.values(),
             ],
             vessels=list(self.vessels.values()),
-            wave_loads=[] if self.waves is None else self.waves.compile(prune=merge),
+            wave_loads=[] if self.waves is None else compiled_waves(self.waves, prune=merge),
             coordinates=list(self.recorded.values()),
             merge=merge,
         )

@@ -69,3 +69,8 @@ def stats_of(
         **core.statistics(),
         **({} if scene.waves is None else scene.waves.provenance.stats()),
     }
+
+
+def _cranes(scene: Scene) -> str | None:
+    """The roles of each crane, as JSON."""
+    return json.dumps([roles_to_data(roles) for roles in scene.roles.values()]) if scene.roles else None
