@@ -21,7 +21,7 @@ from seacrane import (
     _core,
     simulate,
 )
-from seacrane.description.wave_series import grid_of
+from seacrane.description.wave_grid import grid_of
 from seacrane.hydro import shipped_database
 
 Array = NDArray[np.float64]

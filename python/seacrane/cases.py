@@ -17,12 +17,11 @@ from seacrane.analysis import quasi_static
 from seacrane.analysis.inverse import Balance, balance, reflected_inertia
 from seacrane.crane import FOOT, Payload
 from seacrane.errors import SceneError
+from seacrane.hydro import HydroDatabase, load_database, shipped_database
 from seacrane.scene.scene import Scene
 
 if TYPE_CHECKING:
     import os
-
-    from seacrane.hydro import HydroDatabase
 
 ACTUATORS = {"slew": "A", "main": "main_cylinder", "knuckle": "knuckle_cylinder"}
 NATURAL_FREQUENCY = 2.0 * np.pi * 0.8  # rad/s of every controlled coordinate
@@ -35,8 +34,6 @@ STROKE_END = 2.0  # m, cases 1 and 2
 
 
 def _database(database: str | os.PathLike[str] | HydroDatabase | None) -> HydroDatabase:
-    from seacrane.hydro import HydroDatabase, load_database, shipped_database
-
     if database is None:
         return shipped_database()
     return database if isinstance(database, HydroDatabase) else load_database(database)

@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from seacrane import _core
+from seacrane.analysis.linearise import fastest_mode
 from seacrane.description.assembled import moves
+from seacrane.description.compilation import compile_scene
 from seacrane.description.crane_parts import cylinders, hooks, payloads, slews
-
-if TYPE_CHECKING:
-    from seacrane.description.scene import Description
+from seacrane.description.scene import Description
 
 Rows = list[tuple[str, Any]]
 REPETITIONS = 500  # of each part when its cost is measured
@@ -42,7 +42,7 @@ def scene_report(scene: Description) -> dict[str, Rows]:
     SceneError
         If the scene does not compile.
     """
-    model = scene.compile()
+    model = compile_scene(scene)
     report = {
         "size": _size(scene, model),
         "elements": elements_of(scene),
@@ -195,7 +195,5 @@ def _cost(model: _core.Model) -> Rows:
 
 
 def _modes(model: _core.Model) -> Rows:
-    from seacrane.analysis.linearise import fastest_mode
-
     fastest = fastest_mode(model)
     return [] if fastest is None else [("fastest_mode_per_s", fastest)]

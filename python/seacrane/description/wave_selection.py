@@ -3,15 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from seacrane.description.waves import ByHeading, HullLoads, Waves
 from seacrane.inputs.checked import number_of
-
-if TYPE_CHECKING:
-    from seacrane.description.waves import ByHeading, HullLoads, Waves
 
 Array = NDArray[np.float64]
 

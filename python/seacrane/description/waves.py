@@ -11,13 +11,13 @@ from numpy.typing import NDArray
 
 from seacrane import _core
 from seacrane.description.provenance import SeaProvenance
+from seacrane.description.wave_grid import grid_of
 from seacrane.errors import SceneError
 from seacrane.inputs.caller import warn_caller
-from seacrane.inputs.checked import number_of, text_of
+from seacrane.inputs.checked import number_of
 from seacrane.inputs.shown import shown
 
 Array = NDArray[np.float64]
-EVALUATIONS = ("table", "exact", "fft")
 
 
 class RepeatingSeaWarning(UserWarning):
@@ -166,20 +166,6 @@ class Waves:
         """Whether any vessel has its loads at one place, where they are functions of time alone."""
         return any(hull.force_by_heading is None for hull in self.hulls.values())
 
-    def compile(self, *, prune: bool = True) -> list[_core.WaveLoads]:
-        """The loads for the compiled core; raises SceneError for shapes or values that make no sense.
-
-        `prune` leaves out the components that are negligible.
-        """
-        from seacrane.description.wave_selection import without_negligible
-
-        bodies = [text_of("waves: body", body) for body in self.hulls]
-        try:
-            sea = without_negligible(self) if prune else self
-        except (TypeError, ValueError) as error:
-            raise SceneError(f"waves on {', '.join(map(repr, bodies))}: {error}") from error
-        return [sea._loads_on(body) for body in bodies]
-
     def components(self) -> _core.WaveComponents:
         """The sea alone."""
         return _core.WaveComponents(
@@ -194,8 +180,6 @@ class Waves:
         """Warn with RepeatingSeaWarning if a series made by FFT is shorter than a run (s)."""
         if self.evaluation != "fft":
             return
-        from seacrane.description.wave_series import grid_of
-
         period = 2.0 * np.pi / grid_of(np.asarray(self.omega, dtype=float))[0]
         if duration > period:
             warn_caller(
@@ -203,55 +187,3 @@ class Waves:
                 "comes later adds nothing to extremes or statistics; put more components into the same band",
                 RepeatingSeaWarning,
             )
-
-    def _loads_on(self, body: str) -> _core.WaveLoads:
-        hull = self.hulls[body]
-        try:
-            loads = self._mean(hull) if hull.force_by_heading is None else self._positioned(hull)
-        except (TypeError, ValueError) as error:
-            raise SceneError(f"waves on {body!r}: {error}") from error
-        return _core.WaveLoads(name=f"waves on {body}", body=body, **loads)
-
-    def _positioned(self, hull: HullLoads) -> dict[str, Any]:
-        force, drift = hull.force_by_heading, hull.drift_by_heading
-        if force is None or (hull.drift is not None and drift is None):
-            raise ValueError("drift at the actual position needs drift_by_heading")
-        if self.evaluation == "fft":
-            raise ValueError("loads at the actual or slow position have no table; choose evaluation='exact'")
-        slow: dict[str, Any] = {}
-        if drift is not None:
-            slow = {"drift_headings": np.asarray(drift.heading).tolist(), "drift": drift.values}
-        positioned = _core.PositionedWaveLoad(
-            self.components(),
-            headings=np.asarray(force.heading).tolist(),
-            transfer=force.values,
-            cutoff=hull.cutoff,
-            **slow,
-        )
-        return {"positioned": positioned}
-
-    def _mean(self, hull: HullLoads) -> dict[str, Any]:
-        if self.evaluation not in EVALUATIONS:
-            raise ValueError(f"evaluation is {self.evaluation!r}; choose {', '.join(EVALUATIONS)}")
-        waves, position = self.components(), hull.position
-        loads: dict[str, Any] = {
-            "exact": _core.ExactWaveLoad(
-                waves, transfer=hull.transfer, position=position, elevation_point=position
-            )
-        }
-        if hull.drift is not None:
-            loads["drift"] = _core.DriftLoad(waves, coefficient=hull.drift, position=position)
-        if self.evaluation == "exact" or not self.relative_bound:
-            return loads
-        from seacrane.description.wave_series import drift_table, wave_table
-
-        bound = self.relative_bound
-        if self.evaluation == "fft":
-            loads["table"] = wave_table(self, hull, loads["exact"])
-            if hull.drift is not None:
-                loads["drift_table"] = drift_table(self, hull, loads["drift"])
-            return loads
-        loads["table"] = _core.WaveTable(loads["exact"], relative_bound=bound)
-        if hull.drift is not None:
-            loads["drift_table"] = _core.DriftTable(loads["drift"], relative_bound=bound)
-        return loads
