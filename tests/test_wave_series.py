@@ -22,6 +22,7 @@ from seacrane import (
     simulate,
 )
 from seacrane.description.wave_grid import grid_of
+from seacrane.description.wave_loads import compiled_waves
 from seacrane.hydro import shipped_database
 
 Array = NDArray[np.float64]
@@ -110,7 +111,7 @@ def test_the_grid_is_found_or_refused() -> None:
     jittered = uniform()
     jittered.omega[3] *= 1.0001
     with pytest.raises(SceneError, match="frequencies that are multiples of one step"):
-        jittered.compile()
+        compiled_waves(jittered)
     with pytest.raises(SceneError, match="evaluation is 'spline'; choose table, exact, fft"):
         uniform(evaluation="spline").compile()
 
