@@ -33,8 +33,8 @@ def origin_settings(scene: Description) -> dict[str, Any]:
     out = {key: _one(by_body) for key, by_body in found.items()}
     if scene.waves is not None:
         out |= {**scene.waves.provenance.settings(), "waves_relative_bound": scene.waves.relative_bound}
-    known = {key: value for key, value in out.items() if value is not None}
-    return dict(plain_data(f"scene {scene.name!r}: provenance", known))
+    told = {key: value for key, value in out.items() if value is not None}
+    return dict(plain_data(f"scene {scene.name!r}: provenance", told))
 
 
 def _one(by_body: dict[str, Any]) -> Any:

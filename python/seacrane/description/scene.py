@@ -1,4 +1,4 @@
-"""The bare description of a scene: its elements by name, its sea, and how it is compiled."""
+"""The bare description of a scene: its elements by name, and its sea."""
 
 from __future__ import annotations
 
@@ -121,16 +121,18 @@ class Description:
         """
         return replace(self, **changes)
 
-    def insert(self, kind: str, table: dict[str, Any], element: Any) -> Any:
-        """Put an element into its table and return it; SceneError where the name is taken."""
-        if element.name in table:
-            raise SceneError(f"{kind} {element.name!r}: the name is used twice; names of a kind must differ")
-        table[element.name] = element
-        return element
 
-    def coordinate_of(self, kind: str, joint: str, coordinate: str | None) -> str:
-        """A coordinate of a joint, by default its usual one; SceneError where there is no such joint."""
-        if text_of(f"{kind}: joint", joint) not in self.joints:
-            raise SceneError(f"{kind}: there is no joint {joint!r}; add it first")
-        usual = "angle" if self.joints[joint].kind == "revolute" else "displacement"
-        return text_of(f"{kind} of joint {joint!r}: coordinate", coordinate, usual)
+def insert(kind: str, table: dict[str, Any], element: Any) -> Any:
+    """Put an element into its table and return it; SceneError where the name is taken."""
+    if element.name in table:
+        raise SceneError(f"{kind} {element.name!r}: the name is used twice; names of a kind must differ")
+    table[element.name] = element
+    return element
+
+
+def coordinate_of(scene: Description, kind: str, joint: str, coordinate: str | None) -> str:
+    """A coordinate of a joint, by default its usual one; SceneError where there is no such joint."""
+    if text_of(f"{kind}: joint", joint) not in scene.joints:
+        raise SceneError(f"{kind}: there is no joint {joint!r}; add it first")
+    usual = "angle" if scene.joints[joint].kind == "revolute" else "displacement"
+    return text_of(f"{kind} of joint {joint!r}: coordinate", coordinate, usual)

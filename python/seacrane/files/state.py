@@ -11,7 +11,7 @@ import hashlib
 import json
 import os
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,9 +21,6 @@ from seacrane.errors import FileFormatError
 from seacrane.files.atomic import atomic_write
 from seacrane.inputs.shown import shown
 
-if TYPE_CHECKING:
-    from seacrane.description.scene import Description
-
 Array = NDArray[np.float64]
 MAGIC = b"seacrane state\n"
 VERSION = 1
@@ -32,6 +29,13 @@ LARGEST_FILE = 2**30  # bytes: a million states take less
 LARGEST_HEADER = 2**22  # bytes
 _RECORD = ("start_energy", "start_work", "open", "impact_loss")
 _ARRAYS = ("time", "values", "inputs", "steps", "rate", "record", "quaternions")
+
+
+class Compilable(Protocol):
+    """A `seacrane.Scene`, as far as a state needs one."""
+
+    def compile(self) -> _core.Model:
+        """The scene in the form that is stepped."""
 
 
 def save_state(state: _core.State, path: str | os.PathLike[str]) -> None:
@@ -90,7 +94,7 @@ def state_to_bytes(state: _core.State) -> bytes:
     return body + hashlib.sha256(body).digest()
 
 
-def load_state(path: str | os.PathLike[str], *, scene: Description | None = None) -> _core.State:
+def load_state(path: str | os.PathLike[str], *, scene: Compilable | None = None) -> _core.State:
     """Read what `save_state` wrote, bit for bit.
 
     Parameters
