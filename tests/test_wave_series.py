@@ -113,7 +113,7 @@ def test_the_grid_is_found_or_refused() -> None:
     with pytest.raises(SceneError, match="frequencies that are multiples of one step"):
         compiled_waves(jittered)
     with pytest.raises(SceneError, match="evaluation is 'spline'; choose table, exact, fft"):
-        uniform(evaluation="spline").compile()
+        compiled_waves(uniform(evaluation="spline"))
 
 
 def test_knots_of_another_load_are_refused() -> None:
