@@ -29,7 +29,6 @@ from seacrane import (
     cases,
     simulate,
 )
-from seacrane.description import file as module
 from seacrane.description.file import save_scene
 
 THIRD = 1.0 / 3.0
@@ -405,7 +404,8 @@ def test_nested_notes(tmp_path: Path, text: str) -> None:
 def test_a_file_larger_than_the_bound_is_not_parsed(
     tmp_path: Path, text: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(module, "LARGEST_FILE", len(text) - 1)
+    for place in ("file", "file_text"):
+        monkeypatch.setattr(f"seacrane.description.{place}.LARGEST_FILE", len(text) - 1)
     refused(tmp_path, text, "larger than")
     with pytest.raises(SceneError, match="above"):
         every_kind().save(tmp_path / "other.json")

@@ -177,7 +177,7 @@ def test_every_load_is_in_the_report() -> None:
     scene.add_soft_stop(joint=joint, minimum=-60.0, stiffness=1e4)
     scene.add_friction(joint=joint, load=1.0, speed=1e-3)
     scene.loads["balloon"] = Balloon()
-    rows = dict(scene_report_module._elements(scene))
+    rows = dict(scene_report_module.elements_of(scene))
     told = " ".join(name for names in rows.values() for name in names)
     tables = (scene.point_forces, scene.springs, scene.force_tables, scene.function_forces, scene.loads)
     for table in (*tables, scene.vessels, scene.actuators, scene.drivers):

@@ -45,6 +45,7 @@ def spinner() -> Scene:
     scene.add_joint(kind="revolute", name="A", first="ground", second="king", point=(0.0, 0.0, 0.0))
     scene.record_coordinate(joint="A")
     scene.add_actuator(name="motor", joint="A", damping=0.01)
+    scene.add_roles(slew="A")
     return scene
 
 

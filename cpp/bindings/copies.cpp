@@ -91,7 +91,7 @@ void copy_models() {
           [](const py::object& self, const py::tuple& scene) { self.attr("__dict__")["scene"] = scene; },
           "The scene as it was, and whether bodies were merged.")
       .def("__reduce__", [](const py::object& self) {
-        const py::object compiled = py::module_::import("seacrane.description.scene").attr("compiled");
+        const py::object compiled = py::module_::import("seacrane.description.compilation").attr("compiled");
         return py::make_tuple(compiled, py::tuple(self.attr("compiled_from")));
       });
 }

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane import _core
+from seacrane.description.compilation import compile_scene
 from seacrane.description.drives import add_driver
 from seacrane.description.joints import add_joint
 from seacrane.description.scene import GROUND, Description, Some
@@ -121,7 +122,7 @@ def balance(scene: Description) -> Balance:
         If a body would accelerate although everything driven is held (it is described off its rest pose).
     """
     held = _locked(scene)
-    model = held.compile()
+    model = compile_scene(held)
     state = np.array(model.initial_state)
     terms = _core.Evaluator(model).terms(0.0, state)
     worst = int(np.argmax(np.abs(terms["acceleration"])))
@@ -149,7 +150,7 @@ def balance(scene: Description) -> Balance:
 def actuator_loads(scene: Description, held: Description, state: _core.State) -> Array:
     """Loads of the drivers that hold a scene's actuators, by actuator, at a state of the held scene."""
     names = [_driver_name(name) for name in scene.actuators]
-    return _multipliers(held.compile(), names, time=state.time, state=np.array(state.values))
+    return _multipliers(compile_scene(held), names, time=state.time, state=np.array(state.values))
 
 
 def _weight(scene: Description) -> tuple[float, Array]:
@@ -235,7 +236,7 @@ def inverse_dynamics(
         if body not in scene.bodies:
             raise SceneError(f"body {body!r} does not exist; this scene has {', '.join(scene.bodies)}")
         _hold(out, body, curves)
-    model = out.compile()
+    model = compile_scene(out)
     if model.degrees_of_freedom > 0:
         raise SceneError(
             f"scene {scene.name!r}: {model.degrees_of_freedom} degree(s) of freedom are not prescribed; give "
@@ -290,7 +291,7 @@ def reflected_inertia(scene: Description) -> dict[str, float]:
             actuator = scene.actuators[name]
             place: Any = {"joint": actuator.joint, "coordinate": actuator.coordinate}
             add_driver(held, **place, curve=curve, name=_driver_name(name))
-            model = held.compile()
+            model = compile_scene(held)
             loads.append(
                 _multipliers(model, [_driver_name(name)], time=0.0, state=np.array(model.initial_state))[0]
             )

@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 from seacrane import _core
 from seacrane.analysis.reduced_coordinates import NEUTRAL, ReducedCoordinates, Terms
 from seacrane.analysis.rest_state import at_rest, equilibrium, held, state_values
+from seacrane.description.compilation import compile_scene
 from seacrane.description.scene import Description
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import shaped_of
@@ -203,7 +204,7 @@ def linear_model(
     """
     rest = equilibrium(scene) if state is None else state
     values = state_values(scene.copy(orientation="quaternion") if state is None else scene, rest)
-    model = held(scene, time=rest.time).compile()
+    model = compile_scene(held(scene, time=rest.time))
     if model.history_samples:
         raise SceneError(
             f"scene {scene.name!r}: its fluid memory is a convolution, which has no states to linearise; "

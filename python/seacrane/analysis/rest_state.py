@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from seacrane import _core
 from seacrane.analysis.reduced_coordinates import NEUTRAL, ReducedCoordinates, Terms
+from seacrane.description.compilation import compile_scene
 from seacrane.description.scene import Description, Some
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import number_of
@@ -104,7 +105,7 @@ def _followed(scene: Description, state: _core.State, time: float) -> Array:
     values = np.array(state.values)
     if not scene.drivers:
         return values
-    model = scene.copy(waves=None, orientation="quaternion", baumgarte=0.0).compile()
+    model = compile_scene(scene.copy(waves=None, orientation="quaternion", baumgarte=0.0))
     evaluator = _core.Evaluator(model)
     for instant in np.linspace(state.time, time, int(np.ceil((time - state.time) / FOLLOW)) + 1)[1:]:
         values = evaluator.project(float(instant), values)
@@ -124,7 +125,7 @@ def state_values(scene: Description, state: Any) -> Array:
 
 
 def _rest(scene: Description, time: float, values: Array | None) -> _core.State:
-    model = held(scene, time=time).compile()
+    model = compile_scene(held(scene, time=time))
     terms = Terms(model, time=time)
     y = at_rest(model, np.array(model.initial_state) if values is None else terms.checked(values))
     y = terms.evaluator.project(time, y)

@@ -10,6 +10,7 @@ import numpy as np
 from seacrane import _core
 from seacrane.analysis.linearise import fastest_mode
 from seacrane.description.assembled import moves
+from seacrane.description.compilation import compile_scene
 from seacrane.description.crane_parts import cylinders, hooks, payloads, slews
 from seacrane.description.scene import Description
 
@@ -41,7 +42,7 @@ def scene_report(scene: Description) -> dict[str, Rows]:
     SceneError
         If the scene does not compile.
     """
-    model = scene.compile()
+    model = compile_scene(scene)
     report = {
         "size": _size(scene, model),
         "elements": elements_of(scene),

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from seacrane import _core
-from seacrane.description.scene import Description
+from seacrane.description.scene import Description, insert
 from seacrane.inputs.checked import flag_of, name_of, number_of, numbers_of, shaped_of
 
 
@@ -60,5 +60,5 @@ def add_body(
         angular_velocity=shaped_of(f"body {name!r}: angular_velocity", angular_velocity, (3,)),
         gravity=flag_of(f"body {name!r}: gravity", gravity),
     )
-    inserted: _core.Body = scene.insert("body", scene.bodies, body)
+    inserted: _core.Body = insert("body", scene.bodies, body)
     return inserted

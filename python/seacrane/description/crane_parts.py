@@ -11,7 +11,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from seacrane.description.roles import CraneRoles, Vector
-from seacrane.description.scene import Description
+from seacrane.description.scene import Description, coordinate_of
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import shaped_of, text_of
 
@@ -89,7 +89,7 @@ def _require(what: str, part: str, name: str, table: Mapping[str, object], kind:
 
 def _drive(scene: Description, what: str, slew: str | tuple[str, str]) -> tuple[str, str]:
     joint, coordinate = (slew, None) if isinstance(slew, str) else slew
-    return joint, scene.coordinate_of(f"{what}: slew", joint, coordinate)
+    return joint, coordinate_of(scene, f"{what}: slew", joint, coordinate)
 
 
 def _tip(scene: Description, what: str, tip: tuple[str, Vector]) -> tuple[str, Vector]:

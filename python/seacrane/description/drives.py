@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from seacrane import _core
-from seacrane.description.scene import Description
+from seacrane.description.scene import Description, coordinate_of, insert
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import curve_of, name_of, number_of
 
@@ -21,12 +21,12 @@ def add_driver(
     `coordinate`: "angle" of revolute, "displacement" of prismatic and cylindrical joints (their default),
     "x y z roll pitch yaw" of a free joint.
     """
-    coordinate = scene.coordinate_of("driver", joint, coordinate)
+    coordinate = coordinate_of(scene, "driver", joint, coordinate)
     name = name_of("driver", name, f"{joint}.{coordinate}")
     if not isinstance(curve, _core.Curve):
         raise SceneError(f"driver {name!r}: curve is {curve!r}; give a seacrane.Curve")
     driver = _core.Driver(name=name, joint=joint, coordinate=coordinate, curve=curve)
-    inserted: _core.Driver = scene.insert("driver", scene.drivers, driver)
+    inserted: _core.Driver = insert("driver", scene.drivers, driver)
     return inserted
 
 
@@ -47,7 +47,7 @@ def add_actuator(
     with N/m and N s/m, or N m with N m/rad and N m s/rad. `feed_forward` and `reference` are numbers or
     curves of time. Inputs "<name>.force" and "<name>.reference" add to them during a run.
     """
-    coordinate = scene.coordinate_of("actuator", joint, coordinate)
+    coordinate = coordinate_of(scene, "actuator", joint, coordinate)
     name = name_of("actuator", name, joint)
     actuator = _core.Actuator(
         name=name,
@@ -58,5 +58,5 @@ def add_actuator(
         feed_forward=curve_of(f"actuator {name!r}: feed_forward", feed_forward),
         reference=curve_of(f"actuator {name!r}: reference", reference),
     )
-    inserted: _core.Actuator = scene.insert("actuator", scene.actuators, actuator)
+    inserted: _core.Actuator = insert("actuator", scene.actuators, actuator)
     return inserted

@@ -7,7 +7,7 @@ from typing import Any
 
 from seacrane import _core
 from seacrane.description.loads import kind_of
-from seacrane.description.scene import Description
+from seacrane.description.scene import Description, insert
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import flag_of, name_of, number_of, numbers_of, shaped_of, text_of, vector_of
 
@@ -30,7 +30,7 @@ def add_point_force(
         force=shaped_of(f"point force {name!r}: force", force, (3,)),
         body_axes=flag_of(f"point force {name!r}: body_axes", body_axes),
     )
-    inserted: _core.PointForce = scene.insert("point force", scene.point_forces, element)
+    inserted: _core.PointForce = insert("point force", scene.point_forces, element)
     return inserted
 
 
@@ -62,7 +62,7 @@ def add_spring(
         lengths=vector_of(f"spring {name!r}: lengths", lengths),
         forces=vector_of(f"spring {name!r}: forces", forces),
     )
-    inserted: _core.Spring = scene.insert("spring", scene.springs, element)
+    inserted: _core.Spring = insert("spring", scene.springs, element)
     return inserted
 
 
@@ -81,7 +81,7 @@ def add_force_table(
         times=vector_of(f"force table {name!r}: times", times),
         wrenches=rows,
     )
-    inserted: _core.ForceTable = scene.insert("force table", scene.force_tables, element)
+    inserted: _core.ForceTable = insert("force table", scene.force_tables, element)
     return inserted
 
 
@@ -100,10 +100,10 @@ def add_function_force(
         address=address,
         parameters=vector_of(f"function force {name!r}: parameters", parameters),
     )
-    inserted: _core.FunctionForce = scene.insert("function force", scene.function_forces, element)
+    inserted: _core.FunctionForce = insert("function force", scene.function_forces, element)
     return inserted
 
 
 def add_load(scene: Description, element: Any) -> Any:
     """Add a described load of a kind in `seacrane.description.loads`, such as a FlowForce; returns it."""
-    return scene.insert(kind_of(element), scene.loads, element)
+    return insert(kind_of(element), scene.loads, element)

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from seacrane import _core
-from seacrane.description.scene import Description
+from seacrane.description.scene import Description, insert
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import name_of, shaped_of, text_of
 
@@ -43,5 +43,5 @@ def add_hydrodynamics(
     element = _core.VesselHydrodynamics(
         name=name, body=text_of(f"vessel {name!r}: body", body), **hydrodynamics
     )
-    inserted: _core.VesselHydrodynamics = scene.insert("vessel", scene.vessels, element)
+    inserted: _core.VesselHydrodynamics = insert("vessel", scene.vessels, element)
     return inserted

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane import _core
-from seacrane.description.scene import GROUND, Description
+from seacrane.description.scene import GROUND, Description, insert
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import name_of, number_of, shaped_of, text_of
 from seacrane.inputs.frames import axes_across, axes_along, rotation_matrix
@@ -101,7 +101,7 @@ def add_joint(
         second_frame=second_frame,
         length=0.0 if length is None else number_of(f"joint {name!r}: length", length),
     )
-    inserted: _core.Joint = scene.insert("joint", scene.joints, joint)
+    inserted: _core.Joint = insert("joint", scene.joints, joint)
     return inserted
 
 

@@ -6,10 +6,17 @@ from typing import Any
 
 from seacrane.description.provenance import VesselProvenance
 from seacrane.description.scene import Description
+from seacrane.files.plain_data import plain_data
 
 
 def origin_settings(scene: Description) -> dict[str, Any]:
-    """Of vessels and sea, by the names of a result's settings; by body where several vessels differ."""
+    """Of vessels and sea, by the names of a result's settings; by body where several vessels differ.
+
+    Raises
+    ------
+    SceneError
+        For a value that is not plain data.
+    """
     found: dict[str, dict[str, Any]] = {}
     for vessel in scene.vessels.values():
         known = scene.provenance.get(vessel.name, VesselProvenance())
@@ -26,7 +33,8 @@ def origin_settings(scene: Description) -> dict[str, Any]:
     out = {key: _one(by_body) for key, by_body in found.items()}
     if scene.waves is not None:
         out |= {**scene.waves.provenance.settings(), "waves_relative_bound": scene.waves.relative_bound}
-    return {key: value for key, value in out.items() if value is not None}
+    told = {key: value for key, value in out.items() if value is not None}
+    return dict(plain_data(f"scene {scene.name!r}: provenance", told))
 
 
 def _one(by_body: dict[str, Any]) -> Any:

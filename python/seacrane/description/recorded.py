@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from seacrane.description.range import Range
-from seacrane.description.scene import Description
+from seacrane.description.scene import Description, coordinate_of, insert
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import name_of, number_of
 
@@ -12,7 +12,7 @@ def record_coordinate(
     scene: Description, *, joint: str, coordinate: str | None = None, name: str | None = None
 ) -> None:
     """Record a joint coordinate and its rate under a name (default: the joint's)."""
-    coordinate = scene.coordinate_of("recorded coordinate", joint, coordinate)
+    coordinate = coordinate_of(scene, "recorded coordinate", joint, coordinate)
     name = name_of("recorded coordinate", name, joint)
     if scene.recorded.get(name, (joint, coordinate)) != (joint, coordinate):
         raise SceneError(
@@ -35,7 +35,7 @@ def add_range(
     A reference that leaves it is refused when a run starts, a motion that does is warned of after the run
     (OutsideRangeWarning). A crane adds the strokes of its data file.
     """
-    coordinate = scene.coordinate_of("range", joint, coordinate)
+    coordinate = coordinate_of(scene, "range", joint, coordinate)
     name = name_of("range", name, joint)
     low = number_of(f"range {name!r}: minimum", minimum)
     high = number_of(f"range {name!r}: maximum", maximum)
@@ -44,5 +44,5 @@ def add_range(
             f"range {name!r}: minimum is {low} and maximum {high}; the minimum must be below the maximum"
         )
     element = Range(name=name, joint=joint, coordinate=coordinate, minimum=low, maximum=high)
-    inserted: Range = scene.insert("range", scene.ranges, element)
+    inserted: Range = insert("range", scene.ranges, element)
     return inserted

@@ -1,24 +1,20 @@
-"""The bare description of a scene: its elements by name, its sea, and how it is compiled."""
+"""The bare description of a scene: its elements by name, and its sea."""
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Mapping
 from copy import deepcopy
 from dataclasses import dataclass, field, replace
 from typing import Any, TypeVar
 
 from seacrane import _core
-from seacrane.description.assembled import warn_of_moves
 from seacrane.description.provenance import VesselProvenance
 from seacrane.description.range import Range
 from seacrane.description.roles import CraneRoles
 from seacrane.description.table import Table
-from seacrane.description.wave_loads import compiled_waves
 from seacrane.description.waves import Waves
 from seacrane.errors import SceneError
-from seacrane.inputs.caller import warn_caller
-from seacrane.inputs.checked import name_of, number_of, text_of
+from seacrane.inputs.checked import text_of
 
 GROUND = "ground"
 STANDARD_GRAVITY = 9.80665
@@ -125,74 +121,18 @@ class Description:
         """
         return replace(self, **changes)
 
-    def insert(self, kind: str, table: dict[str, Any], element: Any) -> Any:
-        """Put an element into its table and return it; SceneError where the name is taken."""
-        if element.name in table:
-            raise SceneError(f"{kind} {element.name!r}: the name is used twice; names of a kind must differ")
-        table[element.name] = element
-        return element
 
-    def coordinate_of(self, kind: str, joint: str, coordinate: str | None) -> str:
-        """A coordinate of a joint, by default its usual one; SceneError where there is no such joint."""
-        if text_of(f"{kind}: joint", joint) not in self.joints:
-            raise SceneError(f"{kind}: there is no joint {joint!r}; add it first")
-        usual = "angle" if self.joints[joint].kind == "revolute" else "displacement"
-        return text_of(f"{kind} of joint {joint!r}: coordinate", coordinate, usual)
-
-    def compile(self, *, merge: bool = True) -> _core.Model:
-        """Check everything, close the joints and compile.
-
-        Parameters
-        ----------
-        merge : bool
-            Step bodies that never move relative to each other as one and leave out what adds nothing.
-
-        Raises
-        ------
-        SceneError
-            Names the element, the value and the fix; for loops that do not close, the loop and its gap.
-
-        Warns
-        -----
-        AssemblyWarning : names bodies that closing the joints moved, by more than 0.01 m or 0.01 rad.
-        UserWarning : names joints that are redundant: their reactions are minimum-norm, not unique.
-        """
-        model = _core.compile(
-            name=name_of("scene", self.name),
-            gravity=number_of(f"scene {self.name!r}: gravity", self.gravity),
-            orientation=text_of(f"scene {self.name!r}: orientation", self.orientation),
-            baumgarte=number_of(f"scene {self.name!r}: baumgarte", self.baumgarte),
-            length_scale=number_of(f"scene {self.name!r}: length_scale", self.length_scale),
-            bodies=list(self.bodies.values()),
-            joints=list(self.joints.values()),
-            drivers=list(self.drivers.values()),
-            loads=[
-                *self.actuators.values(),
-                *self.point_forces.values(),
-                *self.springs.values(),
-                *self.force_tables.values(),
-                *self.function_forces.values(),
-                *self.loads.values(),
-            ],
-            vessels=list(self.vessels.values()),
-            wave_loads=[] if self.waves is None else compiled_waves(self.waves, prune=merge),
-            coordinates=list(self.recorded.values()),
-            merge=merge,
-        )
-        warn_of_moves(self, model)
-        if model.redundant:
-            warn_caller(
-                f"scene {self.name!r}: constraints of {', '.join(model.redundant)} are redundant "
-                f"({model.constraints - model.assembly['rank']} more than needed); motion is unique, these "
-                "reactions are not: the minimum-norm ones are given",
-                UserWarning,
-            )
-        model.compiled_from = (self.copy(), merge)
-        return model
+def insert(kind: str, table: dict[str, Any], element: Any) -> Any:
+    """Put an element into its table and return it; SceneError where the name is taken."""
+    if element.name in table:
+        raise SceneError(f"{kind} {element.name!r}: the name is used twice; names of a kind must differ")
+    table[element.name] = element
+    return element
 
 
-def compiled(scene: Description, merge: bool) -> _core.Model:
-    """The model of a scene: how a pickled model comes back."""
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")  # given when it was compiled first
-        return scene.compile(merge=merge)
+def coordinate_of(scene: Description, kind: str, joint: str, coordinate: str | None) -> str:
+    """A coordinate of a joint, by default its usual one; SceneError where there is no such joint."""
+    if text_of(f"{kind}: joint", joint) not in scene.joints:
+        raise SceneError(f"{kind}: there is no joint {joint!r}; add it first")
+    usual = "angle" if scene.joints[joint].kind == "revolute" else "displacement"
+    return text_of(f"{kind} of joint {joint!r}: coordinate", coordinate, usual)

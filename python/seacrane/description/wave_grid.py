@@ -1,4 +1,4 @@
-"""The grid of frequencies on which a sea repeats."""
+"""The grid of equal steps that frequencies lie on."""
 
 from __future__ import annotations
 

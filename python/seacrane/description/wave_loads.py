@@ -1,4 +1,4 @@
-"""The loads of a sea on its vessels, as the compiled core takes them."""
+"""The loads of a sea on its vessels, as the core takes them."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ EVALUATIONS = ("table", "exact", "fft")
 
 
 def compiled_waves(waves: Waves, *, prune: bool = True) -> list[_core.WaveLoads]:
-    """The loads of a sea for the compiled core; raises SceneError for shapes or values that make no sense.
+    """The loads for the compiled core; raises SceneError for shapes or values that make no sense.
 
     `prune` leaves out the components that are negligible.
     """
@@ -29,26 +29,26 @@ def compiled_waves(waves: Waves, *, prune: bool = True) -> list[_core.WaveLoads]
     return [_loads_on(sea, body) for body in bodies]
 
 
-def _loads_on(sea: Waves, body: str) -> _core.WaveLoads:
-    hull = sea.hulls[body]
+def _loads_on(waves: Waves, body: str) -> _core.WaveLoads:
+    hull = waves.hulls[body]
     try:
-        loads = _mean(sea, hull) if hull.force_by_heading is None else _positioned(sea, hull)
+        loads = _mean(waves, hull) if hull.force_by_heading is None else _positioned(waves, hull)
     except (TypeError, ValueError) as error:
         raise SceneError(f"waves on {body!r}: {error}") from error
     return _core.WaveLoads(name=f"waves on {body}", body=body, **loads)
 
 
-def _positioned(sea: Waves, hull: HullLoads) -> dict[str, Any]:
+def _positioned(waves: Waves, hull: HullLoads) -> dict[str, Any]:
     force, drift = hull.force_by_heading, hull.drift_by_heading
     if force is None or (hull.drift is not None and drift is None):
         raise ValueError("drift at the actual position needs drift_by_heading")
-    if sea.evaluation == "fft":
+    if waves.evaluation == "fft":
         raise ValueError("loads at the actual or slow position have no table; choose evaluation='exact'")
     slow: dict[str, Any] = {}
     if drift is not None:
         slow = {"drift_headings": np.asarray(drift.heading).tolist(), "drift": drift.values}
     positioned = _core.PositionedWaveLoad(
-        sea.components(),
+        waves.components(),
         headings=np.asarray(force.heading).tolist(),
         transfer=force.values,
         cutoff=hull.cutoff,
@@ -57,24 +57,22 @@ def _positioned(sea: Waves, hull: HullLoads) -> dict[str, Any]:
     return {"positioned": positioned}
 
 
-def _mean(sea: Waves, hull: HullLoads) -> dict[str, Any]:
-    if sea.evaluation not in EVALUATIONS:
-        raise ValueError(f"evaluation is {sea.evaluation!r}; choose {', '.join(EVALUATIONS)}")
-    waves, position = sea.components(), hull.position
+def _mean(waves: Waves, hull: HullLoads) -> dict[str, Any]:
+    if waves.evaluation not in EVALUATIONS:
+        raise ValueError(f"evaluation is {waves.evaluation!r}; choose {', '.join(EVALUATIONS)}")
+    sea, position = waves.components(), hull.position
     loads: dict[str, Any] = {
-        "exact": _core.ExactWaveLoad(
-            waves, transfer=hull.transfer, position=position, elevation_point=position
-        )
+        "exact": _core.ExactWaveLoad(sea, transfer=hull.transfer, position=position, elevation_point=position)
     }
     if hull.drift is not None:
-        loads["drift"] = _core.DriftLoad(waves, coefficient=hull.drift, position=position)
-    if sea.evaluation == "exact" or not sea.relative_bound:
+        loads["drift"] = _core.DriftLoad(sea, coefficient=hull.drift, position=position)
+    if waves.evaluation == "exact" or not waves.relative_bound:
         return loads
-    bound = sea.relative_bound
-    if sea.evaluation == "fft":
-        loads["table"] = wave_table(sea, hull, loads["exact"])
+    bound = waves.relative_bound
+    if waves.evaluation == "fft":
+        loads["table"] = wave_table(waves, hull, loads["exact"])
         if hull.drift is not None:
-            loads["drift_table"] = drift_table(sea, hull, loads["drift"])
+            loads["drift_table"] = drift_table(waves, hull, loads["drift"])
         return loads
     loads["table"] = _core.WaveTable(loads["exact"], relative_bound=bound)
     if hull.drift is not None:

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from seacrane import _core
 from seacrane.description.forces import add_load
-from seacrane.description.scene import Description
+from seacrane.description.scene import Description, coordinate_of
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import name_of, number_of, text_of
 
@@ -103,7 +103,7 @@ def add_end_stop(
         For a joint that is not there; what only the whole scene shows, such as a start beyond a bound or a
         driver on the same coordinate, comes with `Scene.compile`.
     """
-    where = scene.coordinate_of("stop", joint, coordinate)
+    where = coordinate_of(scene, "stop", joint, coordinate)
     return _limit(
         scene, "stop", joint, name, coordinate=where, minimum=minimum, maximum=maximum,
         restitution=restitution, sticking_speed=sticking_speed,
@@ -173,7 +173,7 @@ def add_soft_stop(
     ------
     SceneError
     """
-    where = scene.coordinate_of("soft stop", joint, coordinate)
+    where = coordinate_of(scene, "soft stop", joint, coordinate)
     name = name_of("soft stop", name or f"{joint} soft stop")
     what = f"soft stop {name!r}"
     added: _core.SoftStop = add_load(
@@ -225,7 +225,7 @@ def add_friction(
     ------
     SceneError
     """
-    where = scene.coordinate_of("friction", joint, coordinate)
+    where = coordinate_of(scene, "friction", joint, coordinate)
     name = name_of("friction", name or f"{joint} friction")
     added: _core.Friction = add_load(
         scene,

@@ -7,7 +7,17 @@ from typing import Any
 
 from seacrane.analysis.scene_report import scene_report
 from seacrane.crane.add_crane import add_crane
-from seacrane.description import bodies, crane_parts, drives, edit, file, forces, joints, recorded
+from seacrane.description import (
+    bodies,
+    compilation,
+    crane_parts,
+    drives,
+    edit,
+    file,
+    forces,
+    joints,
+    recorded,
+)
 from seacrane.description.scene import Description
 from seacrane.scene import drift, limits, position, sea, table_text, vessel, wind_current
 
@@ -68,6 +78,7 @@ class Scene(Description):
     add_crane = add_crane
     add_roles = crane_parts.add_roles
 
+    compile = compilation.compile_scene
     replace = edit.replace_element
     remove = edit.remove_element
 

@@ -1,0 +1,71 @@
+"""A description compiled into the core's model."""
+
+from __future__ import annotations
+
+import warnings
+
+from seacrane import _core
+from seacrane.description.assembled import warn_of_moves
+from seacrane.description.scene import Description
+from seacrane.description.wave_loads import compiled_waves
+from seacrane.inputs.caller import warn_caller
+from seacrane.inputs.checked import name_of, number_of, text_of
+
+
+def compile_scene(scene: Description, *, merge: bool = True) -> _core.Model:
+    """Check everything, close the joints and compile.
+
+    Parameters
+    ----------
+    merge : bool
+        Step bodies that never move relative to each other as one and leave out what adds nothing.
+
+    Raises
+    ------
+    SceneError
+        Names the element, the value and the fix; for loops that do not close, the loop and its gap.
+
+    Warns
+    -----
+    AssemblyWarning : names bodies that closing the joints moved, by more than 0.01 m or 0.01 rad.
+    UserWarning : names joints that are redundant: their reactions are minimum-norm, not unique.
+    """
+    model = _core.compile(
+        name=name_of("scene", scene.name),
+        gravity=number_of(f"scene {scene.name!r}: gravity", scene.gravity),
+        orientation=text_of(f"scene {scene.name!r}: orientation", scene.orientation),
+        baumgarte=number_of(f"scene {scene.name!r}: baumgarte", scene.baumgarte),
+        length_scale=number_of(f"scene {scene.name!r}: length_scale", scene.length_scale),
+        bodies=list(scene.bodies.values()),
+        joints=list(scene.joints.values()),
+        drivers=list(scene.drivers.values()),
+        loads=[
+            *scene.actuators.values(),
+            *scene.point_forces.values(),
+            *scene.springs.values(),
+            *scene.force_tables.values(),
+            *scene.function_forces.values(),
+            *scene.loads.values(),
+        ],
+        vessels=list(scene.vessels.values()),
+        wave_loads=[] if scene.waves is None else compiled_waves(scene.waves, prune=merge),
+        coordinates=list(scene.recorded.values()),
+        merge=merge,
+    )
+    warn_of_moves(scene, model)
+    if model.redundant:
+        warn_caller(
+            f"scene {scene.name!r}: constraints of {', '.join(model.redundant)} are redundant "
+            f"({model.constraints - model.assembly['rank']} more than needed); motion is unique, these "
+            "reactions are not: the minimum-norm ones are given",
+            UserWarning,
+        )
+    model.compiled_from = (scene.copy(), merge)
+    return model
+
+
+def compiled(scene: Description, merge: bool) -> _core.Model:
+    """The model of a scene: how a pickled model comes back."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # given when it was compiled first
+        return compile_scene(scene, merge=merge)
