@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "seacrane/elements/joints/registry.hpp"
+#include "seacrane/model/limit.hpp"
 
 namespace seacrane {
 
