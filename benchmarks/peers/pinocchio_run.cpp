@@ -7,23 +7,18 @@
 #include <ctime>
 #include <exception>
 #include <memory>
+#include <span>
 
 #include "pinocchio_dynamics.hpp"
-#include "seacrane/integrate/embedded_pair.hpp"
-#include "seacrane/integrate/tableaus/dormand_prince54.hpp"
-#include "seacrane/integrate/tableaus/dormand_prince853.hpp"
-#include "seacrane/integrate/tableaus/tsitouras54.hpp"
-#include "seacrane/integrate/tableaus/verner65.hpp"
-#include "seacrane/integrate/tableaus/verner76.hpp"
+#include "seacrane/integrate/registration.hpp"
 
 namespace seacrane {
-std::unique_ptr<Integrator> make_rk4(System &, ResidualSystem *,
-                                     const IntegratorOptions &);
-}
+extern const Registration rk4;
+std::span<const Registration> explicit_pairs();
+} // namespace seacrane
 
 namespace {
 
-namespace tableaus = seacrane::tableaus;
 constexpr int seconds = 100; // one output each
 
 struct Accelerations final : seacrane::System {
@@ -33,6 +28,9 @@ struct Accelerations final : seacrane::System {
   void derivative(double t, const double *y, double *rate) override {
     dynamics(t, y, rate);
   }
+  bool has_projection() const override { return false; }
+  bool project(double, double *, bool) override { return false; }
+  bool jacobian(double, const double *, double *) override { return false; }
 };
 
 /// Error scales as in seacrane: 0.1 m, 0.01 rad, and the same per second.
@@ -51,23 +49,14 @@ std::unique_ptr<seacrane::Integrator> integrator(const std::string &method,
   IntegratorOptions options;
   if (method == "rk4") {
     options.fixed_step = setting;
-    return make_rk4(system, nullptr, options);
+    return rk4.make({system}, options);
   }
   options.relative_tolerance = 0.0;
   options.absolute_tolerance = tolerances(setting);
-  if (method == "dopri5")
-    return std::make_unique<EmbeddedPair<tableaus::DormandPrince54>>(system,
-                                                                     options);
-  if (method == "tsit5")
-    return std::make_unique<EmbeddedPair<tableaus::Tsitouras54>>(system,
-                                                                 options);
-  if (method == "verner65")
-    return std::make_unique<EmbeddedPair<tableaus::Verner65>>(system, options);
-  if (method == "verner76")
-    return std::make_unique<EmbeddedPair<tableaus::Verner76>>(system, options);
-  if (method == "dop853")
-    return std::make_unique<EmbeddedPair<tableaus::DormandPrince853>>(system,
-                                                                      options);
+  for (const Registration &pair : explicit_pairs()) {
+    if (method == pair.properties->name)
+      return pair.make({system}, options);
+  }
   throw std::runtime_error("unknown method " + method);
 }
 

@@ -34,17 +34,15 @@ constexpr struct {
 };
 
 [[noreturn]] void refuse(const std::string& name) {
-  std::string text = "unknown integrator \"" + name + "\"; ";
+  std::string hint, known;
   for (const auto& [old, instead] : former) {
-    if (name == old) text += "earlier versions had it: take \"" + std::string(instead) + "\", or ";
+    if (name == old) hint = "earlier versions had it: take \"" + std::string(instead) + "\", or ";
   }
-  text += "choose one of ";
-  std::string known;
   for (const Registration& method : all()) {
     known += known.empty() ? "" : ", ";
     known += method.properties->name;
   }
-  throw std::invalid_argument(text + known);
+  throw std::invalid_argument("unknown integrator \"" + name + "\"; " + hint + "choose one of " + known);
 }
 
 Registration find(const std::string& name) {
