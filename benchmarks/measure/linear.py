@@ -17,8 +17,8 @@ from seacrane import (
     response_summed,
     simulate,
 )
+from seacrane.analysis.rest_state import held
 from seacrane.hydro import shipped_database
-from seacrane.rest_state import held
 
 from .section import Section
 from .timing import best_seconds, timed_run
