@@ -120,7 +120,6 @@ def test_a_step_beyond_stability_tells_what_has_grown_and_the_longest_step() -> 
     assert "unstable with steps longer than about 0.028 s, and took 0.1 s" in text
 
 
-# rk4-exact-memory refuses a scene without memory, and is rk4 in all else.
 STABLE_UP_TO = {k.name: k.stable_up_to for k in integrators() if k.stable_up_to}
 
 

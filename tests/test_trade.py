@@ -150,8 +150,6 @@ def test_every_integrator_of_the_core_is_in_the_grid() -> None:
 @pytest.mark.parametrize("known", integrators(), ids=lambda known: known.name)
 def test_a_step_changes_what_a_method_of_fixed_step_does_and_no_other(known: Integrator) -> None:
     """The table of integrators is asked in place of the scene: it tells the truth."""
-    if known.name in ("rk4-exact-memory", "ark-mri"):
-        pytest.skip("refuses a scene without fluid memory or actuators")
     runs = [
         Run(pendulum(), t_end=0.2, dt_out=0.2, integrator=known.name, dt=dt, channels=["position"])
         for dt in (0.05, 0.025)

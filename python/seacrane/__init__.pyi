@@ -58,6 +58,10 @@ from seacrane.errors import SeacraneError as SeacraneError
 from seacrane.errors import SimulationError as SimulationError
 from seacrane.hydro import HydroDatabase as HydroDatabase
 from seacrane.hydro import load_database as load_database
+from seacrane.inputs.plausible import AngleUnitWarning as AngleUnitWarning
+from seacrane.inputs.plausible import CompassDirectionWarning as CompassDirectionWarning
+from seacrane.inputs.plausible import DepthSignWarning as DepthSignWarning
+from seacrane.inputs.plausible import MassUnitWarning as MassUnitWarning
 from seacrane.result import Event as Event
 from seacrane.result import Result as Result
 from seacrane.run.method import Method as Method
@@ -97,11 +101,7 @@ from seacrane.validity.hull_range import MeanHeadingWarning as MeanHeadingWarnin
 from seacrane.validity.hull_range import MeanPositionWarning as MeanPositionWarning
 from seacrane.validity.hull_range import MooringTurnWarning as MooringTurnWarning
 from seacrane.validity.hull_range import NoWaveLoadsWarning as NoWaveLoadsWarning
-from seacrane.validity.plausible import AngleUnitWarning as AngleUnitWarning
 from seacrane.validity.plausible import BallastWarning as BallastWarning
-from seacrane.validity.plausible import CompassDirectionWarning as CompassDirectionWarning
-from seacrane.validity.plausible import DepthSignWarning as DepthSignWarning
-from seacrane.validity.plausible import MassUnitWarning as MassUnitWarning
 from seacrane.validity.range import LargeHeelWarning as LargeHeelWarning
 from seacrane.validity.range import NearSingularWarning as NearSingularWarning
 from seacrane.validity.range import OutsideDatabaseWarning as OutsideDatabaseWarning
