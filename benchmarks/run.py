@@ -1,7 +1,9 @@
 """Measures speed, precision, memory and import time: ``python benchmarks/run.py`` (``make bench``).
 
 Prints the tables and writes them, with the work-precision diagram, to ``out/bench``; with ``--publish`` to
-``benchmarks/README.md`` and its picture. One thread; every time is the best of several equal runs.
+``benchmarks/README.md`` and its picture. Each table is also a file in ``results``, from which
+``benchmarks/documents.py`` fills the tables of the documents; ``--publish`` does this too. One thread; every
+time is the best of several equal runs.
 """
 
 from __future__ import annotations
@@ -11,16 +13,23 @@ import sys
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
+import documents
 from measure import (
+    crane,
     evaluation,
+    events,
     footprint,
     formulations,
     integrators,
+    linear,
     memory_cost,
     memory_kinds,
+    memory_models,
+    paper_form,
     rival,
     scaling,
     scenes,
+    seas,
     speed,
     storm,
     strip_cost,
@@ -38,7 +47,7 @@ Written by `benchmarks/run.py --publish`; `make bench` measures again and writes
 on the machine and on what else runs on it, so read the ratios first. One thread throughout; times are CPU
 times of that thread unless they say wall, because other work may share the machine.
 
-That the loop allocates nothing on the heap after its start is counted by C++ tests, not here:
+C++ tests, not these tables, count that the loop allocates nothing on the heap after its start:
 `cpp/tests/test_allocations_core.cpp`, and `cpp/tests/test_integrate_allocations.cpp` for each integrator.
 
 """
@@ -62,6 +71,16 @@ def sections(folder: Path, *, repeats: int, quick: bool) -> Iterator[Section]:
     rows, truth = integrators.work_precision(repeats=tried)
     integrators.figure(rows, folder / PICTURE)
     yield integrators.table(rows, truth, repeats=tried)
+    yield events.slack_wire()
+    yield linear.natural_periods()
+    yield linear.linear_against_runs()
+    yield linear.cost(repeats=min(repeats, 3))
+    yield from paper_form.paper_form(t_end=5.0 if quick else 100.0)
+    yield crane.shipped_crane()
+    yield memory_models.self_check()
+    yield memory_models.fits()
+    yield memory_models.trade()
+    yield seas.seas(repeats=min(repeats, 3))
     yield strip_cost.strip_cost(repeats=min(repeats, 3))
     yield rival.rival(repeats=repeats, t_end=5.0 if quick else 100.0)
     yield footprint.memory(repeats=min(repeats, 3))
@@ -70,11 +89,12 @@ def sections(folder: Path, *, repeats: int, quick: bool) -> Iterator[Section]:
 
 
 def document(folder: Path, *, repeats: int, quick: bool, say: Callable[[str], None]) -> str:
-    """All tables as one Markdown text; each is said as soon as it is there."""
+    """All tables as one Markdown text; each is said, and saved, as soon as it is there."""
     head = f"{INTRODUCTION}Machine: {machine()}\n"
     say(head)
     texts = [head]
     for section in sections(folder, repeats=repeats, quick=quick):
+        section.save(folder / "results")
         text = section.markdown() + "\n"
         if section.title.startswith("Integrators"):
             text += f"\n![Payload error over evaluations and over CPU time, per integrator]({PICTURE})\n"
@@ -102,6 +122,8 @@ def main() -> int:
     with atomic_write(target) as draft:
         draft.write_text(text, encoding="utf-8")
     print(f"written to {target}", file=sys.stderr)
+    if options.publish:
+        documents.fill()
     return 0
 
 

@@ -1,24 +1,19 @@
-"""The published tables of benchmarks/README.md tell of the engine as it is."""
+"""The published numbers of benchmarks/results tell of the engine as it is."""
 
-import re
+import csv
 from pathlib import Path
 
 import pytest
 
 from seacrane import cases, simulate
 
-PUBLISHED = Path(__file__).resolve().parent.parent / "benchmarks" / "README.md"
-TITLE = "## Integrators: work and precision on case 2"
-ROW = re.compile(
-    r"\| (?P<integrator>[a-z0-9-]+) \| (?P<setting>[a-z0-9., -]+) \|[^|]+\|[^|]+\| (?P<evaluations>\d+) \|"
-)
+RESULTS = Path(__file__).resolve().parent.parent / "benchmarks" / "results"
 OTHER_MACHINES = 0.1  # of the evaluations: adaptive steps follow rounding, which differs between compilers
 
 
 def published_evaluations() -> dict[tuple[str, str], int]:
-    section = PUBLISHED.read_text(encoding="utf-8").split(TITLE)[1].split("\n## ")[0]
-    matches = filter(None, map(ROW.match, section.splitlines()))
-    return {(row["integrator"], row["setting"]): int(row["evaluations"]) for row in matches}
+    with (RESULTS / "integrators-work-and-precision-on-case-2.csv").open(encoding="utf-8") as file:
+        return {(row["integrator"], row["setting"]): int(row["evaluations"]) for row in csv.DictReader(file)}
 
 
 @pytest.fixture(scope="module")

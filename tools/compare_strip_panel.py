@@ -1,12 +1,14 @@
 """Strip theory against the panel method on the shipped hull: ``python tools/compare_strip_panel.py``.
 
-Prints the tables of docs/hull-hydrodynamics.md and draws its figures. The panel method's results are those of
-the shipped database.
+Writes the tables of docs/hull-hydrodynamics.md to benchmarks/results, and draws its figures. Results of the
+panel method are those of the shipped database.
 """
 
 from __future__ import annotations
 
 import argparse
+import csv
+from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 
@@ -27,15 +29,15 @@ UNITS = {"A": ("kg", "kg m", "kg m2"), "B": ("kg/s", "kg m/s", "kg m2/s")}
 
 
 def main() -> None:
-    """Tables to the screen, figures to the folder."""
+    """Tables to their files, figures to the folder."""
     parser = argparse.ArgumentParser(description=__doc__)
     root = Path(__file__).resolve().parents[1]
     parser.add_argument("--out", type=Path, default=root / "docs" / "figures")
     folder = parser.parse_args().out
     panel, strip = shipped_database(), strip_database()
-    print_ratios(panel, strip)
-    print_forces(panel, strip)
-    print_motions(panel, strip)
+    save_ratios(panel, strip)
+    save_forces(panel, strip)
+    save_motions(panel, strip)
     for symbol, name in (("A", "added_mass"), ("B", "damping")):
         matrix_figure(symbol, name, panel, strip).savefig(folder / f"strip_panel_{name}.png", dpi=110)
     force_figure(panel, strip).savefig(folder / "strip_panel_excitation.png", dpi=110)
@@ -64,44 +66,50 @@ def nearest(panel: HydroDatabase, omega: float) -> int:
     return int(np.abs(panel.omega - omega).argmin())
 
 
-def print_ratios(panel: HydroDatabase, strip: HydroDatabase) -> None:
-    """Strip over panel at the same frequency."""
+def save(name: str, head: Sequence[str], rows: Sequence[Sequence[str]]) -> None:
+    """A table of the document."""
+    path = Path(__file__).resolve().parents[1] / "benchmarks" / "results" / f"{name}.csv"
+    with path.open("w", newline="", encoding="utf-8") as file:
+        csv.writer(file, lineterminator="\n").writerows([head, *rows])
+
+
+def save_ratios(panel: HydroDatabase, strip: HydroDatabase) -> None:
+    """Strip over panel at the same frequency; the limits of the added mass to the screen."""
     for symbol, name in (("A", "added_mass"), ("B", "damping")):
         one, other = getattr(panel, name), getattr(strip, name)
-        print("| rad/s | " + " | ".join(f"{symbol}{j + 1}{k + 1}" for j, k in ENTRIES) + " |")
-        print("|---" * (len(ENTRIES) + 1) + "|")
+        rows = []
         for omega in FREQUENCIES:
             i = nearest(panel, omega)
-            row = [f"{other[i, j, k] / one[i, j, k]:.2f}" for j, k in ENTRIES]
-            print(f"| {omega} | " + " | ".join(row) + " |")
-        print()
+            rows.append([f"{omega}", *(f"{other[i, j, k] / one[i, j, k]:.2f}" for j, k in ENTRIES)])
+        head = ["rad/s", *(f"{symbol}{j + 1}{k + 1}" for j, k in ENTRIES)]
+        save(f"strip-over-panels-{name.replace('_', '-')}", head, rows)
     limits = np.diagonal(strip.infinite_frequency_added_mass) / np.diagonal(
         panel.infinite_frequency_added_mass
     )
     print("A_inf:", np.round(limits, 3), "\n")
 
 
-def print_forces(panel: HydroDatabase, strip: HydroDatabase) -> None:
+def save_forces(panel: HydroDatabase, strip: HydroDatabase) -> None:
     """Largest difference of the complex force over 0.5 to 1.5 rad/s by the panel method's largest there."""
     inside = (panel.omega >= 0.5) & (panel.omega <= 1.5)
-    print("| heading deg | " + " | ".join(MOTIONS) + " |\n" + "|---" * 7 + "|")
+    rows = []
     for degrees in HEADINGS_DEG:
         h = int(np.abs(panel.heading - np.radians(degrees)).argmin())
         one, other = panel.force[h, inside], strip.force[h, inside]
         largest = np.abs(panel.force[:, inside]).max(axis=(0, 1))
         error = np.abs(other - one).max(axis=0) / largest
-        print(f"| {degrees} | " + " | ".join(f"{100.0 * e:.1f}" for e in error) + " |")
-    print()
+        rows.append([f"{degrees}", *(f"{100.0 * e:.1f}" for e in error)])
+    save("strip-against-panels-forces", ["heading deg", *MOTIONS], rows)
 
 
-def print_motions(panel: HydroDatabase, strip: HydroDatabase) -> None:
+def save_motions(panel: HydroDatabase, strip: HydroDatabase) -> None:
     """Significant double amplitudes in Hs 2 m, Tp 8 s."""
     scenes = []
     for database in (panel, strip):
         scene = Scene(name=database.name)
         scene.add_vessel(database, memory="passive")
         scenes.append((scene, database))
-    print("| heading deg | motion | panel | strip | strip / panel |\n|---|---|---|---|---|")
+    rows = []
     for degrees in HEADINGS_DEG:
         found = [
             response_statistics(
@@ -117,9 +125,9 @@ def print_motions(panel: HydroDatabase, strip: HydroDatabase) -> None:
             scale, unit = (1.0, "m") if i < 3 else (np.degrees(1.0), "deg")
             one, other = scale * found[0][i], scale * found[1][i]
             if one > 1e-6:
-                values = f"{one:.3f} {unit} | {other:.3f} {unit} | {other / one:.2f}"
-                print(f"| {degrees} | {MOTIONS[i]} | {values} |")
-    print()
+                values = (f"{one:.3f} {unit}", f"{other:.3f} {unit}", f"{other / one:.2f}")
+                rows.append([f"{degrees}", MOTIONS[i], *values])
+    save("strip-against-panels-motions", ["heading deg", "motion", "panel", "strip", "strip / panel"], rows)
 
 
 def matrix_figure(symbol: str, name: str, panel: HydroDatabase, strip: HydroDatabase) -> Figure:

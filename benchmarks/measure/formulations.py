@@ -73,8 +73,9 @@ def throughput(*, repeats: int) -> Section:
     return Section(
         title="The vessel alone, and two threads",
         text=(
-            "Wall times: the vessel in waves by tsit5 at rtol 1e-2 for 1,000 s; 200 s of case 2 by dopri5 at "
-            f"rtol 1e-6, outputs every 1 s, one model shared by the threads. Best of {repeats}."
+            "Wall times. The vessel in waves runs for 1,000 s by tsit5 at rtol 1e-2. Case 2 runs for 200 s "
+            "by dopri5 at rtol 1e-6, with outputs every 1 s; threads share one model. "
+            f"Best of {repeats}."
         ),
         head=["run", "wall, ms", "times real time, or ratio", "aim"],
         rows=rows,

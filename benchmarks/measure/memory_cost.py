@@ -20,8 +20,8 @@ def memory_cost(*, repeats: int) -> Section:
         text=(
             "100 s with defaults, with memory over without; CPU time, best of "
             f"{repeats}. Without memory there is no radiation damping, so the vessel moves more and the "
-            "integrator takes other steps: the two runs answer different questions, and only the cost of one "
-            "evaluation compares like with like."
+            "integrator takes other steps. The two runs therefore solve different problems, and only the "
+            "costs of one evaluation can be compared."
         ),
         head=["scene", "memory states", "all states", "one evaluation, ratio", "evaluations with", "without",
               "whole run, ratio"],

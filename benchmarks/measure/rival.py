@@ -69,9 +69,9 @@ def rival(*, repeats: int, t_end: float) -> Section:
         title="Rival: NumPy and SciPy",
         text=(
             "`benchmarks/rival_numpy.py` runs the independent reference implementation of `tests/reference` "
-            "(same equations, vectorised NumPy, SciPy's solve_ivp) on records of the same scene: "
-            f"{t_end:g} s of case 2, rtol {RTOL:g}, outputs every {DT_OUT:g} s with reactions, one thread, "
-            f"measured in this run. Wall times: ours best of {times}, every default channel; the rival's "
+            "(same equations, vectorised NumPy, SciPy's solve_ivp) on records of the same scene. "
+            f"Both run {t_end:g} s of case 2 at rtol {RTOL:g}, with outputs every {DT_OUT:g} s, reactions "
+            f"included, on one thread. Wall times: ours best of {times}, every default channel; the rival's "
             "one run. Error: largest difference of any body's position from seacrane's dopri5 at rtol 1e-11, "
             "so the last column also says how far the two implementations agree."
         ),

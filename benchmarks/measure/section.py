@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
+
+from .table import markdown, write
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -15,22 +19,27 @@ class Section:
     text: str
     head: Sequence[str]
     rows: Sequence[Sequence[Any]]
+    folder: str = "benchmarks/results"  # of its published file
+
+    @property
+    def name(self) -> str:
+        """Of its file: the title in lower-case words joined by hyphens."""
+        return re.sub(r"[^a-z0-9]+", "-", self.title.lower()).strip("-")
+
+    @property
+    def cells(self) -> list[list[str]]:
+        """The rows as they are published, numbers to three significant digits."""
+        return [[_cell(value) for value in row] for row in self.rows]
+
+    def save(self, folder: Path) -> None:
+        """Write the table to a file of the section's name."""
+        write(folder / f"{self.name}.csv", self.head, self.cells)
 
     def markdown(self) -> str:
-        """The section as Markdown; columns that hold numbers are right-aligned."""
-        cells = [[_cell(value) for value in row] for row in self.rows]
-        numeric = [all(_is_number(row[i]) for row in self.rows) for i in range(len(self.head))]
-        rule = ["---:" if right else "---" for right in numeric]
-        lines = [_line(self.head), _line(rule), *map(_line, cells)]
-        return "\n".join([f"## {self.title}", "", self.text, "", *lines])
-
-
-def _line(cells: Sequence[str]) -> str:
-    return f"| {' | '.join(cells)} |"
-
-
-def _is_number(value: Any) -> bool:
-    return value is None or (isinstance(value, (int, float)) and not isinstance(value, bool))
+        """Heading, text and table, marked by its file for `benchmarks/documents.py`."""
+        table = markdown(self.head, self.cells)
+        mark = f"<!-- table {self.folder}/{self.name}.csv -->"
+        return f"## {self.title}\n\n{self.text}\n\n{mark}\n{table}\n<!-- end of table -->"
 
 
 def _cell(value: Any) -> str:

@@ -44,8 +44,8 @@ def storm(*, repeats: int) -> Section:
         title="Three hours of case 2",
         text=(
             "Recursive form, memory per pair, 200 wave components, control; wall and CPU time of the loop, "
-            f"best of {repeats}. Beyond the time given (first output more than {AIM_ERROR:g} m from the run "
-            f"by {REFERENCE['integrator']} at rtol {REFERENCE['rtol']:g}) the path is lost; only statistics "
+            f"best of {repeats}. The time given is that of the first output more than {AIM_ERROR:g} m from "
+            f"the run by {REFERENCE['integrator']} at rtol {REFERENCE['rtol']:g}. Beyond it only statistics "
             f"can be compared: standard deviations from {SETTLED:g} s on. Where that run and the one at rtol "
             f"1e-11 part as well, the payload's swing is chaotic. The aim is {AIM_SECONDS:g} s."
         ),

@@ -24,6 +24,7 @@ from seacrane.files.atomic import atomic_write
 HERE = Path(__file__).resolve().parent
 LEVELS = (1e-2, 1e-4, 1e-6)  # m
 PICTURE = "work_precision.png"
+RESULTS = "benchmarks/peers/results"
 MARKS = {"seacrane recursive": "o-", "seacrane redundant": "s-", "Pinocchio": "^--", "MuJoCo": "v--",
          "Exudyn": "D--", "NumPy/SciPy": "x:"}  # fmt: skip
 INTRODUCTION = f"""# Against other engines
@@ -85,6 +86,7 @@ def ratios(points: list[Point]) -> Section:
         text="Among the settings below; at loose tolerances single errors are partly luck, see the diagram.",
         head=["payload error at most", "engine", "setting", "CPU, ms", "over the quickest of seacrane"],
         rows=rows,
+        folder=RESULTS,
     )
 
 
@@ -112,6 +114,7 @@ def table(points: list[Point], uncertainty: float) -> Section:
         head=["engine", "method", "setting", "CPU, ms", "evaluations", "us per evaluation, all in",
               "payload error, m", "roll error, rad"],
         rows=rows,
+        folder=RESULTS,
     )  # fmt: skip
 
 
@@ -181,7 +184,10 @@ def main() -> int:
     points, uncertainty = measure(drivers, options.peers, options.repeats)
     figure(points, folder / PICTURE)
     picture = f"![Payload error over CPU time, per engine]({PICTURE})\n"
-    parts = [head, picture, ratios(points).markdown() + "\n", table(points, uncertainty).markdown() + "\n"]
+    sections = (ratios(points), table(points, uncertainty))
+    for section in sections:
+        section.save(folder / "results")
+    parts = [head, picture, *(section.markdown() + "\n" for section in sections)]
     with atomic_write(folder / "README.md") as draft:
         draft.write_text("\n".join(parts), encoding="utf-8")
     print(f"written to {folder}", file=sys.stderr)

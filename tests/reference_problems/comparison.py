@@ -3,7 +3,6 @@ it."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from dataclasses import dataclass
 
 
@@ -21,17 +20,10 @@ class Comparison:
     difference: float
     unit: str
 
-    def row(self) -> str:
+    def row(self) -> tuple[str, ...]:
+        """As the table shows it, in the order of HEAD."""
         values = (f"{self.found:.12g}", f"{self.expected:.12g}", f"{self.difference:.1e} {self.unit}".strip())
-        cells = (self.problem, self.quantity, self.source, self.setting, *values)
-        return "| " + " | ".join(cells) + " |"
+        return (self.problem, self.quantity, self.source, self.setting, *values)
 
 
-HEADER = (
-    "| problem | compared | source | setting | here | reference | largest difference |\n"
-    "|---|---|---|---|---|---|---|"
-)
-
-
-def table(comparisons: Iterable[Comparison]) -> str:
-    return "\n".join([HEADER, *(comparison.row() for comparison in comparisons)])
+HEAD = ("problem", "compared", "source", "setting", "here", "reference", "largest difference")

@@ -1,13 +1,15 @@
-"""Prints the tables of docs/reference-problems.md.
+"""Writes the tables of docs/reference-problems.md to benchmarks/results.
 
 Usage, from the repository: PYTHONPATH=tests python -m reference_problems.table
 """
 
 from __future__ import annotations
 
+import csv
 from collections.abc import Iterator
+from pathlib import Path
 
-from .comparison import Comparison, table
+from .comparison import HEAD, Comparison
 from .problems import (
     bricard_loop,
     decays,
@@ -53,6 +55,12 @@ def ships() -> Iterator[Comparison]:
     yield from regular_wave_response()
 
 
+RESULTS = Path(__file__).resolve().parents[2] / "benchmarks" / "results"
+TABLES = {"tight": mechanisms, "default": default_setting, "ships": ships}
+
 if __name__ == "__main__":
-    for comparisons in (mechanisms(), default_setting(), ships()):
-        print(table(comparisons), end="\n\n")
+    for name, comparisons in TABLES.items():
+        path = RESULTS / f"reference-problems-{name}.csv"
+        with path.open("w", newline="", encoding="utf-8") as file:
+            rows = (comparison.row() for comparison in comparisons())
+            csv.writer(file, lineterminator="\n").writerows([HEAD, *rows])
