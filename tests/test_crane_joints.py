@@ -9,6 +9,7 @@ import numpy as np
 import numpy.typing as npt
 import pytest
 
+from seacrane import Scene
 from seacrane.crane import BODIES, FOOT, BodyRecord, JointRecord, KnuckleBoomCrane, Payload
 from seacrane.errors import SceneError
 
@@ -221,42 +222,25 @@ def test_payload_hangs_by_the_centroid_of_its_top() -> None:
     np.testing.assert_allclose(body.inertia, np.diag([52.0, 52.0, 72.0]) * 10e3 / 12.0)
 
 
-class Recorder:
-    """Keeps what a scene would be told."""
-
-    def __init__(self) -> None:
-        self.bodies: dict[str, dict[str, Any]] = {}
-        self.joints: dict[str, dict[str, Any]] = {}
-        self.ranges: dict[str, tuple[float, float]] = {}
-
-    def add_body(self, *, name: str, **values: Any) -> None:
-        self.bodies[name] = values
-
-    def add_joint(self, *, name: str, **values: Any) -> None:
-        assert {values["first"], values["second"]} <= {*self.bodies, "ground", "vessel"}
-        self.joints[name] = values
-
-    def add_range(self, *, joint: str, minimum: float, maximum: float) -> None:
-        self.ranges[joint] = (minimum, maximum)
-
-
 def test_add_to_a_scene() -> None:
-    scene = Recorder()
+    scene = Scene()
     scene.add_crane(CRANE, base="ground", foot=(0.0, 0.0, 0.0), payload=Payload(), **PLACE)
     assert list(scene.bodies) == [*BODIES, "payload"]
-    assert sum(body["mass"] for body in scene.bodies.values()) == pytest.approx(400e3)
-    assert scene.joints["deck"]["first"] == "ground"
+    assert sum(body.mass for body in scene.bodies.values()) == pytest.approx(400e3)
+    assert scene.joints["deck"].first == "ground"
     strokes = {"main_cylinder": PLACE["s1"], "knuckle_cylinder": PLACE["s2"]}
     for cylinder, stroke in strokes.items():
-        assert scene.ranges[cylinder] == (-stroke, getattr(CRANE.data, cylinder).stroke - stroke)
-    used = {name: set(values) - {"kind", "first", "second"} for name, values in scene.joints.items()}
-    assert used["deck"] == used["D"] == used["G"] == {"point"}
-    assert used["A"] == used["C"] == used["F"] == used["main_cylinder"] == {"point", "axis"}
-    assert used["B"] == used["E"] == {"point", "axis", "second_axis"}
-    assert used["link"] == {"point", "second_point", "length"}
-    bare = Recorder()
+        limits = scene.ranges[cylinder]
+        assert limits.minimum == -stroke
+        assert limits.maximum == getattr(CRANE.data, cylinder).stroke - stroke
+    kinds = {name: joint.kind for name, joint in scene.joints.items()}
+    assert {kinds["deck"], kinds["link"]} == {"weld", "distance"}
+    assert {kinds[cylinder] for cylinder in strokes} <= {"prismatic", "cylindrical"}
+    assert scene.joints["link"].length == Payload().link_length
+    bare = Scene()
+    bare.add_body(name="vessel", mass=1.0, inertia=(1.0, 1.0, 1.0))
     bare.add_crane(CRANE, foot=FOOT)
-    assert "link" not in bare.joints and bare.joints["deck"]["first"] == "vessel"
+    assert "link" not in bare.joints and bare.joints["deck"].first == "vessel"
 
 
 @pytest.mark.parametrize(

@@ -33,11 +33,11 @@ from seacrane.hydro import (
 )
 from seacrane.hydro.data.memory_model import RADIATION
 from seacrane.hydro.memory import passive
-from seacrane.hydro.memory import trade as memory_trade
 from seacrane.hydro.memory.certificate import certify
 from seacrane.hydro.memory.identification import r_squared
 from seacrane.hydro.memory.oscillators import GroupData, Oscillators, _Problem, first_guess, fit_oscillators
 from seacrane.hydro.memory.passive import motion_groups
+from seacrane.hydro.memory.trade import memory_trade
 
 Array = NDArray[np.float64]
 

@@ -226,7 +226,7 @@ def test_headers_that_lie_are_refused_before_memory_is_taken(name: str, saved: P
 
 def test_a_state_of_another_scene_is_refused(saved: Path) -> None:
     other = cases.case2()
-    with pytest.raises(FileFormatError, match=r"run\.state: .*holds 'memory of 0 .* has memory of \d+"):
+    with pytest.raises(FileFormatError, match=r"run\.state: .*holds memory of 0 .* has memory of \d+"):
         State.load(saved, scene=other)
     with pytest.raises(SceneError, match="another scene: it holds memory of 0"):
         simulate(other, t_end=1.0, start=State.load(saved))

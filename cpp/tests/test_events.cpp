@@ -4,6 +4,7 @@
 
 #include "count_allocations.hpp"
 #include "multibody_scenes.hpp"
+#include "seacrane/compile/compile.hpp"
 #include "seacrane/run/simulation.hpp"
 
 namespace seacrane::test {

@@ -3,6 +3,7 @@
 #include <chrono>
 #include <thread>
 
+#include "seacrane/compile/compile.hpp"
 #include "seacrane/run/simulation.hpp"
 
 namespace seacrane::test {

@@ -3,6 +3,7 @@
 #include <thread>
 
 #include "multibody_scenes.hpp"
+#include "seacrane/compile/compile.hpp"
 #include "seacrane/run/simulation.hpp"
 
 namespace seacrane::test {
