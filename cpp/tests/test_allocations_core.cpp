@@ -2,8 +2,8 @@
 
 #include "count_allocations.hpp"
 #include "multibody_scenes.hpp"
-#include "seacrane/dynamics/recursive/recursive.hpp"
 #include "seacrane/compile/compile.hpp"
+#include "seacrane/dynamics/recursive/recursive.hpp"
 #include "seacrane/run/simulation.hpp"
 
 namespace seacrane::test {

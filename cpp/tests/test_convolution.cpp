@@ -6,8 +6,8 @@
 
 #include "count_allocations.hpp"
 #include "multibody_scenes.hpp"
-#include "seacrane/hydro/convolution.hpp"
 #include "seacrane/compile/compile.hpp"
+#include "seacrane/hydro/convolution.hpp"
 #include "seacrane/run/simulation.hpp"
 
 namespace seacrane::test {
