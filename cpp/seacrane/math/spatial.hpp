@@ -96,6 +96,10 @@ class SpatialInertia {
  public:
   SpatialInertia() = default;  // not set
   explicit SpatialInertia(const Mat6<T>& m) : m_(m) {}
+  SpatialInertia& operator=(const Mat6<T>& m) {  // in place, without a temporary
+    m_ = m;
+    return *this;
+  }
   static SpatialInertia zero() { return SpatialInertia(Mat6<T>::Zero()); }
 
   const Mat6<T>& matrix() const { return m_; }

@@ -105,7 +105,7 @@ void ArticulatedTree<T>::read(const BodyKinematics<T>* bodies, T* q, T* u) const
 
 template <class T>
 void ArticulatedTree<T>::factor(const Mat6<T>* mass) {
-  for (int b = 0; b < ground_; ++b) inertia_[idx(b)] = SpatialInertia<T>(mass[b]);
+  for (int b = 0; b < ground_; ++b) inertia_[idx(b)] = mass[b];
   for (std::size_t i = clusters().size(); i-- > 0;) {
     with_speeds(clusters()[i], [&]<int n>() { factor_cluster<n>(i); });
   }
