@@ -11,7 +11,7 @@ import warnings
 from typing import Any
 
 import numpy as np
-from random_scenes import CLOSING, KINDS, Shape, build, unit
+from random_scenes import CLOSING, Shape, build, unit
 
 from seacrane import Scene, SeacraneError, simulate
 from seacrane._core import Body
@@ -30,6 +30,18 @@ METHODS: list[dict[str, Any]] = [
     {"integrator": "dop853", "rtol": 1e-9},
 ]
 T_END = 1.0
+# Seeds of scenes were found with these: another kind of joint would make them other scenes.
+KINDS = (
+    "revolute",
+    "prismatic",
+    "cylindrical",
+    "universal",
+    "spherical",
+    "planar",
+    "distance",
+    "weld",
+    "free",
+)
 
 
 def random_shape(rng: np.random.Generator) -> Shape:

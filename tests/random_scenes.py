@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
+import joint_examples
 import numpy as np
 from hypothesis import strategies as st
 from numpy.typing import NDArray
@@ -12,17 +13,8 @@ from numpy.typing import NDArray
 from seacrane import Curve, Evaluator, Model, Scene, StateSpaceBlock
 
 Array = NDArray[np.float64]
-KINDS = [
-    "revolute",
-    "prismatic",
-    "cylindrical",
-    "universal",
-    "spherical",
-    "planar",
-    "distance",
-    "weld",
-    "free",
-]
+# All kinds, those first that hold something and let something go.
+KINDS = sorted(joint_examples.KINDS, key=lambda kind: joint_examples.KINDS[kind].rows in (0, 6))
 CLOSING = ["distance", "spherical", "universal", "cylindrical", "planar"]
 
 
@@ -130,16 +122,17 @@ class Builder:
         if swapped:
             first, second = second, first
         axis = unit(self.rng)
-        extra: dict[str, Any] = {}
-        if kind == "universal":
-            extra["second_axis"] = across(axis, self.rng)
+        about, extra = joint_examples.KINDS[kind], joint_examples.own_numbers(kind)
+        other: dict[str, Any] = {}
+        if about.own_axis:
+            other["second_axis"] = across(axis, self.rng)
         point = 0.5 * (self.place(first) + self.place(second)) + self.rng.uniform(-0.5, 0.5, 3)
-        if kind == "distance":
-            extra["second_point"] = point + self.rng.uniform(0.3, 1.0) * unit(self.rng)
-        if kind == "free":
+        if about.own_point:
+            other["second_point"] = point + self.rng.uniform(0.3, 1.0) * unit(self.rng)
+        if about.rows == 0:
             axis = np.array([0.0, 0.0, 1.0])
         self.scene.add_joint(
-            kind=kind, name=name, first=first, second=second, point=point, axis=axis, **extra
+            kind=kind, name=name, first=first, second=second, point=point, axis=axis, **other, **extra
         )
 
     def add_struts(self) -> None:

@@ -6,6 +6,7 @@ import warnings
 from collections.abc import Callable
 from typing import Any
 
+import joint_examples
 import numpy as np
 import pytest
 from hypothesis import HealthCheck, given, settings
@@ -32,17 +33,7 @@ from seacrane import (
 from seacrane.crane import Payload
 
 NAN, INF = float("nan"), float("inf")
-KINDS = (
-    "weld",
-    "revolute",
-    "prismatic",
-    "cylindrical",
-    "universal",
-    "spherical",
-    "planar",
-    "distance",
-    "free",
-)
+KINDS = tuple(joint_examples.KINDS)
 
 
 def scene_of_two(**settings: Any) -> Scene:
@@ -876,12 +867,12 @@ def plausible_joint(draw: st.DrawFn) -> dict[str, Any]:
         "point": draw(NEAR),
         "axis": draw(NEAR),
     }
-    if joint["kind"] == "universal":
+    about = joint_examples.KINDS[joint["kind"]]
+    if about.own_axis:
         joint["second_axis"] = draw(NEAR)
-    if joint["kind"] == "distance":
+    if about.own_point:
         joint["second_point"] = draw(NEAR)
-        joint["length"] = draw(st.none() | NUMBER)
-    return joint
+    return joint | {field.name: draw(st.none() | NUMBER) for field in about.parameters}
 
 
 @PLAUSIBLE

@@ -92,7 +92,7 @@ def described_classes() -> list[type]:
 @pytest.mark.parametrize("kind", described_classes(), ids=lambda kind: kind.__name__)
 def test_what_is_pickled_is_all_that_the_constructor_takes(kind: type) -> None:
     """A new argument must not get lost on the way."""
-    told = re.search(r"__init__\(self: [^,)]*, \*(.*)\) -> None", kind.__init__.__doc__ or "")
+    told = re.search(r"__init__\(self[^,)]*, \*(.*)\) -> None", kind.__init__.__doc__ or "")
     scene = all_kinds()
     run = Run(cases.case2(memory="convolution"), t_end=1.0)
     run.advance(0.5)
@@ -102,6 +102,7 @@ def test_what_is_pickled_is_all_that_the_constructor_takes(kind: type) -> None:
     samples = [state, state.steps, state.record, *state.histories, block, joint.first_frame,
                Curve.constant(value=1.0)]  # fmt: skip
     samples += [run.scene.vessels["vessel"].memory]
+    samples += [kind.example() for kind in _core.LOAD_KINDS.values() if hasattr(kind, "example")]
     for field in dataclasses.fields(Scene):
         if isinstance(getattr(scene, field.name), dict):
             samples += getattr(scene, field.name).values()

@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from joint_examples import own_arguments
 from linear_scenes import reference_vessel
 from multibody_runs import quaternion_about
 from numpy.typing import NDArray
@@ -86,10 +87,10 @@ def mixture(seed: int, **settings: Any) -> Scene:
             center_of_mass=random.uniform(-0.2, 0.2, 3),
         )
         axis = random.uniform(-1.0, 1.0, 3)
-        second: dict[str, Any] = (
-            {"second_axis": np.cross(axis, random.uniform(-1.0, 1.0, 3))} if kind == "universal" else {}
+        own = own_arguments(
+            kind, lambda axis=axis: np.cross(axis, random.uniform(-1.0, 1.0, 3)), lambda: None
         )
-        axes: dict[str, Any] = {} if kind in ("spherical", "weld") else {"axis": axis} | second
+        axes: dict[str, Any] = {} if kind in ("spherical", "weld") else {"axis": axis} | own
         parent = names[int(random.integers(len(names)))]
         scene.add_joint(kind=kind, name=f"joint {i}", first=parent, second=name, point=point, **axes)
         names.append(name)

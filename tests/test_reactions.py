@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from joint_examples import KINDS, own_arguments
 from multibody_runs import (
     ACTUATORS,
     Array,
@@ -25,7 +26,6 @@ from seacrane.inputs.frames import rotation_matrix
 
 G = 9.80665
 CRANK = SliderCrank(Link(1.5, 0.08, 0.4, 0.15), (0.0, 0.3, 0.2), 1.2, 1.5, (0.02, 0.25, 0.24), 2.0)
-SLIDING = ("prismatic", "cylindrical", "planar")
 
 
 def joint_points(scene: Scene, out: dict[str, Any]) -> Array:
@@ -34,7 +34,7 @@ def joint_points(scene: Scene, out: dict[str, Any]) -> Array:
     names = list(scene.bodies)
     rotation = rotation_matrix(out["quaternion"])
     for joint in scene.joints.values():
-        on_first = joint.kind in SLIDING
+        on_first = KINDS[joint.kind].slides
         body, frame = (joint.first, joint.first_frame) if on_first else (joint.second, joint.second_frame)
         if body == "ground":
             points.append(np.broadcast_to(frame.point, (len(out["time"]), 3)))
@@ -115,7 +115,7 @@ def test_every_body_of_a_slider_crank_is_in_balance() -> None:
 def all_kinds() -> Scene:
     """A chain through every joint kind that carries load, hanging from the ground and swinging."""
     scene = Scene(gravity=G)
-    kinds = ["weld", "revolute", "universal", "cylindrical", "spherical", "prismatic", "planar", "distance"]
+    kinds = [kind for kind, about in KINDS.items() if about.rows > 0]
     before = "ground"
     for i, kind in enumerate(kinds):
         scene.add_body(
@@ -125,13 +125,10 @@ def all_kinds() -> Scene:
             position=(0.4 * i, 0.1 * i, -1.0 * i),
             center_of_mass=(0.2, -0.1, -0.5),
         )
-        extra: dict[str, Any] = {"axis": (0.3, 1.0, 0.2)}
-        if kind == "universal":
-            extra["second_axis"] = (1.0, -0.3, 0.0)
-        if kind == "distance":
-            extra = {"second_point": (0.4 * i, 0.1 * i, -1.0 * i - 1.0)}
+        here = (0.4 * i, 0.1 * i, -1.0 * i)
+        own = own_arguments(kind, lambda: (1.0, -0.3, 0.0), lambda i=i: (0.4 * i, 0.1 * i, -1.0 * i - 1.0))
         scene.add_joint(
-            kind=kind, name=kind, first=before, second=kind, point=(0.4 * i, 0.1 * i, -1.0 * i), **extra
+            kind=kind, name=kind, first=before, second=kind, point=here, axis=(0.3, 1.0, 0.2), **own
         )
         before = kind
     return scene
@@ -140,7 +137,7 @@ def all_kinds() -> Scene:
 def test_every_joint_kind_reports_the_load_it_carries() -> None:
     scene = all_kinds()
     model = scene.compile()
-    assert model.degrees_of_freedom == 0 + 1 + 2 + 2 + 3 + 1 + 3 + 5
+    assert model.degrees_of_freedom == sum(6 - KINDS[kind].rows for kind in scene.joints)
     out = record(scene, 0.6)
     assert np.max(np.abs(out["angular_velocity"])) > 0.5
     check_balance(scene, out)
@@ -160,7 +157,7 @@ def test_swapping_the_bodies_of_a_joint_turns_its_reaction_round() -> None:
             name=joint.name,
             first=first,
             second=second,
-            length=joint.length if joint.kind == "distance" else None,
+            **joint.parameters,
             first_frame=frames[0],
             second_frame=frames[1],
         )

@@ -330,7 +330,7 @@ BROKEN: list[tuple[str, Callable[[dict[str, Any]], Any], tuple[str, ...]]] = [
     ("body twice", lambda d: d["bodies"].append(d["bodies"][0]), ("bodies[4]", "body 'hull'", "twice")),
     ("unknown body", lambda d: d["joints"][0].update(second=["arm"]), ("joints[0].second is ['arm']",)),
     ("frame a text", lambda d: d["joints"][0].update(first_frame="x"), ("joints[0].first_frame is 'x'",)),
-    ("frame axes", lambda d: d["joints"][0]["first_frame"].pop("axes"), ("first_frame: has no 'axes'",)),
+    ("frame axes", lambda d: d["joints"][0]["first_frame"].update(axis=1), ("first_frame: has an unknown",)),
     ("curve empty", lambda d: d["drivers"][0]["curve"].update(starts=[], coefficients=[], cosines=[]),
      ("drivers[0].curve", "no pieces")),
     ("curve ragged", lambda d: d["actuators"][0]["reference"]["coefficients"][0].pop(),

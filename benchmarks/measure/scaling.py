@@ -69,10 +69,9 @@ def cranes(count: int) -> Scene:
                     point=np.array(joint.first_frame.point) + shift + [0.0, 0.0, 5.0],
                     axes=joint.first_frame.axes,
                 )
-            extra = {"length": joint.length} if joint.kind == "distance" else {}
             scene.add_joint(
                 kind=joint.kind, name=f"{joint.name} {i}", first=names[0], second=names[1],
-                first_frame=frames[0], second_frame=frames[1], **extra,
+                first_frame=frames[0], second_frame=frames[1], **joint.parameters,
             )  # fmt: skip
     return scene
 

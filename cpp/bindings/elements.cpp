@@ -1,5 +1,7 @@
 #include "bindings.hpp"
-#include "seacrane/model/description.hpp"
+#include "description.hpp"
+#include "seacrane/elements/joint_kinds.hpp"
+#include "seacrane/elements/loads/registry.hpp"
 
 using namespace seacrane;
 
@@ -8,183 +10,88 @@ namespace {
 template <class T>
 using Class = py::class_<T>;
 
-void bind_body(py::module_& m) {
-  using D = BodyDescription;
-  Class<D>(m, "Body",
-           "A rigid body: inertia (3, 3) in kg m2 about the centre of mass in body axes, pose of the body "
-           "origin in the inertial frame, quaternion (w, x, y, z) body to inertial. Immutable.")
-      .def(py::init([](std::string name, double mass, Mat3d inertia, Vec3d com, Vec3d position,
-                       Vec4d quaternion, Vec3d velocity, Vec3d angular_velocity, bool gravity) {
-             return D{std::move(name), mass,     inertia,          com,    position,
-                      quaternion,      velocity, angular_velocity, gravity};
-           }),
-           py::kw_only(), py::arg("name"), py::arg("mass"), py::arg("inertia"),
-           py::arg("center_of_mass") = Vec3d(0, 0, 0), py::arg("position") = Vec3d(0, 0, 0),
-           py::arg("quaternion") = Vec4d(1, 0, 0, 0), py::arg("velocity") = Vec3d(0, 0, 0),
-           py::arg("angular_velocity") = Vec3d(0, 0, 0), py::arg("gravity") = true)
-      .def_property_readonly("name", [](const D& d) { return d.name; })
+void bind_fields(py::module_& m) {
+  using description::FieldRow;
+  Class<FieldRow>(m, "Field", "An entry of an element: what FIELDS of its class lists.")
+      .def_readonly("name", &FieldRow::name)
+      .def_readonly("type", &FieldRow::type, "text, number, flag, array, curve, frame, function or object")
+      .def_readonly("role", &FieldRow::role, "name, body, joint, coordinate, distance or value")
+      .def_readonly("unit", &FieldRow::unit)
+      .def_readonly("text", &FieldRow::text)
+      .def_readonly("shape", &FieldRow::shape, "of an array; -1: any length")
+      .def_readonly("required", &FieldRow::required)
+      .def_readonly("default", &FieldRow::usual, "where it is not required");
+}
+
+/// The joint types, and what they say of themselves.
+void bind_joint_kinds(py::module_& m) {
+  using description::FieldRow;
+  Class<JointKind>(m, "JointKind", "What a joint type says of itself; see joint_kinds().")
+      .def_readonly("name", &JointKind::name)
+      .def_readonly("rows", &JointKind::rows, "constraints")
       .def_property_readonly(
-          "mass", [](const D& d) { return d.mass; }, "kg")
+          "coordinates", [](const JointKind& k) { return py::str(k.coordinates).attr("split")(); },
+          "those it offers")
+      .def_readonly("usual", &JointKind::usual, "the coordinate meant where none is named; may be empty")
+      .def_readonly("slides", &JointKind::slides, "whether its reaction is taken on the first body")
+      .def_readonly("own_axis", &JointKind::own_axis, "whether the axis on the second body is another one")
+      .def_readonly("own_point", &JointKind::own_point, "whether the point on the second body is another one")
+      .def_readonly("branch", &JointKind::branch, "whether formulation 'recursive' may step it")
       .def_property_readonly(
-          "inertia", [](const D& d) { return d.inertia; }, "kg m2, about the centre of mass (copy)")
-      .def_property_readonly(
-          "center_of_mass", [](const D& d) { return d.center_of_mass; }, "m, body axes (copy)")
-      .def_property_readonly(
-          "position", [](const D& d) { return d.position; }, "m, inertial frame (copy)")
-      .def_property_readonly(
-          "quaternion", [](const D& d) { return d.quaternion; }, "w, x, y, z (copy)")
-      .def_property_readonly(
-          "velocity", [](const D& d) { return d.velocity; }, "m/s, inertial frame (copy)")
-      .def_property_readonly(
-          "angular_velocity", [](const D& d) { return d.angular_velocity; }, "rad/s (copy)")
-      .def_property_readonly(
-          "gravity", [](const D& d) { return d.gravity; }, "whether weight acts on it");
+          "parameters",
+          [](const JointKind& k) {
+            py::list out;
+            for (const JointKind::Parameter& p : k.parameters) {
+              out.append(FieldRow{p.name, "number", description::text_of(p.role), p.unit, p.text, py::tuple(),
+                                  p.required,
+                                  p.required ? py::object(py::none()) : py::object(py::float_(p.usual))});
+            }
+            return py::tuple(out);
+          },
+          "numbers of its own, (Field, ...)")
+      .def(
+          "example",
+          [](const JointKind& k, std::uint64_t seed) {
+            Random random(seed);
+            return k.example(random);
+          },
+          py::arg("seed"), "A closed joint of bodies 'first' and 'second' at one pose, with random frames.");
+  m.def(
+      "joint_kinds",
+      [] {
+        py::dict out;
+        for (const JointKind& kind : joint_kinds()) out[kind.name.c_str()] = kind;
+        return out;
+      },
+      "The joint types by name.");
 }
 
 void bind_joint(py::module_& m) {
-  Class<Frame>(
-      m, "Frame",
-      "A joint frame: a point (m) and axes (3, 3, columns; z is the joint axis) in body coordinates.")
-      .def(py::init([](Vec3d point, Mat3d axes) {
-             return Frame{point, axes};
-           }),
-           py::kw_only(), py::arg("point") = Vec3d(0, 0, 0), py::arg("axes") = Mat3d(Mat3d::Identity()))
-      .def_property_readonly("point", [](const Frame& d) { return d.point; })
-      .def_property_readonly("axes", [](const Frame& d) { return d.axes; });
-  using D = JointDescription;
-  Class<D>(m, "Joint",
-           "A joint between two bodies ('ground' is the inertial frame); may close a loop. Kinds: weld, "
-           "revolute, prismatic, cylindrical, universal, spherical, planar, distance, free.")
-      .def(py::init([](std::string name, std::string kind, std::string first, std::string second, Frame a,
-                       Frame b, double length) {
-             return D{std::move(name), std::move(kind), std::move(first), std::move(second), a, b, length};
-           }),
-           py::kw_only(), py::arg("name"), py::arg("kind"), py::arg("first"), py::arg("second"),
-           py::arg("first_frame"), py::arg("second_frame"), py::arg("length") = 0.0)
-      .def_property_readonly("name", [](const D& d) { return d.name; })
-      .def_property_readonly("kind", [](const D& d) { return d.kind; })
-      .def_property_readonly("first", [](const D& d) { return d.first; })
-      .def_property_readonly("second", [](const D& d) { return d.second; })
-      .def_property_readonly("first_frame", [](const D& d) { return d.first_frame; })
-      .def_property_readonly("second_frame", [](const D& d) { return d.second_frame; })
+  description::bind<Frame>(m, "frame");
+  description::bind<JointDescription>(m, "joint", ", **parameters: typing.SupportsFloat")
       .def_property_readonly(
-          "length", [](const D& d) { return d.length; }, "m, distance joints");
-}
-
-void bind_drives(py::module_& m) {
-  Class<DriverDescription>(m, "Driver", "Prescribes a joint coordinate (m or rad) as a function of time.")
-      .def(py::init([](std::string name, std::string joint, std::string coordinate, Curve curve) {
-             return DriverDescription{
-                 std::move(name), {std::move(joint), std::move(coordinate)}, std::move(curve)};
-           }),
-           py::kw_only(), py::arg("name"), py::arg("joint"), py::arg("coordinate"), py::arg("curve"))
-      .def_property_readonly("name", [](const DriverDescription& d) { return d.name; })
-      .def_property_readonly("joint", [](const DriverDescription& d) { return d.coordinate.joint; })
-      .def_property_readonly("coordinate", [](const DriverDescription& d) { return d.coordinate.coordinate; })
-      .def_property_readonly("curve", [](const DriverDescription& d) { return d.curve; });
-  using A = ActuatorDescription;
-  Class<A>(m, "Actuator",
-           "State feedback on a joint coordinate q: feed_forward + stiffness (reference - q) + damping "
-           "(reference rate - q rate), N (N/m, N s/m) or N m (N m/rad, N m s/rad).")
-      .def(py::init([](std::string name, std::string joint, std::string coordinate, double stiffness,
-                       double damping, Curve feed_forward, Curve reference) {
-             return A{std::move(name),
-                      {std::move(joint), std::move(coordinate)},
-                      stiffness,
-                      damping,
-                      std::move(feed_forward),
-                      std::move(reference)};
-           }),
-           py::kw_only(), py::arg("name"), py::arg("joint"), py::arg("coordinate"),
-           py::arg("stiffness") = 0.0, py::arg("damping") = 0.0,
-           py::arg_v("feed_forward", Curve::constant(0.0), "Curve.constant(value=0.0)"),
-           py::arg_v("reference", Curve::constant(0.0), "Curve.constant(value=0.0)"))
-      .def_property_readonly("name", [](const A& d) { return d.name; })
-      .def_property_readonly("joint", [](const A& d) { return d.coordinate.joint; })
-      .def_property_readonly("coordinate", [](const A& d) { return d.coordinate.coordinate; })
-      .def_property_readonly("stiffness", [](const A& d) { return d.stiffness; })
-      .def_property_readonly("damping", [](const A& d) { return d.damping; })
-      .def_property_readonly("feed_forward", [](const A& d) { return d.feed_forward; })
-      .def_property_readonly("reference", [](const A& d) { return d.reference; });
+          "parameters", [](const JointDescription& d) { return d.parameters; },
+          "The kind's own numbers by name, such as the length of a distance joint (copy).")
+      .def(
+          "__getattr__",
+          [](const JointDescription& d, const std::string& name) {
+            const auto found = d.parameters.find(name);
+            if (found != d.parameters.end()) return found->second;
+            throw py::attribute_error("joint '" + d.name + "' is " + d.kind + " and has no '" + name + "'");
+          },
+          py::arg("name"), "A parameter by its name.");
 }
 
 void bind_loads(py::module_& m) {
-  using P = PointForceDescription;
-  Class<P>(m, "PointForce",
-           "A constant force (N) at a body-fixed point (m, body coordinates), in inertial or body axes.")
-      .def(py::init([](std::string name, std::string body, Vec3d point, Vec3d force, bool body_axes) {
-             return P{std::move(name), std::move(body), point, force, body_axes};
-           }),
-           py::kw_only(), py::arg("name"), py::arg("body"), py::arg("point"), py::arg("force"),
-           py::arg("body_axes") = false)
-      .def_property_readonly("name", [](const P& d) { return d.name; })
-      .def_property_readonly("body", [](const P& d) { return d.body; })
-      .def_property_readonly("point", [](const P& d) { return d.point; })
-      .def_property_readonly("force", [](const P& d) { return d.force; })
-      .def_property_readonly("body_axes", [](const P& d) { return d.body_axes; });
-  using S = SpringDescription;
-  Class<S>(m, "Spring",
-           "Tension between two body-fixed points: stiffness (N/m) times elongation, or a table of tension "
-           "(N) over length (m), plus damping (N s/m) times the rate of length.")
-      .def(py::init([](std::string name, std::string first, std::string second, Vec3d a, Vec3d b,
-                       double stiffness, double damping, double natural_length, std::vector<double> lengths,
-                       std::vector<double> forces) {
-             return S{std::move(name), std::move(first),   std::move(second), a, b, stiffness, damping,
-                      natural_length,  std::move(lengths), std::move(forces)};
-           }),
-           py::kw_only(), py::arg("name"), py::arg("first"), py::arg("second"), py::arg("first_point"),
-           py::arg("second_point"), py::arg("stiffness") = 0.0, py::arg("damping") = 0.0,
-           py::arg("natural_length") = 0.0, py::arg("lengths") = std::vector<double>{},
-           py::arg("forces") = std::vector<double>{})
-      .def_property_readonly("name", [](const S& d) { return d.name; })
-      .def_property_readonly("first", [](const S& d) { return d.first; })
-      .def_property_readonly("second", [](const S& d) { return d.second; })
-      .def_property_readonly("first_point", [](const S& d) { return d.first_point; })
-      .def_property_readonly("second_point", [](const S& d) { return d.second_point; })
-      .def_property_readonly("stiffness", [](const S& d) { return d.stiffness; })
-      .def_property_readonly("damping", [](const S& d) { return d.damping; })
-      .def_property_readonly("natural_length", [](const S& d) { return d.natural_length; })
-      .def_property_readonly("lengths", [](const S& d) { return d.lengths; })
-      .def_property_readonly("forces", [](const S& d) { return d.forces; });
-  using F = ForceTableDescription;
-  Class<F>(
-      m, "ForceTable",
-      "Force and moment (n, 6), N and N m, inertial axes, about a body-fixed point, over times (n,) in s; "
-      "linear in between, held outside.")
-      .def(py::init([](std::string name, std::string body, Vec3d point, std::vector<double> times,
-                       const Eigen::Matrix<double, Eigen::Dynamic, 6, Eigen::RowMajor>& wrenches) {
-             std::vector<Vec6d> rows;
-             for (Eigen::Index i = 0; i < wrenches.rows(); ++i)
-               rows.emplace_back(wrenches.row(i).transpose());
-             return F{std::move(name), std::move(body), point, std::move(times), std::move(rows)};
-           }),
-           py::kw_only(), py::arg("name"), py::arg("body"), py::arg("point"), py::arg("times"),
-           py::arg("wrenches"))
-      .def_property_readonly("name", [](const F& d) { return d.name; })
-      .def_property_readonly("body", [](const F& d) { return d.body; })
-      .def_property_readonly("point", [](const F& d) { return d.point; })
-      .def_property_readonly("times", [](const F& d) { return d.times; })
-      .def_property_readonly("wrenches", [](const F& d) {
-        MatXd rows(static_cast<Eigen::Index>(d.wrenches.size()), 6);
-        for (std::size_t i = 0; i < d.wrenches.size(); ++i) {
-          rows.row(static_cast<Eigen::Index>(i)) = d.wrenches[i].transpose();
-        }
-        return rows;
-      });
-  using U = FunctionForceDescription;
-  Class<U>(m, "FunctionForce",
-           "A C function called in every evaluation, by its address (numba.cfunc(...).address): void "
-           "f(double t, const double* state13, const double* parameters, double* wrench6); state: "
-           "position, quaternion, velocity, angular velocity of the body origin; inertial axes.")
-      .def(py::init([](std::string name, std::string body, std::uintptr_t address,
-                       std::vector<double> parameters) {
-             return U{std::move(name), std::move(body), reinterpret_cast<ForceFunction>(address),
-                      std::move(parameters)};
-           }),
-           py::kw_only(), py::arg("name"), py::arg("body"), py::arg("address"),
-           py::arg("parameters") = std::vector<double>{})
-      .def_property_readonly("name", [](const U& d) { return d.name; })
-      .def_property_readonly("body", [](const U& d) { return d.body; });
+  py::dict kinds;
+  for_each_load_type([&]<class Load>() {
+    using D = typename Load::Description;
+    auto type = description::bind<D>(m, Load::kind);
+    type.def_static("example", &Load::example, "One for checks, on bodies 'first', 'second' and 'third'.");
+    kinds[Load::kind] = type;
+  });
+  kinds["limit"] = description::bind<LimitDescription>(m, "limit");
+  m.attr("LOAD_KINDS") = kinds;
 }
 
 void bind_retardation(py::module_& m) {
@@ -244,59 +151,17 @@ void bind_vessel(py::module_& m) {
       .def_property_readonly("d", [](const B& x) { return x.d; })
       .def_property_readonly("state_scale", [](const B& x) { return x.state_scale; });
   bind_retardation(m);
-  using V = VesselDescription;
-  Class<V>(m, "VesselHydrodynamics",
-           "Linear hydrodynamics of a body about its origin (the reference point): added mass, damping and "
-           "restoring "
-           "(6, 6), quadratic damping (6,), mooring stiffness and damping of surge, sway, yaw (3,), memory "
-           "blocks or retardation functions. "
-           "kinematics: 'yaw_following' (default) or 'paper', eqs (17)-(31).")
-      .def(py::init([](std::string name, std::string body, Mat6d added_mass, Mat6d linear_damping,
-                       Vec6d quadratic, Mat6d restoring, Vec3d mooring_stiffness, Vec3d mooring_damping,
-                       std::variant<std::vector<B>, RetardationFunctions> memory,
-                       const std::string& kinematics) {
-             if (kinematics != "yaw_following" && kinematics != "paper") {
-               throw std::invalid_argument("vessel '" + name + "': kinematics '" + kinematics +
-                                           "' is unknown; choose 'yaw_following' or 'paper'");
-             }
-             return V{std::move(name),
-                      std::move(body),
-                      added_mass,
-                      linear_damping,
-                      quadratic,
-                      restoring,
-                      mooring_stiffness,
-                      mooring_damping,
-                      std::move(memory),
-                      kinematics == "paper" ? VesselKinematics::paper : VesselKinematics::yaw_following};
-           }),
-           py::kw_only(), py::arg("name"), py::arg("body"), py::arg("added_mass") = Mat6d(Mat6d::Zero()),
-           py::arg("linear_damping") = Mat6d(Mat6d::Zero()),
-           py::arg("quadratic_damping") = Vec6d(Vec6d::Zero()), py::arg("restoring") = Mat6d(Mat6d::Zero()),
-           py::arg("mooring_stiffness") = Vec3d(0, 0, 0), py::arg("mooring_damping") = Vec3d(0, 0, 0),
-           py::arg("memory") = std::vector<B>{}, py::arg("kinematics") = "yaw_following")
-      .def_property_readonly("name", [](const V& v) { return v.name; })
-      .def_property_readonly("body", [](const V& v) { return v.body; })
-      .def_property_readonly("added_mass", [](const V& v) { return v.added_mass; })
-      .def_property_readonly("linear_damping", [](const V& v) { return v.linear_damping; })
-      .def_property_readonly("quadratic_damping", [](const V& v) { return v.quadratic_damping; })
-      .def_property_readonly("restoring", [](const V& v) { return v.restoring; })
-      .def_property_readonly("mooring_stiffness", [](const V& v) { return v.mooring_stiffness; })
-      .def_property_readonly("mooring_damping", [](const V& v) { return v.mooring_damping; })
-      .def_property_readonly("memory", [](const V& v) { return v.memory; })
-      .def_property_readonly("kinematics", [](const V& v) {
-        return v.kinematics == VesselKinematics::paper ? "paper" : "yaw_following";
-      });
+  description::bind<VesselDescription>(m, "vessel");
 }
 
 }  // namespace
 
 void bind_elements(py::module_& m) {
-  bind_body(m);
+  bind_fields(m);
+  description::bind<BodyDescription>(m, "body");
   bind_joint(m);
-  bind_drives(m);
+  bind_joint_kinds(m);
+  description::bind<DriverDescription>(m, "driver");
   bind_loads(m);
   bind_vessel(m);
-  bind_flow_force(m);
-  bind_limits(m);
 }

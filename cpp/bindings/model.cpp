@@ -8,6 +8,7 @@
 #include "seacrane/dynamics/recursive/body_tree.hpp"
 #include "seacrane/dynamics/recursive/recursive.hpp"
 #include "seacrane/dynamics/redundant.hpp"
+#include "seacrane/elements/loads/registry.hpp"
 #include "seacrane/run/recording.hpp"
 #include "vector_state.hpp"
 #include "without_gil.hpp"

@@ -1,30 +1,22 @@
 #pragma once
 
 #include <cmath>
-#include <cstdint>
 #include <memory>
-#include <random>
 #include <string>
 #include <vector>
 
 #include "seacrane/compile/compile.hpp"
 #include "seacrane/dynamics/redundant.hpp"
+#include "seacrane/elements/joint_kinds.hpp"
+#include "seacrane/elements/loads/registry.hpp"
+#include "seacrane/math/random.hpp"
 #include "seacrane/math/rotation.hpp"
 
 namespace seacrane::test {
 
-/// Numbers in [-1, 1) that are the same on every platform, and what is made of them.
-class Random {
+class Random : public seacrane::Random {
  public:
-  explicit Random(std::uint64_t seed) : engine_(seed) {}
-  double number() { return std::ldexp(static_cast<double>(engine_() >> 11), -52) - 1.0; }
-  double positive() { return 0.7 + 0.5 * number(); }
-  Vec3d vector() { return {number(), number(), number()}; }
-  Mat3d rotation() {
-    Vec4d q(number(), number(), number(), number());
-    while (q.norm() < 0.1) q = {number(), number(), number(), number()};
-    return rotation_from_quaternion<double>(q);
-  }
+  using seacrane::Random::Random;
   /// Of three masses on the axes, so that a body of this inertia exists.
   Mat3d inertia() {
     const double a = positive(), b = positive(), c = positive();
@@ -32,9 +24,6 @@ class Random {
     return r * Vec3d(b + c, a + c, a + b).asDiagonal() * r.transpose();
   }
   BodyKinematics<double> kinematics() { return {vector(), rotation(), vector(), vector()}; }
-
- private:
-  std::mt19937_64 engine_;
 };
 
 /// Rotation by the vector `angle`, inertial axes.
@@ -88,8 +77,22 @@ inline Frame frame_on(const SceneDescription& scene, const std::string& name, co
 inline JointDescription& join(SceneDescription& scene, const std::string& kind, const std::string& name,
                               const std::string& first, const std::string& second, const Vec3d& point,
                               const Mat3d& axes = Mat3d::Identity()) {
-  scene.joints.push_back({name, kind, first, second, frame_on(scene, first, point, axes),
-                          frame_on(scene, second, point, axes), 0.0});
+  scene.joints.push_back(
+      {name, kind, first, second, frame_on(scene, first, point, axes), frame_on(scene, second, point, axes)});
+  return scene.joints.back();
+}
+
+/// A closed joint of any kind between two bodies, the kind's example in the inertial frame.
+inline JointDescription& join_example(SceneDescription& scene, const std::string& kind,
+                                      const std::string& name, const std::string& first,
+                                      const std::string& second, Random& random) {
+  JointDescription j = find_joint_kind(kind)->example(random);
+  j.name = name;
+  j.first = first;
+  j.second = second;
+  j.first_frame = frame_on(scene, first, j.first_frame.point, j.first_frame.axes);
+  j.second_frame = frame_on(scene, second, j.second_frame.point, j.second_frame.axes);
+  scene.joints.push_back(j);
   return scene.joints.back();
 }
 
@@ -117,7 +120,7 @@ inline SceneDescription slider_crank(const std::string& base = kGround) {
   join(scene, "revolute", "shoulder", "slider", "arm", end, along_y);
   JointDescription& link = join(scene, "distance", "link", "arm", "load", tip);
   link.second_frame = frame_on(scene, "load", tip + Vec3d(0.3, 0.0, -0.4), Mat3d::Identity());
-  link.length = 0.5;
+  link.parameters["length"] = 0.5;
   scene.loads_of<Actuator>().push_back(
       {"drive", {"bearing", "angle"}, 20.0, 3.0, Curve::constant(1.0), Curve::quintic(0.0, 2.0, 0.0, 1.0)});
   scene.drivers.push_back({"swing", {"shoulder", "angle"}, Curve::harmonic(0.0, -0.2, 0.2, 3.0, 0.0)});
@@ -158,7 +161,7 @@ inline SceneDescription strut_scene(Random& random, bool universal_at_base, bool
       universal_at_base ? upper : lower, Mat3d::Identity());
   JointDescription& link = add("distance", "arm", "load", upper, Mat3d::Identity());
   link.second_frame.point += Vec3d(0.0, 0.48, 0.64);
-  link.length = 0.8;
+  link.parameters["length"] = 0.8;
   return scene;
 }
 

@@ -33,7 +33,7 @@ SceneDescription hanging(double speed) {
   SceneDescription scene;
   scene.bodies.push_back(body_at("ball", 3.0, Vec3d(0, 0, -2)));
   scene.bodies.back().velocity = Vec3d(speed, 0, 0);
-  scene.joints.push_back({"wire", "distance", kGround, "ball", {}, {}, 2.0});
+  scene.joints.push_back({"wire", "distance", kGround, "ball", {}, {}, {{"length", 2.0}}});
   LimitDescription wire;
   wire.name = wire.kind = wire.coordinate.joint = "wire";
   scene.limits.push_back(wire);
@@ -126,7 +126,7 @@ TEST_CASE("a set of limits that leaves no rows of redundant ones is stepped") {
   SceneDescription scene = hanging(0.0);
   scene.bodies.push_back(body_at("box", 3.0, Vec3d(0.5, 0, -2)));
   scene.joints.push_back({"weld", "weld", "box", "ball", {Vec3d(-0.5, 0, 0), Mat3d::Identity()}, {}});
-  scene.joints.push_back({"rod", "distance", "box", "ball", {}, {}, 0.5});
+  scene.joints.push_back({"rod", "distance", "box", "ball", {}, {}, {{"length", 0.5}}});
   scene.loads_of<PointForce>().push_back({"lift", "ball", Vec3d::Zero(), Vec3d(0, 0, 120)});
   const auto model = compile(scene);
   REQUIRE(model->redundant);

@@ -158,7 +158,7 @@ TEST_CASE("the nearest approach of constraints to dependence is kept and named")
     join(scene, "prismatic", "guide", kGround, "slider", end, axes_along(Vec3d::UnitX(), Vec3d::UnitY()));
     JointDescription& link = join(scene, "distance", "link", "crank", "slider", tip);
     link.second_frame = frame_on(scene, "slider", end, Mat3d::Identity());
-    link.length = 1.0;
+    link.parameters["length"] = 1.0;
     scene.drivers.push_back({"turn", {"pin", "angle"}, Curve::constant(0.0)});
     return compile(scene);
   };

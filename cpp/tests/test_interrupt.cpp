@@ -4,6 +4,7 @@
 #include <thread>
 
 #include "seacrane/compile/compile.hpp"
+#include "seacrane/elements/loads/registry.hpp"
 #include "seacrane/run/simulation.hpp"
 
 namespace seacrane::test {

@@ -4,6 +4,7 @@
 #include "multibody_scenes.hpp"
 #include "seacrane/dynamics/gear_gupta_leimkuhler.hpp"
 #include "seacrane/dynamics/recursive/recursive.hpp"
+#include "seacrane/elements/joints/registry.hpp"
 
 namespace seacrane::test {
 namespace {
@@ -146,92 +147,15 @@ BodyDescription random_body(const std::string& name, Random& random) {
   return b;
 }
 
-/// Two bodies on a joint of one kind, the first free in space.
+/// Two bodies on the example of a joint kind, the first free in space, and a third beside them.
 SceneDescription pair(const std::string& kind, Random& random) {
   SceneDescription scene;
   scene.name = kind;
-  for (const char* name : {"first", "second"}) scene.bodies.push_back(random_body(name, random));
-  JointDescription& joint = join(scene, kind, "joint", "first", "second", random.vector(), random.rotation());
-  if (kind == "universal") {
-    const Mat3d axes = joint.first_frame.axes;
-    const Mat3d r = rotation_from_quaternion<double>(scene.bodies[0].quaternion) * axes;
-    joint.second_frame = frame_on(scene, "second", Vec3d::Zero(), axes_along(r.col(0), r.col(2)));
-    joint.second_frame.point.setZero();
-    joint.first_frame = frame_on(scene, "first", scene.bodies[1].position, r);  // at the second body's origin
-  }
-  if (kind == "distance") {
-    joint.second_frame.point = Vec3d(0.4, 0.3, -0.5);
-    joint.length = joint.second_frame.point.norm();
-    joint.second_frame.point += frame_on(scene, "second", scene.bodies[1].position, Mat3d::Identity()).point;
-    joint.first_frame = frame_on(scene, "first", scene.bodies[1].position, Mat3d::Identity());
-  }
+  for (const char* name : {"first", "second", "third"}) scene.bodies.push_back(random_body(name, random));
+  scene.bodies[1].position = scene.bodies[0].position;
+  scene.bodies[1].quaternion = scene.bodies[0].quaternion;
+  scene.joints.push_back(find_joint_kind(kind)->example(random));
   return scene;
-}
-
-template <class Load>
-typename Load::Description example();
-
-/// Its power stays off zero, where differences of the absolute power straddle a kink.
-template <>
-ActuatorDescription example<Actuator>() {
-  return {"load", {"joint", "angle"}, 20.0, 3.0, Curve::constant(9.0), Curve::quintic(0.0, 2.0, 0.0, 1.0)};
-}
-template <>
-PointForceDescription example<PointForce>() {
-  return {"load", "first", Vec3d(0.1, 0.2, 0.3), Vec3d(1.0, -2.0, 3.0), true};
-}
-template <>
-SpringDescription example<SpringDamper>() {
-  SpringDescription d;
-  d.name = "load";
-  d.first = "first";
-  d.second = "second";
-  d.first_point = {2.0, 0.5, -1.0};
-  d.stiffness = 30.0;
-  d.damping = 0.5;
-  d.natural_length = 0.8;
-  return d;
-}
-template <>
-ForceTableDescription example<ForceTable>() {
-  return {"load",
-          "second",
-          Vec3d(0.1, 0.2, 0.3),
-          {0.0, 1.0},
-          {Vec6d::Zero(), (Vec6d() << 1.0, 2.0, 3.0, 4.0, 5.0, 6.0).finished()}};
-}
-template <>
-FunctionForceDescription example<FunctionForce>() {
-  const ForceFunction pull = [](double, const double* state, const double* parameters, double* wrench) {
-    for (int i = 0; i < 3; ++i) {
-      wrench[i] = -std::pow(state[i], 3) - parameters[0] * state[7 + i];
-      wrench[3 + i] = state[4 + i] - 0.3 * state[10 + i];
-    }
-  };
-  return {"load", "second", pull, {0.7}};
-}
-template <>
-FlowForceDescription example<FlowForce>() {
-  FlowForceDescription d;
-  d.name = "load";
-  d.body = "first";
-  d.point = {0.0, 0.1, 0.4};
-  d.density = 1.2;
-  d.speed = Curve::constant(5.0);
-  d.frontal_area = d.lateral_area = d.length = 1.3;
-  d.angles = {0.0, 1.5, 3.0, 4.5, 5.5};
-  d.coefficients = {{0.9, 0.0, 0.1}, {0.1, 0.8, 0.2}, {-0.8, 0.1, 0.0}, {0.0, -0.9, -0.2}, {0.6, -0.5, 0.1}};
-  return d;
-}
-
-template <>
-FrictionDescription example<Friction>() {
-  return {"load", {"joint", "angle"}, 4.0, 0.7};
-}
-/// Beyond its bound, whatever the state.
-template <>
-SoftStopDescription example<SoftStop>() {
-  return {"load", {"joint", "angle"}, -3.0, -2.9, 7.0, 0.2};
 }
 
 }  // namespace
@@ -252,7 +176,7 @@ TEST_CASE("exact Jacobian: every kind of load") {
   for_each_load_type([&]<class Load>() {
     CAPTURE(std::string(Load::kind));
     SceneDescription scene = pair("revolute", random);
-    scene.loads_of<Load>().push_back(example<Load>());
+    scene.loads_of<Load>().push_back(Load::example());
     check_redundant(scene, 6);
     check_recursive(scene, 6);
     check_residual(scene, 6);

@@ -3,6 +3,7 @@
 #include <Eigen/SVD>
 
 #include "multibody_scenes.hpp"
+#include "seacrane/elements/joint_kinds.hpp"
 #include "seacrane/elements/joints/registry.hpp"
 
 namespace seacrane::test {
@@ -12,15 +13,18 @@ namespace {
 // truncation below 1e3 h^4 / 30 = 3e-11, rounding about 1e-15 / h = 1e-12.
 constexpr double kDifference = 1e-9;
 
+/// The type's example, its first body at the state points.
+template <class Type>
 JointData random_joint(Random& random) {
+  const JointDescription d = Type::example(random);
   JointData j;
   j.first = 0;
   j.second = 1;
-  j.first_point = random.vector();
-  j.second_point = random.vector();
-  j.first_axes = random.rotation();
-  j.second_axes = random.rotation();
-  j.length = 0.8;
+  j.first_point = d.first_frame.point;
+  j.second_point = d.second_frame.point;
+  j.first_axes = d.first_frame.axes;
+  j.second_axes = d.second_frame.axes;
+  j.parameters = find_joint_kind(Type::kind)->values(d);
   return j;
 }
 
@@ -36,16 +40,9 @@ Vec6d twist(const BodyKinematics<double>& k) {
   return (Vec6d() << k.velocity, k.angular_velocity).finished();
 }
 
-/// Second body placed so that the joint's frames coincide; a distance joint's points are `length` apart.
-BodyKinematics<double> closed(const JointData& j, const BodyKinematics<double>& a, bool universal,
-                              const Vec3d& gap) {
-  BodyKinematics<double> b;
-  Mat3d target = a.rotation * j.first_axes;
-  if (universal) target = target * rotation_by(Vec3d(0.5 * M_PI, 0.0, 0.0));
-  b.rotation = target * j.second_axes.transpose();
-  b.position = a.position + a.rotation * j.first_point + gap - b.rotation * j.second_point;
-  b.velocity = b.angular_velocity = Vec3d::Zero();
-  return b;
+/// Second body at the pose of the first: so an example is closed.
+BodyKinematics<double> closed(const BodyKinematics<double>& a) {
+  return {a.position, a.rotation, Vec3d::Zero(), Vec3d::Zero()};
 }
 
 }  // namespace
@@ -55,10 +52,12 @@ TEST_CASE("D of every joint type is the derivative of phi, gamma that of -D v, o
   for_each_joint_type([&]<class Type>(std::size_t) {
     CAPTURE(std::string(Type::kind));
     for (int trial = 0; trial < 20; ++trial) {
-      const JointData j = random_joint(random);
+      const JointData j = random_joint<Type>(random);
       const auto a = random.kinematics();
       auto b = random.kinematics();
       b.position.x() += 4.0;  // the distance has no derivative where its points meet
+      // Within 1 rad of the closed pose: nor has an angle about an axis that stands across its own.
+      b.rotation = rotation_by(0.55 * random.vector()) * a.rotation;
       const auto at = [&](double t) { return evaluate<Type>(j, moved(a, t), moved(b, t)); };
       const auto rate = [&](double t) -> Vec6d { return at(t).d[0] * twist(a) + at(t).d[1] * twist(b); };
       const Vec6d phi_rate = slope([&](double t) -> Vec6d { return at(t).phi; });
@@ -73,12 +72,9 @@ TEST_CASE("a joint type has the rows it states, independent where the joint is c
   Random random(2);
   for_each_joint_type([&]<class Type>(std::size_t) {
     CAPTURE(std::string(Type::kind));
-    const JointData j = random_joint(random);
+    const JointData j = random_joint<Type>(random);
     const auto a = random.kinematics();
-    const bool universal = std::string(Type::kind) == "universal";
-    const bool distance = std::string(Type::kind) == "distance";
-    const Vec3d gap = distance ? Vec3d(0.48, 0.64, 0.0) : Vec3d::Zero();
-    const RowBlock<double> block = evaluate<Type>(j, a, closed(j, a, universal, gap));
+    const RowBlock<double> block = evaluate<Type>(j, a, closed(a));
     CHECK(block.phi.norm() < 1e-14);
     CHECK(block.d[0].bottomRows(kMaxRows - Type::rows).norm() == 0.0);
     CHECK(block.d[1].bottomRows(kMaxRows - Type::rows).norm() == 0.0);
@@ -99,9 +95,9 @@ TEST_CASE("each joint lets pass the relative motions its name promises and no ot
   for_each_joint_type([&]<class Type>(std::size_t) {
     for (const auto& [kind, motions] : free_motions) {
       if (kind != Type::kind) continue;
-      const JointData j = random_joint(random);
+      const JointData j = random_joint<Type>(random);
       const auto a = random.kinematics();
-      const auto b = closed(j, a, false, Vec3d::Zero());
+      const auto b = closed(a);
       const Mat3d axes = a.rotation * j.first_axes;
       for (int i = 0; i < 6; ++i) {
         CAPTURE(kind);
@@ -128,9 +124,9 @@ TEST_CASE("each joint lets pass the relative motions its name promises and no ot
 
 TEST_CASE("a universal joint turns about both of its axes but not about their common normal") {
   Random random(4);
-  const JointData j = random_joint(random);
+  const JointData j = random_joint<Universal>(random);
   const auto a = random.kinematics();
-  const auto b = closed(j, a, true, Vec3d::Zero());
+  const auto b = closed(a);
   const Mat3d axes = a.rotation * j.first_axes, cross_axes = b.rotation * j.second_axes;
   const auto residual = [&](const Vec3d& about) {
     BodyKinematics<double> c = b;
@@ -152,7 +148,7 @@ TEST_CASE("joint coordinates: rows and second derivatives are those of the value
         CoordinateKind::roll, CoordinateKind::pitch, CoordinateKind::yaw}) {
     CAPTURE(static_cast<int>(kind));
     for (int trial = 0; trial < 20; ++trial) {
-      CoordinateData c{random_joint(random), kind};
+      CoordinateData c{random_joint<Free>(random), kind};
       const auto a = random.kinematics();
       auto b = random.kinematics();
       // Relative rotation of 1 rad or less: away from pitch = 90 deg, where these angles end.
@@ -170,7 +166,7 @@ TEST_CASE("joint coordinates: rows and second derivatives are those of the value
 TEST_CASE("the angle of a hinge: value, rate and second derivative along a motion of the hinge") {
   Random random(6);
   for (int trial = 0; trial < 20; ++trial) {
-    CoordinateData c{random_joint(random), CoordinateKind::angle};
+    CoordinateData c{random_joint<Free>(random), CoordinateKind::angle};
     const auto a = random.kinematics();
     const double q = 3.0 * random.number(), q1 = random.number(), q2 = random.number();
     const auto second = [&](double t) {
@@ -193,7 +189,7 @@ TEST_CASE("the angle of a hinge: value, rate and second derivative along a motio
 TEST_CASE("a driver's row is the time derivative of coordinate minus reference") {
   Random random(7);
   for (const CoordinateKind kind : {CoordinateKind::displacement, CoordinateKind::y, CoordinateKind::yaw}) {
-    DriverData driver{{random_joint(random), kind}, Curve::harmonic(-1.0, 0.1, 0.4, 1.3, 0.2), 0};
+    DriverData driver{{random_joint<Free>(random), kind}, Curve::harmonic(-1.0, 0.1, 0.4, 1.3, 0.2), 0};
     const auto a = random.kinematics();
     auto b = random.kinematics();
     b.rotation = a.rotation * driver.coordinate.joint.first_axes * rotation_by(0.3 * random.vector()) *

@@ -26,8 +26,9 @@ struct OneBranch {
     c.kind = kind;
     c.parent = 0;
     c.body = 1;
-    c.joint = {0, 1, random.vector(), random.vector(), random.rotation(), random.rotation(), 0.8};
     with_joint_type(kind, [&]<class Type>() {
+      const ParameterValues own = find_joint_kind(Type::kind)->values(Type::example(random));
+      c.joint = {0, 1, random.vector(), random.vector(), random.rotation(), random.rotation(), own};
       c.positions = Type::Branch::positions;
       c.speeds = Type::Branch::speeds;
     });
@@ -157,19 +158,8 @@ TEST_CASE("accelerations of a tree agree with the redundant formulation, joint b
         scene.bodies = {body_at("a", 3.0, random.vector()), body_at("b", 0.5, random.vector()),
                         body_at("c", 1.0, random.vector())};
         for (auto& b : scene.bodies) b.inertia = b.mass * random.inertia();
-        const bool distance = std::string(Type::kind) == "distance";
-        for (int i = 0; i < 2; ++i) {
-          const std::string parent = i == 0 ? "a" : "c", child = i == 0 ? "b" : "b";
-          JointDescription& j = join(scene, Type::kind, "joint " + parent, i == 0 ? parent : child,
-                                     i == 0 ? child : parent, random.vector(), random.rotation());
-          if (distance) {
-            j.second_frame.point += Vec3d(0.48, 0.64, 0.0);
-            j.length = 0.8;
-          }
-          if (std::string(Type::kind) == "universal") {
-            j.second_frame.axes = j.second_frame.axes * rotation_by(Vec3d(0.5 * M_PI, 0.0, 0.0));
-          }
-        }
+        join_example(scene, Type::kind, "joint a", "a", "b", random);
+        join_example(scene, Type::kind, "joint c", "b", "c", random);
         const auto model = compile(scene);
         RedundantSystem redundant(model);
         std::vector<double> y = moving_state(redundant, 100 + static_cast<std::uint64_t>(trial));

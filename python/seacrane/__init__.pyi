@@ -22,6 +22,7 @@ from seacrane._core import StateSpaceBlock as StateSpaceBlock
 from seacrane._core import TwistHistory as TwistHistory
 from seacrane._core import VesselHydrodynamics as VesselHydrodynamics
 from seacrane._core import integrator_names as integrator_names
+from seacrane._core import joint_kinds as joint_kinds
 from seacrane.accuracy.step_error import StepError as StepError
 from seacrane.accuracy.step_error import step_error as step_error
 from seacrane.analysis.frequency_domain import ResponseStatistics as ResponseStatistics

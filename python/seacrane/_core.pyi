@@ -6,7 +6,7 @@ import collections.abc
 import numpy
 import numpy.typing
 import typing
-__all__: list[str] = ['Actuator', 'Body', 'Curve', 'DriftLoad', 'DriftTable', 'Driver', 'Evaluator', 'ExactWaveLoad', 'FlowForce', 'ForceTable', 'Frame', 'Friction', 'FunctionForce', 'Integrator', 'Joint', 'Limit', 'Model', 'PointForce', 'PositionedWaveLoad', 'RecordHistory', 'RepeatPeriod', 'RetardationFunctions', 'Simulation', 'SoftStop', 'Spectrum', 'Spring', 'State', 'StateSpaceBlock', 'StepHistory', 'TwistHistory', 'VesselHydrodynamics', 'WaveComponents', 'WaveKinematics', 'WaveLoads', 'WaveTable', 'compile', 'dnv_gamma', 'initial_state', 'integrator', 'integrator_names', 'integrators', 'jonswap', 'ochi_hubble', 'philox_uniform', 'pierson_moskowitz', 'realise_waves', 'section_radiation', 'stability_polynomial', 'strip_theory', 'tabulated_density', 'torsethaugen']
+__all__: list[str] = ['Actuator', 'Body', 'Curve', 'DriftLoad', 'DriftTable', 'Driver', 'Evaluator', 'ExactWaveLoad', 'Field', 'FlowForce', 'ForceTable', 'Frame', 'Friction', 'FunctionForce', 'Integrator', 'Joint', 'JointKind', 'LOAD_KINDS', 'Limit', 'Model', 'PointForce', 'PositionedWaveLoad', 'RecordHistory', 'RepeatPeriod', 'RetardationFunctions', 'Simulation', 'SoftStop', 'Spectrum', 'Spring', 'State', 'StateSpaceBlock', 'StepHistory', 'TwistHistory', 'VesselHydrodynamics', 'WaveComponents', 'WaveKinematics', 'WaveLoads', 'WaveTable', 'compile', 'dnv_gamma', 'initial_state', 'integrator', 'integrator_names', 'integrators', 'joint_kinds', 'jonswap', 'ochi_hubble', 'philox_uniform', 'pierson_moskowitz', 'realise_waves', 'section_radiation', 'stability_polynomial', 'strip_theory', 'tabulated_density', 'torsethaugen']
 class Curve:
     """
     A reference as a function of time: pieces of quintic polynomials plus one cosine each.
@@ -504,10 +504,49 @@ class WaveLoads:
     @property
     def name(self) -> str:
         ...
+class Field:
+    """
+    An entry of an element: what FIELDS of its class lists.
+    """
+    def __repr__(self) -> str:
+        ...
+    @property
+    def default(self) -> typing.Any:
+        """
+        where it is not required
+        """
+    @property
+    def name(self) -> str:
+        ...
+    @property
+    def required(self) -> bool:
+        ...
+    @property
+    def role(self) -> str:
+        """
+        name, body, joint, coordinate, distance or value
+        """
+    @property
+    def shape(self) -> tuple:
+        """
+        of an array; -1: any length
+        """
+    @property
+    def text(self) -> str:
+        ...
+    @property
+    def type(self) -> str:
+        """
+        text, number, flag, array, curve, frame, function or object
+        """
+    @property
+    def unit(self) -> str:
+        ...
 class Body:
     """
-    A rigid body: inertia (3, 3) in kg m2 about the centre of mass in body axes, pose of the body origin in the inertial frame, quaternion (w, x, y, z) body to inertial. Immutable.
+    A rigid body: inertia about the centre of mass in body axes, pose of the body origin in the inertial frame, quaternion (w, x, y, z) body to inertial. Immutable.
     """
+    FIELDS: typing.ClassVar[tuple]
     def __copy__(self) -> Body:
         ...
     def __deepcopy__(self, memo: dict) -> Body:
@@ -518,7 +557,7 @@ class Body:
         ...
     def __hash__(self) -> int:
         ...
-    def __init__(self, *, name: str, mass: typing.SupportsFloat | typing.SupportsIndex, inertia: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 3]"], center_of_mass: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ..., position: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ..., quaternion: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[4, 1]"] = ..., velocity: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ..., angular_velocity: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ..., gravity: bool = True) -> None:
+    def __init__(self, *, name: str, mass: typing.SupportsFloat, inertia: numpy.typing.ArrayLike, center_of_mass: numpy.typing.ArrayLike = ..., position: numpy.typing.ArrayLike = ..., quaternion: numpy.typing.ArrayLike = ..., velocity: numpy.typing.ArrayLike = ..., angular_velocity: numpy.typing.ArrayLike = ..., gravity: bool = ...) -> None:
         ...
     def __repr__(self) -> str:
         ...
@@ -527,12 +566,12 @@ class Body:
     @property
     def angular_velocity(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
         """
-        rad/s (copy)
+        rad/s, inertial frame
         """
     @property
     def center_of_mass(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
         """
-        m, body axes (copy)
+        m, body axes
         """
     @property
     def gravity(self) -> bool:
@@ -542,7 +581,7 @@ class Body:
     @property
     def inertia(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 3]"]:
         """
-        kg m2, about the centre of mass (copy)
+        kg m2, about the centre of mass, body axes
         """
     @property
     def mass(self) -> float:
@@ -555,22 +594,23 @@ class Body:
     @property
     def position(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
         """
-        m, inertial frame (copy)
+        m, of the body origin, inertial frame
         """
     @property
     def quaternion(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[4, 1]"]:
         """
-        w, x, y, z (copy)
+        w, x, y, z: body to inertial
         """
     @property
     def velocity(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
         """
-        m/s, inertial frame (copy)
+        m/s, of the body origin, inertial frame
         """
 class Frame:
     """
-    A joint frame: a point (m) and axes (3, 3, columns; z is the joint axis) in body coordinates.
+    A joint frame: a point (m) and axes (3, 3, columns; z is the joint axis) in body coordinates. Immutable.
     """
+    FIELDS: typing.ClassVar[tuple]
     def __copy__(self) -> Frame:
         ...
     def __deepcopy__(self, memo: dict) -> Frame:
@@ -581,7 +621,7 @@ class Frame:
         ...
     def __hash__(self) -> int:
         ...
-    def __init__(self, *, point: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ..., axes: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 3]"] = ...) -> None:
+    def __init__(self, *, point: numpy.typing.ArrayLike = ..., axes: numpy.typing.ArrayLike = ...) -> None:
         ...
     def __repr__(self) -> str:
         ...
@@ -589,25 +629,34 @@ class Frame:
         ...
     @property
     def axes(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 3]"]:
-        ...
+        """
+        columns x, y, z in body coordinates; z is the joint axis
+        """
     @property
     def point(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
-        ...
+        """
+        m, body coordinates
+        """
 class Joint:
     """
-    A joint between two bodies ('ground' is the inertial frame); may close a loop. Kinds: weld, revolute, prismatic, cylindrical, universal, spherical, planar, distance, free.
+    A joint between two bodies ('ground' is the inertial frame); may close a loop. A kind's own parameters, such as the length of a distance joint, are arguments too; see joint_kinds(). Immutable.
     """
+    FIELDS: typing.ClassVar[tuple]
     def __copy__(self) -> Joint:
         ...
     def __deepcopy__(self, memo: dict) -> Joint:
         ...
     def __eq__(self, arg0: typing.Any) -> typing.Any:
         ...
+    def __getattr__(self, name: str) -> float:
+        """
+        A parameter by its name.
+        """
     def __getstate__(self) -> dict:
         ...
     def __hash__(self) -> int:
         ...
-    def __init__(self, *, name: str, kind: str, first: str, second: str, first_frame: Frame, second_frame: Frame, length: typing.SupportsFloat | typing.SupportsIndex = 0.0) -> None:
+    def __init__(self, *, name: str, kind: str, first: str, second: str, first_frame: Frame, second_frame: Frame, **parameters: typing.SupportsFloat) -> None:
         ...
     def __repr__(self) -> str:
         ...
@@ -615,31 +664,95 @@ class Joint:
         ...
     @property
     def first(self) -> str:
-        ...
+        """
+        body or ground
+        """
     @property
     def first_frame(self) -> Frame:
-        ...
+        """
+        on the first body
+        """
     @property
     def kind(self) -> str:
-        ...
-    @property
-    def length(self) -> float:
         """
-        m, distance joints
+        one of joint_kinds()
         """
     @property
     def name(self) -> str:
         ...
     @property
+    def parameters(self) -> dict[str, float]:
+        """
+        The kind's own numbers by name, such as the length of a distance joint (copy).
+        """
+    @property
     def second(self) -> str:
-        ...
+        """
+        body or ground
+        """
     @property
     def second_frame(self) -> Frame:
+        """
+        on the second body
+        """
+class JointKind:
+    """
+    What a joint type says of itself; see joint_kinds().
+    """
+    def __repr__(self) -> str:
         ...
+    def example(self, seed: typing.SupportsInt | typing.SupportsIndex) -> Joint:
+        """
+        A closed joint of bodies 'first' and 'second' at one pose, with random frames.
+        """
+    @property
+    def branch(self) -> bool:
+        """
+        whether formulation 'recursive' may step it
+        """
+    @property
+    def coordinates(self) -> typing.Any:
+        """
+        those it offers
+        """
+    @property
+    def name(self) -> str:
+        ...
+    @property
+    def own_axis(self) -> bool:
+        """
+        whether the axis on the second body is another one
+        """
+    @property
+    def own_point(self) -> bool:
+        """
+        whether the point on the second body is another one
+        """
+    @property
+    def parameters(self) -> tuple:
+        """
+        numbers of its own, (Field, ...)
+        """
+    @property
+    def rows(self) -> int:
+        """
+        constraints
+        """
+    @property
+    def slides(self) -> bool:
+        """
+        whether its reaction is taken on the first body
+        """
+    @property
+    def usual(self) -> str:
+        """
+        the coordinate meant where none is named; may be empty
+        """
 class Driver:
     """
-    Prescribes a joint coordinate (m or rad) as a function of time.
+    Prescribes a joint coordinate as a function of time. Immutable.
     """
+    FIELDS: typing.ClassVar[tuple]
     def __copy__(self) -> Driver:
         ...
     def __deepcopy__(self, memo: dict) -> Driver:
@@ -650,7 +763,7 @@ class Driver:
         ...
     def __hash__(self) -> int:
         ...
-    def __init__(self, *, name: str, joint: str, coordinate: str, curve: Curve) -> None:
+    def __init__(self, *, name: str, joint: str, coordinate: str, curve: Curve | typing.SupportsFloat) -> None:
         ...
     def __repr__(self) -> str:
         ...
@@ -658,20 +771,32 @@ class Driver:
         ...
     @property
     def coordinate(self) -> str:
-        ...
+        """
+        one that the joint offers
+        """
     @property
     def curve(self) -> Curve:
-        ...
+        """
+        m or rad
+        """
     @property
     def joint(self) -> str:
-        ...
+        """
+        joint
+        """
     @property
     def name(self) -> str:
         ...
 class Actuator:
     """
-    State feedback on a joint coordinate q: feed_forward + stiffness (reference - q) + damping (reference rate - q rate), N (N/m, N s/m) or N m (N m/rad, N m s/rad).
+    State feedback on a joint coordinate q: feed_forward + stiffness (reference - q) + damping (reference rate - q rate), N (N/m, N s/m) or N m (N m/rad, N m s/rad). Immutable.
     """
+    FIELDS: typing.ClassVar[tuple]
+    @staticmethod
+    def example() -> Actuator:
+        """
+        One for checks, on bodies 'first', 'second' and 'third'.
+        """
     def __copy__(self) -> Actuator:
         ...
     def __deepcopy__(self, memo: dict) -> Actuator:
@@ -682,7 +807,7 @@ class Actuator:
         ...
     def __hash__(self) -> int:
         ...
-    def __init__(self, *, name: str, joint: str, coordinate: str, stiffness: typing.SupportsFloat | typing.SupportsIndex = 0.0, damping: typing.SupportsFloat | typing.SupportsIndex = 0.0, feed_forward: Curve = ..., reference: Curve = ...) -> None:
+    def __init__(self, *, name: str, joint: str, coordinate: str, stiffness: typing.SupportsFloat = ..., damping: typing.SupportsFloat = ..., feed_forward: Curve | typing.SupportsFloat = ..., reference: Curve | typing.SupportsFloat = ...) -> None:
         ...
     def __repr__(self) -> str:
         ...
@@ -690,29 +815,47 @@ class Actuator:
         ...
     @property
     def coordinate(self) -> str:
-        ...
+        """
+        one that the joint offers
+        """
     @property
     def damping(self) -> float:
-        ...
+        """
+        N s/m or N m s/rad
+        """
     @property
     def feed_forward(self) -> Curve:
-        ...
+        """
+        N or N m
+        """
     @property
     def joint(self) -> str:
-        ...
+        """
+        joint
+        """
     @property
     def name(self) -> str:
         ...
     @property
     def reference(self) -> Curve:
-        ...
+        """
+        m or rad
+        """
     @property
     def stiffness(self) -> float:
-        ...
+        """
+        N/m or N m/rad
+        """
 class PointForce:
     """
-    A constant force (N) at a body-fixed point (m, body coordinates), in inertial or body axes.
+    A constant force at a body-fixed point, in inertial or body axes. Immutable.
     """
+    FIELDS: typing.ClassVar[tuple]
+    @staticmethod
+    def example() -> PointForce:
+        """
+        One for checks, on bodies 'first', 'second' and 'third'.
+        """
     def __copy__(self) -> PointForce:
         ...
     def __deepcopy__(self, memo: dict) -> PointForce:
@@ -723,7 +866,7 @@ class PointForce:
         ...
     def __hash__(self) -> int:
         ...
-    def __init__(self, *, name: str, body: str, point: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], force: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], body_axes: bool = False) -> None:
+    def __init__(self, *, name: str, body: str, point: numpy.typing.ArrayLike = ..., force: numpy.typing.ArrayLike, body_axes: bool = ...) -> None:
         ...
     def __repr__(self) -> str:
         ...
@@ -731,23 +874,37 @@ class PointForce:
         ...
     @property
     def body(self) -> str:
-        ...
+        """
+        body
+        """
     @property
     def body_axes(self) -> bool:
-        ...
+        """
+        whether the force turns with the body
+        """
     @property
     def force(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
-        ...
+        """
+        N
+        """
     @property
     def name(self) -> str:
         ...
     @property
     def point(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
-        ...
+        """
+        m, body coordinates
+        """
 class Spring:
     """
-    Tension between two body-fixed points: stiffness (N/m) times elongation, or a table of tension (N) over length (m), plus damping (N s/m) times the rate of length.
+    Tension between two body-fixed points: stiffness times elongation, or a table of tension over length, plus damping times the rate of length. Immutable.
     """
+    FIELDS: typing.ClassVar[tuple]
+    @staticmethod
+    def example() -> Spring:
+        """
+        One for checks, on bodies 'first', 'second' and 'third'.
+        """
     def __copy__(self) -> Spring:
         ...
     def __deepcopy__(self, memo: dict) -> Spring:
@@ -758,7 +915,7 @@ class Spring:
         ...
     def __hash__(self) -> int:
         ...
-    def __init__(self, *, name: str, first: str, second: str, first_point: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], second_point: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], stiffness: typing.SupportsFloat | typing.SupportsIndex = 0.0, damping: typing.SupportsFloat | typing.SupportsIndex = 0.0, natural_length: typing.SupportsFloat | typing.SupportsIndex = 0.0, lengths: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex] = [], forces: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex] = []) -> None:
+    def __init__(self, *, name: str, first: str, second: str, first_point: numpy.typing.ArrayLike = ..., second_point: numpy.typing.ArrayLike = ..., stiffness: typing.SupportsFloat = ..., damping: typing.SupportsFloat = ..., natural_length: typing.SupportsFloat = ..., lengths: numpy.typing.ArrayLike = ..., forces: numpy.typing.ArrayLike = ...) -> None:
         ...
     def __repr__(self) -> str:
         ...
@@ -766,38 +923,62 @@ class Spring:
         ...
     @property
     def damping(self) -> float:
-        ...
+        """
+        N s/m
+        """
     @property
     def first(self) -> str:
-        ...
+        """
+        body
+        """
     @property
     def first_point(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
-        ...
+        """
+        m, coordinates of the first body
+        """
     @property
     def forces(self) -> list[float]:
-        ...
+        """
+        N, tension at the lengths
+        """
     @property
     def lengths(self) -> list[float]:
-        ...
+        """
+        m, of a table of tension, in place of stiffness
+        """
     @property
     def name(self) -> str:
         ...
     @property
     def natural_length(self) -> float:
-        ...
+        """
+        m
+        """
     @property
     def second(self) -> str:
-        ...
+        """
+        body
+        """
     @property
     def second_point(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
-        ...
+        """
+        m, coordinates of the second body
+        """
     @property
     def stiffness(self) -> float:
-        ...
+        """
+        N/m
+        """
 class ForceTable:
     """
-    Force and moment (n, 6), N and N m, inertial axes, about a body-fixed point, over times (n,) in s; linear in between, held outside.
+    Force and moment (n, 6), N and N m, inertial axes, about a body-fixed point, over times (n,) in s; linear in between, held outside. Immutable.
     """
+    FIELDS: typing.ClassVar[tuple]
+    @staticmethod
+    def example() -> ForceTable:
+        """
+        One for checks, on bodies 'first', 'second' and 'third'.
+        """
     def __copy__(self) -> ForceTable:
         ...
     def __deepcopy__(self, memo: dict) -> ForceTable:
@@ -808,7 +989,7 @@ class ForceTable:
         ...
     def __hash__(self) -> int:
         ...
-    def __init__(self, *, name: str, body: str, point: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], times: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], wrenches: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, 6]"]) -> None:
+    def __init__(self, *, name: str, body: str, point: numpy.typing.ArrayLike = ..., times: numpy.typing.ArrayLike, wrenches: numpy.typing.ArrayLike) -> None:
         ...
     def __repr__(self) -> str:
         ...
@@ -816,23 +997,37 @@ class ForceTable:
         ...
     @property
     def body(self) -> str:
-        ...
+        """
+        body
+        """
     @property
     def name(self) -> str:
         ...
     @property
     def point(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
-        ...
+        """
+        m, body coordinates
+        """
     @property
     def times(self) -> list[float]:
-        ...
+        """
+        s
+        """
     @property
-    def wrenches(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]:
-        ...
+    def wrenches(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 6]"]:
+        """
+        N, N m, force and moment at the times
+        """
 class FunctionForce:
     """
-    A C function called in every evaluation, by its address (numba.cfunc(...).address): void f(double t, const double* state13, const double* parameters, double* wrench6); state: position, quaternion, velocity, angular velocity of the body origin; inertial axes.
+    A C function called in every evaluation, by its address (numba.cfunc(...).address): void f(double t, const double* state13, const double* parameters, double* wrench6); state: position, quaternion, velocity, angular velocity of the body origin; inertial axes. Immutable.
     """
+    FIELDS: typing.ClassVar[tuple]
+    @staticmethod
+    def example() -> FunctionForce:
+        """
+        One for checks, on bodies 'first', 'second' and 'third'.
+        """
     def __copy__(self) -> FunctionForce:
         ...
     def __deepcopy__(self, memo: dict) -> FunctionForce:
@@ -841,7 +1036,7 @@ class FunctionForce:
         ...
     def __hash__(self) -> int:
         ...
-    def __init__(self, *, name: str, body: str, address: typing.SupportsInt | typing.SupportsIndex, parameters: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex] = []) -> None:
+    def __init__(self, *, name: str, body: str, address: int, parameters: numpy.typing.ArrayLike = ...) -> None:
         ...
     def __reduce__(self) -> typing.Any:
         ...
@@ -849,10 +1044,267 @@ class FunctionForce:
         ...
     @property
     def body(self) -> str:
-        ...
+        """
+        body
+        """
     @property
     def name(self) -> str:
         ...
+    @property
+    def parameters(self) -> list[float]:
+        """
+        handed to the function
+        """
+class FlowForce:
+    """
+    Wind or current on a body by coefficients; see seacrane.add_wind and seacrane.add_current.
+    
+    F_x, F_y = density / 2 V^2 (C_x frontal_area, C_y lateral_area), N = density / 2 V^2 C_n lateral_area
+    length, V the horizontal flow relative to `point`, in axes that follow the body's yaw; C over `angles`,
+    where the relative flow goes, from the bow towards port, by periodic cubic splines. Immutable.
+    """
+    FIELDS: typing.ClassVar[tuple]
+    @staticmethod
+    def example() -> FlowForce:
+        """
+        One for checks, on bodies 'first', 'second' and 'third'.
+        """
+    def __copy__(self) -> FlowForce:
+        ...
+    def __deepcopy__(self, memo: dict) -> FlowForce:
+        ...
+    def __eq__(self, arg0: typing.Any) -> typing.Any:
+        ...
+    def __getstate__(self) -> dict:
+        ...
+    def __hash__(self) -> int:
+        ...
+    def __init__(self, *, name: str, body: str, point: numpy.typing.ArrayLike = ..., density: typing.SupportsFloat, speed: Curve | typing.SupportsFloat, direction: typing.SupportsFloat, frontal_area: typing.SupportsFloat, lateral_area: typing.SupportsFloat, length: typing.SupportsFloat, angles: numpy.typing.ArrayLike, coefficients: numpy.typing.ArrayLike) -> None:
+        ...
+    def __repr__(self) -> str:
+        ...
+    def __setstate__(self, arg0: dict) -> None:
+        ...
+    @property
+    def angles(self) -> list[float]:
+        """
+        rad
+        """
+    @property
+    def body(self) -> str:
+        """
+        body
+        """
+    @property
+    def coefficients(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 3]"]:
+        """
+        C_x, C_y, C_n at the angles
+        """
+    @property
+    def density(self) -> float:
+        """
+        kg/m3
+        """
+    @property
+    def direction(self) -> float:
+        """
+        rad, where the flow goes, from +x towards +y
+        """
+    @property
+    def frontal_area(self) -> float:
+        """
+        m2
+        """
+    @property
+    def lateral_area(self) -> float:
+        """
+        m2
+        """
+    @property
+    def length(self) -> float:
+        """
+        m
+        """
+    @property
+    def name(self) -> str:
+        ...
+    @property
+    def point(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
+        """
+        m, where the load acts, body coordinates
+        """
+    @property
+    def speed(self) -> Curve:
+        """
+        m/s
+        """
+class Friction:
+    """
+    Dry friction on a joint coordinate: -load tanh(rate / speed); see seacrane.add_friction. Immutable.
+    """
+    FIELDS: typing.ClassVar[tuple]
+    @staticmethod
+    def example() -> Friction:
+        """
+        One for checks, on bodies 'first', 'second' and 'third'.
+        """
+    def __copy__(self) -> Friction:
+        ...
+    def __deepcopy__(self, memo: dict) -> Friction:
+        ...
+    def __eq__(self, arg0: typing.Any) -> typing.Any:
+        ...
+    def __getstate__(self) -> dict:
+        ...
+    def __hash__(self) -> int:
+        ...
+    def __init__(self, *, name: str, joint: str, coordinate: str, load: typing.SupportsFloat, speed: typing.SupportsFloat) -> None:
+        ...
+    def __repr__(self) -> str:
+        ...
+    def __setstate__(self, arg0: dict) -> None:
+        ...
+    @property
+    def coordinate(self) -> str:
+        """
+        one that the joint offers
+        """
+    @property
+    def joint(self) -> str:
+        """
+        joint
+        """
+    @property
+    def load(self) -> float:
+        """
+        N or N m
+        """
+    @property
+    def name(self) -> str:
+        ...
+    @property
+    def speed(self) -> float:
+        """
+        m/s or rad/s
+        """
+class SoftStop:
+    """
+    Compliant bounds of a joint coordinate: stiffness p (1 + damping p') back where it is beyond one by p, never a pull; see seacrane.add_soft_stop. Immutable.
+    """
+    FIELDS: typing.ClassVar[tuple]
+    @staticmethod
+    def example() -> SoftStop:
+        """
+        One for checks, on bodies 'first', 'second' and 'third'.
+        """
+    def __copy__(self) -> SoftStop:
+        ...
+    def __deepcopy__(self, memo: dict) -> SoftStop:
+        ...
+    def __eq__(self, arg0: typing.Any) -> typing.Any:
+        ...
+    def __getstate__(self) -> dict:
+        ...
+    def __hash__(self) -> int:
+        ...
+    def __init__(self, *, name: str, joint: str, coordinate: str, minimum: typing.SupportsFloat = ..., maximum: typing.SupportsFloat = ..., stiffness: typing.SupportsFloat, damping: typing.SupportsFloat = ...) -> None:
+        ...
+    def __repr__(self) -> str:
+        ...
+    def __setstate__(self, arg0: dict) -> None:
+        ...
+    @property
+    def coordinate(self) -> str:
+        """
+        one that the joint offers
+        """
+    @property
+    def damping(self) -> float:
+        """
+        s/m or s/rad
+        """
+    @property
+    def joint(self) -> str:
+        """
+        joint
+        """
+    @property
+    def maximum(self) -> float:
+        """
+        m or rad, at 1e7 there is none
+        """
+    @property
+    def minimum(self) -> float:
+        """
+        m or rad, at -1e7 there is none
+        """
+    @property
+    def name(self) -> str:
+        ...
+    @property
+    def stiffness(self) -> float:
+        """
+        N/m or N m/rad
+        """
+class Limit:
+    """
+    What a joint does one way only; see seacrane.add_wire, add_end_stop and add_seat. Immutable.
+    """
+    FIELDS: typing.ClassVar[tuple]
+    def __copy__(self) -> Limit:
+        ...
+    def __deepcopy__(self, memo: dict) -> Limit:
+        ...
+    def __eq__(self, arg0: typing.Any) -> typing.Any:
+        ...
+    def __getstate__(self) -> dict:
+        ...
+    def __hash__(self) -> int:
+        ...
+    def __init__(self, *, name: str, kind: str, joint: str, coordinate: str = ..., minimum: typing.SupportsFloat = ..., maximum: typing.SupportsFloat = ..., restitution: typing.SupportsFloat = ..., sticking_speed: typing.SupportsFloat = ...) -> None:
+        ...
+    def __repr__(self) -> str:
+        ...
+    def __setstate__(self, arg0: dict) -> None:
+        ...
+    @property
+    def coordinate(self) -> str:
+        """
+        one that the joint offers
+        """
+    @property
+    def joint(self) -> str:
+        """
+        joint
+        """
+    @property
+    def kind(self) -> str:
+        """
+        wire, stop or seat
+        """
+    @property
+    def maximum(self) -> float:
+        """
+        m or rad, at 1e7 there is none
+        """
+    @property
+    def minimum(self) -> float:
+        """
+        m or rad, at -1e7 there is none
+        """
+    @property
+    def name(self) -> str:
+        ...
+    @property
+    def restitution(self) -> float:
+        """
+        0 to 1
+        """
+    @property
+    def sticking_speed(self) -> float:
+        """
+        m/s or rad/s, slower impacts do not rebound
+        """
 class StateSpaceBlock:
     """
     Fluid memory x' = A x + B u, mu = C x + D u between motions 0 (surge) ... 5 (yaw), eqs (29)-(30).
@@ -926,8 +1378,9 @@ class RetardationFunctions:
         """
 class VesselHydrodynamics:
     """
-    Linear hydrodynamics of a body about its origin (the reference point): added mass, damping and restoring (6, 6), quadratic damping (6,), mooring stiffness and damping of surge, sway, yaw (3,), memory blocks or retardation functions. kinematics: 'yaw_following' (default) or 'paper', eqs (17)-(31).
+    Linear hydrodynamics of a body about its origin (the reference point). Immutable.
     """
+    FIELDS: typing.ClassVar[tuple]
     def __copy__(self) -> VesselHydrodynamics:
         ...
     def __deepcopy__(self, memo: dict) -> VesselHydrodynamics:
@@ -938,7 +1391,7 @@ class VesselHydrodynamics:
         ...
     def __hash__(self) -> int:
         ...
-    def __init__(self, *, name: str, body: str, added_mass: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[6, 6]"] = ..., linear_damping: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[6, 6]"] = ..., quadratic_damping: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[6, 1]"] = ..., restoring: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[6, 6]"] = ..., mooring_stiffness: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ..., mooring_damping: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"] = ..., memory: collections.abc.Sequence[StateSpaceBlock] | RetardationFunctions = [], kinematics: str = 'yaw_following') -> None:
+    def __init__(self, *, name: str, body: str, added_mass: numpy.typing.ArrayLike = ..., linear_damping: numpy.typing.ArrayLike = ..., quadratic_damping: numpy.typing.ArrayLike = ..., restoring: numpy.typing.ArrayLike = ..., mooring_stiffness: numpy.typing.ArrayLike = ..., mooring_damping: numpy.typing.ArrayLike = ..., memory: typing.Any = ..., kinematics: str = ...) -> None:
         ...
     def __repr__(self) -> str:
         ...
@@ -946,229 +1399,52 @@ class VesselHydrodynamics:
         ...
     @property
     def added_mass(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[6, 6]"]:
-        ...
+        """
+        kg, kg m, kg m2
+        """
     @property
     def body(self) -> str:
-        ...
+        """
+        body
+        """
     @property
     def kinematics(self) -> str:
-        ...
+        """
+        yaw_following, or paper: eqs (17)-(31)
+        """
     @property
     def linear_damping(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[6, 6]"]:
-        ...
+        """
+        N s/m, N s, N m s
+        """
     @property
     def memory(self) -> list[StateSpaceBlock] | RetardationFunctions:
-        ...
+        """
+        blocks of states, or retardation functions
+        """
     @property
     def mooring_damping(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
-        ...
+        """
+        N s/m, N m s/rad, of surge, sway, yaw
+        """
     @property
     def mooring_stiffness(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
-        ...
+        """
+        N/m, N m/rad, of surge, sway, yaw
+        """
     @property
     def name(self) -> str:
         ...
     @property
     def quadratic_damping(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[6, 1]"]:
-        ...
+        """
+        N s2/m2, N m s2
+        """
     @property
     def restoring(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[6, 6]"]:
-        ...
-class FlowForce:
-    """
-    Wind or current on a body by coefficients; see seacrane.add_wind and seacrane.add_current.
-    
-    F_x, F_y = density / 2 V^2 (C_x frontal_area, C_y lateral_area), N = density / 2 V^2 C_n lateral_area length, V the
-    horizontal flow relative to `point`, in axes that follow the body's yaw; C over `angles` (rad), where the relative
-    flow goes, from the bow towards port, by periodic cubic splines. Immutable.
-    """
-    def __copy__(self) -> FlowForce:
-        ...
-    def __deepcopy__(self, memo: dict) -> FlowForce:
-        ...
-    def __eq__(self, arg0: typing.Any) -> typing.Any:
-        ...
-    def __getstate__(self) -> dict:
-        ...
-    def __hash__(self) -> int:
-        ...
-    def __init__(self, *, name: str, body: str, point: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"], density: typing.SupportsFloat | typing.SupportsIndex, speed: Curve, direction: typing.SupportsFloat | typing.SupportsIndex, frontal_area: typing.SupportsFloat | typing.SupportsIndex, lateral_area: typing.SupportsFloat | typing.SupportsIndex, length: typing.SupportsFloat | typing.SupportsIndex, angles: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], coefficients: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, 3]"]) -> None:
-        ...
-    def __repr__(self) -> str:
-        ...
-    def __setstate__(self, arg0: dict) -> None:
-        ...
-    @property
-    def angles(self) -> list[float]:
         """
-        rad
+        N/m, N, N m, of heave, roll and pitch alone
         """
-    @property
-    def body(self) -> str:
-        ...
-    @property
-    def coefficients(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 3]"]:
-        """
-        C_x, C_y, C_n, shape (n, 3) (copy)
-        """
-    @property
-    def density(self) -> float:
-        """
-        kg/m3
-        """
-    @property
-    def direction(self) -> float:
-        """
-        rad, where the flow goes, from +x towards +y
-        """
-    @property
-    def frontal_area(self) -> float:
-        """
-        m2
-        """
-    @property
-    def lateral_area(self) -> float:
-        """
-        m2
-        """
-    @property
-    def length(self) -> float:
-        """
-        m
-        """
-    @property
-    def name(self) -> str:
-        ...
-    @property
-    def point(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
-        """
-        m, body coordinates (copy)
-        """
-    @property
-    def speed(self) -> Curve:
-        """
-        Curve, m/s
-        """
-class Limit:
-    """
-    What a joint does one way only; see seacrane.add_wire, add_end_stop and add_seat. Kinds: wire, stop, seat. Bounds in m or rad, at +-1e7 none; sticking_speed in m/s or rad/s. Immutable.
-    """
-    def __copy__(self) -> Limit:
-        ...
-    def __deepcopy__(self, memo: dict) -> Limit:
-        ...
-    def __eq__(self, arg0: typing.Any) -> typing.Any:
-        ...
-    def __getstate__(self) -> dict:
-        ...
-    def __hash__(self) -> int:
-        ...
-    def __init__(self, *, name: str, kind: str, joint: str, coordinate: str = '', minimum: typing.SupportsFloat | typing.SupportsIndex = -10000000.0, maximum: typing.SupportsFloat | typing.SupportsIndex = 10000000.0, restitution: typing.SupportsFloat | typing.SupportsIndex = 0.0, sticking_speed: typing.SupportsFloat | typing.SupportsIndex = 0.001) -> None:
-        ...
-    def __repr__(self) -> str:
-        ...
-    def __setstate__(self, arg0: dict) -> None:
-        ...
-    @property
-    def coordinate(self) -> str:
-        ...
-    @property
-    def joint(self) -> str:
-        ...
-    @property
-    def kind(self) -> str:
-        ...
-    @property
-    def maximum(self) -> float:
-        ...
-    @property
-    def minimum(self) -> float:
-        ...
-    @property
-    def name(self) -> str:
-        ...
-    @property
-    def restitution(self) -> float:
-        ...
-    @property
-    def sticking_speed(self) -> float:
-        ...
-class Friction:
-    """
-    Dry friction on a joint coordinate: -load tanh(rate / speed), load in N or N m, speed in m/s or rad/s; see seacrane.add_friction. Immutable.
-    """
-    def __copy__(self) -> Friction:
-        ...
-    def __deepcopy__(self, memo: dict) -> Friction:
-        ...
-    def __eq__(self, arg0: typing.Any) -> typing.Any:
-        ...
-    def __getstate__(self) -> dict:
-        ...
-    def __hash__(self) -> int:
-        ...
-    def __init__(self, *, name: str, joint: str, coordinate: str, load: typing.SupportsFloat | typing.SupportsIndex, speed: typing.SupportsFloat | typing.SupportsIndex) -> None:
-        ...
-    def __repr__(self) -> str:
-        ...
-    def __setstate__(self, arg0: dict) -> None:
-        ...
-    @property
-    def coordinate(self) -> str:
-        ...
-    @property
-    def joint(self) -> str:
-        ...
-    @property
-    def load(self) -> float:
-        ...
-    @property
-    def name(self) -> str:
-        ...
-    @property
-    def speed(self) -> float:
-        ...
-class SoftStop:
-    """
-    Compliant bounds of a joint coordinate: stiffness p (1 + damping p') back where it is beyond one by p, never a pull; N/m and s/m, or N m/rad and s/rad; see seacrane.add_soft_stop. Immutable.
-    """
-    def __copy__(self) -> SoftStop:
-        ...
-    def __deepcopy__(self, memo: dict) -> SoftStop:
-        ...
-    def __eq__(self, arg0: typing.Any) -> typing.Any:
-        ...
-    def __getstate__(self) -> dict:
-        ...
-    def __hash__(self) -> int:
-        ...
-    def __init__(self, *, name: str, joint: str, coordinate: str, minimum: typing.SupportsFloat | typing.SupportsIndex = -10000000.0, maximum: typing.SupportsFloat | typing.SupportsIndex = 10000000.0, stiffness: typing.SupportsFloat | typing.SupportsIndex, damping: typing.SupportsFloat | typing.SupportsIndex = 0.0) -> None:
-        ...
-    def __repr__(self) -> str:
-        ...
-    def __setstate__(self, arg0: dict) -> None:
-        ...
-    @property
-    def coordinate(self) -> str:
-        ...
-    @property
-    def damping(self) -> float:
-        ...
-    @property
-    def joint(self) -> str:
-        ...
-    @property
-    def maximum(self) -> float:
-        ...
-    @property
-    def minimum(self) -> float:
-        ...
-    @property
-    def name(self) -> str:
-        ...
-    @property
-    def stiffness(self) -> float:
-        ...
 class Model:
     """
     A compiled scene: immutable, shareable between threads.
@@ -1690,6 +1966,10 @@ def integrators() -> list[Integrator]:
     """
     All integration methods, in the order of the documents: a new list.
     """
+def joint_kinds() -> dict:
+    """
+    The joint types by name.
+    """
 def jonswap(*, hs: typing.SupportsFloat | typing.SupportsIndex, tp: typing.SupportsFloat | typing.SupportsIndex, gamma: typing.SupportsFloat | typing.SupportsIndex = 3.3) -> Spectrum:
     """
     JONSWAP spectrum.
@@ -1910,3 +2190,4 @@ def torsethaugen(*, hs: typing.SupportsFloat | typing.SupportsIndex, tp: typing.
     K. Torsethaugen and S. Haver, ISOPE 2004; DNV-RP-C205 appendix A. Norwegian waters, fetch 370 km. Normalised by
     quadrature instead of the fitted factor A_gamma.
     """
+LOAD_KINDS: dict = {'actuator': Actuator, 'point force': PointForce, 'spring': Spring, 'force table': ForceTable, 'function force': FunctionForce, 'flow force': FlowForce, 'friction': Friction, 'soft stop': SoftStop, 'limit': Limit}

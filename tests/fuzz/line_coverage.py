@@ -18,7 +18,7 @@ ROOT = Path(__file__).resolve().parents[2]
 LEAST = 90.0
 # Functions in the readers' files that write, draw or describe.
 WRITERS = re.compile(
-    r"(save|add_events|_add_|write|_write|_put|to_xarray|described|scene_digest|_element$|_memory$|_block$|waves_to_data"
+    r"(save|add_events|_add_|write|_write|_put|to_xarray|described|scene_digest|element_to_data|_plain$|_block$|waves_to_data"
     r"|_hull_to_data|roles_to_data|sea_to_data|plain_data|plain_notes|load_to_data|kind_of|state_to_bytes|_is_state|shape$|rows$"
     r"|spectrum)"
 )

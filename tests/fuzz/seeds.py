@@ -17,6 +17,7 @@ import numpy as np
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
 from orcaflex_writer import model
+from test_elements import every_load
 from test_hydro_capytaine import layout
 from test_hydro_mafredo import dhyd
 from test_scene_file import every_kind
@@ -196,6 +197,7 @@ def scene_seeds(folder: Path) -> None:
     del data["waves"]["hulls"]
     data["waves"] |= {key: value for key, value in hull.items() if key != "heading"}
     put("scene", "from-before-several-hulls", json.dumps(data).encode())
+    put("scene", "every-load", json.dumps(scene_file.described(every_load())).encode())
 
 
 def of_version_0_1(data: dict[str, Any]) -> dict[str, Any]:

@@ -197,7 +197,7 @@ _SCENE = (
     "description/file_origin.py",
     "description/old_files.py",
     "files/plain_data.py",
-    "description/loads.py",
+    "description/file_elements.py",
 )
 _ORCAFLEX = ("hydro/readers/orcaflex.py", "hydro/readers/orcaflex_model.py")
 _VERES = tuple(

@@ -9,6 +9,7 @@
 
 #include "seacrane/dynamics/redundant.hpp"
 #include "seacrane/elements/check.hpp"
+#include "seacrane/elements/joints/registry.hpp"
 
 namespace seacrane {
 namespace {

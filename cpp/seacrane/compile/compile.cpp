@@ -10,6 +10,8 @@
 #include "seacrane/compile/assembly.hpp"
 #include "seacrane/compile/find_kinks.hpp"
 #include "seacrane/dynamics/merged.hpp"
+#include "seacrane/elements/joint_kinds.hpp"
+#include "seacrane/elements/loads/registry.hpp"
 #include "seacrane/model/validate.hpp"
 
 namespace seacrane {
@@ -73,7 +75,7 @@ class Compiler {
     j.second_point = second.point;
     j.first_axes = first.axes * d.first_frame.axes;
     j.second_axes = second.axes * d.second_frame.axes;
-    j.length = d.length;
+    j.parameters = find_joint_kind(d.kind)->values(d);
     return j;
   }
 
@@ -155,6 +157,7 @@ class Compiler {
   }
 
   void joints() {
+    model_.joints.resize(joint_kinds().size());
     for (const auto& d : scene_.joints) {
       joint_[d.name] = &d;
       if (within_one_body(d)) continue;
@@ -167,11 +170,12 @@ class Compiler {
       e.second = j.second;
       e.first_point = j.first_point;
       e.second_point = j.second_point;
-      for_each_joint_type([&]<class Type>(std::size_t kind) {
-        if (d.kind != Type::kind || d.open) return;
-        e.rows = Type::rows;
-        model_.joints[kind].push_back(j);
-      });
+      const JointKind& kind = *find_joint_kind(d.kind);
+      e.slides = kind.slides;
+      if (!d.open) {
+        e.rows = kind.rows;
+        model_.joints[kind.index].push_back(j);
+      }
       model_.elements.push_back(e);
     }
   }
@@ -238,12 +242,22 @@ class Compiler {
 
   void loads() {
     for_each_load_type([&]<class Load>() {
-      for (const auto& d : std::get<std::vector<typename Load::Description>>(scene_.loads)) {
+      for (const auto& d : std::get<std::vector<typename Load::Description>>(*scene_.loads)) {
         const Load load = Load::compile(d, *this);
-        if (!load.moves_nothing(ground())) std::get<std::vector<Load>>(model_.loads).push_back(load);
+        if (acts(load)) std::get<std::vector<Load>>(*model_.loads).push_back(load);
       }
     });
     for (const auto& d : scene_.coordinates) model_.coordinates.push_back(coordinate(d));
+  }
+
+  /// A load on one body does nothing to the ground; one between bodies, nothing to bodies that move as one:
+  /// there its forces cancel and do no work.
+  template <class Load>
+  bool acts(const Load& load) const {
+    const auto bodies = load.bodies();
+    const auto& first = *bodies.begin();
+    if (bodies.size() == 1) return first != ground();
+    return std::any_of(bodies.begin(), bodies.end(), [&](int b) { return b != first; });
   }
 
   void vessels() {

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "seacrane/dynamics/redundant.hpp"
+#include "seacrane/elements/loads/registry.hpp"
 
 namespace seacrane {
 namespace {
@@ -30,7 +31,7 @@ class Finder {
 
   std::vector<Kink> run() {
     for_each_load_type([&]<class Load>() {
-      for (const Load& load : std::get<std::vector<Load>>(model_.loads)) loads(load);
+      for (const Load& load : std::get<std::vector<Load>>(*model_.loads)) loads(load);
     });
     for (const DriverData& driver : model_.drivers) {
       const LoadKinks found = driver_kinks(driver.curve);

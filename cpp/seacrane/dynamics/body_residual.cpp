@@ -5,23 +5,15 @@
 #include <type_traits>
 
 #include "seacrane/dynamics/redundant.hpp"
+#include "seacrane/elements/driver.hpp"
+#include "seacrane/elements/joints/registry.hpp"
+#include "seacrane/elements/loads/registry.hpp"
 
 namespace seacrane {
 namespace {
 
 /// Step of the central differences of a function force, m, rad and per s: error about 1e-10 of its scale.
 constexpr double kStep = 1e-5;
-
-template <class Load>
-bool acts_on(const Load& load, int body) {
-  if constexpr (requires { load.coordinate; }) {
-    return load.coordinate.joint.first == body || load.coordinate.joint.second == body;
-  } else if constexpr (requires { load.second; }) {
-    return load.first == body || load.second == body;
-  } else {
-    return load.body == body;
-  }
-}
 
 template <class T>
 BodyKinematics<T> constant(const BodyKinematics<double>& k) {
@@ -154,15 +146,10 @@ void BodyResidual::add_loads(int b, const LoadInput<Scalar>& input) {
     if (load.body == b) load.apply<Scalar>(input, sum_);
   }
   for_each_load_type([&]<class Load>() {
-    for (const Load& load : std::get<std::vector<Load>>(model_->loads)) {
-      if (!acts_on(load, b)) continue;
-      if constexpr (requires { load.coordinate; }) {
-        wrench(load.coordinate.joint.first);
-        wrench(load.coordinate.joint.second);
-      } else if constexpr (requires { load.second; }) {
-        wrench(load.first);
-        wrench(load.second);
-      }
+    for (const Load& load : std::get<std::vector<Load>>(*model_->loads)) {
+      const auto bodies = load.bodies();
+      if (std::find(bodies.begin(), bodies.end(), b) == bodies.end()) continue;
+      for (const int other : bodies) wrench(other);
       if constexpr (std::is_same_v<Load, FunctionForce>) {
         add_differences(load);
       } else {

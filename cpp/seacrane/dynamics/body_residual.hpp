@@ -8,6 +8,7 @@
 
 namespace seacrane {
 
+struct FunctionForce;
 class RedundantSystem;
 
 /// The residual of eq (9), element by element, with accelerations and multipliers held:

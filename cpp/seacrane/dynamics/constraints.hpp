@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "seacrane/elements/driver.hpp"
+#include "seacrane/elements/joints/registry.hpp"
 #include "seacrane/model/model.hpp"
 
 namespace seacrane {

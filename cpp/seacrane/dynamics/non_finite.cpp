@@ -4,6 +4,7 @@
 
 #include "seacrane/dynamics/redundant.hpp"
 #include "seacrane/elements/check.hpp"
+#include "seacrane/elements/loads/registry.hpp"
 #include "seacrane/integrate/error_norm.hpp"
 
 /// Names for what is not finite, for the report of a run that had to stop; none of it is in the loop.
@@ -63,8 +64,8 @@ std::string RedundantSystem::non_finite_load(double t, const double* y) {
   };
   for (const auto& load : m.gravity) check("gravity", [&](auto& sum) { load.apply<double>(input, sum); });
   for_each_load_type([&]<class Load>() {
-    const auto& loads = std::get<std::vector<Load>>(m.loads);
-    const auto& described = std::get<std::vector<typename Load::Description>>(m.description.loads);
+    const auto& loads = std::get<std::vector<Load>>(*m.loads);
+    const auto& described = std::get<std::vector<typename Load::Description>>(*m.description.loads);
     for (std::size_t i = 0; i < loads.size(); ++i) {
       // A load that moves nothing is not compiled, and the others then stand at other places.
       const bool same = loads.size() == described.size();

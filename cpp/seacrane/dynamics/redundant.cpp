@@ -8,6 +8,7 @@
 
 #include "seacrane/dynamics/constraints.hpp"
 #include "seacrane/dynamics/paper_kinematics.hpp"
+#include "seacrane/elements/loads/registry.hpp"
 
 namespace seacrane {
 namespace {
@@ -160,7 +161,7 @@ void RedundantSystem::evaluate_wrenches(double t, const double* memory, double* 
   LoadSum<double> sum{wrench_.data()};
   for (const auto& load : m.gravity) load.apply<double>(input, sum);
   for_each_load_type([&]<class Load>() {
-    for (const Load& load : std::get<std::vector<Load>>(m.loads)) load.template apply<double>(input, sum);
+    for (const Load& load : std::get<std::vector<Load>>(*m.loads)) load.template apply<double>(input, sum);
   });
   apply_hydrodynamics(input, memory, memory_rate, sum);
   apply_waves(t, memory, sum);
@@ -407,7 +408,7 @@ double RedundantSystem::energy_here(double t, const double* y) const {
   for (const auto& load : m.gravity) sum += load.potential(input);
   for_each_load_type([&]<class Load>() {
     if constexpr (requires(const Load& load) { load.potential(input); }) {
-      for (const Load& load : std::get<std::vector<Load>>(m.loads)) sum += load.potential(input);
+      for (const Load& load : std::get<std::vector<Load>>(*m.loads)) sum += load.potential(input);
     }
   });
   for (const auto& vessel : m.vessels) sum += vessel.potential(bodies_[idx(vessel.body)]);

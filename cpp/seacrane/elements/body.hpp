@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "seacrane/elements/field.hpp"
 #include "seacrane/math/types.hpp"
 
 namespace seacrane {
@@ -16,6 +17,22 @@ struct BodyDescription {
   Vec3d velocity = Vec3d::Zero();          // of the body origin, inertial frame
   Vec3d angular_velocity = Vec3d::Zero();  // inertial frame
   bool gravity = true;
+
+  static constexpr const char* type = "Body";
+  static constexpr const char* text =
+      "A rigid body: inertia about the centre of mass in body axes, pose of the body origin in the inertial "
+      "frame, quaternion (w, x, y, z) body to inertial.";
+  static constexpr auto fields() {
+    using D = BodyDescription;
+    return std::tuple(required("mass", &D::mass, "kg", ""),
+                      required("inertia", &D::inertia, "kg m2", "about the centre of mass, body axes"),
+                      optional("center_of_mass", &D::center_of_mass, "m", "body axes"),
+                      optional("position", &D::position, "m", "of the body origin, inertial frame"),
+                      optional("quaternion", &D::quaternion, "", "w, x, y, z: body to inertial"),
+                      optional("velocity", &D::velocity, "m/s", "of the body origin, inertial frame"),
+                      optional("angular_velocity", &D::angular_velocity, "rad/s", "inertial frame"),
+                      optional("gravity", &D::gravity, "", "whether weight acts on it"));
+  }
 };
 
 }  // namespace seacrane

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "seacrane/elements/check.hpp"
+#include "seacrane/elements/field.hpp"
 #include "seacrane/elements/joint_coordinate.hpp"
 #include "seacrane/math/curve.hpp"
 
@@ -12,6 +12,13 @@ struct DriverDescription {
   std::string name;
   CoordinateDescription coordinate;
   Curve curve;
+
+  static constexpr const char* type = "Driver";
+  static constexpr const char* text = "Prescribes a joint coordinate as a function of time.";
+  static constexpr auto fields() {
+    using D = DriverDescription;
+    return std::tuple_cat(on_coordinate<D>(), std::tuple(required("curve", &D::curve, "m or rad", "")));
+  }
 };
 
 /// A joint coordinate prescribed as a function of time: one row with nu = the reference's rate.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cmath>
 
 #include "seacrane/elements/joint_rows.hpp"
@@ -14,6 +15,8 @@ enum class CoordinateKind { angle, displacement, x, y, z, roll, pitch, yaw };
 struct CoordinateData {
   JointData joint;
   CoordinateKind kind = CoordinateKind::angle;
+
+  std::array<int, 2> bodies() const { return {joint.first, joint.second}; }
 };
 
 /// value, its row of D (value' = da v_a + db v_b) and the velocity part of value'': value'' = D vdot - gamma.

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "seacrane/elements/joint.hpp"
 #include "seacrane/elements/kinematics.hpp"
 
 /// Rows of the constraint Jacobian D, eqs (4), (7), (8): D_a v_a + D_b v_b = nu, and the velocity part
@@ -24,7 +25,7 @@ struct JointData {
   int first = -1, second = -1;
   Vec3d first_point, second_point;
   Mat3d first_axes, second_axes;
-  double length = 0.0;
+  ParameterValues parameters{};
   int element = 0;  // index among all constraint elements
 };
 

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "seacrane/elements/check.hpp"
+#include "seacrane/elements/field.hpp"
 
 namespace seacrane {
 
@@ -18,6 +18,20 @@ struct LimitDescription {
   double minimum = -kNoStop, maximum = kNoStop;  // of a stop
   double restitution = 0.0;
   double sticking_speed = 1e-3;  // m/s or rad/s: approaches below it don't rebound
+
+  static constexpr const char* type = "Limit";
+  static constexpr const char* text =
+      "What a joint does one way only; see seacrane.add_wire, add_end_stop and add_seat.";
+  static constexpr auto fields() {
+    using D = LimitDescription;
+    return std::tuple_cat(
+        std::tuple(required("kind", &D::kind, "", "wire, stop or seat")), on_coordinate<D>(false),
+        std::tuple(
+            optional("minimum", &D::minimum, "m or rad", "at -1e7 there is none"),
+            optional("maximum", &D::maximum, "m or rad", "at 1e7 there is none"),
+            optional("restitution", &D::restitution, "", "0 to 1"),
+            optional("sticking_speed", &D::sticking_speed, "m/s or rad/s", "slower impacts do not rebound")));
+  }
 };
 
 }  // namespace seacrane

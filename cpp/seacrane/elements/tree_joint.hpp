@@ -15,7 +15,7 @@ struct TreeJoint {
   int parent = -1, child = -1;
   Vec3d parent_point = Vec3d::Zero(), child_point = Vec3d::Zero();
   Mat3d parent_axes = Mat3d::Identity(), child_axes = Mat3d::Identity();
-  double length = 0.0;
+  ParameterValues parameters{};
 };
 
 inline constexpr int kMostSpeeds = 6;

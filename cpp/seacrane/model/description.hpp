@@ -11,7 +11,7 @@
 #include "seacrane/elements/driver.hpp"
 #include "seacrane/elements/joint.hpp"
 #include "seacrane/elements/limit.hpp"
-#include "seacrane/elements/loads/registry.hpp"
+#include "seacrane/elements/loads/hidden.hpp"
 #include "seacrane/hydro/convolution.hpp"
 #include "seacrane/hydro/memory.hpp"
 #include "seacrane/math/types.hpp"
@@ -34,6 +34,22 @@ struct VesselDescription {
   Vec3d mooring_damping = Vec3d::Zero();
   std::variant<std::vector<StateSpaceBlock>, RetardationFunctions> memory;
   VesselKinematics kinematics = VesselKinematics::yaw_following;
+
+  static constexpr const char* type = "VesselHydrodynamics";
+  static constexpr const char* text =
+      "Linear hydrodynamics of a body about its origin (the reference point).";
+  static constexpr auto fields() {
+    using D = VesselDescription;
+    return std::tuple(
+        on_body("body", &D::body), optional("added_mass", &D::added_mass, "kg, kg m, kg m2", ""),
+        optional("linear_damping", &D::linear_damping, "N s/m, N s, N m s", ""),
+        optional("quadratic_damping", &D::quadratic_damping, "N s2/m2, N m s2", ""),
+        optional("restoring", &D::restoring, "N/m, N, N m", "of heave, roll and pitch alone"),
+        optional("mooring_stiffness", &D::mooring_stiffness, "N/m, N m/rad", "of surge, sway, yaw"),
+        optional("mooring_damping", &D::mooring_damping, "N s/m, N m s/rad", "of surge, sway, yaw"),
+        optional("memory", &D::memory, "", "blocks of states, or retardation functions"),
+        optional("kinematics", &D::kinematics, "", "yaw_following, or paper: eqs (17)-(31)"));
+  }
 };
 
 /// Loads at the mean position as exact sums, or from tables of them where set; or at the actual position,
@@ -60,16 +76,16 @@ struct SceneDescription {
   std::vector<BodyDescription> bodies;
   std::vector<JointDescription> joints;
   std::vector<DriverDescription> drivers;
-  LoadDescriptions loads;
+  Hidden<LoadDescriptions> loads;
   std::vector<VesselDescription> vessels;
   std::vector<WaveLoadDescription> wave_loads;
   std::vector<CoordinateDescription> coordinates;  // joint coordinates to record
   std::vector<LimitDescription> limits;
 
-  /// Descriptions of one kind of load, such as loads_of<PointForce>().
+  /// Descriptions of one kind of load, such as loads_of<PointForce>(); with elements/loads/registry.hpp.
   template <class Load>
   std::vector<typename Load::Description>& loads_of() {
-    return std::get<std::vector<typename Load::Description>>(loads);
+    return std::get<std::vector<typename Load::Description>>(*loads);
   }
 };
 

@@ -5,7 +5,8 @@
 #include <map>
 #include <numbers>
 
-#include "seacrane/elements/joints/registry.hpp"
+#include "seacrane/elements/joints/distance.hpp"
+#include "seacrane/elements/joints/weld.hpp"
 #include "seacrane/math/rotation.hpp"
 #include "seacrane/model/description.hpp"
 
@@ -59,6 +60,8 @@ void check_joint_limit(const Check& c, const SceneDescription& scene, const Limi
   }
 }
 
+double length_of(const JointDescription& distance) { return distance.parameters.at("length"); }
+
 struct Point {
   Vec3d position, velocity;
 };
@@ -78,7 +81,7 @@ bool stretched(const SceneDescription& scene, const JointDescription& joint) {
               b = described_point(scene, joint.second, joint.second_frame);
   const Vec3d d = b.position - a.position;
   const double length = d.norm();
-  if (!(length >= joint.length * (1.0 - kTaut))) return false;
+  if (!(length >= length_of(joint) * (1.0 - kTaut))) return false;
   return d.dot(b.velocity - a.velocity) >= -kInwards * length;
 }
 
@@ -168,7 +171,7 @@ std::vector<Limit> list_limits(const SceneDescription& scene) {
     limit.sticking_speed = d.sticking_speed;
     if (d.kind != "stop") {
       limit.kind = d.kind == "wire" ? LimitKind::wire : LimitKind::seat;
-      limit.bound = scene.joints[idx(limit.joint)].length;
+      if (limit.kind == LimitKind::wire) limit.bound = length_of(scene.joints[idx(limit.joint)]);
       limit.side = -1.0;
       out.push_back(limit);
       continue;

@@ -6,7 +6,9 @@
 #include <numeric>
 #include <optional>
 
-#include "seacrane/elements/joints/registry.hpp"
+#include "seacrane/elements/joints/prismatic.hpp"
+#include "seacrane/elements/joints/revolute.hpp"
+#include "seacrane/elements/joints/weld.hpp"
 #include "seacrane/math/rotation.hpp"
 
 namespace seacrane {

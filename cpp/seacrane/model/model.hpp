@@ -5,9 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "seacrane/elements/joints/registry.hpp"
 #include "seacrane/elements/loads/gravity.hpp"
-#include "seacrane/elements/loads/registry.hpp"
 #include "seacrane/hydro/vessel.hpp"
 #include "seacrane/model/block_schur.hpp"
 #include "seacrane/model/description.hpp"
@@ -16,6 +14,8 @@
 #include "seacrane/model/merge.hpp"
 
 namespace seacrane {
+
+struct Actuator;
 
 /// Inertia of a compiled body about its state point: the centre of mass, or, with hydrodynamics, the
 /// vessel's reference point, where the 6 x 6 added mass lives.
@@ -34,7 +34,7 @@ struct ElementModel {
   std::string name, kind;
   int rows = 0, first = 0, second = 0;  // first, second: body indices, ground = body count
   int row = 0;                          // of its multipliers
-  bool driver = false;
+  bool driver = false, slides = false;
   bool unique_reaction = true;
   Vec3d first_point, second_point;  // from the state points, body axes
 };
@@ -73,12 +73,12 @@ struct AssemblyReport {
 struct Model {
   SceneDescription description;
   std::vector<BodyModel> bodies;
-  JointsByKind joints;
+  std::vector<std::vector<JointData>> joints;  // by joint type, evaluated with one dispatch for each
   std::vector<DriverData> drivers;
   std::vector<ElementModel> elements;  // joints in the order described, then drivers
   BlockSchur schur;
   std::vector<Gravity> gravity;
-  LoadsByKind loads;
+  Hidden<CompiledLoads> loads;
   std::vector<Vessel> vessels;
   std::vector<WaveLoad> wave_loads;
   std::vector<CoordinateData> coordinates;
@@ -100,7 +100,7 @@ struct Model {
   const Model& stepped() const { return merged ? *merged : *this; }
   int body_count() const { return static_cast<int>(bodies.size()); }
   int rows() const { return schur.rows(); }
-  const std::vector<Actuator>& actuators() const { return std::get<std::vector<Actuator>>(loads); }
+  const std::vector<Actuator>& actuators() const;
 };
 
 }  // namespace seacrane

@@ -1,12 +1,14 @@
 #include "seacrane/model/validate.hpp"
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <set>
 #include <sstream>
 
-#include "seacrane/elements/joints/registry.hpp"
+#include "seacrane/elements/joint_kinds.hpp"
+#include "seacrane/elements/loads/registry.hpp"
 #include "seacrane/model/limit.hpp"
 
 namespace seacrane {
@@ -48,28 +50,40 @@ void check_frame(const Check& c, const char* what, const Frame& f) {
   }
 }
 
-/// Returns the coordinates that the joint offers.
-std::string check_joint(const JointDescription& j, const SceneNames& names) {
+void check_parameters(const Check& c, const JointDescription& j, const JointKind& kind) {
+  const std::string needs = "; a " + kind.name + " joint needs ";
+  for (const JointKind::Parameter& p : kind.parameters) {
+    const std::string name = p.name, unit = p.unit;
+    const auto given = j.parameters.find(name);
+    if (given == j.parameters.end() && p.required) c.fail("has no " + name + needs + "one, in " + unit);
+    const double value = given == j.parameters.end() ? p.usual : given->second;
+    c.finite(p.name, value);
+    const std::string is = name + " is " + to_text(value) + (unit.empty() ? "" : " ") + unit + needs;
+    if (p.bound == Bound::positive && !(value > 0.0)) c.fail(is + "a positive " + name);
+    if (p.bound == Bound::not_zero && value == 0.0) c.fail(is + "a " + name + " other than zero");
+  }
+  for (const auto& [name, value] : j.parameters) {
+    const bool known = std::any_of(kind.parameters.begin(), kind.parameters.end(),
+                                   [&](const JointKind::Parameter& p) { return p.name == name; });
+    if (!known) c.fail("a " + kind.name + " joint has no parameter '" + name + "'; leave it out");
+  }
+}
+
+const JointKind& check_joint(const JointDescription& j, const SceneNames& names) {
   const Check c("joint", j.name);
-  std::string all, coordinates;
-  bool known = false;
-  for_each_joint_type([&]<class Type>(std::size_t) {
-    all += std::string(all.empty() ? "" : " ") + Type::kind;
-    if (j.kind != Type::kind) return;
-    known = true;
-    coordinates = Type::coordinates;
-  });
-  if (!known) c.fail("kind '" + j.kind + "' is unknown; the kinds are: " + all);
+  const JointKind* kind = find_joint_kind(j.kind);
+  if (!kind) {
+    std::string all;
+    for (const JointKind& known : joint_kinds()) all += (all.empty() ? "" : " ") + known.name;
+    c.fail("kind '" + j.kind + "' is unknown; the kinds are: " + all);
+  }
   names.body(c, j.first, true);
   names.body(c, j.second, true);
   if (j.first == j.second) c.fail("joins '" + j.first + "' to itself; name two different bodies");
   check_frame(c, "first_frame", j.first_frame);
   check_frame(c, "second_frame", j.second_frame);
-  c.finite("length", j.length);
-  if (j.kind == Distance::kind && !(j.length > 0.0)) {
-    c.fail("length is " + to_text(j.length) + " m; a distance joint needs a positive length");
-  }
-  return coordinates;
+  check_parameters(c, j, *kind);
+  return *kind;
 }
 
 void check_vessel(const VesselDescription& v, const SceneNames& names) {
@@ -176,10 +190,10 @@ void validate(const SceneDescription& scene) {
     check_body(b);
     names.bodies.insert(b.name);
   }
-  for (const auto& j : scene.joints) names.joints[j.name] = {j.kind, check_joint(j, names)};
+  for (const auto& j : scene.joints) names.joints[j.name] = {j.kind, check_joint(j, names).coordinates};
   check_drives(scene, names);
   for_each_load_type([&]<class Load>() {
-    const auto& descriptions = std::get<std::vector<typename Load::Description>>(scene.loads);
+    const auto& descriptions = std::get<std::vector<typename Load::Description>>(*scene.loads);
     unique_names(Load::kind, descriptions);
     for (const auto& d : descriptions) Load::check(d, Check(Load::kind, d.name), names);
   });

@@ -3,17 +3,19 @@
 #include <algorithm>
 #include <cmath>
 
+#include "seacrane/elements/loads/registry.hpp"
+
 namespace seacrane {
 namespace {
 
 constexpr double kAtEnd = 1e-6;  // of a step: a crossing that near to its ends is at them
 
 const std::vector<SoftStop>& stops_of(const Model& model) {
-  return std::get<std::vector<SoftStop>>(model.loads);
+  return std::get<std::vector<SoftStop>>(*model.loads);
 }
 
 const std::vector<SpringDamper>& springs_of(const Model& model) {
-  return std::get<std::vector<SpringDamper>>(model.loads);
+  return std::get<std::vector<SpringDamper>>(*model.loads);
 }
 
 /// How far the bound of a side (1: minimum, -1: maximum) is passed; negative also where the stop would pull.

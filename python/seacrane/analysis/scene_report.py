@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
@@ -12,13 +11,15 @@ from seacrane.analysis.linearise import fastest_mode
 from seacrane.description.assembled import moves
 from seacrane.description.compilation import compile_scene
 from seacrane.description.crane_parts import cylinders, hooks, payloads, slews
+from seacrane.description.loads import kind_of, named
 from seacrane.description.scene import Description
 
 Rows = list[tuple[str, Any]]
 REPETITIONS = 500  # of each part when its cost is measured
-LABELS = {
-    "FlowForce": "wind and current",
-    **dict.fromkeys(("Limit", "Friction", "SoftStop"), "limits and friction"),
+LABELS = {  # of kinds of loads that are not called by their kind
+    "function force": "C functions",
+    "flow force": "wind and current",
+    **dict.fromkeys(("limit", "friction", "soft stop"), "limits and friction"),
 }
 WORK_STATES = 2  # the work integral and its absolute counterpart
 
@@ -91,18 +92,9 @@ def elements_of(scene: Description) -> Rows:
     for name, joint in scene.joints.items():
         kinds.setdefault(joint.kind, []).append(f"{name} ({joint.first} to {joint.second})")
     rows += [(f"{kind} joints", names) for kind, names in kinds.items()]
-    for label, drives in (("drivers", scene.drivers), ("actuators", scene.actuators)):
-        rows.append((label, [f"{name} ({d.joint} {d.coordinate})" for name, d in drives.items()]))
-    loads: dict[str, Mapping[str, Any]] = {
-        "point forces": scene.point_forces,
-        "force tables": scene.force_tables,
-        "C functions": scene.function_forces,
-        "vessels": scene.vessels,
-    }
-    for label, table in loads.items():
-        rows.append((label, [f"{name} ({element.body})" for name, element in table.items()]))
+    rows.append(("drivers", [f"{name} ({_place(driver)})" for name, driver in scene.drivers.items()]))
     rows += _loads_by_kind(scene)
-    rows.append(("springs", [f"{name} ({s.first} to {s.second})" for name, s in scene.springs.items()]))
+    rows.append(("vessels", [f"{name} ({vessel.body})" for name, vessel in scene.vessels.items()]))
     rows.append(("waves", [] if scene.waves is None else list(scene.waves.hulls)))
     rows.append(("crane parts", _crane_parts(scene)))
     return [(label, names) for label, names in rows if names]
@@ -115,14 +107,19 @@ def _crane_parts(scene: Description) -> list[str]:
 
 
 def _loads_by_kind(scene: Description) -> Rows:
-    """Every load of `Scene.loads`, known kind or not."""
     kinds: dict[str, list[str]] = {}
-    for name, load in scene.loads.items():
-        joint, body = getattr(load, "joint", None), getattr(load, "body", None)
-        place = body if joint is None else f"{joint} {load.coordinate or 'one way'}"
-        label = LABELS.get(type(load).__name__, "other loads")
-        kinds.setdefault(label, []).append(name if place is None else f"{name} ({place})")
+    for load in scene.all_loads():
+        kind = kind_of(load)
+        kinds.setdefault(LABELS.get(kind, f"{kind}s"), []).append(f"{load.name} ({_place(load)})")
     return list(kinds.items())
+
+
+def _place(element: Any) -> str:
+    """The joint and the coordinate, or the bodies, that an element acts on."""
+    joint, coordinate = named(element, "joint"), named(element, "coordinate")
+    if joint:
+        return f"{joint[0]} {coordinate[0] or 'one way'}"
+    return " to ".join(named(element, "body"))
 
 
 def _merged(model: _core.Model) -> Rows:

@@ -8,7 +8,7 @@ import numpy as np
 
 from seacrane import _core
 from seacrane.description.scene import Description, insert
-from seacrane.inputs.checked import flag_of, name_of, number_of, numbers_of, shaped_of
+from seacrane.inputs.checked import name_of, numbers_of, shaped_of
 
 
 def add_body(
@@ -47,18 +47,18 @@ def add_body(
     SceneError
         For a duplicate name or a value that is not of that shape; values are checked at compile().
     """
-    tensor = numbers_of(f"body {name!r}: inertia", inertia)
+    tensor = numbers_of(f"body {name_of('body', name)!r}: inertia", inertia)
     tensor = np.diag(tensor) if tensor.shape == (3,) else tensor
     body = _core.Body(
-        name=name_of("body", name),
-        mass=number_of(f"body {name!r}: mass", mass),
+        name=name,
+        mass=mass,
         inertia=shaped_of(f"body {name!r}: inertia", tensor, (3, 3)),
-        center_of_mass=shaped_of(f"body {name!r}: center_of_mass", center_of_mass, (3,)),
-        position=shaped_of(f"body {name!r}: position", position, (3,)),
-        quaternion=shaped_of(f"body {name!r}: quaternion", quaternion, (4,)),
-        velocity=shaped_of(f"body {name!r}: velocity", velocity, (3,)),
-        angular_velocity=shaped_of(f"body {name!r}: angular_velocity", angular_velocity, (3,)),
-        gravity=flag_of(f"body {name!r}: gravity", gravity),
+        center_of_mass=center_of_mass,
+        position=position,
+        quaternion=quaternion,
+        velocity=velocity,
+        angular_velocity=angular_velocity,
+        gravity=gravity,
     )
     inserted: _core.Body = insert("body", scene.bodies, body)
     return inserted

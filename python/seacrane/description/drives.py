@@ -5,7 +5,7 @@ from __future__ import annotations
 from seacrane import _core
 from seacrane.description.scene import Description, coordinate_of, insert
 from seacrane.errors import SceneError
-from seacrane.inputs.checked import curve_of, name_of, number_of
+from seacrane.inputs.checked import name_of
 
 
 def add_driver(
@@ -53,10 +53,10 @@ def add_actuator(
         name=name,
         joint=joint,
         coordinate=coordinate,
-        stiffness=number_of(f"actuator {name!r}: stiffness", stiffness),
-        damping=number_of(f"actuator {name!r}: damping", damping),
-        feed_forward=curve_of(f"actuator {name!r}: feed_forward", feed_forward),
-        reference=curve_of(f"actuator {name!r}: reference", reference),
+        stiffness=stiffness,
+        damping=damping,
+        feed_forward=feed_forward,
+        reference=reference,
     )
     inserted: _core.Actuator = insert("actuator", scene.actuators, actuator)
     return inserted

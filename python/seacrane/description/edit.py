@@ -6,13 +6,14 @@ from collections.abc import Iterator
 from typing import Any
 
 from seacrane import _core
+from seacrane.description.loads import named
+from seacrane.description.range import Range
 from seacrane.description.scene import ELEMENTS, KINDS, Description
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import curve_of
 from seacrane.inputs.shown import shown
 
 EDITED = (*ELEMENTS, "recorded", "ranges")  # tables of what has a name of its own
-OF_A_BODY = ("body", "first", "second")  # attributes that name a body; of a joint it is "joint"
 
 
 def replace_element(scene: Description, name: str, /, *, kind: str | None = None, **changes: Any) -> Any:
@@ -101,10 +102,11 @@ def _table_of(scene: Description, name: str, kind: str | None) -> str:
 
 def _users(scene: Description, key: str, name: str) -> Iterator[str]:
     """What refers to a body, a joint or a vessel, such as "joint 'link'"."""
-    names = {"bodies": OF_A_BODY, "joints": ("joint",)}.get(key, ())
+    role = {"bodies": "body", "joints": "joint"}.get(key)
     for table in (*ELEMENTS, "ranges"):
         for other, element in getattr(scene, table).items():
-            if any(getattr(element, attribute, None) == name for attribute in names):
+            names = [element.joint] if isinstance(element, Range) else named(element, role or "")
+            if role and name in names and (table != "ranges" or role == "joint"):
                 yield f"{KINDS[table]} {other!r}"
     if key == "joints":
         yield from (f"recorded coordinate {r!r}" for r, (joint, _) in scene.recorded.items() if joint == name)

@@ -1,8 +1,9 @@
 """Scene files: a scene as JSON. Data only; reading one runs no code and takes bounded memory.
 
 A file is an object with "format", "version" and one entry per field of `Scene`; elements are lists of
-objects with the arguments of the core's classes, in the order in which they were added. SI units, radians,
-the frames of `Scene`. Numbers are written with as many digits as it takes to read back the same double.
+objects with the FIELDS of the core's classes, in the order in which they were added; what is missing takes
+its default. SI units, radians, the frames of `Scene`. Numbers are written with as many digits as it takes
+to read back the same double.
 """
 
 from __future__ import annotations
@@ -15,18 +16,21 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import Any, TypeVar
 
-import numpy as np
-
 from seacrane import _core
 from seacrane.description.bodies import add_body
 from seacrane.description.drives import add_actuator, add_driver
+from seacrane.description.file_elements import (
+    element_from_node,
+    element_to_data,
+    load_from_node,
+    load_to_data,
+)
 from seacrane.description.file_origin import provenance_from_node, roles_from_node, roles_to_data
 from seacrane.description.file_text import LARGEST_FILE, parsed
 from seacrane.description.file_waves import waves_from_node, waves_to_data
 from seacrane.description.forces import add_force_table, add_load, add_point_force, add_spring
 from seacrane.description.hydrodynamics import add_hydrodynamics
 from seacrane.description.joints import add_joint
-from seacrane.description.loads import load_from_node, load_to_data
 from seacrane.description.old_files import provenance_from_notes, roles_by_name
 from seacrane.description.recorded import add_range, record_coordinate
 from seacrane.description.scene import Description
@@ -38,47 +42,16 @@ from seacrane.files.plain_data import notes_from_node, plain_data
 FORMAT = "seacrane scene"
 VERSION = 1
 
-_FRAME = {"point": (3,), "axes": (3, 3)}
-_ARRAYS: dict[str, dict[str, tuple[int, ...]]] = {
-    "bodies": {
-        "inertia": (3, 3),
-        "center_of_mass": (3,),
-        "position": (3,),
-        "quaternion": (4,),
-        "velocity": (3,),
-        "angular_velocity": (3,),
-    },
-    "point_forces": {"point": (3,), "force": (3,)},
-    "springs": {"first_point": (3,), "second_point": (3,), "lengths": (-1,), "forces": (-1,)},
-    "force_tables": {"point": (3,), "times": (-1,), "wrenches": (-1, 6)},
-    "vessels": {
-        "added_mass": (6, 6),
-        "linear_damping": (6, 6),
-        "quadratic_damping": (6,),
-        "restoring": (6, 6),
-        "mooring_stiffness": (3,),
-        "mooring_damping": (3,),
-    },
+_CLASSES: dict[str, type] = {
+    "bodies": _core.Body,
+    "joints": _core.Joint,
+    "drivers": _core.Driver,
+    "actuators": _core.Actuator,
+    "point_forces": _core.PointForce,
+    "springs": _core.Spring,
+    "force_tables": _core.ForceTable,
+    "vessels": _core.VesselHydrodynamics,
 }
-_NUMBERS = {
-    "bodies": ("mass",),
-    "joints": ("length",),
-    "actuators": ("stiffness", "damping"),
-    "springs": ("stiffness", "damping", "natural_length"),
-}
-_TEXTS = {
-    "bodies": ("name",),
-    "joints": ("name", "kind", "first", "second"),
-    "drivers": ("name", "joint", "coordinate"),
-    "actuators": ("name", "joint", "coordinate"),
-    "point_forces": ("name", "body"),
-    "springs": ("name", "first", "second"),
-    "force_tables": ("name", "body"),
-    "vessels": ("name", "body", "kinematics"),
-}
-_FLAGS = {"bodies": ("gravity",), "point_forces": ("body_axes",)}
-_CURVES = {"drivers": ("curve",), "actuators": ("feed_forward", "reference")}
-_FRAMES = {"joints": ("first_frame", "second_frame")}
 _ADD: dict[str, Callable[..., Any]] = {
     "bodies": add_body,
     "joints": add_joint,
@@ -250,8 +223,10 @@ def described(scene: Description) -> dict[str, Any]:
         "orientation": scene.orientation,
     }
     out |= {key: float(getattr(scene, key)) for key in _SETTINGS}
-    for kind in _ADD:
-        out[kind] = [_element(kind, element) for element in getattr(scene, kind).values()]
+    for kind in _CLASSES:
+        out[kind] = [element_to_data(element) for element in getattr(scene, kind).values()]
+    for data, joint in zip(out["joints"], scene.joints.values(), strict=True):
+        data["parameters"] = joint.parameters
     out["loads"] = [load_to_data(element) for element in scene.loads.values()]
     out["waves"] = None if scene.waves is None else waves_to_data(scene.waves)
     out["recorded"] = [
@@ -265,76 +240,27 @@ def described(scene: Description) -> dict[str, Any]:
     return out
 
 
-def _element(kind: str, element: Any) -> dict[str, Any]:
-    keys = [key for group in (_TEXTS, _NUMBERS, _FLAGS) for key in group.get(kind, ())]
-    out = {key: getattr(element, key) for key in keys}
-    out |= {key: np.asarray(getattr(element, key)).tolist() for key in _ARRAYS.get(kind, {})}
-    out |= {key: getattr(element, key).to_pieces() for key in _CURVES.get(kind, ())}
-    for key in _FRAMES.get(kind, ()):
-        frame = getattr(element, key)
-        out[key] = {part: getattr(frame, part).tolist() for part in _FRAME}
-    if kind == "vessels":
-        out["memory"] = _memory(element.memory)
-    return out
-
-
-def _memory(memory: list[_core.StateSpaceBlock] | _core.RetardationFunctions) -> Any:
-    if isinstance(memory, _core.RetardationFunctions):
-        return {"step": memory.step, "kernel": memory.kernel.tolist()}
-    return [_block(block) for block in memory]
-
-
-def _block(block: _core.StateSpaceBlock) -> dict[str, Any]:
-    matrices = {key: getattr(block, key).tolist() for key in ("a", "b", "c", "d", "state_scale")}
-    return {"inputs": list(block.inputs), "outputs": list(block.outputs), **matrices}
-
-
 def _add(scene: Description, kind: str, node: Node) -> None:
     """Check one element's entries, then add it as a script would."""
-    arrays, curves, frames = _ARRAYS.get(kind, {}), _CURVES.get(kind, ()), _FRAMES.get(kind, ())
-    numbers, texts, flags = _NUMBERS.get(kind, ()), _TEXTS[kind], _FLAGS.get(kind, ())
-    memory = ("memory",) if kind == "vessels" else ()
-    node.expect((*texts, *numbers, *flags, *arrays, *curves, *frames, *memory))
-    arguments: dict[str, Any] = {key: node.at(key).text() for key in texts}
-    arguments |= {key: node.at(key).number() for key in numbers}
-    arguments |= {key: node.at(key).flag() for key in flags}
-    arguments |= {key: node.at(key).array(shape) for key, shape in arrays.items()}
-    arguments |= {key: node.at(key).curve() for key in curves}
-    arguments |= {key: _frame(node.at(key)) for key in frames}
-    if memory:
-        arguments["memory"] = _memory_back(node.at("memory"))
+    entries = dict(node.value) if isinstance(node.value, dict) else node.value
+    parameters = _parameters(node, entries) if kind == "joints" and isinstance(entries, dict) else {}
+    arguments = element_from_node(_CLASSES[kind], Node(entries, node.path)) | parameters
     if kind == "force_tables":
         arguments["loads"] = arguments.pop("wrenches")
-    if kind == "joints" and arguments["kind"] != "distance" and arguments["length"] == 0.0:
-        del arguments["length"]
     with node.scene_errors():
         _ADD[kind](scene, **arguments)
 
 
-def _frame(node: Node) -> _core.Frame:
-    node.expect(tuple(_FRAME))
-    return _core.Frame(**{key: node.at(key).array(shape) for key, shape in _FRAME.items()})
-
-
-def _memory_back(node: Node) -> list[_core.StateSpaceBlock] | _core.RetardationFunctions:
-    if not isinstance(node.value, dict):
-        return [_block_back(block) for block in node.items()]
-    node.expect(("step", "kernel"))
-    step, kernel = node.at("step").number(), node.at("kernel").array((-1, 6, 6))
-    return _core.RetardationFunctions(step=step, kernel=kernel)
-
-
-def _block_back(node: Node) -> _core.StateSpaceBlock:
-    node.expect(("inputs", "outputs", "a", "b", "c", "d", "state_scale"))
-    inputs = [item.whole() for item in node.at("inputs").items()]
-    outputs = [item.whole() for item in node.at("outputs").items()]
-    states = len(node.at("a").values())
-    return _core.StateSpaceBlock(
-        inputs=inputs,
-        outputs=outputs,
-        a=node.at("a").array((states, states)),
-        b=node.at("b").array((states, len(inputs))),
-        c=node.at("c").array((len(outputs), states)),
-        d=node.at("d").array((len(outputs), len(inputs))),
-        state_scale=node.at("state_scale").array((-1,)),
-    )
+def _parameters(node: Node, entries: dict[str, Any]) -> dict[str, float]:
+    """Takes a joint's own numbers out of its entries; in older files every joint has a "length"."""
+    if "length" in entries:
+        length = node.at("length").number()
+        del entries["length"]
+        return {"length": length} if length or entries.get("kind") == "distance" else {}
+    if "parameters" not in entries:
+        return {}
+    del entries["parameters"]
+    given = node.at("parameters")
+    if not isinstance(given.value, dict):
+        given.fail("give an object with numbers")
+    return {key: given.at(key).number() for key in given.value}

@@ -6,10 +6,10 @@ from collections.abc import Sequence
 from typing import Any
 
 from seacrane import _core
-from seacrane.description.loads import kind_of
-from seacrane.description.scene import Description, insert
+from seacrane.description.loads import kind_of, make_load
+from seacrane.description.scene import KINDS, LOADS, Description, insert
 from seacrane.errors import SceneError
-from seacrane.inputs.checked import flag_of, name_of, number_of, numbers_of, shaped_of, text_of, vector_of
+from seacrane.inputs.checked import numbers_of
 
 
 def add_point_force(
@@ -23,13 +23,7 @@ def add_point_force(
 ) -> _core.PointForce:
     """A constant force (N) at a point of a body (m, body coordinates), in inertial axes or, with
     `body_axes`, turning with the body. Input "<name>.force" (3 values) adds to it during a run."""
-    element = _core.PointForce(
-        name=name_of("point force", name),
-        body=text_of(f"point force {name!r}: body", body),
-        point=shaped_of(f"point force {name!r}: point", point, (3,)),
-        force=shaped_of(f"point force {name!r}: force", force, (3,)),
-        body_axes=flag_of(f"point force {name!r}: body_axes", body_axes),
-    )
+    element = _core.PointForce(name=name, body=body, point=point, force=force, body_axes=body_axes)
     inserted: _core.PointForce = insert("point force", scene.point_forces, element)
     return inserted
 
@@ -51,16 +45,16 @@ def add_spring(
     """A spring-damper between points of two bodies (m, body coordinates): linear (N/m, N s/m, m), or a
     table of tension `forces` (N) over `lengths` (m)."""
     element = _core.Spring(
-        name=name_of("spring", name),
-        first=text_of(f"spring {name!r}: first", first),
-        second=text_of(f"spring {name!r}: second", second),
-        first_point=shaped_of(f"spring {name!r}: first_point", first_point, (3,)),
-        second_point=shaped_of(f"spring {name!r}: second_point", second_point, (3,)),
-        stiffness=number_of(f"spring {name!r}: stiffness", stiffness),
-        damping=number_of(f"spring {name!r}: damping", damping),
-        natural_length=number_of(f"spring {name!r}: natural_length", natural_length),
-        lengths=vector_of(f"spring {name!r}: lengths", lengths),
-        forces=vector_of(f"spring {name!r}: forces", forces),
+        name=name,
+        first=first,
+        second=second,
+        first_point=first_point,
+        second_point=second_point,
+        stiffness=stiffness,
+        damping=damping,
+        natural_length=natural_length,
+        lengths=lengths,
+        forces=forces,
     )
     inserted: _core.Spring = insert("spring", scene.springs, element)
     return inserted
@@ -74,13 +68,7 @@ def add_force_table(
     rows = numbers_of(f"force table {name!r}: loads", loads)
     if rows.ndim != 2 or rows.shape[1] != 6:
         raise SceneError(f"force table {name!r}: loads have shape {rows.shape}; give (n, 6)")
-    element = _core.ForceTable(
-        name=name_of("force table", name),
-        body=text_of(f"force table {name!r}: body", body),
-        point=shaped_of(f"force table {name!r}: point", point, (3,)),
-        times=vector_of(f"force table {name!r}: times", times),
-        wrenches=rows,
-    )
+    element = _core.ForceTable(name=name, body=body, point=point, times=times, wrenches=rows)
     inserted: _core.ForceTable = insert("force table", scene.force_tables, element)
     return inserted
 
@@ -92,18 +80,16 @@ def add_function_force(
     pointer): void f(double t, const double* state13, const double* parameters, double* wrench6). State:
     position, quaternion, velocity, angular velocity of the body origin; wrench about it; inertial axes.
     """
-    if not isinstance(address, int) or not 0 < address < 2**64:
-        raise SceneError(f"function force {name!r}: address is {address!r}; give the address of a C function")
-    element = _core.FunctionForce(
-        name=name_of("function force", name),
-        body=text_of(f"function force {name!r}: body", body),
-        address=address,
-        parameters=vector_of(f"function force {name!r}: parameters", parameters),
-    )
+    element = _core.FunctionForce(name=name, body=body, address=address, parameters=parameters)
     inserted: _core.FunctionForce = insert("function force", scene.function_forces, element)
     return inserted
 
 
-def add_load(scene: Description, element: Any) -> Any:
-    """Add a described load of a kind in `seacrane.description.loads`, such as a FlowForce; returns it."""
-    return insert(kind_of(element), scene.loads, element)
+def add_load(scene: Description, element: Any = None, *, kind: str | None = None, **entries: Any) -> Any:
+    """Add a load of any kind: one that is described already, such as a FlowForce, or by the name of its kind
+    and its entries, as `FIELDS` of its class in `_core.LOAD_KINDS` lists them; returns it."""
+    if kind is not None:
+        element = make_load(kind, entries)
+    found = kind_of(element)
+    table = next((key for key in LOADS if KINDS[key] == found), "loads")
+    return insert(found, getattr(scene, table), element)

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from seacrane import _core
 from seacrane.description.scene import GROUND, Description, insert
 from seacrane.errors import SceneError
-from seacrane.inputs.checked import name_of, number_of, shaped_of, text_of
+from seacrane.inputs.checked import name_of, shaped_of, text_of
 from seacrane.inputs.frames import axes_across, axes_along, rotation_matrix
 
 Array = NDArray[np.float64]
@@ -27,9 +27,9 @@ def add_joint(
     axis: Any = None,
     second_axis: Any = None,
     second_point: Any = None,
-    length: float | None = None,
     first_frame: _core.Frame | None = None,
     second_frame: _core.Frame | None = None,
+    **parameters: float | None,
 ) -> _core.Joint:
     """Add a joint between two bodies; it may close a loop.
 
@@ -39,7 +39,8 @@ def add_joint(
     Parameters
     ----------
     kind : str
-        weld, revolute, prismatic, cylindrical, universal, spherical, planar, distance or free.
+        weld, revolute, prismatic, cylindrical, universal, spherical, planar, distance or free: a key of
+        `seacrane.joint_kinds()`, which lists what each takes.
     name, first, second : str
         The joint and its bodies; "ground" is the inertial frame.
     point : array_like, shape (3,)
@@ -51,10 +52,11 @@ def add_joint(
         Universal joint: the axis fixed on the second body, perpendicular to `axis`.
     second_point : array_like, shape (3,)
         Distance joint: the point on the second body.
-    length : float
-        Distance joint, m. Default: the distance at the described pose.
     first_frame, second_frame : Frame
         In body coordinates, instead of all the above.
+    **parameters : float
+        The kind's own, such as the `length` of a distance joint, m; by default the distance at the
+        described pose.
 
     Raises
     ------
@@ -62,15 +64,11 @@ def add_joint(
     """
     name_of("joint", name)
     text_of(f"joint {name!r}: kind", kind)
-    for key, value, owner in (
-        ("length", length, "distance"),
-        ("second_point", second_point, "distance"),
-        ("second_axis", second_axis, "universal"),
-    ):
-        if value is not None and kind != owner:
-            raise SceneError(
-                f"joint {name!r}: {key} belongs to a {owner} joint, this one is {kind}; leave it out"
-            )
+    about = _core.joint_kinds().get(kind)
+    given = {key: value for key, value in parameters.items() if value is not None}
+    for key, value in (*given.items(), ("second_point", second_point), ("second_axis", second_axis)):
+        if value is not None and (about is None or key not in _own(about)):
+            raise SceneError(f"joint {name!r}: {_misplaced(key, kind)}; leave it out")
     if (first_frame is None) != (second_frame is None):
         raise SceneError(f"joint {name!r}: has one frame only; give first_frame and second_frame, or neither")
     if first_frame is None or second_frame is None:
@@ -79,27 +77,29 @@ def add_joint(
         across = along
         if second_axis is not None:
             across = axes_across(f"joint {name!r}: second_axis", along[:, 2], second_axis)
-        elif kind == "universal":
-            raise SceneError(f"joint {name!r}: a universal joint needs second_axis, fixed on the second body")
+        elif about is not None and about.own_axis:
+            raise SceneError(f"joint {name!r}: a {kind} joint needs second_axis, fixed on the second body")
         other = at if second_point is None else second_point
         first_frame = _frame(scene, name, first, at, along)
         second_frame = _frame(scene, name, second, other, across)
-        if kind == "distance" and length is None:
+        for length in _lengths(about):
+            if length in given:
+                continue
             if second_point is None:
-                raise SceneError(f"joint {name!r}: a distance joint needs second_point, or frames and length")
-            between = shaped_of(f"joint {name!r}: second_point", other, (3,)) - np.asarray(at, dtype=float)
-            length = float(np.linalg.norm(between))
+                raise SceneError(f"joint {name!r}: a {kind} joint needs second_point, or frames and {length}")
+            apart = shaped_of(f"joint {name!r}: second_point", other, (3,)) - np.asarray(at, dtype=float)
+            given[length] = float(np.linalg.norm(apart))
     for frame in (first_frame, second_frame):
         if not isinstance(frame, _core.Frame):
             raise SceneError(f"joint {name!r}: a frame is {frame!r}; give a seacrane.Frame")
     joint = _core.Joint(
         kind=kind,
         name=name,
-        first=text_of(f"joint {name!r}: first", first),
-        second=text_of(f"joint {name!r}: second", second),
+        first=first,
+        second=second,
         first_frame=first_frame,
         second_frame=second_frame,
-        length=0.0 if length is None else number_of(f"joint {name!r}: length", length),
+        **given,
     )
     inserted: _core.Joint = insert("joint", scene.joints, joint)
     return inserted
@@ -120,3 +120,21 @@ def _frame(scene: Description, joint: str, body: str, point: Any, axes: Array) -
     position, rotation = _pose(scene, joint, body)
     where = shaped_of(f"joint {joint!r}: point", point, (3,))
     return _core.Frame(point=rotation.T @ (where - position), axes=rotation.T @ axes)
+
+
+def _own(kind: _core.JointKind) -> list[str]:
+    """Arguments of `add_joint` that only some kinds of joints take."""
+    places = [("second_point", kind.own_point), ("second_axis", kind.own_axis)]
+    return [*(field.name for field in kind.parameters), *(key for key, has in places if has)]
+
+
+def _lengths(kind: _core.JointKind | None) -> list[str]:
+    """Parameters that default to the distance of a joint's two points."""
+    return [field.name for field in kind.parameters if field.role == "distance"] if kind else []
+
+
+def _misplaced(key: str, kind: str) -> str:
+    owners = [name for name, other in _core.joint_kinds().items() if key in _own(other)]
+    if not owners:
+        return f"no joint takes {key!r}"
+    return f"{key} belongs to a {' or '.join(owners)} joint, this one is {kind}"

@@ -38,6 +38,7 @@ KINDS: Mapping[str, str] = {  # what the elements of each table are called
     "provenance": "provenance",
 }
 ELEMENTS = tuple(KINDS)[:10]  # tables of what is compiled
+LOADS = tuple(KINDS)[3:9]  # of these, loads
 
 
 @dataclass(kw_only=True, eq=False, repr=False)
@@ -121,6 +122,10 @@ class Description:
         """
         return replace(self, **changes)
 
+    def all_loads(self) -> list[Any]:
+        """Loads of all kinds."""
+        return [element for key in LOADS for element in getattr(self, key).values()]
+
 
 def insert(kind: str, table: dict[str, Any], element: Any) -> Any:
     """Put an element into its table and return it; SceneError where the name is taken."""
@@ -134,5 +139,6 @@ def coordinate_of(scene: Description, kind: str, joint: str, coordinate: str | N
     """A coordinate of a joint, by default its usual one; SceneError where there is no such joint."""
     if text_of(f"{kind}: joint", joint) not in scene.joints:
         raise SceneError(f"{kind}: there is no joint {joint!r}; add it first")
-    usual = "angle" if scene.joints[joint].kind == "revolute" else "displacement"
+    about = _core.joint_kinds().get(scene.joints[joint].kind)
+    usual = about.usual if about and about.usual else "displacement"
     return text_of(f"{kind} of joint {joint!r}: coordinate", coordinate, usual)

@@ -80,6 +80,22 @@ def shaped_of(what: str, value: Any, shape: tuple[int, ...]) -> Array:
     return array
 
 
+def rows_of(what: str, value: Any, width: int) -> Array:
+    """Rows of so many numbers; an empty list is no rows."""
+    array = numbers_of(what, value)
+    array = array.reshape(0, width) if array.shape == (0,) else array
+    if array.ndim != 2 or array.shape[1] != width:
+        raise SceneError(f"{what} has shape {array.shape}; give (n, {width})")
+    return array
+
+
+def address_of(what: str, value: Any) -> int:
+    """The address of a C function."""
+    if not isinstance(value, int) or not 0 < value < 2**64:
+        raise SceneError(f"{what} is {value!r}; give the address of a C function")
+    return value
+
+
 def curve_of(what: str, value: Any) -> _core.Curve:
     """A curve, or a number as a constant one."""
     if isinstance(value, _core.Curve):

@@ -14,6 +14,7 @@ from seacrane import _core
 from seacrane.analysis.inverse import SIX, driven, hold_vessel
 from seacrane.description.crane_parts import hooks
 from seacrane.description.curves import spline_curve
+from seacrane.description.loads import bodies_of
 from seacrane.description.provenance import VesselProvenance
 from seacrane.errors import SceneError
 from seacrane.hydro import HydroDatabase, fit_memory
@@ -198,12 +199,9 @@ def hanging(scene: Scene) -> bool:
 def _hangs(scene: Scene, link: str) -> bool:
     payload = scene.joints[link].second
     others = [joint for name, joint in scene.joints.items() if name != link]
-    elements = [*scene.point_forces.values(), *scene.force_tables.values(), *scene.function_forces.values(),
-                *scene.loads.values()]  # fmt: skip
     return not (
         any(payload in (joint.first, joint.second) for joint in others)
-        or any(payload in (spring.first, spring.second) for spring in scene.springs.values())
-        or any(getattr(element, "body", None) == payload for element in elements)
+        or any(payload in bodies_of(load, scene.joints) for load in scene.all_loads())
     )
 
 

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from seacrane import _core
 from seacrane.description.joint_coordinates import ANGLES
+from seacrane.description.loads import kind_of, named
 from seacrane.description.references import references
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.frames import rotation_matrix
@@ -28,6 +29,7 @@ LARGEST_RADIUS = 200.0  # m, of gyration
 HUNG_SHARE = 1e-5  # of the vessel's mass
 LARGEST_HEEL = np.radians(2.0)
 LARGEST_SINKAGE = 2.0  # m
+JUDGED_LOADS = ("point force", "actuator", "flow force", "limit", "friction", "soft stop")
 
 
 class BallastWarning(UserWarning):
@@ -101,7 +103,7 @@ def _warn_of_masses(scene: Description) -> None:
 
 def _warn_of_ballast(scene: Description) -> None:
     """Weights on a vessel against forces on it, by its restoring; other loads than these are not judged."""
-    if scene.springs or scene.function_forces or scene.force_tables:
+    if any(kind_of(load) not in JUDGED_LOADS for load in scene.all_loads()):
         return
     for vessel in scene.vessels.values():
         hull = scene.bodies[vessel.body]
@@ -139,7 +141,7 @@ def _warn_of_balance(vessel: _core.VesselHydrodynamics, rest: Array, start: floa
 
 def _carried(scene: Description, vessel: str) -> set[str]:
     """Bodies whose weight comes to the vessel; none where another support shares it."""
-    stopped = {load.joint for load in scene.loads.values() if hasattr(load, "joint")}
+    stopped = {joint for load in scene.loads.values() for joint in named(load, "joint")}
     driven = {driver.joint for driver in scene.drivers.values()}
     neighbours: dict[str, list[str]] = {}
     for name, joint in scene.joints.items():

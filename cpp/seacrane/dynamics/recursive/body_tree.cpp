@@ -7,6 +7,7 @@
 #include <set>
 #include <utility>
 
+#include "seacrane/elements/joint_kinds.hpp"
 #include "seacrane/math/rotation.hpp"
 
 namespace seacrane {
@@ -68,13 +69,7 @@ class TreeBuilder {
     bool used = true;
   };
 
-  static std::size_t kind_of(const char* name) {
-    std::size_t out = kJointKinds;
-    for_each_joint_type([&]<class Type>(std::size_t i) {
-      if (std::string(name) == Type::kind) out = i;
-    });
-    return out;
-  }
+  static std::size_t kind_of(const char* name) { return find_joint_kind(name)->index; }
 
   int other(std::size_t edge, int body) const {
     const JointData& j = edges_[edge].joint;
@@ -203,7 +198,7 @@ class TreeBuilder {
             forward ? j.second_point : j.first_point,
             forward ? j.first_axes : j.second_axes,
             forward ? j.second_axes : j.first_axes,
-            j.length};
+            j.parameters};
   }
 
   void add(std::size_t e) {

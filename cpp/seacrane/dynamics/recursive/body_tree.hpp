@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "seacrane/dynamics/recursive/strut.hpp"
+#include "seacrane/elements/joints/registry.hpp"
 #include "seacrane/model/model.hpp"
 
 namespace seacrane {
@@ -17,7 +18,7 @@ struct Member {
 /// Bodies that move together over one parent: one body of a tree joint, with the struts across a hinge, or
 /// a body that floats freely (no parent, six speeds).
 struct Cluster {
-  static constexpr std::size_t floating = kJointKinds;
+  static constexpr std::size_t floating = static_cast<std::size_t>(-1);
   std::size_t kind = floating;  // of the joint, index in JointTypes
   TreeJoint joint;
   int parent = -1, body = -1;  // indices; ground = body count

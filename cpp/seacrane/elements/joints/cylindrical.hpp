@@ -5,13 +5,17 @@
 
 namespace seacrane {
 
-/// Sliding along and rotation about the joint z axis.
-struct Cylindrical {
+/// Sliding along and rotation about z_a: d . x_a = d . y_a = 0, z_b . x_a = z_b . y_a = 0. Coordinates: angle
+/// about z_a from x_a to x_b, and displacement = d . z_a, the usual one.
+struct Cylindrical : JointDefaults {
   static constexpr const char* kind = "cylindrical";
   static constexpr int rows = 4;
   static constexpr const char* coordinates = "angle displacement";
-  static constexpr bool parallel_axes = true;  // z axes point the same way
-  static constexpr bool aligned_axes = false;  // x axes too
+  static constexpr const char* usual = "displacement";
+  static constexpr bool slides = true;
+  static constexpr bool parallel_axes = true;
+
+  static JointDescription example(Random& random) { return example_joint<Cylindrical>(random); }
 
   template <class T>
   static void evaluate(const JointGeometry<T>& g, const JointData& /*joint*/, RowBlock<T>& out) {

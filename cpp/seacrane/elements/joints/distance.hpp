@@ -5,17 +5,30 @@
 
 namespace seacrane {
 
-/// Constant distance of the two points.
-struct Distance {
+/// Constant distance of the two points: |d| = length. No coordinate.
+struct Distance : JointDefaults {
   static constexpr const char* kind = "distance";
   static constexpr int rows = 1;
-  static constexpr const char* coordinates = "";
-  static constexpr bool parallel_axes = false;  // z axes point the same way
-  static constexpr bool aligned_axes = false;   // x axes too
+  static constexpr bool own_point = true;
+
+  struct Parameters {
+    double length = 0.0;
+
+    static constexpr auto fields() {
+      return std::tuple(required("length", &Parameters::length, "m", "between the two points")
+                            .must_be(Bound::positive)
+                            .as(Role::distance));
+    }
+  };
+
+  static JointDescription example(Random& random) {
+    const double length = random.positive();
+    return example_joint<Distance>(random, {length * Vec3d::UnitZ()}, {{"length", length}});
+  }
 
   template <class T>
   static void evaluate(const JointGeometry<T>& g, const JointData& joint, RowBlock<T>& out) {
-    rows::distance<T>(g, T(joint.length), out, 0);
+    rows::distance<T>(g, T(parameters_of<Parameters>(joint.parameters).length), out, 0);
   }
 
   /// Quaternions of a link frame, whose z axis points from the parent's joint point to the child's, and of
@@ -30,7 +43,7 @@ struct Distance {
                      BranchMotionOf<T>& out) {
       const Mat3<T> link = rotation_from_quaternion<T>(branch::quaternion(q));
       out.rotation = rotation_from_quaternion<T>(branch::quaternion(q + 4));
-      const T length(j.length);
+      const T length(parameters_of<Parameters>(j.parameters).length);
       out.reach = branch::parent_lever(j, parent) + length * link.col(2);
       out.slide[0] = -length * link.col(1);
       out.slide[1] = length * link.col(0);
@@ -53,10 +66,11 @@ struct Distance {
       link.col(2) = gap.offset.normalized();
       link.col(0) = Vec3d::Unit(least).cross(link.col(2)).normalized();
       link.col(1) = link.col(2).cross(link.col(0));
+      const double length = parameters_of<Parameters>(j.parameters).length;
       view<4>(q) = quaternion_from_rotation(link);
       view<4>(q + 4) = quaternion_from_rotation(child.rotation);
-      u[0] = -link.col(1).dot(gap.rate) / j.length;
-      u[1] = link.col(0).dot(gap.rate) / j.length;
+      u[0] = -link.col(1).dot(gap.rate) / length;
+      u[1] = link.col(0).dot(gap.rate) / length;
       view<3>(u + 2) = gap.turning;
     }
   };

@@ -5,13 +5,14 @@
 
 namespace seacrane {
 
-/// Motion in the plane normal to the joint z axis of the first body.
-struct Planar {
+/// Motion in the plane normal to z_a: d . z_a = 0, z_b . x_a = z_b . y_a = 0. No coordinate.
+struct Planar : JointDefaults {
   static constexpr const char* kind = "planar";
   static constexpr int rows = 3;
-  static constexpr const char* coordinates = "";
-  static constexpr bool parallel_axes = true;  // z axes point the same way
-  static constexpr bool aligned_axes = false;  // x axes too
+  static constexpr bool slides = true;
+  static constexpr bool parallel_axes = true;
+
+  static JointDescription example(Random& random) { return example_joint<Planar>(random); }
 
   template <class T>
   static void evaluate(const JointGeometry<T>& g, const JointData& /*joint*/, RowBlock<T>& out) {

@@ -5,13 +5,18 @@
 
 namespace seacrane {
 
-/// Sliding along the joint z axis of the first body.
-struct Prismatic {
+/// Sliding along z_a: d . x_a = d . y_a = 0, and the axes of both frames agree. Coordinate: displacement =
+/// d . z_a.
+struct Prismatic : JointDefaults {
   static constexpr const char* kind = "prismatic";
   static constexpr int rows = 5;
   static constexpr const char* coordinates = "displacement";
-  static constexpr bool parallel_axes = true;  // z axes point the same way
-  static constexpr bool aligned_axes = true;   // x axes too
+  static constexpr const char* usual = "displacement";
+  static constexpr bool slides = true;
+  static constexpr bool parallel_axes = true;
+  static constexpr bool aligned_axes = true;
+
+  static JointDescription example(Random& random) { return example_joint<Prismatic>(random); }
 
   template <class T>
   static void evaluate(const JointGeometry<T>& g, const JointData& /*joint*/, RowBlock<T>& out) {

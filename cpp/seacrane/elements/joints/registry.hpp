@@ -1,11 +1,8 @@
 #pragma once
 
-#include <array>
-#include <string>
 #include <tuple>
-#include <vector>
+#include <utility>
 
-#include "seacrane/elements/driver.hpp"
 #include "seacrane/elements/joints/cylindrical.hpp"
 #include "seacrane/elements/joints/distance.hpp"
 #include "seacrane/elements/joints/free.hpp"
@@ -18,11 +15,10 @@
 
 namespace seacrane {
 
-/// The one list of joint types: a new type is its own file and an entry here.
+/// The list of joint types: a new type is its own file and an entry here. In their comments a and b are the
+/// joint frames on the first and on the second body, and d leads from the point of a to that of b.
 using JointTypes =
     std::tuple<Weld, Revolute, Prismatic, Cylindrical, Universal, Spherical, Planar, Distance, Free>;
-
-inline constexpr std::size_t kJointKinds = std::tuple_size_v<JointTypes>;
 
 /// Calls f.template operator()<Type>(index) for every joint type.
 template <class F>
@@ -30,10 +26,7 @@ constexpr void for_each_joint_type(F&& f) {
   [&]<std::size_t... I>(std::index_sequence<I...>) {
     (f.template operator()<std::tuple_element_t<I, JointTypes>>(I), ...);
   }
-  (std::make_index_sequence<kJointKinds>{});
+  (std::make_index_sequence<std::tuple_size_v<JointTypes>>{});
 }
-
-/// Joints of one kind side by side, evaluated with one dispatch per kind.
-using JointsByKind = std::array<std::vector<JointData>, kJointKinds>;
 
 }  // namespace seacrane

@@ -5,13 +5,16 @@
 
 namespace seacrane {
 
-/// Rotation about the joint z axis.
-struct Revolute {
+/// Rotation about z_a: d = 0, z_b . x_a = z_b . y_a = 0. Coordinate: angle about z_a from x_a to x_b, zero
+/// where the frames agree.
+struct Revolute : JointDefaults {
   static constexpr const char* kind = "revolute";
   static constexpr int rows = 5;
   static constexpr const char* coordinates = "angle";
-  static constexpr bool parallel_axes = true;  // z axes point the same way
-  static constexpr bool aligned_axes = false;  // x axes too
+  static constexpr const char* usual = "angle";
+  static constexpr bool parallel_axes = true;
+
+  static JointDescription example(Random& random) { return example_joint<Revolute>(random); }
 
   template <class T>
   static void evaluate(const JointGeometry<T>& g, const JointData& /*joint*/, RowBlock<T>& out) {

@@ -5,13 +5,12 @@
 
 namespace seacrane {
 
-/// Coincident points.
-struct Spherical {
+/// Coincident points: d = 0. No coordinate.
+struct Spherical : JointDefaults {
   static constexpr const char* kind = "spherical";
   static constexpr int rows = 3;
-  static constexpr const char* coordinates = "";
-  static constexpr bool parallel_axes = false;  // z axes point the same way
-  static constexpr bool aligned_axes = false;   // x axes too
+
+  static JointDescription example(Random& random) { return example_joint<Spherical>(random); }
 
   template <class T>
   static void evaluate(const JointGeometry<T>& g, const JointData& /*joint*/, RowBlock<T>& out) {

@@ -5,13 +5,17 @@
 
 namespace seacrane {
 
-/// Coincident points; the z axis of the first stays perpendicular to the z axis of the second.
-struct Universal {
+/// Two axes at a right angle that meet in a point: d = 0, z_a . z_b = 0. No coordinate.
+struct Universal : JointDefaults {
   static constexpr const char* kind = "universal";
   static constexpr int rows = 4;
-  static constexpr const char* coordinates = "";
-  static constexpr bool parallel_axes = false;  // z axes point the same way
-  static constexpr bool aligned_axes = false;   // x axes too
+  static constexpr bool own_axis = true;
+
+  static JointDescription example(Random& random) {
+    Frame quarter_turn;
+    quarter_turn.axes << Vec3d::UnitX(), Vec3d::UnitZ(), -Vec3d::UnitY();
+    return example_joint<Universal>(random, quarter_turn);
+  }
 
   template <class T>
   static void evaluate(const JointGeometry<T>& g, const JointData& /*joint*/, RowBlock<T>& out) {

@@ -5,13 +5,15 @@
 
 namespace seacrane {
 
-/// No relative motion.
-struct Weld {
+/// No relative motion: d = 0 and the axes of both frames agree, x_a . y_b = y_a . z_b = z_a . x_b = 0.
+/// No coordinate.
+struct Weld : JointDefaults {
   static constexpr const char* kind = "weld";
   static constexpr int rows = 6;
-  static constexpr const char* coordinates = "";
-  static constexpr bool parallel_axes = true;  // z axes point the same way
-  static constexpr bool aligned_axes = true;   // x axes too
+  static constexpr bool parallel_axes = true;
+  static constexpr bool aligned_axes = true;
+
+  static JointDescription example(Random& random) { return example_joint<Weld>(random); }
 
   template <class T>
   static void evaluate(const JointGeometry<T>& g, const JointData& /*joint*/, RowBlock<T>& out) {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "seacrane/elements/check.hpp"
+#include "seacrane/elements/field.hpp"
 #include "seacrane/elements/joint_coordinate.hpp"
 #include "seacrane/elements/loads/load.hpp"
 #include "seacrane/math/curve.hpp"
@@ -12,6 +12,19 @@ struct ActuatorDescription {
   CoordinateDescription coordinate;
   double stiffness = 0.0, damping = 0.0;
   Curve feed_forward, reference;
+
+  static constexpr const char* type = "Actuator";
+  static constexpr const char* text =
+      "State feedback on a joint coordinate q: feed_forward + stiffness (reference - q) + damping (reference "
+      "rate - q rate), N (N/m, N s/m) or N m (N m/rad, N m s/rad).";
+  static constexpr auto fields() {
+    using D = ActuatorDescription;
+    return std::tuple_cat(on_coordinate<D>(),
+                          std::tuple(optional("stiffness", &D::stiffness, "N/m or N m/rad", ""),
+                                     optional("damping", &D::damping, "N s/m or N m s/rad", ""),
+                                     optional("feed_forward", &D::feed_forward, "N or N m", ""),
+                                     optional("reference", &D::reference, "m or rad", "")));
+  }
 };
 
 /// State feedback on a joint coordinate: force = feed_forward + stiffness (reference - q) +
@@ -31,6 +44,10 @@ struct Actuator {
     names.input(c, kind, d.name);
     c.not_negative("stiffness", d.stiffness);
     c.not_negative("damping", d.damping);
+  }
+
+  static Description example() {
+    return {"load", {"joint", "angle"}, 20.0, 3.0, Curve::constant(9.0), Curve::quintic(0.0, 2.0, 0.0, 1.0)};
   }
 
   template <class Context>
@@ -65,8 +82,7 @@ struct Actuator {
            T(damping) * (T(ref.rate) - coordinate_rate<T>(row, ka, kb));
   }
 
-  /// True between two points of one rigid body: forces cancel and do no work.
-  bool moves_nothing(int /*ground*/) const { return coordinate.joint.first == coordinate.joint.second; }
+  std::array<int, 2> bodies() const { return coordinate.bodies(); }
 
   template <class T>
   void apply(const LoadInput<T>& in, LoadSum<T>& out) const {

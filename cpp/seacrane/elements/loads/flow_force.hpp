@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "seacrane/elements/check.hpp"
+#include "seacrane/elements/field.hpp"
 #include "seacrane/elements/loads/load.hpp"
 #include "seacrane/math/curve.hpp"
 #include "seacrane/math/periodic_spline.hpp"
@@ -21,6 +21,26 @@ struct FlowForceDescription {
   double frontal_area = 0.0, lateral_area = 0.0, length = 0.0;  // m2, m2, m
   std::vector<double> angles;       // rad, where the relative flow goes, from the bow towards port
   std::vector<Vec3d> coefficients;  // C_x, C_y, C_n at the angles
+
+  static constexpr const char* type = "FlowForce";
+  static constexpr const char* text =
+      "Wind or current on a body by coefficients; see seacrane.add_wind and seacrane.add_current.\n\n"
+      "F_x, F_y = density / 2 V^2 (C_x frontal_area, C_y lateral_area), N = density / 2 V^2 C_n "
+      "lateral_area\n"
+      "length, V the horizontal flow relative to `point`, in axes that follow the body's yaw; C over "
+      "`angles`,\n"
+      "where the relative flow goes, from the bow towards port, by periodic cubic splines.";
+  static constexpr auto fields() {
+    using D = FlowForceDescription;
+    return std::tuple(on_body("body", &D::body),
+                      optional("point", &D::point, "m", "where the load acts, body coordinates"),
+                      required("density", &D::density, "kg/m3", ""), required("speed", &D::speed, "m/s", ""),
+                      required("direction", &D::direction, "rad", "where the flow goes, from +x towards +y"),
+                      required("frontal_area", &D::frontal_area, "m2", ""),
+                      required("lateral_area", &D::lateral_area, "m2", ""),
+                      required("length", &D::length, "m", ""), required("angles", &D::angles, "rad", ""),
+                      required("coefficients", &D::coefficients, "", "C_x, C_y, C_n at the angles"));
+  }
 };
 
 /// Wind or current on a body by coefficients (DNV-RP-C205; OCIMF, Mooring Equipment Guidelines): with the
@@ -60,6 +80,20 @@ struct FlowForce {
                " rad; angles must increase within one turn, at most 90 deg apart");
       }
     }
+  }
+
+  static Description example() {
+    Description d;
+    d.name = "load";
+    d.body = "first";
+    d.point = {0.0, 0.1, 0.4};
+    d.density = 1.2;
+    d.speed = Curve::constant(5.0);
+    d.frontal_area = d.lateral_area = d.length = 1.3;
+    d.angles = {0.0, 1.5, 3.0, 4.5, 5.5};
+    d.coefficients = {
+        {0.9, 0.0, 0.1}, {0.1, 0.8, 0.2}, {-0.8, 0.1, 0.0}, {0.0, -0.9, -0.2}, {0.6, -0.5, 0.1}};
+    return d;
   }
 
   template <class Context>
@@ -113,8 +147,7 @@ struct FlowForce {
     wrenches[body].tail<3>() += lever.cross(force) + (component == 2 ? 1.0 : 0.0) * Vec3d::UnitZ();
   }
 
-  /// True on bodies that are fixed to the ground: no load, no work.
-  bool moves_nothing(int ground) const { return body == ground; }
+  std::array<int, 1> bodies() const { return {body}; }
 
   template <class T>
   void apply(const LoadInput<T>& in, LoadSum<T>& out) const {

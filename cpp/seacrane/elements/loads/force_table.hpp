@@ -1,9 +1,10 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <vector>
 
-#include "seacrane/elements/check.hpp"
+#include "seacrane/elements/field.hpp"
 #include "seacrane/elements/loads/load.hpp"
 
 namespace seacrane {
@@ -13,6 +14,17 @@ struct ForceTableDescription {
   Vec3d point = Vec3d::Zero();
   std::vector<double> times;
   std::vector<Vec6d> wrenches;  // inertial axes, moments about the point
+
+  static constexpr const char* type = "ForceTable";
+  static constexpr const char* text =
+      "Force and moment (n, 6), N and N m, inertial axes, about a body-fixed point, over times (n,) in s; "
+      "linear in between, held outside.";
+  static constexpr auto fields() {
+    using D = ForceTableDescription;
+    return std::tuple(on_body("body", &D::body), optional("point", &D::point, "m", "body coordinates"),
+                      required("times", &D::times, "s", ""),
+                      required("wrenches", &D::wrenches, "N, N m", "force and moment at the times"));
+  }
 };
 
 /// A wrench tabulated over time (linear between the times, held outside) at a body-fixed point.
@@ -48,6 +60,11 @@ struct ForceTable {
     }
   }
 
+  static Description example() {
+    const Vec6d later = (Vec6d() << 1.0, 2.0, 3.0, 4.0, 5.0, 6.0).finished();
+    return {"load", "second", Vec3d(0.1, 0.2, 0.3), {0.0, 1.0}, {Vec6d::Zero(), later}};
+  }
+
   template <class Context>
   static ForceTable compile(const Description& d, Context& context) {
     const Attachment on = context.attach(d.body, d.point);
@@ -77,8 +94,7 @@ struct ForceTable {
     wrenches[body].tail<3>() += lever.cross(force);
   }
 
-  /// True on bodies that are fixed to the ground: no load, no work.
-  bool moves_nothing(int ground) const { return body == ground; }
+  std::array<int, 1> bodies() const { return {body}; }
 
   template <class T>
   void apply(const LoadInput<T>& in, LoadSum<T>& out) const {

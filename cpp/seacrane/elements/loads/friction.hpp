@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "seacrane/elements/check.hpp"
+#include "seacrane/elements/field.hpp"
 #include "seacrane/elements/joint_coordinate.hpp"
 #include "seacrane/elements/loads/load.hpp"
 
@@ -24,6 +24,15 @@ struct FrictionDescription {
   std::string name;
   CoordinateDescription coordinate;
   double load = 0.0, speed = 0.0;
+
+  static constexpr const char* type = "Friction";
+  static constexpr const char* text =
+      "Dry friction on a joint coordinate: -load tanh(rate / speed); see seacrane.add_friction.";
+  static constexpr auto fields() {
+    using D = FrictionDescription;
+    return std::tuple_cat(on_coordinate<D>(), std::tuple(required("load", &D::load, "N or N m", ""),
+                                                         required("speed", &D::speed, "m/s or rad/s", "")));
+  }
 };
 
 /// Dry friction on a joint coordinate, -load tanh(rate / speed), N or N m: Coulomb's to 1e-4 from 5 speeds
@@ -45,6 +54,8 @@ struct Friction {
     }
   }
 
+  static Description example() { return {"load", {"joint", "angle"}, 4.0, 0.7}; }
+
   template <class Context>
   static Friction compile(const Description& d, Context& context) {
     return {context.coordinate(d.coordinate), d.load, d.speed};
@@ -52,7 +63,7 @@ struct Friction {
 
   static std::vector<LoadKinks> kinks() { return {}; }
 
-  bool moves_nothing(int /*ground*/) const { return coordinate.joint.first == coordinate.joint.second; }
+  std::array<int, 2> bodies() const { return coordinate.bodies(); }
 
   template <class T>
   void apply(const LoadInput<T>& in, LoadSum<T>& out) const {

@@ -1,10 +1,11 @@
 #pragma once
 
+#include <array>
 #include <string>
 #include <type_traits>
 #include <vector>
 
-#include "seacrane/elements/check.hpp"
+#include "seacrane/elements/field.hpp"
 #include "seacrane/elements/loads/load.hpp"
 #include "seacrane/math/rotation.hpp"
 
@@ -19,6 +20,17 @@ struct FunctionForceDescription {
   std::string name, body;
   ForceFunction function = nullptr;
   std::vector<double> parameters;
+
+  static constexpr const char* type = "FunctionForce";
+  static constexpr const char* text =
+      "A C function called in every evaluation, by its address (numba.cfunc(...).address): void "
+      "f(double t, const double* state13, const double* parameters, double* wrench6); state: position, "
+      "quaternion, velocity, angular velocity of the body origin; inertial axes.";
+  static constexpr auto fields() {
+    using D = FunctionForceDescription;
+    return std::tuple(on_body("body", &D::body), required("address", &D::function, "", "of the C function"),
+                      optional("parameters", &D::parameters, "", "handed to the function"));
+  }
 };
 
 /// A user's C function called in every evaluation, see ForceFunction.
@@ -37,6 +49,16 @@ struct FunctionForce {
     if (d.function == nullptr) c.fail("the function's address is 0; pass a C function pointer");
   }
 
+  static Description example() {
+    const ForceFunction pull = [](double, const double* state, const double* parameters, double* wrench) {
+      for (int i = 0; i < 3; ++i) {
+        wrench[i] = -state[i] * state[i] * state[i] - parameters[0] * state[7 + i];
+        wrench[3 + i] = state[4 + i] - 0.3 * state[10 + i];
+      }
+    };
+    return {"load", "second", pull, {0.7}};
+  }
+
   template <class Context>
   static FunctionForce compile(const Description& d, Context& context) {
     const Attachment on = context.attach(d.body, Vec3d::Zero());
@@ -46,8 +68,7 @@ struct FunctionForce {
   /// What the function makes of time is not known.
   static std::vector<LoadKinks> kinks() { return {}; }
 
-  /// True on bodies that are fixed to the ground: no load, no work.
-  bool moves_nothing(int ground) const { return body == ground; }
+  std::array<int, 1> bodies() const { return {body}; }
 
   template <class T>
   void apply(const LoadInput<T>& in, LoadSum<T>& out) const {

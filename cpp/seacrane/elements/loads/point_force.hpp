@@ -1,6 +1,8 @@
 #pragma once
 
-#include "seacrane/elements/check.hpp"
+#include <array>
+
+#include "seacrane/elements/field.hpp"
 #include "seacrane/elements/loads/load.hpp"
 
 namespace seacrane {
@@ -10,6 +12,15 @@ struct PointForceDescription {
   Vec3d point = Vec3d::Zero();  // body coordinates
   Vec3d force = Vec3d::Zero();  // inertial or body axes
   bool body_axes = false;
+
+  static constexpr const char* type = "PointForce";
+  static constexpr const char* text = "A constant force at a body-fixed point, in inertial or body axes.";
+  static constexpr auto fields() {
+    using D = PointForceDescription;
+    return std::tuple(on_body("body", &D::body), optional("point", &D::point, "m", "body coordinates"),
+                      required("force", &D::force, "N", ""),
+                      optional("body_axes", &D::body_axes, "", "whether the force turns with the body"));
+  }
 };
 
 /// A force at a body-fixed point, constant in inertial or in body axes; three slots add to it.
@@ -31,6 +42,10 @@ struct PointForce {
     c.finite("force", d.force);
   }
 
+  static Description example() {
+    return {"load", "first", Vec3d(0.1, 0.2, 0.3), Vec3d(1.0, -2.0, 3.0), true};
+  }
+
   template <class Context>
   static PointForce compile(const Description& d, Context& context) {
     const Attachment on = context.attach(d.body, d.point);
@@ -40,8 +55,7 @@ struct PointForce {
   /// Inputs, which add to it, are held between calls of a controller, and those restart the integration.
   static std::vector<LoadKinks> kinks() { return {}; }
 
-  /// True on bodies that are fixed to the ground: no load, no work.
-  bool moves_nothing(int ground) const { return body == ground; }
+  std::array<int, 1> bodies() const { return {body}; }
 
   template <class T>
   void apply(const LoadInput<T>& in, LoadSum<T>& out) const {

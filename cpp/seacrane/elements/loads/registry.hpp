@@ -34,8 +34,8 @@ struct ByLoadType<std::tuple<Load...>> {
   using Loads = std::tuple<std::vector<Load>...>;
 };
 
-using LoadDescriptions = ByLoadType<LoadTypes>::Descriptions;
+struct LoadDescriptions : ByLoadType<LoadTypes>::Descriptions {};
 /// Loads of one kind side by side, dispatched once per kind.
-using LoadsByKind = ByLoadType<LoadTypes>::Loads;
+struct CompiledLoads : ByLoadType<LoadTypes>::Loads {};
 
 }  // namespace seacrane

@@ -11,6 +11,20 @@ struct SoftStopDescription {
   CoordinateDescription coordinate;
   double minimum = -kFarthest, maximum = kFarthest;
   double stiffness = 0.0, damping = 0.0;
+
+  static constexpr const char* type = "SoftStop";
+  static constexpr const char* text =
+      "Compliant bounds of a joint coordinate: stiffness p (1 + damping p') back where it is beyond one by "
+      "p, "
+      "never a pull; see seacrane.add_soft_stop.";
+  static constexpr auto fields() {
+    using D = SoftStopDescription;
+    return std::tuple_cat(on_coordinate<D>(),
+                          std::tuple(optional("minimum", &D::minimum, "m or rad", "at -1e7 there is none"),
+                                     optional("maximum", &D::maximum, "m or rad", "at 1e7 there is none"),
+                                     required("stiffness", &D::stiffness, "N/m or N m/rad", ""),
+                                     optional("damping", &D::damping, "s/m or s/rad", "")));
+  }
 };
 
 /// Compliant bounds of a joint coordinate (Hunt, Crossley 1975): stiffness p (1 + damping p') back, where the
@@ -42,6 +56,8 @@ struct SoftStop {
     c.not_negative("damping", d.damping);
   }
 
+  static Description example() { return {"load", {"joint", "angle"}, -3.0, -2.9, 7.0, 0.2}; }
+
   template <class Context>
   static SoftStop compile(const Description& d, Context& context) {
     return {context.coordinate(d.coordinate), d.minimum, d.maximum, d.stiffness, d.damping};
@@ -50,7 +66,7 @@ struct SoftStop {
   /// Its kinks are in the state.
   static std::vector<LoadKinks> kinks() { return {}; }
 
-  bool moves_nothing(int /*ground*/) const { return coordinate.joint.first == coordinate.joint.second; }
+  std::array<int, 2> bodies() const { return coordinate.bodies(); }
 
   template <class T>
   void apply(const LoadInput<T>& in, LoadSum<T>& out) const {

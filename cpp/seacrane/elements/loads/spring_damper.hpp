@@ -1,10 +1,11 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
 
-#include "seacrane/elements/check.hpp"
+#include "seacrane/elements/field.hpp"
 #include "seacrane/elements/loads/load.hpp"
 
 namespace seacrane {
@@ -14,6 +15,22 @@ struct SpringDescription {
   Vec3d first_point = Vec3d::Zero(), second_point = Vec3d::Zero();
   double stiffness = 0.0, damping = 0.0, natural_length = 0.0;
   std::vector<double> lengths, forces;  // tabulated tension over length, instead of stiffness
+
+  static constexpr const char* type = "Spring";
+  static constexpr const char* text =
+      "Tension between two body-fixed points: stiffness times elongation, or a table of tension over length, "
+      "plus damping times the rate of length.";
+  static constexpr auto fields() {
+    using D = SpringDescription;
+    return std::tuple(on_body("first", &D::first), on_body("second", &D::second),
+                      optional("first_point", &D::first_point, "m", "coordinates of the first body"),
+                      optional("second_point", &D::second_point, "m", "coordinates of the second body"),
+                      optional("stiffness", &D::stiffness, "N/m", ""),
+                      optional("damping", &D::damping, "N s/m", ""),
+                      optional("natural_length", &D::natural_length, "m", ""),
+                      optional("lengths", &D::lengths, "m", "of a table of tension, in place of stiffness"),
+                      optional("forces", &D::forces, "N", "tension at the lengths"));
+  }
 };
 
 /// Tension between two points: stiffness (length - natural_length), or a table of tension over length
@@ -47,6 +64,18 @@ struct SpringDamper {
     }
   }
 
+  static Description example() {
+    Description d;
+    d.name = "load";
+    d.first = "first";
+    d.second = "second";
+    d.first_point = {2.0, 0.5, -1.0};
+    d.stiffness = 30.0;
+    d.damping = 0.5;
+    d.natural_length = 0.8;
+    return d;
+  }
+
   template <class Context>
   static SpringDamper compile(const Description& d, Context& context) {
     const Attachment a = context.attach(d.first, d.first_point);
@@ -57,8 +86,7 @@ struct SpringDamper {
   /// A table over length has its kinks in the state.
   static std::vector<LoadKinks> kinks() { return {}; }
 
-  /// True between two points of one rigid body: forces cancel and do no work.
-  bool moves_nothing(int /*ground*/) const { return first == second; }
+  std::array<int, 2> bodies() const { return {first, second}; }
 
   template <class T>
   void apply(const LoadInput<T>& in, LoadSum<T>& out) const {

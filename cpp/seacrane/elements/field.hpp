@@ -1,0 +1,76 @@
+#pragma once
+
+#include <cmath>
+#include <functional>
+#include <string>
+#include <tuple>
+#include <type_traits>
+
+#include "seacrane/elements/check.hpp"
+
+/// The entries of a description, in one place: constructor, properties, comparison, checks of type, scene
+/// files, reports and stubs are made from `Description::fields()`, a tuple of these.
+namespace seacrane {
+
+/// What a text names: a body, a joint, a coordinate of the joint named before it. A joint's number may be the
+/// distance of its two points, which is what it defaults to when a joint is described by points.
+enum class Role { value, body, joint, coordinate, distance };
+/// What a number must be; all must be finite.
+enum class Bound { none, positive, not_zero };
+
+template <class Get>
+struct Field {
+  const char* name;
+  Get get;  // std::invoke(get, description) is the entry: a pointer to a member, or a function
+  const char* unit;
+  const char* text;
+  bool required = false;  // else it defaults to what a default description holds
+  Role role = Role::value;
+  Bound bound = Bound::none;
+
+  template <class Description>
+  constexpr decltype(auto) of(Description& d) const {
+    return std::invoke(get, d);
+  }
+  constexpr Field as(Role r) const {
+    Field out = *this;
+    out.role = r;
+    return out;
+  }
+  constexpr Field must_be(Bound b) const {
+    Field out = *this;
+    out.bound = b;
+    return out;
+  }
+};
+
+template <class Get>
+constexpr Field<Get> required(const char* name, Get get, const char* unit, const char* text) {
+  return {name, get, unit, text, true};
+}
+template <class Get>
+constexpr Field<Get> optional(const char* name, Get get, const char* unit, const char* text) {
+  return {name, get, unit, text};
+}
+/// A body's name; "ground" where the check of the element allows it.
+template <class Get>
+constexpr Field<Get> on_body(const char* name, Get get, const char* text = "body") {
+  return {name, get, "", text, true, Role::body};
+}
+/// The joint and its coordinate of a description with a member `coordinate`.
+template <class Description>
+constexpr auto on_coordinate(bool coordinate_required = true) {
+  constexpr auto joint = [](auto& d) -> auto& { return d.coordinate.joint; };
+  constexpr auto coordinate = [](auto& d) -> auto& { return d.coordinate.coordinate; };
+  return std::tuple(Field<decltype(joint)>{"joint", joint, "", "joint", true, Role::joint},
+                    Field<decltype(coordinate)>{"coordinate", coordinate, "", "one that the joint offers",
+                                                coordinate_required, Role::coordinate});
+}
+
+/// Calls f(field) for every entry of a description.
+template <class Description, class F>
+constexpr void for_each_field(F&& f) {
+  std::apply([&](const auto&... field) { (f(field), ...); }, Description::fields());
+}
+
+}  // namespace seacrane

@@ -1,0 +1,197 @@
+"""What every kind of joint and load brings with it, for kinds that no test knows by name."""
+
+from __future__ import annotations
+
+import copy
+import json
+import pickle
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from joint_examples import KINDS
+from multibody_runs import record
+from numpy.testing import assert_allclose
+from test_scene_file import every_kind
+
+from seacrane import Scene, SceneError, _core
+from seacrane.description.file import _CLASSES, described
+from seacrane.description.loads import LOAD_KINDS, bodies_of
+from seacrane.errors import FileFormatError
+
+LOADS = {kind: type_ for kind, type_ in LOAD_KINDS.items() if hasattr(type_, "example")}
+SAVED = [kind for kind, type_ in LOADS.items() if all(field.type != "function" for field in type_.FIELDS)]
+
+
+def entries(element: Any) -> dict[str, Any]:
+    """The arguments that make an element."""
+    return {field.name: getattr(element, field.name) for field in type(element).FIELDS}
+
+
+def three_bodies(joint: str = "revolute", seed: int = 5) -> Scene:
+    """Bodies "first" and "second" at one pose on a joint of a kind, and "third" beside them."""
+    scene = Scene(name=joint)
+    for i, name in enumerate(("first", "second", "third")):
+        scene.add_body(
+            name=name, mass=1.0 + i, inertia=(0.5, 0.6, 0.7), position=(3.0 * (i == 2), 0.3 * (i == 2), 0.0),
+            angular_velocity=(0.3, -0.2 * i, 0.1),
+        )  # fmt: skip
+    scene.joints["joint"] = KINDS[joint].example(seed)
+    return scene
+
+
+def loaded_scene(kind: str) -> Scene:
+    scene = three_bodies()
+    scene.add_load(LOADS[kind].example())
+    return scene
+
+
+def reloaded(scene: Scene, tmp_path: Path) -> Scene:
+    scene.save(tmp_path / "scene.json")
+    return Scene.load(tmp_path / "scene.json")
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_a_joint_is_saved_reported_and_stepped_in_both_formulations(kind: str, tmp_path: Path) -> None:
+    scene = three_bodies(kind)
+    joint = scene.joints["joint"]
+    assert reloaded(scene, tmp_path) == scene and pickle.loads(pickle.dumps(joint)) == joint
+    assert dict(scene.report()["elements"])[f"{kind} joints"] == ["joint (first to second)"]
+    assert all(getattr(joint, name) == value for name, value in joint.parameters.items())
+    if not KINDS[kind].branch:
+        return
+    one, two = (record(scene, 0.5, rtol=1e-10, formulation=name) for name in ("redundant", "recursive"))
+    assert_allclose(one["position"], two["position"], atol=1e-7)
+    assert np.max(two["constraint_error"]) < 1e-9
+
+
+@pytest.mark.parametrize("kind", [kind for kind in KINDS if KINDS[kind].parameters])
+def test_a_joints_own_numbers_are_checked(kind: str) -> None:
+    joint = three_bodies(kind).joints["joint"]
+    for field in KINDS[kind].parameters:
+        with pytest.raises(SceneError, match=f"joint 'joint': {field.name} is 'long'; give a number"):
+            _core.Joint(**entries(joint) | joint.parameters | {field.name: "long"})
+        scene = three_bodies(kind)
+        scene.joints["joint"] = _core.Joint(**entries(joint) | joint.parameters | {field.name: np.nan})
+        with pytest.raises(SceneError, match=f"joint 'joint': {field.name} is nan"):
+            scene.compile()
+        with pytest.raises(SceneError, match=f"{field.name} belongs to a .*{kind}.* joint, this one is free"):
+            scene.add_joint(kind="free", name="j", first="first", second="third", **{field.name: 1.0})
+    scene.joints["joint"] = _core.Joint(**entries(joint) | joint.parameters | {"colour": 1.0})
+    with pytest.raises(SceneError, match="has no parameter 'colour'"):
+        scene.compile()
+
+
+@pytest.mark.parametrize("kind", SAVED)
+def test_a_load_is_saved_pickled_and_reported(kind: str, tmp_path: Path) -> None:
+    scene = loaded_scene(kind)
+    load = scene.all_loads()[0]
+    assert reloaded(scene, tmp_path) == scene and pickle.loads(pickle.dumps(load)) == load
+    assert copy.deepcopy(load) == load and f"<{type(load).__name__} 'load'" in repr(load)
+    again = three_bodies()
+    assert again.add_load(kind=kind, **entries(load)) == load
+    assert any("load (" in str(names) for _, names in scene.report()["elements"])
+
+
+@pytest.mark.parametrize("kind", LOADS)
+def test_a_load_tells_its_bodies_and_moves_no_other(kind: str) -> None:
+    scene = loaded_scene(kind)
+    concerned = bodies_of(scene.all_loads()[0], scene.joints)
+    assert concerned and set(concerned) <= set(scene.bodies)
+    load = np.zeros((3, 6))
+    for held, sign in ((scene, 1.0), (three_bodies(), -1.0)):
+        model = held.compile(merge=False)
+        load += sign * _core.Evaluator(model).terms(0.5, model.initial_state)["load"].reshape(3, 6)
+    assert {name for name, row in zip(scene.bodies, load, strict=True) if np.any(row)} == set(concerned)
+
+
+@pytest.mark.parametrize("kind", LOADS)
+def test_every_entry_of_a_load_is_checked_and_named(kind: str) -> None:
+    type_, given = LOADS[kind], {}
+    for field in type_.FIELDS:
+        if field.type != "function":
+            given[field.name] = getattr(type_.example(), field.name)
+    given |= {field.name: 1 for field in type_.FIELDS if field.type == "function"}
+    type_(**given)
+    for field in type_.FIELDS:
+        with pytest.raises(SceneError, match=f"{kind}( 'load')?: {field.name} is .*; give "):
+            type_(**given | {field.name: {"a": 1}})
+        if field.required:
+            with pytest.raises((SceneError, TypeError), match=f"{kind}( 'load')?: (has no )?{field.name}"):
+                type_(**{name: value for name, value in given.items() if name != field.name})
+        if field.type == "array":
+            with pytest.raises(SceneError, match=f"{field.name} has shape .*; give "):
+                type_(**given | {field.name: np.ones((2, 2, 2))})
+    with pytest.raises(TypeError, match="has no entry 'colour'; it takes "):
+        type_(**given, colour="red")
+    with pytest.raises(SceneError, match="load: kind 'string' is unknown; choose one of actuator, "):
+        Scene().add_load(kind="string", **given)
+
+
+def every_load() -> Scene:
+    """Every kind of element with every load that a file can hold."""
+    scene = every_kind()
+    names = {"first": "hull", "second": "bob", "third": "arm", "joint": "pin", "load": "a load"}
+    for kind in SAVED:
+        told = entries(LOADS[kind].example())
+        told |= {key: names.get(value, value) for key, value in told.items() if isinstance(value, str)}
+        scene.add_load(kind=kind, **told | {"name": f"a {kind}"})
+    scene.add_load(kind="limit", limit="stop", name="end", joint="pin", coordinate="angle", minimum=-1.0)
+    return scene
+
+
+def older_files() -> list[Any]:
+    """(file, place in it, field) of all that elements may leave out."""
+    data = described(every_load())
+    places = [((section, i), type_) for section, type_ in _CLASSES.items() for i in range(len(data[section]))]
+    places += [(("loads", i), LOAD_KINDS[load["kind"]]) for i, load in enumerate(data["loads"])]
+    frames = [((*place, key), _core.Frame) for place, type_ in places if type_ is _core.Joint
+              for key in ("first_frame", "second_frame")]  # fmt: skip
+    return [(data, place, field) for place, type_ in [*places, *frames]
+            for field in type_.FIELDS if not field.required]  # fmt: skip
+
+
+def at(data: Any, place: tuple[Any, ...]) -> Any:
+    for key in place:
+        data = data[key]
+    return data
+
+
+@pytest.mark.parametrize(
+    ("data", "place", "field"),
+    [pytest.param(*case, id=f"{'.'.join(map(str, case[1]))}.{case[2].name}") for case in older_files()],
+)
+def test_a_file_from_before_an_entry_loads_with_its_default(
+    data: dict[str, Any], place: tuple[Any, ...], field: _core.Field, tmp_path: Path
+) -> None:
+    older = copy.deepcopy(data)
+    del at(older, place)[field.name]
+    (tmp_path / "older.json").write_text(json.dumps(older))
+    back = described(Scene.load(tmp_path / "older.json"))
+    whole = at(back, place).pop(field.name)
+    usual = field.default.to_pieces() if field.type == "curve" else field.default
+    assert np.array_equal(np.asarray(whole, dtype=object), np.asarray(usual, dtype=object)) or np.array_equal(
+        whole, usual
+    )
+    del at(older, place[:-1])[place[-1]], at(back, place[:-1])[place[-1]]
+    assert back == older  # nothing else has changed
+
+
+def test_a_joints_length_is_read_where_older_files_have_it(tmp_path: Path) -> None:
+    scene = every_kind()
+    older = described(scene)
+    for joint in older["joints"]:
+        joint["length"] = joint.pop("parameters").get("length", 0.0)
+    (tmp_path / "older.json").write_text(json.dumps(older))
+    assert Scene.load(tmp_path / "older.json") == scene
+    older["joints"][0]["length"] = 2.0
+    (tmp_path / "older.json").write_text(json.dumps(older))
+    with pytest.raises(FileFormatError, match=r"joints\[0\]: joint .pin.: length belongs to"):
+        Scene.load(tmp_path / "older.json")
+
+
+def test_the_usual_coordinate_is_one_that_the_joint_offers() -> None:
+    for kind, about in KINDS.items():
+        assert about.usual in ["", *about.coordinates], kind
+        assert about.rows + len(about.coordinates) <= 6 or about.parameters, kind
