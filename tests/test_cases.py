@@ -118,7 +118,7 @@ def energy_error(scene: Scene, **settings: Any) -> tuple[float, float]:
 
 def test_energy_error_falls_with_the_methods_order() -> None:
     """Order 4 of rk4 over the step; order 5 of dopri5 over the evaluations that a tolerance costs."""
-    scene = cases.case2(relative_bound=0.0)
+    scene = cases.case2(evaluation="exact")
     fixed = [energy_error(scene, integrator="rk4", dt=dt, t_end=60.0)[1] for dt in (0.1, 0.05, 0.025)]
     orders = np.log2(np.array(fixed[:-1]) / fixed[1:])
     assert np.all((orders > 3.5) & (orders < 5.0))

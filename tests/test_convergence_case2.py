@@ -16,7 +16,7 @@ END = 10.0  # s
 @lru_cache(maxsize=1)
 def case2() -> tuple[Scene, Model]:
     """Waves by exact sum: the table is smooth to its second derivative only."""
-    scene = cases.case2(relative_bound=0.0)
+    scene = cases.case2(evaluation="exact")
     return scene, scene.compile()
 
 

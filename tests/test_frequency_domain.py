@@ -136,7 +136,7 @@ def test_phase_and_place_of_the_waves() -> None:
     """A vessel whose waves have their phase elsewhere: the summed response shifts as the exact load does."""
     scene = cases.vessel(hs=0.05, count=20)
     assert scene.waves is not None
-    scene.waves = replace(scene.waves.changed(position=(30.0, -20.0)), relative_bound=0.0)
+    scene.waves = replace(scene.waves.changed(position=(30.0, -20.0)), evaluation="exact")
     linear = linear_model(scene)
     summed = response_summed(linear, body="vessel")
     start = linear.full_state(summed.state_at(0.0))

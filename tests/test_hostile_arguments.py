@@ -153,7 +153,7 @@ def test_names_of_any_script(name: str) -> None:
 
 
 SIMULATE: dict[str, Any] = {
-    "dt_out": 0.05, "integrator": "rk4", "rtol": 1e-6, "dt": 0.01, "max_step": 0.0, "spectral_radius": None,
+    "dt_out": 0.05, "integrator": "rk4", "rtol": 1e-6, "dt": 0.01, "max_step": 0.05, "spectral_radius": None,
     "formulation": "auto", "channels": None, "controllers": (), "start": None, "accuracy": None,
 }  # fmt: skip
 

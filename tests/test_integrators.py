@@ -165,7 +165,7 @@ def test_semi_implicit_euler_turns_by_the_exponential(orientation: str) -> None:
 
 @lru_cache(maxsize=1)
 def afloat() -> tuple[Scene, Any]:
-    scene = cases.case2(relative_bound=0.0)
+    scene = cases.case2(evaluation="exact")
     return scene, scene.compile()
 
 

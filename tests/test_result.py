@@ -162,9 +162,7 @@ def crane_run(
     return {
         "time": t,
         "arrays": arrays,
-        "bodies": names,
-        "joints": joints,
-        "cylinders": CYLINDERS,
+        "coords": {"body": names, "joint": joints, "cylinder": CYLINDERS},
         "stats": stats,
     }
 
@@ -190,7 +188,8 @@ def vessel_result(*, memory: bool = True, t_end: float = 100.0, dt: float = 0.1)
         arrays[name] = arrays[name][:, :1].copy()
     counts = {"coordinates": 6, "constraints": 0, "degrees_of_freedom": 6}
     counts |= {f"compiled_{name}": counts[name] for name in ("coordinates", "constraints")}
-    return Result.from_arrays(time=run["time"], arrays=arrays, bodies=["vessel"], stats=run["stats"] | counts)
+    return Result.from_arrays(time=run["time"], arrays=arrays, coords={"body": ["vessel"]},
+                              stats=run["stats"] | counts)  # fmt: skip
 
 
 @pytest.fixture
@@ -297,10 +296,12 @@ def test_channels_of_any_scene_carry_their_own_names(tmp_path: Path) -> None:
             "driver_force": single.copy(),
             "tension": single.copy(),
         },
-        coordinates=["hinge.angle", "slide.displacement"],
-        actuators=["motor"],
-        drivers=["base"],
-        links=["wire"],
+        coords={
+            "joint_coordinate": ["hinge.angle", "slide.displacement"],
+            "actuator": ["motor"],
+            "driver": ["base"],
+            "link": ["wire"],
+        },
         stats=run["stats"],
     )
     again = Result.load(result.save(tmp_path / "general.nc"))
@@ -368,7 +369,7 @@ BAD_INPUT = {
     ),
     "time going back": (lambda r: r["time"].__setitem__(2, 0.0), "strictly increasing"),
     "no output at all": (lambda r: r.update(time=np.empty(0)), "at least one output time"),
-    "a body named twice": (lambda r: r.update(bodies=["vessel", "vessel"]), "more than once: vessel"),
+    "a body named twice": (lambda r: r["coords"].update(body=["vessel"] * 2), "more than once: vessel"),
     "a counter missing": (lambda r: r.update(stats=without(r["stats"], "steps")), "stats lack steps"),
     "a counter not a number": (lambda r: r["stats"].update(wall_s=np.nan), "'wall_s' is not a number"),
     "a counter of no plain kind": (lambda r: r["stats"].update(steps=[1]), "'steps' is a list"),

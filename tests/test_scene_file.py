@@ -51,7 +51,7 @@ def waves(body: str) -> Waves:
                 heading=-THIRD,
             )
         },
-        relative_bound=0.0,
+        evaluation="exact",
         provenance=SeaProvenance(seed=3, repeat_period_s=math.inf, realised_hs=np.float64(THIRD)),
     )
 

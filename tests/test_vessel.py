@@ -65,7 +65,7 @@ def regular_wave(
         phase=np.array([phase]),
         direction=np.array([direction]),
         hulls={"vessel": HullLoads(transfer=database.force_at([omega], direction).reshape(1, 6))},
-        relative_bound=0.0,
+        evaluation="exact",
     )
 
 

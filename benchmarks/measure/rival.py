@@ -50,7 +50,7 @@ def rival(*, repeats: int, t_end: float) -> Section:
     reference = tight.channels["position"]
     times = 3 * repeats  # short runs, whose wall time others easily disturb
     own = timed_run(scene, model=model, repeats=times, t_end=t_end, dt_out=DT_OUT, rtol=RTOL)
-    exact = cases.case2(relative_bound=0.0)
+    exact = cases.case2(evaluation="exact")
     summed = timed_run(exact, repeats=times, t_end=t_end, dt_out=DT_OUT, rtol=RTOL)
 
     def row(label: str, wall: float, evaluations: int, position: Array) -> list[object]:

@@ -16,7 +16,7 @@ SCENES: dict[str, Callable[[], Scene]] = {
     "case2, no memory": lambda: cases.case2(memory="none"),
     "vessel, no memory": lambda: cases.vessel(memory="none"),
     "case2, calm water": lambda: cases.case2(hs=0.0),
-    "case2, exact wave sum": lambda: cases.case2(relative_bound=0.0),
+    "case2, exact wave sum": lambda: cases.case2(evaluation="exact"),
 }
 
 

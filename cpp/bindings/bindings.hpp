@@ -8,6 +8,7 @@
 
 namespace py = pybind11;
 
+void bind_channels(py::module_& m);
 void bind_copies();
 void bind_curve(py::module_& m);
 void bind_elements(py::module_& m);

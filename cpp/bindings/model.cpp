@@ -41,7 +41,7 @@ std::shared_ptr<Model> compile_scene(
     std::vector<BodyDescription> bodies, std::vector<JointDescription> joints,
     std::vector<DriverDescription> drivers, const std::vector<py::object>& loads,
     std::vector<VesselDescription> vessels, std::vector<WaveLoadDescription> wave_loads,
-    const std::vector<std::pair<std::string, std::string>>& coordinates, bool merge) {
+    const std::vector<std::tuple<std::string, std::string, std::string>>& coordinates, bool merge) {
   SceneDescription scene;
   scene.name = std::move(name);
   scene.gravity = gravity;
@@ -58,7 +58,9 @@ std::shared_ptr<Model> compile_scene(
   for (const py::object& load : loads) add_load(scene, load);
   scene.vessels = std::move(vessels);
   scene.wave_loads = std::move(wave_loads);
-  for (const auto& [joint, coordinate] : coordinates) scene.coordinates.push_back({joint, coordinate});
+  for (const auto& [name, joint, coordinate] : coordinates) {
+    scene.coordinates.push_back({{joint, coordinate}, name});
+  }
   return std::const_pointer_cast<Model>(compile(scene, merge));
 }
 
@@ -110,6 +112,14 @@ py::dict merge_of(const Model& model) {
   out["dropped"] = dropped;
   out["coordinates"] = 6 * stepped.body_count();
   out["constraints"] = stepped.rows();
+  return out;
+}
+
+std::map<std::string, std::vector<std::string>> axes_of(const Model& model) {
+  std::map<std::string, std::vector<std::string>> out;
+  for (const Channel* channel : channels_of(model)) {
+    for (const Axis* axis : channel->axes) out[axis->name] = labels_of(*axis, model);
+  }
   return out;
 }
 
@@ -372,6 +382,7 @@ void bind_model(py::module_& m) {
       .def(
           "twist_index", [](const Model& x, int body) { return x.layout.twist(body); }, py::arg("body"))
       .def("channel_names", &channel_names, py::arg("defaults_only") = true)
+      .def_property_readonly("axes", &axes_of, "The names along each dimension of its channels but time.")
       .def(
           "channel_values",
           [](const Model& m, const std::set<std::string>& names) { return Recording(m, names, 0).width(); },

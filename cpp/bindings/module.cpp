@@ -52,6 +52,7 @@ PYBIND11_MODULE(_core, m) {
   bind_elements(m);
   bind_model(m);
   bind_integrators(m);
+  bind_channels(m);
   bind_simulation(m);
   bind_strip(m);
   bind_repr(m);

@@ -30,7 +30,7 @@ py::dict channels(const Recording& r, std::size_t most) {
   const auto rows = static_cast<py::ssize_t>(std::min(r.count(), most));
   py::dict out;
   out["time"] = Array(rows, r.times().data());
-  for (const Channel& c : r.channels()) {
+  for (const RecordedChannel& c : r.channels()) {
     std::vector<py::ssize_t> shape{rows};
     for (std::size_t n : c.shape) shape.push_back(static_cast<py::ssize_t>(n));
     Array values(shape);
@@ -39,7 +39,7 @@ py::dict channels(const Recording& r, std::size_t most) {
       const double* row = r.rows().data() + static_cast<std::size_t>(i) * r.width() + c.offset;
       target = std::copy_n(row, c.size, target);
     }
-    out[c.name.c_str()] = values;
+    out[c.channel->name.c_str()] = values;
   }
   return out;
 }
@@ -197,6 +197,35 @@ void bind_steps(py::module_& m) {
           "rate", [](const S& s) { return to_array(s.rate); }, "copy");
 }
 
+void bind_options(py::module_& m) {
+  py::class_<RunOptions>(
+      m, "RunOptions",
+      "Formulation and method of a run, and what it records. `scaled_tolerance`: local error of a step in "
+      "units of the scale of each state (Model.scale). None: of `fixed_step` and `spectral_radius` the "
+      "method's own, of `max_step` and `energy_limit` no limit, of `capacity` memory for all outputs.")
+      .def(py::init([](std::string formulation, std::string integrator, double scaled_tolerance,
+                       std::optional<double> fixed_step, std::optional<double> max_step,
+                       std::optional<double> spectral_radius, std::optional<double> energy_limit,
+                       const Array& output_times, std::set<std::string> channels,
+                       std::optional<std::size_t> capacity) {
+             return RunOptions{std::move(formulation),
+                               std::move(integrator),
+                               scaled_tolerance,
+                               fixed_step,
+                               max_step,
+                               spectral_radius,
+                               energy_limit,
+                               to_vector(output_times),
+                               capacity,
+                               std::move(channels)};
+           }),
+           py::kw_only(), py::arg("formulation") = "redundant", py::arg("integrator"),
+           py::arg("scaled_tolerance") = RunOptions{}.scaled_tolerance, py::arg("fixed_step") = py::none(),
+           py::arg("max_step") = py::none(), py::arg("spectral_radius") = py::none(),
+           py::arg("energy_limit") = py::none(), py::arg("output_times"), py::arg("channels"),
+           py::arg("capacity") = py::none());
+}
+
 py::module_ state_file() { return py::module_::import("seacrane.files.state"); }
 
 void bind_record(py::module_& m) {
@@ -206,11 +235,11 @@ void bind_record(py::module_& m) {
       "What recording keeps from output to output, used where `steps` is: energy and work (J) that "
       "energy_balance is counted from, the largest residual before projection since the last output (m or "
       "rad), energy lost in impacts (J), and the last recorded quaternions.")
-      .def(py::init([](double start_energy, double start_work, double open, double impact_loss,
+      .def(py::init([](double start_energy, double start_work, double residual, double impact_loss,
                        const Array& quaternions) {
-             return R{start_energy, start_work, open, impact_loss, to_vector(quaternions)};
+             return R{start_energy, start_work, residual, impact_loss, to_vector(quaternions)};
            }),
-           py::kw_only(), py::arg("start_energy"), py::arg("start_work"), py::arg("open"),
+           py::kw_only(), py::arg("start_energy"), py::arg("start_work"), py::arg("residual"),
            py::arg("impact_loss"), py::arg("quaternions"))
       .def_property_readonly(
           "impact_loss", [](const R& r) { return r.impact_loss; }, "J")
@@ -219,7 +248,7 @@ void bind_record(py::module_& m) {
       .def_property_readonly(
           "start_work", [](const R& r) { return r.start_work; }, "J")
       .def_property_readonly(
-          "open", [](const R& r) { return r.open; }, "m or rad")
+          "residual", [](const R& r) { return r.residual; }, "m or rad")
       .def_property_readonly(
           "quaternions", [](const R& r) { return to_array(r.quaternions); }, "copy");
 }
@@ -230,6 +259,7 @@ void bind_simulation(py::module_& m) {
   bind_history(m);
   bind_steps(m);
   bind_record(m);
+  bind_options(m);
   py::class_<State>(m, "State", "Time (s), state values and inputs of a run; a copy is a checkpoint.")
       .def(py::init([](double time, const Array& values, const Array& inputs,
                        std::vector<TwistHistory> histories, StepHistory steps,
@@ -287,27 +317,10 @@ void bind_simulation(py::module_& m) {
       "One run of a model: advance(), inputs, recorded channels. Threads may share it: one at a time "
       "is inside; advance() lets the others in every 20 ms, between two steps. In a with statement "
       "it is this thread's until the end of it.")
-      .def(py::init([](const std::shared_ptr<Model>& model, const State& start, std::string integrator,
-                       double rtol, double dt, double max_step, const Array& output_times,
-                       std::set<std::string> names, std::string formulation,
-                       std::optional<double> spectral_radius, double energy_limit, std::size_t capacity) {
-             RunOptions options;
-             options.formulation = std::move(formulation);
-             options.integrator = std::move(integrator);
-             options.tolerance = rtol;
-             options.fixed_step = dt;
-             options.max_step = max_step;
-             options.spectral_radius = spectral_radius;
-             options.energy_limit = energy_limit;
-             options.output_times = to_vector(output_times);
-             options.channels = std::move(names);
-             options.capacity = capacity;
+      .def(py::init([](const std::shared_ptr<Model>& model, const State& start, RunOptions options) {
              return std::make_unique<S>(model, start, std::move(options));
            }),
-           py::kw_only(), py::arg("model").none(false), py::arg("start"), py::arg("integrator"),
-           py::arg("rtol"), py::arg("dt"), py::arg("max_step"), py::arg("output_times"), py::arg("channels"),
-           py::arg("formulation") = "redundant", py::arg("spectral_radius") = py::none(),
-           py::arg("energy_limit") = 0.0, py::arg("capacity") = 0)
+           py::kw_only(), py::arg("model").none(false), py::arg("start"), py::arg("options"))
       .def("advance", &S::advance, py::arg("t_end"), py::arg("progress") = py::none(),
            "Steps to t_end (s) without the GIL; returns False when Ctrl-C stopped it, or the interpreter "
            "ends. "

@@ -15,15 +15,15 @@ const std::function<bool(double)> going = [](double) { return true; };
 RunOptions options_for(const Model& model, const std::string& formulation, double t_end) {
   RunOptions options;
   options.formulation = formulation;
-  options.tolerance = 1e-10;
+  options.scaled_tolerance = 1e-10;
   for (int i = 0; i <= 100; ++i) options.output_times.push_back(0.01 * t_end * i);
   for (const auto& name : channel_names(model, false)) options.channels.insert(name);
   return options;
 }
 
 double last(const Recording& recording, const std::string& channel) {
-  for (const Channel& c : recording.channels()) {
-    if (c.name == channel) return recording.rows()[(recording.count() - 1) * recording.width() + c.offset];
+  for (const RecordedChannel& c : recording.channels()) {
+    if (c.channel->name == channel) return recording.rows()[(recording.count() - 1) * recording.width() + c.offset];
   }
   return std::nan("");
 }

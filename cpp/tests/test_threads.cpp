@@ -31,7 +31,7 @@ Outcome run(const std::shared_ptr<const Model>& model, const std::string& formul
   RunOptions options;
   options.formulation = formulation;
   options.integrator = integrator;
-  options.tolerance = 1e-4;
+  options.scaled_tolerance = 1e-4;
   options.fixed_step = 0.01;
   for (int i = 0; i <= 40; ++i) options.output_times.push_back(0.02 * i);
   for (const auto& name : channel_names(*model, false)) options.channels.insert(name);

@@ -1471,6 +1471,11 @@ class Model:
     def assembly(self) -> dict:
         ...
     @property
+    def axes(self) -> dict[str, list[str]]:
+        """
+        The names along each dimension of its channels but time.
+        """
+    @property
     def baumgarte(self) -> float:
         ...
     @property
@@ -1785,7 +1790,7 @@ class RecordHistory:
         ...
     def __hash__(self) -> int:
         ...
-    def __init__(self, *, start_energy: typing.SupportsFloat | typing.SupportsIndex, start_work: typing.SupportsFloat | typing.SupportsIndex, open: typing.SupportsFloat | typing.SupportsIndex, impact_loss: typing.SupportsFloat | typing.SupportsIndex, quaternions: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> None:
+    def __init__(self, *, start_energy: typing.SupportsFloat | typing.SupportsIndex, start_work: typing.SupportsFloat | typing.SupportsIndex, residual: typing.SupportsFloat | typing.SupportsIndex, impact_loss: typing.SupportsFloat | typing.SupportsIndex, quaternions: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> None:
         ...
     def __repr__(self) -> str:
         ...
@@ -1797,14 +1802,14 @@ class RecordHistory:
         J
         """
     @property
-    def open(self) -> float:
-        """
-        m or rad
-        """
-    @property
     def quaternions(self) -> numpy.typing.NDArray[numpy.float64]:
         """
         copy
+        """
+    @property
+    def residual(self) -> float:
+        """
+        m or rad
         """
     @property
     def start_energy(self) -> float:
@@ -1816,6 +1821,14 @@ class RecordHistory:
         """
         J
         """
+class RunOptions:
+    """
+    Formulation and method of a run, and what it records. `scaled_tolerance`: local error of a step in units of the scale of each state (Model.scale). None: of `fixed_step` and `spectral_radius` the method's own, of `max_step` and `energy_limit` no limit, of `capacity` memory for all outputs.
+    """
+    def __init__(self, *, formulation: str = 'redundant', integrator: str, scaled_tolerance: typing.SupportsFloat | typing.SupportsIndex = 1e-06, fixed_step: typing.SupportsFloat | typing.SupportsIndex | None = None, max_step: typing.SupportsFloat | typing.SupportsIndex | None = None, spectral_radius: typing.SupportsFloat | typing.SupportsIndex | None = None, energy_limit: typing.SupportsFloat | typing.SupportsIndex | None = None, output_times: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], channels: collections.abc.Set[str], capacity: typing.SupportsInt | typing.SupportsIndex | None = None) -> None:
+        ...
+    def __repr__(self) -> str:
+        ...
 class State:
     """
     Time (s), state values and inputs of a run; a copy is a checkpoint.
@@ -1891,7 +1904,7 @@ class Simulation:
         ...
     def __exit__(self, arg0: typing.Any, arg1: typing.Any, arg2: typing.Any) -> None:
         ...
-    def __init__(self, *, model: Model, start: State, integrator: str, rtol: typing.SupportsFloat | typing.SupportsIndex, dt: typing.SupportsFloat | typing.SupportsIndex, max_step: typing.SupportsFloat | typing.SupportsIndex, output_times: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], channels: collections.abc.Set[str], formulation: str = 'redundant', spectral_radius: typing.SupportsFloat | typing.SupportsIndex | None = None, energy_limit: typing.SupportsFloat | typing.SupportsIndex = 0.0, capacity: typing.SupportsInt | typing.SupportsIndex = 0) -> None:
+    def __init__(self, *, model: Model, start: State, options: RunOptions) -> None:
         ...
     def __repr__(self) -> str:
         ...
@@ -1944,7 +1957,15 @@ class Simulation:
     @property
     def time(self) -> float:
         ...
-def compile(*, name: str, gravity: typing.SupportsFloat | typing.SupportsIndex, orientation: str, baumgarte: typing.SupportsFloat | typing.SupportsIndex, length_scale: typing.SupportsFloat | typing.SupportsIndex, bodies: collections.abc.Sequence[Body], joints: collections.abc.Sequence[Joint], drivers: collections.abc.Sequence[Driver], loads: collections.abc.Sequence[typing.Any], vessels: collections.abc.Sequence[VesselHydrodynamics], wave_loads: collections.abc.Sequence[WaveLoads], coordinates: collections.abc.Sequence[tuple[str, str]], merge: bool = True) -> Model:
+def axes() -> dict[str, list[str]]:
+    """
+    The names along each dimension of channels but time; none: those of a scene, `Model.axes`.
+    """
+def channels() -> list[Channel]:
+    """
+    Every channel there is, in the order of results.
+    """
+def compile(*, name: str, gravity: typing.SupportsFloat | typing.SupportsIndex, orientation: str, baumgarte: typing.SupportsFloat | typing.SupportsIndex, length_scale: typing.SupportsFloat | typing.SupportsIndex, bodies: collections.abc.Sequence[Body], joints: collections.abc.Sequence[Joint], drivers: collections.abc.Sequence[Driver], loads: collections.abc.Sequence[typing.Any], vessels: collections.abc.Sequence[VesselHydrodynamics], wave_loads: collections.abc.Sequence[WaveLoads], coordinates: collections.abc.Sequence[tuple[str, str, str]], merge: bool = True) -> Model:
     """
     Checks and compiles a scene; seacrane.Scene.compile() calls it. Raises SceneError.
     """

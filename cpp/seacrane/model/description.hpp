@@ -21,6 +21,11 @@
 /// is the inertial frame. Every description is checked by its own validate().
 namespace seacrane {
 
+/// A joint coordinate to record.
+struct RecordedCoordinate : CoordinateDescription {
+  std::string name = "";  // empty: that of the joint
+};
+
 enum class VesselKinematics { yaw_following, paper };
 
 /// Linear hydrodynamics of a vessel about its body origin (the reference point), see DESIGN "Vessel".
@@ -79,7 +84,7 @@ struct SceneDescription {
   Hidden<LoadDescriptions> loads;
   std::vector<VesselDescription> vessels;
   std::vector<WaveLoadDescription> wave_loads;
-  std::vector<CoordinateDescription> coordinates;  // joint coordinates to record
+  std::vector<RecordedCoordinate> coordinates;
   std::vector<LimitDescription> limits;
 
   /// Descriptions of one kind of load, such as loads_of<PointForce>(); with elements/loads/registry.hpp.

@@ -207,7 +207,7 @@ Contacts::Dip Contacts::dip(Stepper& at, std::size_t i) const {
 
 std::optional<double> Contacts::find(Stepper& at) {
   const Integrator& integrator = *at.integrator;
-  const double start = integrator.previous_time(), end = integrator.time();
+  const double end = integrator.time();
   if (at.model->closed != 0) look_inside(at);
   before_.swap(after_);
   axis_before_.swap(axis_after_);
@@ -224,17 +224,7 @@ std::optional<double> Contacts::find(Stepper& at) {
       const double t = locate_parting(at, i);
       if (!first || t < *first) found(t, i, true);
     }
-    Dip d = dip(at, i);
-    if (d.part == 0.0) continue;
-    const Limit& limit = at.model->limits[i];
-    const double until = d.part == 1.0 ? end : std::min(end, start + d.part * (end - start));
-    if (!d.negative) {
-      integrator.interpolate(until, probe_.data());
-      d.value = watched_value(at, limit, until, probe_.data());
-      if (!(d.value < (limit.element < 0 ? -kTouch : 0.0))) continue;
-    }
-    const auto t =
-        limit.element < 0 ? locate_overlap(at, i, until, d.value) : locate(at, i, start, until, d.value, 0.0);
+    const std::optional<double> t = locate_change(at, i);
     if (t && (!first || *t < *first)) found(*t, i, false);
   }
   if (first) {
@@ -246,6 +236,23 @@ std::optional<double> Contacts::find(Stepper& at) {
   }
   check_poles(first.value_or(end));
   return first;
+}
+
+/// When in the last step a limit begins to hold or lets go.
+std::optional<double> Contacts::locate_change(Stepper& at, std::size_t i) {
+  const Integrator& integrator = *at.integrator;
+  const double start = integrator.previous_time(), end = integrator.time();
+  const Limit& limit = at.model->limits[i];
+  Dip d = dip(at, i);
+  if (d.part == 0.0) return std::nullopt;
+  const double until = d.part == 1.0 ? end : std::min(end, start + d.part * (end - start));
+  if (!d.negative) {
+    integrator.interpolate(until, probe_.data());
+    d.value = watched_value(at, limit, until, probe_.data());
+    if (!(d.value < (limit.element < 0 ? -kTouch : 0.0))) return std::nullopt;
+  }
+  if (limit.element < 0) return locate_overlap(at, i, until, d.value);
+  return locate(at, i, start, until, d.value, 0.0);
 }
 
 /// Where a gap that is negative at `until` closes; nothing where it does not get smaller there: that overlap

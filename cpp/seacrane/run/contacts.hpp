@@ -56,7 +56,7 @@ class Contacts {
   /// Carries out the event found, at time t and the state `bodies` of the described bodies (on the joints of
   /// `closed`), and what follows from it at the same time. Work takes up what the impact changed. Returns the
   /// limits that hold from then on.
-  ClosedSet pass(double t, double* bodies, ClosedSet closed);
+  ClosedSet carry_out(double t, double* bodies, ClosedSet closed);
   /// The same without an event: at the start.
   ClosedSet settle(double t, double* bodies, ClosedSet closed);
   /// Starts watching from the state (t, bodies) of `at`.
@@ -64,8 +64,8 @@ class Contacts {
 
   const std::vector<Event>& events() const { return events_; }
   double energy_lost() const { return energy_lost_; }
-  /// Losses of the run that this one goes on with, J.
-  void go_on_from(double energy_lost) { energy_lost_ = energy_lost; }
+  /// Takes what the run before this one had lost, J.
+  void continue_from(double energy_lost) { energy_lost_ = energy_lost; }
 
  private:
   struct Watched {
@@ -76,6 +76,12 @@ class Contacts {
     double part = 0.0;  // of the step; 0: none
     bool negative = false;
     double value = 0.0;
+  };
+  enum class Consistency { holds, changes, struck };
+  /// What is hit at one time; `slow`: none of it faster than its sticking_speed.
+  struct Struck {
+    ClosedSet limits = 0;
+    bool slow = true;
   };
   /// By limit, but for the changes of twist.
   struct Impact {
@@ -98,10 +104,16 @@ class Contacts {
   Dip dip(Stepper& at, std::size_t limit) const;
   std::optional<double> locate_overlap(Stepper& at, std::size_t limit, double until, double value);
   double locate_parting(Stepper& at, std::size_t limit);
+  std::optional<double> locate_change(Stepper& at, std::size_t limit);
   double locate(Stepper& at, std::size_t limit, double since, double until, double value, double level);
-  ClosedSet struck_with(Stepper& at, double t, const double* bodies, int found, bool& slow);
+  Struck struck_with(Stepper& at, double t, const double* bodies, int found);
+  std::optional<int> pulling(const Impact& impact, ClosedSet kept) const;
+  bool is_dependent(Stepper& at, const Impact& impact, ClosedSet struck) const;
+  ClosedSet end_impact(double t, double* bodies, const Impact& impact, ClosedSet closed, ClosedSet struck,
+                       ClosedSet kept);
+  Consistency consistency(const Stepper& at, int limit) const;
   ClosedSet hit(double t, double* bodies, ClosedSet closed, int found);
-  ClosedSet part(double t, double* bodies, ClosedSet closed);
+  ClosedSet release_loosest(double t, double* bodies, ClosedSet closed);
   ClosedSet settle_dependent(double t, double* bodies, ClosedSet closed);
   ClosedSet least_energy(double t, double* bodies, ClosedSet closed, ClosedSet seats);
   ClosedSet sharing(double t, const double* bodies, ClosedSet carry, ClosedSet idle);

@@ -104,15 +104,14 @@ void StallWatch::step(double t) {
   from_ = t;
 }
 
-EnergyWatch::EnergyWatch(double limit) : limit_(limit) {
-  if (limit >= 0.0 && std::isfinite(limit)) return;
-  throw std::invalid_argument("energy_limit is " + to_text(limit) +
-                              "; give a positive number, such as 1e-3, or 0 for none");
+EnergyWatch::EnergyWatch(std::optional<double> limit) : limit_(limit) {
+  if (!limit || (*limit > 0.0 && std::isfinite(*limit))) return;
+  throw std::invalid_argument("energy_limit is " + to_text(*limit) +
+                              "; give a positive number, such as 1e-3");
 }
 
 void EnergyWatch::check(double t, const double* y, const RedundantSystem& system, double balance,
                         double absolute_work, double energy) {
-  if (limit_ == 0.0) return;
   const Model& m = system.model();
   double kinetic = 0.0;
   for (int b = 0; b < m.body_count(); ++b) {
@@ -121,10 +120,10 @@ void EnergyWatch::check(double t, const double* y, const RedundantSystem& system
   }
   largest_kinetic_ = std::max(largest_kinetic_, kinetic);
   const double handled = absolute_work + largest_kinetic_;
-  if (std::abs(balance) <= limit_ * handled + kRounding * std::abs(energy)) return;
+  if (std::abs(balance) <= *limit_ * handled + kRounding * std::abs(energy)) return;
   throw std::domain_error(
       "energy_balance is " + to_text(balance) + " J at t = " + to_text(t) + " s, beyond " +
-      "energy_limit = " + to_text(limit_) + " times the " + to_text(handled) +
+      "energy_limit = " + to_text(*limit_) + " times the " + to_text(handled) +
       " J of absolute work and kinetic energy so far: the integration is not accurate; give "
       "a smaller rtol or dt, or a larger energy_limit");
 }

@@ -39,16 +39,18 @@ class StallWatch {
 /// Stops a run whose energy does not close.
 class EnergyWatch {
  public:
-  /// `limit`: largest balance over the absolute work and the largest kinetic energy so far; 0: none.
-  explicit EnergyWatch(double limit);
+  /// `limit`: largest balance over the absolute work and the largest kinetic energy so far; none: no limit.
+  explicit EnergyWatch(std::optional<double> limit);
 
-  /// At an output, after `system` was evaluated there: the energy balance, the absolute work since the start
-  /// and the energy itself (J). Throws std::domain_error beyond the limit.
+  bool has_limit() const { return limit_.has_value(); }
+  /// Where there is a limit, at an output, after `system` was evaluated there: the energy balance, the
+  /// absolute work since the start and the energy itself (J). Throws std::domain_error beyond the limit.
   void check(double t, const double* y, const RedundantSystem& system, double balance, double absolute_work,
              double energy);
 
  private:
-  double limit_, largest_kinetic_ = 0.0;
+  std::optional<double> limit_;
+  double largest_kinetic_ = 0.0;
 };
 
 /// How near constraints came to depending on each other, and where.

@@ -47,11 +47,11 @@ void Contacts::report_chatter(double t, int limit, const std::string& what) cons
                         "restitution, shorter steps or a soft stop");
 }
 
-ClosedSet Contacts::pass(double t, double* bodies, ClosedSet closed) {
+ClosedSet Contacts::carry_out(double t, double* bodies, ClosedSet closed) {
   stalled_ = t - last_pass_ <= kChatterTime / static_cast<double>(kChatterCount) ? stalled_ + 1 : 0;
   last_pass_ = t;
   if (stalled_ >= kChatterCount) report_chatter(t, found_, "passes that took no time");
-  if (parted_) return part(t, bodies, closed);
+  if (parted_) return release_loosest(t, bodies, closed);
   const ClosedSet bit = bit_of(found_);
   if ((closed & bit) != 0) {
     note({t, found_, EventKind::release});
@@ -66,26 +66,11 @@ ClosedSet Contacts::settle(double t, double* bodies, ClosedSet closed) {
     Stepper& at = stepper_(closed);
     at.system.project(t, bodies, false);
     at.system.derivative(t, bodies, rate_.data());
+    const auto inconsistent = [&](int i) { return consistency(at, i) != Consistency::holds; };
     int wrong = 0;
-    bool struck = false;
-    for (; wrong < count; ++wrong) {
-      const Limit& limit = at.model->limits[idx(wrong)];
-      if (limit.element >= 0) {
-        if (limit_force(limit, at.system, at.system.multipliers().data()) < 0.0) break;
-        continue;
-      }
-      if (limit.kind == LimitKind::seat) continue;
-      const Watched g = gap(limit, at.system);
-      if (g.value > kTouch || g.rate > kStill) continue;
-      struck = g.rate < -kStill;
-      const JointData& joint = limit.coordinate.joint;
-      const auto& a = at.system.acceleration();
-      const CoordinateRow<double> row = evaluate_limit(limit, at.system.bodies().data());
-      if (struck || limit.side * acceleration_of(row, a[idx(joint.first)], a[idx(joint.second)]) < -kFall)
-        break;
-    }
+    while (wrong < count && !inconsistent(wrong)) ++wrong;
     if (wrong == count) return closed;
-    if (struck) {
+    if (consistency(at, wrong) == Consistency::struck) {
       closed = hit(t, bodies, closed, wrong);
     } else {
       closed ^= bit_of(wrong);
@@ -95,9 +80,28 @@ ClosedSet Contacts::settle(double t, double* bodies, ClosedSet closed) {
   return settle_dependent(t, bodies, closed);
 }
 
+/// What a limit asks for at the state last evaluated: one that holds must not pull, one that is touched must
+/// not be approached, and must not be pushed on.
+Contacts::Consistency Contacts::consistency(const Stepper& at, int i) const {
+  const Limit& limit = at.model->limits[idx(i)];
+  if (limit.element >= 0) {
+    const bool pulls = limit_force(limit, at.system, at.system.multipliers().data()) < 0.0;
+    return pulls ? Consistency::changes : Consistency::holds;
+  }
+  if (limit.kind == LimitKind::seat) return Consistency::holds;
+  const Watched g = gap(limit, at.system);
+  if (g.value > kTouch || g.rate > kStill) return Consistency::holds;
+  if (g.rate < -kStill) return Consistency::struck;
+  const JointData& joint = limit.coordinate.joint;
+  const auto& a = at.system.acceleration();
+  const CoordinateRow<double> row = evaluate_limit(limit, at.system.bodies().data());
+  const double towards = limit.side * acceleration_of(row, a[idx(joint.first)], a[idx(joint.second)]);
+  return towards < -kFall ? Consistency::changes : Consistency::holds;
+}
+
 /// Of limits that cannot all hold the loosest lets go, of equally loose ones the one that carries least,
 /// until the others can.
-ClosedSet Contacts::part(double t, double* bodies, ClosedSet closed) {
+ClosedSet Contacts::release_loosest(double t, double* bodies, ClosedSet closed) {
   const int count = static_cast<int>(model_.limits.size());
   for (;;) {
     Stepper& at = stepper_(closed);
@@ -292,60 +296,71 @@ void Contacts::book(double* bodies, const std::vector<Vec6d>& change, double dri
 
 /// What is hit at the same time as limit `found`, or touched and approached then. `slow`: none of them faster
 /// than its sticking_speed.
-ClosedSet Contacts::struck_with(Stepper& at, double t, const double* bodies, int found, bool& slow) {
+Contacts::Struck Contacts::struck_with(Stepper& at, double t, const double* bodies, int found) {
   at.system.read_kinematics(t, bodies);
-  ClosedSet out = 0;
-  slow = true;
+  Struck out;
   for (int i = 0; i < static_cast<int>(model_.limits.size()); ++i) {
     const Limit& limit = at.model->limits[idx(i)];
     if (limit.element >= 0 || limit.kind == LimitKind::seat) continue;
     const Watched g = gap(limit, at.system);
     const bool here = i == found ? g.rate <= kStill : g.value <= kTouch && g.rate < -kStill;
     if (!here) continue;
-    out |= bit_of(i);
-    slow = slow && -g.rate <= limit.sticking_speed;
+    out.limits |= bit_of(i);
+    out.slow = out.slow && -g.rate <= limit.sticking_speed;
   }
   return out;
+}
+
+/// The limit of least index that would pull in an impact; none where all push.
+std::optional<int> Contacts::pulling(const Impact& impact, ClosedSet kept) const {
+  double largest = 0.0;
+  for (const double impulse : impact.impulse) largest = std::max(largest, std::abs(impulse));
+  const double pull = -kRounding * largest;
+  for (int i = 0; i < static_cast<int>(model_.limits.size()); ++i) {
+    if (holds(kept, i) && impact.impulse[idx(i)] < pull) return i;
+  }
+  return std::nullopt;
+}
+
+/// Whether rows of struck limits nearly depend on each other in an impact.
+bool Contacts::is_dependent(Stepper& at, const Impact& impact, ClosedSet struck) const {
+  for (int i = 0; i < static_cast<int>(model_.limits.size()); ++i) {
+    if (!holds(struck, i)) continue;
+    if (amplification(at, i, impact.impulse[idx(i)], impact.speed[idx(i)]) > kDependentImpact) return true;
+  }
+  return false;
 }
 
 /// A slow impact lets nothing go: limits that hit and free each other by turns would otherwise do so without
 /// end, slower and slower. What would pull then, settle() opens by its force.
 ClosedSet Contacts::hit(double t, double* bodies, ClosedSet closed, int found) {
-  const int count = static_cast<int>(model_.limits.size());
-  bool slow = true;
-  const ClosedSet struck = struck_with(stepper_(closed), t, bodies, found, slow);
-  ClosedSet kept = closed | struck;
-  for (;;) {
+  const Struck struck = struck_with(stepper_(closed), t, bodies, found);
+  for (ClosedSet kept = closed | struck.limits;;) {
     Stepper& at = stepper_(kept);
-    const Impact impact = collide(at, t, bodies, struck);
-    double largest = 0.0;
-    for (const double impulse : impact.impulse) largest = std::max(largest, std::abs(impulse));
-    const double pull = -kRounding * largest;
-    int pulls = 0;
-    while (pulls < count && !(holds(kept, pulls) && impact.impulse[idx(pulls)] < pull)) ++pulls;
-    bool dependent = false;
-    for (int i = 0; slow && pulls < count && i < count; ++i) {
-      dependent = dependent ||
-                  (holds(struck, i) && holds(kept, i) &&
-                   amplification(at, i, impact.impulse[idx(i)], impact.speed[idx(i)]) > kDependentImpact);
+    const Impact impact = collide(at, t, bodies, struck.limits);
+    const std::optional<int> pulls = pulling(impact, kept);
+    if (!pulls || (struck.slow && !is_dependent(at, impact, struck.limits & kept))) {
+      return end_impact(t, bodies, impact, closed, struck.limits, kept);
     }
-    if (pulls < count && (!slow || dependent)) {
-      kept &= ~bit_of(pulls);
-      continue;
-    }
-    double lost = 0.0;
-    for (int i = 0; i < count; ++i) lost += impact.lost[idx(i)];
-    book(bodies, impact.change, impact.driver_work, lost);
-    for (int i = 0; i < count; ++i) {
-      if (holds(closed, i) && !holds(kept, i)) note({t, i, EventKind::release});
-      if (!holds(struck, i) || !holds(kept, i)) continue;
-      const bool back = impact.rebounds[idx(i)];
-      note({t, i, back ? EventKind::rebound : EventKind::contact, impact.speed[idx(i)],
-            impact.impulse[idx(i)], impact.lost[idx(i)]});
-      if (back) kept &= ~bit_of(i);
-    }
-    return kept;
+    kept &= ~bit_of(*pulls);
   }
+}
+
+/// Changes the state by an impact and notes its events; returns the limits that hold afterwards.
+ClosedSet Contacts::end_impact(double t, double* bodies, const Impact& impact, ClosedSet closed,
+                               ClosedSet struck, ClosedSet kept) {
+  double lost = 0.0;
+  for (const double of_limit : impact.lost) lost += of_limit;
+  book(bodies, impact.change, impact.driver_work, lost);
+  for (int i = 0; i < static_cast<int>(model_.limits.size()); ++i) {
+    if (holds(closed, i) && !holds(kept, i)) note({t, i, EventKind::release});
+    if (!holds(struck, i) || !holds(kept, i)) continue;
+    const bool back = impact.rebounds[idx(i)];
+    note({t, i, back ? EventKind::rebound : EventKind::contact, impact.speed[idx(i)], impact.impulse[idx(i)],
+          impact.lost[idx(i)]});
+    if (back) kept &= ~bit_of(i);
+  }
+  return kept;
 }
 
 /// The impact in which the limits of `at` hold and those of `struck` are hit.

@@ -6,7 +6,7 @@
 #include "seacrane/dynamics/merged.hpp"
 #include "seacrane/dynamics/recursive/body_tree.hpp"
 #include "seacrane/elements/check.hpp"
-#include "seacrane/run/simulation.hpp"
+#include "seacrane/run/run_options.hpp"
 
 namespace seacrane {
 namespace {
@@ -14,17 +14,17 @@ namespace {
 constexpr double kLargestTolerance = 0.1;  // beyond, an error estimate of one step means nothing
 
 IntegratorOptions integrator_options(const Formulation& stepped, const RunOptions& run) {
-  if (!(run.tolerance > 0.0) || !(run.tolerance <= kLargestTolerance)) {
-    throw std::invalid_argument("rtol is " + to_text(run.tolerance) +
+  if (!(run.scaled_tolerance > 0.0) || !(run.scaled_tolerance <= kLargestTolerance)) {
+    throw std::invalid_argument("rtol is " + to_text(run.scaled_tolerance) +
                                 "; give a positive number up to 0.1, e.g. 1e-6");
   }
   IntegratorOptions out;
   out.name = run.integrator;
   out.relative_tolerance = 0.0;
   out.absolute_tolerance = stepped.scale();
-  for (double& value : out.absolute_tolerance) value *= run.tolerance;
-  out.fixed_step = run.fixed_step;
-  out.max_step = run.max_step;
+  for (double& value : out.absolute_tolerance) value *= run.scaled_tolerance;
+  out.fixed_step = run.fixed_step.value_or(0.0);
+  out.max_step = run.max_step.value_or(0.0);
   out.spectral_radius = run.spectral_radius;
   return out;
 }

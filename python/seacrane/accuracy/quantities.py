@@ -13,8 +13,7 @@ from seacrane.description.crane_parts import cylinders, hooks, payloads
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import number_of
 from seacrane.inputs.frames import rotation_matrix
-from seacrane.result.channels import CHANNELS
-from seacrane.run.channel_names import CRANE_CHANNELS
+from seacrane.result.channels import CHANNELS, DERIVED
 
 if TYPE_CHECKING:
     from seacrane import _core
@@ -90,7 +89,7 @@ def quantities_of(scene: Scene, model: _core.Model, names: Iterable[str] | None)
     if isinstance(names, str) or not isinstance(names, Iterable):
         raise SceneError(f"quantities is {names!r}; give a list of names")
     known = model.channel_names(defaults_only=False)
-    channels = [*known, *(name for name, parts in CRANE_CHANNELS.items() if set(parts) & set(known))]
+    channels = [*known, *(name for name, channel in DERIVED.items() if set(channel.made_of) & set(known))]
     out = {}
     for name in names:
         if name not in offered and name not in channels:

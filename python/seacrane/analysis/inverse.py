@@ -98,12 +98,7 @@ def _multipliers(model: _core.Model, names: Sequence[str], *, time: float, state
     run = _core.Simulation(
         model=model,
         start=_core.State(time=time, values=state, inputs=np.zeros(model.slots)),
-        integrator="rk4",
-        rtol=1e-6,
-        dt=0.0,
-        max_step=0.0,
-        output_times=np.array([time]),
-        channels={"driver_force"},
+        options=_core.RunOptions(integrator="rk4", output_times=[time], channels={"driver_force"}),
     )
     loads = run.channels()["driver_force"][0]
     drivers = [name for name, kind, _, _ in model.elements if kind == "driver"]

@@ -42,7 +42,7 @@ def compile_scene(scene: Description, *, merge: bool = True) -> _core.Model:
         loads=scene.all_loads(),
         vessels=list(scene.vessels.values()),
         wave_loads=[] if scene.waves is None else compiled_waves(scene.waves, prune=merge),
-        coordinates=list(scene.recorded.values()),
+        coordinates=[(name, *place) for name, place in scene.recorded.items()],
         merge=merge,
     )
     warn_of_moves(scene, model)

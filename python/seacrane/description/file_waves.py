@@ -75,19 +75,25 @@ def waves_from_node(node: Node) -> Waves:
         if body in hulls:
             entry.at("body").fail("is in the list twice; give every vessel once")
         hulls[body] = _hull_from_node(entry, count)
+    tables: dict[str, Any] = _tables(node.at("relative_bound").number(), node.at("evaluation").text())
+    arrays: dict[str, Any] = {key: node.at(key).array((count,)) for key in _ARRAYS}
     return Waves(
-        relative_bound=node.at("relative_bound").number(),
         depth=math.inf if depth.value is None else depth.number(),
-        evaluation=node.at("evaluation").text(),
+        **tables,
         negligible=node.at("negligible").number(),
         provenance=_provenance(node.at(told), told),
         hulls=hulls,
-        **{key: node.at(key).array((count,)) for key in _ARRAYS},
+        **arrays,
     )
 
 
 def _provenance(node: Node, told: str) -> SeaProvenance:
     return sea_of(notes_from_node(node)) if told == OLD else sea_from_node(node)
+
+
+def _tables(bound: float, evaluation: str) -> dict[str, Any]:
+    """Older files have a bound of 0 for an exact sum."""
+    return {"evaluation": "exact"} if bound == 0.0 else {"relative_bound": bound, "evaluation": evaluation}
 
 
 def _one_hull_as_list(data: dict[str, Any]) -> dict[str, Any]:

@@ -66,7 +66,7 @@ def _mean(waves: Waves, hull: HullLoads) -> dict[str, Any]:
     }
     if hull.drift is not None:
         loads["drift"] = _core.DriftLoad(sea, coefficient=hull.drift, position=position)
-    if waves.evaluation == "exact" or not waves.relative_bound:
+    if waves.evaluation == "exact":
         return loads
     bound = waves.relative_bound
     if waves.evaluation == "fft":

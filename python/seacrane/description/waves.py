@@ -104,7 +104,7 @@ class Waves:
     hulls : mapping of str to HullLoads
         By the vessel's body.
     relative_bound : float
-        Bound on a table's interpolation error over the sum of component magnitudes; 0 sums exactly.
+        Bound on a table's interpolation error over the sum of component magnitudes.
     depth : float
         Water depth, m, for the wavenumbers.
     evaluation : str

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane import _core
-from seacrane.run.channel_names import CRANE_CHANNELS
+from seacrane.result.channels import DERIVED
 from seacrane.run.outputs import Outputs
 from seacrane.scene.scene import Scene
 
@@ -55,4 +55,4 @@ class Case:
 def offered_channels(model: _core.Model) -> set[str]:
     """All that a result of this model may hold."""
     known = set(model.channel_names(defaults_only=False))
-    return known | {name for name, parts in CRANE_CHANNELS.items() if set(parts) & known}
+    return known | {name for name, channel in DERIVED.items() if set(channel.made_of) & known}

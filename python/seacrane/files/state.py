@@ -27,7 +27,7 @@ VERSION = 1
 DIGEST = hashlib.sha256().digest_size
 LARGEST_FILE = 2**30  # bytes: a million states take less
 LARGEST_HEADER = 2**22  # bytes
-_RECORD = ("start_energy", "start_work", "open", "impact_loss")
+_RECORD = ("start_energy", "start_work", "residual", "impact_loss")
 _ARRAYS = ("time", "values", "inputs", "steps", "rate", "record", "quaternions")
 
 

@@ -1,4 +1,7 @@
-"""What may be recorded: dimensions, unit and description of every channel, in one table."""
+"""What may be recorded: dimensions, unit and description of every channel.
+
+The core's channels come from its own table. Those that Python derives from them are in `DERIVED`.
+"""
 
 from __future__ import annotations
 
@@ -6,86 +9,91 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
 
-AXES = ("x", "y", "z")
-QUATERNION = ("w", "x", "y", "z")
+from seacrane import _core
 
 
 @dataclass(frozen=True, kw_only=True)
 class Channel:
-    """Dimensions, unit and description of one recorded quantity."""
+    """Dimensions, unit and description of one recorded quantity.
+
+    Attributes
+    ----------
+    dims : tuple of str
+        Of its arrays, "time" first.
+    dims_of_several : tuple of str
+        The same in a scene with several vessels, slew drives or hooks: theirs comes after time there.
+    unit, long_name : str
+    by_default : bool
+        Whether a run records it unasked.
+    made_of : tuple of str
+        The core's channels from which it is derived, as far as a scene has them; empty for the core's own.
+    turns : bool
+        Whether it is an angle that counts whole turns.
+    """
 
     dims: tuple[str, ...]
+    dims_of_several: tuple[str, ...]
     unit: str
     long_name: str
-    several: str = ""
+    by_default: bool = True
+    made_of: tuple[str, ...] = ()
+    turns: bool = False
 
     def dims_of(self, axes: int) -> tuple[str, ...]:
-        """Dimensions of an array with so many axes: with several vessels (or slew drives, or hooks), theirs
-        comes after time."""
-        more = self.several and axes == len(self.dims) + 1
-        return ("time", self.several, *self.dims[1:]) if more else self.dims
+        """Dimensions of an array with so many axes."""
+        return self.dims_of_several if axes == len(self.dims_of_several) else self.dims
 
 
-def _channel(dims: str, unit: str, long_name: str, *, several: str = "") -> Channel:
-    return Channel(dims=("time", *dims.split()), unit=unit, long_name=long_name, several=several)
+def _core_channel(channel: _core.Channel) -> Channel:
+    return Channel(
+        dims=("time", *channel.dims),
+        dims_of_several=("time", *channel.dims_of_several),
+        unit=channel.unit,
+        long_name=channel.text,
+        by_default=channel.by_default,
+    )
 
 
-_SIX = "m (surge, sway, heave), rad (roll, pitch, yaw)"
-_WRENCH = "N (surge, sway, heave), N m (roll, pitch, yaw)"
+def _derived(
+    dims: str, unit: str, long_name: str, made_of: str, *, several: str = "", turns: bool = False
+) -> Channel:
+    own = dims.split()
+    return Channel(
+        dims=("time", *own), dims_of_several=("time", *several.split(), *own), unit=unit, long_name=long_name,
+        made_of=tuple(made_of.split()), turns=turns,
+    )  # fmt: skip
 
-CHANNELS: Mapping[str, Channel] = MappingProxyType(
+
+_DRIVE = "actuator_force driver_force"
+
+DERIVED: Mapping[str, Channel] = MappingProxyType(
     {
-        "position": _channel("body axis", "m", "centre of mass, inertial frame"),
-        "velocity": _channel("body axis", "m/s", "velocity of the centre of mass, inertial frame"),
-        "angular_velocity": _channel("body axis", "rad/s", "angular velocity, inertial frame"),
-        "acceleration": _channel("body axis", "m/s2", "acceleration of the centre of mass, inertial frame"),
-        "angular_acceleration": _channel("body axis", "rad/s2", "angular acceleration, inertial frame"),
-        "quaternion": _channel("body wxyz", "1", "orientation, scalar first, body to inertial"),
-        "euler_xyz": _channel("body axis", "rad", "XYZ Euler angles, R = Rx Ry Rz, body to inertial"),
-        "vessel_motion": _channel(
-            "motion", _SIX, "vessel's reference point from rest, and yaw-pitch-roll angles", several="vessel"
+        "stroke": _derived("cylinder", "m", "cylinder stroke, extension positive", "coordinate"),
+        "stroke_rate": _derived("cylinder", "m/s", "rate of the cylinder stroke", "coordinate_rate"),
+        "cylinder_force": _derived(
+            "cylinder", "N", "actuator force of the cylinder, positive pushes", _DRIVE
         ),
-        "coordinate": _channel("joint_coordinate", "m or rad", "joint coordinate, second body to first"),
-        "coordinate_rate": _channel("joint_coordinate", "m/s or rad/s", "rate of the joint coordinate"),
-        "actuator_force": _channel("actuator", "N or N m", "load of the actuator along its coordinate"),
-        "driver_force": _channel("driver", "N or N m", "load of the driver along its coordinate"),
-        "tension": _channel("link", "N", "tension of the constant-distance link"),
-        "stroke": _channel("cylinder", "m", "cylinder stroke, extension positive"),
-        "stroke_rate": _channel("cylinder", "m/s", "rate of the cylinder stroke"),
-        "cylinder_force": _channel("cylinder", "N", "actuator force of the cylinder, positive pushes"),
-        "slew_angle": _channel("", "rad", "slew angle of the crane", several="slew"),
-        "slew_torque": _channel("", "N m", "actuator torque of the slew drive", several="slew"),
-        "link_tension": _channel(
-            "", "N", "tension of the link between crane tip and payload", several="hook"
+        "slew_angle": _derived(
+            "", "rad", "slew angle of the crane", "coordinate", several="slew", turns=True
         ),
-        "reaction_force": _channel(
-            "joint axis", "N", "constraint force on the second body, inertial frame, at the joint point"
+        "slew_torque": _derived("", "N m", "actuator torque of the slew drive", _DRIVE, several="slew"),
+        "link_tension": _derived(
+            "", "N", "tension of the link between crane tip and payload", "tension", several="hook"
         ),
-        "reaction_moment": _channel(
-            "joint axis", "N m", "constraint moment on the second body, inertial frame, at the joint point"
-        ),
-        "wave_elevation": _channel(
-            "", "m", "undisturbed wave elevation where wave loads take their phase", several="vessel"
-        ),
-        "wave_force": _channel(
-            "motion", _WRENCH, "wave load on the vessel at its reference point", several="vessel"
-        ),
-        "drift_force": _channel(
-            "motion", _WRENCH, "slow drift load on the vessel at its reference point", several="vessel"
-        ),
-        "limit_force": _channel("limit", "N or N m", "tension of a wire, push of a stop, pressure on a seat"),
-        "impact_loss": _channel("", "J", "mechanical energy lost in impacts of limits since the start"),
-        "constraint_error": _channel("", "m or rad", "largest absolute constraint residual"),
-        "constraint_rate_error": _channel("", "m/s or rad/s", "largest absolute velocity residual"),
-        "constraint_error_before_projection": _channel(
-            "", "m or rad", "largest absolute residual before projection since the last output"
-        ),
-        "energy_balance": _channel(
-            "", "J", "mechanical energy change minus work of all non-conservative loads"
-        ),
-        "absolute_work": _channel("", "J", "integral of the absolute power of the non-conservative loads"),
     }
 )
+
+CHANNELS: Mapping[str, Channel] = MappingProxyType(
+    {channel.name: _core_channel(channel) for channel in _core.channels()} | DERIVED
+)
+
+# Names along the dimensions that are the same in every scene.
+FIXED: Mapping[str, tuple[str, ...]] = MappingProxyType(
+    {dim: tuple(names) for dim, names in _core.axes().items() if names}
+)
+# Dimensions whose names belong to the scene.
+NAMED = frozenset(dim for channel in CHANNELS.values() for dim in channel.dims_of_several[1:]) - set(FIXED)
+AXES, MOTIONS = FIXED["axis"], FIXED["motion"]
 
 
 def attributes(name: str) -> dict[str, str]:

@@ -13,23 +13,9 @@ import numpy as np
 from seacrane.errors import FileFormatError
 from seacrane.files.netcdf_limits import open_netcdf
 from seacrane.files.state import state_from_bytes
-from seacrane.result.channels import attributes
+from seacrane.result.channels import NAMED, attributes
 from seacrane.result.events import NUMBERS, PREFIX, Event, event_arrays, events_from_arrays
 
-# Dimensions whose names belong to the scene, and the arguments of `Result.from_arrays` that take them.
-NAMED = {
-    "body": "bodies",
-    "joint": "joints",
-    "cylinder": "cylinders",
-    "slew": "slews",
-    "hook": "hooks",
-    "joint_coordinate": "coordinates",
-    "actuator": "actuators",
-    "driver": "drivers",
-    "link": "links",
-    "limit": "limits",
-    "vessel": "vessels",
-}
 STATE, STATE_DIMENSION = "state", "state_byte"
 LARGEST_CHUNKS = 2**21  # bytes of one chunk of all channels
 MOST_ROWS, LEAST_ROWS = 4096, 16
@@ -134,11 +120,7 @@ def read_arrays(path: Path, largest: int, channels: Sequence[str] | None = None)
                 and "event" not in variable.dimensions
                 and (channels is None or name in channels)
             },
-            **{
-                argument: [str(name) for name in file[dim][:]]
-                for dim, argument in NAMED.items()
-                if dim in file.variables
-            },
+            "coords": {dim: [str(name) for name in file[dim][:]] for dim in NAMED if dim in file.variables},
             "events": events_from_arrays(
                 {
                     name: variable[:]

@@ -24,9 +24,8 @@ from numpy.typing import NDArray
 
 from seacrane.errors import FileFormatError
 from seacrane.files.state import state_from_bytes
-from seacrane.result.channels import CHANNELS
+from seacrane.result.channels import CHANNELS, NAMED
 from seacrane.result.events import Event
-from seacrane.result.netcdf import NAMED
 
 Array = NDArray[np.float64]
 MAGIC = b"seacrane partial result\n"
@@ -178,7 +177,7 @@ def read_partial(path: Path, largest: int, channels: Sequence[str] | None = None
     return {
         "time": arrays.pop("time"),
         "arrays": arrays,
-        **{argument: last.coords[dim] for dim, argument in NAMED.items() if dim in last.coords},
+        "coords": {dim: last.coords[dim] for dim in NAMED if dim in last.coords},
         "events": events,
         "stats": last.stats,
         "interrupted": last.interrupted,

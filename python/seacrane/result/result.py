@@ -19,8 +19,7 @@ from seacrane.errors import FileFormatError, SeacraneError
 from seacrane.files.atomic import atomic_write
 from seacrane.files.netcdf_limits import NETCDF_ERRORS
 from seacrane.files.state import state_to_bytes
-from seacrane.inputs.frames import MOTIONS
-from seacrane.result.channels import AXES, CHANNELS, QUATERNION, attributes
+from seacrane.result.channels import CHANNELS, FIXED, attributes
 from seacrane.result.events import TEXTS as EVENT_TEXTS
 from seacrane.result.events import Event, checked_events, event_arrays
 from seacrane.result.netcdf import Contents, read_arrays, write_netcdf
@@ -131,9 +130,7 @@ class Result(Mapping[str, Array]):
     dims : mapping of str to tuple of str
         Dimension names of each channel.
     coords : mapping of str to tuple of str
-        Names along every dimension but time: `body`, `joint`, `cylinder`, `axis`, `motion`, `wxyz`,
-        `joint_coordinate`, `actuator`, `driver`, `link`, `limit`, and `vessel`, `slew`, `hook` of several;
-        only those in use.
+        Names along every dimension but time, such as `body`, `joint`, `axis`; only those in use.
     stats : mapping of str to str, int or float
         Version, settings and counters of the run: the attributes of the saved file.
     interrupted : bool
@@ -184,17 +181,7 @@ class Result(Mapping[str, Array]):
         *,
         time: Any,
         arrays: Mapping[str, Any],
-        bodies: Sequence[str] = (),
-        joints: Sequence[str] = (),
-        cylinders: Sequence[str] = (),
-        slews: Sequence[str] = (),
-        hooks: Sequence[str] = (),
-        coordinates: Sequence[str] = (),
-        actuators: Sequence[str] = (),
-        drivers: Sequence[str] = (),
-        links: Sequence[str] = (),
-        limits: Sequence[str] = (),
-        vessels: Sequence[str] = (),
+        coords: Mapping[str, Sequence[str]],
         events: Sequence[Event] = (),
         stats: Mapping[str, Any],
         interrupted: bool = False,
@@ -209,9 +196,9 @@ class Result(Mapping[str, Array]):
         arrays : mapping of str to array_like
             Channels by the names of `CHANNELS`. Arrays of float64 are taken over without a copy and
             made read-only; the caller must not write to them through another view.
-        bodies, joints, cylinders, slews, hooks, coordinates, actuators, drivers, links, limits, vessels
-            Sequences of str, names along the dimensions `body`, `joint`, `cylinder`, `slew`, `hook`,
-            `joint_coordinate`, `actuator`, `driver`, `link`, `limit` and `vessel`, in the order of arrays.
+        coords : mapping of str to sequence of str
+            Names along the dimensions that a scene names, such as `body` and `joint`, in the order of the
+            arrays.
         events : sequence of Event
             In order of time.
         stats : mapping
@@ -229,33 +216,19 @@ class Result(Mapping[str, Array]):
             given twice, or a missing stat.
         """
         checked_time = _checked_time(time)
-        named = {
-            "body": bodies,
-            "joint": joints,
-            "cylinder": cylinders,
-            "slew": slews,
-            "hook": hooks,
-            "joint_coordinate": coordinates,
-            "actuator": actuators,
-            "driver": drivers,
-            "link": links,
-            "limit": limits,
-            "vessel": vessels,
-        }
-        coords = {dim: _checked_names(dim, names) for dim, names in named.items()}
-        coords |= {"axis": AXES, "motion": MOTIONS, "wxyz": QUATERNION}
+        names = {dim: _checked_names(dim, given) for dim, given in coords.items()} | dict(FIXED)
         channels = {}
         for name, values in arrays.items():
             if name not in CHANNELS:
                 raise ValueError(f"channel {name!r} is unknown; choose from {', '.join(CHANNELS)}")
             dims = CHANNELS[name].dims_of(np.ndim(values))
-            shape = (checked_time.size, *(len(coords[dim]) for dim in dims[1:]))
+            shape = (checked_time.size, *(len(names.get(dim, ())) for dim in dims[1:]))
             channels[name] = _checked_array(name, values, shape, interrupted)
-        used = {dim for dims in _dims(channels).values() for dim in dims}
+        used = dict.fromkeys(dim for dims in _dims(channels).values() for dim in dims[1:])
         return cls(
             time=checked_time,
             channels=channels,
-            coords={dim: names for dim, names in coords.items() if dim in used},
+            coords={dim: names[dim] for dim in used},
             stats=checked_stats(stats),
             interrupted=bool(interrupted),
             events=checked_events(events),

@@ -16,6 +16,7 @@ from seacrane.errors import FileFormatError
 from seacrane.files.atomic import atomic_write, require_replaceable, space_left
 from seacrane.files.netcdf_limits import NETCDF_ERRORS, open_netcdf
 from seacrane.files.state import state_to_bytes
+from seacrane.result.channels import CHANNELS
 from seacrane.result.events import Event
 from seacrane.result.netcdf import Contents, write_netcdf
 from seacrane.result.partial_file import PartialFile, Piece, partial_path
@@ -25,11 +26,11 @@ Array = NDArray[np.float64]
 LARGEST_PIECE = 2**21  # bytes
 LARGEST = 2**50  # bytes: what goes on is read piece by piece
 MOST_ROWS, LEAST_ROWS = 4096, 16
-TURNING = "slew_angle"  # counted on over whole turns, which one piece does not know of
 COUNTERS = ("wall_s", "evaluations", "steps", "rejected_steps", "jacobians",
             "newton_iterations", "projections", "restarts", "dense_solves")  # fmt: skip
 DIGEST = "scene_digest"  # of a scene's description, among the stats of a result
 METHOD = (DIGEST, "formulation", "integrator")
+NONE_WAS_ZERO = ("dt", "max_step")
 SETTINGS = ("dt_out", "rtol", "dt", "max_step", "spectral_radius", "energy_limit", "baumgarte")
 
 
@@ -81,7 +82,7 @@ class ResultFile:
         self._nothing: Mapping[str, Array] = {}
         self._coords: Mapping[str, Sequence[str]] = {}
         self._last_time = -np.inf
-        self._last_angle: Array | None = None
+        self._last_angles: dict[str, Array] = {}
         self._events = self._events_of_run = 0
         self._before: Mapping[str, Any] = {}
 
@@ -246,8 +247,9 @@ class ResultFile:
             self._coords = result.coords
         else:
             arrays = dict(self._nothing)
-        if TURNING in arrays and arrays[TURNING].size:
-            arrays[TURNING] = self._continued(arrays[TURNING])
+        for name, array in arrays.items():
+            if name in self._last_angles and array.size:
+                arrays[name] = _continued(array, self._last_angles[name])
         new_events = events[self._events_of_run :]
         stats = self._stats(stats, self._events + len(new_events))
         piece = Piece(arrays=arrays, coords=self._coords, stats=stats, events=new_events,
@@ -268,7 +270,11 @@ class ResultFile:
     def _count(self, piece: Piece) -> None:
         if piece.outputs:
             self._last_time = float(piece.arrays["time"][-1])
-            self._last_angle = np.array(piece.arrays[TURNING][-1]) if TURNING in piece.arrays else None
+            self._last_angles = {
+                name: np.array(array[-1])
+                for name, array in piece.arrays.items()
+                if name in CHANNELS and CHANNELS[name].turns
+            }
         self._nothing = {name: array[:0] for name, array in piece.arrays.items()}
         self.outputs, self._events = self.outputs + piece.outputs, self._events + len(piece.events)
         self.stats = dict(piece.stats)
@@ -323,12 +329,12 @@ class ResultFile:
             out["events"] = events
         return out
 
-    def _continued(self, angle: Array) -> Array:
-        if self._last_angle is None:
-            return angle
-        turn = 2.0 * np.pi
-        continued: Array = angle + turn * np.round((self._last_angle - angle[0]) / turn)
-        return continued
+
+def _continued(angle: Array, last: Array) -> Array:
+    """An angle by whole turns nearest to where the outputs before it ended, which one piece does not know."""
+    turn = 2.0 * np.pi
+    continued: Array = angle + turn * np.round((last - angle[0]) / turn)
+    return continued
 
 
 def difference(

@@ -10,29 +10,22 @@ from numpy.typing import NDArray
 
 from seacrane.description.crane_parts import cylinders, hooks, slews
 from seacrane.errors import SceneError
+from seacrane.result.channels import DERIVED
 
 if TYPE_CHECKING:
-    from seacrane import _core
     from seacrane.description.scene import Description
 
 Array = NDArray[np.float64]
-CRANE_CHANNELS = {
-    "stroke": ("coordinate",),
-    "stroke_rate": ("coordinate_rate",),
-    "cylinder_force": ("actuator_force", "driver_force"),
-    "slew_angle": ("coordinate",),
-    "slew_torque": ("actuator_force", "driver_force"),
-    "link_tension": ("tension",),
-}
 
 
 def core_channels(wanted: Sequence[str], known: Sequence[str]) -> set[str]:
     """The core's channels that the wanted ones are made of; raises SceneError for an unknown name."""
     made_of: set[str] = set()
     for name in wanted:
-        sources = [source for source in CRANE_CHANNELS.get(name, (name,)) if source in known]
+        made_from = DERIVED[name].made_of if name in DERIVED else (name,)
+        sources = [source for source in made_from if source in known]
         if not sources:
-            possible = [crane for crane, parts in CRANE_CHANNELS.items() if set(parts) & set(known)]
+            possible = [crane for crane, channel in DERIVED.items() if set(channel.made_of) & set(known)]
             raise SceneError(
                 f"channel {name!r} is unknown to this scene; it offers: {', '.join([*known, *possible])}"
             )
@@ -40,21 +33,9 @@ def core_channels(wanted: Sequence[str], known: Sequence[str]) -> set[str]:
     return made_of
 
 
-def names_along(scene: Description, model: _core.Model) -> dict[str, list[str]]:
-    """Names along the dimensions of a scene's channels, as `Result.from_arrays` takes them."""
-    return {
-        "bodies": list(scene.bodies),
-        "joints": list(scene.joints),
-        "cylinders": list(cylinders(scene)),
-        "slews": list(slews(scene)),
-        "hooks": list(hooks(scene)),
-        "coordinates": list(scene.recorded),
-        "actuators": list(scene.actuators),
-        "drivers": list(scene.drivers),
-        "links": _links(scene),
-        "limits": [name for name, _ in model.limits],
-        "vessels": list(scene.vessels),
-    }
+def derived_coords(scene: Description) -> dict[str, list[str]]:
+    """Names along the dimensions of derived channels."""
+    return {"cylinder": list(cylinders(scene)), "slew": list(slews(scene)), "hook": list(hooks(scene))}
 
 
 def hanging_bodies(scene: Description) -> list[str]:

@@ -14,7 +14,7 @@ from seacrane.errors import SceneError, SeacraneError
 from seacrane.inputs.checked import number_of
 from seacrane.result.events import Event
 from seacrane.result.result import Result, checked_stats
-from seacrane.run.channel_names import core_channels, named_channels, names_along
+from seacrane.run.channel_names import core_channels, derived_coords, named_channels
 from seacrane.run.formulation import stepped
 from seacrane.run.input_slots import changed_inputs, steered
 from seacrane.run.method import Method
@@ -178,7 +178,7 @@ class Run:
             result = Result.from_arrays(
                 time=arrays["time"],
                 arrays=channels,
-                **names_along(scene, self.model),
+                coords={**self.model.axes, **derived_coords(scene)},
                 events=self.events(),
                 stats=stats,
                 interrupted=self.interrupted,
@@ -210,9 +210,9 @@ def _simulation(run: Run, capacity: int | None) -> _core.Simulation:
         run.start.time, run.t_end, outputs.dt, first=run.first,
         values=model.channel_values(channels) if capacity is None else 0,
     )  # fmt: skip
-    return _core.Simulation(
-        model=model, start=run.start, formulation=run.formulation, integrator=method.integrator,
-        rtol=method.used_tolerance, dt=method.step or 0.0, max_step=method.max_step or 0.0,
-        spectral_radius=method.spectral_radius, energy_limit=method.energy_limit or 0.0,
-        output_times=times, channels=channels, capacity=capacity or 0,
+    options = _core.RunOptions(
+        formulation=run.formulation, integrator=method.integrator, scaled_tolerance=method.used_tolerance,
+        fixed_step=method.step, max_step=method.max_step, spectral_radius=method.spectral_radius,
+        energy_limit=method.energy_limit, output_times=times, channels=channels, capacity=capacity,
     )  # fmt: skip
+    return _core.Simulation(model=model, start=run.start, options=options)

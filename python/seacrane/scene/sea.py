@@ -83,8 +83,7 @@ def add_sea(
     heading_deg : float
         At which heading, deg from +x towards +y; default: that of its body at the start.
     relative_bound : float
-        Error bound of the load table over the sum of component magnitudes (1e-9); 0: exact sum in every
-        evaluation.
+        Error bound of the load table over the sum of component magnitudes (1e-9).
     evaluation : str
         "table" (default), "fft" (needs components of uniform placement) or "exact"; see `seacrane.Waves`.
     phase : str

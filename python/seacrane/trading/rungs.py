@@ -56,7 +56,7 @@ def waves_name(scene: Scene) -> str:
     """How a scene evaluates its waves."""
     if scene.waves is None:
         return "none"
-    return "exact" if not scene.waves.relative_bound else scene.waves.evaluation
+    return scene.waves.evaluation
 
 
 def variants(scene: Scene, database: HydroDatabase | None, *, quick: bool) -> Iterator[Variant]:

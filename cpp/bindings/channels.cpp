@@ -1,0 +1,43 @@
+#include "bindings.hpp"
+#include "seacrane/run/channels/axes.hpp"
+#include "seacrane/run/channels/registry.hpp"
+
+using namespace seacrane;
+
+namespace {
+
+std::vector<std::string> dims_of(const Channel& channel, bool of_several) {
+  std::vector<std::string> out;
+  for (const Axis* axis : channel.axes) {
+    if (of_several || !axis->only_if_several) out.push_back(axis->name);
+  }
+  return out;
+}
+
+}  // namespace
+
+void bind_channels(py::module_& m) {
+  py::class_<Channel>(m, "Channel", "A quantity that can be recorded.")
+      .def_property_readonly("name", [](const Channel& c) { return c.name; })
+      .def_property_readonly(
+          "dims", [](const Channel& c) { return dims_of(c, false); }, "Dimensions after time.")
+      .def_property_readonly(
+          "dims_of_several", [](const Channel& c) { return dims_of(c, true); },
+          "The same where a scene holds several of what it has one of otherwise, such as vessels.")
+      .def_property_readonly("unit", [](const Channel& c) { return c.unit; })
+      .def_property_readonly("text", [](const Channel& c) { return c.text; })
+      .def_property_readonly(
+          "by_default", [](const Channel& c) { return c.by_default; }, "Whether it is recorded unasked.");
+  m.def(
+      "channels", [] { return all_channels(); }, "Every channel there is, in the order of results.");
+  m.def(
+      "axes",
+      [] {
+        std::map<std::string, std::vector<std::string>> out;
+        for (const Channel& channel : all_channels()) {
+          for (const Axis* axis : channel.axes) out[axis->name] = axis->labels;
+        }
+        return out;
+      },
+      "The names along each dimension of channels but time; none: those of a scene, `Model.axes`.");
+}

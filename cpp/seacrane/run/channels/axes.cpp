@@ -1,0 +1,55 @@
+#include "seacrane/run/channels/axes.hpp"
+
+#include "seacrane/model/model.hpp"
+
+namespace seacrane {
+namespace {
+
+template <class Elements>
+std::vector<std::string> names_of_all(const Elements& elements) {
+  std::vector<std::string> out;
+  for (const auto& element : elements) out.push_back(element.name);
+  return out;
+}
+
+std::vector<std::string> coordinate_names(const Model& m) {
+  std::vector<std::string> out;
+  for (const RecordedCoordinate& c : m.description.coordinates) {
+    out.push_back(c.name.empty() ? c.joint : c.name);
+  }
+  return out;
+}
+
+std::vector<std::string> link_names(const Model& m) {
+  std::vector<std::string> out;
+  for (const ElementModel& e : m.elements) {
+    if (e.kind == Distance::kind) out.push_back(e.name);
+  }
+  return out;
+}
+
+}  // namespace
+
+std::vector<std::string> labels_of(const Axis& axis, const Model& model) {
+  return axis.of_scene != nullptr ? axis.of_scene(model) : axis.labels;
+}
+
+namespace axes {
+
+const Axis xyz{"axis", {"x", "y", "z"}};
+const Axis wxyz{"wxyz", {"w", "x", "y", "z"}};
+const Axis motion{"motion", {"surge", "sway", "heave", "roll", "pitch", "yaw"}};
+
+const Axis body{"body", {}, [](const Model& m) { return names_of_all(m.bodies); }};
+const Axis vessel{"vessel", {}, [](const Model& m) { return names_of_all(m.description.vessels); }, true};
+const Axis joint{"joint", {}, [](const Model& m) { return names_of_all(m.description.joints); }};
+const Axis joint_coordinate{"joint_coordinate", {}, coordinate_names};
+const Axis actuator{"actuator", {}, [](const Model& m) {
+                      return names_of_all(std::get<std::vector<Actuator::Description>>(m.description.loads));
+                    }};
+const Axis driver{"driver", {}, [](const Model& m) { return names_of_all(m.description.drivers); }};
+const Axis link{"link", {}, link_names};
+const Axis limit{"limit", {}, [](const Model& m) { return names_of_all(m.limits); }};
+
+}  // namespace axes
+}  // namespace seacrane

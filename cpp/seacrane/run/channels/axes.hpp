@@ -1,0 +1,10 @@
+#pragma once
+
+#include "seacrane/run/channels/channel.hpp"
+
+namespace seacrane::axes {
+
+extern const Axis xyz, wxyz, motion;
+extern const Axis body, vessel, joint, joint_coordinate, actuator, driver, link, limit;
+
+}  // namespace seacrane::axes

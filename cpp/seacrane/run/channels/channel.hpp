@@ -1,0 +1,56 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace seacrane {
+
+class RedundantSystem;
+struct Model;
+
+/// A dimension of channels, beside time, and the names along it.
+struct Axis {
+  std::string name;
+  std::vector<std::string> labels;  // the same in every scene; empty: those of a scene
+  std::vector<std::string> (*of_scene)(const Model& model) = nullptr;
+  bool only_if_several = false;  // channels have no such dimension in a scene with one name along it
+};
+
+std::vector<std::string> labels_of(const Axis& axis, const Model& model);
+
+/// What a channel needs at an output, beside the kinematics and the rows of the constraints.
+struct Needs {
+  bool loads = false;
+  bool energy = false;
+  bool solution = false;  // accelerations and multipliers
+};
+
+/// One output: the state of the described bodies, the system evaluated there as far as its channels need, and
+/// what only the run knows.
+struct Output {
+  double time = 0.0;
+  const double* state = nullptr;
+  const RedundantSystem& system;
+  double residual = 0.0, residual_rate = 0.0;  // of constraints, after projection: largest magnitudes
+  double residual_before_projection = 0.0;     // largest since the last output
+  double energy_balance = 0.0;                 // J, change of mechanical energy minus work since the start
+  double impact_loss = 0.0;                    // J, since the start
+};
+
+/// A quantity that can be recorded.
+struct Channel {
+  std::string name;
+  std::vector<const Axis*> axes;
+  std::string unit, text;
+  Needs needs = {};
+  bool by_default = true;
+  bool (*offered)(const Model& model) = nullptr;  // whether a scene has it; null: where no axis is empty
+  /// Writes the values, the last axis fastest, over those of the output before (zeros at the first).
+  void (*write)(const Output& output, double* values) = nullptr;
+};
+
+/// Shape of an output of the channel.
+std::vector<std::size_t> shape_of(const Channel& channel, const Model& model);
+
+}  // namespace seacrane

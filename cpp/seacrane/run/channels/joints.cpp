@@ -1,0 +1,140 @@
+#include "seacrane/dynamics/redundant.hpp"
+#include "seacrane/run/channels/axes.hpp"
+
+namespace seacrane {
+namespace {
+
+/// Calls `function(index, row, first, second)` for each coordinate that is recorded.
+template <class Function>
+void for_each_coordinate(const Output& o, Function&& function) {
+  const auto& bodies = o.system.bodies();
+  const auto& coordinates = o.system.model().coordinates;
+  for (std::size_t i = 0; i < coordinates.size(); ++i) {
+    const CoordinateData& c = coordinates[i];
+    const auto &first = bodies[idx(c.joint.first)], &second = bodies[idx(c.joint.second)];
+    function(i, evaluate_coordinate<double>(c, first, second), first, second);
+  }
+}
+
+void write_coordinate(const Output& o, double* out) {
+  for_each_coordinate(o, [&](std::size_t i, const CoordinateRow<double>& row, const auto&, const auto&) {
+    out[i] = row.value;
+  });
+}
+
+void write_coordinate_rate(const Output& o, double* out) {
+  for_each_coordinate(o, [&](std::size_t i, const CoordinateRow<double>& row, const auto& first,
+                             const auto& second) { out[i] = coordinate_rate<double>(row, first, second); });
+}
+
+void write_actuator_force(const Output& o, double* out) {
+  const auto& bodies = o.system.bodies();
+  const LoadInput<double> input = o.system.load_input(o.time);
+  for (const Actuator& a : o.system.model().actuators()) {
+    const JointData& j = a.coordinate.joint;
+    *out++ = a.force<double>(
+        input, evaluate_coordinate<double>(a.coordinate, bodies[idx(j.first)], bodies[idx(j.second)]));
+  }
+}
+
+/// Of the drivers described: stops that hold are drivers of the compiled model too.
+void write_driver_force(const Output& o, double* out) {
+  const Model& m = o.system.model();
+  for (std::size_t d = 0; d < m.description.drivers.size(); ++d) {
+    out[d] = o.system.multipliers()[idx(m.elements[m.description.joints.size() + d].row)];
+  }
+}
+
+/// Where the reaction of a joint is taken: the second body's point, or the first's where the joint slides.
+Vec3d joint_point(const ElementModel& e, const std::vector<BodyKinematics<double>>& bodies) {
+  const bool on_first = e.kind == Prismatic::kind || e.kind == Cylindrical::kind || e.kind == Planar::kind;
+  const BodyKinematics<double>& k = bodies[idx(on_first ? e.first : e.second)];
+  return k.position + k.rotation * (on_first ? e.first_point : e.second_point);
+}
+
+struct Reaction {
+  Vec3d force, moment;
+};
+
+/// On the second body, or on the ground where that is the second.
+Reaction reaction_of(const Output& o, std::size_t joint) {
+  const RedundantSystem& system = o.system;
+  const ElementModel& element = system.model().elements[joint];
+  const bool second_is_ground = element.second == system.model().body_count();
+  const int side = second_is_ground ? 0 : 1, body = second_is_ground ? element.first : element.second;
+  Vec6d load = Vec6d::Zero();
+  const RowBlock<double>& block = system.blocks()[joint];
+  for (int r = 0; r < element.rows; ++r) {
+    load += block.d[side].row(r).transpose() * system.multipliers()[idx(element.row + r)];
+  }
+  if (second_is_ground) load = -load;
+  const Vec3d force = load.head<3>();
+  const Vec3d arm = joint_point(element, system.bodies()) - system.bodies()[idx(body)].position;
+  return {force, Vec3d(load.tail<3>()) - arm.cross(force)};
+}
+
+void write_reaction_force(const Output& o, double* out) {
+  for (std::size_t j = 0; j < o.system.model().description.joints.size(); ++j) {
+    view<3>(out + 3 * j) = reaction_of(o, j).force;
+  }
+}
+
+void write_reaction_moment(const Output& o, double* out) {
+  for (std::size_t j = 0; j < o.system.model().description.joints.size(); ++j) {
+    view<3>(out + 3 * j) = reaction_of(o, j).moment;
+  }
+}
+
+void write_tension(const Output& o, double* out) {
+  for (const ElementModel& e : o.system.model().elements) {
+    if (e.kind == Distance::kind) *out++ = e.rows > 0 ? -o.system.multipliers()[idx(e.row)] : 0.0;
+  }
+}
+
+}  // namespace
+
+std::vector<Channel> joint_channels() {
+  return {
+      {.name = "coordinate",
+       .axes = {&axes::joint_coordinate},
+       .unit = "m or rad",
+       .text = "joint coordinate, second body to first",
+       .write = write_coordinate},
+      {.name = "coordinate_rate",
+       .axes = {&axes::joint_coordinate},
+       .unit = "m/s or rad/s",
+       .text = "rate of the joint coordinate",
+       .write = write_coordinate_rate},
+      {.name = "actuator_force",
+       .axes = {&axes::actuator},
+       .unit = "N or N m",
+       .text = "load of the actuator along its coordinate",
+       .write = write_actuator_force},
+      {.name = "driver_force",
+       .axes = {&axes::driver},
+       .unit = "N or N m",
+       .text = "load of the driver along its coordinate",
+       .needs = {.solution = true},
+       .write = write_driver_force},
+      {.name = "reaction_force",
+       .axes = {&axes::joint, &axes::xyz},
+       .unit = "N",
+       .text = "constraint force on the second body, inertial frame, at the joint point",
+       .needs = {.solution = true},
+       .write = write_reaction_force},
+      {.name = "reaction_moment",
+       .axes = {&axes::joint, &axes::xyz},
+       .unit = "N m",
+       .text = "constraint moment on the second body, inertial frame, at the joint point",
+       .needs = {.solution = true},
+       .write = write_reaction_moment},
+      {.name = "tension",
+       .axes = {&axes::link},
+       .unit = "N",
+       .text = "tension of the constant-distance link",
+       .needs = {.solution = true},
+       .write = write_tension},
+  };
+}
+
+}  // namespace seacrane

@@ -1,0 +1,82 @@
+#include <algorithm>
+
+#include "seacrane/dynamics/redundant.hpp"
+#include "seacrane/run/channels/axes.hpp"
+
+namespace seacrane {
+namespace {
+
+bool has_waves(const Model& m) { return !m.wave_loads.empty(); }
+
+bool has_drift(const Model& m) {
+  return std::any_of(m.wave_loads.begin(), m.wave_loads.end(),
+                     [](const WaveLoad& wave) { return wave.sources.has_drift(); });
+}
+
+const WaveComponents& sea_of(const WaveLoadDescription& load) {
+  if (load.positioned) return load.positioned->waves();
+  return load.exact ? load.exact->waves() : load.table->exact()->waves();
+}
+
+/// Calls `function(load, vessel)` for the waves on each loaded vessel.
+template <class Function>
+void for_each_wave_load(const Output& o, Function&& function) {
+  const auto& loads = o.system.model().wave_loads;
+  for (std::size_t i = 0; i < loads.size(); ++i) function(o.system.waves(i), idx(loads[i].vessel));
+}
+
+/// Of vessels that the waves do not load, where they rest.
+void write_wave_elevation(const Output& o, double* out) {
+  const Model& m = o.system.model();
+  if (m.wave_loads.size() < m.vessels.size()) {
+    const WaveComponents& sea = sea_of(m.wave_loads.front().sources);
+    for (std::size_t v = 0; v < m.vessels.size(); ++v) {
+      const Vec3d& rest = m.vessels[v].mean_position;
+      out[v] = sea.elevation(o.time, rest.x(), rest.y());
+    }
+  }
+  for_each_wave_load(o,
+                     [&](const WaveForces& waves, std::size_t vessel) { out[vessel] = waves.elevation(); });
+}
+
+void write_wave_force(const Output& o, double* out) {
+  for_each_wave_load(
+      o, [&](const WaveForces& waves, std::size_t vessel) { view<6>(out + 6 * vessel) = waves.force(); });
+}
+
+void write_drift_force(const Output& o, double* out) {
+  for_each_wave_load(
+      o, [&](const WaveForces& waves, std::size_t vessel) { view<6>(out + 6 * vessel) = waves.drift(); });
+}
+
+constexpr const char* kWrench = "N (surge, sway, heave), N m (roll, pitch, yaw)";
+
+}  // namespace
+
+std::vector<Channel> sea_channels() {
+  return {
+      {.name = "wave_elevation",
+       .axes = {&axes::vessel},
+       .unit = "m",
+       .text = "undisturbed wave elevation where wave loads take their phase",
+       .needs = {.loads = true},
+       .offered = has_waves,
+       .write = write_wave_elevation},
+      {.name = "wave_force",
+       .axes = {&axes::vessel, &axes::motion},
+       .unit = kWrench,
+       .text = "wave load on the vessel at its reference point",
+       .needs = {.loads = true},
+       .offered = has_waves,
+       .write = write_wave_force},
+      {.name = "drift_force",
+       .axes = {&axes::vessel, &axes::motion},
+       .unit = kWrench,
+       .text = "slow drift load on the vessel at its reference point",
+       .needs = {.loads = true},
+       .offered = has_drift,
+       .write = write_drift_force},
+  };
+}
+
+}  // namespace seacrane

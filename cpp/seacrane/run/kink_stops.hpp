@@ -1,0 +1,24 @@
+#pragma once
+
+#include <cstddef>
+
+#include "seacrane/run/stepper.hpp"
+
+namespace seacrane {
+
+/// The kinks of curves over time at which steps end.
+class KinkStops {
+ public:
+  explicit KinkStops(double scaled_tolerance) : scaled_tolerance_(scaled_tolerance) {}
+
+  /// Time of the next kink that matters to a step of the present length; infinity where there is none near.
+  /// Those beyond the step are left to the steps that come near them: an integrator must know of a stop a
+  /// little beyond its step, no further.
+  double next(const Stepper& at, double now);
+
+ private:
+  double scaled_tolerance_;
+  std::size_t next_ = 0;  // of the kinks of the model
+};
+
+}  // namespace seacrane

@@ -1,0 +1,138 @@
+#include "seacrane/run/output_sampler.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+#include "seacrane/elements/check.hpp"
+
+namespace seacrane {
+namespace {
+
+[[noreturn]] void report_open_joint(const RedundantSystem& system, double t) {
+  double worst = -1.0;
+  std::string name;
+  for (std::size_t e = 0; e < system.model().elements.size(); ++e) {
+    const ElementModel& element = system.model().elements[e];
+    if (element.rows == 0) continue;
+    const double open = system.blocks()[e].phi.head(element.rows).cwiseAbs().maxCoeff();
+    if (open > worst || std::isnan(open)) {
+      worst = open;
+      name = element.name;
+    }
+  }
+  throw std::domain_error("joint or driver '" + name + "': is open by " + to_text(worst) +
+                          " m or rad at t = " + to_text(t) +
+                          " s and projection does not close it: the step is too long for the method, or "
+                          "constraints nearly depend on each other there; give a smaller dt or rtol, or move "
+                          "nearly coincident joints apart");
+}
+
+}  // namespace
+
+OutputSampler::OutputSampler(const Model& model, const RunOptions& options, RankWatch& rank)
+    : model_(model),
+      rank_(rank),
+      energy_(options.energy_limit),
+      times_(options.output_times),
+      recording_(model, options.channels, options.capacity.value_or(options.output_times.size())),
+      bodies_(idx(model.layout.size), 0.0),
+      rate_(idx(model.layout.size), 0.0) {
+  if (options.energy_limit && model.paper_kinematics) {
+    throw std::invalid_argument(
+        "energy_limit: kinematics 'paper' has no energy balance; leave energy_limit out");
+  }
+}
+
+void OutputSampler::start(Stepper& at, double t, const double* bodies) {
+  while (next_ < times_.size() && times_[next_] < t) ++next_;
+  start_energy_ = at.system.energy(t, bodies);
+  start_work_ = bodies[model_.layout.work];
+}
+
+void OutputSampler::continue_from(const RecordHistory& history) {
+  start_energy_ = history.start_energy;
+  start_work_ = history.start_work;
+  largest_residual_ = history.residual;
+  recording_.set_last("quaternion", history.quaternions);
+}
+
+RecordHistory OutputSampler::history(double t, double impact_loss) const {
+  // A run that continues from an output writes it once more.
+  const double residual = last_time_ == t ? std::max(largest_residual_, last_residual_) : largest_residual_;
+  return {start_energy_, start_work_, residual, impact_loss, recording_.last("quaternion")};
+}
+
+void OutputSampler::take_residual(Stepper& at) {
+  largest_residual_ = std::max(largest_residual_, at.stepped.take_residual_before_projection());
+}
+
+/// Projects state_, writes bodies_, and returns the largest residual before projection since the last output.
+double OutputSampler::project(Stepper& at, double t) {
+  at.stepped.project(t, state_.data(), false);
+  at.stepped.write_bodies(t, state_.data(), bodies_.data());
+  return std::max(largest_residual_, at.stepped.take_residual_before_projection());
+}
+
+ConstraintResidual OutputSampler::evaluate(Stepper& at, double t, const Needs& needs) {
+  if (needs.solution) {
+    at.system.derivative(t, bodies_.data(), rate_.data());
+    // The tree factors no constraints of its own joints.
+    if (at.other) watch_rank(at, t);
+  } else if (needs.loads || needs.energy) {
+    at.system.evaluate_terms(t, bodies_.data(), rate_.data());
+  } else {
+    return at.system.residual(t, bodies_.data());
+  }
+  return at.system.residual_here(bodies_.data());
+}
+
+/// Of the rows described: those that are stepped are fewer in the recursive form.
+void OutputSampler::watch_rank(Stepper& at, double t) {
+  if (at.stepped.take_dependence().ratio > 0.0) return;
+  const Dependence found = at.system.take_dependence();
+  if (rank_.sees(found)) rank_.keep(t, found, at.model, bodies_.data());
+}
+
+void OutputSampler::write(Stepper& at, double t, double residual_before, double impact_loss, Recording& out) {
+  Needs needs = out.needs();
+  needs.energy = needs.energy || energy_.has_limit();
+  const ConstraintResidual residual = evaluate(at, t, needs);
+  if (!(residual.position <= kLargestResidual)) report_open_joint(at.system, t);
+  const double* const work = bodies_.data() + model_.layout.work;
+  const double energy = needs.energy ? at.system.energy_here(t, bodies_.data()) : start_energy_;
+  const double balance = energy - start_energy_ - (work[0] - start_work_);
+  out.append({t, bodies_.data(), at.system, residual.position, residual.rate, residual_before, balance,
+              impact_loss});
+  if (energy_.has_limit()) energy_.check(t, bodies_.data(), at.system, balance, work[1], energy);
+}
+
+void OutputSampler::record_until(Stepper& at, double t, double impact_loss) {
+  const Integrator& integrator = *at.integrator;
+  state_.resize(at.stepped.size());
+  while (next_ < times_.size() && times_[next_] <= t) {
+    const double now = times_[next_++];
+    if (now >= integrator.time()) {
+      std::copy_n(integrator.state(), state_.size(), state_.data());
+    } else {
+      at.integrator->interpolate(now, state_.data());
+    }
+    last_time_ = now;
+    last_residual_ = project(at, now);
+    largest_residual_ = 0.0;
+    write(at, now, last_residual_, impact_loss, recording_);
+  }
+}
+
+Recording OutputSampler::snapshot(Stepper& at, double impact_loss) {
+  const std::vector<std::string> names = channel_names(model_, false);
+  Recording out(model_, {names.begin(), names.end()}, 1);
+  const double t = at.integrator->time();
+  state_.assign(at.integrator->state(), at.integrator->state() + at.stepped.size());
+  take_residual(at);
+  write(at, t, project(at, t), impact_loss, out);
+  return out;
+}
+
+}  // namespace seacrane

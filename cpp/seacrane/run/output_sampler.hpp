@@ -1,0 +1,58 @@
+#pragma once
+
+#include <limits>
+#include <vector>
+
+#include "seacrane/run/guards.hpp"
+#include "seacrane/run/recording.hpp"
+#include "seacrane/run/restart.hpp"
+#include "seacrane/run/run_options.hpp"
+
+namespace seacrane {
+
+/// m, rad: constraints that projection leaves open by more do not hold.
+constexpr double kLargestResidual = 1e-6;
+
+/// Takes the outputs of a run at the times asked for: the state is interpolated, projected, evaluated as far
+/// as the channels need, and recorded.
+class OutputSampler {
+ public:
+  /// `options` and `rank` outlive the sampler.
+  OutputSampler(const Model& model, const RunOptions& options, RankWatch& rank);
+
+  /// Outputs from time t on; energy_balance is counted from the state (t, bodies).
+  void start(Stepper& at, double t, const double* bodies);
+  /// Continues what the recording of another run kept.
+  void continue_from(const RecordHistory& history);
+  /// What a run that continues at time t needs.
+  RecordHistory history(double t, double impact_loss) const;
+
+  /// Records the outputs due until t. `impact_loss`: so far, J.
+  void record_until(Stepper& at, double t, double impact_loss);
+  /// One row of all channels of the scene, at the present time.
+  Recording snapshot(Stepper& at, double impact_loss);
+  /// Takes the largest residual that projection has found since it was asked last.
+  void take_residual(Stepper& at);
+
+  const Recording& recording() const { return recording_; }
+  void drop_rows(std::size_t count) { recording_.drop(count); }
+
+ private:
+  double project(Stepper& at, double t);
+  ConstraintResidual evaluate(Stepper& at, double t, const Needs& needs);
+  void write(Stepper& at, double t, double residual_before, double impact_loss, Recording& out);
+  void watch_rank(Stepper& at, double t);
+
+  const Model& model_;
+  RankWatch& rank_;
+  EnergyWatch energy_;
+  const std::vector<double>& times_;
+  std::size_t next_ = 0;
+  Recording recording_;
+  double start_energy_ = 0.0, start_work_ = 0.0;
+  double largest_residual_ = 0.0;  // before projection, since the last output
+  double last_time_ = std::numeric_limits<double>::quiet_NaN(), last_residual_ = 0.0;  // of the last output
+  std::vector<double> state_, bodies_, rate_;
+};
+
+}  // namespace seacrane

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace seacrane {
+
+struct RunOptions {
+  std::string formulation = "redundant";
+  std::string integrator = "dopri5";
+  /// Local error of a step in units of the scale of each state: absolute, so that results do not depend on
+  /// where the origin is.
+  double scaled_tolerance = 1e-6;
+  std::optional<double> fixed_step;       // s, of fixed-step methods; none: the method's own
+  std::optional<double> max_step;         // s; none: no limit
+  std::optional<double> spectral_radius;  // of generalized-alpha; none: the method's own
+  std::optional<double> energy_limit;     // of the energy balance, see EnergyWatch; none: no limit
+  std::vector<double> output_times;       // increasing; those before the start are left out
+  std::optional<std::size_t> capacity;    // outputs to take memory for; none: all
+  std::set<std::string> channels;
+};
+
+}  // namespace seacrane
