@@ -66,7 +66,7 @@ WRONG: dict[str, tuple[Callable[[Scene], Any], str]] = {
     "unknown argument": (lambda s: s.replace("load", weight=3.0), "body 'load': cannot change 'weight'"),
     "a new name": (lambda s: s.replace("load", name="cargo"), "cannot change 'name'"),
     "a wrong value": (
-        lambda s: s.replace("load", mass="heavy"), "body 'load': cannot be made with mass='heavy'"
+        lambda s: s.replace("load", mass="heavy"), "body 'load': mass is 'heavy'; give a number"
     ),
     "a recorded one": (
         lambda s: s.replace("rail", kind="recorded coordinate", joint="wire"), "is not replaced; remove it"

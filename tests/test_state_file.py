@@ -180,7 +180,7 @@ def test_a_state_comes_back_bit_for_bit(saved: Path) -> None:
     for name in ("values", "inputs"):
         assert np.array_equal(getattr(one, name), getattr(two, name))
     assert one.record is not None and two.record is not None
-    for name in ("start_energy", "start_work", "open"):
+    for name in ("start_energy", "start_work", "residual"):
         assert getattr(one.record, name) == getattr(two.record, name)
     for name in ("values", "rate", "integrator", "formulation"):
         assert np.array_equal(getattr(one.steps, name), getattr(two.steps, name))

@@ -84,7 +84,7 @@ DERIVED: Mapping[str, Channel] = MappingProxyType(
 )
 
 CHANNELS: Mapping[str, Channel] = MappingProxyType(
-    {channel.name: _core_channel(channel) for channel in _core.channels()} | DERIVED
+    {**{channel.name: _core_channel(channel) for channel in _core.channels()}, **DERIVED}
 )
 
 # Names along the dimensions that are the same in every scene.

@@ -1,5 +1,7 @@
 #include "seacrane/run/channels/axes.hpp"
 
+#include "seacrane/elements/joints/distance.hpp"
+#include "seacrane/elements/loads/registry.hpp"
 #include "seacrane/model/model.hpp"
 
 namespace seacrane {
@@ -45,7 +47,7 @@ const Axis vessel{"vessel", {}, [](const Model& m) { return names_of_all(m.descr
 const Axis joint{"joint", {}, [](const Model& m) { return names_of_all(m.description.joints); }};
 const Axis joint_coordinate{"joint_coordinate", {}, coordinate_names};
 const Axis actuator{"actuator", {}, [](const Model& m) {
-                      return names_of_all(std::get<std::vector<Actuator::Description>>(m.description.loads));
+                      return names_of_all(std::get<std::vector<Actuator::Description>>(*m.description.loads));
                     }};
 const Axis driver{"driver", {}, [](const Model& m) { return names_of_all(m.description.drivers); }};
 const Axis link{"link", {}, link_names};

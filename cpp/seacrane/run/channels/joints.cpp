@@ -1,4 +1,6 @@
 #include "seacrane/dynamics/redundant.hpp"
+#include "seacrane/elements/joints/distance.hpp"
+#include "seacrane/elements/loads/actuator.hpp"
 #include "seacrane/run/channels/axes.hpp"
 
 namespace seacrane {
@@ -47,9 +49,8 @@ void write_driver_force(const Output& o, double* out) {
 
 /// Where the reaction of a joint is taken: the second body's point, or the first's where the joint slides.
 Vec3d joint_point(const ElementModel& e, const std::vector<BodyKinematics<double>>& bodies) {
-  const bool on_first = e.kind == Prismatic::kind || e.kind == Cylindrical::kind || e.kind == Planar::kind;
-  const BodyKinematics<double>& k = bodies[idx(on_first ? e.first : e.second)];
-  return k.position + k.rotation * (on_first ? e.first_point : e.second_point);
+  const BodyKinematics<double>& k = bodies[idx(e.slides ? e.first : e.second)];
+  return k.position + k.rotation * (e.slides ? e.first_point : e.second_point);
 }
 
 struct Reaction {

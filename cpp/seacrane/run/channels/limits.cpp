@@ -1,3 +1,4 @@
+#include "seacrane/dynamics/limit_force.hpp"
 #include "seacrane/dynamics/redundant.hpp"
 #include "seacrane/run/channels/axes.hpp"
 
