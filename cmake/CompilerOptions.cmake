@@ -9,6 +9,9 @@ endif()
 if(SEACRANE_SANITIZE)
   target_compile_options(seacrane_options INTERFACE
     -fsanitize=${SEACRANE_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  if(SEACRANE_SANITIZE_NOT)
+    target_compile_options(seacrane_options INTERFACE -fno-sanitize=${SEACRANE_SANITIZE_NOT})
+  endif()
   target_link_options(seacrane_options INTERFACE -fsanitize=${SEACRANE_SANITIZE})
 endif()
 

@@ -58,7 +58,8 @@ in s. Immutable.)")
           "pieces", &from_pieces, py::kw_only(), py::arg("starts"), py::arg("coefficients"),
           py::arg("cosines") = std::vector<std::array<double, 3>>{},
           "Pieces from their start times on: coefficients (n, 6) of powers of (t - start), cosines (n, 3) "
-          "of amplitude, omega, phase. The last piece goes on as it is: end with a constant to hold a value.")
+          "of amplitude, omega, phase. The last piece continues as it is: end with a constant to hold a "
+          "value.")
       .def("then", &Curve::then, py::kw_only(), py::arg("time"), py::arg("curve"),
            "This curve until `time`, the other one afterwards (at its own clock).")
       .def("evaluate", &evaluate, py::arg("times"),

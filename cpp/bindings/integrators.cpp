@@ -38,7 +38,7 @@ void bind_integrators(py::module_& m) {
                     "It solves the residual form, which formulation \"redundant\" has.")
       .def_readonly("projects", &P::projects, "It projects the state onto the joints.")
       .def_readonly("restarts", &P::restarts,
-                    "It loses its history where a run goes on from a state, or is changed.")
+                    "It loses its history where a run continues from a state, or is changed.")
       .def_readonly("has_spectral_radius", &P::has_spectral_radius, "`spectral_radius` can be chosen.");
   m.def("integrators", &integrators, "All integration methods, in the order of the documents: a new list.");
   m.def("integrator", &integrator_of, py::arg("name"),

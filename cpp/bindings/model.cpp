@@ -4,10 +4,12 @@
 
 #include "bindings.hpp"
 #include "seacrane/compile/compile.hpp"
-#include "seacrane/dynamics/merged.hpp"
+#include "seacrane/dynamics/constraints.hpp"
+#include "seacrane/dynamics/energy.hpp"
 #include "seacrane/dynamics/recursive/body_tree.hpp"
 #include "seacrane/dynamics/recursive/recursive.hpp"
-#include "seacrane/dynamics/redundant.hpp"
+#include "seacrane/dynamics/stepped_bodies.hpp"
+#include "seacrane/dynamics/time_parts.hpp"
 #include "seacrane/elements/loads/registry.hpp"
 #include "seacrane/run/recording.hpp"
 #include "vector_state.hpp"
@@ -127,19 +129,19 @@ std::map<std::string, std::vector<std::string>> axes_of(const Model& model) {
 class Evaluator {
  public:
   Evaluator(std::shared_ptr<Model> model, const std::string& formulation)
-      : model_(std::move(model)), system_(model_), reduced_(make_formulation(formulation, system_)) {}
+      : model_(std::move(model)), bodies_(formulation, model_), system_(bodies_.described()) {}
 
   Array derivative(double t, const Array& y) {
     Array out(check(y));
     system_.derivative(t, y.data(), out.mutable_data());
     return out;
   }
-  /// d(dy/dt)/dy of the redundant formulation.
+  /// d(dy/dt)/dy in maximal coordinates.
   Eigen::MatrixXd jacobian(double t, const Array& y) {
     const auto n = static_cast<Eigen::Index>(check(y));
     if (steps_recursive()) {
       throw std::invalid_argument(
-          "jacobian: is told in the variables of the state, and formulation \"recursive\" steps coordinates "
+          "jacobian: is in the variables of the state, and formulation \"recursive\" steps coordinates "
           "of its own; use formulation \"redundant\"");
     }
     Eigen::MatrixXd out(n, n);
@@ -158,28 +160,29 @@ class Evaluator {
   }
   std::pair<double, double> residual(double t, const Array& y) {
     check(y);
-    const ConstraintResidual r = system_.residual(t, y.data());
+    const ConstraintResidual r = constraint_residual(system_.terms(), t, y.data());
     return {r.position, r.rate};
   }
   double energy(double t, const Array& y) {
     check(y);
-    return system_.energy(t, y.data());
+    return mechanical_energy_at(system_.terms(), t, y.data());
   }
   /// Mass matrix, constraint Jacobian, gamma, loads, acceleration and multipliers of eq (9), dense.
   py::dict terms(double t, const Array& y) {
     std::vector<double> rate(static_cast<std::size_t>(check(y)));
     system_.derivative(t, y.data(), rate.data());
+    const Terms& terms = system_.terms();
     const int n = 6 * model_->body_count(), rows = model_->rows();
     MatXd mass = MatXd::Zero(n, n), d = MatXd::Zero(rows, n);
     VecXd gamma(rows), phi(rows), load(n), acceleration(n);
     for (int b = 0; b < model_->body_count(); ++b) {
-      mass.block<6, 6>(6 * b, 6 * b) = system_.mass_matrix(b);
-      load.segment<6>(6 * b) = system_.loads()[static_cast<std::size_t>(b)];
-      acceleration.segment<6>(6 * b) = system_.acceleration()[static_cast<std::size_t>(b)];
+      mass.block<6, 6>(6 * b, 6 * b) = terms.mass_matrix(b);
+      load.segment<6>(6 * b) = terms.loads()[static_cast<std::size_t>(b)];
+      acceleration.segment<6>(6 * b) = system_.accelerations()[static_cast<std::size_t>(b)];
     }
     for (std::size_t e = 0; e < model_->elements.size(); ++e) {
       const ElementModel& el = model_->elements[e];
-      const RowBlock<double>& block = system_.blocks()[e];
+      const RowBlock<double>& block = terms.blocks()[e];
       if (el.first * 6 < n) d.block(el.row, 6 * el.first, el.rows, 6) = block.d[0].topRows(el.rows);
       if (el.second * 6 < n) d.block(el.row, 6 * el.second, el.rows, 6) = block.d[1].topRows(el.rows);
       gamma.segment(el.row, el.rows) = block.gamma.head(el.rows);
@@ -201,7 +204,7 @@ class Evaluator {
     std::vector<double> state(stepped().size()), rate(stepped().size());
     const WithoutGil released;
     clear_vector_state();
-    stepped().read_bodies(t, y.data(), state.data());
+    bodies_.read(t, y.data(), state.data());
     for (long i = 0; i < count; ++i) {
       stepped().derivative(t + static_cast<double>(i) * dt, state.data(), rate.data());
     }
@@ -210,11 +213,11 @@ class Evaluator {
   Eigen::Matrix<double, Eigen::Dynamic, 6, Eigen::RowMajor> accelerations(double t, const Array& y) {
     check(y);
     std::vector<double> state(stepped().size()), rate(stepped().size());
-    stepped().read_bodies(t, y.data(), state.data());
+    bodies_.read(t, y.data(), state.data());
     stepped().derivative(t, state.data(), rate.data());
     Eigen::Matrix<double, Eigen::Dynamic, 6, Eigen::RowMajor> out(model_->body_count(), 6);
     for (int b = 0; b < model_->body_count(); ++b) {
-      out.row(b) = stepped().accelerations()[static_cast<std::size_t>(b)].transpose();
+      out.row(b) = bodies_.accelerations()[static_cast<std::size_t>(b)].transpose();
     }
     return out;
   }
@@ -225,7 +228,7 @@ class Evaluator {
       throw std::invalid_argument("condition: belongs to an Evaluator of formulation \"recursive\"");
     }
     std::vector<double> state(stepped().size()), rate(stepped().size());
-    stepped().read_bodies(t, y.data(), state.data());
+    bodies_.read(t, y.data(), state.data());
     stepped().derivative(t, state.data(), rate.data());
     return stepped().condition();
   }
@@ -235,13 +238,10 @@ class Evaluator {
       throw std::invalid_argument("time_parts: count is " + std::to_string(count) + "; give at least 1");
     }
     py::dict out;
-    RedundantSystem& loads = stepped().loads_from();
-    std::vector<double> bodies(y.data(), y.data() + y.size());
-    if (model_->merged) {
-      bodies.resize(loads.size());
-      merge_state(*model_, *model_->merged, y.data(), bodies.data());
+    MaximalSystem system(model_->merged ? model_->merged : model_);
+    for (const auto& [name, ns] : seacrane::time_parts(system, t, bodies_.merged(y.data()), count)) {
+      out[name.c_str()] = ns;
     }
-    for (const auto& [name, ns] : loads.time_parts(t, bodies.data(), count)) out[name.c_str()] = ns;
     return out;
   }
 
@@ -254,11 +254,11 @@ class Evaluator {
     return y.size();
   }
   bool steps_recursive() { return std::string(stepped().name()) == "recursive"; }
-  Formulation& stepped() { return reduced_ ? *reduced_ : system_; }
+  Formulation& stepped() { return bodies_.formulation(); }
 
   std::shared_ptr<Model> model_;
-  RedundantSystem system_;
-  std::unique_ptr<Formulation> reduced_;
+  SteppedBodies bodies_;
+  MaximalSystem& system_;  // of all bodies as described
 };
 
 void bind_evaluator(py::module_& m) {
@@ -341,6 +341,14 @@ void bind_model(py::module_& m) {
           "(name, whether it holds at the described start) of wires, bounds and seats, in the order of the "
           "channel limit_force.")
       .def_property_readonly("slots", [](const Model& x) { return x.slot_count; })
+      .def_property_readonly(
+          "inputs",
+          [](const Model& x) {
+            std::vector<std::tuple<std::string, int, int>> out;
+            for (const InputModel& input : x.inputs) out.emplace_back(input.name, input.slot, input.count);
+            return out;
+          },
+          "(name, first slot, number of slots) of the zero-order-held inputs.")
       .def_property_readonly(
           "breakpoints",
           [](const Model& x) {

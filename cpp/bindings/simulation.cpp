@@ -82,7 +82,7 @@ py::list events(const Simulation& s) {
   return out;
 }
 
-/// A simulation that threads may share: one at a time is inside. A run that goes on lets the others in every
+/// A simulation that threads may share: one at a time is inside. A run in progress lets the others in every
 /// 20 ms, between two steps.
 class SharedSimulation {
  public:
@@ -182,7 +182,7 @@ void bind_steps(py::module_& m) {
   py::class_<S>(
       m, "StepHistory",
       "What an integrator keeps from step to step, in the coordinates of a formulation, and the rate of the "
-      "state: a run with the same settings goes on bit for bit (methods of SUNDIALS restart). Another "
+      "state: a run with the same settings continues bit for bit (methods of SUNDIALS restart). Another "
       "formulation, integrator or scene, or other values or inputs, start from the values alone.")
       .def(py::init(
                [](std::string formulation, std::string integrator, const Array& values, const Array& rate) {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "seacrane/compile/compile.hpp"
-#include "seacrane/dynamics/redundant.hpp"
+#include "seacrane/dynamics/maximal.hpp"
 #include "seacrane/elements/joint_kinds.hpp"
 #include "seacrane/elements/loads/registry.hpp"
 #include "seacrane/math/random.hpp"
@@ -248,19 +248,19 @@ struct DenseTerms {
   VecXd load, gamma, acceleration, lambda;
 };
 
-inline DenseTerms dense_terms(const RedundantSystem& system) {
+inline DenseTerms dense_terms(const MaximalSystem& system) {
   const Model& m = system.model();
   const int n = 6 * m.body_count(), rows = m.rows();
   DenseTerms out{MatXd::Zero(n, n), MatXd::Zero(rows, n), VecXd(n), VecXd(rows), VecXd(n), VecXd(rows)};
   for (int b = 0; b < m.body_count(); ++b) {
     const auto i = static_cast<std::size_t>(b);
-    out.mass.block<6, 6>(6 * b, 6 * b) = system.mass_matrix(b);
-    out.load.segment<6>(6 * b) = system.loads()[i];
-    out.acceleration.segment<6>(6 * b) = system.acceleration()[i];
+    out.mass.block<6, 6>(6 * b, 6 * b) = system.terms().mass_matrix(b);
+    out.load.segment<6>(6 * b) = system.terms().loads()[i];
+    out.acceleration.segment<6>(6 * b) = system.accelerations()[i];
   }
   for (std::size_t e = 0; e < m.elements.size(); ++e) {
     const ElementModel& el = m.elements[e];
-    const RowBlock<double>& block = system.blocks()[e];
+    const RowBlock<double>& block = system.terms().blocks()[e];
     if (el.first < m.body_count())
       out.d.block(el.row, 6 * el.first, el.rows, 6) += block.d[0].topRows(el.rows);
     if (el.second < m.body_count()) {
@@ -273,7 +273,7 @@ inline DenseTerms dense_terms(const RedundantSystem& system) {
 }
 
 /// The assembled start with random velocities that satisfy the constraints.
-inline std::vector<double> moving_state(RedundantSystem& system, std::uint64_t seed) {
+inline std::vector<double> moving_state(MaximalSystem& system, std::uint64_t seed) {
   std::vector<double> y = system.model().initial_state;
   Random random(seed);
   for (int b = 0; b < system.model().body_count(); ++b) {

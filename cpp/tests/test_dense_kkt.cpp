@@ -159,7 +159,7 @@ TEST_CASE("a rod of 1e-8 of its neighbours' mass: the run takes LU and both rows
       b.mass *= ratio;
       b.inertia *= ratio;
     }
-    RedundantSystem system(compile(scene));
+    MaximalSystem system(compile(scene));
     const std::vector<double> y = moving_state(system, 3);
     std::vector<double> rate(y.size());
     system.derivative(0.0, y.data(), rate.data());

@@ -23,7 +23,8 @@ RunOptions options_for(const Model& model, const std::string& formulation, doubl
 
 double last(const Recording& recording, const std::string& channel) {
   for (const RecordedChannel& c : recording.channels()) {
-    if (c.channel->name == channel) return recording.rows()[(recording.count() - 1) * recording.width() + c.offset];
+    if (c.channel->name == channel)
+      return recording.rows()[(recording.count() - 1) * recording.width() + c.offset];
   }
   return std::nan("");
 }

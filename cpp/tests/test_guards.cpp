@@ -5,6 +5,7 @@
 
 #include "multibody_scenes.hpp"
 #include "seacrane/compile/compile.hpp"
+#include "seacrane/dynamics/non_finite.hpp"
 #include "seacrane/run/simulation.hpp"
 
 namespace seacrane::test {
@@ -69,15 +70,15 @@ TEST_CASE("what is not finite is named: a state, a memory state, a load, a drive
   SceneDescription scene = slider_crank("base");
   make_vessel(scene, "base");
   const auto model = compile(scene);
-  RedundantSystem system(model);
+  MaximalSystem system(model);
   std::vector<double> y = model->initial_state;
-  CHECK(system.non_finite(0.0, y.data()) == "");
+  CHECK(name_non_finite(system, 0.0, y.data()) == "");
 
   const StateLayout& s = model->layout;
   const auto with = [&](int component, double value) {
     std::vector<double> changed = y;
     changed[idx(component)] = value;
-    return system.non_finite(0.0, changed.data());
+    return name_non_finite(system, 0.0, changed.data());
   };
   CHECK(with(s.twist(1) + 4, kNan) == "angular velocity y of body 'crank': it is nan");
   CHECK(with(s.pose(3) + 2, INFINITY) == "position z of body 'slider': it is inf");
@@ -86,8 +87,8 @@ TEST_CASE("what is not finite is named: a state, a memory state, a load, a drive
 
   std::vector<double> slots(idx(model->slot_count), 0.0);
   slots[0] = kNan;
-  system.set_inputs(slots);
-  CHECK(holds(system.non_finite(0.0, y.data()), "actuator 'drive': force"));
+  system.terms().set_inputs(slots);
+  CHECK(holds(name_non_finite(system, 0.0, y.data()), "actuator 'drive': force"));
 }
 
 TEST_CASE("every integrator stops at a force that is not finite, and names it, its body and the time") {
@@ -107,19 +108,20 @@ TEST_CASE("every integrator stops at a force that is not finite, and names it, i
 
 TEST_CASE("a state that a step leaves not finite is caught at once") {
   const auto model = compile(pushed(switch_sign));
-  RedundantSystem system(model);
-  Broken integrator(system.size());
+  Stepper at(model, RunOptions{});
+  at.integrator = std::make_unique<Broken>(at.stepped.size());
+  Integrator& integrator = *at.integrator;
   integrator.init(0.0, model->initial_state.data());
-  require_finite(integrator, system);
+  require_finite(integrator, at.stepped);
   integrator.step(0.5);
   try {
-    require_finite(integrator, system);
+    require_finite(integrator, at.stepped);
     FAIL("passed");
   } catch (const IntegrationError& error) {
     CHECK(error.component() == 8);
     CHECK(error.step_size() == 0.5);
     try {
-      explain(error, integrator, system, system);
+      explain(error, at);
     } catch (const IntegrationError& told) {
       CHECK(holds(told.what(), "velocity y of body 'box': it is nan"));
     }
@@ -130,7 +132,7 @@ TEST_CASE("a force that switches where the body stops ends in an error, not in a
   const std::string text = message_of(pushed(switch_sign), RunOptions{}, 1.0);
   CHECK(holds(text, "stands still"));
   CHECK(holds(text, "100000 steps"));
-  // A fixed step goes on: it is what was asked for.
+  // A fixed step continues: it was asked for.
   RunOptions fixed;
   fixed.integrator = "rk4";
   fixed.fixed_step = 1e-3;
@@ -165,7 +167,7 @@ TEST_CASE("the nearest approach of constraints to dependence is kept and named")
   std::vector<double> found;
   for (const double gap : {1e-2, 1e-3, 1e-4}) {
     const auto model = folded(0.5 * M_PI - gap);
-    RedundantSystem system(model);
+    MaximalSystem system(model);
     RankWatch watch;
     CHECK_FALSE(watch.report().has_value());
     const double condition = system.rank(0.0, model->initial_state.data()).condition;

@@ -44,7 +44,7 @@ double difference(const MatXd& a, const MatXd& b, double least = 1.0) {
 }
 
 /// The start with random velocities, or off the constraints: every state changed, quaternions of any length.
-std::vector<double> state_of(RedundantSystem& system, bool on_constraints, std::uint64_t seed) {
+std::vector<double> state_of(MaximalSystem& system, bool on_constraints, std::uint64_t seed) {
   std::vector<double> y = moving_state(system, seed);
   Random random(seed + 1);
   const int from = on_constraints ? system.model().layout.memory : 0;
@@ -55,9 +55,9 @@ std::vector<double> state_of(RedundantSystem& system, bool on_constraints, std::
 void check_redundant(const SceneDescription& scene, std::uint64_t seed) {
   for (const bool on_constraints : {true, false}) {
     CAPTURE(on_constraints);
-    RedundantSystem system(compile(scene, false));
+    MaximalSystem system(compile(scene, false));
     const std::vector<double> y = state_of(system, on_constraints, seed);
-    system.start_histories(0.65, y.data(), {});
+    start_histories(system, 0.65, y.data(), {});
     const MatXd found = exact(system, 0.7, y), expected = by_differences(system, 0.7, y);
     CHECK(difference(found, expected) < kTolerance);
   }
@@ -65,9 +65,10 @@ void check_redundant(const SceneDescription& scene, std::uint64_t seed) {
 
 /// In tree coordinates: positions and speeds changed at random, so that loops and quaternions are off too.
 void check_recursive(const SceneDescription& scene, std::uint64_t seed) {
-  RedundantSystem terms(compile(scene, false));
-  const std::vector<double> bodies = state_of(terms, true, seed);
-  terms.start_histories(0.65, bodies.data(), {});
+  const auto terms = std::make_shared<Terms>(compile(scene, false));
+  MaximalSystem maximal(terms);
+  const std::vector<double> bodies = state_of(maximal, true, seed);
+  start_histories(maximal, 0.65, bodies.data(), {});
   RecursiveSystem system(terms);
   std::vector<double> y(system.size());
   system.read_bodies(0.7, bodies.data(), y.data());
@@ -79,10 +80,10 @@ void check_recursive(const SceneDescription& scene, std::uint64_t seed) {
 
 /// F_y + c F_y' of the residual form, at a state, multipliers and rates that solve nothing.
 void check_residual(const SceneDescription& scene, std::uint64_t seed) {
-  RedundantSystem bodies(compile(scene, false));
+  MaximalSystem bodies(compile(scene, false));
   GearGuptaLeimkuhler system(bodies);
   const std::vector<double> start = state_of(bodies, false, seed);
-  bodies.start_histories(0.65, start.data(), {});
+  start_histories(bodies, 0.65, start.data(), {});
   const auto n = static_cast<Eigen::Index>(system.size());
   std::vector<double> y(system.size()), ydot(system.size());
   system.expand(0.7, start.data(), y.data(), ydot.data());
@@ -110,15 +111,15 @@ void check_residual(const SceneDescription& scene, std::uint64_t seed) {
 }
 
 /// What a move along the velocities does to the positions.
-void check_move(RedundantSystem& system, std::vector<double> y, double h) {
+void check_move(MaximalSystem& system, std::vector<double> y, double h) {
   const StateLayout& s = system.model().layout;
   MatXd found(s.velocity, s.size - s.velocity), expected = found;
-  REQUIRE(system.move_jacobian(h, y.data(), found.data()));
+  REQUIRE(system.positions().move_jacobian(h, y.data(), found.data()));
   for (int j = 0; j < found.cols(); ++j) {
     expected.col(j) = slope([&](double step) {
       std::vector<double> there = y;
       there[idx(s.velocity + j)] += step;
-      system.move(h, there.data());
+      system.positions().move(h, there.data());
       return VecXd(Eigen::Map<const VecXd>(there.data(), s.velocity));
     });
   }
@@ -197,7 +198,7 @@ TEST_CASE("exact Jacobian: drivers on angles and displacements, Baumgarte, Euler
       scene.baumgarte = 2.0;
       check_redundant(scene, 7);
       check_residual(scene, 7);
-      RedundantSystem system(compile(scene, false));
+      MaximalSystem system(compile(scene, false));
       check_move(system, state_of(system, false, 7), 0.4);
     }
   }
@@ -226,13 +227,14 @@ TEST_CASE("exact Jacobian of the recursive form: struts, and a loop that stays r
 TEST_CASE("kinematics of the tree on dual numbers are those of the run") {
   Random random(10);
   for (const SceneDescription& scene : {strut_scene(random, true, false), pair("distance", random)}) {
-    RedundantSystem terms(compile(scene, false));
+    MaximalSystem system(compile(scene, false));
+    Terms& terms = system.terms();
     const BodyTree tree = build_tree(terms.model());
     const auto bodies = idx(terms.model().body_count());
     std::vector<double> q(idx(tree.positions)), u(idx(tree.speeds));
     TreeKinematics<double> run(tree, static_cast<int>(bodies));
     TreeKinematics<Dual<2>> dual(tree, static_cast<int>(bodies));
-    terms.read_kinematics(0.0, moving_state(terms, 10).data());
+    terms.read(0.0, moving_state(system, 10).data());
     ArticulatedTree<double>(tree, static_cast<int>(bodies)).read(terms.bodies().data(), q.data(), u.data());
     std::vector<BodyKinematics<double>> a(bodies + 1, BodyKinematics<double>::ground());
     std::vector<BodyKinematics<Dual<2>>> b(bodies + 1, BodyKinematics<Dual<2>>::ground());
@@ -258,8 +260,9 @@ TEST_CASE("kinematics of the tree on dual numbers are those of the run") {
 TEST_CASE("exact Jacobian: nothing is allocated after the first one") {
   for (const SceneDescription& scene :
        {slider_crank(), at_sea(true, 0.7), at_sea(false), with_convolution()}) {
-    RedundantSystem system(compile(scene));
-    RecursiveSystem tree(system);
+    const auto terms = std::make_shared<Terms>(compile(scene));
+    MaximalSystem system(terms);
+    RecursiveSystem tree(terms);
     GearGuptaLeimkuhler residual(system);
     const std::vector<double> y = moving_state(system, 9);
     std::vector<double> q(tree.size()), unknown(residual.size()), rate(residual.size());
@@ -270,7 +273,7 @@ TEST_CASE("exact Jacobian: nothing is allocated after the first one") {
       REQUIRE(system.jacobian(t, y.data(), out.data()));
       REQUIRE(tree.jacobian(t, q.data(), out.data()));
       REQUIRE(residual.jacobian(t, 1.0, unknown.data(), rate.data(), out.data()));
-      REQUIRE(system.move_jacobian(0.1, y.data(), out.data()));
+      REQUIRE(system.positions().move_jacobian(0.1, y.data(), out.data()));
     };
     all(0.0);
     const long before = allocation_count();

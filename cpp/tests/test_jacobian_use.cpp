@@ -50,7 +50,7 @@ struct Run {
 };
 
 Run run(const SceneDescription& scene, const std::string& name, bool exact) {
-  RedundantSystem bodies(compile(scene));
+  MaximalSystem bodies(compile(scene));
   GearGuptaLeimkuhler residual(bodies);
   ByDifferences other(residual);
   IntegratorOptions options;
@@ -64,14 +64,15 @@ Run run(const SceneDescription& scene, const std::string& name, bool exact) {
 }
 
 Run run_recursive(const SceneDescription& scene, const std::string& name, bool exact) {
-  RedundantSystem terms(compile(scene));
+  const auto terms = std::make_shared<Terms>(compile(scene));
+  MaximalSystem maximal(terms);
   RecursiveSystem system(terms);
   StepsByDifferences other(system);
   IntegratorOptions options;
   options.name = name;
   const auto integrator = make_integrator({exact ? static_cast<System&>(system) : other}, options);
   std::vector<double> y(system.size());
-  system.read_bodies(0.0, moving_state(terms, 9).data(), y.data());
+  system.read_bodies(0.0, moving_state(maximal, 9).data(), y.data());
   integrator->init(0.0, y.data());
   while (integrator->time() < 0.5) integrator->step(0.5);
   return {Eigen::Map<const VecXd>(integrator->state(), static_cast<Eigen::Index>(y.size())),

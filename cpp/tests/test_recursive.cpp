@@ -89,7 +89,7 @@ TEST_CASE("every branch: twist is the rate of the pose, bias that of the twist, 
       Vec6d bias = acceleration[1] - acceleration[0];
       bias.head<3>() -= acceleration[0].tail<3>().cross(tree.kinematics().reach(1));
       for (int k = 0; k < c.speeds; ++k) {
-        bias -= u_rate[idx(c.u + k)] * tree.kinematics().column(c.members[0], k).vector();
+        bias -= u_rate[idx(c.u + k)] * tree.kinematics().columns(c.members[0])[k].vector();
       }
       CHECK((gained - bias).norm() < kDifference);
 
@@ -161,7 +161,7 @@ TEST_CASE("accelerations of a tree agree with the redundant formulation, joint b
         join_example(scene, Type::kind, "joint a", "a", "b", random);
         join_example(scene, Type::kind, "joint c", "b", "c", random);
         const auto model = compile(scene);
-        RedundantSystem redundant(model);
+        MaximalSystem redundant(model);
         std::vector<double> y = moving_state(redundant, 100 + static_cast<std::uint64_t>(trial));
         std::vector<double> ydot(y.size());
         redundant.derivative(0.0, y.data(), ydot.data());
@@ -170,18 +170,18 @@ TEST_CASE("accelerations of a tree agree with the redundant formulation, joint b
         CHECK(shape.loops.empty());
         ArticulatedTree<double> tree(shape, 3);
         std::vector<double> q(idx(shape.positions)), u(idx(shape.speeds)), u_rate(idx(shape.speeds));
-        auto bodies = redundant.bodies();
+        auto bodies = redundant.terms().bodies();
         tree.read(bodies.data(), q.data(), u.data());
         tree.place(q.data(), u.data(), bodies.data());
         std::vector<Mat6d> mass;
-        for (int b = 0; b < 3; ++b) mass.push_back(redundant.mass_matrix(b));
+        for (int b = 0; b < 3; ++b) mass.push_back(redundant.terms().mass_matrix(b));
         std::vector<Vec6d> acceleration(4);
         tree.factor(mass.data());
-        tree.solve(redundant.loads().data(), true, acceleration.data(), u_rate.data());
+        tree.solve(redundant.terms().loads().data(), true, acceleration.data(), u_rate.data());
         double largest = 0.0;
-        for (const Vec6d& a : redundant.acceleration()) largest = std::max(largest, a.norm());
+        for (const Vec6d& a : redundant.accelerations()) largest = std::max(largest, a.norm());
         for (std::size_t b = 0; b < 3; ++b) {
-          CHECK((acceleration[b] - redundant.acceleration()[b]).norm() < 1e-11 * largest);
+          CHECK((acceleration[b] - redundant.accelerations()[b]).norm() < 1e-11 * largest);
         }
       }
     }
@@ -194,7 +194,7 @@ TEST_CASE("a strut across a hinge moves and accelerates as its loop of constrain
   for (int trial = 0; trial < 40; ++trial) {
     CAPTURE(trial);
     const auto model = compile(strut_scene(random, trial % 2 == 0, trial % 4 < 2));
-    RedundantSystem redundant(model);
+    MaximalSystem redundant(model);
     const BodyTree shape = build_tree(*model);
     if (shape.struts.empty()) continue;  // its ends come nearer than they lie off the slide's line
     ++told;
@@ -205,24 +205,24 @@ TEST_CASE("a strut across a hinge moves and accelerates as its loop of constrain
     redundant.derivative(0.0, y.data(), ydot.data());
     ArticulatedTree<double> tree(shape, 5);
     std::vector<double> q(idx(shape.positions)), u(idx(shape.speeds)), u_rate(idx(shape.speeds));
-    auto bodies = redundant.bodies();
+    auto bodies = redundant.terms().bodies();
     tree.read(bodies.data(), q.data(), u.data());
     tree.place(q.data(), u.data(), bodies.data());
     std::vector<Mat6d> mass;
     for (int b = 0; b < 5; ++b) {
-      const auto &here = bodies[idx(b)], &there = redundant.bodies()[idx(b)];
+      const auto &here = bodies[idx(b)], &there = redundant.terms().bodies()[idx(b)];
       CHECK((here.position - there.position).norm() < 1e-12);
       CHECK((here.rotation - there.rotation).norm() < 1e-12);
       CHECK((twist(here) - twist(there)).norm() < 1e-11);
-      mass.push_back(redundant.mass_matrix(b));
+      mass.push_back(redundant.terms().mass_matrix(b));
     }
     std::vector<Vec6d> acceleration(6);
     tree.factor(mass.data());
-    tree.solve(redundant.loads().data(), true, acceleration.data(), u_rate.data());
+    tree.solve(redundant.terms().loads().data(), true, acceleration.data(), u_rate.data());
     double largest = 0.0;
-    for (const Vec6d& a : redundant.acceleration()) largest = std::max(largest, a.norm());
+    for (const Vec6d& a : redundant.accelerations()) largest = std::max(largest, a.norm());
     for (std::size_t b = 0; b < 5; ++b) {
-      CHECK((acceleration[b] - redundant.acceleration()[b]).norm() < 1e-10 * largest);
+      CHECK((acceleration[b] - redundant.accelerations()[b]).norm() < 1e-10 * largest);
     }
   }
   CHECK(told > 20);
@@ -231,8 +231,8 @@ TEST_CASE("a strut across a hinge moves and accelerates as its loop of constrain
 /// Both formulations at one state: accelerations of all bodies, relative to the largest.
 void check_agreement(const SceneDescription& scene, double bound) {
   const auto model = compile(scene);
-  RedundantSystem redundant(model), terms(model);
-  RecursiveSystem recursive(terms);
+  MaximalSystem redundant(model);
+  RecursiveSystem recursive(std::make_shared<Terms>(model));
   std::vector<double> y = moving_state(redundant, 7), ydot(y.size()), back = y;
   std::vector<double> z(recursive.size()), zdot(recursive.size());
   redundant.project(0.3, y.data(), false);
@@ -242,9 +242,9 @@ void check_agreement(const SceneDescription& scene, double bound) {
   recursive.derivative(0.3, z.data(), zdot.data());
   recursive.write_bodies(0.3, z.data(), back.data());
   double largest = 0.0, worst = 0.0;
-  for (const Vec6d& a : redundant.acceleration()) largest = std::max(largest, a.norm());
-  for (std::size_t b = 0; b < redundant.acceleration().size(); ++b) {
-    worst = std::max(worst, (recursive.accelerations()[b] - redundant.acceleration()[b]).norm());
+  for (const Vec6d& a : redundant.accelerations()) largest = std::max(largest, a.norm());
+  for (std::size_t b = 0; b < redundant.accelerations().size(); ++b) {
+    worst = std::max(worst, (recursive.accelerations()[b] - redundant.accelerations()[b]).norm());
   }
   CHECK(worst < bound * largest);
   for (int b = 0; b < model->body_count(); ++b) {

@@ -7,7 +7,8 @@
 #include <set>
 #include <stdexcept>
 
-#include "seacrane/dynamics/redundant.hpp"
+#include "seacrane/dynamics/constraints.hpp"
+#include "seacrane/dynamics/maximal.hpp"
 #include "seacrane/elements/check.hpp"
 #include "seacrane/elements/joints/registry.hpp"
 
@@ -50,12 +51,12 @@ std::vector<std::string> path(const Model& m, int from, int to, std::size_t with
   return names;
 }
 
-[[noreturn]] void report_open(const Model& m, const RedundantSystem& system) {
+[[noreturn]] void report_open(const Model& m, const Terms& terms) {
   std::size_t worst = 0;
   double gap = 0.0;
   std::string names;
   for (std::size_t e = 0; e < m.elements.size(); ++e) {
-    const double r = largest(m.elements[e], system.blocks()[e].phi);
+    const double r = largest(m.elements[e], terms.blocks()[e].phi);
     if (r > kClosed) {
       names += (names.empty() ? "'" : ", '") + m.elements[e].name + "' (" + to_text(r) + ")";
     }
@@ -72,9 +73,9 @@ std::vector<std::string> path(const Model& m, int from, int to, std::size_t with
                    ". Correct their points, axes, lengths or drivers, or the described poses");
 }
 
-[[noreturn]] void report_rates(const Model& m, const RedundantSystem& system, const double* y) {
+[[noreturn]] void report_rates(const Model& m, const Terms& terms, const double* y) {
   std::vector<double> rates(idx(m.rows()));
-  const double worst = system.rate_residual(y, rates.data());
+  const double worst = rate_residual(terms, y, rates.data());
   std::string names;
   for (const ElementModel& e : m.elements) {
     double left = 0.0;
@@ -87,10 +88,10 @@ std::vector<std::string> path(const Model& m, int from, int to, std::size_t with
 }
 
 /// The direction between coincident points is undefined: no Newton step can start from there.
-void check_regular(const Model& m, const RedundantSystem& system) {
+void check_regular(const Model& m, const Terms& terms) {
   for (std::size_t e = 0; e < m.elements.size(); ++e) {
     const int rows = m.elements[e].rows;
-    const RowBlock<double>& block = system.blocks()[e];
+    const RowBlock<double>& block = terms.blocks()[e];
     if (rows == 0 || (block.d[0].topRows(rows).allFinite() && block.d[1].topRows(rows).allFinite())) continue;
     throw SceneError(std::string(m.elements[e].driver ? "driver" : "joint") + " '" + m.elements[e].name +
                      "': its direction is undefined at the described poses (its two points coincide, or its "
@@ -98,7 +99,7 @@ void check_regular(const Model& m, const RedundantSystem& system) {
   }
 }
 
-void close(Model& m, RedundantSystem& system) {
+void close(Model& m, MaximalSystem& system) {
   double* y = m.initial_state.data();
   std::vector<double> best = m.initial_state;
   double least = std::numeric_limits<double>::infinity();
@@ -106,8 +107,8 @@ void close(Model& m, RedundantSystem& system) {
     for (int i = 0; i < kRestarts && !(least < 1e-12); ++i) {
       ++m.assembly.iterations;
       system.project(0.0, y, false);
-      const double left = system.residual(0.0, y).position;
-      if (!(left < least)) continue;  // what does not close wanders
+      const double left = constraint_residual(system.terms(), 0.0, y).position;
+      if (!(left < least)) continue;  // a mechanism that does not close wanders
       least = left;
       best = m.initial_state;
     }
@@ -119,12 +120,12 @@ void close(Model& m, RedundantSystem& system) {
 }
 
 /// Rows like u . w = 0 also hold with an axis turned by 180 deg: that is another assembly.
-void check_branch(const Model& m, const RedundantSystem& system) {
+void check_branch(const Model& m, const Terms& terms) {
   for_each_joint_type([&]<class Type>(std::size_t kind) {
     if (!Type::parallel_axes) return;
     for (const JointData& j : m.joints[kind]) {
-      const Mat3d a = system.bodies()[idx(j.first)].rotation * j.first_axes;
-      const Mat3d b = system.bodies()[idx(j.second)].rotation * j.second_axes;
+      const Mat3d a = terms.bodies()[idx(j.first)].rotation * j.first_axes;
+      const Mat3d b = terms.bodies()[idx(j.second)].rotation * j.second_axes;
       const bool flipped =
           a.col(2).dot(b.col(2)) < 0.0 || (Type::aligned_axes && a.col(0).dot(b.col(0)) < 0.0);
       if (flipped) {
@@ -162,10 +163,10 @@ void report_moves(const Model& m, const std::vector<double>& before, AssemblyRep
 }
 
 /// Elements open as described, worst first.
-std::vector<std::pair<std::string, double>> open_elements(const Model& m, const RedundantSystem& system) {
+std::vector<std::pair<std::string, double>> open_elements(const Model& m, const Terms& terms) {
   std::vector<std::pair<std::string, double>> out;
   for (std::size_t e = 0; e < m.elements.size(); ++e) {
-    const double gap = largest(m.elements[e], system.blocks()[e].phi);
+    const double gap = largest(m.elements[e], terms.blocks()[e].phi);
     if (gap > kClosed) out.emplace_back(m.elements[e].name, gap);
   }
   std::stable_sort(out.begin(), out.end(), [](const auto& a, const auto& b) { return a.second > b.second; });
@@ -180,7 +181,7 @@ void mark_redundant(Model& m, const MatXd& null_space) {
   }
 }
 
-bool depend(const Model& m, RedundantSystem& system) {
+bool depend(const Model& m, MaximalSystem& system) {
   std::vector<double> rate(system.size());
   system.derivative(0.0, m.initial_state.data(), rate.data());
   return system.condition() > kInaccuratePivot && system.rank(0.0, m.initial_state.data()).rank < m.rows();
@@ -196,26 +197,27 @@ void assemble(Model& model) {
   // The Newton steps are minimum-norm while the rank is unknown.
   model.redundant = model.rows() <= kDenseRows;
   const std::shared_ptr<const Model> view(&model, [](const Model*) {});
-  RedundantSystem system(view);
-  report.residual_before = system.residual(0.0, y.data()).position;
-  report.open = open_elements(model, system);
-  check_regular(model, system);
-  if (!model.redundant && system.solves_dependent_rows()) model.redundant = depend(model, system);
+  MaximalSystem system(view);
+  Terms& terms = system.terms();
+  report.residual_before = constraint_residual(terms, 0.0, y.data()).position;
+  report.open = open_elements(model, terms);
+  check_regular(model, terms);
+  if (!model.redundant && system.solver().solves_dependent_rows()) model.redundant = depend(model, system);
   close(model, system);
-  const ConstraintResidual after = system.residual(0.0, y.data());
+  const ConstraintResidual after = constraint_residual(terms, 0.0, y.data());
   report.residual_after = after.position;
   report.rate_residual_after = after.rate;
-  if (!(after.position <= kClosed)) report_open(model, system);
-  check_branch(model, system);
+  if (!(after.position <= kClosed)) report_open(model, terms);
+  check_branch(model, terms);
   if (!(after.rate <= kClosed)) {
-    report_rates(model, system, y.data());
+    report_rates(model, terms, y.data());
   }
   report_moves(model, before, report);
   const ConstraintRank found = system.rank(0.0, y.data());
   report.rank = found.rank;
   report.condition = found.condition;
   model.redundant = found.rank < model.rows();
-  if (model.redundant && !system.solves_dependent_rows()) {
+  if (model.redundant && !system.solver().solves_dependent_rows()) {
     throw SceneError("scene '" + model.description.name +
                      "': has redundant joints (S_ii/d_i = " + to_text(found.condition) + "), " +
                      std::to_string(model.body_count()) + " bodies and " + std::to_string(model.rows()) +

@@ -9,7 +9,7 @@
 
 #include "seacrane/compile/assembly.hpp"
 #include "seacrane/compile/find_kinks.hpp"
-#include "seacrane/dynamics/merged.hpp"
+#include "seacrane/dynamics/merged_bodies.hpp"
 #include "seacrane/elements/joint_kinds.hpp"
 #include "seacrane/elements/loads/registry.hpp"
 #include "seacrane/model/validate.hpp"
@@ -79,8 +79,10 @@ class Compiler {
     return j;
   }
 
-  int slots(int count) {
+  /// The first of `count` slots of a zero-order-held input.
+  int input(const std::string& name, int count = 1) {
     const int first = model_.slot_count;
+    model_.inputs.push_back({name, first, count});
     model_.slot_count += count;
     return first;
   }
@@ -396,12 +398,12 @@ void start_fast_motions(Model& model) {
 void check_start(const Model& model) {
   if (model.limits.empty()) return;
   const std::shared_ptr<const Model> view(&model, [](const Model*) {});
-  RedundantSystem system(view);
-  system.read_kinematics(0.0, model.initial_state.data());
+  Terms terms(view);
+  terms.read(0.0, model.initial_state.data());
   for (std::size_t i = 0; i < model.limits.size(); ++i) {
     const Limit& limit = model.limits[i];
     if (holds(model.closed, static_cast<int>(i)) || limit.kind == LimitKind::seat) continue;
-    const double gap = limit.side * evaluate_limit(limit, system.bodies().data()).value;
+    const double gap = limit.side * evaluate_limit(limit, terms.bodies().data()).value;
     if (gap >= -kBeyond) continue;
     throw SceneError("limit '" + limit.name + "': the scene starts " + to_text(-gap) +
                      " m or rad beyond it; start within the bounds, or correct them");
@@ -425,7 +427,7 @@ std::shared_ptr<const Model> compile(const SceneDescription& scene, bool merge) 
   if (plan.merges()) {
     auto merged = std::make_shared<Model>(Compiler(start, std::move(plan)).run());
     std::vector<double> state(merged->initial_state);
-    merge_state(*model, *merged, model->initial_state.data(), state.data());
+    MergedBodies(*model, *merged).merge(model->initial_state.data(), state.data());
     merged->initial_state = std::move(state);
     assemble(*merged);
     model->merged = std::move(merged);

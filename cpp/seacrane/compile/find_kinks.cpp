@@ -6,7 +6,7 @@
 #include <memory>
 #include <optional>
 
-#include "seacrane/dynamics/redundant.hpp"
+#include "seacrane/dynamics/maximal.hpp"
 #include "seacrane/elements/loads/registry.hpp"
 
 namespace seacrane {
@@ -47,14 +47,14 @@ class Finder {
     for (LoadKinks found : load.kinks()) {
       std::erase_if(found, [](const LoadKink& kink) { return kink.jump.isZero(0.0); });
       if (found.empty()) continue;
-      if constexpr (requires { load.add_unit(0, system().load_input(0.0), wrenches_.data()); }) {
+      if constexpr (requires { load.add_unit(0, system().terms().load_input(0.0), wrenches_.data()); }) {
         add(found, of_load(load, static_cast<int>(found.front().jump.rows())));
       }
     }
   }
 
   /// Evaluated where there is a kink at all.
-  RedundantSystem& system() {
+  MaximalSystem& system() {
     if (!system_) {
       system_.emplace(std::shared_ptr<const Model>(&model_, [](const Model*) {}));
       std::vector<double> rate(system_->size());
@@ -69,7 +69,7 @@ class Finder {
   /// Accelerations over the scales of the velocities, by state and component of a load.
   template <class Load>
   MatXd of_load(const Load& load, int components) {
-    const LoadInput<double> in = system().load_input(0.0);
+    const LoadInput<double> in = system().terms().load_input(0.0);
     MatXd out(6 * model_.body_count(), components);
     for (int k = 0; k < components; ++k) {
       for (Vec6d& wrench : wrenches_) wrench.setZero();
@@ -90,7 +90,7 @@ class Finder {
   }
 
   MatXd accelerate() {
-    system().solve(wrenches_, right_, acceleration_, multipliers_);
+    system().solver().solve(wrenches_, right_, acceleration_, multipliers_);
     MatXd out(6 * model_.body_count(), 1);
     for (int b = 0; b < model_.body_count(); ++b) {
       for (int i = 0; i < 6; ++i) {
@@ -129,7 +129,7 @@ class Finder {
   }
 
   const Model& model_;
-  std::optional<RedundantSystem> system_;
+  std::optional<MaximalSystem> system_;
   std::vector<Vec6d> wrenches_, acceleration_;
   std::vector<double> right_, multipliers_;
   std::vector<Kink> out_;

@@ -4,7 +4,8 @@
 #include <cmath>
 #include <type_traits>
 
-#include "seacrane/dynamics/redundant.hpp"
+#include "seacrane/dynamics/jacobian.hpp"
+#include "seacrane/dynamics/terms.hpp"
 #include "seacrane/elements/driver.hpp"
 #include "seacrane/elements/joints/registry.hpp"
 #include "seacrane/elements/loads/registry.hpp"
@@ -59,22 +60,22 @@ BodyResidual::BodyResidual(const Model& model, const std::vector<int>* counted)
   touched_.reserve(bodies_.size());
 }
 
-void BodyResidual::start(const RedundantSystem& system, double t, const Held& held) {
-  system_ = &system;
+void BodyResidual::start(const Terms& terms, double t, const Held& held) {
+  terms_ = &terms;
   t_ = t;
   held_ = held;
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
-    moved_[b] = system.bodies()[b];
-    bodies_[b] = constant<Scalar>(system.bodies()[b]);
+    moved_[b] = terms.bodies()[b];
+    bodies_[b] = constant<Scalar>(terms.bodies()[b]);
   }
 }
 
 void BodyResidual::differentiate(int b) {
-  seed(system_->bodies()[idx(b)], bodies_[idx(b)]);
+  seed(terms_->bodies()[idx(b)], bodies_[idx(b)]);
   for (int other : touched_) wrench_[idx(other)] = second_wrench_[idx(other)] = BodyLoad<Scalar>();
   touched_.clear();
   for (auto* rows : {&right_, &rate_, &position_}) std::fill(rows->begin(), rows->end(), Scalar());
-  const LoadInput<double> now = system_->load_input(t_);
+  const LoadInput<double> now = terms_->load_input(t_);
   const LoadInput<Scalar> input{t_, now.curve_limit, bodies_.data(), now.slots};
   sum_ = LoadSum<Scalar>{wrench_.data()};
   add_inertia(b);
@@ -82,7 +83,7 @@ void BodyResidual::differentiate(int b) {
   add_hydrodynamics(b, input);
   add_waves(b);
   add_rows(b);
-  bodies_[idx(b)] = constant<Scalar>(system_->bodies()[idx(b)]);
+  bodies_[idx(b)] = constant<Scalar>(terms_->bodies()[idx(b)]);
 }
 
 BodyResidual::Slopes BodyResidual::slopes(const BodyLoad<Scalar>& w) {
@@ -161,10 +162,10 @@ void BodyResidual::add_loads(int b, const LoadInput<Scalar>& input) {
 
 void BodyResidual::add_differences(const FunctionForce& load) {
   const auto b = idx(load.body);
-  LoadInput<double> input = system_->load_input(t_);
+  LoadInput<double> input = terms_->load_input(t_);
   input.bodies = moved_.data();
   const auto at = [&](int direction, double step) {
-    moved_[b] = moved(system_->bodies()[b], direction, step);
+    moved_[b] = moved(terms_->bodies()[b], direction, step);
     moved_wrench_[b] = BodyLoad<double>();
     LoadSum<double> out{moved_wrench_.data()};
     load.apply<double>(input, out);
@@ -181,7 +182,7 @@ void BodyResidual::add_differences(const FunctionForce& load) {
     sum_.power.slope[idx(d)] += slope[6];
     sum_.absolute_power.slope[idx(d)] += sign(power_here) * slope[6];
   }
-  moved_[b] = system_->bodies()[b];
+  moved_[b] = terms_->bodies()[b];
 }
 
 void BodyResidual::add_hydrodynamics(int b, const LoadInput<Scalar>& input) {
@@ -192,7 +193,7 @@ void BodyResidual::add_hydrodynamics(int b, const LoadInput<Scalar>& input) {
   const int own = vessel.memory_offset - model_->layout.memory;
   std::copy_n(held_.memory + own, vessel.memory_states(), memory_state_.begin());
   vessel.apply<Scalar>(input, frame, memory_state_.data(), memory_rate_.data(), sum_);
-  const RunningConvolution* convolution = system_->convolution(v);
+  const RunningConvolution* convolution = terms_->histories().of(v);
   if (!convolution) return;
   // Linear in the twist now; the history is fixed within a step.
   const Vec6d past = convolution->evaluate(t_, Vec6d::Zero());
@@ -209,9 +210,9 @@ void BodyResidual::add_waves(int b) {
     const WaveLoad& wave = model_->wave_loads[i];
     if (wave.body != b) continue;
     const YawFrame<Scalar> frame(bodies_[idx(b)]);
-    Vec6<Scalar> force = system_->waves(i).sum().cast<Scalar>();
+    Vec6<Scalar> force = terms_->waves(i).sum().cast<Scalar>();
     if (wave.sources.positioned) {
-      const Vec3d pose = system_->wave_pose(wave, held_.memory);
+      const Vec3d pose = terms_->wave_pose(wave, held_.memory);
       WaveSlopes& slopes = wave_slopes_[idx(wave.vessel)];
       wave.sources.positioned->slopes(t_, pose[0], pose[1], pose[2], slopes.over_pose);
       for (int k = 0; k < 6; ++k) {
@@ -245,7 +246,7 @@ void BodyResidual::add_rows(int b) {
     const JointData& joint = driver.coordinate.joint;
     if ((joint.first != b && joint.second != b) || !counted_[idx(driver.element)]) continue;
     RowBlock<Scalar> block;
-    evaluate_driver<Scalar>(driver, driver.curve.at(t_, system_->curve_limit()), bodies_[idx(joint.first)],
+    evaluate_driver<Scalar>(driver, driver.curve.at(t_, terms_->curve_limit()), bodies_[idx(joint.first)],
                             bodies_[idx(joint.second)], block);
     add_rows(block, m.elements[idx(driver.element)]);
   }

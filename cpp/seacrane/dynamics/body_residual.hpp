@@ -9,7 +9,7 @@
 namespace seacrane {
 
 struct FunctionForce;
-class RedundantSystem;
+class Terms;
 
 /// The residual of eq (9), element by element, with accelerations and multipliers held:
 ///
@@ -36,8 +36,8 @@ class BodyResidual {
   /// Rows of the elements in `counted` only (all elements by default).
   explicit BodyResidual(const Model& model, const std::vector<int>* counted = nullptr);
 
-  /// Goes on from the kinematics, waves and histories of the system's last evaluation, at t.
-  void start(const RedundantSystem& system, double t, const Held& held);
+  /// Goes on from the kinematics, waves and histories that `terms` last evaluated, at t.
+  void start(const Terms& terms, double t, const Held& held);
   /// Slopes in the directions of a body, until the next call.
   void differentiate(int body);
 
@@ -76,7 +76,7 @@ class BodyResidual {
   void add_rows(const RowBlock<Scalar>& block, const ElementModel& element);
 
   const Model* model_;
-  const RedundantSystem* system_ = nullptr;
+  const Terms* terms_ = nullptr;
   double t_ = 0.0;
   Held held_{};
   std::vector<char> counted_;  // by element

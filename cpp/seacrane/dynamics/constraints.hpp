@@ -1,7 +1,6 @@
 #pragma once
 
-#include <algorithm>
-#include <cmath>
+#include <vector>
 
 #include "seacrane/elements/driver.hpp"
 #include "seacrane/elements/joints/registry.hpp"
@@ -9,31 +8,33 @@
 
 namespace seacrane {
 
-/// Residual, m or rad, below which projection leaves positions as they are: 1e-13, but less where bodies turn
-/// fast. What is left open lets speeds jump, by so many rad/s times as much, when it is closed one day; the
-/// history of a multistep method does not survive jumps beyond its tolerance.
-inline double position_tolerance(const BodyKinematics<double>* bodies, int count) {
-  constexpr double usual = 1e-13, slow = 10.0;  // rad/s
-  double squared = slow * slow;
-  for (int b = 0; b < count; ++b) squared = std::max(squared, bodies[b].angular_velocity.squaredNorm());
-  return usual * (slow * slow / squared);
-}
+class Terms;
+
+/// Largest absolute residuals of all constraints.
+struct ConstraintResidual {
+  double position = 0.0, rate = 0.0;
+};
 
 /// Evaluates the rows of every joint and driver, each kind with its like; `blocks` by element.
-inline void evaluate_constraints(const Model& model, double t, double curve_limit,
-                                 const BodyKinematics<double>* bodies, RowBlock<double>* blocks) {
-  for_each_joint_type([&]<class Type>(std::size_t kind) {
-    for (const JointData& joint : model.joints[kind]) {
-      RowBlock<double>& out = blocks[joint.element];
-      Type::template evaluate<double>(JointGeometry<double>(joint, bodies[joint.first], bodies[joint.second]),
-                                      joint, out);
-    }
-  });
-  for (const DriverData& driver : model.drivers) {
-    const JointData& joint = driver.coordinate.joint;
-    evaluate_driver<double>(driver, driver.curve.at(t, curve_limit), bodies[joint.first],
-                            bodies[joint.second], blocks[driver.element]);
-  }
-}
+void evaluate_constraints(const Model& model, double t, double curve_limit,
+                          const BodyKinematics<double>* bodies, RowBlock<double>* blocks);
+
+// With the rows that `terms` last evaluated.
+
+/// phi, the largest magnitude.
+double position_residual(const Terms& terms);
+/// D v - nu by row for the twists in y; returns the largest magnitude.
+double rate_residual(const Terms& terms, const double* y, double* out);
+/// Both, without the rows.
+ConstraintResidual constraint_residual(const Terms& terms, const double* y);
+/// The same at (t, y).
+ConstraintResidual constraint_residual(Terms& terms, double t, const double* y);
+/// out := D^T lambda by body, ground last.
+void multiplier_load(const Terms& terms, const double* lambda, std::vector<Vec6d>& out);
+
+/// Residual, m or rad, below which projection leaves positions as they are: 1e-13, but less where bodies turn
+/// fast. A residual that is left makes speeds jump when it is closed, by the residual times the turning rate;
+/// the history of a multistep method does not survive jumps beyond its tolerance.
+double position_tolerance(const BodyKinematics<double>* bodies, int count);
 
 }  // namespace seacrane

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -11,10 +10,10 @@
 
 namespace seacrane {
 
-class RedundantSystem;
+class Terms;
 
-/// A system of bodies in some choice of coordinates, which can be told from the poses and twists of all
-/// bodies (the state of the redundant form, StateLayout) and back without loss.
+/// A system of bodies in some choice of coordinates, which follows from the poses and twists of all
+/// bodies (StateLayout) and back without loss.
 class Formulation : public System {
  public:
   virtual const char* name() const = 0;
@@ -24,14 +23,14 @@ class Formulation : public System {
   virtual void read_bodies(double t, const double* bodies, double* y) = 0;
   virtual void write_bodies(double t, const double* y, double* bodies) = 0;
   /// Accelerations of the bodies' state points at the last derivative(), in the order of the model.
-  virtual const std::vector<Vec6d>& accelerations() = 0;
+  virtual const std::vector<Vec6d>& accelerations() const = 0;
   /// What `load` alone adds to these accelerations: M^-1 load of the bodies as they are joined, through the
   /// factors of the last derivative(). Both hold a wrench or an acceleration for each body that is stepped,
   /// at its state point in inertial axes, and one for the ground at the end. For J^T of unit forces these are
   /// the columns of M^-1 J^T.
   virtual void load_response(const std::vector<Vec6d>& load, std::vector<Vec6d>& acceleration) = 0;
-  /// The redundant system that its loads come from: inputs, the limit of curves and histories are set there.
-  virtual RedundantSystem& loads_from() = 0;
+  /// Its terms: inputs, the limit of curves and histories are set there.
+  virtual Terms& terms() = 0;
   /// Digits lost at the last derivative(): the factor by which rounding may have grown.
   virtual double condition() const = 0;
   virtual Dependence take_dependence() = 0;
@@ -40,10 +39,5 @@ class Formulation : public System {
   /// What a state component is, for messages.
   virtual std::string describe(std::size_t component) const = 0;
 };
-
-/// What steps the model of `bodies`: its merged bodies where it has such, in either formulation; else the
-/// formulation "recursive" on the loads of `bodies`, or null for "redundant": that is `bodies` itself.
-/// Throws std::invalid_argument for a name or a scene that does not fit.
-std::unique_ptr<Formulation> make_formulation(const std::string& name, RedundantSystem& bodies);
 
 }  // namespace seacrane

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "seacrane/dynamics/constraints.hpp"
+
 namespace seacrane {
-GearGuptaLeimkuhler::GearGuptaLeimkuhler(RedundantSystem& system) : system_(&system) {
+GearGuptaLeimkuhler::GearGuptaLeimkuhler(MaximalSystem& system) : system_(&system) {
   const Model& m = system.model();
   differential_.assign(idx(m.layout.size + 2 * m.rows()), 0.0);
   std::fill_n(differential_.begin(), m.layout.size, 1.0);
@@ -14,16 +16,17 @@ GearGuptaLeimkuhler::GearGuptaLeimkuhler(RedundantSystem& system) : system_(&sys
 }
 
 void GearGuptaLeimkuhler::residual(double t, const double* y, const double* ydot, double* r) {
-  const Model& m = system_->model();
+  Terms& terms = system_->terms();
+  const Model& m = terms.model();
   const StateLayout& s = m.layout;
   const double* lambda = y + s.size;
   const double* mu = lambda + m.rows();
-  system_->evaluate_terms(t, y, rate_.data());
-  system_->multiplier_load(lambda, load_);
-  system_->multiplier_load(mu, correction_);
+  terms.evaluate(t, y, rate_.data());
+  multiplier_load(terms, lambda, load_);
+  multiplier_load(terms, mu, correction_);
   for (int b = 0; b < m.body_count(); ++b) {
     const BodyModel& body = m.bodies[idx(b)];
-    const BodyKinematics<double>& k = system_->bodies()[idx(b)];
+    const BodyKinematics<double>& k = terms.bodies()[idx(b)];
     const double inertia = body.inertia.trace() / 3.0;
     const Vec3d shift = correction_[idx(b)].head<3>() / body.mass,
                 turn = correction_[idx(b)].tail<3>() / inertia;
@@ -37,24 +40,23 @@ void GearGuptaLeimkuhler::residual(double t, const double* y, const double* ydot
     } else {
       view<3>(r_pose + 3) = view<3>(pose_rate + 3) - euler_xyz_rate<double>(view<3>(pose + 3), omega);
     }
-    Vec6d balance =
-        system_->mass_matrix(b) * view<6>(ydot + s.twist(b)) - system_->loads()[idx(b)] - load_[idx(b)];
+    Vec6d balance = terms.mass_matrix(b) * view<6>(ydot + s.twist(b)) - terms.loads()[idx(b)] - load_[idx(b)];
     balance.head<3>() /= body.mass;
     balance.tail<3>() /= inertia;
     view<6>(r + s.twist(b)) = balance;
   }
   for (int i = s.memory; i < s.work; ++i) r[i] = ydot[i] - rate_[idx(i)];
   for (std::size_t e = m.elements.size() - m.drivers.size(); e < m.elements.size(); ++e) {
-    system_->add_driver_power(lambda[m.elements[e].row] * system_->blocks()[e].nu[0]);
+    terms.add_driver_power(lambda[m.elements[e].row] * terms.blocks()[e].nu[0]);
   }
-  r[s.work] = ydot[s.work] - system_->power();
-  r[s.work + 1] = ydot[s.work + 1] - system_->absolute_power();
+  r[s.work] = ydot[s.work] - terms.power().sum;
+  r[s.work + 1] = ydot[s.work + 1] - terms.power().absolute;
   double* r_rate = r + s.size;
   double* r_position = r_rate + m.rows();
-  system_->rate_residual(y, r_rate);
+  rate_residual(terms, y, r_rate);
   for (std::size_t e = 0; e < m.elements.size(); ++e) {
     for (int i = 0; i < m.elements[e].rows; ++i) {
-      r_position[m.elements[e].row + i] = system_->blocks()[e].phi[i];
+      r_position[m.elements[e].row + i] = terms.blocks()[e].phi[i];
     }
   }
 }
@@ -62,8 +64,8 @@ void GearGuptaLeimkuhler::residual(double t, const double* y, const double* ydot
 bool GearGuptaLeimkuhler::jacobian(double t, double c, const double* y, const double* ydot, double* out) {
   if (system_->model().paper_kinematics) return false;
   if (!jacobian_) jacobian_.emplace(system_->model());
-  system_->evaluate_terms(t, y, rate_.data());
-  jacobian_->evaluate(*system_, t, c, y, ydot, out);
+  system_->terms().evaluate(t, y, rate_.data());
+  jacobian_->evaluate(system_->terms(), t, c, y, ydot, out);
   return true;
 }
 

@@ -3,7 +3,7 @@
 #include <optional>
 #include <vector>
 
-#include "seacrane/dynamics/redundant.hpp"
+#include "seacrane/dynamics/maximal.hpp"
 #include "seacrane/dynamics/residual_jacobian.hpp"
 #include "seacrane/integrate/residual_system.hpp"
 
@@ -14,7 +14,7 @@ namespace seacrane {
 /// unknowns (ODE state, lambda, mu). M0 is a constant diagonal mass, so that mu stays small and scaled.
 class GearGuptaLeimkuhler final : public ResidualSystem {
  public:
-  explicit GearGuptaLeimkuhler(RedundantSystem& system);
+  explicit GearGuptaLeimkuhler(MaximalSystem& system);
 
   std::size_t size() const override { return differential_.size(); }
   void residual(double t, const double* y, const double* ydot, double* r) override;
@@ -24,7 +24,7 @@ class GearGuptaLeimkuhler final : public ResidualSystem {
   void contract(double t, const double* y, double* ode_state) const override;
 
  private:
-  RedundantSystem* system_;
+  MaximalSystem* system_;
   std::vector<double> differential_, rate_;
   std::vector<Vec6d> load_, correction_;
   std::optional<ResidualJacobian> jacobian_;

@@ -1,53 +1,60 @@
+#include "seacrane/dynamics/histories.hpp"
+
 #include <algorithm>
+#include <limits>
 #include <stdexcept>
 #include <string>
 
-#include "seacrane/dynamics/redundant.hpp"
+#include "seacrane/model/model.hpp"
 
 namespace seacrane {
 
-std::vector<TwistHistory> RedundantSystem::histories() const {
+VesselHistories::VesselHistories(const Model& model) {
+  for (std::size_t v = 0; v < model.vessels.size(); ++v) {
+    const auto* tables = std::get_if<Convolution>(&model.vessels[v].memory);
+    if (tables) histories_.push_back({v, idx(model.vessels[v].body), RunningConvolution(*tables)});
+  }
+}
+
+const RunningConvolution* VesselHistories::of(int vessel) const {
+  for (const History& h : histories_) {
+    if (h.vessel == idx(vessel)) return &h.memory;
+  }
+  return nullptr;
+}
+
+std::vector<TwistHistory> VesselHistories::save() const {
   std::vector<TwistHistory> out;
-  for (const auto& [vessel, memory] : convolutions_) out.push_back(memory.save());
+  for (const History& h : histories_) out.push_back(h.memory.save());
   return out;
 }
 
-void RedundantSystem::start_histories(double t, const double* y, const std::vector<TwistHistory>& histories) {
-  if (convolutions_.empty() && histories.empty()) return;
-  if (histories.empty()) {
-    // The load of the memory is zero here, whatever the start does.
-    std::vector<double> rate(size());
-    derivative(t, y, rate.data());
-    for (auto& [v, memory] : convolutions_) {
-      const YawFrame<double>& frame = frames_[v];
-      memory.start(t, frame.twist, frame.twist_rate(acceleration_[idx(model_->vessels[v].body)]));
-    }
-    return;
-  }
-  if (histories.size() != convolutions_.size()) {
-    throw std::invalid_argument("state: has " + std::to_string(histories.size()) +
-                                " histories, the model has " + std::to_string(convolutions_.size()) +
+void VesselHistories::restore(double t, const std::vector<TwistHistory>& saved) {
+  if (saved.size() != histories_.size()) {
+    throw std::invalid_argument("state: has " + std::to_string(saved.size()) + " histories, the model has " +
+                                std::to_string(histories_.size()) +
                                 " vessels with a convolution; give a state of this scene");
   }
-  for (std::size_t i = 0; i < histories.size(); ++i) convolutions_[i].second.restore(t, histories[i]);
+  for (std::size_t i = 0; i < saved.size(); ++i) histories_[i].memory.restore(t, saved[i]);
 }
 
-double RedundantSystem::next_sample() const {
+void VesselHistories::start(double t, const std::vector<YawFrame<double>>& frames,
+                            const std::vector<Vec6d>& acceleration) {
+  for (History& h : histories_) {
+    const YawFrame<double>& frame = frames[h.vessel];
+    h.memory.start(t, frame.twist, frame.twist_rate(acceleration[h.body]));
+  }
+}
+
+double VesselHistories::next_sample() const {
   double next = std::numeric_limits<double>::infinity();
-  for (const auto& [vessel, memory] : convolutions_) next = std::min(next, memory.next());
+  for (const History& h : histories_) next = std::min(next, h.memory.next());
   return next;
 }
 
-void RedundantSystem::sample(double t, const double* y) {
-  read_state(t, y);
-  for (auto& [v, memory] : convolutions_) {
-    if (memory.next() <= t) memory.sample(frames_[v].twist);
-  }
-}
-
-void RedundantSystem::take_histories(const RedundantSystem& other) {
-  for (std::size_t i = 0; i < convolutions_.size(); ++i) {
-    convolutions_[i].second = other.convolutions_[i].second;
+void VesselHistories::sample(double t, const std::vector<YawFrame<double>>& frames) {
+  for (History& h : histories_) {
+    if (h.memory.next() <= t) h.memory.sample(frames[h.vessel].twist);
   }
 }
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "seacrane/dynamics/redundant.hpp"
+#include "seacrane/dynamics/maximal.hpp"
 
 namespace seacrane {
 std::vector<MemoryMatrices> memory_matrices(const Model& model) {
@@ -70,7 +70,7 @@ TurningRate::TurningRate(Orientation orientation, const double* angles, const Ve
   }
 }
 
-RedundantJacobian::RedundantJacobian(const Model& model)
+MaximalJacobian::MaximalJacobian(const Model& model)
     : model_(&model),
       residual_(model),
       memory_(memory_matrices(model)),
@@ -81,12 +81,12 @@ RedundantJacobian::RedundantJacobian(const Model& model)
       column_(idx(model.layout.size)),
       response_(model.layout.size, 6) {}
 
-void RedundantJacobian::evaluate(RedundantSystem& system, double t, const double* y, double* out) {
+void MaximalJacobian::evaluate(MaximalSystem& system, double t, const double* y, double* out) {
   system_ = &system;
   const Model& m = *model_;
   std::fill_n(out, idx(m.layout.size) * idx(m.layout.size), 0.0);
-  residual_.start(system, t,
-                  {system.acceleration().data(), system.multipliers().data(), nullptr, y + m.layout.memory});
+  residual_.start(system.terms(), t,
+                  {system.accelerations().data(), system.multipliers().data(), nullptr, y + m.layout.memory});
   for (int b = 0; b < m.body_count(); ++b) {
     residual_.differentiate(b);
     write_body_columns(b, y, out);
@@ -96,13 +96,13 @@ void RedundantJacobian::evaluate(RedundantSystem& system, double t, const double
 }
 
 /// Rates of twists and work from load_ and given_; the memory's are the caller's.
-void RedundantJacobian::solve_column(double* column, double power, double absolute_power) {
+void MaximalJacobian::solve_column(double* column, double power, double absolute_power) {
   const Model& m = *model_;
-  system_->solve(load_, given_, acceleration_, lambda_);
+  system_->solver().solve(load_, given_, acceleration_, lambda_);
   for (int b = 0; b < m.body_count(); ++b) view<6>(column + m.layout.twist(b)) = acceleration_[idx(b)];
   for (const DriverData& driver : m.drivers) {
     const auto row = idx(m.elements[idx(driver.element)].row);
-    const double rate = system_->blocks()[idx(driver.element)].nu[0];
+    const double rate = system_->terms().blocks()[idx(driver.element)].nu[0];
     power += rate * lambda_[row];
     absolute_power += sign(rate * system_->multipliers()[row]) * rate * lambda_[row];
   }
@@ -110,7 +110,7 @@ void RedundantJacobian::solve_column(double* column, double power, double absolu
   column[m.layout.work + 1] = absolute_power;
 }
 
-void RedundantJacobian::write_body_columns(int b, const double* y, double* out) {
+void MaximalJacobian::write_body_columns(int b, const double* y, double* out) {
   const Model& m = *model_;
   const int pose = m.layout.pose(b), vessel = m.bodies[idx(b)].vessel;
   const auto n = m.layout.size;
@@ -141,7 +141,7 @@ void RedundantJacobian::write_body_columns(int b, const double* y, double* out) 
 }
 
 /// The memory is linear: six unit loads in the yaw frame tell how its states act.
-void RedundantJacobian::write_memory_columns(const double* y, double* out) {
+void MaximalJacobian::write_memory_columns(const double* y, double* out) {
   const Model& m = *model_;
   const auto n = m.layout.size;
   Eigen::Map<MatXd> jacobian(out, n, n);
@@ -149,7 +149,7 @@ void RedundantJacobian::write_memory_columns(const double* y, double* out) {
     const Vessel& vessel = m.vessels[v];
     const int states = vessel.memory_states();
     if (states == 0) continue;
-    const YawFrame<double>& frame = system_->frame(static_cast<int>(v));
+    const YawFrame<double>& frame = system_->terms().frames()[v];
     const double direction = memory_power_sign(vessel, frame, y + vessel.memory_offset, column_.data());
     response_.setZero();
     std::fill(given_.begin(), given_.end(), 0.0);
@@ -170,13 +170,14 @@ void RedundantJacobian::write_memory_columns(const double* y, double* out) {
   }
 }
 
-void RedundantJacobian::write_pose_rates(const double* y, double* out) const {
+void MaximalJacobian::write_pose_rates(const double* y, double* out) const {
   const Model& m = *model_;
   Eigen::Map<MatXd> jacobian(out, m.layout.size, m.layout.size);
   for (int b = 0; b < m.body_count(); ++b) {
     const int pose = m.layout.pose(b), angle = pose + 3, twist = m.layout.twist(b),
               n = m.layout.pose_size - 3;
-    const TurningRate rate(m.description.orientation, y + angle, system_->bodies()[idx(b)].angular_velocity);
+    const TurningRate rate(m.description.orientation, y + angle,
+                           system_->terms().bodies()[idx(b)].angular_velocity);
     jacobian.block<3, 3>(pose, twist).setIdentity();
     jacobian.block(angle, angle, n, n) = rate.in_angles;
     jacobian.block(angle, twist + 3, n, 3) = rate.in_omega;

@@ -6,7 +6,7 @@
 
 namespace seacrane {
 
-class RedundantSystem;
+class MaximalSystem;
 
 inline double sign(double x) { return x < 0.0 ? -1.0 : 1.0; }
 
@@ -33,15 +33,15 @@ struct TurningRate {
   TurningRate(Orientation orientation, const double* angles, const Vec3d& omega);
 };
 
-/// Exact Jacobian of dy/dt of the redundant formulation: with the slopes of the residual (BodyResidual),
+/// Exact Jacobian of dy/dt in maximal coordinates: with the slopes of the residual (BodyResidual),
 /// M dvdot - D^T dlambda = dp, D dvdot = ds is solved with the factors of the evaluation, which are never
 /// differentiated themselves.
-class RedundantJacobian {
+class MaximalJacobian {
  public:
-  explicit RedundantJacobian(const Model& model);
+  explicit MaximalJacobian(const Model& model);
 
   /// Right after system.derivative(t, y, ...): writes df/dy by columns.
-  void evaluate(RedundantSystem& system, double t, const double* y, double* out);
+  void evaluate(MaximalSystem& system, double t, const double* y, double* out);
 
  private:
   void solve_column(double* column, double power, double absolute_power);
@@ -50,7 +50,7 @@ class RedundantJacobian {
   void write_pose_rates(const double* y, double* out) const;
 
   const Model* model_;
-  RedundantSystem* system_ = nullptr;  // during an evaluation
+  MaximalSystem* system_ = nullptr;  // during an evaluation
   BodyResidual residual_;
   std::vector<MemoryMatrices> memory_;  // by vessel
   std::vector<Vec6d> load_, acceleration_;

@@ -2,11 +2,11 @@
 
 namespace seacrane {
 
-double limit_force(const Limit& limit, const RedundantSystem& system, const double* lambda) {
-  const double* own = lambda + system.model().elements[idx(limit.element)].row;
+double limit_force(const Limit& limit, const Terms& terms, const double* lambda) {
+  const double* own = lambda + terms.model().elements[idx(limit.element)].row;
   if (limit.kind != LimitKind::seat) return limit.side * *own;
   const JointData& joint = limit.coordinate.joint;
-  const Vec3d normal = system.bodies()[idx(joint.first)].rotation * joint.first_axes.col(2);
+  const Vec3d normal = terms.bodies()[idx(joint.first)].rotation * joint.first_axes.col(2);
   return normal.dot(view<3>(own));
 }
 

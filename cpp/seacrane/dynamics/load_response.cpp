@@ -3,12 +3,13 @@
 
 #include <algorithm>
 
+#include "seacrane/dynamics/maximal.hpp"
 #include "seacrane/dynamics/recursive/recursive.hpp"
 
 namespace seacrane {
 
-void RedundantSystem::load_response(const std::vector<Vec6d>& load, std::vector<Vec6d>& acceleration) {
-  solve(load, no_right_, acceleration, response_multipliers_);
+void MaximalSystem::load_response(const std::vector<Vec6d>& load, std::vector<Vec6d>& acceleration) {
+  solver_.solve(load, no_right_, acceleration, response_multipliers_);
 }
 
 void RecursiveSystem::load_response(const std::vector<Vec6d>& load, std::vector<Vec6d>& acceleration) {

@@ -1,13 +1,12 @@
-#include <cmath>
-#include <stdexcept>
-#include <string>
+#include "seacrane/dynamics/non_finite.hpp"
 
-#include "seacrane/dynamics/redundant.hpp"
+#include <cmath>
+
+#include "seacrane/dynamics/state_names.hpp"
 #include "seacrane/elements/check.hpp"
 #include "seacrane/elements/loads/registry.hpp"
 #include "seacrane/integrate/error_norm.hpp"
 
-/// Names for what is not finite, for the report of a run that had to stop; none of it is in the loop.
 namespace seacrane {
 namespace {
 
@@ -30,32 +29,32 @@ std::string bad_wrench(const Model& m, const std::vector<BodyLoad<double>>& wren
   return "";
 }
 
-}  // namespace
-
-std::string RedundantSystem::describe_memory(int state) const {
-  for (std::size_t v = 0; v < model_->vessels.size(); ++v) {
-    const Vessel& vessel = model_->vessels[v];
-    const int own = state - (vessel.memory_offset - model_->layout.memory);
-    if (own < 0 || own >= vessel.memory_states()) continue;
-    const std::string of = " of vessel " + in_quotes(model_->description.vessels[v].name);
-    const int fluid = vessel.fluid_states();
-    if (own >= fluid) return "state " + std::to_string(own - fluid) + " of the fast motion" + of;
-    return "memory state " + std::to_string(own) + of;
+std::string bad_rows(const Terms& terms) {
+  for (std::size_t e = 0; e < terms.blocks().size(); ++e) {
+    const ElementModel& element = terms.model().elements[e];
+    const RowBlock<double>& b = terms.blocks()[e];
+    for (int r = 0; r < element.rows; ++r) {
+      if (std::isfinite(b.phi[r]) && std::isfinite(b.gamma[r]) && std::isfinite(b.nu[r])) continue;
+      return std::string(element.driver ? "driver " : "joint ") + in_quotes(element.name) + ": open by " +
+             to_text(b.phi[r]) + " m or rad, wants a rate of " + to_text(b.nu[r]);
+    }
   }
-  return "memory state " + std::to_string(state);
+  return "";
 }
 
-/// One load at a time, each alone.
-std::string RedundantSystem::non_finite_load(double t, const double* y) {
-  const Model& m = *model_;
-  const LoadInput<double> input = load_input(t);
+}  // namespace
+
+std::string non_finite_load(Terms& terms, double t, const double* y) {
+  const Model& m = terms.model();
+  const LoadInput<double> input = terms.load_input(t);
+  std::vector<BodyLoad<double>>& wrench = terms.wrench_;
   std::string found;
   const auto check = [&](const std::string& name, auto&& apply) {
     if (!found.empty()) return;
-    for (auto& w : wrench_) w = BodyLoad<double>();
-    LoadSum<double> sum{wrench_.data()};
+    for (auto& w : wrench) w = BodyLoad<double>();
+    LoadSum<double> sum{wrench.data()};
     apply(sum);
-    const std::string bad = bad_wrench(m, wrench_);
+    const std::string bad = bad_wrench(m, wrench);
     if (!bad.empty()) {
       found = name + ": " + bad;
     } else if (!std::isfinite(sum.power)) {
@@ -75,41 +74,30 @@ std::string RedundantSystem::non_finite_load(double t, const double* y) {
   });
   std::vector<double> memory_rate(idx(m.layout.work - m.layout.memory));
   check("hydrodynamics",
-        [&](auto& sum) { apply_hydrodynamics(input, y + m.layout.memory, memory_rate.data(), sum); });
+        [&](auto& sum) { terms.apply_hydrodynamics(input, y + m.layout.memory, memory_rate.data(), sum); });
   const std::size_t bad = first_non_finite(memory_rate.data(), memory_rate.size());
   if (found.empty() && bad < memory_rate.size()) {
-    found = "rate of " + describe_memory(static_cast<int>(bad)) + ": it is " + to_text(memory_rate[bad]);
+    found = "rate of " + describe_memory(m, static_cast<int>(bad)) + ": it is " + to_text(memory_rate[bad]);
   }
-  check("waves", [&](auto& sum) { apply_waves(t, y + m.layout.memory, sum); });
+  check("waves", [&](auto& sum) { terms.apply_waves(t, y + m.layout.memory, sum); });
   return found;
 }
 
-std::string RedundantSystem::non_finite_rows() const {
-  for (std::size_t e = 0; e < blocks_.size(); ++e) {
-    const ElementModel& element = model_->elements[e];
-    const RowBlock<double>& b = blocks_[e];
-    for (int r = 0; r < element.rows; ++r) {
-      if (std::isfinite(b.phi[r]) && std::isfinite(b.gamma[r]) && std::isfinite(b.nu[r])) continue;
-      return std::string(element.driver ? "driver " : "joint ") + in_quotes(element.name) + ": open by " +
-             to_text(b.phi[r]) + " m or rad, wants a rate of " + to_text(b.nu[r]);
-    }
-  }
-  return "";
-}
-
-std::string RedundantSystem::non_finite(double t, const double* y) {
-  const std::size_t bad = first_non_finite(y, size());
-  if (bad < size()) return describe(bad) + ": it is " + to_text(y[bad]);
-  std::vector<double> rate(size());
-  read_state(t, y);
-  evaluate_inertia();
-  evaluate_rows(t);
-  std::string found = non_finite_load(t, y);
-  if (found.empty()) found = non_finite_rows();
+std::string name_non_finite(MaximalSystem& system, double t, const double* y) {
+  const std::size_t size = system.size(), bad = first_non_finite(y, size);
+  if (bad < size) return system.describe(bad) + ": it is " + to_text(y[bad]);
+  Terms& terms = system.terms();
+  terms.read(t, y);
+  terms.evaluate_inertia();
+  terms.evaluate_rows(t);
+  std::string found = non_finite_load(terms, t, y);
+  if (found.empty()) found = bad_rows(terms);
   if (!found.empty()) return found;
-  derivative(t, y, rate.data());
-  const std::size_t rate_bad = first_non_finite(rate.data(), size());
-  return rate_bad < size() ? "rate of the " + describe(rate_bad) + ": it is " + to_text(rate[rate_bad]) : "";
+  std::vector<double> rate(size);
+  system.derivative(t, y, rate.data());
+  const std::size_t rate_bad = first_non_finite(rate.data(), size);
+  return rate_bad < size ? "rate of the " + system.describe(rate_bad) + ": it is " + to_text(rate[rate_bad])
+                         : "";
 }
 
 }  // namespace seacrane

@@ -1,6 +1,7 @@
 #include "seacrane/dynamics/residual_jacobian.hpp"
 
-#include "seacrane/dynamics/redundant.hpp"
+#include "seacrane/dynamics/constraints.hpp"
+#include "seacrane/dynamics/terms.hpp"
 
 namespace seacrane {
 ResidualJacobian::ResidualJacobian(const Model& model)
@@ -11,14 +12,14 @@ ResidualJacobian::ResidualJacobian(const Model& model)
       correction_(acceleration_),
       column_(model.layout.size + 2 * model.rows()) {}
 
-void ResidualJacobian::evaluate(RedundantSystem& system, double t, double c, const double* y,
-                                const double* ydot, double* out) {
+void ResidualJacobian::evaluate(const Terms& terms, double t, double c, const double* y, const double* ydot,
+                                double* out) {
   const Model& m = *model_;
-  system_ = &system;
+  terms_ = &terms;
   const double* lambda = y + m.layout.size;
   for (int b = 0; b < m.body_count(); ++b) acceleration_[idx(b)] = view<6>(ydot + m.layout.twist(b));
-  residual_.start(system, t, {acceleration_.data(), lambda, lambda + m.rows(), y + m.layout.memory});
-  system.multiplier_load(lambda + m.rows(), correction_);
+  residual_.start(terms, t, {acceleration_.data(), lambda, lambda + m.rows(), y + m.layout.memory});
+  multiplier_load(terms, lambda + m.rows(), correction_);
   Eigen::Map<MatXd> jacobian(out, column_.size(), column_.size());
   jacobian.setZero();
   for (int b = 0; b < m.body_count(); ++b) {
@@ -85,8 +86,7 @@ void ResidualJacobian::write_body_columns(int b, const double* y, Eigen::Map<Mat
       out.col(s.twist(b) + k - 6) = column_;
     }
   }
-  const Vec3d omega =
-      system_->bodies()[idx(b)].angular_velocity + over_mass(b, correction_[idx(b)]).tail<3>();
+  const Vec3d omega = terms_->bodies()[idx(b)].angular_velocity + over_mass(b, correction_[idx(b)]).tail<3>();
   const TurningRate rate(m.description.orientation, y + angle, omega);
   out.block(angle, angle, angles, angles) -= rate.in_angles;
 }
@@ -97,7 +97,7 @@ void ResidualJacobian::write_memory_columns(const double* y, Eigen::Map<MatXd>& 
     const Vessel& vessel = m.vessels[v];
     const int states = vessel.memory_states(), at = vessel.memory_offset;
     if (states == 0) continue;
-    const YawFrame<double>& frame = system_->frame(static_cast<int>(v));
+    const YawFrame<double>& frame = terms_->frames()[v];
     const double direction = memory_power_sign(vessel, frame, y + at, column_.data());
     const BodyResidual::WaveSlopes& waves = residual_.wave_slopes(v);
     write_wave_slopes(vessel, waves, memory_[v].c);
@@ -117,7 +117,7 @@ void ResidualJacobian::write_multiplier_columns(const double* y, Eigen::Map<MatX
   const StateLayout& s = m.layout;
   for (std::size_t e = 0; e < m.elements.size(); ++e) {
     const ElementModel& element = m.elements[e];
-    const RowBlock<double>& block = system_->blocks()[e];
+    const RowBlock<double>& block = terms_->blocks()[e];
     const int bodies[2] = {element.first, element.second};
     for (int r = 0; r < element.rows; ++r) {
       const int lambda = s.size + element.row + r, mu = lambda + m.rows();
@@ -141,7 +141,7 @@ void ResidualJacobian::write_rate_terms(double c, Eigen::Map<MatXd>& out) const 
   const Model& m = *model_;
   const StateLayout& s = m.layout;
   for (int b = 0; b < m.body_count(); ++b) {
-    const Mat6d mass = system_->mass_matrix(b);
+    const Mat6d mass = terms_->mass_matrix(b);
     for (int i = 0; i < 6; ++i) {
       out.block<6, 1>(s.twist(b), s.twist(b) + i) += c * over_mass(b, mass.col(i));
     }

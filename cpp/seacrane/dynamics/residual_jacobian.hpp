@@ -14,9 +14,8 @@ class ResidualJacobian {
  public:
   explicit ResidualJacobian(const Model& model);
 
-  /// Right after system.evaluate_terms(t, y, ...).
-  void evaluate(RedundantSystem& system, double t, double c, const double* y, const double* ydot,
-                double* out);
+  /// Right after terms.evaluate(t, y, ...).
+  void evaluate(const Terms& terms, double t, double c, const double* y, const double* ydot, double* out);
 
  private:
   void write_body_columns(int body, const double* y, Eigen::Map<MatXd>& out);
@@ -27,7 +26,7 @@ class ResidualJacobian {
   Vec6d over_mass(int body, const Vec6d& load) const;
 
   const Model* model_;
-  RedundantSystem* system_ = nullptr;  // during an evaluation
+  const Terms* terms_ = nullptr;  // during an evaluation
   BodyResidual residual_;
   std::vector<MemoryMatrices> memory_;  // by vessel
   std::vector<Vec6d> acceleration_, correction_;

@@ -19,7 +19,7 @@ void for_each_side(const Elements& elements, int bodies, F&& f) {
   }
 }
 
-/// Independent combinations of constraint rows, told by geometry alone: every body counts with mass one
+/// Independent combinations of constraint rows, found from geometry alone: every body counts with mass one
 /// (its inertia divided by its mass), so that light bodies are not taken for redundancy.
 class RowSpace {
  public:

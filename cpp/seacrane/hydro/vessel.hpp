@@ -48,7 +48,6 @@ struct YawFrame {
     return out;
   }
 
-  T roll_rate() const { return twist[3] / cos_pitch; }
   T pitch_rate() const { return twist[4]; }
 
   /// 6 x 6 in the yaw frame to inertial axes.

@@ -131,7 +131,8 @@ void AdaptiveStep::after_success(double h, double error, bool cut_before, bool t
                         strongest_growth);
   }
   if (cut_before) growth = std::min(growth, 1.0);
-  // The error of a step cut short tells nothing of the wish when it only asks for the largest growth.
+  // The error of a step cut short says nothing about the step wanted where it only asks for the largest
+  // growth.
   if (truncated && growth == strongest_growth) {
     step_ = std::max(step_, growth * h);
     return;

@@ -256,7 +256,7 @@ void GeneralizedAlpha::advance(double h, double t_end) {
   } else {
     start_history();
   }
-  // Until the step is done there is no history to go on from.
+  // Until the step is done there is no history to continue from.
   a_time_ = std::numeric_limits<double>::quiet_NaN();
   std::copy_n(start_derivative_.data() + positions_, rates_, unknown_.data());
   double last = std::numeric_limits<double>::infinity();

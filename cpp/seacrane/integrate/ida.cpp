@@ -160,7 +160,7 @@ void Ida::size_multipliers() {
   }
 }
 
-/// Absolute tolerances alone say nothing of the size of multipliers: the tightest one's number then counts
+/// Absolute tolerances alone say nothing about the size of multipliers: the tightest one's number then counts
 /// relative to the largest multiplier.
 double Ida::multiplier_tolerance() const {
   double tolerance = norm_.relative();

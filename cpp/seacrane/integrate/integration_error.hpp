@@ -6,7 +6,7 @@
 
 namespace seacrane {
 
-/// The integration cannot go on. Thrown in place of a NaN, a hang or a message on the terminal.
+/// The integration cannot continue. Thrown in place of a NaN, a hang or a message on the terminal.
 class IntegrationError : public std::runtime_error {
  public:
   static constexpr std::size_t no_component = static_cast<std::size_t>(-1);

@@ -84,7 +84,7 @@ class Integrator {
   /// Steps after which a method is back at the length and order that it had before a reset.
   virtual double steps_lost_by_reset() const { return 0.0; }
 
-  /// What load() needs to go on. The own one-step methods then continue bit for bit; the SUNDIALS methods
+  /// What load() needs to continue. The own one-step methods then continue bit for bit; the SUNDIALS methods
   /// keep time and state only (no public call saves their history), so load() restarts them.
   virtual std::vector<double> save() const = 0;
   virtual void load(std::span<const double> saved) = 0;
@@ -116,7 +116,7 @@ class Integrator {
 /// Throws std::invalid_argument on a step size that is negative or not finite.
 void check_step_sizes(const IntegratorOptions& options);
 
-/// Below this step size time cannot be told from its neighbours any more.
+/// Below this step size, time plus a step is the same number as time.
 double smallest_step(double t);
 
 /// Length of the next step when `proposed` is wanted and `remaining` is left: all that is left when the

@@ -16,7 +16,8 @@ class PositionMap {
   /// exponential.
   virtual void move(double h, double* y) = 0;
   /// Derivatives of the positions that move(h, y) leaves in the velocities of y, by columns: position_size()
-  /// rows, a column for every other component. Returns false where there are none: differences then stand in.
+  /// rows, a column for every other component. Returns false where there are none: differences then replace
+  /// them.
   virtual bool move_jacobian(double h, const double* y, double* out) = 0;
 };
 

@@ -2,7 +2,7 @@
 
 namespace seacrane {
 
-/// What an integration method is: all that is told of it anywhere else, in tables, checks and tests, is made
+/// What an integration method is: everything said of it elsewhere, in tables, checks and tests, is made
 /// from this.
 struct IntegratorProperties {
   /// By which a user asks for it.
@@ -29,7 +29,7 @@ struct IntegratorProperties {
   bool residual_form = false;
   /// Projects the state onto the constraints.
   bool projects = true;
-  /// Loses its history where a run goes on from saved steps, or from a changed state.
+  /// Loses its history where a run continues from saved steps, or from a changed state.
   bool restarts = false;
   /// Has a spectral radius to choose.
   bool has_spectral_radius = false;

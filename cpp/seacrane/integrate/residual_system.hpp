@@ -15,7 +15,7 @@ class ResidualSystem {
   virtual std::size_t size() const = 0;
   virtual void residual(double t, const double* y, const double* ydot, double* r) = 0;
   /// Writes dF/dy + c dF/dy', exact to rounding, by columns; may throw as residual() does. Returns false, and
-  /// leaves nothing of use, where there is none: differences then stand in.
+  /// leaves `out` undefined, where there is none: differences then replace it.
   virtual bool jacobian(double t, double c, const double* y, const double* ydot, double* out) = 0;
   /// 1 for differential, 0 for algebraic components.
   virtual std::span<const double> differential() const = 0;

@@ -160,7 +160,7 @@ bool RosenbrockW::try_step(double h, double t_end) {
                                      Scheme::b[2] * k_[2][i] + Scheme::b[3] * k_[3][i]);
   }
   if (!end_is_finite()) return false;
-  // The end derivative comes last: projection may go on from it.
+  // The end derivative comes last: projection may start from it.
   return error(h) > 1.0 || stage(t_end, state_.data(), slope_.data());
 }
 

@@ -47,7 +47,7 @@ class SundialsIntegrator : public Integrator {
   virtual void attach(void* memory) = 0;
   /// Makes the solver forget the past, at time_ and solution_.
   virtual void reinitialise(void* memory) = 0;
-  /// Called before a step that goes on from the last one.
+  /// Called before a step that continues from the last one.
   virtual void prepare_step() {}
   /// One internal step. Fills state_ and returns the time reached, or returns through fail().
   virtual double advance(double t_limit) = 0;

@@ -27,7 +27,7 @@ class System {
   virtual bool project(double t, double* y, bool evaluated_here) = 0;
 
   /// Writes df/dy, exact to rounding, by columns, for less than differences cost; may throw as derivative()
-  /// does. Returns false, and leaves nothing of use, where there is none: differences then stand in.
+  /// does. Returns false, and leaves `out` undefined, where there is none: differences then replace it.
   virtual bool jacobian(double t, const double* y, double* out) = 0;
 };
 

@@ -21,7 +21,7 @@ struct CurveKink {
 };
 
 /// A reference curve of time: pieces of a quintic polynomial plus one cosine, each from its start on.
-/// Before the first start the first value is held at rest; the last piece goes on for ever.
+/// Before the first start the first value is held at rest; the last piece continues without end.
 class Curve {
  public:
   struct Piece {

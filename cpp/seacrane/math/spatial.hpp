@@ -13,8 +13,12 @@ template <class T>
 class Twist {
  public:
   Twist() = default;  // not set, as Eigen's vectors
-  explicit Twist(const Vec6<T>& v) : v_(v) {}
-  Twist(const Vec3<T>& linear, const Vec3<T>& angular) { v_ << linear, angular; }
+  template <class Expression>
+  explicit Twist(const Eigen::MatrixBase<Expression>& v) : v_(v) {}
+  Twist(const Vec3<T>& linear, const Vec3<T>& angular) {
+    v_.template head<3>() = linear;
+    v_.template tail<3>() = angular;
+  }
   static Twist zero() { return Twist(Vec6<T>::Zero()); }
   static Twist unit(int i) { return Twist(Vec6<T>::Unit(i)); }
 
@@ -47,7 +51,8 @@ template <class T>
 class Wrench {
  public:
   Wrench() = default;  // not set
-  explicit Wrench(const Vec6<T>& w) : w_(w) {}
+  template <class Expression>
+  explicit Wrench(const Eigen::MatrixBase<Expression>& w) : w_(w) {}
   static Wrench zero() { return Wrench(Vec6<T>::Zero()); }
 
   auto force() const { return w_.template head<3>(); }
@@ -125,9 +130,7 @@ class SpatialInertia {
   }
 
   friend Wrench<T> operator*(const SpatialInertia& inertia, const Twist<T>& a) {
-    Vec6<T> out;
-    out.noalias() = inertia.m_ * a.vector();
-    return Wrench<T>(out);
+    return Wrench<T>(inertia.m_ * a.vector());
   }
 
  private:

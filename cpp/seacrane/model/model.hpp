@@ -39,6 +39,12 @@ struct ElementModel {
   Vec3d first_point, second_point;  // from the state points, body axes
 };
 
+/// A zero-order-held input of a load.
+struct InputModel {
+  std::string name;
+  int slot = 0, count = 1;  // the first of its slots
+};
+
 struct WaveLoad {
   int body = 0;
   int vessel = -1;
@@ -82,6 +88,7 @@ struct Model {
   std::vector<Vessel> vessels;
   std::vector<WaveLoad> wave_loads;
   std::vector<CoordinateData> coordinates;
+  std::vector<InputModel> inputs;  // in the order of their slots
   int slot_count = 0;
   StateLayout layout;
   double translation_scale = 0.0, rotation_scale = 0.0;  // typical magnitudes, m and rad, rates alike

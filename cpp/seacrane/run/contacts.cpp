@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "seacrane/dynamics/constraints.hpp"
 #include "seacrane/dynamics/limit_force.hpp"
 #include "seacrane/run/contact_tolerances.hpp"
 
@@ -72,8 +73,8 @@ Contacts::Contacts(const Model& model, SetStepper stepper)
       axis_before_(model.limits.size(), Vec3d::UnitX()),
       axis_after_(model.limits.size(), Vec3d::UnitX()) {}
 
-Contacts::Watched Contacts::gap(const Limit& limit, const RedundantSystem& system) const {
-  const auto& bodies = system.bodies();
+Contacts::Watched Contacts::gap(const Limit& limit, const Terms& terms) const {
+  const auto& bodies = terms.bodies();
   const CoordinateRow<double> row = evaluate_limit(limit, bodies.data());
   const JointData& joint = limit.coordinate.joint;
   const double rate = coordinate_rate(row, bodies[idx(joint.first)], bodies[idx(joint.second)]);
@@ -84,18 +85,18 @@ Contacts::Watched Contacts::gap(const Limit& limit, const RedundantSystem& syste
 /// leave. With the rows last evaluated.
 double Contacts::slack(const Limit& limit, const Stepper& at) {
   if (limit.kind == LimitKind::seat) return 0.0;
-  return limit.side * at.system.blocks()[idx(limit.element)].phi[0];
+  return limit.side * at.system.terms().blocks()[idx(limit.element)].phi[0];
 }
 
 void Contacts::check(Stepper& at, double t, const double* bodies) const {
-  at.system.residual(t, bodies);
+  constraint_residual(at.system.terms(), t, bodies);
   for (const Limit& limit : at.model->limits) {
     double misfit = 0.0;
     if (limit.element >= 0) {
-      const auto& phi = at.system.blocks()[idx(limit.element)].phi;
+      const auto& phi = at.system.terms().blocks()[idx(limit.element)].phi;
       misfit = phi.head(at.model->elements[idx(limit.element)].rows).cwiseAbs().maxCoeff();
     } else if (limit.kind != LimitKind::seat) {
-      misfit = -gap(limit, at.system).value;
+      misfit = -gap(limit, at.system.terms()).value;
     }
     if (misfit <= kMisfit) continue;
     throw std::invalid_argument("state: limit '" + limit.name + "' is " +
@@ -108,20 +109,20 @@ void Contacts::evaluate(Stepper& at, double t, const double* bodies) {
   if (at.model->closed != 0) {
     at.system.derivative(t, bodies, rate_.data());
   } else {
-    at.system.read_kinematics(t, bodies);
+    at.system.terms().read(t, bodies);
   }
 }
 
 double Contacts::watched_value(Stepper& at, const Limit& limit, double t, const double* y) {
   std::copy_n(y, at.stepped.size(), state_.data());
   at.stepped.project(t, state_.data(), false);
-  at.stepped.write_bodies(t, state_.data(), bodies_.data());
+  at.write_bodies(t, state_.data(), bodies_.data());
   if (limit.element < 0) {
-    at.system.read_kinematics(t, bodies_.data());
-    return gap(limit, at.system).value;
+    at.system.terms().read(t, bodies_.data());
+    return gap(limit, at.system.terms()).value;
   }
   at.system.derivative(t, bodies_.data(), rate_.data());
-  return limit_force(limit, at.system, at.system.multipliers().data());
+  return limit_force(limit, at.system.terms(), at.system.multipliers().data());
 }
 
 void Contacts::watch(Stepper& at, double t, const double* bodies) {
@@ -131,9 +132,10 @@ void Contacts::watch(Stepper& at, double t, const double* bodies) {
   for (std::size_t i = 0; i < after_.size(); ++i) {
     const Limit& limit = at.model->limits[i];
     if (limit.element >= 0) {
-      after_[i] = {limit_force(limit, at.system, at.system.multipliers().data()), 0.0, slack(limit, at)};
+      after_[i] = {limit_force(limit, at.system.terms(), at.system.multipliers().data()), 0.0,
+                   slack(limit, at)};
     } else if (limit.kind != LimitKind::seat) {
-      after_[i] = gap(limit, at.system);
+      after_[i] = gap(limit, at.system.terms());
     }
   }
   read_axes(at);
@@ -144,7 +146,7 @@ void Contacts::read_axes(const Stepper& at) {
     const Limit& limit = at.model->limits[i];
     if (!has_pole(limit)) continue;
     const JointData& joint = limit.coordinate.joint;
-    const auto& k = at.system.bodies();
+    const auto& k = at.system.terms().bodies();
     const JointGeometry<double> g(joint, k[idx(joint.first)], k[idx(joint.second)]);
     axis_after_[i] = g.a.transpose() * g.b.col(0);
   }
@@ -178,11 +180,12 @@ void Contacts::look_inside(Stepper& at) {
   const double t = 0.5 * (at.integrator->previous_time() + at.integrator->time());
   at.integrator->interpolate(t, state_.data());
   at.stepped.project(t, state_.data(), false);
-  at.stepped.write_bodies(t, state_.data(), bodies_.data());
+  at.write_bodies(t, state_.data(), bodies_.data());
   at.system.derivative(t, bodies_.data(), rate_.data());
   for (std::size_t i = 0; i < middle_.size(); ++i) {
     const Limit& limit = at.model->limits[i];
-    if (limit.element >= 0) middle_[i] = limit_force(limit, at.system, at.system.multipliers().data());
+    if (limit.element >= 0)
+      middle_[i] = limit_force(limit, at.system.terms(), at.system.multipliers().data());
   }
 }
 
@@ -211,7 +214,7 @@ std::optional<double> Contacts::find(Stepper& at) {
   if (at.model->closed != 0) look_inside(at);
   before_.swap(after_);
   axis_before_.swap(axis_after_);
-  at.stepped.write_bodies(end, integrator.state(), bodies_.data());
+  at.write_bodies(end, integrator.state(), bodies_.data());
   watch(at, end, bodies_.data());
   std::optional<double> first;
   const auto found = [&](double t, std::size_t i, bool parted) {
@@ -230,8 +233,8 @@ std::optional<double> Contacts::find(Stepper& at) {
   if (first) {
     integrator.interpolate(*first, probe_.data());
     at.stepped.project(*first, probe_.data(), false);
-    at.stepped.write_bodies(*first, probe_.data(), bodies_.data());
-    at.system.read_kinematics(*first, bodies_.data());
+    at.write_bodies(*first, probe_.data(), bodies_.data());
+    at.system.terms().read(*first, bodies_.data());
     read_axes(at);
   }
   check_poles(first.value_or(end));
@@ -258,14 +261,14 @@ std::optional<double> Contacts::locate_change(Stepper& at, std::size_t i) {
 /// Where a gap that is negative at `until` closes; nothing where it does not get smaller there: that overlap
 /// is an error of the integration, after a release above all. A bound that is left and reached again is
 /// searched from where the gap is largest on: rounding at the start would pass for the bound reached. A hop
-/// too low to be told from none ends there, and the limit holds.
+/// too low to be distinguished from zero ends there, and the limit holds.
 std::optional<double> Contacts::locate_overlap(Stepper& at, std::size_t i, double until, double value) {
   const Watched& from = before_[i];
   const Limit& limit = at.model->limits[i];
   const double start = at.integrator->previous_time();
   const auto gap_at = [&](double t, const double* y) {
     watched_value(at, limit, t, y);
-    return gap(limit, at.system);
+    return gap(limit, at.system.terms());
   };
   const auto look = [&](double t) {
     at.integrator->interpolate(t, probe_.data());
@@ -297,8 +300,8 @@ double Contacts::locate_parting(Stepper& at, std::size_t i) {
     if (t >= end) return kParted - after_[i].slack;
     std::copy_n(y, at.stepped.size(), state_.data());
     at.stepped.project(t, state_.data(), false);
-    at.stepped.write_bodies(t, state_.data(), bodies_.data());
-    at.system.residual(t, bodies_.data());
+    at.write_bodies(t, state_.data(), bodies_.data());
+    constraint_residual(at.system.terms(), t, bodies_.data());
     return kParted - slack(at.model->limits[i], at);
   });
   return located.value_or(end);

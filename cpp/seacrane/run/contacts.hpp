@@ -32,7 +32,7 @@ struct Event {
 /// Finds and carries out what limits do: wires that go slack and snatch, stops that are hit and left, seats
 /// that are lifted off.
 ///
-/// Which limits hold is told by complementarity: side * gap >= 0 where one is open, side * multiplier >= 0
+/// Complementarity says which limits hold: side * gap >= 0 where one is open, side * multiplier >= 0
 /// where it is closed. After every step the quantities that must not be negative are looked at, at the end of
 /// the step and inside it; the first change of sign is located through the integrator's dense output. An
 /// impact keeps momentum, M (v+ - v-) = D^T Lambda over all rows that hold, and each limit that is hit sends
@@ -91,8 +91,8 @@ class Contacts {
     double driver_work = 0.0;
   };
 
-  /// side * gap and its rate, with the kinematics that `system` holds.
-  Watched gap(const Limit& limit, const RedundantSystem& system) const;
+  /// side * gap and its rate, with the kinematics that `terms` hold.
+  Watched gap(const Limit& limit, const Terms& terms) const;
   /// What must not be negative, at (t, y) of the stepped form.
   double watched_value(Stepper& at, const Limit& limit, double t, const double* y);
   void evaluate(Stepper& at, double t, const double* bodies);

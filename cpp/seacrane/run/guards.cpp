@@ -5,7 +5,10 @@
 #include <exception>
 #include <stdexcept>
 
+#include "seacrane/dynamics/energy.hpp"
+#include "seacrane/dynamics/non_finite.hpp"
 #include "seacrane/elements/check.hpp"
+#include "seacrane/run/stepper.hpp"
 
 namespace seacrane {
 namespace {
@@ -22,30 +25,30 @@ constexpr long kStallSteps = 100'000;
 constexpr double kStallTime = 1e-3;  // s
 
 /// What is not finite at the last good state or shortly after it, on the tangent there; empty: nothing.
-std::string find_non_finite(double step, const Integrator& integrator, Formulation& stepped,
-                            RedundantSystem& bodies) {
+std::string find_non_finite(double step, Stepper& at) {
+  const Integrator& integrator = *at.integrator;
   const double t = integrator.time();
-  const std::size_t n = stepped.size();
-  std::vector<double> y(n), rate(n), described(bodies.size());
-  stepped.derivative(t, integrator.state(), rate.data());
+  const std::size_t n = at.stepped.size();
+  std::vector<double> y(n), rate(n), described(at.system.size());
+  at.stepped.derivative(t, integrator.state(), rate.data());
   if (!all_finite(rate.data(), n)) std::fill(rate.begin(), rate.end(), 0.0);
   std::vector<double> ahead = {0.0};
   if (std::isfinite(step)) ahead.insert(ahead.end(), {0.5 * std::abs(step), std::abs(step)});
   for (const double a : kAhead) ahead.push_back(a * std::max(1.0, std::abs(t)));
   for (const double a : ahead) {
     for (std::size_t i = 0; i < n; ++i) y[i] = integrator.state()[i] + a * rate[i];
-    stepped.write_bodies(t + a, y.data(), described.data());
-    const std::string found = bodies.non_finite(t + a, described.data());
+    at.write_bodies(t + a, y.data(), described.data());
+    const std::string found = name_non_finite(at.system, t + a, described.data());
     if (!found.empty()) return found + ", at t = " + to_text(t + a) + " s";
   }
   return "";
 }
 
 /// The rate or memory state that is largest over its scale, where no body moves like that; else empty.
-std::string find_grown(const Integrator& integrator, Formulation& stepped, const RedundantSystem& bodies) {
-  const Model& m = bodies.model();
-  std::vector<double> described(bodies.size());
-  stepped.write_bodies(integrator.time(), integrator.state(), described.data());
+std::string find_grown(Stepper& at) {
+  const Model& m = *at.model;
+  std::vector<double> described(at.system.size());
+  at.write_bodies(at.integrator->time(), at.integrator->state(), described.data());
   int worst = -1;
   double largest = kGrown;
   for (int i = m.layout.velocity; i < m.layout.work; ++i) {
@@ -55,7 +58,7 @@ std::string find_grown(const Integrator& integrator, Formulation& stepped, const
     worst = i;
   }
   if (worst < 0) return "";
-  return "the " + bodies.describe(idx(worst)) + " had grown to " + to_text(described[idx(worst)]) +
+  return "the " + at.system.describe(idx(worst)) + " had grown to " + to_text(described[idx(worst)]) +
          " before, as no body moves: the step is too long for the method, or a load or the fluid memory "
          "feeds "
          "the motion; give a smaller dt or rtol, or mend that load";
@@ -79,14 +82,14 @@ void require_finite(const Integrator& integrator, const Formulation& stepped) {
                          first_non_finite(integrator.state(), stepped.size()), "the state is not finite");
 }
 
-void explain(const IntegrationError& error, const Integrator& integrator, Formulation& stepped,
-             RedundantSystem& bodies) {
+void explain(const IntegrationError& error, Stepper& at) {
   std::string text = error.reason();
-  if (error.component() < stepped.size()) text += ", worst in the " + stepped.describe(error.component());
-  const std::string bad =
-      attempt([&] { return find_non_finite(error.step_size(), integrator, stepped, bodies); });
+  if (error.component() < at.stepped.size()) {
+    text += ", worst in the " + at.stepped.describe(error.component());
+  }
+  const std::string bad = attempt([&] { return find_non_finite(error.step_size(), at); });
   if (!bad.empty()) text += "; not finite is the " + bad;
-  const std::string grown = attempt([&] { return find_grown(integrator, stepped, bodies); });
+  const std::string grown = attempt([&] { return find_grown(at); });
   if (!grown.empty()) text += "; " + grown;
   throw IntegrationError(error.method(), error.time(), error.step_size(), error.component(), text);
 }
@@ -110,15 +113,9 @@ EnergyWatch::EnergyWatch(std::optional<double> limit) : limit_(limit) {
                               "; give a positive number, such as 1e-3");
 }
 
-void EnergyWatch::check(double t, const double* y, const RedundantSystem& system, double balance,
-                        double absolute_work, double energy) {
-  const Model& m = system.model();
-  double kinetic = 0.0;
-  for (int b = 0; b < m.body_count(); ++b) {
-    const auto v = view<6>(y + m.layout.twist(b));
-    kinetic += 0.5 * v.dot(system.mass_matrix(b) * v);
-  }
-  largest_kinetic_ = std::max(largest_kinetic_, kinetic);
+void EnergyWatch::check(double t, const double* y, const Terms& terms, double balance, double absolute_work,
+                        double energy) {
+  largest_kinetic_ = std::max(largest_kinetic_, kinetic_energy(terms, y));
   const double handled = absolute_work + largest_kinetic_;
   if (std::abs(balance) <= *limit_ * handled + kRounding * std::abs(energy)) return;
   throw std::domain_error(
@@ -146,7 +143,7 @@ void RankWatch::keep(double t, const Dependence& found, const std::shared_ptr<co
 std::optional<RankReport> RankWatch::report() const {
   if (!model_ || model_->rows() == 0) return std::nullopt;
   RankReport out;
-  RedundantSystem system(model_);
+  MaximalSystem system(model_);
   const ConstraintRank rank = system.rank(time_, bodies_.data(), redundant_);
   out.time = time_;
   out.pivot = redundant_ > 0 ? std::pow(rank.smallest_singular_value, 2) : 1.0 / rank.condition;

@@ -6,12 +6,14 @@
 #include <string>
 #include <vector>
 
-#include "seacrane/dynamics/redundant.hpp"
+#include "seacrane/dynamics/maximal.hpp"
 #include "seacrane/integrate/integrator.hpp"
 
 namespace seacrane {
 
-/// What can go wrong with a run, told by the names of the scene. Only require_finite(),
+struct Stepper;
+
+/// What can go wrong with a run, reported by the names of the scene. Only require_finite(),
 /// StallWatch::step() and RankWatch::sees() are in the loop: a sum over the state and two comparisons per
 /// step.
 
@@ -19,10 +21,8 @@ namespace seacrane {
 void require_finite(const Integrator& integrator, const Formulation& stepped);
 
 /// Throws `error` again, in the words of the scene: the state that dominates, what is not finite from the
-/// last good state on (body, load and time), and what has grown beyond any motion. `bodies`: the described
-/// ones.
-[[noreturn]] void explain(const IntegrationError& error, const Integrator& integrator, Formulation& stepped,
-                          RedundantSystem& bodies);
+/// last good state of `at` on (body, load and time), and what has grown beyond any motion.
+[[noreturn]] void explain(const IntegrationError& error, Stepper& at);
 
 /// Stops a run whose steps have become so short that it would never end, as around a force that switches its
 /// sign at rest. Of adaptive methods: a fixed step is what was asked for.
@@ -43,9 +43,9 @@ class EnergyWatch {
   explicit EnergyWatch(std::optional<double> limit);
 
   bool has_limit() const { return limit_.has_value(); }
-  /// Where there is a limit, at an output, after `system` was evaluated there: the energy balance, the
+  /// Where there is a limit, at an output, after `terms` were evaluated there: the energy balance, the
   /// absolute work since the start and the energy itself (J). Throws std::domain_error beyond the limit.
-  void check(double t, const double* y, const RedundantSystem& system, double balance, double absolute_work,
+  void check(double t, const double* y, const Terms& terms, double balance, double absolute_work,
              double energy);
 
  private:

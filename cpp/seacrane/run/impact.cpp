@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "seacrane/dynamics/constraints.hpp"
 #include "seacrane/dynamics/limit_force.hpp"
 #include "seacrane/run/complementarity.hpp"
 #include "seacrane/run/contact_tolerances.hpp"
@@ -85,16 +86,16 @@ ClosedSet Contacts::settle(double t, double* bodies, ClosedSet closed) {
 Contacts::Consistency Contacts::consistency(const Stepper& at, int i) const {
   const Limit& limit = at.model->limits[idx(i)];
   if (limit.element >= 0) {
-    const bool pulls = limit_force(limit, at.system, at.system.multipliers().data()) < 0.0;
+    const bool pulls = limit_force(limit, at.system.terms(), at.system.multipliers().data()) < 0.0;
     return pulls ? Consistency::changes : Consistency::holds;
   }
   if (limit.kind == LimitKind::seat) return Consistency::holds;
-  const Watched g = gap(limit, at.system);
+  const Watched g = gap(limit, at.system.terms());
   if (g.value > kTouch || g.rate > kStill) return Consistency::holds;
   if (g.rate < -kStill) return Consistency::struck;
   const JointData& joint = limit.coordinate.joint;
-  const auto& a = at.system.acceleration();
-  const CoordinateRow<double> row = evaluate_limit(limit, at.system.bodies().data());
+  const auto& a = at.system.accelerations();
+  const CoordinateRow<double> row = evaluate_limit(limit, at.system.terms().bodies().data());
   const double towards = limit.side * acceleration_of(row, a[idx(joint.first)], a[idx(joint.second)]);
   return towards < -kFall ? Consistency::changes : Consistency::holds;
 }
@@ -114,7 +115,7 @@ ClosedSet Contacts::release_loosest(double t, double* bodies, ClosedSet closed) 
         const Limit& limit = at.model->limits[idx(i)];
         if (limit.element < 0) continue;
         const double open = slack(limit, at);
-        const double force = limit_force(limit, at.system, at.system.multipliers().data());
+        const double force = limit_force(limit, at.system.terms(), at.system.multipliers().data());
         if (!choosing) {
           widest = std::max(widest, open);
         } else if (open >= 0.9 * widest && (loosest < 0 || force < least)) {
@@ -151,7 +152,7 @@ ClosedSet Contacts::settle_dependent(double t, double* bodies, ClosedSet closed)
     for (int i = 0; i < count; ++i) {
       const Limit& limit = at.model->limits[idx(i)];
       const bool pulls =
-          limit.element >= 0 && limit_force(limit, at.system, at.system.multipliers().data()) < 0.0;
+          limit.element >= 0 && limit_force(limit, at.system.terms(), at.system.multipliers().data()) < 0.0;
       if (pulls && holds(seats, i)) lifted = i;
       if (!pulls || holds(seats, i)) continue;
       throw ChatteringError("scene '" + model_.description.name +
@@ -167,13 +168,13 @@ ClosedSet Contacts::settle_dependent(double t, double* bodies, ClosedSet closed)
 /// any of them is approached.
 ClosedSet Contacts::least_energy(double t, double* bodies, ClosedSet closed, ClosedSet seats) {
   Stepper& at = stepper_(seats);
-  RedundantSystem& system = at.system;
+  MaximalSystem& system = at.system;
   system.derivative(t, bodies, rate_.data());
   std::vector<int> near;
   for (int i = 0; i < static_cast<int>(model_.limits.size()); ++i) {
     const Limit& limit = at.model->limits[idx(i)];
     if (limit.kind == LimitKind::seat) continue;
-    const Watched g = gap(limit, system);
+    const Watched g = gap(limit, system.terms());
     if (holds(closed, i) || (g.value <= kTouch && g.rate <= kStill)) near.push_back(i);
   }
   const auto n = static_cast<Eigen::Index>(near.size());
@@ -183,18 +184,18 @@ ClosedSet Contacts::least_energy(double t, double* bodies, ClosedSet closed, Clo
     return at.model->limits[idx(near[static_cast<std::size_t>(i)])];
   };
   const auto push = [&](const Limit& limit, double force) {
-    const CoordinateRow<double> row = evaluate_limit(limit, system.bodies().data());
+    const CoordinateRow<double> row = evaluate_limit(limit, system.terms().bodies().data());
     load[idx(limit.coordinate.joint.first)] += force * limit.side * row.da;
     load[idx(limit.coordinate.joint.second)] += force * limit.side * row.db;
   };
   const auto along = [&](const Limit& limit, const std::vector<Vec6d>& motion) {
-    const CoordinateRow<double> row = evaluate_limit(limit, system.bodies().data());
+    const CoordinateRow<double> row = evaluate_limit(limit, system.terms().bodies().data());
     return limit.side * (row.da.dot(motion[idx(limit.coordinate.joint.first)]) +
                          row.db.dot(motion[idx(limit.coordinate.joint.second)]));
   };
   const auto respond = [&] {
     load.back().setZero();
-    system.solve(load, right, change, impulse);
+    system.solver().solve(load, right, change, impulse);
     for (Vec6d& one : load) one.setZero();
   };
   MatXd g(n, n);
@@ -203,7 +204,7 @@ ClosedSet Contacts::least_energy(double t, double* bodies, ClosedSet closed, Clo
     push(limit_of(j), 1.0);
     respond();
     for (Eigen::Index i = 0; i < n; ++i) g(i, j) = along(limit_of(i), change);
-    rate[j] = gap(limit_of(j), system).rate;
+    rate[j] = gap(limit_of(j), system.terms()).rate;
   }
   if (n > 0 && rate.minCoeff() < -kStill) {
     const VecXd hit = complementary_forces(g, rate), after = rate + g * hit;
@@ -215,7 +216,7 @@ ClosedSet Contacts::least_energy(double t, double* bodies, ClosedSet closed, Clo
     respond();
     for (const ElementModel& element : at.model->elements) {
       const auto e = static_cast<std::size_t>(&element - at.model->elements.data());
-      if (element.driver) driver_work += impulse[idx(element.row)] * system.blocks()[e].nu[0];
+      if (element.driver) driver_work += impulse[idx(element.row)] * system.terms().blocks()[e].nu[0];
     }
     book(bodies, change, driver_work, lost);
     rate = after;
@@ -225,10 +226,10 @@ ClosedSet Contacts::least_energy(double t, double* bodies, ClosedSet closed, Clo
   for (Eigen::Index j = 0; j < n; ++j) {
     if (rate[j] <= kStill) stay.push_back(j);
   }
-  const auto& a = system.acceleration();
+  const auto& a = system.accelerations();
   for (Eigen::Index j = 0; j < n; ++j) {
     const JointData& joint = limit_of(j).coordinate.joint;
-    const CoordinateRow<double> row = evaluate_limit(limit_of(j), system.bodies().data());
+    const CoordinateRow<double> row = evaluate_limit(limit_of(j), system.terms().bodies().data());
     fall[j] = limit_of(j).side * acceleration_of(row, a[idx(joint.first)], a[idx(joint.second)]);
   }
   const MatXd g_stay = g(stay, stay);
@@ -259,7 +260,7 @@ ClosedSet Contacts::sharing(double t, const double* bodies, ClosedSet carry, Clo
     for (int i = 0; i < count; ++i) {
       const Limit& limit = at.model->limits[idx(i)];
       if (limit.element < 0 || limit.kind == LimitKind::seat) continue;
-      const double force = limit_force(limit, at.system, at.system.multipliers().data());
+      const double force = limit_force(limit, at.system.terms(), at.system.multipliers().data());
       most = std::max(most, force);
       if (weakest >= 0 && force >= least) continue;
       least = force;
@@ -276,10 +277,10 @@ ClosedSet Contacts::sharing(double t, const double* bodies, ClosedSet carry, Clo
 double Contacts::amplification(Stepper& at, int i, double impulse, double speed) const {
   const Limit& limit = at.model->limits[idx(i)];
   const JointData& joint = limit.coordinate.joint;
-  const CoordinateRow<double> row = evaluate_limit(limit, at.system.bodies().data());
+  const CoordinateRow<double> row = evaluate_limit(limit, at.system.terms().bodies().data());
   double mobility = 0.0;
   for (const auto& [body, d] : {std::pair(joint.first, row.da), std::pair(joint.second, row.db)}) {
-    if (body < model_.body_count()) mobility += d.dot(at.system.mass_matrix(body).lu().solve(d));
+    if (body < model_.body_count()) mobility += d.dot(at.system.terms().mass_matrix(body).lu().solve(d));
   }
   return std::abs(impulse) * mobility / std::max(std::abs(speed), kStill);
 }
@@ -297,12 +298,12 @@ void Contacts::book(double* bodies, const std::vector<Vec6d>& change, double dri
 /// What is hit at the same time as limit `found`, or touched and approached then. `slow`: none of them faster
 /// than its sticking_speed.
 Contacts::Struck Contacts::struck_with(Stepper& at, double t, const double* bodies, int found) {
-  at.system.read_kinematics(t, bodies);
+  at.system.terms().read(t, bodies);
   Struck out;
   for (int i = 0; i < static_cast<int>(model_.limits.size()); ++i) {
     const Limit& limit = at.model->limits[idx(i)];
     if (limit.element >= 0 || limit.kind == LimitKind::seat) continue;
-    const Watched g = gap(limit, at.system);
+    const Watched g = gap(limit, at.system.terms());
     const bool here = i == found ? g.rate <= kStill : g.value <= kTouch && g.rate < -kStill;
     if (!here) continue;
     out.limits |= bit_of(i);
@@ -331,8 +332,8 @@ bool Contacts::is_dependent(Stepper& at, const Impact& impact, ClosedSet struck)
   return false;
 }
 
-/// A slow impact lets nothing go: limits that hit and free each other by turns would otherwise do so without
-/// end, slower and slower. What would pull then, settle() opens by its force.
+/// A slow impact lets nothing go: limits that hit and release each other in turn would otherwise do so
+/// without end, slower and slower. What would pull then, settle() opens by its force.
 ClosedSet Contacts::hit(double t, double* bodies, ClosedSet closed, int found) {
   const Struck struck = struck_with(stepper_(closed), t, bodies, found);
   for (ClosedSet kept = closed | struck.limits;;) {
@@ -365,7 +366,7 @@ ClosedSet Contacts::end_impact(double t, double* bodies, const Impact& impact, C
 
 /// The impact in which the limits of `at` hold and those of `struck` are hit.
 Contacts::Impact Contacts::collide(Stepper& at, double t, const double* bodies, ClosedSet struck) {
-  RedundantSystem& system = at.system;
+  MaximalSystem& system = at.system;
   const auto count = model_.limits.size(), rows = idx(at.model->rows());
   Impact out;
   out.impulse.assign(count, 0.0);
@@ -374,7 +375,7 @@ Contacts::Impact Contacts::collide(Stepper& at, double t, const double* bodies, 
   out.rebounds.assign(count, false);
   system.derivative(t, bodies, rate_.data());
   std::vector<double> before(rows), right(rows), impulse(rows);
-  system.rate_residual(bodies, before.data());
+  rate_residual(system.terms(), bodies, before.data());
   for (std::size_t r = 0; r < rows; ++r) right[r] = -before[r];
   for (std::size_t i = 0; i < count; ++i) {
     const Limit& limit = at.model->limits[i];
@@ -385,18 +386,18 @@ Contacts::Impact Contacts::collide(Stepper& at, double t, const double* bodies, 
     if (out.rebounds[i]) right[row] *= 1.0 + limit.restitution;
   }
   out.change.assign(idx(model_.body_count()) + 1, Vec6d::Zero());
-  system.solve(std::vector<Vec6d>(out.change), right, out.change, impulse);
+  system.solver().solve(std::vector<Vec6d>(out.change), right, out.change, impulse);
   for (std::size_t i = 0; i < count; ++i) {
     const Limit& limit = at.model->limits[i];
     if (limit.element < 0) continue;
-    out.impulse[i] = limit_force(limit, system, impulse.data());
+    out.impulse[i] = limit_force(limit, system.terms(), impulse.data());
     if (!holds(struck, static_cast<int>(i))) continue;
     const auto row = idx(at.model->elements[idx(limit.element)].row);
     out.lost[i] = -impulse[row] * (before[row] + 0.5 * right[row]);
   }
   for (std::size_t e = 0; e < at.model->elements.size(); ++e) {
     const ElementModel& element = at.model->elements[e];
-    if (element.driver) out.driver_work += impulse[idx(element.row)] * system.blocks()[e].nu[0];
+    if (element.driver) out.driver_work += impulse[idx(element.row)] * system.terms().blocks()[e].nu[0];
   }
   return out;
 }

@@ -20,7 +20,7 @@ void HeldInputs::set(const std::vector<double>& slots) {
 }
 
 void HeldInputs::give_to(Stepper& stepper) const {
-  stepper.system.set_inputs(slots_);
+  stepper.system.terms().set_inputs(slots_);
   stepper.loads.set_inputs(slots_);
 }
 

@@ -5,18 +5,19 @@
 #include <stdexcept>
 #include <utility>
 
+#include "seacrane/dynamics/energy.hpp"
 #include "seacrane/elements/check.hpp"
 
 namespace seacrane {
 namespace {
 
-[[noreturn]] void report_open_joint(const RedundantSystem& system, double t) {
+[[noreturn]] void report_open_joint(const Terms& terms, double t) {
   double worst = -1.0;
   std::string name;
-  for (std::size_t e = 0; e < system.model().elements.size(); ++e) {
-    const ElementModel& element = system.model().elements[e];
+  for (std::size_t e = 0; e < terms.model().elements.size(); ++e) {
+    const ElementModel& element = terms.model().elements[e];
     if (element.rows == 0) continue;
-    const double open = system.blocks()[e].phi.head(element.rows).cwiseAbs().maxCoeff();
+    const double open = terms.blocks()[e].phi.head(element.rows).cwiseAbs().maxCoeff();
     if (open > worst || std::isnan(open)) {
       worst = open;
       name = element.name;
@@ -47,7 +48,7 @@ OutputSampler::OutputSampler(const Model& model, const RunOptions& options, Rank
 
 void OutputSampler::start(Stepper& at, double t, const double* bodies) {
   while (next_ < times_.size() && times_[next_] < t) ++next_;
-  start_energy_ = at.system.energy(t, bodies);
+  start_energy_ = mechanical_energy_at(at.system.terms(), t, bodies);
   start_work_ = bodies[model_.layout.work];
 }
 
@@ -71,7 +72,7 @@ void OutputSampler::take_residual(Stepper& at) {
 /// Projects state_, writes bodies_, and returns the largest residual before projection since the last output.
 double OutputSampler::project(Stepper& at, double t) {
   at.stepped.project(t, state_.data(), false);
-  at.stepped.write_bodies(t, state_.data(), bodies_.data());
+  at.write_bodies(t, state_.data(), bodies_.data());
   return std::max(largest_residual_, at.stepped.take_residual_before_projection());
 }
 
@@ -79,13 +80,13 @@ ConstraintResidual OutputSampler::evaluate(Stepper& at, double t, const Needs& n
   if (needs.solution) {
     at.system.derivative(t, bodies_.data(), rate_.data());
     // The tree factors no constraints of its own joints.
-    if (at.other) watch_rank(at, t);
+    if (&at.stepped != &at.system) watch_rank(at, t);
   } else if (needs.loads || needs.energy) {
-    at.system.evaluate_terms(t, bodies_.data(), rate_.data());
+    at.system.terms().evaluate(t, bodies_.data(), rate_.data());
   } else {
-    return at.system.residual(t, bodies_.data());
+    return constraint_residual(at.system.terms(), t, bodies_.data());
   }
-  return at.system.residual_here(bodies_.data());
+  return constraint_residual(at.system.terms(), bodies_.data());
 }
 
 /// Of the rows described: those that are stepped are fewer in the recursive form.
@@ -99,13 +100,14 @@ void OutputSampler::write(Stepper& at, double t, double residual_before, double 
   Needs needs = out.needs();
   needs.energy = needs.energy || energy_.has_limit();
   const ConstraintResidual residual = evaluate(at, t, needs);
-  if (!(residual.position <= kLargestResidual)) report_open_joint(at.system, t);
+  if (!(residual.position <= kLargestResidual)) report_open_joint(at.system.terms(), t);
   const double* const work = bodies_.data() + model_.layout.work;
-  const double energy = needs.energy ? at.system.energy_here(t, bodies_.data()) : start_energy_;
+  const double energy =
+      needs.energy ? mechanical_energy(at.system.terms(), t, bodies_.data()) : start_energy_;
   const double balance = energy - start_energy_ - (work[0] - start_work_);
-  out.append({t, bodies_.data(), at.system, residual.position, residual.rate, residual_before, balance,
-              impact_loss});
-  if (energy_.has_limit()) energy_.check(t, bodies_.data(), at.system, balance, work[1], energy);
+  out.append({t, bodies_.data(), at.system, at.system.terms(), residual.position, residual.rate,
+              residual_before, balance, impact_loss});
+  if (energy_.has_limit()) energy_.check(t, bodies_.data(), at.system.terms(), balance, work[1], energy);
 }
 
 void OutputSampler::record_until(Stepper& at, double t, double impact_loss) {

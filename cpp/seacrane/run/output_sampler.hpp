@@ -3,6 +3,7 @@
 #include <limits>
 #include <vector>
 
+#include "seacrane/dynamics/constraints.hpp"
 #include "seacrane/run/guards.hpp"
 #include "seacrane/run/recording.hpp"
 #include "seacrane/run/restart.hpp"

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "seacrane/compile/compile.hpp"
+#include "seacrane/dynamics/constraints.hpp"
 
 namespace seacrane {
 namespace {
@@ -41,16 +42,16 @@ Simulation::Simulation(std::shared_ptr<const Model> model, const State& start, R
   if (Switches::any(*model_)) switches_ = std::make_unique<Switches>();
   put_on_constraints(start.time);
   end_of_smooth_stretch(start.time);
-  start_histories(stepper(), start.time, bodies_.data(), start.histories);
+  stepper().bodies.start_histories(start.time, bodies_.data(), start.histories);
   outputs_.start(stepper(), start.time, bodies_.data());
   begin_steps(start);
   record_until(start.time);
 }
 
 void Simulation::put_on_constraints(double t) {
-  RedundantSystem& system = stepper().system;
+  MaximalSystem& system = stepper().system;
   system.project(t, bodies_.data(), false);
-  const double open = system.residual(t, bodies_.data()).position;
+  const double open = constraint_residual(system.terms(), t, bodies_.data()).position;
   if (!(open <= kLargestResidual)) {
     throw std::invalid_argument("state: leaves joints or drivers open by " + to_text(open) +
                                 " m or rad at t = " + to_text(t) +
@@ -89,7 +90,7 @@ bool Simulation::carry_out_event() {
   state_.resize(at.stepped.size());
   integrator().interpolate(t, state_.data());
   at.stepped.project(t, state_.data(), false);
-  at.stepped.write_bodies(t, state_.data(), bodies_.data());
+  at.write_bodies(t, state_.data(), bodies_.data());
   event_time_ = t;
   end_of_smooth_stretch(t);
   ClosedSet closed = at.model->closed;
@@ -153,7 +154,7 @@ void Simulation::step(double limit) {
     at.integrator->step(limit);
     require_finite(*at.integrator, at.stepped);
   } catch (const IntegrationError& error) {
-    explain(error, *at.integrator, at.stepped, at.system);
+    explain(error, at);
   }
   if (at.integrator->is_adaptive()) stall_.step(time());
   const Dependence found = at.stepped.take_dependence();
@@ -165,7 +166,7 @@ void Simulation::step(double limit) {
 /// A coordinate that turns keeps its joint closed however wrong it is: where no error is estimated, only the
 /// turn itself can tell.
 void Simulation::check_turning() const {
-  const RedundantSystem& loads = stepper().loads;
+  const Terms& loads = stepper().loads;
   const double h = time() - integrator().previous_time();
   for (int b = 0; b < loads.model().body_count(); ++b) {
     const double turn = h * loads.bodies()[idx(b)].angular_velocity.norm();
@@ -180,10 +181,10 @@ void Simulation::check_turning() const {
 /// continues from there.
 void Simulation::finish_step(double now, double stop) {
   // The memory's load is smooth over a sample: no derivative is thrown away.
-  if (now >= stepper().system.next_sample()) {
+  if (now >= stepper().system.terms().histories().next_sample()) {
     record_until(std::nextafter(now, -kNever));
     write_bodies(bodies_.data());
-    sample_histories(stepper(), now, bodies_.data());
+    stepper().bodies.sample_histories(now, bodies_.data());
   }
   record_until(now);
   if (now < stop) return;
@@ -201,7 +202,7 @@ bool Simulation::advance(double t_end, const std::function<bool(double)>& keep_g
   bool going = true;
   while (going && time() < t_end) {
     const double stop = std::min(end_of_smooth_stretch(time()), switch_at_);
-    step(std::min({stop, stepper().system.next_sample(), t_end}));
+    step(std::min({stop, stepper().system.terms().histories().next_sample(), t_end}));
     const double now = time();
     if (retake_to_switch()) continue;
     if (!is_adaptive()) check_turning();
@@ -224,7 +225,7 @@ void Simulation::set_inputs(const std::vector<double>& slots) {
 }
 
 void Simulation::write_bodies(double* bodies) const {
-  stepper().stepped.write_bodies(time(), integrator().state(), bodies);
+  stepper().write_bodies(time(), integrator().state(), bodies);
 }
 
 State Simulation::state() {
@@ -234,7 +235,7 @@ State Simulation::state() {
   write_bodies(out.values.data());
   outputs_.take_residual(stepper());
   out.inputs = inputs_.slots();
-  out.histories = stepper().system.histories();
+  out.histories = stepper().system.terms().histories().save();
   out.steps = save_steps(stepper(), options_.integrator);
   out.closed = names_of(model_->limits, stepper().model->closed);
   out.record = outputs_.history(time(), energy_lost());

@@ -2,8 +2,8 @@
 
 #include <stdexcept>
 #include <string>
+#include <utility>
 
-#include "seacrane/dynamics/merged.hpp"
 #include "seacrane/dynamics/recursive/body_tree.hpp"
 #include "seacrane/elements/check.hpp"
 #include "seacrane/run/run_options.hpp"
@@ -39,20 +39,13 @@ std::string formulation_of(const Model& model, const RunOptions& run) {
 
 Stepper::Stepper(std::shared_ptr<const Model> of, const RunOptions& options)
     : model(std::move(of)),
-      system(model),
-      other(make_formulation(formulation_of(*model, options), system)),
-      stepped(other ? *other : system),
-      loads(stepped.loads_from()),
-      residual(loads),
-      integrator(make_integrator(
-          {stepped, &stepped.positions(), options.formulation == "redundant" ? &residual : nullptr},
-          integrator_options(stepped, options))),
-      merged_state_(loads.size(), 0.0) {}
-
-const double* Stepper::stepped_bodies(const double* bodies) {
-  if (&loads == &system) return bodies;
-  merge_state(*model, loads.model(), bodies, merged_state_.data());
-  return merged_state_.data();
+      bodies(formulation_of(*model, options), model),
+      system(bodies.described()),
+      stepped(bodies.formulation()),
+      loads(bodies.terms()) {
+  if (options.formulation == "redundant") residual.emplace(*bodies.maximal());
+  integrator = make_integrator({stepped, &stepped.positions(), residual ? &*residual : nullptr},
+                               integrator_options(stepped, options));
 }
 
 }  // namespace seacrane

@@ -1,10 +1,11 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "seacrane/dynamics/gear_gupta_leimkuhler.hpp"
-#include "seacrane/dynamics/redundant.hpp"
+#include "seacrane/dynamics/stepped_bodies.hpp"
 #include "seacrane/integrate/registry.hpp"
 
 namespace seacrane {
@@ -19,20 +20,20 @@ struct Stepper {
   Stepper& operator=(const Stepper&) = delete;
 
   std::shared_ptr<const Model> model;
-  RedundantSystem system;              // of the described bodies: what is recorded
-  std::unique_ptr<Formulation> other;  // null: the redundant system itself is stepped
+  SteppedBodies bodies;
+  MaximalSystem& system;  // of the described bodies: what is recorded
   Formulation& stepped;
-  RedundantSystem& loads;  // that are stepped
-  GearGuptaLeimkuhler residual;
+  Terms& loads;                                 // that are stepped
+  std::optional<GearGuptaLeimkuhler> residual;  // of what is stepped in maximal coordinates, where asked for
   std::unique_ptr<Integrator> integrator;
   bool started = false;  // the integrator has been given a state
 
+  /// A state of the described bodies to the one that is stepped, and back.
+  void read_bodies(double t, const double* described, double* y) { bodies.read(t, described, y); }
+  void write_bodies(double t, const double* y, double* described) { bodies.write(t, y, described); }
   /// The state of the bodies that are stepped, merged ones as one.
-  const double* stepped_bodies(const double* bodies);
+  const double* stepped_bodies(const double* described) { return bodies.merged(described); }
   const std::shared_ptr<const Model>& stepped_model() const { return model->merged ? model->merged : model; }
-
- private:
-  std::vector<double> merged_state_;
 };
 
 }  // namespace seacrane

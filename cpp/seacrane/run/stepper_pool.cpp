@@ -24,8 +24,6 @@ std::shared_ptr<const Model> model_of(const std::shared_ptr<const Model>& model,
   return closed == model->closed ? model : compile_set(*model, closed);
 }
 
-bool outputs_differ(const Stepper& at) { return &at.loads != &at.system; }
-
 }  // namespace
 
 StepperPool::StepperPool(std::shared_ptr<const Model> model, ClosedSet closed, const RunOptions& options,
@@ -44,9 +42,9 @@ Stepper& StepperPool::of(ClosedSet closed, double t, const double* bodies) {
   if (is_new) steppers_.push_back(std::make_unique<Stepper>(model_of(model_, closed), options_));
   Stepper& out = is_new ? *steppers_.back() : **known;
   inputs_.give_to(out);
-  set_curve_limit(out, current_->system.curve_limit());
-  const auto histories = current_->system.histories();
-  if (!histories.empty()) start_histories(out, t, bodies, histories);
+  set_curve_limit(out, current_->system.terms().curve_limit());
+  const auto histories = current_->system.terms().histories().save();
+  if (!histories.empty()) out.bodies.start_histories(t, bodies, histories);
   return out;
 }
 
@@ -54,7 +52,7 @@ void StepperPool::step_from(Stepper& next, double t, const double* bodies) {
   const bool same = &next == current_ && next.started;
   current_ = &next;
   state_.resize(next.stepped.size());
-  next.stepped.read_bodies(t, bodies, state_.data());
+  next.read_bodies(t, bodies, state_.data());
   if (same) {
     next.integrator->reset(t, state_.data());
     return;
@@ -75,25 +73,13 @@ Counters StepperPool::counters() const {
 long StepperPool::dense_solves() const {
   long out = 0;
   for (const auto& stepper : steppers_) {
-    out += stepper->system.dense_solves();
-    if (outputs_differ(*stepper)) out += stepper->loads.dense_solves();
+    out += stepper->bodies.dense_solves();
   }
   return out;
 }
 
-void start_histories(Stepper& at, double t, const double* bodies,
-                     const std::vector<TwistHistory>& histories) {
-  at.loads.start_histories(t, at.stepped_bodies(bodies), histories);
-  if (outputs_differ(at)) at.system.take_histories(at.loads);
-}
-
-void sample_histories(Stepper& at, double t, const double* bodies) {
-  at.loads.sample(t, at.stepped_bodies(bodies));
-  if (outputs_differ(at)) at.system.take_histories(at.loads);
-}
-
 void set_curve_limit(Stepper& at, double time) {
-  at.system.set_curve_limit(time);
+  at.system.terms().set_curve_limit(time);
   at.loads.set_curve_limit(time);
 }
 

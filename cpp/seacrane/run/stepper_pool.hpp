@@ -43,14 +43,6 @@ class StepperPool {
   std::vector<double> state_;
 };
 
-/// Starts the histories of vessels with a convolution from those given; none: at rest before t. There is one
-/// history for the steps and the outputs: two would differ by rounding, and so would runs that continue from
-/// the one or the other.
-void start_histories(Stepper& at, double t, const double* bodies, const std::vector<TwistHistory>& histories);
-
-/// Takes the samples due at the state (t, bodies).
-void sample_histories(Stepper& at, double t, const double* bodies);
-
 /// The end of the present smooth stretch of curves, see Curve::at.
 void set_curve_limit(Stepper& at, double time);
 

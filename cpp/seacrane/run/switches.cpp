@@ -42,13 +42,13 @@ bool Switches::any(const Model& model) {
 
 void Switches::read(Stepper& at, double t, const double* y) {
   bodies_.resize(at.system.size());
-  at.stepped.write_bodies(t, y, bodies_.data());
-  at.system.read_kinematics(t, bodies_.data());
+  at.write_bodies(t, y, bodies_.data());
+  at.system.terms().read(t, bodies_.data());
 }
 
 void Switches::find_sides(Stepper& at, double t, const double* y, std::vector<int>& sides) {
   read(at, t, y);
-  const LoadInput<double> in = at.system.load_input(t);
+  const LoadInput<double> in = at.system.terms().load_input(t);
   sides.clear();
   for (const SoftStop& stop : stops_of(*at.model)) {
     sides.push_back(pressed(stop, in, 1) > 0.0 ? 1 : (pressed(stop, in, -1) > 0.0 ? -1 : 0));
@@ -61,7 +61,7 @@ void Switches::find_sides(Stepper& at, double t, const double* y, std::vector<in
 }
 
 double Switches::across(Stepper& at, std::size_t load, int from, int to) const {
-  const LoadInput<double> in = at.system.load_input(0.0);
+  const LoadInput<double> in = at.system.terms().load_input(0.0);
   const auto& stops = stops_of(*at.model);
   if (load < stops.size()) return pressed(stops[load], in, from != 0 ? from : to);
   std::size_t left = load - stops.size();

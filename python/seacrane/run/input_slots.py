@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from seacrane import _core
 from seacrane.description.joint_coordinates import ANGLES
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import numbers_of
@@ -16,22 +17,14 @@ from seacrane.scene.scene import Scene
 Array = NDArray[np.float64]
 
 
-def slots_of(scene: Scene) -> dict[str, slice]:
-    """Places of the inputs, in the order in which the core numbers them."""
-    widths: dict[str, int] = {}
-    for name in scene.actuators:
-        widths |= {f"{name}.force": 1, f"{name}.reference": 1}
-    widths |= {f"{name}.force": 3 for name in scene.point_forces}
-    ends = np.cumsum(list(widths.values()), dtype=int)
-    return {
-        name: slice(int(end) - width, int(end))
-        for (name, width), end in zip(widths.items(), ends, strict=True)
-    }
+def slots_of(model: _core.Model) -> dict[str, slice]:
+    """Places of the inputs."""
+    return {name: slice(first, first + count) for name, first, count in model.inputs}
 
 
-def changed_inputs(scene: Scene, present: Array, values: Mapping[str, Any]) -> Array:
+def changed_inputs(scene: Scene, model: _core.Model, present: Array, values: Mapping[str, Any]) -> Array:
     """The inputs with some of them replaced by name; SceneError for what is unknown or makes no sense."""
-    places = slots_of(scene)
+    places = slots_of(model)
     slots = np.array(present)
     for name, value in values.items():
         if name not in places:
@@ -55,9 +48,9 @@ def _check_turn(scene: Scene, name: str, jump: float) -> None:
         )
 
 
-def steered(scene: Scene, inputs: Array) -> set[str]:
+def steered(scene: Scene, model: _core.Model, inputs: Array) -> set[str]:
     """Actuators whose inputs are not zero."""
-    values, places = np.asarray(inputs), slots_of(scene)
+    values, places = np.asarray(inputs), slots_of(model)
     return {
         name
         for name in scene.actuators

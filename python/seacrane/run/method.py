@@ -22,7 +22,7 @@ class Method:
     Attributes
     ----------
     integrator : str
-        One of `seacrane.integrator_names()`; the table in docs/design.md tells them apart.
+        One of `seacrane.integrator_names()`; docs/integrators.md says what each is for.
     tolerance : float, optional
         Local error per step over the scale of each state (0.1 m, 0.01 rad, 0.1 m/s, 0.01 rad/s; lengths
         times `scene.length_scale`): absolute, so that results do not depend on where the origin is. Methods

@@ -96,7 +96,7 @@ class Run:
         if self.scene.waves is not None:
             self.scene.waves.warn_of_repeats(self.t_end - self.start.time)
         self.interrupted = False
-        self.steered = steered(self.scene, self.start.inputs)
+        self.steered = steered(self.scene, self.model, self.start.inputs)
         self.slow: list[Finding] = []  # what made the run slow, known at its end
         self._require_plain_stats()
 
@@ -139,9 +139,9 @@ class Run:
     def set_inputs(self, values: Mapping[str, Any]) -> None:
         """Set inputs by name from now on; see `SampledController`."""
         with self.core:
-            slots = changed_inputs(self.scene, np.array(self.core.state.inputs), values)
+            slots = changed_inputs(self.scene, self.model, np.array(self.core.state.inputs), values)
             self.core.set_inputs(slots)
-            self.steered |= steered(self.scene, slots)
+            self.steered |= steered(self.scene, self.model, slots)
 
     def events(self) -> list[Event]:
         """What limits did so far."""

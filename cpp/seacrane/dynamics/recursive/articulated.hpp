@@ -54,7 +54,6 @@ class ArticulatedTree {
   void spread(std::size_t i, bool moving, Vec6<T>* acceleration, T* u_rate) const;
 
   const std::vector<Cluster>& clusters() const { return kinematics_.tree().clusters; }
-  const Twist<T>& column(const Member& m, int k) const { return kinematics_.column(m, k); }
 
   TreeKinematics<T> kinematics_;
   int ground_;
@@ -124,7 +123,10 @@ T ArticulatedTree<T>::condition(const Mat6<T>* mass) const {
     T& pivot = pivots[idx(c.parent)];
     for (int k = 0; k < c.speeds; ++k) {
       T own = T(0);
-      for (const Member& m : c.members) own += dot(column(m, k), inertia_[idx(m.body)] * column(m, k));
+      for (const Member& m : c.members) {
+        const Twist<T>& column = kinematics_.columns(m)[k];
+        own += dot(column, inertia_[idx(m.body)] * column);
+      }
       pivot = std::max<T>(pivot, own * inverse_[i](k, k));
     }
     worst = std::max(worst, pivot);
@@ -151,9 +153,11 @@ void ArticulatedTree<T>::factor_cluster(std::size_t i) {
   Mat<n> gram = Mat<n>::Zero();
   for (int k = 0; k < n; ++k) at_parent_[idx(c.u + k)] = Wrench<T>::zero();
   for (const Member& m : c.members) {
+    const SpatialInertia<T>& inertia = inertia_[idx(m.body)];
+    const Twist<T>* const column = kinematics_.columns(m);
     for (int k = 0; k < n; ++k) {
-      const Wrench<T> weighted = inertia_[idx(m.body)] * column(m, k);
-      for (int l = k; l < n; ++l) gram(l, k) += dot(column(m, l), weighted);
+      const Wrench<T> weighted = inertia * column[k];
+      for (int l = k; l < n; ++l) gram(l, k) += dot(column[l], weighted);
       at_parent_[idx(c.u + k)].add_shifted_from(kinematics_.reach(m.body), weighted);
     }
   }
@@ -173,7 +177,7 @@ void ArticulatedTree<T>::factor_cluster(std::size_t i) {
 
 template <class T>
 void ArticulatedTree<T>::solve(const Vec6<T>* load, bool moving, Vec6<T>* acceleration, T* u_rate) {
-  for (int b = 0; b < ground_; ++b) force_[idx(b)] = -Wrench<T>(load[b]);
+  for (int b = 0; b < ground_; ++b) force_[idx(b)] = Wrench<T>(-load[b]);
   for (std::size_t i = clusters().size(); i-- > 0;) {
     with_speeds(clusters()[i], [&]<int n>() { gather<n>(i, moving); });
   }
@@ -195,7 +199,8 @@ void ArticulatedTree<T>::gather(std::size_t i, bool moving) {
   for (const Member& m : c.members) {
     Wrench<T>& force = force_[idx(m.body)];
     if (moving) force += inertia_[idx(m.body)] * kinematics_.bias(m.body);
-    for (int k = 0; k < n; ++k) torque[k] -= dot(column(m, k), force);
+    const Twist<T>* const column = kinematics_.columns(m);
+    for (int k = 0; k < n; ++k) torque[k] -= dot(column[k], force);
   }
   torque_[i].template head<n>() = inverse_[i].template topLeftCorner<n, n>() * torque;
   if (c.parent == ground_) return;
@@ -222,7 +227,8 @@ void ArticulatedTree<T>::spread(std::size_t i, bool moving, Vec6<T>* acceleratio
   for (const Member& m : c.members) {
     Twist<T> a = parent.shifted_to(kinematics_.reach(m.body));
     if (moving) a += kinematics_.bias(m.body);
-    for (int k = 0; k < n; ++k) a += rate[k] * column(m, k);
+    const Twist<T>* const column = kinematics_.columns(m);
+    for (int k = 0; k < n; ++k) a += rate[k] * column[k];
     acceleration[m.body] = a.vector();
   }
 }

@@ -105,7 +105,7 @@ class TreeBuilder {
   }
 
   /// Whether the hinge angle tells the strut's pose in every position: ends off the slide's line must not
-  /// come as near as that, where the stroke goes on and the hinge turns back; no ends may meet, where the
+  /// come as near as that, where the stroke continues and the hinge turns back; no ends may meet, where the
   /// line between them has no direction; nor may the universal joint start with the strut in the plane of its
   /// axes, free to spin.
   bool angle_tells(const Pattern& p, int parent, int body) const {

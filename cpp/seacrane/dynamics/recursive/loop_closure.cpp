@@ -100,7 +100,7 @@ void LoopClosure::factor(const RowBlock<double>* blocks, const Mat6d* mass,
 Dependence LoopClosure::take_dependence() {
   if (rows_.empty()) return {};
   redundant_ = redundant_rows(model_, redundant_, left_out_);
-  // Rows redundant from the start leave nothing of the worst one, always.
+  // Rows that are redundant from the start always reduce the worst one to zero.
   if (redundant_ > 0 && redundant_ <= left_out_) {
     ratio_ = redundant_ < rows() ? 1.0 / std::max(0.0, eigen_.eigenvalues()[redundant_]) : 1.0;
   }
@@ -183,7 +183,7 @@ void LoopClosure::add_load(const RowBlock<double>* blocks, const VecXd& multipli
 }
 
 void LoopClosure::add_driver_power(const RowBlock<double>* blocks, const VecXd& multipliers,
-                                   RedundantSystem& terms) const {
+                                   Terms& terms) const {
   for (std::size_t i = 0; i < rows_.size(); ++i) {
     if (!rows_[i].driver) continue;
     terms.add_driver_power(multipliers[static_cast<Eigen::Index>(i)] * blocks[rows_[i].element].nu[0]);

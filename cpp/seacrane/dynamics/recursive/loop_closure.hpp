@@ -4,14 +4,15 @@
 #include <Eigen/Eigenvalues>
 #include <vector>
 
+#include "seacrane/dynamics/dependence.hpp"
 #include "seacrane/dynamics/recursive/articulated.hpp"
-#include "seacrane/dynamics/redundant.hpp"
+#include "seacrane/dynamics/terms.hpp"
 
 namespace seacrane {
 
 /// Rows that a tree leaves open (cut joints, drivers): a small dense block G = D M^-1 D^T on top of the tree,
 /// one response of the tree per row. Where rows depend on each other or on what the tree holds, only the
-/// combinations that geometry tells apart are enforced, by the measure of the redundant form (RowSpace).
+/// combinations that geometry tells apart are enforced, by the measure of the maximal form (RowSpace).
 /// Nothing is allocated after construction. Scratch of one run.
 class LoopClosure {
  public:
@@ -33,8 +34,7 @@ class LoopClosure {
   /// gamma - D a.
   void acceleration_residual(const RowBlock<double>* blocks, const Vec6d* acceleration, VecXd& out) const;
   /// Drivers do work lambda nu.
-  void add_driver_power(const RowBlock<double>* blocks, const VecXd& multipliers,
-                        RedundantSystem& terms) const;
+  void add_driver_power(const RowBlock<double>* blocks, const VecXd& multipliers, Terms& terms) const;
   /// How much cancels in the entries of G, times largest over smallest pivot.
   double condition() const { return condition_; }
   Dependence take_dependence();
@@ -67,7 +67,7 @@ class LoopClosure {
   Eigen::SelfAdjointEigenSolver<MatXd> eigen_;
   double condition_ = 1.0, ratio_ = 1.0;
   bool dependent_ = false;
-  int redundant_ = -1, left_out_ = 0, most_left_out_ = 0;  // combinations of rows; -1: not told yet
+  int redundant_ = -1, left_out_ = 0, most_left_out_ = 0;  // combinations of rows; -1: not known yet
 };
 
 }  // namespace seacrane

@@ -4,9 +4,11 @@
 #include <cmath>
 #include <limits>
 #include <stdexcept>
+#include <utility>
 
 #include "seacrane/dynamics/constraints.hpp"
 #include "seacrane/dynamics/projection.hpp"
+#include "seacrane/dynamics/state_names.hpp"
 
 namespace seacrane {
 namespace {
@@ -43,9 +45,9 @@ inline Vec6d compact_terms(const BodyModel& body, const BodyKinematics<double>& 
 
 }  // namespace
 
-RecursiveSystem::RecursiveSystem(RedundantSystem& terms)
-    : terms_(terms),
-      model_(terms.model()),
+RecursiveSystem::RecursiveSystem(std::shared_ptr<Terms> terms)
+    : terms_(std::move(terms)),
+      model_(terms_->model()),
       tree_(build_tree(model_)),
       articulated_(tree_, model_.body_count()),
       loops_(model_, tree_),
@@ -82,16 +84,16 @@ std::vector<double> RecursiveSystem::scale() const {
 }
 
 void RecursiveSystem::place(const double* y) {
-  articulated_.place(y, y + layout_.speeds, terms_.kinematics());
+  articulated_.place(y, y + layout_.speeds, terms_->kinematics());
 }
 
 void RecursiveSystem::evaluate_inertia() {
   for (int b = 0; b < model_.body_count(); ++b) {
     const BodyModel& body = model_.bodies[idx(b)];
-    const BodyKinematics<double>& k = terms_.bodies()[idx(b)];
+    const BodyKinematics<double>& k = terms_->bodies()[idx(b)];
     bias_[idx(b)] = body.vessel < 0 ? compact_terms(body, k, mass_[idx(b)])
                                     : vessel_terms(body, model_.vessels[idx(body.vessel)], k,
-                                                   terms_.frame(body.vessel), mass_[idx(b)]);
+                                                   terms_->frames()[idx(body.vessel)], mass_[idx(b)]);
   }
 }
 
@@ -99,27 +101,27 @@ void RecursiveSystem::factor(double t) {
   evaluate_inertia();
   articulated_.factor(mass_.data());
   if (loops_.rows() == 0) return;
-  evaluate_constraints(model_, t, terms_.curve_limit(), terms_.bodies().data(), blocks_.data());
-  loops_.factor(blocks_.data(), mass_.data(), terms_.bodies().data(), articulated_);
+  evaluate_constraints(model_, t, terms_->curve_limit(), terms_->bodies().data(), blocks_.data());
+  loops_.factor(blocks_.data(), mass_.data(), terms_->bodies().data(), articulated_);
 }
 
 void RecursiveSystem::derivative(double t, const double* y, double* ydot) {
   place(y);
-  terms_.follow_yaw();
+  terms_->follow_yaw();
   factor(t);
-  terms_.evaluate_wrenches(t, y + layout_.memory, ydot + layout_.memory);
-  for (int b = 0; b < model_.body_count(); ++b) load_[idx(b)] = terms_.wrench(b) - bias_[idx(b)];
+  terms_->evaluate_wrenches(t, y + layout_.memory, ydot + layout_.memory);
+  for (int b = 0; b < model_.body_count(); ++b) load_[idx(b)] = terms_->wrench(b) - bias_[idx(b)];
   articulated_.solve(load_.data(), true, acceleration_.data(), ydot + layout_.speeds);
   if (loops_.rows() > 0) {
     loops_.acceleration_residual(blocks_.data(), acceleration_.data(), residual_);
     const VecXd& lambda = loops_.solve(residual_);
     loops_.add_load(blocks_.data(), lambda, load_.data());
     articulated_.solve(load_.data(), true, acceleration_.data(), ydot + layout_.speeds);
-    loops_.add_driver_power(blocks_.data(), lambda, terms_);
+    loops_.add_driver_power(blocks_.data(), lambda, *terms_);
   }
-  articulated_.kinematics().position_rates(y, y + layout_.speeds, terms_.bodies().data(), ydot);
-  ydot[layout_.work] = terms_.power();
-  ydot[layout_.work + 1] = terms_.absolute_power();
+  articulated_.kinematics().position_rates(y, y + layout_.speeds, terms_->bodies().data(), ydot);
+  ydot[layout_.work] = terms_->power().sum;
+  ydot[layout_.work + 1] = terms_->power().absolute;
 }
 
 bool RecursiveSystem::jacobian(double t, const double* y, double* out) {
@@ -130,7 +132,7 @@ bool RecursiveSystem::jacobian(double t, const double* y, double* out) {
   derivative(t, y, jacobian_rate_.data());
   if (!loops_.regular()) return false;
   jacobian_->evaluate(
-      {terms_, articulated_, loops_, mass_.data(), load_.data(), acceleration_.data(), blocks_.data()}, t, y,
+      {*terms_, articulated_, loops_, mass_.data(), load_.data(), acceleration_.data(), blocks_.data()}, t, y,
       jacobian_rate_.data(), out);
   return true;
 }
@@ -145,7 +147,7 @@ void RecursiveSystem::for_each_quaternion(F&& f) const {
 
 void RecursiveSystem::move(double h, double* y) {
   place(y);
-  articulated_.kinematics().position_rates(y, y + layout_.speeds, terms_.bodies().data(),
+  articulated_.kinematics().position_rates(y, y + layout_.speeds, terms_->bodies().data(),
                                            position_rate_.data());
   for_each_quaternion([&](int at) {
     const Vec4d q = view<4>(y + at);
@@ -157,7 +159,7 @@ void RecursiveSystem::move(double h, double* y) {
 
 /// q -= (rates of the positions at `velocities`, speeds of an impulse).
 void RecursiveSystem::move_positions(double* y, const Vec6d* velocities) {
-  scratch_ = terms_.bodies();
+  scratch_ = terms_->bodies();
   for (int b = 0; b < model_.body_count(); ++b) {
     scratch_[idx(b)].angular_velocity = velocities[b].tail<3>();
   }
@@ -167,7 +169,7 @@ void RecursiveSystem::move_positions(double* y, const Vec6d* velocities) {
 
 void RecursiveSystem::twists_here() {
   for (int b = 0; b < model_.body_count(); ++b) {
-    const BodyKinematics<double>& k = terms_.bodies()[idx(b)];
+    const BodyKinematics<double>& k = terms_->bodies()[idx(b)];
     twist_[idx(b)] = k.twist().vector();
   }
 }
@@ -184,7 +186,7 @@ bool RecursiveSystem::project(double t, double* y, bool evaluated_here) {
   if (loops_.rows() == 0) return normalised;
   if (!evaluated_here || normalised) {
     place(y);
-    terms_.follow_yaw();
+    terms_->follow_yaw();
     factor(t);
   }
   const auto open = [&] {
@@ -198,12 +200,12 @@ bool RecursiveSystem::project(double t, double* y, bool evaluated_here) {
     loops_.add_load(blocks_.data(), loops_.solve(residual_), load_.data());
     articulated_.solve(load_.data(), false, acceleration_.data(), speed_rate_.data());
   };
-  const double tolerance = position_tolerance(terms_.bodies().data(), model_.body_count());
+  const double tolerance = position_tolerance(terms_->bodies().data(), model_.body_count());
   const bool moved = projection::close_positions(worst, tolerance, [&](int /*i*/) {
     impulse();
     move_positions(y, acceleration_.data());
     place(y);
-    terms_.follow_yaw();
+    terms_->follow_yaw();
     factor(t);
     return open();
   });
@@ -228,8 +230,8 @@ double RecursiveSystem::take_residual_before_projection() {
 }
 
 void RecursiveSystem::read_bodies(double t, const double* bodies, double* y) {
-  terms_.read_kinematics(t, bodies);
-  articulated_.read(terms_.bodies().data(), y, y + layout_.speeds);
+  terms_->read(t, bodies);
+  articulated_.read(terms_->bodies().data(), y, y + layout_.speeds);
   std::copy_n(bodies + model_.layout.memory, layout_.size - layout_.memory, y + layout_.memory);
 }
 
@@ -237,7 +239,7 @@ void RecursiveSystem::write_bodies(double /*t*/, const double* y, double* bodies
   place(y);
   const StateLayout& s = model_.layout;
   for (int b = 0; b < s.bodies; ++b) {
-    const BodyKinematics<double>& k = terms_.bodies()[idx(b)];
+    const BodyKinematics<double>& k = terms_->bodies()[idx(b)];
     double* pose = bodies + s.pose(b);
     view<3>(pose) = k.position;
     if (s.pose_size == 7) {
@@ -264,7 +266,7 @@ std::string RecursiveSystem::describe(std::size_t component) const {
                      : "speed " + std::to_string(i - layout_.speeds - c.u)) +
            " of " + of;
   }
-  return i < layout_.work ? terms_.describe_memory(i - layout_.memory) : "work integral";
+  return i < layout_.work ? describe_memory(model_, i - layout_.memory) : "work integral";
 }
 
 }  // namespace seacrane

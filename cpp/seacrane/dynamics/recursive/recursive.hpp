@@ -5,18 +5,19 @@
 #include <optional>
 #include <vector>
 
+#include "seacrane/dynamics/formulation.hpp"
 #include "seacrane/dynamics/recursive/recursive_jacobian.hpp"
-#include "seacrane/dynamics/redundant.hpp"
+#include "seacrane/dynamics/terms.hpp"
 
 namespace seacrane {
 
 /// The recursive formulation: positions and speeds of a tree of clusters, O(n); constraint rows only where
-/// the tree leaves a loop or a driver. Loads come from `terms`, the redundant system of the same model, whose
-/// kinematics this one sets. State: positions, speeds, memory, work, |work|.
+/// the tree leaves a loop or a driver. Loads come from `terms`, whose kinematics this one sets. State:
+/// positions, speeds, memory, work, |work|.
 class RecursiveSystem final : public Formulation, public PositionMap {
  public:
   /// Throws std::invalid_argument for the paper's kinematics and Baumgarte stabilisation.
-  explicit RecursiveSystem(RedundantSystem& terms);
+  explicit RecursiveSystem(std::shared_ptr<Terms> terms);
 
   std::size_t size() const override { return idx(layout_.size); }
   void derivative(double t, const double* y, double* ydot) override;
@@ -32,9 +33,9 @@ class RecursiveSystem final : public Formulation, public PositionMap {
   std::vector<double> scale() const override;
   void read_bodies(double t, const double* bodies, double* y) override;
   void write_bodies(double t, const double* y, double* bodies) override;
-  const std::vector<Vec6d>& accelerations() override { return acceleration_; }
+  const std::vector<Vec6d>& accelerations() const override { return acceleration_; }
   void load_response(const std::vector<Vec6d>& load, std::vector<Vec6d>& acceleration) override;
-  RedundantSystem& loads_from() override { return terms_; }
+  Terms& terms() override { return *terms_; }
   double take_residual_before_projection() override;
   std::string describe(std::size_t component) const override;
 
@@ -59,7 +60,7 @@ class RecursiveSystem final : public Formulation, public PositionMap {
   void for_each_quaternion(F&& f) const;
   bool normalise_quaternions(double* y, double drift) const;
 
-  RedundantSystem& terms_;
+  std::shared_ptr<Terms> terms_;
   const Model& model_;
   BodyTree tree_;
   ArticulatedTree<double> articulated_;

@@ -3,8 +3,6 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 
-#include "seacrane/dynamics/redundant.hpp"
-
 namespace seacrane {
 RecursiveJacobian::RecursiveJacobian(const Model& model, const BodyTree& tree)
     : model_(&model),
@@ -129,7 +127,7 @@ void RecursiveJacobian::spread_acceleration(const double* u_rate) {
         a += kinematics_.bias(m.body);
         a.linear() += cross<Scalar>(turning, kinematics_.reach(m.body));
       }
-      for (int k = 0; k < c.speeds; ++k) a += Scalar(u_rate[c.u + k]) * kinematics_.column(m, k);
+      for (int k = 0; k < c.speeds; ++k) a += Scalar(u_rate[c.u + k]) * kinematics_.columns(m)[k];
     }
   }
 }
@@ -157,7 +155,7 @@ void RecursiveJacobian::gather() {
     for (const Member& m : c.members) {
       const Wrench<Scalar>& f = force_[idx(m.body)];
       for (int k = 0; k < c.speeds; ++k) {
-        const Scalar g = dot(kinematics_.column(m, k), f);
+        const Scalar g = dot(kinematics_.columns(m)[k], f);
         torque_[i].row(k) += Eigen::Map<const Row>(g.slope.data());
       }
       if (c.kind == Cluster::floating) continue;
@@ -175,7 +173,7 @@ void RecursiveJacobian::write_column(int k, double* column) {
     const Cluster& c = tree_.clusters[i];
     if (c.speeds == 0) continue;
     Eigen::Matrix<double, 6, Eigen::Dynamic, 0, 6, 6> s(6, c.speeds);
-    for (int j = 0; j < c.speeds; ++j) s.col(j) = tree.column(c.members[0], j).vector();
+    for (int j = 0; j < c.speeds; ++j) s.col(j) = tree.columns(c.members[0])[j].vector();
     const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 6, 6> gram = s.transpose() * s;
     const Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 6, 1> torque = torque_[i].col(k).head(c.speeds);
     const Wrench<double> wrench(s * gram.llt().solve(torque));
@@ -252,7 +250,7 @@ void RecursiveJacobian::write_memory_columns(const double* y, double* out) {
     const int states = vessel.memory_states();
     const int at = first + vessel.memory_offset - m.layout.memory;
     if (states == 0) continue;
-    const YawFrame<double>& frame = at_->terms.frame(static_cast<int>(v));
+    const YawFrame<double>& frame = at_->terms.frames()[v];
     const double direction = memory_power_sign(vessel, frame, y + at, to_fluid_.col(0).data());
     to_fluid_.setZero();
     for (int i = 0; i < 6; ++i) {

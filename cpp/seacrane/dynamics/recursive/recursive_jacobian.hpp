@@ -10,7 +10,7 @@ namespace seacrane {
 
 /// What an evaluation of the recursive formulation left behind.
 struct TreeEvaluation {
-  RedundantSystem& terms;
+  const Terms& terms;
   ArticulatedTree<double>& tree;
   LoopClosure& loops;
   const Mat6d* mass;               // by body

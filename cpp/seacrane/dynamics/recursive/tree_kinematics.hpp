@@ -47,8 +47,8 @@ class TreeKinematics {
   }
 
   const BodyTree& tree() const { return tree_; }
-  /// Twist of a body per unit speed k of its cluster, its parent at rest, at the last place().
-  const Twist<T>& column(const Member& m, int k) const { return column_[idx(m.column + k)]; }
+  /// Twists of a body per unit speed of its cluster, its parent at rest, at the last place().
+  const Twist<T>* columns(const Member& m) const { return column_.data() + m.column; }
   /// From the parent's state point to the body's, at the last place().
   const Vec3<T>& reach(int body) const { return reach_[idx(body)]; }
   const Twist<T>& bias(int body) const { return bias_[idx(body)]; }
@@ -107,9 +107,10 @@ class TreeKinematics {
                     const Vec3<T>& lever, const T* u, BodyKinematics<T>& body) {
     Vec3<T> slide = Vec3<T>::Zero(), turn = Vec3<T>::Zero();
     for (int i = 0; i < speeds; ++i) {
-      const Vec3<T> linear = motion.slide[i] + cross<T>(motion.turn[i], lever);
-      column_[idx(m.column + i)] = {linear, motion.turn[i]};
-      slide += u[i] * linear;
+      Twist<T>& column = column_[idx(m.column + i)];
+      column.linear() = motion.slide[i] + cross<T>(motion.turn[i], lever);
+      column.angular() = motion.turn[i];
+      slide += u[i] * column.linear();
       turn += u[i] * motion.turn[i];
     }
     const Vec3<T>& w = parent.angular_velocity;
@@ -122,9 +123,10 @@ class TreeKinematics {
     body.angular_velocity = w + turn;
     // Centripetal, Coriolis, and what the joint's own directions turn.
     const Vec3<T> carried = swept + T(2) * slide, swung = cross<T>(turn, lever);
-    bias_[idx(m.body)] = {
-        cross<T>(w, carried) + motion.slide_bias + cross<T>(motion.turn_bias, lever) + cross<T>(turn, swung),
-        cross<T>(w, turn) + motion.turn_bias};
+    Twist<T>& bias = bias_[idx(m.body)];
+    bias.linear() =
+        cross<T>(w, carried) + motion.slide_bias + cross<T>(motion.turn_bias, lever) + cross<T>(turn, swung);
+    bias.angular() = cross<T>(w, turn) + motion.turn_bias;
   }
 
   const BodyTree& tree_;

@@ -52,12 +52,9 @@ struct Actuator {
 
   template <class Context>
   static Actuator compile(const Description& d, Context& context) {
-    return {context.coordinate(d.coordinate),
-            d.stiffness,
-            d.damping,
-            d.feed_forward,
-            d.reference,
-            context.slots(2)};
+    const int force = context.input(d.name + ".force");
+    context.input(d.name + ".reference");
+    return {context.coordinate(d.coordinate), d.stiffness, d.damping, d.feed_forward, d.reference, force};
   }
 
   std::vector<LoadKinks> kinks() const {

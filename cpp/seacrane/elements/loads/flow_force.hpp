@@ -24,7 +24,7 @@ struct FlowForceDescription {
 
   static constexpr const char* type = "FlowForce";
   static constexpr const char* text =
-      "Wind or current on a body by coefficients; see seacrane.add_wind and seacrane.add_current.\n\n"
+      "Wind or current on a body by coefficients; see Scene.add_wind and Scene.add_current.\n\n"
       "F_x, F_y = density / 2 V^2 (C_x frontal_area, C_y lateral_area), N = density / 2 V^2 C_n "
       "lateral_area\n"
       "length, V the horizontal flow relative to `point`, in axes that follow the body's yaw; C over "

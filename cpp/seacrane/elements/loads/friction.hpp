@@ -27,7 +27,7 @@ struct FrictionDescription {
 
   static constexpr const char* type = "Friction";
   static constexpr const char* text =
-      "Dry friction on a joint coordinate: -load tanh(rate / speed); see seacrane.add_friction.";
+      "Dry friction on a joint coordinate: -load tanh(rate / speed); see Scene.add_friction.";
   static constexpr auto fields() {
     using D = FrictionDescription;
     return std::tuple_cat(on_coordinate<D>(), std::tuple(required("load", &D::load, "N or N m", ""),

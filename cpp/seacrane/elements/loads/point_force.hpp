@@ -49,7 +49,7 @@ struct PointForce {
   template <class Context>
   static PointForce compile(const Description& d, Context& context) {
     const Attachment on = context.attach(d.body, d.point);
-    return {on.body, on.point, on.axes, d.force, d.body_axes, context.slots(3)};
+    return {on.body, on.point, on.axes, d.force, d.body_axes, context.input(d.name + ".force", 3)};
   }
 
   /// Inputs, which add to it, are held between calls of a controller, and those restart the integration.

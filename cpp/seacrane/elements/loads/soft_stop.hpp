@@ -16,7 +16,7 @@ struct SoftStopDescription {
   static constexpr const char* text =
       "Compliant bounds of a joint coordinate: stiffness p (1 + damping p') back where it is beyond one by "
       "p, "
-      "never a pull; see seacrane.add_soft_stop.";
+      "never a pull; see Scene.add_soft_stop.";
   static constexpr auto fields() {
     using D = SoftStopDescription;
     return std::tuple_cat(on_coordinate<D>(),

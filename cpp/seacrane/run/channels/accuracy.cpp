@@ -1,4 +1,4 @@
-#include "seacrane/dynamics/redundant.hpp"
+#include "seacrane/dynamics/maximal.hpp"
 #include "seacrane/run/channels/channel.hpp"
 
 namespace seacrane {

@@ -1,12 +1,12 @@
-#include "seacrane/dynamics/redundant.hpp"
+#include "seacrane/dynamics/maximal.hpp"
 #include "seacrane/run/channels/axes.hpp"
 
 namespace seacrane {
 namespace {
 
 /// From the state point of a body to its centre of mass, inertial frame.
-Vec3d lever_of(const RedundantSystem& system, int body) {
-  return system.bodies()[idx(body)].rotation * system.model().bodies[idx(body)].center_of_mass;
+Vec3d lever_of(const Terms& terms, int body) {
+  return terms.bodies()[idx(body)].rotation * terms.model().bodies[idx(body)].center_of_mass;
 }
 
 /// Writes `value(body)` of N numbers for every body.
@@ -17,45 +17,45 @@ void write_each(const Output& output, double* out, Value&& value) {
 
 void write_position(const Output& o, double* out) {
   write_each<3>(o, out,
-                [&](int b) -> Vec3d { return o.system.bodies()[idx(b)].position + lever_of(o.system, b); });
+                [&](int b) -> Vec3d { return o.terms.bodies()[idx(b)].position + lever_of(o.terms, b); });
 }
 
 void write_velocity(const Output& o, double* out) {
   write_each<3>(o, out, [&](int b) -> Vec3d {
-    const BodyKinematics<double>& k = o.system.bodies()[idx(b)];
-    const Vec3d lever = lever_of(o.system, b), turning = k.angular_velocity.cross(lever);
+    const BodyKinematics<double>& k = o.terms.bodies()[idx(b)];
+    const Vec3d lever = lever_of(o.terms, b), turning = k.angular_velocity.cross(lever);
     return k.velocity + turning;
   });
 }
 
 void write_angular_velocity(const Output& o, double* out) {
-  write_each<3>(o, out, [&](int b) -> Vec3d { return o.system.bodies()[idx(b)].angular_velocity; });
+  write_each<3>(o, out, [&](int b) -> Vec3d { return o.terms.bodies()[idx(b)].angular_velocity; });
 }
 
 /// q and -q are the same orientation: the sign is that of the output before.
 void write_quaternion(const Output& o, double* out) {
   write_each<4>(o, out, [&](int b) -> Vec4d {
-    const Vec4d q = quaternion_from_rotation(o.system.bodies()[idx(b)].rotation);
+    const Vec4d q = quaternion_from_rotation(o.terms.bodies()[idx(b)].rotation);
     return q.dot(view<4>(out + 4 * b)) < 0.0 ? Vec4d(-q) : q;
   });
 }
 
 void write_euler_xyz(const Output& o, double* out) {
   write_each<3>(o, out,
-                [&](int b) -> Vec3d { return euler_xyz_from_rotation(o.system.bodies()[idx(b)].rotation); });
+                [&](int b) -> Vec3d { return euler_xyz_from_rotation(o.terms.bodies()[idx(b)].rotation); });
 }
 
 void write_acceleration(const Output& o, double* out) {
   write_each<3>(o, out, [&](int b) -> Vec3d {
-    const Vec6d& a = o.system.acceleration()[idx(b)];
-    const Vec3d &w = o.system.bodies()[idx(b)].angular_velocity, lever = lever_of(o.system, b),
+    const Vec6d& a = o.system.accelerations()[idx(b)];
+    const Vec3d &w = o.terms.bodies()[idx(b)].angular_velocity, lever = lever_of(o.terms, b),
                 turning = w.cross(lever);
     return a.head<3>() + Vec3d(a.tail<3>()).cross(lever) + w.cross(turning);
   });
 }
 
 void write_angular_acceleration(const Output& o, double* out) {
-  write_each<3>(o, out, [&](int b) -> Vec3d { return o.system.acceleration()[idx(b)].tail<3>(); });
+  write_each<3>(o, out, [&](int b) -> Vec3d { return o.system.accelerations()[idx(b)].tail<3>(); });
 }
 
 }  // namespace

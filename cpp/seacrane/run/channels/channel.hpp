@@ -6,7 +6,8 @@
 
 namespace seacrane {
 
-class RedundantSystem;
+class MaximalSystem;
+class Terms;
 struct Model;
 
 /// A dimension of channels, beside time, and the names along it.
@@ -31,7 +32,8 @@ struct Needs {
 struct Output {
   double time = 0.0;
   const double* state = nullptr;
-  const RedundantSystem& system;
+  const MaximalSystem& system;
+  const Terms& terms;
   double residual = 0.0, residual_rate = 0.0;  // of constraints, after projection: largest magnitudes
   double residual_before_projection = 0.0;     // largest since the last output
   double energy_balance = 0.0;                 // J, change of mechanical energy minus work since the start

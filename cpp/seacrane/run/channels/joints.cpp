@@ -1,4 +1,4 @@
-#include "seacrane/dynamics/redundant.hpp"
+#include "seacrane/dynamics/maximal.hpp"
 #include "seacrane/elements/joints/distance.hpp"
 #include "seacrane/elements/loads/actuator.hpp"
 #include "seacrane/run/channels/axes.hpp"
@@ -9,7 +9,7 @@ namespace {
 /// Calls `function(index, row, first, second)` for each coordinate that is recorded.
 template <class Function>
 void for_each_coordinate(const Output& o, Function&& function) {
-  const auto& bodies = o.system.bodies();
+  const auto& bodies = o.terms.bodies();
   const auto& coordinates = o.system.model().coordinates;
   for (std::size_t i = 0; i < coordinates.size(); ++i) {
     const CoordinateData& c = coordinates[i];
@@ -30,8 +30,8 @@ void write_coordinate_rate(const Output& o, double* out) {
 }
 
 void write_actuator_force(const Output& o, double* out) {
-  const auto& bodies = o.system.bodies();
-  const LoadInput<double> input = o.system.load_input(o.time);
+  const auto& bodies = o.terms.bodies();
+  const LoadInput<double> input = o.terms.load_input(o.time);
   for (const Actuator& a : o.system.model().actuators()) {
     const JointData& j = a.coordinate.joint;
     *out++ = a.force<double>(
@@ -59,18 +59,18 @@ struct Reaction {
 
 /// On the second body, or on the ground where that is the second.
 Reaction reaction_of(const Output& o, std::size_t joint) {
-  const RedundantSystem& system = o.system;
-  const ElementModel& element = system.model().elements[joint];
-  const bool second_is_ground = element.second == system.model().body_count();
+  const Terms& terms = o.terms;
+  const ElementModel& element = terms.model().elements[joint];
+  const bool second_is_ground = element.second == terms.model().body_count();
   const int side = second_is_ground ? 0 : 1, body = second_is_ground ? element.first : element.second;
   Vec6d load = Vec6d::Zero();
-  const RowBlock<double>& block = system.blocks()[joint];
+  const RowBlock<double>& block = terms.blocks()[joint];
   for (int r = 0; r < element.rows; ++r) {
-    load += block.d[side].row(r).transpose() * system.multipliers()[idx(element.row + r)];
+    load += block.d[side].row(r).transpose() * o.system.multipliers()[idx(element.row + r)];
   }
   if (second_is_ground) load = -load;
   const Vec3d force = load.head<3>();
-  const Vec3d arm = joint_point(element, system.bodies()) - system.bodies()[idx(body)].position;
+  const Vec3d arm = joint_point(element, terms.bodies()) - terms.bodies()[idx(body)].position;
   return {force, Vec3d(load.tail<3>()) - arm.cross(force)};
 }
 

@@ -1,5 +1,5 @@
 #include "seacrane/dynamics/limit_force.hpp"
-#include "seacrane/dynamics/redundant.hpp"
+#include "seacrane/dynamics/maximal.hpp"
 #include "seacrane/run/channels/axes.hpp"
 
 namespace seacrane {
@@ -10,7 +10,7 @@ bool has_limits(const Model& m) { return !m.limits.empty(); }
 /// Zero of limits that do not hold.
 void write_limit_force(const Output& o, double* out) {
   for (const Limit& limit : o.system.model().limits) {
-    *out++ = limit.element < 0 ? 0.0 : limit_force(limit, o.system, o.system.multipliers().data());
+    *out++ = limit.element < 0 ? 0.0 : limit_force(limit, o.terms, o.system.multipliers().data());
   }
 }
 

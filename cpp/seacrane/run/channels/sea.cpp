@@ -1,6 +1,6 @@
 #include <algorithm>
 
-#include "seacrane/dynamics/redundant.hpp"
+#include "seacrane/dynamics/maximal.hpp"
 #include "seacrane/run/channels/axes.hpp"
 
 namespace seacrane {
@@ -22,7 +22,7 @@ const WaveComponents& sea_of(const WaveLoadDescription& load) {
 template <class Function>
 void for_each_wave_load(const Output& o, Function&& function) {
   const auto& loads = o.system.model().wave_loads;
-  for (std::size_t i = 0; i < loads.size(); ++i) function(o.system.waves(i), idx(loads[i].vessel));
+  for (std::size_t i = 0; i < loads.size(); ++i) function(o.terms.waves(i), idx(loads[i].vessel));
 }
 
 /// Of vessels that the waves do not load, where they rest.

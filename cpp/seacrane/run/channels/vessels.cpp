@@ -1,4 +1,4 @@
-#include "seacrane/dynamics/redundant.hpp"
+#include "seacrane/dynamics/maximal.hpp"
 #include "seacrane/run/channels/axes.hpp"
 
 namespace seacrane {
@@ -6,7 +6,7 @@ namespace {
 
 void write_vessel_motion(const Output& o, double* out) {
   for (const Vessel& vessel : o.system.model().vessels) {
-    const BodyKinematics<double>& k = o.system.bodies()[idx(vessel.body)];
+    const BodyKinematics<double>& k = o.terms.bodies()[idx(vessel.body)];
     view<3>(out) = vessel.displacement(k);
     view<3>(out + 3) = vessel.angles_from_mean(YawFrame<double>(k));
     out += 6;

@@ -1,4 +1,4 @@
-#include "seacrane/dynamics/merged.hpp"
+#include "seacrane/dynamics/merged_bodies.hpp"
 
 #include <algorithm>
 
@@ -54,55 +54,36 @@ void copy_rest(const Model& from, const double* x, const Model& to, double* y) {
 
 }  // namespace
 
-void merge_state(const Model& full, const Model& merged, const double* bodies, double* y) {
-  for (int b = 0; b < merged.body_count(); ++b) {
-    const int carrier = merged.merge.carriers[idx(b)];
-    const BodyKinematics<double> k = read(full, carrier, bodies);
-    write(merged, b, at_lever(k, -(k.rotation * reach(full, merged, carrier))), y);
+void MergedBodies::merge(const double* bodies, double* y) const {
+  for (int b = 0; b < merged_.body_count(); ++b) {
+    const int carrier = merged_.merge.carriers[idx(b)];
+    const BodyKinematics<double> k = read(full_, carrier, bodies);
+    write(merged_, b, at_lever(k, -(k.rotation * reach(full_, merged_, carrier))), y);
   }
-  copy_rest(full, bodies, merged, y);
+  copy_rest(full_, bodies, merged_, y);
 }
 
-void spread_state(const Model& full, const Model& merged, const double* y, double* bodies) {
-  for (int b = 0; b < full.body_count(); ++b) {
-    const int on = merged.merge.places[idx(b)].body;
-    const bool fixed = on == merged.body_count();
-    const auto carrier = fixed ? BodyKinematics<double>::ground() : read(merged, on, y);
-    write(full, b, carried(full, merged, b, carrier), bodies);
-  }
-  copy_rest(merged, y, full, bodies);
-}
-
-MergedSystem::MergedSystem(const std::string& formulation, const Model& full)
-    : full_(full),
-      merged_(*full.merged),
-      terms_(full.merged),
-      reduced_(make_formulation(formulation, terms_)),
-      stepped_(reduced_ ? reduced_.get() : &terms_),
-      bodies_(idx(merged_.layout.size), 0.0),
-      acceleration_(idx(full.body_count()) + 1, Vec6d::Zero()) {}
-
-void MergedSystem::read_bodies(double t, const double* bodies, double* y) {
-  merge_state(full_, merged_, bodies, bodies_.data());
-  stepped_->read_bodies(t, bodies_.data(), y);
-}
-
-void MergedSystem::write_bodies(double t, const double* y, double* bodies) {
-  stepped_->write_bodies(t, y, bodies_.data());
-  spread_state(full_, merged_, bodies_.data(), bodies);
-}
-
-const std::vector<Vec6d>& MergedSystem::accelerations() {
-  const std::vector<Vec6d>& merged = stepped_->accelerations();
+void MergedBodies::spread(const double* y, double* bodies) const {
   for (int b = 0; b < full_.body_count(); ++b) {
     const int on = merged_.merge.places[idx(b)].body;
-    const BodyKinematics<double>& k = terms_.bodies()[idx(on)];
-    const Vec3d lever = k.rotation * reach(full_, merged_, b), w = k.angular_velocity;
-    acceleration_[idx(b)] = on < merged_.body_count() ? merged[idx(on)] : Vec6d(Vec6d::Zero());
-    const Vec3d turning = acceleration_[idx(b)].tail<3>();
-    acceleration_[idx(b)].head<3>() += turning.cross(lever) + w.cross(w.cross(lever));
+    const bool fixed = on == merged_.body_count();
+    const auto carrier = fixed ? BodyKinematics<double>::ground() : read(merged_, on, y);
+    write(full_, b, carried(full_, merged_, b, carrier), bodies);
   }
-  return acceleration_;
+  copy_rest(merged_, y, full_, bodies);
+}
+
+void MergedBodies::spread_accelerations(const Terms& terms, const std::vector<Vec6d>& merged,
+                                        std::vector<Vec6d>& described) const {
+  for (int b = 0; b < full_.body_count(); ++b) {
+    const int on = merged_.merge.places[idx(b)].body;
+    const BodyKinematics<double>& k = terms.bodies()[idx(on)];
+    const Vec3d lever = k.rotation * reach(full_, merged_, b), w = k.angular_velocity;
+    Vec6d& a = described[idx(b)];
+    a = on < merged_.body_count() ? merged[idx(on)] : Vec6d(Vec6d::Zero());
+    const Vec3d turning = a.tail<3>();
+    a.head<3>() += turning.cross(lever) + w.cross(w.cross(lever));
+  }
 }
 
 }  // namespace seacrane

@@ -1,0 +1,156 @@
+#include "seacrane/dynamics/constraint_solver.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "seacrane/dynamics/constraints.hpp"
+
+namespace seacrane {
+namespace {
+
+constexpr double kRedundantPivot = 1.0 / (kRedundantSingularValue * kRedundantSingularValue);
+
+}  // namespace
+
+ConstraintSolver::ConstraintSolver(const Terms& terms) : terms_(terms), model_(terms.model()) {
+  const Model& m = model_;
+  const auto bodies = idx(m.body_count()), elements = m.elements.size();
+  over_mass_.assign(2 * elements, Mat6d::Zero());
+  values_.assign(m.schur.value_count(), 0.0);
+  multipliers_.assign(idx(m.rows()), 0.0);
+  impulse_.assign(bodies + 1, Vec6d::Zero());
+  over_shape_.assign(2 * elements, Mat6d::Zero());
+  dense_mass_.assign(bodies, Mat6d::Zero());
+  shape_values_.assign(m.schur.value_count(), 0.0);
+  if (6 * m.body_count() + m.rows() <= kDenseLimit) {
+    dense_.emplace(m.body_count(), m.rows());
+    row_space_.emplace(m.body_count(), m.rows());
+  }
+}
+
+void ConstraintSolver::factor() {
+  const Model& m = model_;
+  const auto& blocks = terms_.blocks();
+  for_each_side(m.elements, m.body_count(), [&](std::size_t e, int side, int body) {
+    rows_over_mass(terms_.inertia(body), blocks[e].d[side], over_mass_[2 * e + idx(side)]);
+  });
+  m.schur.assemble(blocks.data(), over_mass_.data(), values_.data());
+  condition_ = m.schur.factor(values_.data());
+  regular_ = !dense_ || (!m.redundant && condition_ <= kInaccuratePivot);
+  if (!regular_) factor_dense();
+}
+
+double ConstraintSolver::shape_condition() {
+  const Model& m = model_;
+  const auto& blocks = terms_.blocks();
+  for_each_side(m.elements, m.body_count(), [&](std::size_t e, int side, int body) {
+    rows_over_shape(m.bodies[idx(body)], terms_.bodies()[idx(body)], blocks[e].d[side],
+                    over_shape_[2 * e + idx(side)]);
+  });
+  m.schur.assemble(blocks.data(), over_shape_.data(), shape_values_.data());
+  return m.schur.factor(shape_values_.data());
+}
+
+void ConstraintSolver::factor_dense() {
+  const Model& m = model_;
+  const RowBlock<double>* blocks = terms_.blocks().data();
+  dependent_ = shape_condition() > kDependentPivot || m.redundant;
+  if (dependent_) {
+    const int rank = row_space_->factor(m.elements, blocks, over_shape_.data(), kEnforcedSingularValue);
+    most_left_out_ = std::max(most_left_out_, m.rows() - rank);
+  }
+  for (int b = 0; b < m.body_count(); ++b) dense_mass_[idx(b)] = terms_.symmetric_mass(b);
+  dense_->factor(m.elements, blocks, dense_mass_.data(), dependent_ ? &*row_space_ : nullptr);
+}
+
+void ConstraintSolver::solve(const std::vector<Vec6d>& load, const std::vector<double>& right,
+                             std::vector<Vec6d>& acceleration, std::vector<double>& lambda) {
+  const Model& m = model_;
+  if (!regular_) {
+    dense_->solve(load.data(), right.data(), acceleration.data(), lambda.data());
+    return;
+  }
+  const auto& blocks = terms_.blocks();
+  for (int b = 0; b < m.body_count(); ++b)
+    acceleration[idx(b)] = solve_inertia(terms_.inertia(b), load[idx(b)]);
+  acceleration.back().setZero();
+  lambda = right;
+  for (std::size_t e = 0; e < m.elements.size(); ++e) {
+    const ElementModel& element = m.elements[e];
+    if (element.rows == 0) continue;
+    const Vec6d free = blocks[e].d[0] * acceleration[idx(element.first)] +
+                       blocks[e].d[1] * acceleration[idx(element.second)];
+    for (int r = 0; r < element.rows; ++r) lambda[idx(element.row + r)] -= free[r];
+  }
+  m.schur.solve(values_.data(), lambda.data());
+  multiplier_load(terms_, lambda.data(), impulse_);
+  for (int b = 0; b < m.body_count(); ++b) {
+    acceleration[idx(b)] += solve_inertia(terms_.inertia(b), impulse_[idx(b)]);
+  }
+}
+
+void ConstraintSolver::solve_unsymmetric(const std::vector<Vec6d>& load, const std::vector<double>& right,
+                                         std::vector<Vec6d>& acceleration, std::vector<double>& lambda) {
+  const Model& m = model_;
+  for (int b = 0; b < m.body_count(); ++b) dense_mass_[idx(b)] = terms_.mass_matrix(b);
+  dense_->factor(m.elements, terms_.blocks().data(), dense_mass_.data(), nullptr);
+  dense_->solve(load.data(), right.data(), acceleration.data(), lambda.data());
+  if (!regular_) factor_dense();  // project() corrects in the symmetric metric
+}
+
+void ConstraintSolver::correct(std::vector<double>& residual, std::vector<Vec6d>& motion) {
+  if (!regular_) {
+    dense_->solve(nullptr, residual.data(), motion.data(), multipliers_.data());
+    return;
+  }
+  model_.schur.solve(values_.data(), residual.data());
+  multiplier_load(terms_, residual.data(), motion);
+  for (int b = 0; b < model_.body_count(); ++b) {
+    motion[idx(b)] = solve_inertia(terms_.inertia(b), motion[idx(b)]);
+  }
+}
+
+Dependence ConstraintSolver::take_dependence() {
+  const Model& m = model_;
+  if (m.rows() == 0) return {};
+  const int left_out = !regular_ && dependent_ ? m.rows() - row_space_->rank() : 0;
+  redundant_ = redundant_rows(m, redundant_, left_out);
+  // Of the worst of rows that are redundant from the start nothing is ever left.
+  const bool hidden = redundant_ > 0 && redundant_ <= left_out;
+  const double ratio = hidden ? std::pow(row_space_->singular_value(redundant_), -2) : condition_;
+  return {ratio, redundant_, left_out, std::exchange(most_left_out_, 0)};
+}
+
+ConstraintRank ConstraintSolver::rank(int skipped) {
+  factor();
+  ConstraintRank out;
+  out.condition = condition_;
+  const double shape = shape_condition();
+  if (row_space_) {
+    out.rank = row_space_->factor(model_.elements, terms_.blocks().data(), over_shape_.data(),
+                                  kRedundantSingularValue);
+    out.null_space = row_space_->null_space();
+    out.smallest_singular_value = row_space_->singular_value(skipped);
+    out.weakest = weakest_element(skipped);
+  } else {
+    out.rank = model_.rows() - (shape > kRedundantPivot ? 1 : 0);
+  }
+  return out;
+}
+
+/// The element with the largest part in a combination of rows.
+int ConstraintSolver::weakest_element(int combination) const {
+  int weakest = -1;
+  double largest = -1.0;
+  for (std::size_t e = 0; e < model_.elements.size(); ++e) {
+    const ElementModel& element = model_.elements[e];
+    const double part = row_space_->combination(combination).segment(element.row, element.rows).norm();
+    if (element.rows == 0 || !(part > largest)) continue;
+    largest = part;
+    weakest = static_cast<int>(e);
+  }
+  return weakest;
+}
+
+}  // namespace seacrane

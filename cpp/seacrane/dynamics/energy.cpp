@@ -1,0 +1,36 @@
+#include "seacrane/dynamics/energy.hpp"
+
+#include "seacrane/elements/loads/registry.hpp"
+
+namespace seacrane {
+
+double kinetic_energy(const Terms& terms, const double* y) {
+  double sum = 0.0;
+  for (int b = 0; b < terms.model().body_count(); ++b) {
+    const auto v = view<6>(y + terms.model().layout.twist(b));
+    sum += 0.5 * v.dot(terms.mass_matrix(b) * v);
+  }
+  return sum;
+}
+
+double mechanical_energy(const Terms& terms, double t, const double* y) {
+  const Model& m = terms.model();
+  const LoadInput<double> input = terms.load_input(t);
+  double sum = kinetic_energy(terms, y);
+  for (const auto& load : m.gravity) sum += load.potential(input);
+  for_each_load_type([&]<class Load>() {
+    if constexpr (requires(const Load& load) { load.potential(input); }) {
+      for (const Load& load : std::get<std::vector<Load>>(*m.loads)) sum += load.potential(input);
+    }
+  });
+  for (const auto& vessel : m.vessels) sum += vessel.potential(terms.bodies()[idx(vessel.body)]);
+  return sum;
+}
+
+double mechanical_energy_at(Terms& terms, double t, const double* y) {
+  terms.read(t, y);
+  terms.evaluate_inertia();
+  return mechanical_energy(terms, t, y);
+}
+
+}  // namespace seacrane

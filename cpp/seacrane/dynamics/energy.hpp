@@ -1,0 +1,14 @@
+#pragma once
+
+#include "seacrane/dynamics/terms.hpp"
+
+namespace seacrane {
+
+/// Kinetic energy for the twists in y, with the added mass of vessels; inertia as `terms` evaluated it last.
+double kinetic_energy(const Terms& terms, const double* y);
+/// Kinetic energy plus potential energy of gravity, springs and restoring, likewise.
+double mechanical_energy(const Terms& terms, double t, const double* y);
+/// The same at (t, y).
+double mechanical_energy_at(Terms& terms, double t, const double* y);
+
+}  // namespace seacrane

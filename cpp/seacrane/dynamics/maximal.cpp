@@ -1,0 +1,193 @@
+#include "seacrane/dynamics/maximal.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "seacrane/dynamics/constraints.hpp"
+#include "seacrane/dynamics/projection.hpp"
+#include "seacrane/dynamics/state_names.hpp"
+
+namespace seacrane {
+
+MaximalSystem::MaximalSystem(std::shared_ptr<const Model> model)
+    : MaximalSystem(std::make_shared<Terms>(std::move(model))) {}
+
+MaximalSystem::MaximalSystem(std::shared_ptr<Terms> terms)
+    : terms_(std::move(terms)), model_(terms_->model()), solver_(*terms_), positions_(model_) {
+  for (auto* vectors : {&acceleration_, &correction_}) {
+    vectors->assign(idx(model_.body_count()) + 1, Vec6d::Zero());
+  }
+  for (auto* values : {&lambda_, &gamma_, &residual_, &no_right_, &response_multipliers_}) {
+    values->assign(idx(model_.rows()), 0.0);
+  }
+}
+
+void MaximalSystem::derivative(double t, const double* y, double* ydot) {
+  terms_->evaluate(t, y, ydot);
+  if (model_.description.baumgarte > 0.0) rate_residual(*terms_, y, residual_.data());
+  solver_.factor();
+  solve_acceleration();
+  write_rates(y, ydot);
+}
+
+void MaximalSystem::solve_acceleration() {
+  const Model& m = model_;
+  const double beta = m.description.baumgarte;
+  for (std::size_t e = 0; e < m.elements.size(); ++e) {
+    const ElementModel& element = m.elements[e];
+    const RowBlock<double>& block = terms_->blocks()[e];
+    for (int r = 0; r < element.rows; ++r) {
+      double g = block.gamma[r];
+      if (beta > 0.0) g -= beta * beta * block.phi[r] + 2.0 * beta * residual_[idx(element.row + r)];
+      gamma_[idx(element.row + r)] = g;
+    }
+  }
+  if (m.paper_kinematics) {
+    solver_.solve_unsymmetric(terms_->loads(), gamma_, acceleration_, lambda_);
+  } else {
+    solver_.solve(terms_->loads(), gamma_, acceleration_, lambda_);
+  }
+  if (m.paper_kinematics || !solver_.is_regular()) ++dense_solves_;
+}
+
+void MaximalSystem::write_pose_rates(const double* y, double* ydot) const {
+  const Model& m = model_;
+  for (int b = 0; b < m.body_count(); ++b) {
+    const BodyKinematics<double>& k = terms_->bodies()[idx(b)];
+    double* pose = ydot + m.layout.pose(b);
+    const double* angles = y + m.layout.pose(b) + 3;
+    view<3>(pose) = k.velocity;
+    if (m.description.orientation == Orientation::quaternion) {
+      view<4>(pose + 3) = quaternion_rate<double>(view<4>(angles), k.angular_velocity);
+    } else {
+      view<3>(pose + 3) = euler_xyz_rate<double>(view<3>(angles), k.angular_velocity);
+    }
+  }
+}
+
+void MaximalSystem::write_rates(const double* y, double* ydot) {
+  const Model& m = model_;
+  write_pose_rates(y, ydot);
+  for (int b = 0; b < m.body_count(); ++b) view<6>(ydot + m.layout.twist(b)) = acceleration_[idx(b)];
+  // Drivers do work lambda nu on the system.
+  for (std::size_t e = m.elements.size() - m.drivers.size(); e < m.elements.size(); ++e) {
+    terms_->add_driver_power(lambda_[idx(m.elements[e].row)] * terms_->blocks()[e].nu[0]);
+  }
+  ydot[m.layout.work] = terms_->power().sum;
+  ydot[m.layout.work + 1] = terms_->power().absolute;
+}
+
+void MaximalSystem::move_poses(double* y) {
+  const Model& m = model_;
+  for (int b = 0; b < m.body_count(); ++b) {
+    const Vec6d& step = correction_[idx(b)];
+    double* pose = y + m.layout.pose(b);
+    view<3>(pose) -= step.head<3>();
+    const Vec3d turn = -step.tail<3>();
+    if (m.description.orientation == Orientation::quaternion) {
+      auto q = view<4>(pose + 3);
+      q = rotate_quaternion(turn, q);
+    } else {
+      auto phi = view<3>(pose + 3);
+      phi += euler_xyz_rate<double>(phi, turn);
+    }
+  }
+}
+
+/// Drift removal on position and velocity level in the mass metric.
+bool MaximalSystem::project(double t, double* y, bool evaluated_here) {
+  const Model& m = model_;
+  if (m.rows() == 0) return false;
+  if (!evaluated_here) {
+    terms_->read(t, y);
+    terms_->evaluate_inertia();
+    terms_->evaluate_rows(t);
+    solver_.factor();
+  }
+  const double worst = position_residual(*terms_);
+  before_projection_ = std::max(before_projection_, worst);
+  const double tolerance = position_tolerance(terms_->bodies().data(), m.body_count());
+  const bool moved = projection::close_positions(worst, tolerance, [&](int i) {
+    for (std::size_t e = 0; e < m.elements.size(); ++e) {
+      const Vec6d& phi = terms_->blocks()[e].phi;
+      for (int r = 0; r < m.elements[e].rows; ++r) residual_[idx(m.elements[e].row + r)] = phi[r];
+    }
+    solver_.correct(residual_, correction_);
+    move_poses(y);
+    terms_->read(t, y);
+    terms_->evaluate_rows(t);
+    if (i >= 2) {  // the frozen factorisation converges too slowly
+      terms_->evaluate_inertia();
+      solver_.factor();
+    }
+    return position_residual(*terms_);
+  });
+  const bool turned = projection::close_rates([&] { return rate_residual(*terms_, y, residual_.data()); },
+                                              [&] {
+                                                solver_.correct(residual_, correction_);
+                                                for (int b = 0; b < m.body_count(); ++b)
+                                                  view<6>(y + m.layout.twist(b)) -= correction_[idx(b)];
+                                              });
+  return moved || turned;
+}
+
+double MaximalSystem::take_residual_before_projection() { return std::exchange(before_projection_, 0.0); }
+
+ConstraintRank MaximalSystem::rank(double t, const double* y, int skipped) {
+  terms_->read(t, y);
+  terms_->evaluate_inertia();
+  terms_->evaluate_rows(t);
+  return solver_.rank(skipped);
+}
+
+bool MaximalSystem::jacobian(double t, const double* y, double* out) {
+  if (model_.paper_kinematics) return false;
+  if (!jacobian_) {
+    jacobian_.emplace(model_);
+    jacobian_rate_.resize(size());
+  }
+  derivative(t, y, jacobian_rate_.data());
+  if (!missing_jacobian().empty()) return false;
+  jacobian_->evaluate(*this, t, y, out);
+  return true;
+}
+
+std::string MaximalSystem::missing_jacobian() const {
+  if (model_.paper_kinematics) return "kinematics \"paper\" is not differentiated";
+  if (!solver_.enforces_all()) return "constraint rows depend on each other here";
+  return "";
+}
+
+void MaximalSystem::read_bodies(double /*t*/, const double* bodies, double* y) {
+  std::copy_n(bodies, size(), y);
+}
+
+void MaximalSystem::write_bodies(double /*t*/, const double* y, double* bodies) {
+  std::copy_n(y, size(), bodies);
+}
+
+std::string MaximalSystem::describe(std::size_t component) const {
+  return describe_state(model_, static_cast<int>(component));
+}
+
+void start_histories(MaximalSystem& system, double t, const double* y,
+                     const std::vector<TwistHistory>& saved) {
+  Terms& terms = system.terms();
+  VesselHistories& histories = terms.histories();
+  if (!saved.empty()) {
+    histories.restore(t, saved);
+  } else if (!histories.empty()) {
+    // The load of the memory is zero here, whatever the start does.
+    std::vector<double> rate(system.size());
+    system.derivative(t, y, rate.data());
+    histories.start(t, terms.frames(), system.accelerations());
+  }
+}
+
+void sample_histories(Terms& terms, double t, const double* y) {
+  terms.read(t, y);
+  terms.histories().sample(t, terms.frames());
+}
+
+}  // namespace seacrane

@@ -1,0 +1,87 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "seacrane/dynamics/constraint_solver.hpp"
+#include "seacrane/dynamics/formulation.hpp"
+#include "seacrane/dynamics/jacobian.hpp"
+#include "seacrane/dynamics/pose_map.hpp"
+#include "seacrane/dynamics/terms.hpp"
+
+namespace seacrane {
+
+/// The paper's formulation, eqs (5)-(9), (32)-(35), in maximal coordinates: every body with six velocities,
+/// every joint with multipliers. Its state is that of the bodies (StateLayout). Users know it as
+/// formulation "redundant".
+class MaximalSystem final : public Formulation {
+ public:
+  explicit MaximalSystem(std::shared_ptr<const Model> model);
+  /// On terms that it shares with others.
+  explicit MaximalSystem(std::shared_ptr<Terms> terms);
+
+  std::size_t size() const override { return idx(model_.layout.size); }
+  void derivative(double t, const double* y, double* ydot) override;
+  bool project(double t, double* y, bool evaluated_here) override;
+  bool has_projection() const override { return true; }
+  bool jacobian(double t, const double* y, double* out) override;
+
+  const char* name() const override { return "redundant"; }
+  Terms& terms() override { return *terms_; }
+  const Terms& terms() const { return *terms_; }
+  PositionMap& positions() override { return positions_; }
+  std::vector<double> scale() const override { return model_.scale; }
+  void read_bodies(double t, const double* bodies, double* y) override;
+  void write_bodies(double t, const double* y, double* bodies) override;
+  const std::vector<Vec6d>& accelerations() const override { return acceleration_; }
+  void load_response(const std::vector<Vec6d>& load, std::vector<Vec6d>& acceleration) override;
+  double condition() const override { return solver_.condition(); }
+  Dependence take_dependence() override { return solver_.take_dependence(); }
+  double take_residual_before_projection() override;
+  std::string describe(std::size_t component) const override;
+
+  /// Why jacobian() returned false or would; empty when it is there.
+  std::string missing_jacobian() const;
+  const Model& model() const { return model_; }
+  /// Of the last derivative(), by row.
+  const std::vector<double>& multipliers() const { return lambda_; }
+  /// With the factors of the last evaluation.
+  ConstraintSolver& solver() { return solver_; }
+  /// Of the rows at (t, y), see ConstraintSolver::rank().
+  ConstraintRank rank(double t, const double* y, int skipped = 0);
+  /// Evaluations that the dense solver took.
+  long dense_solves() const { return dense_solves_; }
+
+ private:
+  friend std::vector<std::pair<std::string, double>> time_parts(MaximalSystem& system, double t,
+                                                                const double* y, long count);
+
+  void solve_acceleration();
+  void write_rates(const double* y, double* ydot);
+  void write_pose_rates(const double* y, double* ydot) const;
+  void move_poses(double* y);
+
+  std::shared_ptr<Terms> terms_;
+  const Model& model_;
+  ConstraintSolver solver_;
+  PoseMap positions_;
+  std::vector<Vec6d> acceleration_, correction_;
+  std::vector<double> lambda_, gamma_, residual_;
+  std::vector<double> no_right_, response_multipliers_;  // of load_response()
+  std::optional<MaximalJacobian> jacobian_;
+  std::vector<double> jacobian_rate_;
+  double before_projection_ = 0.0;
+  long dense_solves_ = 0;
+};
+
+/// Goes on from saved histories of the vessels; none at all: at rest before t, with the accelerations that
+/// the start gives.
+void start_histories(MaximalSystem& system, double t, const double* y,
+                     const std::vector<TwistHistory>& saved);
+/// Takes the samples due at (t, y).
+void sample_histories(Terms& terms, double t, const double* y);
+
+}  // namespace seacrane

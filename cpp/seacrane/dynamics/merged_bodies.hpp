@@ -1,0 +1,28 @@
+#pragma once
+
+#include <vector>
+
+#include "seacrane/dynamics/terms.hpp"
+
+namespace seacrane {
+
+/// Between the states of the described bodies of a model and those of its merged bodies: poses and twists
+/// move between the state points, all else is the same.
+class MergedBodies {
+ public:
+  MergedBodies(const Model& full, const Model& merged) : full_(full), merged_(merged) {}
+
+  /// The state of the merged bodies from that of the described ones.
+  void merge(const double* bodies, double* y) const;
+  /// And back.
+  void spread(const double* y, double* bodies) const;
+  /// Accelerations of the described bodies from those of the merged ones, whose kinematics `terms` holds.
+  void spread_accelerations(const Terms& terms, const std::vector<Vec6d>& merged,
+                            std::vector<Vec6d>& described) const;
+
+ private:
+  const Model& full_;
+  const Model& merged_;
+};
+
+}  // namespace seacrane

@@ -1,0 +1,14 @@
+#pragma once
+
+#include <string>
+
+namespace seacrane {
+
+struct Model;
+
+/// What a component of the bodies' state (StateLayout) is, for messages.
+std::string describe_state(const Model& model, int component);
+/// The same of a state of the fluid memory, counted from the first of them.
+std::string describe_memory(const Model& model, int state);
+
+}  // namespace seacrane

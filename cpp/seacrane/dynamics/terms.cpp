@@ -1,0 +1,167 @@
+#include "seacrane/dynamics/terms.hpp"
+
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+#include "seacrane/dynamics/constraints.hpp"
+#include "seacrane/dynamics/paper_kinematics.hpp"
+#include "seacrane/elements/loads/registry.hpp"
+
+namespace seacrane {
+namespace {
+
+constexpr double kEulerLimit = 1e-3;  // cos(phi_y); negative: a step jumped over +-90 deg
+
+}  // namespace
+
+Terms::Terms(std::shared_ptr<const Model> model)
+    : model_(std::move(model)), slots_(idx(model_->slot_count), 0.0), histories_(*model_) {
+  const Model& m = *model_;
+  const auto bodies = idx(m.body_count());
+  bodies_.assign(bodies + 1, BodyKinematics<double>::ground());
+  frames_.assign(m.vessels.size(), YawFrame<double>(BodyKinematics<double>::ground()));
+  inertia_.resize(bodies);
+  paper_mass_.assign(bodies, Mat6d::Zero());
+  wrench_.resize(bodies + 1);
+  for (auto* vectors : {&bias_, &load_}) vectors->assign(bodies + 1, Vec6d::Zero());
+  blocks_.resize(m.elements.size());
+  for (const WaveLoad& wave : m.wave_loads) waves_.emplace_back(wave.sources);
+}
+
+void Terms::read(double t, const double* y) {
+  const Model& m = *model_;
+  for (int b = 0; b < m.body_count(); ++b) {
+    BodyKinematics<double>& k = bodies_[idx(b)];
+    const double* pose = y + m.layout.pose(b);
+    const double* twist = y + m.layout.twist(b);
+    k.position = view<3>(pose);
+    if (m.description.orientation == Orientation::quaternion) {
+      k.rotation = rotation_from_quaternion<double>(view<4>(pose + 3));
+    } else {
+      k.rotation = rotation_from_euler_xyz<double>(view<3>(pose + 3));
+      if (std::cos(pose[4]) < kEulerLimit) {
+        throw std::domain_error("body '" + m.bodies[idx(b)].name + "': Euler angle phi_y is " +
+                                std::to_string(pose[4] * 180.0 / 3.14159265358979323846) +
+                                " deg at t = " + std::to_string(t) +
+                                " s, where XYZ angles are singular; use orientation='quaternion'");
+      }
+    }
+    k.velocity = view<3>(twist);
+    k.angular_velocity = view<3>(twist + 3);
+  }
+  follow_yaw();
+}
+
+void Terms::follow_yaw() {
+  for (std::size_t v = 0; v < model_->vessels.size(); ++v) {
+    frames_[v] = YawFrame<double>(bodies_[idx(model_->vessels[v].body)]);
+  }
+}
+
+void Terms::evaluate_inertia() {
+  const Model& m = *model_;
+  for (int b = 0; b < m.body_count(); ++b) {
+    const BodyModel& body = m.bodies[idx(b)];
+    const BodyKinematics<double>& k = bodies_[idx(b)];
+    if (body.vessel < 0) {
+      bias_[idx(b)] = compact_inertia(body, k, inertia_[idx(b)]);
+    } else {
+      const auto v = idx(body.vessel);
+      bias_[idx(b)] = vessel_inertia(body, m.vessels[v], k, frames_[v], inertia_[idx(b)]);
+    }
+  }
+}
+
+void Terms::evaluate_rows(double t) {
+  evaluate_constraints(*model_, t, curve_limit_, bodies_.data(), blocks_.data());
+}
+
+void Terms::apply_hydrodynamics(const LoadInput<double>& input, const double* memory, double* memory_rate,
+                                LoadSum<double>& sum) {
+  const Model& m = *model_;
+  for (std::size_t v = 0; v < m.vessels.size(); ++v) {
+    const Vessel& vessel = m.vessels[v];
+    const int own = vessel.memory_offset - m.layout.memory;
+    const double* x = memory + own;
+    double* x_rate = memory_rate + own;
+    if (m.paper_kinematics) {
+      const auto b = idx(vessel.body);
+      const PaperVessel paper(m.bodies[b], vessel, bodies_[b], x, x_rate);
+      paper_mass_[b] = paper.mass;
+      wrench_[b].force += paper.load.head<3>();
+      wrench_[b].moment += paper.load.tail<3>();
+    } else {
+      vessel.apply<double>(input, frames_[v], x, x_rate, sum);
+    }
+  }
+  for (const auto& [v, body, memory_of] : histories_) {
+    m.vessels[v].radiate(frames_[v], memory_of.evaluate(input.time, frames_[v].twist), sum);
+  }
+}
+
+Vec3d Terms::wave_pose(const WaveLoad& wave, const double* memory) const {
+  const Vessel& vessel = model_->vessels[idx(wave.vessel)];
+  const Vec3d& place = bodies_[idx(wave.body)].position;
+  const Vec3d pose(place.x(), place.y(), frames_[idx(wave.vessel)].yaw);
+  if (!vessel.fast) return pose;
+  const int own = vessel.memory_offset - model_->layout.memory + vessel.fluid_states();
+  return pose - FastMotion::of(memory + own);
+}
+
+void Terms::apply_waves(double t, const double* memory, LoadSum<double>& sum) {
+  const Model& m = *model_;
+  for (std::size_t i = 0; i < m.wave_loads.size(); ++i) {
+    const WaveLoad& wave = m.wave_loads[i];
+    const YawFrame<double>& frame = frames_[idx(wave.vessel)];
+    waves_[i].evaluate(t, wave_pose(wave, memory));
+    const Vec6d force = waves_[i].sum();
+    const Vec6d inertial = m.paper_kinematics ? force : frame.to_inertial(force);
+    wrench_[idx(wave.body)].force += inertial.head<3>();
+    wrench_[idx(wave.body)].moment += inertial.tail<3>();
+    sum.add_power(force.dot(frame.twist));
+  }
+}
+
+void Terms::evaluate_wrenches(double t, const double* memory, double* memory_rate) {
+  const Model& m = *model_;
+  for (auto& w : wrench_) w = BodyLoad<double>();
+  const LoadInput<double> input = load_input(t);
+  LoadSum<double> sum{wrench_.data()};
+  for (const auto& load : m.gravity) load.apply<double>(input, sum);
+  for_each_load_type([&]<class Load>() {
+    for (const Load& load : std::get<std::vector<Load>>(*m.loads)) load.template apply<double>(input, sum);
+  });
+  apply_hydrodynamics(input, memory, memory_rate, sum);
+  apply_waves(t, memory, sum);
+  power_ = {sum.power, sum.absolute_power};
+}
+
+void Terms::evaluate_loads(double t, const double* y, double* ydot) {
+  const Model& m = *model_;
+  evaluate_wrenches(t, y + m.layout.memory, ydot + m.layout.memory);
+  for (int b = 0; b < m.body_count(); ++b) {
+    load_[idx(b)] = wrench(b);
+    // The paper's vessel carries its velocity terms in its own load.
+    if (!(m.paper_kinematics && m.bodies[idx(b)].vessel >= 0)) load_[idx(b)] -= bias_[idx(b)];
+  }
+}
+
+void Terms::evaluate(double t, const double* y, double* ydot) {
+  read(t, y);
+  evaluate_inertia();
+  evaluate_rows(t);
+  evaluate_loads(t, y, ydot);
+}
+
+Mat6d Terms::mass_matrix(int body) const {
+  const bool unsymmetric = model_->paper_kinematics && model_->bodies[idx(body)].vessel >= 0;
+  return unsymmetric ? paper_mass_[idx(body)] : symmetric_mass(body);
+}
+
+Mat6d Terms::symmetric_mass(int body) const {
+  const BodyModel& b = model_->bodies[idx(body)];
+  return b.vessel >= 0 ? inertia_[idx(body)].mass : rigid_mass_matrix(b, bodies_[idx(body)].rotation);
+}
+
+}  // namespace seacrane

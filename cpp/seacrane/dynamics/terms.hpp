@@ -1,0 +1,105 @@
+#pragma once
+
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "seacrane/dynamics/histories.hpp"
+#include "seacrane/dynamics/inertia.hpp"
+#include "seacrane/dynamics/wave_forces.hpp"
+#include "seacrane/model/model.hpp"
+
+namespace seacrane {
+
+/// Of loads: the sum, and the sum of the magnitudes.
+struct Power {
+  double sum = 0.0, absolute = 0.0;
+
+  void add(double part) {
+    sum += part;
+    absolute += std::abs(part);
+  }
+};
+
+/// The terms of the equations of motion of all bodies at one state,
+///
+///   M vdot = load + D^T lambda,   D vdot = gamma,
+///
+/// kinematics, inertia, constraint rows and loads: what both formulations, the recorder and the search for
+/// events share. Solves nothing. Holds the scratch of one run; the Model stays untouched.
+class Terms {
+ public:
+  explicit Terms(std::shared_ptr<const Model> model);
+
+  const Model& model() const { return *model_; }
+  /// Zero-order-held inputs of the loads.
+  void set_inputs(const std::vector<double>& slots) { slots_ = slots; }
+  /// End of the present smooth stretch of the reference curves, see Curve::at.
+  void set_curve_limit(double time) { curve_limit_ = time; }
+  double curve_limit() const { return curve_limit_; }
+  VesselHistories& histories() { return histories_; }
+  const VesselHistories& histories() const { return histories_; }
+
+  /// Poses and twists of a state of the bodies (StateLayout), and the yaw frames of the vessels.
+  void read(double t, const double* y);
+  /// The kinematics of all bodies (ground last) for a formulation that sets them itself; follow_yaw() then
+  /// renews the yaw frames.
+  BodyKinematics<double>* kinematics() { return bodies_.data(); }
+  void follow_yaw();
+  void evaluate_inertia();
+  void evaluate_rows(double t);
+  /// Wrenches on the bodies, without velocity terms, and their power; `memory` and its rates: the memory part
+  /// of a state.
+  void evaluate_wrenches(double t, const double* memory, double* memory_rate);
+  /// All of it at (t, y); of ydot the memory part.
+  void evaluate(double t, const double* y, double* ydot);
+
+  // What was evaluated last.
+  const std::vector<BodyKinematics<double>>& bodies() const { return bodies_; }
+  const std::vector<YawFrame<double>>& frames() const { return frames_; }  // by vessel
+  const BodyInertia& inertia(int body) const { return inertia_[idx(body)]; }
+  Mat6d mass_matrix(int body) const;
+  /// The same without the unsymmetric part of the paper's vessel.
+  Mat6d symmetric_mass(int body) const;
+  const std::vector<RowBlock<double>>& blocks() const { return blocks_; }
+  /// Wrenches less velocity terms.
+  const std::vector<Vec6d>& loads() const { return load_; }
+  Vec6d wrench(int body) const {
+    return (Vec6d() << wrench_[idx(body)].force, wrench_[idx(body)].moment).finished();
+  }
+  const WaveForces& waves(std::size_t load) const { return waves_[load]; }
+  /// x, y and yaw of the vessel where its wave loads are taken; `memory`: the memory part of a state.
+  Vec3d wave_pose(const WaveLoad& wave, const double* memory) const;
+  LoadInput<double> load_input(double t) const { return {t, curve_limit_, bodies_.data(), slots_.data()}; }
+  /// Of the loads without potential, drivers included.
+  const Power& power() const { return power_; }
+  void add_driver_power(double power) { power_.add(power); }
+
+ private:
+  /// The first load that is not finite at (t, y), by name and value; empty: all are. Evaluates them one by
+  /// one, for reports.
+  friend std::string non_finite_load(Terms& terms, double t, const double* y);
+
+  void evaluate_loads(double t, const double* y, double* ydot);
+  void apply_hydrodynamics(const LoadInput<double>& input, const double* memory, double* memory_rate,
+                           LoadSum<double>& sum);
+  void apply_waves(double t, const double* memory, LoadSum<double>& sum);
+
+  std::shared_ptr<const Model> model_;
+  std::vector<double> slots_;
+  double curve_limit_ = std::numeric_limits<double>::infinity();
+  VesselHistories histories_;
+  std::vector<BodyKinematics<double>> bodies_;
+  std::vector<YawFrame<double>> frames_;
+  std::vector<BodyInertia> inertia_;
+  std::vector<Mat6d> paper_mass_;  // of the paper's vessels
+  std::vector<BodyLoad<double>> wrench_;
+  std::vector<Vec6d> bias_, load_;
+  std::vector<RowBlock<double>> blocks_;
+  std::vector<WaveForces> waves_;
+  Power power_;
+};
+
+}  // namespace seacrane
