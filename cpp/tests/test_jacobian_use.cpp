@@ -56,8 +56,8 @@ Run run(const SceneDescription& scene, const std::string& name, bool exact) {
   IntegratorOptions options;
   options.name = name;
   if (name != "ida") options.fixed_step = 0.005;
-  const auto integrator =
-      make_integrator({bodies, &bodies, exact ? static_cast<ResidualSystem*>(&residual) : &other}, options);
+  const auto integrator = make_integrator(
+      {bodies, &bodies.positions(), exact ? static_cast<ResidualSystem*>(&residual) : &other}, options);
   integrator->init(0.0, moving_state(bodies, 9).data());
   while (integrator->time() < 0.5) integrator->step(0.5);
   return {Eigen::Map<const VecXd>(integrator->state(), bodies.model().layout.size), integrator->counters()};
