@@ -6,6 +6,7 @@ import re
 from pathlib import Path
 
 import pytest
+from import_graph import arrows_between_rooms, circles
 
 CORE = Path(__file__).parents[1] / "cpp" / "seacrane"
 INCLUDE = re.compile(r'^\s*#\s*include\s+"seacrane/(\w+)/', re.MULTILINE)
@@ -45,3 +46,7 @@ def test_a_folder_includes_only_what_lies_below_it(folder: str) -> None:
         if other not in allowed
     ]
     assert not upward
+
+
+def test_no_two_folders_include_each_other_in_a_circle() -> None:
+    assert circles(arrows_between_rooms(CORE)) == []

@@ -1,6 +1,6 @@
 #include "bindings.hpp"
 #include "description.hpp"
-#include "seacrane/elements/joint_kinds.hpp"
+#include "seacrane/elements/joints/joint_kinds.hpp"
 #include "seacrane/elements/loads/registry.hpp"
 
 using namespace seacrane;

@@ -8,10 +8,10 @@
 #include "seacrane/dynamics/energy.hpp"
 #include "seacrane/dynamics/recursive/body_tree.hpp"
 #include "seacrane/dynamics/recursive/recursive.hpp"
-#include "seacrane/dynamics/stepped_bodies.hpp"
 #include "seacrane/dynamics/time_parts.hpp"
 #include "seacrane/elements/loads/registry.hpp"
 #include "seacrane/run/recording.hpp"
+#include "seacrane/run/stepped_bodies.hpp"
 #include "vector_state.hpp"
 #include "without_gil.hpp"
 

@@ -7,7 +7,7 @@
 
 #include "seacrane/compile/compile.hpp"
 #include "seacrane/dynamics/maximal.hpp"
-#include "seacrane/elements/joint_kinds.hpp"
+#include "seacrane/elements/joints/joint_kinds.hpp"
 #include "seacrane/elements/loads/registry.hpp"
 #include "seacrane/math/random.hpp"
 #include "seacrane/math/rotation.hpp"

@@ -3,7 +3,7 @@
 #include <Eigen/SVD>
 
 #include "multibody_scenes.hpp"
-#include "seacrane/elements/joint_kinds.hpp"
+#include "seacrane/elements/joints/joint_kinds.hpp"
 #include "seacrane/elements/joints/registry.hpp"
 
 namespace seacrane::test {

@@ -28,7 +28,7 @@ class Curve:
     @staticmethod
     def pieces(*, starts: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], coefficients: collections.abc.Sequence[typing.Annotated[collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(6)"]], cosines: collections.abc.Sequence[typing.Annotated[collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(3)"]] = []) -> Curve:
         """
-        Pieces from their start times on: coefficients (n, 6) of powers of (t - start), cosines (n, 3) of amplitude, omega, phase. The last piece goes on as it is: end with a constant to hold a value.
+        Pieces from their start times on: coefficients (n, 6) of powers of (t - start), cosines (n, 3) of amplitude, omega, phase. The last piece continues as it is: end with a constant to hold a value.
         """
     @staticmethod
     def quintic(*, start_time: typing.SupportsFloat | typing.SupportsIndex, end_time: typing.SupportsFloat | typing.SupportsIndex, start: typing.SupportsFloat | typing.SupportsIndex, end: typing.SupportsFloat | typing.SupportsIndex) -> Curve:
@@ -1057,7 +1057,7 @@ class FunctionForce:
         """
 class FlowForce:
     """
-    Wind or current on a body by coefficients; see seacrane.add_wind and seacrane.add_current.
+    Wind or current on a body by coefficients; see Scene.add_wind and Scene.add_current.
     
     F_x, F_y = density / 2 V^2 (C_x frontal_area, C_y lateral_area), N = density / 2 V^2 C_n lateral_area
     length, V the horizontal flow relative to `point`, in axes that follow the body's yaw; C over `angles`,
@@ -1140,7 +1140,7 @@ class FlowForce:
         """
 class Friction:
     """
-    Dry friction on a joint coordinate: -load tanh(rate / speed); see seacrane.add_friction. Immutable.
+    Dry friction on a joint coordinate: -load tanh(rate / speed); see Scene.add_friction. Immutable.
     """
     FIELDS: typing.ClassVar[tuple]
     @staticmethod
@@ -1189,7 +1189,7 @@ class Friction:
         """
 class SoftStop:
     """
-    Compliant bounds of a joint coordinate: stiffness p (1 + damping p') back where it is beyond one by p, never a pull; see seacrane.add_soft_stop. Immutable.
+    Compliant bounds of a joint coordinate: stiffness p (1 + damping p') back where it is beyond one by p, never a pull; see Scene.add_soft_stop. Immutable.
     """
     FIELDS: typing.ClassVar[tuple]
     @staticmethod
@@ -1248,7 +1248,7 @@ class SoftStop:
         """
 class Limit:
     """
-    What a joint does one way only; see seacrane.add_wire, add_end_stop and add_seat. Immutable.
+    What a joint does one way only; see Scene.add_wire, add_end_stop and add_seat. Immutable.
     """
     FIELDS: typing.ClassVar[tuple]
     def __copy__(self) -> Limit:
@@ -1524,6 +1524,11 @@ class Model:
         Consistent start (copy): poses, twists, memory states, work.
         """
     @property
+    def inputs(self) -> list[tuple[str, int, int]]:
+        """
+        (name, first slot, number of slots) of the zero-order-held inputs.
+        """
+    @property
     def kinks(self) -> list[tuple[float, typing.Annotated[list[float], "FixedSize(4)"]]]:
         """
         (time, jumps) by time, one for each curve that is not smooth there: of velocity, acceleration and its first two derivatives, at the described start, over the scale of the state (1/s^p).
@@ -1685,7 +1690,7 @@ class Integrator:
     @property
     def restarts(self) -> bool:
         """
-        It loses its history where a run goes on from a state, or is changed.
+        It loses its history where a run continues from a state, or is changed.
         """
     @property
     def setting(self) -> str:
@@ -1772,7 +1777,7 @@ class TwistHistory:
         """
 class StepHistory:
     """
-    What an integrator keeps from step to step, in the coordinates of a formulation, and the rate of the state: a run with the same settings goes on bit for bit (methods of SUNDIALS restart). Another formulation, integrator or scene, or other values or inputs, start from the values alone.
+    What an integrator keeps from step to step, in the coordinates of a formulation, and the rate of the state: a run with the same settings continues bit for bit (methods of SUNDIALS restart). Another formulation, integrator or scene, or other values or inputs, start from the values alone.
     """
     def __copy__(self) -> StepHistory:
         ...

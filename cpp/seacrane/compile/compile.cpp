@@ -10,7 +10,7 @@
 #include "seacrane/compile/assembly.hpp"
 #include "seacrane/compile/find_kinks.hpp"
 #include "seacrane/dynamics/merged_bodies.hpp"
-#include "seacrane/elements/joint_kinds.hpp"
+#include "seacrane/elements/joints/joint_kinds.hpp"
 #include "seacrane/elements/loads/registry.hpp"
 #include "seacrane/model/validate.hpp"
 

@@ -190,4 +190,8 @@ void sample_histories(Terms& terms, double t, const double* y) {
   terms.histories().sample(t, terms.frames());
 }
 
+void MaximalSystem::load_response(const std::vector<Vec6d>& load, std::vector<Vec6d>& acceleration) {
+  solver_.solve(load, no_right_, acceleration, response_multipliers_);
+}
+
 }  // namespace seacrane

@@ -7,7 +7,7 @@
 #include <set>
 #include <sstream>
 
-#include "seacrane/elements/joint_kinds.hpp"
+#include "seacrane/elements/joints/joint_kinds.hpp"
 #include "seacrane/elements/loads/registry.hpp"
 #include "seacrane/model/limit.hpp"
 

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "seacrane/dynamics/gear_gupta_leimkuhler.hpp"
-#include "seacrane/dynamics/stepped_bodies.hpp"
 #include "seacrane/integrate/registry.hpp"
+#include "seacrane/run/stepped_bodies.hpp"
 
 namespace seacrane {
 

@@ -7,7 +7,7 @@
 #include <set>
 #include <utility>
 
-#include "seacrane/elements/joint_kinds.hpp"
+#include "seacrane/elements/joints/joint_kinds.hpp"
 #include "seacrane/math/rotation.hpp"
 
 namespace seacrane {

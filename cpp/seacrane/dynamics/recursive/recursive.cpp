@@ -269,4 +269,17 @@ std::string RecursiveSystem::describe(std::size_t component) const {
   return i < layout_.work ? describe_memory(model_, i - layout_.memory) : "work integral";
 }
 
+void RecursiveSystem::load_response(const std::vector<Vec6d>& load, std::vector<Vec6d>& acceleration) {
+  articulated_.solve(load.data(), false, acceleration.data(), speed_rate_.data());
+  if (loops_.rows() == 0) return;
+  // Rows know gamma - D a: without gamma, the difference from that of bodies at rest.
+  std::ranges::fill(load_, Vec6d::Zero());
+  loops_.acceleration_residual(blocks_.data(), load_.data(), loop_bias_);
+  loops_.acceleration_residual(blocks_.data(), acceleration.data(), residual_);
+  residual_ -= loop_bias_;
+  std::ranges::copy(load, load_.begin());
+  loops_.add_load(blocks_.data(), loops_.solve(residual_), load_.data());
+  articulated_.solve(load_.data(), false, acceleration.data(), speed_rate_.data());
+}
+
 }  // namespace seacrane

@@ -1,4 +1,4 @@
-#include "seacrane/dynamics/stepped_bodies.hpp"
+#include "seacrane/run/stepped_bodies.hpp"
 
 #include <stdexcept>
 #include <utility>

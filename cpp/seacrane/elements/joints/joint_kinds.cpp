@@ -1,4 +1,4 @@
-#include "seacrane/elements/joint_kinds.hpp"
+#include "seacrane/elements/joints/joint_kinds.hpp"
 
 #include <algorithm>
 
