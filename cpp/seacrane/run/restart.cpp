@@ -69,11 +69,11 @@ bool load_steps(Stepper& at, const std::string& integrator, const State& start) 
   const StepHistory& history = start.steps;
   if (history.formulation != at.stepped.name() || history.integrator != integrator) return false;
   std::vector<double> state(at.stepped.size()), bodies(start.values.size());
-  at.stepped.read_bodies(start.time, start.values.data(), state.data());
+  at.read_bodies(start.time, start.values.data(), state.data());
   at.integrator->init(start.time, state.data());
   if (at.integrator->save().size() != history.values.size()) return false;
   at.integrator->load(history.values);
-  at.stepped.write_bodies(at.integrator->time(), at.integrator->state(), bodies.data());
+  at.write_bodies(at.integrator->time(), at.integrator->state(), bodies.data());
   return at.integrator->time() == start.time && bodies == start.values && rate_of(at) == history.rate;
 }
 
