@@ -39,7 +39,8 @@ OutputSampler::OutputSampler(const Model& model, const RunOptions& options, Rank
       times_(options.output_times),
       recording_(model, options.channels, options.capacity.value_or(options.output_times.size())),
       bodies_(idx(model.layout.size), 0.0),
-      rate_(idx(model.layout.size), 0.0) {
+      rate_(idx(model.layout.size), 0.0),
+      coordinates_(model.coordinates.size()) {
   if (options.energy_limit && model.paper_kinematics) {
     throw std::invalid_argument(
         "energy_limit: kinematics 'paper' has no energy balance; leave energy_limit out");
@@ -89,6 +90,14 @@ ConstraintResidual OutputSampler::evaluate(Stepper& at, double t, const Needs& n
   return constraint_residual(at.system.terms(), bodies_.data());
 }
 
+void OutputSampler::evaluate_coordinates(const Terms& terms) {
+  for (std::size_t i = 0; i < coordinates_.size(); ++i) {
+    const CoordinateData& c = terms.model().coordinates[i];
+    const auto& bodies = terms.bodies();
+    coordinates_[i] = evaluate_coordinate(c, bodies[idx(c.joint.first)], bodies[idx(c.joint.second)]);
+  }
+}
+
 /// Of the rows described: those that are stepped are fewer in the recursive form.
 void OutputSampler::watch_rank(Stepper& at, double t) {
   if (at.stepped.take_dependence().ratio > 0.0) return;
@@ -101,11 +110,12 @@ void OutputSampler::write(Stepper& at, double t, double residual_before, double 
   needs.energy = needs.energy || energy_.has_limit();
   const ConstraintResidual residual = evaluate(at, t, needs);
   if (!(residual.position <= kLargestResidual)) report_open_joint(at.system.terms(), t);
+  if (needs.coordinates) evaluate_coordinates(at.system.terms());
   const double* const work = bodies_.data() + model_.layout.work;
   const double energy =
       needs.energy ? mechanical_energy(at.system.terms(), t, bodies_.data()) : start_energy_;
   const double balance = energy - start_energy_ - (work[0] - start_work_);
-  out.append({t, bodies_.data(), at.system, at.system.terms(), residual.position, residual.rate,
+  out.append({t, bodies_.data(), at.system, at.system.terms(), coordinates_, residual.position, residual.rate,
               residual_before, balance, impact_loss});
   if (energy_.has_limit()) energy_.check(t, bodies_.data(), at.system.terms(), balance, work[1], energy);
 }

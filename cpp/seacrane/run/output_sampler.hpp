@@ -42,6 +42,7 @@ class OutputSampler {
   double project(Stepper& at, double t);
   ConstraintResidual evaluate(Stepper& at, double t, const Needs& needs);
   void write(Stepper& at, double t, double residual_before, double impact_loss, Recording& out);
+  void evaluate_coordinates(const Terms& terms);
   void watch_rank(Stepper& at, double t);
 
   const Model& model_;
@@ -54,6 +55,7 @@ class OutputSampler {
   double largest_residual_ = 0.0;  // before projection, since the last output
   double last_time_ = std::numeric_limits<double>::quiet_NaN(), last_residual_ = 0.0;  // of the last output
   std::vector<double> state_, bodies_, rate_;
+  std::vector<CoordinateRow<double>> coordinates_;
 };
 
 }  // namespace seacrane

@@ -6,6 +6,8 @@
 
 namespace seacrane {
 
+template <class T>
+struct CoordinateRow;
 class MaximalSystem;
 class Terms;
 struct Model;
@@ -25,6 +27,7 @@ struct Needs {
   bool loads = false;
   bool energy = false;
   bool solution = false;  // accelerations and multipliers
+  bool coordinates = false;
 };
 
 /// One output: the state of the described bodies, the system evaluated there as far as its channels need, and
@@ -34,6 +37,7 @@ struct Output {
   const double* state = nullptr;
   const MaximalSystem& system;
   const Terms& terms;
+  const std::vector<CoordinateRow<double>>& coordinates;
   double residual = 0.0, residual_rate = 0.0;  // of constraints, after projection: largest magnitudes
   double residual_before_projection = 0.0;     // largest since the last output
   double energy_balance = 0.0;                 // J, change of mechanical energy minus work since the start

@@ -6,27 +6,16 @@
 namespace seacrane {
 namespace {
 
-/// Calls `function(index, row, first, second)` for each coordinate that is recorded.
-template <class Function>
-void for_each_coordinate(const Output& o, Function&& function) {
-  const auto& bodies = o.terms.bodies();
-  const auto& coordinates = o.system.model().coordinates;
-  for (std::size_t i = 0; i < coordinates.size(); ++i) {
-    const CoordinateData& c = coordinates[i];
-    const auto &first = bodies[idx(c.joint.first)], &second = bodies[idx(c.joint.second)];
-    function(i, evaluate_coordinate<double>(c, first, second), first, second);
-  }
-}
-
 void write_coordinate(const Output& o, double* out) {
-  for_each_coordinate(o, [&](std::size_t i, const CoordinateRow<double>& row, const auto&, const auto&) {
-    out[i] = row.value;
-  });
+  for (const CoordinateRow<double>& row : o.coordinates) *out++ = row.value;
 }
 
 void write_coordinate_rate(const Output& o, double* out) {
-  for_each_coordinate(o, [&](std::size_t i, const CoordinateRow<double>& row, const auto& first,
-                             const auto& second) { out[i] = coordinate_rate<double>(row, first, second); });
+  const auto& bodies = o.terms.bodies();
+  for (std::size_t i = 0; i < o.coordinates.size(); ++i) {
+    const JointData& joint = o.terms.model().coordinates[i].joint;
+    out[i] = coordinate_rate(o.coordinates[i], bodies[idx(joint.first)], bodies[idx(joint.second)]);
+  }
 }
 
 void write_actuator_force(const Output& o, double* out) {
@@ -100,11 +89,13 @@ std::vector<Channel> joint_channels() {
        .axes = {&axes::joint_coordinate},
        .unit = "m or rad",
        .text = "joint coordinate, second body to first",
+       .needs = {.coordinates = true},
        .write = write_coordinate},
       {.name = "coordinate_rate",
        .axes = {&axes::joint_coordinate},
        .unit = "m/s or rad/s",
        .text = "rate of the joint coordinate",
+       .needs = {.coordinates = true},
        .write = write_coordinate_rate},
       {.name = "actuator_force",
        .axes = {&axes::actuator},
