@@ -116,22 +116,24 @@ def figure(rows: Sequence[Row], path: Path) -> None:
     from matplotlib.figure import Figure
     from matplotlib.ticker import NullFormatter
 
-    picture = Figure(figsize=(9.0, 3.8), layout="constrained")
+    picture = Figure(figsize=(10.4, 3.8), layout="constrained")
     axes = picture.subplots(1, 2, sharey=True)
     stable = [row for row in rows if row.stable]
     for axis, attribute, factor, label in (
         (axes[0], "evaluations", 1.0, "evaluations"),
         (axes[1], "cpu_s", 1e3, "CPU time, ms"),
     ):
-        for name in dict.fromkeys(row.method.integrator for row in stable):
+        for number, name in enumerate(dict.fromkeys(row.method.integrator for row in stable)):
             run = [row for row in stable if row.method.integrator == name]
             cost = [factor * getattr(row, attribute) for row in run]
-            axis.loglog(cost, [row.error(PAYLOAD) for row in run], "o-", ms=4, label=name)
+            axis.loglog(
+                cost, [row.error(PAYLOAD) for row in run], "o-" if number < 10 else "s:", ms=4, label=name
+            )
         axis.set_xlabel(label)
         axis.xaxis.set_minor_formatter(NullFormatter())
         axis.grid(True, which="both", alpha=0.3)
     axes[0].set_ylabel("largest error of the payload's position, m")
-    axes[1].legend(fontsize=6, ncols=2)
+    picture.legend(*axes[1].get_legend_handles_labels(), loc="outside right upper", fontsize=7)
     picture.suptitle("Case 2, 100 s: work and precision", fontsize=10)
     with atomic_write(path) as draft:
         picture.savefig(draft, dpi=130, format="png")
