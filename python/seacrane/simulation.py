@@ -44,7 +44,7 @@ def simulate(
     outputs : Outputs, optional
         What is recorded, and how often.
     start : State, optional
-        Where to go on from; default: the assembled start of the scene.
+        Where to continue from; default: the assembled start of the scene.
     controllers : sequence of SampledController
         Called at their periods from the start on.
     accuracy : mapping of str to float, optional
@@ -70,7 +70,7 @@ def simulate(
     SceneError
         For a scene or setting that makes no sense.
     SimulationError
-        When the integration cannot go on, a controller raises, or memory runs out; it says where, when and
+        When the integration cannot continue, a controller raises, or memory runs out; it says where, when and
         what to try. Its `result` holds the outputs until then.
 
     Warns

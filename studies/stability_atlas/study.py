@@ -55,7 +55,7 @@ def stability_atlas(
     Parameters
     ----------
     out : path
-        Existing folder: extremes_rows.jsonl keeps rows as they are measured, and a later call goes on from
+        Existing folder: extremes_rows.jsonl keeps rows as they are measured, and a later call continues from
         there; extremes.csv, extremes_step.csv and extremes_<axis>.png are written at the end.
     quick : bool
         Few values and methods, besides all that the committed list names.

@@ -1,1 +1,1 @@
-"""The error of a run: what it is measured in, how it is told, and methods chosen by it."""
+"""The error of a run: what it is measured in, how it is estimated, and methods chosen by it."""

@@ -101,7 +101,7 @@ def step_error(
     SceneError
         For a step that is no positive number, an integrator that chooses its own, an unknown quantity.
     SimulationError
-        When the run with the step itself cannot go on.
+        When the run with the step itself cannot continue.
     """
     method, outputs = settled(method, outputs, shorthand)
     if method.step is None:

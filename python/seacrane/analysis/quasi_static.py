@@ -95,8 +95,8 @@ def feed_forward(
     references : mapping of str to Curve, optional
         By actuator name, instead of the actuators' own references.
     period : float, optional
-        s: references that swing for ever, over the last period of `times` as later. The loads then go on as
-        their mean and first harmonic over it, in place of the last value.
+        s: references that swing for ever, over the last period of `times` as later. The loads then continue
+        as their mean and first harmonic over it, in place of the last value.
 
     Returns
     -------

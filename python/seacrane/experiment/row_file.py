@@ -1,4 +1,4 @@
-"""Rows on disk, from which an experiment that was stopped goes on; and tables of them."""
+"""Rows on disk, from which an experiment that was stopped continues; and tables of them."""
 
 from __future__ import annotations
 

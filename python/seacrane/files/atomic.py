@@ -71,7 +71,7 @@ def space_left(folder: Path) -> str:
 
 
 def _discard(draft: Path) -> None:
-    """Its room too: a library that failed to write it holds it open, and would go on to the end of the
+    """Its room too: a library that failed to write it holds it open, and would keep it to the end of the
     process."""
     with contextlib.suppress(FileNotFoundError):
         found = draft.stat()

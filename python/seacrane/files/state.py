@@ -1,4 +1,4 @@
-"""State files: everything a run needs to go on, as plain numbers. Reading one runs no code.
+"""State files: everything a run needs to continue, as plain numbers. Reading one runs no code.
 
 A file is the line "seacrane state", a line of JSON (the header), the arrays that the header lists as
 little-endian doubles, one after the other, and the SHA-256 of all before. No array is made before the counts
@@ -101,7 +101,7 @@ def load_state(path: str | os.PathLike[str], *, scene: Compilable | None = None)
     ----------
     path : path-like
     scene : Scene, optional
-        The scene that is to go on from it.
+        The scene that is to continue from it.
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""The file of a run that goes on: pieces of its outputs, each with the state where it ends.
+"""The file of a run in progress: pieces of its outputs, each with the state where it ends.
 
 A file is the line "seacrane partial result" and records. A record is its length (8 bytes), a body, and the
 SHA-256 of both. A body is a line of JSON, the arrays that it lists as little-endian doubles, and the state
@@ -109,7 +109,7 @@ class Piece:
 
 
 def partial_path(path: Path) -> Path:
-    """Where the outputs of a result are while its run goes on."""
+    """Where the outputs of a result are while its run is in progress."""
     return path.with_name(f"{path.name}.partial")
 
 
@@ -154,7 +154,7 @@ def pieces_of(file: BinaryIO, name: str | Path) -> Iterator[tuple[Piece, int]]:
 
 
 def read_partial(path: Path, largest: int, channels: Sequence[str] | None = None) -> dict[str, Any]:
-    """What is in the file of a run that goes on, as `netcdf.read_arrays` gives it."""
+    """What is in the file of a run in progress, as `netcdf.read_arrays` gives it."""
     parts: dict[str, list[Array]] = {}
     events: list[Event] = []
     last, state, total = None, b"", 0
@@ -258,7 +258,7 @@ class PartialFile:
         self._end = at
 
     def release(self, *, remove: bool = False) -> None:
-        """Give it up, and remove it where it holds nothing, or nothing of use any more."""
+        """Give it up, and remove it where it holds nothing, or nothing that is of use any more."""
         if self._number < 0:
             return
         if (remove or os.fstat(self._number).st_size <= len(MAGIC)) and self.is_there():

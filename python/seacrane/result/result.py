@@ -138,7 +138,7 @@ class Result(Mapping[str, Array]):
     events : tuple of Event
         What wires, end stops and seats did, in order of time.
     state : State or None
-        Where the run stopped, to go on from by ``simulate(start=...)``.
+        Where the run stopped, to continue from by ``simulate(start=...)``.
     """
 
     time: Array
@@ -354,7 +354,7 @@ class Result(Mapping[str, Array]):
         Parameters
         ----------
         path : path
-            NetCDF4 file, or the .partial of a run that goes on or was killed.
+            NetCDF4 file, or the .partial of a run that is in progress or was killed.
         channels : sequence of str, optional
             Take only those, as far as the file holds them; default: all.
         largest : int

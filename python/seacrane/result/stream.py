@@ -1,4 +1,4 @@
-"""Results that grow on disk while a run goes on."""
+"""Results that grow on disk during a run."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ from seacrane.result.result import Result
 
 Array = NDArray[np.float64]
 LARGEST_PIECE = 2**21  # bytes
-LARGEST = 2**50  # bytes: what goes on is read piece by piece
+LARGEST = 2**50  # bytes: a file without end is read piece by piece
 MOST_ROWS, LEAST_ROWS = 4096, 16
 COUNTERS = ("wall_s", "evaluations", "steps", "rejected_steps", "jacobians",
             "newton_iterations", "projections", "restarts", "dense_solves")  # fmt: skip
@@ -41,7 +41,7 @@ def rows_of_piece(width: int) -> int:
 
 @dataclass(frozen=True, kw_only=True)
 class Left:
-    """What a run that stopped left to go on from: its outputs until a state.
+    """What a run that stopped left to continue from: its outputs until a state.
 
     Attributes
     ----------
@@ -136,7 +136,7 @@ class ResultFile:
             )
 
     def left(self) -> Left:
-        """What an earlier run left to go on from.
+        """What an earlier run left to continue from.
 
         Raises
         ------
@@ -198,7 +198,7 @@ class ResultFile:
         self.outputs, self._events = left.outputs, left.events
 
     def _copy_result(self, left: Left) -> None:
-        """A state is with the last piece alone: until it is there, the result is what to go on from."""
+        """A state is with the last piece alone: until it is there, the result is where to continue."""
         self._partial.keep_until(0)
         with open_netcdf(left.source, LARGEST) as file:
             names = list(left.piece.arrays)

@@ -112,7 +112,7 @@ class Run:
 
     @property
     def state(self) -> _core.State:
-        """The present state: a copy, to go on from by ``Run(scene, start=...)``."""
+        """The present state: a copy, to continue from by ``Run(scene, start=...)``."""
         return self.core.state
 
     def last_state(self) -> _core.State | None:

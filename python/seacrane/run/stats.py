@@ -1,4 +1,4 @@
-"""What a result tells of its run: version, settings, sizes, counters."""
+"""What a result says about its run: version, settings, sizes, counters."""
 
 from __future__ import annotations
 

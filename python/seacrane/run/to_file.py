@@ -77,12 +77,12 @@ def simulate_to_file(
     progress: bool = False,
     **shorthand: Unpack[Shorthand],
 ) -> StreamedResult:
-    """Simulate a scene and write its outputs to a file while the run goes on.
+    """Simulate a scene and write its outputs to a file as it is stepped.
 
     Outputs leave memory in pieces, each with the state where it ends. Until the run ends, they are added to
     <name>.partial, which `Result.load` reads at any time and which is whole whenever the process is killed.
     The result's own file is made of it when the run ends, or is stopped by Ctrl-C or an error.
-    ``resume=True`` goes on from either: the file then holds, bit for bit, the outputs of a run that was not
+    ``resume=True`` continues from either: the file then holds, bit for bit, the outputs of a run that was not
     stopped (methods of SUNDIALS restart there).
 
     Parameters
@@ -103,7 +103,7 @@ def simulate_to_file(
     overwrite : bool
         Replace whatever has the name, and drop what a killed run left.
     controllers : sequence of SampledController
-        As `simulate`. A run that goes on calls them anew from there.
+        As `simulate`. A run that is resumed calls them anew from there.
     progress : bool
         Show a progress bar.
     **shorthand
@@ -207,7 +207,7 @@ class _Writer:
         self._due = run.start.time + every
 
     def begin(self, left: Left | None, *, overwrite: bool, unlike: str) -> None:
-        """Begin the file, or go on with it; FileFormatError or FileExistsError where it is of another run."""
+        """Begin the file, or continue it; FileFormatError or FileExistsError where it is of another run."""
         channels, stats = list(self._widths), checked_stats(self._stats())
         if left is not None:
             old_channels = [name for name in left.piece.arrays if name != "time"]

@@ -132,7 +132,7 @@ def _values_of_weight(
 
 
 def _under_the_tip(scene: Scene, result: Result, link: _core.Joint) -> dict[str, Array]:
-    """What `_values_of_weight` tells of one payload, each of shape (n, parts)."""
+    """What `_values_of_weight` returns for one payload, each of shape (n, parts)."""
     payload, body = scene.bodies[link.second], scene.bodies[link.first]
     turn = rotation_matrix(result.select("quaternion", body=link.first))
     lever = np.asarray(link.first_frame.point) - np.asarray(body.center_of_mass)

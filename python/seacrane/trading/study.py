@@ -232,7 +232,7 @@ def trade(
         Show a progress bar.
     out : path, optional
         Existing folder: rows are kept in its trade_rows.jsonl as they are measured, and a later call for the
-        same scene goes on from there; trade.csv and trade.png are written at the end.
+        same scene continues from there; trade.csv and trade.png are written at the end.
 
     Returns
     -------

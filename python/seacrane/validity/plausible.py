@@ -46,7 +46,7 @@ def warn_of_description(scene: Description, *, start: float, end: float, describ
 
 
 def _warn_of_angles(scene: Description, start: float, end: float) -> None:
-    """An angle that comes to rest whole radians and turns away; what goes on turning is a machine."""
+    """An angle that comes to rest whole radians and turns away; what keeps turning is a machine."""
     for reference in references(scene):
         if reference.coordinate not in ANGLES:
             continue

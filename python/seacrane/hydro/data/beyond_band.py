@@ -50,7 +50,7 @@ def without_load(
 ) -> WithoutLoad:
     """What the components of a sea above the band would add.
 
-    Forces there are taken to go on as the power of the frequency that they follow at the end of the band
+    Forces there are taken to continue as the power of the frequency that they follow at the end of the band
     (least squares through its last fifth), and never to grow. Loads that are next to none at these headings
     (roll in a head sea) are not judged.
 
