@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 # Each ended a run once: a crash, dense output outside the last step, a limit passed, sets without end.
-FOUND = [29, 208, 261, 275, 297, 309, 432, 453, 493]
+FOUND = [29, 208, 261, 275, 297, 309, 432, 453, 493, 1722]
 # What a scene may end by: the method, its tolerance, or an angle that is not defined where it came to.
 OWN_FAULT = (
     "corrector convergence failed", "Newton's iteration", "step size has collapsed", "run stands still",

@@ -31,4 +31,12 @@ TEST_CASE("three wires of four carry where all are asked and one would do nothin
   CHECK(f.minCoeff() >= 0.0);
 }
 
+TEST_CASE("a contact that no force can part is left out, and the others carry") {
+  const MatXd g = Eigen::Vector2d(0.0, 2.0).asDiagonal();
+  const VecXd f = complementary_forces(g, Eigen::Vector2d(-1.0, -1.0));
+  CHECK(f[0] == 0.0);
+  CHECK(f[1] == doctest::Approx(0.5).epsilon(1e-14));
+  CHECK(complementary_forces(MatXd::Zero(1, 1), VecXd::Constant(1, -1.0))[0] == 0.0);
+}
+
 }  // namespace seacrane::test

@@ -18,10 +18,11 @@ VecXd carried(const MatXd& g, const VecXd& b, const Flags& carries) {
   for (Eigen::Index i = 0; i < carries.size(); ++i) {
     if (carries[i]) at.push_back(i);
   }
+  VecXd z = VecXd::Zero(b.size());
+  if (at.empty()) return z;
   Eigen::CompleteOrthogonalDecomposition<MatXd> part;
   part.setThreshold(kDependent);
   part.compute(g(at, at));
-  VecXd z = VecXd::Zero(b.size());
   const VecXd right = -b(at), solved = part.solve(right);
   z(at) = solved;
   return z;
@@ -32,15 +33,22 @@ VecXd carried(const MatXd& g, const VecXd& b, const Flags& carries) {
 VecXd complementary_forces(const MatXd& g, const VecXd& b) {
   const Eigen::Index n = b.size();
   VecXd f = VecXd::Zero(n), w = b;
-  Flags carries = Flags::Constant(n, false);
+  Flags carries = Flags::Constant(n, false), refused = Flags::Constant(n, false);
   const double least = n > 0 ? kRounding * b.cwiseAbs().maxCoeff() : 0.0;
   for (Eigen::Index turn = 0; turn < 4 * n + 4; ++turn) {
     Eigen::Index next = -1;
     for (Eigen::Index i = 0; i < n; ++i) {
-      if (!carries[i] && w[i] < -least && (next < 0 || w[i] < w[next])) next = i;
+      if (!carries[i] && !refused[i] && w[i] < -least && (next < 0 || w[i] < w[next])) next = i;
     }
     if (next < 0) break;
     carries[next] = true;
+    // A contact that no force parts, by rounding or because all is held, waits until the others have changed.
+    if (!(carried(g, b, carries)[next] > 0.0)) {
+      carries[next] = false;
+      refused[next] = true;
+      continue;
+    }
+    refused.setConstant(false);
     for (;;) {
       const VecXd z = carried(g, b, carries);
       double part = 1.0;
