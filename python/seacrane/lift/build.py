@@ -20,6 +20,7 @@ from seacrane.scene.scene import Scene
 
 NO_CALLS = ("scene", "run", "method", "outputs", "balance", "control", "command", "notes")
 GAINS = ("stiffness", "damping")
+ABOUT = "(?:is|are|has|have|holds)"  # follows the name of what a message is about
 Made = TypeVar("Made")
 
 
@@ -127,10 +128,10 @@ def refused_at(document: Document, entry: Entry) -> Iterator[None]:
 def _about(entry: Entry, message: str) -> Place:
     """The path of the key that a message is about; of the table, where it names none."""
     for key in entry.table.keys:
-        if re.search(rf"\b{re.escape(key.name)}\b(?:\[\d+\])? (?:is|are|has|have|holds)\b", message):
-            for spelling in key.spellings:
-                if spelling in entry.values:
-                    return (*entry.path, spelling)
+        for spelling in key.spellings:
+            words = f"(?:{re.escape(key.name)}|{re.escape(spelling)})"
+            if spelling in entry.values and re.search(rf"\b{words}(?:\[\d+\])? {ABOUT}\b", message):
+                return (*entry.path, spelling)
     return entry.path
 
 

@@ -15,6 +15,7 @@ from seacrane.lift.tables import CURVES
 from seacrane.scene.gusts import gust_curve
 
 Scale = Callable[[Any], Any]
+LONGEST_GUST = 1e7  # s times components: fourteen hours of the usual 200
 
 
 def curve_from(given: Any, unit: str) -> float | Curve:
@@ -58,10 +59,25 @@ def _harmonic(*, amplitude: float, period: float, **others: float) -> Curve:
     return Curve.harmonic(amplitude=amplitude, omega=2.0 * np.pi / period, **others)
 
 
+def _spline(*, times: Any, values: Any) -> Curve:
+    try:
+        return spline_curve(times=times, values=values)
+    except np.linalg.LinAlgError as error:
+        raise SceneError(f"curve: no spline leads through its samples ({error}); space them out") from error
+
+
+def _gust(*, duration: float, count: int = 200, **others: Any) -> Curve:
+    if duration * count > LONGEST_GUST:
+        raise SceneError(
+            f"curve: duration_s is {duration:g} with count {count}; their product may be {LONGEST_GUST:g} s"
+        )
+    return gust_curve(duration=duration, count=count, **others)
+
+
 _MAKE: Mapping[str, Callable[..., Curve]] = {
     "constant": Curve.constant,
     "quintic": Curve.quintic,
     "harmonic": _harmonic,
-    "spline": spline_curve,
-    "gust": gust_curve,
+    "spline": _spline,
+    "gust": _gust,
 }

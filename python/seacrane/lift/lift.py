@@ -127,9 +127,7 @@ class Lift:
         try:
             data = toml_text(tables).encode("utf-8")
         except UnicodeEncodeError as error:
-            raise SceneError(
-                f"lift: holds {error.object!r}, which is no text of UTF-8; correct it"
-            ) from error
+            raise SceneError("lift: a text holds half of a surrogate pair, which UTF-8 has not") from error
         if len(data) > LARGEST_FILE:
             raise SceneError(f"lift: takes {len(data)} bytes, above {LARGEST_FILE}; shorten its tables")
         with atomic_write(target) as draft:
