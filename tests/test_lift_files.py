@@ -470,10 +470,11 @@ def test_every_keyword_is_a_key(name: str) -> None:
     assert words - scripted.get(name, set()) <= {key.name for key in TABLES[name].keys}
 
 
-PLAIN = set(
-    "length_scale mooring_damping inertia quaternion gamma spreading relative_bound axis second_axis axes x y yaw "
-    "restitution damping_ratio tolerance spectral_radius energy_limit".split()
-)
+PLAIN = {
+    "length_scale", "mooring_damping", "inertia", "quaternion", "gamma", "spreading", "relative_bound",
+    "axis", "second_axis", "axes", "x", "y", "yaw", "restitution", "damping_ratio", "tolerance",
+    "spectral_radius", "energy_limit",
+}  # fmt: skip
 IN_CURVES = {"value", "start", "end", "amplitude", "offset", "values"}  # by the key that holds the curve
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import argparse
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from seacrane.cli.command_line import INTERRUPTED
 from seacrane.cli.output_folder import output_folder
@@ -27,7 +27,7 @@ def run(arguments: argparse.Namespace) -> int:
     method, outputs = overridden(source.method, source.outputs, words)
     path = folder / f"{source.name}.nc"
     t_end = source.t_end if arguments.t_end is None else arguments.t_end
-    span = {} if t_end is None else {"t_end": t_end}
+    span: dict[str, Any] = {} if t_end is None else {"t_end": t_end}
     told = simulate_to_file(
         source.scene, path, **span, method=method, outputs=outputs,
         checkpoint_every=arguments.checkpoint_every, resume=arguments.resume, overwrite=arguments.overwrite,
