@@ -49,6 +49,8 @@ def _only(entries: Sequence[Entry], table: str) -> Entry | None:
 
 
 class _Build:
+    """Builds one lift: first without control, which takes a scene to compute, then with it."""
+
     def __init__(self, document: Document, entries: Sequence[Entry]) -> None:
         self.document, self.entries, self.caller = document, entries, Caller()
 
@@ -96,11 +98,11 @@ class _Build:
             loads = feed_forward_of(
                 scene, start, references, settings, at_rest=lambda: self._started(at_rest=True)[0]
             )
-        for name in references:
-            del scene.actuators[name]
-        for name, one in zip(references, given, strict=True):
-            chosen = dict(zip(GAINS, gains[name], strict=True))
-            scene.add_actuator(**one | chosen, feed_forward=loads.get(name, 0.0))
+            for name in references:
+                del scene.actuators[name]
+            for name, one in zip(references, given, strict=True):
+                chosen = dict(zip(GAINS, gains[name], strict=True))
+                scene.add_actuator(**one | chosen, feed_forward=loads.get(name, 0.0))
 
     def _tuning(self, pose: Keywords, commands: Sequence[Keywords]) -> Scene:
         """The cranes alone on a fixed base, in the pose at which the inertia of their drives is taken."""

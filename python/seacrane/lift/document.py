@@ -16,7 +16,7 @@ from seacrane.lift.lines import Place, lines_of
 
 FORMAT, VERSION = "seacrane lift", 1
 LARGEST_FILE = 512 * 2**10  # bytes; TOML's smallest tables take some 150 times their size when it is parsed
-MOST_PARTS = 16  # of a dotted key: parsing one takes time by the square of them
+MOST_PARTS = 8  # of a dotted key: parsing one takes time by the square of them
 _PART = r"""(?:[\w-]+|"[^"\n]*"|'[^'\n]*')"""
 _LONG_KEY = re.compile(rf"(?<![\w-]){_PART}(?:[ \t]*\.[ \t]*{_PART}){{{MOST_PARTS}}}")
 _AT_LINE = re.compile(r"^(.*) \(at line (\d+), column (\d+)\)$", re.DOTALL)

@@ -38,7 +38,7 @@ POINT: dict[str, Any] = {"type": "array", "unit": "m", "shapes": ((3,),)}
 DIRECTION: dict[str, Any] = {"type": "array", "shapes": ((3,),)}
 LENGTH: dict[str, Any] = {"unit": "m"}
 TIME: dict[str, Any] = {"unit": "s"}
-RELATIVE = {"type": "number"}
+NUMBER = {"type": "number"}
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -114,7 +114,7 @@ def _sea_keys() -> tuple[Key, ...]:
     plain = keys_of(
         sea.add_sea,
         more=CHOSEN | {
-            "hs": LENGTH, "tp": TIME, "spreading": RELATIVE, "heading_deg": {"unit": "deg"},
+            "hs": LENGTH, "tp": TIME, "spreading": NUMBER, "heading_deg": {"unit": "deg"},
             "position": POINT | {"shapes": ((2,),)},
         },
         without=("database", "sea"),
@@ -127,7 +127,7 @@ def _system_keys() -> tuple[Key, ...]:
     frequency = {"unit": "rad/s"}
     own = keys_of(
         WaveSystem,
-        more=CHOSEN | {"spreading": RELATIVE, "omega_min": frequency, "omega_max": frequency},
+        more=CHOSEN | {"spreading": NUMBER, "omega_min": frequency, "omega_max": frequency},
     )
     shape = keys_of(sea.add_sea, more={"hs": LENGTH, "tp": TIME}, only=("hs", "tp", "gamma"))
     return (*own, *(replace(key, required=key.name != "gamma") for key in shape))
