@@ -298,6 +298,12 @@ BUILT = {
         ARM.replace("damping_ratio", 'feed_forward = "none"\nperiod_s = 5\ndamping_ratio'), "period_s",
         "period is given, which feed_forward = 'none' has no use for",
     ),
+    "control of nothing": (ARM[: ARM.index("[command]")], "[control]", "has no [[command]] to control"),
+    "a speed of the shipped hull": (HEAD + VESSEL + "speed_m_per_s = 3\n", "speed_m_per_s", "zero speed"),
+    "a payload of nothing": (
+        HEAD + '[crane]\nbase = "ground"\n[crane.payload]\nlink_length_m = 5\nmass_kg = 0\n', "mass_kg",
+        "payload: mass is 0.0",
+    ),
     "ballast of nothing": (HEAD + VESSEL + '[balance]\nbody = "ship"\n', "body", "the vessels are 'vessel'"),
     "no frequency": (ARM.replace("Hz = 2", "Hz = 0"), "natural_frequency_Hz", "give a number above zero"),
 }  # fmt: skip

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import contextlib
 import re
-from collections.abc import Callable, Iterator, Sequence
-from typing import TypeVar
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from typing import Any, TypeVar
 
 from seacrane._core import Curve
 from seacrane.analysis.ballast import add_ballast
@@ -15,6 +15,7 @@ from seacrane.lift.calls import Caller, Keywords, keywords
 from seacrane.lift.check import Entry, plain
 from seacrane.lift.control import feed_forward_of, gains_of
 from seacrane.lift.document import Document
+from seacrane.lift.keys import Key
 from seacrane.lift.lines import Place
 from seacrane.scene.scene import Scene
 
@@ -58,8 +59,11 @@ class _Build:
         """With every command controlled."""
         scene, start = self._started()
         commands = [entry for entry in self.entries if entry.table.name == "command"]
-        if commands:
-            self._control(scene, commands, start)
+        control = _only(self.entries, "control")
+        if commands and control is None:
+            self.document.fail(commands[0].path, f"{commands[0].title} has no [control] to follow; add it")
+        if control is not None:
+            self._control(scene, control, commands, start)
         return scene
 
     def _started(self, *, at_rest: bool = False) -> tuple[Scene, Balance | None]:
@@ -83,11 +87,14 @@ class _Build:
         with refused_at(self.document, ballast):
             return scene, add_ballast(scene, body=ballast.values["body"])
 
-    def _control(self, scene: Scene, commands: Sequence[Entry], start: Balance | None) -> None:
+    def _control(
+        self, scene: Scene, control: Entry, commands: Sequence[Entry], start: Balance | None
+    ) -> None:
         """Give every command gains and feed-forward, in place of an actuator without."""
-        control = _only(self.entries, "control")
-        if control is None:
-            self.document.fail(commands[0].path, f"{commands[0].title} has no [control] to follow; add it")
+        if not commands:
+            self.document.fail(
+                control.path, "[control] has no [[command]] to control; add one, or leave it out"
+            )
         given = [keywords(entry.table.keys, entry.values, scene) for entry in commands]
         references = {str(one.get("name", one["joint"])): _curve(one.get("reference", 0.0)) for one in given}
         with refused_at(self.document, control):
@@ -124,17 +131,24 @@ def refused_at(document: Document, entry: Entry) -> Iterator[None]:
     except (SceneError, FileFormatError, TypeError) as error:
         if isinstance(error, FileFormatError) and str(error).startswith(document.source):
             raise
-        document.fail(_about(entry, str(error)), f"{entry.title}: {error}")
+        about = _about(entry.path, entry.table.keys, entry.values, str(error))
+        document.fail(entry.path if about is None else about, f"{entry.title}: {error}")
 
 
-def _about(entry: Entry, message: str) -> Place:
-    """The path of the key that a message is about; of the table, where it names none."""
-    for key in entry.table.keys:
+def _about(path: Place, keys: Iterable[Key], values: Mapping[str, Any], message: str) -> Place | None:
+    """The path of the key that a message is about; None where it names none."""
+    for key in keys:
         for spelling in key.spellings:
             words = f"(?:{re.escape(key.name)}|{re.escape(spelling)})"
-            if spelling in entry.values and re.search(rf"\b{words}(?:\[\d+\])? {ABOUT}\b", message):
-                return (*entry.path, spelling)
-    return entry.path
+            if spelling not in values:
+                continue
+            if re.search(rf"\b{words}(?:\[\d+\])? {ABOUT}\b", message):
+                return (*path, spelling)
+            if key.type == "table" and f"{key.name}: " in message:
+                inside = _about((*path, spelling), key.keys, values[spelling], message)
+                if inside is not None:
+                    return inside
+    return None
 
 
 def _curve(value: float | Curve) -> Curve:

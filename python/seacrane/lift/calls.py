@@ -126,8 +126,12 @@ class Caller:
 
     def _vessel(self, scene: Scene, given: Keywords, *, at_rest: bool) -> None:
         file, speed = given.pop("database"), given.pop("speed", None)
+        if file in SHIPPED and speed is not None:
+            raise SceneError(
+                f"vessel: speed is {speed:g} m/s, and {file} holds zero speed alone; leave it out"
+            )
         if (file, speed) not in self.read:
-            shipped = file in SHIPPED and speed is None
+            shipped = file in SHIPPED
             self.read[file, speed] = shipped_database() if shipped else load_database(file, speed=speed)
         database = self.read[file, speed]
         if given.get("mooring_period") == float("inf"):
