@@ -37,7 +37,7 @@ system-packages:
 # A new environment may hold another interpreter: what was compiled for the old one goes.
 $(BIN)/python: | system-packages
 	rm -rf .venv $(PACKAGE_BUILD)
-	$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 10) and "seacrane needs Python 3.10 or newer, this is " + sys.version.split()[0])'
+	$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11) and "seacrane needs Python 3.11 or newer, this is " + sys.version.split()[0])'
 	$(PYTHON) -m venv .venv
 
 # The stamps of what is inside .venv live inside it, so that they vanish with it.

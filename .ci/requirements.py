@@ -3,12 +3,8 @@
 from __future__ import annotations
 
 import sys
+import tomllib
 from pathlib import Path
-
-try:
-    import tomllib
-except ModuleNotFoundError:  # Python 3.10: pip brings the same parser
-    from pip._vendor import tomli as tomllib  # type: ignore[no-redef]
 
 
 def requirements(kind: str) -> list[str]:

@@ -21,7 +21,7 @@ from fuzz.limits import bounded
 from fuzz.netcdf_spec import build
 from fuzz.targets import CORPUS, TARGETS, Target, cases, quiet
 
-from seacrane import Scene
+from seacrane import Lift, Scene
 from seacrane.crane.data_file import load as load_crane
 from seacrane.errors import FileFormatError
 from seacrane.files import hdf5_structure
@@ -293,6 +293,10 @@ DEEP = 100_000
         ("scene.json", '{"notes":' * DEEP, Scene.load),
         ("crane.toml", "a = " + "[" * DEEP, load_crane),
         ("crane.toml", "a = " + "{a = " * DEEP, load_crane),
+        ("lift.toml", "a = " + "[" * DEEP, Lift.load),
+        ("lift.toml", "a = " + "{a = " * DEEP, Lift.load),
+        ("lift.toml", "a" + ".a" * DEEP + " = 1", Lift.load),
+        ("lift.toml", "[" + "a . " * DEEP + "a]", Lift.load),
         ("ship.yml", "[" * DEEP, read_orcaflex),
         ("ship.yml", "- " * DEEP, read_orcaflex),
         ("ship.yml", "a: &a [x]\nb: &b [*a, *a, *a]\nc: [*b, *b, *b]\n", read_orcaflex),
@@ -309,7 +313,7 @@ SET_FILES = ["veres-re7", "veres-re8", "veres-re1", "veres-re2", "veres-hyd", "w
              "wamit-hst", "wamit-out", "wamit-frc", "wamit-cfg"]  # fmt: skip
 
 
-@pytest.mark.parametrize("name", [*SET_FILES, "stl", "offsets", "orcaflex", "scene", "crane"])
+@pytest.mark.parametrize("name", [*SET_FILES, "stl", "offsets", "orcaflex", "scene", "crane", "lift"])
 def test_files_larger_than_their_kind(name: str, tmp_path: Path) -> None:
     """A sparse file of 64 GiB is refused before any of it is read."""
     if name == "orcaflex":
@@ -321,7 +325,7 @@ def test_files_larger_than_their_kind(name: str, tmp_path: Path) -> None:
     refused(lambda: target.read(tmp_path / target.file), r"is larger than \d+ bytes")
 
 
-@pytest.mark.parametrize("name", ["scene", "crane", "stl", "veres-re7", "wamit-1"])
+@pytest.mark.parametrize("name", ["scene", "crane", "lift", "stl", "veres-re7", "wamit-1"])
 def test_devices(name: str, tmp_path: Path) -> None:
     """/dev/zero has no end."""
     target = TARGETS[name]

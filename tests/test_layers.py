@@ -37,6 +37,7 @@ FLOORS = """
     experiment
     figures
     trading
+    lift
     cases
     cli
     __main__

@@ -65,6 +65,7 @@ from seacrane.inputs.plausible import AngleUnitWarning as AngleUnitWarning
 from seacrane.inputs.plausible import CompassDirectionWarning as CompassDirectionWarning
 from seacrane.inputs.plausible import DepthSignWarning as DepthSignWarning
 from seacrane.inputs.plausible import MassUnitWarning as MassUnitWarning
+from seacrane.lift.lift import Lift as Lift
 from seacrane.result import Event as Event
 from seacrane.result import Result as Result
 from seacrane.run.method import Method as Method

@@ -14,7 +14,8 @@ from numpy.typing import NDArray
 
 from seacrane import _core
 from seacrane.analysis import quasi_static
-from seacrane.analysis.inverse import Balance, balance, reflected_inertia
+from seacrane.analysis.ballast import add_ballast
+from seacrane.analysis.inverse import Balance, reflected_inertia, tuned_gains
 from seacrane.crane import FOOT, Payload
 from seacrane.errors import SceneError
 from seacrane.hydro import HydroDatabase, load_database, shipped_database
@@ -50,9 +51,9 @@ def _gains() -> dict[str, tuple[float, float]]:
     scene.add_crane(base="ground", theta=SLEW_END, s1=STROKE_END, s2=STROKE_END, payload=Payload())
     for name, joint in ACTUATORS.items():
         scene.add_actuator(name=name, joint=joint)
-    inertia = reflected_inertia(scene)
-    omega = NATURAL_FREQUENCY
-    return {name: (value * omega**2, 2.0 * DAMPING_RATIO * omega * value) for name, value in inertia.items()}
+    return tuned_gains(
+        reflected_inertia(scene), natural_frequency=NATURAL_FREQUENCY, damping_ratio=DAMPING_RATIO
+    )
 
 
 def vessel(
@@ -114,14 +115,7 @@ def _crane_afloat(
     for actuator, joint in ACTUATORS.items():
         scene.record_coordinate(joint=joint)
         scene.add_actuator(name=actuator, joint=joint)
-    start = balance(scene)
-    scene.add_point_force(
-        name="balance",
-        body="vessel",
-        point=(start.weight_center[0], start.weight_center[1], 0.0),
-        force=(0.0, 0.0, start.weight),
-    )
-    return scene, start
+    return scene, add_ballast(scene)
 
 
 def _lift(

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import sys
+import tomllib
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import lru_cache
@@ -47,11 +47,6 @@ class Promise:
 @lru_cache(maxsize=1)
 def promises() -> tuple[Promise, ...]:
     """All of the list, committed.toml beside this file."""
-    if sys.version_info >= (3, 11):
-        import tomllib
-    else:
-        import tomli as tomllib
-
     data: dict[str, Any] = tomllib.loads(
         files("stability_atlas").joinpath("committed.toml").read_text(encoding="utf-8")
     )

@@ -14,7 +14,11 @@ from typing import Any
 
 from fuzz.targets import CORPUS, TARGETS
 
-SOUND = {"orcaflex": "model", "orcaflex-text": "model"}  # where a target's sound file is not that of a set
+SOUND = {
+    "orcaflex": "model",
+    "orcaflex-text": "model",
+    "lift": "every-table",
+}  # where a target's sound file is not that of a set
 
 
 @dataclass(frozen=True)

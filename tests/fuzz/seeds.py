@@ -16,6 +16,7 @@ import numpy as np
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
+from lift_examples import EVERY_TABLE
 from orcaflex_writer import model
 from test_elements import every_load
 from test_hydro_capytaine import layout
@@ -320,6 +321,8 @@ def main() -> None:
     orcaflex_seeds(hull)
     hull_seeds()
     put("crane", "shipped", DEFAULT_PATH.read_bytes())
+    put("lift", "every-table", EVERY_TABLE.encode())
+    put("lift", "case3", DEFAULT_PATH.with_name("lifts").joinpath("case3.toml").read_bytes())
     t = np.arange(16) * 0.5
     record = {
         "time": t.tolist(),

@@ -16,9 +16,9 @@ import numpy as np
 from fuzz.limits import bounded
 from fuzz.mutate import mutate_json, mutate_text
 from fuzz.netcdf_spec import build
-from seacrane import Scene, sea
+from seacrane import Lift, Scene, sea
 from seacrane.crane import KnuckleBoomCrane
-from seacrane.errors import FileFormatError, SceneError
+from seacrane.errors import FileFormatError, SceneError, SimulationError
 from seacrane.files.hdf5_structure import Structure
 from seacrane.files.netcdf_limits import LARGEST_DATABASE as LARGEST
 from seacrane.files.netcdf_limits import NETCDF_ERRORS
@@ -157,6 +157,15 @@ def _crane(path: Path) -> Any:
     return list(crane.mass_properties.values())
 
 
+def _lift(path: Path) -> Any:
+    """A lift that loads has to build and to compile, or to be refused by name; without what takes long."""
+    lift = Lift.load(path)
+    if not {"vessel", "sea", "control"} & set(lift.tables):
+        scene = lift.scene()
+        with contextlib.suppress(SceneError, SimulationError):  # of angles that are singular at the start
+            scene.compile()
+
+
 def _measured(path: Path) -> Any:
     """The arguments of `MeasuredWaves` as JSON; what is no such object is refused here."""
     try:
@@ -205,6 +214,7 @@ _VERES = tuple(
     for name in ("veres", "veres_files", "veres_set", "veres_hydrostatics", "text_records")
 )
 _WAMIT = tuple(f"hydro/readers/{name}.py" for name in ("wamit", "wamit_control", "wamit_tables"))
+_LIFT = tuple(f"lift/{name}.py" for name in ("document", "lines", "check", "curves"))
 _SHAPE = (FileFormatError, ValueError)
 
 
@@ -233,6 +243,7 @@ _ALL = [
     Target("offsets", "offsets", "hull.txt", _hull_of_offsets, ("hydro/hull/offsets.py",), refusals=_SHAPE),
     Target("stl", "stl", "hull.stl", _hull_of_stl, ("hydro/hull/stl.py",), refusals=_SHAPE),
     Target("scene", "scene", "scene.json", _scene, _SCENE, mutate_json),
+    Target("lift", "lift", "lift.toml", _lift, _LIFT),
     Target("crane", "crane", "crane.toml", _crane, ("crane/data_file.py",)),
     Target(
         "measured", "measured", "record.json", _measured, ("sea/measured.py",), mutate_json,

@@ -292,3 +292,26 @@ def reflected_inertia(scene: Description) -> dict[str, float]:
             )
         out[name] = float(loads[1] - loads[0])
     return out
+
+
+def tuned_gains(
+    inertia: Mapping[str, float], *, natural_frequency: float, damping_ratio: float
+) -> dict[str, tuple[float, float]]:
+    """Stiffness and damping of actuators that control coordinates of these inertias.
+
+    Parameters
+    ----------
+    inertia : mapping of str to float
+        By actuator, as `reflected_inertia` gives it, kg or kg m2.
+    natural_frequency : float
+        rad/s.
+    damping_ratio : float
+        Of critical damping.
+
+    Returns
+    -------
+    dict of str to (float, float)
+        By actuator: N/m and N s/m, or N m/rad and N m s/rad.
+    """
+    omega = natural_frequency
+    return {name: (value * omega**2, 2.0 * damping_ratio * omega * value) for name, value in inertia.items()}

@@ -15,7 +15,9 @@ from typing import Any, NoReturn
 PACKAGE = Path(__file__).parents[1]
 FAILED, MISUSED, INTERRUPTED = 1, 2, 130
 DESCRIPTION = "Offshore crane, payload and vessel moving together in waves."
-SCENE_HELP = "case1, case2, case3, vessel (the vessel alone in waves), or a scene file (data only)"
+SCENE_HELP = (
+    "case1, case2, case3, vessel (the vessel alone in waves), a lift (.toml) or a scene file; data only"
+)
 PATH_HELP = (
     "a file or folder of any supported kind: a VERES or WAMIT folder or common stem, or a NetCDF file of "
     "seacrane or Capytaine"
@@ -39,6 +41,7 @@ def build_parser() -> argparse.ArgumentParser:
     _add_report(commands)
     _add_hydro(commands)
     _add_trade(commands)
+    _add_schema(commands)
     return parser
 
 
@@ -134,6 +137,12 @@ def _add_trade(commands: Any) -> None:
     trade.add_argument("scene", metavar="SCENE", help=SCENE_HELP)
     trade.add_argument("--out", metavar="DIR", required=True, help="folder to write to; made if absent")
     trade.add_argument("--quick", action="store_true", help="a coarse grid of few integrators")
+
+
+def _add_schema(commands: Any) -> None:
+    text = "print the JSON Schema of lift files, with which editors complete and check them"
+    schema = commands.add_parser("schema", help=text, description=text)
+    schema.add_argument("--path", action="store_true", help="print where the installed copy is instead")
 
 
 def main(arguments: Sequence[str] | None = None) -> int:

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import argparse
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from seacrane.cli.command_line import INTERRUPTED
 from seacrane.cli.output_folder import output_folder
-from seacrane.cli.scene_source import load_scene
+from seacrane.cli.scene_source import load_source
 
 if TYPE_CHECKING:
     from seacrane.result import Result
@@ -18,17 +18,20 @@ SETTINGS = ("dt_out", "integrator", "rtol", "dt", "spectral_radius", "formulatio
 
 def run(arguments: argparse.Namespace) -> int:
     """Simulate and summarise; 130 if the run was interrupted."""
-    name, scene = load_scene(arguments.scene, arguments, scripts=True)
+    source = load_source(arguments.scene, arguments, scripts=True)
     folder = output_folder(arguments.out)
-    from seacrane.run.shorthand import settled
+    from seacrane.run.shorthand import overridden
     from seacrane.run.to_file import simulate_to_file
 
-    method, outputs = settled(None, None, {word: getattr(arguments, word) for word in SETTINGS})
-    path = folder / f"{name}.nc"
-    span = {} if arguments.t_end is None else {"t_end": arguments.t_end}
+    words = {word: getattr(arguments, word) for word in SETTINGS}
+    method, outputs = overridden(source.method, source.outputs, words)
+    path = folder / f"{source.name}.nc"
+    t_end = source.t_end if arguments.t_end is None else arguments.t_end
+    span: dict[str, Any] = {} if t_end is None else {"t_end": t_end}
     told = simulate_to_file(
-        scene, path, **span, method=method, outputs=outputs, checkpoint_every=arguments.checkpoint_every,
-        resume=arguments.resume, overwrite=arguments.overwrite, progress=arguments.progress,
+        source.scene, path, **span, method=method, outputs=outputs,
+        checkpoint_every=arguments.checkpoint_every, resume=arguments.resume, overwrite=arguments.overwrite,
+        progress=arguments.progress,
     )  # fmt: skip
     print(summary(told.load(SUMMARISED)))
     print(f"saved {told.path}")

@@ -8,12 +8,15 @@ import runpy
 import sys
 import traceback
 from collections.abc import Iterator
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from seacrane.errors import SceneError
 
 if TYPE_CHECKING:
+    from seacrane.run.method import Method
+    from seacrane.run.outputs import Outputs
     from seacrane.scene.scene import Scene
 
 CASES = ("case1", "case2", "case3", "vessel")
@@ -21,13 +24,30 @@ SEA_OPTIONS = ("hs", "tp", "wave_direction_deg", "spectrum", "gamma", "spreading
 CASE_OPTIONS = ("memory", *SEA_OPTIONS, "database")
 
 
+@dataclass(frozen=True, kw_only=True)
+class Source:
+    """What the user named: a scene, the name of its files, and of a lift how it is run."""
+
+    name: str
+    scene: Scene
+    t_end: float | None = None
+    method: Method | None = None
+    outputs: Outputs | None = None
+
+
 def load_scene(source: str, options: argparse.Namespace, *, scripts: bool) -> tuple[str, Scene]:
-    """The scene, and the name of its files.
+    """The scene, and the name of its files; as `load_source`."""
+    found = load_source(source, options, scripts=scripts)
+    return found.name, found.scene
+
+
+def load_source(source: str, options: argparse.Namespace, *, scripts: bool) -> Source:
+    """What the user named.
 
     Parameters
     ----------
     source : str
-        Name of a case, or path of a scene file or script.
+        Name of a case, or path of a lift, a scene file or a script.
     options : Namespace
         May hold `CASE_OPTIONS`; those that are None or absent keep the case's own values.
     scripts : bool
@@ -37,11 +57,13 @@ def load_scene(source: str, options: argparse.Namespace, *, scripts: bool) -> tu
     ------
     SceneError
         If there is no such scene, a script may not run or fails, or options do not apply.
+    FileFormatError
+        If a file is none of these.
     """
     given = {name: getattr(options, name, None) for name in CASE_OPTIONS}
     given = {name: value for name, value in given.items() if value is not None}
     if source in CASES:
-        return source, _built_in(source, given)
+        return Source(name=source, scene=_built_in(source, given))
     path = Path(source)
     if given:
         names = ", ".join(f"--{name.replace('_', '-')}" for name in given)
@@ -51,10 +73,23 @@ def load_scene(source: str, options: argparse.Namespace, *, scripts: bool) -> tu
     if path.suffix == ".py":
         if not scripts:
             raise SceneError(f"{path.name} is a script, and only `seacrane run` executes scripts")
-        return path.stem, run_script(path)
+        return Source(name=path.stem, scene=run_script(path))
+    return _lift(path) if path.suffix == ".toml" else _scene_file(path)
+
+
+def _lift(path: Path) -> Source:
+    from seacrane.lift.lift import Lift
+
+    lift = Lift.load(path)
+    return Source(
+        name=path.stem, scene=lift.scene(), t_end=lift.t_end, method=lift.method, outputs=lift.outputs
+    )
+
+
+def _scene_file(path: Path) -> Source:
     from seacrane.scene.scene import Scene
 
-    return path.stem, Scene.load(path)
+    return Source(name=path.stem, scene=Scene.load(path))
 
 
 def _built_in(name: str, options: dict[str, Any]) -> Scene:

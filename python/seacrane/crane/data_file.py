@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-import importlib
 import math
-import sys
+import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -315,9 +314,8 @@ def parse(text: str, *, source: str = "crane data") -> CraneData:
         The text is not TOML, a key is missing or unknown, a value is out of range, the masses do not add up,
         a stroke cannot be reached, or a cylinder comes too near its dead centre.
     """
-    toml = importlib.import_module("tomllib" if sys.version_info >= (3, 11) else "tomli")
     try:
-        values = toml.loads(text)
+        values = tomllib.loads(text)
     except RecursionError as error:
         raise FileFormatError(f"{source}: is nested too deeply for crane data; remove brackets.") from error
     except ValueError as error:  # TOMLDecodeError is one, a number of too many digits another

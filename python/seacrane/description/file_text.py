@@ -9,25 +9,11 @@ from pathlib import Path
 from typing import Any
 
 from seacrane.errors import FileFormatError
+from seacrane.files.looks_like import looks_like
 from seacrane.files.whole_file import read_whole
 from seacrane.inputs.shown import shown
 
 LARGEST_FILE = 32 * 2**20  # bytes; JSON takes up to 40 times its size in memory when it is parsed
-_STARTS = {
-    b"\x89HDF": "a NetCDF file (Result.load or load_database)",
-    b"CDF": "a NetCDF file (load_database)",
-    b"ISO-10303-21": "a STEP model",
-    b"seacrane state": "a state (load_state)",
-    b"<": "XML, such as a URDF model",
-    b"[": "a JSON list",
-}
-_SUFFIXES = {
-    ".toml": "TOML, as of a crane (KnuckleBoomCrane.load)",
-    ".py": "a Python script (seacrane run)",
-    ".yml": "YAML, as of an OrcaFlex model (load_database)",
-    ".yaml": "YAML, as of an OrcaFlex model (load_database)",
-    ".stl": "a surface (Hull.from_stl)",
-}
 
 
 def parsed(path: Path) -> Any:
@@ -35,7 +21,7 @@ def parsed(path: Path) -> Any:
     data = read_whole(path, LARGEST_FILE, "no scene file is")
     if not re.match(rb"\s*\{", data):
         raise FileFormatError(
-            f"{path.name}: is {_kind(path, data)}, no scene file, which is JSON as Scene.save writes it"
+            f"{path.name}: is {looks_like(path, data)}, no scene file, which is JSON as Scene.save writes it"
         )
     try:
         return json.loads(data.decode("utf-8"), object_pairs_hook=_unique, parse_constant=_no_constant)
@@ -50,16 +36,6 @@ def parsed(path: Path) -> Any:
         raise FileFormatError(f"{path.name}: is nested too deeply to be a scene file") from error
     except ValueError as error:
         raise FileFormatError(f"{path.name}: {error}") from error
-
-
-def _kind(path: Path, data: bytes) -> str:
-    """What a file that is no JSON object seems to be, by its first bytes, else by its suffix."""
-    if not data.strip():
-        return "empty"
-    for start, kind in _STARTS.items():
-        if data.startswith(start):
-            return kind
-    return _SUFFIXES.get(path.suffix.lower(), "something else")
 
 
 def _unique(pairs: list[tuple[str, Any]]) -> dict[str, Any]:

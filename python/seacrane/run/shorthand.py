@@ -69,6 +69,16 @@ def settled(
     )
 
 
+def overridden(
+    method: Method | None, outputs: Outputs | None, shorthand: Mapping[str, Any]
+) -> tuple[Method, Outputs]:
+    """The objects, or defaults, with what the shorthand says in their place; raises SceneError."""
+    return (
+        _changed(Method() if method is None else method, METHOD_WORDS, shorthand),
+        _changed(Outputs() if outputs is None else outputs, OUTPUT_WORDS, shorthand),
+    )
+
+
 def _settled(
     name: str,
     kind: Any,
@@ -78,18 +88,24 @@ def _settled(
 ) -> Any:
     if given is not None and not isinstance(given, kind):
         raise SceneError(f"{name} is {given!r}; give a seacrane.{kind.__name__}")
-    values = {
-        word: words[word][1](word, value)
-        for word, value in shorthand.items()
-        if word in words and value is not None
-    }
-    whole = kind() if given is None else given
-    made = replace(whole, **{words[word][0]: value for word, value in values.items()})
+    made = _changed(kind() if given is None else given, words, shorthand)
     if given is not None and made != given:
-        word = next(w for w in values if getattr(made, words[w][0]) != getattr(given, words[w][0]))
+        word = next(w for w in words if getattr(made, words[w][0]) != getattr(given, words[w][0]))
         attribute = words[word][0]
         raise SceneError(
             f"{word}={shorthand[word]!r} contradicts {name}, whose {attribute} is "
             f"{getattr(given, attribute)!r}: leave {word} out, or change {name}"
         )
     return made
+
+
+def _changed(
+    whole: Any, words: Mapping[str, tuple[str, Callable[[str, Any], Any]]], shorthand: Mapping[str, Any]
+) -> Any:
+    """The object with the attributes that the words given stand for."""
+    values = {
+        words[word][0]: words[word][1](word, value)
+        for word, value in shorthand.items()
+        if word in words and value is not None
+    }
+    return replace(whole, **values)

@@ -24,6 +24,7 @@ DEFAULTS: dict[str, Any] = {
     "seed": 1,
     "count": 200,
 }
+SPECTRA = ("jonswap", "pierson-moskowitz", "torsethaugen")
 
 
 def realised_sea(sea: SeaState | None, given: dict[str, Any], depth: float) -> Waves:
@@ -78,7 +79,7 @@ def _one_system(
     depth: float,
 ) -> tuple[SeaState, SeaProvenance]:
     """The sea of plain arguments, and what it was made from."""
-    density = _spectrum(spectrum, number_of("sea: hs", hs), number_of("sea: tp", tp), gamma)
+    density = spectrum_named(spectrum, number_of("sea: hs", hs), number_of("sea: tp", tp), gamma)
     if spreading is not None and not isinstance(spreading, Spreading):
         spreading = cos_2s(spreading)
     system = WaveSystem(spectrum=density, direction_deg=direction_deg, spreading=spreading, count=count)
@@ -93,7 +94,8 @@ def _one_system(
     return SeaState(systems=[system], seed=seed, depth=depth), made_from
 
 
-def _spectrum(name: str, hs: float, tp: float, gamma: float | Literal["dnv"]) -> _core.Spectrum:
+def spectrum_named(name: str, hs: float, tp: float, gamma: float | Literal["dnv"]) -> _core.Spectrum:
+    """One of SPECTRA; only "jonswap" takes gamma. Raises SceneError."""
     if name == "jonswap":
         return jonswap(hs=hs, tp=tp, gamma=gamma)
     if name == "pierson-moskowitz":

@@ -1,0 +1,168 @@
+"""The keywords of a table of a lift, in SI, and the call that they make."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping
+from typing import Any
+
+from seacrane import _core
+from seacrane.crane import KnuckleBoomCrane, Payload
+from seacrane.description.scene import coordinate_of
+from seacrane.errors import SceneError
+from seacrane.hydro import HydroDatabase, load_database, shipped_database
+from seacrane.lift.check import SHIPPED
+from seacrane.lift.curves import curve_from
+from seacrane.lift.keys import EITHER, Key, into_si
+from seacrane.lift.tables import Table
+from seacrane.scene.realised_sea import spectrum_named
+from seacrane.scene.scene import Scene
+from seacrane.scene.wind_current import FlowCoefficients
+from seacrane.sea import SeaState, WaveSystem, cos_2s
+
+Keywords = dict[str, Any]
+ANGLES = ("angle", "roll", "pitch", "yaw")
+SEA_OF_SYSTEMS = ("depth", "placement")
+_MADE: Mapping[str, Callable[..., Any]] = {
+    "payload": Payload,
+    "coefficients": FlowCoefficients,
+    "first_frame": _core.Frame,
+    "second_frame": _core.Frame,
+    "tip": lambda body, point: (body, point),
+}
+
+
+def keywords(keys: Iterable[Key], values: Mapping[str, Any], scene: Scene | None = None) -> Keywords:
+    """A checked table as keywords of the API.
+
+    Parameters
+    ----------
+    keys : iterable of Key
+        That the table may have.
+    values : mapping
+        By spelling.
+    scene : Scene, optional
+        Whose joints decide between the units of a displacement and of an angle.
+
+    Raises
+    ------
+    SceneError
+        For a unit that the joint's coordinate has not, or a value that makes no sense.
+    """
+    found = {}
+    for key in keys:
+        for spelling, unit in key.spellings.items():
+            if spelling not in values:
+                continue
+            if scene is not None and EITHER in key.unit:
+                _require_unit(scene, key, spelling, values)
+            found[key.name] = _converted(key, values[spelling], unit)
+    return found
+
+
+def _converted(key: Key, value: Any, unit: str) -> Any:
+    match key.type:
+        case "table":
+            inside = keywords(key.keys, value)
+            return _MADE[key.name](**inside) if key.name in _MADE else inside
+        case "tables":
+            return [keywords(key.keys, one) for one in value]
+        case "curve":
+            return curve_from(value, unit)
+        case "number":
+            return value if isinstance(value, str) else float(into_si(unit)(value))
+        case "array":
+            return into_si(unit)(value)
+    return value
+
+
+def _require_unit(scene: Scene, key: Key, spelling: str, values: Mapping[str, Any]) -> None:
+    """Refuse N/m of an angle, and the like."""
+    joint = values.get("joint")
+    if joint not in scene.joints:
+        return  # the call says so
+    coordinate = coordinate_of(scene, key.name, joint, values.get("coordinate"))
+    straight = key.unit.split(EITHER)[0]
+    angular = key.spellings[spelling] != straight
+    if angular != (coordinate in ANGLES):
+        right = [one for one, unit in key.spellings.items() if (unit != straight) != angular]
+        kinds = ("an angle", "a displacement")
+        raise SceneError(
+            f"{spelling} is of {kinds[not angular]}, and {coordinate!r} of joint {joint!r} is "
+            f"{kinds[angular]}; give {' or '.join(right)}"
+        )
+
+
+class Caller:
+    """Makes the calls of one scene; what is read from other files is read once."""
+
+    def __init__(self) -> None:
+        self.read: dict[tuple[str, float | None], HydroDatabase] = {}
+        self.afloat: dict[str, HydroDatabase] = {}
+
+    def call(self, scene: Scene, table: Table, values: Mapping[str, Any], *, at_rest: bool = False) -> None:
+        """Add to a scene what a table describes; at rest, without what only moves it."""
+        given = keywords(table.keys, values, scene)
+        match table.name:
+            case "vessel":
+                self._vessel(scene, given, at_rest=at_rest)
+            case "sea":
+                if not at_rest:
+                    self._sea(scene, given)
+            case "crane":
+                self.crane(scene, table, values, {})
+            case "joint":
+                scene.add_joint(**given)
+            case "roles":
+                scene.add_roles(**given)
+            case _:
+                assert table.add is not None
+                table.add(scene, **given)
+
+    def crane(self, scene: Scene, table: Table, values: Mapping[str, Any], changes: Keywords) -> None:
+        """Add a crane, with keywords that are not those of its table."""
+        given = keywords(table.keys, values) | changes
+        file = given.pop("crane", None)
+        scene.add_crane(None if file is None else KnuckleBoomCrane.load(file), **given)
+
+    def _vessel(self, scene: Scene, given: Keywords, *, at_rest: bool) -> None:
+        file, speed = given.pop("database"), given.pop("speed", None)
+        if file in SHIPPED and speed is not None:
+            raise SceneError(
+                f"vessel: speed is {speed:g} m/s, and {file} holds zero speed alone; leave it out"
+            )
+        if (file, speed) not in self.read:
+            shipped = file in SHIPPED
+            self.read[file, speed] = shipped_database() if shipped else load_database(file, speed=speed)
+        database = self.read[file, speed]
+        if given.get("mooring_period") == float("inf"):
+            given["mooring_period"] = None
+        if at_rest:  # neither fluid memory nor kinematics matter
+            given = {key: value for key, value in given.items() if key != "kinematics"} | {"memory": "none"}
+        scene.add_vessel(database, **given)
+        self.afloat[given.get("name", "vessel")] = database
+
+    def _sea(self, scene: Scene, given: Keywords) -> None:
+        vessel = given.get("vessel", "vessel")
+        if vessel not in self.afloat:
+            known = ", ".join(map(repr, self.afloat)) or "none"
+            raise SceneError(f"sea: there is no [vessel] named {vessel!r}, the lift has {known}")
+        database = self.afloat[vessel]
+        systems = given.pop("systems", None)
+        if systems is not None:
+            of_state = {key: given.pop(key) for key in (*SEA_OF_SYSTEMS, "seed") if key in given}
+            depth = {"depth": database.depth} | of_state
+            given["sea"] = SeaState(systems=[_system(one) for one in systems], **depth)
+        for key in SEA_OF_SYSTEMS:
+            if key in given:
+                raise SceneError(f"sea: {key} is given without systems, whose sea is as deep as the database")
+        scene.add_sea(database, **given)
+
+
+def _system(given: Keywords) -> WaveSystem:
+    name, hs, tp, gamma = (given.pop(key, None) for key in ("spectrum", "hs", "tp", "gamma"))
+    if gamma is not None and name != "jonswap":
+        raise SceneError(f"gamma: {name!r} has no free peak enhancement; leave gamma out")
+    spectrum = spectrum_named(name, hs, tp, 3.3 if gamma is None else gamma)
+    if "spreading" in given:
+        given["spreading"] = cos_2s(given["spreading"])
+    return WaveSystem(spectrum=spectrum, **given)

@@ -1,0 +1,122 @@
+"""The TOML text of a lift file, parsed in bounded memory; what is no such text is refused by name."""
+
+from __future__ import annotations
+
+import re
+import tomllib
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any, NoReturn
+
+from seacrane.errors import FileFormatError
+from seacrane.files.looks_like import looks_like
+from seacrane.files.whole_file import read_whole
+from seacrane.lift.lines import Place, lines_of
+
+FORMAT, VERSION = "seacrane lift", 1
+LARGEST_FILE = 512 * 2**10  # bytes; TOML's smallest tables take some 150 times their size when it is parsed
+MOST_PARTS = 8  # of a dotted key: parsing one takes time by the square of them
+_PART = r"""(?:[\w-]+|"[^"\n]*"|'[^'\n]*')"""
+_LONG_KEY = re.compile(rf"(?<![\w-]){_PART}(?:[ \t]*\.[ \t]*{_PART}){{{MOST_PARTS}}}")
+_AT_LINE = re.compile(r"^(.*) \(at line (\d+), column (\d+)\)$", re.DOTALL)
+_AT_END = " (at end of document)"
+
+
+@dataclass(frozen=True)
+class Document:
+    """Tables of a file as they were parsed, and where their keys stand.
+
+    Attributes
+    ----------
+    source : str
+        Name of the file, as messages give it.
+    data : mapping
+    lines : mapping
+        Line by path; empty where the tables come from no file.
+    """
+
+    source: str
+    data: Mapping[str, Any]
+    lines: Mapping[Place, int] = field(default_factory=dict)
+
+    def place(self, path: Place) -> str:
+        """The file and the line of a key or table, or of the nearest thing around it."""
+        around = [path[:end] for end in range(len(path), 0, -1)]
+        line = next((self.lines[one] for one in around if one in self.lines), None)
+        return self.source if line is None else f"{self.source} line {line}"
+
+    def fail(self, path: Place, text: str) -> NoReturn:
+        """Raise a FileFormatError about a place."""
+        raise FileFormatError(f"{self.place(path)}: {text}")
+
+
+def read_document(path: Path) -> Document:
+    """The document of a lift file.
+
+    Raises
+    ------
+    FileFormatError
+        With the line, for what is no TOML; and for what is TOML, or something else, but no lift.
+    OSError
+        If it cannot be read.
+    """
+    name = path.name
+    content = read_whole(path, LARGEST_FILE, "no lift file is; name tables by a scene in JSON (Scene.save)")
+    try:
+        text = _decoded(name, content)
+        data = _parsed(name, text)
+    except FileFormatError:
+        if _is_no_toml(content):
+            raise FileFormatError(f"{name}: is {looks_like(path, content)}, {_NO_LIFT}") from None
+        raise
+    if data.get("format") != FORMAT:
+        what = f"is {looks_like(path, content)}" if "format" not in data else "names another format"
+        raise FileFormatError(f"{name}: {what}, {_NO_LIFT}")
+    try:
+        return Document(name, data, lines_of(text))
+    except RecursionError as error:
+        raise FileFormatError(f"{name}: is nested too deeply to be a lift file") from error
+
+
+_NO_LIFT = f'no lift file, which is TOML with format = "{FORMAT}" at its top (docs/lift-files.md)'
+
+
+def _is_no_toml(content: bytes) -> bool:
+    """Whether it does not even begin like TOML: with a comment, a table or a key."""
+    return not re.match(rb"(?:\xef\xbb\xbf)?\s*(?:#|\[\[?\s*[\w\"']|[\w\"'-][^\n=]{0,200}=)", content)
+
+
+def _decoded(name: str, content: bytes) -> str:
+    """The text; some editors begin it with a mark."""
+    try:
+        return content.decode("utf-8-sig").replace("\r\n", "\n")
+    except UnicodeDecodeError as error:
+        line = content.count(b"\n", 0, error.start) + 1
+        raise FileFormatError(f"{name} line {line}: byte {error.start} is not UTF-8 text") from error
+
+
+def _parsed(name: str, text: str) -> dict[str, Any]:
+    long = _LONG_KEY.search(text)
+    if long:
+        line = text.count("\n", 0, long.start()) + 1
+        raise FileFormatError(f"{name} line {line}: a key has more than {MOST_PARTS} parts; no lift has such")
+    try:
+        return tomllib.loads(text)
+    except RecursionError as error:
+        raise FileFormatError(f"{name}: is nested too deeply to be a lift file") from error
+    except ValueError as error:  # TOMLDecodeError is one, a number of too many digits another
+        raise FileFormatError(
+            f"{_told(name, text, str(error)[:200])}; truncated or malformed TOML"
+        ) from error
+
+
+def _told(name: str, text: str, reason: str) -> str:
+    """The parser's words with the line where ours have it."""
+    found = _AT_LINE.match(reason)
+    if found:
+        return f"{name} line {found[2]}, column {found[3]}: {found[1]}"
+    if reason.endswith(_AT_END):
+        end = text.rstrip("\n").count("\n") + 1
+        return f"{name} line {end}: {reason.removesuffix(_AT_END)} at the end of the file"
+    return f"{name}: {reason}"

@@ -1,0 +1,167 @@
+"""Keys of a lift file: a keyword of the API and its unit, such as mass_kg; from the tables of the engine.
+
+The rule: a table is a call, a key is a keyword of that call with its unit as a suffix. Spaces of the unit are
+"_", a stroke is "_per_": ``damping_N_s_per_m``. Radians may be degrees (``theta_deg``). Where the unit
+depends on a joint's coordinate ("m or rad"), the suffix says which one is meant.
+"""
+
+from __future__ import annotations
+
+import inspect
+import re
+from collections.abc import Callable, Collection, Iterable, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+MIXED = ", "  # between the units of an array of several: no suffix says them
+EITHER = " or "  # between the units of a displacement and an angle
+DEGREES = {"rad": "deg", "rad/s": "deg/s"}
+SECTIONS = ("Parameters", "Attributes")
+
+
+@dataclass(frozen=True, kw_only=True)
+class Key:
+    """A keyword of the API as a key of a file.
+
+    Attributes
+    ----------
+    name : str
+        The keyword.
+    type : str
+        text, texts, number, whole, flag, array, curve, file, table, tables, names or notes.
+    unit : str
+        As in `FIELDS` of the core's classes.
+    shapes : tuple of tuple of int
+        That an array may have; -1: any length.
+    required : bool
+    text : str
+        What it is, for people.
+    choices : tuple of str
+        The texts that it may be; of a number, those that stand for one.
+    keys : tuple of Key
+        Of a table, or of each table in a list.
+    """
+
+    name: str
+    type: str
+    unit: str = ""
+    shapes: tuple[tuple[int, ...], ...] = ()
+    required: bool = False
+    text: str = ""
+    choices: tuple[str, ...] = ()
+    keys: tuple[Key, ...] = ()
+
+    @property
+    def units(self) -> tuple[str, ...]:
+        """Units that a file may give it in; of several the first is a displacement's, then an angle's."""
+        if not self.unit or MIXED in self.unit or self.name.endswith("_deg"):
+            return ()
+        return tuple(
+            spelling
+            for unit in self.unit.split(EITHER)
+            for spelling in (unit, *([DEGREES[unit]] if unit in DEGREES else []))
+        )
+
+    @property
+    def spellings(self) -> dict[str, str]:
+        """Its unit by each way to write it in a file."""
+        return {f"{self.name}_{suffix(unit)}": unit for unit in self.units} or {self.name: ""}
+
+
+def suffix(unit: str) -> str:
+    """A unit as the end of a key."""
+    return re.sub(r"^_", "", unit.removeprefix("1").replace("/", "_per_").replace(" ", "_"))
+
+
+def into_si(unit: str) -> Callable[[Any], Any]:
+    """From a file's unit to that of the API."""
+    return np.radians if unit.startswith("deg") else _as_it_is
+
+
+def _as_it_is(value: Any) -> Any:
+    return value
+
+
+def keys_of(
+    call: Any,
+    *classes: type,
+    more: Mapping[str, Mapping[str, Any]] | None = None,
+    without: Collection[str] = (),
+    only: Collection[str] | None = None,
+    described: Any = None,
+) -> tuple[Key, ...]:
+    """The keywords of a call as keys.
+
+    Parameters
+    ----------
+    call : callable
+        A function or a dataclass; types come from its signature.
+    *classes : type
+        Of the core, whose FIELDS give type, shape, unit and text of the keywords of the same name.
+    more : mapping of str to mapping, optional
+        Attributes of `Key` by keyword, which neither knows.
+    without, only : collection of str
+        Keywords that a file does not hold, or those that it holds.
+    described : callable, optional
+        Whose docstring says what the keywords are; default: `call`.
+    """
+    fields = {field.name: field for kind in classes for field in kind.FIELDS}  # type: ignore[attr-defined]
+    texts = parameter_texts(call if described is None else described)
+    found = []
+    for parameter in inspect.signature(call).parameters.values():
+        name = parameter.name
+        left_out = name == "scene" or name in without or (only is not None and name not in only)
+        if left_out or parameter.kind is parameter.VAR_KEYWORD:
+            continue
+        known = _annotated(str(parameter.annotation)) | _of_field(fields.get(name))
+        known["text"] = texts.get(name) or known.get("text", "")
+        known |= (more or {}).get(name, {})
+        found.append(Key(name=name, required=parameter.default is parameter.empty, **known))
+    return tuple(found)
+
+
+def fields_of(kind: type, *, without: Collection[str] = ()) -> tuple[Key, ...]:
+    """The FIELDS of a class of the core, or the parameters of a joint kind, as keys."""
+    return field_keys(field for field in kind.FIELDS if field.name not in without)  # type: ignore[attr-defined]
+
+
+def field_keys(fields: Iterable[Any]) -> tuple[Key, ...]:
+    """Entries of FIELDS as keys."""
+    return tuple(Key(name=field.name, required=field.required, **_of_field(field)) for field in fields)
+
+
+def _of_field(field: Any) -> dict[str, Any]:
+    if field is None:
+        return {}
+    shapes = (tuple(field.shape),) if field.type == "array" else ()
+    return {"type": field.type, "unit": field.unit, "shapes": shapes, "text": field.text}
+
+
+TYPES = {"str": "text", "float": "number", "int": "whole", "bool": "flag", "Literal": "text"}
+
+
+def _annotated(annotation: str) -> dict[str, Any]:
+    """Type and choices that an annotation tells; nothing for what it leaves open."""
+    if "Curve" in annotation:
+        return {"type": "curve"}
+    kind = re.match(r"\w*", annotation)
+    choices = tuple(re.findall(r"'([^']+)'", annotation)) if "Literal" in annotation else ()
+    return {"type": TYPES[kind[0]], "choices": choices} if kind and kind[0] in TYPES else {}
+
+
+def parameter_texts(call: Any) -> dict[str, str]:
+    """What a docstring says of each parameter or attribute, in one line."""
+    texts: dict[str, str] = {}
+    lines = (inspect.getdoc(call) or "").splitlines()
+    names: list[str] = []
+    inside = False
+    for i, line in enumerate(lines):
+        if line and i + 1 < len(lines) and re.fullmatch(r"-{4,}", lines[i + 1]):
+            inside, names = line in SECTIONS, []
+        elif inside and line and not line.startswith((" ", "-")):
+            names = re.findall(r"\w+", line.partition(" : ")[0])
+        elif names and line.strip():
+            texts |= {name: f"{texts.get(name, '')} {line.strip()}".strip() for name in names}
+    return texts

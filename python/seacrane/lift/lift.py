@@ -1,0 +1,176 @@
+"""`Lift`: a whole lift - scene, method, outputs and length of the run - as a file that a person writes."""
+
+from __future__ import annotations
+
+import inspect
+import os
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from importlib.resources import files
+from pathlib import Path
+from typing import Any
+
+from seacrane.errors import SceneError
+from seacrane.files.atomic import atomic_write
+from seacrane.lift.build import made, scene_of
+from seacrane.lift.check import SHIPPED, Entry, entries_of, plain
+from seacrane.lift.document import FORMAT, LARGEST_FILE, VERSION, Document, read_document
+from seacrane.lift.text import toml_text
+from seacrane.result.result import Result
+from seacrane.run.method import Method
+from seacrane.run.outputs import Outputs
+from seacrane.scene.scene import Scene
+from seacrane.simulation import simulate
+
+T_END = float(inspect.signature(simulate).parameters["t_end"].default)
+LIFTS = ("case1", "case2", "case3", "vessel")
+
+
+@dataclass(frozen=True, init=False, eq=False, repr=False)
+class Lift:
+    """A lift as tables of keys with units: what `seacrane run my_lift.toml` reads. Immutable.
+
+    A table is a call of the API, such as ``[wire]`` of `Scene.add_wire`; a key is a keyword of it with its
+    unit, such as ``link_length_m``; docs/lift-files.md lists them.
+
+    Parameters
+    ----------
+    tables : mapping of str to mapping, or to list of mapping
+        By name, as the file has them, without format and version.
+    folder : path-like
+        From which the paths of files in them are taken; default: the current one.
+
+    Attributes
+    ----------
+    method : Method
+    outputs : Outputs
+    t_end : float
+        End time, s.
+
+    Raises
+    ------
+    FileFormatError
+        For a table, key or value that is none, with the nearest name.
+    """
+
+    method: Method
+    outputs: Outputs
+    t_end: float
+    _document: Document
+    _folder: Path
+    _entries: tuple[Entry, ...]
+
+    def __init__(self, tables: Mapping[str, Any], *, folder: str | os.PathLike[str] = ".") -> None:
+        data = {"format": FORMAT, "version": VERSION, **plain(tables)}
+        self._check(Document("lift", data), Path(folder).absolute())
+
+    def _check(self, document: Document, folder: Path) -> None:
+        entries = entries_of(document, folder)
+        checked: dict[str, Any] = {"_document": document, "_folder": folder, "_entries": entries}
+        checked["method"] = made(document, entries, "method", Method)
+        checked["outputs"] = made(document, entries, "outputs", Outputs)
+        checked["t_end"] = made(document, entries, "run", lambda t_end=T_END: t_end)
+        for name, value in checked.items():
+            object.__setattr__(self, name, value)
+
+    @classmethod
+    def load(cls, path: str | os.PathLike[str]) -> Lift:
+        """Read a file; runs no code.
+
+        Raises
+        ------
+        FileFormatError
+            With file, line, key and the nearest name; for another kind of file, with what it looks like.
+        OSError
+            If it cannot be read.
+        """
+        return _of(read_document(Path(path)), Path(path).absolute().parent)
+
+    @classmethod
+    def shipped(cls, name: str) -> Lift:
+        """One that comes with the package: "case1", "case2", "case3" or "vessel"."""
+        if name not in LIFTS:
+            raise SceneError(f"lift {name!r} does not come with seacrane; choose one of {', '.join(LIFTS)}")
+        return cls.load(Path(str(files("seacrane") / "data" / "lifts" / f"{name}.toml")))
+
+    @property
+    def tables(self) -> dict[str, Any]:
+        """The tables as plain data, to be changed and given to `Lift` again; paths of files are absolute."""
+        return _listed((entry.table.name, plain(entry.values)) for entry in self._entries)
+
+    def scene(self) -> Scene:
+        """The scene, built anew.
+
+        Raises
+        ------
+        FileFormatError
+            With the line of the table that a scene refuses, or whose file cannot be read.
+        """
+        return scene_of(self._document, self._entries)
+
+    def simulate(self, *, progress: bool = False) -> Result:
+        """Simulate the scene with the method, the outputs and the end time of the lift; see `simulate`."""
+        return simulate(self.scene(), self.t_end, method=self.method, outputs=self.outputs, progress=progress)
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Write it as TOML, complete or not at all; paths of files from the folder of the file.
+
+        Raises
+        ------
+        SceneError
+            For a value that TOML has no word for, or a lift that is too large to be read back.
+        OSError
+            If the file cannot be written.
+        """
+        target = Path(path)
+        tables = _listed(_relative(entry, target.absolute().parent) for entry in self._entries)
+        try:
+            data = toml_text(tables).encode("utf-8")
+        except UnicodeEncodeError as error:
+            raise SceneError("lift: a text holds half of a surrogate pair, which UTF-8 has not") from error
+        if len(data) > LARGEST_FILE:
+            raise SceneError(f"lift: takes {len(data)} bytes, above {LARGEST_FILE}; shorten its tables")
+        with atomic_write(target) as draft:
+            draft.write_bytes(data)
+
+    def __eq__(self, other: object) -> bool:
+        return self.tables == other.tables if isinstance(other, Lift) else NotImplemented
+
+    __hash__ = None  # type: ignore[assignment]  # its tables have none
+
+    def __repr__(self) -> str:
+        held = [f"{len(one)} {name}" if isinstance(one, list) else name for name, one in self.tables.items()]
+        return f"<Lift: {', '.join(held) or 'empty'}>"
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return _of, (self._document, self._folder)
+
+
+def _of(document: Document, folder: Path) -> Lift:
+    lift = Lift.__new__(Lift)
+    lift._check(document, folder)
+    return lift
+
+
+def _listed(tables: Iterable[tuple[str, dict[str, Any]]]) -> dict[str, Any]:
+    """Tables by name; those of which there are several in a list."""
+    found: dict[str, list[dict[str, Any]]] = {}
+    for name, table in tables:
+        found.setdefault(name, []).append(table)
+    return {name: one[0] if len(one) == 1 else one for name, one in found.items()}
+
+
+def _relative(entry: Entry, folder: Path) -> tuple[str, dict[str, Any]]:
+    """An entry's name and values, paths of files from a folder."""
+    values = plain(entry.values)
+    for key in entry.table.keys:
+        if key.type == "file" and values.get(key.name, SHIPPED[0]) not in SHIPPED:
+            values[key.name] = _path_from(folder, values[key.name])
+    return entry.table.name, values
+
+
+def _path_from(folder: Path, path: str) -> str:
+    try:
+        return Path(os.path.relpath(path, folder)).as_posix()
+    except ValueError:  # on another drive
+        return path

@@ -1,0 +1,292 @@
+"""The tables of a lift file: each is a call of the API, in the order in which the calls are made."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
+from types import MappingProxyType
+from typing import Any, get_overloads
+
+from seacrane import _core
+from seacrane.crane.add_crane import add_crane
+from seacrane.crane.payload import Payload
+from seacrane.description import bodies, crane_parts, drives, forces, joints, recorded
+from seacrane.description.curves import spline_curve
+from seacrane.description.scene import Description
+from seacrane.hydro import load_database
+from seacrane.lift.keys import Key, field_keys, fields_of, keys_of
+from seacrane.run.method import FORMULATIONS, Method
+from seacrane.run.outputs import Outputs
+from seacrane.scene import limits, sea, vessel, wind_current
+from seacrane.scene.gusts import gust_curve
+from seacrane.scene.realised_sea import SPECTRA
+from seacrane.sea import SeaState, WaveSystem
+from seacrane.simulation import simulate
+
+CHOSEN: dict[str, dict[str, Any]] = {
+    "spectrum": {"type": "text", "choices": SPECTRA},
+    "evaluation": {"choices": ("table", "fft", "exact")},
+    "placement": {"choices": ("jittered", "uniform")},
+    "memory": {"choices": vessel.MEMORY},
+    "kinematics": {"choices": ("yaw_following", "paper")},
+    "orientation": {"choices": ("quaternion", "euler_xyz")},
+    "formulation": {"choices": FORMULATIONS},
+    "integrator": {"choices": tuple(_core.integrator_names())},
+    "kind": {"choices": tuple(_core.joint_kinds())},
+}
+POINT: dict[str, Any] = {"type": "array", "unit": "m", "shapes": ((3,),)}
+DIRECTION: dict[str, Any] = {"type": "array", "shapes": ((3,),)}
+LENGTH: dict[str, Any] = {"unit": "m"}
+TIME: dict[str, Any] = {"unit": "s"}
+NUMBER = {"type": "number"}
+
+
+@dataclass(frozen=True, kw_only=True)
+class Table:
+    """A table of a lift file.
+
+    Attributes
+    ----------
+    name : str
+    text : str
+        What it is, for people.
+    keys : tuple of Key
+    several : bool
+        Whether there may be more than one, each as ``[[name]]``.
+    add : callable, optional
+        What is called with the scene and the keywords; default: the table needs more than one call.
+    """
+
+    name: str
+    text: str
+    keys: tuple[Key, ...]
+    several: bool = True
+    add: Callable[..., Any] | None = None
+
+
+def _call(name: str, add: Callable[..., Any], *classes: type, **more: Mapping[str, Any]) -> Table:
+    """A table that is one call of a method of `Scene`."""
+    keys = keys_of(add, *classes, more=CHOSEN | more)
+    return Table(name=name, text=_summary(add), keys=keys, add=add)
+
+
+def _summary(call: Any) -> str:
+    return " ".join((call.__doc__ or "").split("\n\n")[0].split())
+
+
+def _vessel_keys() -> tuple[Key, ...]:
+    """Of `add_vessel` with a database, and of reading that."""
+    mooring = "Natural period of soft station keeping in surge, sway and yaw; default 200 s; inf: no mooring."
+    keys = keys_of(
+        get_overloads(vessel.add_vessel)[0],
+        described=vessel.add_vessel,
+        more=CHOSEN
+        | {
+            "database": {
+                "type": "file",
+                "text": "Path of a database, or hull_115, which comes with seacrane.",
+            },
+            "position": POINT,
+            "mooring_period": {"unit": "s", "text": mooring},
+        },
+    )
+    return (*keys, *keys_of(load_database, more={"speed": {"unit": "m/s"}}, only=("speed",)))
+
+
+def _joint_keys() -> tuple[Key, ...]:
+    """Of `add_joint`, and the parameters of all kinds of joints."""
+    frame = {"type": "table", "keys": fields_of(_core.Frame)}
+    places = {key: POINT for key in ("point", "second_point")} | {
+        key: DIRECTION for key in ("axis", "second_axis")
+    }
+    keys = keys_of(joints.add_joint, more=CHOSEN | places | {"first_frame": frame, "second_frame": frame})
+    parameters = [field for kind in _core.joint_kinds().values() for field in kind.parameters]
+    return (*keys, *(replace(key, required=False) for key in field_keys(parameters)))
+
+
+def _sea_keys() -> tuple[Key, ...]:
+    several: dict[str, Any] = {
+        "type": "tables",
+        "keys": _system_keys(),
+        "text": "Wave systems, in place of hs to count.",
+    }
+    of_state = keys_of(SeaState, more=CHOSEN | {"depth": LENGTH}, without=("systems", "seed"))
+    plain = keys_of(
+        sea.add_sea,
+        more=CHOSEN | {
+            "hs": LENGTH, "tp": TIME, "spreading": NUMBER, "heading_deg": {"unit": "deg"},
+            "position": POINT | {"shapes": ((2,),)},
+        },
+        without=("database", "sea"),
+    )  # fmt: skip
+    beside = tuple(replace(key, text=f"Beside systems. {key.text}") for key in of_state)
+    return (*plain, *beside, Key(name="systems", **several))
+
+
+def _system_keys() -> tuple[Key, ...]:
+    frequency = {"unit": "rad/s"}
+    own = keys_of(
+        WaveSystem,
+        more=CHOSEN | {"spreading": NUMBER, "omega_min": frequency, "omega_max": frequency},
+    )
+    shape = keys_of(sea.add_sea, more={"hs": LENGTH, "tp": TIME}, only=("hs", "tp", "gamma"))
+    return (*own, *(replace(key, required=key.name != "gamma") for key in shape))
+
+
+def _flow(name: str, add: Callable[..., Any]) -> Table:
+    """Wind or current."""
+    row: dict[str, Any] = {"type": "array", "shapes": ((-1,),)}
+    more = {"angle": row | {"unit": "rad"}, "x": row, "y": row, "yaw": row}
+    coefficients = keys_of(wind_current.FlowCoefficients, more=more)
+    table = _call(name, add, _core.FlowForce, coefficients={"type": "table", "keys": coefficients})
+    if add is wind_current.add_wind:
+        return table
+    texts = {key.name: key.text for key in keys_of(wind_current.add_wind, _core.FlowForce)}
+    return replace(table, keys=tuple(replace(key, text=texts[key.name]) for key in table.keys))
+
+
+PAYLOAD = keys_of(Payload, more={"mass": {"unit": "kg"}, "size": POINT, "link_length": LENGTH})
+POSE: dict[str, dict[str, Any]] = {"theta": {"unit": "rad"}, "s1": LENGTH, "s2": LENGTH}
+CRANE = keys_of(
+    add_crane,
+    more=POSE | {"crane": {"type": "file"}, "foot": POINT, "payload": {"type": "table", "keys": PAYLOAD}},
+)
+TUNED_AT = tuple(key for key in CRANE if key.name in (*POSE, "payload"))
+TIMES = (
+    Key(name="until", type="number", unit="s", required=True, text="End of this part."),
+    Key(name="every", type="number", unit="s", required=True, text="Interval within it."),
+)
+CONTROL = (
+    Key(
+        name="natural_frequency", type="number", unit="Hz", required=True,
+        text="Of every commanded coordinate, with the inertia that its drive feels.",
+    ),
+    Key(name="damping_ratio", type="number", required=True, text="Of critical damping."),
+    Key(
+        name="tuned_at", type="table", keys=TUNED_AT,
+        text="Pose of the cranes, on a fixed base, at which that inertia is taken; default: the start.",
+    ),
+    Key(
+        name="feed_forward", type="text", choices=("references", "start", "none"),
+        text="Loads that hold them at rest: along their references (default), those of the start, or none.",
+    ),
+    Key(
+        name="times", type="tables", keys=TIMES,
+        text="At which the loads along the references are computed, from 0 s on, part after part.",
+    ),
+    Key(name="period", type="number", unit="s", text="Of references that swing for ever; as `feed_forward`."),
+)  # fmt: skip
+COMMAND = keys_of(drives.add_actuator, _core.Actuator, only=("joint", "name", "coordinate", "reference"))
+FROM = Key(
+    name="from", type="number", unit="s", required=True, text="When it takes over from the piece before."
+)
+
+
+def _number(name: str, unit: str = "", *, required: bool = True, text: str = "") -> Key:
+    return Key(name=name, type="number", unit=unit, required=required, text=text)
+
+
+CURVES: Mapping[str, tuple[Key, ...]] = {
+    "constant": (_number("value"),),
+    "quintic": (
+        _number("start_time", "s"), _number("end_time", "s"),
+        _number("start", text="Value until start_time."), _number("end", text="Value from end_time on."),
+    ),
+    "harmonic": (
+        _number("amplitude"), _number("offset", required=False), _number("period", "s"),
+        _number("start_time", "s", required=False), _number("phase", "rad", required=False),
+    ),
+    "spline": keys_of(
+        spline_curve,
+        more={
+            "times": {"type": "array", "unit": "s", "shapes": ((-1,),)},
+            "values": {"type": "array", "shapes": ((-1,),)},
+        },
+    ),
+    "gust": keys_of(
+        gust_curve, more={"mean_speed": {"unit": "m/s"}, "duration": TIME, "height": LENGTH}
+    ),
+}  # fmt: skip
+
+_ALL = (
+    Table(
+        name="scene", several=False, text="Name and settings of the scene.",
+        keys=keys_of(
+            Description,
+            more=CHOSEN | {"gravity": {"unit": "m/s2"}, "baumgarte": {"unit": "1/s"}},
+            only=("name", "gravity", "orientation", "baumgarte", "length_scale"),
+        ),
+    ),
+    Table(
+        name="vessel", text="A vessel from a hydrodynamic database.",
+        keys=_vessel_keys(),
+    ),
+    _call("body", bodies.add_body, _core.Body, inertia={"shapes": ((3, 3), (3,))}),
+    Table(
+        name="hydrodynamics", text="Hydrodynamics of a body by their matrices.",
+        keys=tuple(
+            replace(key, required=key.name == "body", choices=CHOSEN.get(key.name, {}).get("choices", ()))
+            for key in fields_of(_core.VesselHydrodynamics, without=("memory",))
+        ),
+        add=vessel.add_vessel,
+    ),
+    Table(name="sea", text=_summary(sea.add_sea), keys=_sea_keys()),
+    Table(name="crane", text=_summary(add_crane), keys=CRANE),
+    Table(name="joint", text=_summary(joints.add_joint), keys=_joint_keys()),
+    _call("driver", drives.add_driver, _core.Driver),
+    _call("actuator", drives.add_actuator, _core.Actuator),
+    _call("point_force", forces.add_point_force, _core.PointForce),
+    _call("spring", forces.add_spring, _core.Spring),
+    _call(
+        "force_table", forces.add_force_table, _core.ForceTable,
+        loads={"type": "array", "unit": "N, N m", "shapes": ((-1, 6),)},
+    ),
+    _flow("wind", wind_current.add_wind),
+    _flow("current", wind_current.add_current),
+    _call("wire", limits.add_wire, _core.Limit, sticking_speed={"unit": "m/s"}),
+    _call("end_stop", limits.add_end_stop, _core.Limit),
+    _call("seat", limits.add_seat, _core.Limit),
+    _call("soft_stop", limits.add_soft_stop, _core.SoftStop),
+    _call("friction", limits.add_friction, _core.Friction),
+    _call("range", recorded.add_range, minimum={"unit": "m or rad"}, maximum={"unit": "m or rad"}),
+    _call("record", recorded.record_coordinate),
+    Table(
+        name="roles", text=_summary(crane_parts.add_roles),
+        keys=keys_of(
+            crane_parts.add_roles,
+            more={
+                "cylinders": {"type": "names"},
+                "tip": {"type": "table", "keys": (
+                    Key(name="body", type="text", required=True), Key(name="point", required=True, **POINT)
+                )},
+            },
+        ),
+    ),
+    Table(
+        name="balance", several=False,
+        text="A constant force on a vessel that carries the weight of all else at the start: its ballast.",
+        keys=(Key(name="body", type="text", required=True, text="The vessel."),),
+    ),
+    Table(name="control", several=False, text="How commanded coordinates are controlled.", keys=CONTROL),
+    Table(
+        name="command", keys=COMMAND,
+        text="A joint coordinate that follows a reference: an actuator with gains and loads by [control].",
+    ),
+    Table(
+        name="run", several=False, text="How long a run takes.",
+        keys=keys_of(simulate, more={"t_end": TIME}, only=("t_end",)),
+    ),
+    Table(
+        name="method", several=False, text=_summary(Method),
+        keys=keys_of(Method, more=CHOSEN | {"step": TIME, "max_step": TIME}),
+    ),
+    Table(
+        name="outputs", several=False, text=_summary(Outputs),
+        keys=keys_of(Outputs, more={"dt": TIME, "channels": {"type": "texts"}}),
+    ),
+    Table(
+        name="notes", several=False, text="Notes of the user: texts, numbers and lists under any names.",
+        keys=(Key(name="*", type="notes"),),
+    ),
+)  # fmt: skip
+TABLES: Mapping[str, Table] = MappingProxyType({table.name: table for table in _ALL})

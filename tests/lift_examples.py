@@ -1,0 +1,341 @@
+"""Lifts as text, and the same by calls of the API."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from seacrane import Curve, FlowCoefficients, Frame, Scene, gust_curve, spline_curve
+
+HEAD = 'format = "seacrane lift"\nversion = 1\n'
+
+PENDULUM = (
+    HEAD
+    + """
+[scene]
+name = "pendulum"
+
+[[body]]
+name = "bob"
+mass_kg = 2
+inertia_kg_m2 = [0.1, 0.1, 0.1]
+position_m = [1, 0, 0]
+
+[[joint]]
+kind = "revolute"
+name = "pivot"
+first = "ground"
+second = "bob"
+point_m = [0, 0, 0]
+axis = [0, 1, 0]
+
+[run]
+t_end_s = 2
+
+[method]
+integrator = "rk4"
+step_s = 0.01
+
+[outputs]
+dt_s = 0.5
+channels = ["position", "constraint_error", "energy_balance"]
+"""
+)
+
+EVERY_TABLE = (
+    HEAD
+    + """
+[scene]
+name = "every table"
+gravity_m_per_s2 = 9.81
+orientation = "euler_xyz"
+baumgarte_per_s = 0.5
+length_scale = 1.1
+
+[[body]]
+name = "hull"
+mass_kg = 1e6
+inertia_kg_m2 = [[2e6, 1e5, 0], [1e5, 3e6, 0], [0, 0, 2.5e6]]
+center_of_mass_m = [0.1, -0.2, 0.3]
+angular_velocity_deg_per_s = [0, 0, 2]
+
+[[body]]
+name = "arm"
+mass_kg = 12.5
+inertia_kg_m2 = [1, 2, 3]
+position_m = [1, 0, 2]
+quaternion = [0.5, 0.5, 0.5, 0.5]
+velocity_m_per_s = [0, 0.1, 0]
+gravity = false
+
+[[body]]
+name = "bob"
+mass_kg = 3
+inertia_kg_m2 = [1, 1, 1]
+position_m = [4, 0, 0]
+
+[[body]]
+name = "box"
+mass_kg = 3
+inertia_kg_m2 = [1, 1, 1]
+position_m = [4, 1, 0]
+
+[hydrodynamics]
+body = "hull"
+name = "water"
+added_mass = [
+    [1e5, 0, 0, 0, 0, 0], [0, 1e5, 0, 0, 0, 0], [0, 0, 1e5, 0, 0, 0],
+    [0, 0, 0, 1e5, 0, 0], [0, 0, 0, 0, 1e5, 0], [0, 0, 0, 0, 0, 1e5],
+]
+quadratic_damping = [0, 0, 3, 4, 5, 0]
+mooring_stiffness = [1e4, 2e4, 3e4]
+kinematics = "paper"
+
+[[joint]]
+kind = "revolute"
+name = "pin"
+first = "hull"
+second = "arm"
+axis = [0.3, 1, 0.2]
+
+[[joint]]
+kind = "universal"
+name = "cross"
+first = "hull"
+second = "bob"
+axis = [1, 0, 0]
+second_axis = [0, 0, 1]
+
+[[joint]]
+kind = "distance"
+name = "rope"
+first = "bob"
+second = "box"
+point_m = [4, 0, 0]
+second_point_m = [4, 1, 0.5]
+length_m = 1.25
+
+[[joint]]
+kind = "cylindrical"
+name = "sleeve"
+first = "ground"
+second = "box"
+first_frame = { point_m = [4, 1, 0] }
+second_frame = {}
+
+[[joint]]
+kind = "weld"
+name = "deck"
+first = "ground"
+second = "hull"
+
+[[driver]]
+joint = "sleeve"
+name = "shaker"
+curve_m = { kind = "harmonic", amplitude = 0.01, period_s = 5, phase_deg = -90 }
+
+[[driver]]
+joint = "sleeve"
+coordinate = "angle"
+curve_deg = [
+    { kind = "spline", times_s = [0, 1, 2, 3, 4, 5, 6], values = [0, 0, 1, 4, 9, 10, 10] },
+    { from_s = 6, kind = "constant", value = 10 },
+]
+
+[actuator]
+name = "motor"
+joint = "pin"
+stiffness_N_m_per_rad = 1e3
+damping_N_m_s_per_rad = 200
+feed_forward_N_m = 5.5
+reference_deg = [
+    { kind = "quintic", start_time_s = 1, end_time_s = 7, start = 0, end = -30 },
+    { from_s = 9, kind = "harmonic", start_time_s = 9, offset = -30, amplitude = 2, period_s = 4 },
+]
+
+[[point_force]]
+name = "push"
+body = "arm"
+force_N = [3, 0, 0]
+point_m = [0, 0.5, 0]
+body_axes = true
+
+[[spring]]
+name = "soft"
+first = "ground"
+second = "bob"
+stiffness_N_per_m = 100
+damping_N_s_per_m = 0.1
+natural_length_m = 0.3
+
+[[spring]]
+name = "table"
+first = "hull"
+second = "box"
+lengths_m = [1, 2.5]
+forces_N = [0, 10]
+
+[[force_table]]
+name = "gust"
+body = "box"
+times_s = [0, 1]
+loads = [[0, 1, 2, 3, 4, 5], [6, 7, 8, 9, 10, 11]]
+
+[wind]
+body = "hull"
+direction_deg = 90
+frontal_area_m2 = 400
+lateral_area_m2 = 1200
+length_m = 100
+coefficients = { angle_deg = [0, 90, 180], x = [0.9, 0, -0.9], y = [0, 0.8, 0], yaw = [0, 0.1, 0] }
+
+[wind.speed_m_per_s]
+kind = "gust"
+mean_speed_m_per_s = 12
+duration_s = 10
+seed = 3
+
+[current]
+body = "hull"
+speed_m_per_s = 0.5
+direction_deg = 0
+frontal_area_m2 = 200
+lateral_area_m2 = 700
+length_m = 100
+
+[current.coefficients]
+angle_rad = [0.0, 1.5, 3.0]
+x = [0.1, 0, -0.1]
+y = [0, 0.6, 0]
+yaw = [0, 0.05, 0]
+
+[wire]
+joint = "rope"
+restitution = 0.2
+
+[end_stop]
+joint = "sleeve"
+coordinate = "angle"
+minimum_deg = -90
+maximum_deg = 90
+sticking_speed_rad_per_s = 0.01
+
+[seat]
+joint = "deck"
+
+[soft_stop]
+joint = "sleeve"
+maximum_m = 2
+stiffness_N_per_m = 1e4
+damping_s_per_m = 0.5
+
+[friction]
+joint = "pin"
+load_N_m = 4
+speed_deg_per_s = 1
+
+[range]
+joint = "sleeve"
+minimum_m = -1
+maximum_m = 3
+
+[[record]]
+joint = "pin"
+name = "angle of the arm"
+
+[[record]]
+joint = "sleeve"
+coordinate = "angle"
+
+[roles]
+prefix = "aft "
+slew = "pin"
+cylinders = { luff = "sleeve" }
+link = "rope"
+tip = { body = "arm", point_m = [0, 0, 1] }
+
+[notes]
+project = "A-17"
+tries = [1, 2.5]
+"""
+)
+
+
+def every_table() -> Scene:
+    """What `EVERY_TABLE` describes, by calls."""
+    scene = Scene(name="every table", gravity=9.81, orientation="euler_xyz", baumgarte=0.5, length_scale=1.1)
+    scene.add_body(
+        name="hull", mass=1e6, inertia=[[2e6, 1e5, 0], [1e5, 3e6, 0], [0, 0, 2.5e6]],
+        center_of_mass=(0.1, -0.2, 0.3), angular_velocity=(0, 0, np.radians(2)),
+    )  # fmt: skip
+    scene.add_body(
+        name="arm", mass=12.5, inertia=[1, 2, 3], position=(1, 0, 2), quaternion=(0.5, 0.5, 0.5, 0.5),
+        velocity=(0, 0.1, 0), gravity=False,
+    )  # fmt: skip
+    for i, name in enumerate(("bob", "box")):
+        scene.add_body(name=name, mass=3, inertia=[1, 1, 1], position=(4, i, 0))
+    scene.add_vessel(
+        body="hull", name="water", added_mass=np.eye(6) * 1e5, quadratic_damping=[0, 0, 3, 4, 5, 0],
+        mooring_stiffness=[1e4, 2e4, 3e4], kinematics="paper",
+    )  # fmt: skip
+    scene.add_joint(kind="revolute", name="pin", first="hull", second="arm", axis=(0.3, 1, 0.2))
+    scene.add_joint(
+        kind="universal", name="cross", first="hull", second="bob", axis=(1, 0, 0), second_axis=(0, 0, 1)
+    )
+    scene.add_joint(
+        kind="distance", name="rope", first="bob", second="box", point=(4, 0, 0),
+        second_point=(4, 1, 0.5), length=1.25,
+    )  # fmt: skip
+    scene.add_joint(
+        kind="cylindrical", name="sleeve", first="ground", second="box",
+        first_frame=Frame(point=(4, 1, 0)), second_frame=Frame(),
+    )  # fmt: skip
+    scene.add_joint(kind="weld", name="deck", first="ground", second="hull")
+    shake = Curve.harmonic(amplitude=0.01, omega=2.0 * np.pi / 5.0, phase=np.radians(-90))
+    scene.add_driver(joint="sleeve", name="shaker", curve=shake)
+    turn = spline_curve(times=np.arange(7.0), values=np.radians([0, 0, 1, 4, 9, 10, 10]))
+    turn = turn.then(time=6, curve=Curve.constant(value=np.radians(10)))
+    scene.add_driver(joint="sleeve", coordinate="angle", curve=turn)
+    swing = Curve.harmonic(
+        start_time=9, offset=np.radians(-30), amplitude=np.radians(2), omega=2.0 * np.pi / 4.0
+    )
+    move = Curve.quintic(start_time=1, end_time=7, start=0, end=np.radians(-30))
+    scene.add_actuator(
+        name="motor", joint="pin", stiffness=1e3, damping=200, feed_forward=5.5,
+        reference=move.then(time=9, curve=swing),
+    )  # fmt: skip
+    scene.add_point_force(name="push", body="arm", force=(3, 0, 0), point=(0, 0.5, 0), body_axes=True)
+    scene.add_spring(
+        name="soft", first="ground", second="bob", stiffness=100, damping=0.1, natural_length=0.3
+    )
+    scene.add_spring(name="table", first="hull", second="box", lengths=[1, 2.5], forces=[0, 10])
+    scene.add_force_table(name="gust", body="box", times=[0, 1], loads=np.arange(12.0).reshape(2, 6))
+    _add_flows(scene)
+    scene.add_wire(joint="rope", restitution=0.2)
+    scene.add_end_stop(
+        joint="sleeve", coordinate="angle", minimum=np.radians(-90), maximum=np.radians(90),
+        sticking_speed=0.01,
+    )  # fmt: skip
+    scene.add_seat(joint="deck")
+    scene.add_soft_stop(joint="sleeve", maximum=2, stiffness=1e4, damping=0.5)
+    scene.add_friction(joint="pin", load=4, speed=np.radians(1))
+    scene.add_range(joint="sleeve", minimum=-1, maximum=3)
+    scene.record_coordinate(joint="pin", name="angle of the arm")
+    scene.record_coordinate(joint="sleeve", coordinate="angle")
+    scene.add_roles(
+        prefix="aft ", slew="pin", cylinders={"luff": "sleeve"}, link="rope", tip=("arm", (0, 0, 1))
+    )
+    scene.notes.update(project="A-17", tries=[1, 2.5])
+    return scene
+
+
+def _add_flows(scene: Scene) -> None:
+    wind = FlowCoefficients(angle=np.radians([0, 90, 180]), x=[0.9, 0, -0.9], y=[0, 0.8, 0], yaw=[0, 0.1, 0])
+    scene.add_wind(
+        coefficients=wind, speed=gust_curve(mean_speed=12, duration=10, seed=3), direction_deg=90,
+        frontal_area=400, lateral_area=1200, length=100, body="hull",
+    )  # fmt: skip
+    current = FlowCoefficients(angle=[0, 1.5, 3.0], x=[0.1, 0, -0.1], y=[0, 0.6, 0], yaw=[0, 0.05, 0])
+    scene.add_current(
+        coefficients=current, speed=0.5, direction_deg=0, frontal_area=200, lateral_area=700, length=100,
+        body="hull",
+    )  # fmt: skip
