@@ -45,7 +45,11 @@ class Tab:
     def open(self, address: str, *, width: int = 1200, height: int = 760) -> None:
         """Load an address and wait until its page says that it is ready, or has failed."""
         self.ask(
-            "Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=1, mobile=False
+            "Emulation.setDeviceMetricsOverride",
+            width=width,
+            height=height,
+            deviceScaleFactor=1,
+            mobile=False,
         )
         self.ask("Page.navigate", url=address)
         self.wait_for(f"location.href === {json.dumps(address)} && document.documentElement?.dataset.ready")

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import warnings
 from functools import cache
 
 import numpy as np
 
-from seacrane import Curve, Result, Scene, cases, simulate
+from seacrane import BallastWarning, Curve, OutsideRangeWarning, Result, Scene, cases, simulate
 from seacrane._core import Body
 from seacrane.crane import Payload
 from seacrane.hydro import shipped_database
@@ -36,7 +37,7 @@ def thrown() -> Result:
         name=load.name, mass=load.mass, inertia=load.inertia, center_of_mass=load.center_of_mass,
         position=load.position, quaternion=load.quaternion, velocity=(1.0, 2.0, 6.0),
     )  # fmt: skip
-    return simulate(scene, 6.0)
+    return _quietly(scene, 6.0, OutsideRangeWarning)
 
 
 @cache
@@ -53,7 +54,14 @@ def pair() -> Result:
     for joint in ("A", "main_cylinder", "knuckle_cylinder"):
         scene.record_coordinate(joint=joint)
         scene.add_driver(name=joint, joint=joint, curve=Curve.constant(value=0.0))
-    return simulate(scene, 20.0)
+    return _quietly(scene, 20.0, BallastWarning)
+
+
+def _quietly(scene: Scene, t_end: float, warning: type[Warning]) -> Result:
+    """Without what is told of a lift that no one would carry out."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", warning)
+        return simulate(scene, t_end)
 
 
 def angle_between(first: np.ndarray, second: np.ndarray) -> float:

@@ -1,7 +1,7 @@
 """Compute the shipped hydrodynamic database with Capytaine: ``python tools/make_database.py``.
 
-A development tool: needs Capytaine 3. The grids are here, the hull is `shipped_hull`, everything else is that of
-`seacrane.hydro.hydro_from_hull`.
+A development tool: needs Capytaine 3. The grids are here, the hull is `shipped_hull`, everything else is that
+of `seacrane.hydro.hydro_from_hull`.
 """
 
 from __future__ import annotations

@@ -32,7 +32,8 @@ def arrows_of(
     for arrow, rows in found:
         largest[arrow["group"]] = max(largest[arrow["group"]], float(np.linalg.norm(rows, axis=0).max()))
     return [
-        arrow | {"force": blob.series(rows, largest[arrow["group"]] * FINENESS), "largest": largest[arrow["group"]]}
+        arrow
+        | {"force": blob.series(rows, largest[arrow["group"]] * FINENESS), "largest": largest[arrow["group"]]}
         for arrow, rows in found
         if largest[arrow["group"]] > 0.0
     ]

@@ -77,7 +77,9 @@ def looks(
 
 def _checked_hulls(hulls: Mapping[str, Hull], floating: set[str]) -> dict[str, Hull]:
     if not isinstance(hulls, Mapping):
-        raise SceneError(f"view: hulls is {shown(hulls)}; give hulls by the vessel's body, such as {{'vessel': hull}}")
+        raise SceneError(
+            f"view: hulls is {shown(hulls)}; give hulls by the vessel's body, such as {{'vessel': hull}}"
+        )
     for name, hull in hulls.items():
         if name not in floating:
             known = ", ".join(map(repr, sorted(floating))) or "none"
@@ -103,7 +105,7 @@ def _vessel(scene: Description, name: str, hull: Hull | None) -> Look:
 
 
 def _is_shipped(scene: Description, name: str) -> bool:
-    """Whether the vessel comes from the shipped database, by its record, and weighs what its hull displaces."""
+    """Whether the vessel comes from the shipped database by its record, and weighs what that displaces."""
     known = scene.provenance.get(name)
     return (
         known is not None and known.database == SHIPPED
@@ -151,5 +153,3 @@ def _extent(scene: Description) -> float:
                for name in scene.bodies for point in body_points(scene, name)]  # fmt: skip
     spread = float(np.ptp(np.array(points), axis=0).max()) if points else 0.0
     return spread or 1.0
-
-

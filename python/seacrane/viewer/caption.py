@@ -23,29 +23,29 @@ def caption(
     scene: Description, result: Result | None, motion: Motion, looks: Mapping[str, Look]
 ) -> list[tuple[str, str]]:
     """Rows of what and its words; rows without words are left out."""
-    rows = [("scene", scene.name), ("scene hash", scene_digest(scene)[:12]), ("sea", sea_words(scene))]
-    rows += [("seed", str(scene.waves.provenance.seed))] if _seed(scene) is not None else []
+    rows = [("scene hash", scene_digest(scene)[:12]), ("sea", sea_words(scene))]
+    seed = None if scene.waves is None else scene.waves.provenance.seed
+    rows += [("seed", str(seed))] if seed is not None else []
     rows += _run_rows(result, motion) if result is not None else [("run", "none: the scene at its start")]
     rows += [("axes", AXES), ("drawn", _drawn(looks))]
     return [(what, words) for what, words in rows if words]
-
-
-def _seed(scene: Description) -> int | None:
-    return None if scene.waves is None else scene.waves.provenance.seed
 
 
 def _run_rows(result: Result, motion: Motion) -> list[tuple[str, str]]:
     distance, angle = motion.error
     stopped = ", interrupted" if result.interrupted else ""
     return [
-        ("run", f"{motion.start:g} to {motion.end:g} s{stopped}, seacrane {result.stats['seacrane_version']}"),
+        (
+            "run",
+            f"{motion.start:g} to {motion.end:g} s{stopped}, seacrane {result.stats['seacrane_version']}",
+        ),
         ("method", _method(result)),
         ("accuracy", _accuracy(result)),
         ("energy balance", _energy(result)),
         (
             "shown",
-            f"{1.0 / motion.interval:.3g} poses a second, cubic between them: within {1e3 * distance:.2g} mm and "
-            f"{np.degrees(angle):.2g} deg of the run",
+            f"{1.0 / motion.interval:.3g} poses a second, cubic between them: within {1e3 * distance:.2g} mm "
+            f"and {np.degrees(angle):.2g} deg of the run",
         ),
     ]
 
@@ -66,7 +66,7 @@ def _accuracy(result: Result) -> str:
         for name, value in result.stats.items()
         if name.startswith(ESTIMATE) and not isinstance(value, str)
     ]
-    if "constraint_error" in result.channels:
+    if "constraint_error" in result.channels and int(result.stats["constraints"]) > 0:
         words.append(f"joints closed to {_largest(result, 'constraint_error'):.2g} m or rad")
     return ", ".join(words)
 

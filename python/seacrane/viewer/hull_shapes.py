@@ -72,7 +72,9 @@ def _sides(x: Array, half: Array, low: float, high: float) -> Array:
     port = np.column_stack([x, half])
     outline = np.concatenate([port, port[::-1] * np.array([1.0, -1.0])])
     a, b = outline, np.roll(outline, -1, axis=0)
-    corners = [np.column_stack([p, np.full(len(p), z)]) for p, z in ((a, low), (b, low), (b, high), (a, high))]
+    corners = [
+        np.column_stack([p, np.full(len(p), z)]) for p, z in ((a, low), (b, low), (b, high), (a, high))
+    ]
     return _halved(np.stack(corners, axis=1))
 
 
@@ -89,5 +91,7 @@ def _halved(quads: Array) -> Array:
 def _shape(triangles: Array, waterline: float) -> HullShape:
     vertices, faces = np.unique(np.round(triangles.reshape(-1, 3), 4), axis=0, return_inverse=True)
     indices = faces.reshape(-1, 3)
-    flat = (indices[:, 0] == indices[:, 1]) | (indices[:, 1] == indices[:, 2]) | (indices[:, 2] == indices[:, 0])
+    flat = (
+        (indices[:, 0] == indices[:, 1]) | (indices[:, 1] == indices[:, 2]) | (indices[:, 2] == indices[:, 0])
+    )
     return HullShape(vertices=vertices, faces=indices[~flat], waterline=waterline)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -48,7 +48,7 @@ class Motion:
     @property
     def times(self) -> Array:
         """s, of the frames."""
-        return self.start + self.interval * np.arange(len(self.position))
+        return np.asarray(self.start + self.interval * np.arange(len(self.position)), dtype=np.float64)
 
     @property
     def end(self) -> float:
@@ -75,8 +75,8 @@ def motion_of(result: Result) -> Motion:
     missing = [name for name in POSES if name not in result.channels]
     if missing:
         raise SceneError(
-            f"view: result of {result.stats['scene']!r} does not hold {', '.join(missing)}; to be seen it needs "
-            f"{', '.join(POSES)}: leave channels= out of the run, or add these to it"
+            f"view: result of {result.stats['scene']!r} does not hold {', '.join(missing)}; to be seen it "
+            f"needs {', '.join(POSES)}: leave channels= out of the run, or add these to it"
         )
     channels = {name: result[name] for name in POSES}
     good = np.all([np.isfinite(array).all(axis=(1, 2)) for array in channels.values()], axis=0)
@@ -98,13 +98,13 @@ def _sampled(time: Array, channels: dict[str, Array], bodies: Sequence[str], int
     frames = max(1, round(span / interval)) + 1
     step = span / (frames - 1) if span > 0.0 else interval
     at = np.minimum(time[0] + step * np.arange(frames), time[-1])
-    ordered = (channels["position"], channels["quaternion"], channels["velocity"], channels["angular_velocity"])
-    position, quaternion = poses_between(at, time, *ordered)
-    twist = [_linear(at, time, channels[name]) for name in ("velocity", "angular_velocity")]
-    values = dict(zip(POSES, (position, quaternion, *twist), strict=True))
+    position, quaternion = poses_between(at, time, *(channels[name] for name in POSES))
+    velocity, turning = (_linear(at, time, channels[name]) for name in POSES[2:])
     motion = Motion(
         start=float(time[0]), interval=step, bodies=tuple(bodies),
-        **{name: rounded(array, STEPS[name]) for name, array in values.items()},
+        position=rounded(position, STEPS["position"]), quaternion=rounded(quaternion, STEPS["quaternion"]),
+        velocity=rounded(velocity, STEPS["velocity"]),
+        angular_velocity=rounded(turning, STEPS["angular_velocity"]),
     )  # fmt: skip
     return _with_error(motion, time, channels["position"], channels["quaternion"])
 
@@ -114,7 +114,7 @@ def _with_error(motion: Motion, time: Array, position: Array, quaternion: Array)
     distance = float(np.linalg.norm(found - position, axis=-1).max(initial=0.0))
     chord = np.minimum(*(np.linalg.norm(turned - sign * quaternion, axis=-1) for sign in (1.0, -1.0)))
     angle = float(4.0 * np.arcsin(np.clip(chord.max(initial=0.0) / 2.0, 0.0, 1.0)))
-    return Motion(**{**vars(motion), "error": (distance, angle)})
+    return replace(motion, error=(distance, angle))
 
 
 def poses_between(

@@ -18,8 +18,8 @@ LARGEST_COUNT = 2**28  # steps that a rounded value may be from zero: second dif
 class Blob:
     """Arrays one after another, and where each is; `text` is what the page holds.
 
-    Of a series, rows are what changes and columns are times. Its values are whole numbers of `step`, stored as
-    second differences along the times, which are small, byte by byte of equal weight, which gzip likes.
+    Of a series, rows are what changes and columns are times. Its values are whole numbers of `step`, stored
+    as second differences along the times, which are small, byte by byte of equal weight, which gzip likes.
     """
 
     parts: list[bytes] = field(default_factory=list)
@@ -53,7 +53,7 @@ class Blob:
 
     def text(self) -> str:
         """All of it; the same values make the same text."""
-        return base64.b64encode(gzip.compress(b"".join(self.parts), compresslevel=9, mtime=0)).decode("ascii")
+        return base64.b64encode(gzip.compress(b"".join(self.parts), compresslevel=6, mtime=0)).decode("ascii")
 
 
 def usable_step(values: Array, step: float) -> float:

@@ -47,7 +47,9 @@ def json_text(data: Any) -> str:
 
 def script() -> str:
     """The bundle, with what would end its element escaped."""
-    return re.sub(r"</(script)", r"<\\/\1", _asset("viewer.js"), flags=re.IGNORECASE).replace("<!--", "<\\!--")
+    return re.sub(r"</(script)", r"<\\/\1", _asset("viewer.js"), flags=re.IGNORECASE).replace(
+        "<!--", "<\\!--"
+    )
 
 
 @cache

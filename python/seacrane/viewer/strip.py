@@ -24,8 +24,8 @@ USUAL: Sequence[Choice] = (
     "link_tension",
     ("vessel_motion", "roll"),
     ("vessel_motion", "heave"),
-    "limit_force",
     "wave_elevation",
+    "limit_force",
     "stroke",
     "coordinate",
 )
@@ -52,8 +52,8 @@ def strip_of(
         return [_panel(result, choice, motion, blob) for choice in itertools.islice(usual, USUAL_PANELS)]
     if isinstance(channels, str) or not isinstance(channels, Sequence) or len(channels) > MOST_PANELS:
         raise SceneError(
-            f"view: channels is {shown(channels)}; give a list of at most {MOST_PANELS}, each a channel's name "
-            "or a tuple of it and names along its dimensions, such as ('vessel_motion', 'roll')"
+            f"view: channels is {shown(channels)}; give a list of at most {MOST_PANELS}, each a channel's "
+            "name or a tuple of it and names along its dimensions, such as ('vessel_motion', 'roll')"
         )
     return [_panel(result, choice, motion, blob) for choice in channels]
 
@@ -93,9 +93,10 @@ def _panel(result: Result, choice: Choice, motion: Motion, blob: Blob) -> dict[s
     lines = _lines(result, choice)
     words = [choice] if isinstance(choice, str) else list(choice)
     if len(lines) > MOST_LINES:
+        first = result.coords[result.dims[words[0]][1]][0]
         raise SceneError(
             f"view: channel {words[0]!r} has {len(lines)} lines, a panel shows {MOST_LINES}; pick among "
-            f"{', '.join(list(lines)[:12])} with a tuple, such as {(words[0], next(iter(lines)).split()[0])!r}"
+            f"{', '.join(list(lines)[:12])} with a tuple, such as {(words[0], first)!r}"
         )
     unit, factor = _unit(words, np.array(list(lines.values())))
     rows = factor * linear_rows(motion, result.time, np.array(list(lines.values())).T)
@@ -119,8 +120,8 @@ def _unit(words: Sequence[str], values: Array) -> tuple[str, float]:
     if unit.split("/")[0] == "rad":
         return unit.replace("rad", "deg", 1), float(np.degrees(1.0))
     largest = float(np.abs(values[np.isfinite(values)]).max(initial=0.0))
-    if unit in ("N", "N m", "J"):
+    if unit[0] in "NJ":
         for size, prefix in PREFIXES:
             if largest >= size:
-                return prefix + unit, 1.0 / size
+                return " or ".join(prefix + one for one in unit.split(" or ")), 1.0 / size
     return unit, 1.0

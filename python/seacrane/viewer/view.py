@@ -124,9 +124,9 @@ def view(
     scene : Scene, optional
         That the result belongs to; needed for a result that was read from a file.
     channels : sequence, optional
-        What is drawn over time: names of channels, or tuples of a channel and names along its dimensions, such
-        as ``["link_tension", ("vessel_motion", "roll"), ("position", "payload", "z")]``. Default: link tension,
-        roll and heave, and what else the result has of the usual; () for none.
+        What is drawn over time: names of channels, or tuples of a channel and names along its dimensions,
+        such as ``["link_tension", ("vessel_motion", "roll"), ("position", "payload", "z")]``. Default: link
+        tension, roll and heave, and what else the result has of the usual; () for none.
     hulls : mapping of str to Hull, optional
         Hulls by the vessel's body. Default: the shipped hull for the shipped database; for other vessels a
         schematic one from mass and inertia, which the caption says.
@@ -183,8 +183,8 @@ def _scene_of(what: Any, scene: Any) -> Description:
     found = what.scene if scene is None else scene
     if found is None:
         raise SceneError(
-            f"view: result of {what.stats['scene']!r} comes from a file, which holds no bodies or joints; give "
-            "its scene with view(result, scene=scene)"
+            f"view: result of {what.stats['scene']!r} comes from a file, which holds no bodies or joints; "
+            "give its scene with view(result, scene=scene)"
         )
     if not isinstance(found, Description):
         raise SceneError(f"view: scene is {shown(found)}; give a Scene")

@@ -51,7 +51,10 @@ def end_of(scene: Description, bodies: Sequence[str], body: str, point: Any) -> 
     where = np.asarray(point, dtype=float).reshape(3)
     if body not in scene.bodies:
         return [GROUND, *plain(where)]
-    return [list(bodies).index(body), *plain(where - np.asarray(scene.bodies[body].center_of_mass).reshape(3))]
+    return [
+        list(bodies).index(body),
+        *plain(where - np.asarray(scene.bodies[body].center_of_mass).reshape(3)),
+    ]
 
 
 def _free_length(spring: Any) -> float:

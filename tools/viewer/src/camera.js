@@ -1,4 +1,4 @@
-// Bookmarks: where the camera may stand. `of` are the middle and the half extent of what is looked at.
+// Bookmarks: where the camera may stand, so that a box of things just fits into the part of the picture left free.
 import { Vector3 } from 'three';
 
 const WHOLE = {
@@ -7,15 +7,21 @@ const WHOLE = {
   starboard: [0, -1, 0.16],
   bow: [1, 0, 0.16],
   stern: [-1, 0, 0.22],
-  top: [-0.001, 0, 1],
+  top: [0, -0.001, 1],
 };
 
-export function bookmarks({ centre, radius, heading, side, close }) {
+const MARGIN = 1.0;
+
+export function bookmarks({ box, heading, side, close, opening }) {
   const found = {};
+  const centre = box.getCenter(new Vector3());
   for (const [name, [x, y, z]] of Object.entries(WHOLE)) {
     const out = new Vector3(x, name === 'overview' ? y * side : y, z).normalize();
     out.applyAxisAngle(new Vector3(0, 0, 1), heading);
-    found[name] = () => ({ target: centre.clone(), position: centre.clone().addScaledVector(out, 1.8 * radius) });
+    found[name] = () => {
+      const far = MARGIN * distance(box, centre, out, opening());
+      return { target: centre.clone(), position: centre.clone().addScaledVector(out, far) };
+    };
   }
   for (const { name, place, size } of close) {
     const out = new Vector3(0.6, 0.75 * side, 0.3).normalize().applyAxisAngle(new Vector3(0, 0, 1), heading);
@@ -25,4 +31,19 @@ export function bookmarks({ centre, radius, heading, side, close }) {
     };
   }
   return found;
+}
+
+// How far out a camera must stand for every corner to lie within the opening's half tangents.
+function distance(box, centre, out, { across, up }) {
+  const right = new Vector3(0, 0, 1).cross(out).normalize();
+  const top = out.clone().cross(right);
+  let far = 0;
+  for (let i = 0; i < 8; i++) {
+    const corner = new Vector3(
+      i & 1 ? box.max.x : box.min.x, i & 2 ? box.max.y : box.min.y, i & 4 ? box.max.z : box.min.z,
+    ).sub(centre);
+    const wide = Math.max(Math.abs(corner.dot(right)) / across, Math.abs(corner.dot(top)) / up);
+    far = Math.max(far, corner.dot(out) + wide);
+  }
+  return far;
 }

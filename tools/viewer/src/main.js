@@ -17,7 +17,7 @@ import { Track, Wire } from './wires.js';
 const SKY = 0xdfeaf2;
 const SHOWN_FORCES = { none: [], main: ['link', 'wave'], all: ['link', 'wave', 'joint'] };
 const SHOWN_NAMES = { none: -1, main: 1, all: 3 };
-const TRACKS = { tip: '#f4f6f8', payload: '#ffd34d' };
+const TRACKS = { tip: '#ffffff', payload: '#ffe14d' };
 const $ = (id) => document.getElementById(id);
 
 class Page {
@@ -73,6 +73,7 @@ class Page {
       this.move(this.start + u * (this.motion.end - this.start));
       this.bodies.forEach((group) => all.expandByObject(group));
     }
+    this.all = all;
     this.centre = all.getCenter(new Vector3());
     this.radius = 0.5 * all.getSize(new Vector3()).length() || 1;
     this.thin = 0.0018 * this.radius;
@@ -118,7 +119,7 @@ class Page {
     this.data.bodies.forEach((body, i) => {
       const rank = { vessel: 0, payload: 0 }[body.role] ?? (few ? 1 : 2);
       const box = this.boxes[i];
-      const top = body.role === 'vessel' ? new Vector3(0, 0, box.max.z) : box.getCenter(new Vector3());
+      const top = body.role === 'vessel' ? new Vector3(0, 0, box.max.z + 0.07 * this.radius) : box.getCenter(new Vector3());
       this.labels.add(body.name, rank, () => top.clone().applyMatrix4(this.bodies[i].matrixWorld), body.role);
     });
     this.data.tracks.filter((track) => track.kind === 'tip').forEach((track) => {
@@ -157,9 +158,15 @@ class Page {
       place: () => this.bodies[body.i].position.clone(),
     }));
     const heading = Math.atan2(ahead.y, ahead.x);
-    this.bookmarks = bookmarks({ centre: this.centre, radius: this.radius, heading, side, close });
+    this.bookmarks = bookmarks({ box: this.all, heading, side, close, opening: () => this.opening() });
     this.move(this.start);
-    this.look('overview');
+  }
+
+  // Half tangents of what is seen beside the caption.
+  opening() {
+    const up = Math.tan((0.5 * this.camera.fov * Math.PI) / 180);
+    const { clientWidth: width, clientHeight: height } = $('stage');
+    return { up, across: (up * (width - this.covered)) / height };
   }
 
   look(name) {
@@ -265,8 +272,9 @@ class Page {
   // The middle of the picture is the middle of what the caption leaves free.
   shift() {
     const { clientWidth: width, clientHeight: height } = $('stage');
-    const covered = $('caption').open && width > 700 ? $('caption').offsetWidth : 0;
-    this.camera.setViewOffset(width, height, -0.5 * covered, 0, width, height);
+    this.covered = $('caption').open && width > 700 ? $('caption').offsetWidth : 0;
+    this.camera.setViewOffset(width, height, -0.5 * this.covered, 0, width, height);
+    if (this.view && this.bookmarks) this.look(this.view);
     this.dirty = true;
   }
 

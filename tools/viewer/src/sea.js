@@ -49,16 +49,17 @@ export class Sea {
         void main() {
           vec3 n = normalize(slope), v = normalize(eye - place), sun = normalize(vec3(0.35, -0.45, 0.75));
           if (dot(n, v) < 0.0) n = -n;
-          float light = 0.62 + 0.55 * (dot(n, sun) - 0.75) * 2.2;
-          float crest = clamp(0.5 + 0.22 * place.z / height, 0.0, 1.0);
+          vec3 steep = normalize(vec3(2.2 * slope.xy, 1.0));  // shaded steeper than it is, to be read
+          float light = clamp(0.6 + 1.5 * (dot(steep, sun) - 0.77), 0.0, 1.3);
+          float crest = clamp(0.45 + 0.3 * place.z / height, 0.0, 1.0);
           vec3 water = mix(vec3(0.015, 0.13, 0.22), vec3(0.16, 0.46, 0.55), crest) * (0.35 + 0.9 * light);
           float mirror = 0.05 + 0.6 * pow(1.0 - max(dot(n, v), 0.0), 4.0);
-          water = mix(water, sky, mirror);
+          water = mix(water, sky, 0.8 * mirror);
           water += 0.5 * pow(max(dot(reflect(-sun, n), v), 0.0), 60.0);
           vec2 lines = abs(fract(place.xy / grid - 0.5) - 0.5) / fwidth(place.xy / grid);
           float line = (1.0 - min(min(lines.x, lines.y), 1.0)) * (1.0 - smoothstep(0.05, 0.45, far));
           water = mix(water, vec3(1.0), 0.20 * line);
-          gl_FragColor = vec4(mix(water, sky, smoothstep(0.35, 0.97, far)), 0.86);
+          gl_FragColor = vec4(mix(water, sky, smoothstep(0.3, 0.95, far)), 0.8);
           #include <colorspace_fragment>
         }`,
     }));

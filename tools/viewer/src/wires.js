@@ -59,7 +59,7 @@ export class Track {
     if (motion.end - motion.start <= whole) {
       const points = [];
       for (let i = 0; i < motion.frames; i++) points.push(motion.point(track.at, motion.start + i * motion.interval));
-      const all = new Line(new BufferGeometry().setFromPoints(points), new LineBasicMaterial({ color: colour, transparent: true, opacity: 0.35 }));
+      const all = new Line(new BufferGeometry().setFromPoints(points), new LineBasicMaterial({ color: colour, transparent: true, opacity: 0.5 }));
       this.group.push(all);
     }
   }
