@@ -20,6 +20,7 @@ from seacrane import Result, Scene, SceneError, View, cases, simulate, view
 from seacrane.crane import BODIES, KnuckleBoomCrane
 from seacrane.crane.geometry import plane_axes
 from seacrane.hydro import Hull, ParametricHull, shipped_database
+from seacrane.hydro.hull.shipped_hull import GIRTH, LINES, STATIONS, VOLUME, shipped_hull
 from seacrane.inputs.frames import quaternion_of, rotation_matrix
 from seacrane.viewer.bodies import looks
 from seacrane.viewer.hull_shapes import schematic_size
@@ -426,3 +427,12 @@ def test_an_interrupted_run_is_shown_as_far_as_it_is_finite() -> None:
     shown = view(cut)
     assert shown.motion.end == pytest.approx(whole.time[149])
     assert "interrupted" in shown.html
+
+
+def test_the_shipped_hull_is_that_of_the_shipped_database() -> None:
+    """By its mass and waterplane; and scaling its lines to their volume leaves them as they are."""
+    database, statics = shipped_database(), shipped_hull().hydrostatics
+    heave = database.restoring[2, 2] / (database.rho * database.g)
+    assert heave == pytest.approx(statics.waterplane_area, rel=1e-12)
+    assert database.mass_matrix[0, 0] == pytest.approx(database.rho * statics.volume, rel=1e-12)
+    assert LINES.scaled_to_volume(VOLUME, stations=STATIONS, girth=GIRTH) == LINES
