@@ -235,6 +235,12 @@ def test_a_hull_of_ones_own_is_drawn() -> None:
     assert highest[0] - lowest[0] == pytest.approx(60.0, abs=1e-3)
 
 
+def test_a_hull_of_too_many_panels_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("seacrane.viewer.bodies.LARGEST_HULL", 1000)
+    with pytest.raises(SceneError, match=r"has 2278 panels, above 1000; give hull\.remeshed"):
+        view(alone(), hulls={"vessel": shipped_hull()})
+
+
 def test_only_wires_go_slack() -> None:
     scene = cases.case2()
     assert wires_of(scene, list(scene.bodies))[0]["length"] == 0.0

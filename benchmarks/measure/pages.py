@@ -25,9 +25,9 @@ def pages() -> Section:
     return Section(
         title="Three-dimensional pages",
         text=(
-            "`seacrane.view` of case 2 with its default channels: poses a second in the page, size of the file, "
-            "largest distance of a body from the run at any output, wall time to make it. The aim is 1.5 MB "
-            "for 60 s."
+            "`seacrane.view` of case 2 with its default channels: poses a second in the page, size of the "
+            "file, largest distance of a body from the run at any output, wall time to make it. The aim is "
+            "1.5 MB for 60 s."
         ),
         head=["run", "outputs every, s", "poses/s", "MB", "within, mm", "wall, s"],
         rows=rows,

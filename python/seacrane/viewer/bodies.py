@@ -24,6 +24,7 @@ Array = NDArray[np.float64]
 SLENDER = 0.02  # radius of a generic body's tubes over its extent
 SMALLEST = 0.02  # edge of a box over the scene's extent
 SHIPPED = "hull_115"
+LARGEST_HULL = 100_000  # panels: more make a page that browsers choke on
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -86,6 +87,11 @@ def _checked_hulls(hulls: Mapping[str, Hull], floating: set[str]) -> dict[str, H
             raise SceneError(f"view: hulls names {shown(name)}; the vessels of the scene are {known}")
         if not isinstance(hull, Hull):
             raise SceneError(f"view: the hull of {name!r} is {shown(hull)}; give a seacrane.hydro.Hull")
+        if len(hull.panels) > LARGEST_HULL:
+            raise SceneError(
+                f"view: the hull of {name!r} has {len(hull.panels)} panels, above {LARGEST_HULL}; give "
+                "hull.remeshed(stations=60, girth=20)"
+            )
     return dict(hulls)
 
 

@@ -41,12 +41,13 @@ export class Arrow {
   }
 }
 
-// Metres per newton such that the largest is no longer than `longest`, with a round number of newtons for 10 m.
+// Metres per newton such that the largest is no longer than `longest`, with round numbers of newtons and metres.
 export function roundScale(largest, longest) {
-  const wanted = (10 * largest) / longest;
+  const metres = 10 ** Math.floor(Math.log10(longest));
+  const wanted = (metres * largest) / longest;
   const power = 10 ** Math.floor(Math.log10(wanted));
   const round = [1, 2, 5, 10].map((one) => one * power).find((one) => one >= wanted * 0.999);
-  return { perNewton: 10 / round, per10m: round };
+  return { perNewton: metres / round, metres, newtons: round };
 }
 
 export function newtons(force) {

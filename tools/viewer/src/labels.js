@@ -10,7 +10,7 @@ export class Labels {
     element.className = `label ${kind}`;
     element.textContent = text;
     this.host.append(element);
-    this.labels.push({ element, rank, place, text });
+    this.labels.push({ element, rank, place });
     this.labels.sort((a, b) => a.rank - b.rank);
     return element;
   }
@@ -23,7 +23,7 @@ export class Labels {
       let seen = Boolean(at) && at.z < 1 && Math.abs(at.x) < 1 && Math.abs(at.y) < 1;
       if (seen) {
         const [x, y] = [(0.5 + 0.5 * at.x) * width, (0.5 - 0.5 * at.y) * height];
-        const box = { left: x - 4, right: x + 7 * label.text.length + 10, top: y - 20, bottom: y + 2 };
+        const box = { left: x - 4, right: x + 7 * label.element.textContent.length + 10, top: y - 20, bottom: y + 2 };
         seen = !taken.some((b) => b.left < box.right && box.left < b.right && b.top < box.bottom && box.top < b.bottom);
         if (seen) {
           taken.push(box);

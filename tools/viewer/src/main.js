@@ -37,6 +37,7 @@ class Page {
     this.strip = new Strip($('strip'), data.strip, buffer, this.motion, (t) => this.seek(t));
     this.makeControls();
     addEventListener('resize', () => this.size());
+    this.strip.size();
     $('caption').open = $('stage').clientHeight > 420 && $('stage').clientWidth > 700;
     $('caption').addEventListener('toggle', () => this.shift());
     addEventListener('hashchange', () => this.readAddress());
@@ -260,12 +261,12 @@ class Page {
   }
 
   size() {
+    this.strip.size();
     const { clientWidth: width, clientHeight: height } = $('stage');
     this.renderer.setSize(width, height);
     this.camera.aspect = width / height;
     this.camera.fov = width < height ? 60 : 38;
     this.shift();
-    this.strip.size();
     this.dirty = true;
   }
 
@@ -336,7 +337,7 @@ class Page {
       return line;
     };
     const rows = shown.filter((group) => this.scales[group]).map(
-      (group) => row(GROUPS[group].colour, `${GROUPS[group].text}: 10 m = ${newtons(this.scales[group].per10m)}`),
+      (group) => row(GROUPS[group].colour, `${GROUPS[group].text}: ${+this.scales[group].metres.toPrecision(3)} m = ${newtons(this.scales[group].newtons)}`),
     );
     if (this.sea) {
       const { drawn, all } = this.sea;

@@ -2,7 +2,9 @@
 import { Series } from './unpack.js';
 
 const GUTTER = 168;
-const ROW = 46;
+const HIGHEST = 46; // pixels of a row
+const LOWEST = 30;
+const SHARE = 0.32; // of the page
 const AXIS = 18;
 const COLOURS = ['#0b5a8a', '#c2581a', '#2f7d3a', '#8a2f6b', '#6b6b1a', '#333f4a'];
 
@@ -11,7 +13,6 @@ export class Strip {
     Object.assign(this, { canvas, motion });
     this.panels = panels.map((panel) => ({ ...panel, series: new Series(buffer, panel.values) }));
     canvas.hidden = !this.panels.length;
-    canvas.style.height = `${this.panels.length * ROW + AXIS}px`;
     const move = (event) => {
       const box = canvas.getBoundingClientRect();
       const u = (event.clientX - box.left - GUTTER) / (box.width - GUTTER - 12);
@@ -23,6 +24,8 @@ export class Strip {
 
   size() {
     if (this.canvas.hidden) return;
+    this.row = Math.round(Math.min(HIGHEST, Math.max(LOWEST, (SHARE * window.innerHeight) / this.panels.length)));
+    this.canvas.style.height = `${this.panels.length * this.row + AXIS}px`;
     const ratio = window.devicePixelRatio || 1;
     this.width = this.canvas.clientWidth;
     this.height = this.canvas.clientHeight;
@@ -43,7 +46,7 @@ export class Strip {
 
   y(panel, row, value) {
     const span = panel.high - panel.low || 1;
-    return row * ROW + 6 + (1 - (value - panel.low) / span) * (ROW - 12);
+    return row * this.row + 6 + (1 - (value - panel.low) / span) * (this.row - 12);
   }
 
   draw(pen) {
@@ -57,7 +60,7 @@ export class Strip {
       const x = this.x(t);
       pen.fillText(`${t}`, x, this.height - 5);
       pen.fillStyle = '#e3e8ec';
-      pen.fillRect(x, 0, 1, this.panels.length * ROW);
+      pen.fillRect(x, 0, 1, this.panels.length * this.row);
       pen.fillStyle = '#445';
     }
     pen.textAlign = 'left';
@@ -65,13 +68,13 @@ export class Strip {
   }
 
   drawPanel(pen, panel, row) {
-    const top = row * ROW;
+    const top = row * this.row;
     pen.fillStyle = '#c9d2d9';
-    pen.fillRect(0, top + ROW - 1, this.width, 1);
+    pen.fillRect(0, top + this.row - 1, this.width, 1);
     pen.fillStyle = '#8a97a3';
     pen.textAlign = 'right';
     pen.fillText(short(panel.high), GUTTER - 6, top + 12);
-    pen.fillText(short(panel.low), GUTTER - 6, top + ROW - 5);
+    pen.fillText(short(panel.low), GUTTER - 6, top + this.row - 4);
     pen.textAlign = 'left';
     panel.labels.forEach((label, line) => {
       pen.strokeStyle = COLOURS[line % COLOURS.length];
@@ -101,18 +104,18 @@ export class Strip {
     pen.scale(this.ratio, this.ratio);
     const place = this.motion.place(t);
     pen.fillStyle = '#c0392b';
-    pen.fillRect(this.x(t) - 0.5, 0, 1.5, this.panels.length * ROW);
+    pen.fillRect(this.x(t) - 0.5, 0, 1.5, this.panels.length * this.row);
     this.panels.forEach((panel, row) => {
       pen.font = 'bold 11px sans-serif';
       pen.fillStyle = '#1d2b36';
-      pen.fillText(`${panel.title} [${panel.unit}]`, 10, row * ROW + 15, GUTTER - 50);
+      pen.fillText(`${panel.title} [${panel.unit}]`, 10, row * this.row + 0.32 * this.row, GUTTER - 50);
       pen.font = '11px sans-serif';
       const values = panel.labels.map((_, line) => short(panel.series.linear(line, place)));
       let x = 10;
       panel.labels.forEach((label, line) => {
         pen.fillStyle = COLOURS[line % COLOURS.length];
         const text = label ? `${label} ${values[line]}` : values[line];
-        if (x + pen.measureText(text).width < GUTTER - 40 || line === 0) pen.fillText(text, x, row * ROW + 33, GUTTER - 50);
+        if (x + pen.measureText(text).width < GUTTER - 40 || line === 0) pen.fillText(text, x, row * this.row + 0.76 * this.row, GUTTER - 50);
         x += pen.measureText(text).width + 8;
       });
     });
