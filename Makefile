@@ -6,6 +6,7 @@
 # make stubs    python/seacrane/_core.pyi
 # make bench-peers  the same crane in Pinocchio, MuJoCo, Exudyn and NumPy, in an environment of their own;
 #                   either of the two with BENCH_ARGS=--publish writes into benchmarks/ (on an idle machine)
+# make viewer   the script of the three-dimensional page, bundled with three.js (needs npm)
 # make fuzz     hostile files, guided by coverage: CASES for each kind of file (a million take hours), counts
 #               and findings in out/fuzz; goes on where the last call stopped
 # make format   formats C++ and Python;  make clean  removes what was built (not .venv);  make distclean  all
@@ -15,7 +16,7 @@ SHELL := /bin/bash
 .SHELLFLAGS := -euo pipefail -c
 .DELETE_ON_ERROR:
 .DEFAULT_GOAL := build
-.PHONY: demo test build nightly bench bench-peers extremes stubs format clean distclean lint cpp-test cpp-sanitize \
+.PHONY: demo test build nightly bench bench-peers extremes stubs viewer format clean distclean lint cpp-test cpp-sanitize \
         cpp-tsan python-test fuzz system-packages FORCE
 
 ifndef PYTHON
@@ -139,6 +140,10 @@ STUB_OPTIONS := --exit-code --ignore-invalid-expressions '<seacrane\._core\.\w+ 
 stubs: build .venv/.installed-dev
 	$(BIN)/python -m pybind11_stubgen seacrane._core --output-dir build/stubs $(STUB_OPTIONS)
 	cp build/stubs/seacrane/_core.pyi python/seacrane/_core.pyi
+
+# tests/test_view_bundle.py compares the committed bundle with what this makes.
+viewer:
+	tools/viewer/build.sh python/seacrane/viewer/assets
 
 format: .venv/.installed-dev
 	$(BIN)/ruff check --fix .

@@ -25,6 +25,7 @@ from measure import (
     memory_cost,
     memory_kinds,
     memory_models,
+    pages,
     paper_form,
     rival,
     scaling,
@@ -85,6 +86,7 @@ def sections(folder: Path, *, repeats: int, quick: bool) -> Iterator[Section]:
     yield rival.rival(repeats=repeats, t_end=5.0 if quick else 100.0)
     yield footprint.memory(repeats=min(repeats, 3))
     yield footprint.imports(repeats=repeats)
+    yield pages.pages()
     yield scenes.sizes()
 
 

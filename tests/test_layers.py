@@ -35,7 +35,7 @@ FLOORS = """
     accuracy
     simulation
     experiment
-    figures
+    figures viewer
     trading
     lift
     cases

@@ -1,7 +1,7 @@
 """Compute the shipped hydrodynamic database with Capytaine: ``python tools/make_database.py``.
 
-A development tool: needs Capytaine 3. The hull and the grids are here, everything else is that of
-`seacrane.hydro.hydro_from_hull`.
+A development tool: needs Capytaine 3. The grids are here, the hull is `shipped_hull`, everything else is that
+of `seacrane.hydro.hydro_from_hull`.
 """
 
 from __future__ import annotations
@@ -13,28 +13,18 @@ from pathlib import Path
 
 import numpy as np
 
-from seacrane.hydro import Hull, HydroDatabase, ParametricHull, fit_memory
+from seacrane.hydro import Hull, HydroDatabase, fit_memory
 from seacrane.hydro.hull.by_capytaine import capytaine_solution
 from seacrane.hydro.hull.hull_database import database_of_solution
+from seacrane.hydro.hull.shipped_hull import LINES, VOLUME, shipped_hull
 from seacrane.hydro.hull.solution import HullSolution, symmetric_solution
 
 RHO, G = 1025.0, 9.81
-MASS = 14.0e6
+MASS = VOLUME * RHO
 GM_TRANSVERSE = 3.0
 ROLL_DAMPING_FRACTION = 0.05
 TRUSTED_BAND = (0.3, 2.5)
-STATIONS, GIRTH = 56, 20
 LID_PANEL_RADIUS = 1.5
-HULL = ParametricHull(
-    length=115.0,
-    breadth=25.0,
-    draught=6.4,
-    entrance_length=40.0,
-    run_length=34.5,
-    transom_breadth_fraction=0.75,
-    transom_draught_fraction=0.2,
-    section_exponent=6.0,
-)
 OMEGA = np.round(np.arange(0.1, 3.1001, 0.05), 10)
 HEADING = np.radians(np.arange(0.0, 180.1, 5.0))
 
@@ -48,8 +38,7 @@ def main() -> None:
         "--raw", type=Path, help="keep Capytaine's solution here, and reuse it when it is there"
     )
     arguments = parser.parse_args()
-    shape = HULL.scaled_to_volume(MASS / RHO, stations=STATIONS, girth=GIRTH)
-    hull = Hull.from_parametric(shape, stations=STATIONS, girth=GIRTH, name="hull_115")
+    hull = shipped_hull()
     database = database_of_solution(
         hull,
         symmetric_solution(solve_or_reuse(hull, arguments.raw), heading=HEADING, reciprocal=True),
@@ -57,7 +46,7 @@ def main() -> None:
         heading=HEADING,
         centre_of_gravity=np.array([0.0, 0.0, hull.hydrostatics.metacentre_transverse - GM_TRANSVERSE]),
         mass=MASS,
-        radii_of_gyration=np.array([0.36 * shape.breadth, 0.25 * shape.length, 0.25 * shape.length]),
+        radii_of_gyration=np.array([0.36 * LINES.breadth, 0.25 * LINES.length, 0.25 * LINES.length]),
         roll_damping_fraction=ROLL_DAMPING_FRACTION,
         trusted_band=TRUSTED_BAND,
         rho=RHO,

@@ -87,3 +87,18 @@ def axes_across(what: str, first_axis: Array, axis: Any) -> Array:
             "the axes of a universal joint are perpendicular"
         )
     return axes_along(what, axis)
+
+
+def quaternion_of(matrix: Array) -> Array:
+    """Scalar first, (4,), of a rotation matrix (3, 3)."""
+    m = np.asarray(matrix, dtype=float)
+    products = np.array(
+        [
+            [m[0, 0] + m[1, 1] + m[2, 2], m[2, 1] - m[1, 2], m[0, 2] - m[2, 0], m[1, 0] - m[0, 1]],
+            [m[2, 1] - m[1, 2], m[0, 0] - m[1, 1] - m[2, 2], m[0, 1] + m[1, 0], m[0, 2] + m[2, 0]],
+            [m[0, 2] - m[2, 0], m[0, 1] + m[1, 0], m[1, 1] - m[0, 0] - m[2, 2], m[1, 2] + m[2, 1]],
+            [m[1, 0] - m[0, 1], m[0, 2] + m[2, 0], m[1, 2] + m[2, 1], m[2, 2] - m[0, 0] - m[1, 1]],
+        ]
+    )
+    largest = np.linalg.eigh(products)[1][:, -1]  # 4 q q^T - 1: its largest eigenvector is q
+    return np.asarray(largest * (1.0 if largest[0] >= 0.0 else -1.0))

@@ -29,6 +29,7 @@ if TYPE_CHECKING:
     import xarray
 
     from seacrane._core import State
+    from seacrane.description.scene import Description
 
 Array = NDArray[np.float64]
 Stat = str | int | float
@@ -139,6 +140,8 @@ class Result(Mapping[str, Array]):
         What wires, end stops and seats did, in order of time.
     state : State or None
         Where the run stopped, to continue from by ``simulate(start=...)``.
+    scene : Scene or None
+        What was run, for pictures of it; neither files nor copies of a result hold it.
     """
 
     time: Array
@@ -148,6 +151,7 @@ class Result(Mapping[str, Array]):
     interrupted: bool = False
     events: tuple[Event, ...] = ()
     state: State | None = None
+    scene: Description | None = None
     dims: Mapping[str, tuple[str, ...]] = field(init=False)
 
     def __post_init__(self) -> None:
@@ -186,6 +190,7 @@ class Result(Mapping[str, Array]):
         stats: Mapping[str, Any],
         interrupted: bool = False,
         state: State | None = None,
+        scene: Description | None = None,
     ) -> Result:
         """Check and wrap the arrays that the run loop filled.
 
@@ -208,6 +213,8 @@ class Result(Mapping[str, Array]):
             True if the run did not reach its end; only then may channels hold values that are not finite.
         state : State, optional
             Where the run stopped.
+        scene : Scene, optional
+            What was run.
 
         Raises
         ------
@@ -233,6 +240,7 @@ class Result(Mapping[str, Array]):
             interrupted=bool(interrupted),
             events=checked_events(events),
             state=state,
+            scene=scene,
         )
 
     def __getitem__(self, name: str) -> Array:

@@ -183,6 +183,7 @@ class Run:
                 stats=stats,
                 interrupted=self.interrupted,
                 state=self.last_state() if most is None else None,
+                scene=scene.copy(notes={}),
             )
         return result, found
 

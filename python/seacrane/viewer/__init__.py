@@ -1,0 +1,1 @@
+"""A result or a scene as one self-contained page in three dimensions."""

@@ -1,0 +1,161 @@
+"""What each body of a scene looks like, and what is said of it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from seacrane.crane import KnuckleBoomCrane
+from seacrane.description import crane_parts
+from seacrane.description.scene import Description
+from seacrane.errors import SceneError
+from seacrane.hydro import Hull
+from seacrane.hydro.hull.shipped_hull import VOLUME, shipped_hull
+from seacrane.inputs.shown import shown
+from seacrane.viewer.crane_shapes import crane_shapes
+from seacrane.viewer.hull_shapes import hull_shape, schematic_hull
+from seacrane.viewer.shapes import BoxShape, Shape, distinct, equivalent_box, framework
+
+Array = NDArray[np.float64]
+
+SLENDER = 0.02  # radius of a generic body's tubes over its extent
+SMALLEST = 0.02  # edge of a box over the scene's extent
+SHIPPED = "hull_115"
+LARGEST_HULL = 100_000  # panels: more make a page that browsers choke on
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Look:
+    """Of one body.
+
+    Attributes
+    ----------
+    role : str
+        "vessel", "payload", "crane" or "body".
+    shapes : list of Shape
+        Relative to the centre of mass, body axes, m.
+    note : str
+        What the shapes stand for, where they are no more than that.
+    """
+
+    role: str
+    shapes: list[Shape] = field(default_factory=list)
+    note: str = ""
+
+    @property
+    def points(self) -> Array:
+        """(n, 3), what the shapes reach."""
+        return np.concatenate([shape.points for shape in self.shapes])
+
+
+def looks(
+    scene: Description, *, hulls: Mapping[str, Hull] | None = None, crane: KnuckleBoomCrane | None = None
+) -> dict[str, Look]:
+    """The look of every body, by name.
+
+    Raises
+    ------
+    SceneError
+        For a hull that is none, or of a body that is no vessel.
+    """
+    floating = {vessel.body for vessel in scene.vessels.values()}
+    given = _checked_hulls(hulls or {}, floating)
+    members, hanging = crane_shapes(scene, crane), set(crane_parts.payloads(scene).values())
+    found: dict[str, Look] = {}
+    extent = _extent(scene)
+    for name in scene.bodies:
+        if name in floating:
+            found[name] = _vessel(scene, name, given.get(name))
+        elif name in members:
+            found[name] = Look(role="crane", shapes=members[name])
+        else:
+            found[name] = _generic(scene, name, "payload" if name in hanging else "body", extent)
+    return found
+
+
+def _checked_hulls(hulls: Mapping[str, Hull], floating: set[str]) -> dict[str, Hull]:
+    if not isinstance(hulls, Mapping):
+        raise SceneError(
+            f"view: hulls is {shown(hulls)}; give hulls by the vessel's body, such as {{'vessel': hull}}"
+        )
+    for name, hull in hulls.items():
+        if name not in floating:
+            known = ", ".join(map(repr, sorted(floating))) or "none"
+            raise SceneError(f"view: hulls names {shown(name)}; the vessels of the scene are {known}")
+        if not isinstance(hull, Hull):
+            raise SceneError(f"view: the hull of {name!r} is {shown(hull)}; give a seacrane.hydro.Hull")
+        if len(hull.panels) > LARGEST_HULL:
+            raise SceneError(
+                f"view: the hull of {name!r} has {len(hull.panels)} panels, above {LARGEST_HULL}; give "
+                "hull.remeshed(stations=60, girth=20)"
+            )
+    return dict(hulls)
+
+
+def _vessel(scene: Description, name: str, hull: Hull | None) -> Look:
+    body = scene.bodies[name]
+    centre = np.asarray(body.center_of_mass, dtype=float)
+    above = [point[2] for point in body_points(scene, name) if point[2] > 0.0]
+    deck = float(np.median(above)) if above else None
+    if hull is None and _is_shipped(scene, name):
+        hull = shipped_hull()
+    if hull is not None:
+        level = deck if deck is not None else 0.6 * hull.draught
+        note = f"hull {hull.name!r} below the water, straight sides above"
+        return Look(role="vessel", shapes=[hull_shape(hull, level, centre)], note=note)
+    shape = schematic_hull(body.mass, np.asarray(body.inertia), deck, centre)
+    return Look(role="vessel", shapes=[shape], note="schematic hull, from mass and inertia")
+
+
+def _is_shipped(scene: Description, name: str) -> bool:
+    """Whether the vessel comes from the shipped database by its record, and weighs what that displaces."""
+    known = scene.provenance.get(name)
+    return (
+        known is not None and known.database == SHIPPED
+        and bool(np.isclose(scene.bodies[name].mass, 1025.0 * VOLUME, rtol=1e-6))
+    )  # fmt: skip
+
+
+def _generic(scene: Description, name: str, role: str, extent: float) -> Look:
+    """Tubes between the points at which other bodies take hold of it; with fewer than two, a box."""
+    body = scene.bodies[name]
+    points = distinct([point - np.asarray(body.center_of_mass) for point in body_points(scene, name)])
+    span = float(np.ptp(points, axis=0).max()) if len(points) else 0.0
+    if role != "payload" and len(points) > 1 and span > SMALLEST * extent:
+        tubes: list[Shape] = list(framework(points, SLENDER * span))
+        return Look(role=role, shapes=tubes, note="bars between its joints")
+    box = equivalent_box(body.mass, np.asarray(body.inertia))
+    size = np.maximum(box.size, SMALLEST * extent)
+    return Look(
+        role=role, shapes=[BoxShape(centre=box.centre, axes=box.axes, size=size)],
+        note="the uniform box with its mass and inertia",
+    )  # fmt: skip
+
+
+def body_points(scene: Description, name: str) -> list[Array]:
+    """Where joints, springs and cranes take hold of a body, in its coordinates, m."""
+    points = []
+    for joint in scene.joints.values():
+        points += [joint.first_frame.point] if joint.first == name else []
+        points += [joint.second_frame.point] if joint.second == name else []
+    for spring in scene.springs.values():
+        points += [spring.first_point] if spring.first == name else []
+        points += [spring.second_point] if spring.second == name else []
+    points += [np.array(point) for body, point in crane_parts.tips(scene).values() if body == name]
+    return [np.asarray(point, dtype=float).reshape(3) for point in points]
+
+
+def _extent(scene: Description) -> float:
+    """How far the described bodies and their joints lie apart, m; 1 for a single point."""
+    points = [np.asarray(body.position).reshape(3) for body in scene.bodies.values()]
+    points += [
+        np.asarray(joint.first_frame.point).reshape(3) for joint in scene.joints.values()
+        if joint.first not in scene.bodies
+    ]  # fmt: skip
+    points += [np.asarray(scene.bodies[name].position).reshape(3) + point
+               for name in scene.bodies for point in body_points(scene, name)]  # fmt: skip
+    spread = float(np.ptp(np.array(points), axis=0).max()) if points else 0.0
+    return spread or 1.0

@@ -1,0 +1,444 @@
+"""`view`: the numbers of its pages are those of results and scenes, and what cannot be shown is refused."""
+
+from __future__ import annotations
+
+import base64
+import copy
+import gzip
+import json
+import pickle
+import re
+from html.parser import HTMLParser
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from view_scenes import HTML_NAME, alone, angle_between, case2, pair
+
+from seacrane import Result, Scene, SceneError, View, cases, simulate, view
+from seacrane.crane import BODIES, KnuckleBoomCrane
+from seacrane.crane.geometry import plane_axes
+from seacrane.hydro import Hull, ParametricHull, shipped_database
+from seacrane.hydro.hull.shipped_hull import GIRTH, LINES, STATIONS, VOLUME, shipped_hull
+from seacrane.inputs.frames import quaternion_of, rotation_matrix
+from seacrane.viewer.bodies import looks
+from seacrane.viewer.hull_shapes import schematic_size
+from seacrane.viewer.motion import LARGEST_ERROR, STEPS, motion_of, quaternion_rate
+from seacrane.viewer.packing import Blob
+from seacrane.viewer.sea import sea_components
+from seacrane.viewer.shapes import BoxShape, HullShape, TubeShape, equivalent_box, framework
+from seacrane.viewer.wires import wires_of
+
+
+class Page(HTMLParser):
+    """What a browser makes of a page: its elements, and the text of its scripts."""
+
+    def __init__(self, html: str) -> None:
+        super().__init__()
+        self.elements: list[str] = []
+        self.scripts: dict[str | None, str] = {}
+        self._script: str | None = None
+        self._inside = False
+        self.feed(html)
+
+    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        self.elements.append(tag)
+        self._inside = tag == "script"
+        self._script = dict(attrs).get("id")
+
+    def handle_endtag(self, tag: str) -> None:
+        self._inside = False
+
+    def handle_data(self, data: str) -> None:
+        if self._inside:
+            self.scripts[self._script] = self.scripts.get(self._script, "") + data
+
+    @property
+    def data(self) -> dict[str, Any]:
+        """What the page's script reads."""
+        found: dict[str, Any] = json.loads(self.scripts["data"])
+        return found
+
+    def series(self, told: dict[str, Any]) -> np.ndarray:
+        """A series as packing.py describes it, written independently of it."""
+        blob = gzip.decompress(base64.b64decode(self.scripts["blob"]))
+        rows, frames = told["shape"]
+        planes = np.frombuffer(blob, np.uint8, 4 * rows * frames, told["at"]).reshape(4, -1).astype(np.int64)
+        folded = planes[0] + (planes[1] << 8) + (planes[2] << 16) + (planes[3] << 24)
+        second = np.where(folded % 2, -(folded + 1) // 2, folded // 2).reshape(rows, frames)
+        return np.cumsum(np.cumsum(second, axis=1), axis=1) * told["step"]
+
+
+def test_a_pose_at_any_output_is_that_of_the_run() -> None:
+    result, motion = case2(), view(case2()).motion
+    position, quaternion = motion.at(result.time)
+    distance = np.linalg.norm(position - result["position"], axis=-1).max()
+    assert distance <= motion.error[0] + 1e-12 <= LARGEST_ERROR[0]
+    assert angle_between(quaternion, result["quaternion"]) <= LARGEST_ERROR[1]
+    assert motion.interval == pytest.approx(0.2)
+    assert motion.error[0] < 1e-3
+
+
+def test_the_page_holds_the_poses_that_the_view_tells() -> None:
+    shown = view(case2())
+    page = Page(shown.html)
+    told = page.data["motion"]
+    for name, step in STEPS.items():
+        expected = getattr(shown.motion, name)
+        found = page.series(told[name]).T.reshape(expected.shape)
+        np.testing.assert_allclose(found, expected, rtol=0.0, atol=1e-6 * step)
+    assert [body["name"] for body in page.data["bodies"]] == list(case2().coords["body"])
+
+
+def test_a_snatch_asks_for_more_frames() -> None:
+    """Between outputs of 0.05 s, a payload that stops within one needs the finer interval."""
+    scene = Scene(name="bounce")
+    scene.add_body(
+        name="ball", mass=1.0, inertia=(0.1, 0.1, 0.1), position=(0, 0, -0.5), velocity=(0.0, 1.0, 3.0)
+    )
+    scene.add_joint(kind="distance", name="wire", first="ground", second="ball", point=(0, 0, 0),
+                    second_point=(0, 0, -0.5), length=1.0)  # fmt: skip
+    scene.add_wire(joint="wire", restitution=0.5)
+    coarse = motion_of(simulate(scene, 3.0, dt_out=0.05))
+    assert coarse.interval == pytest.approx(0.1)
+    assert coarse.error[0] > 0.0
+
+
+def test_frames_are_no_finer_than_the_outputs() -> None:
+    motion = motion_of(simulate(cases.vessel(), 10.0, dt_out=0.5))
+    assert motion.interval == pytest.approx(0.5)
+    assert motion.end == pytest.approx(10.0)
+
+
+def test_the_rate_of_a_quaternion_is_that_of_its_rotation() -> None:
+    """Turned by a small rotation in inertial axes."""
+    rng = np.random.default_rng(4)
+    q, w, dt = rng.normal(size=4), rng.normal(size=3), 1e-6
+    q /= np.linalg.norm(q)
+    turned = rotation_matrix(q + dt * quaternion_rate(q, w))
+    x, y, z = w
+    spin = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
+    np.testing.assert_allclose(turned, (np.eye(3) + dt * spin) @ rotation_matrix(q), atol=1e-10)
+    np.testing.assert_allclose(quaternion_of(rotation_matrix(q)) * np.sign(q[0]), q, atol=1e-12)
+
+
+@pytest.mark.parametrize("step", [1e-4, 1e-15])
+def test_a_series_comes_back_within_half_a_step(step: float) -> None:
+    values = np.cumsum(np.random.default_rng(2).normal(size=(3, 50)), axis=1) * 1e3
+    blob = Blob()
+    blob.floats(np.ones(3))
+    told = blob.series(values, step)
+    page = Page(f"<script id=blob>{blob.text()}</script>")
+    np.testing.assert_allclose(page.series(told), values, rtol=0.0, atol=0.51 * told["step"])
+    assert told["step"] >= step
+
+
+def test_the_sea_is_that_of_the_scene() -> None:
+    scene = cases.vessel(hs=3.0, seed=7)
+    assert scene.waves is not None
+    table = sea_components(scene)
+    a, w, phase, kx, ky = table.T
+    t, x, y = 123.4, -31.0, 17.0
+    expected = scene.waves.components().elevation(t, x=x, y=y)
+    assert np.sum(a * np.cos(w * t + phase - kx * x - ky * y)) == pytest.approx(float(expected), abs=1e-9)
+    assert np.all(np.diff(a) <= 0.0)
+    assert len(table) == np.size(scene.waves.omega)
+
+
+def test_a_lift_of_a_minute_is_small() -> None:
+    assert len(view(case2()).html.encode()) < 1.5e6
+
+
+def test_crane_members_are_those_of_the_data_file() -> None:
+    found = looks(cases.case2())
+    crane = KnuckleBoomCrane.load()
+    for name in BODIES:
+        assert found[name].role == "crane"
+        for shape, member in zip(found[name].shapes, crane.data.members()[name], strict=True):
+            ends = [plane_axes(name) @ np.array(end) for end in (member.start, member.end)]
+            middle = 0.5 * (ends[0] + ends[1]) - crane.mass_properties[name].center_of_mass
+            centre = shape.centre if isinstance(shape, BoxShape) else shape.points.mean(axis=0)
+            np.testing.assert_allclose(centre, middle, atol=1e-9)
+    (box,) = found["payload"].shapes
+    assert isinstance(box, BoxShape)
+    np.testing.assert_allclose(box.size, (6.0, 6.0, 4.0))
+
+
+def test_a_crane_that_is_none_of_ours_is_bars_between_its_joints() -> None:
+    scene = cases.case2()
+    jib = scene.bodies["main_jib"]
+    scene.bodies["main_jib"] = type(jib)(
+        name=jib.name, mass=2.0 * jib.mass, inertia=jib.inertia, center_of_mass=jib.center_of_mass,
+        position=jib.position, quaternion=jib.quaternion,
+    )  # fmt: skip
+    bars = looks(scene)["main_jib"].shapes
+    assert len(bars) == 3
+    assert all(isinstance(bar, TubeShape) for bar in bars)
+    ends = np.unique(np.round(np.concatenate([bar.points for bar in bars]), 6), axis=0)
+    held = [joint.first_frame.point for joint in scene.joints.values() if joint.first == "main_jib"]
+    held += [joint.second_frame.point for joint in scene.joints.values() if joint.second == "main_jib"]
+    points = np.array(held).reshape(-1, 3) - jib.center_of_mass
+    np.testing.assert_allclose(ends, np.unique(np.round(points, 6), axis=0), atol=1e-5)
+
+
+def test_bars_are_as_short_as_can_be() -> None:
+    bars = framework(np.array([[0.0, 0, 0], [3.0, 0, 0], [1.0, 0, 0], [1.0, 1.0, 0]]), 0.1)
+    assert sum(np.linalg.norm(bar.end - bar.start) for bar in bars) == pytest.approx(4.0)
+
+
+def test_the_equivalent_box_of_a_box_is_that_box() -> None:
+    size, mass = np.array([3.0, 2.0, 0.5]), 7.0
+    squares = size**2
+    inertia = np.diag(mass / 12.0 * (squares.sum() - squares))
+    turn = rotation_matrix((0.9, 0.1, -0.2, 0.3))
+    box = equivalent_box(mass, turn @ inertia @ turn.T)
+    np.testing.assert_allclose(
+        box.axes @ np.diag(box.size**2) @ box.axes.T, turn @ np.diag(squares) @ turn.T, atol=1e-9
+    )
+    np.testing.assert_allclose(np.linalg.det(box.axes), 1.0)
+
+
+def test_the_shipped_vessel_has_the_shipped_hull_and_another_a_schematic_one() -> None:
+    result = pair()
+    assert result.scene is not None
+    found = looks(result.scene)
+    assert "hull_115" in found["vessel"].note
+    assert "schematic" in found[HTML_NAME].note
+    (true,), (made_up,) = found["vessel"].shapes, found[HTML_NAME].shapes
+    assert isinstance(true, HullShape)
+    assert isinstance(made_up, HullShape)
+    np.testing.assert_allclose(np.ptp(true.vertices, axis=0)[:2], (115.0, 25.0), rtol=1e-3)
+    np.testing.assert_allclose(np.ptp(made_up.vertices, axis=0)[:2], (115.0, 25.0), rtol=1e-2)
+    assert "schematic hull, from mass and inertia" in view(result).html
+
+
+def test_a_schematic_hull_displaces_its_mass() -> None:
+    length, breadth, draught = schematic_size(14e6, 14e6 * np.diag([0.36 * 25, 0.25 * 115, 0.25 * 115]) ** 2)
+    assert (length, breadth) == pytest.approx((115.0, 25.0))
+    assert 1025.0 * 0.7 * length * breadth * draught == pytest.approx(14e6)
+
+
+def test_a_hull_of_ones_own_is_drawn() -> None:
+    hull = Hull.from_parametric(
+        ParametricHull(
+            length=60.0, breadth=14.0, draught=4.0, entrance_length=20.0, run_length=18.0,
+            transom_breadth_fraction=0.8, transom_draught_fraction=0.3, section_exponent=4.0,
+            origin_from_transom=30.0,
+        ),
+        stations=20, girth=8,
+    )  # fmt: skip
+    (shape,) = looks(cases.vessel(), hulls={"vessel": hull})["vessel"].shapes
+    assert isinstance(shape, HullShape)
+    lowest, highest = shape.vertices.min(axis=0), shape.vertices.max(axis=0)
+    assert lowest[2] - shape.waterline == pytest.approx(-4.0, abs=1e-3)
+    assert highest[0] - lowest[0] == pytest.approx(60.0, abs=1e-3)
+
+
+def test_a_hull_of_too_many_panels_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("seacrane.viewer.bodies.LARGEST_HULL", 1000)
+    with pytest.raises(SceneError, match=r"has 2278 panels, above 1000; give hull\.remeshed"):
+        view(alone(), hulls={"vessel": shipped_hull()})
+
+
+def test_only_wires_go_slack() -> None:
+    scene = cases.case2()
+    assert wires_of(scene, list(scene.bodies))[0]["length"] == 0.0
+    scene.add_wire(joint="link")
+    scene.add_spring(
+        name="tugger", first="vessel", second="payload", lengths=[0.0, 5.0, 9.0], forces=[0.0, 0.0, 1e5]
+    )
+    link, tugger = wires_of(scene, list(scene.bodies))
+    assert (link["kind"], link["length"]) == ("wire", 8.0)
+    assert (tugger["kind"], tugger["length"]) == ("spring", 5.0)
+
+
+def test_forces_are_those_of_the_run() -> None:
+    page = Page(view(case2()).html)
+    arrows = {(arrow["group"], arrow["name"]): arrow for arrow in page.data["arrows"]}
+    link = page.series(arrows["link", "link"]["force"])
+    np.testing.assert_allclose(np.linalg.norm(link, axis=0), case2()["link_tension"][::2], rtol=1e-3)
+    wave = page.series(arrows["wave", "vessel"]["force"])
+    level = np.linalg.norm(case2()["wave_force"][::2, :3], axis=1)
+    np.testing.assert_allclose(np.linalg.norm(wave, axis=0), level, atol=1e-3 * level.max())
+    assert {group for group, _ in arrows} == {"link", "wave", "joint"}
+
+
+def test_chosen_channels_are_drawn_in_their_units() -> None:
+    choice = ["link_tension", ("vessel_motion", "roll"), ("position", "payload", "z"), "stroke"]
+    page = Page(view(case2(), channels=choice).html)
+    tension, roll, height, stroke = page.data["strip"]
+    assert [panel["unit"] for panel in (tension, roll, height, stroke)] == ["kN", "deg", "m", "m"]
+    assert stroke["labels"] == ["main", "knuckle"]
+    expected = np.degrees(case2().select("vessel_motion", motion="roll")[::2])
+    np.testing.assert_allclose(page.series(roll["values"])[0], expected, atol=2e-3)
+    expected = case2().select("position", body="payload", axis="z")[::2]
+    np.testing.assert_allclose(page.series(height["values"])[0], expected, atol=1e-3 * np.ptp(expected))
+    assert view(case2(), channels=()).html.count('"strip":[]') == 1
+
+
+@pytest.mark.parametrize(
+    ("channels", "message"),
+    [
+        (["tension_of_link"], "no channel 'tension_of_link' in the result; it holds position"),
+        ([("vessel_motion", "rol")], "channel 'vessel_motion' has no 'rol'; it has motion: surge, sway"),
+        (["position"], "channel 'position' has 30 lines, a panel shows 6; pick among vessel x"),
+        ("stroke", "channels is 'stroke'; give a list"),
+    ],
+)
+def test_a_channel_that_cannot_be_drawn_is_refused(channels: Any, message: str) -> None:
+    with pytest.raises(SceneError, match=re.escape(message)):
+        view(case2(), channels=channels)
+
+
+def test_names_appear_as_text() -> None:
+    """Names with markup neither end a script nor become elements."""
+    html = view(pair()).html
+    plain = Page(view(alone()).html)
+    page = Page(html)
+    assert page.elements.count("script") == plain.elements.count("script") == 3
+    assert not {"b", "i"} & set(page.elements)
+    assert HTML_NAME in {body["name"] for body in page.data["bodies"]}
+    assert "<b onclick" not in html
+    assert "&lt;i&gt;two vessels&lt;/i&gt;</title>" in html
+
+
+def test_the_caption_tells_scene_seed_method_and_energy() -> None:
+    from seacrane.description.file import scene_digest
+
+    result = case2()
+    html = view(result).html
+    assert result.scene is not None
+    assert scene_digest(result.scene)[:12] in html
+    for words in ("<td>1</td>", "tolerance 1e-06", "of the absolute work", "joints closed to", "y to port"):
+        assert words in html
+
+
+def test_a_notebook_shows_the_page_in_a_frame() -> None:
+    shown = view(pair(), height=500)
+    frame = shown._repr_html_()
+    assert frame.count("<") == 2
+    assert "height:500px" in frame
+    assert "MB>" in repr(shown)
+
+
+def test_a_scene_alone_stands_at_its_assembled_start() -> None:
+    scene = cases.case2()
+    shown = view(scene)
+    start = simulate(scene, 0.1, dt_out=0.1)
+    position, quaternion = shown.motion.at(np.zeros(1))
+    np.testing.assert_allclose(position[0], start["position"][0], atol=1e-9)
+    assert angle_between(quaternion[0], start["quaternion"][0]) < 1e-7
+    data = Page(shown.html).data
+    assert data["least"] > 10.0
+    assert data["strip"] == data["arrows"] == []
+
+
+def test_a_scene_without_water_has_no_sea() -> None:
+    scene = Scene(name="pendulum")
+    scene.add_body(name="ball", mass=1.0, inertia=(0.1, 0.1, 0.1), position=(0, 0, -1.0))
+    scene.add_joint(
+        kind="revolute", name="pivot", first="ground", second="ball", point=(0, 0, 0), axis=(0, 1, 0)
+    )
+    data = Page(view(simulate(scene, 1.0)).html).data
+    assert data["sea"] is None
+    assert data["bodies"][0]["role"] == "body"
+
+
+def test_a_saved_page_is_not_overwritten_unless_asked(tmp_path: Path) -> None:
+    shown = view(alone())
+    path = shown.save(tmp_path / "lift.html")
+    assert path.read_text(encoding="utf-8") == shown.html
+    path.write_text("mine")
+    with pytest.raises(FileExistsError, match="overwrite=True"):
+        shown.save(path)
+    assert path.read_text() == "mine"
+    shown.save(path, overwrite=True)
+    assert path.stat().st_size > 1e5
+    with pytest.raises(OSError, match="there is no folder"):
+        shown.save(tmp_path / "absent" / "lift.html")
+    assert [one.name for one in tmp_path.iterdir()] == ["lift.html"]
+
+
+def test_the_same_result_makes_the_same_page() -> None:
+    assert view(alone()).html == view(alone()).html
+    assert isinstance(view(alone()), View)
+
+
+def test_a_result_without_poses_is_refused() -> None:
+    result = simulate(cases.vessel(), 1.0, channels=["vessel_motion", "position"])
+    with pytest.raises(SceneError, match="does not hold quaternion, velocity, angular_velocity; to be seen"):
+        view(result)
+
+
+def test_a_result_from_a_file_needs_its_scene(tmp_path: Path) -> None:
+    result = Result.load(alone().save(tmp_path / "run.nc"))
+    with pytest.raises(SceneError, match=re.escape("give its scene with view(result, scene=scene)")):
+        view(result)
+    scene = cases.vessel(hs=4.0, tp=10.0)
+    assert view(result, scene=scene).html == view(alone()).html
+    with pytest.raises(SceneError, match=r"is not the one of the result: .* only in one of them"):
+        view(result, scene=cases.case2())
+
+
+def test_copies_of_a_result_are_seen_with_its_scene() -> None:
+    result = alone()
+    for twin in (copy.copy(result), pickle.loads(pickle.dumps(result))):
+        assert twin.scene is None
+        assert view(twin, scene=result.scene).html == view(result).html
+
+
+def test_a_result_keeps_the_scene_as_it_was_run() -> None:
+    scene = cases.vessel()
+    result = simulate(scene, 1.0)
+    scene.add_body(name="later", mass=1.0, inertia=(1.0, 1.0, 1.0))
+    assert result.scene is not None
+    assert "later" not in result.scene.bodies
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        ({"what": "lift.html"}, "'lift.html' is neither a Result nor a Scene"),
+        ({"what": Scene(name="none")}, "scene 'none' has no bodies"),
+        ({"height": 3}, "height is 3; give pixels from 200 to 4000"),
+        (
+            {"hulls": {"crane": shipped_database}},
+            "hulls names 'crane'; the vessels of the scene are 'vessel'",
+        ),
+        ({"hulls": {"vessel": 3}}, "the hull of 'vessel' is 3; give a seacrane.hydro.Hull"),
+        ({"hulls": [3]}, "hulls is [3]; give hulls by the vessel's body"),
+        ({"scene": 3}, "scene is 3; give a Scene"),
+        ({"what": cases.vessel(), "scene": cases.vessel()}, "scene= is given beside a scene"),
+        (
+            {"what": cases.vessel(), "channels": ["position"]},
+            "channels is given for a scene that has not run",
+        ),
+    ],
+)
+def test_what_cannot_be_shown_is_refused(arguments: dict[str, Any], message: str) -> None:
+    given = {"what": alone(), **arguments}
+    with pytest.raises(SceneError, match=re.escape(message)):
+        view(given.pop("what"), **given)
+
+
+def test_an_interrupted_run_is_shown_as_far_as_it_is_finite() -> None:
+    whole = alone()
+    arrays = {name: array.copy() for name, array in whole.items()}
+    arrays["position"][150:] = np.nan
+    cut = Result.from_arrays(
+        time=whole.time, arrays=arrays, coords={"body": whole.coords["body"]},
+        stats=whole.stats, interrupted=True, scene=whole.scene,
+    )  # fmt: skip
+    shown = view(cut)
+    assert shown.motion.end == pytest.approx(whole.time[149])
+    assert "interrupted" in shown.html
+
+
+def test_the_shipped_hull_is_that_of_the_shipped_database() -> None:
+    """By its mass and waterplane; and scaling its lines to their volume leaves them as they are."""
+    database, statics = shipped_database(), shipped_hull().hydrostatics
+    heave = database.restoring[2, 2] / (database.rho * database.g)
+    assert heave == pytest.approx(statics.waterplane_area, rel=1e-12)
+    assert database.mass_matrix[0, 0] == pytest.approx(database.rho * statics.volume, rel=1e-12)
+    assert LINES.scaled_to_volume(VOLUME, stations=STATIONS, girth=GIRTH) == LINES

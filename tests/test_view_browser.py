@@ -1,0 +1,146 @@
+"""The pages of `view` in a browser: they open from disk, ask for nothing, complain of nothing, and show the
+run. Skipped where there is no Chromium."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator
+from pathlib import Path
+
+import chromium
+import numpy as np
+import pytest
+import view_scenes
+from view_scenes import HTML_NAME, angle_between, case2, pair, thrown
+
+from seacrane import View, cases, view
+
+SHOWN = ("case2", "alone", "thrown", "pair")
+
+
+@pytest.fixture(scope="module")
+def tab() -> Iterator[chromium.Tab]:
+    command = chromium.found()
+    if command is None:
+        pytest.skip("no Chromium: install Debian's package chromium")
+    with chromium.tab(command) as opened:
+        yield opened
+
+
+def opened(tab: chromium.Tab, shown: View, folder: Path, address: str = "") -> None:
+    """The page from disk, in a browser that has forgotten the one before."""
+    tab.requests.clear()
+    tab.errors.clear()
+    path = shown.save(folder / "page.html")
+    tab.open(path.as_uri() + address)
+    assert tab.errors == []
+    assert tab.requests == [path.as_uri()]
+    assert tab.value("document.documentElement.dataset.ready") == "true"
+
+
+@pytest.mark.parametrize("name", SHOWN)
+def test_a_page_opens_without_a_network_and_shows_something(
+    tab: chromium.Tab, name: str, tmp_path: Path
+) -> None:
+    pytest.importorskip("PIL", reason="comes with matplotlib")
+    from PIL import Image
+
+    opened(tab, view(getattr(view_scenes, name)()), tmp_path)
+    pictures = []
+    for time in (0.0, 4.0):
+        tab.value(f"seacrane.seek({time})")
+        tab.picture(tmp_path / "picture.png")
+        with Image.open(tmp_path / "picture.png") as image:
+            pictures.append(np.asarray(image.convert("RGB"), dtype=float)[80:500, 400:880])
+    spread = pictures[0].reshape(-1, 3).std(axis=0)
+    assert spread.min() > 10.0, "the picture is of one colour"
+    assert np.abs(pictures[1] - pictures[0]).mean() > 1.0, "nothing moves"
+    assert tab.errors == []
+
+
+def test_the_page_moves_bodies_as_the_run_did(tab: chromium.Tab, tmp_path: Path) -> None:
+    result = case2()
+    opened(tab, view(result), tmp_path)
+    for body in ("vessel", "knuckle_jib", "payload"):
+        for index in (0, 137, 333, 600):
+            pose = np.array(tab.value(f"seacrane.pose({json.dumps(body)}, {result.time[index]})"))
+            np.testing.assert_allclose(pose[:3], result.select("position", body=body)[index], atol=1e-3)
+            assert angle_between(pose[3:], result.select("quaternion", body=body)[index]) < 1e-4
+
+
+def test_the_page_sums_the_waves_that_load_the_vessel(tab: chromium.Tab, tmp_path: Path) -> None:
+    result = case2()
+    assert result.scene is not None
+    assert result.scene.waves is not None
+    opened(tab, view(result), tmp_path)
+    waves = result.scene.waves.components()
+    for time, x, y in ((0.0, 0.0, 0.0), (31.7, 12.0, -40.0), (10000.3, -60.0, 5.0)):
+        expected = float(waves.elevation(time, x=x, y=y))
+        assert tab.value(f"seacrane.elevation({x}, {y}, {time})") == pytest.approx(expected, abs=1e-3)
+    drawn = tab.value("seacrane.wavesDrawn")
+    assert drawn == (60 if tab.value("seacrane.software") else 200)
+
+
+def test_a_slack_wire_is_drawn_slack(tab: chromium.Tab, tmp_path: Path) -> None:
+    opened(tab, view(thrown()), tmp_path)
+    tension = thrown()["link_tension"]
+    slack, taut = (thrown().time[index] for index in (5, len(tension) - 5))
+    for time, wires in ((slack, ["link"]), (taut, [])):
+        tab.value(f"seacrane.seek({time})")
+        assert tab.value("seacrane.slack()") == wires
+
+
+def test_markup_in_names_is_text(tab: chromium.Tab, tmp_path: Path) -> None:
+    opened(tab, view(pair()), tmp_path)
+    assert tab.value("document.title") == "<i>two vessels</i>"
+    labels = "[...document.querySelectorAll('.label')].map((one) => one.textContent)"
+    assert HTML_NAME in tab.value(labels)
+    assert tab.value("document.querySelectorAll('b, #labels i, #caption i').length") == 0
+
+
+def test_the_address_tells_time_and_view(tab: chromium.Tab, tmp_path: Path) -> None:
+    opened(tab, view(case2()), tmp_path, "#t=42.8&view=payload")
+    tab.wait_for("document.getElementById('now').textContent === '42.80 s'")
+    assert tab.value("document.getElementById('view').value") == "payload"
+    tab.value("location.hash = '#t=7.5'")
+    tab.wait_for("document.getElementById('now').textContent === '7.50 s'")
+
+
+def test_keys_move_the_time_and_the_camera(tab: chromium.Tab, tmp_path: Path) -> None:
+    opened(tab, view(case2()), tmp_path, "#t=10")
+    tab.press("ArrowRight")
+    tab.wait_for("document.getElementById('now').textContent === '10.20 s'")
+    assert tab.value("location.hash") == "#t=10.2"
+    tab.press("2")
+    tab.wait_for("document.getElementById('view').value === 'port'")
+    tab.press("f")
+    assert tab.value("document.getElementById('forces').value") == "all"
+    tab.press(" ")
+    tab.wait_for("parseFloat(document.getElementById('now').textContent) > 10.5")
+    tab.press(" ")
+    assert tab.value("document.getElementById('play').textContent") == "play"
+    tab.press("End")
+    tab.wait_for("document.getElementById('now').textContent === '60.00 s'")
+
+
+def test_a_scene_alone_has_a_moving_sea(tab: chromium.Tab, tmp_path: Path) -> None:
+    opened(tab, view(cases.vessel(hs=3.0)), tmp_path)
+    tab.value("seacrane.seek(30)")
+    assert tab.value("document.getElementById('now').textContent") == "30.00 s"
+    assert tab.value("document.getElementById('strip').hidden")
+
+
+def test_the_page_lives_inside_another_one_as_in_a_notebook(tab: chromium.Tab, tmp_path: Path) -> None:
+    tab.errors.clear()
+    tab.requests.clear()
+    path = tmp_path / "notebook.html"
+    body = view(case2())._repr_html_()
+    script = "<script>document.documentElement.dataset.ready = 'true'</script>"
+    path.write_text(f"<!DOCTYPE html><body>{body}{script}</body>", encoding="utf-8")
+    tab.open(path.as_uri())
+    inside = "document.querySelector('iframe').contentDocument"
+    tab.wait_for(f"{inside}.documentElement.dataset.ready === 'true'")
+    tab.value("document.querySelector('iframe').contentWindow.seacrane.seek(12)")
+    assert tab.value(f"{inside}.getElementById('now').textContent") == "12.00 s"
+    assert tab.errors == []
+    assert set(tab.requests) <= {path.as_uri(), "about:srcdoc"}

@@ -1,0 +1,50 @@
+"""The script of the pages of `view` is what its sources and the pinned three.js make."""
+
+from __future__ import annotations
+
+import json
+import re
+import shutil
+import subprocess
+from pathlib import Path
+
+import pytest
+
+
+def test_the_committed_bundle_is_what_its_sources_make(repository: Path, tmp_path: Path) -> None:
+    """Where the pinned packages are installed (`make viewer`), or npm can install them."""
+    tools = repository / "tools" / "viewer"
+    if shutil.which("npm") is None:
+        pytest.skip("no npm: install Debian's packages nodejs and npm")
+    copy = tmp_path / "viewer"
+    shutil.copytree(tools, copy, ignore=shutil.ignore_patterns("node_modules"))
+    installed = tools / "node_modules"
+    if installed.is_dir():
+        (copy / "node_modules").symlink_to(installed)
+    made = tmp_path / "made"
+    made.mkdir()
+    done = subprocess.run([copy / "build.sh", made], capture_output=True, text=True, check=False)
+    if done.returncode and not installed.is_dir():
+        pytest.skip(f"npm cannot install the pinned packages here: {done.stderr.strip()[-200:]}")
+    assert done.returncode == 0, done.stderr
+    committed = repository / "python" / "seacrane" / "viewer" / "assets"
+    for name in ("viewer.js", "LICENSE.three.txt"):
+        same = (made / name).read_bytes() == (committed / name).read_bytes()
+        assert same, f"{name} is not what its sources make: run `make viewer` and commit it"
+
+
+def test_packages_are_pinned_and_the_lock_names_no_registry(repository: Path) -> None:
+    tools = repository / "tools" / "viewer"
+    wanted = json.loads((tools / "package.json").read_text())["devDependencies"]
+    lock = (tools / "package-lock.json").read_text()
+    locked = json.loads(lock)["packages"]
+    assert all(locked[f"node_modules/{name}"]["version"] == version for name, version in wanted.items())
+    assert "http" not in re.sub(r'"url": "[^"]*"', "", lock)
+
+
+def test_the_bundle_and_its_licence_ship(repository: Path) -> None:
+    assets = repository / "python" / "seacrane" / "viewer" / "assets"
+    assert (assets / "LICENSE.three.txt").read_text().startswith("The MIT License")
+    script = (assets / "viewer.js").read_text(encoding="ascii")
+    assert "LICENSE.three.txt" in script[:200]
+    assert len(script) < 700_000

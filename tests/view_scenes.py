@@ -1,0 +1,70 @@
+"""Scenes and short runs that the tests of `view` show."""
+
+from __future__ import annotations
+
+import warnings
+from functools import cache
+
+import numpy as np
+
+from seacrane import BallastWarning, Curve, OutsideRangeWarning, Result, Scene, cases, simulate
+from seacrane._core import Body
+from seacrane.crane import Payload
+from seacrane.hydro import shipped_database
+
+HTML_NAME = "</script><b onclick=alert(1)>&amp; barge"
+
+
+@cache
+def case2() -> Result:
+    """The paper's lift."""
+    return simulate(cases.case2(), 60.0)
+
+
+@cache
+def alone() -> Result:
+    """A vessel in waves."""
+    return simulate(cases.vessel(hs=4.0, tp=10.0), 20.0)
+
+
+@cache
+def thrown() -> Result:
+    """Case 2 with a payload that is thrown up and sideways, so that its wire goes slack and snatches."""
+    scene = cases.case2()
+    scene.add_wire(joint="link")
+    load = scene.bodies["payload"]
+    scene.bodies["payload"] = Body(
+        name=load.name, mass=load.mass, inertia=load.inertia, center_of_mass=load.center_of_mass,
+        position=load.position, quaternion=load.quaternion, velocity=(1.0, 2.0, 6.0),
+    )  # fmt: skip
+    return _quietly(scene, 6.0, OutsideRangeWarning)
+
+
+@cache
+def pair() -> Result:
+    """Two vessels in one sea, one of them by its matrices and with markup for a name."""
+    database = shipped_database()
+    scene = Scene(name="<i>two vessels</i>")
+    scene.add_vessel(database)
+    scene.add_vessel(database, name=HTML_NAME, position=(-15.0, 45.0, 0.0), heading_deg=12.0, memory="none")
+    scene.add_sea(database, hs=2.5, tp=8.0, seed=3, count=120)
+    scene.add_sea(database, vessel=HTML_NAME)
+    scene.add_crane(base="vessel", payload=Payload(mass=20e3))
+    scene.provenance.pop(HTML_NAME)
+    for joint in ("A", "main_cylinder", "knuckle_cylinder"):
+        scene.record_coordinate(joint=joint)
+        scene.add_driver(name=joint, joint=joint, curve=Curve.constant(value=0.0))
+    return _quietly(scene, 20.0, BallastWarning)
+
+
+def _quietly(scene: Scene, t_end: float, warning: type[Warning]) -> Result:
+    """Without what is told of a lift that no one would carry out."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", warning)
+        return simulate(scene, t_end)
+
+
+def angle_between(first: np.ndarray, second: np.ndarray) -> float:
+    """Largest angle between unit quaternions, rad."""
+    cosine = np.abs(np.sum(first * second, axis=-1)).clip(0.0, 1.0)
+    return float(2.0 * np.arccos(cosine).max())
