@@ -36,8 +36,10 @@ FLOORS = """
     simulation
     experiment
     figures
+    reporting
     trading
     cases
+    installation
     cli
     __main__
 """

@@ -111,13 +111,18 @@ def _add_paper(commands: Any) -> None:
     text = "compute the paper's cases: figures 3 to 10, the data behind every panel, and report.html"
     paper = commands.add_parser("paper", help=text, description=text)
     paper.add_argument("--out", metavar="DIR", required=True, help="folder to write to; made if absent")
+    paper.add_argument("--overwrite", action="store_true", help="replace what an earlier call wrote there")
 
 
 def _add_report(commands: Any) -> None:
-    text = "print what the compiled model of a scene holds"
+    text = "print what the compiled model of a scene holds, or write the report of a result: DIR/<name>.html"
     report = commands.add_parser("report", help=text, description=text)
-    report.add_argument("scene", metavar="SCENE", help=SCENE_HELP)
-    report.add_argument("--json", action="store_true", help="print JSON instead of tables")
+    report.add_argument(
+        "source", metavar="SCENE|RESULT.nc", help=f"{SCENE_HELP}; or a result that `seacrane run` wrote"
+    )
+    report.add_argument("--json", action="store_true", help="of a scene: print JSON instead of tables")
+    report.add_argument("--out", metavar="DIR", help="of a result: folder to write to; made if absent")
+    report.add_argument("--overwrite", action="store_true", help="of a result: replace an earlier report")
 
 
 def _add_hydro(commands: Any) -> None:

@@ -41,6 +41,6 @@ def _with_memory(database: HydroDatabase) -> HydroDatabase:
 
 
 def _as_text(rows: list[dict[str, Any]]) -> str:
-    from seacrane.figures.report import format_value
+    from seacrane.plotting.html import format_value
 
     return text_table(COLUMNS, [[format_value(row[name]) for name in COLUMNS] for row in rows])

@@ -1,4 +1,4 @@
-"""A file that one writer has for itself, on every platform: POSIX locks where there are any, Windows' else."""
+"""A file that one writer has for itself: locked by POSIX where there is fcntl, else as Windows does."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from importlib import import_module
 from pathlib import Path
 from types import ModuleType
 
-# The last that Windows can lock: it keeps others from reading what is locked, which is beyond the end of most files.
+# The last that Windows can lock. It keeps others from reading what is locked: most files end before.
 LOCKED_BYTE = 2**31 - 2
 REMOVES_OPEN_FILES = os.name != "nt"
 

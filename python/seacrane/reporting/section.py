@@ -1,0 +1,56 @@
+"""A section of a report, and how sections make a page."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+from html import escape
+from typing import Generic, TypeVar
+
+from seacrane.reporting.style import STYLE
+
+Subject = TypeVar("Subject")
+
+
+@dataclass(frozen=True, kw_only=True)
+class Section(Generic[Subject]):
+    """One block of a page.
+
+    Attributes
+    ----------
+    title : str
+        Its heading.
+    applies : callable
+        Whether a subject has anything for it; sections that do not apply are left out.
+    html : callable
+        Its content as HTML, in which all text of users is escaped.
+    """
+
+    title: str
+    applies: Callable[[Subject], bool]
+    html: Callable[[Subject], str]
+
+
+def compose(*, title: str, lead: str, sections: Iterable[Section[Subject]], subject: Subject) -> str:
+    """A page with everything inside: no file, script or address outside it is needed.
+
+    Parameters
+    ----------
+    title : str
+        Heading, escaped here.
+    lead : str
+        HTML below it.
+    sections : iterable of Section
+    subject
+        What they are about.
+    """
+    body = [f"<h1>{escape(title)}</h1>", lead]
+    for section in sections:
+        if section.applies(subject):
+            body.append(f"<section><h2>{escape(section.title)}</h2>\n{section.html(subject)}</section>")
+    head = (
+        '<meta charset="utf-8"><meta name="viewport" content="width=device-width">'
+        f"<title>{escape(title)}</title><style>{STYLE}</style>"
+    )
+    content = "\n".join(part for part in body if part)
+    return f'<!DOCTYPE html>\n<html lang="en"><head>{head}</head>\n<body>\n{content}\n</body></html>\n'
