@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import contextlib
 import os
 import sys
 import warnings
@@ -32,13 +33,14 @@ class _Parser(argparse.ArgumentParser):
 def build_parser() -> argparse.ArgumentParser:
     """The parser of all commands; `command` holds the module that runs one."""
     parser = _Parser(prog="seacrane", description=DESCRIPTION)
-    parser.add_argument("--version", action="store_true", help="print the version and stop")
+    parser.add_argument("--version", action="store_true", help="print version and build, and stop")
     commands = parser.add_subparsers(dest="command", metavar="COMMAND", parser_class=_Parser)
     _add_run(commands)
     _add_paper(commands)
     _add_report(commands)
     _add_hydro(commands)
     _add_trade(commands)
+    _add_doctor(commands)
     return parser
 
 
@@ -141,6 +143,12 @@ def _add_trade(commands: Any) -> None:
     trade.add_argument("--quick", action="store_true", help="a coarse grid of few integrators")
 
 
+def _add_doctor(commands: Any) -> None:
+    text = "tell what is installed, what is fast and what is missing"
+    doctor = commands.add_parser("doctor", help=text, description=text)
+    doctor.add_argument("--json", action="store_true", help="print JSON instead of tables")
+
+
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run a command; errors become one line on standard error.
 
@@ -155,16 +163,33 @@ def main(arguments: Sequence[str] | None = None) -> int:
         Exit status: 0 done, 1 failed, 2 wrong arguments (then raised as SystemExit), 130 interrupted.
     """
     parser = build_parser()
+    _complete(parser)
     chosen = parser.parse_args(arguments)
     if chosen.version:
-        from seacrane.version import __version__
-
-        print(__version__)
+        print(_version())
         return 0
     if chosen.command is None:
         parser.print_help(sys.stderr)
         return MISUSED
     return _run_command(chosen)
+
+
+def _complete(parser: argparse.ArgumentParser) -> None:
+    """Answer the shell where it asks for completions, and argcomplete is installed."""
+    if "_ARGCOMPLETE" in os.environ:
+        with contextlib.suppress(ImportError):
+            import_module("argcomplete").autocomplete(parser)
+
+
+def _version() -> str:
+    """The version, and below it how the package was built."""
+    from seacrane.cli.tables import text_table
+    from seacrane.installation.build import build_facts
+
+    facts = build_facts()
+    rows = [(name, text) for name, text in facts.items() if name != "seacrane"]
+    lines = text_table(("", ""), rows).splitlines()[1:]
+    return "\n".join([f"seacrane {facts['seacrane']}", *(f"  {line}" for line in lines)])
 
 
 def _run_command(chosen: argparse.Namespace) -> int:

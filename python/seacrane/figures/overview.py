@@ -105,19 +105,10 @@ OWNERS = {"vessel_motion": "vessel", "position": "body"}  # dimensions that a pa
 
 def overview_sheet(result: Result) -> Sheet:
     """The panels of `plot_overview` with their numbers."""
-    shown = [name for name in PANELS if name in result.channels]
-    panels = [
-        panel
-        for name in shown
-        for quantity, found in PANELS[name](result)
-        for panel in panels_of(
-            quantity, beyond_rounding(found), skip=int(OWNERS.get(name) in result.dims[name])
-        )
-    ]
+    panels = _panels(result, beyond_rounding) or _panels(result, list)
     if not panels:
         held = ", ".join(result.channels) or "no channels"
-        reason = "which only rounding moves" if shown else "has nothing to plot"
-        raise ValueError(f"a result with {held} {'has only values ' if shown else ''}{reason}")
+        raise ValueError(f"a result with {held} has nothing to plot")
     return Sheet(
         title=f"{result.stats['scene']}{' (interrupted)' if result.interrupted else ''}",
         caption=f"What was recorded; triangles mark the largest and the smallest value. {AXES_NOTE}",
@@ -129,10 +120,20 @@ def overview_sheet(result: Result) -> Sheet:
     )
 
 
+def _panels(result: Result, chosen: Callable[[list[Trace]], list[Trace]]) -> list[Panel]:
+    return [
+        panel
+        for name, make in PANELS.items()
+        if name in result.channels
+        for quantity, found in make(result)
+        for panel in panels_of(quantity, chosen(found), skip=int(OWNERS.get(name) in result.dims[name]))
+    ]
+
+
 def plot_overview(result: Result) -> Figure:
     """Draw what a run recorded: motions, waves, payload, crane, forces and energy balance.
 
-    What only rounding moves is left out, as the sway of a ship in head seas. Events of limits are marked, and
+    What is zero up to rounding is left out, as the sway of a ship in head seas. Events of limits are marked, and
     the largest and the smallest value of every panel.
 
     Parameters

@@ -235,7 +235,7 @@ def draw_poses(
         for number, wire in enumerate(wires[index]):
             axes.plot(*wire.T, color="black", linewidth=1.0, label=None if number else "link")
         axes.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]), zlim=(low[2], high[2]))
-        axes.set_box_aspect(high - low, zoom=1.05)
+        axes.set_box_aspect(high - low, zoom=1.05 if high[2] - low[2] < 0.5 * np.ptp(points) else 0.9)
         axes.view_init(**VIEW)
         axes.set(xlabel="x [m]", ylabel="y [m]", zlabel="z [m]")
         axes.tick_params(labelsize=7)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+import json
 import re
 from collections.abc import Iterable
 from dataclasses import dataclass
@@ -13,9 +14,10 @@ from numpy.typing import NDArray
 from seacrane.result import CHANNELS, Result
 
 Array = NDArray[np.float64]
-ROUNDING = 1e-9  # of the largest beside it: what varies by less is drawn by rounding alone
+ROUNDING = 1e-9  # of the largest beside it: what is smaller is drawn by rounding alone
 NO_MOTION = 1e-9  # m, deg, N and so on: nothing below it is meant
 NO_ENERGY = 1e-6  # J
+ANGLES = ("angle", "roll", "pitch", "yaw")  # coordinates that are angles
 PREFIXES = ((1e6, "M"), (1e3, "k"))
 LOADS = ("N", "N m", "J", "N or N m")
 FEWEST_DIGITS = 1e4  # N: below it loads stay as they are
@@ -70,7 +72,7 @@ def traces(result: Result, channel: str, **names: str) -> list[Trace]:
     left = [dim for dim in result.dims[channel][1:] if dim not in names]
     every = list(itertools.product(*(result.coords[dim] for dim in left)))
     columns = array.reshape(len(result.time), len(every)).T
-    units = [_unit(channel, (*names.values(), *one)) for one in every]
+    units = [_unit(result, channel, (*names.values(), *one)) for one in every]
     kept = tuple(names.values())
     found: list[Trace] = []
     for one, values, unit in zip(every, columns, units, strict=True):
@@ -82,13 +84,23 @@ def traces(result: Result, channel: str, **names: str) -> list[Trace]:
     return found
 
 
-def _unit(channel: str, names: tuple[str, ...]) -> str:
+def _unit(result: Result, channel: str, names: tuple[str, ...]) -> str:
     """Of one curve: "m (surge, sway, heave), rad (roll, pitch, yaw)" is one unit for each motion."""
+    if channel == "limit_force":
+        return _unit_of_limit(result, names[-1])
     by_name = re.findall(r"([^,()]+) \(([^)]*)\)", CHANNELS[channel].unit)
     for unit, listed in by_name:
         if set(names) & set(listed.split(", ")):
             return str(unit).strip()
     return CHANNELS[channel].unit
+
+
+def _unit_of_limit(result: Result, name: str) -> str:
+    """As the run noted its limits; stops of angles push with moments."""
+    for bound in json.loads(str(result.stats.get("bounds", "[]"))):
+        if name in (bound["name"], f"{bound['name']}.minimum", f"{bound['name']}.maximum"):
+            return "N m" if bound["kind"] == "stop" and bound["coordinate"] in ANGLES else "N"
+    return CHANNELS["limit_force"].unit
 
 
 def shown_unit(unit: str, curves: Iterable[Array]) -> tuple[float, str]:
@@ -106,15 +118,14 @@ def shown_unit(unit: str, curves: Iterable[Array]) -> tuple[float, str]:
 
 
 def beyond_rounding(found: Iterable[Trace]) -> list[Trace]:
-    """Those that show more than rounding: that vary, beside the largest of the same unit."""
+    """Those that are not zero up to rounding, beside the largest of the same unit."""
     every = list(found)
     largest: dict[str, float] = {}
     for one in every:
-        largest[one.unit] = max(largest.get(one.unit, 0.0), float(np.nanmax(np.abs(one.values), initial=0.0)))
+        largest[one.unit] = max(largest.get(one.unit, 0.0), _size(one))
     least = {unit: NO_ENERGY if unit == "J" else NO_MOTION for unit in largest}
-    return [one for one in every if _spread(one) > max(ROUNDING * largest[one.unit], least[one.unit])]
+    return [one for one in every if _size(one) > max(ROUNDING * largest[one.unit], least[one.unit])]
 
 
-def _spread(one: Trace) -> float:
-    finite = one.values[np.isfinite(one.values)]
-    return float(np.ptp(finite)) if finite.size else 0.0
+def _size(one: Trace) -> float:
+    return float(np.nanmax(np.abs(one.values), initial=0.0))

@@ -28,9 +28,10 @@ def cell(value: Any) -> str:
 
 
 def table(head: Sequence[str], rows: Iterable[Sequence[Any]], *, caption: str = "") -> str:
-    """Rows under a head; without a head where it is empty."""
+    """Rows under a head; where it is empty, names beside values."""
     above = f"<caption>{escape(caption)}</caption>" if caption else ""
     names = "".join(f"<th>{escape(name)}</th>" for name in head)
     top = f"<thead><tr>{names}</tr></thead>" if head else ""
     lines = "\n".join(f"<tr>{''.join(map(cell, row))}</tr>" for row in rows)
-    return f"<table>{above}{top}<tbody>\n{lines}\n</tbody></table>"
+    kind = "" if head else ' class="facts"'
+    return f"<table{kind}>{above}{top}<tbody>\n{lines}\n</tbody></table>"

@@ -25,6 +25,7 @@ Array = NDArray[np.float64]
 COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9", "#E69F00", "#000000")  # Okabe and Ito
 SHADE = "#EEF3F8"
 MARK_COLOURS = ("0.25", "#D55E00", "#0072B2")  # of what is marked along the abscissa
+ROUNDING = 1e-9  # of its size by which a constant may vary
 MOST_MARKS = 200  # of one kind that are drawn: more would hide the curves
 FEW_LINES = 3  # up to which a panel has room for its extremes in words
 DOTS_PER_INCH = 130
@@ -176,10 +177,20 @@ def _draw_panel(cell: Axes, panel: Panel, abscissa: Array, *, legend: bool) -> N
         cell.plot(abscissa, line.values, line.style, color=colour, label=label, linewidth=1.1, markersize=4)
     cell.set_ylabel(plain(f"{panel.quantity} [{panel.unit}]"))
     cell.margins(x=0)
+    _hide_rounding(cell, panel)
     cell.grid(True, linewidth=0.4, alpha=0.6)
     if legend and len(panel.lines) > 1:  # above the panel: no curve is covered
         place: dict[str, Any] = {"loc": "lower right", "bbox_to_anchor": (1.0, 1.0), "borderaxespad": 0.2}
         cell.legend(ncols=min(6, len(panel.lines)), fontsize=7, frameon=False, **place)
+
+
+def _hide_rounding(cell: Axes, panel: Panel) -> None:
+    """Curves that are constant up to rounding look so."""
+    values = np.array([line.values for line in panel.lines])
+    finite = values[np.isfinite(values)]
+    if finite.size and np.ptp(finite) <= ROUNDING * np.abs(finite).max():
+        middle, room = float(finite.mean()), 0.1 * float(np.abs(finite).max()) or 1.0
+        cell.set_ylim(middle - room, middle + room)
 
 
 def _mark_extremes(cell: Axes, panel: Panel, sheet: Sheet) -> None:

@@ -75,6 +75,7 @@ def _html(result: Result) -> str:
         {
             **span,
             **_tensions(result),
+            **_largest(result, "limit_force", "Largest force of a wire, stop or seat"),
             **_largest(result, "cylinder_force", "Largest cylinder force"),
             **_largest(result, "slew_torque", "Largest slew torque"),
             **_roll(result),

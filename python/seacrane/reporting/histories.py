@@ -24,18 +24,15 @@ def _loads(result: Result) -> str:
 
 
 def _drawable(result: Result) -> bool:
-    if not set(PANELS) & set(result.channels):
-        return False
-    try:
-        return bool(overview_sheet(result).panels)
-    except ValueError:  # only rounding moves what was recorded
-        return False
+    """Whether anything but the body positions, which only payloads show, is drawn."""
+    shown = set(PANELS) & set(result.channels)
+    return bool(shown - {"position"} or (shown and payload_bodies(result)))
 
 
 def _histories(result: Result) -> str:
     caption = (
-        "What was recorded over time; triangles mark the largest and the smallest value. What only rounding "
-        "moves is left out."
+        "What was recorded over time; triangles mark the largest and the smallest value. What is zero up to "
+        "rounding is left out."
     )
     return drawn(draw(overview_sheet(result)), "Histories", caption)
 

@@ -10,13 +10,12 @@ from typing import Any
 
 import numpy as np
 
-from seacrane.figures.traces import shown_unit
+from seacrane.figures.traces import ANGLES, shown_unit
 from seacrane.reporting.blocks import note, verdict
 from seacrane.reporting.section import Section
 from seacrane.result import Result
 
 OVERSHOT = 0.01  # m or rad that a control may overshoot a range, as OutsideRangeWarning counts it
-ANGLES = ("angle", "roll", "pitch", "yaw")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -82,7 +81,7 @@ def _bounded(result: Result, bound: Mapping[str, Any]) -> Judged:
     """A coordinate that is to stay between two values."""
     angular = bound["coordinate"] in ANGLES
     factor, unit = shown_unit("rad" if angular else "m", [])
-    low, high = (None if bound[end] is None else factor * bound[end] for end in ("minimum", "maximum"))
+    low, high = (None if bound[end] is None else factor * bound[end] + 0.0 for end in ("minimum", "maximum"))
     limits = f"{'' if low is None else f'{low:.4g}'} to {'' if high is None else f'{high:.4g}'} {unit}"
     values = _coordinate(result, bound["recorded"])
     if values is None:
@@ -94,6 +93,8 @@ def _bounded(result: Result, bound: Mapping[str, Any]) -> Judged:
     beyond = max(-np.inf if low is None else low - least, -np.inf if high is None else most - high)
     held = beyond <= factor * (OVERSHOT if bound["kind"] == "range" else 0.0)
     words = f"held, {-beyond:.3g} {unit} left" if beyond <= 0.0 else f"{beyond:.3g} {unit} beyond"
+    if held and beyond > 0.0:
+        words = f"held, overshot by {beyond:.1g} {unit}"
     return Judged(
         name=str(bound["name"]), kind=str(bound["kind"]), bound=limits,
         reached=f"{least:.4g} to {most:.4g} {unit}", held=bool(held), words=words,

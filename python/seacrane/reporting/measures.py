@@ -96,20 +96,13 @@ def stated_traces(result: Result) -> list[Trace]:
 
 
 def statistics_of(result: Result) -> tuple[list[Statistics], int]:
-    """Statistics of `stated_traces`, and how many are left out as rounding alone moves them from zero."""
+    """Statistics of `stated_traces`, and how many are left out as zero up to rounding."""
     every = stated_traces(result)
     by_channel: dict[str, list[Trace]] = {}
     for one in every:
         by_channel.setdefault(one.channel, []).append(one)
-    moving = {id(one) for group in by_channel.values() for one in beyond_rounding(group)}
-    kept = [one for one in every if id(one) in moving or _lasting(one, by_channel[one.channel])]
+    kept = [one for group in by_channel.values() for one in beyond_rounding(group)]
     return [_statistics(one, result) for one in kept], len(every) - len(kept)
-
-
-def _lasting(one: Trace, group: list[Trace]) -> bool:
-    """Whether it is constant, but not zero up to rounding beside its group."""
-    largest = max(float(np.nanmax(np.abs(other.values))) for other in group)
-    return float(np.nanmax(np.abs(one.values))) > 1e-9 * max(largest, 1.0)
 
 
 def _statistics(one: Trace, result: Result) -> Statistics:

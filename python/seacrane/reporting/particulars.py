@@ -90,7 +90,8 @@ def _html(result: Result) -> str:
         "Method": _method(result, settings),
         "Notes": _notes(settings),
     }
-    return "\n".join(f"<h3>{name}</h3>{table((), rows)}" for name, rows in groups.items() if rows)
+    blocks = [f"<div><h3>{name}</h3>{table((), rows)}</div>" for name, rows in groups.items() if rows]
+    return f'<div class="columns">{"".join(blocks)}</div>'
 
 
 PARTICULARS: Section[Result] = Section(title="Particulars", applies=lambda _: True, html=_html)

@@ -11,8 +11,8 @@ from seacrane.result import Result
 def _html(result: Result) -> str:
     caption = (
         f"First ({result.time[0]:g} s) and last ({result.time[-1]:g} s) recorded pose, inertial axes. Bodies "
-        "are lines through their joints; ships have the length and breadth of their radii of gyration, boxes the "
-        "inertia of their bodies."
+        "are lines through their joints; ships have the length and breadth of their radii of gyration, boxes "
+        "the inertia of their bodies."
     )
     return drawn(plot_scene(result), "Scene", caption)
 

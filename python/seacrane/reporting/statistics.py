@@ -11,10 +11,20 @@ from seacrane.result import Result
 HEAD = ("quantity", "unit", "max", "at [s]", "min", "at [s]", "mean", "std")
 
 
+def _shown(value: float) -> float:
+    """With four digits: no quantity of a lift is known to more."""
+    return float(f"{value:.4g}")
+
+
 def _html(result: Result) -> str:
     found, left_out = statistics_of(result)
     rows = [
-        (one.title, one.unit, one.largest, one.largest_at, one.smallest, one.smallest_at, one.mean, one.std)
+        (
+            one.title,
+            one.unit,
+            *map(_shown, (one.largest, one.largest_at, one.smallest, one.smallest_at)),
+            *map(_shown, (one.mean, one.std)),
+        )
         for one in found
     ]
     start, end = result.time[0], result.time[-1]

@@ -9,6 +9,9 @@ th, td { border: 1px solid #bbb; padding: 0.2rem 0.5rem; text-align: left; verti
 th { background: #eee; }
 td { overflow-wrap: anywhere; }
 td.number { text-align: right; font-variant-numeric: tabular-nums; white-space: nowrap; }
+.facts td:first-child { color: #333; }
+.facts td.number { text-align: left; }
+.columns { display: flex; flex-wrap: wrap; gap: 0 2rem; }
 figure { margin: 1.2rem 0; }
 img { max-width: 100%; height: auto; }
 figcaption, .note { font-size: 0.86em; color: #333; }

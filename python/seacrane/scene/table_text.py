@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from html import escape
 from textwrap import wrap
 
 from seacrane.analysis.scene_report import elements_of
 from seacrane.description.scene import Description
+from seacrane.plotting.html import table
 
 WIDTH = 100  # characters of a line of text
 
@@ -38,9 +38,5 @@ def as_text(scene: Description) -> str:
 
 def as_html(scene: Description) -> str:
     """The same as a table for notebooks."""
-    held = "".join(
-        f"<tr><th style='text-align:left'>{escape(kind)}</th><td>{len(names)}</td>"
-        f"<td style='text-align:left'>{escape(', '.join(names))}</td></tr>"
-        for kind, names in rows(scene)
-    )
-    return f"<table><caption>Scene {escape(repr(scene.name))}</caption>{held}</table>"
+    held = [(kind, len(names), ", ".join(names)) for kind, names in rows(scene)]
+    return table(("", "number", "names"), held, caption=f"Scene {scene.name!r}")
