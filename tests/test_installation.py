@@ -119,7 +119,7 @@ def test_the_core_tells_its_compiler() -> None:
 @pytest.mark.parametrize(
     ("core", "facts"),
     [
-        (b"..GCC: (Debian 12.2.0-14) 12.2.0..", {"compiler": "GCC: (Debian 12.2.0-14) 12.2.0"}),
+        (b"\0GCC: (Debian 12.2.0-14) 12.2.0\0", {"compiler": "GCC: (Debian 12.2.0-14) 12.2.0"}),
         (b"..clang version 17.0.6 ..", {"compiler": "clang version 17.0.6"}),
         (b"..__asan_init..", {"instrumented": "AddressSanitizer: slow"}),
         (b"nothing", {}),

@@ -61,7 +61,8 @@ def test_extremes_and_events_are_marked() -> None:
     figure = plot_history(Result.from_arrays(**run, events=events), "link_tension")
     (cell,) = figure.axes
     peaks = [line for line in cell.lines if line.get_marker() == "^"]
-    assert [(float(one.get_xdata()[0]), float(one.get_ydata()[0])) for one in peaks] == [(at, 300.0)]
+    (peak,) = peaks
+    assert (float(peak.get_xdata()[0]), float(peak.get_ydata()[0])) == pytest.approx((at, 300.0))
     dashed = [float(line.get_xdata()[0]) for line in cell.lines if line.get_linestyle() == "--"]
     assert dashed == [at, 9.0]
     (legend,) = figure.legends

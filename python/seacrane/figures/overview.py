@@ -133,8 +133,8 @@ def _panels(result: Result, chosen: Callable[[list[Trace]], list[Trace]]) -> lis
 def plot_overview(result: Result) -> Figure:
     """Draw what a run recorded: motions, waves, payload, crane, forces and energy balance.
 
-    What is zero up to rounding is left out, as the sway of a ship in head seas. Events of limits are marked, and
-    the largest and the smallest value of every panel.
+    What is zero up to rounding is left out, as the sway of a ship in head seas. Events of limits are marked,
+    and the largest and the smallest value of every panel.
 
     Parameters
     ----------
