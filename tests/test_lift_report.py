@@ -12,7 +12,7 @@ import pytest
 from test_report import Page
 from test_result import crane_result, crane_run, vessel_result
 
-from seacrane import Event, Frame, Report, Result, Scene, SceneError, cases, report, simulate
+from seacrane import Event, FileFormatError, Frame, Report, Result, Scene, SceneError, cases, report, simulate
 from seacrane.reporting.limits import judged_bounds
 from seacrane.reporting.measures import statistics_of
 from seacrane.reporting.registry import SECTIONS
@@ -191,3 +191,28 @@ def test_a_report_is_saved_once(page: Report, tmp_path: Path) -> None:
 def test_what_is_no_result_is_refused() -> None:
     with pytest.raises(SceneError, match=r"result is a Scene; give what simulate\(\)"):
         report(Scene())  # type: ignore[arg-type]
+
+
+NOTES = {
+    "no JSON": ({"bounds": "{"}, "section 'At a glance' cannot be made: JSONDecodeError"),
+    "no list": ({"bounds": "7"}, "section 'At a glance' cannot be made: TypeError"),
+    "an unknown kind": ({"bounds": '[{"kind": "spell"}]'}, "cannot be made: KeyError: 'spell'"),
+    "an outline of text": ({"outline": '{"bodies": {"king": "x"}}'}, "section 'Scene' cannot be made"),
+}
+
+
+@pytest.mark.parametrize("case", NOTES)
+def test_notes_that_no_run_writes_are_told(case: str) -> None:
+    notes, message = NOTES[case]
+    run = crane_run(t_end=1.0)
+    run["stats"] |= notes
+    with pytest.raises(FileFormatError, match=message):
+        report(Result.from_arrays(**run))
+
+
+def test_a_run_that_left_a_channel_open_has_a_report() -> None:
+    run = crane_run(t_end=2.0)
+    for name in ("link_tension", "vessel_motion", "cylinder_force"):
+        run["arrays"][name][:] = np.nan
+    page = report(Result.from_arrays(**run, interrupted=True))
+    assert "Largest link tension" not in page.html and "Largest slew torque" in page.html

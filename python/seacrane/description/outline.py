@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane import _core
+from seacrane.description.range import Range
 from seacrane.description.scene import GROUND, Description
 
 Array = NDArray[np.float64]
@@ -26,35 +27,36 @@ def outline_of(scene: Description) -> dict[str, Any]:
         gyration, m, and its origin from the centre of mass. "links": bodies and points of both ends, ground
         points in inertial axes.
     """
-    bodies: dict[str, Any] = {name: {"points": []} for name in scene.bodies}
+    ships = {vessel.body for vessel in scene.vessels.values()}
+    bodies = {name: _about(body, ship=name in ships) for name, body in scene.bodies.items()}
     links = []
     for joint in scene.joints.values():
-        ends = [
-            (joint.first, _relative(scene, joint.first, joint.first_frame.point)),
-            (joint.second, _relative(scene, joint.second, joint.second_frame.point)),
-        ]
-        for body, point in ends:
-            if body in bodies and point not in bodies[body]["points"]:
-                bodies[body]["points"].append(point)
+        ends = _ends(scene, joint.first, joint.first_frame.point, joint.second, joint.second_frame.point)
+        for name, point in ends:
+            if name in bodies and point not in bodies[name]["points"]:
+                bodies[name]["points"].append(point)
         if joint.kind == "distance":
             links.append([*ends[0], *ends[1]])
     for spring in scene.springs.values():
-        ends = [
-            (spring.first, _relative(scene, spring.first, spring.first_point)),
-            (spring.second, _relative(scene, spring.second, spring.second_point)),
-        ]
+        ends = _ends(scene, spring.first, spring.first_point, spring.second, spring.second_point)
         links.append([*ends[0], *ends[1]])
-    ships = {vessel.body for vessel in scene.vessels.values()}
-    for name, body in scene.bodies.items():
-        inertia = np.diag(np.asarray(body.inertia))
-        if name in ships:
-            length, breadth = _ship(body.mass, inertia)
-            bodies[name]["ship"] = {
-                "length": length, "breadth": breadth, "origin": (-np.asarray(body.center_of_mass)).tolist(),
-            }  # fmt: skip
-        else:
-            bodies[name]["box"] = _box(body.mass, inertia)
     return {"bodies": bodies, "links": links}
+
+
+def _about(body: _core.Body, *, ship: bool) -> dict[str, Any]:
+    """A body without its points."""
+    inertia = np.diag(np.asarray(body.inertia))
+    if not ship:
+        return {"points": [], "box": _box(body.mass, inertia)}
+    length, breadth = _ship(body.mass, inertia)
+    origin = (-np.asarray(body.center_of_mass)).tolist()
+    return {"points": [], "ship": {"length": length, "breadth": breadth, "origin": origin}}
+
+
+def _ends(
+    scene: Description, first: str, first_point: Any, second: str, second_point: Any
+) -> tuple[tuple[str, list[float]], tuple[str, list[float]]]:
+    return (first, _relative(scene, first, first_point)), (second, _relative(scene, second, second_point))
 
 
 def _relative(scene: Description, body: str, point: Any) -> list[float]:
@@ -86,9 +88,12 @@ def bounds_of(scene: Description) -> list[dict[str, Any]]:
         or rad; None where there is none), "recorded": the name under which the coordinate is recorded, or
         None.
     """
-    held = [load for load in scene.loads.values() if isinstance(load, (_core.Limit, _core.SoftStop))]
-    found = [(load, load.kind if isinstance(load, _core.Limit) else "soft stop") for load in held]
-    found += [(limit, "range") for limit in scene.ranges.values()]
+    loads = scene.loads.values()
+    found: list[tuple[_core.Limit | _core.SoftStop | Range, str]] = [
+        *((load, load.kind) for load in loads if isinstance(load, _core.Limit)),
+        *((load, "soft stop") for load in loads if isinstance(load, _core.SoftStop)),
+        *((limit, "range") for limit in scene.ranges.values()),
+    ]
     names = {place: name for name, place in scene.recorded.items()}
     return [
         {

@@ -198,7 +198,7 @@ def _mark_extremes(cell: Axes, panel: Panel, sheet: Sheet) -> None:
     found = panel.extremes()
     if found is None:
         return
-    words = []
+    words: list[str] = []
     for word, marker, (number, at) in zip(("min", "max"), ("v", "^"), found, strict=True):
         line, place = panel.lines[number], sheet.abscissa[at]
         colour = COLOURS[line.colour % len(COLOURS)]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from seacrane.figures.traces import traces
+from seacrane.figures.traces import Trace, traces
 from seacrane.reporting.blocks import cards
 from seacrane.reporting.limits import judged_bounds
 from seacrane.reporting.measures import energy_balanced, findings_of, joints_closed
@@ -14,19 +14,27 @@ from seacrane.result import Result
 Cards = dict[str, tuple[str, bool | None]]
 
 
+def _finite(result: Result, channel: str, **names: str) -> list[Trace]:
+    """The curves of a channel that hold any number: an interrupted run may have none."""
+    if channel not in result.channels:
+        return []
+    return [one for one in traces(result, channel, **names) if np.isfinite(one.values).any()]
+
+
 def _largest(result: Result, channel: str, label: str) -> Cards:
     """The curve of a channel that reaches furthest from zero."""
-    if channel not in result.channels:
+    found = _finite(result, channel)
+    if not found:
         return {}
-    one = max(traces(result, channel), key=lambda trace: float(np.nanmax(np.abs(trace.values))))
+    one = max(found, key=lambda trace: float(np.nanmax(np.abs(trace.values))))
     at = int(np.nanargmax(np.abs(one.values)))
     return {label: (f"{one.values[at]:.4g} {one.unit} at {result.time[at]:.4g} s", None)}
 
 
 def _tensions(result: Result) -> Cards:
-    if "link_tension" not in result.channels:
+    found = _finite(result, "link_tension")
+    if not found:
         return {}
-    found = traces(result, "link_tension")
     low = min(found, key=lambda trace: float(np.nanmin(trace.values)))
     value = float(np.nanmin(low.values))
     at = result.time[int(np.nanargmin(low.values))]
@@ -37,14 +45,15 @@ def _tensions(result: Result) -> Cards:
 
 
 def _roll(result: Result) -> Cards:
-    if "vessel_motion" not in result.channels:
+    rolls = _finite(result, "vessel_motion", motion="roll")
+    if not rolls:
         return {}
-    rolls = traces(result, "vessel_motion", motion="roll")
     one = max(rolls, key=lambda trace: float(np.nanmax(np.abs(trace.values))))
-    half = one.values[result.time.size // 2 :]
+    values = one.values[np.isfinite(one.values)]
+    half = values[values.size // 2 :]
     return {
-        "Roll": (f"{np.nanmin(one.values):.3g} to {np.nanmax(one.values):.3g} deg", None),
-        "Mean roll, second half": (f"{np.nanmean(half):.3g} deg", None),
+        "Roll": (f"{values.min():.3g} to {values.max():.3g} deg", None),
+        "Mean roll, second half": (f"{half.mean():.3g} deg", None),
     }
 
 

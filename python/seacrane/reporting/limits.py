@@ -104,13 +104,19 @@ def _bounded(result: Result, bound: Mapping[str, Any]) -> Judged:
 def _coordinate(result: Result, recorded: str | None) -> Any:
     if recorded is None or "coordinate" not in result.channels:
         return None
-    return result.select("coordinate", joint_coordinate=recorded)
+    return _finite(result.select("coordinate", joint_coordinate=recorded))
+
+
+def _finite(values: Any) -> Any:
+    """Without what an interrupted run left open; None where nothing is left."""
+    kept = values[np.isfinite(values)]
+    return kept if kept.size else None
 
 
 def _force(result: Result, name: str) -> Any:
     if "limit_force" not in result.channels or name not in result.coords["limit"]:
         return None
-    return result.select("limit_force", limit=name)
+    return _finite(result.select("limit_force", limit=name))
 
 
 def _force_at_start(result: Result, name: str) -> float | None:
@@ -135,7 +141,9 @@ def _links(result: Result, described: list[Mapping[str, Any]]) -> list[Judged]:
     for name in names:
         if "tension" not in result.channels or name not in result.coords["link"]:
             continue
-        tension = result.select("tension", link=name)
+        tension = _finite(result.select("tension", link=name))
+        if tension is None:
+            continue
         factor, unit = shown_unit("N", [tension])
         least, most = float(factor * tension.min()), float(factor * tension.max())
         pushed = tension.min() < -1e-9 * np.abs(tension).max()

@@ -50,8 +50,10 @@ class Statistics:
 
 
 def worst(result: Result, channel: str) -> float | None:
-    """Largest absolute value of a channel over the run, or None if it was not recorded."""
-    return float(np.nanmax(np.abs(result[channel]))) if channel in result.channels else None
+    """Largest absolute value of a channel over the run, or None if no number was recorded."""
+    if channel not in result.channels or not np.isfinite(result[channel]).any():
+        return None
+    return float(np.nanmax(np.abs(result[channel])))
 
 
 def energy_closure(result: Result) -> float | None:

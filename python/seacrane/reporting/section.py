@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from html import escape
 from typing import Generic, TypeVar
 
+from seacrane.errors import FileFormatError
 from seacrane.reporting.style import STYLE
 
 Subject = TypeVar("Subject")
@@ -31,6 +32,19 @@ class Section(Generic[Subject]):
     html: Callable[[Subject], str]
 
 
+def _block(section: Section[Subject], subject: Subject) -> str:
+    try:
+        if not section.applies(subject):
+            return ""
+        content = section.html(subject)
+    except (LookupError, TypeError, ValueError, ArithmeticError, AttributeError) as error:
+        raise FileFormatError(
+            f"section {section.title!r} cannot be made: {type(error).__name__}: {error}; the result holds "
+            "notes that no run writes"
+        ) from error
+    return f"<section><h2>{escape(section.title)}</h2>\n{content}</section>"
+
+
 def compose(*, title: str, lead: str, sections: Iterable[Section[Subject]], subject: Subject) -> str:
     """A page with everything inside: no file, script or address outside it is needed.
 
@@ -43,11 +57,13 @@ def compose(*, title: str, lead: str, sections: Iterable[Section[Subject]], subj
     sections : iterable of Section
     subject
         What they are about.
+
+    Raises
+    ------
+    FileFormatError
+        If a subject holds what its own program never writes, such as notes that are no JSON.
     """
-    body = [f"<h1>{escape(title)}</h1>", lead]
-    for section in sections:
-        if section.applies(subject):
-            body.append(f"<section><h2>{escape(section.title)}</h2>\n{section.html(subject)}</section>")
+    body = [f"<h1>{escape(title)}</h1>", lead, *(_block(section, subject) for section in sections)]
     head = (
         '<meta charset="utf-8"><meta name="viewport" content="width=device-width">'
         f"<title>{escape(title)}</title><style>{STYLE}</style>"
