@@ -7,7 +7,7 @@ h2 { margin: 1.8rem 0 0.6rem; padding-bottom: 0.2rem; border-bottom: 2px solid #
 table { border-collapse: collapse; margin: 0.8rem 0; font-size: 0.86em; }
 th, td { border: 1px solid #bbb; padding: 0.2rem 0.5rem; text-align: left; vertical-align: top; }
 th { background: #eee; }
-td { overflow-wrap: anywhere; }
+td { overflow-wrap: break-word; }
 td.number { text-align: right; font-variant-numeric: tabular-nums; white-space: nowrap; }
 .facts td:first-child { color: #333; }
 .facts td.number { text-align: left; }
