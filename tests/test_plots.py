@@ -10,6 +10,7 @@ from test_result import crane_result, crane_run, vessel_result
 
 from seacrane import (
     Event,
+    Scene,
     SceneError,
     cases,
     plot_history,
@@ -173,3 +174,13 @@ def test_names_do_not_become_formulas(lift: Result) -> None:
     run["stats"]["scene"] = "$x^$"
     figure = draw(history_sheet(Result.from_arrays(**run), "stroke"))
     assert figure.get_suptitle() == r"\$x^\$"
+
+
+def test_a_legend_of_hundreds_is_left_out() -> None:
+    scene = Scene(name="many", gravity=0.0)
+    for i in range(40):
+        scene.add_body(name=f"body {i}", mass=1.0, inertia=np.eye(3), position=(i, 0.0, 0.0))
+    result = simulate(scene, t_end=0.1)
+    history = plot_history(result, "position")
+    assert not any(cell.get_legend() for cell in history.axes)
+    assert not any(figure.legends for figure in (history, plot_track(result), plot_scene(result)))

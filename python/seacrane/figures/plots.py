@@ -13,7 +13,7 @@ from seacrane.errors import SceneError
 from seacrane.figures.overview import marks_of, panels_of, payload_bodies, resultants
 from seacrane.figures.traces import Trace, traces
 from seacrane.inputs.frames import AXES_NOTE, MOTIONS
-from seacrane.plotting.panel import COLOURS, Line, Panel, Sheet, draw, plain
+from seacrane.plotting.panel import COLOURS, MOST_NAMED, Line, Panel, Sheet, draw, plain
 from seacrane.result import Result
 
 if TYPE_CHECKING:
@@ -233,7 +233,8 @@ def plot_track(result: Result, *bodies: str) -> Figure:
         cell.title.set_fontsize(9)
         cell.grid(True, linewidth=0.4, alpha=0.6)
     handles = cell.get_legend_handles_labels()[0]
-    figure.legend(handles=handles, loc="outside lower center", ncols=6, fontsize=9, frameon=False)
+    if len(handles) <= MOST_NAMED:
+        figure.legend(handles=handles, loc="outside lower center", ncols=6, fontsize=9, frameon=False)
     figure.suptitle(plain(f"{_title(result)}: tracks, circle at the start, square at the end"), fontsize=11)
     return figure
 

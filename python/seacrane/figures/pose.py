@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane.inputs.frames import rotation_matrix
-from seacrane.plotting.panel import COLOURS, Picture, plain, save_figure, save_table
+from seacrane.plotting.panel import COLOURS, MOST_NAMED, Picture, plain, save_figure, save_table
 from seacrane.result import Result
 
 if TYPE_CHECKING:
@@ -243,7 +243,8 @@ def draw_poses(
             axes.locator_params(axis=axis, nbins=5)
         figure.text(box[0] + box[2] / 2, 0.9, f"{name}, {result.time[index]:g} s", ha="center")
     handles, labels = axes.get_legend_handles_labels()
-    figure.legend(handles, labels, loc="lower center", ncols=6, fontsize=8, frameon=False)
+    if len(handles) <= MOST_NAMED:
+        figure.legend(handles, labels, loc="lower center", ncols=6, fontsize=8, frameon=False)
     figure.suptitle(plain(title), fontsize=11)
     return figure
 

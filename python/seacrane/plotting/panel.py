@@ -27,6 +27,7 @@ SHADE = "#EEF3F8"
 MARK_COLOURS = ("0.25", "#D55E00", "#0072B2")  # of what is marked along the abscissa
 ROUNDING = 1e-9  # of its size by which a constant may vary
 MOST_MARKS = 200  # of one kind that are drawn: more would hide the curves
+MOST_NAMED = 24  # lines that a legend lists: a longer one would hide the figure
 FEW_LINES = 3  # up to which a panel has room for its extremes in words
 DOTS_PER_INCH = 130
 
@@ -179,7 +180,7 @@ def _draw_panel(cell: Axes, panel: Panel, abscissa: Array, *, legend: bool) -> N
     cell.margins(x=0)
     _hide_rounding(cell, panel)
     cell.grid(True, linewidth=0.4, alpha=0.6)
-    if legend and len(panel.lines) > 1:  # above the panel: no curve is covered
+    if legend and 1 < len(panel.lines) <= MOST_NAMED:  # above the panel: no curve is covered
         place: dict[str, Any] = {"loc": "lower right", "bbox_to_anchor": (1.0, 1.0), "borderaxespad": 0.2}
         cell.legend(ncols=min(6, len(panel.lines)), fontsize=7, frameon=False, **place)
 
@@ -223,6 +224,7 @@ def _shared_handles(cell: Axes, marks: Mapping[str, Array], *, every: bool) -> l
     from matplotlib.lines import Line2D
 
     handles: list[Any] = cell.get_legend_handles_labels()[0] if every else []
+    handles = handles if len(handles) <= MOST_NAMED else []
     for number, (name, places) in enumerate(marks.items()):
         colour, label = MARK_COLOURS[number % len(MARK_COLOURS)], f"{plain(name)} ({len(places)})"
         handles.append(Line2D([], [], color=colour, linewidth=0.8, linestyle=(0, (4, 3)), label=label))
