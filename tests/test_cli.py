@@ -417,6 +417,16 @@ def test_hydro_prints_its_verdicts(shared: Path, tmp_path: Path) -> None:
     assert names == {f"{plot}.{kind}" for plot in plots for kind in ("png", "csv")}
 
 
+def test_earlier_plots_are_kept(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    import seacrane.hydro
+
+    database = Path(seacrane.hydro.__file__).parents[1] / "data" / "hull_115.nc"
+    (tmp_path / "motion.png").write_text("mine")
+    assert main(["hydro", str(database), "--out", str(tmp_path)]) == 1
+    assert "holds an earlier motion.png; give another folder, or --overwrite" in capsys.readouterr().err
+    assert [path.read_text() for path in tmp_path.iterdir()] == ["mine"]
+
+
 def test_hydro_prints_a_table(shared: Path) -> None:
     done = command_line("hydro", shared / "veres" / "supply" / "input")
     assert done.returncode == 0, done.stderr

@@ -125,7 +125,7 @@ def test_links_and_wires_are_judged() -> None:
     (taut,) = judged_bounds(simulate(swinging(wire=True, speed=2.0), t_end=1.0))
     assert (taut.kind, taut.held, taut.words) == ("wire", True, "taut throughout")
     (slack,) = judged_bounds(simulate(swinging(wire=True, speed=8.0), t_end=3.0))
-    assert slack.held is False and slack.words.startswith("slack 1 times, hardest snatch ")
+    assert slack.held is False and slack.words.startswith("slack once, hardest snatch ")
 
 
 def test_ranges_are_judged_by_what_was_recorded(lift: Result) -> None:
@@ -153,7 +153,7 @@ def test_a_stop_that_was_hit_is_told() -> None:
     scene.add_end_stop(joint="rail", maximum=0.5, restitution=0.5)
     (hit,) = judged_bounds(simulate(scene, t_end=1.0))
     assert (hit.kind, hit.bound, hit.held) == ("stop", " to 0.5 m", False)
-    assert hit.words.startswith("hit 1 times, fastest 1")
+    assert hit.words.startswith("hit once, fastest 1")
 
 
 def test_events_are_listed_and_long_lists_are_cut() -> None:

@@ -64,7 +64,7 @@ def test_notebooks_show_tables_of_what_is_held(result: seacrane.Result) -> None:
     database = shipped_database()
     shown = {thing: thing._repr_html_() for thing in (result, database)}
     for html in shown.values():
-        assert html.startswith("<table") and html.endswith("</table>")
+        assert html.startswith('<div class="seacrane">') and html.endswith("</table></div>")
     assert "outputs to 0.2 s" in shown[result] and "<td>link_tension</td>" in shown[result]
     assert "115, 25" in shown[database] and "<td>mass [t]</td>" in shown[database]
 

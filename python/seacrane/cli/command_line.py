@@ -133,6 +133,7 @@ def _add_hydro(commands: Any) -> None:
     hydro.add_argument("path", metavar="PATH", help=PATH_HELP)
     hydro.add_argument("--json", action="store_true", help="print JSON instead of a table")
     hydro.add_argument("--out", metavar="DIR", help="also plot the database into this folder; made if absent")
+    hydro.add_argument("--overwrite", action="store_true", help="replace earlier plots in that folder")
 
 
 def _add_trade(commands: Any) -> None:

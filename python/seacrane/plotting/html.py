@@ -8,6 +8,12 @@ from typing import Any
 
 import numpy as np
 
+NOTEBOOK = (
+    ".seacrane td, .seacrane th, .seacrane caption { text-align: left; } "
+    ".seacrane td:first-child { white-space: nowrap; } .seacrane td.number { text-align: right; } "
+    ".seacrane .facts td.number { text-align: left; }"
+)
+
 
 def format_value(value: Any) -> str:
     """A number with five significant digits and no more, integers in full, anything else as it prints."""
@@ -35,3 +41,8 @@ def table(head: Sequence[str], rows: Iterable[Sequence[Any]], *, caption: str = 
     lines = "\n".join(f"<tr>{''.join(map(cell, row))}</tr>" for row in rows)
     kind = "" if head else ' class="facts"'
     return f"<table{kind}>{above}{top}<tbody>\n{lines}\n</tbody></table>"
+
+
+def notebook_table(head: Sequence[str], rows: Iterable[Sequence[Any]], *, caption: str) -> str:
+    """The same for an output cell, whose own style would set texts to the right."""
+    return f'<div class="seacrane"><style>{NOTEBOOK}</style>{table(head, rows, caption=caption)}</div>'

@@ -44,22 +44,22 @@ def _judged(result: Result, bound: Mapping[str, Any]) -> Judged:
 def _contact(result: Result, bound: Mapping[str, Any]) -> Judged:
     """A wire that is to stay taut, or a seat that is to stay pressed."""
     wire, name = bound["kind"] == "wire", str(bound["name"])
+    closed, opened = ("taut throughout", "slack") if wire else ("pressed throughout", "lifted off")
     mine = [event for event in result.events if event.name == name]
-    open_times = sum(event.kind in ("release", "rebound") for event in mine)
+    count = sum(event.kind in ("release", "rebound") for event in mine)
+    starts_open = _force_at_start(result, name) == 0.0
+    words = f"{opened} {_often(count)}" if count else f"{opened} at the start" if starts_open else closed
     hardest = max((abs(event.impulse) for event in mine), default=0.0)
-    word = "slack" if wire else "lifted off"
-    words = (
-        f"{word} {open_times} times" if open_times else ("taut throughout" if wire else "pressed throughout")
-    )
     if hardest > 0.0:
         words += f", hardest snatch {hardest:.3g} N s"
-    starts = _force_at_start(result, name)
-    if not open_times and starts == 0.0 and not mine:
-        words = f"{word} at the start"
     return Judged(
         name=name, kind=str(bound["kind"]), bound="pulls only" if wire else "presses only",
-        reached=_forces(result, name), held=not open_times and starts != 0.0, words=words,
+        reached=_forces(result, name), held=not count and not starts_open, words=words,
     )  # fmt: skip
+
+
+def _often(count: int) -> str:
+    return "once" if count == 1 else f"{count} times"
 
 
 def _stop(result: Result, bound: Mapping[str, Any]) -> Judged:
@@ -72,7 +72,9 @@ def _stop(result: Result, bound: Mapping[str, Any]) -> Judged:
         and event.kind in ("contact", "rebound")
     ]
     words = (
-        f"hit {len(hits)} times, fastest {max(e.speed for e in hits):.3g} m/s or rad/s" if hits else "not hit"
+        f"hit {_often(len(hits))}, fastest {max(e.speed for e in hits):.3g} m/s or rad/s"
+        if hits
+        else "not hit"
     )
     return Judged(name=name, kind="stop", bound=base.bound, reached=base.reached, held=not hits, words=words)
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from seacrane.plotting.html import table
+from seacrane.plotting.html import notebook_table
 from seacrane.result.channels import CHANNELS
 
 
@@ -19,4 +19,4 @@ def as_html(caption: str, dims: Mapping[str, Sequence[str]], coords: Mapping[str
         )
         for name, of in dims.items()
     ]
-    return table(("channel", "dimensions beside time", "unit", ""), rows, caption=caption)
+    return notebook_table(("channel", "dimensions beside time", "unit", ""), rows, caption=caption)

@@ -11,7 +11,7 @@ import numpy as np
 
 from seacrane.experiment.row import UNKNOWN, Row
 from seacrane.experiment.row_file import write_table
-from seacrane.plotting.html import table
+from seacrane.plotting.html import notebook_table
 
 
 def front(rows: Sequence[Row], quantity: str) -> list[bool]:
@@ -56,7 +56,7 @@ def as_html(about: Mapping[str, Any], quantities: Sequence[str], best: Sequence[
         )
         for row in best
     ]  # fmt: skip
-    return table(head, rows, caption=caption)
+    return notebook_table(head, rows, caption=caption)
 
 
 def _cells(row: Row, quantities: Sequence[str], pareto: bool) -> list[Any]:

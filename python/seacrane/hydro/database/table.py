@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from seacrane.hydro.data.hydro_data import HydroData
-from seacrane.plotting.html import table
+from seacrane.plotting.html import notebook_table
 
 
 def as_html(database: HydroData) -> str:
@@ -30,4 +30,4 @@ def as_html(database: HydroData) -> str:
         ("reference point", database.origin),
         ("source", database.source),
     ]
-    return table((), rows, caption=f"HydroDatabase {database.name!r}")
+    return notebook_table((), rows, caption=f"HydroDatabase {database.name!r}")
