@@ -82,6 +82,8 @@ def test_what_rounding_alone_draws_is_left_out() -> None:
     sheet = overview_sheet(Result.from_arrays(**run))
     drawn = [line.label for panel in sheet.panels if panel.quantity == "vessel" for line in panel.lines]
     assert drawn == ["surge", "heave", "pitch"]
+    (cell,) = [axes for axes in draw(sheet).axes if axes.get_ylabel() == "vessel [deg]"]
+    assert [text.get_text() for text in cell.get_legend().get_texts()] == ["pitch"], "the one left is named"
     assert "energy balance" not in [panel.quantity for panel in sheet.panels]
 
 

@@ -180,7 +180,8 @@ def _draw_panel(cell: Axes, panel: Panel, abscissa: Array, *, legend: bool) -> N
     cell.margins(x=0)
     _hide_rounding(cell, panel)
     cell.grid(True, linewidth=0.4, alpha=0.6)
-    if legend and 1 < len(panel.lines) <= MOST_NAMED:  # above the panel: no curve is covered
+    named = any(line.label for line in panel.lines)
+    if legend and named and len(panel.lines) <= MOST_NAMED:  # above the panel: no curve is covered
         place: dict[str, Any] = {"loc": "lower right", "bbox_to_anchor": (1.0, 1.0), "borderaxespad": 0.2}
         cell.legend(ncols=min(6, len(panel.lines)), fontsize=7, frameon=False, **place)
 

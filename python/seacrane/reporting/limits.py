@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from seacrane.figures.traces import ANGLES, shown_unit
+from seacrane.figures.traces import ANGLES, NO_MOTION, shown_unit
 from seacrane.reporting.blocks import note, verdict
 from seacrane.reporting.section import Section
 from seacrane.result import Result
@@ -91,7 +91,7 @@ def _bounded(result: Result, bound: Mapping[str, Any]) -> Judged:
             name=str(bound["name"]), kind=str(bound["kind"]), bound=limits, reached="", held=None,
             words="coordinate not recorded",
         )  # fmt: skip
-    least, most = float(factor * values.min()), float(factor * values.max())
+    least, most = (_settled(float(factor * value)) for value in (values.min(), values.max()))
     beyond = max(-np.inf if low is None else low - least, -np.inf if high is None else most - high)
     held = beyond <= factor * (OVERSHOT if bound["kind"] == "range" else 0.0)
     words = f"held, {-beyond:.3g} {unit} left" if beyond <= 0.0 else f"{beyond:.3g} {unit} beyond"
@@ -101,6 +101,11 @@ def _bounded(result: Result, bound: Mapping[str, Any]) -> Judged:
         name=str(bound["name"]), kind=str(bound["kind"]), bound=limits,
         reached=f"{least:.4g} to {most:.4g} {unit}", held=bool(held), words=words,
     )  # fmt: skip
+
+
+def _settled(value: float) -> float:
+    """Zero where it is so up to rounding, m or deg."""
+    return 0.0 if abs(value) < NO_MOTION else value
 
 
 def _coordinate(result: Result, recorded: str | None) -> Any:

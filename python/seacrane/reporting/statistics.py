@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from seacrane.figures.traces import NO_MOTION
 from seacrane.plotting.html import table
 from seacrane.reporting.blocks import note
 from seacrane.reporting.measures import stated_traces, statistics_of
@@ -12,8 +13,8 @@ HEAD = ("quantity", "unit", "max", "at [s]", "min", "at [s]", "mean", "std")
 
 
 def _shown(value: float) -> float:
-    """With four digits: no quantity of a lift is known to more."""
-    return float(f"{value:.4g}")
+    """With four digits, no quantity of a lift is known to more; zero where it is so up to rounding."""
+    return 0.0 if abs(value) < NO_MOTION else float(f"{value:.4g}")
 
 
 def _html(result: Result) -> str:
