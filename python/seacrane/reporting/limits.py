@@ -94,7 +94,7 @@ def _bounded(result: Result, bound: Mapping[str, Any]) -> Judged:
     least, most = (_settled(float(factor * value)) for value in (values.min(), values.max()))
     beyond = max(-np.inf if low is None else low - least, -np.inf if high is None else most - high)
     held = beyond <= factor * (OVERSHOT if bound["kind"] == "range" else 0.0)
-    words = f"held, {-beyond:.3g} {unit} left" if beyond <= 0.0 else f"{beyond:.3g} {unit} beyond"
+    words = f"held, {0.0 - beyond:.3g} {unit} left" if beyond <= 0.0 else f"{beyond:.3g} {unit} beyond"
     if held and beyond > 0.0:
         words = f"held, overshot by {beyond:.1g} {unit}"
     return Judged(
