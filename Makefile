@@ -68,7 +68,7 @@ $(STAMPS)/sources.txt: FORCE
 build: .venv/.installed-seacrane
 
 demo: build
-	$(BIN)/seacrane paper --out out/demo
+	$(BIN)/seacrane paper --out out/demo --overwrite
 	@echo
 	@echo "figures and data: $(CURDIR)/out/demo/figure_*.png, figure_*.csv"
 	@echo "report:           $(CURDIR)/out/demo/report.html"

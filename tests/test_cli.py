@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import platform
 import signal
 import subprocess
 import sys
@@ -47,7 +48,7 @@ def refusal(done: subprocess.CompletedProcess[str]) -> str:
     return lines[0]
 
 
-@pytest.mark.parametrize("command", ["", "run", "paper", "report", "hydro", "trade", "schema"])
+@pytest.mark.parametrize("command", ["", "run", "paper", "report", "hydro", "trade", "schema", "doctor"])
 def test_every_command_explains_itself(command: str) -> None:
     done = command_line(*command.split(), "--help")
     assert done.returncode == 0 and done.stdout.startswith(f"usage: seacrane {command}".rstrip())
@@ -68,7 +69,10 @@ def test_help_loads_no_numerical_package() -> None:
 def test_the_version_is_printed() -> None:
     from seacrane.version import __version__
 
-    assert command_line("--version").stdout.strip() == __version__
+    first, *build = command_line("--version").stdout.splitlines()
+    assert first == f"seacrane {__version__}"
+    facts = dict(line.split(maxsplit=1) for line in build)
+    assert facts["core"].startswith("_core.") and platform.python_version() in facts["python"]
 
 
 def test_no_command_is_a_misuse(capsys: pytest.CaptureFixture[str]) -> None:
@@ -220,6 +224,64 @@ def test_the_report_is_the_scenes_own() -> None:
     assert all(section in text for section in own)
 
 
+def test_a_result_is_told_from_a_scene_by_its_content(
+    lift: tuple[subprocess.CompletedProcess[str], Path], tmp_path: Path
+) -> None:
+    file = tmp_path / "a lift.json"  # the name says nothing
+    file.write_bytes((lift[1] / "case2.nc").read_bytes())
+    done = command_line("report", file, "--out", tmp_path / "pages")
+    assert done.returncode == 0, done.stderr
+    (page,) = (tmp_path / "pages").iterdir()
+    text = page.read_text(encoding="utf-8")
+    assert page.name == "a lift.json.html" and "<h2>At a glance</h2>" in text
+    page.write_text("mine")
+    again = command_line("report", file, "--out", tmp_path / "pages")
+    assert "holds an earlier a lift.json.html; give another folder, or --overwrite" in refusal(again)
+    assert page.read_text() == "mine"
+    done = command_line("report", file, "--out", tmp_path / "pages", "--overwrite")
+    assert done.returncode == 0 and page.read_text(encoding="utf-8") == text
+
+
+MISTAKEN = {
+    "a result without a folder": (["report", "RESULT"], "name the folder of its report by --out DIR"),
+    "a result as JSON": (["report", "RESULT", "--json", "--out", "x"], "--json goes with a scene"),
+    "a folder for a scene": (
+        ["report", "case2", "--out", "x"],
+        "--out and --overwrite go with the file of a",
+    ),
+}
+
+
+@pytest.mark.parametrize("case", MISTAKEN)
+def test_options_of_the_other_report_are_refused(
+    case: str,
+    lift: tuple[subprocess.CompletedProcess[str], Path],
+    capsys: pytest.CaptureFixture[str],
+    monkeypatch: pytest.MonkeyPatch,
+    tmp_path: Path,
+) -> None:
+    arguments, message = MISTAKEN[case]
+    monkeypatch.chdir(tmp_path)
+    assert main([str(lift[1] / "case2.nc") if one == "RESULT" else one for one in arguments]) == 1
+    assert message in capsys.readouterr().err
+    assert not list(tmp_path.iterdir())
+
+
+def test_a_database_is_no_result(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    import seacrane.hydro
+
+    database = Path(seacrane.hydro.__file__).parents[1] / "data" / "hull_115.nc"
+    assert main(["report", str(database), "--out", str(tmp_path / "out")]) == 1
+    assert "is not a seacrane result" in capsys.readouterr().err
+
+
+def test_an_earlier_paper_is_kept(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (tmp_path / "report.html").write_text("mine")
+    assert main(["paper", "--out", str(tmp_path)]) == 1
+    assert "holds an earlier report.html; give another folder, or --overwrite" in capsys.readouterr().err
+    assert [path.read_text() for path in tmp_path.iterdir()] == ["mine"]
+
+
 @pytest.fixture(scope="module")
 def paper(
     tmp_path_factory: pytest.TempPathFactory,
@@ -353,6 +415,16 @@ def test_hydro_prints_its_verdicts(shared: Path, tmp_path: Path) -> None:
     names = {path.name for path in (tmp_path / "plots").iterdir()}
     plots = {"added_mass", "damping", "retardation", "wave_force", "motion"}
     assert names == {f"{plot}.{kind}" for plot in plots for kind in ("png", "csv")}
+
+
+def test_earlier_plots_are_kept(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    import seacrane.hydro
+
+    database = Path(seacrane.hydro.__file__).parents[1] / "data" / "hull_115.nc"
+    (tmp_path / "motion.png").write_text("mine")
+    assert main(["hydro", str(database), "--out", str(tmp_path)]) == 1
+    assert "holds an earlier motion.png; give another folder, or --overwrite" in capsys.readouterr().err
+    assert [path.read_text() for path in tmp_path.iterdir()] == ["mine"]
 
 
 def test_hydro_prints_a_table(shared: Path) -> None:

@@ -28,7 +28,8 @@ from seacrane import (
 from seacrane._core import integrators
 from seacrane.analysis import linearise
 from seacrane.cases import vessel
-from seacrane.figures.report import report_html
+from seacrane.reporting import report
+from seacrane.reporting.paper import Study, study_report
 from seacrane.run import stiffness
 from seacrane.run.output_times import OutputMemoryError
 from seacrane.validity.hull_range import MeanHeadingWarning
@@ -352,8 +353,9 @@ def test_what_was_out_of_range_is_kept_in_files_and_listed_in_reports(tmp_path: 
         result = simulate(hanging(velocity=(9.5, 0.0, 0.0)), t_end=1.0)
     loaded = Result.load(result.save(tmp_path / "thrown.nc"))
     assert loaded.stats["validity"] == result.stats["validity"]
-    page = report_html(title="Thrown", summary=[], runs={"one": loaded}, pictures=[])
+    page = study_report(Study(title="Thrown", runs={"one": loaded})).html
     assert "Out of range:</strong> run one: link &#x27;wire&#x27;: pushes with " in page
+    assert "<li>link &#x27;wire&#x27;: pushes with " in report(loaded).html
 
 
 def test_a_rod_of_a_mechanism_may_push() -> None:

@@ -36,9 +36,11 @@ FLOORS = """
     simulation
     experiment
     figures viewer
+    reporting
     trading
     lift
     cases
+    installation
     cli
     __main__
 """

@@ -1,4 +1,4 @@
-"""The HTML report: everything inside one page, true numbers, safe text, atomic writing."""
+"""Pages about several runs: everything inside one page, true numbers, safe text, atomic writing."""
 
 from __future__ import annotations
 
@@ -6,21 +6,18 @@ import base64
 import re
 from html.parser import HTMLParser
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
 from test_result import crane_result, crane_run, vessel_result
 
 from seacrane.figures import Finding, Picture, overview_sheet, save_sheet
-from seacrane.figures.report import (
-    energy_closure,
-    format_value,
-    report_html,
-    speed,
-    versions,
-    worst,
-    write_report,
-)
+from seacrane.plotting.html import format_value
+from seacrane.reporting import Report
+from seacrane.reporting.measures import energy_closure, speed, worst
+from seacrane.reporting.paper import Study, study_report
+from seacrane.reporting.provenance import versions
 from seacrane.result import Result
 
 SCENE = {"counts": [("bodies", 10), ("joints", 11)], "dropped": [("waves <0.1 %>", [3, 4.5])]}
@@ -30,7 +27,7 @@ FINDING = Finding(finding="yaw reacts", number="0.1 deg/s", expected="changes", 
 class Page(HTMLParser):
     """Collects tables, images and headings, and checks that every element is closed."""
 
-    VOID = ("meta", "img", "br")
+    VOID = ("meta", "img", "br", "!doctype")
 
     def __init__(self, text: str) -> None:
         super().__init__()
@@ -77,15 +74,19 @@ def picture(tmp_path_factory: pytest.TempPathFactory, runs: dict[str, Result]) -
 @pytest.fixture(scope="module")
 def page(runs: dict[str, Result], picture: Picture) -> Page:
     return Page(
-        report_html(
+        made(
             title="Lift of a <box> & payload",
             summary=["Three cases.", "Waves of 2 m."],
             runs=runs,
             pictures=[picture],
             scene=SCENE,
             findings=[FINDING],
-        )
+        ).html
     )
+
+
+def made(**contents: Any) -> Report:
+    return study_report(Study(**contents))
 
 
 def test_the_page_needs_nothing_outside_itself(page: Page, picture: Picture) -> None:
@@ -127,25 +128,29 @@ def test_a_channel_that_was_not_recorded_leaves_its_cell_empty() -> None:
         del run["arrays"][name]
     result = Result.from_arrays(**run)
     assert worst(result, "energy_balance") is None and energy_closure(result) is None
-    page = Page(report_html(title="t", runs={"case 2": result}))
+    page = Page(made(title="t", runs={"case 2": result}).html)
     assert page.row("balance over work") == [""]
 
 
 def test_an_interrupted_run_is_announced() -> None:
     result = Result.from_arrays(**crane_run(t_end=2.0), interrupted=True)
-    assert "run case 2 ended at 2 s" in report_html(title="t", runs={"case 2": result})
+    assert "run case 2 ended at 2 s" in made(title="t", runs={"case 2": result}).html
 
 
 def test_the_file_is_written_whole_or_not_at_all(
     tmp_path: Path, runs: dict[str, Result], picture: Picture
 ) -> None:
-    path = write_report(tmp_path / "report.html", title="t", runs=runs, pictures=[picture])
+    path = made(title="t", runs=runs, pictures=[picture]).save(tmp_path / "report.html")
     assert path.read_text(encoding="utf-8").endswith("</html>\n")
     gone = Picture(title="t", caption="c", image=tmp_path / "absent.png")
     before = path.read_bytes()
     with pytest.raises(OSError, match=r"absent\.png"):
-        write_report(path, title="new", runs=runs, pictures=[gone])
+        made(title="new", runs=runs, pictures=[gone])
+    with pytest.raises(FileExistsError, match=r"report\.html is there already; pass overwrite=True"):
+        made(title="new", runs=runs).save(path)
     assert path.read_bytes() == before and list(tmp_path.iterdir()) == [path]
+    made(title="new", runs=runs).save(path, overwrite=True)
+    assert b"<h1>new</h1>" in path.read_bytes()
 
 
 @pytest.mark.parametrize(

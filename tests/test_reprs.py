@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 from collections.abc import Callable
 from typing import Any
 
@@ -11,6 +12,7 @@ from test_scene_file import every_kind
 
 import seacrane
 from seacrane import Curve, Run, Scene, _core, cases
+from seacrane.hydro import shipped_database
 
 
 def held() -> dict[str, Any]:
@@ -56,6 +58,25 @@ def test_no_class_of_the_core_is_an_address() -> None:
     classes = [member for member in vars(_core).values() if isinstance(member, type)]
     assert len(classes) > 20
     assert [kind.__name__ for kind in classes if "__repr__" not in vars(kind)] == []
+
+
+def test_notebooks_show_tables_of_what_is_held(result: seacrane.Result) -> None:
+    database = shipped_database()
+    shown = {thing: thing._repr_html_() for thing in (result, database)}
+    for html in shown.values():
+        assert html.startswith('<div class="seacrane">') and html.endswith("</table></div>")
+    assert "outputs to 0.2 s" in shown[result] and "<td>link_tension</td>" in shown[result]
+    assert "115, 25" in shown[database] and "<td>mass [t]</td>" in shown[database]
+
+
+def test_names_in_tables_are_escaped() -> None:
+    nasty = "<script>alert(1)</script>"
+    scene = Scene(name=nasty)
+    scene.add_body(name=nasty, mass=1.0, inertia=np.eye(3))
+    database = dataclasses.replace(shipped_database(), name=nasty, source=nasty)
+    for thing in (scene, seacrane.simulate(scene, t_end=0.1), database):
+        html = thing._repr_html_()
+        assert nasty not in html and "&lt;script&gt;" in html
 
 
 MAPPING: dict[str, Callable[[seacrane.Result], Any]] = {

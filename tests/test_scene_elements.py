@@ -128,7 +128,7 @@ def test_a_scene_shows_as_a_table_in_notebooks() -> None:
     scene = hung()
     scene.add_body(name="<b>", mass=1.0, inertia=(1.0, 1.0, 1.0))
     page = scene._repr_html_()
-    assert page.startswith("<table>") and "&lt;b&gt;" in page and "<b>" not in page
+    assert "<table>" in page and "&lt;b&gt;" in page and "<b>" not in page
 
 
 def test_methods_carry_the_documentation_of_what_they_do() -> None:

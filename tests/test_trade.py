@@ -74,6 +74,14 @@ def test_no_row_beats_one_on_the_front(measured: Trade) -> None:
             assert not any(beats)
 
 
+def test_notebooks_show_the_front(measured: Trade) -> None:
+    best = measured.pareto
+    html = replace(measured, metadata={**measured.metadata, "scene": "<i>lift</i>"})._repr_html_()
+    assert html.count("<tr>") == 1 + len(best) and f"{len(best)} of {len(measured.rows)} settings" in html
+    assert best[0].method.integrator in html and "<th>payload_position</th>" in html
+    assert "<i>" not in html and "&lt;i&gt;lift" in html
+
+
 def test_the_cheapest_setting_meets_its_limit_when_run(case2: Scene, measured: Trade) -> None:
     run = simulate(case2, t_end=T_END, method=measured.cheapest(payload_position=1e-4, roll=1e-6))
     tight = simulate(case2, t_end=T_END, **TIGHT)

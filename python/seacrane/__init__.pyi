@@ -59,6 +59,13 @@ from seacrane.errors import FileFormatError as FileFormatError
 from seacrane.errors import SceneError as SceneError
 from seacrane.errors import SeacraneError as SeacraneError
 from seacrane.errors import SimulationError as SimulationError
+from seacrane.figures.overview import plot_overview as plot_overview
+from seacrane.figures.plots import plot_history as plot_history
+from seacrane.figures.plots import plot_rao as plot_rao
+from seacrane.figures.plots import plot_reactions as plot_reactions
+from seacrane.figures.plots import plot_spectrum as plot_spectrum
+from seacrane.figures.plots import plot_track as plot_track
+from seacrane.figures.pose import plot_scene as plot_scene
 from seacrane.hydro import HydroDatabase as HydroDatabase
 from seacrane.hydro import load_database as load_database
 from seacrane.inputs.plausible import AngleUnitWarning as AngleUnitWarning
@@ -66,6 +73,8 @@ from seacrane.inputs.plausible import CompassDirectionWarning as CompassDirectio
 from seacrane.inputs.plausible import DepthSignWarning as DepthSignWarning
 from seacrane.inputs.plausible import MassUnitWarning as MassUnitWarning
 from seacrane.lift.lift import Lift as Lift
+from seacrane.reporting import Report as Report
+from seacrane.reporting import report as report
 from seacrane.result import Event as Event
 from seacrane.result import Result as Result
 from seacrane.run.method import Method as Method

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import contextlib
 import os
 import sys
 import warnings
@@ -34,7 +35,7 @@ class _Parser(argparse.ArgumentParser):
 def build_parser() -> argparse.ArgumentParser:
     """The parser of all commands; `command` holds the module that runs one."""
     parser = _Parser(prog="seacrane", description=DESCRIPTION)
-    parser.add_argument("--version", action="store_true", help="print the version and stop")
+    parser.add_argument("--version", action="store_true", help="print version and build, and stop")
     commands = parser.add_subparsers(dest="command", metavar="COMMAND", parser_class=_Parser)
     _add_run(commands)
     _add_paper(commands)
@@ -42,6 +43,7 @@ def build_parser() -> argparse.ArgumentParser:
     _add_hydro(commands)
     _add_trade(commands)
     _add_schema(commands)
+    _add_doctor(commands)
     return parser
 
 
@@ -114,13 +116,18 @@ def _add_paper(commands: Any) -> None:
     text = "compute the paper's cases: figures 3 to 10, the data behind every panel, and report.html"
     paper = commands.add_parser("paper", help=text, description=text)
     paper.add_argument("--out", metavar="DIR", required=True, help="folder to write to; made if absent")
+    paper.add_argument("--overwrite", action="store_true", help="replace what an earlier call wrote there")
 
 
 def _add_report(commands: Any) -> None:
-    text = "print what the compiled model of a scene holds"
+    text = "print what the compiled model of a scene holds, or write the report of a result: DIR/<name>.html"
     report = commands.add_parser("report", help=text, description=text)
-    report.add_argument("scene", metavar="SCENE", help=SCENE_HELP)
-    report.add_argument("--json", action="store_true", help="print JSON instead of tables")
+    report.add_argument(
+        "source", metavar="SCENE|RESULT.nc", help=f"{SCENE_HELP}; or a result that `seacrane run` wrote"
+    )
+    report.add_argument("--json", action="store_true", help="of a scene: print JSON instead of tables")
+    report.add_argument("--out", metavar="DIR", help="of a result: folder to write to; made if absent")
+    report.add_argument("--overwrite", action="store_true", help="of a result: replace an earlier report")
 
 
 def _add_hydro(commands: Any) -> None:
@@ -129,6 +136,7 @@ def _add_hydro(commands: Any) -> None:
     hydro.add_argument("path", metavar="PATH", help=PATH_HELP)
     hydro.add_argument("--json", action="store_true", help="print JSON instead of a table")
     hydro.add_argument("--out", metavar="DIR", help="also plot the database into this folder; made if absent")
+    hydro.add_argument("--overwrite", action="store_true", help="replace earlier plots in that folder")
 
 
 def _add_trade(commands: Any) -> None:
@@ -145,6 +153,12 @@ def _add_schema(commands: Any) -> None:
     schema.add_argument("--path", action="store_true", help="print where the installed copy is instead")
 
 
+def _add_doctor(commands: Any) -> None:
+    text = "tell what is installed, what is fast and what is missing"
+    doctor = commands.add_parser("doctor", help=text, description=text)
+    doctor.add_argument("--json", action="store_true", help="print JSON instead of tables")
+
+
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run a command; errors become one line on standard error.
 
@@ -159,16 +173,33 @@ def main(arguments: Sequence[str] | None = None) -> int:
         Exit status: 0 done, 1 failed, 2 wrong arguments (then raised as SystemExit), 130 interrupted.
     """
     parser = build_parser()
+    _complete(parser)
     chosen = parser.parse_args(arguments)
     if chosen.version:
-        from seacrane.version import __version__
-
-        print(__version__)
+        print(_version())
         return 0
     if chosen.command is None:
         parser.print_help(sys.stderr)
         return MISUSED
     return _run_command(chosen)
+
+
+def _complete(parser: argparse.ArgumentParser) -> None:
+    """Answer the shell where it asks for completions, and argcomplete is installed."""
+    if "_ARGCOMPLETE" in os.environ:
+        with contextlib.suppress(ImportError):
+            import_module("argcomplete").autocomplete(parser)
+
+
+def _version() -> str:
+    """The version, and below it how the package was built."""
+    from seacrane.cli.tables import text_table
+    from seacrane.installation.build import build_facts
+
+    facts = build_facts()
+    rows = [(name, text) for name, text in facts.items() if name != "seacrane"]
+    lines = text_table(("", ""), rows).splitlines()[1:]
+    return "\n".join([f"seacrane {facts['seacrane']}", *(f"  {line}" for line in lines)])
 
 
 def _run_command(chosen: argparse.Namespace) -> int:

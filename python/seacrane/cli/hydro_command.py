@@ -23,9 +23,11 @@ def run(arguments: argparse.Namespace) -> int:
     rows: list[dict[str, Any]] = [{name: getattr(row, name) for name in COLUMNS} for row in database.check()]
     print(to_json(rows) if arguments.json else _as_text(rows))
     if arguments.out is not None:
-        from seacrane.hydro.database.figures import save_hydro_figures
+        from seacrane.hydro.database.figures import SHEETS, save_hydro_figures
 
-        pictures = save_hydro_figures(database=database, folder=output_folder(arguments.out))
+        files = [f"{stem}.{kind}" for stem in SHEETS for kind in ("png", "csv")]
+        folder = output_folder(arguments.out, holds=files, overwrite=arguments.overwrite)
+        pictures = save_hydro_figures(database=database, folder=folder)
         if not arguments.json:
             print("\n".join(f"saved {picture.image}" for picture in pictures))
     return 0
@@ -41,6 +43,6 @@ def _with_memory(database: HydroDatabase) -> HydroDatabase:
 
 
 def _as_text(rows: list[dict[str, Any]]) -> str:
-    from seacrane.figures.report import format_value
+    from seacrane.plotting.html import format_value
 
     return text_table(COLUMNS, [[format_value(row[name]) for name in COLUMNS] for row in rows])

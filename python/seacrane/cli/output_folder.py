@@ -2,18 +2,32 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from pathlib import Path
 
 
-def output_folder(name: str) -> Path:
+def output_folder(name: str, *, holds: Iterable[str] = (), overwrite: bool = True) -> Path:
     """The folder, made if absent.
+
+    Parameters
+    ----------
+    name : str
+    holds : iterable of str
+        Files that will be written into it.
+    overwrite : bool
+        Whether those may replace earlier ones.
 
     Raises
     ------
     OSError
-        If it cannot be made, or something else has its name.
+        If it cannot be made, something else has its name, or it holds an earlier one of those files.
     """
     folder = Path(name)
+    earlier = [] if overwrite else [file for file in holds if (folder / file).exists()]
+    if earlier:
+        raise FileExistsError(
+            f"--out {name} holds an earlier {', '.join(earlier)}; give another folder, or --overwrite"
+        )
     if folder.exists() and not folder.is_dir():
         raise OSError(f"--out {name} is a file; name a folder")
     try:

@@ -23,6 +23,7 @@ RUNS: dict[str, tuple[str, dict[str, Any]]] = {
 }
 T_END, DT_OUT = 100.0, 0.1  # s
 REPEATS = 5  # a single wall time of some hundredths of a second says little about cost
+REPORT = "report.html"
 TITLE = "Offshore crane and vessel in waves: the lift cases of Landsverk, Zhou and Hovland"
 SUMMARY = (
     "The vessel alone in waves, with and without fluid memory, and three cases of its crane swinging out to "
@@ -31,12 +32,16 @@ SUMMARY = (
     "The paper publishes no data and leaves parts of its model open; masses, geometry, hull, sea and control "
     "are our choices within what it states. The findings below compare numbers of these runs with what it "
     "says in words. Every run is made {repeats} times, and its wall time is the least of them.",
+    "The paper's axes are x aft, y to starboard: what it prints of surge, sway, roll and pitch has the "
+    "opposite sign of the figures here.",
 )
 
 
 def run(arguments: argparse.Namespace) -> int:
     """Simulate, save, draw and report; 130 if a run was interrupted, with what was computed until then."""
-    folder = output_folder(arguments.out)
+    folder = output_folder(
+        arguments.out, holds=(REPORT, *(f"{name}.nc" for name in RUNS)), overwrite=arguments.overwrite
+    )
     runs: dict[str, Result] = {}
     for number, name in enumerate(RUNS, start=1):
         print(f"[{number}/{len(RUNS)}] {name} ...", flush=True)
@@ -72,7 +77,7 @@ def _simulate(name: str) -> Result:
 
 
 def _pace(result: Result) -> str:
-    from seacrane.figures.report import speed
+    from seacrane.reporting.measures import speed
 
     fast = speed(result)
     pace = f", {fast:.0f} times real time" if fast is not None else ""
@@ -92,10 +97,9 @@ def _write_report(
     folder: Path, runs: dict[str, Result], pictures: list[Picture], findings: list[Finding]
 ) -> Path:
     import seacrane.cases as cases
-    from seacrane.figures.report import write_report
+    from seacrane.reporting.paper import Study, study_report
 
-    return write_report(
-        folder / "report.html",
+    study = Study(
         title=TITLE,
         summary=[text.format(repeats=REPEATS) for text in SUMMARY],
         runs=runs,
@@ -103,3 +107,4 @@ def _write_report(
         scene={f"case 2, {section}": rows for section, rows in cases.case2().report().items()},
         findings=findings,
     )
+    return study_report(study).save(folder / REPORT, overwrite=True)

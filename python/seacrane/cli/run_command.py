@@ -40,7 +40,7 @@ def run(arguments: argparse.Namespace) -> int:
 
 def summary(result: Result) -> str:
     """What a run cost and how well it kept its invariants, in a few lines."""
-    from seacrane.figures.report import energy_closure, speed, worst
+    from seacrane.reporting.measures import energy_closure, speed, worst
 
     stats = result.stats
     fast = speed(result)

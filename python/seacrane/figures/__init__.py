@@ -3,8 +3,9 @@
 from seacrane.crane.skeleton import crane_skeleton
 from seacrane.figures.findings import Finding, paper_findings
 from seacrane.figures.overview import overview_sheet, plot_overview
-from seacrane.figures.paper import PaperRuns, paper_motion, save_paper_figures
-from seacrane.figures.pose import Skeleton, box_lines, hull_lines, save_pose_figure
+from seacrane.figures.paper import PaperRuns, motion_of, save_paper_figures
+from seacrane.figures.plots import plot_history, plot_rao, plot_reactions, plot_spectrum, plot_track
+from seacrane.figures.pose import Skeleton, box_lines, hull_lines, plot_scene, save_pose_figure
 from seacrane.plotting.panel import Line, Panel, Picture, Sheet, draw, save_figure, save_sheet, save_table
 
 __all__ = [
@@ -19,10 +20,16 @@ __all__ = [
     "crane_skeleton",
     "draw",
     "hull_lines",
+    "motion_of",
     "overview_sheet",
     "paper_findings",
-    "paper_motion",
+    "plot_history",
     "plot_overview",
+    "plot_rao",
+    "plot_reactions",
+    "plot_scene",
+    "plot_spectrum",
+    "plot_track",
     "save_figure",
     "save_paper_figures",
     "save_pose_figure",

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from seacrane.figures.paper import PaperRuns, paper_motion, require_same_times
+from seacrane.figures.paper import PaperRuns, motion_of, require_same_times
 from seacrane.result import MOTIONS, Result
 
 Array = NDArray[np.float64]
@@ -48,11 +48,11 @@ def _rms(values: Array) -> float:
 
 
 def mean_after(result: Result, motion: str, start: float) -> float:
-    """Mean of a motion from `start` s on, in the paper's axes; m or degrees."""
+    """Mean of a motion from `start` s on, m or degrees."""
     late = result.time >= start
     if not late.any():
         raise ValueError(f"run {result.stats['scene']!r} ends at {result.time[-1]:g} s, before {start:g} s")
-    return float(np.mean(paper_motion(result, motion)[late]))
+    return float(np.mean(motion_of(result, motion)[late]))
 
 
 def slew_stop(result: Result, *, share: float = 0.99) -> float:
@@ -97,10 +97,10 @@ def memory_effect(runs: PaperRuns) -> Finding:
     """How much leaving memory out changes the vessel alone (figure 3)."""
     changes = {}
     for motion in MOTIONS:
-        with_memory = paper_motion(runs.vessel, motion)
+        with_memory = motion_of(runs.vessel, motion)
         size = _rms(with_memory)
         if size > 0:
-            changes[motion] = _rms(paper_motion(runs.vessel_without_memory, motion) - with_memory) / size
+            changes[motion] = _rms(motion_of(runs.vessel_without_memory, motion) - with_memory) / size
     return Finding(
         finding="Fluid memory changes the vessel's response clearly",
         number="rms change over rms: " + ", ".join(f"{m} {100 * c:.0f} %" for m, c in changes.items()),
@@ -127,7 +127,7 @@ def memory_cost(runs: PaperRuns) -> Finding:
 def roll_shows_most(before: Result, after: Result, what: str, where: str) -> Finding:
     """Which rotation of the vessel an addition changes most."""
     require_same_times(before, after)
-    change = {m: _rms(paper_motion(after, m) - paper_motion(before, m)) for m in ("roll", "pitch", "yaw")}
+    change = {m: _rms(motion_of(after, m) - motion_of(before, m)) for m in ("roll", "pitch", "yaw")}
     return Finding(
         finding=f"{what} shows most in roll ({where})",
         number="rms change " + ", ".join(f"{motion} {value:.3g} deg" for motion, value in change.items()),
@@ -144,8 +144,8 @@ def mean_heel(runs: PaperRuns) -> Finding:
         finding="The swing-out changes the mean heel, with payload more than without",
         number=f"case 1 {heel[0]:+.3f} deg, case 2 {heel[1]:+.3f} deg, against the vessel alone",
         expected="to port, case 2 beyond case 1",
-        # The crane moves out to port: port down is a negative roll about x forward, positive about x aft.
-        verdict=_verdict(0 < heel[0] < heel[1]),
+        # The crane moves out to port: port down is a negative roll about x forward.
+        verdict=_verdict(heel[1] < heel[0] < 0),
     )
 
 
@@ -153,7 +153,7 @@ def yaw_at_slew_stop(runs: PaperRuns) -> Finding:
     """Yaw rate of case 1 over the vessel alone, late in the slew and after it has stopped."""
     require_same_times(runs.case1, runs.vessel)
     time, stop = runs.case1.time, slew_stop(runs.case1)
-    rate = np.gradient(paper_motion(runs.case1, "yaw") - paper_motion(runs.vessel, "yaw"), time)
+    rate = np.gradient(motion_of(runs.case1, "yaw") - motion_of(runs.vessel, "yaw"), time)
     moving = float(np.mean(rate[(time >= 0.5 * stop) & (time <= 0.9 * stop)]))
     stopped = float(np.mean(rate[(time >= stop) & (time <= 1.4 * stop)]))
     return Finding(
@@ -170,7 +170,7 @@ def oscillation(runs: PaperRuns) -> Finding:
     added = {
         motion: amplitude_at(
             runs.case1.time,
-            paper_motion(runs.case3, motion) - paper_motion(runs.case1, motion),
+            motion_of(runs.case3, motion) - motion_of(runs.case1, motion),
             period=OSCILLATION_PERIOD,
             start=OSCILLATION_START,
         )

@@ -2,131 +2,139 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Mapping
 from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
+from seacrane.figures.traces import Trace, beyond_rounding, shown_unit, traces
+from seacrane.inputs.frames import AXES_NOTE
 from seacrane.plotting.panel import COLOURS, Line, Panel, Sheet, draw
-from seacrane.result import AXES, MOTIONS, Result
+from seacrane.result import Result
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 Array = NDArray[np.float64]
+Panels = list[tuple[str, list[Trace]]]
+STYLES = ("-", "--", ":")
+EVENTS = {"contact": "contact: taut, or pressed", "rebound": "rebound", "release": "release: slack, or off"}
 
 
-def _lines(names: Sequence[str], values: Array) -> tuple[Line, ...]:
-    styles = ("-", "--", ":")
-    return tuple(
-        Line(label=name, values=values[:, i], colour=i, style=styles[i // len(COLOURS) % len(styles)])
-        for i, name in enumerate(names)
-    )
-
-
-def _by_name(result: Result, channel: str, dim: str, values: Array) -> tuple[Line, ...]:
-    """One line, or with several of a kind one for each."""
-    if dim in result.dims[channel]:
-        return _lines(result.coords[dim], values)
-    return (Line(label="", values=values),)
-
-
-def _single(quantity: str, unit: str, values: Array) -> Panel:
-    return Panel(quantity=quantity, unit=unit, lines=(Line(label="", values=values),))
-
-
-def _by_vessel(result: Result, channel: str) -> dict[str, Array]:
-    """The values of every vessel, by its name; of the only one as "vessel"."""
-    names = result.coords.get("vessel", ())
-    return {name: result[channel][:, i] for i, name in enumerate(names)} or {"vessel": result[channel]}
-
-
-def _vessels(result: Result) -> list[Panel]:
+def panels_of(quantity: str, found: Iterable[Trace], *, skip: int = 0) -> list[Panel]:
+    """A panel for each unit; labels are the names of a trace but the first `skip`."""
+    by_unit: dict[str, list[Trace]] = {}
+    for one in found:
+        by_unit.setdefault(one.unit, []).append(one)
     return [
-        panel
-        for name, motion in _by_vessel(result, "vessel_motion").items()
-        for panel in (
-            Panel(quantity=name, unit="m", lines=_lines(MOTIONS[:3], motion[:, :3])),
-            Panel(quantity=name, unit="deg", lines=_lines(MOTIONS[3:], np.rad2deg(motion[:, 3:]))),
+        Panel(
+            quantity=quantity,
+            unit=unit,
+            lines=tuple(
+                Line(
+                    label=" ".join(one.names[skip:]),
+                    values=one.values,
+                    colour=i,
+                    style=STYLES[i // len(COLOURS) % len(STYLES)],
+                )
+                for i, one in enumerate(group)
+            ),
         )
+        for unit, group in by_unit.items()
     ]
 
 
-def _elevation(result: Result) -> list[Panel]:
-    at = _by_vessel(result, "wave_elevation")
-    lines = tuple(
-        Line(label=name if len(at) > 1 else "", values=values, colour=i)
-        for i, (name, values) in enumerate(at.items())
-    )
-    return [Panel(quantity="wave elevation", unit="m", lines=lines)]
+def marks_of(result: Result) -> Mapping[str, Array]:
+    """Times of the events of limits, by what happened."""
+    return {
+        text: np.array([event.time for event in result.events if event.kind == kind])
+        for kind, text in EVENTS.items()
+        if any(event.kind == kind for event in result.events)
+    }
 
 
-def _payload(result: Result) -> list[Panel]:
+def resultants(result: Result, channel: str) -> list[Trace]:
+    """Magnitudes of a channel's vectors, by what they belong to."""
+    size = np.linalg.norm(result[channel], axis=-1)
+    names = result.coords[result.dims[channel][1]]
+    units = {"reaction_force": "N", "reaction_moment": "N m"}
+    factor, unit = shown_unit(units[channel], [size])
+    return [
+        Trace(channel=channel, names=(name,), unit=unit, values=factor * size[:, i])
+        for i, name in enumerate(names)
+    ]
+
+
+def payload_bodies(result: Result) -> list[str]:
     """What hangs on a link or wire, as the run noted it."""
     bodies = str(result.stats.get("payload", "")).splitlines()
-    return [
-        Panel(quantity=f"{body} position", unit="m", lines=_lines(AXES, result.select("position", body=body)))
-        for body in bodies
-        if body in result.coords["body"]
-    ]
+    return [body for body in bodies if body in result.coords.get("body", ())]
 
 
-def _strokes(result: Result) -> list[Panel]:
-    lines = _lines(result.coords["cylinder"], result["stroke"])
-    return [Panel(quantity="stroke", unit="m", lines=lines)]
+def _vessels(result: Result) -> Panels:
+    names = result.coords.get("vessel", ())
+    if not names:
+        return [("vessel", traces(result, "vessel_motion"))]
+    return [(name, traces(result, "vessel_motion", vessel=name)) for name in names]
 
 
-def _cylinder_forces(result: Result) -> list[Panel]:
-    lines = _lines(result.coords["cylinder"], result["cylinder_force"] / 1e3)
-    return [Panel(quantity="cylinder force", unit="kN", lines=lines)]
+def _payload(result: Result) -> Panels:
+    return [(f"{body} position", traces(result, "position", body=body)) for body in payload_bodies(result)]
 
 
-def _slew_angles(result: Result) -> list[Panel]:
-    lines = _by_name(result, "slew_angle", "slew", np.rad2deg(result["slew_angle"]))
-    return [Panel(quantity="slew angle", unit="deg", lines=lines)]
-
-
-def _link_tensions(result: Result) -> list[Panel]:
-    lines = _by_name(result, "link_tension", "hook", result["link_tension"] / 1e3)
-    return [Panel(quantity="link tension", unit="kN", lines=lines)]
-
-
-def _joint_forces(result: Result) -> list[Panel]:
-    size = np.linalg.norm(result["reaction_force"], axis=2) / 1e3
-    return [Panel(quantity="joint force", unit="kN", lines=_lines(result.coords["joint"], size))]
+def _channel(name: str) -> Callable[[Result], Panels]:
+    return lambda result: [(name.replace("_", " "), traces(result, name))]
 
 
 # Which channel brings which panels; a channel the run has not is left out of the picture.
-PANELS: dict[str, Callable[[Result], list[Panel]]] = {
+PANELS: dict[str, Callable[[Result], Panels]] = {
     "vessel_motion": _vessels,
-    "wave_elevation": _elevation,
+    "wave_elevation": _channel("wave_elevation"),
     "position": _payload,
-    "slew_angle": _slew_angles,
-    "stroke": _strokes,
-    "cylinder_force": _cylinder_forces,
-    "link_tension": _link_tensions,
-    "reaction_force": _joint_forces,
-    "energy_balance": lambda r: [_single("energy balance", "J", r["energy_balance"])],
+    "slew_angle": _channel("slew_angle"),
+    "stroke": _channel("stroke"),
+    "cylinder_force": _channel("cylinder_force"),
+    "link_tension": _channel("link_tension"),
+    "limit_force": _channel("limit_force"),
+    "reaction_force": lambda result: [("joint force", resultants(result, "reaction_force"))],
+    "energy_balance": _channel("energy_balance"),
 }
+OWNERS = {"vessel_motion": "vessel", "position": "body"}  # dimensions that a panel's title names
 
 
 def overview_sheet(result: Result) -> Sheet:
     """The panels of `plot_overview` with their numbers."""
-    panels = [panel for name, make in PANELS.items() if name in result.channels for panel in make(result)]
+    panels = _panels(result, beyond_rounding) or _panels(result, list)
     if not panels:
-        raise ValueError(f"a result with {', '.join(result.channels) or 'no channels'} has nothing to plot")
+        held = ", ".join(result.channels) or "no channels"
+        raise ValueError(f"a result with {held} has nothing to plot")
     return Sheet(
         title=f"{result.stats['scene']}{' (interrupted)' if result.interrupted else ''}",
-        caption="Overview of the recorded channels; x forward, y to port, z up.",
+        caption=f"What was recorded; triangles mark the largest and the smallest value. {AXES_NOTE}",
         abscissa=result.time,
         panels=tuple(panels),
         columns=2 if len(panels) > 3 else 1,
+        marks=marks_of(result),
+        extremes=True,
     )
 
 
+def _panels(result: Result, chosen: Callable[[list[Trace]], list[Trace]]) -> list[Panel]:
+    return [
+        panel
+        for name, make in PANELS.items()
+        if name in result.channels
+        for quantity, found in make(result)
+        for panel in panels_of(quantity, chosen(found), skip=int(OWNERS.get(name) in result.dims[name]))
+    ]
+
+
 def plot_overview(result: Result) -> Figure:
-    """Draw what a run recorded: motions, waves, crane, forces and energy balance.
+    """Draw what a run recorded: motions, waves, payload, crane, forces and energy balance.
+
+    What is zero up to rounding is left out, as the sway of a ship in head seas. Events of limits are marked,
+    and the largest and the smallest value of every panel.
 
     Parameters
     ----------

@@ -1,7 +1,7 @@
-"""Figures 3 to 10 of Landsverk, Zhou and Hovland, from five runs, in the paper's axes.
+"""Figures 3 to 10 of Landsverk, Zhou and Hovland, from five runs, in our axes.
 
 The paper's axes are x aft, y starboard, z up about {0}, the vessel's reference point: ours turned by half
-a turn about z, so surge, sway, roll and pitch change sign, heave and yaw do not.
+a turn about z. What it prints of surge, sway, roll and pitch has the opposite sign; heave and yaw have not.
 """
 
 from __future__ import annotations
@@ -20,9 +20,7 @@ from seacrane.result import MOTIONS, Result
 
 Array = NDArray[np.float64]
 
-TO_PAPER_AXES = (-1, -1, 1, -1, -1, 1)
 TRANSLATIONS, ROTATIONS = MOTIONS[:3], MOTIONS[3:]
-AXES_NOTE = "Axes of the paper: x aft, y starboard, z up, about {0}."
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -36,8 +34,8 @@ class PaperRuns:
     case3: Result
 
 
-def paper_motion(result: Result, motion: str) -> Array:
-    """One vessel motion in the paper's axes.
+def motion_of(result: Result, motion: str) -> Array:
+    """One vessel motion in the units of the figures.
 
     Parameters
     ----------
@@ -51,15 +49,15 @@ def paper_motion(result: Result, motion: str) -> Array:
     ndarray, shape (n,)
         m for surge, sway and heave; degrees for roll, pitch and yaw.
     """
-    values = TO_PAPER_AXES[MOTIONS.index(motion)] * result.select("vessel_motion", motion=motion)
+    values = result.select("vessel_motion", motion=motion)
     return np.rad2deg(values) if motion in ROTATIONS else values
 
 
 def motion_panel(motion: str, runs: Sequence[tuple[str, Result]]) -> Panel:
-    """One motion of several labelled runs, in the paper's axes."""
+    """One motion of several labelled runs."""
     styles = ("-", "--", "-.", ":")
     lines = tuple(
-        Line(label=label, values=paper_motion(run, motion), colour=i, style=styles[i % len(styles)])
+        Line(label=label, values=motion_of(run, motion), colour=i, style=styles[i % len(styles)])
         for i, (label, run) in enumerate(runs)
     )
     return Panel(quantity=motion, unit="deg" if motion in ROTATIONS else "m", lines=lines)
@@ -69,8 +67,8 @@ def _motions(
     number: int, title: str, text: str, motions: Sequence[str], runs: Sequence[tuple[str, Result]]
 ) -> Sheet:
     return Sheet(
-        title=f"Figure {number}: {title} (x aft, y starboard, z up)",
-        caption=f"{text} {AXES_NOTE}",
+        title=f"Figure {number}: {title}",
+        caption=text,
         abscissa=runs[0][1].time,
         panels=tuple(motion_panel(motion, runs) for motion in motions),
         columns=2 if len(motions) == 6 else 1,
@@ -137,11 +135,11 @@ def figure_9(runs: PaperRuns) -> Sheet:
 def figure_10(runs: PaperRuns) -> Sheet:
     """Heave of case 3 minus heave of case 1."""
     require_same_times(runs.case3, runs.case1)
-    difference = paper_motion(runs.case3, "heave") - paper_motion(runs.case1, "heave")
+    difference = motion_of(runs.case3, "heave") - motion_of(runs.case1, "heave")
     line = Line(label="", values=difference)
     return Sheet(
         title="Figure 10: heave of case 3 minus heave of case 1",
-        caption=f"What the oscillating cylinders add to the heave. {AXES_NOTE}",
+        caption="What the oscillating cylinders add to the heave.",
         abscissa=runs.case1.time,
         panels=(Panel(quantity="heave, case 3 - case 1", unit="m", lines=(line,)),),
     )

@@ -1,4 +1,4 @@
-"""Figure 4: the first and last pose of a run in three dimensions, as lines carried by the bodies."""
+"""The first and last pose of a run in three dimensions, as lines carried by the bodies."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane.inputs.frames import rotation_matrix
-from seacrane.plotting.panel import COLOURS, Picture, plain, save_figure, save_table
+from seacrane.plotting.panel import COLOURS, MOST_NAMED, Picture, plain, save_figure, save_table
 from seacrane.result import Result
 
 if TYPE_CHECKING:
@@ -21,8 +21,9 @@ Array = NDArray[np.float64]
 Skeleton = Mapping[str, Sequence[Array]]
 """Lines of each body, each of shape (k, 3), m, in the body's frame, relative to its centre of mass."""
 
-HULL = "vessel"  # body that is drawn as a ship
-HALF_TURN = np.array([-1.0, -1.0, 1.0])  # our axes to the paper's: x aft, y starboard, z up
+HULL = "vessel"  # body that is drawn as a ship where the result does not tell its ships
+LONG = 3.0  # edge over the next one from which a box is drawn as a line
+VIEW = {"elev": 20, "azim": 120}  # from port and a little aft
 
 
 def hull_lines(
@@ -74,6 +75,43 @@ def complete_skeleton(
     return lines
 
 
+def outlined_skeleton(result: Result) -> dict[str, list[Array]]:
+    """Lines of every body by what the run noted of its scene: ships, boxes, lines through joints.
+
+    Empty where a result notes nothing, as those of 0.1, or has no poses.
+    """
+    if not {"position", "quaternion"} <= set(result.channels):
+        return {}
+    outline = json.loads(str(result.stats.get("outline", "{}")))
+    bodies = set(result.coords["body"])
+    found = {name: _outlined(about) for name, about in outline.get("bodies", {}).items() if name in bodies}
+    return {name: lines for name, lines in found.items() if lines}
+
+
+def ships_of(result: Result) -> list[str]:
+    """Bodies that are drawn as ships."""
+    outline = json.loads(str(result.stats.get("outline", "{}")))
+    return [name for name, about in outline.get("bodies", {}).items() if "ship" in about] or [HULL]
+
+
+def _outlined(about: Mapping[str, Any]) -> list[Array]:
+    if "ship" in about:
+        length, breadth = about["ship"]["length"], about["ship"]["breadth"]
+        hull = hull_lines(length=length, beam=breadth, bottom=-0.25 * breadth, deck=0.4 * breadth)
+        return [line + np.array(about["ship"]["origin"]) for line in hull]
+    points, box = np.array(about["points"], dtype=float).reshape(-1, 3), np.array(about["box"], dtype=float)
+    if len(points) > 1:
+        middle = points - points.mean(axis=0)
+        along = np.linalg.svd(middle, full_matrices=False)[2][0]
+        return [points[np.argsort(middle @ along, kind="stable")]]
+    arms = [np.array([point, np.zeros(3)]) for point in points if point.any()]
+    edges = np.sort(box)
+    if edges[2] > LONG * edges[1]:
+        end = np.where(np.arange(3) == box.argmax(), 0.5 * box, 0.0)
+        return [np.array([-end, end]), *arms]
+    return [*box_lines(box.tolist()), *arms] if edges[1] > 0 else arms
+
+
 def _hung(result: Result) -> list[tuple[str, str]]:
     """Bodies that carry a crane's tip, and what hangs there."""
     cranes = json.loads(str(result.stats.get("cranes", "[]")))
@@ -87,11 +125,11 @@ def _pose(result: Result, body: str, index: int) -> tuple[Array, Array]:
 
 
 def posed_lines(result: Result, skeleton: Skeleton, index: int) -> Iterator[tuple[str, int, Array]]:
-    """Body, number of its line, and the line's points (k, 3), m, in the paper's axes at one output."""
+    """Body, number of its line, and the line's points (k, 3), m, in inertial axes at one output."""
     for body, lines in skeleton.items():
         turn, centre = _pose(result, body, index)
         for number, line in enumerate(lines):
-            yield body, number, HALF_TURN * (centre + line @ turn.T)
+            yield body, number, centre + line @ turn.T
 
 
 def wire_lines(result: Result, skeleton: Skeleton, index: int) -> list[Array]:
@@ -99,13 +137,28 @@ def wire_lines(result: Result, skeleton: Skeleton, index: int) -> list[Array]:
     return [_wire(result, skeleton, index, *ends) for ends in _hung(result) if set(ends) <= set(skeleton)]
 
 
+def link_lines(result: Result, index: int) -> list[Array]:
+    """Links, wires and springs (2, 3) at one output, between the points that the run noted, inertial axes."""
+    outline = json.loads(str(result.stats.get("outline", "{}")))
+    return [
+        np.array([_at(result, first, start, index), _at(result, second, end, index)])
+        for first, start, second, end in outline.get("links", [])
+    ]
+
+
+def _at(result: Result, body: str, point: Sequence[float], index: int) -> Array:
+    if body not in result.coords["body"]:
+        return np.asarray(point, dtype=float)
+    turn, centre = _pose(result, body, index)
+    return np.asarray(centre + turn @ np.asarray(point, dtype=float))
+
+
 def _wire(result: Result, skeleton: Skeleton, index: int, jib: str, payload: str) -> Array:
     turn, centre = _pose(result, jib, index)
     tip = centre + turn @ skeleton[jib][0][-1]
     turn, centre = _pose(result, payload, index)
     height = max(float(line[:, 2].max()) for line in skeleton[payload])
-    ends: Array = HALF_TURN * np.array([tip, centre + turn @ np.array([0.0, 0.0, height])])
-    return ends
+    return np.array([tip, centre + turn @ np.array([0.0, 0.0, height])])
 
 
 def save_pose_figure(
@@ -116,7 +169,7 @@ def save_pose_figure(
     thick: Collection[str] = (),
     stem: str = "figure_04",
 ) -> Picture:
-    """Write the first and last pose of a run as `stem`.png, and every point drawn as `stem`.csv.
+    """Figure 4: the first and last pose of a run as `stem`.png, and every point drawn as `stem`.csv.
 
     Parameters
     ----------
@@ -131,10 +184,7 @@ def save_pose_figure(
         Bodies that are drawn thick.
     """
     lines = complete_skeleton(result, skeleton)
-    caption = (
-        f"First ({result.time[0]:g} s) and last ({result.time[-1]:g} s) pose of case 2. "
-        "Axes of the paper: x aft, y starboard, z up, about {0} at the start."
-    )
+    caption = f"First ({result.time[0]:g} s) and last ({result.time[-1]:g} s) pose of case 2."
     rows = []
     for name, index in (("initial", 0), ("final", -1)):
         drawn = list(posed_lines(result, lines, index))
@@ -142,40 +192,99 @@ def save_pose_figure(
         for body, number, points in drawn:
             rows += [[name, body, number, i, *point] for i, point in enumerate(points.tolist())]
     data = save_table(
-        ["pose", "body", "line", "point", "x aft [m]", "y starboard [m]", "z up [m]"],
+        ["pose", "body", "line", "point", "x [m]", "y [m]", "z [m]"],
         rows,
         folder / f"{stem}.csv",
     )
-    image = save_figure(draw_poses(result, lines, thick), folder / f"{stem}.png")
     title = "Figure 4: initial and final pose, case 2"
+    wires = {index: wire_lines(result, lines, index) for index in (0, -1)}
+    image = save_figure(draw_poses(result, lines, wires, thick=thick, title=title), folder / f"{stem}.png")
     return Picture(title=title, caption=caption, image=image, data=data)
 
 
-def draw_poses(result: Result, skeleton: Skeleton, thick: Collection[str] = ()) -> Figure:
-    """First and last pose side by side, in equal scales and limits, seen from port and a little aft."""
+def draw_poses(
+    result: Result,
+    skeleton: Skeleton,
+    wires: Mapping[int, Sequence[Array]],
+    *,
+    thick: Collection[str] = (),
+    title: str,
+) -> Figure:
+    """First and last pose side by side, in equal scales and limits, seen from port and a little aft.
+
+    `wires` are the lines (k, 3) that belong to no body, at outputs 0 and -1, m, inertial axes.
+    """
     from matplotlib.figure import Figure
 
-    figure = Figure(figsize=(13.0, 6.4))
-    own = {HULL: "0.6", **{payload: "#8B0000" for _, payload in _hung(result)}}
-    points = np.vstack([line for index in (0, -1) for _, _, line in posed_lines(result, skeleton, index)])
-    low, high = points.min(axis=0), points.max(axis=0)
-    for place, (name, index) in enumerate((("initial", 0), ("final", -1))):
+    figure = Figure(figsize=(13.0, 5.6))
+    ships = ships_of(result)
+    own = {**dict.fromkeys(ships, "0.45"), **{payload: "#8B0000" for payload in _payloads(result)}}
+    drawn = {index: list(posed_lines(result, skeleton, index)) for index in (0, -1)}
+    points = np.vstack(
+        [line for index in (0, -1) for line in [*(one[2] for one in drawn[index]), *wires[index]]]
+    )
+    low, high = _limits(points)
+    for place, (name, index) in enumerate((("start", 0), ("end", -1))):
         box = (0.01 + 0.5 * place, 0.04, 0.44, 0.94)
         axes: Any = figure.add_axes(box, projection="3d", proj_type="ortho")
-        for body, number, line in posed_lines(result, skeleton, index):
-            width = 0.8 if body == HULL else 4.0 if body in thick else 1.6
+        for body, number, line in drawn[index]:
+            width = 0.8 if body in ships else 4.0 if body in thick else 2.0
             colour = own.get(body, COLOURS[list(skeleton).index(body) % len(COLOURS)])
             label = plain(body) if number == 0 else None
             axes.plot(*line.T, color=colour, linewidth=width, label=label, solid_capstyle="butt")
-        for number, wire in enumerate(wire_lines(result, skeleton, index)):
+        for number, wire in enumerate(wires[index]):
             axes.plot(*wire.T, color="black", linewidth=1.0, label=None if number else "link")
         axes.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]), zlim=(low[2], high[2]))
-        axes.set_box_aspect(high - low, zoom=0.96)
-        axes.view_init(elev=20, azim=-60)
-        axes.set(xlabel="x aft [m]", ylabel="y starboard [m]", zlabel="z up [m]")
+        axes.set_box_aspect(high - low, zoom=1.05 if high[2] - low[2] < 0.5 * np.ptp(points) else 0.9)
+        axes.view_init(**VIEW)
+        axes.set(xlabel="x [m]", ylabel="y [m]", zlabel="z [m]")
         axes.tick_params(labelsize=7)
-        figure.text(box[0] + box[2] / 2, 0.84, f"{name}, {result.time[index]:g} s", ha="center")
+        for axis in "xyz":
+            axes.locator_params(axis=axis, nbins=5)
+        figure.text(box[0] + box[2] / 2, 0.9, f"{name}, {result.time[index]:g} s", ha="center")
     handles, labels = axes.get_legend_handles_labels()
-    figure.legend(handles, labels, loc="lower center", ncols=6, fontsize=8, frameon=False)
-    figure.suptitle("Figure 4: initial and final pose, case 2 (x aft, y starboard, z up)", fontsize=11)
+    if len(handles) <= MOST_NAMED:
+        figure.legend(handles, labels, loc="lower center", ncols=6, fontsize=8, frameon=False)
+    figure.suptitle(plain(title), fontsize=11)
     return figure
+
+
+def _payloads(result: Result) -> list[str]:
+    return [*str(result.stats.get("payload", "")).splitlines(), *(payload for _, payload in _hung(result))]
+
+
+def _limits(points: Array) -> tuple[Array, Array]:
+    """Corners of what is drawn; no side is thinner than a fifth of the longest."""
+    low, high = points.min(axis=0), points.max(axis=0)
+    middle, half = 0.5 * (low + high), 0.5 * (high - low)
+    half = np.maximum(half, 0.2 * half.max() if half.max() > 0 else 1.0)
+    return middle - half, middle + half
+
+
+def plot_scene(result: Result) -> Figure:
+    """Draw the first and the last pose of any run: bodies as lines through their joints, ships and boxes.
+
+    Ships have the length and breadth of their radii of gyration, boxes the inertia of their bodies.
+
+    Parameters
+    ----------
+    result : Result
+        A run with `position` and `quaternion`.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+
+    Raises
+    ------
+    ValueError
+        If the result holds no poses, or no outline of its bodies (files of 0.1).
+    """
+    skeleton = outlined_skeleton(result)
+    if not skeleton:
+        raise ValueError(
+            f"the result of {result.stats['scene']!r} holds no poses or no outline to draw; record position "
+            "and quaternion, and run the scene with this version"
+        )
+    wires = {index: link_lines(result, index) for index in (0, -1)}
+    return draw_poses(result, skeleton, wires, title=str(result.stats["scene"]))

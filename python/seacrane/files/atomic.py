@@ -55,6 +55,8 @@ def require_replaceable(path: Path) -> None:
 
 def sync_folder(folder: Path) -> None:
     """Have the disk hold the names in a folder."""
+    if os.name == "nt":  # folders cannot be opened there
+        return
     number = os.open(folder, os.O_RDONLY)
     try:
         with contextlib.suppress(OSError):  # file systems that cannot

@@ -14,6 +14,10 @@ from seacrane.inputs.shown import shown
 
 Array = NDArray[np.float64]
 MOTIONS = ("surge", "sway", "heave", "roll", "pitch", "yaw")
+AXES_NOTE = (
+    "Axes: x forward, y to port, z up. Positive roll lifts the port side, positive pitch lowers the bow, "
+    "positive yaw turns the bow to port."
+)
 
 
 def rotation_matrix(quaternion: Any) -> Array:

@@ -1,1 +1,1 @@
-"""Figures as data: what every picture of the package is drawn with."""
+"""Figures and tables as data: what every picture and page of the package is made with."""

@@ -6,8 +6,8 @@ A panel's picture and the file of its numbers come from one object, so they cann
 from __future__ import annotations
 
 import csv
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -24,6 +24,11 @@ Array = NDArray[np.float64]
 
 COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9", "#E69F00", "#000000")  # Okabe and Ito
 SHADE = "#EEF3F8"
+MARK_COLOURS = ("0.25", "#D55E00", "#0072B2")  # of what is marked along the abscissa
+ROUNDING = 1e-9  # of its size by which a constant may vary
+MOST_MARKS = 200  # of one kind that are drawn: more would hide the curves
+MOST_NAMED = 24  # lines that a legend lists: a longer one would hide the figure
+FEW_LINES = 3  # up to which a panel has room for its extremes in words
 DOTS_PER_INCH = 130
 
 
@@ -45,6 +50,14 @@ class Panel:
     unit: str
     lines: tuple[Line, ...]
 
+    def extremes(self) -> tuple[tuple[int, int], tuple[int, int]] | None:
+        """Line and index of the smallest and of the largest value; None where nothing is finite."""
+        values = np.array([line.values for line in self.lines])
+        if not np.isfinite(values).any():
+            return None
+        low, high = (np.unravel_index(int(at(values)), values.shape) for at in (np.nanargmin, np.nanargmax))
+        return (int(low[0]), int(low[1])), (int(high[0]), int(high[1]))
+
 
 @dataclass(frozen=True, kw_only=True)
 class Sheet:
@@ -60,6 +73,12 @@ class Sheet:
         Panels side by side; they fill column by column.
     shaded : (float, float) or None
         Range of the abscissa that is shaded in every panel, as `caption` explains.
+    marks : mapping of str to ndarray
+        Places on the abscissa that dashed lines mark, by what is there.
+    extremes : bool
+        Whether the largest and the smallest value of every panel are marked.
+    logarithmic : bool
+        Whether values are drawn on a logarithmic axis.
     """
 
     title: str
@@ -70,6 +89,9 @@ class Sheet:
     abscissa_unit: str = "s"
     columns: int = 1
     shaded: tuple[float, float] | None = None
+    marks: Mapping[str, Array] = field(default_factory=dict)
+    extremes: bool = False
+    logarithmic: bool = False
 
     def __post_init__(self) -> None:
         for panel in self.panels:
@@ -126,9 +148,14 @@ def draw(sheet: Sheet) -> Figure:
     shared = len(labels) > 1 and len(set(labels)) == 1
     for cell, panel in zip(cells, sheet.panels, strict=False):
         _draw_panel(cell, panel, sheet.abscissa, legend=not shared)
+        if sheet.logarithmic:
+            cell.set_yscale("log")
+        if sheet.extremes:
+            _mark_extremes(cell, panel, sheet)
         if sheet.shaded is not None:
             low, high = np.clip(sheet.shaded, sheet.abscissa[0], sheet.abscissa[-1])
             cell.axvspan(low, high, color=SHADE, linewidth=0.0, zorder=0)
+        _mark_places(cell, sheet.marks)
     for cell in cells[len(sheet.panels) :]:
         cell.set_visible(False)
     for column in grid.T:
@@ -136,10 +163,10 @@ def draw(sheet: Sheet) -> Figure:
         for cell in lowest:
             cell.set_xlabel(f"{sheet.abscissa_name} [{sheet.abscissa_unit}]")
             cell.tick_params(labelbottom=True)
-    if shared and any(labels[0]):
-        handles, names = cells[0].get_legend_handles_labels()
-        columns = min(6, len(names))
-        figure.legend(handles, names, loc="outside lower center", ncols=columns, fontsize=9, frameon=False)
+    handles = _shared_handles(cells[0], sheet.marks, every=shared and any(labels[0]))
+    if handles:
+        columns = min(6, len(handles))
+        figure.legend(handles=handles, loc="outside lower center", ncols=columns, fontsize=9, frameon=False)
     figure.suptitle(plain(sheet.title), fontsize=11)
     return figure
 
@@ -151,10 +178,58 @@ def _draw_panel(cell: Axes, panel: Panel, abscissa: Array, *, legend: bool) -> N
         cell.plot(abscissa, line.values, line.style, color=colour, label=label, linewidth=1.1, markersize=4)
     cell.set_ylabel(plain(f"{panel.quantity} [{panel.unit}]"))
     cell.margins(x=0)
+    _hide_rounding(cell, panel)
     cell.grid(True, linewidth=0.4, alpha=0.6)
-    if legend and len(panel.lines) > 1:  # above the panel: no curve is covered
+    named = any(line.label for line in panel.lines)
+    if legend and named and len(panel.lines) <= MOST_NAMED:  # above the panel: no curve is covered
         place: dict[str, Any] = {"loc": "lower right", "bbox_to_anchor": (1.0, 1.0), "borderaxespad": 0.2}
         cell.legend(ncols=min(6, len(panel.lines)), fontsize=7, frameon=False, **place)
+
+
+def _hide_rounding(cell: Axes, panel: Panel) -> None:
+    """Curves that are constant up to rounding look so."""
+    values = np.array([line.values for line in panel.lines])
+    finite = values[np.isfinite(values)]
+    if finite.size and np.ptp(finite) <= ROUNDING * np.abs(finite).max():
+        middle, room = float(finite.mean()), 0.1 * float(np.abs(finite).max()) or 1.0
+        cell.set_ylim(middle - room, middle + room)
+
+
+def _mark_extremes(cell: Axes, panel: Panel, sheet: Sheet) -> None:
+    """Triangles at the largest and the smallest value; in words where the head of the panel has room."""
+    found = panel.extremes()
+    if found is None:
+        return
+    words: list[str] = []
+    for word, marker, (number, at) in zip(("min", "max"), ("v", "^"), found, strict=True):
+        line, place = panel.lines[number], sheet.abscissa[at]
+        colour = COLOURS[line.colour % len(COLOURS)]
+        cell.plot(place, line.values[at], marker, color=colour, markersize=5, clip_on=False, zorder=4)
+        words.insert(0, f"{word} {line.values[at]:.4g} at {place:.4g} {sheet.abscissa_unit}")
+    if len(panel.lines) <= FEW_LINES:
+        place_of_text: dict[str, Any] = {"xy": (0.0, 1.0), "xycoords": "axes fraction"}
+        cell.annotate(
+            ", ".join(words), xytext=(0, 3), textcoords="offset points", fontsize=6.5, **place_of_text
+        )
+
+
+def _mark_places(cell: Axes, marks: Mapping[str, Array]) -> None:
+    for number, places in enumerate(marks.values()):
+        colour = MARK_COLOURS[number % len(MARK_COLOURS)]
+        for place in places[:MOST_MARKS]:
+            cell.axvline(place, color=colour, linewidth=0.8, linestyle=(0, (4, 3)), zorder=1)
+
+
+def _shared_handles(cell: Axes, marks: Mapping[str, Array], *, every: bool) -> list[Any]:
+    """What the figure's own legend explains: lines that all panels have, and marks."""
+    from matplotlib.lines import Line2D
+
+    handles: list[Any] = cell.get_legend_handles_labels()[0] if every else []
+    handles = handles if len(handles) <= MOST_NAMED else []
+    for number, (name, places) in enumerate(marks.items()):
+        colour, label = MARK_COLOURS[number % len(MARK_COLOURS)], f"{plain(name)} ({len(places)})"
+        handles.append(Line2D([], [], color=colour, linewidth=0.8, linestyle=(0, (4, 3)), label=label))
+    return handles
 
 
 def save_figure(figure: Figure, path: Path) -> Path:

@@ -9,7 +9,6 @@ before the last one is whole, and a record that was broken off is known by its l
 from __future__ import annotations
 
 import contextlib
-import fcntl
 import hashlib
 import json
 import os
@@ -23,6 +22,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane.errors import FileFormatError
+from seacrane.files import sole_writer
 from seacrane.files.state import state_from_bytes
 from seacrane.result.channels import CHANNELS, NAMED
 from seacrane.result.events import Event
@@ -204,16 +204,12 @@ class PartialFile:
             If it cannot be made.
         """
         while self._number < 0:
-            self._number = os.open(self.path, os.O_RDWR | os.O_CREAT | os.O_CLOEXEC, 0o666)
-            try:
-                fcntl.flock(self._number, fcntl.LOCK_EX | fcntl.LOCK_NB)
-            except BlockingIOError:
+            self._number = sole_writer.opened(self.path)
+            if not sole_writer.claim(self._number):
                 self._close()
                 raise FileExistsError(
                     f"{self.path} is being written by another run; wait for its end, or give another name"
-                ) from None
-            except OSError:
-                pass  # a file system that cannot lock
+                )
             if not self.is_there():  # the run that had it has finished in between
                 self._close()
 
@@ -232,7 +228,7 @@ class PartialFile:
     def keep_until(self, end: int) -> None:
         """Go on after a place where a piece ends; 0: after nothing."""
         os.ftruncate(self._number, end)
-        self._end = end or os.pwrite(self._number, MAGIC, 0)
+        self._end = end or sole_writer.write_at(self._number, MAGIC, 0)
 
     def append(self, piece: Piece) -> None:
         """Add a piece, which the disk holds when this returns.
@@ -248,7 +244,7 @@ class PartialFile:
         at = self._end
         try:
             while left:
-                count = os.pwrite(self._number, left, at)
+                count = sole_writer.write_at(self._number, left, at)
                 at, left = at + count, left[count:]
             os.fsync(self._number)
         except BaseException:
@@ -261,9 +257,13 @@ class PartialFile:
         """Give it up, and remove it where it holds nothing, or nothing that is of use any more."""
         if self._number < 0:
             return
-        if (remove or os.fstat(self._number).st_size <= len(MAGIC)) and self.is_there():
+        useless = (remove or os.fstat(self._number).st_size <= len(MAGIC)) and self.is_there()
+        if useless and sole_writer.REMOVES_OPEN_FILES:
             self.path.unlink()
         self._close()
+        if useless and not sole_writer.REMOVES_OPEN_FILES:
+            with contextlib.suppress(PermissionError):  # another run has it by now
+                self.path.unlink()
 
     def _close(self) -> None:
         os.close(self._number)

@@ -24,6 +24,7 @@ from seacrane.result.events import TEXTS as EVENT_TEXTS
 from seacrane.result.events import Event, checked_events, event_arrays
 from seacrane.result.netcdf import Contents, read_arrays, write_netcdf
 from seacrane.result.partial_file import is_partial, partial_path, read_partial
+from seacrane.result.table import as_html
 
 if TYPE_CHECKING:
     import xarray
@@ -166,6 +167,10 @@ class Result(Mapping[str, Array]):
             f"<Result of {self.stats['scene']!r}: {self.time.size} outputs to {self.time[-1]:g} s, "
             f"{len(self.channels)} channels{stopped}>"
         )
+
+    def _repr_html_(self) -> str:
+        method = f"{self.stats['formulation']}, {self.stats['integrator']}"
+        return as_html(f"{repr(self)[1:-1]}; {method}, {len(self.events)} events", self.dims, self.coords)
 
     def __reduce__(self) -> tuple[Any, ...]:  # read-only mapping views cannot be pickled themselves
         parts = (

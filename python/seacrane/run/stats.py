@@ -9,6 +9,7 @@ from typing import Any
 from seacrane import _core
 from seacrane.description.file_origin import roles_to_data
 from seacrane.description.origin import origin_settings
+from seacrane.description.outline import bounds_of, outline_of
 from seacrane.files.plain_data import plain_notes
 from seacrane.run.channel_names import hanging_bodies
 from seacrane.run.method import Method
@@ -50,11 +51,14 @@ def stats_of(
     """`Result.stats` of a run so far; `start` is its start time, s."""
     recursive = formulation == "recursive"
     cranes = [roles_to_data(roles) for roles in scene.roles.values()]
+    bounds = bounds_of(scene)
     return {
         "seacrane_version": __version__,
         "scene": scene.name,
         "payload": "\n".join(hanging_bodies(scene)) or None,
         "cranes": json.dumps(cranes) if cranes else None,
+        "outline": json.dumps(outline_of(scene)),
+        "bounds": json.dumps(bounds) if bounds else None,
         "formulation": formulation,
         "integrator": method.integrator,
         "settings": settings,

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from html import escape
 from textwrap import wrap
 
 from seacrane.analysis.scene_report import elements_of
 from seacrane.description.scene import Description
+from seacrane.plotting.html import notebook_table
 
 WIDTH = 100  # characters of a line of text
 
@@ -18,7 +18,10 @@ def rows(scene: Description) -> list[tuple[str, list[str]]]:
     found.append(
         (
             "ranges",
-            [f"{name} ({limit.minimum:g} to {limit.maximum:g})" for name, limit in scene.ranges.items()],
+            [
+                f"{name} ({limit.minimum + 0.0:g} to {limit.maximum + 0.0:g})"
+                for name, limit in scene.ranges.items()
+            ],
         )
     )
     return [(kind, names) for kind, names in found if names]
@@ -38,9 +41,5 @@ def as_text(scene: Description) -> str:
 
 def as_html(scene: Description) -> str:
     """The same as a table for notebooks."""
-    held = "".join(
-        f"<tr><th style='text-align:left'>{escape(kind)}</th><td>{len(names)}</td>"
-        f"<td style='text-align:left'>{escape(', '.join(names))}</td></tr>"
-        for kind, names in rows(scene)
-    )
-    return f"<table><caption>Scene {escape(repr(scene.name))}</caption>{held}</table>"
+    held = [(kind, len(names), ", ".join(names)) for kind, names in rows(scene)]
+    return notebook_table(("", "number", "names"), held, caption=f"Scene {scene.name!r}")

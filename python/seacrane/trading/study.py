@@ -28,7 +28,7 @@ from seacrane.trading import rungs
 from seacrane.trading.diagram import Measured, work_precision
 from seacrane.trading.measure import Bench, frequency_domain, measure, measure_variant, tight_reference
 from seacrane.trading.methods import PHYSICS, measured_methods
-from seacrane.trading.table import front, write_csv
+from seacrane.trading.table import as_html, front, write_csv
 from seacrane.version import __version__
 
 if TYPE_CHECKING:
@@ -166,6 +166,9 @@ class Trade:
     def full_case(self) -> dict[str, str]:
         """What rows of the full scene have as their `case`: memory, waves, rung."""
         return {"memory": self.metadata["memory"], "waves": self.metadata["waves"], "rung": rungs.FULL}
+
+    def _repr_html_(self) -> str:
+        return as_html(self.metadata, list(self.quantities), self.pareto, len(self.rows))
 
     def plot(self) -> Figure:
         """Work-precision diagrams: error of each quantity over the wall time per simulated second."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -11,6 +11,7 @@ import numpy as np
 
 from seacrane.experiment.row import UNKNOWN, Row
 from seacrane.experiment.row_file import write_table
+from seacrane.plotting.html import notebook_table
 
 
 def front(rows: Sequence[Row], quantity: str) -> list[bool]:
@@ -39,6 +40,23 @@ def write_csv(path: Path, rows: Sequence[Row], quantities: Sequence[str], on_fro
     ]  # fmt: skip
     cells = [_cells(row, quantities, pareto) for row, pareto in zip(rows, on_front, strict=True)]
     write_table(path, columns, cells, digits=6)
+
+
+def as_html(about: Mapping[str, Any], quantities: Sequence[str], best: Sequence[Row], measured: int) -> str:
+    """The Pareto front of the first quantity, for notebooks."""
+    caption = (
+        f"Trade of {about['scene']!r}, {about['t_end']:g} s: {len(best)} of {measured} settings, which no "
+        f"other beats in both wall time and error of {quantities[0]}"
+    )
+    head = ("formulation", "integrator", "setting", "memory", "waves", "rung", "wall [ms]", *quantities)
+    rows = [
+        (
+            row.formulation, row.method.integrator, row.method.setting, *map(str, row.case.values()),
+            float(f"{1e3 * row.wall_s:.3g}"), *(float(f"{row.error(name):.2g}") for name in quantities),
+        )
+        for row in best
+    ]  # fmt: skip
+    return notebook_table(head, rows, caption=caption)
 
 
 def _cells(row: Row, quantities: Sequence[str], pareto: bool) -> list[Any]:

@@ -15,6 +15,7 @@ from seacrane.hydro.database.check import CheckRow, check_database
 from seacrane.hydro.database.figures import hydro_figures
 from seacrane.hydro.database.netcdf import load_database_file, save_database, to_xarray
 from seacrane.hydro.database.selection import Choice, selected_database
+from seacrane.hydro.database.table import as_html
 from seacrane.hydro.database.transform import mirrored_database, moved_database
 
 if TYPE_CHECKING:
@@ -136,6 +137,9 @@ class HydroDatabase(HydroData):
         ValueError : a name that is not among the figures.
         """
         return hydro_figures(database=self, what=what)
+
+    def _repr_html_(self) -> str:
+        return as_html(self)
 
     def check(self) -> list[CheckRow]:
         """Self-check: closure, symmetry, damping, natural periods, memory; see `check_database`."""

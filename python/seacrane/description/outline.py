@@ -1,0 +1,113 @@
+"""What a picture and a report of a result need to know of its scene: points of bodies, links, bounds."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from seacrane import _core
+from seacrane.description.range import Range
+from seacrane.description.scene import GROUND, Description
+
+Array = NDArray[np.float64]
+NO_BOUND = 1e7  # m or rad: a bound here or beyond is none
+GYRATION = (0.36, 0.25)  # usual radii of gyration of ships: of the breadth in roll, of the length in pitch
+
+
+def outline_of(scene: Description) -> dict[str, Any]:
+    """Points that bodies are drawn through, as plain data.
+
+    Returns
+    -------
+    dict
+        "bodies": by name "points" (joints, m from the centre of mass, body axes) and "box" (edges of the box
+        of its mass and inertia, m); a vessel has "ship" instead of a box: length and breadth by its radii of
+        gyration, m, and its origin from the centre of mass. "links": bodies and points of both ends, ground
+        points in inertial axes.
+    """
+    ships = {vessel.body for vessel in scene.vessels.values()}
+    bodies = {name: _about(body, ship=name in ships) for name, body in scene.bodies.items()}
+    links = []
+    for joint in scene.joints.values():
+        ends = _ends(scene, joint.first, joint.first_frame.point, joint.second, joint.second_frame.point)
+        for name, point in ends:
+            if name in bodies and point not in bodies[name]["points"]:
+                bodies[name]["points"].append(point)
+        if joint.kind == "distance":
+            links.append([*ends[0], *ends[1]])
+    for spring in scene.springs.values():
+        ends = _ends(scene, spring.first, spring.first_point, spring.second, spring.second_point)
+        links.append([*ends[0], *ends[1]])
+    return {"bodies": bodies, "links": links}
+
+
+def _about(body: _core.Body, *, ship: bool) -> dict[str, Any]:
+    """A body without its points."""
+    inertia = np.diag(np.asarray(body.inertia))
+    if not ship:
+        return {"points": [], "box": _box(body.mass, inertia)}
+    length, breadth = _ship(body.mass, inertia)
+    origin = (-np.asarray(body.center_of_mass)).tolist()
+    return {"points": [], "ship": {"length": length, "breadth": breadth, "origin": origin}}
+
+
+def _ends(
+    scene: Description, first: str, first_point: Any, second: str, second_point: Any
+) -> tuple[tuple[str, list[float]], tuple[str, list[float]]]:
+    return (first, _relative(scene, first, first_point)), (second, _relative(scene, second, second_point))
+
+
+def _relative(scene: Description, body: str, point: Any) -> list[float]:
+    """From the centre of mass; of the ground as it is."""
+    place = np.asarray(point, dtype=float)
+    if body != GROUND and body in scene.bodies:
+        place = place - np.asarray(scene.bodies[body].center_of_mass)
+    return [float(value) for value in place]
+
+
+def _box(mass: float, inertia: Array) -> list[float]:
+    """Edges of the even box of these principal inertias, m."""
+    squares = 6.0 * (inertia.sum() - 2.0 * inertia) / mass
+    return [float(edge) for edge in np.sqrt(np.maximum(squares, 0.0))]
+
+
+def _ship(mass: float, inertia: Array) -> tuple[float, float]:
+    roll, pitch = GYRATION
+    return float(np.sqrt(inertia[1] / mass)) / pitch, float(np.sqrt(inertia[0] / mass)) / roll
+
+
+def bounds_of(scene: Description) -> list[dict[str, Any]]:
+    """What the scene keeps within bounds, as plain data.
+
+    Returns
+    -------
+    list of dict
+        "name", "kind" (wire, stop, seat, soft stop, range), "joint", "coordinate", "minimum" and "maximum" (m
+        or rad; None where there is none), "recorded": the name under which the coordinate is recorded, or
+        None.
+    """
+    loads = scene.loads.values()
+    found: list[tuple[_core.Limit | _core.SoftStop | Range, str]] = [
+        *((load, load.kind) for load in loads if isinstance(load, _core.Limit)),
+        *((load, "soft stop") for load in loads if isinstance(load, _core.SoftStop)),
+        *((limit, "range") for limit in scene.ranges.values()),
+    ]
+    names = {place: name for name, place in scene.recorded.items()}
+    return [
+        {
+            "name": one.name,
+            "kind": kind,
+            "joint": one.joint,
+            "coordinate": one.coordinate,
+            "minimum": _bound(kind, one.minimum),
+            "maximum": _bound(kind, one.maximum),
+            "recorded": names.get((one.joint, one.coordinate)),
+        }
+        for one, kind in found
+    ]
+
+
+def _bound(kind: str, value: float) -> float | None:
+    return None if kind in ("wire", "seat") or abs(value) >= NO_BOUND else value

@@ -1,0 +1,1 @@
+"""What is installed, how it was built, and how fast it is here."""

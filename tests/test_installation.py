@@ -1,0 +1,173 @@
+"""What is installed and how it was built; one writer of a file on any platform; no module of one system."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from seacrane.cli.command_line import main
+from seacrane.files import sole_writer
+from seacrane.installation import build, packages
+from seacrane.installation.packages import chosen_packages
+from seacrane.result.partial_file import PartialFile
+
+LINES = [
+    "numpy>=2.0",
+    "scipy >=1.10",
+    'tomli>=2; python_version < "3.11"',
+    'pytest>=7; extra == "dev"',
+    'capytaine>=3.0; extra == "hydro"',
+    "PyYAML; extra == 'orcaflex'",
+]
+WITHOUT_POSIX = """
+import sys, types
+locked = {}
+def locking(number, mode, count):
+    import os
+    at, file = os.lseek(number, 0, os.SEEK_CUR), os.fstat(number).st_ino
+    if file in locked:
+        raise PermissionError(13, "locked")
+    locked[file] = (at, count)
+fake = types.ModuleType("msvcrt")
+fake.LK_NBLCK, fake.locking = 2, locking
+sys.modules["msvcrt"] = fake
+for name in ("fcntl", "resource", "pwd", "grp", "termios", "pty", "posix_ipc"):
+    sys.modules[name] = None
+"""
+
+
+def python(code: str, *arguments: str) -> str:
+    """Standard output of a fresh interpreter in which POSIX's modules are absent."""
+    command = [sys.executable, "-c", WITHOUT_POSIX + code, *arguments]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+    return done.stdout
+
+
+def test_every_module_is_imported_without_the_modules_of_posix() -> None:
+    counted = python(
+        "import pkgutil, seacrane, importlib\n"
+        "names = [m.name for m in pkgutil.walk_packages(seacrane.__path__, 'seacrane.')]\n"
+        "for name in names:\n"
+        "    if not name.endswith('__main__'): importlib.import_module(name)\n"
+        "print(len(names))\n"
+    )
+    assert int(counted) > 150
+
+
+def test_a_file_has_one_writer_without_fcntl(tmp_path: Path) -> None:
+    told = python(
+        "from pathlib import Path\n"
+        "from seacrane.result.partial_file import PartialFile, Piece\n"
+        "import numpy as np\n"
+        "one, two = PartialFile(Path(sys.argv[1])), PartialFile(Path(sys.argv[1]))\n"
+        "one.claim(); one.keep_until(0)\n"
+        "one.append(Piece(arrays={'time': np.arange(3.0)}, coords={}, stats={}))\n"
+        "print([piece.outputs for piece, _ in one.pieces()])\n"
+        "try: two.claim()\n"
+        "except FileExistsError as error: print(error)\n"
+        "(at, count), = locked.values()\n"
+        "print(at > 10**9, count)\n",
+        str(tmp_path / "run.nc.partial"),
+    ).splitlines()
+    assert told[0] == "[3]" and told[2] == "True 1"
+    assert told[1].endswith("is being written by another run; wait for its end, or give another name")
+
+
+def test_a_second_writer_is_refused_here_too(tmp_path: Path) -> None:
+    one, two = (PartialFile(tmp_path / "run.nc.partial") for _ in range(2))
+    one.claim()
+    with pytest.raises(FileExistsError, match="is being written by another run"):
+        two.claim()
+    one.release(remove=True)
+    two.claim()
+    two.release(remove=True)
+    assert not list(tmp_path.iterdir())
+
+
+def test_where_open_files_stay_they_are_removed_once_closed(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(sole_writer, "REMOVES_OPEN_FILES", False)
+    file = PartialFile(tmp_path / "run.nc.partial")
+    file.claim()
+    file.release(remove=True)
+    assert not list(tmp_path.iterdir())
+
+
+def test_a_system_that_cannot_lock_counts_as_free(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(sole_writer, "_module", lambda name: None)
+    number = sole_writer.opened(tmp_path / "file")
+    try:
+        assert sole_writer.claim(number) and sole_writer.write_at(number, b"abc", 2) == 3
+    finally:
+        os.close(number)
+    assert (tmp_path / "file").read_bytes() == b"\0\0abc"
+
+
+def test_the_core_tells_its_compiler() -> None:
+    facts = build.build_facts()
+    file = build.core_file()
+    assert file is not None and facts["core"].startswith(file.name)
+    assert "compiler" in facts and Path(facts["installed in"]).name == "seacrane"
+
+
+@pytest.mark.parametrize(
+    ("core", "facts"),
+    [
+        (b"\0GCC: (Debian 12.2.0-14) 12.2.0\0", {"compiler": "GCC: (Debian 12.2.0-14) 12.2.0"}),
+        (b"..clang version 17.0.6 ..", {"compiler": "clang version 17.0.6"}),
+        (b"..__asan_init..", {"instrumented": "AddressSanitizer: slow"}),
+        (b"nothing", {}),
+    ],
+)
+def test_what_a_core_was_built_with_is_read_from_it(core: bytes, facts: dict[str, str]) -> None:
+    assert build._inside(core) == facts
+
+
+def test_requirements_become_packages_with_what_to_do() -> None:
+    installed = {"numpy": "2.4.1", "scipy": "1.9.3"}
+    found = chosen_packages(LINES, lambda name: installed.get(name, ""))
+    assert [(one.name, one.extra, one.good) for one in found] == [
+        ("numpy", "", True),
+        ("scipy", "", False),
+        ("capytaine", "hydro", False),
+        ("PyYAML", "orcaflex", False),
+    ]
+    assert found[1].words == "1.9.3, too old: 1.10 or newer is needed; pip install 'scipy>=1.10'"
+    assert found[2].words == "not installed; pip install 'seacrane[hydro]'"
+
+
+def test_versions_are_compared_as_numbers() -> None:
+    (one,) = chosen_packages(["numpy>=2.9"], lambda name: "2.10.0rc1")
+    assert one.good
+
+
+def test_the_doctor_finds_all_that_is_needed_or_names_it(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(packages, "requires", lambda name: ["numpy>=2.0", "absent-thing>=9"])
+    assert main(["doctor"]) == 1
+    told = capsys.readouterr().out
+    assert "missing: absent-thing: not installed; pip install 'absent-thing>=9'" in told
+    assert "speed" not in told
+    monkeypatch.setattr(packages, "requires", lambda name: ["numpy>=2.0", "absent>=1; extra == 'view'"])
+    assert main(["doctor"]) == 0
+    told = capsys.readouterr().out
+    assert "times real time" in told and "absent [view]" in told and "all that is needed is there" in told
+
+
+def test_the_shell_is_answered_where_argcomplete_is_installed(tmp_path: Path) -> None:
+    pytest.importorskip("argcomplete")
+    answer = tmp_path / "answer"
+    line = "seacrane re"
+    environment = os.environ | {
+        "_ARGCOMPLETE": "1", "_ARGCOMPLETE_STDOUT_FILENAME": str(answer), "COMP_LINE": line,
+        "COMP_POINT": str(len(line)), "_ARGCOMPLETE_IFS": " ",
+    }  # fmt: skip
+    subprocess.run([sys.executable, "-m", "seacrane"], env=environment, check=False, capture_output=True)
+    assert answer.read_text().split() == ["report"]

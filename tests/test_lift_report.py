@@ -1,0 +1,218 @@
+"""The report of one run: any scene, true numbers, safe names, one list of sections."""
+
+from __future__ import annotations
+
+import json
+from html import unescape
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from test_report import Page
+from test_result import crane_result, crane_run, vessel_result
+
+from seacrane import Event, FileFormatError, Frame, Report, Result, Scene, SceneError, cases, report, simulate
+from seacrane.reporting.limits import judged_bounds
+from seacrane.reporting.measures import statistics_of
+from seacrane.reporting.registry import SECTIONS
+from seacrane.reporting.section import Section, compose
+
+NASTY = "<img src=x onerror=alert(1)>&\"'"
+
+
+def titles(page: Report) -> list[str]:
+    return [part.split("</h2>")[0] for part in page.html.split("<h2>")[1:]]
+
+
+def swinging(*, wire: bool, speed: float = 3.0, name: str = "swing", body: str = "ball") -> Scene:
+    scene = Scene(name=name)
+    scene.add_body(
+        name=body, mass=100.0, inertia=np.eye(3), position=(0.0, 0.0, -2.0), velocity=(speed, 0.0, 0.0)
+    )
+    scene.add_joint(
+        name="rope", kind="distance", first="ground", second=body, first_frame=Frame(),
+        second_frame=Frame(), length=2.0,
+    )  # fmt: skip
+    scene.add_roles(link="rope")
+    if wire:
+        scene.add_wire(joint="rope")
+    return scene
+
+
+@pytest.fixture(scope="module")
+def lift() -> Result:
+    return simulate(cases.case2(), t_end=3.0)
+
+
+@pytest.fixture(scope="module")
+def page(lift: Result) -> Report:
+    return report(lift)
+
+
+def test_a_lift_leads_with_loads_and_ends_with_the_engines_tables(page: Report) -> None:
+    assert titles(page) == [
+        "At a glance", "Particulars", "Scene", "Link and wire tension", "Limits", "Statistics", "Histories",
+        "Payload track", "Warnings", "Checks", "Cost", "Provenance",
+    ]  # fmt: skip
+
+
+def test_the_page_is_whole_and_needs_nothing_outside(page: Report) -> None:
+    read = Page(page.html)
+    assert len(read.sources) == 4 and all(one.startswith("data:image/png;base64,") for one in read.sources)
+    assert "@media print" in page.html and "x forward, y to port, z up" in read.text
+
+
+def test_statistics_are_those_of_the_channels(lift: Result, page: Report) -> None:
+    row = Page(page.html).row("link tension")
+    tension = lift["link_tension"] / 1e3
+    expected = [
+        tension.max(), lift.time[tension.argmax()], tension.min(), lift.time[tension.argmin()],
+        tension.mean(), tension.std(),
+    ]  # fmt: skip
+    assert row[0] == "kN"
+    assert [float(cell) for cell in row[1:]] == pytest.approx(expected, rel=1e-3)
+
+
+def test_curves_that_are_rounding_are_not_stated() -> None:
+    run = crane_run(t_end=5.0)
+    run["arrays"]["vessel_motion"][:, 1] = 1e-16
+    found, left_out = statistics_of(Result.from_arrays(**run))
+    named = [one.title for one in found]
+    assert "vessel motion sway" not in named and "vessel motion heave" in named and left_out >= 1
+
+
+@pytest.mark.parametrize(
+    "result",
+    [vessel_result(t_end=5.0), crane_result(t_end=5.0), crane_result(payload=False, t_end=5.0)],
+    ids=["vessel", "of 0.1", "no payload"],
+)
+def test_any_result_has_a_report(result: Result) -> None:
+    page = report(result)
+    assert {"At a glance", "Statistics", "Histories", "Checks", "Provenance"} <= set(titles(page))
+    assert "Scene" not in titles(page), "nothing was noted to draw"
+
+
+def test_a_result_of_one_channel_and_one_output_has_a_report() -> None:
+    run = crane_run(t_end=1.0, waves=False)
+    arrays = {"constraint_error": run["arrays"]["constraint_error"][:1]}
+    page = report(Result.from_arrays(**(run | {"arrays": arrays, "time": run["time"][:1]})))
+    assert titles(page) == ["At a glance", "Particulars", "Warnings", "Checks", "Cost", "Provenance"]
+
+
+def test_an_interrupted_run_with_values_that_are_none(tmp_path: Path) -> None:
+    run = crane_run(t_end=5.0)
+    run["arrays"]["link_tension"][-1] = np.nan
+    page = report(Result.from_arrays(**run, interrupted=True))
+    assert "Interrupted: the run ended at 5 s" in page.html and "nan" not in Page(page.html).row(
+        "link tension"
+    )
+
+
+def test_names_are_escaped_everywhere() -> None:
+    scene = swinging(wire=True, name=NASTY, body=NASTY)
+    scene.notes["<b>note</b>"] = NASTY
+    page = report(simulate(scene, t_end=0.2), title=NASTY)
+    assert "<img src=x" not in page.html and "<b>note" not in page.html
+    read = Page(page.html)
+    assert NASTY in read.text and all(one.startswith("data:") for one in read.sources)
+    assert unescape(page._repr_html_().split('srcdoc="')[1].split('" title')[0]) == page.html
+
+
+def test_links_and_wires_are_judged() -> None:
+    (rod,) = judged_bounds(simulate(swinging(wire=False, speed=2.0), t_end=1.0))
+    assert (rod.name, rod.kind, rod.held, rod.words) == ("rope", "link", True, "pulled throughout")
+    (taut,) = judged_bounds(simulate(swinging(wire=True, speed=2.0), t_end=1.0))
+    assert (taut.kind, taut.held, taut.words) == ("wire", True, "taut throughout")
+    (slack,) = judged_bounds(simulate(swinging(wire=True, speed=8.0), t_end=3.0))
+    assert slack.held is False and slack.words.startswith("slack once, hardest snatch ")
+
+
+def test_ranges_are_judged_by_what_was_recorded(lift: Result) -> None:
+    bounds = {one.name: one for one in judged_bounds(lift)}
+    assert bounds["main_cylinder"].bound == "0 to 5 m" and bounds["main_cylinder"].held
+    described = json.loads(str(lift.stats["bounds"]))
+    described[0]["maximum"] = 1e-4 * float(lift["stroke"].max())
+    described[0]["minimum"] = -1.0
+    far = {**lift.stats, "bounds": json.dumps(described)}
+    arrays = {**lift.channels, "coordinate": lift["coordinate"] + 0.5}
+    moved = Result.from_arrays(time=lift.time, arrays=arrays, coords=lift.coords, stats=far)
+    broken = {one.name: one for one in judged_bounds(moved)}["main_cylinder"]
+    assert broken.held is False and broken.words.endswith("m beyond")
+    assert "of 3 not held" in report(moved).html
+    unknown = {name: values for name, values in lift.channels.items() if name != "coordinate"}
+    silent = Result.from_arrays(time=lift.time, arrays=unknown, coords=lift.coords, stats=lift.stats)
+    assert {one.held for one in judged_bounds(silent) if one.kind == "range"} == {None}
+
+
+def test_a_stop_that_was_hit_is_told() -> None:
+    scene = Scene(name="stop", gravity=0.0)
+    scene.add_body(name="slide", mass=1.0, inertia=np.eye(3), velocity=(0.0, 0.0, 1.0))
+    scene.add_joint(kind="prismatic", name="rail", first="ground", second="slide", point=(0.0, 0.0, 0.0))
+    scene.record_coordinate(joint="rail")
+    scene.add_end_stop(joint="rail", maximum=0.5, restitution=0.5)
+    (hit,) = judged_bounds(simulate(scene, t_end=1.0))
+    assert (hit.kind, hit.bound, hit.held) == ("stop", " to 0.5 m", False)
+    assert hit.words.startswith("hit once, fastest 1")
+
+
+def test_events_are_listed_and_long_lists_are_cut() -> None:
+    run = crane_run(t_end=5.0)
+    many = [Event(time=0.01 * i, name="rope", kind="contact", impulse=2.5) for i in range(250)]
+    html = report(Result.from_arrays(**run, events=many)).html
+    assert "50 later events are not shown" in html and html.count("<td>contact</td>") == 200
+
+
+def test_checks_that_fail_are_told() -> None:
+    run = crane_run(t_end=5.0)
+    run["arrays"]["constraint_error"] += 1e-3
+    run["arrays"]["energy_balance"] = 0.5 * run["arrays"]["absolute_work"]
+    html = report(Result.from_arrays(**run)).html
+    assert "do not use the numbers before this is understood" in html
+    assert "Energy is off by more than 0.001" in html and "not passed" in html
+
+
+def test_a_section_is_a_small_value() -> None:
+    one: Section[Any] = Section(title="<Fatigue>", applies=bool, html=lambda subject: f"<p>{subject}</p>")
+    assert "<h2>&lt;Fatigue&gt;</h2>\n<p>7</p>" in compose(title="t", lead="", sections=[one], subject=7)
+    assert "Fatigue" not in compose(title="t", lead="", sections=[one], subject=0)
+    assert len({section.title for section in SECTIONS}) == len(SECTIONS)
+
+
+def test_a_report_is_saved_once(page: Report, tmp_path: Path) -> None:
+    path = page.save(tmp_path / "lift.html")
+    assert path.read_text(encoding="utf-8") == page.html
+    with pytest.raises(FileExistsError, match=r"lift\.html is there already"):
+        page.save(path)
+    assert page.save(path, overwrite=True) == path
+    assert repr(page).startswith("<Report 'case2': ")
+
+
+def test_what_is_no_result_is_refused() -> None:
+    with pytest.raises(SceneError, match=r"result is a Scene; give what simulate\(\)"):
+        report(Scene())  # type: ignore[arg-type]
+
+
+NOTES = {
+    "no JSON": ({"bounds": "{"}, "section 'At a glance' cannot be made: JSONDecodeError"),
+    "no list": ({"bounds": "7"}, "section 'At a glance' cannot be made: TypeError"),
+    "an unknown kind": ({"bounds": '[{"kind": "spell"}]'}, "cannot be made: KeyError: 'spell'"),
+    "an outline of text": ({"outline": '{"bodies": {"king": "x"}}'}, "section 'Scene' cannot be made"),
+}
+
+
+@pytest.mark.parametrize("case", NOTES)
+def test_notes_that_no_run_writes_are_told(case: str) -> None:
+    notes, message = NOTES[case]
+    run = crane_run(t_end=1.0)
+    run["stats"] |= notes
+    with pytest.raises(FileFormatError, match=message):
+        report(Result.from_arrays(**run))
+
+
+def test_a_run_that_left_a_channel_open_has_a_report() -> None:
+    run = crane_run(t_end=2.0)
+    for name in ("link_tension", "vessel_motion", "cylinder_force"):
+        run["arrays"][name][:] = np.nan
+    page = report(Result.from_arrays(**run, interrupted=True))
+    assert "Largest link tension" not in page.html and "Largest slew torque" in page.html
