@@ -52,8 +52,8 @@ def page(lift: Result) -> Report:
 
 def test_a_lift_leads_with_loads_and_ends_with_the_engines_tables(page: Report) -> None:
     assert titles(page) == [
-        "At a glance", "Particulars", "Scene", "Link and wire tension", "Limits", "Statistics", "Histories",
-        "Payload track", "Warnings", "Checks", "Cost", "Provenance",
+        "At a glance", "Particulars", "Scene", "In three dimensions", "Link and wire tension", "Limits",
+        "Statistics", "Histories", "Payload track", "Warnings", "Checks", "Cost", "Provenance",
     ]  # fmt: skip
 
 
@@ -61,6 +61,11 @@ def test_the_page_is_whole_and_needs_nothing_outside(page: Report) -> None:
     read = Page(page.html)
     assert len(read.sources) == 4 and all(one.startswith("data:image/png;base64,") for one in read.sources)
     assert "@media print" in page.html and "x forward, y to port, z up" in read.text
+
+
+def test_a_result_without_its_scene_has_no_three_dimensions(lift: Result, tmp_path: Path) -> None:
+    lift.save(tmp_path / "lift.nc")
+    assert "In three dimensions" not in titles(report(Result.load(tmp_path / "lift.nc")))
 
 
 def test_statistics_are_those_of_the_channels(lift: Result, page: Report) -> None:

@@ -14,12 +14,14 @@ from seacrane.reporting.provenance import PROVENANCE
 from seacrane.reporting.scene_picture import SCENE_PICTURE
 from seacrane.reporting.section import Section
 from seacrane.reporting.statistics import STATISTICS
+from seacrane.reporting.three_dimensions import THREE_DIMENSIONS
 from seacrane.result import Result
 
 SECTIONS: tuple[Section[Result], ...] = (
     GLANCE,
     PARTICULARS,
     SCENE_PICTURE,
+    THREE_DIMENSIONS,
     LOADS,
     LIMITS,
     STATISTICS,

@@ -25,6 +25,7 @@ pre { white-space: pre-wrap; overflow-wrap: anywhere; font-size: 0.8em; backgrou
 .bad { color: #a83f00; font-weight: bold; }
 @page { size: A4; margin: 16mm; }
 @media print {
+  .screen { display: none; }
   body { margin: 0; padding: 0; max-width: none; font-size: 10pt; }
   figure, tr, .card { break-inside: avoid; }
   h2, h3 { break-after: avoid; }
