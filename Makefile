@@ -76,7 +76,7 @@ demo: build
 lint: .venv/.installed-dev
 	$(BIN)/ruff check .
 	$(BIN)/mypy
-	$(BIN)/clang-format --dry-run --Werror $(CPP_FILES)
+	@$(BIN)/clang-format --dry-run --Werror $(CPP_FILES)
 
 # The package's build folder already holds the compiled core: only the tests themselves are added.
 cpp-test: build
