@@ -94,7 +94,8 @@ scene = cases.case2()
 ticks = [SampledController(period=0.1, function=lambda now, measured: {})]
 def work(number):
     while True:
-        simulate(scene, t_end=[0.5, 1e7, 50.0][number], controllers=ticks if number else [])
+        simulate(scene, t_end=[0.5, 1e7, 50.0][number], dt_out=0.1 if number != 1 else 1e3,
+                 controllers=ticks if number else [])
 for number in range(3):
     threading.Thread(target=work, args=(number,), daemon=True).start()
 time.sleep(0.3)
@@ -104,9 +105,10 @@ time.sleep(0.3)
 @pytest.mark.parametrize("times", [2, pytest.param(24, marks=pytest.mark.nightly)])
 def test_the_interpreter_ends_while_threads_are_in_the_loop(times: int) -> None:
     for _ in range(times):
-        ended = subprocess.run([sys.executable, "-c", EXIT], capture_output=True, text=True, timeout=GENEROUS)
+        command = [sys.executable, "-W", "ignore", "-c", EXIT]
+        ended = subprocess.run(command, capture_output=True, text=True, timeout=GENEROUS)
         assert ended.returncode == 0, ended.stderr
-        assert "FATAL" not in ended.stderr
+        assert ended.stderr == ""
 
 
 FORK = """

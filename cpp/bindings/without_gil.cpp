@@ -5,7 +5,6 @@
 #include <atomic>
 #include <condition_variable>
 #include <mutex>
-#include <stdexcept>
 #include <thread>
 
 namespace {
@@ -39,7 +38,10 @@ void wait_for_threads() {
 bool WithoutGil::should_return() { return threads().ending && threads().last != std::this_thread::get_id(); }
 
 WithoutGil::Counted::Counted() : process(::getpid()) {
-  if (should_return()) throw std::domain_error("run: the interpreter is ending; nothing is begun any more");
+  if (should_return()) {
+    PyErr_SetString(PyExc_SystemExit, "the interpreter is ending; nothing is begun any more");
+    throw py::error_already_set();
+  }
   Threads& all = threads();
   const std::lock_guard lock(all.mutex);
   if (all.process != process) {

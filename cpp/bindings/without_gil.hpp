@@ -6,7 +6,8 @@
 
 /// Gives the interpreter's lock back for a while, as py::gil_scoped_release does, and keeps the interpreter
 /// from ending meanwhile: a thread that asks an ending interpreter for the lock is cut off in the middle of
-/// C++, which aborts the process. Raises in a thread other than the one that ends it.
+/// C++, which aborts the process. In a thread other than the one that ends it, raises SystemExit, which ends
+/// a thread in silence: a traceback that is printed while the interpreter ends can abort the process too.
 class WithoutGil {
  public:
   WithoutGil() = default;
