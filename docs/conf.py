@@ -1,7 +1,7 @@
 """The site: every Markdown document where it lies, the notebooks executed, the API from the docstrings.
 
-Sources are read from the root of the repository (`sphinx-build -c docs . out/site`), so that a link which works
-in the repository works on the site.
+Sources are read from the root of the repository (`sphinx-build -c docs . out/site`), so that a link which
+works in the repository works on the site.
 """
 
 from __future__ import annotations
@@ -14,6 +14,7 @@ HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE / "site"))
 
 import api_pages  # noqa: E402
+import docstrings  # noqa: E402
 import links  # noqa: E402
 import navigation  # noqa: E402
 import notebook_cache  # noqa: E402
@@ -32,7 +33,7 @@ include_patterns = [
     "CHANGELOG.md",
     "docs/*.md",
     "docs/api/*.rst",
-    "benchmarks/**/*.md",
+    "benchmarks/**.md",
     "notebooks/*.md",
 ]
 exclude_patterns = [".*", "build", "out", "dist", "**/node_modules"]
@@ -65,6 +66,8 @@ def setup(app: Any) -> None:
     """Connects what is ours."""
     api_pages.write(HERE / "api")
     app.connect("doctree-read", navigation.add_toctrees, priority=400)  # before Sphinx collects them
+    app.connect("autodoc-process-docstring", docstrings.keep_bars)
     app.connect("doctree-read", links.link_named_documents)
+    app.connect("doctree-read", links.link_exact_names)
     app.connect("doctree-read", links.unlink_folders)
     app.connect("missing-reference", links.public_name)

@@ -6,11 +6,12 @@ import inspect
 from pathlib import Path
 
 import public_face
+
 import seacrane
 
 
 def write(folder: Path) -> None:
-    """Write the pages; those of rooms that are gone vanish, and those that stay as they are keep their date."""
+    """Write the pages; those of rooms that are gone vanish, those that stay as they are keep their date."""
     folder.mkdir(exist_ok=True)
     pages = {folder / f"{room}.rst": page(room, names) for room, names in public_face.pages().items()}
     for old in set(folder.glob("*.rst")) - set(pages):

@@ -40,8 +40,15 @@ def unlink_folders(app: Any, doctree: nodes.document) -> None:
             link.replace_self(link.children)
 
 
+def link_exact_names(app: Any, doctree: nodes.document) -> None:
+    """A word of a docstring's type, such as "time", is no link to any attribute that ends so."""
+    for link in doctree.findall(addnodes.pending_xref):
+        if link.get("refdomain") == "py":
+            link.attributes.pop("refspecific", None)
+
+
 def public_name(app: Any, env: Any, node: addnodes.pending_xref, content: nodes.Element) -> Any:
-    """A class or function that a docstring or a signature names by its own module leads to its public name."""
+    """A class or function that a docstring or signature names by its module leads to its public name."""
     public = _homes().get(node.get("reftarget", ""))
     if node.get("refdomain") != "py" or public is None:
         return None

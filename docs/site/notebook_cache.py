@@ -1,4 +1,4 @@
-"""Where outputs of notebooks are kept: apart for each state of the package, so that none is older than the code."""
+"""Where outputs of notebooks are kept: apart for each state of the package; none outlives its code."""
 
 from __future__ import annotations
 

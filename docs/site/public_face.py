@@ -56,5 +56,5 @@ def _callables(face: ModuleType) -> list[str]:
 def _room(public: str, value: Any) -> str:
     """The public module that offers the value, else the part of the package that holds it."""
     name = public.rpartition(".")[2]
-    offered = [room for room, face in _modules().items() if getattr(face, name, None) is value]
+    offered = [room for room, face in _modules().items() if name in _callables(face)]
     return offered[0] if offered else value.__module__.split(".")[1]
