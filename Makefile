@@ -125,8 +125,9 @@ extremes: build .venv/.installed-dev
 bench: build .venv/.installed-dev
 	$(BIN)/python benchmarks/run.py $(BENCH_ARGS)
 
+# Read afresh each time: what stayed unread would keep its warnings to itself.
 docs: build .venv/.installed-dev
-	$(BIN)/python -m sphinx --fail-on-warning --keep-going --quiet -c docs -d build/doctrees . out/site
+	$(BIN)/python -m sphinx --fresh-env --fail-on-warning --keep-going --quiet -c docs -d build/doctrees . out/site
 	@echo "the site: $(CURDIR)/out/site/index.html"
 
 CASES ?= 1000000

@@ -59,7 +59,7 @@ autodoc_typehints_format = "short"
 python_use_unqualified_type_names = True
 python_maximum_signature_line_length = 90
 napoleon_google_docstring = False
-napoleon_use_ivar = True
+napoleon_custom_sections = [("Attributes", "params_style")]  # several names share a line
 
 
 def setup(app: Any) -> None:
@@ -67,6 +67,7 @@ def setup(app: Any) -> None:
     api_pages.write(HERE / "api")
     app.connect("doctree-read", navigation.add_toctrees, priority=400)  # before Sphinx collects them
     app.connect("autodoc-process-docstring", docstrings.keep_bars)
+    app.connect("autodoc-process-signature", docstrings.shorten_arrays)
     app.connect("doctree-read", links.link_named_documents)
     app.connect("doctree-read", links.link_exact_names)
     app.connect("doctree-read", links.unlink_folders)

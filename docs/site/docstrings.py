@@ -1,4 +1,4 @@
-"""Docstrings as reStructuredText."""
+"""Docstrings and signatures as the site shows them."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ import re
 from typing import Any
 
 LITERAL = re.compile(r"(``.*?``)")
+ARRAY = re.compile(r"[~.\w]*ndarray\[tuple\[[~.\w]*Any, \.\.\.\], [~.\w]*dtype\[[~.\w]*?(\w+)\]\]")
 
 
 def keep_bars(app: Any, kind: str, name: str, value: Any, options: Any, lines: list[str]) -> None:
@@ -14,3 +15,11 @@ def keep_bars(app: Any, kind: str, name: str, value: Any, options: Any, lines: l
         parts = LITERAL.split(line)
         parts[::2] = [part.replace("|", r"\|") for part in parts[::2]]
         lines[at] = "".join(parts)
+
+
+def shorten_arrays(
+    app: Any, kind: str, name: str, value: Any, options: Any, arguments: str | None, answer: str | None
+) -> tuple[str | None, str | None]:
+    """An array of any shape as it is written in the code: NDArray[float64]."""
+    short = [text and ARRAY.sub(r"NDArray[\1]", text) for text in (arguments, answer)]
+    return short[0], short[1]
