@@ -158,6 +158,6 @@ format: .venv/.installed-dev
 	$(BIN)/clang-format -i $(CPP_FILES)
 
 clean:
-	rm -rf build out .pytest_cache .mypy_cache .ruff_cache .hypothesis .venv/.installed-seacrane
+	rm -rf build out docs/api .pytest_cache .mypy_cache .ruff_cache .hypothesis .venv/.installed-seacrane
 distclean: clean
 	rm -rf .venv

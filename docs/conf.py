@@ -67,7 +67,7 @@ def setup(app: Any) -> None:
     api_pages.write(HERE / "api")
     app.connect("doctree-read", navigation.add_toctrees, priority=400)  # before Sphinx collects them
     app.connect("autodoc-process-docstring", docstrings.keep_bars)
-    app.connect("autodoc-process-signature", docstrings.shorten_arrays)
+    app.connect("autodoc-process-signature", docstrings.shorten)
     app.connect("doctree-read", links.link_named_documents)
     app.connect("doctree-read", links.link_exact_names)
     app.connect("doctree-read", links.unlink_folders)

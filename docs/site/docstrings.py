@@ -17,9 +17,11 @@ def keep_bars(app: Any, kind: str, name: str, value: Any, options: Any, lines: l
         lines[at] = "".join(parts)
 
 
-def shorten_arrays(
+def shorten(
     app: Any, kind: str, name: str, value: Any, options: Any, arguments: str | None, answer: str | None
 ) -> tuple[str | None, str | None]:
-    """An array of any shape as it is written in the code: NDArray[float64]."""
-    short = [text and ARRAY.sub(r"NDArray[\1]", text) for text in (arguments, answer)]
+    """Arrays of any shape as the code writes them, NDArray[float64]; defaults that are made anew as `...`."""
+    short = [
+        text and ARRAY.sub(r"NDArray[\1]", text).replace("<factory>", "...") for text in (arguments, answer)
+    ]
     return short[0], short[1]
