@@ -1,9 +1,10 @@
 # make demo     the paper's figures and report in out/demo
 # make test     everything that CI checks: lint, types, formatting, C++ tests (plain and sanitized), Python tests
 # make build    the package in .venv, rebuilt only where something changed
-# make nightly  longer tests, every check of the sanitizers, ThreadSanitizer (make cpp-tsan), the stability atlas
-#                  (make extremes) and benchmarks (make bench)
+# make nightly  longer tests, every check of the sanitizers, ThreadSanitizer (make cpp-tsan), the site (make docs),
+#                  the stability atlas (make extremes) and benchmarks (make bench)
 # make stubs    python/seacrane/_core.pyi
+# make docs     the site in out/site, its notebooks executed; any warning is an error
 # make bench-peers  the same crane in Pinocchio, MuJoCo, Exudyn and NumPy, in an environment of their own;
 #                   either of the two with BENCH_ARGS=--publish writes into benchmarks/ (on an idle machine)
 # make viewer   the script of the three-dimensional page, bundled with three.js (needs npm)
@@ -16,8 +17,8 @@ SHELL := /bin/bash
 .SHELLFLAGS := -euo pipefail -c
 .DELETE_ON_ERROR:
 .DEFAULT_GOAL := build
-.PHONY: demo test build nightly bench bench-peers extremes stubs viewer format clean distclean lint cpp-test cpp-sanitize \
-        cpp-tsan python-test fuzz system-packages FORCE
+.PHONY: demo test build nightly bench bench-peers docs extremes stubs viewer format clean distclean lint cpp-test \
+        cpp-sanitize cpp-tsan python-test fuzz system-packages FORCE
 
 ifndef PYTHON
 PYTHON := $(shell .ci/find-python)
@@ -47,7 +48,7 @@ $(BIN)/python: | system-packages
 	$(PIP) install -q -r .venv/requirements-run.txt
 	touch $@
 .venv/.installed-dev: .venv/.installed-run
-	$(BIN)/python .ci/requirements.py build run dev bench > .venv/requirements-dev.txt
+	$(BIN)/python .ci/requirements.py build run dev bench docs > .venv/requirements-dev.txt
 	$(PIP) install -q -r .venv/requirements-dev.txt
 	touch $@
 
@@ -114,6 +115,7 @@ nightly: build .venv/.installed-dev
 	$(BIN)/python -m pytest -m nightly $(PYTEST_ARGS)
 	$(MAKE) --no-print-directory cpp-sanitize SANITIZE_BUILD=build/sanitize-all SANITIZE_NOT=
 	$(MAKE) --no-print-directory cpp-tsan
+	$(MAKE) --no-print-directory docs
 	$(MAKE) --no-print-directory extremes
 	$(MAKE) --no-print-directory bench
 
@@ -122,6 +124,11 @@ extremes: build .venv/.installed-dev
 
 bench: build .venv/.installed-dev
 	$(BIN)/python benchmarks/run.py $(BENCH_ARGS)
+
+# Read afresh each time: what stayed unread would keep its warnings to itself.
+docs: build .venv/.installed-dev
+	$(BIN)/python -m sphinx --fresh-env --fail-on-warning --keep-going --quiet -c docs -d build/doctrees . out/site
+	@echo "the site: $(CURDIR)/out/site/index.html"
 
 CASES ?= 1000000
 fuzz: build .venv/.installed-dev
@@ -151,6 +158,6 @@ format: .venv/.installed-dev
 	$(BIN)/clang-format -i $(CPP_FILES)
 
 clean:
-	rm -rf build out .pytest_cache .mypy_cache .ruff_cache .hypothesis .venv/.installed-seacrane
+	rm -rf build out docs/api .pytest_cache .mypy_cache .ruff_cache .hypothesis .venv/.installed-seacrane
 distclean: clean
 	rm -rf .venv

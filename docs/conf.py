@@ -1,0 +1,74 @@
+"""The site: every Markdown document where it lies, the notebooks executed, the API from the docstrings.
+
+Sources are read from the root of the repository (`sphinx-build -c docs . out/site`), so that a link which
+works in the repository works on the site.
+"""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+from typing import Any
+
+HERE = Path(__file__).resolve().parent
+sys.path.insert(0, str(HERE / "site"))
+
+import api_pages  # noqa: E402
+import docstrings  # noqa: E402
+import links  # noqa: E402
+import navigation  # noqa: E402
+import notebook_cache  # noqa: E402
+
+import seacrane  # noqa: E402
+
+project = "seacrane"
+author = "The seacrane developers"
+copyright = author
+version = release = seacrane.__version__
+
+extensions = ["myst_nb", "sphinx.ext.autodoc", "sphinx.ext.autosummary", "sphinx.ext.napoleon"]
+root_doc = "docs/index"
+include_patterns = [
+    "README.md",
+    "CHANGELOG.md",
+    "docs/*.md",
+    "docs/api/*.rst",
+    "benchmarks/**.md",
+    "notebooks/*.md",
+]
+exclude_patterns = [".*", "build", "out", "dist", "**/node_modules"]
+
+html_theme = "furo"
+html_title = f"seacrane {version}"
+templates_path = ["site/templates"]
+html_additional_pages = {"index": "redirect.html"}
+html_copy_source = False
+
+myst_heading_anchors = 6  # as GitHub makes them
+
+nb_execution_mode = "cache"
+nb_execution_cache_path = str(notebook_cache.folder(HERE.parent / "build" / "notebooks"))
+nb_execution_in_temp = True
+nb_execution_raise_on_error = True
+nb_execution_timeout = 300
+
+default_role = "py:obj"
+autosummary_generate = False
+autodoc_member_order = "bysource"
+autodoc_typehints_format = "short"
+python_use_unqualified_type_names = True
+python_maximum_signature_line_length = 90
+napoleon_google_docstring = False
+napoleon_custom_sections = [("Attributes", "params_style")]  # several names share a line
+
+
+def setup(app: Any) -> None:
+    """Connects what is ours."""
+    api_pages.write(HERE / "api")
+    app.connect("doctree-read", navigation.add_toctrees, priority=400)  # before Sphinx collects them
+    app.connect("autodoc-process-docstring", docstrings.keep_bars)
+    app.connect("autodoc-process-signature", docstrings.shorten)
+    app.connect("doctree-read", links.link_named_documents)
+    app.connect("doctree-read", links.link_exact_names)
+    app.connect("doctree-read", links.unlink_folders)
+    app.connect("missing-reference", links.public_name)

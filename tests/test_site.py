@@ -1,0 +1,91 @@
+"""The site: its navigation holds every document and its pages every public name; a wrong link fails it."""
+
+from __future__ import annotations
+
+import importlib
+import re
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+import seacrane
+
+ROOT = Path(__file__).resolve().parents[1]
+LISTED = re.compile(r"^- \[[^]]+\]\(([^)]+)\)", re.MULTILINE)
+INDEX = "# Site\n\nA first page.\n\n## To read\n\n- [Page](page.md): words\n- [Interface](api.md)\n"
+PAGE = "# Page\n\nSee `docs/api.md`, [the package](../python) and [its list](../python/names.pyi).\n"
+
+
+@pytest.fixture
+def face(monkeypatch: pytest.MonkeyPatch) -> Any:
+    monkeypatch.syspath_prepend(str(ROOT / "docs" / "site"))
+    return importlib.import_module("public_face")
+
+
+def test_the_first_page_lists_every_document() -> None:
+    docs = ROOT / "docs"
+    listed = {(docs / link).resolve() for link in LISTED.findall((docs / "index.md").read_text("utf-8"))}
+    there = {*docs.glob("*.md"), *ROOT.glob("*.md"), *(ROOT / "benchmarks").glob("**/*.md")}
+    assert listed == there - {docs / "index.md"}
+
+
+def test_every_public_name_is_on_one_page(face: Any) -> None:
+    names = [name for page in face.pages().values() for name in page]
+    assert len(names) == len(set(names))
+    own = {f"seacrane.{name}" for name in seacrane.__all__ if callable(getattr(seacrane, name))}
+    assert own <= set(names)
+    values = {id(getattr(seacrane.hydro, name)) for name in seacrane.hydro.__all__}
+    on_page = {id(getattr(seacrane.hydro, name.rpartition(".")[2])) for name in face.pages()["hydro"]}
+    assert on_page == values
+
+
+def test_a_name_of_two_homes_stands_under_the_shorter_one(face: Any) -> None:
+    assert "seacrane.HydroDatabase" in face.pages()["hydro"]
+    assert "seacrane.hydro.HydroDatabase" not in face.pages()["hydro"]
+    assert face.homes()["seacrane.scene.scene.Scene"] == "seacrane.Scene"
+
+
+@pytest.fixture
+def small_site(tmp_path: Path) -> Path:
+    """The site's own settings with two short documents."""
+    pytest.importorskip("furo", reason="the site's packages are missing: pip install seacrane[docs]")
+    pytest.importorskip("myst_nb", reason="the site's packages are missing: pip install seacrane[docs]")
+    docs = tmp_path / "docs"
+    shutil.copytree(ROOT / "docs" / "site", docs / "site", ignore=shutil.ignore_patterns("__pycache__"))
+    shutil.copy(ROOT / "docs" / "conf.py", docs)
+    (tmp_path / "python").mkdir()
+    (tmp_path / "python" / "names.pyi").write_text("", encoding="utf-8")
+    texts = {"index": INDEX, "page": PAGE, "api": "# Python interface\n\n`seacrane.Scene` and others.\n"}
+    for name, text in texts.items():
+        (docs / f"{name}.md").write_text(text, encoding="utf-8")
+    return tmp_path
+
+
+def build(site: Path) -> subprocess.CompletedProcess[str]:
+    """Without the pages of docstrings, which take longer than all others; `make docs` builds them."""
+    options = ["-W", "--keep-going", "-q", "-c", "docs", "-D", "include_patterns=docs/*.md"]
+    command = [sys.executable, "-m", "sphinx", *options, ".", "out"]
+    return subprocess.run(command, cwd=site, capture_output=True, text=True, check=False)
+
+
+def test_a_small_site_builds_without_a_warning(small_site: Path) -> None:
+    done = build(small_site)
+    assert done.returncode == 0, done.stderr
+    page = (small_site / "out" / "docs" / "page.html").read_text(encoding="utf-8")
+    assert 'href="api.html"' in page.split("<article")[1], "a document named in code letters is linked"
+    assert "names.pyi" in page, "a file of code can be downloaded"
+    assert 'href="../python"' not in page
+    assert "To read" in page.split("<article")[0], "the lists of the first page are the navigation"
+    assert "url=docs/index.html" in (small_site / "out" / "index.html").read_text(encoding="utf-8")
+    assert (small_site / "docs" / "api" / "scene.rst").is_file()
+
+
+def test_a_link_that_leads_nowhere_fails_the_build(small_site: Path) -> None:
+    (small_site / "docs" / "page.md").write_text("# Page\n\n[Gone](gone.md)\n", encoding="utf-8")
+    done = build(small_site)
+    assert done.returncode != 0
+    assert "gone.md" in done.stderr
