@@ -1,8 +1,8 @@
 # make demo     the paper's figures and report in out/demo
-# make test     everything that CI checks: lint, types, formatting, C++ tests (plain and sanitized), Python tests
+# make test     everything that CI checks: lint, types, formatting, sanitized C++ tests, Python tests
 # make build    the package in .venv, rebuilt only where something changed
-# make nightly  longer tests, every check of the sanitizers, ThreadSanitizer (make cpp-tsan), the site (make docs),
-#                  the stability atlas (make extremes) and benchmarks (make bench)
+# make nightly  longer tests, C++ tests optimised and with every check of the sanitizers, ThreadSanitizer
+#                  (make cpp-tsan), the site (make docs), the stability atlas (make extremes), benchmarks (make bench)
 # make stubs    python/seacrane/_core.pyi
 # make docs     the site in out/site, its notebooks executed; any warning is an error
 # make bench-peers  the same crane in Pinocchio, MuJoCo, Exudyn and NumPy, in an environment of their own;
@@ -17,8 +17,8 @@ SHELL := /bin/bash
 .SHELLFLAGS := -euo pipefail -c
 .DELETE_ON_ERROR:
 .DEFAULT_GOAL := build
-.PHONY: demo test build nightly bench bench-peers docs extremes stubs viewer format clean distclean lint cpp-test \
-        cpp-sanitize cpp-tsan python-test fuzz system-packages FORCE
+.PHONY: demo test build nightly bench bench-peers docs extremes stubs viewer format clean distclean lint \
+        cpp-test cpp-allocations cpp-sanitize cpp-tsan python-test fuzz system-packages FORCE
 
 ifndef PYTHON
 PYTHON := $(shell .ci/find-python)
@@ -84,6 +84,10 @@ cpp-test: build
 	cmake --build $(PACKAGE_BUILD) --target seacrane_tests
 	ctest --test-dir $(PACKAGE_BUILD) --output-on-failure --no-tests=error -j $(JOBS)
 
+cpp-allocations: build
+	cmake --build $(PACKAGE_BUILD) --target seacrane_allocation_tests
+	$(PACKAGE_BUILD)/cpp/tests/seacrane_allocation_tests
+
 # Checks of every reference for null and alignment more than double the time of compiling; what reads through a
 # null pointer ends under AddressSanitizer too. `make nightly` has them.
 SANITIZE_NOT ?= null,alignment
@@ -105,14 +109,16 @@ cpp-tsan: system-packages
 python-test: build .venv/.installed-dev
 	$(BIN)/python -m pytest -n $(JOBS) --dist worksteal $(PYTEST_ARGS)
 
+# The sanitized build runs every C++ test; the optimised one those that count allocations (all: make cpp-test).
 test:
 	$(MAKE) --no-print-directory lint
-	$(MAKE) --no-print-directory cpp-test
+	$(MAKE) --no-print-directory cpp-allocations
 	$(MAKE) --no-print-directory cpp-sanitize
 	$(MAKE) --no-print-directory python-test
 
 nightly: build .venv/.installed-dev
 	$(BIN)/python -m pytest -m nightly $(PYTEST_ARGS)
+	$(MAKE) --no-print-directory cpp-test
 	$(MAKE) --no-print-directory cpp-sanitize SANITIZE_BUILD=build/sanitize-all SANITIZE_NOT=
 	$(MAKE) --no-print-directory cpp-tsan
 	$(MAKE) --no-print-directory docs
