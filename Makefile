@@ -3,6 +3,7 @@
 # make build    the package in .venv, rebuilt only where something changed
 # make nightly  longer tests, C++ tests optimised and with every check of the sanitizers, ThreadSanitizer
 #                  (make cpp-tsan), the site (make docs), the stability atlas (make extremes), benchmarks (make bench)
+# make notebooks  the notebooks in JupyterLab, with everything they need (NOTEBOOKS_ARGS: arguments of jupyter lab)
 # make stubs    python/seacrane/_core.pyi
 # make docs     the site in out/site, its notebooks executed; any warning is an error
 # make bench-peers  the same crane in Pinocchio, MuJoCo, Exudyn and NumPy, in an environment of their own;
@@ -17,7 +18,7 @@ SHELL := /bin/bash
 .SHELLFLAGS := -euo pipefail -c
 .DELETE_ON_ERROR:
 .DEFAULT_GOAL := build
-.PHONY: demo test build nightly bench bench-peers docs extremes stubs viewer format clean distclean lint \
+.PHONY: demo test build nightly bench bench-peers docs extremes notebooks stubs viewer format clean distclean lint \
         cpp-test cpp-allocations cpp-sanitize cpp-tsan python-test fuzz system-packages FORCE
 
 ifndef PYTHON
@@ -147,6 +148,19 @@ bench-peers: build .venv/.installed-dev
 	out/peers/bin/python -m pip install -q -r benchmarks/peers/requirements.txt
 	OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 $(BIN)/python benchmarks/peers/run.py --peers out/peers/bin/python \
 	  $(BENCH_ARGS)
+
+# Notebooks are kept as text; what opens in JupyterLab are copies, made again where the text has changed.
+.venv/.installed-notebooks: .venv/.installed-run
+	$(BIN)/python .ci/requirements.py notebooks > .venv/requirements-notebooks.txt
+	$(PIP) install -q -r .venv/requirements-notebooks.txt
+	touch $@
+
+out/notebooks/%.ipynb: notebooks/%.md .venv/.installed-notebooks
+	@mkdir -p $(@D)
+	$(BIN)/python -m jupytext --quiet --to ipynb --output $@ $<
+
+notebooks: build $(patsubst %.md,out/%.ipynb,$(wildcard notebooks/*.md))
+	$(BIN)/python -m jupyterlab --notebook-dir=out/notebooks $(NOTEBOOKS_ARGS)
 
 # Default arguments that are objects print as `...`; tests/test_packaging.py runs the same command.
 STUB_OPTIONS := --exit-code --ignore-invalid-expressions '<seacrane\._core\.\w+ object at 0x[0-9a-f]+>'

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 import subprocess
 import sys
+import tomllib
 from pathlib import Path
 from typing import Any
 
@@ -38,6 +39,17 @@ def outputs(notebook: Any, kind: str) -> list[Any]:
 
 def test_there_is_a_notebook() -> None:
     assert [path.name for path in NOTEBOOKS][:1] == ["01_first_lift.md"]
+
+
+def test_notebooks_are_numbered_without_a_gap() -> None:
+    assert [int(path.name.split("_")[0]) for path in NOTEBOOKS] == list(range(1, len(NOTEBOOKS) + 1))
+
+
+def test_what_opens_notebooks_can_be_installed_by_itself() -> None:
+    """`make notebooks` installs the extra alone: it must hold what this file runs them with, and Jupyter."""
+    extras = tomllib.loads((REPOSITORY / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+    wanted = {re.split("[<>=]", line)[0] for line in extras["optional-dependencies"]["notebooks"]}
+    assert wanted >= {"ipykernel", "ipywidgets", "jupyterlab", "jupytext", "pytest"}
 
 
 @pytest.mark.parametrize("path", NOTEBOOKS, ids=lambda path: path.stem)

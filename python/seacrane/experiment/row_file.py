@@ -77,7 +77,10 @@ def completed(
     progress : bool
         Whether to show it.
     """
-    from tqdm.auto import tqdm
+    if progress:
+        from tqdm.auto import tqdm
+    else:
+        from tqdm import tqdm  # the other one warns in a notebook without widgets, even when it shows nothing
 
     wanted = list(dict.fromkeys(keys))
     missing = [key for key in wanted if key not in file.rows]
