@@ -98,7 +98,7 @@ def slender() -> Hull:
 
 
 def test_capytaine_gives_the_same_kind_of_database() -> None:
-    pytest.importorskip("capytaine")
+    pytest.importorskip("capytaine", reason="capytaine absent: pip install .[hydro]")
     grid = {"omega": [0.05, 0.9, 1.1], "heading": np.radians([0.0, 90.0, 120.0])}
     centre = [float(slender().hydrostatics.centre_of_buoyancy[0]), 0.0, -1.5]
     one = hydro_from_hull(slender(), centre_of_gravity=centre, method="capytaine", **grid)
@@ -119,7 +119,7 @@ def test_capytaine_gives_the_same_kind_of_database() -> None:
 
 
 def test_capytaine_one_heading_one_frequency_and_too_many_panels() -> None:
-    pytest.importorskip("capytaine")
+    pytest.importorskip("capytaine", reason="capytaine absent: pip install .[hydro]")
     hull = slender().at_centre_of_buoyancy()
     single = hydro_from_hull(
         hull, centre_of_gravity=[0.0, 0.0, -1.5], method="capytaine", omega=[1.0], heading=[1.0]
@@ -135,7 +135,7 @@ def test_capytaine_one_heading_one_frequency_and_too_many_panels() -> None:
 @pytest.mark.nightly
 def test_the_difference_to_strip_theory_is_that_of_the_ends() -> None:
     """With a parallel midbody of one more length, the ends and with them the errors weigh half as much."""
-    pytest.importorskip("capytaine")
+    pytest.importorskip("capytaine", reason="capytaine absent: pip install .[hydro]")
     omega, heading = np.array([1.0, 1.2]), np.array([np.pi])
     errors = []
     for more in (0.0, 115.0):
@@ -163,7 +163,7 @@ def test_the_difference_to_strip_theory_is_that_of_the_ends() -> None:
 
 @pytest.mark.nightly
 def test_capytaine_reproduces_the_shipped_database() -> None:
-    pytest.importorskip("capytaine")
+    pytest.importorskip("capytaine", reason="capytaine absent: pip install .[hydro]")
     hull = Hull.from_parametric(SHIPPED, stations=56, girth=20)
     i = int(np.abs(panel().omega - 1.0).argmin())
     found = hydro_from_hull(

@@ -300,7 +300,6 @@ def test_files_and_tables_name_the_vessels(tmp_path: Path) -> None:
 
 
 def test_an_overview_shows_every_vessel() -> None:
-    pytest.importorskip("matplotlib")
     from seacrane.figures.overview import overview_sheet
 
     sheet = overview_sheet(simulate(two_hulls(), t_end=2.0))

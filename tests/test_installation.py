@@ -162,7 +162,7 @@ def test_the_doctor_finds_all_that_is_needed_or_names_it(
 
 
 def test_the_shell_is_answered_where_argcomplete_is_installed(tmp_path: Path) -> None:
-    pytest.importorskip("argcomplete")
+    pytest.importorskip("argcomplete", reason="needs the extra 'completion'")
     answer = tmp_path / "answer"
     line = "seacrane re"
     environment = os.environ | {

@@ -79,8 +79,6 @@ def parts(state: State, **change: Any) -> State:
 @pytest.mark.parametrize("integrator", ONE_STEP)
 @pytest.mark.parametrize("name", SCENES)
 def test_a_run_goes_on_bit_for_bit(name: str, integrator: str, formulation: str) -> None:
-    if name == "case2" and integrator in ("rosenbrock", "semi-implicit-euler"):
-        pytest.skip("slow there")
     scene = SCENES[name]()
     settings: dict[str, Any] = {"integrator": integrator, "formulation": formulation, **ONE_STEP[integrator]}
     whole = run(scene, **settings)

@@ -18,7 +18,7 @@ MOTIONS = ("Sway", "Heave", "Roll")
 
 def barge(length: float) -> Any:
     """Mesh of a box barge, panels 3.2 m long and finer towards the edges of the section."""
-    capytaine = pytest.importorskip("capytaine")
+    capytaine = pytest.importorskip("capytaine", reason="capytaine absent: pip install .[hydro]")
     z = -0.5 * DRAUGHT * (1.0 - np.cos(np.pi * np.linspace(0.0, 1.0, 6)))
     y = HALF * np.sin(0.5 * np.pi * np.linspace(-1.0, 1.0, 17))
     x = np.linspace(-0.5, 0.5, round(length / 3.2) + 1) * length
@@ -44,7 +44,7 @@ def barge(length: float) -> Any:
 
 def added_mass_and_damping(length: float) -> Any:
     """Diagonal terms (omega, motion, 2) by Capytaine."""
-    capytaine = pytest.importorskip("capytaine")
+    capytaine = pytest.importorskip("capytaine", reason="capytaine absent: pip install .[hydro]")
     body, solver = barge(length), capytaine.BEMSolver()
 
     def solve(omega: float, motion: str) -> tuple[float, float]:
