@@ -90,12 +90,13 @@ cpp-allocations: build
 	$(PACKAGE_BUILD)/cpp/tests/seacrane_allocation_tests
 
 # Checks of every reference for null and alignment more than double the time of compiling; what reads through a
-# null pointer ends under AddressSanitizer too. `make nightly` has them.
+# null pointer ends under AddressSanitizer too. `make nightly` has them, and compiles every file by itself.
 SANITIZE_NOT ?= null,alignment
+UNITY ?= ON
 cpp-sanitize: system-packages
 	cmake -S . -B $(SANITIZE_BUILD) -G Ninja -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG='-O1 -g1' \
 	  -DSEACRANE_PYTHON=OFF -DSEACRANE_TESTS=ON -DSEACRANE_SANITIZE=address,undefined \
-	  -DSEACRANE_SANITIZE_NOT=$(SANITIZE_NOT)
+	  -DSEACRANE_SANITIZE_NOT=$(SANITIZE_NOT) -DSEACRANE_UNITY=$(UNITY)
 	cmake --build $(SANITIZE_BUILD) --target seacrane_tests
 	ctest --test-dir $(SANITIZE_BUILD) --output-on-failure --no-tests=error -j $(JOBS)
 
@@ -120,7 +121,7 @@ test:
 nightly: build .venv/.installed-dev
 	$(BIN)/python -m pytest -m nightly $(PYTEST_ARGS)
 	$(MAKE) --no-print-directory cpp-test
-	$(MAKE) --no-print-directory cpp-sanitize SANITIZE_BUILD=build/sanitize-all SANITIZE_NOT=
+	$(MAKE) --no-print-directory cpp-sanitize SANITIZE_BUILD=build/sanitize-all SANITIZE_NOT= UNITY=OFF
 	$(MAKE) --no-print-directory cpp-tsan
 	$(MAKE) --no-print-directory docs
 	$(MAKE) --no-print-directory extremes

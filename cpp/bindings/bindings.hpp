@@ -6,7 +6,11 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
+#include <limits>
+
 namespace py = pybind11;
+
+inline constexpr double infinity = std::numeric_limits<double>::infinity();
 
 void bind_channels(py::module_& m);
 void bind_copies();

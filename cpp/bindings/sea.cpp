@@ -12,8 +12,6 @@ using namespace seacrane;
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
 /// An integer of Python or NumPy; anything else, or one out of range, is a ValueError with the fix.
 std::uint64_t whole_number(const py::object& value, const std::string& name, std::uint64_t smallest,
                            std::uint64_t largest) {
@@ -33,9 +31,9 @@ std::uint64_t whole_number(const py::object& value, const std::string& name, std
   return number;
 }
 
-Placement placement_of(const std::string& name) {
-  if (name == "jittered") return Placement::jittered;
-  if (name == "uniform") return Placement::uniform;
+FrequencyPlacement placement_of(const std::string& name) {
+  if (name == "jittered") return FrequencyPlacement::jittered;
+  if (name == "uniform") return FrequencyPlacement::uniform;
   throw py::value_error("wave realisation: placement is '" + name + "'; give 'jittered' or 'uniform'");
 }
 

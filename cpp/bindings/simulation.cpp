@@ -11,7 +11,7 @@ namespace {
 
 Array to_array(const std::vector<double>& v) { return Array(static_cast<py::ssize_t>(v.size()), v.data()); }
 
-std::vector<double> to_vector(const Array& a) { return {a.data(), a.data() + a.size()}; }
+std::vector<double> to_values(const Array& a) { return {a.data(), a.data() + a.size()}; }
 
 /// Asks Python for Ctrl-C and reports progress; called every 20 ms of wall time. What another signal's
 /// handler raises is passed on.
@@ -186,7 +186,7 @@ void bind_steps(py::module_& m) {
       "formulation, integrator or scene, or other values or inputs, start from the values alone.")
       .def(py::init(
                [](std::string formulation, std::string integrator, const Array& values, const Array& rate) {
-                 return S{std::move(formulation), std::move(integrator), to_vector(values), to_vector(rate)};
+                 return S{std::move(formulation), std::move(integrator), to_values(values), to_values(rate)};
                }),
            py::kw_only(), py::arg("formulation"), py::arg("integrator"), py::arg("values"), py::arg("rate"))
       .def_property_readonly("formulation", [](const S& s) { return s.formulation; })
@@ -215,7 +215,7 @@ void bind_options(py::module_& m) {
                                max_step,
                                spectral_radius,
                                energy_limit,
-                               to_vector(output_times),
+                               to_values(output_times),
                                capacity,
                                std::move(channels)};
            }),
@@ -237,7 +237,7 @@ void bind_record(py::module_& m) {
       "rad), energy lost in impacts (J), and the last recorded quaternions.")
       .def(py::init([](double start_energy, double start_work, double residual, double impact_loss,
                        const Array& quaternions) {
-             return R{start_energy, start_work, residual, impact_loss, to_vector(quaternions)};
+             return R{start_energy, start_work, residual, impact_loss, to_values(quaternions)};
            }),
            py::kw_only(), py::arg("start_energy"), py::arg("start_work"), py::arg("residual"),
            py::arg("impact_loss"), py::arg("quaternions"))
@@ -266,8 +266,8 @@ void bind_simulation(py::module_& m) {
                        std::optional<std::vector<std::string>> closed, std::optional<RecordHistory> record,
                        std::vector<std::string> parts) {
              return State{time,
-                          to_vector(values),
-                          to_vector(inputs),
+                          to_values(values),
+                          to_values(inputs),
                           std::move(histories),
                           std::move(steps),
                           std::move(closed),
@@ -340,7 +340,7 @@ void bind_simulation(py::module_& m) {
       .def(
           "set_inputs",
           [](S& s, const Array& slots) {
-            s.alone([&](Simulation& run) { run.set_inputs(to_vector(slots)); });
+            s.alone([&](Simulation& run) { run.set_inputs(to_values(slots)); });
           },
           py::arg("slots"), "Sets the zero-order-held inputs from now on.")
       .def(

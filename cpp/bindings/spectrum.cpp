@@ -7,12 +7,6 @@
 
 using namespace seacrane;
 
-namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
-}  // namespace
-
 void bind_spectrum(py::module_& m) {
   py::class_<Spectrum, std::shared_ptr<Spectrum>>(m, "Spectrum",
                                                   "One-sided wave spectrum S(omega) in m2 s/rad; immutable. "

@@ -3,14 +3,16 @@
 #include <vector>
 
 #include "bindings.hpp"
+#include "sea_arrays.hpp"
 #include "seacrane/strip/section_radiation.hpp"
 #include "seacrane/strip/strip_theory.hpp"
 #include "without_gil.hpp"
 
 using namespace seacrane::strip;
-using Doubles = py::array_t<double, py::array::c_style | py::array::forcecast>;
 
 namespace {
+
+constexpr const char* kStripTheory = "strip theory";
 
 constexpr const char* strip_theory_doc =
     R"(Strip theory of Salvesen, Tuck and Faltinsen (1970) for a port-starboard symmetric hull in deep water.
@@ -93,14 +95,6 @@ Close-fit sources on straight panels (Frank, NSRDC report 2375, 1967), with a ri
 surface against irregular frequencies. Sections thinner than 2 % are solved as 2 % thick: a stem in sway is
 a plate.)";
 
-std::vector<double> to_vector(const Doubles& a, const std::string& name) {
-  if (a.ndim() != 1) {
-    throw py::value_error("strip theory: " + name + " has " + std::to_string(a.ndim()) +
-                          " dimensions; give a one-dimensional array");
-  }
-  return {a.data(), a.data() + a.size()};
-}
-
 HalfSection to_section(const Doubles& a, const std::string& name) {
   if (a.ndim() != 2 || a.shape(1) != 2) {
     throw py::value_error("strip theory: " + name + " must have shape (points, 2), columns y and z in m");
@@ -131,7 +125,7 @@ py::array each(const std::vector<Of>& items, Item Of::*member, const std::vector
   return to_array(out, shape);
 }
 
-void ask_python() {
+void check_interrupt() {
   if (WithoutGil::should_return()) throw std::domain_error("strip theory: the interpreter is ending");
   const py::gil_scoped_acquire acquire;
   if (PyErr_CheckSignals() != 0) throw py::error_already_set();
@@ -140,10 +134,10 @@ void ask_python() {
 py::dict bound_section_radiation(const Doubles& points, const Doubles& omega, double rho, double g,
                                  int panels) {
   const HalfSection section = to_section(points, "points");
-  const std::vector<double> w = to_vector(omega, "omega");
+  const std::vector<double> w = to_vector(omega, kStripTheory, "omega");
   const SectionRadiation r = [&] {
     const WithoutGil released;
-    return section_radiation(section, w, {rho, g, panels}, &ask_python);
+    return section_radiation(section, w, {rho, g, panels}, &check_interrupt);
   }();
   const std::vector<py::ssize_t> n{static_cast<py::ssize_t>(w.size())};
   py::dict out;
@@ -157,14 +151,18 @@ py::dict bound_section_radiation(const Doubles& points, const Doubles& omega, do
 
 py::dict bound_strip_theory(const Doubles& x, const std::vector<Doubles>& sections, const Doubles& omega,
                             const Doubles& heading, double speed, double rho, double g, int panels) {
-  StripCase input{to_vector(x, "x"), {}, to_vector(omega, "omega"), to_vector(heading, "heading"), speed,
+  StripCase input{to_vector(x, kStripTheory, "x"),
+                  {},
+                  to_vector(omega, kStripTheory, "omega"),
+                  to_vector(heading, kStripTheory, "heading"),
+                  speed,
                   {rho, g, panels}};
   for (std::size_t i = 0; i < sections.size(); ++i) {
     input.sections.push_back(to_section(sections[i], "sections[" + std::to_string(i) + "]"));
   }
   const StripResult r = [&] {
     const WithoutGil released;
-    return strip_theory(input, &ask_python);
+    return strip_theory(input, &check_interrupt);
   }();
   const auto n = static_cast<py::ssize_t>(input.omega.size());
   const auto m = static_cast<py::ssize_t>(input.heading.size());

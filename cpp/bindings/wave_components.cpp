@@ -17,7 +17,6 @@ using namespace seacrane;
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 const char* const object = "wave components";
 
 /// One value for all components, or one for each.

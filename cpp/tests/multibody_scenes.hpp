@@ -31,6 +31,14 @@ inline Mat3d rotation_by(const Vec3d& angle) {
   return angle.norm() > 0.0 ? Mat3d(Eigen::AngleAxisd(angle.norm(), angle.normalized())) : Mat3d::Identity();
 }
 
+inline Vec6d twist(const BodyKinematics<double>& k) {
+  return (Vec6d() << k.velocity, k.angular_velocity).finished();
+}
+
+/// Five-point differences with h = 1e-3 of functions of size 1 to 10 whose fifth derivatives are below 1e3:
+/// truncation below 1e3 h^4 / 30 = 3e-11, rounding about 1e-15 / h = 1e-12.
+inline constexpr double kDifference = 1e-9;
+
 /// Derivative by five points: error h^4 / 30 of the fifth derivative.
 template <class F>
 auto slope(F&& f, double h = 1e-3) {

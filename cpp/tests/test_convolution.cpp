@@ -37,7 +37,7 @@ std::complex<double> response(std::complex<double> z, double w, double t) {
 /// Speed in heave and acceleration in roll jump at t = 0: cos(w t) and sin(w t) from there on.
 constexpr double w = 0.9;
 
-Vec6d twist(double t) {
+Vec6d twist_at(double t) {
   Vec6d v = Vec6d::Zero();
   v[2] = std::cos(w * t);
   v[3] = std::sin(w * t);
@@ -60,21 +60,21 @@ double pitch_load(double t) {
 double roll_load(double t) { return response(a, w, t).imag(); }
 
 /// Largest error of the load on pitch and roll within 25 s.
-double largest_error(double step) {
+double error_with_step(double step) {
   const Convolution tables(functions(step));
   RunningConvolution memory(tables);
-  memory.start(0.0, twist(0.0), first_rate());
+  memory.start(0.0, twist_at(0.0), first_rate());
   double worst = 0.0;
   while (memory.next() < 25.0) {
     const double from = memory.next() - step;
     for (const double part : {0.0, 0.3, 0.77, 1.0}) {
       const double t = from + part * step;
-      const Vec6d mu = memory.evaluate(t, twist(t));
+      const Vec6d mu = memory.evaluate(t, twist_at(t));
       worst = std::max(worst, std::abs(mu[4] - pitch_load(t)));
       worst = std::max(worst, std::abs(mu[3] - roll_load(t)));
       CHECK(mu[2] == 0.0);
     }
-    memory.sample(twist(memory.next()));
+    memory.sample(twist_at(memory.next()));
   }
   return worst;
 }
@@ -82,7 +82,7 @@ double largest_error(double step) {
 }  // namespace
 
 TEST_CASE("convolution of harmonic motion with exponentials converges to fourth order") {
-  const double coarse = largest_error(0.2), fine = largest_error(0.1), finest = largest_error(0.05);
+  const double coarse = error_with_step(0.2), fine = error_with_step(0.1), finest = error_with_step(0.05);
   CAPTURE(coarse);
   CAPTURE(fine);
   CAPTURE(finest);
@@ -94,12 +94,12 @@ TEST_CASE("convolution of harmonic motion with exponentials converges to fourth 
 TEST_CASE("the load of a convolution is continuous at its samples") {
   const Convolution tables(functions(0.1));
   RunningConvolution memory(tables);
-  memory.start(0.0, twist(0.0), first_rate());
+  memory.start(0.0, twist_at(0.0), first_rate());
   for (int i = 0; i < 600; ++i) {
     const double t = memory.next();
-    const Vec6d before = memory.evaluate(t, twist(t));
-    memory.sample(twist(t));
-    CHECK((memory.evaluate(t, twist(t)) - before).cwiseAbs().maxCoeff() < 1e-13);
+    const Vec6d before = memory.evaluate(t, twist_at(t));
+    memory.sample(twist_at(t));
+    CHECK((memory.evaluate(t, twist_at(t)) - before).cwiseAbs().maxCoeff() < 1e-13);
   }
 }
 
@@ -107,15 +107,15 @@ TEST_CASE("a convolution goes on from its history bit for bit") {
   const Convolution tables(functions(0.1));
   for (const int samples : {0, 1, 2, 57, 900}) {
     RunningConvolution memory(tables), again(tables);
-    memory.start(0.5, twist(0.0), first_rate());
-    for (int i = 0; i < samples; ++i) memory.sample(twist(0.1 * i));
+    memory.start(0.5, twist_at(0.0), first_rate());
+    for (int i = 0; i < samples; ++i) memory.sample(twist_at(0.1 * i));
     const double t = memory.next() - 0.04;
     again.restore(t, memory.save());
     for (int i = 0; i < 3; ++i) {
       CHECK(again.next() == memory.next());
-      CHECK(again.evaluate(t, twist(t)) == memory.evaluate(t, twist(t)));
-      memory.sample(twist(t));
-      again.sample(twist(t));
+      CHECK(again.evaluate(t, twist_at(t)) == memory.evaluate(t, twist_at(t)));
+      memory.sample(twist_at(t));
+      again.sample(twist_at(t));
     }
   }
 }

@@ -43,7 +43,9 @@ double dense_error(const std::string& name, double h) {
   return largest;
 }
 
-double slope(double coarse, double fine, double ratio) { return std::log(coarse / fine) / std::log(ratio); }
+double loglog_slope(double coarse, double fine, double ratio) {
+  return std::log(coarse / fine) / std::log(ratio);
+}
 
 /// A step at which the error of a method of this order is neither rounding nor beyond its leading term.
 double step_for(int order) {
@@ -65,9 +67,9 @@ TEST_CASE("the one-step methods have their order on a smooth nonlinear problem")
     const double coarse = error_at_end(fixed(name, step));
     const double middle = error_at_end(fixed(name, 0.5 * step));
     const double fine = error_at_end(fixed(name, 0.25 * step));
-    MESSAGE(name, " observed order ", slope(coarse, middle, 2.0), " ", slope(middle, fine, 2.0), ", error ",
-            fine);
-    CHECK(slope(middle, fine, 2.0) == doctest::Approx(order).epsilon(0.08));
+    MESSAGE(name, " observed order ", loglog_slope(coarse, middle, 2.0), " ", loglog_slope(middle, fine, 2.0),
+            ", error ", fine);
+    CHECK(loglog_slope(middle, fine, 2.0) == doctest::Approx(order).epsilon(0.08));
   }
 }
 
@@ -86,7 +88,7 @@ TEST_CASE("methods that choose step and order themselves: error against the numb
     };
     const auto [loose, few] = run(1e-6);
     const auto [tight, many] = run(1e-10);
-    const double observed = slope(loose, tight, many / few);
+    const double observed = loglog_slope(loose, tight, many / few);
     MESSAGE(name, " observed order ", observed, ", steps ", few, " and ", many);
     CHECK(observed > 0.87 * method.order);
     CHECK(observed < 1.25 * method.order);
@@ -100,7 +102,7 @@ TEST_CASE("dense output of the one-step methods has its order") {
     const std::string name = method.name;
     CAPTURE(name);
     const double order = method.dense_order, step = 0.05 * std::pow(2.0, std::max(order - 4.0, 0.0));
-    const double observed = slope(dense_error(name, step), dense_error(name, 0.5 * step), 2.0);
+    const double observed = loglog_slope(dense_error(name, step), dense_error(name, 0.5 * step), 2.0);
     MESSAGE(name, " local order of dense output ", observed);
     // The local error of order p falls like the step to the power p + 1.
     CHECK(observed > order + 0.7);
@@ -115,8 +117,8 @@ TEST_CASE("the error of the adaptive methods falls in proportion to the toleranc
     const double loose = error_at_end(with_tolerance(name, 1e-4));
     const double tight = error_at_end(with_tolerance(name, 1e-9));
     MESSAGE(name, " error ", loose, " at 1e-4, ", tight, " at 1e-9");
-    CHECK(slope(loose, tight, 1e5) > 0.55);
-    CHECK(slope(loose, tight, 1e5) < 1.35);
+    CHECK(loglog_slope(loose, tight, 1e5) > 0.55);
+    CHECK(loglog_slope(loose, tight, 1e5) < 1.35);
     CHECK(loose < 1e-4 * 200.0);
     CHECK(tight < 1e-9 * 500.0);
   }

@@ -9,10 +9,6 @@
 namespace seacrane::test {
 namespace {
 
-// Five-point differences with h = 1e-3 of functions of size 1 to 10 whose fifth derivatives are below 1e3:
-// truncation below 1e3 h^4 / 30 = 3e-11, rounding about 1e-15 / h = 1e-12.
-constexpr double kDifference = 1e-9;
-
 /// The type's example, its first body at the state points.
 template <class Type>
 JointData random_joint(Random& random) {
@@ -34,10 +30,6 @@ RowBlock<double> evaluate(const JointData& j, const BodyKinematics<double>& a,
   RowBlock<double> out;
   Type::template evaluate<double>(JointGeometry<double>(j, a, b), j, out);
   return out;
-}
-
-Vec6d twist(const BodyKinematics<double>& k) {
-  return (Vec6d() << k.velocity, k.angular_velocity).finished();
 }
 
 /// Second body at the pose of the first: so an example is closed.

@@ -45,7 +45,7 @@ double apart(std::vector<Vec6d> a, const std::vector<Vec6d>& b) {
   return largest(a);
 }
 
-std::vector<SceneDescription> scenes() {
+std::vector<SceneDescription> loaded_scenes() {
   Random random(3);
   return {slider_crank(), at_sea(true), strut_scene(random, true, false), parallelogram(3)};
 }
@@ -55,7 +55,7 @@ std::vector<SceneDescription> scenes() {
 TEST_CASE(
     "the response to loads is what they accelerate while the joints hold: M a = load + D^T l, D a = 0") {
   Random random(8);
-  for (const SceneDescription& scene : scenes()) {
+  for (const SceneDescription& scene : loaded_scenes()) {
     CAPTURE(scene.name);
     Evaluated at(scene);
     std::vector<Vec6d> load = at.zeros();
@@ -105,7 +105,7 @@ TEST_CASE("the response to an actuator's unit force is what one newton more acce
 }
 
 TEST_CASE("the response to loads allocates nothing") {
-  for (const SceneDescription& scene : scenes()) {
+  for (const SceneDescription& scene : loaded_scenes()) {
     Evaluated at(scene);
     const std::vector<Vec6d> load(at.zeros().size(), Vec6d::Ones());
     std::vector<Vec6d> found = at.zeros();

@@ -6,9 +6,6 @@
 namespace seacrane::test {
 namespace {
 
-// Bounds of the five-point differences, as in test_joints.cpp.
-constexpr double kDifference = 1e-9;
-
 std::vector<double> random_values(Random& random, int count) {
   std::vector<double> out(static_cast<std::size_t>(count));
   for (double& value : out) value = random.number();
@@ -40,10 +37,6 @@ struct OneBranch {
     tree.speeds = tree.columns = 6 + c.speeds;
   }
 };
-
-Vec6d twist(const BodyKinematics<double>& k) {
-  return (Vec6d() << k.velocity, k.angular_velocity).finished();
-}
 
 }  // namespace
 

@@ -154,7 +154,7 @@ TEST_CASE("a regular wave travels to its direction") {
 
 TEST_CASE("uniform placement: multiples of one width, each with the energy of the bin about it") {
   RealisationOptions o = options_of(1);
-  o.placement = Placement::uniform;
+  o.placement = FrequencyPlacement::uniform;
   o.count = 220;
   const Spectrum s = Spectrum::jonswap(2.0, 8.0);
   const WaveComponents waves = realise(s, o);

@@ -11,7 +11,7 @@ namespace {
 
 constexpr int kThreads = 4;
 
-SceneDescription with_convolution() {
+SceneDescription convolved_hull() {
   SceneDescription scene = slider_crank("hull");
   make_vessel(scene, "hull");
   RetardationFunctions kernel{0.05, {}};
@@ -21,13 +21,13 @@ SceneDescription with_convolution() {
 }
 
 /// Everything a run leaves: its rows, and the state it ends in.
-struct Outcome {
+struct ThreadRun {
   std::vector<double> rows, state;
-  bool operator==(const Outcome&) const = default;
+  bool operator==(const ThreadRun&) const = default;
 };
 
-Outcome run(const std::shared_ptr<const Model>& model, const std::string& formulation,
-            const std::string& integrator) {
+ThreadRun run(const std::shared_ptr<const Model>& model, const std::string& formulation,
+              const std::string& integrator) {
   RunOptions options;
   options.formulation = formulation;
   options.integrator = integrator;
@@ -43,7 +43,7 @@ Outcome run(const std::shared_ptr<const Model>& model, const std::string& formul
 }  // namespace
 
 TEST_CASE("threads that share one model find what a run alone finds, bit for bit") {
-  for (const SceneDescription& scene : {slider_crank(), at_sea(true), at_sea(false), with_convolution()}) {
+  for (const SceneDescription& scene : {slider_crank(), at_sea(true), at_sea(false), convolved_hull()}) {
     const auto model = compile(scene);
     for (const std::string integrator :
          {"dopri5", "rk4", "rosenbrock", "generalized-alpha", "cvode-bdf", "ida"}) {
@@ -52,15 +52,15 @@ TEST_CASE("threads that share one model find what a run alone finds, bit for bit
       for (const std::string formulation : {"redundant", "recursive"}) {
         if (residual_form && formulation == "recursive") continue;
         CAPTURE(formulation);
-        std::vector<Outcome> found(kThreads);
+        std::vector<ThreadRun> found(kThreads);
         std::vector<std::thread> threads;
-        for (Outcome& out : found) {
+        for (ThreadRun& out : found) {
           threads.emplace_back([&] { out = run(model, formulation, integrator); });
         }
         for (std::thread& thread : threads) thread.join();
-        const Outcome alone = run(model, formulation, integrator);
+        const ThreadRun alone = run(model, formulation, integrator);
         CHECK(alone.rows.size() > 41);
-        for (const Outcome& out : found) CHECK(out == alone);
+        for (const ThreadRun& out : found) CHECK(out == alone);
       }
     }
   }

@@ -8,8 +8,6 @@
 namespace seacrane {
 namespace {
 
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
-
 void check_step_size(const char* name, double value) {
   if (!(value >= 0.0) || !std::isfinite(value)) {
     throw std::invalid_argument(std::string(name) + " is " + std::to_string(value) +
@@ -48,7 +46,7 @@ void Integrator::check_limit(double t_limit) const {
 }
 
 double Integrator::inside_last_step(double t) const {
-  const double slack = 8.0 * epsilon * std::max(std::abs(previous_time_), std::abs(time_));
+  const double slack = 8.0 * kEpsilon * std::max(std::abs(previous_time_), std::abs(time_));
   if (t >= previous_time_ - slack && t <= time_ + slack) return std::clamp(t, previous_time_, time_);
   throw std::invalid_argument(name_ + ": dense output asked at " + std::to_string(t) +
                               " s, outside the last step from " + std::to_string(previous_time_) + " to " +
@@ -70,7 +68,7 @@ std::optional<double> Integrator::locate(const EventFunction& event) {
   if (ga == 0.0 || (gb != 0.0 && std::signbit(ga) == std::signbit(gb))) return std::nullopt;
   int last_side = 0;
   bool bisect = false;
-  const double resolution = 2.0 * epsilon * std::max(std::abs(a), std::abs(b));
+  const double resolution = 2.0 * kEpsilon * std::max(std::abs(a), std::abs(b));
   while (b - a > resolution) {
     // Illinois regula falsi, with a bisection whenever the bracket has not halved.
     const double width = b - a;

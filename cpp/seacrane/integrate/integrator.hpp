@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <span>
 #include <string>
@@ -12,6 +13,8 @@
 #include "seacrane/integrate/properties.hpp"
 
 namespace seacrane {
+
+inline constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 
 /// What a run has cost so far; never set back by reset().
 struct Counters {

@@ -11,8 +11,6 @@
 namespace seacrane {
 namespace {
 
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
-
 void add(Counters& sum, const Counters& part) {
   sum.steps += part.steps;
   sum.rejected_steps += part.rejected_steps;
@@ -149,7 +147,7 @@ void SundialsIntegrator::step(double t_limit) {
   const double before = time_;
   previous_time_ = time_;
   previous_state_ = state_;
-  carried_ = t_limit - time_ <= 64.0 * epsilon * std::max(std::abs(time_), std::abs(t_limit));
+  carried_ = t_limit - time_ <= 64.0 * kEpsilon * std::max(std::abs(time_), std::abs(t_limit));
   if (carried_) {
     // The solvers refuse such a step; over it the state changes by rounding only.
     time_ = t_limit;

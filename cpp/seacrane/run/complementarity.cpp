@@ -7,8 +7,8 @@
 namespace seacrane {
 namespace {
 
-constexpr double kRounding = 1e-10;   // of the largest b
-constexpr double kDependent = 1e-11;  // relative pivot of G
+constexpr double kForceRounding = 1e-10;  // of the largest b
+constexpr double kDependent = 1e-11;      // relative pivot of G
 
 using Flags = Eigen::Array<bool, Eigen::Dynamic, 1>;
 
@@ -34,7 +34,7 @@ VecXd complementary_forces(const MatXd& g, const VecXd& b) {
   const Eigen::Index n = b.size();
   VecXd f = VecXd::Zero(n), w = b;
   Flags carries = Flags::Constant(n, false), refused = Flags::Constant(n, false);
-  const double least = n > 0 ? kRounding * b.cwiseAbs().maxCoeff() : 0.0;
+  const double least = n > 0 ? kForceRounding * b.cwiseAbs().maxCoeff() : 0.0;
   for (Eigen::Index turn = 0; turn < 4 * n + 4; ++turn) {
     Eigen::Index next = -1;
     for (Eigen::Index i = 0; i < n; ++i) {

@@ -18,7 +18,7 @@ constexpr double kGrown = 1e5;
 /// s ahead of a step size that has collapsed, times max(1, |t|).
 constexpr double kAhead[] = {1e-12, 1e-9, 1e-6};
 /// Energies cancel to this fraction of the largest of them.
-constexpr double kRounding = 1e-12;
+constexpr double kEnergyRounding = 1e-12;
 /// Steps of 1e-8 s on average: a second of the motion would take longer than anybody waits, and cylinders a
 /// thousand times stiffer than a crane's between rods of grams ask for no shorter ones.
 constexpr long kStallSteps = 100'000;
@@ -117,7 +117,7 @@ void EnergyWatch::check(double t, const double* y, const Terms& terms, double ba
                         double energy) {
   largest_kinetic_ = std::max(largest_kinetic_, kinetic_energy(terms, y));
   const double handled = absolute_work + largest_kinetic_;
-  if (std::abs(balance) <= *limit_ * handled + kRounding * std::abs(energy)) return;
+  if (std::abs(balance) <= *limit_ * handled + kEnergyRounding * std::abs(energy)) return;
   throw std::domain_error(
       "energy_balance is " + to_text(balance) + " J at t = " + to_text(t) + " s, beyond " +
       "energy_limit = " + to_text(*limit_) + " times the " + to_text(handled) +

@@ -16,7 +16,7 @@ namespace seacrane {
 namespace {
 
 constexpr double kFall = 1e-9;            // m/s2 or rad/s2: accelerations that are rounding
-constexpr double kRounding = 1e-12;       // of the largest impulse
+constexpr double kPullRounding = 1e-12;   // of the largest impulse
 constexpr double kNoShare = 1e-9;         // of the largest force: limits that carry less let go
 constexpr double kDependentImpact = 1e4;  // times the impulse that one body alone would take: rows depend
 constexpr std::size_t kChatterCount = 64;
@@ -316,7 +316,7 @@ Contacts::Struck Contacts::struck_with(Stepper& at, double t, const double* bodi
 std::optional<int> Contacts::pulling(const Impact& impact, ClosedSet kept) const {
   double largest = 0.0;
   for (const double impulse : impact.impulse) largest = std::max(largest, std::abs(impulse));
-  const double pull = -kRounding * largest;
+  const double pull = -kPullRounding * largest;
   for (int i = 0; i < static_cast<int>(model_.limits.size()); ++i) {
     if (holds(kept, i) && impact.impulse[idx(i)] < pull) return i;
   }

@@ -12,16 +12,16 @@
 namespace seacrane {
 namespace {
 
-const char* const object = "wave realisation";
+const char* const kRealisation = "wave realisation";
 
 void check(const RealisationOptions& o, double from, double to) {
-  sea::require(o.count >= 1 && o.count <= 1'000'000, object, "count", o.count,
+  sea::require(o.count >= 1 && o.count <= 1'000'000, kRealisation, "count", o.count,
                "give 1 to 1000000 components; 200 is the default");
-  sea::require(std::isfinite(from) && from >= 0.0, object, "omega_min", from,
+  sea::require(std::isfinite(from) && from >= 0.0, kRealisation, "omega_min", from,
                "give a frequency of zero or more in rad/s");
-  sea::require(std::isfinite(to) && to > from, object, "omega_max", to,
+  sea::require(std::isfinite(to) && to > from, kRealisation, "omega_max", to,
                "give a finite frequency in rad/s above omega_min");
-  sea::require_finite(o.direction, object, "direction", "rad");
+  sea::require_finite(o.direction, kRealisation, "direction", "rad");
 }
 
 std::uint64_t stream(const RealisationOptions& o, RandomUse use) {
@@ -37,7 +37,7 @@ WaveComponents realise(const Spectrum& spectrum, const RealisationOptions& o) {
   check(o, from, to);
   const auto n = static_cast<std::size_t>(o.count);
   const double width = (to - from) / static_cast<double>(n);
-  const bool uniform = o.placement == Placement::uniform;
+  const bool uniform = o.placement == FrequencyPlacement::uniform;
   if (uniform) from = (std::max(1.0, std::ceil(from / width - 1e-9)) - 0.5) * width;
   std::vector<double> omega(n), amplitude(n), phase(n);
   for (std::size_t i = 0; i < n; ++i) {

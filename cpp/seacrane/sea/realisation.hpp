@@ -9,7 +9,7 @@
 
 namespace seacrane {
 
-enum class Placement {
+enum class FrequencyPlacement {
   jittered,  // uniformly at random within each bin: no common period
   uniform    // multiples of one bin width, for the FFT: the sea repeats after 2 pi / width
 };
@@ -19,7 +19,7 @@ struct RealisationOptions {
   /// rad/s. When absent: Spectrum::default_range(), which leaves out less than 1.6 % of the energy of any
   /// JONSWAP or Pierson-Moskowitz spectrum, hence less than 0.8 % of its hs.
   std::optional<double> omega_min, omega_max;
-  Placement placement = Placement::jittered;
+  FrequencyPlacement placement = FrequencyPlacement::jittered;
   double direction = 0.0;  // rad, travelling to, from +x towards +y
   std::uint64_t seed = 0;
   std::uint64_t system = 0;  // of a sea of several wave systems: each has random numbers of its own

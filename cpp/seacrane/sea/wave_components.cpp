@@ -14,15 +14,15 @@ namespace seacrane {
 namespace {
 
 constexpr double repeat_threshold = 0.99;
-const char* const object = "wave components";
+const char* const kComponents = "wave components";
 
 void require_each(const std::vector<double>& values, const std::string& name, std::size_t count,
                   double smallest, const std::string& fix) {
-  sea::require(values.size() == count, object, "length of " + name, values.size(),
+  sea::require(values.size() == count, kComponents, "length of " + name, values.size(),
                "give one value per frequency (" + std::to_string(count) + ")");
   for (std::size_t i = 0; i < count; ++i) {
     if (std::isfinite(values[i]) && values[i] >= smallest) continue;
-    sea::require(false, object, name + "[" + std::to_string(i) + "]", values[i], fix);
+    sea::require(false, kComponents, name + "[" + std::to_string(i) + "]", values[i], fix);
   }
 }
 
@@ -72,9 +72,9 @@ WaveComponents::WaveComponents(std::vector<double> omega, std::vector<double> am
       depth_(depth),
       gravity_(gravity) {
   const std::size_t n = omega_.size();
-  sea::require(n > 0, object, "number of components", n, "give at least one");
-  sea::require(depth > 0.0, object, "depth", depth, "give a depth above zero in m, or infinity");
-  sea::require_positive(gravity, object, "gravity", "m/s2");
+  sea::require(n > 0, kComponents, "number of components", n, "give at least one");
+  sea::require(depth > 0.0, kComponents, "depth", depth, "give a depth above zero in m, or infinity");
+  sea::require_positive(gravity, kComponents, "gravity", "m/s2");
   constexpr double any = std::numeric_limits<double>::lowest();
   require_each(omega_, "omega", n, std::numeric_limits<double>::min(),
                "give a frequency above zero in rad/s");
@@ -112,20 +112,20 @@ double WaveComponents::realised_hs() const { return 4.0 * std::sqrt(moment(0)); 
 
 double WaveComponents::mean_period() const {
   const double m0 = moment(0);
-  sea::require_positive(m0, object, "energy m0", "m2: a sea at rest has no period");
+  sea::require_positive(m0, kComponents, "energy m0", "m2: a sea at rest has no period");
   return 2.0 * std::numbers::pi * std::sqrt(m0 / moment(2));
 }
 
 double WaveComponents::autocorrelation(double lag) const {
-  sea::require_finite(lag, object, "lag", "s");
-  sea::require_positive(moment(0), object, "energy m0", "m2: a sea at rest has no autocorrelation");
+  sea::require_finite(lag, kComponents, "lag", "s");
+  sea::require_positive(moment(0), kComponents, "energy m0", "m2: a sea at rest has no autocorrelation");
   return correlation(*this, lag).value;
 }
 
 RepeatPeriod WaveComponents::repeat_period(double horizon) const {
-  sea::require_positive(horizon, object, "horizon", "s");
+  sea::require_positive(horizon, kComponents, "horizon", "s");
   const double m0 = moment(0);
-  sea::require_positive(m0, object, "energy m0", "m2: a sea at rest does not repeat");
+  sea::require_positive(m0, kComponents, "energy m0", "m2: a sea at rest does not repeat");
   const double curvature = moment(2) / m0;
   const double shortest = 1e-6 / std::sqrt(curvature);
   double lag = 0.0;

@@ -5,10 +5,10 @@
 #include <numbers>
 #include <vector>
 
+#include "seacrane/strip/complex.hpp"
+
 namespace seacrane::strip {
 namespace {
-
-using Complex = std::complex<double>;
 
 constexpr double series_radius = 2.0;       // the series costs least here, and the logarithm forbids Taylor's
 constexpr double asymptotic_radius = 20.0;  // the smallest term of the asymptotic series is 1e-9

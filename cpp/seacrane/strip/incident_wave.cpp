@@ -3,11 +3,11 @@
 #include <array>
 #include <cmath>
 
+#include "seacrane/strip/complex.hpp"
+
 namespace seacrane::strip {
 namespace {
 
-using Complex = std::complex<double>;
-constexpr Complex i_unit{0.0, 1.0};
 constexpr int points_per_side = 3;
 
 /// Integrals from 0 to y of cos(q y) and of y sin(q y).

@@ -4,10 +4,11 @@
 #include <cmath>
 #include <numbers>
 
+#include "seacrane/strip/complex.hpp"
+
 namespace seacrane::strip {
 namespace {
 
-using Complex = std::complex<double>;
 constexpr double corner_angle = 30.0 * std::numbers::pi / 180.0;
 
 /// Turning angle between two directions, 0 to pi.

@@ -5,14 +5,13 @@
 #include <limits>
 #include <numbers>
 
+#include "seacrane/strip/complex.hpp"
 #include "seacrane/strip/exponential_integral.hpp"
 
 namespace seacrane::strip {
 namespace {
 
-using Complex = std::complex<double>;
 using Eigen::Index;
-constexpr Complex i_unit{0.0, 1.0};
 constexpr double pi = std::numbers::pi;
 
 constexpr std::array<int, 3> parity_of_mode{1, 0, 1};  // sway odd, heave even, roll odd

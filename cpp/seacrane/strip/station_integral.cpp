@@ -3,10 +3,10 @@
 #include <array>
 #include <cmath>
 
+#include "seacrane/strip/complex.hpp"
+
 namespace seacrane::strip {
 namespace {
-
-using Complex = std::complex<double>;
 
 /// Integrals over -1 < s < 1 of P_n(s) exp(-i theta s) = 2 (-i)^n j_n(theta), n = 0, 1, 2
 /// (Abramowitz and Stegun 10.1.14), by series where the closed forms of j_n cancel.

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "seacrane/sea/require.hpp"
+#include "seacrane/strip/complex.hpp"
 #include "seacrane/strip/incident_wave.hpp"
 #include "seacrane/strip/section_solver.hpp"
 #include "seacrane/strip/station_integral.hpp"
@@ -15,8 +16,6 @@
 namespace seacrane::strip {
 namespace {
 
-using Complex = std::complex<double>;
-constexpr Complex i_unit{0.0, 1.0};
 constexpr double slowest_encounter = 1e-4;  // of the wave frequency
 
 /// c0 + c1 x.
