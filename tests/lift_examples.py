@@ -238,6 +238,11 @@ joint = "sleeve"
 minimum_m = -1
 maximum_m = 3
 
+[point]
+name = "corner"
+body = "box"
+point_m = [0.1, 0.2, 0.3]
+
 [[record]]
 joint = "pin"
 name = "angle of the arm"
@@ -320,6 +325,7 @@ def every_table() -> Scene:
     scene.add_friction(joint="pin", load=4, speed=np.radians(1))
     scene.add_range(joint="sleeve", minimum=-1, maximum=3)
     scene.record_coordinate(joint="pin", name="angle of the arm")
+    scene.add_point(name="corner", body="box", point=(0.1, 0.2, 0.3))
     scene.record_coordinate(joint="sleeve", coordinate="angle")
     scene.add_roles(
         prefix="aft ", slew="pin", cylinders={"luff": "sleeve"}, link="rope", tip=("arm", (0, 0, 1))

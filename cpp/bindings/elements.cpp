@@ -162,6 +162,7 @@ void bind_elements(py::module_& m) {
   bind_joint(m);
   bind_joint_kinds(m);
   description::bind<DriverDescription>(m, "driver");
+  description::bind<PointDescription>(m, "point");
   bind_loads(m);
   bind_vessel(m);
 }

@@ -43,7 +43,8 @@ std::shared_ptr<Model> compile_scene(
     std::vector<BodyDescription> bodies, std::vector<JointDescription> joints,
     std::vector<DriverDescription> drivers, const std::vector<py::object>& loads,
     std::vector<VesselDescription> vessels, std::vector<WaveLoadDescription> wave_loads,
-    const std::vector<std::tuple<std::string, std::string, std::string>>& coordinates, bool merge) {
+    const std::vector<std::tuple<std::string, std::string, std::string>>& coordinates,
+    std::vector<PointDescription> points, bool merge) {
   SceneDescription scene;
   scene.name = std::move(name);
   scene.gravity = gravity;
@@ -63,6 +64,7 @@ std::shared_ptr<Model> compile_scene(
   for (const auto& [name, joint, coordinate] : coordinates) {
     scene.coordinates.push_back({{joint, coordinate}, name});
   }
+  scene.points = std::move(points);
   return std::const_pointer_cast<Model>(compile(scene, merge));
 }
 
@@ -398,7 +400,7 @@ void bind_model(py::module_& m) {
   m.def("compile", &compile_scene, py::kw_only(), py::arg("name"), py::arg("gravity"), py::arg("orientation"),
         py::arg("baumgarte"), py::arg("length_scale"), py::arg("bodies"), py::arg("joints"),
         py::arg("drivers"), py::arg("loads"), py::arg("vessels"), py::arg("wave_loads"),
-        py::arg("coordinates"), py::arg("merge") = true,
+        py::arg("coordinates"), py::arg("points") = std::vector<PointDescription>{}, py::arg("merge") = true,
         "Checks and compiles a scene; seacrane.Scene.compile() calls it. Raises SceneError.");
   bind_evaluator(m);
 }

@@ -15,6 +15,7 @@ from seacrane._core import Frame as Frame
 from seacrane._core import Friction as Friction
 from seacrane._core import Limit as Limit
 from seacrane._core import Model as Model
+from seacrane._core import Point as Point
 from seacrane._core import RetardationFunctions as RetardationFunctions
 from seacrane._core import SoftStop as SoftStop
 from seacrane._core import State as State

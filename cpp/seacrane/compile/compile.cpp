@@ -250,6 +250,7 @@ class Compiler {
       }
     });
     for (const auto& d : scene_.coordinates) model_.coordinates.push_back(coordinate(d));
+    for (const auto& d : scene_.points) model_.points.push_back(attach(d.body, d.point));
   }
 
   /// A load on one body does nothing to the ground; one between bodies, nothing to bodies that move as one:

@@ -12,6 +12,7 @@
 #include "seacrane/elements/joint.hpp"
 #include "seacrane/elements/limit.hpp"
 #include "seacrane/elements/loads/hidden.hpp"
+#include "seacrane/elements/point.hpp"
 #include "seacrane/hydro/convolution.hpp"
 #include "seacrane/hydro/memory.hpp"
 #include "seacrane/math/types.hpp"
@@ -85,6 +86,7 @@ struct SceneDescription {
   std::vector<VesselDescription> vessels;
   std::vector<WaveLoadDescription> wave_loads;
   std::vector<RecordedCoordinate> coordinates;
+  std::vector<PointDescription> points;
   std::vector<LimitDescription> limits;
 
   /// Descriptions of one kind of load, such as loads_of<PointForce>(); with elements/loads/registry.hpp.

@@ -88,6 +88,7 @@ struct Model {
   std::vector<Vessel> vessels;
   std::vector<WaveLoad> wave_loads;
   std::vector<CoordinateData> coordinates;
+  std::vector<Attachment> points;
   std::vector<InputModel> inputs;  // in the order of their slots
   int slot_count = 0;
   StateLayout layout;

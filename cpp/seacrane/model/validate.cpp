@@ -146,6 +146,15 @@ void check_drives(const SceneDescription& scene, const SceneNames& names) {
   for (const auto& d : scene.coordinates) names.coordinate(Check("recorded coordinate", d.joint), d);
 }
 
+void check_points(const SceneDescription& scene, const SceneNames& names) {
+  unique_names("point", scene.points);
+  for (const auto& p : scene.points) {
+    const Check c("point", p.name);
+    names.body(c, p.body);
+    c.near("point", p.point);
+  }
+}
+
 void check_vessels(const SceneDescription& scene, const SceneNames& names) {
   std::set<std::string> floating;
   for (const auto& v : scene.vessels) {
@@ -198,6 +207,7 @@ void validate(const SceneDescription& scene) {
     for (const auto& d : descriptions) Load::check(d, Check(Load::kind, d.name), names);
   });
   check_vessels(scene, names);
+  check_points(scene, names);
   unique_names("limit", scene.limits);
   check_limits(scene, names);
 }

@@ -40,7 +40,8 @@ OutputSampler::OutputSampler(const Model& model, const RunOptions& options, Rank
       recording_(model, options.channels, options.capacity.value_or(options.output_times.size())),
       bodies_(idx(model.layout.size), 0.0),
       rate_(idx(model.layout.size), 0.0),
-      coordinates_(model.coordinates.size()) {
+      coordinates_(model.coordinates.size()),
+      one_load_(idx(model.body_count() + 1)) {
   if (options.energy_limit && model.paper_kinematics) {
     throw std::invalid_argument(
         "energy_limit: kinematics 'paper' has no energy balance; leave energy_limit out");
@@ -115,7 +116,7 @@ void OutputSampler::write(Stepper& at, double t, double residual_before, double 
   const double energy =
       needs.energy ? mechanical_energy(at.system.terms(), t, bodies_.data()) : start_energy_;
   const double balance = energy - start_energy_ - (work[0] - start_work_);
-  out.append({t, bodies_.data(), at.system, at.system.terms(), coordinates_, residual.position, residual.rate,
+  out.append({t, bodies_.data(), at.system, at.system.terms(), coordinates_, one_load_, residual.position, residual.rate,
               residual_before, balance, impact_loss});
   if (energy_.has_limit()) energy_.check(t, bodies_.data(), at.system.terms(), balance, work[1], energy);
 }

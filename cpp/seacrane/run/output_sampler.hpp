@@ -56,6 +56,7 @@ class OutputSampler {
   double last_time_ = std::numeric_limits<double>::quiet_NaN(), last_residual_ = 0.0;  // of the last output
   std::vector<double> state_, bodies_, rate_;
   std::vector<CoordinateRow<double>> coordinates_;
+  std::vector<BodyLoad<double>> one_load_;
 };
 
 }  // namespace seacrane

@@ -43,6 +43,7 @@ def compile_scene(scene: Description, *, merge: bool = True) -> _core.Model:
         vessels=list(scene.vessels.values()),
         wave_loads=[] if scene.waves is None else compiled_waves(scene.waves, prune=merge),
         coordinates=[(name, *place) for name, place in scene.recorded.items()],
+        points=list(scene.points.values()),
         merge=merge,
     )
     warn_of_moves(scene, model)

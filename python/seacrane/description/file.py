@@ -32,7 +32,7 @@ from seacrane.description.forces import add_force_table, add_load, add_point_for
 from seacrane.description.hydrodynamics import add_hydrodynamics
 from seacrane.description.joints import add_joint
 from seacrane.description.old_files import provenance_from_notes, roles_by_name
-from seacrane.description.recorded import add_range, record_coordinate
+from seacrane.description.recorded import add_point, add_range, record_coordinate
 from seacrane.description.scene import Description
 from seacrane.errors import FileFormatError, SceneError
 from seacrane.files.atomic import atomic_write
@@ -51,6 +51,7 @@ _CLASSES: dict[str, type] = {
     "springs": _core.Spring,
     "force_tables": _core.ForceTable,
     "vessels": _core.VesselHydrodynamics,
+    "points": _core.Point,
 }
 _ADD: dict[str, Callable[..., Any]] = {
     "bodies": add_body,
@@ -61,9 +62,11 @@ _ADD: dict[str, Callable[..., Any]] = {
     "springs": add_spring,
     "force_tables": add_force_table,
     "vessels": add_hydrodynamics,
+    "points": add_point,
 }
 _ADDED_LATER: dict[str, Any] = {
     "loads": [],
+    "points": [],
     "ranges": [],
     "roles": None,
     "provenance": None,
@@ -96,7 +99,7 @@ def save_scene(scene: Description, path: str | os.PathLike[str]) -> None:
         )
     try:
         text = json.dumps(described(scene), indent=1, allow_nan=False)
-        _scene(Node(json.loads(text), f"scene {scene.name!r}"), Description())
+        _scene(Node({**_ADDED_LATER, **json.loads(text)}, f"scene {scene.name!r}"), Description())
     except SceneError:
         raise
     except FileFormatError as error:
@@ -224,7 +227,8 @@ def described(scene: Description) -> dict[str, Any]:
     }
     out |= {key: float(getattr(scene, key)) for key in _SETTINGS}
     for kind in _CLASSES:
-        out[kind] = [element_to_data(element) for element in getattr(scene, kind).values()]
+        if kind != "points" or scene.points:  # digests of scenes without points are those of older versions
+            out[kind] = [element_to_data(element) for element in getattr(scene, kind).values()]
     for data, joint in zip(out["joints"], scene.joints.values(), strict=True):
         data["parameters"] = joint.parameters
     out["loads"] = [load_to_data(element) for element in scene.loads.values()]

@@ -1,11 +1,14 @@
-"""Joint coordinates that are recorded, and where they are meant to stay."""
+"""Joint coordinates and points that are recorded, and where coordinates are meant to stay."""
 
 from __future__ import annotations
 
+from typing import Any
+
+from seacrane import _core
 from seacrane.description.range import Range
 from seacrane.description.scene import Description, coordinate_of, insert
 from seacrane.errors import SceneError
-from seacrane.inputs.checked import name_of, number_of
+from seacrane.inputs.checked import name_of, number_of, shaped_of
 
 
 def record_coordinate(
@@ -19,6 +22,32 @@ def record_coordinate(
             f"recorded coordinate {name!r}: is {'.'.join(scene.recorded[name])} already; give another name"
         )
     scene.recorded[name] = (joint, coordinate)
+
+
+def add_point(scene: Description, *, name: str, body: str, point: Any = (0.0, 0.0, 0.0)) -> _core.Point:
+    """Record the motion of a point of a body: channels point_position, point_velocity, point_acceleration.
+
+    Parameters
+    ----------
+    name : str
+        Of the point along the dimension "point" of these channels.
+    body : str
+        Body that carries it.
+    point : array_like, shape (3,)
+        In the coordinates of the body, m; default: the origin of the body.
+
+    Returns
+    -------
+    Point
+
+    Raises
+    ------
+    SceneError
+        For a duplicate name or a value that is not three numbers; the body is checked at compile().
+    """
+    place = shaped_of(f"point {name_of('point', name)!r}: point", point, (3,))
+    inserted: _core.Point = insert("point", scene.points, _core.Point(name=name, body=body, point=place))
+    return inserted
 
 
 def add_range(

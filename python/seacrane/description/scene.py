@@ -32,12 +32,13 @@ KINDS: Mapping[str, str] = {  # what the elements of each table are called
     "function_forces": "function force",
     "loads": "load",
     "vessels": "vessel",
+    "points": "point",
     "recorded": "recorded coordinate",
     "ranges": "range",
     "roles": "crane",
     "provenance": "provenance",
 }
-ELEMENTS = tuple(KINDS)[:10]  # tables of what is compiled
+ELEMENTS = tuple(KINDS)[:11]  # tables of what is compiled
 LOADS = tuple(KINDS)[3:9]  # of these, loads
 
 
@@ -61,7 +62,8 @@ class Description:
 
     Attributes
     ----------
-    bodies, joints, drivers, actuators, point_forces, springs, force_tables, function_forces, loads, vessels
+    bodies, joints, drivers, actuators, point_forces, springs, force_tables, function_forces, loads, vessels,
+    points
         Elements by name, immutable; `loads` are those of `add_load`: wind, current, limits, friction.
     waves : Waves or None
     recorded : dict of str to (str, str)
@@ -90,6 +92,7 @@ class Description:
     function_forces: dict[str, _core.FunctionForce] = field(default_factory=dict)
     loads: dict[str, Any] = field(default_factory=dict)
     vessels: dict[str, _core.VesselHydrodynamics] = field(default_factory=dict)
+    points: dict[str, _core.Point] = field(default_factory=dict)
     waves: Waves | None = None
     recorded: dict[str, tuple[str, str]] = field(default_factory=dict)
     ranges: dict[str, Range] = field(default_factory=dict)

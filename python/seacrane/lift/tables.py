@@ -250,6 +250,7 @@ _ALL = (
     _call("friction", limits.add_friction, _core.Friction),
     _call("range", recorded.add_range, minimum={"unit": "m or rad"}, maximum={"unit": "m or rad"}),
     _call("record", recorded.record_coordinate),
+    _call("point", recorded.add_point, _core.Point),
     Table(
         name="roles", text=_summary(crane_parts.add_roles),
         keys=keys_of(

@@ -65,6 +65,8 @@ def _derived(
 
 
 _DRIVE = "actuator_force driver_force"
+_POSE = "position quaternion"
+_MOTION = "position quaternion velocity angular_velocity"
 
 DERIVED: Mapping[str, Channel] = MappingProxyType(
     {
@@ -79,6 +81,23 @@ DERIVED: Mapping[str, Channel] = MappingProxyType(
         "slew_torque": _derived("", "N m", "actuator torque of the slew drive", _DRIVE, several="slew"),
         "link_tension": _derived(
             "", "N", "tension of the link between crane tip and payload", "tension", several="hook"
+        ),
+        "tip_velocity": _derived(
+            "axis", "m/s", "velocity of the crane tip, inertial frame", _MOTION, several="tip"
+        ),
+        "offlead": _derived(
+            "",
+            "rad",
+            "angle of the link from the vertical, away from the crane positive",
+            _POSE,
+            several="hook",
+        ),
+        "sidelead": _derived(
+            "",
+            "rad",
+            "angle of the link from the vertical across the boom, to its left positive",
+            _POSE,
+            several="hook",
         ),
     }
 )

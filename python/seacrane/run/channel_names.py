@@ -8,9 +8,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from seacrane.description.crane_parts import cylinders, hooks, slews
+from seacrane.description.crane_parts import cylinders, hooks, slews, tips
 from seacrane.errors import SceneError
 from seacrane.result.channels import DERIVED
+from seacrane.run.hanging import lead_angles, tip_velocities
 
 if TYPE_CHECKING:
     from seacrane.description.scene import Description
@@ -35,7 +36,12 @@ def core_channels(wanted: Sequence[str], known: Sequence[str]) -> set[str]:
 
 def derived_coords(scene: Description) -> dict[str, list[str]]:
     """Names along the dimensions of derived channels."""
-    return {"cylinder": list(cylinders(scene)), "slew": list(slews(scene)), "hook": list(hooks(scene))}
+    return {
+        "cylinder": list(cylinders(scene)),
+        "slew": list(slews(scene)),
+        "hook": list(hooks(scene)),
+        "tip": list(tips(scene)),
+    }
 
 
 def hanging_bodies(scene: Description) -> list[str]:
@@ -45,14 +51,20 @@ def hanging_bodies(scene: Description) -> list[str]:
     return list(dict.fromkeys(joint.second for joint in hanging if joint.second not in carrying))
 
 
-def named_channels(scene: Description, arrays: dict[str, Array]) -> dict[str, Array]:
-    """Adds stroke, stroke_rate, cylinder_force, slew_angle, slew_torque and link_tension of cranes.
+def named_channels(
+    scene: Description, arrays: dict[str, Array], asked: Sequence[str] | None = None
+) -> dict[str, Array]:
+    """Adds what results call by the roles of cranes: strokes, drives, tensions, tips and how payloads hang.
 
-    Slew and link have no axis of their own where there is one of them.
+    Slew and link have no axis of their own where there is one of them. `asked`: which of tip_velocity,
+    offlead and sidelead, that cost most, are wanted; None: all.
     """
     strokes = {label: (joint, "displacement") for label, joint in cylinders(scene).items()}
     drives = slews(scene)
     links = _links(scene)
+    wanted = {"tip_velocity", "offlead", "sidelead"} & set(DERIVED if asked is None else asked)
+    leads = lead_angles(scene, arrays) if wanted & {"offlead", "sidelead"} else None
+    offlead, sidelead = leads or (None, None)
     found = {
         "stroke": _recorded(scene, arrays.get("coordinate"), strokes),
         "stroke_rate": _recorded(scene, arrays.get("coordinate_rate"), strokes),
@@ -64,6 +76,11 @@ def named_channels(scene: Description, arrays: dict[str, Array]) -> dict[str, Ar
                 arrays.get("tension"), [links.index(link) for link in hooks(scene).values() if link in links]
             )
         ),
+        "tip_velocity": _without_axis_of_one(
+            tip_velocities(scene, arrays) if "tip_velocity" in wanted else None
+        ),
+        "offlead": _without_axis_of_one(offlead),
+        "sidelead": _without_axis_of_one(sidelead),
     }
     out = arrays | {name: values for name, values in found.items() if values is not None}
     return {name: np.ascontiguousarray(values) for name, values in out.items()}

@@ -124,7 +124,9 @@ class Run:
 
     def measure(self) -> dict[str, Array]:
         """All channels at the present instant, by the names of a result."""
-        return {name: values[0] for name, values in self.named(self.core.snapshot()).items()}
+        arrays = {name: values for name, values in self.core.snapshot().items() if name != "time"}
+        named = named_channels(self.scene, arrays, self.outputs.channels or ())
+        return {name: values[0] for name, values in named.items()}
 
     def named(self, arrays: Mapping[str, Array]) -> dict[str, Array]:
         """Channels of the core by the names of a result."""

@@ -41,7 +41,8 @@ class Scene(Description):
 
     Attributes
     ----------
-    bodies, joints, drivers, actuators, point_forces, springs, force_tables, function_forces, loads, vessels
+    bodies, joints, drivers, actuators, point_forces, springs, force_tables, function_forces, loads, vessels,
+    points
         Elements by name, immutable; `loads` are wind, current, limits and friction.
     waves : Waves or None
     recorded, ranges, roles, provenance, notes
@@ -55,6 +56,7 @@ class Scene(Description):
     add_actuator = drives.add_actuator
     record_coordinate = recorded.record_coordinate
     add_range = recorded.add_range
+    add_point = recorded.add_point
     add_point_force = forces.add_point_force
     add_spring = forces.add_spring
     add_force_table = forces.add_force_table

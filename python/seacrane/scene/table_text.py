@@ -14,6 +14,7 @@ WIDTH = 100  # characters of a line of text
 def rows(scene: Description) -> list[tuple[str, list[str]]]:
     """Kinds of element and the elements of each."""
     found = [(kind, list(names)) for kind, names in elements_of(scene)]
+    found.append(("points", [f"{name} ({at.body})" for name, at in scene.points.items()]))
     found.append(("recorded", [f"{name} ({joint} {c})" for name, (joint, c) in scene.recorded.items()]))
     found.append(
         (

@@ -1,5 +1,8 @@
 #include "seacrane/run/channels/axes.hpp"
 
+#include <map>
+#include <utility>
+
 #include "seacrane/elements/joints/distance.hpp"
 #include "seacrane/elements/loads/registry.hpp"
 #include "seacrane/model/model.hpp"
@@ -30,6 +33,21 @@ std::vector<std::string> link_names(const Model& m) {
   return out;
 }
 
+/// Of all loads; with their kind in front where loads of several kinds have one name.
+std::vector<std::string> load_names(const Model& m) {
+  std::vector<std::pair<std::string, std::string>> loads;
+  std::map<std::string, int> uses;
+  for_each_load_type([&]<class Load>() {
+    for (const auto& d : std::get<std::vector<typename Load::Description>>(*m.description.loads)) {
+      loads.emplace_back(Load::kind, d.name);
+      ++uses[d.name];
+    }
+  });
+  std::vector<std::string> out;
+  for (const auto& [kind, name] : loads) out.push_back(uses[name] == 1 ? name : kind + (" " + name));
+  return out;
+}
+
 }  // namespace
 
 std::vector<std::string> labels_of(const Axis& axis, const Model& model) {
@@ -52,6 +70,8 @@ const Axis actuator{"actuator", {}, [](const Model& m) {
 const Axis driver{"driver", {}, [](const Model& m) { return names_of_all(m.description.drivers); }};
 const Axis link{"link", {}, link_names};
 const Axis limit{"limit", {}, [](const Model& m) { return names_of_all(m.limits); }};
+const Axis point{"point", {}, [](const Model& m) { return names_of_all(m.description.points); }};
+const Axis load{"load", {}, load_names};
 
 }  // namespace axes
 }  // namespace seacrane

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -8,6 +9,8 @@ namespace seacrane {
 
 template <class T>
 struct CoordinateRow;
+template <class T>
+struct BodyLoad;
 class MaximalSystem;
 class Terms;
 struct Model;
@@ -38,6 +41,7 @@ struct Output {
   const MaximalSystem& system;
   const Terms& terms;
   const std::vector<CoordinateRow<double>>& coordinates;
+  const std::span<BodyLoad<double>> one_load;  // zeros, for all bodies and the ground; left as zeros
   double residual = 0.0, residual_rate = 0.0;  // of constraints, after projection: largest magnitudes
   double residual_before_projection = 0.0;     // largest since the last output
   double energy_balance = 0.0;                 // J, change of mechanical energy minus work since the start
