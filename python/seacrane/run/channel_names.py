@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -52,7 +52,7 @@ def hanging_bodies(scene: Description) -> list[str]:
 
 
 def named_channels(
-    scene: Description, arrays: dict[str, Array], asked: Sequence[str] | None = None
+    scene: Description, arrays: dict[str, Array], asked: Iterable[str] | None = None
 ) -> dict[str, Array]:
     """Adds what results call by the roles of cranes: strokes, drives, tensions, tips and how payloads hang.
 

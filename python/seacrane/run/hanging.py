@@ -6,10 +6,10 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from seacrane.description.crane_parts import tips
-from seacrane.description.roles import CraneRoles, Vector
+from seacrane.description.roles import CraneRoles
 
 if TYPE_CHECKING:
     from seacrane.description.scene import Description
@@ -70,7 +70,7 @@ def _angles_of(scene: Description, arrays: Mapping[str, Array], crane: CraneRole
     )
 
 
-def _lever(scene: Description, arrays: Mapping[str, Array], body: str, point: Vector) -> Array:
+def _lever(scene: Description, arrays: Mapping[str, Array], body: str, point: ArrayLike) -> Array:
     """From the centre of mass of a body to a point of it, inertial frame, m."""
     in_body = np.asarray(point, float) - np.asarray(scene.bodies[body].center_of_mass)
     w, axis = (part for part in np.split(arrays["quaternion"][:, _place(scene, body)], [1], axis=1))
@@ -78,13 +78,13 @@ def _lever(scene: Description, arrays: Mapping[str, Array], body: str, point: Ve
     return np.asarray(in_body + 2.0 * (w * across + np.cross(axis, across)))
 
 
-def _position(scene: Description, arrays: Mapping[str, Array], body: str, point: Vector) -> Array:
+def _position(scene: Description, arrays: Mapping[str, Array], body: str, point: ArrayLike) -> Array:
     if body not in scene.bodies:  # the ground
         return np.broadcast_to(np.asarray(point, float), (len(arrays["position"]), 3)).copy()
     return np.asarray(arrays["position"][:, _place(scene, body)] + _lever(scene, arrays, body, point))
 
 
-def _velocity(scene: Description, arrays: Mapping[str, Array], body: str, point: Vector) -> Array:
+def _velocity(scene: Description, arrays: Mapping[str, Array], body: str, point: ArrayLike) -> Array:
     place = _place(scene, body)
     turning = np.cross(arrays["angular_velocity"][:, place], _lever(scene, arrays, body, point))
     return np.asarray(arrays["velocity"][:, place] + turning)
