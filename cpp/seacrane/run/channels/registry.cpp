@@ -12,7 +12,7 @@ std::vector<Channel> joint_channels();
 std::vector<Channel> sea_channels();
 std::vector<Channel> limit_channels();
 std::vector<Channel> point_channels();
-std::vector<Channel> load_channels();
+std::vector<Channel> load_force_channels();
 std::vector<Channel> accuracy_channels();
 
 const std::vector<Channel>& all_channels() {
@@ -20,7 +20,7 @@ const std::vector<Channel>& all_channels() {
     std::vector<Channel> out;
     for (const auto& channels :
          {body_channels, vessel_channels, joint_channels, sea_channels, limit_channels, point_channels,
-          load_channels, accuracy_channels}) {
+          load_force_channels, accuracy_channels}) {
       for (Channel& channel : channels()) out.push_back(std::move(channel));
     }
     return out;

@@ -42,7 +42,7 @@ void write_load_moment(const Output& o, double* out) {
 
 }  // namespace
 
-std::vector<Channel> load_channels() {
+std::vector<Channel> load_force_channels() {
   return {
       {.name = "load_force",
        .axes = {&axes::load, &axes::xyz},
