@@ -199,7 +199,8 @@ def run() -> dict[str, Any]:
 
 GENERAL = {
     "acceleration", "angular_acceleration", "coordinate", "coordinate_rate", "actuator_force",
-    "drift_force", "driver_force", "tension", "limit_force", "impact_loss",
+    "drift_force", "driver_force", "tension", "limit_force", "impact_loss", "point_position",
+    "point_velocity", "point_acceleration", "load_force", "load_moment", "tip_velocity", "offlead", "sidelead",
 }  # fmt: skip
 
 
