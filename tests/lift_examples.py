@@ -174,6 +174,23 @@ second = "box"
 lengths_m = [1, 2.5]
 forces_N = [0, 10]
 
+[[line]]
+name = "hoist"
+bodies = ["ground", "box", "bob"]
+points_m = [[0, 0, 9], [0, 0, 1], [0, 0, 0]]
+stiffness_N = 1e6
+length_m = 12
+damping_ratio = 0.05
+mass_kg = 300
+
+[[winch]]
+line = "hoist"
+rate_m_per_s = {kind = "quintic", start_time_s = 0, end_time_s = 2, start = 0, end = 0.5}
+maximum_rate_m_per_s = 1
+maximum_acceleration_m_per_s2 = 0.5
+lag_s = 0.1
+minimum_length_m = 2
+
 [[force_table]]
 name = "gust"
 body = "box"
@@ -313,6 +330,14 @@ def every_table() -> Scene:
         name="soft", first="ground", second="bob", stiffness=100, damping=0.1, natural_length=0.3
     )
     scene.add_spring(name="table", first="hull", second="box", lengths=[1, 2.5], forces=[0, 10])
+    scene.add_line(
+        name="hoist", bodies=["ground", "box", "bob"], points=[(0, 0, 9), (0, 0, 1), (0, 0, 0)],
+        stiffness=1e6, length=12, damping_ratio=0.05, mass=300,
+    )  # fmt: skip
+    scene.add_winch(
+        line="hoist", rate=Curve.quintic(start_time=0, end_time=2, start=0, end=0.5), maximum_rate=1,
+        maximum_acceleration=0.5, lag=0.1, minimum_length=2,
+    )  # fmt: skip
     scene.add_force_table(name="gust", body="box", times=[0, 1], loads=np.arange(12.0).reshape(2, 6))
     _add_flows(scene)
     scene.add_wire(joint="rope", restitution=0.2)

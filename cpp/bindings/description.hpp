@@ -34,6 +34,11 @@ struct TypeOf<std::string> {
   static Shape shape() { return {}; }
 };
 template <>
+struct TypeOf<std::vector<std::string>> {
+  static constexpr const char *name = "texts", *annotation = "collections.abc.Sequence[str]";
+  static Shape shape() { return {}; }
+};
+template <>
 struct TypeOf<double> {
   static constexpr const char *name = "number", *annotation = "typing.SupportsFloat";
   static Shape shape() { return {}; }
@@ -101,6 +106,8 @@ V from_python(const std::string& what, const py::handle& given) {
     return checked("curve_of")(what, given).template cast<V>();
   } else if constexpr (std::is_same_v<V, std::vector<double>>) {
     return checked("vector_of")(what, given).template cast<V>();
+  } else if constexpr (std::is_same_v<V, std::vector<std::string>>) {
+    return checked("texts_of")(what, given).template cast<V>();
   } else if constexpr (is_rows<V>) {
     constexpr int n = V::value_type::RowsAtCompileTime;
     using Rows = Eigen::Matrix<double, Eigen::Dynamic, n, Eigen::RowMajor>;

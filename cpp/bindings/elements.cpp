@@ -14,7 +14,8 @@ void bind_fields(py::module_& m) {
   using description::FieldRow;
   Class<FieldRow>(m, "Field", "An entry of an element: what FIELDS of its class lists.")
       .def_readonly("name", &FieldRow::name)
-      .def_readonly("type", &FieldRow::type, "text, number, flag, array, curve, frame, function or object")
+      .def_readonly("type", &FieldRow::type,
+                    "text, texts, number, flag, array, curve, frame, function or object")
       .def_readonly("role", &FieldRow::role, "name, body, joint, coordinate, distance or value")
       .def_readonly("unit", &FieldRow::unit)
       .def_readonly("text", &FieldRow::text)

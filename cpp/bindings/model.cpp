@@ -324,6 +324,18 @@ void bind_model(py::module_& m) {
       .def_property_readonly("states", [](const Model& x) { return x.layout.size; })
       .def_property_readonly("memory_states", [](const Model& x) { return x.layout.work - x.layout.memory; })
       .def_property_readonly(
+          "load_states",
+          [](const Model& x) {
+            std::vector<std::tuple<std::string, std::string, int, double, double>> out;
+            for (std::size_t i = 0; i < x.load_states.size(); ++i) {
+              const LoadState& s = x.load_states[i];
+              out.emplace_back(s.name, s.unit, x.layout.loads + static_cast<int>(i), s.initial, s.scale);
+            }
+            return out;
+          },
+          "(name, unit, place in the state, start, scale of errors) of the states that loads have of their "
+          "own; they are the last of the memory states.")
+      .def_property_readonly(
           "history_samples",
           [](const Model& x) {
             Eigen::Index sum = 0;
@@ -382,7 +394,7 @@ void bind_model(py::module_& m) {
           [](const Model& x) {
             return Array(static_cast<py::ssize_t>(x.initial_state.size()), x.initial_state.data());
           },
-          "Consistent start (copy): poses, twists, memory states, work.")
+          "Consistent start (copy): poses, twists, memory states, states of loads, work.")
       .def_property_readonly(
           "scale",
           [](const Model& x) { return Array(static_cast<py::ssize_t>(x.scale.size()), x.scale.data()); },

@@ -1,6 +1,9 @@
 #include "seacrane/run/simulation.hpp"
 
+#include <algorithm>
+
 #include "bindings.hpp"
+#include "seacrane/elements/check.hpp"
 #include "turns.hpp"
 #include "vector_state.hpp"
 
@@ -297,6 +300,35 @@ void bind_simulation(py::module_& m) {
           "parts", [](const State& s) { return s.parts; },
           "What the values belong to, in words; a run of a scene with other parts refuses the state. Empty: "
           "not known.")
+      .def_property_readonly(
+          "load_states",
+          [](const State& s) {
+            py::dict out;
+            const LoadStates found = load_states(s);
+            for (std::size_t i = 0; i < found.names.size(); ++i) {
+              out[found.names[i].c_str()] = s.values.at(found.first + i);
+            }
+            return out;
+          },
+          "The states that loads have of their own, by name, such as a winch's \"hoist.length\" (copy).")
+      .def(
+          "with_load_states",
+          [](State s, const std::map<std::string, double>& values) {
+            const LoadStates found = load_states(s);
+            for (const auto& [name, value] : values) {
+              const auto at = std::find(found.names.begin(), found.names.end(), name);
+              if (at == found.names.end()) {
+                std::string known;
+                for (const std::string& one : found.names) known += (known.empty() ? "" : ", ") + one;
+                throw SceneError("state: there is no load state '" + name + "'; this one has " +
+                                 (known.empty() ? "none" : known));
+              }
+              s.values.at(found.first + static_cast<std::size_t>(at - found.names.begin())) = value;
+            }
+            return s;
+          },
+          py::arg("values"),
+          "The same state with other values of states of loads, by name; a run starts from it afresh.")
       .def(
           "save", [](const State& s, const py::object& path) { state_file().attr("save_state")(s, path); },
           py::arg("path"), "Writes the state to a file, complete or not at all; see docs/restart.md.")

@@ -191,6 +191,28 @@ inline SceneDescription parallelogram(int count) {
   return scene;
 }
 
+inline BodyDescription random_body(const std::string& name, Random& random) {
+  BodyDescription b;
+  b.name = name;
+  b.mass = 2.0 + random.positive();
+  b.inertia = random.inertia();
+  b.center_of_mass = 0.2 * random.vector();
+  b.position = random.vector();
+  b.quaternion = quaternion_from_rotation(random.rotation());
+  return b;
+}
+
+/// Two bodies on the example of a joint kind, the first free in space, and a third beside them.
+inline SceneDescription pair(const std::string& kind, Random& random) {
+  SceneDescription scene;
+  scene.name = kind;
+  for (const char* name : {"first", "second", "third"}) scene.bodies.push_back(random_body(name, random));
+  scene.bodies[1].position = scene.bodies[0].position;
+  scene.bodies[1].quaternion = scene.bodies[0].quaternion;
+  scene.joints.push_back(find_joint_kind(kind)->example(random));
+  return scene;
+}
+
 /// Makes `body` of a scene a vessel: added mass, damping, restoring, mooring, two memory states, waves.
 inline void make_vessel(SceneDescription& scene, const std::string& body) {
   VesselDescription v;

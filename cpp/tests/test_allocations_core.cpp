@@ -22,7 +22,11 @@ std::vector<SceneDescription> scenes() {
   }
   SceneDescription euler = slider_crank();
   euler.orientation = Orientation::euler_xyz;
-  return {slider_crank(), floating, light, euler, at_sea(true), at_sea(true, 0.7), at_sea(false)};
+  SceneDescription hoisted = slider_crank();
+  Line::Description line = Line::example();
+  line.bodies = {kGround, hoisted.bodies[0].name, hoisted.bodies[1].name};
+  hoisted.loads_of<Line>().push_back(line);
+  return {slider_crank(), floating, light, euler, at_sea(true), at_sea(true, 0.7), at_sea(false), hoisted};
 }
 
 /// Also loops whose rows depend on each other, which an eigendecomposition solves.

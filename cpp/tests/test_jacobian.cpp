@@ -137,28 +137,6 @@ SceneDescription with_convolution() {
   return scene;
 }
 
-BodyDescription random_body(const std::string& name, Random& random) {
-  BodyDescription b;
-  b.name = name;
-  b.mass = 2.0 + random.positive();
-  b.inertia = random.inertia();
-  b.center_of_mass = 0.2 * random.vector();
-  b.position = random.vector();
-  b.quaternion = quaternion_from_rotation(random.rotation());
-  return b;
-}
-
-/// Two bodies on the example of a joint kind, the first free in space, and a third beside them.
-SceneDescription pair(const std::string& kind, Random& random) {
-  SceneDescription scene;
-  scene.name = kind;
-  for (const char* name : {"first", "second", "third"}) scene.bodies.push_back(random_body(name, random));
-  scene.bodies[1].position = scene.bodies[0].position;
-  scene.bodies[1].quaternion = scene.bodies[0].quaternion;
-  scene.joints.push_back(find_joint_kind(kind)->example(random));
-  return scene;
-}
-
 }  // namespace
 
 TEST_CASE("exact Jacobian: every kind of joint") {
@@ -182,6 +160,21 @@ TEST_CASE("exact Jacobian: every kind of load") {
     check_recursive(scene, 6);
     check_residual(scene, 6);
   });
+}
+
+TEST_CASE("exact Jacobian: more states of loads than directions at once") {
+  Random random(14);
+  SceneDescription scene = pair("revolute", random);
+  for (int i = 0; i < 7; ++i) {
+    Line::Description line = Line::example();
+    line.name += std::to_string(i);
+    line.points[0] += random.vector();
+    scene.loads_of<Line>().push_back(line);
+  }
+  CHECK(compile(scene, false)->load_states.size() > idx(BodyResidual::kDirections));
+  check_redundant(scene, 6);
+  check_recursive(scene, 6);
+  check_residual(scene, 6);
 }
 
 TEST_CASE("exact Jacobian: drivers on angles and displacements, Baumgarte, Euler angles") {

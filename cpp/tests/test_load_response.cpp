@@ -29,6 +29,7 @@ struct Evaluated {
     redundant.derivative(0.3, y.data(), rate.data());
     recursive.derivative(0.3, q.data(), rate.data());
   }
+  const double* memory() const { return y.data() + redundant.model().layout.memory; }
   std::vector<Vec6d> zeros() const {
     return std::vector<Vec6d>(redundant.terms().bodies().size(), Vec6d::Zero());
   }
@@ -85,7 +86,7 @@ TEST_CASE("the response to an actuator's unit force is what one newton more acce
     Evaluated at(scene);
     const Actuator& drive = at.redundant.model().actuators().front();
     std::vector<Vec6d> unit = at.zeros(), found = at.zeros();
-    drive.add_unit(0, at.redundant.terms().load_input(0.3), unit.data());
+    drive.add_unit(0, at.redundant.terms().load_input(0.3, at.memory()), unit.data());
     std::vector<double> inputs(static_cast<std::size_t>(at.redundant.model().slot_count), 0.0);
     inputs[static_cast<std::size_t>(drive.slot)] = 1.0;
     const auto check = [&](Formulation& form) {

@@ -14,6 +14,7 @@ from seacrane._core import FlowForce as FlowForce
 from seacrane._core import Frame as Frame
 from seacrane._core import Friction as Friction
 from seacrane._core import Limit as Limit
+from seacrane._core import Line as Line
 from seacrane._core import Model as Model
 from seacrane._core import Point as Point
 from seacrane._core import RetardationFunctions as RetardationFunctions
@@ -104,6 +105,8 @@ from seacrane.validity.hull_range import MeanHeadingWarning as MeanHeadingWarnin
 from seacrane.validity.hull_range import MeanPositionWarning as MeanPositionWarning
 from seacrane.validity.hull_range import MooringTurnWarning as MooringTurnWarning
 from seacrane.validity.hull_range import NoWaveLoadsWarning as NoWaveLoadsWarning
+from seacrane.validity.lines import LineLengthWarning as LineLengthWarning
+from seacrane.validity.lines import WinchLimitWarning as WinchLimitWarning
 from seacrane.validity.plausible import BallastWarning as BallastWarning
 from seacrane.validity.range import LargeHeelWarning as LargeHeelWarning
 from seacrane.validity.range import NearSingularWarning as NearSingularWarning

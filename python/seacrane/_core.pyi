@@ -537,7 +537,7 @@ class Field:
     @property
     def type(self) -> str:
         """
-        text, number, flag, array, curve, frame, function or object
+        text, texts, number, flag, array, curve, frame, function or object
         """
     @property
     def unit(self) -> str:
@@ -1280,6 +1280,95 @@ class SoftStop:
         """
         N/m or N m/rad
         """
+class Line:
+    """
+    An elastic line without mass over points of bodies, with a winch or without; see Scene.add_line. Immutable.
+    """
+    FIELDS: typing.ClassVar[tuple]
+    @staticmethod
+    def example() -> Line:
+        """
+        One for checks, on bodies 'first', 'second' and 'third'.
+        """
+    def __copy__(self) -> Line:
+        ...
+    def __deepcopy__(self, memo: dict) -> Line:
+        ...
+    def __eq__(self, arg0: typing.Any) -> typing.Any:
+        ...
+    def __getstate__(self) -> dict:
+        ...
+    def __hash__(self) -> int:
+        ...
+    def __init__(self, *, name: str, bodies: collections.abc.Sequence[str], points: numpy.typing.ArrayLike, stiffness: typing.SupportsFloat, length: Curve | typing.SupportsFloat, damping: typing.SupportsFloat = ..., mass: typing.SupportsFloat = ..., winch: bool = ..., rate: Curve | typing.SupportsFloat = ..., maximum_rate: typing.SupportsFloat = ..., maximum_acceleration: typing.SupportsFloat = ..., lag: typing.SupportsFloat = ..., minimum_length: typing.SupportsFloat = ...) -> None:
+        ...
+    def __repr__(self) -> str:
+        ...
+    def __setstate__(self, arg0: dict) -> None:
+        ...
+    @property
+    def bodies(self) -> list[str]:
+        """
+        bodies of the points, in the order of the path
+        """
+    @property
+    def damping(self) -> float:
+        """
+        of critical damping of `mass` on the line
+        """
+    @property
+    def lag(self) -> float:
+        """
+        s, of the winch's rate behind the command
+        """
+    @property
+    def length(self) -> Curve:
+        """
+        m, unstretched; with a winch, at the start
+        """
+    @property
+    def mass(self) -> float:
+        """
+        kg, that moves with the line's end; 0: that of the last body
+        """
+    @property
+    def maximum_acceleration(self) -> float:
+        """
+        m/s2, likewise; needs a lag
+        """
+    @property
+    def maximum_rate(self) -> float:
+        """
+        m/s, of the winch; at 1e7 there is none
+        """
+    @property
+    def minimum_length(self) -> float:
+        """
+        m, at which hauling in stops
+        """
+    @property
+    def name(self) -> str:
+        ...
+    @property
+    def points(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 3]"]:
+        """
+        m, coordinates of these bodies
+        """
+    @property
+    def rate(self) -> Curve:
+        """
+        m/s, commanded, positive: pays out
+        """
+    @property
+    def stiffness(self) -> float:
+        """
+        N, EA: tension over strain
+        """
+    @property
+    def winch(self) -> bool:
+        """
+        whether the length is a state that `rate` drives
+        """
 class Limit:
     """
     What a joint does one way only; see Scene.add_wire, add_end_stop and add_seat. Immutable.
@@ -1555,7 +1644,7 @@ class Model:
     @property
     def initial_state(self) -> numpy.typing.NDArray[numpy.float64]:
         """
-        Consistent start (copy): poses, twists, memory states, work.
+        Consistent start (copy): poses, twists, memory states, states of loads, work.
         """
     @property
     def inputs(self) -> list[tuple[str, int, int]]:
@@ -1571,6 +1660,11 @@ class Model:
     def limits(self) -> list[tuple[str, bool]]:
         """
         (name, whether it holds at the described start) of wires, bounds and seats, in the order of the channel limit_force.
+        """
+    @property
+    def load_states(self) -> list[tuple[str, str, int, float, float]]:
+        """
+        (name, unit, place in the state, start, scale of errors) of the states that loads have of their own; they are the last of the memory states.
         """
     @property
     def memory_states(self) -> int:
@@ -1927,6 +2021,10 @@ class State:
         """
         Writes the state to a file, complete or not at all; see docs/restart.md.
         """
+    def with_load_states(self, values: collections.abc.Mapping[str, typing.SupportsFloat | typing.SupportsIndex]) -> State:
+        """
+        The same state with other values of states of loads, by name; a run starts from it afresh.
+        """
     @property
     def closed(self) -> list[str] | None:
         """
@@ -1941,6 +2039,11 @@ class State:
     def inputs(self) -> numpy.typing.NDArray[numpy.float64]:
         """
         copy
+        """
+    @property
+    def load_states(self) -> dict:
+        """
+        The states that loads have of their own, by name, such as a winch's "hoist.length" (copy).
         """
     @property
     def parts(self) -> list[str]:
@@ -2280,4 +2383,4 @@ def torsethaugen(*, hs: typing.SupportsFloat | typing.SupportsIndex, tp: typing.
     K. Torsethaugen and S. Haver, ISOPE 2004; DNV-RP-C205 appendix A. Norwegian waters, fetch 370 km. Normalised by
     quadrature instead of the fitted factor A_gamma.
     """
-LOAD_KINDS: dict = {'actuator': Actuator, 'point force': PointForce, 'spring': Spring, 'force table': ForceTable, 'function force': FunctionForce, 'flow force': FlowForce, 'friction': Friction, 'soft stop': SoftStop, 'limit': Limit}
+LOAD_KINDS: dict = {'actuator': Actuator, 'point force': PointForce, 'spring': Spring, 'force table': ForceTable, 'function force': FunctionForce, 'flow force': FlowForce, 'friction': Friction, 'soft stop': SoftStop, 'line': Line, 'limit': Limit}

@@ -79,6 +79,17 @@ class Compiler {
     return j;
   }
 
+  /// The place of a state among those of all loads.
+  int state(LoadState state) {
+    model_.load_states.push_back(std::move(state));
+    return static_cast<int>(model_.load_states.size()) - 1;
+  }
+  double mass(const std::string& body) const {
+    return body == kGround ? 0.0 : scene_.bodies[idx(index_.at(body))].mass;
+  }
+  /// Of lengths, m: what errors of positions count over.
+  double length_scale() const { return kTranslationScale * scene_.length_scale; }
+
   /// The first of `count` slots of a zero-order-held input.
   int input(const std::string& name, int count = 1) {
     const int first = model_.slot_count;
@@ -254,10 +265,13 @@ class Compiler {
   }
 
   /// A load on one body does nothing to the ground; one between bodies, nothing to bodies that move as one:
-  /// there its forces cancel and do no work.
+  /// there its forces cancel and do no work. States go on all the same.
   template <class Load>
   bool acts(const Load& load) const {
-    const auto bodies = load.bodies();
+    if constexpr (HasStates<Load>) {
+      if (load.states.count > 0) return true;
+    }
+    const auto& bodies = load.bodies();
     const auto& first = *bodies.begin();
     if (bodies.size() == 1) return first != ground();
     return std::any_of(bodies.begin(), bodies.end(), [&](int b) { return b != first; });
@@ -315,13 +329,15 @@ class Compiler {
       v.memory_offset = s.work;
       s.work += v.memory_states();
     }
+    s.loads = s.work;
+    s.work += static_cast<int>(model_.load_states.size());
     s.size = s.work + 2;
     scales();
   }
 
   void scales() {
     const StateLayout& s = model_.layout;
-    const double length = model_.translation_scale = kTranslationScale * scene_.length_scale;
+    const double length = model_.translation_scale = length_scale();
     model_.rotation_scale = kRotationScale;
     std::vector<double>& scale = model_.scale;
     scale.assign(idx(s.size), std::numeric_limits<double>::infinity());  // work: not in the error norm
@@ -339,6 +355,9 @@ class Compiler {
       }
       if (!model_.vessels[v].fast) continue;
       for (int k = 0; k < FastMotion::states; ++k) scale[idx(i++)] = k < 6 ? length : kRotationScale;
+    }
+    for (std::size_t i = 0; i < model_.load_states.size(); ++i) {
+      scale[idx(s.loads) + i] = model_.load_states[i].scale;
     }
   }
 
@@ -359,6 +378,9 @@ class Compiler {
       }
       view<3>(&y[idx(s.twist(b))]) = d.velocity + d.angular_velocity.cross(lever);
       view<3>(&y[idx(s.twist(b) + 3)]) = d.angular_velocity;
+    }
+    for (std::size_t i = 0; i < model_.load_states.size(); ++i) {
+      y[idx(s.loads) + i] = model_.load_states[i].initial;
     }
   }
 

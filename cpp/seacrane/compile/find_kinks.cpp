@@ -47,10 +47,14 @@ class Finder {
     for (LoadKinks found : load.kinks()) {
       std::erase_if(found, [](const LoadKink& kink) { return kink.jump.isZero(0.0); });
       if (found.empty()) continue;
-      if constexpr (requires { load.add_unit(0, system().terms().load_input(0.0), wrenches_.data()); }) {
+      if constexpr (requires { load.add_unit(0, input(), wrenches_.data()); }) {
         add(found, of_load(load, static_cast<int>(found.front().jump.rows())));
       }
     }
+  }
+
+  LoadInput<double> input() {
+    return system().terms().load_input(0.0, model_.initial_state.data() + model_.layout.memory);
   }
 
   /// Evaluated where there is a kink at all.
@@ -69,7 +73,7 @@ class Finder {
   /// Accelerations over the scales of the velocities, by state and component of a load.
   template <class Load>
   MatXd of_load(const Load& load, int components) {
-    const LoadInput<double> in = system().terms().load_input(0.0);
+    const LoadInput<double> in = input();
     MatXd out(6 * model_.body_count(), components);
     for (int k = 0; k < components; ++k) {
       for (Vec6d& wrench : wrenches_) wrench.setZero();

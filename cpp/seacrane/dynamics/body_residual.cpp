@@ -56,6 +56,8 @@ BodyResidual::BodyResidual(const Model& model, const std::vector<int>* counted)
   for (const Vessel& vessel : model.vessels) most = std::max(most, vessel.memory_states());
   memory_state_.resize(idx(most));
   memory_rate_.resize(idx(most));
+  state_.resize(model.load_states.size());
+  state_rate_.resize(state_.size());
   wave_slopes_.resize(model.vessels.size());
   touched_.reserve(bodies_.size());
 }
@@ -68,22 +70,46 @@ void BodyResidual::start(const Terms& terms, double t, const Held& held) {
     moved_[b] = terms.bodies()[b];
     bodies_[b] = constant<Scalar>(terms.bodies()[b]);
   }
+  const double* states = terms.load_input(t, held.memory).states;
+  for (std::size_t i = 0; i < state_.size(); ++i) state_[i] = Scalar(states[i]);
+}
+
+/// No slopes yet; what loads look at.
+LoadInput<BodyResidual::Scalar> BodyResidual::clear() {
+  for (int other : touched_) wrench_[idx(other)] = second_wrench_[idx(other)] = BodyLoad<Scalar>();
+  touched_.clear();
+  for (auto* rows : {&right_, &rate_, &position_, &state_rate_})
+    std::fill(rows->begin(), rows->end(), Scalar());
+  const LoadInput<double> now = terms_->load_input(t_, held_.memory);
+  sum_ = LoadSum<Scalar>{wrench_.data(), state_rate_.data()};
+  return {t_, now.curve_limit, bodies_.data(), now.slots, state_.data()};
 }
 
 void BodyResidual::differentiate(int b) {
   seed(terms_->bodies()[idx(b)], bodies_[idx(b)]);
-  for (int other : touched_) wrench_[idx(other)] = second_wrench_[idx(other)] = BodyLoad<Scalar>();
-  touched_.clear();
-  for (auto* rows : {&right_, &rate_, &position_}) std::fill(rows->begin(), rows->end(), Scalar());
-  const LoadInput<double> now = terms_->load_input(t_);
-  const LoadInput<Scalar> input{t_, now.curve_limit, bodies_.data(), now.slots};
-  sum_ = LoadSum<Scalar>{wrench_.data()};
+  const LoadInput<Scalar> input = clear();
   add_inertia(b);
   add_loads(b, input);
   add_hydrodynamics(b, input);
   add_waves(b);
   add_rows(b);
   bodies_[idx(b)] = constant<Scalar>(terms_->bodies()[idx(b)]);
+}
+
+void BodyResidual::differentiate_states(int first) {
+  const LoadInput<Scalar> input = clear();
+  const int last = std::min(first + kDirections, static_cast<int>(state_.size()));
+  for (int i = first; i < last; ++i) state_[idx(i)].slope[idx(i - first)] = 1.0;
+  for_each_load_type([&]<class Load>() {
+    if constexpr (HasStates<Load>) {
+      for (const Load& load : std::get<std::vector<Load>>(*model_->loads)) {
+        if (load.states.first >= last || load.states.first + load.states.count <= first) continue;
+        for (const int b : load.bodies()) wrench(b);
+        load.template apply<Scalar>(input, sum_);
+      }
+    }
+  });
+  for (int i = first; i < last; ++i) state_[idx(i)].slope[idx(i - first)] = 0.0;
 }
 
 BodyResidual::Slopes BodyResidual::slopes(const BodyLoad<Scalar>& w) {
@@ -148,7 +174,7 @@ void BodyResidual::add_loads(int b, const LoadInput<Scalar>& input) {
   }
   for_each_load_type([&]<class Load>() {
     for (const Load& load : std::get<std::vector<Load>>(*model_->loads)) {
-      const auto bodies = load.bodies();
+      const auto& bodies = load.bodies();
       if (std::find(bodies.begin(), bodies.end(), b) == bodies.end()) continue;
       for (const int other : bodies) wrench(other);
       if constexpr (std::is_same_v<Load, FunctionForce>) {
@@ -162,7 +188,7 @@ void BodyResidual::add_loads(int b, const LoadInput<Scalar>& input) {
 
 void BodyResidual::add_differences(const FunctionForce& load) {
   const auto b = idx(load.body);
-  LoadInput<double> input = terms_->load_input(t_);
+  LoadInput<double> input = terms_->load_input(t_, held_.memory);
   input.bodies = moved_.data();
   const auto at = [&](int direction, double step) {
     moved_[b] = moved(terms_->bodies()[b], direction, step);

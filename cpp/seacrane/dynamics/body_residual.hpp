@@ -40,6 +40,8 @@ class BodyResidual {
   void start(const Terms& terms, double t, const Held& held);
   /// Slopes in the directions of a body, until the next call.
   void differentiate(int body);
+  /// Slopes in up to twelve states of loads, from `first` on, in place of a body's directions.
+  void differentiate_states(int first);
 
   /// Of p on a body, and of D^T mu.
   Slopes load(int body) const { return slopes(wrench_[idx(body)]); }
@@ -53,6 +55,8 @@ class BodyResidual {
   const LoadSum<Scalar>& sum() const { return sum_; }
   /// Rates of the memory states of the body's vessel.
   const std::vector<Scalar>& memory_rates() const { return memory_rate_; }
+  /// Rates of the states of all loads.
+  const std::vector<Scalar>& state_rates() const { return state_rate_; }
 
   /// Of the wave load on a vessel, in its yaw frame: slopes over the x, y and yaw where it is taken, and the
   /// sign of its power.
@@ -65,6 +69,7 @@ class BodyResidual {
 
  private:
   static Slopes slopes(const BodyLoad<Scalar>& w);
+  LoadInput<Scalar> clear();
   void seed(const BodyKinematics<double>& k, BodyKinematics<Scalar>& out) const;
   BodyLoad<Scalar>& wrench(int body);
   void add_inertia(int body);
@@ -84,7 +89,7 @@ class BodyResidual {
   std::vector<BodyKinematics<double>> moved_;
   std::vector<BodyLoad<Scalar>> wrench_, second_wrench_;
   std::vector<BodyLoad<double>> moved_wrench_;
-  std::vector<Scalar> right_, rate_, position_, memory_state_, memory_rate_;
+  std::vector<Scalar> right_, rate_, position_, memory_state_, memory_rate_, state_, state_rate_;
   std::vector<WaveSlopes> wave_slopes_;  // by vessel
   std::vector<int> touched_;
   LoadSum<Scalar> sum_{};

@@ -15,7 +15,7 @@ double kinetic_energy(const Terms& terms, const double* y) {
 
 double mechanical_energy(const Terms& terms, double t, const double* y) {
   const Model& m = terms.model();
-  const LoadInput<double> input = terms.load_input(t);
+  const LoadInput<double> input = terms.load_input(t, y + m.layout.memory);
   double sum = kinetic_energy(terms, y);
   for (const auto& load : m.gravity) sum += load.potential(input);
   for_each_load_type([&]<class Load>() {

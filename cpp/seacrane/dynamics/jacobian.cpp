@@ -92,10 +92,11 @@ void MaximalJacobian::evaluate(MaximalSystem& system, double t, const double* y,
     write_body_columns(b, y, out);
   }
   write_memory_columns(y, out);
+  write_state_columns(out);
   write_pose_rates(y, out);
 }
 
-/// Rates of twists and work from load_ and given_; the memory's are the caller's.
+/// Rates of twists and work from load_ and given_; those of the memory and of loads' states are the caller's.
 void MaximalJacobian::solve_column(double* column, double power, double absolute_power) {
   const Model& m = *model_;
   system_->solver().solve(load_, given_, acceleration_, lambda_);
@@ -130,6 +131,7 @@ void MaximalJacobian::write_body_columns(int b, const double* y, double* out) {
         column[v.memory_offset + i] = residual_.memory_rates()[idx(i)].slope[d];
       }
     }
+    write_slopes(residual_.state_rates(), k, column_.data() + m.layout.loads);
     if (k < 3) {
       jacobian.col(pose + k) = column;
     } else if (k < 6) {
@@ -167,6 +169,23 @@ void MaximalJacobian::write_memory_columns(const double* y, double* out) {
           (direction - waves.direction) * frame.twist.dot(memory_[v].c.col(i));
     }
     jacobian.block(vessel.memory_offset, vessel.memory_offset, states, states) += memory_[v].a;
+  }
+}
+
+void MaximalJacobian::write_state_columns(double* out) {
+  const Model& m = *model_;
+  const auto n = m.layout.size;
+  const int states = static_cast<int>(m.load_states.size());
+  Eigen::Map<MatXd> jacobian(out, n, n);
+  std::fill(given_.begin(), given_.end(), 0.0);
+  for (int i = 0; i < states; ++i) {
+    const int k = i % BodyResidual::kDirections;
+    if (k == 0) residual_.differentiate_states(i);
+    for (auto& load : load_) load.setZero();
+    for (int touched : residual_.touched()) load_[idx(touched)] = residual_.load(touched).col(k);
+    double* const column = jacobian.col(m.layout.loads + i).data();
+    solve_column(column, residual_.sum().power.slope[idx(k)], residual_.sum().absolute_power.slope[idx(k)]);
+    write_slopes(residual_.state_rates(), k, column + m.layout.loads);
   }
 }
 

@@ -19,6 +19,11 @@ std::vector<MemoryMatrices> memory_matrices(const Model& model);
 double memory_power_sign(const Vessel& vessel, const YawFrame<double>& frame, const double* x,
                          double* x_rate);
 
+/// Slopes of some numbers in one direction.
+inline void write_slopes(const std::vector<BodyResidual::Scalar>& numbers, int direction, double* out) {
+  for (const auto& number : numbers) *out++ = number.slope[idx(direction)];
+}
+
 /// Into c, how the wave load changes with the vessel's fast motion.
 void write_wave_slopes(const Vessel& vessel, const BodyResidual::WaveSlopes& slopes, MatXd& c);
 
@@ -47,6 +52,7 @@ class MaximalJacobian {
   void solve_column(double* column, double power, double absolute_power);
   void write_body_columns(int body, const double* y, double* out);
   void write_memory_columns(const double* y, double* out);
+  void write_state_columns(double* out);
   void write_pose_rates(const double* y, double* out) const;
 
   const Model* model_;

@@ -46,13 +46,15 @@ std::string bad_rows(const Terms& terms) {
 
 std::string non_finite_load(Terms& terms, double t, const double* y) {
   const Model& m = terms.model();
-  const LoadInput<double> input = terms.load_input(t);
+  const LoadInput<double> input = terms.load_input(t, y + m.layout.memory);
+  std::vector<double> memory_rate(idx(m.layout.work - m.layout.memory));
+  double* const state_rates = memory_rate.data() + (m.layout.loads - m.layout.memory);
   std::vector<BodyLoad<double>>& wrench = terms.wrench_;
   std::string found;
   const auto check = [&](const std::string& name, auto&& apply) {
     if (!found.empty()) return;
     for (auto& w : wrench) w = BodyLoad<double>();
-    LoadSum<double> sum{wrench.data()};
+    LoadSum<double> sum{wrench.data(), state_rates};
     apply(sum);
     const std::string bad = bad_wrench(m, wrench);
     if (!bad.empty()) {
@@ -72,7 +74,6 @@ std::string non_finite_load(Terms& terms, double t, const double* y) {
             [&](auto& sum) { loads[i].template apply<double>(input, sum); });
     }
   });
-  std::vector<double> memory_rate(idx(m.layout.work - m.layout.memory));
   check("hydrodynamics",
         [&](auto& sum) { terms.apply_hydrodynamics(input, y + m.layout.memory, memory_rate.data(), sum); });
   const std::size_t bad = first_non_finite(memory_rate.data(), memory_rate.size());

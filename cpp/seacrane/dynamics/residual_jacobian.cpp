@@ -27,6 +27,7 @@ void ResidualJacobian::evaluate(const Terms& terms, double t, double c, const do
     write_body_columns(b, y, jacobian);
   }
   write_memory_columns(y, jacobian);
+  write_state_columns(jacobian);
   write_multiplier_columns(y, jacobian);
   write_rate_terms(c, jacobian);
 }
@@ -72,8 +73,7 @@ void ResidualJacobian::write_body_columns(int b, const double* y, Eigen::Map<Mat
         column_[v.memory_offset + i] = -residual_.memory_rates()[idx(i)].slope[d];
       }
     }
-    column_[s.work] = -residual_.sum().power.slope[d];
-    column_[s.work + 1] = -residual_.sum().absolute_power.slope[d];
+    write_load_rates(k, column_.data());
     for (int r = 0; r < m.rows(); ++r) {
       column_[s.size + r] = residual_.velocity_rows()[idx(r)].slope[d];
       column_[s.size + m.rows() + r] = residual_.position_rows()[idx(r)].slope[d];
@@ -109,6 +109,31 @@ void ResidualJacobian::write_memory_columns(const double* y, Eigen::Map<MatXd>& 
       out(m.layout.work + 1, at + i) = (i < vessel.fluid_states() ? direction : waves.direction) * power;
     }
     out.block(at, at, states, states) = -memory_[v].a;
+  }
+}
+
+/// Of the states of loads and of the work, in a direction of the residual.
+void ResidualJacobian::write_load_rates(int direction, double* column) const {
+  const StateLayout& s = model_->layout;
+  const auto d = idx(direction);
+  for (std::size_t i = 0; i < model_->load_states.size(); ++i) {
+    column[idx(s.loads) + i] = -residual_.state_rates()[i].slope[d];
+  }
+  column[s.work] = -residual_.sum().power.slope[d];
+  column[s.work + 1] = -residual_.sum().absolute_power.slope[d];
+}
+
+void ResidualJacobian::write_state_columns(Eigen::Map<MatXd>& out) {
+  const Model& m = *model_;
+  for (int i = 0; i < static_cast<int>(m.load_states.size()); ++i) {
+    const int k = i % BodyResidual::kDirections;
+    if (k == 0) residual_.differentiate_states(i);
+    double* const column = out.col(m.layout.loads + i).data();
+    for (int to : residual_.touched()) {
+      if (to == m.body_count()) continue;
+      view<6>(column + m.layout.twist(to)) = -over_mass(to, residual_.load(to).col(k));
+    }
+    write_load_rates(k, column);
   }
 }
 

@@ -20,6 +20,8 @@ class ResidualJacobian {
  private:
   void write_body_columns(int body, const double* y, Eigen::Map<MatXd>& out);
   void write_memory_columns(const double* y, Eigen::Map<MatXd>& out);
+  void write_load_rates(int direction, double* column) const;
+  void write_state_columns(Eigen::Map<MatXd>& out);
   void write_multiplier_columns(const double* y, Eigen::Map<MatXd>& out);
   void write_rate_terms(double c, Eigen::Map<MatXd>& out) const;
   void add_pose_rates(int body, const double* angles, const Vec6d& velocity, double* column) const;

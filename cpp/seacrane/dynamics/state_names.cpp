@@ -22,6 +22,8 @@ std::string describe_state(const Model& model, int component) {
 }
 
 std::string describe_memory(const Model& model, int state) {
+  const int of_load = state - (model.layout.loads - model.layout.memory);
+  if (of_load >= 0) return "state '" + model.load_states[idx(of_load)].name + "'";
   for (std::size_t v = 0; v < model.vessels.size(); ++v) {
     const Vessel& vessel = model.vessels[v];
     const int own = state - (vessel.memory_offset - model.layout.memory);

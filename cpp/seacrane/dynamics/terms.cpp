@@ -16,7 +16,10 @@ constexpr double kEulerLimit = 1e-3;  // cos(phi_y); negative: a step jumped ove
 }  // namespace
 
 Terms::Terms(std::shared_ptr<const Model> model)
-    : model_(std::move(model)), slots_(idx(model_->slot_count), 0.0), histories_(*model_) {
+    : model_(std::move(model)),
+      first_load_state_(model_->layout.loads - model_->layout.memory),
+      slots_(idx(model_->slot_count), 0.0),
+      histories_(*model_) {
   const Model& m = *model_;
   const auto bodies = idx(m.body_count());
   bodies_.assign(bodies + 1, BodyKinematics<double>::ground());
@@ -126,8 +129,8 @@ void Terms::apply_waves(double t, const double* memory, LoadSum<double>& sum) {
 void Terms::evaluate_wrenches(double t, const double* memory, double* memory_rate) {
   const Model& m = *model_;
   for (auto& w : wrench_) w = BodyLoad<double>();
-  const LoadInput<double> input = load_input(t);
-  LoadSum<double> sum{wrench_.data()};
+  const LoadInput<double> input = load_input(t, memory);
+  LoadSum<double> sum{wrench_.data(), memory_rate + first_load_state_};
   for (const auto& load : m.gravity) load.apply<double>(input, sum);
   for_each_load_type([&]<class Load>() {
     for (const Load& load : std::get<std::vector<Load>>(*m.loads)) load.template apply<double>(input, sum);

@@ -51,7 +51,7 @@ class Terms {
   void evaluate_inertia();
   void evaluate_rows(double t);
   /// Wrenches on the bodies, without velocity terms, and their power; `memory` and its rates: the memory part
-  /// of a state.
+  /// of a state, from the fluid's states to those of loads.
   void evaluate_wrenches(double t, const double* memory, double* memory_rate);
   /// All of it at (t, y); of ydot the memory part.
   void evaluate(double t, const double* y, double* ydot);
@@ -72,7 +72,10 @@ class Terms {
   const WaveForces& waves(std::size_t load) const { return waves_[load]; }
   /// x, y and yaw of the vessel where its wave loads are taken; `memory`: the memory part of a state.
   Vec3d wave_pose(const WaveLoad& wave, const double* memory) const;
-  LoadInput<double> load_input(double t) const { return {t, curve_limit_, bodies_.data(), slots_.data()}; }
+  /// What loads look at; `memory`: the memory part of a state.
+  LoadInput<double> load_input(double t, const double* memory) const {
+    return {t, curve_limit_, bodies_.data(), slots_.data(), memory + first_load_state_};
+  }
   /// Of the loads without potential, drivers included.
   const Power& power() const { return power_; }
   void add_driver_power(double power) { power_.add(power); }
@@ -88,6 +91,7 @@ class Terms {
   void apply_waves(double t, const double* memory, LoadSum<double>& sum);
 
   std::shared_ptr<const Model> model_;
+  int first_load_state_;  // in the memory part of a state
   std::vector<double> slots_;
   double curve_limit_ = std::numeric_limits<double>::infinity();
   VesselHistories histories_;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "seacrane/elements/loads/gravity.hpp"
+#include "seacrane/elements/loads/load.hpp"
 #include "seacrane/hydro/vessel.hpp"
 #include "seacrane/model/block_schur.hpp"
 #include "seacrane/model/description.hpp"
@@ -54,8 +55,8 @@ struct WaveLoad {
 /// Where things stand in the state vector.
 struct StateLayout {
   int bodies = 0;
-  int pose_size = 7;  // 3 + quaternion, or 3 + XYZ Euler angles
-  int velocity = 0, memory = 0, work = 0, size = 0;
+  int pose_size = 7;                                            // 3 + quaternion, or 3 + XYZ Euler angles
+  int velocity = 0, memory = 0, loads = 0, work = 0, size = 0;  // loads: their states, behind the memory
 
   int pose(int body) const { return pose_size * body; }
   int twist(int body) const { return velocity + 6 * body; }
@@ -89,7 +90,8 @@ struct Model {
   std::vector<WaveLoad> wave_loads;
   std::vector<CoordinateData> coordinates;
   std::vector<Attachment> points;
-  std::vector<InputModel> inputs;  // in the order of their slots
+  std::vector<InputModel> inputs;      // in the order of their slots
+  std::vector<LoadState> load_states;  // in their order in the state
   int slot_count = 0;
   StateLayout layout;
   double translation_scale = 0.0, rotation_scale = 0.0;  // typical magnitudes, m and rad, rates alike

@@ -13,7 +13,8 @@
 namespace seacrane {
 namespace {
 
-/// Rates and memory states this far beyond their scale (0.1 m/s, 0.01 rad/s) belong to no motion of a body.
+/// Rates and states of the fluid this far beyond their scale (0.1 m/s, 0.01 rad/s) belong to no motion of a
+/// body.
 constexpr double kGrown = 1e5;
 /// s ahead of a step size that has collapsed, times max(1, |t|).
 constexpr double kAhead[] = {1e-12, 1e-9, 1e-6};
@@ -51,7 +52,7 @@ std::string find_grown(Stepper& at) {
   at.write_bodies(at.integrator->time(), at.integrator->state(), described.data());
   int worst = -1;
   double largest = kGrown;
-  for (int i = m.layout.velocity; i < m.layout.work; ++i) {
+  for (int i = m.layout.velocity; i < m.layout.loads; ++i) {
     const double ratio = std::abs(described[idx(i)]) / m.scale[idx(i)];
     if (!(ratio > largest)) continue;
     largest = ratio;

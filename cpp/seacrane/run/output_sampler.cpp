@@ -116,8 +116,9 @@ void OutputSampler::write(Stepper& at, double t, double residual_before, double 
   const double energy =
       needs.energy ? mechanical_energy(at.system.terms(), t, bodies_.data()) : start_energy_;
   const double balance = energy - start_energy_ - (work[0] - start_work_);
-  out.append({t, bodies_.data(), at.system, at.system.terms(), coordinates_, one_load_, residual.position, residual.rate,
-              residual_before, balance, impact_loss});
+  out.append({t, bodies_.data(), at.system, at.system.terms(), coordinates_, one_load_,
+              rate_.data() + model_.layout.loads, residual.position, residual.rate, residual_before, balance,
+              impact_loss});
   if (energy_.has_limit()) energy_.check(t, bodies_.data(), at.system.terms(), balance, work[1], energy);
 }
 

@@ -9,6 +9,9 @@
 namespace seacrane {
 namespace {
 
+const std::string kStatePart = "state '";
+constexpr std::size_t kWorkStates = 2;
+
 void check_parts(const Model& model, const std::vector<std::string>& given) {
   const std::vector<std::string> own = state_parts(model);
   const auto [here, there] = std::mismatch(own.begin(), own.end(), given.begin(), given.end());
@@ -40,8 +43,20 @@ std::vector<std::string> state_parts(const Model& model) {
   std::vector<std::string> out;
   for (const BodyModel& body : model.bodies) out.push_back("body '" + body.name + "'");
   out.push_back("poses of " + std::to_string(model.layout.pose_size) + " numbers");
-  out.push_back("memory of " + std::to_string(model.layout.work - model.layout.memory) + " states");
+  out.push_back("memory of " + std::to_string(model.layout.loads - model.layout.memory) + " states");
+  for (const LoadState& state : model.load_states) out.push_back(kStatePart + state.name + "'");
   out.push_back("inputs of " + std::to_string(model.slot_count) + " numbers");
+  return out;
+}
+
+LoadStates load_states(const State& state) {
+  LoadStates out;
+  for (const std::string& part : state.parts) {
+    if (!part.starts_with(kStatePart)) continue;
+    out.names.push_back(part.substr(kStatePart.size(), part.size() - kStatePart.size() - 1));
+  }
+  const std::size_t behind = out.names.size() + kWorkStates;
+  out.first = state.values.size() >= behind ? state.values.size() - behind : 0;
   return out;
 }
 

@@ -40,6 +40,14 @@ State initial_state(const Model& model);
 /// What the values and inputs of a state belong to, one text each: tells the state of another scene.
 std::vector<std::string> state_parts(const Model& model);
 
+/// Of the states of loads in a state whose parts are known: their names, and the place of the first in the
+/// values.
+struct LoadStates {
+  std::vector<std::string> names;
+  std::size_t first = 0;
+};
+LoadStates load_states(const State& state);
+
 /// The state itself. Throws std::invalid_argument for one of another scene, with the first difference named,
 /// and for values that are not finite.
 const State& checked_state(const Model& model, const State& state);

@@ -8,9 +8,11 @@
 
 namespace seacrane {
 
-/// Kinks that loads have in the state: where a soft stop is touched, left or lets go, and the corners of a
-/// spring's table. They have no time to offer. A step that ends on another side of one is taken again, up to
-/// where it crossed, so that every step sees one side only.
+/// Kinks that loads have in the state: where a soft stop is touched, left or lets go, the corners of a
+/// spring's table, where a line goes slack or taut. They have no time to offer. A step that ends on another
+/// side of one is taken again, up to where it crossed, so that every step sees one side only. A load that may
+/// have kinks has has_sides(), side(input), a number for each side, and across(input, from, to), which
+/// changes its sign between two of them.
 class Switches {
  public:
   /// Whether loads of a model have such kinks.
@@ -24,11 +26,10 @@ class Switches {
 
  private:
   void find_sides(Stepper& at, double t, const double* y, std::vector<int>& sides);
-  void read(Stepper& at, double t, const double* y);
-  /// What changes its sign between two sides of a load, with the kinematics read last.
-  double across(Stepper& at, std::size_t load, int from, int to) const;
+  LoadInput<double> read(Stepper& at, double t, const double* y);
+  static double across(const Stepper& at, const LoadInput<double>& in, std::size_t load, int from, int to);
 
-  std::vector<int> before_, after_;  // soft stops, then springs with a table, in the order of the model
+  std::vector<int> before_, after_;  // by load with sides
   std::vector<double> bodies_;
 };
 

@@ -264,6 +264,14 @@ def _state_matrix(coordinates: ReducedCoordinates, poses: Array) -> tuple[Array,
 
 def _require_rest(terms: Terms, values: Array) -> None:
     rates = terms.rates(values)
+    drift = np.abs(terms.drift(values))
+    if np.max(drift, initial=0.0) > REST:
+        name, unit, place, *_ = terms.model.load_states[int(np.argmax(drift))]
+        rate = terms.evaluator.derivative(terms.time, values)[place]
+        raise SceneError(
+            f"state {name!r}: changes by {rate:.3g} {unit}/s at the state to be linearised; pass it through "
+            "seacrane.equilibrium first"
+        )
     moving = np.abs(values[terms.twists])
     accelerating = np.abs(rates[: 6 * terms.bodies])
     for what, unit, size in (

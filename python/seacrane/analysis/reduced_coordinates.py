@@ -26,6 +26,8 @@ class Terms:
         self.bodies = len(model.bodies)
         self.twists = slice(model.twist_index(0), model.twist_index(0) + 6 * self.bodies)
         self.memory = slice(self.twists.stop, self.twists.stop + model.memory_states)
+        self.load_states = slice(self.memory.stop - len(model.load_states), self.memory.stop)
+        self.load_scales = np.array([scale for *_, scale in model.load_states])
 
     def checked(self, values: Array) -> Array:
         """The values, if there are as many finite ones as the model has states."""
@@ -50,6 +52,11 @@ class Terms:
         """Accelerations (6 n), then rates of the memory states."""
         rate = self.evaluator.derivative(self.time, values)
         return np.concatenate([rate[self.twists], rate[self.memory]])
+
+    def drift(self, values: Array) -> Array:
+        """Rates of the states that loads have of their own, over their scales, 1/s."""
+        rate = self.evaluator.derivative(self.time, values)
+        return np.asarray(rate[self.load_states] / self.load_scales)
 
     def exact_columns(self, values: Array, directions: Array) -> Array | None:
         """d(accelerations, memory rates) along directions (states, k); None where no exact Jacobian is."""
@@ -164,6 +171,31 @@ class ReducedCoordinates:
     def stiffness(self) -> Array:
         """d(acceleration) / d(coordinates) in the coordinates, (dof, dof), 1/s2."""
         return np.asarray(self.basis.T @ self.pose_columns()[: 6 * self.terms.bodies])
+
+    def rest_matrix(self) -> tuple[Array, Array, Array]:
+        """What a rest state is solved by: `stiffness` with the states of loads as further unknowns.
+
+        A state on which no rate of a state depends, such as a paid-out length, rests anywhere: it is held.
+
+        Returns
+        -------
+        ndarray, shape (dof + k, dof + k)
+            Rows: accelerations, and k combinations of the drift; columns: coordinates, and k combinations of
+            the states over their scales.
+        ndarray, ndarray, shape (n, k)
+            These combinations, of the drift and of the n states.
+        """
+        terms, scales = self.terms, self.terms.load_scales
+        if not len(scales):
+            none = np.zeros((0, 0))
+            return self.stiffness(), none, none
+        last = slice(-len(scales), None)
+        poses, states = self.pose_columns(), self.memory_columns()[:, last] * scales
+        u, size, vt = np.linalg.svd(states[last] / scales[:, None])
+        rows, columns = u[:, size > NEUTRAL], vt[size > NEUTRAL].T
+        both = np.hstack([poses, states @ columns])
+        accelerations = self.basis.T @ both[: 6 * terms.bodies]
+        return np.vstack([accelerations, rows.T @ (both[last] / scales[:, None])]), rows, columns
 
     def _difference(self, *, displacement: Array | float = 0.0, twist: Array | float = 0.0) -> Array:
         terms, y, still = self.terms, self.values, np.zeros(6 * self.terms.bodies)

@@ -10,7 +10,9 @@ from numpy.typing import NDArray
 
 from seacrane import _core
 from seacrane.analysis.reduced_coordinates import NEUTRAL, ReducedCoordinates, Terms
+from seacrane.analysis.taut_lines import tautened
 from seacrane.description.compilation import compile_scene
+from seacrane.description.loads import lines_of
 from seacrane.description.scene import Description, Some
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import number_of
@@ -26,7 +28,7 @@ FOLLOW = 0.05  # s between projections on drivers
 
 
 def held(scene: Some, *, time: float = 0.0) -> Some:
-    """The scene without waves, its references, drivers and tabulated forces held at their values at `time`.
+    """The scene without waves, its references, drivers, tabulated forces and lines held as at `time`.
 
     Its state of orientation is the quaternion and it has no Baumgarte stabilisation: motions are the same.
     """
@@ -50,6 +52,9 @@ def held(scene: Some, *, time: float = 0.0) -> Some:
         out.force_tables[name] = _core.ForceTable(
             name=name, body=table.body, point=table.point, times=[0.0, 1.0], wrenches=np.array([wrench] * 2)
         )
+    for name, line in lines_of(scene.loads).items():
+        still = {"length": _frozen(line.length, time), "rate": 0.0}
+        out.loads[name] = _core.Line(**line.__getstate__() | still)
     return out
 
 
@@ -60,8 +65,9 @@ def _frozen(curve: _core.Curve, time: float) -> _core.Curve:
 def equilibrium(scene: Description, *, state: _core.State | None = None, time: float = 0.0) -> _core.State:
     """State at rest of the scene with its references held at one time, without waves.
 
-    Newton's method on the accelerations in minimal coordinates. Where nothing fixes a position (a vessel
-    without mooring, a payload about its link), it stays where it is.
+    Newton's method on the accelerations in minimal coordinates, and on the rates of the states that loads
+    have. Where nothing fixes a position (a vessel without mooring, a payload about its link) or a state (the
+    length of a line on a winch), it stays where it is.
 
     Parameters
     ----------
@@ -75,7 +81,7 @@ def equilibrium(scene: Description, *, state: _core.State | None = None, time: f
     Returns
     -------
     State
-        At that time, velocities and memory states zero.
+        At that time, velocities and states of the fluid memory zero.
 
     Raises
     ------
@@ -125,33 +131,55 @@ def state_values(scene: Description, state: Any) -> Array:
 
 
 def _rest(scene: Description, time: float, values: Array | None) -> _core.State:
-    model = compile_scene(held(scene, time=time))
+    still = held(scene, time=time)
+    model = compile_scene(still)
+    y = np.array(model.initial_state) if values is None else Terms(model, time=time).checked(values)
+    taut = tautened(still, y) if lines_of(scene.loads) else None
+    if taut is not None:
+        lengths = y[_load_states(model)]
+        y = np.array(_search(compile_scene(taut[0]), time, taut[1]).values)
+        y[_load_states(model)] = lengths
+    return _search(model, time, y)
+
+
+def _load_states(model: _core.Model) -> list[int]:
+    return [place for _, _, place, *_ in model.load_states]
+
+
+def _search(model: _core.Model, time: float, values: Array) -> _core.State:
     terms = Terms(model, time=time)
-    y = at_rest(model, np.array(model.initial_state) if values is None else terms.checked(values))
+    y = at_rest(model, values)
     y = terms.evaluator.project(time, y)
     for _ in range(MOST_STEPS):
         coordinates = ReducedCoordinates.at(terms, y)
         acceleration = terms.acceleration(y)
-        if np.max(np.abs(acceleration)) < CONVERGED:
+        drift = terms.drift(y)
+        if np.max(np.abs(acceleration)) < CONVERGED and np.max(np.abs(drift), initial=0.0) < CONVERGED:
             return _core.State(time=time, values=y, inputs=np.zeros(model.slots))
-        u, size, vt = np.linalg.svd(coordinates.stiffness())
+        matrix, rows, columns = coordinates.rest_matrix()
+        u, size, vt = np.linalg.svd(matrix)
         fixed = size > NEUTRAL
         # Away from rest even a neutral direction shows some stiffness: damped (Levenberg-Marquardt) steps.
         damped = size / (size**2 + (DAMPING * np.max(np.abs(acceleration))) ** 2)
-        reduced = coordinates.basis.T @ acceleration
-        move = coordinates.basis @ (vt[fixed].T @ (-(u.T @ reduced) * damped)[fixed])
-        move *= min(1.0, LARGEST_MOVE / max(float(np.max(np.abs(move))), 1e-300))
-        y = at_rest(model, terms.evaluator.project(time, terms.moved(y, displacement=move)))
+        reduced = np.concatenate([coordinates.basis.T @ acceleration, rows.T @ drift])
+        step = vt[fixed].T @ (-(u.T @ reduced) * damped)[fixed]
+        move = coordinates.basis @ step[: coordinates.size]
+        share = min(1.0, LARGEST_MOVE / max(float(np.max(np.abs(move))), 1e-300))
+        y = terms.moved(y, displacement=share * move)
+        y[terms.load_states] += share * (columns @ step[coordinates.size :]) * terms.load_scales
+        y = at_rest(model, terms.evaluator.project(time, y))
     acceleration = terms.acceleration(y)
     worst = int(np.argmax(np.abs(acceleration)))
     raise SceneError(
-        f"scene {scene.name!r}: no rest state found; body {model.bodies[worst // 6]!r} still accelerates by "
+        f"scene {model.name!r}: no rest state found; body {model.bodies[worst // 6]!r} still accelerates by "
         f"{acceleration[worst]:.3g} (m/s2 or rad/s2); start from a state nearer to rest, or hold what drifts"
     )
 
 
 def at_rest(model: _core.Model, values: Array) -> Array:
-    """The same poses with all velocities, memory states and work at zero."""
+    """The same poses and states of loads, with all velocities, states of the fluid and work at zero."""
     y = np.array(values)
     y[model.twist_index(0) :] = 0.0
+    kept = _load_states(model)
+    y[kept] = np.asarray(values)[kept]
     return y

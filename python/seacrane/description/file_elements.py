@@ -67,6 +67,8 @@ def _value(node: Node, field: _core.Field) -> Any:
     match field.type:
         case "text":
             return node.text()
+        case "texts":
+            return [item.text() for item in node.items()]
         case "number":
             return node.number()
         case "flag":

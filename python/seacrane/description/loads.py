@@ -32,7 +32,18 @@ def make_load(kind: str, entries: Mapping[str, Any]) -> Any:
 
 def named(element: Any, role: str) -> list[str]:
     """Texts of an element that name a "body", a "joint" or a "coordinate", in order."""
-    return [getattr(element, field.name) for field in type(element).FIELDS if field.role == role]
+    found = [getattr(element, field.name) for field in type(element).FIELDS if field.role == role]
+    return [text for texts in found for text in ([texts] if isinstance(texts, str) else texts)]
+
+
+def lines_of(loads: Mapping[str, Any]) -> dict[str, _core.Line]:
+    """The elastic lines among loads."""
+    return {name: load for name, load in loads.items() if isinstance(load, _core.Line)}
+
+
+def path_of(line: _core.Line) -> list[tuple[str, Any]]:
+    """Body and point (m, its coordinates) of each point of a line, in their order."""
+    return list(zip(line.bodies, line.points, strict=True))
 
 
 def bodies_of(element: Any, joints: Mapping[str, _core.Joint]) -> list[str]:

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from seacrane import _core
+from seacrane.description.loads import lines_of, path_of
 from seacrane.description.range import Range
 from seacrane.description.scene import GROUND, Description
 
@@ -40,6 +42,10 @@ def outline_of(scene: Description) -> dict[str, Any]:
     for spring in scene.springs.values():
         ends = _ends(scene, spring.first, spring.first_point, spring.second, spring.second_point)
         links.append([*ends[0], *ends[1]])
+    for line in lines_of(scene.loads).values():
+        for start, end in pairwise(path_of(line)):
+            ends = _ends(scene, *start, *end)
+            links.append([*ends[0], *ends[1]])
     return {"bodies": bodies, "links": links}
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from typing import Any
 
 import numpy as np
@@ -30,6 +30,16 @@ def name_of(kind: str, value: Any, usual: str = "") -> str:
     if not name:
         raise SceneError(f"{kind}: name is empty; give every element a name")
     return name
+
+
+def texts_of(what: str, value: Any) -> list[str]:
+    """A list of printable texts."""
+    if isinstance(value, (str, bytes, Mapping)) or not isinstance(value, Iterable):
+        raise SceneError(f"{what} is {shown(value)}; give a list of texts")
+    texts = list(value)
+    if not all(isinstance(text, str) for text in texts):
+        raise SceneError(f"{what} is {shown(value)}; give a list of texts")
+    return [text_of(f"{what}[{i}]", text) for i, text in enumerate(texts)]
 
 
 def flag_of(what: str, value: Any) -> bool:

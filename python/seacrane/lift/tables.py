@@ -17,7 +17,7 @@ from seacrane.hydro import load_database
 from seacrane.lift.keys import Key, field_keys, fields_of, keys_of
 from seacrane.run.method import FORMULATIONS, Method
 from seacrane.run.outputs import Outputs
-from seacrane.scene import limits, sea, vessel, wind_current
+from seacrane.scene import limits, lines, sea, vessel, wind_current
 from seacrane.scene.gusts import gust_curve
 from seacrane.scene.realised_sea import SPECTRA
 from seacrane.sea import SeaState, WaveSystem
@@ -241,6 +241,8 @@ _ALL = (
         "force_table", forces.add_force_table, _core.ForceTable,
         loads={"type": "array", "unit": "N, N m", "shapes": ((-1, 6),)},
     ),
+    _call("line", lines.add_line, _core.Line),
+    _call("winch", lines.add_winch, _core.Line),
     _flow("wind", wind_current.add_wind),
     _flow("current", wind_current.add_current),
     _call("wire", limits.add_wire, _core.Limit, sticking_speed={"unit": "m/s"}),

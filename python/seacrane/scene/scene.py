@@ -19,7 +19,7 @@ from seacrane.description import (
     recorded,
 )
 from seacrane.description.scene import Description
-from seacrane.scene import drift, limits, position, sea, table_text, vessel, wind_current
+from seacrane.scene import drift, limits, lines, position, sea, table_text, vessel, wind_current
 
 
 class Scene(Description):
@@ -43,7 +43,7 @@ class Scene(Description):
     ----------
     bodies, joints, drivers, actuators, point_forces, springs, force_tables, function_forces, loads, vessels,
     points
-        Elements by name, immutable; `loads` are wind, current, limits and friction.
+        Elements by name, immutable; `loads` are wind, current, lines, limits and friction.
     waves : Waves or None
     recorded, ranges, roles, provenance, notes
         As of `Description`: what is recorded, where coordinates are meant to stay, the parts of cranes, where
@@ -67,6 +67,8 @@ class Scene(Description):
     add_end_stop = limits.add_end_stop
     add_seat = limits.add_seat
     add_soft_stop = limits.add_soft_stop
+    add_line = lines.add_line
+    add_winch = lines.add_winch
     add_friction = limits.add_friction
 
     add_vessel = vessel.add_vessel

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from seacrane.crane import KnuckleBoomCrane
 from seacrane.description import crane_parts
+from seacrane.description.loads import lines_of, path_of
 from seacrane.description.scene import Description
 from seacrane.errors import SceneError
 from seacrane.hydro import Hull
@@ -144,6 +145,8 @@ def body_points(scene: Description, name: str) -> list[Array]:
     for spring in scene.springs.values():
         points += [spring.first_point] if spring.first == name else []
         points += [spring.second_point] if spring.second == name else []
+    for line in lines_of(scene.loads).values():
+        points += [point for body, point in path_of(line) if body == name]
     points += [np.array(point) for body, point in crane_parts.tips(scene).values() if body == name]
     return [np.asarray(point, dtype=float).reshape(3) for point in points]
 

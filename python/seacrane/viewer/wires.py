@@ -1,12 +1,14 @@
-"""Links, wires and springs: lines between points of bodies, slack ones with their length."""
+"""Links, wires, springs and elastic lines: lines between points of bodies, slack ones with their length."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
 
+from seacrane.description.loads import lines_of, path_of
 from seacrane.description.scene import Description
 from seacrane.viewer.shapes import plain
 
@@ -14,10 +16,11 @@ GROUND = -1
 
 
 def wires_of(scene: Description, bodies: Sequence[str]) -> list[dict[str, Any]]:
-    """Distance joints and springs for the page.
+    """Distance joints, springs and the spans of elastic lines for the page.
 
-    Of each: name, kind ("link", "wire" or "spring"), both ends as the body's number (-1: the ground) and a
-    point relative to its centre of mass, and the length (m) below which it hangs slack; 0 if it never does.
+    Of each: name, kind ("link", "wire" or "spring"; a span is a link), both ends as the body's number (-1:
+    the ground) and a point relative to its centre of mass, and the length (m) below which it hangs slack; 0
+    if it never does.
     """
     limits = {limit.joint for limit in scene.loads.values() if getattr(limit, "kind", None) == "wire"}
     found = []
@@ -43,6 +46,12 @@ def wires_of(scene: Description, bodies: Sequence[str]) -> list[dict[str, Any]]:
                 "length": _free_length(spring),
             }
         )
+    for name, line in lines_of(scene.loads).items():
+        ends = [end_of(scene, bodies, body, point) for body, point in path_of(line)]
+        found += [
+            {"name": f"{name} {i + 1}", "kind": "link", "from": start, "to": end, "length": 0.0}
+            for i, (start, end) in enumerate(pairwise(ends))
+        ]
     return found
 
 

@@ -29,6 +29,8 @@ RecursiveJacobian::RecursiveJacobian(const Model& model, const BodyTree& tree)
   }
   right_ = lambda_ = VecXd::Zero(static_cast<Eigen::Index>(rows_.size()));
   for (const Vessel& vessel : model.vessels) fluid_.emplace_back(vessel.memory_states(), kDirections);
+  state_over_.assign(idx(model.body_count()),
+                     Rates::Zero(static_cast<Eigen::Index>(model.load_states.size()), kDirections));
   to_fluid_.resize(tree.positions + tree.speeds + states_ + 2, 6);
 }
 
@@ -45,6 +47,7 @@ void RecursiveJacobian::evaluate(const TreeEvaluation& at, double t, const doubl
   differentiate_bodies(t, y);
   for (int first = 0; first < size; first += kDirections) differentiate_tree(first, y, rate, out);
   write_memory_columns(y, out);
+  write_state_columns(out);
 }
 
 /// Slopes of every body's residual, and of the loops' rows, in the directions of every body.
@@ -68,6 +71,9 @@ void RecursiveJacobian::differentiate_bodies(double t, const double* y) {
     }
     power_[idx(b)] = slopes(residual_.sum().power);
     absolute_power_[idx(b)] = slopes(residual_.sum().absolute_power);
+    for (std::size_t i = 0; i < m.load_states.size(); ++i) {
+      state_over_[idx(b)].row(static_cast<Eigen::Index>(i)) = slopes(residual_.state_rates()[i]);
+    }
     const int v = m.bodies[idx(b)].vessel;
     if (v < 0) continue;
     for (int i = 0; i < m.vessels[idx(v)].memory_states(); ++i) {
@@ -207,6 +213,26 @@ void RecursiveJacobian::write_column(int k, double* column) {
     const Vessel& vessel = m.vessels[v];
     Eigen::Map<VecXd>(fluid + vessel.memory_offset - m.layout.memory, vessel.memory_states()).noalias() =
         fluid_[v] * motion_[idx(vessel.body)].col(k);
+  }
+  Eigen::Map<VecXd> of_loads(fluid + m.layout.loads - m.layout.memory,
+                             static_cast<Eigen::Index>(m.load_states.size()));
+  for (int b = 0; b < m.body_count(); ++b) of_loads.noalias() += state_over_[idx(b)] * motion_[idx(b)].col(k);
+}
+
+void RecursiveJacobian::write_state_columns(double* out) {
+  const Model& m = *model_;
+  const int fluid = tree_.positions + tree_.speeds, n = fluid + states_ + 2;
+  const int first = fluid + m.layout.loads - m.layout.memory;
+  for (int i = 0; i < static_cast<int>(m.load_states.size()); ++i) {
+    const int k = i % kDirections;
+    if (k == 0) residual_.differentiate_states(i);
+    for (auto& load : load_) load.setZero();
+    for (int touched : residual_.touched()) load_[idx(touched)] = residual_.load(touched).col(k);
+    load_.back().setZero();
+    right_.setZero();
+    double* const column = out + idx(n) * idx(first + i);
+    solve(column, residual_.sum().power.slope[idx(k)], residual_.sum().absolute_power.slope[idx(k)]);
+    write_slopes(residual_.state_rates(), k, column + first);
   }
 }
 

@@ -60,6 +60,7 @@ class RecursiveJacobian {
   void write_column(int k, double* column);
   void solve(double* column, double power, double absolute_power);
   void write_memory_columns(const double* y, double* out);
+  void write_state_columns(double* out);
   double along_row(int row, const Vec6d* acceleration) const;
 
   const Model* model_;
@@ -67,14 +68,16 @@ class RecursiveJacobian {
   const TreeEvaluation* at_ = nullptr;  // during an evaluation
   BodyResidual residual_;
   std::vector<MemoryMatrices> memory_;
-  int states_ = 0;                         // of the memory
+  int states_ = 0;                         // of the memory and of loads
   std::vector<std::pair<int, int>> rows_;  // element and its row, of the loops
   std::vector<double> multipliers_;        // by row of the model
 
   std::vector<Share> shares_;
   std::vector<RowShare> row_shares_;
-  std::vector<Row> power_, absolute_power_;                                // by body
-  std::vector<Eigen::Matrix<double, Eigen::Dynamic, kDirections>> fluid_;  // memory rates, by vessel
+  std::vector<Row> power_, absolute_power_;  // by body
+  using Rates = Eigen::Matrix<double, Eigen::Dynamic, kDirections>;
+  std::vector<Rates> fluid_;       // memory rates, by vessel
+  std::vector<Rates> state_over_;  // rates of the states of loads, by body
 
   std::vector<Scalar> state_, state_rate_;  // positions and speeds, rates of positions
   std::vector<BodyKinematics<Scalar>> bodies_;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <concepts>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -15,6 +17,24 @@ struct LoadInput {
   double curve_limit;  // curve pieces from here on are not used yet, see Curve::at
   const BodyKinematics<T>* bodies;
   const double* slots;  // zero-order-held inputs
+  const T* states;      // of all loads
+};
+
+/// A differential state that a load has of its own, which it asks its context for when it is compiled.
+struct LoadState {
+  std::string name, unit;  // the name is one in the scene, such as "hoist.length"
+  double initial = 0.0;
+  double scale = 1.0;  // typical magnitude: errors count over it
+};
+
+/// The states of a load: a load that has some has a member `states` of this type.
+struct StateRange {
+  int first = 0, count = 0;
+};
+
+template <class Load>
+concept HasStates = requires(const Load& load) {
+  { load.states } -> std::convertible_to<StateRange>;
 };
 
 /// Where a load of a described body acts on the compiled body that carries it.
@@ -49,11 +69,13 @@ inline LoadKinks kinks_of(const Curve& curve, double value, double rate = 0.0) {
   return out;
 }
 
-/// What loads add up: one wrench per body (the ground's is discarded), and the power of all loads that
-/// have no potential, for the energy balance.
+/// What loads add up: one wrench per body (the ground's is discarded), and the power that comes into the
+/// mechanical energy, potentials included, for the energy balance. Each load sets the rates of its own
+/// states.
 template <class T>
 struct LoadSum {
   BodyLoad<T>* wrench;
+  T* state_rates = nullptr;  // of all loads
   T power = T(0), absolute_power = T(0);
 
   void add_power(const T& p) {

@@ -8,6 +8,7 @@
 #include "seacrane/elements/loads/force_table.hpp"
 #include "seacrane/elements/loads/friction.hpp"
 #include "seacrane/elements/loads/function_force.hpp"
+#include "seacrane/elements/loads/line.hpp"
 #include "seacrane/elements/loads/point_force.hpp"
 #include "seacrane/elements/loads/soft_stop.hpp"
 #include "seacrane/elements/loads/spring_damper.hpp"
@@ -15,8 +16,8 @@
 namespace seacrane {
 
 /// The one list of loads that a scene describes: a new one is its own file and an entry here.
-using LoadTypes =
-    std::tuple<Actuator, PointForce, SpringDamper, ForceTable, FunctionForce, FlowForce, Friction, SoftStop>;
+using LoadTypes = std::tuple<Actuator, PointForce, SpringDamper, ForceTable, FunctionForce, FlowForce,
+                             Friction, SoftStop, Line>;
 
 /// Calls f.template operator()<Load>() for every type of load.
 template <class F>

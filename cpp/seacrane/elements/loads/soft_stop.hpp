@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <numbers>
 
 #include "seacrane/elements/loads/friction.hpp"
@@ -84,12 +85,30 @@ struct SoftStop {
     out.add_power(T(side) * viscous * rate);
   }
 
+  static bool has_sides() { return true; }
+  /// 1 beyond the minimum, -1 beyond the maximum, else 0.
+  int side(const LoadInput<double>& in) const {
+    return pressed(in, 1) > 0.0 ? 1 : (pressed(in, -1) > 0.0 ? -1 : 0);
+  }
+  double across(const LoadInput<double>& in, int from, int to) const {
+    return pressed(in, from != 0 ? from : to);
+  }
+
   double potential(const LoadInput<double>& in) const {
     const double q = evaluate_coordinate<double>(coordinate, in.bodies[coordinate.joint.first],
                                                  in.bodies[coordinate.joint.second])
                          .value;
     const double depth = q < minimum ? minimum - q : (q > maximum ? q - maximum : 0.0);
     return 0.5 * stiffness * depth * depth;
+  }
+
+ private:
+  /// How far the bound of a side is passed; negative also where the stop would pull.
+  double pressed(const LoadInput<double>& in, int side) const {
+    const auto &ka = in.bodies[coordinate.joint.first], &kb = in.bodies[coordinate.joint.second];
+    const CoordinateRow<double> row = evaluate_coordinate<double>(coordinate, ka, kb);
+    const double depth = side * ((side > 0 ? minimum : maximum) - row.value);
+    return std::min(depth, 1.0 - side * damping * coordinate_rate<double>(row, ka, kb));
   }
 };
 

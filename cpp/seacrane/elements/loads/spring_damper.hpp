@@ -118,10 +118,17 @@ struct SpringDamper {
     return T(forces[i]) + T(slope) * (length - T(lengths[i]));
   }
 
+  bool has_sides() const { return !lengths.empty(); }
+  /// The segment of the table; 0 before its first length.
+  int side(const LoadInput<double>& in) const {
+    return static_cast<int>(std::upper_bound(lengths.begin(), lengths.end(), length(in)) - lengths.begin());
+  }
+  double across(const LoadInput<double>& in, int from, int to) const {
+    return length(in) - lengths[idx(to > from ? from : from - 1)];
+  }
+
   double potential(const LoadInput<double>& in) const {
-    const auto &ka = in.bodies[first], &kb = in.bodies[second];
-    const double length =
-        (kb.position + kb.rotation * second_point - ka.position - ka.rotation * first_point).norm();
+    const double length = this->length(in);
     if (lengths.empty()) return 0.5 * stiffness * (length - natural_length) * (length - natural_length);
     double energy = std::min(0.0, length - lengths.front()) * forces.front();
     for (std::size_t i = 0; i + 1 < lengths.size() && lengths[i] < length; ++i) {
@@ -132,6 +139,11 @@ struct SpringDamper {
   }
 
  private:
+  double length(const LoadInput<double>& in) const {
+    const auto &ka = in.bodies[first], &kb = in.bodies[second];
+    return (kb.position + kb.rotation * second_point - ka.position - ka.rotation * first_point).norm();
+  }
+
   template <class T>
   std::size_t segment(const T& length) const {
     const auto next = std::upper_bound(lengths.begin(), lengths.end(), length);

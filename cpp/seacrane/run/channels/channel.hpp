@@ -42,6 +42,7 @@ struct Output {
   const Terms& terms;
   const std::vector<CoordinateRow<double>>& coordinates;
   const std::span<BodyLoad<double>> one_load;  // zeros, for all bodies and the ground; left as zeros
+  double* const load_rates;                    // room for the rates of all states of loads
   double residual = 0.0, residual_rate = 0.0;  // of constraints, after projection: largest magnitudes
   double residual_before_projection = 0.0;     // largest since the last output
   double energy_balance = 0.0;                 // J, change of mechanical energy minus work since the start

@@ -9,12 +9,12 @@ namespace {
 template <class F>
 void for_each_load(const Output& o, F&& f) {
   const Model& model = o.system.model();
-  const LoadInput<double> input = o.terms.load_input(o.time);
+  const LoadInput<double> input = o.terms.load_input(o.time, o.state + model.layout.memory);
   for_each_load_type([&]<class Load>() {
     for (const Load& load : std::get<std::vector<Load>>(*model.loads)) {
-      LoadSum<double> sum{o.one_load.data()};
+      LoadSum<double> sum{o.one_load.data(), o.load_rates};
       load.template apply<double>(input, sum);
-      const auto bodies = load.bodies();
+      const auto& bodies = load.bodies();
       f(o.one_load[idx(*std::prev(bodies.end()))], *std::prev(bodies.end()));
       for (const int body : bodies) o.one_load[idx(body)] = {};
     }

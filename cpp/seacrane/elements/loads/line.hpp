@@ -1,0 +1,354 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "seacrane/elements/field.hpp"
+#include "seacrane/elements/loads/load.hpp"
+#include "seacrane/math/curve.hpp"
+#include "seacrane/math/select.hpp"
+
+namespace seacrane {
+
+struct LineDescription {
+  std::string name;
+  std::vector<std::string> bodies;
+  std::vector<Vec3d> points;
+  double stiffness = 0.0;
+  Curve length;
+  double damping_ratio = 0.02, mass = 0.0;
+  bool winch = false;
+  Curve rate;
+  double maximum_rate = kFarthest, maximum_acceleration = kFarthest, lag = 0.0;
+  double minimum_length = 0.1;
+
+  static constexpr const char* type = "Line";
+  static constexpr const char* text =
+      "An elastic line without mass over points of bodies, with a winch or without; see Scene.add_line.";
+  static constexpr auto fields() {
+    using D = LineDescription;
+    return std::tuple(
+        on_body("bodies", &D::bodies, "bodies of the points, in the order of the path"),
+        required("points", &D::points, "m", "coordinates of these bodies"),
+        required("stiffness", &D::stiffness, "N", "EA: tension over strain"),
+        required("length", &D::length, "m", "unstretched; with a winch, at the start"),
+        optional("damping_ratio", &D::damping_ratio, "", "of critical damping of `mass` on the line"),
+        optional("mass", &D::mass, "kg", "that moves with the line's end; 0: that of the last body"),
+        optional("winch", &D::winch, "", "whether the length is a state that `rate` drives"),
+        optional("rate", &D::rate, "m/s", "commanded, positive: pays out"),
+        optional("maximum_rate", &D::maximum_rate, "m/s", "of the winch; at 1e7 there is none"),
+        optional("maximum_acceleration", &D::maximum_acceleration, "m/s2", "likewise; needs a lag"),
+        optional("lag", &D::lag, "s", "of the winch's rate behind the command"),
+        optional("minimum_length", &D::minimum_length, "m", "at which hauling in stops"));
+  }
+};
+
+/// A line without mass over an ordered path of points, through which it runs without friction. With l the
+/// length of the path, l0 the unstretched length and e = l / l0 - 1,
+///
+///   T = max(0, EA e + c (l' - l0' l / l0)),   c = 2 damping_ratio sqrt(EA mass / l0).
+///
+/// l0 is given over time, or it is a state of the winch, l0' = r. Its rate r is the command within its
+/// bounds; with a lag it is a state too, r' = (command - r) / lag within bounds. The rope carries its strain
+/// energy T e / 2 for each metre of l0 onto the drum.
+struct Line {
+  static constexpr const char* kind = "line";
+  using Description = LineDescription;
+
+  struct Point {
+    int body = 0;
+    Vec3d point;  // from the state point, body axes
+  };
+  /// What the line does at an instant.
+  template <class T>
+  struct Motion {
+    T length, rate, unstretched, unstretched_rate, elastic, tension;
+    T stretch() const { return length - unstretched; }
+    /// Into the line, of the winch and of what changes the length over time.
+    T winch_power() const {
+      const T strain = select(elastic > T(0), stretch() / unstretched, T(0));
+      const T carried = elastic * (T(1) + 0.5 * strain) + (tension - elastic) * length / unstretched;
+      return -carried * unstretched_rate;
+    }
+    T damping_power() const {
+      return -(tension - elastic) * (rate - unstretched_rate * length / unstretched);
+    }
+  };
+
+  std::vector<Point> path;
+  std::vector<int> on;  // bodies of the path, each once, the last of the path last
+  double stiffness = 0.0;
+  Curve length;
+  double viscous = 0.0;  // c sqrt(l0)
+  bool winch = false;
+  Curve command;
+  double maximum_rate = 0.0, maximum_acceleration = 0.0, lag = 0.0, minimum_length = 0.0;
+  int slot = 0;       // of the rate that is added to the command
+  StateRange states;  // length, rate; the second with a lag only
+
+  static void check(const Description& d, const Check& c, SceneNames& names) {
+    check_path(d, c, names);
+    c.finite("stiffness", d.stiffness);
+    if (!(d.stiffness > 0.0)) {
+      c.fail("stiffness is " + to_text(d.stiffness) + " N; give EA, the tension over the strain, positive");
+    }
+    for (const Curve::Piece& piece : d.length.pieces()) {
+      const double start = d.length.at(piece.start).value;
+      if (!(start > 0.0)) {
+        c.fail("length is " + to_text(start) + " m at t = " + to_text(piece.start) +
+               " s; an unstretched length must be positive");
+      }
+    }
+    c.not_negative("damping_ratio", d.damping_ratio);
+    c.not_negative("mass", d.mass);
+    if (d.winch) {
+      check_winch(d, c, names);
+    } else if (d.rate.at(0.0).value != 0.0 || d.rate.pieces().size() > 1 || d.lag != 0.0) {
+      c.fail("has a rate or a lag, and no winch; set winch, or leave them out");
+    }
+  }
+
+  static Description example() {
+    Description d;
+    d.name = "load";
+    d.bodies = {"first", "third", "second"};
+    d.points = {{2.0, 0.5, -1.0}, {0.2, -0.4, 0.3}, {-1.0, 0.3, 2.0}};
+    d.stiffness = 60.0;
+    d.length = Curve::constant(3.0);
+    d.damping_ratio = 0.1;
+    d.winch = true;
+    d.rate = Curve::quintic(0.0, 2.0, 0.1, 0.3);
+    d.maximum_rate = 5.0;
+    d.maximum_acceleration = 50.0;
+    d.lag = 0.4;
+    return d;
+  }
+
+  template <class Context>
+  static Line compile(const Description& d, Context& context) {
+    Line line;
+    for (std::size_t i = 0; i < d.points.size(); ++i) {
+      const Attachment at = context.attach(d.bodies[i], d.points[i]);
+      line.path.push_back({at.body, at.point});
+      if (std::find(line.on.begin(), line.on.end(), at.body) == line.on.end()) line.on.push_back(at.body);
+    }
+    std::erase(line.on, line.path.back().body);
+    line.on.push_back(line.path.back().body);
+    line.stiffness = d.stiffness;
+    line.length = d.length;
+    line.viscous = 2.0 * d.damping_ratio * std::sqrt(d.stiffness * hung_mass(d, context));
+    if (!d.winch) return line;
+    line.winch = true;
+    line.command = d.rate;
+    line.maximum_rate = d.maximum_rate;
+    line.maximum_acceleration = d.maximum_acceleration;
+    line.lag = d.lag;
+    line.minimum_length = d.minimum_length;
+    line.slot = context.input(d.name + ".rate");
+    const double start = d.length.at(0.0).value, scale = context.length_scale();
+    line.states = {context.state({d.name + ".length", "m", start, scale}), 1};
+    if (d.lag > 0.0) {
+      const double rate = clamped(d.rate.at(0.0).value, -d.maximum_rate, d.maximum_rate);
+      context.state({d.name + ".rate", "m/s", rate, scale});
+      line.states.count = 2;
+    }
+    return line;
+  }
+
+  const std::vector<int>& bodies() const { return on; }
+
+  /// Jumps of the tension, with the stretch left out: of what drives l0, once for c, and once more often
+  /// integrated for EA.
+  std::vector<LoadKinks> kinks() const {
+    const int later = winch ? (lag > 0.0 ? 2 : 1) : 0;  // integrations from the curve to l0
+    const double share = winch && lag > 0.0 ? 1.0 / lag : 1.0;
+    LoadKinks out;
+    for (const CurveKink& kink : (winch ? command : length).kinks()) {
+      const double l0 = winch ? length.at(0.0).value : length.at(kink.time).value;
+      LoadKink& of = out.emplace_back(LoadKink{kink.time, Eigen::Matrix<double, 1, 4>::Zero()});
+      const auto add = [&](int order, double factor) {
+        for (int p = 1; p <= 3; ++p) {
+          const int derivative = p - 1 - order;
+          if (derivative >= 0 && derivative <= 3) of.jump(0, p) += factor * kink.jump(idx(derivative));
+        }
+      };
+      add(later, share * stiffness / l0);
+      add(later - 1, share * viscous / std::sqrt(l0));
+    }
+    return {out};
+  }
+
+  void add_unit(int /*component*/, const LoadInput<double>& in, Vec6d* wrenches) const {
+    for_each_span<double>(in, [&](const Span<double>& s) {
+      wrenches[s.first] += (Vec6d() << s.along, s.lever_first.cross(s.along)).finished();
+      wrenches[s.second] -= (Vec6d() << s.along, s.lever_second.cross(s.along)).finished();
+    });
+  }
+
+  static bool has_sides() { return true; }
+  /// Whether it pulls, whether it is stretched (damping pulls a little before, and lets go before), and
+  /// whether hauling in has not reached its end.
+  int side(const LoadInput<double>& in) const {
+    const std::array<double, 3> signs = margins(in);
+    return (signs[0] > 0.0 ? 1 : 0) + (signs[1] > 0.0 ? 2 : 0) + (signs[2] > 0.0 ? 4 : 0);
+  }
+  double across(const LoadInput<double>& in, int from, int to) const {
+    const int changed = from ^ to;
+    return margins(in)[changed & 1 ? 0 : (changed & 2 ? 1 : 2)];
+  }
+
+  template <class T>
+  Motion<T> motion(const LoadInput<T>& in) const {
+    Motion<T> out{};
+    for_each_span<T>(in, [&](const Span<T>& s) {
+      out.length += s.length;
+      out.rate += s.rate;
+    });
+    const CurveValue given = length.at(in.time, in.curve_limit);
+    out.unstretched = winch ? in.states[states.first] : T(given.value);
+    out.unstretched_rate = winch ? drum_rate(in) : T(given.rate);
+    out.elastic = select(out.stretch() > T(0), elastic_pull(out), T(0));
+    const T sum = unbounded_pull(out);
+    out.tension = select(sum > T(0), sum, T(0));
+    return out;
+  }
+
+  template <class T>
+  void apply(const LoadInput<T>& in, LoadSum<T>& out) const {
+    const Motion<T> now = motion(in);
+    for_each_span<T>(in, [&](const Span<T>& s) {
+      const Vec3<T> pull = s.along * now.tension;
+      out.wrench[s.first].add(pull, s.lever_first);
+      const Vec3<T> back = -pull;
+      out.wrench[s.second].add(back, s.lever_second);
+    });
+    out.add_power(now.damping_power());
+    out.add_power(now.winch_power());
+    if (!winch) return;
+    out.state_rates[states.first] = now.unstretched_rate;
+    if (lag > 0.0) out.state_rates[states.first + 1] = acceleration(in);
+  }
+
+  double potential(const LoadInput<double>& in) const {
+    const Motion<double> now = motion(in);
+    return 0.5 * now.elastic * std::max(now.stretch(), 0.0);
+  }
+
+ private:
+  template <class T>
+  struct Span {
+    int first, second;
+    Vec3<T> lever_first, lever_second, along;  // along: from the first to the second
+    T length, rate;
+  };
+
+  static void check_path(const Description& d, const Check& c, SceneNames& names) {
+    if (d.points.size() < 2 || d.points.size() != d.bodies.size()) {
+      c.fail("has " + std::to_string(d.bodies.size()) + " bodies and " + std::to_string(d.points.size()) +
+             " points; give as many of both, at least two");
+    }
+    for (std::size_t i = 0; i < d.points.size(); ++i) {
+      names.body(c, d.bodies[i], true);
+      c.near("points", d.points[i]);
+      if (i > 0 && d.bodies[i] == d.bodies[i - 1] && d.points[i] == d.points[i - 1]) {
+        c.fail("visits point " + std::to_string(i) + " twice in a row; leave one of them out");
+      }
+    }
+    const auto other = [&](const std::string& name) { return name != d.bodies.front(); };
+    if (std::none_of(d.bodies.begin(), d.bodies.end(), other)) {
+      c.fail("has all its points on '" + d.bodies.front() + "', which it cannot move; name two bodies");
+    }
+  }
+
+  static void check_winch(const Description& d, const Check& c, SceneNames& names) {
+    names.input(c, kind, d.name);
+    if (d.length.pieces().size() > 1 || d.length.at(0.0).value != d.length.at(1.0).value) {
+      c.fail("length changes over time, and the winch does that; give the length at the start");
+    }
+    for (const auto& [what, value] : {std::pair{"maximum_rate", d.maximum_rate},
+                                      std::pair{"maximum_acceleration", d.maximum_acceleration},
+                                      std::pair{"minimum_length", d.minimum_length}}) {
+      c.finite(what, value);
+      if (!(value > 0.0)) c.fail(std::string(what) + " is " + to_text(value) + "; it must be positive");
+    }
+    c.not_negative("lag", d.lag);
+    if (d.maximum_acceleration < kFarthest && d.lag == 0.0) {
+      c.fail(
+          "maximum_acceleration needs a lag: without one the rate is the command; give a lag, such as 0.1 s");
+    }
+    if (!(d.length.at(0.0).value > d.minimum_length)) {
+      c.fail("starts with a length of " + to_text(d.length.at(0.0).value) + " m and a minimum_length of " +
+             to_text(d.minimum_length) + " m; start with a longer line");
+    }
+  }
+
+  template <class Context>
+  static double hung_mass(const Description& d, const Context& context) {
+    return d.mass > 0.0 ? d.mass : context.mass(d.bodies.back());
+  }
+
+  /// Calls f(span) for every pair of neighbours on the path; a span without length has no direction.
+  template <class T, class F>
+  void for_each_span(const LoadInput<T>& in, F&& f) const {
+    using std::sqrt;
+    Span<T> s;
+    Vec3<T> from, from_rate;
+    for (std::size_t i = 0; i < path.size(); ++i) {
+      const BodyKinematics<T>& k = in.bodies[path[i].body];
+      s.second = path[i].body;
+      s.lever_second = k.rotation * path[i].point.template cast<T>();
+      const Vec3<T> to = k.position + s.lever_second;
+      const Vec3<T> to_rate = k.velocity + cross<T>(k.angular_velocity, s.lever_second);
+      if (i > 0) {
+        const Vec3<T> d = to - from, d_rate = to_rate - from_rate;
+        const T square = d.dot(d);
+        const bool has_direction = square > T(0);
+        s.length = has_direction ? T(sqrt(square)) : T(0);
+        s.along = has_direction ? Vec3<T>(d / s.length) : Vec3<T>(Vec3<T>::Zero());
+        s.rate = s.along.dot(d_rate);
+        f(s);
+      }
+      s.first = s.second;
+      s.lever_first = s.lever_second;
+      from = to;
+      from_rate = to_rate;
+    }
+  }
+
+  template <class T>
+  T elastic_pull(const Motion<T>& m) const {
+    return T(stiffness) * m.stretch() / m.unstretched;
+  }
+  template <class T>
+  T unbounded_pull(const Motion<T>& m) const {
+    using std::sqrt;
+    const T closing = m.rate - m.unstretched_rate * m.length / m.unstretched;
+    return elastic_pull(m) + T(viscous) / T(sqrt(m.unstretched)) * closing;
+  }
+  std::array<double, 3> margins(const LoadInput<double>& in) const {
+    const Motion<double> now = motion(in);
+    return {unbounded_pull(now), now.stretch(), winch ? in.states[states.first] - minimum_length : 1.0};
+  }
+
+  template <class T>
+  T commanded(const LoadInput<T>& in) const {
+    const double asked = command.at(in.time, in.curve_limit).value + in.slots[slot];
+    return T(clamped(asked, -maximum_rate, maximum_rate));
+  }
+  template <class T>
+  T drum_rate(const LoadInput<T>& in) const {
+    const T rate = lag > 0.0 ? in.states[states.first + 1] : commanded(in);
+    const bool at_end = in.states[states.first] < T(minimum_length) && rate < T(0);
+    return select(at_end, T(0), rate);
+  }
+  template <class T>
+  T acceleration(const LoadInput<T>& in) const {
+    const T asked = (commanded(in) - in.states[states.first + 1]) / T(lag);
+    return clamped(asked, T(-maximum_acceleration), T(maximum_acceleration));
+  }
+};
+
+}  // namespace seacrane

@@ -1,0 +1,17 @@
+#pragma once
+
+namespace seacrane {
+
+/// One of two values, both of which have been computed: what templates on the scalar use in place of a branch
+/// on compared values.
+template <class T>
+const T& select(bool condition, const T& yes, const T& no) {
+  return condition ? yes : no;
+}
+
+template <class T>
+T clamped(const T& value, const T& low, const T& high) {
+  return select(value < low, low, select(value > high, high, value));
+}
+
+}  // namespace seacrane

@@ -1,0 +1,86 @@
+#include <algorithm>
+
+#include "seacrane/dynamics/terms.hpp"
+#include "seacrane/elements/loads/registry.hpp"
+#include "seacrane/run/channels/channel.hpp"
+
+namespace seacrane {
+namespace {
+
+const Axis load_state{"load_state", {}, [](const Model& m) {
+                        std::vector<std::string> names;
+                        for (const LoadState& state : m.load_states) names.push_back(state.name);
+                        return names;
+                      }};
+
+const Axis line{"line", {}, [](const Model& m) {
+                  std::vector<std::string> names;
+                  for (const auto& d : std::get<std::vector<Line::Description>>(*m.description.loads)) {
+                    names.push_back(d.name);
+                  }
+                  return names;
+                }};
+
+void write_load_state(const Output& o, double* out) {
+  const StateLayout& layout = o.terms.model().layout;
+  std::copy(o.state + layout.loads, o.state + layout.work, out);
+}
+
+/// What `read` takes of the motion of each line.
+template <double (*read)(const Line::Motion<double>& motion)>
+void write_lines(const Output& o, double* out) {
+  const LoadInput<double> in = o.terms.load_input(o.time, o.state + o.terms.model().layout.memory);
+  for (const Line& one : std::get<std::vector<Line>>(*o.terms.model().loads)) *out++ = read(one.motion(in));
+}
+
+using Motion = const Line::Motion<double>&;
+double tension_of(Motion m) { return m.tension; }
+double length_of(Motion m) { return m.length; }
+double unstretched_of(Motion m) { return m.unstretched; }
+double stretch_of(Motion m) { return m.stretch(); }
+double pay_out_of(Motion m) { return m.unstretched_rate; }
+double winch_power_of(Motion m) { return m.winch_power(); }
+
+}  // namespace
+
+std::vector<Channel> load_channels() {
+  return {
+      {.name = "load_state",
+       .axes = {&load_state},
+       .unit = "SI",
+       .text = "states that loads have of their own, in the unit of each",
+       .write = write_load_state},
+      {.name = "line_tension",
+       .axes = {&line},
+       .unit = "N",
+       .text = "tension of the line, the same along all of it",
+       .write = write_lines<tension_of>},
+      {.name = "line_length",
+       .axes = {&line},
+       .unit = "m",
+       .text = "length of the line's path over its points",
+       .write = write_lines<length_of>},
+      {.name = "line_unstretched_length",
+       .axes = {&line},
+       .unit = "m",
+       .text = "length of the line without tension",
+       .write = write_lines<unstretched_of>},
+      {.name = "line_stretch",
+       .axes = {&line},
+       .unit = "m",
+       .text = "length of the path over that of the line; negative: slack",
+       .write = write_lines<stretch_of>},
+      {.name = "line_pay_out_rate",
+       .axes = {&line},
+       .unit = "m/s",
+       .text = "rate of the unstretched length; positive: pays out",
+       .write = write_lines<pay_out_of>},
+      {.name = "line_winch_power",
+       .axes = {&line},
+       .unit = "W",
+       .text = "power of the winch, or of what changes the length, into the line",
+       .write = write_lines<winch_power_of>},
+  };
+}
+
+}  // namespace seacrane

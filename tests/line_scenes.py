@@ -1,0 +1,83 @@
+"""Loads on elastic lines and winches, with the numbers of their closed forms."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from seacrane import Curve, Scene
+
+Array = NDArray[np.float64]
+G = 9.80665
+MASS, STIFFNESS = 20e3, 3e6  # kg, N/m: of the load and of the line at its start
+
+
+def hung(
+    *,
+    length: float = 10.0,
+    damping: float = 0.0,
+    stretch: float = MASS * G / STIFFNESS,
+    falls: int = 1,
+    **load: Any,
+) -> Scene:
+    """A load below a fixed block, stretched by its own weight; `length` is that of one fall, unstretched."""
+    scene = Scene(name="hung")
+    scene.add_body(
+        name="load", mass=MASS, inertia=(1e4, 1e4, 1e4), position=(0.0, 0.0, -length - stretch), **load
+    )
+    blocks = ["ground", "load"] * falls
+    scene.add_line(
+        name="hoist", bodies=blocks[: falls + 1], points=np.zeros((falls + 1, 3)),
+        stiffness=STIFFNESS * length / falls, length=falls * length, damping_ratio=damping, mass=MASS / falls**2,
+    )  # fmt: skip
+    return scene
+
+
+def swinging(**winch: Any) -> Scene:
+    """A load that swings below a block on a winch."""
+    scene = Scene(name="swinging")
+    scene.add_body(
+        name="load",
+        mass=2e3,
+        inertia=(300.0, 400.0, 500.0),
+        position=(3.0, 0.5, -8.0),
+        velocity=(0.0, 0.8, 0.0),
+        angular_velocity=(0.1, 0.2, 0.3),
+    )
+    scene.add_line(
+        name="hoist", bodies=["ground", "load"], points=[(0, 0, 0), (0.1, -0.2, 0.9)],
+        stiffness=4e6, length=7.65,
+    )  # fmt: skip
+    pay_out = Curve.quintic(start_time=0.3, end_time=2.0, start=0.0, end=0.6)
+    scene.add_winch(line="hoist", **{"rate": pay_out, "lag": 0.2} | winch)
+    return scene
+
+
+def reeved() -> Scene:
+    """A swinging arm that carries a block, a tackle of two falls below it, and a tugger on a third body."""
+    scene = Scene(name="reeved")
+    scene.add_body(name="arm", mass=800.0, inertia=(50.0, 900.0, 900.0), position=(2.0, 0.0, 0.0))
+    scene.add_joint(
+        kind="revolute", name="pin", first="ground", second="arm", point=(0, 0, 0), axis=(0, 1, 0)
+    )
+    scene.add_actuator(joint="pin", stiffness=4e6, damping=3e5)
+    scene.add_body(name="cleat", mass=50.0, inertia=(5.0, 5.0, 5.0), position=(3.5, 0.0, 0.2))
+    scene.add_joint(kind="weld", name="bolts", first="arm", second="cleat", point=(3.5, 0, 0))
+    scene.add_body(name="load", mass=1500.0, inertia=(200.0, 250.0, 300.0), position=(4.2, 0.1, -5.0))
+    scene.add_line(
+        name="hoist", bodies=["ground", "cleat", "load", "cleat"],
+        points=[(0.0, 0.0, 2.0), (0.3, 0.0, 0.1), (0.0, 0.0, 0.5), (0.4, 0.2, 0.1)],
+        stiffness=3e6, length=13.4, damping_ratio=0.05,
+    )  # fmt: skip
+    scene.add_winch(
+        line="hoist", rate=Curve.harmonic(start_time=0.0, offset=0.0, amplitude=0.5, omega=2.1),
+        maximum_rate=0.4, maximum_acceleration=0.6, lag=0.15,
+    )  # fmt: skip
+    tugger = Curve.harmonic(start_time=0.0, offset=7.2, amplitude=0.1, omega=3.0)
+    scene.add_line(
+        name="tugger", bodies=["ground", "load"], points=[(10.0, 3.0, -5.0), (0.5, 0, 0)], stiffness=2e4,
+        length=tugger,
+    )  # fmt: skip
+    return scene
