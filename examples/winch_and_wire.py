@@ -18,8 +18,10 @@ def hoisted(**winch: float) -> Scene:
     """The load at rest on its wire, and a winch that is commanded to haul in from the start."""
     scene = Scene(name="winch and wire")
     scene.add_body(name="load", mass=MASS, inertia=(1e4, 1e4, 1e4), position=(0, 0, -LENGTH - HANGS))
-    wire = ["ground", "load"]
-    scene.add_line(name="hoist", bodies=wire, points=np.zeros((2, 3)), stiffness=STIFFNESS, length=LENGTH)
+    scene.add_line(
+        name="hoist", bodies=["ground", "load"], points=np.zeros((2, 3)), stiffness=STIFFNESS, length=LENGTH,
+        damping_ratio=0.001,
+    )  # fmt: skip
     scene.add_winch(line="hoist", rate=-RATE, **winch)
     return scene
 

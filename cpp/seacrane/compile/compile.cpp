@@ -84,9 +84,7 @@ class Compiler {
     model_.load_states.push_back(std::move(state));
     return static_cast<int>(model_.load_states.size()) - 1;
   }
-  double mass(const std::string& body) const {
-    return body == kGround ? 0.0 : scene_.bodies[idx(index_.at(body))].mass;
-  }
+  double mass(const std::string& body) const { return scene_.bodies[idx(index_.at(body))].mass; }
   /// Of lengths, m: what errors of positions count over.
   double length_scale() const { return kTranslationScale * scene_.length_scale; }
 

@@ -46,7 +46,8 @@ def add_line(
     damping_ratio : float
         Of critical damping, for `mass` on the line: c = 2 damping_ratio sqrt(EA mass / l0).
     mass : float
-        kg; default (0): that of the path's last body. Of a load on n falls, its mass over n^2.
+        kg; default (0): that of the path's last body, the ground left aside. Of a load on n falls, its mass
+        over n^2.
 
     Returns
     -------
@@ -96,7 +97,7 @@ def add_winch(
     maximum_acceleration : float
         m/s2, of the rate; needs a lag. 1e7 (default): no bound.
     lag : float
-        s, of the rate behind the command, first order; 0 (default): the rate is the command.
+        s, of the rate behind the command, first order, from rest; 0 (default): the rate is the command.
     minimum_length : float
         m, at which hauling in stops.
 

@@ -36,7 +36,7 @@ struct LineDescription {
         required("stiffness", &D::stiffness, "N", "EA: tension over strain"),
         required("length", &D::length, "m", "unstretched; with a winch, at the start"),
         optional("damping_ratio", &D::damping_ratio, "", "of critical damping of `mass` on the line"),
-        optional("mass", &D::mass, "kg", "that moves with the line's end; 0: that of the last body"),
+        optional("mass", &D::mass, "kg", "that moves with the line's end; 0: that of the path's last body"),
         optional("winch", &D::winch, "", "whether the length is a state that `rate` drives"),
         optional("rate", &D::rate, "m/s", "commanded, positive: pays out"),
         optional("maximum_rate", &D::maximum_rate, "m/s", "of the winch; at 1e7 there is none"),
@@ -52,8 +52,8 @@ struct LineDescription {
 ///   T = max(0, EA e + c (l' - l0' l / l0)),   c = 2 damping_ratio sqrt(EA mass / l0).
 ///
 /// l0 is given over time, or it is a state of the winch, l0' = r. Its rate r is the command within its
-/// bounds; with a lag it is a state too, r' = (command - r) / lag within bounds. The rope carries its strain
-/// energy T e / 2 for each metre of l0 onto the drum.
+/// bounds; with a lag it is a state too, from rest, r' = (command - r) / lag within bounds. The rope carries
+/// its strain energy T e / 2 for each metre of l0 onto the drum.
 struct Line {
   static constexpr const char* kind = "line";
   using Description = LineDescription;
@@ -151,8 +151,7 @@ struct Line {
     const double start = d.length.at(0.0).value, scale = context.length_scale();
     line.states = {context.state({d.name + ".length", "m", start, scale}), 1};
     if (d.lag > 0.0) {
-      const double rate = clamped(d.rate.at(0.0).value, -d.maximum_rate, d.maximum_rate);
-      context.state({d.name + ".rate", "m/s", rate, scale});
+      context.state({d.name + ".rate", "m/s", 0.0, scale});
       line.states.count = 2;
     }
     return line;
@@ -287,7 +286,9 @@ struct Line {
 
   template <class Context>
   static double hung_mass(const Description& d, const Context& context) {
-    return d.mass > 0.0 ? d.mass : context.mass(d.bodies.back());
+    const auto last = std::find_if(d.bodies.rbegin(), d.bodies.rend(),
+                                   [](const std::string& name) { return name != kGround; });
+    return d.mass > 0.0 || last == d.bodies.rend() ? d.mass : context.mass(*last);
   }
 
   /// Calls f(span) for every pair of neighbours on the path; a span without length has no direction.

@@ -33,8 +33,9 @@ void write_load_moment(const Output& o, double* out) {
   const Model& model = o.system.model();
   for_each_load(o, [&](const BodyLoad<double>& load, int body) {
     const bool ground = body == model.body_count();
-    const Vec3d lever = ground ? Vec3d(Vec3d::Zero())
-                               : Vec3d(o.terms.bodies()[idx(body)].rotation * model.bodies[idx(body)].state_point);
+    const Vec3d lever =
+        ground ? Vec3d(Vec3d::Zero())
+               : Vec3d(o.terms.bodies()[idx(body)].rotation * model.bodies[idx(body)].state_point);
     view<3>(out) = load.moment + lever.cross(load.force);
     out += 3;
   });
