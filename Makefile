@@ -5,7 +5,8 @@
 #                  (make cpp-tsan), the site (make docs), the stability atlas (make extremes), benchmarks (make bench)
 # make notebooks  the notebooks in JupyterLab, with everything they need (NOTEBOOKS_ARGS: arguments of jupyter lab)
 # make stubs    python/seacrane/_core.pyi
-# make docs     the site in out/site, its notebooks executed; any warning is an error
+# make docs     the site in out/site, its notebooks executed; any warning is an error, and so is anything that a page
+#               would load from a network
 # make bench-peers  the same crane in Pinocchio, MuJoCo, Exudyn and NumPy, in an environment of their own;
 #                   either of the two with BENCH_ARGS=--publish writes into benchmarks/ (on an idle machine)
 # make viewer   the script of the three-dimensional page, bundled with three.js (needs npm)
@@ -19,7 +20,8 @@ SHELL := /bin/bash
 .DELETE_ON_ERROR:
 .DEFAULT_GOAL := build
 .PHONY: demo test build nightly bench bench-peers docs extremes notebooks stubs viewer format clean distclean lint \
-        cpp-test cpp-allocations cpp-sanitize cpp-tsan python-test fuzz system-packages FORCE
+        cpp-test cpp-allocations cpp-sanitize cpp-tsan python-test fuzz system-packages browser-packages \
+        bundle-packages FORCE
 
 ifndef PYTHON
 PYTHON := $(shell .ci/find-python)
@@ -36,6 +38,11 @@ export CMAKE_BUILD_PARALLEL_LEVEL ?= $(JOBS)
 
 system-packages:
 	@.ci/system-packages $(PYTHON)
+# What tests of pages need besides: Chromium; by night npm too, to bundle the pages' script again.
+browser-packages: system-packages
+	@.ci/system-packages $(PYTHON) browser
+bundle-packages: system-packages
+	@.ci/system-packages $(PYTHON) browser npm
 
 # A new environment may hold another interpreter: what was compiled for the old one goes.
 $(BIN)/python: | system-packages
@@ -108,7 +115,7 @@ cpp-tsan: system-packages
 	cmake --build $(TSAN_BUILD) --target seacrane_thread_tests
 	$$(setarch -R true 2>/dev/null && echo setarch -R) $(TSAN_BUILD)/cpp/tests/seacrane_thread_tests
 
-python-test: build .venv/.installed-dev
+python-test: build .venv/.installed-dev browser-packages
 	$(BIN)/python -m pytest -n $(JOBS) --dist worksteal $(PYTEST_ARGS)
 
 # The sanitized build runs every C++ test; the optimised one those that count allocations (all: make cpp-test).
@@ -118,7 +125,7 @@ test:
 	$(MAKE) --no-print-directory cpp-sanitize
 	$(MAKE) --no-print-directory python-test
 
-nightly: build .venv/.installed-dev
+nightly: build .venv/.installed-dev bundle-packages
 	$(BIN)/python -m pytest -m nightly $(PYTEST_ARGS)
 	$(MAKE) --no-print-directory cpp-test
 	$(MAKE) --no-print-directory cpp-sanitize SANITIZE_BUILD=build/sanitize-all SANITIZE_NOT= UNITY=OFF
@@ -136,6 +143,7 @@ bench: build .venv/.installed-dev
 # Read afresh each time: what stayed unread would keep its warnings to itself.
 docs: build .venv/.installed-dev
 	$(BIN)/python -m sphinx --fresh-env --fail-on-warning --keep-going --quiet -c docs -d build/doctrees . out/site
+	$(BIN)/python docs/site/offline.py out/site
 	@echo "the site: $(CURDIR)/out/site/index.html"
 
 CASES ?= 1000000

@@ -13,7 +13,7 @@ import sys
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
-import documents
+import facts
 from measure import (
     crane,
     evaluation,
@@ -125,7 +125,7 @@ def main() -> int:
         draft.write_text(text, encoding="utf-8")
     print(f"written to {target}", file=sys.stderr)
     if options.publish:
-        documents.fill()
+        facts.publish()
     return 0
 
 

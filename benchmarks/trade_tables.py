@@ -1,6 +1,6 @@
-"""The tables of docs/trade.md, from a trade of case 2:
+"""The tables and the picture of docs/trade.md, from a trade of case 2 in a folder:
 
-seacrane trade case2 --out out/trade && python benchmarks/trade_tables.py out/trade/trade.csv
+seacrane trade case2 --out out/trade && python benchmarks/trade_tables.py out/trade
 """
 
 from __future__ import annotations
@@ -14,7 +14,10 @@ import numpy as np
 from measure.section import significant
 from measure.table import write
 
+from seacrane import cases, trade
+
 RESULTS = Path(__file__).resolve().parent / "results"
+FIGURE = RESULTS.parents[1] / "docs" / "figures" / "trade_case2.png"
 SETTINGS = (
     ("bs32", "rtol=0.001"),
     ("tsit5", "rtol=0.01"),
@@ -89,6 +92,9 @@ def _errors(row: dict[str, str], units: dict[str, float]) -> list[str]:
 
 
 if __name__ == "__main__":
-    with Path(sys.argv[1]).open(newline="", encoding="utf-8") as file:
+    folder = Path(sys.argv[1])
+    with (folder / "trade.csv").open(newline="", encoding="utf-8") as file:
         tables(list(csv.DictReader(file)))
+    measured = trade(cases.case2(), out=folder)  # takes the rows that the folder holds
+    measured.plot(over="cpu_s").savefig(FIGURE, dpi=110)
     documents.fill()

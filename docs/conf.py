@@ -16,6 +16,7 @@ sys.path.insert(0, str(HERE / "site"))
 import api_pages  # noqa: E402
 import docstrings  # noqa: E402
 import links  # noqa: E402
+import live_page  # noqa: E402
 import navigation  # noqa: E402
 import notebook_cache  # noqa: E402
 
@@ -72,3 +73,4 @@ def setup(app: Any) -> None:
     app.connect("doctree-read", links.link_exact_names)
     app.connect("doctree-read", links.unlink_folders)
     app.connect("missing-reference", links.public_name)
+    app.connect("build-finished", live_page.write)

@@ -42,7 +42,7 @@ ROWS = answers()
 
 
 def lift(*, mass: float = 20e3, theta: float = 0.0, ballast: bool = True, sea: float | None = None) -> Scene:
-    """The lift of the README, its drives without gains."""
+    """The lift of docs/getting-started.md, its drives without gains."""
     database = shipped_database()
     scene = Scene(name="lift")
     scene.add_vessel(database)

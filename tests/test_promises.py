@@ -26,5 +26,5 @@ def test_every_promise_is_held_by_tests() -> None:
 
 def test_the_readme_leads_to_the_promises_and_the_mistakes() -> None:
     readme = (ROOT / "README.md").read_text()
-    assert "`docs/promises.md`" in readme
-    assert "`docs/mistakes.md`" in readme
+    assert "(docs/promises.md)" in readme
+    assert "(docs/mistakes.md)" in readme

@@ -10,6 +10,7 @@ import sys
 from pathlib import Path
 from typing import Any
 
+import chromium
 import pytest
 
 import seacrane
@@ -17,7 +18,21 @@ import seacrane
 ROOT = Path(__file__).resolve().parents[1]
 LISTED = re.compile(r"^- \[[^]]+\]\(([^)]+)\)", re.MULTILINE)
 INDEX = "# Site\n\nA first page.\n\n## To read\n\n- [Page](page.md): words\n- [Interface](api.md)\n"
-PAGE = "# Page\n\nSee `docs/api.md`, [the package](../python) and [its list](../python/names.pyi).\n"
+NOTEBOOK = """---
+file_format: mystnb
+kernelspec:
+  name: python3
+---
+
+# Notebook
+
+```{{code-cell}} ipython3
+with open({path!r}, "a") as log:
+    log.write("run;")
+print(6 * 7, "is printed")
+```
+"""
+PAGE = "# Navigation\n\nSee `docs/api.md`, [the package](../python) and [its list](../python/names.pyi).\n"
 
 
 @pytest.fixture
@@ -65,14 +80,20 @@ def small_site(tmp_path: Path) -> Path:
     return tmp_path
 
 
-def build(site: Path) -> subprocess.CompletedProcess[str]:
+@pytest.fixture
+def offline(monkeypatch: pytest.MonkeyPatch) -> Any:
+    monkeypatch.syspath_prepend(str(ROOT / "docs" / "site"))
+    return importlib.import_module("offline")
+
+
+def build(site: Path, *more: str) -> subprocess.CompletedProcess[str]:
     """Without the pages of docstrings, which take longer than all others; `make docs` builds them."""
-    options = ["-W", "--keep-going", "-q", "-c", "docs", "-D", "include_patterns=docs/*.md"]
+    options = ["-W", "--keep-going", "-q", "-c", "docs", "-D", "include_patterns=docs/*.md", *more]
     command = [sys.executable, "-m", "sphinx", *options, ".", "out"]
     return subprocess.run(command, cwd=site, capture_output=True, text=True, check=False)
 
 
-def test_a_small_site_builds_without_a_warning(small_site: Path) -> None:
+def test_a_small_site_builds_without_a_warning(small_site: Path, offline: Any) -> None:
     done = build(small_site)
     assert done.returncode == 0, done.stderr
     page = (small_site / "out" / "docs" / "page.html").read_text(encoding="utf-8")
@@ -82,6 +103,65 @@ def test_a_small_site_builds_without_a_warning(small_site: Path) -> None:
     assert "To read" in page.split("<article")[0], "the lists of the first page are the navigation"
     assert "url=docs/index.html" in (small_site / "out" / "index.html").read_text(encoding="utf-8")
     assert (small_site / "docs" / "api" / "scene.rst").is_file()
+    assert offline.outside(small_site / "out") == [], "the site opens without a network"
+
+
+def test_a_site_holds_the_three_dimensional_page_and_runs_a_notebook_once(
+    small_site: Path, offline: Any
+) -> None:
+    pytest.importorskip("ipykernel", reason="the site's packages are missing: pip install seacrane[docs]")
+    log = small_site / "log"
+    shutil.copy(ROOT / "docs" / "live.md", small_site / "docs")
+    (small_site / "docs" / "figures").mkdir()
+    shutil.copy(ROOT / "docs" / "figures" / "view_case2.png", small_site / "docs" / "figures")
+    (small_site / "docs" / "view.md").write_text("# View\n", encoding="utf-8")
+    (small_site / "docs" / "notebook.md").write_text(NOTEBOOK.format(path=str(log)), encoding="utf-8")
+    links = "- [Live](live.md)\n- [View](view.md)\n- [Notebook](notebook.md)\n"
+    (small_site / "docs" / "index.md").write_text(INDEX + links, encoding="utf-8")
+    for _ in range(2):
+        done = build(small_site, "--fresh-env")
+        assert done.returncode == 0, done.stderr
+    assert log.read_text() == "run;", "the second build takes the outputs of the first"
+    site = small_site / "out" / "docs"
+    assert "42 is printed" in (site / "notebook.html").read_text(encoding="utf-8")
+    assert 'src="case2.html' in (site / "live.html").read_text(encoding="utf-8")
+    assert 'id="data"' in (site / "case2.html").read_text(encoding="utf-8")
+    assert offline.outside(small_site / "out") == []
+
+
+LOADS = {
+    "script": '<script src="https://cdn.example/x.js"></script>',
+    "style sheet": '<link rel="stylesheet" href="//cdn.example/x.css">',
+    "picture": '<p style="background: url(http://cdn.example/x.png)">',
+    "set of pictures": '<img src="a.png" srcset="b.png 1x, https://cdn.example/c.png 2x">',
+    "frame": "<iframe srcdoc='<script src=\"https://cdn.example/x.js\"></script>'></iframe>",
+    "import": "<style>@import 'https://cdn.example/x.css';</style>",
+}
+
+
+@pytest.mark.parametrize("what", LOADS)
+def test_what_a_page_would_load_from_a_network_is_found(what: str, tmp_path: Path, offline: Any) -> None:
+    page = tmp_path / "page.html"
+    free = '<a href="https://example.org">to read</a><link rel="canonical" href="https://example.org/page">'
+    page.write_text(f"<html>{free}<img src='data:image/png;base64,AA'></html>", encoding="utf-8")
+    assert offline.outside(tmp_path) == []
+    page.write_text(f"<html>{free}{LOADS[what]}</html>", encoding="utf-8")
+    (found,) = offline.outside(tmp_path)
+    assert "cdn.example" in found
+
+
+@pytest.mark.nightly
+def test_the_search_finds_without_a_network(small_site: Path) -> None:
+    command = chromium.found()
+    if command is None:
+        pytest.skip("no Chromium: install Debian's package chromium")
+    assert build(small_site).returncode == 0
+    address = (small_site / "out" / "search.html").as_uri()
+    with chromium.tab(command) as tab:
+        tab.ask("Page.navigate", url=f"{address}?q=navigation")
+        tab.wait_for("document.querySelector('#search-results li a') !== null")
+        assert "page.html" in tab.value("document.querySelector('#search-results li a').href")
+        assert all(one.startswith(("file:", "data:")) for one in tab.requests), tab.requests
 
 
 def test_a_link_that_leads_nowhere_fails_the_build(small_site: Path) -> None:

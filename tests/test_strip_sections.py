@@ -27,13 +27,14 @@ def diagonal(matrices: FloatArray) -> FloatArray:
     return np.diagonal(matrices, axis1=1, axis2=2)
 
 
-@pytest.mark.parametrize("section", [CIRCLE, FULL, DEEP])
-def test_agrees_with_multipoles(section: LewisSection) -> None:
+def multipole_error(section: LewisSection) -> float:
+    """Largest difference of an entry of A or B over the peaks of its row and column."""
     half_breadth = section.points(2)[0, 0]
     nu = np.array([0.05, 0.3, 0.6, 1.0, 1.5, 2.0, 4.0]) / half_breadth
     omega = np.sqrt(G * nu)
     found = solved(section.points(200), omega)
     expected = np.array([RHO * radiation(section, float(k)) for k in nu])
+    worst = 0.0
     for name, reference in (
         ("added_mass", expected.real),
         ("damping", -omega[:, None, None] * expected.imag),
@@ -41,7 +42,13 @@ def test_agrees_with_multipoles(section: LewisSection) -> None:
         peak = np.abs(diagonal(reference)).max(axis=0)
         peak[2] = max(peak[2], 1e-4 * half_breadth**2 * peak[0])  # a circle has no roll of its own
         scale = np.sqrt(np.outer(peak, peak))
-        assert np.abs((found[name] - reference) / scale).max() < 0.01
+        worst = max(worst, float(np.abs((found[name] - reference) / scale).max()))
+    return worst
+
+
+@pytest.mark.parametrize("section", [CIRCLE, FULL, DEEP])
+def test_agrees_with_multipoles(section: LewisSection) -> None:
+    assert multipole_error(section) < 0.01
 
 
 def test_semicircle_against_ursell() -> None:

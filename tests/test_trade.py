@@ -74,6 +74,22 @@ def test_no_row_beats_one_on_the_front(measured: Trade) -> None:
             assert not any(beats)
 
 
+def test_a_diagram_is_drawn_over_wall_or_cpu_time(measured: Trade) -> None:
+    for over, words in (("wall_s", "wall time"), ("cpu_s", "CPU time")):
+        axes = measured.plot(over=over).axes[0]
+        assert words in axes.get_xlabel()
+        (step,) = [line for line in axes.lines if line.get_label() == "Pareto front"]
+        cost, error = step.get_xdata(), step.get_ydata()
+        assert np.all(np.diff(cost) >= 0.0) and np.all(np.diff(error) < 0.0)
+        drawn = [x for line in axes.lines for x in line.get_xdata()]
+        assert min(drawn) > 0.0
+    rk4 = next(r for r in measured.rows if r.method.integrator == "rk4" and r.formulation == "recursive")
+    lines = {line.get_label(): line for line in measured.plot(over="cpu_s").axes[0].lines}
+    assert rk4.cpu_s / rk4.simulated_s in lines["rk4"].get_xdata()
+    with pytest.raises(SceneError, match="over is 'cpu'; give wall_s or cpu_s"):
+        measured.plot(over="cpu")
+
+
 def test_notebooks_show_the_front(measured: Trade) -> None:
     best = measured.pareto
     html = replace(measured, metadata={**measured.metadata, "scene": "<i>lift</i>"})._repr_html_()

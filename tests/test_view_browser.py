@@ -1,5 +1,5 @@
 """The pages of `view` in a browser: they open from disk, ask for nothing, complain of nothing, and show the
-run. Skipped where there is no Chromium."""
+run. `make test` looks at one page, `make nightly` at all; skipped where there is no Chromium."""
 
 from __future__ import annotations
 
@@ -15,7 +15,10 @@ from view_scenes import HTML_NAME, angle_between, case2, pair, thrown
 
 from seacrane import View, cases, view
 
-SHOWN = ("case2", "alone", "thrown", "pair")
+SHOWN = (
+    "case2",  # the one page that `make test` looks at
+    *(pytest.param(name, marks=pytest.mark.nightly) for name in ("alone", "thrown", "pair")),
+)
 
 
 @pytest.fixture(scope="module")
@@ -58,6 +61,7 @@ def test_a_page_opens_without_a_network_and_shows_something(
     assert tab.errors == []
 
 
+@pytest.mark.nightly
 def test_the_page_moves_bodies_as_the_run_did(tab: chromium.Tab, tmp_path: Path) -> None:
     result = case2()
     opened(tab, view(result), tmp_path)
@@ -68,6 +72,7 @@ def test_the_page_moves_bodies_as_the_run_did(tab: chromium.Tab, tmp_path: Path)
             assert angle_between(pose[3:], result.select("quaternion", body=body)[index]) < 1e-4
 
 
+@pytest.mark.nightly
 def test_the_page_sums_the_waves_that_load_the_vessel(tab: chromium.Tab, tmp_path: Path) -> None:
     result = case2()
     assert result.scene is not None
@@ -81,6 +86,7 @@ def test_the_page_sums_the_waves_that_load_the_vessel(tab: chromium.Tab, tmp_pat
     assert drawn == (60 if tab.value("seacrane.software") else 200)
 
 
+@pytest.mark.nightly
 def test_a_slack_wire_is_drawn_slack(tab: chromium.Tab, tmp_path: Path) -> None:
     opened(tab, view(thrown()), tmp_path)
     tension = thrown()["link_tension"]
@@ -90,6 +96,7 @@ def test_a_slack_wire_is_drawn_slack(tab: chromium.Tab, tmp_path: Path) -> None:
         assert tab.value("seacrane.slack()") == wires
 
 
+@pytest.mark.nightly
 def test_markup_in_names_is_text(tab: chromium.Tab, tmp_path: Path) -> None:
     opened(tab, view(pair()), tmp_path)
     assert tab.value("document.title") == "<i>two vessels</i>"
@@ -98,6 +105,7 @@ def test_markup_in_names_is_text(tab: chromium.Tab, tmp_path: Path) -> None:
     assert tab.value("document.querySelectorAll('b, #labels i, #caption i').length") == 0
 
 
+@pytest.mark.nightly
 def test_the_address_tells_time_and_view(tab: chromium.Tab, tmp_path: Path) -> None:
     opened(tab, view(case2()), tmp_path, "#t=42.8&view=payload")
     tab.wait_for("document.getElementById('now').textContent === '42.80 s'")
@@ -106,6 +114,7 @@ def test_the_address_tells_time_and_view(tab: chromium.Tab, tmp_path: Path) -> N
     tab.wait_for("document.getElementById('now').textContent === '7.50 s'")
 
 
+@pytest.mark.nightly
 def test_keys_move_the_time_and_the_camera(tab: chromium.Tab, tmp_path: Path) -> None:
     opened(tab, view(case2()), tmp_path, "#t=10")
     tab.press("ArrowRight")
@@ -123,6 +132,7 @@ def test_keys_move_the_time_and_the_camera(tab: chromium.Tab, tmp_path: Path) ->
     tab.wait_for("document.getElementById('now').textContent === '60.00 s'")
 
 
+@pytest.mark.nightly
 def test_a_scene_alone_has_a_moving_sea(tab: chromium.Tab, tmp_path: Path) -> None:
     opened(tab, view(cases.vessel(hs=3.0)), tmp_path)
     tab.value("seacrane.seek(30)")
@@ -130,6 +140,7 @@ def test_a_scene_alone_has_a_moving_sea(tab: chromium.Tab, tmp_path: Path) -> No
     assert tab.value("document.getElementById('strip').hidden")
 
 
+@pytest.mark.nightly
 def test_the_page_lives_inside_another_one_as_in_a_notebook(tab: chromium.Tab, tmp_path: Path) -> None:
     tab.errors.clear()
     tab.requests.clear()

@@ -18,6 +18,10 @@ if TYPE_CHECKING:
 COLUMNS = 2
 MARKERS = "ovs^Dp*hXP<>d8H"
 SHAPES = {"recursive": "-", "redundant": ":"}
+COSTS = {
+    "wall_s": "wall time per simulated second [s]",
+    "cpu_s": "CPU time per simulated second [s]",
+}
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -29,7 +33,7 @@ class Measured:
     quantity, unit : str
         Of the errors.
     front : sequence of Row
-        Rows that no other beats in both wall time and error, by wall time.
+        Rows that no other beats in both cost and error.
     uncertainty : float
         Of the reference.
     """
@@ -41,9 +45,9 @@ class Measured:
 
 
 def work_precision(
-    rows: Sequence[Row], measured: Sequence[Measured], full_case: Mapping[str, str], title: str
+    rows: Sequence[Row], measured: Sequence[Measured], full_case: Mapping[str, str], title: str, over: str
 ) -> Figure:
-    """One panel per quantity: largest error over wall time per simulated second, both logarithmic.
+    """One panel per quantity: largest error over cost per simulated second, both logarithmic.
 
     Lines join the tolerances or steps of one integrator, solid in the recursive and dotted in the redundant
     formulation; crosses with a label change the physics; the grey band is the reference's uncertainty.
@@ -56,7 +60,7 @@ def work_precision(
     for panel in panels[len(measured) :]:
         panel.set_axis_off()
     for panel, one in zip(panels, measured, strict=False):
-        _draw(panel, rows, one, full_case)
+        _draw(panel, rows, one, full_case, over)
     handles = {
         label: handle
         for panel in panels
@@ -67,7 +71,9 @@ def work_precision(
     return figure
 
 
-def _draw(axes: Axes, every: Sequence[Row], measured: Measured, full_case: Mapping[str, str]) -> None:
+def _draw(
+    axes: Axes, every: Sequence[Row], measured: Measured, full_case: Mapping[str, str], over: str
+) -> None:
     from matplotlib.ticker import LogLocator, NullFormatter
 
     quantity = measured.quantity
@@ -84,44 +90,44 @@ def _draw(axes: Axes, every: Sequence[Row], measured: Measured, full_case: Mappi
     for (integrator, formulation), rows in groups.items():
         number = colours.setdefault(integrator, len(colours))
         axes.loglog(
-            [_cost(row) for row in rows], [row.error(quantity) for row in rows], SHAPES[formulation],
+            [_cost(row, over) for row in rows], [row.error(quantity) for row in rows], SHAPES[formulation],
             color=f"C{number % 10}", marker=MARKERS[number % len(MARKERS)], markersize=4, linewidth=1,
             label=integrator if formulation == "recursive" else None,
             markerfacecolor=None if number < 10 else "white",
         )  # fmt: skip
         if formulation != "recursive" and (integrator, "recursive") not in groups:
             axes.lines[-1].set_label(integrator)
-    best = measured.front
+    best = sorted(measured.front, key=lambda row: _cost(row, over))
     axes.step(
-        [_cost(row) for row in best], [row.error(quantity) for row in best], where="post", color="black",
-        linewidth=2.5, alpha=0.35, label="Pareto front",
+        [_cost(row, over) for row in best], [row.error(quantity) for row in best], where="post",
+        color="black", linewidth=2.5, alpha=0.35, label="Pareto front",
     )  # fmt: skip
-    _mark(axes, fewer, quantity, full_case)
+    _mark(axes, fewer, quantity, full_case, over)
     axes.axhspan(0.0, measured.uncertainty, color="0.85")
     axes.xaxis.set_major_locator(LogLocator(subs=(1.0, 3.0)))
     axes.xaxis.set_major_formatter("{x:g}")
     axes.xaxis.set_minor_formatter(NullFormatter())
-    axes.set_xlabel("wall time per simulated second [s]")
+    axes.set_xlabel(COSTS[over])
     axes.set_ylabel(f"largest error [{measured.unit}]")
     axes.set_title(plain(quantity.replace("_", " ")))
     axes.grid(alpha=0.3)
 
 
-def _cost(row: Row) -> float:
-    return row.wall_s / row.simulated_s
+def _cost(row: Row, over: str) -> float:
+    return float(getattr(row, over)) / row.simulated_s
 
 
-def _mark(axes: Axes, rows: list[Row], quantity: str, full: Mapping[str, str]) -> None:
+def _mark(axes: Axes, rows: list[Row], quantity: str, full: Mapping[str, str], over: str) -> None:
     """Rungs, each labelled by what differs from the full scene; labels keep a distance from each other."""
     height = -np.inf
     low, high = np.log10(axes.get_ylim())
     for row in sorted(rows, key=lambda row: row.error(quantity)):
         changed = [name for name in full if row.case[name] != full[name]]
         label = ", ".join(f"memory {row.case[n]}" if n == "memory" else str(row.case[n]) for n in changed)
-        axes.loglog(_cost(row), row.error(quantity), "kx", markersize=6)
+        axes.loglog(_cost(row, over), row.error(quantity), "kx", markersize=6)
         height = max(height + 0.028 * (high - low), np.log10(row.error(quantity)))
         place = (1.03 * axes.get_xlim()[1], 10.0**height)
         axes.annotate(
-            label, (_cost(row), row.error(quantity)), xytext=place, textcoords="data", fontsize=7,
+            label, (_cost(row, over), row.error(quantity)), xytext=place, textcoords="data", fontsize=7,
             annotation_clip=False, arrowprops={"arrowstyle": "-", "linewidth": 0.4, "color": "0.6"},
         )  # fmt: skip

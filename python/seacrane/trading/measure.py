@@ -81,7 +81,7 @@ def tight_reference(case: Case, quantities: Mapping[str, Quantity]) -> Reference
 def measure(bench: Bench, row: Row, *, scene: Scene | None = None, repeats: int | None = None) -> Row:
     """The row of a method, on the full scene or on one with less physics, filled in."""
     case = bench.case if scene is None else replace(bench.case, scene=scene)
-    before = 0.0
+    before = (0.0, 0.0)
     values = None
     try:
         if row.case["rung"] == rungs.WEIGHT:
@@ -95,7 +95,7 @@ def measure(bench: Bench, row: Row, *, scene: Scene | None = None, repeats: int 
         case, row.method, bench.quantities, bench.truth, row, values=values,
         repeats=bench.repeats if repeats is None else repeats, long_s=LONG,
     )  # fmt: skip
-    return replace(done, wall_s=done.wall_s + before)
+    return replace(done, wall_s=done.wall_s + before[0], cpu_s=done.cpu_s + before[1])
 
 
 def measure_variant(bench: Bench, variant: rungs.Variant, row: Row) -> Row:
@@ -108,15 +108,15 @@ def measure_variant(bench: Bench, variant: rungs.Variant, row: Row) -> Row:
     return measure(bench, replace(row, case={**row.case, "memory": memory}), scene=scene)
 
 
-def _prescribed(bench: Bench, case: Case, method: Method) -> tuple[Case, float]:
-    """The case with the vessel's motion of a locked crane prescribed, and the wall time of finding it, s."""
+def _prescribed(bench: Bench, case: Case, method: Method) -> tuple[Case, tuple[float, float]]:
+    """The case with the vessel's motion of a locked crane prescribed; wall and CPU time of finding it, s."""
     alone = replace(case, scene=rungs.locked(case.scene))
     done = timed(alone, method, ["vessel_motion"], repeats=bench.repeats, long_s=LONG)
     if done.stopped is not None:
         raise SceneError(str(done.stopped))
     result = done.run.result()
     driven = rungs.with_prescribed_vessel(case.scene, result.time, result["vessel_motion"])
-    return replace(case, scene=driven), done.wall_s
+    return replace(case, scene=driven), (done.wall_s, done.cpu_s)
 
 
 def _values_of_weight(

@@ -21,11 +21,12 @@ from seacrane.experiment.row_file import RowFile, completed
 from seacrane.files.atomic import atomic_write
 from seacrane.hydro import HydroDatabase, shipped_database
 from seacrane.inputs.checked import number_of
+from seacrane.inputs.shown import shown
 from seacrane.run.method import Method
 from seacrane.run.outputs import Outputs
 from seacrane.run.shorthand import settled
 from seacrane.trading import rungs
-from seacrane.trading.diagram import Measured, work_precision
+from seacrane.trading.diagram import COSTS, Measured, work_precision
 from seacrane.trading.measure import Bench, frequency_domain, measure, measure_variant, tight_reference
 from seacrane.trading.methods import PHYSICS, measured_methods
 from seacrane.trading.table import as_html, front, write_csv
@@ -170,20 +171,39 @@ class Trade:
     def _repr_html_(self) -> str:
         return as_html(self.metadata, list(self.quantities), self.pareto, len(self.rows))
 
-    def plot(self) -> Figure:
-        """Work-precision diagrams: error of each quantity over the wall time per simulated second."""
+    def plot(self, *, over: str = "wall_s") -> Figure:
+        """Work-precision diagrams: error of each quantity over cost.
+
+        Parameters
+        ----------
+        over : str
+            "wall_s": wall time per simulated second. "cpu_s": CPU time, which depends less on what else the
+            machine does; rows that took none that was measured, as the frequency domain, are left out.
+
+        Returns
+        -------
+        matplotlib.figure.Figure
+
+        Raises
+        ------
+        SceneError
+            If `over` is neither.
+        """
+        if over not in COSTS:
+            raise SceneError(f"plot: over is {shown(over)}; give {' or '.join(COSTS)}")
+        rows = [row for row in self.rows if getattr(row, over) > 0]
         measured = [
             Measured(
                 quantity=name,
                 unit=quantity.unit,
-                front=self.front(name),
+                front=[row for row, on in zip(rows, front(rows, name, cost=over), strict=True) if on],
                 uncertainty=self.reference.uncertainty[name],
             )
             for name, quantity in self.quantities.items()
         ]
         about = self.metadata
         title = f"{about['scene']}: {about['t_end']:g} s, errors at outputs every {about['dt_out']:g} s"
-        return work_precision(self.rows, measured, self.full_case, title)
+        return work_precision(rows, measured, self.full_case, title, over)
 
     def save(self, folder: str | os.PathLike[str]) -> None:
         """Write trade.csv and trade.png into a folder."""

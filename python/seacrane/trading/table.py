@@ -14,14 +14,15 @@ from seacrane.experiment.row_file import write_table
 from seacrane.plotting.html import notebook_table
 
 
-def front(rows: Sequence[Row], quantity: str) -> list[bool]:
-    """Which rows no other beats in both wall time and largest error of a quantity (Pareto)."""
+def front(rows: Sequence[Row], quantity: str, *, cost: str = "wall_s") -> list[bool]:
+    """Which rows no other beats in both cost, an attribute, and largest error of a quantity (Pareto)."""
+    costs = [getattr(row, cost) for row in rows]
     usable = [
-        i for i, row in enumerate(rows) if row.stable and np.isfinite([row.error(quantity), row.wall_s]).all()
+        i for i, row in enumerate(rows) if row.stable and np.isfinite([row.error(quantity), costs[i]]).all()
     ]
     on = [False] * len(rows)
     best = math.inf
-    for i in sorted(usable, key=lambda i: (rows[i].wall_s, rows[i].error(quantity))):
+    for i in sorted(usable, key=lambda i: (costs[i], rows[i].error(quantity))):
         if rows[i].error(quantity) < best:
             best, on[i] = rows[i].error(quantity), True
     return on

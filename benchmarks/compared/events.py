@@ -1,0 +1,31 @@
+"""Impacts and stops against closed forms."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+from event_scenes import ball
+from test_events import bounces
+
+from seacrane import simulate
+
+from .row import Row
+
+
+def bouncing_ball() -> Iterator[Row]:
+    """A ball that loses half its speed at each bounce."""
+    result = simulate(ball(), t_end=2.0, dt_out=0.05, rtol=1e-8)
+    times, lost = bounces(0.5, 5)
+    events = result.events[:5]
+    subject, reference = "Wires, stops, events", "closed form"
+    yield Row(
+        subject=subject, compared="bouncing ball: times of five bounces", reference=reference, unit="s",
+        difference=float(np.abs([e.time - t for e, t in zip(events, times, strict=True)]).max()), limit=1e-9,
+        test="test_events.py",
+    )  # fmt: skip
+    yield Row(
+        subject=subject, compared="bouncing ball: energy lost in five bounces", reference=reference, unit="",
+        difference=float(np.abs([e.energy_lost / w - 1.0 for e, w in zip(events, lost, strict=True)]).max()),
+        limit=1e-8, test="test_events.py",
+    )  # fmt: skip

@@ -1,0 +1,83 @@
+"""Everything that was compared with anything, with its number: ``python benchmarks/validation.py``.
+
+Runs the comparisons of `benchmarks/compared`, takes those that other measurements wrote from their files, and
+writes ``results/validation.csv`` and ``results/validation-orders.csv``. From these ``documents.py`` fills
+docs/validation.md, and ``facts.py`` the README. Files of real ships are looked for in the folder that
+SEACRANE_SHARED names; without it their rows stay as they were. A difference beyond its bound ends the call,
+and nothing is written.
+"""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Iterable
+from pathlib import Path
+
+import facts
+from measure.table import write
+
+ROOT = Path(__file__).resolve().parents[1]
+RESULTS = ROOT / "benchmarks" / "results"
+sys.path.insert(0, str(ROOT / "tests"))
+
+from compared import crane, engine, events, files, hull, orders, real_ships, sea  # noqa: E402
+from compared.row import HEAD, Row  # noqa: E402
+
+COMPARISONS = (
+    files.mechanisms,
+    engine.independent,
+    engine.formulations,
+    files.peers,
+    engine.jacobians,
+    engine.going_on,
+    engine.energy,
+    engine.momentum,
+    engine.books,
+    crane.statics,
+    crane.masses,
+    files.ships,
+    files.linear_model,
+    files.wave_sum,
+    sea.spectrum,
+    sea.drift,
+    hull.hydrostatics,
+    hull.sections,
+    files.database,
+    files.wires,
+    events.bouncing_ball,
+)
+
+
+def rows() -> Iterable[tuple[str, ...]]:
+    """Cells of every comparison; each is said as soon as it is there."""
+    for comparison in COMPARISONS:
+        for row in comparison():
+            yield checked(row).cells
+    shared = os.environ.get("SEACRANE_SHARED")
+    if shared:
+        yield from (checked(row).cells for row in real_ships.closures(Path(shared)))
+        return
+    old = files.records(RESULTS / "validation.csv")
+    names = tuple(real_ships.FILES)
+    yield from (tuple(row.values()) for row in old if row["compared"].startswith(names))
+
+
+def checked(row: Row) -> Row:
+    """The row, unless it is beyond its bound."""
+    print("; ".join(row.cells), flush=True)
+    if row.limit is not None and not row.difference <= row.limit:
+        raise SystemExit(f"{row.compared}: {row.difference:g} exceeds {row.limit:g}")
+    return row
+
+
+def main() -> None:
+    """Run, check, write, fill the documents."""
+    found, methods = list(rows()), orders.orders()
+    write(RESULTS / "validation.csv", HEAD, found)
+    write(RESULTS / "validation-orders.csv", orders.HEAD, methods)
+    facts.publish()
+
+
+if __name__ == "__main__":
+    main()
