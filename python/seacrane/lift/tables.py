@@ -259,6 +259,7 @@ _ALL = (
                 "tip": {"type": "table", "keys": (
                     Key(name="body", type="text", required=True), Key(name="point", required=True, **POINT)
                 )},
+                "capacity": {"type": "array", "unit": "m, kg", "shapes": ((-1, 2),)},
             },
         ),
     ),

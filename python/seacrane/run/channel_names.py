@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING
 
@@ -43,6 +44,17 @@ def hanging_bodies(scene: Description) -> list[str]:
     hanging = [scene.joints[name] for name in _links(scene)]
     carrying = {joint.first for joint in hanging}
     return list(dict.fromkeys(joint.second for joint in hanging if joint.second not in carrying))
+
+
+def hanging_weights(scene: Description) -> dict[str, float]:
+    """Weight (N) of what hangs on one link and on nothing else, by the link: its static tension."""
+    ends = Counter(end for joint in scene.joints.values() for end in (joint.first, joint.second))
+    hung = {name: scene.joints[name].second for name in _links(scene)}
+    return {
+        name: scene.bodies[body].mass * scene.gravity
+        for name, body in hung.items()
+        if body in scene.bodies and ends[body] == 1 and scene.bodies[body].gravity
+    }
 
 
 def named_channels(scene: Description, arrays: dict[str, Array]) -> dict[str, Array]:

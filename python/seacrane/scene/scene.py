@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 from typing import Any
 
+from seacrane.analysis.ballast import add_ballast
 from seacrane.analysis.scene_report import scene_report
 from seacrane.crane.add_crane import add_crane
 from seacrane.description import (
@@ -69,6 +70,7 @@ class Scene(Description):
 
     add_vessel = vessel.add_vessel
     add_sea = sea.add_sea
+    add_ballast = add_ballast
     add_drift = drift.add_drift
     use_actual_position = position.use_actual_position
     use_slow_position = position.use_slow_position

@@ -133,8 +133,7 @@ def _warn_of_balance(vessel: _core.VesselHydrodynamics, rest: Array, start: floa
     warn_caller(
         f"vessel {vessel.name!r}: starts out of balance: its loads would heel it by {np.degrees(roll):.3g} "
         f"deg, trim it by {np.degrees(pitch):.3g} deg and lift it by {heave:.3g} m, so that it swings from "
-        "the start. Add ballast (seacrane.balance and a point force, as in the README), or start from "
-        "seacrane.equilibrium(scene)",
+        "the start. Add ballast (Scene.add_ballast), or start from seacrane.equilibrium(scene)",
         BallastWarning,
     )
 
