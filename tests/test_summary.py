@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from test_result import crane_run, vessel_result
 
-from seacrane import Frame, Result, Scene, SceneError, plot_summary, simulate, summary
+from seacrane import Frame, Result, Scene, SceneError, cases, plot_summary, simulate, statics, summary
 
 G = 9.80665
 MASS, LENGTH = 2000.0, 5.0
@@ -100,6 +100,24 @@ def test_a_record_too_short_and_a_transient_are_told() -> None:
     result = Result.from_arrays(**run)
     assert any("transient or a move is inside: link tension" in text for text in summary(result).remarks)
     assert not any("transient" in text for text in summary(result, start=25.0).remarks)
+
+
+def test_static_values_come_from_statics() -> None:
+    """The pose of the run's end: cylinder forces have a factor then, and the ship its heel."""
+    scene = cases.case2()
+    result = simulate(scene, t_end=55.0)
+    pose = {"slew": -np.pi / 2, "coordinates": {"main": 2.0, "knuckle": 2.0}}
+    known = statics(scene, **pose)
+    told = summary(result, start=50.0, static=known)
+    main = told["cylinder force main"]
+    assert main.static_known and main.static == pytest.approx(known["cylinder force main"].item())
+    assert main.factor == pytest.approx(main.maximum / main.static) and 1.0 < main.factor < 1.3
+    assert told["roll"].static == pytest.approx(known["heel"].item()) and told["roll"].static_known
+    assert not told["heave"].static_known
+    with pytest.raises(SceneError, match="static is of 2 poses; give statics of one"):
+        summary(result, static=statics(scene, slew=[0.0, 1.0]))
+    with pytest.raises(SceneError, match="static is a dict; give what statics"):
+        summary(result, static={})  # type: ignore[arg-type]
 
 
 def test_what_makes_no_summary_is_refused() -> None:

@@ -56,6 +56,7 @@ from seacrane.answers.summary import summary as summary
 from seacrane.answers.summary_figure import plot_summary as plot_summary
 from seacrane.description.assembled import AssemblyWarning as AssemblyWarning
 from seacrane.description.curves import spline_curve as spline_curve
+from seacrane.description.limit_state import LimitState as LimitState
 from seacrane.description.provenance import SeaProvenance as SeaProvenance
 from seacrane.description.provenance import VesselProvenance as VesselProvenance
 from seacrane.description.references import DriverImpulseWarning as DriverImpulseWarning
@@ -87,6 +88,7 @@ from seacrane.reporting import Report as Report
 from seacrane.reporting import report as report
 from seacrane.result import Event as Event
 from seacrane.result import Result as Result
+from seacrane.result.utilisation import Utilisation as Utilisation
 from seacrane.run.method import Method as Method
 from seacrane.run.output_times import OutputMemoryError as OutputMemoryError
 from seacrane.run.outputs import Outputs as Outputs
@@ -113,6 +115,9 @@ from seacrane.validity.hull_range import MeanHeadingWarning as MeanHeadingWarnin
 from seacrane.validity.hull_range import MeanPositionWarning as MeanPositionWarning
 from seacrane.validity.hull_range import MooringTurnWarning as MooringTurnWarning
 from seacrane.validity.hull_range import NoWaveLoadsWarning as NoWaveLoadsWarning
+from seacrane.validity.lifting import LargeSwingWarning as LargeSwingWarning
+from seacrane.validity.lifting import LoadInHullWarning as LoadInHullWarning
+from seacrane.validity.lifting import OverloadWarning as OverloadWarning
 from seacrane.validity.plausible import BallastWarning as BallastWarning
 from seacrane.validity.range import LargeHeelWarning as LargeHeelWarning
 from seacrane.validity.range import NearSingularWarning as NearSingularWarning

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from seacrane import _core
 from seacrane.analysis.crane_poses import Place, path_through, places_of, posed
 from seacrane.description.compilation import compile_scene
+from seacrane.description.crane_reach import tip_radius
 from seacrane.description.roles import CraneRoles
 from seacrane.description.scene import Description
 from seacrane.errors import SceneError
@@ -18,39 +19,6 @@ from seacrane.inputs.frames import rotation_matrix
 Array = NDArray[np.float64]
 STEP = 0.25  # s of the path between two projections: 0.05 m
 CLOSE = 1e-10  # s of the path
-
-
-def tip_radius(scene: Description, roles: CraneRoles, position: Array, quaternion: Array) -> float:
-    """Distance of the tip from the slew axis, m, by the poses of all bodies in the scene's order.
-
-    Raises
-    ------
-    SceneError
-        For a crane without a slew drive or a tip.
-    """
-    if roles.slew is None or roles.tip is None:
-        missing = "slew drive" if roles.slew is None else "tip"
-        raise SceneError(
-            f"crane {roles.prefix!r}: a radius is from the slew axis to the tip, and it has no {missing}; "
-            "tell it by add_roles"
-        )
-    joint, (tip_body, tip_point) = scene.joints[roles.slew[0]], roles.tip
-    foot, axis = _placed(scene, joint.first, joint.first_frame.point, position, quaternion)
-    tip, _ = _placed(scene, tip_body, tip_point, position, quaternion)
-    upward = axis @ np.asarray(joint.first_frame.axes)[:, 2]
-    return float(np.linalg.norm(np.cross(upward, tip - foot)))
-
-
-def _placed(
-    scene: Description, body: str, point: object, position: Array, quaternion: Array
-) -> tuple[Array, Array]:
-    """A point of a body (body coordinates) in inertial axes, and the body's rotation."""
-    at = np.asarray(point, dtype=float)
-    if body not in scene.bodies:
-        return at, np.eye(3)
-    i = list(scene.bodies).index(body)
-    turn = rotation_matrix(quaternion[i])
-    return position[i] + turn @ (at - scene.bodies[body].center_of_mass), turn
 
 
 def luffing(scene: Description, roles: CraneRoles, luff: str | None) -> str:
@@ -122,7 +90,7 @@ class Reach:
 
     def _radius(self, state: Array) -> float:
         poses = np.array(state[: 7 * len(self._scene.bodies)]).reshape(-1, 7)
-        return tip_radius(self._scene, self._roles, self._centres(poses), poses[:, 3:])
+        return float(tip_radius(self._scene, self._roles, self._centres(poses), poses[:, 3:]))
 
     def _centres(self, poses: Array) -> Array:
         """Centres of mass: the state holds those of bodies, and the reference points of vessels."""

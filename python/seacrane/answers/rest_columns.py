@@ -12,9 +12,9 @@ from seacrane import _core
 from seacrane.analysis.rest_state import held
 from seacrane.answers.afloat import attitude, displaced_weight, heeling_stiffness
 from seacrane.analysis.crane_poses import drive_name
-from seacrane.answers.reach import tip_radius
 from seacrane.description.compilation import compile_scene
 from seacrane.description.crane_parts import cylinders, hooks, slews
+from seacrane.description.crane_reach import tip_radius
 from seacrane.description.roles import CraneRoles
 from seacrane.description.scene import Description
 
@@ -58,7 +58,7 @@ class AtRest:
 
     def radius(self, roles: CraneRoles) -> float:
         """Of a crane's tip, m."""
-        return tip_radius(self.scene, roles, self.channels["position"], self.channels["quaternion"])
+        return float(tip_radius(self.scene, roles, self.channels["position"], self.channels["quaternion"]))
 
 
 def columns_of(at_rest: AtRest) -> dict[str, tuple[str, float]]:

@@ -11,11 +11,13 @@ from numpy.typing import NDArray
 
 from seacrane.answers.curves import Curve, reported_curves
 from seacrane.answers.remarks import remarks_on
+from seacrane.answers.statics import Statics
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import number_of
 from seacrane.plotting.html import notebook_table, table
 from seacrane.plotting.text import text_table
 from seacrane.result import Result
+from seacrane.result.utilisation import Utilisation
 
 if TYPE_CHECKING:
     import xarray
@@ -23,6 +25,7 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 HEAD = ("", "unit", "static", "mean", "std", "min", "at [s]", "max", "at [s]", "factor")
 STARRED = "* at the first output: no static value is known."
+ATTITUDE = {"heel": "roll", "trim": "pitch"}
 LEAST_STATIC = 1e-3  # of the largest value: a smaller static load makes no factor
 
 
@@ -72,6 +75,8 @@ class Summary:
         Forces in kN, moments in kN m, hook loads in t, angles in deg, lengths in m.
     remarks : tuple of str
         What limits the numbers: a short record, a transient inside.
+    utilisation : Utilisation
+        Of the scene's limit states, over the whole run.
     """
 
     scene: str
@@ -79,6 +84,7 @@ class Summary:
     end: float
     rows: tuple[SummaryRow, ...]
     remarks: tuple[str, ...] = ()
+    utilisation: Utilisation = Utilisation(())
 
     def __iter__(self) -> Iterator[SummaryRow]:
         return iter(self.rows)
@@ -101,11 +107,13 @@ class Summary:
         lines = [f"{self.scene}, {self.start:g} to {self.end:g} s"]
         if self.rows:
             lines.append(text_table(HEAD, self._cells(), right=range(2, len(HEAD))))
-        return "\n".join([*lines, *self.notes()])
+        used = ["", str(self.utilisation)] if self.utilisation else []
+        return "\n".join([*lines, *self.notes(), *used])
 
     def _repr_html_(self) -> str:
         caption = f"{self.scene}, {self.start:g} to {self.end:g} s. {' '.join(self.notes())}"
-        return notebook_table(HEAD, self._cells(), caption=caption)
+        used = self.utilisation._repr_html_() if self.utilisation else ""
+        return notebook_table(HEAD, self._cells(), caption=caption) + used
 
     def html(self) -> str:
         """The table alone, as HTML."""
@@ -152,7 +160,13 @@ def _shown(value: float) -> str:
     return f"{0.0 if abs(value) < 1e-9 else value:.4g}"
 
 
-def summary(result: Result, *, start: float | None = None, end: float | None = None) -> Summary:
+def summary(
+    result: Result,
+    *,
+    start: float | None = None,
+    end: float | None = None,
+    static: Statics | None = None,
+) -> Summary:
     """Static value, mean, standard deviation, extremes and dynamic factor of what matters in a run.
 
     Rows: tension of links and wires, hook load, cylinder forces, slew torque, offset and swing of what hangs,
@@ -166,6 +180,9 @@ def summary(result: Result, *, start: float | None = None, end: float | None = N
         Of any run.
     start, end : float, optional
         Part of it that mean, standard deviation and extremes are taken over, s; default: all.
+    static : Statics, optional
+        In one pose, as `statics` tells it: the static values of its tensions, cylinder forces, slew torque,
+        heel and trim.
 
     Returns
     -------
@@ -174,21 +191,43 @@ def summary(result: Result, *, start: float | None = None, end: float | None = N
     Raises
     ------
     SceneError
-        For what is no result, or a part of it that holds no output.
+        For what is no result, a part of it that holds no output, or statics of several poses.
     """
     if not isinstance(result, Result):
         raise SceneError(
             f"result is a {type(result).__name__}; give what simulate() or Result.load() returns"
         )
+    known = _static(static)
     part = _part(result, start, end)
     time = result.time[part]
-    every = [one for one in reported_curves(result) if np.isfinite(one.values[part]).any()]
+    every = [
+        replace(one, static=known.get(one.name, one.static))
+        for one in reported_curves(result)
+        if np.isfinite(one.values[part]).any()
+    ]
     rows = [_row(one, time, one.values[part]) for one in every]
     inside = [replace(one, values=one.values[part]) for one in every]
     return Summary(
         scene=str(result.stats["scene"]), start=float(time[0]), end=float(time[-1]), rows=tuple(rows),
-        remarks=tuple(remarks_on(result, time, inside)),
+        remarks=tuple(remarks_on(result, time, inside)), utilisation=result.utilisation,
     )  # fmt: skip
+
+
+def _static(given: Statics | None) -> dict[str, float]:
+    """Static values by the names of rows."""
+    if given is None:
+        return {}
+    if not isinstance(given, Statics):
+        raise SceneError(f"summary: static is a {type(given).__name__}; give what statics(scene) returns")
+    if any(values.size != 1 for values in given.columns.values()):
+        raise SceneError(
+            f"summary: static is of {next(iter(given.columns.values())).size} poses; give statics of one"
+        )
+    found = {}
+    for name, values in given.columns.items():
+        what, _, of = name.partition(" ")
+        found[f"{ATTITUDE.get(what, what)} {of}".rstrip()] = float(values.item())
+    return found
 
 
 def _part(result: Result, start: float | None, end: float | None) -> slice:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import json
 from typing import TYPE_CHECKING, Any
 
 from seacrane.cli.command_line import INTERRUPTED
@@ -36,7 +37,8 @@ def run(arguments: argparse.Namespace) -> int:
     from seacrane.answers.curves import CHANNELS
     from seacrane.answers.summary import summary
 
-    result = told.load((*KEPT, *CHANNELS))
+    limited = [state["channel"] for state in json.loads(str(told.stats.get("limit_states", "[]")))]
+    result = told.load((*KEPT, *CHANNELS, *limited))
     print(costs(result))
     print(f"\n{summary(result)}\n")
     print(f"saved {told.path}")

@@ -11,9 +11,10 @@ from numpy.typing import NDArray
 
 from seacrane.description.crane_parts import cylinders, hooks, slews
 from seacrane.errors import SceneError
-from seacrane.result.channels import DERIVED
+from seacrane.result.channels import CHANNELS, DERIVED, FIXED
 
 if TYPE_CHECKING:
+    from seacrane import _core
     from seacrane.description.scene import Description
 
 Array = NDArray[np.float64]
@@ -37,6 +38,29 @@ def core_channels(wanted: Sequence[str], known: Sequence[str]) -> set[str]:
 def derived_coords(scene: Description) -> dict[str, list[str]]:
     """Names along the dimensions of derived channels."""
     return {"cylinder": list(cylinders(scene)), "slew": list(slews(scene)), "hook": list(hooks(scene))}
+
+
+def require_limited_channels(scene: Description, model: _core.Model) -> None:
+    """SceneError where a limit state names a channel, or a place in it, that the scene does not have."""
+    known = model.channel_names(defaults_only=False)
+    axes = {**model.axes, **derived_coords(scene), **FIXED}
+    for name, state in scene.limit_states.items():
+        try:
+            core_channels([state.channel], known)
+        except SceneError as error:
+            raise SceneError(f"limit state {name!r}: {error}") from error
+        dims = {*CHANNELS[state.channel].dims[1:], *CHANNELS[state.channel].dims_of_several[1:]}
+        for dim, chosen in state.where.items():
+            if dim not in dims:
+                raise SceneError(
+                    f"limit state {name!r}: channel {state.channel!r} has no dimension {dim!r}; it has "
+                    f"{', '.join(sorted(dims)) or 'none'}"
+                )
+            if chosen not in axes.get(dim, ()):
+                raise SceneError(
+                    f"limit state {name!r}: there is no {dim} {chosen!r}; choose from "
+                    f"{', '.join(axes.get(dim, ()))}"
+                )
 
 
 def hanging_bodies(scene: Description) -> list[str]:

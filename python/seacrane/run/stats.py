@@ -8,6 +8,7 @@ from typing import Any
 
 from seacrane import _core
 from seacrane.description.file_origin import roles_to_data
+from seacrane.description.limit_states import limit_states_to_data
 from seacrane.description.origin import origin_settings
 from seacrane.description.outline import bounds_of, outline_of
 from seacrane.files.plain_data import plain_notes
@@ -59,6 +60,7 @@ def stats_of(
         "hanging_weight": json.dumps(weights) if weights else None,
         "cranes": json.dumps(cranes) if cranes else None,
         "outline": json.dumps(outline_of(scene)),
+        "limit_states": json.dumps(limit_states_to_data(scene)) if scene.limit_states else None,
         "bounds": json.dumps(bounds) if bounds else None,
         "formulation": formulation,
         "integrator": method.integrator,

@@ -17,6 +17,7 @@ from seacrane.description import (
     file,
     forces,
     joints,
+    limit_states,
     recorded,
 )
 from seacrane.description.scene import Description
@@ -45,9 +46,9 @@ class Scene(Description):
     bodies, joints, drivers, actuators, point_forces, springs, force_tables, function_forces, loads, vessels
         Elements by name, immutable; `loads` are wind, current, limits and friction.
     waves : Waves or None
-    recorded, ranges, roles, provenance, notes
-        As of `Description`: what is recorded, where coordinates are meant to stay, the parts of cranes, where
-        vessels come from, and the user's own notes.
+    recorded, ranges, limit_states, roles, provenance, notes
+        As of `Description`: what is recorded, where coordinates are meant to stay, what channels may reach,
+        the parts of cranes, where vessels come from, and the user's own notes.
     """
 
     add_body = bodies.add_body
@@ -56,6 +57,7 @@ class Scene(Description):
     add_actuator = drives.add_actuator
     record_coordinate = recorded.record_coordinate
     add_range = recorded.add_range
+    add_limit_state = limit_states.add_limit_state
     add_point_force = forces.add_point_force
     add_spring = forces.add_spring
     add_force_table = forces.add_force_table
