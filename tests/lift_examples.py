@@ -260,6 +260,22 @@ name = "corner"
 body = "box"
 point_m = [0.1, 0.2, 0.3]
 
+[[limit_state]]
+channel = "link_tension"
+max_N = 8e4
+min_N = 1e3
+
+[[limit_state]]
+name = "luffing"
+channel = "stroke"
+max_m = 2.5
+where = { cylinder = "aft luff" }
+
+[[limit_state]]
+channel = "vessel_motion"
+max_deg = 90
+where = { motion = "roll" }
+
 [[record]]
 joint = "pin"
 name = "angle of the arm"
@@ -349,6 +365,9 @@ def every_table() -> Scene:
     scene.add_soft_stop(joint="sleeve", maximum=2, stiffness=1e4, damping=0.5)
     scene.add_friction(joint="pin", load=4, speed=np.radians(1))
     scene.add_range(joint="sleeve", minimum=-1, maximum=3)
+    scene.add_limit_state(channel="link_tension", max=8e4, min=1e3)
+    scene.add_limit_state(name="luffing", channel="stroke", max=2.5, where={"cylinder": "aft luff"})
+    scene.add_limit_state(channel="vessel_motion", max=np.radians(90), where={"motion": "roll"})
     scene.record_coordinate(joint="pin", name="angle of the arm")
     scene.add_point(name="corner", body="box", point=(0.1, 0.2, 0.3))
     scene.record_coordinate(joint="sleeve", coordinate="angle")

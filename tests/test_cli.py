@@ -16,7 +16,8 @@ import pytest
 
 from seacrane.cli.command_line import explain, main
 from seacrane.cli.scene_source import run_script
-from seacrane.cli.tables import text_table, to_json
+from seacrane.cli.json_text import to_json
+from seacrane.plotting.text import text_table
 from seacrane.errors import SceneError
 from seacrane.result import Result
 
@@ -48,7 +49,7 @@ def refusal(done: subprocess.CompletedProcess[str]) -> str:
     return lines[0]
 
 
-@pytest.mark.parametrize("command", ["", "run", "paper", "report", "hydro", "trade", "schema", "doctor"])
+@pytest.mark.parametrize("command", ["", "run", "paper", "report", "show", "hydro", "trade", "schema", "doctor"])
 def test_every_command_explains_itself(command: str) -> None:
     done = command_line(*command.split(), "--help")
     assert done.returncode == 0 and done.stdout.startswith(f"usage: seacrane {command}".rstrip())
@@ -143,6 +144,8 @@ def test_a_run_writes_its_file_and_a_summary(
     assert done.returncode == 0, done.stderr
     assert sorted(path.name for path in folder.iterdir()) == ["case2.nc"]
     assert "times real time" in done.stdout and "worst constraint error" in done.stdout
+    (tension,) = [line.split() for line in done.stdout.splitlines() if line.startswith("link tension")]
+    assert tension[2:4] == ["kN", "98.07"]
     assert f"saved {folder / 'case2.nc'}" in done.stdout
 
 
@@ -172,6 +175,20 @@ def test_the_runs_file_holds_what_the_design_lists(
     assert result.stats["degrees_of_freedom"] == 14
     assert result["constraint_error"].max() < 1e-9
     assert "t_end" in json.loads(str(result.stats["settings"]))
+
+
+def test_show_prints_and_draws_a_result(
+    lift: tuple[subprocess.CompletedProcess[str], Path], tmp_path: Path
+) -> None:
+    file = lift[1] / "case2.nc"
+    done = command_line("show", file, "--out", tmp_path, "--start", "1")
+    assert done.returncode == 0, done.stderr
+    assert "case2, 1 to 5 s" in done.stdout and f"saved {tmp_path / 'case2.png'}" in done.stdout
+    assert (tmp_path / "case2.png").read_bytes().startswith(b"\x89PNG")
+    told = json.loads(command_line("show", file, "--json").stdout)
+    assert told["rows"]["link tension"]["unit"] == "kN" and "Too short" in told["remarks"][0]
+    assert "overwrite" in refusal(command_line("show", file, "--out", tmp_path))
+    assert "no result file" in refusal(command_line("show", tmp_path / "none.nc"))
 
 
 def test_options_reach_the_case_and_the_integrator(tmp_path: Path) -> None:

@@ -36,6 +36,7 @@ FLOORS = """
     simulation
     experiment
     figures viewer
+    answers
     reporting
     trading
     lift

@@ -456,6 +456,7 @@ CALLS = {
 LEFT_OUT = {
     "add_function_force": "a C function is no data",
     "add_load": "its kinds have tables of their own",
+    "add_ballast": "[balance] is the ballast of a lift",
     "add_drift": "drift of [sea]",
     "use_actual_position": "phase of [sea]",
     "use_slow_position": "phase of [sea]",

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 import warnings
 from collections.abc import Callable
+from dataclasses import replace
 from functools import lru_cache
 from pathlib import Path
 
@@ -177,6 +178,35 @@ def two_controllers() -> None:
     simulate(controlled(5.0), t_end=1.0, controllers=both)
 
 
+def a_slew_that_flings_its_load() -> None:
+    scene = Scene(name="crane")
+    scene.add_crane(base="ground", payload=Payload(mass=20e3))
+    scene.add_actuator(name="slew", joint="A")
+    for joint in ("main_cylinder", "knuckle_cylinder"):
+        scene.add_driver(joint=joint, curve=Curve.constant(value=0.0))
+    simulate(driven(scene, references={"slew": move(-np.pi / 2, until=10.0)}), t_end=15.0)
+
+
+def above_the_table() -> None:
+    scene = Scene(name="crane")
+    roles = scene.add_crane(base="ground", payload=Payload(mass=20e3))
+    scene.roles[""] = replace(roles, capacity=((10.0, 30e3), (15.0, 22e3), (25.0, 12e3)))
+    for joint in JOINTS.values():
+        scene.add_driver(joint=joint, curve=Curve.constant(value=0.0))
+    simulate(scene, t_end=0.5)
+
+
+def a_link_down_to_the_keel() -> None:
+    database = shipped_database()
+    scene = Scene(name="lift")
+    scene.add_vessel(database)
+    scene.add_crane(payload=Payload(mass=20e3, link_length=20.0))
+    for name, joint in JOINTS.items():
+        scene.add_actuator(name=name, joint=joint)
+    scene.add_ballast()
+    simulate(driven(scene), t_end=0.5)
+
+
 def forces_as_text() -> None:
     lift(ballast=False).add_point_force(name="pull", body="payload", force=["1e3", "0", "0"])
 
@@ -194,6 +224,9 @@ SCRIPTS: dict[str, list[Callable[[], None]]] = {
     "motions in no time": [a_hoist_in_no_time, a_hoist_at_once_at_full_speed],
     "a start that joints do not allow": [a_reference_that_starts_elsewhere],
     "two masters of one input": [two_controllers],
+    "a load that swings too far": [a_slew_that_flings_its_load],
+    "more than the crane may lift": [above_the_table],
+    "a load in the hull": [a_link_down_to_the_keel],
     "texts for numbers": [forces_as_text],
 }
 

@@ -27,6 +27,7 @@ from seacrane._core import integrator_names as integrator_names
 from seacrane._core import joint_kinds as joint_kinds
 from seacrane.accuracy.step_error import StepError as StepError
 from seacrane.accuracy.step_error import step_error as step_error
+from seacrane.analysis.ballast import Ballast as Ballast
 from seacrane.analysis.frequency_domain import ResponseStatistics as ResponseStatistics
 from seacrane.analysis.frequency_domain import SummedResponse as SummedResponse
 from seacrane.analysis.frequency_domain import motion_rao as motion_rao
@@ -46,8 +47,18 @@ from seacrane.analysis.modal_analysis import natural_modes as natural_modes
 from seacrane.analysis.quasi_static import feed_forward as feed_forward
 from seacrane.analysis.quasi_static import quasi_static_loads as quasi_static_loads
 from seacrane.analysis.rest_state import equilibrium as equilibrium
+from seacrane.analysis.tanks import Tank as Tank
+from seacrane.answers.load_chart import LoadChart as LoadChart
+from seacrane.answers.load_chart import load_chart as load_chart
+from seacrane.answers.load_chart_figure import plot_load_chart as plot_load_chart
+from seacrane.answers.statics import Statics as Statics
+from seacrane.answers.statics import statics as statics
+from seacrane.answers.summary import Summary as Summary
+from seacrane.answers.summary import summary as summary
+from seacrane.answers.summary_figure import plot_summary as plot_summary
 from seacrane.description.assembled import AssemblyWarning as AssemblyWarning
 from seacrane.description.curves import spline_curve as spline_curve
+from seacrane.description.limit_state import LimitState as LimitState
 from seacrane.description.provenance import SeaProvenance as SeaProvenance
 from seacrane.description.provenance import VesselProvenance as VesselProvenance
 from seacrane.description.references import DriverImpulseWarning as DriverImpulseWarning
@@ -79,6 +90,7 @@ from seacrane.reporting import Report as Report
 from seacrane.reporting import report as report
 from seacrane.result import Event as Event
 from seacrane.result import Result as Result
+from seacrane.result.utilisation import Utilisation as Utilisation
 from seacrane.run.method import Method as Method
 from seacrane.run.output_times import OutputMemoryError as OutputMemoryError
 from seacrane.run.outputs import Outputs as Outputs
@@ -110,6 +122,9 @@ from seacrane.validity.hull_range import MeanHeadingWarning as MeanHeadingWarnin
 from seacrane.validity.hull_range import MeanPositionWarning as MeanPositionWarning
 from seacrane.validity.hull_range import MooringTurnWarning as MooringTurnWarning
 from seacrane.validity.hull_range import NoWaveLoadsWarning as NoWaveLoadsWarning
+from seacrane.validity.lifting import LargeSwingWarning as LargeSwingWarning
+from seacrane.validity.lifting import LoadInHullWarning as LoadInHullWarning
+from seacrane.validity.lifting import OverloadWarning as OverloadWarning
 from seacrane.validity.lines import LineLengthWarning as LineLengthWarning
 from seacrane.validity.lines import WinchLimitWarning as WinchLimitWarning
 from seacrane.validity.plausible import BallastWarning as BallastWarning

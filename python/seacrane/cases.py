@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from seacrane import _core
 from seacrane.analysis import quasi_static
-from seacrane.analysis.ballast import add_ballast
+from seacrane.analysis.weight_balance import balance_by_force
 from seacrane.analysis.inverse import Balance, reflected_inertia, tuned_gains
 from seacrane.crane import FOOT, Payload
 from seacrane.errors import SceneError
@@ -115,7 +115,7 @@ def _crane_afloat(
     for actuator, joint in ACTUATORS.items():
         scene.record_coordinate(joint=joint)
         scene.add_actuator(name=actuator, joint=joint)
-    return scene, add_ballast(scene)
+    return scene, balance_by_force(scene)
 
 
 def _lift(

@@ -7,7 +7,7 @@ import sys
 from collections.abc import Sequence
 
 from seacrane.cli.output_folder import output_folder
-from seacrane.cli.tables import text_table
+from seacrane.plotting.text import text_table
 from stability_atlas import Atlas, stability_atlas
 from stability_atlas.points import POINTS
 

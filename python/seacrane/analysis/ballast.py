@@ -1,45 +1,260 @@
-"""Ballast: a constant force that carries the weight of what a vessel has on it."""
+"""add_ballast(): what keeps a vessel at a heel and a trim, as one force or as the contents of tanks."""
 
 from __future__ import annotations
 
-from seacrane.analysis.inverse import Balance, balance
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from seacrane import _core
+from seacrane.analysis.crane_poses import path_through, places_of, posed
+from seacrane.analysis.inverse import drive_loads, hold_vessel, weight_of
+from seacrane.analysis.rest_state import held, rest_states
+from seacrane.analysis.tanks import Tank, fills, tanks_of
+from seacrane.description.compilation import compile_scene
 from seacrane.description.forces import add_point_force
 from seacrane.description.scene import Description
 from seacrane.errors import SceneError
+from seacrane.inputs.checked import name_of, number_of
 from seacrane.inputs.frames import rotation_matrix
+from seacrane.plotting.text import text_table
+
+Array = NDArray[np.float64]
+EXACT = 1e-9  # rad: heel and trim for which the moment that is left would account
+MOST_ROUNDS = 30
+LARGEST = np.radians(20.0)  # of a heel or trim that linear restoring tells
+ATTITUDE = ("roll", "pitch")
 
 
-def add_ballast(scene: Description, *, body: str = "vessel", name: str = "balance") -> Balance:
-    """Add the force on the only vessel that carries the weight of all other bodies at the start.
+@dataclass(frozen=True, kw_only=True)
+class Ballast:
+    """What `Scene.add_ballast` added.
+
+    Attributes
+    ----------
+    body : str
+        Of the vessel.
+    heel, trim : float
+        At which it rests, rad; positive lifts port, and lowers the bow.
+    weight : float
+        That it adds to the vessel, N; negative where it takes weight off.
+    center : ndarray, shape (3,)
+        Of one force without tanks, body coordinates, m; NaN with tanks.
+    contents : mapping of str to float
+        Of each tank then, kg.
+    changes : mapping of str to float
+        By how much that differs from what it held, kg.
+    """
+
+    body: str
+    heel: float
+    trim: float
+    weight: float
+    center: Array
+    contents: Mapping[str, float] = field(default_factory=dict)
+    changes: Mapping[str, float] = field(default_factory=dict)
+
+    def __str__(self) -> str:
+        told = (
+            f"ballast of {self.body!r}: {self.weight / 1e3:.4g} kN for a heel of "
+            f"{np.degrees(self.heel):.4g} deg and a trim of {np.degrees(self.trim):.4g} deg"
+        )
+        if not self.contents:
+            return f"{told}, at {self.center[0]:.4g}, {self.center[1]:.4g} m"
+        rows = [
+            [name, f"{kg / 1e3:.4g}", f"{self.changes[name] / 1e3:+.4g}"]
+            for name, kg in self.contents.items()
+        ]
+        return f"{told}\n{text_table(['tank', 'content [t]', 'change [t]'], rows, right=(1, 2))}"
+
+
+def add_ballast(
+    scene: Description,
+    *,
+    body: str | None = None,
+    heel_deg: float = 0.0,
+    trim_deg: float = 0.0,
+    tanks: Mapping[str, Tank] | None = None,
+    name: str = "ballast",
+) -> Ballast:
+    """Add the ballast with which a vessel rests at a heel and a trim, in calm water and the pose described.
+
+    Without tanks, one upward force carries the weight of all bodies on the vessel: ballast that was taken out
+    for them, so that the draught stays. With tanks, water is moved, taken in or let out, as little as it
+    takes; the draught follows. Either is a constant force: the mass of the water stays that of the database.
+    With a heel or trim that is not zero, start runs from `seacrane.equilibrium`.
 
     Parameters
     ----------
-    scene : Scene
-        At rest as it is described; see `seacrane.balance`.
-    body : str
-        Of the vessel.
+    body : str, optional
+        Of the vessel; default: the only one.
+    heel_deg, trim_deg : float
+        deg; a positive heel lifts port, a positive trim lowers the bow.
+    tanks : mapping of str to Tank, optional
     name : str
-        Of the point force.
+        Of the point force; with tanks, of one for each as "<name> <tank>".
 
     Returns
     -------
-    Balance
-        Of the scene without it.
+    Ballast
 
     Raises
     ------
     SceneError
-        If `body` is not the only vessel, or the scene is not at rest.
+        Where tanks do not suffice, naming the one that would overflow or run dry; where nothing is carried and
+        there are no tanks; or where the scene does not come to rest.
     """
-    floating = [vessel.body for vessel in scene.vessels.values()]
-    if floating != [body]:
-        raise SceneError(
-            f"balance: body is {body!r}, and the vessels are {', '.join(map(repr, floating)) or 'none'}; "
-            "only the one vessel of a scene is balanced so, give several a point_force each"
+    vessel = _vessel(scene, body)
+    target = np.radians([_angle("heel_deg", heel_deg), _angle("trim_deg", trim_deg)])
+    name = name_of("ballast", name)
+    kind = _Force(scene, vessel) if tanks is None else _Tanks(scene, vessel, target, tanks_of(tanks))
+    found = _fitted(scene, vessel, target, kind)
+    for key, (point, force) in kind.forces(found).items():
+        add_point_force(
+            scene, name=f"{name} {key}".rstrip(), body=vessel.body, point=point, force=(0.0, 0.0, force)
         )
-    found, vessel = balance(scene), scene.bodies[body]
-    center = rotation_matrix(vessel.quaternion).T @ (found.weight_center - vessel.position)
-    add_point_force(
-        scene, name=name, body=body, point=(center[0], center[1], 0.0), force=(0.0, 0.0, found.weight)
+    return kind.told(found, target)
+
+
+def _vessel(scene: Description, body: str | None) -> _core.VesselHydrodynamics:
+    floating = {vessel.body: vessel for vessel in scene.vessels.values()}
+    known = ", ".join(map(repr, floating)) or "none"
+    if body is None and len(floating) != 1:
+        raise SceneError(f"ballast: the vessels are {known}; name one as body")
+    if body is not None and body not in floating:
+        raise SceneError(f"ballast: body {body!r} is no vessel; the vessels are {known}")
+    return floating[body] if body is not None else next(iter(floating.values()))
+
+
+def _angle(key: str, value: Any) -> float:
+    angle = number_of(f"ballast: {key}", value)
+    if not abs(angle) <= np.degrees(LARGEST):
+        raise SceneError(
+            f"ballast: {key} is {angle:g}; give an angle within {np.degrees(LARGEST):.0f} deg, as far as "
+            "linear restoring holds"
+        )
+    return angle
+
+
+class _Force:
+    """One upward force: the unknowns are its place, x and y."""
+
+    def __init__(self, scene: Description, vessel: _core.VesselHydrodynamics) -> None:
+        self.body = vessel.body
+        self.weight, center = weight_of(scene)
+        if self.weight == 0.0:
+            raise SceneError(
+                f"ballast: vessel {vessel.name!r} carries no body, so that one force has no size; give tanks"
+            )
+        hull = scene.bodies[vessel.body]
+        self.first = _turn(hull).T @ (center - hull.position)
+        self.moments = self.weight * np.array([[0.0, 1.0], [-1.0, 0.0]])
+
+    def solve(self, needed: Array) -> Array:
+        return np.linalg.solve(self.moments, needed)
+
+    def start(self) -> Array:
+        return np.asarray(self.first[:2])
+
+    def forces(self, found: Array) -> dict[str, tuple[Any, float]]:
+        return {"": ((float(found[0]), float(found[1]), 0.0), self.weight)}
+
+    def told(self, found: Array, target: Array) -> Ballast:
+        return Ballast(
+            body=self.body, heel=float(target[0]), trim=float(target[1]), weight=-self.weight,
+            center=np.array([found[0], found[1], 0.0]),
+        )  # fmt: skip
+
+
+class _Tanks:
+    """The contents of tanks: the unknowns are their changes, kg."""
+
+    def __init__(
+        self,
+        scene: Description,
+        vessel: _core.VesselHydrodynamics,
+        target: Array,
+        tanks: Mapping[str, Tank],
+    ) -> None:
+        self.body, self.tanks, self.gravity = vessel.body, tanks, scene.gravity
+        self.moments = np.array([self._moments(vessel, target, one) for one in tanks.values()]).T
+
+    def _moments(self, vessel: _core.VesselHydrodynamics, target: Array, tank: Tank) -> Array:
+        """About the roll and the pitch axis, of 1 kg: its weight, and the hull that it sinks deeper."""
+        (cr, cp), (sr, sp) = np.cos(target), np.sin(target)
+        turn = np.array([[cp, sp * sr, sp * cr], [0.0, cr, -sr], [-sp, cp * sr, cp * cr]])
+        moment = np.cross(turn @ np.asarray(tank.point), [0.0, 0.0, -self.gravity])
+        restoring = np.asarray(vessel.restoring)
+        sinks = -self.gravity / restoring[2, 2] if restoring[2, 2] > 0.0 else 0.0
+        return np.array([moment @ turn[:, 0], moment[1]]) - restoring[3:5, 2] * sinks
+
+    def solve(self, needed: Array) -> Array:
+        return fills(self.tanks, self.moments, needed)
+
+    def start(self) -> Array:
+        return np.zeros(len(self.tanks))
+
+    def forces(self, found: Array) -> dict[str, tuple[Any, float]]:
+        changes = zip(self.tanks.items(), found, strict=True)
+        return {name: (tank.point, -float(kg) * self.gravity) for (name, tank), kg in changes}
+
+    def told(self, found: Array, target: Array) -> Ballast:
+        changes = dict(zip(self.tanks, found.tolist(), strict=True))
+        contents = {name: tank.content + changes[name] for name, tank in self.tanks.items()}
+        return Ballast(
+            body=self.body, heel=float(target[0]), trim=float(target[1]),
+            weight=float(np.sum(found)) * self.gravity, center=np.full(3, np.nan), contents=contents,
+            changes=changes,
+        )  # fmt: skip
+
+
+def _fitted(
+    scene: Description, vessel: _core.VesselHydrodynamics, target: Array, kind: _Force | _Tanks
+) -> Array:
+    """The unknowns with which no moment is left at the target, by a chord method from rest to rest."""
+    restoring = np.diag(vessel.restoring)[3:5]
+    found = kind.start()
+    for _ in range(MOST_ROUNDS):
+        left = _moments_left(scene, vessel, target, kind.forces(found))
+        if np.all(np.abs(left) <= EXACT * restoring):
+            return found
+        found = kind.solve(kind.moments @ found + left)
+    raise SceneError(
+        f"ballast: {left[0]:.3g} and {left[1]:.3g} N m about roll and pitch are left at the heel and trim "
+        "asked for; ask for smaller angles"
     )
-    return found
+
+
+def _moments_left(
+    scene: Description,
+    vessel: _core.VesselHydrodynamics,
+    target: Array,
+    forces: Mapping[str, tuple[Any, float]],
+) -> Array:
+    """What a drive in roll and one in pitch still carry at rest at the target, N m."""
+    out = posed(scene.copy(orientation="quaternion"), _places(scene), {})
+    for i, (point, force) in enumerate(forces.values()):
+        add_point_force(
+            out, name=f"trial ballast {i}", body=vessel.body, point=point, force=(0.0, 0.0, force)
+        )
+    angles = {motion: ("", "angle") for motion in ATTITUDE}
+    path, times = path_through(angles, [dict(zip(ATTITUDE, target.tolist(), strict=True))])
+    hold_vessel(out, vessel.body, path)
+    state = next(iter(rest_states(out, times=times.tolist())))
+    names = [f"{vessel.body}.motion.{motion}" for motion in ATTITUDE]
+    return drive_loads(compile_scene(held(out, time=state.time)), names, state)
+
+
+def _places(scene: Description) -> dict[str, tuple[str, str]]:
+    return {
+        f"{roles.prefix}{label}": place
+        for roles in scene.roles.values()
+        for label, place in places_of(roles).items()
+    }
+
+
+def _turn(body: _core.Body) -> Array:
+    return rotation_matrix(body.quaternion)

@@ -133,7 +133,7 @@ def balance(scene: Description) -> Balance:
         wrenches[vessel.body] = _multipliers(model, names, time=0.0, state=state)
     actuated = list(scene.actuators)
     loads = _multipliers(model, [_driver_name(name) for name in actuated], time=0.0, state=state)
-    weight, center = _weight(scene)
+    weight, center = weight_of(scene)
     return Balance(
         vessel_wrenches=wrenches,
         loads=dict(zip(actuated, loads.tolist(), strict=True)),
@@ -145,10 +145,16 @@ def balance(scene: Description) -> Balance:
 def actuator_loads(scene: Description, held: Description, state: _core.State) -> Array:
     """Loads of the drivers that hold a scene's actuators, by actuator, at a state of the held scene."""
     names = [_driver_name(name) for name in scene.actuators]
-    return _multipliers(compile_scene(held), names, time=state.time, state=np.array(state.values))
+    return drive_loads(compile_scene(held), names, state)
 
 
-def _weight(scene: Description) -> tuple[float, Array]:
+def drive_loads(model: _core.Model, names: Sequence[str], state: _core.State) -> Array:
+    """Loads of drivers, by name, at a state."""
+    return _multipliers(model, names, time=state.time, state=np.array(state.values))
+
+
+def weight_of(scene: Description) -> tuple[float, Array]:
+    """Of all bodies that have weight but vessels, N; and their centre of mass, inertial frame, m."""
     floating = {vessel.body for vessel in scene.vessels.values()}
     masses, centers = [], []
     for body in scene.bodies.values():

@@ -40,6 +40,7 @@ def build_parser() -> argparse.ArgumentParser:
     _add_run(commands)
     _add_paper(commands)
     _add_report(commands)
+    _add_show(commands)
     _add_hydro(commands)
     _add_trade(commands)
     _add_schema(commands)
@@ -130,6 +131,17 @@ def _add_report(commands: Any) -> None:
     report.add_argument("--overwrite", action="store_true", help="of a result: replace an earlier report")
 
 
+def _add_show(commands: Any) -> None:
+    text = "print the summary of a result, and draw it: DIR/<name>.png"
+    show = commands.add_parser("show", help=text, description=text)
+    show.add_argument("result", metavar="RESULT.nc", help="a result that `seacrane run` wrote")
+    show.add_argument("--start", metavar="S", type=float, help="leave out what comes before, s")
+    show.add_argument("--end", metavar="S", type=float, help="leave out what comes after, s")
+    show.add_argument("--json", action="store_true", help="print JSON instead of a table")
+    show.add_argument("--out", metavar="DIR", help="draw it into this folder; made if absent")
+    show.add_argument("--overwrite", action="store_true", help="replace an earlier picture")
+
+
 def _add_hydro(commands: Any) -> None:
     text = "read a hydrodynamic database and print the verdict table of its self-check"
     hydro = commands.add_parser("hydro", help=text, description=text)
@@ -193,7 +205,7 @@ def _complete(parser: argparse.ArgumentParser) -> None:
 
 def _version() -> str:
     """The version, and below it how the package was built."""
-    from seacrane.cli.tables import text_table
+    from seacrane.plotting.text import text_table
     from seacrane.installation.build import build_facts
 
     facts = build_facts()

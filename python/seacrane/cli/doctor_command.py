@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import argparse
 
-from seacrane.cli.tables import text_table, to_json
+from seacrane.cli.json_text import to_json
+from seacrane.plotting.text import text_table
 
 Facts = list[tuple[str, str]]
 

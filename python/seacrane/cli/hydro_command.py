@@ -7,7 +7,8 @@ import dataclasses
 from typing import TYPE_CHECKING, Any
 
 from seacrane.cli.output_folder import output_folder
-from seacrane.cli.tables import text_table, to_json
+from seacrane.cli.json_text import to_json
+from seacrane.plotting.text import text_table
 
 if TYPE_CHECKING:
     from seacrane.hydro import HydroDatabase

@@ -7,7 +7,8 @@ from pathlib import Path
 
 from seacrane.cli.output_folder import output_folder
 from seacrane.cli.scene_source import CASES, load_scene
-from seacrane.cli.tables import text_table, to_json
+from seacrane.cli.json_text import to_json
+from seacrane.plotting.text import text_table
 from seacrane.errors import SceneError
 
 RESULT_BEGINS = (b"\x89HDF", b"CDF", b"seacrane partial result")  # NetCDF of both kinds, a run that goes on

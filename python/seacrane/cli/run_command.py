@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import json
 from typing import TYPE_CHECKING, Any
 
 from seacrane.cli.command_line import INTERRUPTED
@@ -12,7 +13,7 @@ from seacrane.cli.scene_source import load_source
 if TYPE_CHECKING:
     from seacrane.result import Result
 
-SUMMARISED = ("constraint_error", "energy_balance", "absolute_work")
+KEPT = ("constraint_error", "energy_balance", "absolute_work")
 SETTINGS = ("dt_out", "integrator", "rtol", "dt", "spectral_radius", "formulation")
 
 
@@ -33,12 +34,18 @@ def run(arguments: argparse.Namespace) -> int:
         checkpoint_every=arguments.checkpoint_every, resume=arguments.resume, overwrite=arguments.overwrite,
         progress=arguments.progress,
     )  # fmt: skip
-    print(summary(told.load(SUMMARISED)))
+    from seacrane.answers.curves import CHANNELS
+    from seacrane.answers.summary import summary
+
+    limited = [state["channel"] for state in json.loads(str(told.stats.get("limit_states", "[]")))]
+    result = told.load((*KEPT, *CHANNELS, *limited))
+    print(costs(result))
+    print(f"\n{summary(result)}\n")
     print(f"saved {told.path}")
     return INTERRUPTED if told.interrupted else 0
 
 
-def summary(result: Result) -> str:
+def costs(result: Result) -> str:
     """What a run cost and how well it kept its invariants, in a few lines."""
     from seacrane.reporting.measures import energy_closure, speed, worst
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from seacrane.cli.output_folder import output_folder
 from seacrane.cli.scene_source import load_scene
-from seacrane.cli.tables import text_table
+from seacrane.plotting.text import text_table
 
 if TYPE_CHECKING:
     from seacrane.trading import Trade

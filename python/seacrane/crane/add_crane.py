@@ -100,6 +100,7 @@ def add_crane(
         cylinders={label: prefix + name for label, name in CYLINDERS.items()},
         link=None if payload is None else f"{prefix}link",
         tip=None if payload is not None else frame.in_body(prefix + TIP_BODY, _tip(crane, place)),
+        capacity=crane.data.capacity,
     )
 
 

@@ -10,7 +10,8 @@ from pathlib import Path
 from typing import Any
 
 from seacrane.crane.mass_properties import Box, Member, Point, Tube
-from seacrane.errors import FileFormatError
+from seacrane.description.capacity import Capacity, capacity_of
+from seacrane.errors import FileFormatError, SceneError
 from seacrane.files.whole_file import read_whole
 from seacrane.inputs.shown import shown
 
@@ -52,6 +53,8 @@ class CraneData:
         G on the knuckle jib, (along, above) from F.
     minimum_lever_arm : float
         Least distance of a cylinder's line from its jib's pivot, over all strokes.
+    capacity : tuple of (float, float)
+        Allowable load, kg, over the radius of the tip from the slew axis, m; empty: the file has none.
     """
 
     name: str
@@ -71,6 +74,7 @@ class CraneData:
     knuckle_jib: tuple[Member, ...]
     main_cylinder: CylinderData
     knuckle_cylinder: CylinderData
+    capacity: Capacity = ()
 
     def members(self) -> dict[str, tuple[Member, ...]]:
         """Members of each of the eight bodies, by body name."""
@@ -130,6 +134,22 @@ class _Table:
             )
         first, second = (_number(self.source, self.label(key), item) for item in value)
         return first, second
+
+    def capacity(self, key: str) -> Capacity:
+        """An optional table of its own: rows of radius and load."""
+        if key not in self.values:
+            return ()
+        table = self.table(key)
+        rows = table.take("rows")
+        table.finish()
+        if not isinstance(rows, list):
+            raise FileFormatError(
+                f"{self.source}: {table.label('rows')} is {shown(rows)}; write rows [radius, load], m and kg."
+            )
+        try:
+            return capacity_of(self.source, rows)
+        except SceneError as error:
+            raise FileFormatError(f"{error}.") from error
 
     def members(self, key: str) -> tuple[Member, ...]:
         value = self.take(key)
@@ -239,6 +259,7 @@ def _crane(root: _Table) -> CraneData:
         knuckle_jib=knuckle_jib.members("members"),
         main_cylinder=_cylinder(root.table("main_cylinder")),
         knuckle_cylinder=_cylinder(root.table("knuckle_cylinder")),
+        capacity=root.capacity("capacity"),
     )
     for table in (tower, king, main_jib, knuckle_jib, root):
         table.finish()

@@ -7,9 +7,11 @@ longer has is left out.
 from __future__ import annotations
 
 from collections.abc import Mapping
+from typing import Any
 
 import numpy as np
 
+from seacrane.description.capacity import capacity_of
 from seacrane.description.roles import CraneRoles, Vector
 from seacrane.description.scene import Description, coordinate_of
 from seacrane.errors import SceneError
@@ -25,6 +27,7 @@ def add_roles(
     link: str | None = None,
     payload: str | None = None,
     tip: tuple[str, Vector] | None = None,
+    capacity: Any = (),
 ) -> CraneRoles:
     """Tell which elements are the parts of a crane that was described by hand; `add_crane` does it by itself.
 
@@ -45,6 +48,9 @@ def add_roles(
         Body that hangs; default: the second body of the link.
     tip : (str, array_like of shape (3,))
         Body and point in its coordinates, m; default: where the link begins.
+    capacity : array_like, shape (n, 2), optional
+        Allowable load (kg) over radii of the tip from the slew axis (m, increasing): linear in between, none
+        beyond the last.
 
     Returns
     -------
@@ -77,6 +83,7 @@ def add_roles(
         link=link,
         payload=payload,
         tip=None if tip is None else _tip(scene, what, tip),
+        capacity=capacity_of(what, capacity),
     )
     scene.roles[prefix] = roles
     return roles

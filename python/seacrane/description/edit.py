@@ -13,7 +13,7 @@ from seacrane.errors import SceneError
 from seacrane.inputs.checked import curve_of
 from seacrane.inputs.shown import shown
 
-EDITED = (*ELEMENTS, "recorded", "ranges")  # tables of what has a name of its own
+EDITED = (*ELEMENTS, "recorded", "ranges", "limit_states")  # tables of what has a name of its own
 
 
 def replace_element(scene: Description, name: str, /, *, kind: str | None = None, **changes: Any) -> Any:
@@ -41,7 +41,7 @@ def replace_element(scene: Description, name: str, /, *, kind: str | None = None
     key = _table_of(scene, name, kind)
     table = getattr(scene, key)
     what, old = f"{KINDS[key]} {name!r}", table[name]
-    if key in ("recorded", "ranges"):
+    if key not in ELEMENTS:
         raise SceneError(f"{what}: is not replaced; remove it, and add another")
     arguments = old.__getstate__()
     unknown = [argument for argument in changes if argument not in arguments]
@@ -68,7 +68,7 @@ def remove_element(scene: Description, name: str, /, *, kind: str | None = None)
     ----------
     name : str
     kind : str, optional
-        As for `replace`, or "recorded coordinate" or "range"; needed where elements of several kinds have
+        As for `replace`, or "recorded coordinate", "range" or "limit state"; needed where elements of several kinds have
         this name.
 
     Raises

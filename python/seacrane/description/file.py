@@ -31,6 +31,7 @@ from seacrane.description.file_waves import waves_from_node, waves_to_data
 from seacrane.description.forces import add_force_table, add_load, add_point_force, add_spring
 from seacrane.description.hydrodynamics import add_hydrodynamics
 from seacrane.description.joints import add_joint
+from seacrane.description.limit_states import limit_states_from_node, limit_states_to_data
 from seacrane.description.old_files import provenance_from_notes, roles_by_name
 from seacrane.description.recorded import add_point, add_range, record_coordinate
 from seacrane.description.scene import Description
@@ -68,6 +69,7 @@ _ADDED_LATER: dict[str, Any] = {
     "loads": [],
     "points": [],
     "ranges": [],
+    "limit_states": [],
     "roles": None,
     "provenance": None,
 }  # what older files of this version lack
@@ -159,6 +161,7 @@ def load_scene(path: str | os.PathLike[str], scene: Some) -> Some:
         "waves",
         "recorded",
         "ranges",
+        "limit_states",
         "roles",
         "provenance",
         "notes",
@@ -168,9 +171,9 @@ def load_scene(path: str | os.PathLike[str], scene: Some) -> Some:
 
 
 def scene_digest(scene: Description) -> str:
-    """SHA-256 of what a scene describes: equal for scenes that move alike. Notes and provenance do not count,
-    and of C functions only their names."""
-    data = described(scene.copy(notes={}, provenance={}))
+    """SHA-256 of what a scene describes: equal for scenes that move alike. Notes, limit states and provenance do not
+    count, and of C functions only their names."""
+    data = described(scene.copy(notes={}, provenance={}, limit_states={}))
     data["function_forces"] = [[force.name, force.body] for force in scene.function_forces.values()]
     return hashlib.sha256(json.dumps(data).encode("ascii")).hexdigest()
 
@@ -196,6 +199,7 @@ def _scene(root: Node, scene: Some) -> Some:
         limits |= {key: node.at(key).number() for key in ("minimum", "maximum")}
         with node.scene_errors():
             add_range(scene, **limits)
+    limit_states_from_node(root.at("limit_states"), scene)
     waves = root.at("waves")
     if waves.value is not None:
         scene.waves = waves_from_node(waves)
@@ -238,6 +242,8 @@ def described(scene: Description) -> dict[str, Any]:
         for name, (joint, coordinate) in scene.recorded.items()
     ]
     out["ranges"] = [asdict(limit) for limit in scene.ranges.values()]
+    if scene.limit_states:  # as for points
+        out["limit_states"] = limit_states_to_data(scene)
     out["roles"] = [roles_to_data(roles) for roles in scene.roles.values()]
     out["provenance"] = [{"name": name, **asdict(known)} for name, known in scene.provenance.items()]
     out["notes"] = plain_data(f"scene {scene.name!r}: notes", scene.notes)

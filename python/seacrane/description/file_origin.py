@@ -26,13 +26,14 @@ def roles_to_data(roles: CraneRoles) -> dict[str, Any]:
         "link": roles.link,
         "payload": roles.payload,
         "tip": None if tip is None else {"body": tip[0], "point": list(tip[1])},
+        "capacity": [list(row) for row in roles.capacity],
     }
 
 
 def roles_from_node(node: Node, scene: Description) -> None:
     """Give a scene the roles that `roles_to_data` wrote; raises FileFormatError."""
     for entry in node.items():
-        entry.expect(_ROLES)
+        entry.expect(_ROLES, optional=("capacity",))
         parts = {key: _optional(entry, key) for key in ("slew", "link", "payload", "tip")}
         found: dict[str, Any] = {"prefix": entry.at("prefix").text(), "cylinders": _cylinders(entry)}
         found |= {key: None if (part := parts[key]) is None else part.text() for key in ("link", "payload")}
@@ -41,6 +42,8 @@ def roles_from_node(node: Node, scene: Description) -> None:
         if parts["tip"] is not None:
             parts["tip"].expect(("body", "point"))
             found["tip"] = (parts["tip"].at("body").text(), parts["tip"].at("point").array((3,)))
+        if "capacity" in entry.value:  # which files of 0.1 lack
+            found["capacity"] = entry.at("capacity").array((-1, 2))
         with entry.scene_errors():
             add_roles(scene, **found)
 

@@ -51,10 +51,9 @@ def outline_of(scene: Description) -> dict[str, Any]:
 
 def _about(body: _core.Body, *, ship: bool) -> dict[str, Any]:
     """A body without its points."""
-    inertia = np.diag(np.asarray(body.inertia))
     if not ship:
-        return {"points": [], "box": _box(body.mass, inertia)}
-    length, breadth = _ship(body.mass, inertia)
+        return {"points": [], "box": box_edges(body)}
+    length, breadth = ship_size(body)
     origin = (-np.asarray(body.center_of_mass)).tolist()
     return {"points": [], "ship": {"length": length, "breadth": breadth, "origin": origin}}
 
@@ -73,15 +72,18 @@ def _relative(scene: Description, body: str, point: Any) -> list[float]:
     return [float(value) for value in place]
 
 
-def _box(mass: float, inertia: Array) -> list[float]:
-    """Edges of the even box of these principal inertias, m."""
-    squares = 6.0 * (inertia.sum() - 2.0 * inertia) / mass
+def box_edges(body: _core.Body) -> list[float]:
+    """Edges of the even box of a body's mass and moments of inertia, m."""
+    inertia = np.diag(np.asarray(body.inertia))
+    squares = 6.0 * (inertia.sum() - 2.0 * inertia) / body.mass
     return [float(edge) for edge in np.sqrt(np.maximum(squares, 0.0))]
 
 
-def _ship(mass: float, inertia: Array) -> tuple[float, float]:
+def ship_size(body: _core.Body) -> tuple[float, float]:
+    """Length and breadth that a ship's radii of gyration suggest, m."""
     roll, pitch = GYRATION
-    return float(np.sqrt(inertia[1] / mass)) / pitch, float(np.sqrt(inertia[0] / mass)) / roll
+    about_x, about_y = np.sqrt(np.diag(np.asarray(body.inertia))[:2] / body.mass)
+    return float(about_y) / pitch, float(about_x) / roll
 
 
 def bounds_of(scene: Description) -> list[dict[str, Any]]:

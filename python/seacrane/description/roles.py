@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
+from seacrane.description.capacity import Capacity
+
 Vector = tuple[float, float, float]
 
 
@@ -26,6 +28,8 @@ class CraneRoles:
         Body that hangs on it.
     tip : (str, (float, float, float)) or None
         Body that carries the tip, and the tip in its coordinates, m.
+    capacity : tuple of (float, float)
+        Largest allowable load (kg) over the radius of the tip from the slew axis (m); empty: none is known.
     """
 
     prefix: str = ""
@@ -34,6 +38,7 @@ class CraneRoles:
     link: str | None = None
     payload: str | None = None
     tip: tuple[str, Vector] | None = None
+    capacity: Capacity = ()
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "cylinders", dict(self.cylinders))

@@ -8,6 +8,7 @@ from dataclasses import dataclass, field, replace
 from typing import Any, TypeVar
 
 from seacrane import _core
+from seacrane.description.limit_state import LimitState
 from seacrane.description.provenance import VesselProvenance
 from seacrane.description.range import Range
 from seacrane.description.roles import CraneRoles
@@ -37,6 +38,7 @@ KINDS: Mapping[str, str] = {  # what the elements of each table are called
     "ranges": "range",
     "roles": "crane",
     "provenance": "provenance",
+    "limit_states": "limit state",
 }
 ELEMENTS = tuple(KINDS)[:11]  # tables of what is compiled
 LOADS = tuple(KINDS)[3:9]  # of these, loads
@@ -69,6 +71,7 @@ class Description:
     recorded : dict of str to (str, str)
         Joint and coordinate that are recorded under a name.
     ranges : dict of str to Range
+    limit_states : dict of str to LimitState
     roles : dict of str to CraneRoles
         By the prefix of each crane's names.
     provenance : dict of str to VesselProvenance
@@ -96,6 +99,7 @@ class Description:
     waves: Waves | None = None
     recorded: dict[str, tuple[str, str]] = field(default_factory=dict)
     ranges: dict[str, Range] = field(default_factory=dict)
+    limit_states: dict[str, LimitState] = field(default_factory=dict)
     roles: dict[str, CraneRoles] = field(default_factory=dict)
     provenance: dict[str, VesselProvenance] = field(default_factory=dict)
     notes: dict[str, Any] = field(default_factory=dict)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import itertools
 import json
-import re
 from collections.abc import Iterable
 from dataclasses import dataclass
 
@@ -12,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane.result import CHANNELS, Result
+from seacrane.result.units import unit_of
 
 Array = NDArray[np.float64]
 ROUNDING = 1e-9  # of the largest beside it: what is smaller is drawn by rounding alone
@@ -85,14 +85,10 @@ def traces(result: Result, channel: str, **names: str) -> list[Trace]:
 
 
 def _unit(result: Result, channel: str, names: tuple[str, ...]) -> str:
-    """Of one curve: "m (surge, sway, heave), rad (roll, pitch, yaw)" is one unit for each motion."""
+    """Of one curve."""
     if channel == "limit_force":
         return _unit_of_limit(result, names[-1])
-    by_name = re.findall(r"([^,()]+) \(([^)]*)\)", CHANNELS[channel].unit)
-    for unit, listed in by_name:
-        if set(names) & set(listed.split(", ")):
-            return str(unit).strip()
-    return CHANNELS[channel].unit
+    return unit_of(channel, names)
 
 
 def _unit_of_limit(result: Result, name: str) -> str:

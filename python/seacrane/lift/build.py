@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from typing import Any, TypeVar
 
 from seacrane._core import Curve
-from seacrane.analysis.ballast import add_ballast
+from seacrane.analysis.weight_balance import balance_by_force
 from seacrane.analysis.inverse import Balance
 from seacrane.errors import FileFormatError, SceneError
 from seacrane.lift.calls import Caller, Keywords, keywords
@@ -85,7 +85,7 @@ class _Build:
         if ballast is None:
             return scene, None
         with refused_at(self.document, ballast):
-            return scene, add_ballast(scene, body=ballast.values["body"])
+            return scene, balance_by_force(scene, body=ballast.values["body"])
 
     def _control(
         self, scene: Scene, control: Entry, commands: Sequence[Entry], start: Balance | None

@@ -12,8 +12,10 @@ from seacrane.errors import SceneError
 from seacrane.hydro import HydroDatabase, load_database, shipped_database
 from seacrane.lift.check import SHIPPED
 from seacrane.lift.curves import curve_from
-from seacrane.lift.keys import EITHER, Key, into_si
+from seacrane.lift.keys import DEGREES, EITHER, Key, into_si
 from seacrane.lift.tables import Table
+from seacrane.result.channels import CHANNELS
+from seacrane.result.units import unit_of
 from seacrane.scene.realised_sea import spectrum_named
 from seacrane.scene.scene import Scene
 from seacrane.scene.wind_current import FlowCoefficients
@@ -21,6 +23,7 @@ from seacrane.sea import SeaState, WaveSystem, cos_2s
 
 Keywords = dict[str, Any]
 ANGLES = ("angle", "roll", "pitch", "yaw")
+RADIANS = {degrees: radians for radians, degrees in DEGREES.items()}
 SEA_OF_SYSTEMS = ("depth", "placement")
 _MADE: Mapping[str, Callable[..., Any]] = {
     "payload": Payload,
@@ -92,6 +95,20 @@ def _require_unit(scene: Scene, key: Key, spelling: str, values: Mapping[str, An
         )
 
 
+def _require_unit_of_channel(table: Table, values: Mapping[str, Any]) -> None:
+    """Refuse a limit in another unit than that of the channel, as far as that is known here."""
+    channel = values["channel"]
+    if channel not in CHANNELS:
+        return  # the run says so
+    own = unit_of(channel, list(values.get("where", {}).values())).split(EITHER)
+    for key in table.keys:
+        for spelling, unit in key.spellings.items():
+            if spelling in values and unit and not {unit, RADIANS.get(unit)} & set(own):
+                right = [one for one, u in key.spellings.items() if {u, RADIANS.get(u)} & set(own)]
+                fix = f"give {' or '.join(right)}" if right else "name one of its curves by where"
+                raise SceneError(f"{spelling}: channel {channel!r} is in {EITHER.join(own)}; {fix}")
+
+
 class Caller:
     """Makes the calls of one scene; what is read from other files is read once."""
 
@@ -102,6 +119,8 @@ class Caller:
     def call(self, scene: Scene, table: Table, values: Mapping[str, Any], *, at_rest: bool = False) -> None:
         """Add to a scene what a table describes; at rest, without what only moves it."""
         given = keywords(table.keys, values, scene)
+        if table.name == "limit_state":
+            _require_unit_of_channel(table, values)
         match table.name:
             case "vessel":
                 self._vessel(scene, given, at_rest=at_rest)

@@ -67,7 +67,7 @@ class Key:
     @property
     def spellings(self) -> dict[str, str]:
         """Its unit by each way to write it in a file."""
-        return {f"{self.name}_{suffix(unit)}": unit for unit in self.units} or {self.name: ""}
+        return {f"{self.name}_{suffix(unit)}".rstrip("_"): unit for unit in self.units} or {self.name: ""}
 
 
 def suffix(unit: str) -> str:

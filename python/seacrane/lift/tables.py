@@ -10,11 +10,13 @@ from typing import Any, get_overloads
 from seacrane import _core
 from seacrane.crane.add_crane import add_crane
 from seacrane.crane.payload import Payload
-from seacrane.description import bodies, crane_parts, drives, forces, joints, recorded
+from seacrane.description import bodies, crane_parts, drives, forces, joints, limit_states, recorded
 from seacrane.description.curves import spline_curve
 from seacrane.description.scene import Description
 from seacrane.hydro import load_database
-from seacrane.lift.keys import Key, field_keys, fields_of, keys_of
+from seacrane.lift.keys import EITHER, Key, field_keys, fields_of, keys_of
+from seacrane.result.channels import CHANNELS
+from seacrane.result.units import units_of
 from seacrane.run.method import FORMULATIONS, Method
 from seacrane.run.outputs import Outputs
 from seacrane.scene import limits, lines, sea, vessel, wind_current
@@ -39,6 +41,7 @@ DIRECTION: dict[str, Any] = {"type": "array", "shapes": ((3,),)}
 LENGTH: dict[str, Any] = {"unit": "m"}
 TIME: dict[str, Any] = {"unit": "s"}
 NUMBER = {"type": "number"}
+LIMITED = {"unit": EITHER.join(dict.fromkeys(unit for name in CHANNELS for unit in units_of(name)))}
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -253,6 +256,10 @@ _ALL = (
     _call("range", recorded.add_range, minimum={"unit": "m or rad"}, maximum={"unit": "m or rad"}),
     _call("record", recorded.record_coordinate),
     _call("point", recorded.add_point, _core.Point),
+    _call(
+        "limit_state", limit_states.add_limit_state,
+        max=NUMBER | LIMITED, min=NUMBER | LIMITED, where={"type": "names"},
+    ),
     Table(
         name="roles", text=_summary(crane_parts.add_roles),
         keys=keys_of(
@@ -262,6 +269,7 @@ _ALL = (
                 "tip": {"type": "table", "keys": (
                     Key(name="body", type="text", required=True), Key(name="point", required=True, **POINT)
                 )},
+                "capacity": {"type": "array", "unit": "m, kg", "shapes": ((-1, 2),)},
             },
         ),
     ),

@@ -13,25 +13,20 @@ from seacrane.result import Result
 CLOSED = 1e-6  # m or rad: joints that are closed to it are closed for any engineer
 BALANCED = 1e-3  # of the absolute work
 STATED = [
-    "vessel_motion",
     "wave_elevation",
     "slew_angle",
-    "slew_torque",
     "stroke",
-    "cylinder_force",
-    "link_tension",
     "limit_force",
     "coordinate",
     "actuator_force",
     "driver_force",
-    "tension",
 ]
+PLANAR = ("surge", "sway", "yaw")  # motions that the summary leaves to the statistics
 # What is shown under a crane's own names is not shown again under those of its parts.
 SAME = {
     "coordinate": ("stroke", "slew_angle"),
     "actuator_force": ("cylinder_force", "slew_torque"),
     "driver_force": ("cylinder_force", "slew_torque"),
-    "tension": ("link_tension",),
 }
 
 
@@ -86,10 +81,12 @@ def findings_of(result: Result) -> list[str]:
 
 
 def stated_traces(result: Result) -> list[Trace]:
-    """The curves whose numbers a report states: those of motions, crane, payload, wires and joints."""
+    """The curves whose numbers a report states beside its summary: of motions, crane, payload and joints."""
     held = set(result.channels)
+    motions = PLANAR if "vessel_motion" in held else ()
+    found = [one for motion in motions for one in traces(result, "vessel_motion", motion=motion)]
     names = [name for name in STATED if name in held and not held & set(SAME.get(name, ()))]
-    found = [one for name in names for one in traces(result, name)]
+    found += [one for name in names for one in traces(result, name)]
     if "position" in held:
         found += [one for body in payload_bodies(result) for one in traces(result, "position", body=body)]
     for name in ("reaction_force", "reaction_moment"):

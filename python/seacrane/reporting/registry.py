@@ -14,11 +14,13 @@ from seacrane.reporting.provenance import PROVENANCE
 from seacrane.reporting.scene_picture import SCENE_PICTURE
 from seacrane.reporting.section import Section
 from seacrane.reporting.statistics import STATISTICS
+from seacrane.reporting.summary import SUMMARY
 from seacrane.reporting.three_dimensions import THREE_DIMENSIONS
 from seacrane.result import Result
 
 SECTIONS: tuple[Section[Result], ...] = (
     GLANCE,
+    SUMMARY,
     PARTICULARS,
     SCENE_PICTURE,
     THREE_DIMENSIONS,

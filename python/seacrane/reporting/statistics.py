@@ -1,4 +1,4 @@
-"""Largest, smallest, mean and standard deviation of what was recorded."""
+"""Largest, smallest, mean and standard deviation of what was recorded and is not in the summary."""
 
 from __future__ import annotations
 

@@ -26,6 +26,7 @@ from seacrane.result.netcdf import Contents, read_arrays, write_netcdf
 from seacrane.result.partial_file import is_partial, partial_path, read_partial
 from seacrane.result.stages import StageSpan, spans_of
 from seacrane.result.table import as_html
+from seacrane.result.utilisation import Utilisation, utilisation_of
 
 if TYPE_CHECKING:
     import xarray
@@ -326,6 +327,11 @@ class Result(Mapping[str, Array]):
             index[dims.index(dim)] = self.coords[dim].index(name)
         picked: Array = array[tuple(index)]
         return picked
+
+    @property
+    def utilisation(self) -> Utilisation:
+        """How far every limit state of the scene was used, 1 at the limit; see `Scene.add_limit_state`."""
+        return utilisation_of(self.stats, self.time, self.channels, self.dims, self.coords)
 
     def to_xarray(self) -> xarray.Dataset:
         """The result as a dataset with named coordinates, units and descriptions (copies the arrays)."""

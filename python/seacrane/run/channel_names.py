@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING
 
@@ -10,10 +11,11 @@ from numpy.typing import NDArray
 
 from seacrane.description.crane_parts import cylinders, hooks, slews, tips
 from seacrane.errors import SceneError
-from seacrane.result.channels import DERIVED
+from seacrane.result.channels import CHANNELS, DERIVED, FIXED
 from seacrane.run.hanging import lead_angles, tip_velocities
 
 if TYPE_CHECKING:
+    from seacrane import _core
     from seacrane.description.scene import Description
 
 Array = NDArray[np.float64]
@@ -44,11 +46,45 @@ def derived_coords(scene: Description) -> dict[str, list[str]]:
     }
 
 
+def require_limited_channels(scene: Description, model: _core.Model) -> None:
+    """SceneError where a limit state names a channel, or a place in it, that the scene does not have."""
+    known = model.channel_names(defaults_only=False)
+    axes = {**model.axes, **derived_coords(scene), **FIXED}
+    for name, state in scene.limit_states.items():
+        try:
+            core_channels([state.channel], known)
+        except SceneError as error:
+            raise SceneError(f"limit state {name!r}: {error}") from error
+        dims = {*CHANNELS[state.channel].dims[1:], *CHANNELS[state.channel].dims_of_several[1:]}
+        for dim, chosen in state.where.items():
+            if dim not in dims:
+                raise SceneError(
+                    f"limit state {name!r}: channel {state.channel!r} has no dimension {dim!r}; it has "
+                    f"{', '.join(sorted(dims)) or 'none'}"
+                )
+            if chosen not in axes.get(dim, ()):
+                raise SceneError(
+                    f"limit state {name!r}: there is no {dim} {chosen!r}; choose from "
+                    f"{', '.join(axes.get(dim, ()))}"
+                )
+
+
 def hanging_bodies(scene: Description) -> list[str]:
     """The bodies that hang on links or wires and carry no other by one."""
     hanging = [scene.joints[name] for name in _links(scene)]
     carrying = {joint.first for joint in hanging}
     return list(dict.fromkeys(joint.second for joint in hanging if joint.second not in carrying))
+
+
+def hanging_weights(scene: Description) -> dict[str, float]:
+    """Weight (N) of what hangs on one link and on nothing else, by the link: its static tension."""
+    ends = Counter(end for joint in scene.joints.values() for end in (joint.first, joint.second))
+    hung = {name: scene.joints[name].second for name in _links(scene)}
+    return {
+        name: scene.bodies[body].mass * scene.gravity
+        for name, body in hung.items()
+        if body in scene.bodies and ends[body] == 1 and scene.bodies[body].gravity
+    }
 
 
 def named_channels(

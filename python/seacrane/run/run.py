@@ -14,7 +14,7 @@ from seacrane.errors import SceneError, SeacraneError
 from seacrane.inputs.checked import number_of
 from seacrane.result.events import Event
 from seacrane.result.result import Result, checked_stats
-from seacrane.run.channel_names import core_channels, derived_coords, named_channels
+from seacrane.run.channel_names import core_channels, derived_coords, named_channels, require_limited_channels
 from seacrane.run.formulation import stepped
 from seacrane.run.input_slots import changed_inputs, steered
 from seacrane.run.method import Method
@@ -92,6 +92,7 @@ class Run:
         check_references(self.scene, self.model, start=begin, end=end, described=described)
         warn_of_description(self.scene, start=begin, end=end, described=described)
         self.settings = settings_of(self.scene, self.t_end, self.method, self.outputs)
+        require_limited_channels(self.scene, self.model)
         self.core = _simulation(self, capacity)
         if self.scene.waves is not None:
             self.scene.waves.warn_of_repeats(self.t_end - self.start.time)
@@ -207,7 +208,8 @@ def _start(model: _core.Model, given: Any) -> _core.State:
 def _simulation(run: Run, capacity: int | None) -> _core.Simulation:
     """The run in the core."""
     model, method, outputs = run.model, run.method, run.outputs
-    asked = model.channel_names() if outputs.channels is None else list(outputs.channels)
+    usual = [*model.channel_names(), *(state.channel for state in run.scene.limit_states.values())]
+    asked = usual if outputs.channels is None else list(outputs.channels)
     channels = core_channels(asked, model.channel_names(defaults_only=False))
     times = output_times(
         run.start.time, run.t_end, outputs.dt, first=run.first,

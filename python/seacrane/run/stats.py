@@ -8,10 +8,11 @@ from typing import Any
 
 from seacrane import _core
 from seacrane.description.file_origin import roles_to_data
+from seacrane.description.limit_states import limit_states_to_data
 from seacrane.description.origin import origin_settings
 from seacrane.description.outline import bounds_of, outline_of
 from seacrane.files.plain_data import plain_notes
-from seacrane.run.channel_names import hanging_bodies
+from seacrane.run.channel_names import hanging_bodies, hanging_weights
 from seacrane.run.method import Method
 from seacrane.run.outputs import Outputs
 from seacrane.scene.scene import Scene
@@ -51,13 +52,15 @@ def stats_of(
     """`Result.stats` of a run so far; `start` is its start time, s."""
     recursive = formulation == "recursive"
     cranes = [roles_to_data(roles) for roles in scene.roles.values()]
-    bounds = bounds_of(scene)
+    bounds, weights = bounds_of(scene), hanging_weights(scene)
     return {
         "seacrane_version": __version__,
         "scene": scene.name,
         "payload": "\n".join(hanging_bodies(scene)) or None,
+        "hanging_weight": json.dumps(weights) if weights else None,
         "cranes": json.dumps(cranes) if cranes else None,
         "outline": json.dumps(outline_of(scene)),
+        "limit_states": json.dumps(limit_states_to_data(scene)) if scene.limit_states else None,
         "bounds": json.dumps(bounds) if bounds else None,
         "formulation": formulation,
         "integrator": method.integrator,
@@ -73,8 +76,3 @@ def stats_of(
         **core.statistics(),
         **({} if scene.waves is None else scene.waves.provenance.stats()),
     }
-
-
-def _cranes(scene: Scene) -> str | None:
-    """The roles of each crane, as JSON."""
-    return json.dumps([roles_to_data(roles) for roles in scene.roles.values()]) if scene.roles else None

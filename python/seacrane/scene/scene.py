@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 from typing import Any
 
+from seacrane.analysis.ballast import add_ballast
 from seacrane.analysis.scene_report import scene_report
 from seacrane.crane.add_crane import add_crane
 from seacrane.description import (
@@ -16,6 +17,7 @@ from seacrane.description import (
     file,
     forces,
     joints,
+    limit_states,
     recorded,
 )
 from seacrane.description.scene import Description
@@ -45,9 +47,9 @@ class Scene(Description):
     points
         Elements by name, immutable; `loads` are wind, current, lines, limits and friction.
     waves : Waves or None
-    recorded, ranges, roles, provenance, notes
-        As of `Description`: what is recorded, where coordinates are meant to stay, the parts of cranes, where
-        vessels come from, and the user's own notes.
+    recorded, ranges, limit_states, roles, provenance, notes
+        As of `Description`: what is recorded, where coordinates are meant to stay, what channels may reach,
+        the parts of cranes, where vessels come from, and the user's own notes.
     """
 
     add_body = bodies.add_body
@@ -57,6 +59,7 @@ class Scene(Description):
     record_coordinate = recorded.record_coordinate
     add_range = recorded.add_range
     add_point = recorded.add_point
+    add_limit_state = limit_states.add_limit_state
     add_point_force = forces.add_point_force
     add_spring = forces.add_spring
     add_force_table = forces.add_force_table
@@ -73,6 +76,7 @@ class Scene(Description):
 
     add_vessel = vessel.add_vessel
     add_sea = sea.add_sea
+    add_ballast = add_ballast
     add_drift = drift.add_drift
     use_actual_position = position.use_actual_position
     use_slow_position = position.use_slow_position

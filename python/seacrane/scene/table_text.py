@@ -25,6 +25,7 @@ def rows(scene: Description) -> list[tuple[str, list[str]]]:
             ],
         )
     )
+    found.append(("limit states", list(scene.limit_states)))
     return [(kind, names) for kind, names in found if names]
 
 

@@ -16,6 +16,7 @@ from seacrane.description.references import references
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.frames import rotation_matrix
 from seacrane.inputs.plausible import CompassDirectionWarning, MassUnitWarning, angle_of
+from seacrane.validity.lifting import warn_of_loads_in_hulls
 
 if TYPE_CHECKING:
     from seacrane.description.scene import Description
@@ -43,6 +44,7 @@ def warn_of_description(scene: Description, *, start: float, end: float, describ
     _warn_of_masses(scene)
     if described:
         _warn_of_ballast(scene)
+        warn_of_loads_in_hulls(scene)
 
 
 def _warn_of_angles(scene: Description, start: float, end: float) -> None:
@@ -133,8 +135,7 @@ def _warn_of_balance(vessel: _core.VesselHydrodynamics, rest: Array, start: floa
     warn_caller(
         f"vessel {vessel.name!r}: starts out of balance: its loads would heel it by {np.degrees(roll):.3g} "
         f"deg, trim it by {np.degrees(pitch):.3g} deg and lift it by {heave:.3g} m, so that it swings from "
-        "the start. Add ballast (seacrane.balance and a point force, as in the README), or start from "
-        "seacrane.equilibrium(scene)",
+        "the start. Add ballast (Scene.add_ballast), or start from seacrane.equilibrium(scene)",
         BallastWarning,
     )
 

@@ -12,6 +12,7 @@ from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.frames import MOTIONS
 from seacrane.validity.following import FullTurnWarning, following
 from seacrane.validity.hull_range import hull_findings, motions
+from seacrane.validity.lifting import lifting
 from seacrane.validity.lines import line_findings
 
 if TYPE_CHECKING:
@@ -55,7 +56,7 @@ def findings(
     `steered` names actuators that a controller has moved: they do not follow their references alone.
     """
     found: list[Finding] = []
-    for look in (_heel, hull_findings, _frequencies, _links, line_findings, _turns):
+    for look in (_heel, hull_findings, _frequencies, _links, line_findings, lifting, _turns):
         found += look(scene, time, channels)
     return found + following(scene, time, channels, steered) + _singular(scene, stats)
 

@@ -1,0 +1,45 @@
+"""A constant force that carries the weight of what a vessel has on it."""
+
+from __future__ import annotations
+
+from seacrane.analysis.inverse import Balance, balance
+from seacrane.description.forces import add_point_force
+from seacrane.description.scene import Description
+from seacrane.errors import SceneError
+from seacrane.inputs.frames import rotation_matrix
+
+
+def balance_by_force(scene: Description, *, body: str = "vessel", name: str = "balance") -> Balance:
+    """Add the force on the only vessel that carries the weight of all other bodies at the start.
+
+    Parameters
+    ----------
+    scene : Scene
+        At rest as it is described; see `seacrane.balance`.
+    body : str
+        Of the vessel.
+    name : str
+        Of the point force.
+
+    Returns
+    -------
+    Balance
+        Of the scene without it.
+
+    Raises
+    ------
+    SceneError
+        If `body` is not the only vessel, or the scene is not at rest.
+    """
+    floating = [vessel.body for vessel in scene.vessels.values()]
+    if floating != [body]:
+        raise SceneError(
+            f"balance: body is {body!r}, and the vessels are {', '.join(map(repr, floating)) or 'none'}; "
+            "only the one vessel of a scene is balanced so, give several a point_force each"
+        )
+    found, vessel = balance(scene), scene.bodies[body]
+    center = rotation_matrix(vessel.quaternion).T @ (found.weight_center - vessel.position)
+    add_point_force(
+        scene, name=name, body=body, point=(center[0], center[1], 0.0), force=(0.0, 0.0, found.weight)
+    )
+    return found

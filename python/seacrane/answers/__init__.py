@@ -1,0 +1,1 @@
+"""Numbers in an engineer's words: the summary of a run, statics, allowable loads."""

@@ -1,0 +1,124 @@
+"""The curves of a run that an engineer reports, in the units in which they are read."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from seacrane.answers.hanging import POSES, hanging_vectors, swing
+from seacrane.figures.traces import NO_MOTION, Trace, beyond_rounding, traces
+from seacrane.result import Result
+
+Array = NDArray[np.float64]
+STANDARD_GRAVITY = 9.80665
+TENSIONS = ("hook_load", "link_tension", "tension")
+CRANE = ("cylinder_force", "slew_torque")
+MOTIONS = ("heave", "roll", "pitch")
+# What is shown under a crane's own names is not shown again under those of its parts.
+SAME = {"tension": "link_tension"}
+REPORTED = {"MN": (1e3, "kN"), "MN m": (1e3, "kN m")}
+TONNES = {"N": 1e-3, "kN": 1.0, "MN": 1e3}  # times the weight of 1 t, from a load in that unit
+CHANNELS = (*TENSIONS, *CRANE, *POSES, "vessel_motion")  # of which the curves are made
+SI = {"kN": 1e-3, "kN m": 1e-3, "t": 1e-3 / STANDARD_GRAVITY, "deg": float(np.degrees(1.0))}
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Curve:
+    """One curve of a summary.
+
+    Attributes
+    ----------
+    kind : str
+        What it is one of, such as "cylinder force".
+    label : str
+        Which one; empty where there is one only.
+    unit : str
+    values : ndarray, shape (n,)
+        In the unit.
+    load : bool
+        Whether it has a dynamic factor.
+    static : float or None
+        In the unit, where the run noted it.
+    """
+
+    kind: str
+    label: str
+    unit: str
+    values: Array
+    load: bool = False
+    static: float | None = None
+
+    @property
+    def name(self) -> str:
+        """Kind and label."""
+        return f"{self.kind} {self.label}".rstrip()
+
+
+def reported_curves(result: Result) -> list[Curve]:
+    """Tensions, cylinder forces, slew torques, where loads hang, and the vessels' heave, roll and pitch.
+
+    What was not recorded, or is zero up to rounding, is left out.
+    """
+    held = set(result.channels)
+    loads = [name for name in (*TENSIONS, *CRANE) if name in held and SAME.get(name) not in held]
+    found = [_load(result, one) for name in loads for one in beyond_rounding(traces(result, name))]
+    return [*found, *_offsets(result), *_motions(result)]
+
+
+def si_factor(unit: str) -> float:
+    """From SI to a unit of a summary."""
+    return SI.get(unit, 1.0)
+
+
+def _load(result: Result, one: Trace) -> Curve:
+    factor, unit = REPORTED.get(one.unit, (1.0, one.unit))
+    if one.channel == "hook_load":
+        factor, unit = TONNES[one.unit] / STANDARD_GRAVITY, "t"
+    static = _hanging_weight(result, one) if one.channel in TENSIONS else None
+    return Curve(
+        kind=one.channel.replace("_", " "), label=one.label, unit=unit, values=factor * one.values, load=one.channel != "slew_torque",
+        static=None if static is None else static * si_factor(unit),
+    )  # fmt: skip
+
+
+def _hanging_weight(result: Result, one: Trace) -> float | None:
+    """Of the load on a link, N, as the run noted it."""
+    weights = json.loads(str(result.stats.get("hanging_weight", "{}")))
+    if one.channel == "tension":
+        weight = weights.get(one.names[0])
+    else:
+        cranes = json.loads(str(result.stats.get("cranes", "[]")))
+        links = {f"{crane['prefix']}hook": crane["link"] for crane in cranes if crane["link"]}
+        link = links.get(one.names[0]) if one.names else next(iter(links.values()), None)
+        weight = weights.get(link)
+    return None if weight is None else float(weight)
+
+
+def _offsets(result: Result) -> list[Curve]:
+    """Of every load from straight below where it hangs: m along x and y, and the angle from vertical."""
+    found = []
+    for body, vector in hanging_vectors(result).items():
+        curves = {
+            ("offset", "x", "m"): vector[:, 0],
+            ("offset", "y", "m"): vector[:, 1],
+            ("swing", "", "deg"): np.degrees(swing(vector)),
+        }
+        found += [
+            Curve(kind=f"{body} {what}", label=axis, unit=unit, values=values)
+            for (what, axis, unit), values in curves.items()
+            if np.nanmax(np.abs(values), initial=0.0) > NO_MOTION
+        ]
+    return found
+
+
+def _motions(result: Result) -> list[Curve]:
+    if "vessel_motion" not in result.channels:
+        return []
+    every = [one for motion in MOTIONS for one in traces(result, "vessel_motion", motion=motion)]
+    return [
+        Curve(kind=one.names[0], label=" ".join(one.names[1:]), unit=one.unit, values=one.values)
+        for one in beyond_rounding(every)
+    ]

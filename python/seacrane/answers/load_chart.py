@@ -1,0 +1,277 @@
+"""load_chart(): the allowable load over radius and slew angle."""
+
+from __future__ import annotations
+
+import itertools
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from seacrane import _core
+from seacrane.analysis.crane_poses import crane_of, values_of
+from seacrane.analysis.rest_state import equilibrium
+from seacrane.answers.rest_columns import AtRest, columns_of
+from seacrane.answers.statics import resting
+from seacrane.description.capacity import allowed_at
+from seacrane.description.roles import CraneRoles
+from seacrane.description.scene import Description
+from seacrane.errors import SceneError
+from seacrane.inputs.checked import number_of
+from seacrane.inputs.plausible import angle_of
+from seacrane.inputs.shown import shown
+from seacrane.plotting.html import notebook_table
+from seacrane.plotting.text import text_table
+
+if TYPE_CHECKING:
+    import xarray
+
+Array = NDArray[np.float64]
+CAPACITY = "capacity"  # of the crane's table
+EXACT = 1e-6  # of the load
+MOST_ROUNDS = 40
+LARGEST_GROWTH = 3.0  # of the load from one round to the next
+LEAST_SHARE = 1e-3  # of the described load, which is tried first beside it
+
+
+@dataclass(frozen=True, kw_only=True, eq=False, repr=False)
+class LoadChart:
+    """The allowable load over radius and slew angle. Made by `load_chart`; prints as a table.
+
+    Attributes
+    ----------
+    scene : str
+        Its name.
+    slews : ndarray, shape (n,)
+        rad.
+    radii : ndarray, shape (k,)
+        m.
+    allowable : ndarray, shape (n, k)
+        t; infinite where nothing limits it, NaN where a limit is exceeded with no load at all.
+    governing : ndarray of str, shape (n, k)
+        The limit that sets it; empty where none does.
+    limits : mapping of str to (float, float)
+        Lowest and highest value of each, in the unit of the column of `statics`.
+    capacity : ndarray, shape (k,), or None
+        The crane's own table at these radii, t.
+    """
+
+    scene: str
+    slews: Array
+    radii: Array
+    allowable: Array
+    governing: NDArray[np.str_]
+    limits: Mapping[str, tuple[float, float]]
+    capacity: Array | None = None
+
+    def __repr__(self) -> str:
+        return f"<LoadChart of {self.scene!r}: {len(self.slews)} slews x {len(self.radii)} radii>"
+
+    def __str__(self) -> str:
+        return f"{self._title()}\n{text_table(*self._cells(), right=range(1 + len(self.slews)))}"
+
+    def _repr_html_(self) -> str:
+        return notebook_table(*self._cells(), caption=self._title())
+
+    def to_dict(self) -> dict[str, Any]:
+        """Plain lists by name."""
+        found = {name: getattr(self, name) for name in ("slews", "radii", "allowable", "governing")}
+        return {name: values.tolist() for name, values in found.items()}
+
+    def to_xarray(self) -> xarray.Dataset:
+        """Allowable load and governing limit over slew (rad) and radius (m)."""
+        import xarray
+
+        dims = ("slew", "radius")
+        return xarray.Dataset(
+            {
+                "allowable": (dims, self.allowable.copy(), {"units": "t"}),
+                "governing": (dims, self.governing.copy()),
+            },
+            {
+                "slew": ("slew", self.slews.copy(), {"units": "rad"}),
+                "radius": ("radius", self.radii.copy(), {"units": "m"}),
+            },
+            {"scene": self.scene},
+        )
+
+    def _title(self) -> str:
+        return f"{self.scene}: allowable load [t], and what limits it"
+
+    def _cells(self) -> tuple[list[str], list[list[str]]]:
+        head = ["radius [m]", *(f"slew {np.degrees(slew):.4g} deg" for slew in self.slews)]
+        rows = [
+            [f"{radius:.4g}", *(self._cell(i, k) for i in range(len(self.slews)))]
+            for k, radius in enumerate(self.radii)
+        ]
+        return head, rows
+
+    def _cell(self, slew: int, radius: int) -> str:
+        value, limit = self.allowable[slew, radius], str(self.governing[slew, radius])
+        if np.isnan(value):
+            return f"none, {limit}"
+        return f"{value:.4g} {limit}".rstrip() if np.isfinite(value) else "unlimited"
+
+
+def load_chart(
+    scene: Description,
+    *,
+    radii: Any,
+    slews: Any = 0.0,
+    limits: Mapping[str, Any] | None = None,
+    coordinates: Mapping[str, float] | None = None,
+    luff: str | None = None,
+    crane: str | None = None,
+) -> LoadChart:
+    """The largest load on the hook at each radius and slew angle that keeps every limit, at rest.
+
+    The load of the scene is replaced by heavier and lighter ones, and the scene rests with each, until a limit
+    is reached: the ship heels, cylinders carry it. The ballast of the scene stays as it is. Dynamic factors
+    are not in it: take them off the limits, or off the load.
+
+    Parameters
+    ----------
+    scene : Scene
+        With a load on the crane's hook.
+    radii : array_like
+        From the slew axis to the tip, m.
+    slews : float or array_like
+        rad, as `statics`.
+    limits : mapping of str to float or (float, float)
+        By the name of a column of `statics` and in its unit, such as ``{"cylinder force main": 9e3, "heel":
+        5.0}``: the largest magnitude, or lowest and highest value.
+    coordinates : mapping of str to float, optional
+        Strokes of other cylinders than the one that luffs, m, as `statics`.
+    luff, crane : str, optional
+        As `statics`.
+
+    Returns
+    -------
+    LoadChart
+        The crane's own table, where it has one, is a limit called "capacity".
+
+    Raises
+    ------
+    SceneError
+        Where there is no limit, a limit that `statics` does not know, no load on the hook, or a pose that the
+        crane does not reach.
+    """
+    roles = crane_of(scene, crane)
+    if roles.payload not in scene.bodies:
+        raise SceneError(
+            f"load chart: crane {roles.prefix!r} has no load, which would be varied; give add_crane a "
+            "payload, or add_roles a link"
+        )
+    axes = {"slew": values_of("load chart: slews", slews), "radius": values_of("load chart: radii", radii)}
+    for angle in axes["slew"]:
+        angle_of("load chart: slews", float(angle))
+    fixed = {label: number_of(f"load chart: {label}", v) for label, v in (coordinates or {}).items()}
+    bounds = _bounds(limits or {})
+    if not bounds and not roles.capacity:
+        raise SceneError(
+            "load chart: limits are none, and the crane has no table of its own; give at least one, such as "
+            'limits={"heel": 5.0}'
+        )
+    grid = [{"slew": slew, "radius": r, **fixed} for slew, r in itertools.product(*axes.values())]
+    shape = (len(axes["slew"]), len(axes["radius"]))
+    found = [
+        _Hook(at_rest, roles, bounds).allowable(pose["radius"])
+        for pose, at_rest in zip(grid, resting(scene, roles, grid, luff), strict=True)
+    ]
+    capacity = [allowed_at(roles.capacity, float(r)) / 1e3 for r in axes["radius"]]
+    return LoadChart(
+        scene=scene.name, slews=axes["slew"], radii=axes["radius"],
+        allowable=np.array([load for load, _ in found]).reshape(shape) / 1e3,
+        governing=np.array([name for _, name in found]).reshape(shape),
+        limits=bounds, capacity=np.array(capacity) if roles.capacity else None,
+    )  # fmt: skip
+
+
+def _bounds(limits: Mapping[str, Any]) -> dict[str, tuple[float, float]]:
+    found = {}
+    for name, given in limits.items():
+        what = f"load chart: limit {name!r}"
+        if isinstance(given, (tuple, list)):
+            if len(given) != 2:
+                raise SceneError(f"{what} is {shown(given)}; give one number, or lowest and highest")
+            low, high = (number_of(what, one) for one in given)
+        else:
+            high = number_of(what, given)
+            low = -high
+        if not low < high:
+            raise SceneError(f"{what} is {shown(given)}; give a positive number, or lowest below highest")
+        found[str(name)] = (low, high)
+    return found
+
+
+class _Hook:
+    """One pose of a crane, with loads of any mass on its hook."""
+
+    def __init__(self, at_rest: AtRest, roles: CraneRoles, bounds: Mapping[str, tuple[float, float]]) -> None:
+        assert roles.payload is not None
+        self._at_rest, self._body, self._capacity = at_rest, roles.payload, roles.capacity
+        self._bounds = bounds
+        known = columns_of(at_rest)
+        for name in bounds:
+            if name not in known:
+                raise SceneError(
+                    f"load chart: limit {name!r} is no column of statics; choose from {', '.join(known)}"
+                )
+
+    def allowable(self, radius: float) -> tuple[float, str]:
+        """Mass (kg) of the largest load, and the limit that sets it.
+
+        Each limit is extrapolated from the last two loads, and the one that is reached first is tried: the
+        secant method, on values that are nearly linear in the load.
+        """
+        described = self._at_rest.scene.bodies[self._body].mass
+        before, now = LEAST_SHARE * described, described
+        values, later = self._values(before), self._values(now)
+        for _ in range(MOST_ROUNDS):
+            mass, name = self._reached(before, values, now, later, radius)
+            if mass <= 0.0:
+                return math.nan, name
+            if not math.isfinite(mass) or abs(mass - now) <= EXACT * now:
+                return mass, name
+            before, values = now, later
+            now, later = self._tried(min(mass, LARGEST_GROWTH * now), now)
+        raise SceneError(
+            f"load chart: at a radius of {radius:g} m the load at limit {name!r} is not found, last tried "
+            f"{now:.6g} kg; limits that the load does not move are none of a chart"
+        )
+
+    def _reached(
+        self, before: float, values: dict[str, float], now: float, later: dict[str, float], radius: float
+    ) -> tuple[float, str]:
+        """The load at which the first of the limits would be reached, and its name."""
+        reached = {CAPACITY: allowed_at(self._capacity, radius)} if self._capacity else {}
+        for name, (low, high) in self._bounds.items():
+            slope = (later[name] - values[name]) / (now - before)
+            if abs(slope) * now <= EXACT * max(abs(low), abs(high)):
+                outside = not low <= later[name] <= high
+                reached[name] = -math.inf if outside else math.inf
+                continue
+            reached[name] = now + ((high if slope > 0.0 else low) - later[name]) / slope
+        name = min(reached, key=lambda key: reached[key])
+        return reached[name], name if math.isfinite(reached[name]) or reached[name] < 0.0 else ""
+
+    def _tried(self, mass: float, known: float) -> tuple[float, dict[str, float]]:
+        """A load and its values; nearer to a known one while the scene comes to no rest with it."""
+        for _ in range(MOST_ROUNDS):
+            try:
+                return mass, self._values(mass)
+            except SceneError:
+                mass = 0.5 * (mass + known)
+        return mass, self._values(mass)
+
+    def _values(self, mass: float) -> dict[str, float]:
+        scene = self._at_rest.scene.copy()
+        old = scene.bodies[self._body]
+        entries = dict(old.__getstate__())
+        entries |= {"mass": mass, "inertia": np.asarray(old.inertia) * (mass / old.mass)}
+        scene.bodies[self._body] = _core.Body(**entries)
+        told = columns_of(AtRest.of(scene, equilibrium(scene, state=self._at_rest.state)))
+        return {name: told[name][1] for name in self._bounds}

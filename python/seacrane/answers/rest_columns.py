@@ -1,0 +1,98 @@
+"""What a report of statics tells of one state at rest, in the units in which it is read."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from seacrane import _core
+from seacrane.analysis.rest_state import held
+from seacrane.answers.afloat import attitude, displaced_weight, heeling_stiffness
+from seacrane.analysis.crane_poses import drive_name
+from seacrane.description.compilation import compile_scene
+from seacrane.description.crane_parts import cylinders, hooks, slews
+from seacrane.description.crane_reach import tip_radius
+from seacrane.description.roles import CraneRoles
+from seacrane.description.scene import Description
+
+Array = NDArray[np.float64]
+CHANNELS = {"driver_force", "tension", "position", "quaternion"}
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class AtRest:
+    """A posed scene at rest: its model, its state, and the channels that were evaluated there."""
+
+    scene: Description
+    model: _core.Model
+    state: _core.State
+    channels: Mapping[str, Array]
+
+    @classmethod
+    def of(cls, scene: Description, state: _core.State) -> AtRest:
+        """Of a posed scene and a state at rest of it."""
+        model = compile_scene(held(scene, time=state.time))
+        known = set(model.channel_names(defaults_only=False))
+        run = _core.Simulation(
+            model=model,
+            start=_core.State(time=state.time, values=state.values, inputs=np.zeros(model.slots)),
+            options=_core.RunOptions(
+                integrator="rk4", output_times=[state.time], channels=CHANNELS & known
+            ),
+        )
+        channels = {name: values[0] for name, values in run.channels().items() if name != "time"}
+        return cls(scene=scene, model=model, state=state, channels=channels)
+
+    def drive(self, joint: str, coordinate: str) -> float:
+        """Load of the drive that holds a coordinate, N or N m."""
+        drivers = [name for name, kind, _, _ in self.model.elements if kind == "driver"]
+        return float(self.channels["driver_force"][drivers.index(drive_name((joint, coordinate)))])
+
+    def tension(self, link: str) -> float:
+        """Of a link, N."""
+        links = [name for name, joint in self.scene.joints.items() if joint.kind == "distance"]
+        return float(self.channels["tension"][links.index(link)])
+
+    def radius(self, roles: CraneRoles) -> float:
+        """Of a crane's tip, m."""
+        return float(tip_radius(self.scene, roles, self.channels["position"], self.channels["quaternion"]))
+
+
+def columns_of(at_rest: AtRest) -> dict[str, tuple[str, float]]:
+    """Unit and value of everything that is told, by name."""
+    return {**_vessels(at_rest), **_cranes(at_rest)}
+
+
+def _vessels(at_rest: AtRest) -> dict[str, tuple[str, float]]:
+    scene, model, found = at_rest.scene, at_rest.model, {}
+    values = np.array(at_rest.state.values)
+    for vessel in scene.vessels.values():
+        which = f" {vessel.name}" if len(scene.vessels) > 1 else ""
+        motion = attitude(values, model, vessel.body)
+        stiffness = heeling_stiffness(model, values, at_rest.state.time, vessel.body)
+        found[f"heel{which}"] = ("deg", float(np.degrees(motion[3])))
+        found[f"trim{which}"] = ("deg", float(np.degrees(motion[4])))
+        found[f"draught change{which}"] = ("m", float(-motion[2]))
+        found[f"GM{which}"] = ("m", stiffness / displaced_weight(scene, vessel, motion))
+    return found
+
+
+def _cranes(at_rest: AtRest) -> dict[str, tuple[str, float]]:
+    scene, found = at_rest.scene, {}
+    for roles in scene.roles.values():
+        if roles.slew is not None and roles.tip is not None:
+            found[f"{roles.prefix}tip radius"] = ("m", at_rest.radius(roles))
+    several = len(hooks(scene)) > 1
+    for label, link in hooks(scene).items():
+        tension = at_rest.tension(link)
+        found[f"hook load {label}" if several else "hook load"] = ("t", tension / scene.gravity / 1e3)
+        found[f"link tension {label}" if several else "link tension"] = ("kN", tension / 1e3)
+    for label, joint in cylinders(scene).items():
+        found[f"cylinder force {label}"] = ("kN", at_rest.drive(joint, "displacement") / 1e3)
+    several = len(slews(scene)) > 1
+    for label, place in slews(scene).items():
+        found[f"slew torque {label}" if several else "slew torque"] = ("kN m", at_rest.drive(*place) / 1e3)
+    return found

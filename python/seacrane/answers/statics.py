@@ -1,0 +1,237 @@
+"""statics(): a lift at rest in every pose asked for."""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from seacrane.analysis.rest_state import rest_states
+from seacrane.analysis.crane_poses import crane_of, path_through, places_of, posed, values_of
+from seacrane.answers.reach import Reach, luffing
+from seacrane.answers.rest_columns import AtRest, columns_of
+from seacrane.description.joint_coordinates import ANGLES
+from seacrane.description.roles import CraneRoles
+from seacrane.description.scene import Description
+from seacrane.errors import SceneError
+from seacrane.inputs.plausible import angle_of
+from seacrane.inputs.shown import shown
+from seacrane.plotting.html import notebook_table
+from seacrane.plotting.text import text_table
+
+if TYPE_CHECKING:
+    import xarray
+
+Array = NDArray[np.float64]
+NOTHING = 1e-8  # m, deg, kN, t
+
+
+@dataclass(frozen=True, kw_only=True, eq=False, repr=False)
+class Statics:
+    """A lift at rest in every pose asked for. Made by `statics`; prints as a table.
+
+    Attributes
+    ----------
+    scene : str
+        Its name.
+    poses : mapping of str to ndarray
+        Values along each axis of the grid: "slew" (rad), "radius" (m), strokes by the cylinder's label (m);
+        empty for the pose described.
+    columns : mapping of str to ndarray
+        Values over the grid, in the unit that `units` tells; ``statics["GM"]`` is one of them.
+    units : mapping of str to str
+        Of each column: deg, m, kN, kN m, t.
+    """
+
+    scene: str
+    poses: Mapping[str, Array]
+    columns: Mapping[str, Array]
+    units: Mapping[str, str]
+
+    def __getitem__(self, name: str) -> Array:
+        """A column over the grid; KeyError names those that are there."""
+        if name not in self.columns:
+            raise KeyError(f"there is no column {name!r}; statics has {', '.join(self.columns)}")
+        return self.columns[name]
+
+    def __repr__(self) -> str:
+        grid = " x ".join(f"{len(values)} {name}" for name, values in self.poses.items()) or "as described"
+        return f"<Statics of {self.scene!r}: {grid}; {', '.join(self.columns)}>"
+
+    def __str__(self) -> str:
+        head, rows = self._cells()
+        return f"{self.scene}, at rest\n{text_table(head, rows, right=range(int(not self.poses), len(head)))}"
+
+    def _repr_html_(self) -> str:
+        return notebook_table(*self._cells(), caption=f"{self.scene}, at rest")
+
+    def to_dict(self) -> dict[str, list[Any] | float]:
+        """Columns as plain lists over the grid."""
+        return {name: values.tolist() for name, values in self.columns.items()}
+
+    def to_xarray(self) -> xarray.Dataset:
+        """Columns over the axes of the grid, with their units."""
+        import xarray
+
+        dims = tuple(self.poses)
+        return xarray.Dataset(
+            {name: (dims, values.copy(), {"units": self.units[name]}) for name, values in self.columns.items()},
+            {name: (name, values.copy(), {"units": _unit(name)}) for name, values in self.poses.items()},
+            {"scene": self.scene},
+        )
+
+    def _cells(self) -> tuple[list[str], list[list[str]]]:
+        """One pose as a column of names and values, several as one row each."""
+        if not self.poses:
+            rows = [[name, _shown(float(v)), self.units[name]] for name, v in self.columns.items()]
+            return ["", "value", "unit"], rows
+        axes = [f"{name} [{'deg' if name == 'slew' else 'm'}]" for name in self.poses]
+        head = [*axes, *(f"{name} [{self.units[name]}]" for name in self.columns)]
+        shown_axes = [np.degrees(v) if name == "slew" else v for name, v in self.poses.items()]
+        rows = []
+        for index in np.ndindex(*(len(values) for values in self.poses.values())):
+            place = [float(axis[i]) for axis, i in zip(shown_axes, index, strict=True)]
+            rows.append([_shown(v) for v in (*place, *(float(c[index]) for c in self.columns.values()))])
+        return head, rows
+
+
+def _shown(value: float) -> str:
+    """With four digits; zero where it is so up to rounding."""
+    return f"{0.0 if abs(value) < NOTHING else value:.4g}"
+
+
+def _unit(name: str) -> str:
+    return "rad" if name == "slew" else "m"
+
+
+def statics(
+    scene: Description,
+    *,
+    slew: Any = None,
+    radius: Any = None,
+    coordinates: Mapping[str, Any] | None = None,
+    luff: str | None = None,
+    crane: str | None = None,
+) -> Statics:
+    """Heel, trim, draught, GM, hook load, cylinder forces and slew torque at rest, in every pose asked for.
+
+    The whole scene rests in each pose, without waves: vessels heel and trim, loads hang, and drives hold the
+    cranes' coordinates. Arrays make a grid, in the order slew, radius or coordinates.
+
+    Parameters
+    ----------
+    scene : Scene
+        Whether its cranes are driven or have actuators does not matter.
+    slew : float or array_like, optional
+        Coordinate of the slew drive, rad, from the described pose as the channel "slew_angle".
+    radius : float or array_like, optional
+        From the slew axis to the tip, m: reached by one cylinder, `luff`, within its range.
+    coordinates : mapping of str to float or array_like, optional
+        Strokes by the cylinders' labels, m, from the described pose as the channel "stroke".
+    luff : str, optional
+        Label of the cylinder that sets the radius; default: the first.
+    crane : str, optional
+        Prefix of the crane that is posed; default: the only one.
+
+    Returns
+    -------
+    Statics
+        heel (deg; positive lifts port), trim (deg; positive lowers the bow), draught change (m, of the
+        reference point from its place at rest in the database), GM (m), tip radius (m), hook load (t), link
+        tension (kN), cylinder forces (kN, positive pushes), slew torque (kN m). GM is the heeling moment for
+        each radian over the displaced weight, with loads free to swing: a load that hangs counts at its tip.
+
+    Raises
+    ------
+    SceneError
+        For a pose that the crane does not reach, or where there is no rest state.
+    """
+    if not isinstance(scene, Description):
+        raise SceneError(f"statics: scene is {shown(scene)}; give a Scene")
+    axes, roles = _axes(slew, radius, coordinates), None
+    if axes:
+        roles = crane_of(scene, crane)
+    grid = [dict(zip(axes, one, strict=True)) for one in itertools.product(*axes.values())]
+    shape = tuple(len(values) for values in axes.values())
+    rows = [columns_of(one) for one in resting(scene, roles, grid, luff)]
+    return Statics(
+        scene=scene.name,
+        poses=axes,
+        columns={name: np.array([row[name][1] for row in rows]).reshape(shape) + 0.0 for name in rows[0]},
+        units={name: unit for name, (unit, _) in rows[0].items()},
+    )
+
+
+def _axes(slew: Any, radius: Any, coordinates: Mapping[str, Any] | None) -> dict[str, Array]:
+    given = {"slew": slew, "radius": radius}
+    axes = {name: values_of(f"statics: {name}", v) for name, v in given.items() if v is not None}
+    for label, values in (coordinates or {}).items():
+        axes[label] = values_of(f"statics: coordinate {label!r}", values)
+    for angle in axes.get("slew", ()):
+        angle_of("statics: slew", float(angle))
+    return axes
+
+
+def resting(
+    scene: Description,
+    roles: CraneRoles | None,
+    grid: list[dict[str, float]],
+    luff: str | None,
+) -> Iterator[AtRest]:
+    """The scene at rest in each pose of a grid, by the names of its axes."""
+    places = {
+        f"{one.prefix}{label}": place
+        for one in scene.roles.values()
+        for label, place in places_of(one).items()
+    }
+    poses = [] if roles is None else _strokes(scene, roles, grid, luff)
+    path, times = path_through(places, poses) if poses else ({}, np.zeros(1))
+    out = posed(scene.copy(orientation="quaternion"), places, path)
+    for state in rest_states(out, times=times.tolist()):
+        yield AtRest.of(out, state)
+
+
+def _strokes(
+    scene: Description, roles: CraneRoles, grid: list[dict[str, float]], luff: str | None
+) -> list[dict[str, float]]:
+    """Poses by the labels of coordinates, radii turned into the stroke that gives them."""
+    known = places_of(roles)
+    found, reaches = [], {}
+    for pose in grid:
+        values = {label: value for label, value in pose.items() if label != "radius"}
+        for label in values:
+            if label not in known:
+                raise SceneError(
+                    f"statics: coordinate {label!r} is none of crane {roles.prefix!r}, which has "
+                    f"{', '.join(known) or 'none'}"
+                )
+            _require_range(scene, known[label], label, values[label])
+        if "radius" in pose:
+            label = luffing(scene, roles, luff)
+            if label in values:
+                raise SceneError(
+                    f"statics: cylinder {label!r} is given a stroke and sets the radius too; name another "
+                    "one as luff, or leave its stroke out"
+                )
+            others = {name: value for name, value in values.items() if name != "slew"}
+            key = tuple(others.values())
+            if key not in reaches:
+                reaches[key] = Reach(scene, roles, label, others)
+            values[label] = reaches[key].stroke(pose["radius"])
+        found.append({f"{roles.prefix}{label}": value for label, value in values.items()})
+    return found
+
+
+def _require_range(scene: Description, place: tuple[str, str], label: str, value: float) -> None:
+    for limit in scene.ranges.values():
+        outside = (limit.joint, limit.coordinate) == place and not limit.minimum <= value <= limit.maximum
+        if outside:
+            unit = "rad" if place[1] in ANGLES else "m"
+            raise SceneError(
+                f"statics: {label} is {value:g} {unit}, outside its range of {limit.minimum:g} to "
+                f"{limit.maximum:g} {unit} from the described pose; give one within"
+            )

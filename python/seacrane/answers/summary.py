@@ -1,0 +1,266 @@
+"""summary(): the table of a run that an engineer puts into a report."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, fields, replace
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from seacrane.answers.curves import Curve, reported_curves
+from seacrane.answers.remarks import remarks_on
+from seacrane.answers.statics import Statics
+from seacrane.errors import SceneError
+from seacrane.inputs.checked import number_of
+from seacrane.plotting.html import notebook_table, table
+from seacrane.plotting.text import text_table
+from seacrane.result import Result
+from seacrane.result.utilisation import Utilisation
+
+if TYPE_CHECKING:
+    import xarray
+
+Array = NDArray[np.float64]
+HEAD = ("", "unit", "static", "mean", "std", "min", "at [s]", "max", "at [s]", "factor")
+STARRED = "* at the first output: no static value is known."
+ATTITUDE = {"heel": "roll", "trim": "pitch"}
+LEAST_STATIC = 1e-3  # of the largest value: a smaller static load makes no factor
+
+
+@dataclass(frozen=True, kw_only=True)
+class SummaryRow:
+    """One curve of a run in numbers.
+
+    Attributes
+    ----------
+    name, unit : str
+    static : float
+        Value at rest, or at the first output of the run; see `static_known`.
+    static_known : bool
+        Whether `static` is the value at rest.
+    mean, std, minimum, maximum : float
+    minimum_at, maximum_at : float
+        s.
+    factor : float or None
+        Dynamic factor of a load: what is largest in the sense of the static load, over the static load. None
+        where no static load is known.
+    """
+
+    name: str
+    unit: str
+    static: float
+    static_known: bool
+    mean: float
+    std: float
+    minimum: float
+    minimum_at: float
+    maximum: float
+    maximum_at: float
+    factor: float | None
+
+
+@dataclass(frozen=True, kw_only=True, repr=False)
+class Summary:
+    """The numbers of a run in the units in which they are read. Made by `summary`; prints as a table.
+
+    Attributes
+    ----------
+    scene : str
+        Its name.
+    start, end : float
+        Of the part of the run that is summarised, s.
+    rows : tuple of SummaryRow
+        Forces in kN, moments in kN m, hook loads in t, angles in deg, lengths in m.
+    remarks : tuple of str
+        What limits the numbers: a short record, a transient inside.
+    utilisation : Utilisation
+        Of the scene's limit states, over the whole run.
+    """
+
+    scene: str
+    start: float
+    end: float
+    rows: tuple[SummaryRow, ...]
+    remarks: tuple[str, ...] = ()
+    utilisation: Utilisation = Utilisation(())
+
+    def __iter__(self) -> Iterator[SummaryRow]:
+        return iter(self.rows)
+
+    def __len__(self) -> int:
+        return len(self.rows)
+
+    def __getitem__(self, name: str) -> SummaryRow:
+        """The row of that name; KeyError names those that are there."""
+        for row in self.rows:
+            if row.name == name:
+                return row
+        known = ", ".join(repr(row.name) for row in self.rows) or "none"
+        raise KeyError(f"there is no row {name!r}; the summary has {known}")
+
+    def __repr__(self) -> str:
+        return f"<Summary of {self.scene!r}: {len(self.rows)} rows, {self.start:g} to {self.end:g} s>"
+
+    def __str__(self) -> str:
+        lines = [f"{self.scene}, {self.start:g} to {self.end:g} s"]
+        if self.rows:
+            lines.append(text_table(HEAD, self._cells(), right=range(2, len(HEAD))))
+        used = ["", str(self.utilisation)] if self.utilisation else []
+        return "\n".join([*lines, *self.notes(), *used])
+
+    def _repr_html_(self) -> str:
+        caption = f"{self.scene}, {self.start:g} to {self.end:g} s. {' '.join(self.notes())}"
+        used = self.utilisation._repr_html_() if self.utilisation else ""
+        return notebook_table(HEAD, self._cells(), caption=caption) + used
+
+    def html(self) -> str:
+        """The table alone, as HTML."""
+        return table(HEAD, self._cells())
+
+    def notes(self) -> list[str]:
+        """What stands below the table: what a star means, and the remarks."""
+        starred = any(not row.static_known for row in self.rows)
+        return [*([STARRED] if starred else []), *self.remarks]
+
+    def to_dict(self) -> dict[str, dict[str, Any]]:
+        """By row and column, plain values."""
+        return {
+            row.name: {item.name: getattr(row, item.name) for item in fields(row) if item.name != "name"}
+            for row in self.rows
+        }
+
+    def to_xarray(self) -> xarray.Dataset:
+        """Columns over `row`; `unit` and `static_known` among them, a factor that is none as NaN."""
+        import xarray
+
+        names = [item.name for item in fields(SummaryRow) if item.name != "name"]
+        columns: dict[str, Any] = {key: [getattr(row, key) for row in self.rows] for key in names}
+        columns["factor"] = [np.nan if factor is None else factor for factor in columns["factor"]]
+        return xarray.Dataset(
+            {key: ("row", np.array(values)) for key, values in columns.items()},
+            {"row": [row.name for row in self.rows]},
+            {"scene": self.scene, "start": self.start, "end": self.end, "remarks": "\n".join(self.remarks)},
+        )
+
+    def _cells(self) -> list[list[str]]:
+        return [_cells(row) for row in self.rows]
+
+
+def _cells(row: SummaryRow) -> list[str]:
+    star = "" if row.static_known else "*"
+    numbers = (row.mean, row.std, row.minimum, row.minimum_at, row.maximum, row.maximum_at)
+    factor = "" if row.factor is None else f"{row.factor:.2f}"
+    return [row.name, row.unit, f"{_shown(row.static)}{star}", *map(_shown, numbers), factor]
+
+
+def _shown(value: float) -> str:
+    """With four digits: no quantity of a lift is known to more."""
+    return f"{0.0 if abs(value) < 1e-9 else value:.4g}"
+
+
+def summary(
+    result: Result,
+    *,
+    start: float | None = None,
+    end: float | None = None,
+    static: Statics | None = None,
+) -> Summary:
+    """Static value, mean, standard deviation, extremes and dynamic factor of what matters in a run.
+
+    Rows: tension of links and wires, hook load, cylinder forces, slew torque, offset and swing of what hangs,
+    heave, roll and pitch of vessels; as far as the run recorded them, and without what is zero up to rounding.
+    The static tension of a link is the weight that hangs on it. Of all else the value at the run's first
+    output takes its place, marked by a star.
+
+    Parameters
+    ----------
+    result : Result
+        Of any run.
+    start, end : float, optional
+        Part of it that mean, standard deviation and extremes are taken over, s; default: all.
+    static : Statics, optional
+        In one pose, as `statics` tells it: the static values of its tensions, cylinder forces, slew torque,
+        heel and trim.
+
+    Returns
+    -------
+    Summary
+
+    Raises
+    ------
+    SceneError
+        For what is no result, a part of it that holds no output, or statics of several poses.
+    """
+    if not isinstance(result, Result):
+        raise SceneError(
+            f"result is a {type(result).__name__}; give what simulate() or Result.load() returns"
+        )
+    known = _static(static)
+    part = _part(result, start, end)
+    time = result.time[part]
+    every = [
+        replace(one, static=known.get(one.name, one.static))
+        for one in reported_curves(result)
+        if np.isfinite(one.values[part]).any()
+    ]
+    rows = [_row(one, time, one.values[part]) for one in every]
+    inside = [replace(one, values=one.values[part]) for one in every]
+    return Summary(
+        scene=str(result.stats["scene"]), start=float(time[0]), end=float(time[-1]), rows=tuple(rows),
+        remarks=tuple(remarks_on(result, time, inside)), utilisation=result.utilisation,
+    )  # fmt: skip
+
+
+def _static(given: Statics | None) -> dict[str, float]:
+    """Static values by the names of rows."""
+    if given is None:
+        return {}
+    if not isinstance(given, Statics):
+        raise SceneError(f"summary: static is a {type(given).__name__}; give what statics(scene) returns")
+    if any(values.size != 1 for values in given.columns.values()):
+        raise SceneError(
+            f"summary: static is of {next(iter(given.columns.values())).size} poses; give statics of one"
+        )
+    found = {}
+    for name, values in given.columns.items():
+        what, _, of = name.partition(" ")
+        found[f"{ATTITUDE.get(what, what)} {of}".rstrip()] = float(values.item())
+    return found
+
+
+def _part(result: Result, start: float | None, end: float | None) -> slice:
+    """Outputs from `start` to `end`, both included."""
+    first = result.time[0] if start is None else number_of("summary: start", start)
+    last = result.time[-1] if end is None else number_of("summary: end", end)
+    part = slice(
+        int(np.searchsorted(result.time, first)), int(np.searchsorted(result.time, last, side="right"))
+    )
+    if part.start >= part.stop:
+        raise SceneError(
+            f"summary: no output is between start = {first:g} and end = {last:g} s; the result has "
+            f"{result.time[0]:g} to {result.time[-1]:g} s"
+        )
+    return part
+
+
+def _row(curve: Curve, time: Array, values: Array) -> SummaryRow:
+    known = curve.static is not None
+    static = float(curve.values[0] if curve.static is None else curve.static)
+    low, high = int(np.nanargmin(values)), int(np.nanargmax(values))
+    return SummaryRow(
+        name=curve.name, unit=curve.unit, static=static, static_known=known,
+        mean=float(np.nanmean(values)), std=float(np.nanstd(values)),
+        minimum=float(values[low]), minimum_at=float(time[low]),
+        maximum=float(values[high]), maximum_at=float(time[high]),
+        factor=_factor(static, float(values[low]), float(values[high])) if curve.load and known else None,
+    )  # fmt: skip
+
+
+def _factor(static: float, low: float, high: float) -> float | None:
+    """None beside a static load that is nothing, or of the other sense."""
+    if abs(static) <= LEAST_STATIC * max(abs(low), abs(high)):
+        return None
+    factor = (high if static > 0.0 else low) / static
+    return factor if factor > 0.0 else None

@@ -1,0 +1,31 @@
+"""What a recorded channel may reach."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+
+@dataclass(frozen=True, kw_only=True)
+class LimitState:
+    """What a recorded channel may reach; it exerts no load.
+
+    Attributes
+    ----------
+    name : str
+    channel : str
+    maximum, minimum : float or None
+        In the unit of the channel; None where there is no such bound.
+    where : mapping of str to str
+        Names along the channel's dimensions, such as ``{"cylinder": "main"}``; of a dimension that is not
+        named, the worst counts.
+    """
+
+    name: str
+    channel: str
+    maximum: float | None = None
+    minimum: float | None = None
+    where: Mapping[str, str] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "where", dict(self.where))

@@ -1,0 +1,166 @@
+"""Utilisation of the limit states of a scene by what a run recorded."""
+
+from __future__ import annotations
+
+import itertools
+import json
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from seacrane.plotting.html import notebook_table
+from seacrane.plotting.text import text_table
+from seacrane.result.units import read_as, unit_of
+
+Array = NDArray[np.float64]
+HEAD = ("limit state", "limit", "reached", "unit", "at [s]", "utilisation")
+
+
+@dataclass(frozen=True, kw_only=True)
+class Utilised:
+    """How far one limit state was used.
+
+    Attributes
+    ----------
+    name, channel : str
+    curve : str
+        Which of the channel's curves is the worst, by its names; empty where there is one only.
+    unit : str
+        Of the limit and of what was reached: kN, kN m, deg, or the channel's own.
+    limit : float
+        The bound that is nearest to being reached.
+    reached : float
+        Worst value; NaN where the channel was not recorded.
+    at : float
+        When, s; NaN likewise.
+    utilisation : float
+        1 at the limit: reached over limit, or limit over reached where the limit is one from below (or, of
+        negative values, from above); infinite where such a value has changed its sign. NaN where the channel
+        was not recorded.
+    """
+
+    name: str
+    channel: str
+    curve: str
+    unit: str
+    limit: float
+    reached: float
+    at: float
+    utilisation: float
+
+    @property
+    def kept(self) -> bool | None:
+        """Whether the limit was kept; None where nothing recorded tells it."""
+        return None if math.isnan(self.utilisation) else self.utilisation <= 1.0
+
+
+@dataclass(frozen=True, repr=False)
+class Utilisation(Sequence[Utilised]):
+    """Every limit state of a scene, in the order in which they were added; prints as a table."""
+
+    states: tuple[Utilised, ...]
+
+    def __getitem__(self, key: Any) -> Any:
+        """By number, or by name; KeyError names those that are there."""
+        if not isinstance(key, str):
+            return self.states[key]
+        for state in self.states:
+            if state.name == key:
+                return state
+        known = ", ".join(repr(state.name) for state in self.states) or "none"
+        raise KeyError(f"there is no limit state {key!r}; the scene has {known}")
+
+    def __len__(self) -> int:
+        return len(self.states)
+
+    def __iter__(self) -> Iterator[Utilised]:
+        return iter(self.states)
+
+    @property
+    def largest(self) -> float:
+        """Of all that are known; NaN where none is."""
+        known = [state.utilisation for state in self.states if not math.isnan(state.utilisation)]
+        return max(known, default=math.nan)
+
+    def __repr__(self) -> str:
+        return f"<Utilisation of {len(self)} limit states: {self.largest:.3g} at most>"
+
+    def __str__(self) -> str:
+        return text_table(HEAD, self.cells(), right=(1, 2, 4, 5)) if self.states else "no limit states"
+
+    def _repr_html_(self) -> str:
+        return notebook_table(HEAD, self.cells(), caption="Utilisation of limit states, 1 at the limit")
+
+    def cells(self) -> list[list[str]]:
+        """Texts of the table, row by row."""
+        rows = []
+        for one in self.states:
+            name = one.name if not one.curve else f"{one.name} ({one.curve})"
+            if one.kept is None:
+                rows.append([name, f"{one.limit:.4g}", "not recorded", one.unit, "", ""])
+                continue
+            exceeded = "" if one.kept else " exceeded"
+            numbers = (f"{one.limit:.4g}", f"{one.reached:.4g}", one.unit, f"{one.at:.4g}")
+            rows.append([name, *numbers, f"{one.utilisation:.2f}{exceeded}"])
+        return rows
+
+
+def utilisation_of(
+    stats: Mapping[str, Any],
+    time: Array,
+    channels: Mapping[str, Array],
+    dims: Mapping[str, Sequence[str]],
+    coords: Mapping[str, Sequence[str]],
+) -> Utilisation:
+    """Of the limit states that a run noted, by its channels."""
+    noted = json.loads(str(stats.get("limit_states", "[]")))
+    return Utilisation(tuple(_utilised(state, time, channels, dims, coords) for state in noted))
+
+
+def _utilised(
+    state: Mapping[str, Any],
+    time: Array,
+    channels: Mapping[str, Array],
+    dims: Mapping[str, Sequence[str]],
+    coords: Mapping[str, Sequence[str]],
+) -> Utilised:
+    channel, where = str(state["channel"]), dict(state["where"])
+    bounds = [(key, float(state[key])) for key in ("maximum", "minimum") if state[key] is not None]
+    if channel not in channels:
+        factor, unit = read_as(unit_of(channel, tuple(where.values())))
+        return Utilised(
+            name=str(state["name"]), channel=channel, curve="", unit=unit, limit=factor * bounds[0][1],
+            reached=math.nan, at=math.nan, utilisation=math.nan,
+        )  # fmt: skip
+    free = [dim for dim in dims[channel][1:] if dim not in where]
+    picked = channels[channel][
+        (slice(None), *(coords[d].index(where[d]) if d in where else slice(None) for d in dims[channel][1:]))
+    ]
+    every = list(itertools.product(*(coords[dim] for dim in free)))
+    curves = picked.reshape(len(time), -1).T
+    found = [
+        (*_worst(values, kind, bound), bound, names)
+        for values, names in zip(curves, every, strict=True)
+        for kind, bound in bounds
+    ]
+    used, at, reached, bound, names = max(found, key=lambda one: -1.0 if math.isnan(one[0]) else one[0])
+    factor, unit = read_as(unit_of(channel, (*where.values(), *names)))
+    return Utilised(
+        name=str(state["name"]), channel=channel, curve=" ".join(names), unit=unit, limit=factor * bound,
+        reached=factor * reached, at=float(time[at]), utilisation=used,
+    )  # fmt: skip
+
+
+def _worst(values: Array, kind: str, bound: float) -> tuple[float, int, float]:
+    """Utilisation, output and value where a curve is nearest to a bound, or farthest beyond."""
+    if not np.isfinite(values).any():
+        return math.nan, 0, math.nan
+    at = int(np.nanargmax(values) if kind == "maximum" else np.nanargmin(values))
+    reached = float(values[at])
+    if (kind == "maximum") == (bound > 0.0):  # a size that is not to grow beyond it
+        return max(reached / bound, 0.0), at, reached
+    return bound / reached if reached * bound > 0.0 else math.inf, at, reached

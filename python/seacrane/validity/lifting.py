@@ -1,0 +1,133 @@
+"""What goes wrong with the load of a crane: it swings far, is too heavy, or starts inside the hull."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from seacrane.description.capacity import allowed_at
+from seacrane.description.crane_parts import hooks
+from seacrane.description.crane_reach import placed, tip_radius
+from seacrane.description.outline import box_edges, ship_size
+from seacrane.inputs.caller import warn_caller
+from seacrane.inputs.frames import rotation_matrix
+
+if TYPE_CHECKING:
+    from seacrane import _core
+    from seacrane.description.roles import CraneRoles
+    from seacrane.description.scene import Description
+
+Array = NDArray[np.float64]
+Channels = Mapping[str, Array]
+Finding = tuple[type[Warning], str]
+LARGEST_SWING = np.radians(20.0)
+CLEAR = 0.01  # m of a load below a deck on which it stands
+WATER = 1025.0  # kg/m3
+BLOCK = 0.7  # of a hull: its volume over that of the box around it
+
+
+class LargeSwingWarning(UserWarning):
+    """The load of a crane swung beyond 20 deg from vertical, further than any lift is let."""
+
+
+class OverloadWarning(UserWarning):
+    """The load of a crane is above what the crane's own table allows at the radius where it is."""
+
+
+class LoadInHullWarning(UserWarning):
+    """The load of a crane starts inside the hull of a vessel, through which it hangs."""
+
+
+def lifting(scene: Description, time: Array, channels: Channels) -> list[Finding]:
+    """Swing and overload of every crane's load, as far as the poses were recorded."""
+    if not {"position", "quaternion"} <= set(channels):
+        return []
+    poses = channels["position"], channels["quaternion"]
+    return [*_swings(scene, time, *poses), *_overloads(scene, time, *poses)]
+
+
+def _swings(scene: Description, time: Array, position: Array, quaternion: Array) -> Iterator[Finding]:
+    for link in hooks(scene).values():
+        joint = scene.joints[link]
+        upper, _ = placed(scene, joint.first, joint.first_frame.point, position, quaternion)
+        lower, _ = placed(scene, joint.second, joint.second_frame.point, position, quaternion)
+        hung = np.broadcast_to(lower - upper, (time.size, 3))
+        swing = np.arctan2(np.hypot(hung[:, 0], hung[:, 1]), -hung[:, 2])
+        at = int(swing.argmax())
+        if swing[at] <= LARGEST_SWING:
+            continue
+        period = 2.0 * np.pi * np.sqrt(np.linalg.norm(hung[at]) / max(scene.gravity, 1e-9))
+        yield (
+            LargeSwingWarning,
+            f"link {link!r}: {joint.second!r} swings {np.degrees(swing[at]):.3g} deg from vertical at t = "
+            f"{time[at]:.6g} s, beyond {np.degrees(LARGEST_SWING):.0f} deg: no lift is let swing so far, and "
+            f"a pendulum of {period:.3g} s without damping gathers what waves and drives put in. Move "
+            "slower, keep its period away from the sea's, hold it by taglines (add_spring), or give it the "
+            "damping that it has",
+        )
+
+
+def _overloads(scene: Description, time: Array, position: Array, quaternion: Array) -> Iterator[Finding]:
+    for roles in scene.roles.values():
+        if not _rated(scene, roles):
+            continue
+        mass = scene.bodies[str(roles.payload)].mass
+        radius = np.atleast_1d(tip_radius(scene, roles, position, quaternion))
+        allowed = np.array([allowed_at(roles.capacity, float(one)) for one in radius])
+        at = int(allowed.argmin())
+        if mass > allowed[at]:
+            yield (
+                OverloadWarning,
+                f"crane {roles.prefix!r}: its load {roles.payload!r} of {mass / 1e3:.4g} t is above the "
+                f"{allowed[at] / 1e3:.4g} t of the crane's table at a radius of {radius[at]:.4g} m, where it "
+                f"is at t = {time[at]:.6g} s. Lift less, keep the tip nearer (seacrane.load_chart tells how "
+                "near), or correct the table",
+            )
+
+
+def _rated(scene: Description, roles: CraneRoles) -> bool:
+    """Whether a crane has a table, a load, and a radius to look it up at."""
+    joined = roles.slew is not None and roles.slew[0] in scene.joints
+    held = roles.payload in scene.bodies and roles.tip is not None and roles.tip[0] in scene.bodies
+    return bool(roles.capacity) and joined and held
+
+
+def warn_of_loads_in_hulls(scene: Description) -> None:
+    """Warn of loads that overlap, as described, what is surely hull: below the deck, above the keel."""
+    for roles in scene.roles.values():
+        load = scene.bodies.get(roles.payload or "")
+        for vessel in scene.vessels.values():
+            hull = scene.bodies[vessel.body]
+            if load is None or load is hull:
+                continue
+            centre, half = _inside(hull, load)
+            length, breadth = ship_size(hull)
+            deck = _deck(scene, vessel.body)
+            keel = -hull.mass / (WATER * BLOCK * length * breadth)
+            across = abs(centre[0]) < 0.5 * length and abs(centre[1]) < 0.5 * breadth
+            if across and centre[2] - half < deck - CLEAR and centre[2] + half > keel:
+                warn_caller(
+                    f"body {roles.payload!r}: starts inside vessel {vessel.name!r}: its lower edge is at "
+                    f"{centre[2] - half:.4g} m, {centre[0]:.4g} m forward and {centre[1]:.4g} m to port of the "
+                    f"origin, below the deck at {deck:.4g} m, where the lowest joint on the hull is. Nothing "
+                    "keeps bodies apart: shorten the link, or turn the crane out before the load is lowered",
+                    LoadInHullWarning,
+                )
+
+
+def _inside(hull: _core.Body, load: _core.Body) -> tuple[Array, float]:
+    """The load's centre in the hull's axes from its origin, m, and half its height there."""
+    to_hull, turn = rotation_matrix(hull.quaternion).T, rotation_matrix(load.quaternion)
+    centre = to_hull @ (load.position + turn @ load.center_of_mass - hull.position)
+    edges = np.array(box_edges(load))
+    return centre, float(0.5 * np.abs(to_hull @ turn)[2] @ edges)
+
+
+def _deck(scene: Description, hull: str) -> float:
+    """Height of the lowest joint on a hull above its origin, m; the waterline where there is none above."""
+    ends = [(joint.first, joint.first_frame) for joint in scene.joints.values()]
+    ends += [(joint.second, joint.second_frame) for joint in scene.joints.values()]
+    return max(0.0, min((float(frame.point[2]) for body, frame in ends if body == hull), default=0.0))

@@ -1,0 +1,153 @@
+"""Limit states: utilisation by hand, kept by files, results and lifts, refused where they make no sense."""
+
+from __future__ import annotations
+
+import json
+import tomllib
+from pathlib import Path
+
+import numpy as np
+import pytest
+from test_lift_report import titles
+from test_result import crane_run
+from test_summary import G, LENGTH, MASS, pendulum
+
+from seacrane import FileFormatError, Lift, LimitState, Result, Scene, SceneError, report, simulate, simulate_to_file, summary
+
+TOP = MASS * G * (3.0 - 2.0 * np.cos(0.3))  # N, of a pendulum let go at 0.3 rad
+
+
+def limited() -> Scene:
+    scene = pendulum()
+    scene.add_limit_state(channel="link_tension", max=2.5e4, min=1.5e4)
+    scene.add_limit_state(name="swing", channel="position", where={"body": "load", "axis": "x"}, max=1.0, min=-2)
+    return scene
+
+
+@pytest.fixture(scope="module")
+def swinging() -> Result:
+    return simulate(limited(), t_end=20.0, dt_out=0.02)
+
+
+def test_utilisation_by_hand(swinging: Result) -> None:
+    used = swinging.utilisation
+    tension, swing = used["link tension"], used["swing"]
+    assert tension.utilisation == pytest.approx(max(TOP / 2.5e4, 1.5e4 / (MASS * G * np.cos(0.3))), rel=1e-4)
+    assert (tension.limit, tension.unit, tension.kept) == (25.0, "kN", True)
+    assert tension.reached == pytest.approx(TOP / 1e3, rel=1e-4)
+    assert swing.utilisation == pytest.approx(LENGTH * np.sin(0.3), rel=1e-4)
+    assert swing.kept is False and used.largest == swing.utilisation
+    assert swinging.time[swinging.select("position", body="load", axis="x").argmax()] == swing.at
+
+
+def states_of(low: float | None, high: float | None, values: list[float]) -> float:
+    run = crane_run(t_end=1.0)
+    tension = np.resize(np.array(values), run["time"].size)
+    state = {"name": "t", "channel": "link_tension", "maximum": high, "minimum": low, "where": {}}
+    stats = {**run["stats"], "limit_states": json.dumps([state])}
+    result = Result.from_arrays(**run | {"arrays": {"link_tension": tension}, "stats": stats})
+    return result.utilisation[0].utilisation
+
+
+def test_every_kind_of_bound() -> None:
+    assert states_of(None, 100.0, [20.0, 80.0]) == pytest.approx(0.8)
+    assert states_of(-50.0, None, [-60.0, 80.0]) == pytest.approx(1.2)
+    assert states_of(-50.0, 100.0, [-40.0, 90.0]) == pytest.approx(0.9)
+    assert states_of(10.0, None, [20.0, 80.0]) == pytest.approx(0.5), "a slack margin"
+    assert states_of(10.0, None, [5.0, 80.0]) == pytest.approx(2.0)
+    assert states_of(10.0, None, [-1.0, 80.0]) == np.inf, "it has gone slack"
+    assert states_of(None, -10.0, [-40.0, -20.0]) == pytest.approx(0.5)
+    assert states_of(None, 100.0, [-20.0, -80.0]) == 0.0
+
+
+def test_of_a_name_left_open_the_worst_counts(swinging: Result) -> None:
+    scene = pendulum()
+    scene.add_limit_state(channel="position", where={"body": "load"}, max=1.0, min=-10.0)
+    (used,) = simulate(scene, t_end=5.0).utilisation
+    assert used.curve == "x" and "position load (x)" in str(simulate(scene, t_end=5.0).utilisation)
+
+
+def test_it_is_in_files_summaries_and_reports(swinging: Result, tmp_path: Path) -> None:
+    swinging.save(tmp_path / "swing.nc")
+    loaded = Result.load(tmp_path / "swing.nc")
+    assert loaded.utilisation == swinging.utilisation
+    assert "1.48 exceeded" in str(summary(loaded)) and "exceeded" in summary(loaded)._repr_html_()
+    page = report(loaded)
+    assert "Summary" in titles(page) and "Utilisation of limit states" in page.html
+    told = simulate_to_file(limited(), tmp_path / "long.nc", t_end=20.0, dt_out=0.02)
+    assert told.load().utilisation == swinging.utilisation
+
+
+def test_scene_files_and_copies_keep_them(tmp_path: Path) -> None:
+    scene = limited()
+    scene.save(tmp_path / "scene.json")
+    assert Scene.load(tmp_path / "scene.json") == scene == scene.copy()
+    assert Scene.load(tmp_path / "scene.json").limit_states["swing"] == LimitState(
+        name="swing", channel="position", maximum=1.0, minimum=-2.0, where={"body": "load", "axis": "x"}
+    )
+    scene.remove("swing")
+    assert list(scene.limit_states) == ["link tension"]
+
+
+def test_a_channel_that_is_not_usual_is_recorded_and_one_left_out_is_told() -> None:
+    scene = pendulum()
+    scene.add_limit_state(channel="acceleration", where={"body": "load"}, max=50.0)
+    assert "acceleration" in simulate(scene, t_end=0.2)
+    partial = simulate(scene, t_end=0.2, channels=["position"])
+    assert partial.utilisation[0].kept is None and "not recorded" in str(partial.utilisation)
+    assert np.isnan(partial.utilisation.largest)
+    with pytest.raises(KeyError, match="no limit state 'x'; the scene has 'acceleration load'"):
+        partial.utilisation["x"]
+
+
+@pytest.mark.parametrize(
+    ("given", "words"),
+    [
+        ({"channel": "link_tension"}, "has neither max nor min"),
+        ({"channel": "link_tension", "max": 0.0}, "max is 0; a utilisation is over a finite value"),
+        ({"channel": "link_tension", "max": np.nan}, "max is nan"),
+        ({"channel": "link_tension", "max": 1.0, "min": 2.0}, "min is 2 and max 1; min must be below max"),
+        ({"channel": "link_tension", "max": "1"}, "max is '1'; give a number"),
+        ({"channel": "position", "max": 1.0, "where": "load"}, "where is 'load'; give names"),
+    ],
+)
+def test_what_states_no_limit_is_refused(given: dict[str, object], words: str) -> None:
+    with pytest.raises(SceneError, match=words):
+        pendulum().add_limit_state(**given)  # type: ignore[arg-type]
+    scene = limited()
+    with pytest.raises(SceneError, match="the name is used twice"):
+        scene.add_limit_state(channel="position", name="swing", max=1.0)
+
+
+def lift(text: str) -> Scene:
+    return Lift(tomllib.loads(f'[scene]\nname = "one"\n[[limit_state]]\n{text}')).scene()
+
+
+def test_a_lift_gives_limits_with_their_unit() -> None:
+    scene = lift('channel = "vessel_motion"\nwhere = { motion = "roll" }\nmax_deg = 5\nmin_deg = -5')
+    (state,) = scene.limit_states.values()
+    assert (state.maximum, state.minimum) == pytest.approx((np.radians(5.0), np.radians(-5.0)))
+    with pytest.raises(FileFormatError, match="max_m: channel 'vessel_motion' is in rad; give max_rad or max_deg"):
+        lift('channel = "vessel_motion"\nwhere = { motion = "roll" }\nmax_m = 5')
+    with pytest.raises(FileFormatError, match="max_deg: channel 'link_tension' is in N; give max_N"):
+        lift('channel = "link_tension"\nmax_deg = 5')
+    with pytest.raises(FileFormatError, match="max_m: channel 'vessel_motion' is in .*name one of its curves"):
+        lift('channel = "vessel_motion"\nmax_m = 5')
+
+
+@pytest.mark.parametrize(
+    ("given", "words"),
+    [
+        ({"channel": "tensoin"}, "channel 'tensoin' is unknown to this scene; it offers: position"),
+        ({"channel": "stroke"}, "limit state 'stroke': channel 'stroke' is unknown to this scene"),
+        ({"channel": "position", "where": {"body": "lode"}}, "there is no body 'lode'; choose from load"),
+        ({"channel": "position", "where": {"hook": "hook"}}, "has no dimension 'hook'; it has axis, body"),
+    ],
+)
+def test_what_the_scene_does_not_have_is_refused_before_the_run(
+    given: dict[str, object], words: str
+) -> None:
+    scene = pendulum()
+    scene.add_limit_state(max=1.0, **given)  # type: ignore[arg-type]
+    with pytest.raises(SceneError, match=words):
+        simulate(scene, t_end=1.0)

@@ -1,0 +1,137 @@
+"""Load charts: one point in closed form, limits that hold at the load found, the crane's own table."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from seacrane import (
+    FileFormatError,
+    LoadChart,
+    Scene,
+    SceneError,
+    load_chart,
+    plot_load_chart,
+    statics,
+)
+from seacrane.crane import KnuckleBoomCrane, Payload
+from seacrane.crane.data_file import DEFAULT_PATH, parse
+from seacrane.hydro import shipped_database
+
+MASS = 5e4
+TABLE = "[capacity]\nrows = [[10.0, 120e3], [20.0, 60e3], [30.0, 30e3]]\n"
+
+
+def with_table(folder: Path, table: str = TABLE) -> KnuckleBoomCrane:
+    path = folder / "crane.toml"
+    path.write_text(f"{DEFAULT_PATH.read_text()}\n{table}")
+    return KnuckleBoomCrane.load(path)
+
+
+def quay(crane: KnuckleBoomCrane | None = None, *, mass: float = MASS) -> Scene:
+    scene = Scene(name="quay")
+    scene.add_crane(crane, base="ground", s1=2.0, s2=2.0, payload=Payload(mass=mass))
+    return scene
+
+
+def ship() -> Scene:
+    scene = Scene(name="ship")
+    scene.add_vessel(shipped_database(), memory="none")
+    scene.add_crane(s1=2.0, s2=2.0, payload=Payload(mass=MASS))
+    scene.add_ballast()
+    return scene
+
+
+def test_one_point_in_closed_form() -> None:
+    """On a fixed base a cylinder's force is linear in the load: F(m) = F(0) + m (F(1) - F(0))."""
+    crane, limit = KnuckleBoomCrane.load(), 12e6
+    empty, one = (crane.static_cylinder_forces(s1=2.0, s2=2.0, payload_mass=m)[0] for m in (0.0, 1.0))
+    radius = statics(quay())["tip radius"].item()
+    chart = load_chart(quay(), radii=radius, limits={"cylinder force main": limit / 1e3})
+    assert chart.allowable[0, 0] == pytest.approx((limit - empty) / (one - empty) / 1e3, rel=1e-5)
+    assert chart.governing[0, 0] == "cylinder force main"
+    heavier = load_chart(quay(mass=9e4), radii=radius, limits={"cylinder force main": limit / 1e3})
+    assert heavier.allowable == pytest.approx(chart.allowable, rel=1e-5), "whatever load the scene has"
+
+
+def test_at_the_load_found_the_limit_is_reached() -> None:
+    limits = {"cylinder force knuckle": 6e3, "heel": 6.0}
+    chart = load_chart(ship(), slews=[0.0, -np.pi / 2], radii=[20.0, 25.0], limits=limits)
+    assert chart.governing.tolist() == [["cylinder force knuckle"] * 2, ["heel"] * 2]
+    scene = ship()
+    body = scene.bodies["payload"]
+    mass = chart.allowable[1, 1] * 1e3
+    scene.replace("payload", mass=mass, inertia=np.asarray(body.inertia) * mass / body.mass)
+    told = statics(scene, slew=-np.pi / 2, radius=25.0)
+    assert abs(told["heel"].item()) == pytest.approx(6.0, rel=1e-4)
+    assert abs(told["cylinder force knuckle"].item()) < 6e3
+
+
+def test_the_crane_s_own_table_is_a_limit(tmp_path: Path) -> None:
+    scene = quay(with_table(tmp_path))
+    chart = load_chart(scene, radii=[21.0, 25.0])
+    np.testing.assert_allclose(chart.allowable, [[57.0, 45.0]])
+    assert chart.capacity is not None and chart.governing.tolist() == [["capacity", "capacity"]]
+    tighter = load_chart(scene, radii=[21.0, 25.0], limits={"hook load": 50.0})
+    np.testing.assert_allclose(tighter.allowable, [[50.0, 45.0]], rtol=1e-6)
+    assert tighter.governing.tolist() == [["hook load", "capacity"]]
+
+
+def test_the_table_is_kept_by_files(tmp_path: Path) -> None:
+    scene = quay(with_table(tmp_path))
+    scene.save(tmp_path / "scene.json")
+    assert Scene.load(tmp_path / "scene.json") == scene
+    assert Scene.load(tmp_path / "scene.json").roles[""].capacity[1] == (20.0, 60e3)
+
+
+def test_no_load_and_any_load() -> None:
+    """An empty hook that exceeds a limit is told from loads that nothing limits."""
+    chart = load_chart(quay(), radii=27.0, limits={"cylinder force main": 10.0})
+    assert np.isnan(chart.allowable[0, 0]) and "none, cylinder force main" in str(chart)
+    free = load_chart(quay(), radii=27.0, limits={"slew torque": 10.0})
+    assert np.isinf(free.allowable[0, 0]) and "unlimited" in str(free)
+    with pytest.raises(SceneError, match="no pose has a finite allowable load"):
+        plot_load_chart(free)
+
+
+def test_it_is_a_labelled_value_and_is_drawn(tmp_path: Path) -> None:
+    chart = load_chart(quay(with_table(tmp_path)), radii=[25.0, 21.0])
+    assert isinstance(chart, LoadChart) and "slew 0 deg" in str(chart) and "<td" in chart._repr_html_()
+    assert chart.to_xarray()["allowable"].sel(radius=25.0, slew=0.0).item() == pytest.approx(45.0)
+    assert chart.to_dict()["governing"] == [["capacity", "capacity"]]
+    (axes,) = plot_load_chart(chart).axes
+    load, table = axes.lines
+    assert load.get_xdata().tolist() == [21.0, 25.0]
+    np.testing.assert_allclose(load.get_ydata(), table.get_ydata())
+
+
+def test_what_makes_no_chart_is_refused() -> None:
+    with pytest.raises(SceneError, match="limits are none, and the crane has no table"):
+        load_chart(quay(), radii=25.0)
+    with pytest.raises(SceneError, match=r"limit 'roll' is no column of statics; choose from tip radius"):
+        load_chart(quay(), radii=25.0, limits={"roll": 5.0})
+    with pytest.raises(SceneError, match="limit 'heel' is -5; give a positive number"):
+        load_chart(quay(), radii=25.0, limits={"heel": -5})
+    bare = Scene()
+    bare.add_crane(base="ground")
+    with pytest.raises(SceneError, match="has no load, which would be varied"):
+        load_chart(bare, radii=20.0, limits={"hook load": 5.0})
+    with pytest.raises(SceneError, match="chart is a Scene"):
+        plot_load_chart(bare)  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize(
+    ("table", "words"),
+    [
+        ("[capacity]\nrows = [[20.0, 60e3], [10.0, 1e5]]\n", "radius .m, increasing. and load"),
+        ("[capacity]\nrows = [[20.0, -60e3]]\n", "all above zero"),
+        ("[capacity]\nrows = [[20.0]]\n", r"give \(n, 2\)"),
+        ("[capacity]\nrows = 5\n", "write rows"),
+        ("[capacity]\nrow = []\n", r"capacity.rows is missing"),
+    ],
+)
+def test_a_table_that_is_none_is_refused(table: str, words: str) -> None:
+    with pytest.raises(FileFormatError, match=words):
+        parse(f"{DEFAULT_PATH.read_text()}\n{table}")

@@ -1,0 +1,220 @@
+"""Statics against closed forms, virtual work, other functions of the package, and a run that comes to rest."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from seacrane import (
+    Curve,
+    Frame,
+    Scene,
+    SceneError,
+    Statics,
+    balance,
+    cases,
+    driven,
+    equilibrium,
+    simulate,
+    statics,
+)
+from seacrane.crane import KnuckleBoomCrane, Payload
+
+G = 9.80665
+MASS = 4.0e6  # kg, of the barge
+C33, C44, C55 = 1.2e7, 2.4e8, 2.0e9  # N/m, N m/rad
+HEIGHT, LOAD = 20.0, 5.0e4  # m above the waterline, kg
+
+
+def barge(*, damping: float = 0.0) -> Scene:
+    """A hull by its matrices, restored in heave, roll and pitch, moored in the plane."""
+    scene = Scene(name="barge", gravity=G)
+    inertia = np.diag([2e8, 2e9, 2e9])
+    scene.add_body(name="hull", mass=MASS, inertia=inertia, position=(0.0, 0.0, 0.0), gravity=False)
+    scene.add_vessel(
+        body="hull", name="hull", added_mass=np.zeros((6, 6)), restoring=np.diag([0, 0, C33, C44, C55, 0]),
+        linear_damping=damping * np.diag([1e6, 1e6, 1e7, 3e8, 3e9, 1e9]), mooring_stiffness=[1e5, 1e5, 1e7],
+    )  # fmt: skip
+    return scene
+
+
+def hanging(scene: Scene, *, y: float, height: float = HEIGHT, mass: float = LOAD) -> Scene:
+    """A load on a rope of 10 m from a light mast, `y` to port."""
+    mast = (0.0, y, height)
+    scene.add_body(name="mast", mass=1e-3, inertia=1e-3 * np.eye(3), position=mast)
+    scene.add_joint(name="weld", kind="weld", first="hull", second="mast", point=mast)
+    low = (0.0, y, height - 10.0)
+    scene.add_body(name="load", mass=mass, inertia=mass * np.eye(3), position=low)
+    scene.add_joint(
+        name="rope", kind="distance", first="mast", second="load", point=mast, second_point=low, length=10.0
+    )
+    scene.add_roles(link="rope")
+    return scene
+
+
+def on_deck(scene: Scene, *, y: float, z: float, mass: float = LOAD) -> Scene:
+    scene.add_body(name="box", mass=mass, inertia=mass * np.eye(3), position=(0.0, y, z))
+    scene.add_joint(name="lashed", kind="weld", first="hull", second="box", point=(0.0, y, z))
+    return scene
+
+
+def test_a_hanging_load_counts_at_its_tip() -> None:
+    """GM = (C44 - m g h) / (displaced weight); fixed on deck, h is the height of the load itself."""
+    weight = (MASS + LOAD) * G
+    assert statics(barge())["GM"] == pytest.approx(C44 / (MASS * G), rel=1e-9)
+    hung = statics(hanging(barge(), y=0.0))
+    assert hung["GM"] == pytest.approx((C44 - LOAD * G * HEIGHT) / weight, rel=1e-6)
+    fixed = statics(on_deck(barge(), y=0.0, z=HEIGHT - 10.0))
+    assert fixed["GM"] == pytest.approx((C44 - LOAD * G * (HEIGHT - 10.0)) / weight, rel=1e-6)
+    assert hung["draught change"] == pytest.approx(LOAD * G / C33, rel=1e-6)
+    assert hung["hook load"] == pytest.approx(LOAD / 1e3, rel=1e-6)
+
+
+def test_heel_is_moment_over_stiffness() -> None:
+    """C44 phi = m g (y cos phi + h sin phi), which for small angles is phi = m g y / (C44 - m g h)."""
+    y = 3.0
+    phi = -np.radians(float(statics(hanging(barge(), y=y))["heel"]))  # towards the load, which lowers port
+    assert C44 * phi == pytest.approx(LOAD * G * (y * np.cos(phi) + HEIGHT * np.sin(phi)), rel=1e-6)
+    assert phi == pytest.approx(LOAD * G * y / (C44 - LOAD * G * HEIGHT), rel=2e-3)
+
+
+def test_a_damped_run_comes_to_rest_there() -> None:
+    scene = on_deck(barge(damping=1.0), y=3.0, z=2.0)
+    told, run = statics(scene), simulate(scene, t_end=120.0, dt_out=1.0)
+    motion = run["vessel_motion"][-1]
+    assert np.degrees(motion[3]) == pytest.approx(float(told["heel"]), rel=1e-4)
+    assert -motion[2] == pytest.approx(float(told["draught change"]), rel=1e-4)
+
+
+def crane_on_ground(*, theta: float = 0.0, s1: float = 1.0, s2: float = 1.5, mass: float = 2e4) -> Scene:
+    scene = Scene(name="quay", gravity=G)
+    scene.add_crane(base="ground", theta=theta, s1=s1, s2=s2, payload=Payload(mass=mass))
+    return scene
+
+
+def test_cylinder_forces_are_those_of_virtual_work() -> None:
+    crane, mass = KnuckleBoomCrane.load(), 2e4
+    told = statics(crane_on_ground(mass=mass), coordinates={"main": [0.0, 1.0], "knuckle": [-0.5, 1.0]})
+    assert told["cylinder force main"].shape == (2, 2)
+    for i, main in enumerate((1.0, 2.0)):
+        for k, knuckle in enumerate((1.0, 2.5)):
+            by_work = crane.static_cylinder_forces(s1=main, s2=knuckle, payload_mass=mass, gravity=G)
+            found = [told[f"cylinder force {label}"][i, k] for label in ("main", "knuckle")]
+            assert found == pytest.approx(by_work / 1e3, rel=1e-6)
+    assert np.abs(told["slew torque"]).max() < 1e-6, "the slew axis is vertical"
+
+
+def test_a_radius_is_reached_by_one_cylinder() -> None:
+    """The tip of the crane's own geometry is at the radius asked for, at the forces of that stroke."""
+    crane = KnuckleBoomCrane.load()
+    told = statics(crane_on_ground(), slew=[0.0, -1.0], radius=[19.0, 22.0])
+    assert dict(told.to_xarray().sizes) == {"slew": 2, "radius": 2}
+    np.testing.assert_allclose(told["tip radius"], [[19.0, 22.0]] * 2, rtol=1e-9)
+    strokes = np.linspace(2.0, crane.data.main_cylinder.stroke, 4001)
+    tips = [np.hypot(*crane.geometry.tip(theta=0.0, s1=s, s2=1.5)[:2]) for s in strokes]
+    s1 = np.interp(19.0, tips[::-1], strokes[::-1])
+    by_work = crane.static_cylinder_forces(s1=s1, s2=1.5, payload_mass=2e4, gravity=G)
+    assert told["cylinder force main"][0, 0] == pytest.approx(by_work[0] / 1e3, rel=1e-4)
+    np.testing.assert_allclose(told["cylinder force main"][0], told["cylinder force main"][1], rtol=1e-6)
+
+
+def test_the_start_of_case_2_is_that_of_balance() -> None:
+    scene = cases.case2(hs=0.0, memory="none")
+    told, held = statics(scene), balance(scene)
+    assert abs(told["heel"]) < 1e-6 and abs(told["draught change"]) < 1e-6
+    assert told["cylinder force main"] == pytest.approx(held.loads["main"] / 1e3, rel=1e-6)
+    assert told["cylinder force knuckle"] == pytest.approx(held.loads["knuckle"] / 1e3, rel=1e-6)
+
+
+def test_the_end_of_case_2_is_its_equilibrium_and_its_feed_forward() -> None:
+    """Heel of equilibrium(), forces of the quasi-static feed-forward, GM by the weights and their heights."""
+    scene = cases.case2(hs=0.0, memory="none")
+    told = statics(scene, slew=-np.pi / 2, coordinates={"main": 2.0, "knuckle": 2.0})
+    rest = equilibrium(driven(scene), time=50.0)
+    held = simulate(driven(scene), t_end=50.01, start=rest, dt_out=0.01)
+    heel = np.degrees(held["vessel_motion"][0, 3])
+    assert told["heel"].item() == pytest.approx(heel, rel=1e-6) and abs(heel) > 4.0
+    for name in ("main", "knuckle"):
+        force = scene.actuators[name].feed_forward.evaluate([50.0])[0, 0] / 1e3
+        assert told[f"cylinder force {name}"].item() == pytest.approx(force, rel=1e-5)
+    assert told["slew torque"].item() == pytest.approx(
+        scene.actuators["slew"].feed_forward.evaluate([50.0])[0, 0] / 1e3, rel=1e-4
+    )
+
+
+def test_gm_of_a_ship_with_its_crane_by_its_weights() -> None:
+    scene = cases.case2(hs=0.0, memory="none")
+    (vessel,), hull = scene.vessels.values(), scene.bodies["vessel"]
+    carried = [body for name, body in scene.bodies.items() if name not in ("vessel", "payload")]
+    moments = [body.mass * (body.position + turned(body)) for body in carried]
+    tip = scene.joints["link"].first_frame.point
+    jib = scene.bodies["knuckle_jib"]
+    load = scene.bodies["payload"].mass * (jib.position + rotation(jib) @ tip)
+    height = float(sum(moments)[2] + load[2])
+    matrix = np.array(vessel.restoring)[2:5, 2:5] - G * height * np.diag([0.0, 1.0, 1.0])
+    by_weights = 1.0 / np.linalg.inv(matrix)[1, 1] / (hull.mass * G)
+    assert statics(scene)["GM"].item() == pytest.approx(by_weights, rel=1e-4)
+
+
+def rotation(body: object) -> np.ndarray:
+    from seacrane.inputs.frames import rotation_matrix
+
+    return rotation_matrix(body.quaternion)  # type: ignore[attr-defined]
+
+
+def turned(body: object) -> np.ndarray:
+    return np.asarray(rotation(body) @ body.center_of_mass)  # type: ignore[attr-defined]
+
+
+def test_it_is_a_labelled_value() -> None:
+    told = statics(crane_on_ground(), slew=[0.0, np.pi / 2])
+    assert isinstance(told, Statics) and told.units["hook load"] == "t"
+    assert "slew [deg]" in str(told) and "<td" in told._repr_html_()
+    assert told.to_dict()["hook load"] == pytest.approx([20.0, 20.0])
+    assert told.to_xarray()["cylinder force main"].attrs["units"] == "kN"
+    with pytest.raises(KeyError, match="no column 'roll'; statics has tip radius, hook load"):
+        told["roll"]
+
+
+def moved_by(scene: Scene, value: float) -> Scene:
+    for name, joint in (("slew", "A"), ("main", "main_cylinder")):
+        scene.add_driver(joint=joint, curve=Curve.constant(value=value), name=name)
+    return scene
+
+
+def test_drivers_of_the_crane_give_way_to_the_pose() -> None:
+    scene = moved_by(crane_on_ground(), 0.0)
+    told = statics(scene, coordinates={"main": 0.7})
+    plain = statics(crane_on_ground(), coordinates={"main": 0.7})
+    assert told["cylinder force main"] == pytest.approx(plain["cylinder force main"], rel=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("asked", "words"),
+    [
+        ({"radius": 40.0}, r"radius 40 m: cylinder 'main' brings the tip from .* give one between"),
+        ({"coordinates": {"main": 9.0}}, r"main is 9 m, outside its range of -1 to"),
+        ({"coordinates": {"boom": 1.0}}, r"coordinate 'boom' is none of crane ''"),
+        ({"radius": 20.0, "coordinates": {"main": 1.0}}, r"'main' is given a stroke and sets the radius"),
+        ({"radius": 20.0, "luff": "hoist"}, r"luff is 'hoist'.*'main', 'knuckle'"),
+        ({"slew": [[0.0]]}, r"slew has shape \(1, 1\)"),
+        ({"slew": np.nan}, r"slew has shape \(1,\); give a finite number"),
+        ({"slew": 0.0, "crane": "aft "}, r"crane 'aft ': is not in the scene"),
+    ],
+)
+def test_what_cannot_be_reached_is_refused(asked: dict[str, object], words: str) -> None:
+    with pytest.raises(SceneError, match=words):
+        statics(crane_on_ground(), **asked)  # type: ignore[arg-type]
+
+
+def test_a_scene_without_a_crane_has_no_poses() -> None:
+    with pytest.raises(SceneError, match="cranes have prefixes none; add one by add_crane"):
+        statics(barge(), slew=0.0)
+    scene = Scene()
+    scene.add_body(name="jib", mass=1e3, inertia=1e3 * np.eye(3))
+    scene.add_joint(
+        name="pin", kind="revolute", first="ground", second="jib", first_frame=Frame(), second_frame=Frame()
+    )
+    scene.add_roles(slew="pin", cylinders={})
+    with pytest.raises(SceneError, match="there are none"):
+        statics(scene, radius=5.0)

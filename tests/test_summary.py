@@ -1,0 +1,138 @@
+"""The summary of a run: numbers by hand, units, static loads, what limits them."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from test_result import crane_run, vessel_result
+
+from seacrane import Frame, Result, Scene, SceneError, cases, plot_summary, simulate, statics, summary
+
+G = 9.80665
+MASS, LENGTH = 2000.0, 5.0
+
+
+def pendulum(*, angle: float = 0.3) -> Scene:
+    """A load on a rod from the ground, let go at an angle from straight down."""
+    scene = Scene(name="pendulum", gravity=G)
+    place = (LENGTH * np.sin(angle), 0.0, -LENGTH * np.cos(angle))
+    scene.add_body(name="load", mass=MASS, inertia=1e-3 * MASS * np.eye(3), position=place)
+    scene.add_joint(
+        name="rope", kind="distance", first="ground", second="load", first_frame=Frame(),
+        second_frame=Frame(), length=LENGTH,
+    )  # fmt: skip
+    scene.add_roles(link="rope")
+    return scene
+
+
+@pytest.fixture(scope="module")
+def swinging() -> Result:
+    return simulate(pendulum(), t_end=20.0, dt_out=0.02)
+
+
+def test_a_swinging_load_in_closed_form(swinging: Result) -> None:
+    """T = m g (3 cos phi - 2 cos phi0): weight over cosine at the ends, m g (3 - 2 cos phi0) at the bottom."""
+    told, weight = summary(swinging), MASS * G / 1e3
+    tension = told["link tension"]
+    assert tension.unit == "kN" and tension.static_known
+    assert tension.static == pytest.approx(weight, rel=1e-12)
+    assert tension.maximum == pytest.approx(weight * (3.0 - 2.0 * np.cos(0.3)), rel=1e-4)
+    assert tension.minimum == pytest.approx(weight * np.cos(0.3), rel=1e-4)
+    assert tension.factor == pytest.approx(3.0 - 2.0 * np.cos(0.3), rel=1e-4)
+    swing = told["load swing"]
+    assert swing.unit == "deg" and swing.maximum == pytest.approx(np.degrees(0.3), rel=1e-6)
+    assert swing.factor is None and not swing.static_known and swing.static == pytest.approx(np.degrees(0.3))
+    assert told["load offset x"].minimum == pytest.approx(-LENGTH * np.sin(0.3), rel=1e-4)
+    with pytest.raises(KeyError, match="'load offset y'.*has 'link tension'"):
+        told["load offset y"].mean  # noqa: B018 - nothing moves along y
+
+
+def test_numbers_are_those_of_the_part_asked_for(swinging: Result) -> None:
+    part = (swinging.time >= 3.0) & (swinging.time <= 11.0)
+    values, row = swinging["link_tension"][part] / 1e3, summary(swinging, start=3.0, end=11.0)["link tension"]
+    assert (row.mean, row.std) == pytest.approx((values.mean(), values.std()), rel=1e-12)
+    assert (row.minimum, row.maximum) == (values.min(), values.max())
+    assert row.maximum_at == swinging.time[part][values.argmax()]
+
+
+def test_a_saved_result_tells_the_same(swinging: Result, tmp_path: Path) -> None:
+    swinging.save(tmp_path / "swing.nc")
+    assert summary(Result.load(tmp_path / "swing.nc")) == summary(swinging)
+
+
+def test_no_static_load_is_made_up() -> None:
+    """A bar on two links is statically indeterminate in its tensions: no weight is noted for either."""
+    scene = Scene(name="bar")
+    scene.add_body(name="bar", mass=1e4, inertia=1e4 * np.eye(3), position=(0.0, 0.0, -5.0))
+    for name, x in (("left", -1.0), ("right", 1.0)):
+        scene.add_joint(
+            name=name, kind="distance", first="ground", second="bar", point=(x, 0.0, 0.0),
+            second_point=(x, 0.0, -5.0), length=5.0,
+        )  # fmt: skip
+    told = summary(simulate(scene, t_end=0.5))
+    row = told["tension left"]
+    assert not row.static_known and row.factor is None and row.mean == pytest.approx(5.0 * G, rel=1e-6)
+    assert "* at the first output" in str(told)
+
+
+def test_it_prints_as_a_table_and_becomes_data(swinging: Result) -> None:
+    told = summary(swinging)
+    head, *lines = str(told).splitlines()
+    assert head == "pendulum, 0 to 20 s" and lines[1].split()[:4] == ["link", "tension", "kN", "19.61"]
+    assert "<td" in told._repr_html_() and "19.61" in told._repr_html_()
+    assert told.to_dict()["link tension"]["factor"] == told["link tension"].factor
+    data = told.to_xarray()
+    assert float(data["maximum"].sel(row="link tension")) == told["link tension"].maximum
+    assert np.isnan(float(data["factor"].sel(row="load swing")))
+
+
+def test_a_record_too_short_and_a_transient_are_told() -> None:
+    run: dict[str, Any] = crane_run(t_end=60.0)
+    steady = 1e5 + 5e3 * np.sin(2.0 * np.pi * run["time"] / 8.0)
+    run["arrays"] = {"link_tension": steady.copy()}
+    run["stats"] = {**run["stats"], "settings": {"tp": 8.0, "hs": 2.0}}
+    (short,) = summary(Result.from_arrays(**run)).remarks
+    assert short.startswith("Too short") and "60 s are 8 peak periods" in short and "800 s" in short
+    run["arrays"] = {"link_tension": steady + 4e4 * np.exp(-run["time"] / 5.0)}
+    result = Result.from_arrays(**run)
+    assert any("transient or a move is inside: link tension" in text for text in summary(result).remarks)
+    assert not any("transient" in text for text in summary(result, start=25.0).remarks)
+
+
+def test_static_values_come_from_statics() -> None:
+    """The pose of the run's end: cylinder forces have a factor then, and the ship its heel."""
+    scene = cases.case2()
+    result = simulate(scene, t_end=55.0)
+    pose = {"slew": -np.pi / 2, "coordinates": {"main": 2.0, "knuckle": 2.0}}
+    known = statics(scene, **pose)
+    told = summary(result, start=50.0, static=known)
+    main = told["cylinder force main"]
+    assert main.static_known and main.static == pytest.approx(known["cylinder force main"].item())
+    assert main.factor == pytest.approx(main.maximum / main.static) and 1.0 < main.factor < 1.3
+    assert told["roll"].static == pytest.approx(known["heel"].item()) and told["roll"].static_known
+    assert not told["heave"].static_known
+    with pytest.raises(SceneError, match="static is of 2 poses; give statics of one"):
+        summary(result, static=statics(scene, slew=[0.0, 1.0]))
+    with pytest.raises(SceneError, match="static is a dict; give what statics"):
+        summary(result, static={})  # type: ignore[arg-type]
+
+
+def test_what_makes_no_summary_is_refused() -> None:
+    result = vessel_result(t_end=5.0)
+    for wrong in ({"start": 6.0}, {"start": 3.0, "end": 2.0}):
+        with pytest.raises(SceneError, match=r"no output is between .* the result has 0 to 5 s"):
+            summary(result, **wrong)
+    with pytest.raises(SceneError, match="result is a Scene"):
+        summary(Scene())  # type: ignore[arg-type]
+
+
+def test_the_picture_holds_what_the_table_holds(swinging: Result) -> None:
+    labels = [axes.get_ylabel() for axes in plot_summary(swinging).axes]
+    assert labels == ["link tension [kN]", "load offset [m]", "load swing [deg]"]
+    run = crane_run(t_end=1.0, waves=False)
+    run["arrays"] = {"constraint_error": run["arrays"]["constraint_error"]}
+    with pytest.raises(SceneError, match="no load and no motion"):
+        plot_summary(Result.from_arrays(**run))
