@@ -19,7 +19,7 @@ from seacrane.description import (
     recorded,
 )
 from seacrane.description.scene import Description
-from seacrane.scene import drift, limits, position, sea, table_text, vessel, wind_current
+from seacrane.scene import drift, given_vessel, limits, position, sea, table_text, vessel, wind_current
 
 
 class Scene(Description):
@@ -70,6 +70,7 @@ class Scene(Description):
     add_friction = limits.add_friction
 
     add_vessel = vessel.add_vessel
+    add_given_vessel = given_vessel.add_given_vessel
     add_sea = sea.add_sea
     add_drift = drift.add_drift
     use_actual_position = position.use_actual_position
