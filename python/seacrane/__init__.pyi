@@ -99,7 +99,10 @@ from seacrane.run.sampled_controller import SampledController as SampledControll
 from seacrane.run.stiffness import StiffWarning as StiffWarning
 from seacrane.run.to_file import StreamedResult as StreamedResult
 from seacrane.run.to_file import simulate_to_file as simulate_to_file
+from seacrane.scene.given_motion import OutsideRaosWarning as OutsideRaosWarning
 from seacrane.scene.gusts import gust_curve as gust_curve
+from seacrane.scene.motion_history import MotionHistory as MotionHistory
+from seacrane.scene.motion_raos import MotionRaos as MotionRaos
 from seacrane.scene.scene import Scene as Scene
 from seacrane.scene.sea import WavesWithoutLoadWarning as WavesWithoutLoadWarning
 from seacrane.scene.wind_current import DoubleCountedDampingWarning as DoubleCountedDampingWarning

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane.description.crane_parts import cylinders, hooks, payloads
+from seacrane.description.given import given_vessels
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import number_of
 from seacrane.inputs.frames import rotation_matrix
@@ -132,7 +133,7 @@ def _offered(scene: Scene) -> dict[str, Quantity]:
         )
     if hooks(scene):
         found.append(_tip_velocity(scene))
-    if scene.vessels:
+    if len(scene.vessels) > len(given_vessels(scene)):
         found.append(
             Quantity(
                 name="roll",

@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 from seacrane import _core
 from seacrane.analysis.linear_system import LinearModel, linear_model
 from seacrane.analysis.modal_analysis import natural_modes
+from seacrane.description.given import given_vessels
 from seacrane.description.scene import Description
 from seacrane.description.waves import Waves
 from seacrane.errors import SceneError
@@ -62,7 +63,7 @@ def motion_rao(
     Raises
     ------
     SceneError
-        As `linear_model`, or for frequencies outside the database.
+        As `linear_model`, for frequencies outside the database, or with a ship whose motion is given.
     """
     linear = _linear(scene, state)
     w, b = np.broadcast_arrays(np.asarray(omega, dtype=float), np.asarray(heading, dtype=float))
@@ -72,11 +73,21 @@ def motion_rao(
 
 
 def _linear(scene: Description | LinearModel, state: _core.State | None) -> LinearModel:
+    _require_afloat(scene.scene if isinstance(scene, LinearModel) else scene)
     if isinstance(scene, LinearModel):
         if state is not None:
             raise SceneError("state: a LinearModel has one already; give the Scene with a state")
         return scene
     return linear_model(scene, state=state)
+
+
+def _require_afloat(scene: Description) -> None:
+    """Refuse a scene with a ship of given motion, which a linear model holds at rest."""
+    for body, kind in given_vessels(scene).items():
+        raise SceneError(
+            f"vessel {body!r}: its motion is given ({kind}), and a linear model knows only what moves by "
+            "itself; simulate the scene, or take a vessel from a database"
+        )
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -135,12 +146,13 @@ def response_summed(
     Raises
     ------
     SceneError
-        Without waves, or as `linear_model`.
+        Without waves, with a ship whose motion is given, or as `linear_model`.
     """
     described = scene.scene if isinstance(scene, LinearModel) else scene
     sea = described.waves if waves is None else waves
     if sea is None:
         raise SceneError(f"scene {described.name!r}: has no waves; add a sea or give waves")
+    _require_afloat(described)
     if isinstance(scene, Description):
         scene, state = linear_model(scene, state=state, vessel=next(iter(sea.hulls), None)), None
     linear = _linear(scene, state)

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from seacrane import _core
 from seacrane.description.compilation import compile_scene
 from seacrane.description.drives import add_driver
+from seacrane.description.given import given_vessels
 from seacrane.description.joints import add_joint
 from seacrane.description.scene import GROUND, Description, Some
 from seacrane.errors import SceneError
@@ -63,9 +64,15 @@ def _locked(scene: Some, *, hold_vessels: bool = True) -> Some:
     out = driven(scene, references={name: _core.Curve.constant(value=0.0) for name in scene.actuators})
     out = out.copy(waves=None, springs=dict(scene.springs))
     if hold_vessels:
-        for vessel in scene.vessels.values():
+        for vessel in _afloat(scene):
             _hold(out, vessel.body, {motion: _core.Curve.constant(value=0.0) for motion in SIX})
     return out
+
+
+def _afloat(scene: Description) -> list[_core.VesselHydrodynamics]:
+    """Vessels that nothing holds yet: those whose motion is not given."""
+    given = given_vessels(scene)
+    return [vessel for vessel in scene.vessels.values() if vessel.body not in given]
 
 
 def _hold(scene: Description, body: str, motions: Mapping[str, _core.Curve]) -> None:
@@ -229,9 +236,7 @@ def inverse_dynamics(
         If the prescribed motions leave a degree of freedom open: use `driven` and `simulate` for that.
     """
     out = driven(scene, references=references).copy(waves=None)
-    motions = {
-        vessel.body: {m: _core.Curve.constant(value=0.0) for m in SIX} for vessel in scene.vessels.values()
-    }
+    motions = {vessel.body: {m: _core.Curve.constant(value=0.0) for m in SIX} for vessel in _afloat(scene)}
     motions |= {body: dict(curves) for body, curves in (body_motion or {}).items()}
     for body, curves in motions.items():
         if body not in scene.bodies:

@@ -11,6 +11,7 @@ from seacrane.analysis.linearise import fastest_mode
 from seacrane.description.assembled import moves
 from seacrane.description.compilation import compile_scene
 from seacrane.description.crane_parts import cylinders, hooks, payloads, slews
+from seacrane.description.given import given_vessels
 from seacrane.description.loads import kind_of, named
 from seacrane.description.scene import Description
 
@@ -94,7 +95,10 @@ def elements_of(scene: Description) -> Rows:
     rows += [(f"{kind} joints", names) for kind, names in kinds.items()]
     rows.append(("drivers", [f"{name} ({_place(driver)})" for name, driver in scene.drivers.items()]))
     rows += _loads_by_kind(scene)
-    rows.append(("vessels", [f"{name} ({vessel.body})" for name, vessel in scene.vessels.items()]))
+    given = given_vessels(scene)
+    floating = [f"{name} ({v.body})" for name, v in scene.vessels.items() if v.body not in given]
+    rows.append(("vessels", floating))
+    rows.append(("vessels of given motion", [f"{body} ({kind})" for body, kind in given.items()]))
     rows.append(("waves", [] if scene.waves is None else list(scene.waves.hulls)))
     rows.append(("crane parts", _crane_parts(scene)))
     return [(label, names) for label, names in rows if names]
@@ -174,11 +178,11 @@ def _left_out(scene: Description, model: _core.Model) -> Rows:
     rows.append(
         ("joints that constrain nothing", [name for name, _, count, _ in model.elements if count == 0])
     )
-    no_memory = [name for name, vessel in scene.vessels.items() if not vessel.memory]
+    given = given_vessels(scene)
+    afloat = {name: vessel for name, vessel in scene.vessels.items() if vessel.body not in given}
+    no_memory = [name for name, vessel in afloat.items() if not vessel.memory]
     rows.append(("vessels without memory", no_memory))
-    undamped = [
-        name for name, v in scene.vessels.items() if v.linear_damping[3, 3] + v.quadratic_damping[3] == 0.0
-    ]
+    undamped = [name for name, v in afloat.items() if v.linear_damping[3, 3] + v.quadratic_damping[3] == 0.0]
     rows.append(("vessels without viscous roll damping", undamped))
     offered = model.channel_names(defaults_only=False)
     rows.append(("channels on request only", [n for n in offered if n not in model.channel_names()]))

@@ -13,6 +13,7 @@ from seacrane.files.node import Node
 from seacrane.files.plain_data import notes_from_node, plain_data
 from seacrane.inputs.shown import shown
 
+_GIVEN: dict[str, Any] = dict.fromkeys(("motion", "ramp", "duration", "size"))  # older files lack them
 _ROLES = ("prefix", "slew", "cylinders", "link", "payload", "tip")
 
 
@@ -66,13 +67,17 @@ def _cylinders(node: Node) -> dict[str, str]:
 def provenance_from_node(node: Node, scene: Description) -> None:
     """Give a scene's vessels the provenance that a file holds; raises FileFormatError."""
     for entry in node.items():
-        entry.expect(("name", "database", "omega", "memory"))
-        omega = _optional(entry, "omega")
-        low, high = (None, None) if omega is None else omega.array((2,)).tolist()
-        texts = {key: _optional(entry, key) for key in ("database", "memory")}
+        if isinstance(entry.value, dict):
+            entry = Node({**_GIVEN, **entry.value}, entry.path)
+        entry.expect(("name", "database", "omega", "memory", *_GIVEN))
+        omega, size = _optional(entry, "omega"), _optional(entry, "size")
+        texts = {key: _optional(entry, key) for key in ("database", "memory", "motion")}
+        numbers = {key: _optional(entry, key) for key in ("ramp", "duration")}
         scene.provenance[entry.at("name").text()] = VesselProvenance(
-            omega=None if low is None or high is None else (low, high),
+            omega=None if omega is None else tuple(omega.array((2,)).tolist()),
+            size=None if size is None else tuple(size.array((3,)).tolist()),
             **{key: None if text is None else text.text() for key, text in texts.items()},
+            **{key: None if number is None else number.number() for key, number in numbers.items()},
         )
 
 

@@ -9,7 +9,7 @@ from typing import Any
 
 @dataclass(frozen=True, kw_only=True)
 class VesselProvenance:
-    """Where a vessel's hydrodynamics come from; None where it is not known.
+    """Where a vessel's hydrodynamics or its given motion come from; None where it is not known.
 
     Attributes
     ----------
@@ -19,11 +19,21 @@ class VesselProvenance:
         Its lowest and highest frequency, rad/s.
     memory : str or None
         Kind of fluid memory, as `Scene.add_vessel` takes it.
+    motion : str or None
+        Of a vessel whose motion is given: "raos", "history" or "rest"; None for one that floats.
+    ramp, duration : float or None
+        Of that motion: s over which it grows from rest, and s at which it ends.
+    size : (float, float, float) or None
+        Length, breadth and draught of the ship that a light body stands for, m.
     """
 
     database: str | None = None
     omega: tuple[float, float] | None = None
     memory: str | None = None
+    motion: str | None = None
+    ramp: float | None = None
+    duration: float | None = None
+    size: tuple[float, float, float] | None = None
 
 
 @dataclass(frozen=True, kw_only=True)

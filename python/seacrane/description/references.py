@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane import _core
+from seacrane.description.given import require_described
 from seacrane.description.joint_coordinates import ANGLES, coordinate_at, start_pose, wrapped
 from seacrane.errors import SceneError
 from seacrane.inputs.caller import warn_caller
@@ -61,7 +62,8 @@ def check_references(
     Raises
     ------
     SceneError
-        A driver's curve jumps; a reference leaves the range of its coordinate; an angle's reference starts
+        A run is longer than a ship's given motion; a driver's curve jumps; a reference leaves the range of
+        its coordinate; an angle's reference starts
         half a turn or more from it, or jumps by as much.
 
     Warns
@@ -69,6 +71,7 @@ def check_references(
     DriverImpulseWarning
         A driver's rate jumps.
     """
+    require_described(scene, end)
     for reference in references(scene):
         for limit in scene.ranges.values():
             if (limit.joint, limit.coordinate) == (reference.joint, reference.coordinate):

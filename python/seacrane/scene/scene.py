@@ -21,7 +21,17 @@ from seacrane.description import (
     recorded,
 )
 from seacrane.description.scene import Description
-from seacrane.scene import drift, limits, lines, position, sea, table_text, vessel, wind_current
+from seacrane.scene import (
+    drift,
+    given_vessel,
+    limits,
+    lines,
+    position,
+    sea,
+    table_text,
+    vessel,
+    wind_current,
+)
 
 
 class Scene(Description):
@@ -75,6 +85,7 @@ class Scene(Description):
     add_friction = limits.add_friction
 
     add_vessel = vessel.add_vessel
+    add_given_vessel = given_vessel.add_given_vessel
     add_sea = sea.add_sea
     add_ballast = add_ballast
     add_drift = drift.add_drift

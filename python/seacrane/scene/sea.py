@@ -6,8 +6,8 @@ from dataclasses import replace
 from typing import Any, Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
+from seacrane.description.given import given_vessels
 from seacrane.description.provenance import SeaProvenance
 from seacrane.description.scene import Description
 from seacrane.description.waves import HullLoads, Waves
@@ -20,11 +20,13 @@ from seacrane.inputs.frames import heading_of
 from seacrane.inputs.plausible import direction_of
 from seacrane.scene.depth import require_depth
 from seacrane.scene.drift import add_drift
+from seacrane.scene.given_vessel import put_into_sea
+from seacrane.scene.motion_raos import MotionRaos
 from seacrane.scene.position import use_actual_position, use_slow_position
 from seacrane.scene.realised_sea import realised_sea
+from seacrane.scene.wave_force import force_of_components
 from seacrane.sea import SeaState, Spreading
 
-AT_ONCE = 4096  # components whose transfer is interpolated together, to bound the memory it takes
 MOST_WITHOUT_LOAD = 0.02  # of the variance of a load
 
 
@@ -34,7 +36,7 @@ class WavesWithoutLoadWarning(UserWarning):
 
 def add_sea(
     scene: Description,
-    database: HydroDatabase,
+    database: HydroDatabase | MotionRaos,
     *,
     vessel: str = "vessel",
     hs: float | None = None,
@@ -60,8 +62,10 @@ def add_sea(
 
     Parameters
     ----------
-    database : HydroDatabase
-        Whose force transfer is used, at the direction of every component.
+    database : HydroDatabase, or MotionRaos of a ship whose motion is given
+        Whose force transfer is used, at the direction of every component. A ship added by
+        `Scene.add_given_vessel` takes no load: one that follows RAOs begins to move by those of this
+        database or table.
     vessel : str
         Body of the vessel.
     hs, tp : float
@@ -106,6 +110,8 @@ def add_sea(
     -----
     SteepSeaWarning
         A sea steeper than any that stands.
+    OutsideRaosWarning
+        More than 2 % of the energy of the waves is outside the frequencies of a table of RAOs.
     WavesWithoutLoadWarning
         More than 2 % of the variance of a load is that of waves above the database's frequencies.
     """
@@ -125,7 +131,18 @@ def add_sea(
     )
     require_depth(waves, database, vessel)
     place, heading = _pose(scene, vessel, position, heading_deg)
-    transfer = _transfer(database, waves.omega, waves.direction - heading)
+    if vessel in given_vessels(scene):
+        if drift or phase != "mean":
+            raise SceneError(
+                f"sea: vessel {vessel!r} has a given motion, no loads; leave out drift and phase"
+            )
+        scene.waves = put_into_sea(scene, database, waves, vessel=vessel, place=place, heading=heading)
+        return
+    if not isinstance(database, HydroDatabase):
+        raise SceneError(
+            f"sea: vessel {vessel!r} floats, and RAOs of motions load no vessel; give a database"
+        )
+    transfer = force_of_components(database, waves.omega, waves.direction - heading)
     hull = HullLoads(transfer=transfer, position=place, heading=heading)
     provenance = _with_shares(waves, database, vessel, hull)
     scene.waves = replace(waves, hulls={**waves.hulls, vessel: hull}, provenance=provenance)
@@ -138,7 +155,11 @@ def add_sea(
 
 
 def _sea_of(
-    scene: Description, database: HydroDatabase, vessel: str, sea: SeaState | None, given: dict[str, Any]
+    scene: Description,
+    database: HydroDatabase | MotionRaos,
+    vessel: str,
+    sea: SeaState | None,
+    given: dict[str, Any],
 ) -> Waves:
     """The sea asked for; in a scene that has a sea, that one, if it is no other."""
     there = scene.waves
@@ -211,14 +232,3 @@ def _with_shares(waves: Waves, database: HydroDatabase, vessel: str, hull: HullL
         wave_energy_without_load=max(left_out.energy, known.wave_energy_without_load or 0.0),
         load_variance_without_load=max(left_out.variance, known.load_variance_without_load or 0.0),
     )
-
-
-def _transfer(
-    database: HydroDatabase, omega: NDArray[np.float64], direction: NDArray[np.float64]
-) -> NDArray[np.complex128]:
-    starts = range(0, omega.size, AT_ONCE)
-    rows = [
-        database.force_at(omega[i : i + AT_ONCE], direction[i : i + AT_ONCE], outside="limits")
-        for i in starts
-    ]
-    return np.concatenate(rows).astype(complex).reshape(-1, 6)

@@ -14,6 +14,7 @@ from seacrane import _core
 from seacrane.analysis.inverse import SIX, driven, hold_vessel
 from seacrane.description.crane_parts import hooks
 from seacrane.description.curves import spline_curve
+from seacrane.description.given import given_vessels
 from seacrane.description.loads import bodies_of
 from seacrane.description.provenance import VesselProvenance
 from seacrane.errors import SceneError
@@ -68,11 +69,11 @@ def variants(scene: Scene, database: HydroDatabase | None, *, quick: bool) -> It
         yield Variant(memory=memory, waves=name, rung=FULL, build=build)
     if scene.actuators:
         yield Variant(memory=memory, waves=waves, rung=LOCKED, build=lambda: locked(scene))
-        if len(scene.vessels) == 1:
+        if len(scene.vessels) == 1 and not given_vessels(scene):
             yield Variant(memory=memory, waves=waves, rung=PRESCRIBED, build=lambda: scene)
     if hanging(scene):
         yield Variant(memory=memory, waves=waves, rung=WEIGHT, build=lambda: scene)
-    if scene.waves is not None and scene.vessels:
+    if scene.waves is not None and scene.vessels and not given_vessels(scene):
         yield Variant(memory=memory, waves=waves, rung=LINEAR, build=lambda: scene)
 
 
@@ -81,7 +82,7 @@ def _memory_variants(
 ) -> Iterator[tuple[str, Callable[[], Scene]]]:
     """None, convolution, and fits of each kind at several R2."""
     memory = memory_name(scene)
-    if not scene.vessels or len(scene.vessels) > 1:
+    if len(scene.vessels) != 1 or given_vessels(scene):
         return
     for kind in ("none", "convolution"):
         if kind == memory or (kind != "none" and (quick or database is None)):

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from seacrane.description.given import given_vessels
 from seacrane.inputs.frames import heading_of, rotation_about_z
 
 if TYPE_CHECKING:
@@ -67,7 +68,10 @@ def hull_findings(scene: Description, time: Array, channels: Mapping[str, Array]
     found: list[Finding] = []
     waves = scene.waves
     peak = None if waves is None else Peak.of(waves)
+    given = given_vessels(scene)
     for vessel, motion in motions(scene, channels):
+        if vessel.body in given:
+            continue
         found += _moored(vessel, time, motion)
         if waves is None or peak is None:
             continue

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from seacrane.crane import KnuckleBoomCrane
 from seacrane.description import crane_parts
+from seacrane.description.given import given_vessels
 from seacrane.description.loads import lines_of, path_of
 from seacrane.description.scene import Description
 from seacrane.errors import SceneError
@@ -17,7 +18,7 @@ from seacrane.hydro import Hull
 from seacrane.hydro.hull.shipped_hull import VOLUME, shipped_hull
 from seacrane.inputs.shown import shown
 from seacrane.viewer.crane_shapes import crane_shapes
-from seacrane.viewer.hull_shapes import hull_shape, schematic_hull
+from seacrane.viewer.hull_shapes import box_hull, hull_shape, schematic_hull
 from seacrane.viewer.shapes import BoxShape, Shape, distinct, equivalent_box, framework
 
 Array = NDArray[np.float64]
@@ -25,6 +26,7 @@ Array = NDArray[np.float64]
 SLENDER = 0.02  # radius of a generic body's tubes over its extent
 SMALLEST = 0.02  # edge of a box over the scene's extent
 SHIPPED = "hull_115"
+UNKNOWN = (100.0, 20.0, 5.0)  # m, length, breadth and draught of a ship whose size nobody gave
 LARGEST_HULL = 100_000  # panels: more make a page that browsers choke on
 
 
@@ -107,6 +109,10 @@ def _vessel(scene: Description, name: str, hull: Hull | None) -> Look:
         level = deck if deck is not None else 0.6 * hull.draught
         note = f"hull {hull.name!r} below the water, straight sides above"
         return Look(role="vessel", shapes=[hull_shape(hull, level, centre)], note=note)
+    if name in given_vessels(scene):
+        size = scene.provenance[name].size
+        note = "schematic hull" if size is not None else "schematic hull, whose size nobody gave"
+        return Look(role="vessel", shapes=[box_hull(*(size or UNKNOWN), deck, centre)], note=note)
     shape = schematic_hull(body.mass, np.asarray(body.inertia), deck, centre)
     return Look(role="vessel", shapes=[shape], note="schematic hull, from mass and inertia")
 
@@ -114,10 +120,9 @@ def _vessel(scene: Description, name: str, hull: Hull | None) -> Look:
 def _is_shipped(scene: Description, name: str) -> bool:
     """Whether the vessel comes from the shipped database by its record, and weighs what that displaces."""
     known = scene.provenance.get(name)
-    return (
-        known is not None and known.database == SHIPPED
-        and bool(np.isclose(scene.bodies[name].mass, 1025.0 * VOLUME, rtol=1e-6))
-    )  # fmt: skip
+    if known is None or known.database != SHIPPED:
+        return False
+    return known.motion is not None or bool(np.isclose(scene.bodies[name].mass, 1025.0 * VOLUME, rtol=1e-6))
 
 
 def _generic(scene: Description, name: str, role: str, extent: float) -> Look:

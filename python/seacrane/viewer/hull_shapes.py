@@ -32,7 +32,13 @@ def hull_shape(hull: Hull, deck: float, centre_of_mass: Array) -> HullShape:
 def schematic_hull(mass: float, inertia: Array, deck: float | None, centre_of_mass: Array) -> HullShape:
     """A box with a bow whose length and breadth have the usual ratio to the radii of gyration, and whose
     draught displaces the mass; the deck at height `deck`, m, or half a draught above the water."""
-    length, breadth, draught = schematic_size(mass, inertia)
+    return box_hull(*schematic_size(mass, inertia), deck, centre_of_mass)
+
+
+def box_hull(
+    length: float, breadth: float, draught: float, deck: float | None, centre_of_mass: Array
+) -> HullShape:
+    """A box with a bow, of that size in m; the deck at height `deck`, m, or half a draught above water."""
     deck = 0.5 * draught if deck is None else deck
     x = length * np.concatenate([[-0.5], np.linspace(0.5 - BOW, 0.5, 8)])
     half = 0.5 * breadth * np.concatenate([[1.0], 1.0 - np.linspace(0.0, 1.0, 8) ** 2])

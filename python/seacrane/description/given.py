@@ -1,0 +1,41 @@
+"""Which vessels of a scene have a motion that is given: nothing acts back on them."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from seacrane.errors import SceneError
+
+if TYPE_CHECKING:
+    from seacrane.description.scene import Description
+
+
+def given_vessels(scene: Description) -> dict[str, str]:
+    """Kind of motion by the body: "raos", "history" or "rest"."""
+    found = {}
+    for vessel in scene.vessels.values():
+        known = scene.provenance.get(vessel.name)
+        if known is not None and known.motion is not None:
+            found[vessel.body] = known.motion
+    return found
+
+
+def require_described(scene: Description, end: float) -> None:
+    """Refuse a run to `end` (s) that is longer than the given motion of a ship.
+
+    Raises
+    ------
+    SceneError
+    """
+    for vessel in scene.vessels.values():
+        known = scene.provenance.get(vessel.name)
+        if known is None or known.duration is None or end <= known.duration:
+            continue
+        way_out = (
+            "give a longer history" if known.motion == "history"
+            else f"give duration={end:g} to add_given_vessel"
+        )  # fmt: skip
+        raise SceneError(
+            f"vessel {vessel.name!r}: its given motion ends at {known.duration:.6g} s, and the run at "
+            f"{end:.6g} s; {way_out}, or end the run earlier"
+        )

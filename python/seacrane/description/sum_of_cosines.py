@@ -1,0 +1,103 @@
+"""Curves that follow a sum of many cosines over a time: splines through it, close enough by measure."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+
+import numpy as np
+from numpy.typing import NDArray
+
+from seacrane._core import Curve
+
+Array = NDArray[np.float64]
+Complex = NDArray[np.complex128]
+CLOSE = 1e-6  # of the root mean square of the sum: largest error of the splines
+PER_PERIOD = 8  # samples of the fastest cosine that is tried first
+SMALLEST_SHARE = 1e-6  # of the largest amplitude: faster cosines below it set no interval
+MOST_HALVINGS = 6
+PADDING = 16  # samples beyond both ends, where a spline is not as good
+AT_ONCE = 4096  # times summed together, to bound the memory it takes
+
+
+def curves_of_sum(omega: Array, amplitude: Complex, *, ramp: float, duration: float) -> tuple[Curve, ...]:
+    """Splines through ramp(t) Re sum amplitude exp(i omega t), one for each column.
+
+    Quintic splines on an even grid, with continuous derivatives up to the fourth. The interval is halved
+    until the largest error, measured midway between the samples, is 1e-6 of the sum's root mean square.
+
+    Parameters
+    ----------
+    omega : ndarray, shape (k,)
+        rad/s.
+    amplitude : ndarray of complex, shape (k, n)
+        m or rad.
+    ramp : float
+        s, over which the sum grows from rest; 0: all of it from the start.
+    duration : float
+        s; the curves hold their value from then on.
+
+    Returns
+    -------
+    tuple of Curve
+        Zero and at rest until t = 0 where there is a ramp.
+    """
+
+    def values(times: Array) -> Array:
+        return summed(omega, amplitude, times) * ramp_of(times, ramp)[:, None]
+
+    scale = np.sqrt(0.5 * np.sum(np.abs(amplitude) ** 2, axis=0))
+    if not scale.any():
+        return tuple(Curve.constant(value=0.0) for _ in scale)
+    count = max(int(np.ceil(duration * PER_PERIOD * _fastest(omega, amplitude) / (2.0 * np.pi))), 1)
+    for _ in range(MOST_HALVINGS):
+        fitted, error = _fitted(values, duration, count)
+        if np.all(error <= CLOSE * scale):
+            break
+        count *= 2
+    return fitted
+
+
+def summed(omega: Array, amplitude: Complex, times: Array) -> Array:
+    """Re sum amplitude exp(i omega t), shape (times, n)."""
+    parts = [
+        (np.exp(1j * np.outer(times[i : i + AT_ONCE], omega)) @ amplitude).real
+        for i in range(0, times.size, AT_ONCE)
+    ]
+    return np.concatenate(parts)
+
+
+def ramp_of(times: Array, ramp: float) -> Array:
+    """From 0 at t = 0 to 1 at t = ramp, with four continuous derivatives; 1 at all times for a ramp of 0."""
+    if ramp == 0.0:
+        return np.ones_like(times)
+    x = np.clip(times / ramp, 0.0, 1.0)
+    return np.asarray(x**5 * (126.0 + x * (-420.0 + x * (540.0 + x * (-315.0 + 70.0 * x)))))
+
+
+def _fastest(omega: Array, amplitude: Complex) -> float:
+    """rad/s, of the cosines that matter."""
+    size = np.abs(amplitude)
+    matters = np.any(size > SMALLEST_SHARE * size.max(axis=0), axis=1)
+    return float(omega[matters].max())
+
+
+def _fitted(values: Callable[[Array], Array], duration: float, count: int) -> tuple[tuple[Curve, ...], Array]:
+    """Splines of `count` pieces through some functions of time, and their largest errors."""
+    from scipy.interpolate import make_interp_spline
+
+    step = duration / count
+    times = step * np.arange(-PADDING, count + PADDING + 1)
+    spline = make_interp_spline(times, values(times), k=5)
+    midway = step * (np.arange(count) + 0.5)
+    error = np.abs(spline(midway) - values(midway)).max(axis=0)
+    starts = step * np.arange(count)
+    powers = [spline(starts, nu=order) / math.factorial(order) for order in range(6)]
+    hold = np.zeros((1, 6, error.size))
+    hold[0, 0] = spline(duration)
+    coefficients = np.concatenate([np.stack(powers, axis=1), hold])
+    curves = tuple(
+        Curve.pieces(starts=[*starts.tolist(), duration], coefficients=coefficients[:, :, i].tolist())
+        for i in range(error.size)
+    )
+    return curves, np.asarray(error)

@@ -1,0 +1,158 @@
+"""A table of motions per metre of wave, from any source."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from seacrane.errors import SceneError
+from seacrane.hydro.data.heading_circle import LARGEST_HEADING_GAP, PORT_STARBOARD, both_sides, largest_gap
+from seacrane.hydro.data.interpolation import spline_weights
+from seacrane.inputs.checked import flag_of, number_of, numbers_of, text_of, vector_of
+from seacrane.sea.dispersion import wavenumber
+
+Array = NDArray[np.float64]
+Complex = NDArray[np.complex128]
+TURN = 2.0 * np.pi
+STEEPEST_PITCH = 6.0  # of the wave's slope, at the longest wave of a table: hulls follow it, 57 is degrees
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class MotionRaos:
+    """Motions of a ship per metre of wave amplitude: its displacement RAOs.
+
+    x forward, y to port, z up, about the ship's reference point, where the wave has zero phase. Time factor
+    exp(+i omega t): a motion that lags the crest by a phase p has the value ``amplitude * exp(-1j * p)``. A
+    phase that leads enters with +. Other programs' tables: see docs/given-ships.md.
+
+    Parameters
+    ----------
+    omega : array_like, shape (n,)
+        rad/s, increasing.
+    heading : array_like, shape (m,)
+        rad, where the waves go to: 0 following, from +x towards +y (port); increasing within [0, 2 pi).
+    values : array_like of complex, shape (m, n, 6)
+        Surge, sway, heave (m/m) and roll, pitch, yaw (rad/m).
+    depth : float
+        Of the water, m; default: deep.
+    symmetric : bool
+        Whether port and starboard are alike (default), so that headings may be mirrored.
+    name : str
+        For messages.
+    g : float
+        m/s2, for wavenumbers; default 9.81.
+
+    Raises
+    ------
+    SceneError
+        For another shape, a value that is not finite, frequencies or headings out of order, headings in
+        degrees, or rotations in degrees: a pitch in the longest wave of more than six times its slope.
+    """
+
+    omega: Any
+    heading: Any
+    values: Any
+    depth: float = float("inf")
+    symmetric: bool = True
+    name: str = "RAOs"
+    g: float = 9.81
+
+    def __post_init__(self) -> None:
+        what = f"RAOs {text_of('RAOs: name', self.name)!r}"
+        omega = _increasing(f"{what}: omega", self.omega, "rad/s")
+        heading = _headings(f"{what}: heading", self.heading)
+        values = _motions(what, self.values, (heading.size, omega.size, 6))
+        if not (number_of(f"{what}: depth", self.depth) > 0.0):
+            raise SceneError(f"{what}: depth is {self.depth} m; give a positive number")
+        flag_of(f"{what}: symmetric", self.symmetric)
+        for key, array in (("omega", omega), ("heading", heading), ("values", values)):
+            array.setflags(write=False)
+            object.__setattr__(self, key, array)
+        self._refuse_degrees(what)
+
+    def _refuse_degrees(self, what: str) -> None:
+        slope = float(wavenumber(self.omega[:1], g=self.g, depth=self.depth)[0])
+        pitch = float(np.abs(self.values[:, 0, 4]).max())
+        if pitch > STEEPEST_PITCH * slope:
+            raise SceneError(
+                f"{what}: pitch is {pitch:.4g} rad/m at {self.omega[0]:.4g} rad/s, {pitch / slope:.3g} times "
+                "the slope of that wave, which long waves do not do; rotations are rad/m: if the table is in "
+                "deg/m, give numpy.radians of roll, pitch and yaw"
+            )
+
+    def at(self, omega: Any, heading: Any) -> Complex:
+        """Motions (k, 6) at frequencies (k,) and headings (k,): cubic splines over both.
+
+        Below the table's frequencies those of the lowest; above them none.
+
+        Raises
+        ------
+        SceneError
+            For a heading in a gap of more than 45 deg.
+        """
+        w, b = np.asarray(omega, dtype=float), np.asarray(heading, dtype=float)
+        circle, table = self._circle()
+        in_heading = self._heading_weights(circle, b)
+        in_frequency = spline_weights(self.omega, np.clip(w, self.omega[0], self.omega[-1]))
+        by_heading = (in_heading @ table.reshape(circle.size, -1)).reshape(b.size, self.omega.size, 6)
+        found = np.einsum("kn,knd->kd", in_frequency, by_heading)
+        found[w > self.omega[-1] * (1.0 + 1e-9)] = 0.0
+        return np.asarray(found)
+
+    def _circle(self) -> tuple[Array, Complex]:
+        """All headings with their motions, the mirrored ones added."""
+        if not self.symmetric:
+            return self.heading, self.values
+        heading, source, mirrored = both_sides(self.heading)
+        parity = np.where(mirrored[:, None], PORT_STARBOARD, 1.0)
+        return heading, self.values[source] * parity[:, None, :]
+
+    def _heading_weights(self, circle: Array, heading: Array) -> Array:
+        gap = largest_gap(circle)
+        if gap <= LARGEST_HEADING_GAP + 1e-9:
+            return spline_weights(circle, heading, period=TURN)
+        distance = np.abs(np.angle(np.exp(1j * (heading[:, None] - circle))))
+        nearest = distance.argmin(axis=1)
+        off = distance[np.arange(heading.size), nearest] > 1e-6
+        if off.any():
+            raise SceneError(
+                f"RAOs {self.name!r}: have no heading {np.degrees(heading[off][0]):.6g} deg, where waves go, "
+                f"and their largest gap is {np.degrees(gap):.3g} deg; above 45 deg nothing is interpolated"
+            )
+        return np.asarray(np.eye(circle.size)[nearest])
+
+
+def _increasing(what: str, given: Any, unit: str) -> Array:
+    values = np.array(vector_of(what, given))
+    if not values.size or not np.isfinite(values).all() or values[0] <= 0.0 or np.any(np.diff(values) <= 0.0):
+        raise SceneError(f"{what} must be positive, finite and increasing, {unit}; sort the table by it")
+    return values
+
+
+def _headings(what: str, given: Any) -> Array:
+    values = np.array(vector_of(what, given))
+    if values.size and np.isfinite(values).all() and np.abs(values).max() > TURN:
+        raise SceneError(
+            f"{what} reaches {np.abs(values).max():.6g} rad, more than a turn; headings are radians: if "
+            "these are degrees, give numpy.radians of them"
+        )
+    inside = values.size and np.isfinite(values).all() and values[0] > -1e-12 and values[-1] < TURN
+    if not inside or np.any(np.diff(values) <= 0.0):
+        raise SceneError(f"{what} must increase within 0 and 2 pi rad; sort the table by it")
+    return values
+
+
+def _motions(what: str, given: Any, shape: tuple[int, int, int]) -> Complex:
+    values = np.array(given)
+    if not np.iscomplexobj(values):
+        values = numbers_of(f"{what}: values", values)
+    if values.shape != shape:
+        raise SceneError(
+            f"{what}: values has shape {values.shape}; give {shape}: headings, frequencies, six motions"
+        )
+    if not np.isfinite(values).all():
+        raise SceneError(f"{what}: values holds a value that is not finite; leave its row out of the table")
+    return values.astype(complex)
