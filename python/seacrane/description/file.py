@@ -26,7 +26,7 @@ from seacrane.description.file_elements import (
     load_to_data,
 )
 from seacrane.description.file_origin import provenance_from_node, roles_from_node, roles_to_data
-from seacrane.description.file_text import LARGEST_FILE, parsed
+from seacrane.description.file_text import LARGEST_FILE, parsed, read_scene_file
 from seacrane.description.file_waves import waves_from_node, waves_to_data
 from seacrane.description.forces import add_force_table, add_load, add_point_force, add_spring
 from seacrane.description.hydrodynamics import add_hydrodynamics
@@ -137,8 +137,12 @@ def load_scene(path: str | os.PathLike[str], scene: Some) -> Some:
     OSError
         If the file cannot be read.
     """
-    place = Path(path).name
-    root = Node(parsed(Path(path)), place)
+    return scene_from_bytes(read_scene_file(Path(path)), Path(path).name, scene)
+
+
+def scene_from_bytes(data: bytes, place: str, scene: Some) -> Some:
+    """What `load_scene` reads, from the bytes of a scene file; errors begin with the place."""
+    root = Node(parsed(data, place), place)
     if not isinstance(root.value, dict) or root.value.get("format") != FORMAT:
         raise FileFormatError(f'{place}: is not a scene file; it has no "format": "{FORMAT}" at its top')
     version = root.at("version").whole()
