@@ -166,7 +166,7 @@ def test_a_model_replaces_nothing_unasked(tmp_path: Path, monkeypatch: pytest.Mo
     with pytest.raises(FileExistsError, match="overwrite=True"):
         shown.save_gltf(path)
     shown.save_gltf(path, overwrite=True)
-    with pytest.raises(SceneError, match=r"path is 'vessel.gltf'; end it in \.glb"):
+    with pytest.raises(SceneError, match=r"writes \.glb; path ends in 'vessel.gltf'"):
         shown.save_gltf(tmp_path / "vessel.gltf")
     monkeypatch.setattr("seacrane.viewer.glb.LARGEST", 1000)
     with pytest.raises(SceneError, match=r"takes \d+ bytes, above 1000; save a shorter run"):

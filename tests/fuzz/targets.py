@@ -241,7 +241,7 @@ _ALL = [
     Target("orcaflex", "orcaflex", "ship.yml", orcaflex.read_orcaflex, _ORCAFLEX, mutate_json),
     Target("orcaflex-text", "orcaflex", "ship.yml", orcaflex.read_orcaflex, _ORCAFLEX),
     Target("offsets", "offsets", "hull.txt", _hull_of_offsets, ("hydro/hull/offsets.py",), refusals=_SHAPE),
-    Target("stl", "stl", "hull.stl", _hull_of_stl, ("hydro/hull/stl.py",), refusals=_SHAPE),
+    Target("stl", "stl", "hull.stl", _hull_of_stl, ("files/stl.py",), refusals=_SHAPE),
     Target("scene", "scene", "scene.json", _scene, _SCENE, mutate_json),
     Target("lift", "lift", "lift.toml", _lift, _LIFT),
     Target("crane", "crane", "crane.toml", _crane, ("crane/data_file.py",)),

@@ -31,6 +31,7 @@ from seacrane.description.file_waves import waves_from_node, waves_to_data
 from seacrane.description.forces import add_force_table, add_load, add_point_force, add_spring
 from seacrane.description.hydrodynamics import add_hydrodynamics
 from seacrane.description.joints import add_joint
+from seacrane.description.meshes import mesh_from_node, mesh_to_data
 from seacrane.description.old_files import provenance_from_notes, roles_by_name
 from seacrane.description.recorded import add_range, record_coordinate
 from seacrane.description.scene import Description
@@ -67,6 +68,7 @@ _ADDED_LATER: dict[str, Any] = {
     "ranges": [],
     "roles": None,
     "provenance": None,
+    "meshes": [],
 }  # what older files of this version lack
 _SETTINGS = ("gravity", "baumgarte", "length_scale")
 Some = TypeVar("Some", bound=Description)
@@ -162,6 +164,7 @@ def scene_from_bytes(data: bytes, place: str, scene: Some) -> Some:
         "ranges",
         "roles",
         "provenance",
+        "meshes",
         "notes",
     )
     root.expect(fields)
@@ -169,9 +172,12 @@ def scene_from_bytes(data: bytes, place: str, scene: Some) -> Some:
 
 
 def scene_digest(scene: Description) -> str:
-    """SHA-256 of what a scene describes: equal for scenes that move alike. Notes and provenance do not count,
-    and of C functions only their names."""
-    data = described(scene.copy(notes={}, provenance={}))
+    """SHA-256 of what a scene describes: equal for scenes that move alike.
+
+    Notes, provenance and meshes do not count, and of C functions only their names.
+    """
+    data = described(scene.copy(notes={}, provenance={}, meshes={}))
+    del data["meshes"]
     data["function_forces"] = [[force.name, force.body] for force in scene.function_forces.values()]
     return hashlib.sha256(json.dumps(data).encode("ascii")).hexdigest()
 
@@ -200,6 +206,8 @@ def _scene(root: Node, scene: Some) -> Some:
     waves = root.at("waves")
     if waves.value is not None:
         scene.waves = waves_from_node(waves)
+    for node in root.at("meshes").items():
+        mesh_from_node(node, scene)
     scene.notes = notes_from_node(root.at("notes"))
     _origin(root, scene)
     return scene
@@ -240,6 +248,7 @@ def described(scene: Description) -> dict[str, Any]:
     out["ranges"] = [asdict(limit) for limit in scene.ranges.values()]
     out["roles"] = [roles_to_data(roles) for roles in scene.roles.values()]
     out["provenance"] = [{"name": name, **asdict(known)} for name, known in scene.provenance.items()]
+    out["meshes"] = [mesh_to_data(mesh) for mesh in scene.meshes.values()]
     out["notes"] = plain_data(f"scene {scene.name!r}: notes", scene.notes)
     return out
 

@@ -10,7 +10,7 @@ from typing import Any, get_overloads
 from seacrane import _core
 from seacrane.crane.add_crane import add_crane
 from seacrane.crane.payload import Payload
-from seacrane.description import bodies, crane_parts, drives, forces, joints, recorded
+from seacrane.description import bodies, crane_parts, drives, forces, joints, meshes, recorded
 from seacrane.description.curves import spline_curve
 from seacrane.description.scene import Description
 from seacrane.hydro import load_database
@@ -260,6 +260,17 @@ _ALL = (
                     Key(name="body", type="text", required=True), Key(name="point", required=True, **POINT)
                 )},
             },
+        ),
+    ),
+    Table(
+        name="mesh", text=_summary(meshes.add_mesh), add=meshes.add_mesh,
+        keys=tuple(
+            replace(key, required=key.required or key.name == "file")
+            for key in keys_of(
+                meshes.add_mesh,
+                more={"file": {"type": "file"}, "frame": {"type": "table", "keys": fields_of(_core.Frame)}},
+                without=("vertices", "faces"),
+            )
         ),
     ),
     Table(

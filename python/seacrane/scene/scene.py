@@ -16,6 +16,7 @@ from seacrane.description import (
     file,
     forces,
     joints,
+    meshes,
     recorded,
 )
 from seacrane.description.scene import Description
@@ -44,9 +45,9 @@ class Scene(Description):
     bodies, joints, drivers, actuators, point_forces, springs, force_tables, function_forces, loads, vessels
         Elements by name, immutable; `loads` are wind, current, limits and friction.
     waves : Waves or None
-    recorded, ranges, roles, provenance, notes
+    recorded, ranges, roles, provenance, meshes, notes
         As of `Description`: what is recorded, where coordinates are meant to stay, the parts of cranes, where
-        vessels come from, and the user's own notes.
+        vessels come from, what bodies are drawn by, and the user's own notes.
     """
 
     add_body = bodies.add_body
@@ -77,6 +78,7 @@ class Scene(Description):
 
     add_crane = add_crane
     add_roles = crane_parts.add_roles
+    add_mesh = meshes.add_mesh
 
     compile = compilation.compile_scene
     replace = edit.replace_element

@@ -24,6 +24,7 @@ def rows(scene: Description) -> list[tuple[str, list[str]]]:
             ],
         )
     )
+    found.append(("meshes", list(scene.meshes)))
     return [(kind, names) for kind, names in found if names]
 
 

@@ -96,7 +96,7 @@ class Drawing:
         number, point = int(end[0]), np.array(end[1:])
         if number < 0:
             return np.tile(point, (len(position), 1))
-        turn = np.array([rotation_matrix(one) for one in quaternion[:, number]])
+        turn = rotation_matrix(quaternion[:, number])
         return np.asarray(position[:, number] + turn @ point)
 
 

@@ -162,8 +162,10 @@ def _linear(value: float) -> float:
 
 
 def _from_z(direction: Array) -> Array:
-    """Quaternions (n, 4), x y z w, that turn z into unit vectors (n, 3): first the shortest way to the first of
-    them, then the shortest way from there, which has no jump unless a wire turns round."""
+    """Quaternions (n, 4), x y z w, that turn z into unit vectors (n, 3).
+
+    The shortest way to the first of them, and from there the shortest: no jump unless a wire turns round.
+    """
     first = _shortest(np.array([0.0, 0.0, 1.0]), direction[:1])[0]
     turn = _product(_shortest(direction[0], direction), first)
     flips = np.where(np.sum(turn[1:] * turn[:-1], axis=1) < 0.0, -1.0, 1.0)

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from seacrane.viewer.bodies import Look
 from seacrane.viewer.palette import HULL, body_colour
-from seacrane.viewer.shapes import BoxShape, HullShape, Shape, TubeShape
+from seacrane.viewer.shapes import BoxShape, HullShape, MeshShape, Shape, TubeShape
 
 Array = NDArray[np.float64]
 Faces = NDArray[np.intp]
@@ -38,7 +38,9 @@ def surfaces_of(look: Look, number: int) -> list[Surface]:
 
 
 def _part(shape: Shape, role: str, number: int) -> Surface:
-    if isinstance(shape, BoxShape):
+    if isinstance(shape, MeshShape):
+        colour, vertices, faces = shape.colour, shape.vertices, shape.faces
+    elif isinstance(shape, BoxShape):
         colour, vertices, faces = shape.colour, shape.points, _box_faces()
     else:
         assert isinstance(shape, TubeShape)

@@ -27,7 +27,7 @@ from seacrane.viewer.packing import Blob
 from seacrane.viewer.page import page
 from seacrane.viewer.palette import HULL, SLACK, TRACKS, WIRES, body_colour
 from seacrane.viewer.sea import sea_components, without_sea
-from seacrane.viewer.shapes import HullShape
+from seacrane.viewer.shapes import HullShape, MeshShape
 from seacrane.viewer.strip import Choice, strip_of
 
 SCENE_ALONE = 60.0  # s that the sea of a scene without a run is shown
@@ -122,9 +122,7 @@ class View:
             If it cannot be written.
         """
         if Path(path).suffix.lower() != ".glb":
-            raise SceneError(
-                f"view: save_gltf writes .glb, and path is {shown(Path(path).name)}; end it in .glb"
-            )
+            raise SceneError(f"view: save_gltf writes .glb; path ends in {shown(Path(path).name)}")
         return _written(path, gltf_of(self.drawing), overwrite)
 
 
@@ -211,12 +209,17 @@ def _motion_data(motion: Motion, blob: Blob) -> dict[str, Any]:
     return {"start": motion.start, "interval": motion.interval, **series}
 
 
+def _mesh(shape: HullShape | MeshShape, blob: Blob) -> dict[str, Any]:
+    return {"vertices": blob.floats(shape.vertices), "faces": blob.whole(shape.faces)}
+
+
 def _body_data(name: str, number: int, look: Look, blob: Blob) -> dict[str, Any]:
     shapes = []
     for shape in look.shapes:
         if isinstance(shape, HullShape):
-            numbers = {"vertices": blob.floats(shape.vertices), "faces": blob.whole(shape.faces)}
-            shapes.append({"kind": "hull", "waterline": shape.waterline, "colours": HULL, **numbers})
-        else:
-            shapes.append(shape.data() | {"colour": body_colour(shape.colour, look.role, number)})
+            told = {"kind": "hull", "waterline": shape.waterline, "colours": HULL, **_mesh(shape, blob)}
+            shapes.append(told)
+            continue
+        told = {"kind": "mesh", **_mesh(shape, blob)} if isinstance(shape, MeshShape) else shape.data()
+        shapes.append(told | {"colour": body_colour(shape.colour, look.role, number)})
     return {"name": name, "role": look.role, "shapes": shapes}
