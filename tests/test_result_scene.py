@@ -86,11 +86,11 @@ def test_a_run_to_a_file_keeps_its_scene_while_it_goes_on_and_when_it_is_resumed
     assert view(longer).motion.end == 2.0
 
 
-def test_notes_are_not_carried_away(tmp_path: Path) -> None:
-    path = simulate(pendulum(), 0.5).save(tmp_path / "run.nc")
-    scene = Result.load(path).scene
-    assert scene is not None
-    assert scene.notes == {}
+def test_notes_are_in_the_settings_alone(tmp_path: Path) -> None:
+    loaded = Result.load(simulate(pendulum(), 0.5).save(tmp_path / "run.nc"))
+    assert loaded.scene is not None
+    assert loaded.scene.notes == {}
+    assert json.loads(str(loaded.stats["settings"]))["notes"] == {"project": "secret"}
 
 
 def test_a_scene_from_a_file_runs_as_it_ran(tmp_path: Path) -> None:

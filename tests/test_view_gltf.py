@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import json
+import shutil
 import struct
+import subprocess
 from pathlib import Path
 from typing import Any
 
@@ -172,3 +174,44 @@ def test_a_model_replaces_nothing_unasked(tmp_path: Path, monkeypatch: pytest.Mo
     with pytest.raises(SceneError, match=r"takes \d+ bytes, above 1000; save a shorter run"):
         shown.save_gltf(tmp_path / "large.glb")
     assert [one.name for one in tmp_path.iterdir()] == ["vessel.glb"]
+
+
+THREE = """
+import { readFileSync } from 'node:fs';
+const [packages, path, body, ...times] = process.argv.slice(2);
+const { AnimationMixer, Vector3 } = await import(`${packages}/three/build/three.module.js`);
+const { GLTFLoader } = await import(`${packages}/three/examples/jsm/loaders/GLTFLoader.js`);
+const data = readFileSync(path);
+const whole = data.buffer.slice(data.byteOffset, data.byteOffset + data.length);
+const { scene, animations } = await new GLTFLoader().parseAsync(whole, '');
+const mixer = new AnimationMixer(scene);
+mixer.clipAction(animations[0]).play();
+console.log(JSON.stringify(times.map((time) => {
+  mixer.setTime(+time);
+  scene.updateMatrixWorld(true);
+  const node = scene.getObjectByName(body);
+  return [...node.getWorldPosition(new Vector3()).toArray(), ...node.quaternion.toArray()];
+})));
+"""
+
+
+def test_the_loader_of_three_plays_the_run(repository: Path, tmp_path: Path) -> None:
+    """In world axes, y up, and between the knots too."""
+    packages = repository / "tools" / "viewer" / "node_modules"
+    if shutil.which("node") is None or not packages.is_dir():
+        pytest.skip("needs node and the packages that `make viewer` installs")
+    result = case2()
+    path = view(result).save_gltf(tmp_path / "lift.glb")
+    (tmp_path / "play.mjs").write_text(THREE)
+    indices = [0, 137, 333, 598]
+    times = [str(result.time[i]) for i in indices]
+    done = subprocess.run(
+        ["node", tmp_path / "play.mjs", packages, path, "payload", *times], capture_output=True, text=True,
+        check=False,
+    )  # fmt: skip
+    assert done.returncode == 0, done.stderr
+    found = np.array(json.loads(done.stdout))
+    x, y, z = result.select("position", body="payload")[indices].T
+    np.testing.assert_allclose(found[:, :3], np.column_stack([x, z, -y]), atol=1e-3)
+    quaternion = result.select("quaternion", body="payload")[indices]
+    assert angle_between(np.roll(found[:, 3:], 1, axis=1), quaternion) < 1e-3

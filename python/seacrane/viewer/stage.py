@@ -66,6 +66,7 @@ class Stage:
 
     def picture(self) -> NDArray[np.uint8]:
         """(height, width, 3)."""
+        self.plotter.render()  # a screenshot repeats what was drawn last
         return np.asarray(self.plotter.screenshot(return_img=True))[..., :3]
 
     def _body(self, number: int) -> list[Any]:
