@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 
+from seacrane.description.file_text import LARGEST_FILE
 from seacrane.errors import FileFormatError
 from seacrane.files.netcdf_limits import open_netcdf
 from seacrane.files.state import state_from_bytes
@@ -157,7 +158,12 @@ def _scene(path: Path, file: Any) -> KeptScene | None:
     """The text, unread."""
     if SCENE not in file.variables:
         return None
-    data = file[SCENE][:]
-    if data.dtype != np.uint8:
-        raise FileFormatError(f"{path}: its {SCENE} is of {data.dtype}, not bytes; no run wrote this file")
+    variable = file[SCENE]
+    if variable.dtype != np.uint8:
+        raise FileFormatError(
+            f"{path}: its {SCENE} is of {variable.dtype}, not bytes; no run wrote this file"
+        )
+    if variable.size > LARGEST_FILE:
+        raise FileFormatError(f"{path}: its {SCENE} has {variable.size} bytes, above {LARGEST_FILE}")
+    data = variable[:]
     return KeptScene.from_text(data.tobytes(), f"{path.name}: its scene")

@@ -169,7 +169,7 @@ def _times(
         raise SceneError(
             f"video: takes {count:.0f} pictures, above {most} of this size; raise speed, lower rate or size"
         )
-    return np.minimum(first + pace / often * np.arange(int(count)), last)
+    return np.asarray(np.minimum(first + pace / often * np.arange(int(count)), last))
 
 
 def _time(drawing: Drawing, name: str, value: Any) -> float:
