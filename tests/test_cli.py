@@ -49,7 +49,9 @@ def refusal(done: subprocess.CompletedProcess[str]) -> str:
     return lines[0]
 
 
-@pytest.mark.parametrize("command", ["", "run", "paper", "report", "show", "hydro", "trade", "schema", "doctor"])
+@pytest.mark.parametrize(
+    "command", ["", "run", "paper", "report", "show", "view", "hydro", "trade", "schema", "doctor"]
+)
 def test_every_command_explains_itself(command: str) -> None:
     done = command_line(*command.split(), "--help")
     assert done.returncode == 0 and done.stdout.startswith(f"usage: seacrane {command}".rstrip())

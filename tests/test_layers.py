@@ -29,8 +29,8 @@ FLOORS = """
     hydro
     crane
     analysis
-    result
     scene
+    result
     run
     accuracy
     simulation

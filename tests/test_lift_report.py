@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 import json
 from html import unescape
 from pathlib import Path
@@ -63,9 +64,10 @@ def test_the_page_is_whole_and_needs_nothing_outside(page: Report) -> None:
     assert "@media print" in page.html and "x forward, y to port, z up" in read.text
 
 
-def test_a_result_without_its_scene_has_no_three_dimensions(lift: Result, tmp_path: Path) -> None:
+def test_a_result_from_a_file_is_seen_and_one_without_its_scene_is_not(lift: Result, tmp_path: Path) -> None:
     lift.save(tmp_path / "lift.nc")
-    assert "In three dimensions" not in titles(report(Result.load(tmp_path / "lift.nc")))
+    assert "In three dimensions" in titles(report(Result.load(tmp_path / "lift.nc")))
+    assert "In three dimensions" not in titles(report(copy.copy(lift)))
 
 
 def test_statistics_are_those_of_the_channels(lift: Result, page: Report) -> None:

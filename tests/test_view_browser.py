@@ -97,6 +97,27 @@ def test_a_slack_wire_is_drawn_slack(tab: chromium.Tab, tmp_path: Path) -> None:
 
 
 @pytest.mark.nightly
+def test_a_mesh_of_ones_own_is_drawn(tab: chromium.Tab, tmp_path: Path) -> None:
+    """In the colour of its body, which fills much of the close picture."""
+    from PIL import Image
+
+    corners = np.array([[x, y, z] for x in (-6, 6) for y in (-6, 6) for z in (-6, 6)], dtype=float)
+    faces = np.array([[0, 1, 3], [0, 3, 2], [4, 6, 7], [4, 7, 5], [0, 4, 5], [0, 5, 1], [2, 3, 7], [2, 7, 6],
+                      [0, 2, 6], [0, 6, 4], [1, 5, 7], [1, 7, 3]])  # fmt: skip
+    shares = []
+    for size in (1.0, 0.01):
+        scene = cases.case2()
+        scene.add_mesh(body="payload", vertices=corners, faces=faces, scale=size)
+        opened(tab, view(scene), tmp_path, "#view=payload")
+        tab.picture(tmp_path / "picture.png")
+        with Image.open(tmp_path / "picture.png") as image:
+            red, green, blue = np.moveaxis(np.asarray(image.convert("RGB"), dtype=float), -1, 0)
+        shares.append(np.mean((red > 1.8 * green) & (red > 1.8 * blue)))
+        (tmp_path / "page.html").unlink()
+    assert shares[0] > 0.02 > 10.0 * shares[1]
+
+
+@pytest.mark.nightly
 def test_markup_in_names_is_text(tab: chromium.Tab, tmp_path: Path) -> None:
     opened(tab, view(pair()), tmp_path)
     assert tab.value("document.title") == "<i>two vessels</i>"

@@ -34,6 +34,7 @@ IMPORTS = {
     "import numpy": "import numpy",
     "import seacrane": "import seacrane",
     "from seacrane import Scene, cases, simulate": "from seacrane import Scene, cases, simulate",
+    "from seacrane import view": "from seacrane import view",
 }
 LIMIT_MEMORY, LIMIT_IMPORT = 150.0, 0.3  # MB, s
 

@@ -136,5 +136,7 @@ from seacrane.validity.range import NearSingularWarning as NearSingularWarning
 from seacrane.validity.range import OutsideDatabaseWarning as OutsideDatabaseWarning
 from seacrane.validity.range import PushingLinkWarning as PushingLinkWarning
 from seacrane.version import __version__ as __version__
+from seacrane.viewer.stills import still as still
+from seacrane.viewer.stills import video as video
 from seacrane.viewer.view import View as View
 from seacrane.viewer.view import view as view

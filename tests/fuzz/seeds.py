@@ -21,6 +21,7 @@ from orcaflex_writer import model
 from test_elements import every_load
 from test_hydro_capytaine import layout
 from test_hydro_mafredo import dhyd
+from test_meshes import glb, gltf_of_box
 from test_scene_file import every_kind
 from veres_writer import VeresRun
 
@@ -184,6 +185,12 @@ def hull_seeds() -> None:
     put("stl", "binary", b"box".ljust(80) + len(triangles).to_bytes(4, "little") + record.tobytes())
 
 
+def model_seeds(folder: Path) -> None:
+    box = gltf_of_box(translation=[0.0, 0.0, 1.0])
+    put("gltf", "box", json.dumps(box).encode())
+    put("gltf-bytes", "box", glb(folder / "box.glb", box).read_bytes())
+
+
 def scene_seeds(folder: Path) -> None:
     scene_file.save_scene(every_kind(), folder / "scene.json")
     data = json.loads((folder / "scene.json").read_bytes())
@@ -315,6 +322,7 @@ def main() -> None:
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         veres_seeds(folder)
+        model_seeds(folder)
         scene_seeds(folder)
         netcdf_seeds(folder, hull)
     wamit_seeds()

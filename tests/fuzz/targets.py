@@ -19,6 +19,7 @@ from fuzz.netcdf_spec import build
 from seacrane import Lift, Scene, sea
 from seacrane.crane import KnuckleBoomCrane
 from seacrane.errors import FileFormatError, SceneError, SimulationError
+from seacrane.files.gltf import read_gltf
 from seacrane.files.hdf5_structure import Structure
 from seacrane.files.netcdf_limits import LARGEST_DATABASE as LARGEST
 from seacrane.files.netcdf_limits import NETCDF_ERRORS
@@ -144,6 +145,10 @@ def _hull_of_stl(path: Path) -> Any:
     return Hull.from_stl(path).panels
 
 
+def _gltf(path: Path) -> Any:
+    return read_gltf(path, most=1000)
+
+
 def _scene(path: Path) -> Any:
     """A scene that loads has to compile, or to be refused by name."""
     scene = Scene.load(path)
@@ -193,7 +198,10 @@ def _state(path: Path) -> Any:
 
 
 def _result(path: Path) -> Any:
+    """A scene in it is read as well, or refused by name."""
     found = Result.load(path, largest=LARGEST)
+    if found.kept_scene is not None:
+        _ = found.scene
     return [] if found.interrupted else list(found.channels.values())
 
 
@@ -241,7 +249,9 @@ _ALL = [
     Target("orcaflex", "orcaflex", "ship.yml", orcaflex.read_orcaflex, _ORCAFLEX, mutate_json),
     Target("orcaflex-text", "orcaflex", "ship.yml", orcaflex.read_orcaflex, _ORCAFLEX),
     Target("offsets", "offsets", "hull.txt", _hull_of_offsets, ("hydro/hull/offsets.py",), refusals=_SHAPE),
-    Target("stl", "stl", "hull.stl", _hull_of_stl, ("hydro/hull/stl.py",), refusals=_SHAPE),
+    Target("stl", "stl", "hull.stl", _hull_of_stl, ("files/stl.py",), refusals=_SHAPE),
+    Target("gltf", "gltf", "box.gltf", _gltf, ("files/gltf.py",), mutate_json),
+    Target("gltf-bytes", "gltf", "box.glb", _gltf, ("files/gltf.py",), None),
     Target("scene", "scene", "scene.json", _scene, _SCENE, mutate_json),
     Target("lift", "lift", "lift.toml", _lift, _LIFT),
     Target("crane", "crane", "crane.toml", _crane, ("crane/data_file.py",)),

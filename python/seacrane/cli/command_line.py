@@ -41,6 +41,8 @@ def build_parser() -> argparse.ArgumentParser:
     _add_paper(commands)
     _add_report(commands)
     _add_show(commands)
+
+    _add_view(commands)
     _add_hydro(commands)
     _add_trade(commands)
     _add_schema(commands)
@@ -140,6 +142,17 @@ def _add_show(commands: Any) -> None:
     show.add_argument("--json", action="store_true", help="print JSON instead of a table")
     show.add_argument("--out", metavar="DIR", help="draw it into this folder; made if absent")
     show.add_argument("--overwrite", action="store_true", help="replace an earlier picture")
+
+def _add_view(commands: Any) -> None:
+    text = "write a result, or a scene at its start, as a page in three dimensions"
+    view = commands.add_parser("view", help=text, description=f"{text}: one HTML file that needs no network")
+    view.add_argument(
+        "source", metavar="RESULT.nc|SCENE", help=f"a result that `seacrane run` wrote; or {SCENE_HELP}"
+    )
+    view.add_argument(
+        "--out", metavar="PAGE.html", required=True, help="file to write; its folder must exist"
+    )
+    view.add_argument("--overwrite", action="store_true", help="replace a file of that name")
 
 
 def _add_hydro(commands: Any) -> None:

@@ -6,27 +6,20 @@ import argparse
 from pathlib import Path
 
 from seacrane.cli.output_folder import output_folder
-from seacrane.cli.scene_source import CASES, load_scene
 from seacrane.cli.json_text import to_json
-from seacrane.plotting.text import text_table
+from seacrane.cli.scene_source import is_result, load_scene
 from seacrane.errors import SceneError
-
-RESULT_BEGINS = (b"\x89HDF", b"CDF", b"seacrane partial result")  # NetCDF of both kinds, a run that goes on
+from seacrane.plotting.text import text_table
 
 
 def run(arguments: argparse.Namespace) -> int:
     """Tell a scene from a result by what the file holds, and report it."""
     source = str(arguments.source)
-    if source not in CASES and Path(source).is_file() and _is_result(Path(source)):
+    if is_result(source):
         return _write(arguments, Path(source))
     if arguments.out is not None or arguments.overwrite:
         raise SceneError(f"--out and --overwrite go with the file of a result, and {source} is none")
     return _print(arguments)
-
-
-def _is_result(path: Path) -> bool:
-    with path.open("rb") as file:
-        return file.read(max(map(len, RESULT_BEGINS))).startswith(RESULT_BEGINS)
 
 
 def _write(arguments: argparse.Namespace, path: Path) -> int:

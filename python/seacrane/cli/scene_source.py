@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from seacrane.scene.scene import Scene
 
 CASES = ("case1", "case2", "case3", "vessel")
+RESULT_BEGINS = (b"\x89HDF", b"CDF", b"seacrane partial result")  # NetCDF of both kinds, a run that goes on
 SEA_OPTIONS = ("hs", "tp", "wave_direction_deg", "spectrum", "gamma", "spreading", "seed")
 CASE_OPTIONS = ("memory", *SEA_OPTIONS, "database")
 
@@ -97,6 +98,14 @@ def _built_in(name: str, options: dict[str, Any]) -> Scene:
 
     scene: Scene = getattr(cases, name)(**options)
     return scene
+
+
+def is_result(source: str) -> bool:
+    """Whether the user named the file of a result, by what it holds."""
+    if source in CASES or not Path(source).is_file():
+        return False
+    with Path(source).open("rb") as file:
+        return file.read(max(map(len, RESULT_BEGINS))).startswith(RESULT_BEGINS)
 
 
 def run_script(path: Path) -> Scene:

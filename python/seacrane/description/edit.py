@@ -13,7 +13,7 @@ from seacrane.errors import SceneError
 from seacrane.inputs.checked import curve_of
 from seacrane.inputs.shown import shown
 
-EDITED = (*ELEMENTS, "recorded", "ranges", "limit_states")  # tables of what has a name of its own
+EDITED = (*ELEMENTS, "recorded", "ranges", "limit_states", "meshes")  # tables of what has a name of its own
 
 
 def replace_element(scene: Description, name: str, /, *, kind: str | None = None, **changes: Any) -> Any:
@@ -68,8 +68,8 @@ def remove_element(scene: Description, name: str, /, *, kind: str | None = None)
     ----------
     name : str
     kind : str, optional
-        As for `replace`, or "recorded coordinate", "range" or "limit state"; needed where elements of several kinds have
-        this name.
+        As for `replace`, or "recorded coordinate", "range", "limit state" or "mesh"; needed where elements of
+        several kinds have this name.
 
     Raises
     ------
@@ -108,6 +108,8 @@ def _users(scene: Description, key: str, name: str) -> Iterator[str]:
             names = [element.joint] if isinstance(element, Range) else named(element, role or "")
             if role and name in names and (table != "ranges" or role == "joint"):
                 yield f"{KINDS[table]} {other!r}"
+    if key == "bodies":
+        yield from (f"mesh {mesh.name!r}" for mesh in scene.meshes.values() if mesh.body == name)
     if key == "joints":
         yield from (f"recorded coordinate {r!r}" for r, (joint, _) in scene.recorded.items() if joint == name)
     body = {"bodies": name, "vessels": getattr(scene.vessels.get(name), "body", None)}.get(key)

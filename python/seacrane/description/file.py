@@ -26,12 +26,13 @@ from seacrane.description.file_elements import (
     load_to_data,
 )
 from seacrane.description.file_origin import provenance_from_node, roles_from_node, roles_to_data
-from seacrane.description.file_text import LARGEST_FILE, parsed
+from seacrane.description.file_text import LARGEST_FILE, parsed, read_scene_file
 from seacrane.description.file_waves import waves_from_node, waves_to_data
 from seacrane.description.forces import add_force_table, add_load, add_point_force, add_spring
 from seacrane.description.hydrodynamics import add_hydrodynamics
 from seacrane.description.joints import add_joint
 from seacrane.description.limit_states import limit_states_from_node, limit_states_to_data
+from seacrane.description.meshes import mesh_from_node, mesh_to_data
 from seacrane.description.old_files import provenance_from_notes, roles_by_name
 from seacrane.description.recorded import add_point, add_range, record_coordinate
 from seacrane.description.scene import Description
@@ -72,6 +73,7 @@ _ADDED_LATER: dict[str, Any] = {
     "limit_states": [],
     "roles": None,
     "provenance": None,
+    "meshes": [],
 }  # what older files of this version lack
 _SETTINGS = ("gravity", "baumgarte", "length_scale")
 Some = TypeVar("Some", bound=Description)
@@ -142,8 +144,12 @@ def load_scene(path: str | os.PathLike[str], scene: Some) -> Some:
     OSError
         If the file cannot be read.
     """
-    place = Path(path).name
-    root = Node(parsed(Path(path)), place)
+    return scene_from_bytes(read_scene_file(Path(path)), Path(path).name, scene)
+
+
+def scene_from_bytes(data: bytes, place: str, scene: Some) -> Some:
+    """What `load_scene` reads, from the bytes of a scene file; errors begin with the place."""
+    root = Node(parsed(data, place), place)
     if not isinstance(root.value, dict) or root.value.get("format") != FORMAT:
         raise FileFormatError(f'{place}: is not a scene file; it has no "format": "{FORMAT}" at its top')
     version = root.at("version").whole()
@@ -164,6 +170,7 @@ def load_scene(path: str | os.PathLike[str], scene: Some) -> Some:
         "limit_states",
         "roles",
         "provenance",
+        "meshes",
         "notes",
     )
     root.expect(fields)
@@ -171,9 +178,11 @@ def load_scene(path: str | os.PathLike[str], scene: Some) -> Some:
 
 
 def scene_digest(scene: Description) -> str:
-    """SHA-256 of what a scene describes: equal for scenes that move alike. Notes, limit states and provenance do not
-    count, and of C functions only their names."""
-    data = described(scene.copy(notes={}, provenance={}, limit_states={}))
+    """SHA-256 of what a scene describes: equal for scenes that move alike.
+
+    Notes, provenance, limit states and meshes do not count, and of C functions only their names.
+    """
+    data = described(scene.copy(notes={}, provenance={}, limit_states={}, meshes={}))
     data["function_forces"] = [[force.name, force.body] for force in scene.function_forces.values()]
     return hashlib.sha256(json.dumps(data).encode("ascii")).hexdigest()
 
@@ -203,6 +212,8 @@ def _scene(root: Node, scene: Some) -> Some:
     waves = root.at("waves")
     if waves.value is not None:
         scene.waves = waves_from_node(waves)
+    for node in root.at("meshes").items():
+        mesh_from_node(node, scene)
     scene.notes = notes_from_node(root.at("notes"))
     _origin(root, scene)
     return scene
@@ -242,10 +253,13 @@ def described(scene: Description) -> dict[str, Any]:
         for name, (joint, coordinate) in scene.recorded.items()
     ]
     out["ranges"] = [asdict(limit) for limit in scene.ranges.values()]
-    if scene.limit_states:  # as for points
-        out["limit_states"] = limit_states_to_data(scene)
     out["roles"] = [roles_to_data(roles) for roles in scene.roles.values()]
     out["provenance"] = [{"name": name, **asdict(known)} for name, known in scene.provenance.items()]
+    later = {
+        "limit_states": limit_states_to_data(scene),
+        "meshes": [mesh_to_data(mesh) for mesh in scene.meshes.values()],
+    }
+    out |= {key: value for key, value in later.items() if value}  # as for points
     out["notes"] = plain_data(f"scene {scene.name!r}: notes", scene.notes)
     return out
 

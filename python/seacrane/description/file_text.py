@@ -16,26 +16,33 @@ from seacrane.inputs.shown import shown
 LARGEST_FILE = 32 * 2**20  # bytes; JSON takes up to 40 times its size in memory when it is parsed
 
 
-def parsed(path: Path) -> Any:
-    """The document of a scene file; raises FileFormatError with the line."""
+def read_scene_file(path: Path) -> bytes:
+    """Its bytes; FileFormatError where it is too large, or plainly something else."""
     data = read_whole(path, LARGEST_FILE, "no scene file is")
     if not re.match(rb"\s*\{", data):
         raise FileFormatError(
             f"{path.name}: is {looks_like(path, data)}, no scene file, which is JSON as Scene.save writes it"
         )
+    return data
+
+
+def parsed(data: bytes, place: str) -> Any:
+    """The document in the bytes of a scene file; raises FileFormatError with the line."""
+    if len(data) > LARGEST_FILE:
+        raise FileFormatError(f"{place}: has {len(data)} bytes, above {LARGEST_FILE}; no scene has")
     try:
         return json.loads(data.decode("utf-8"), object_pairs_hook=_unique, parse_constant=_no_constant)
     except json.JSONDecodeError as error:
         raise FileFormatError(
-            f"{path.name} line {error.lineno}, column {error.colno}: {error.msg}; truncated or malformed JSON"
+            f"{place} line {error.lineno}, column {error.colno}: {error.msg}; truncated or malformed JSON"
         ) from error
     except UnicodeDecodeError as error:
         line = data.count(b"\n", 0, error.start) + 1
-        raise FileFormatError(f"{path.name} line {line}: byte {error.start} is not UTF-8 text") from error
+        raise FileFormatError(f"{place} line {line}: byte {error.start} is not UTF-8 text") from error
     except RecursionError as error:
-        raise FileFormatError(f"{path.name}: is nested too deeply to be a scene file") from error
+        raise FileFormatError(f"{place}: is nested too deeply to be a scene file") from error
     except ValueError as error:
-        raise FileFormatError(f"{path.name}: {error}") from error
+        raise FileFormatError(f"{place}: {error}") from error
 
 
 def _unique(pairs: list[tuple[str, Any]]) -> dict[str, Any]:

@@ -39,6 +39,7 @@ KINDS: Mapping[str, str] = {  # what the elements of each table are called
     "roles": "crane",
     "provenance": "provenance",
     "limit_states": "limit state",
+    "meshes": "mesh",
 }
 ELEMENTS = tuple(KINDS)[:11]  # tables of what is compiled
 LOADS = tuple(KINDS)[3:9]  # of these, loads
@@ -76,6 +77,8 @@ class Description:
         By the prefix of each crane's names.
     provenance : dict of str to VesselProvenance
         Where the hydrodynamics of each vessel come from; that of the sea is `waves.provenance`.
+    meshes : dict of str to Mesh
+        That bodies are drawn by; nothing that moves reads them.
     notes : dict
         The user's, plain data; files and results keep them, nothing reads them.
     """
@@ -102,6 +105,7 @@ class Description:
     limit_states: dict[str, LimitState] = field(default_factory=dict)
     roles: dict[str, CraneRoles] = field(default_factory=dict)
     provenance: dict[str, VesselProvenance] = field(default_factory=dict)
+    meshes: dict[str, Any] = field(default_factory=dict)
     notes: dict[str, Any] = field(default_factory=dict)
 
     def __post_init__(self) -> None:

@@ -1,5 +1,6 @@
 """Hydrodynamics of the vessel: databases, their readers and self-check, fluid memory."""
 
+from seacrane.files.stl import read_stl as read_stl
 from seacrane.hydro.data.data_warnings import DampingWarning as DampingWarning
 from seacrane.hydro.data.data_warnings import HeadingGapWarning as HeadingGapWarning
 from seacrane.hydro.data.data_warnings import WaterMismatchWarning as WaterMismatchWarning
@@ -26,7 +27,6 @@ from seacrane.hydro.hull.hydrostatics import Hydrostatics as Hydrostatics
 from seacrane.hydro.hull.offsets import OffsetTable as OffsetTable
 from seacrane.hydro.hull.offsets import read_offset_table as read_offset_table
 from seacrane.hydro.hull.parametric_hull import ParametricHull as ParametricHull
-from seacrane.hydro.hull.stl import read_stl as read_stl
 from seacrane.hydro.memory.audit import MemoryMismatchWarning as MemoryMismatchWarning
 from seacrane.hydro.memory.certificate import PassivityCertificate as PassivityCertificate
 from seacrane.hydro.memory.certificate import PassivityError as PassivityError

@@ -30,6 +30,7 @@ _MADE: Mapping[str, Callable[..., Any]] = {
     "coefficients": FlowCoefficients,
     "first_frame": _core.Frame,
     "second_frame": _core.Frame,
+    "frame": _core.Frame,
     "tip": lambda body, point: (body, point),
 }
 

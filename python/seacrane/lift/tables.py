@@ -10,7 +10,7 @@ from typing import Any, get_overloads
 from seacrane import _core
 from seacrane.crane.add_crane import add_crane
 from seacrane.crane.payload import Payload
-from seacrane.description import bodies, crane_parts, drives, forces, joints, limit_states, recorded
+from seacrane.description import bodies, crane_parts, drives, forces, joints, limit_states, meshes, recorded
 from seacrane.description.curves import spline_curve
 from seacrane.description.scene import Description
 from seacrane.hydro import load_database
@@ -271,6 +271,17 @@ _ALL = (
                 )},
                 "capacity": {"type": "array", "unit": "m, kg", "shapes": ((-1, 2),)},
             },
+        ),
+    ),
+    Table(
+        name="mesh", text=_summary(meshes.add_mesh), add=meshes.add_mesh,
+        keys=tuple(
+            replace(key, required=key.required or key.name == "file")
+            for key in keys_of(
+                meshes.add_mesh,
+                more={"file": {"type": "file"}, "frame": {"type": "table", "keys": fields_of(_core.Frame)}},
+                without=("vertices", "faces"),
+            )
         ),
     ),
     Table(

@@ -1,4 +1,4 @@
-"""The run as a page in three dimensions, while the result still holds its scene."""
+"""The run as a page in three dimensions, where the result holds its scene."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from seacrane.viewer.view import view
 
 
 def _applies(result: Result) -> bool:
-    return result.scene is not None and all(name in result.channels for name in POSES)
+    return result.kept_scene is not None and all(name in result.channels for name in POSES)
 
 
 def _html(result: Result) -> str:

@@ -10,13 +10,16 @@ from typing import Any
 
 import numpy as np
 
+from seacrane.description.file_text import LARGEST_FILE
 from seacrane.errors import FileFormatError
 from seacrane.files.netcdf_limits import open_netcdf
 from seacrane.files.state import state_from_bytes
 from seacrane.result.channels import NAMED, attributes
 from seacrane.result.events import NUMBERS, PREFIX, Event, event_arrays, events_from_arrays
+from seacrane.result.kept_scene import KeptScene
 
 STATE, STATE_DIMENSION = "state", "state_byte"
+SCENE, SCENE_DIMENSION = "scene_json", "scene_byte"
 LARGEST_CHUNKS = 2**21  # bytes of one chunk of all channels
 MOST_ROWS, LEAST_ROWS = 4096, 16
 
@@ -33,6 +36,8 @@ class Contents:
         Of each channel.
     state : bytes
         As a state file; empty where there is none.
+    scene : bytes
+        As a scene file; empty where there is none.
     """
 
     outputs: int
@@ -42,6 +47,7 @@ class Contents:
     events: Sequence[Event]
     interrupted: bool
     state: bytes
+    scene: bytes
 
     def shape(self, dims: Sequence[str]) -> tuple[int, ...]:
         """Of one output of a channel."""
@@ -81,6 +87,11 @@ def write_netcdf(path: Path, contents: Contents, blocks: Iterable[Mapping[str, A
         if contents.state:
             file.createDimension(STATE_DIMENSION, len(contents.state))
             file.createVariable(STATE, "u1", (STATE_DIMENSION,))[:] = np.frombuffer(contents.state, "u1")
+        if contents.scene:
+            file.createDimension(SCENE_DIMENSION, len(contents.scene))
+            scene = file.createVariable(SCENE, "u1", (SCENE_DIMENSION,), compression="zlib")
+            scene.setncatts({"long_name": "what was run, as the text of a scene file"})
+            scene[:] = np.frombuffer(contents.scene, "u1")
 
 
 def _add_variable(file: Any, name: str, dims: tuple[str, ...], contents: Contents) -> None:
@@ -115,7 +126,7 @@ def read_arrays(path: Path, largest: int, channels: Sequence[str] | None = None)
             "arrays": {
                 name: variable[:]
                 for name, variable in file.variables.items()
-                if name not in ("time", STATE)
+                if name not in ("time", STATE, SCENE)
                 and name not in file.dimensions
                 and "event" not in variable.dimensions
                 and (channels is None or name in channels)
@@ -133,6 +144,7 @@ def read_arrays(path: Path, largest: int, channels: Sequence[str] | None = None)
             "stats": stats,
             "interrupted": interrupted,
             "state": _state(path, file),
+            "scene": _scene(path, file),
         }
 
 
@@ -140,3 +152,18 @@ def _state(path: Path, file: Any) -> Any:
     if STATE not in file.variables:
         return None
     return state_from_bytes(file[STATE][:].tobytes(), path)
+
+
+def _scene(path: Path, file: Any) -> KeptScene | None:
+    """The text, unread."""
+    if SCENE not in file.variables:
+        return None
+    variable = file[SCENE]
+    if variable.dtype != np.uint8:
+        raise FileFormatError(
+            f"{path}: its {SCENE} is of {variable.dtype}, not bytes; no run wrote this file"
+        )
+    if variable.size > LARGEST_FILE:
+        raise FileFormatError(f"{path}: its {SCENE} has {variable.size} bytes, above {LARGEST_FILE}")
+    data = variable[:]
+    return KeptScene.from_text(data.tobytes(), f"{path.name}: its scene")

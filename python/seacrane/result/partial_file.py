@@ -1,9 +1,10 @@
 """The file of a run in progress: pieces of its outputs, each with the state where it ends.
 
 A file is the line "seacrane partial result" and records. A record is its length (8 bytes), a body, and the
-SHA-256 of both. A body is a line of JSON, the arrays that it lists as little-endian doubles, and the state
-as in a state file. Records are added at the end and never changed: whenever the writer is killed, what comes
-before the last one is whole, and a record that was broken off is known by its length or its checksum.
+SHA-256 of both. A body is a line of JSON, the arrays that it lists as little-endian doubles, the state as
+in a state file, and in the first record the scene as in a scene file. Records are added at the end and never
+changed: whenever the writer is killed, what comes before the last one is whole, and a record that was broken
+off is known by its length or its checksum.
 """
 
 from __future__ import annotations
@@ -26,6 +27,7 @@ from seacrane.files import sole_writer
 from seacrane.files.state import state_from_bytes
 from seacrane.result.channels import CHANNELS, NAMED
 from seacrane.result.events import Event
+from seacrane.result.kept_scene import KeptScene
 
 Array = NDArray[np.float64]
 MAGIC = b"seacrane partial result\n"
@@ -51,6 +53,8 @@ class Piece:
         False for the last piece of a run that reached its end.
     state : bytes
         Where the piece ends, as a state file; empty where there is none.
+    scene : bytes
+        What is run, as a scene file, in the first piece of a file; empty in the others.
     """
 
     arrays: Mapping[str, Array]
@@ -59,6 +63,7 @@ class Piece:
     events: Sequence[Event] = ()
     interrupted: bool = True
     state: bytes = field(default=b"", repr=False)
+    scene: bytes = field(default=b"", repr=False)
 
     @property
     def outputs(self) -> int:
@@ -80,9 +85,10 @@ class Piece:
             "events": [vars(event) for event in self.events],
             "interrupted": self.interrupted,
             "state": len(self.state),
+            "scene": len(self.scene),
         }
         numbers = (np.ascontiguousarray(array, dtype="<f8").tobytes() for array in self.arrays.values())
-        return b"".join([json.dumps(header).encode("ascii"), b"\n", *numbers, self.state])
+        return b"".join([json.dumps(header).encode("ascii"), b"\n", *numbers, self.state, self.scene])
 
     @classmethod
     def from_bytes(cls, body: bytes) -> Piece:
@@ -96,15 +102,19 @@ class Piece:
                 raise ValueError(f"array {name!r} of shape {shape} does not fit")
             arrays[name] = np.frombuffer(body, "<f8", count, end).reshape(shape).astype(np.float64)
             end += 8 * count
-        if end + header["state"] != len(body) or len({len(array) for array in arrays.values()}) != 1:
-            raise ValueError("arrays and state do not fill the record")
+        last, scene = end + header["state"], header.get("scene", 0)
+        if last + scene != len(body) or min(last - end, scene) < 0:
+            raise ValueError("arrays, state and scene do not fill the record")
+        if len({len(array) for array in arrays.values()}) != 1:
+            raise ValueError("arrays differ in their outputs")
         return cls(
             arrays=arrays,
             coords=header["coords"],
             stats=header["stats"],
             events=[Event(**event) for event in header["events"]],
             interrupted=bool(header["interrupted"]),
-            state=body[end:],
+            state=body[end:last],
+            scene=body[last:],
         )
 
 
@@ -157,7 +167,7 @@ def read_partial(path: Path, largest: int, channels: Sequence[str] | None = None
     """What is in the file of a run in progress, as `netcdf.read_arrays` gives it."""
     parts: dict[str, list[Array]] = {}
     events: list[Event] = []
-    last, state, total = None, b"", 0
+    last, state, scene, total = None, b"", b"", 0
     with path.open("rb") as file:
         for piece, _ in pieces_of(file, path):
             for name, array in piece.arrays.items():
@@ -170,7 +180,7 @@ def read_partial(path: Path, largest: int, channels: Sequence[str] | None = None
                     "Result.load(path, largest=...) if the file is yours"
                 )
             events += piece.events
-            last, state = piece, piece.state or state
+            last, state, scene = piece, piece.state or state, piece.scene or scene
     if last is None:
         raise FileFormatError(f"{path}: holds no outputs yet")
     arrays = {name: np.concatenate(several) for name, several in parts.items()}
@@ -182,6 +192,7 @@ def read_partial(path: Path, largest: int, channels: Sequence[str] | None = None
         "stats": last.stats,
         "interrupted": last.interrupted,
         "state": state_from_bytes(state, path) if state else None,
+        "scene": KeptScene.from_text(scene, f"{path.name}: its scene") if scene else None,
     }
 
 

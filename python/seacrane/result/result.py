@@ -22,6 +22,7 @@ from seacrane.files.state import state_to_bytes
 from seacrane.result.channels import CHANNELS, FIXED, attributes
 from seacrane.result.events import TEXTS as EVENT_TEXTS
 from seacrane.result.events import Event, checked_events, event_arrays
+from seacrane.result.kept_scene import NOT_KEPT, KeptScene
 from seacrane.result.netcdf import Contents, read_arrays, write_netcdf
 from seacrane.result.partial_file import is_partial, partial_path, read_partial
 from seacrane.result.stages import StageSpan, spans_of
@@ -32,7 +33,7 @@ if TYPE_CHECKING:
     import xarray
 
     from seacrane._core import State
-    from seacrane.description.scene import Description
+    from seacrane.scene.scene import Scene
 
 Array = NDArray[np.float64]
 Stat = str | int | float
@@ -143,8 +144,8 @@ class Result(Mapping[str, Array]):
         What wires, end stops, seats and stages did, in order of time.
     state : State or None
         Where the run stopped, to continue from by ``simulate(start=...)``.
-    scene : Scene or None
-        What was run, for pictures of it; neither files nor copies of a result hold it.
+    kept_scene : KeptScene or None
+        What `scene` is read from.
     """
 
     time: Array
@@ -154,7 +155,7 @@ class Result(Mapping[str, Array]):
     interrupted: bool = False
     events: tuple[Event, ...] = ()
     state: State | None = None
-    scene: Description | None = None
+    kept_scene: KeptScene | None = None
     dims: Mapping[str, tuple[str, ...]] = field(init=False)
 
     def __post_init__(self) -> None:
@@ -186,6 +187,15 @@ class Result(Mapping[str, Array]):
         )
         return _rebuild, parts
 
+    @property
+    def scene(self) -> Scene | None:
+        """What was run, without notes; None in copies, and where a file holds none (those of version 0.1).
+
+        Files hold it as the text of a scene file, which is read when it is first asked for: FileFormatError
+        where it is damaged. C functions are not in it: `stats["scene_not_kept"]` names what is left out.
+        """
+        return None if self.kept_scene is None else self.kept_scene.scene
+
     @classmethod
     def from_arrays(
         cls,
@@ -197,7 +207,7 @@ class Result(Mapping[str, Array]):
         stats: Mapping[str, Any],
         interrupted: bool = False,
         state: State | None = None,
-        scene: Description | None = None,
+        scene: Scene | KeptScene | None = None,
     ) -> Result:
         """Check and wrap the arrays that the run loop filled.
 
@@ -221,7 +231,7 @@ class Result(Mapping[str, Array]):
             that are not finite.
         state : State, optional
             Where the run stopped.
-        scene : Scene, optional
+        scene : Scene or KeptScene, optional
             What was run.
 
         Raises
@@ -249,7 +259,7 @@ class Result(Mapping[str, Array]):
             interrupted=bool(interrupted),
             events=checked_events(events),
             state=state,
-            scene=scene,
+            kept_scene=scene if scene is None or isinstance(scene, KeptScene) else KeptScene.of(scene),
         )
 
     def __getitem__(self, name: str) -> Array:
@@ -385,9 +395,11 @@ class Result(Mapping[str, Array]):
         return path
 
     def _contents(self) -> Contents:
+        scene, lacks = (b"", "") if self.kept_scene is None else self.kept_scene.written()
         return Contents(
-            outputs=self.time.size, dims=self.dims, coords=self.coords, stats=self.stats, events=self.events,
-            interrupted=self.interrupted, state=b"" if self.state is None else state_to_bytes(self.state),
+            outputs=self.time.size, dims=self.dims, coords=self.coords, events=self.events,
+            stats={**self.stats, **({NOT_KEPT: lacks} if lacks else {})}, interrupted=self.interrupted,
+            state=b"" if self.state is None else state_to_bytes(self.state), scene=scene,
         )  # fmt: skip
 
     @classmethod

@@ -76,6 +76,7 @@ class ResultFile:
     def __init__(self, path: Path) -> None:
         self.path = path
         self.outputs = 0
+        self.scene = b""  # what is run, as a scene file
         self.stats: dict[str, Any] = {}
         self._partial = PartialFile(partial_path(path))
         self._source: Path | None = None
@@ -84,6 +85,7 @@ class ResultFile:
         self._last_time = -np.inf
         self._last_angles: dict[str, Array] = {}
         self._events = self._events_of_run = 0
+        self._begun = False
         self._before: Mapping[str, Any] = {}
 
     def claim(self) -> None:
@@ -196,6 +198,7 @@ class ResultFile:
             self._source = left.source
         self._coords, self._before = left.piece.coords, left.piece.stats
         self.outputs, self._events = left.outputs, left.events
+        self._begun = True
 
     def _copy_result(self, left: Left) -> None:
         """A state is with the last piece alone: until it is there, the result is where to continue."""
@@ -210,6 +213,7 @@ class ResultFile:
                     arrays={name: file[name][at : min(at + rows, left.outputs)] for name in names},
                     events=left.piece.events if last else (),
                     state=left.piece.state if last else b"",
+                    scene=self.scene if at == 0 else b"",
                 )
                 self._partial.append(piece)
                 self._count(piece)
@@ -252,8 +256,9 @@ class ResultFile:
                 arrays[name] = _continued(array, self._last_angles[name])
         new_events = events[self._events_of_run :]
         stats = self._stats(stats, self._events + len(new_events))
+        scene = b"" if self._begun else self.scene
         piece = Piece(arrays=arrays, coords=self._coords, stats=stats, events=new_events,
-                      interrupted=interrupted, state=state)  # fmt: skip
+                      interrupted=interrupted, state=state, scene=scene)  # fmt: skip
         try:
             self._partial.append(piece)
         except OSError as error:
@@ -265,6 +270,7 @@ class ResultFile:
             why = f"{error.strerror or error}{space_left(self.path.parent)}"
             raise OSError(f"could not write {self.path}: {why}; {kept}") from error
         self._count(piece)
+        self._begun = True
         self._events_of_run = len(events)
 
     def _count(self, piece: Piece) -> None:
@@ -313,7 +319,8 @@ class ResultFile:
             last, state = piece, piece.state or state
         assert last is not None
         contents = Contents(outputs=outputs, dims=last.dims, coords=last.coords, stats=last.stats,
-                            events=events, interrupted=last.interrupted, state=state)  # fmt: skip
+                            events=events, interrupted=last.interrupted, state=state,
+                            scene=self.scene)  # fmt: skip
         write_netcdf(draft, contents, _blocks((piece for piece, _ in self._partial.pieces()), contents.rows))
 
     def _stats(self, stats: Mapping[str, Any], events: int) -> dict[str, Any]:

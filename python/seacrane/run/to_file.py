@@ -16,6 +16,7 @@ from seacrane.description.file import scene_digest
 from seacrane.errors import FileFormatError, SceneError
 from seacrane.files.state import state_from_bytes, state_to_bytes
 from seacrane.inputs.checked import number_of
+from seacrane.result.kept_scene import NOT_KEPT, KeptScene
 from seacrane.result.result import Result, checked_stats
 from seacrane.result.stream import DIGEST, Left, ResultFile, difference, rows_of_piece
 from seacrane.run.advance import drive
@@ -201,6 +202,7 @@ class _Writer:
         self.found: list[Finding] = []
         self._run, self._file, self._every = run, file, every
         self._digest = digest
+        file.scene, self._lacks = KeptScene.of(run.scene).written()
         arrays = run.wanted(run.core.channels(0))
         self._widths = {name: int(np.prod(values.shape[1:])) for name, values in arrays.items()}
         self._rows = rows_of_piece(sum(self._widths.values()))
@@ -259,4 +261,5 @@ class _Writer:
     def _stats(self) -> dict[str, Any]:
         """As `Run.stats`, with the scene, and with what has been out of range."""
         validity = {"validity": as_text(self.found)} if self.found else {}
-        return {**self._run.stats(), DIGEST: self._digest, **validity}
+        lacks = {NOT_KEPT: self._lacks} if self._lacks else {}
+        return {**self._run.stats(), DIGEST: self._digest, **lacks, **validity}

@@ -18,6 +18,7 @@ from seacrane.description import (
     forces,
     joints,
     limit_states,
+    meshes,
     recorded,
 )
 from seacrane.description.scene import Description
@@ -57,9 +58,9 @@ class Scene(Description):
     points
         Elements by name, immutable; `loads` are wind, current, lines, limits and friction.
     waves : Waves or None
-    recorded, ranges, limit_states, roles, provenance, notes
+    recorded, ranges, limit_states, roles, provenance, meshes, notes
         As of `Description`: what is recorded, where coordinates are meant to stay, what channels may reach,
-        the parts of cranes, where vessels come from, and the user's own notes.
+        the parts of cranes, where vessels come from, what bodies are drawn by, and the user's own notes.
     """
 
     add_body = bodies.add_body
@@ -96,6 +97,7 @@ class Scene(Description):
 
     add_crane = add_crane
     add_roles = crane_parts.add_roles
+    add_mesh = meshes.add_mesh
 
     compile = compilation.compile_scene
     replace = edit.replace_element

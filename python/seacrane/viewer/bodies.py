@@ -19,7 +19,7 @@ from seacrane.hydro.hull.shipped_hull import VOLUME, shipped_hull
 from seacrane.inputs.shown import shown
 from seacrane.viewer.crane_shapes import crane_shapes
 from seacrane.viewer.hull_shapes import box_hull, hull_shape, schematic_hull
-from seacrane.viewer.shapes import BoxShape, Shape, distinct, equivalent_box, framework
+from seacrane.viewer.shapes import BoxShape, HullShape, MeshShape, Shape, distinct, equivalent_box, framework
 
 Array = NDArray[np.float64]
 
@@ -69,8 +69,12 @@ def looks(
     members, hanging = crane_shapes(scene, crane), set(crane_parts.payloads(scene).values())
     found: dict[str, Look] = {}
     extent = _extent(scene)
+    meshed = {mesh.body for mesh in scene.meshes.values()}
     for name in scene.bodies:
-        if name in floating:
+        if name in meshed and name not in given:
+            role = "payload" if name in hanging else "crane" if name in members else "body"
+            found[name] = _by_meshes(scene, name, "vessel" if name in floating else role)
+        elif name in floating:
             found[name] = _vessel(scene, name, given.get(name))
         elif name in members:
             found[name] = Look(role="crane", shapes=members[name])
@@ -115,6 +119,21 @@ def _vessel(scene: Description, name: str, hull: Hull | None) -> Look:
         return Look(role="vessel", shapes=[box_hull(*(size or UNKNOWN), deck, centre)], note=note)
     shape = schematic_hull(body.mass, np.asarray(body.inertia), deck, centre)
     return Look(role="vessel", shapes=[shape], note="schematic hull, from mass and inertia")
+
+
+def _by_meshes(scene: Description, name: str, role: str) -> Look:
+    """The user's own triangles; of a vessel with the still waterline."""
+    centre = np.asarray(scene.bodies[name].center_of_mass, dtype=float)
+    shapes: list[Shape] = []
+    for mesh in scene.meshes.values():
+        if mesh.body == name:
+            points = mesh.vertices - centre
+            shapes.append(
+                HullShape(vertices=points, faces=mesh.faces, waterline=-float(centre[2]))
+                if role == "vessel"
+                else MeshShape(vertices=points, faces=mesh.faces)
+            )
+    return Look(role=role, shapes=shapes)
 
 
 def _is_shipped(scene: Description, name: str) -> bool:

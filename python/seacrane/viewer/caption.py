@@ -11,6 +11,7 @@ import numpy as np
 from seacrane.description.file import scene_digest
 from seacrane.description.scene import Description
 from seacrane.result import Result
+from seacrane.result.kept_scene import NOT_KEPT
 from seacrane.viewer.bodies import Look
 from seacrane.viewer.motion import Motion
 from seacrane.viewer.sea import sea_words
@@ -23,12 +24,21 @@ def caption(
     scene: Description, result: Result | None, motion: Motion, looks: Mapping[str, Look]
 ) -> list[tuple[str, str]]:
     """Rows of what and its words; rows without words are left out."""
-    rows = [("scene hash", scene_digest(scene)[:12]), ("sea", sea_words(scene))]
+    rows = [
+        ("scene hash", scene_digest(scene)[:12]),
+        ("left out", _left_out(result)),
+        ("sea", sea_words(scene)),
+    ]
     seed = None if scene.waves is None else scene.waves.provenance.seed
     rows += [("seed", str(seed))] if seed is not None else []
     rows += _run_rows(result, motion) if result is not None else [("run", "none: the scene at its start")]
     rows += [("axes", AXES), ("drawn", _drawn(looks))]
     return [(what, words) for what, words in rows if words]
+
+
+def _left_out(result: Result | None) -> str:
+    """What of the scene its file does not hold."""
+    return "" if result is None or result.scene is None else str(result.stats.get(NOT_KEPT, ""))
 
 
 def _run_rows(result: Result, motion: Motion) -> list[tuple[str, str]]:

@@ -68,7 +68,21 @@ class HullShape:
         return self.vertices
 
 
-Shape = TubeShape | BoxShape | HullShape
+@dataclass(frozen=True, kw_only=True, eq=False)
+class MeshShape:
+    """Triangles `faces` (m, 3) of `vertices` (n, 3), m, of one colour."""
+
+    vertices: Array
+    faces: NDArray[np.int64]
+    colour: str = ""
+
+    @property
+    def points(self) -> Array:
+        """(n, 3)."""
+        return self.vertices
+
+
+Shape = TubeShape | BoxShape | HullShape | MeshShape
 
 
 def plain(values: Any) -> list[float]:

@@ -9,33 +9,27 @@ from html import escape
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-from numpy.typing import NDArray
-
 from seacrane.crane import KnuckleBoomCrane
-from seacrane.description import crane_parts
-from seacrane.description.joint_coordinates import start_pose
-from seacrane.description.scene import Description
 from seacrane.errors import SceneError
 from seacrane.files.atomic import atomic_write
 from seacrane.hydro import Hull
 from seacrane.inputs.checked import flag_of, number_of
-from seacrane.inputs.frames import quaternion_of
 from seacrane.inputs.shown import shown
 from seacrane.result import Result
 from seacrane.scene.scene import Scene
 from seacrane.viewer.arrows import arrows_of
-from seacrane.viewer.bodies import Look, looks
+from seacrane.viewer.bodies import Look
 from seacrane.viewer.caption import caption
-from seacrane.viewer.motion import STEPS, Motion, motion_of
+from seacrane.viewer.drawing import Drawing, drawing_of
+from seacrane.viewer.gltf import gltf_of
+from seacrane.viewer.motion import STEPS, Motion
 from seacrane.viewer.packing import Blob
 from seacrane.viewer.page import page
+from seacrane.viewer.palette import HULL, SLACK, TRACKS, WIRES, body_colour
 from seacrane.viewer.sea import sea_components, without_sea
-from seacrane.viewer.shapes import HullShape
+from seacrane.viewer.shapes import HullShape, MeshShape
 from seacrane.viewer.strip import Choice, strip_of
-from seacrane.viewer.wires import end_of, wires_of
 
-Array = NDArray[np.float64]
 SCENE_ALONE = 60.0  # s that the sea of a scene without a run is shown
 LOWEST, HIGHEST = 200, 4000  # pixels
 
@@ -54,6 +48,8 @@ class View:
         The whole page.
     motion : Motion
         The poses that it shows.
+    drawing : Drawing
+        What it draws.
     height : int
         Of the frame in a notebook, pixels.
     """
@@ -61,6 +57,7 @@ class View:
     title: str
     html: str
     motion: Motion = field(compare=False)
+    drawing: Drawing = field(compare=False)
     height: int = 640
 
     def __repr__(self) -> str:
@@ -95,12 +92,48 @@ class View:
         OSError
             If it cannot be written.
         """
-        path = Path(path)
-        if path.exists() and not flag_of("overwrite", overwrite):
-            raise FileExistsError(f"{path} exists; give another name, or overwrite=True")
-        with atomic_write(path) as draft:
-            draft.write_text(self.html, encoding="utf-8")
-        return path
+        return _written(path, self.html.encode("utf-8"), overwrite)
+
+    def save_gltf(self, path: str | os.PathLike[str], *, overwrite: bool = False) -> Path:
+        """Write bodies and wires as an animated glTF model, which modellers and viewers open.
+
+        A node for each body, by its name, at its centre of mass; its animation is exact to what the page
+        shows. The root node turns z up into glTF's y up. Slack wires are straight; the sea is left out.
+
+        Parameters
+        ----------
+        path : path
+            Target, such as "lift.glb"; its folder must exist.
+        overwrite : bool
+            Whether a file of that name may be replaced.
+
+        Returns
+        -------
+        Path
+            The file written.
+
+        Raises
+        ------
+        SceneError
+            For another ending than .glb, and for a run too long for one file.
+        FileExistsError
+            If there is a file of that name, unless `overwrite`.
+        OSError
+            If it cannot be written.
+        """
+        if Path(path).suffix.lower() != ".glb":
+            raise SceneError(f"view: save_gltf writes .glb; path ends in {shown(Path(path).name)}")
+        return _written(path, gltf_of(self.drawing), overwrite)
+
+
+def _written(path: str | os.PathLike[str], data: bytes, overwrite: bool) -> Path:
+    """Complete under its name, or not at all."""
+    path = Path(path)
+    if path.exists() and not flag_of("overwrite", overwrite):
+        raise FileExistsError(f"{path} exists; give another name, or overwrite=True")
+    with atomic_write(path) as draft:
+        draft.write_bytes(data)
+    return path
 
 
 def view(
@@ -122,7 +155,7 @@ def view(
     what : Result or Scene
         Of a scene, bodies stand at their assembled start, in a moving sea.
     scene : Scene, optional
-        That the result belongs to; needed for a result that was read from a file.
+        That the result belongs to; needed for a result that holds none: a copy, a file of version 0.1.
     channels : sequence, optional
         What is drawn over time: names of channels, or tuples of a channel and names along its dimensions,
         such as ``["link_tension", ("vessel_motion", "roll"), ("position", "payload", "z")]``. Default: link
@@ -151,70 +184,22 @@ def view(
     if not LOWEST <= size <= HIGHEST:
         raise SceneError(f"view: height is {height}; give pixels from {LOWEST} to {HIGHEST}")
     result = what if isinstance(what, Result) else None
-    shown_scene = _scene_of(what, scene)
-    motion = _at_start(shown_scene) if result is None else motion_of(result)
-    _require_same_bodies(shown_scene, motion)
-    appearance = looks(shown_scene, hulls=hulls, crane=crane)
+    drawing = drawing_of(what, scene=scene, hulls=hulls, crane=crane)
+    motion, shown_scene = drawing.motion, drawing.scene
     blob = Blob()
     data = {
         "motion": _motion_data(motion, blob),
         "least": SCENE_ALONE if result is None and shown_scene.waves is not None else 0.0,
-        "bodies": [_body_data(name, appearance[name], blob) for name in motion.bodies],
+        "bodies": [_body_data(name, i, drawing.looks[name], blob) for i, name in enumerate(motion.bodies)],
         "sea": None if without_sea(shown_scene) else blob.floats(sea_components(shown_scene)),
-        "wires": wires_of(shown_scene, motion.bodies),
-        "tracks": _tracks(shown_scene, motion.bodies),
+        "wires": [wire | {"colours": [WIRES[wire["kind"]], SLACK]} for wire in drawing.wires],
+        "tracks": [track | {"colour": TRACKS[track["kind"]]} for track in drawing.tracks],
         "arrows": arrows_of(shown_scene, result, motion, motion.bodies, blob),
         "strip": strip_of(result, channels, motion, blob),
     }
-    title = shown_scene.name
-    rows = caption(shown_scene, result, motion, appearance)
-    html = page(title=title, caption=rows, data=data, blob=blob.text())
-    return View(title=title, html=html, motion=motion, height=size)
-
-
-def _scene_of(what: Any, scene: Any) -> Description:
-    """The scene that is shown."""
-    if isinstance(what, Description):
-        if scene is not None:
-            raise SceneError("view: scene= is given beside a scene; give a result, or leave it out")
-        return what
-    if not isinstance(what, Result):
-        raise SceneError(f"view: {shown(what)} is neither a Result nor a Scene")
-    found = what.scene if scene is None else scene
-    if found is None:
-        raise SceneError(
-            f"view: result of {what.stats['scene']!r} comes from a file, which holds no bodies or joints; "
-            "give its scene with view(result, scene=scene)"
-        )
-    if not isinstance(found, Description):
-        raise SceneError(f"view: scene is {shown(found)}; give a Scene")
-    return found
-
-
-def _require_same_bodies(scene: Description, motion: Motion) -> None:
-    if not scene.bodies:
-        raise SceneError(f"view: scene {scene.name!r} has no bodies; add some first")
-    if set(scene.bodies) != set(motion.bodies):
-        apart = sorted(set(scene.bodies) ^ set(motion.bodies))
-        raise SceneError(
-            f"view: scene {scene.name!r} is not the one of the result: {', '.join(map(repr, apart[:5]))} "
-            f"{'is' if len(apart) == 1 else 'are'} only in one of them; give the scene that was run"
-        )
-
-
-def _at_start(scene: Description) -> Motion:
-    """One frame: the assembled start."""
-    names = tuple(scene.bodies)
-    if not names:
-        raise SceneError(f"view: scene {scene.name!r} has no bodies; add some first")
-    model = scene.compile()  # type: ignore[attr-defined]
-    poses = [start_pose(scene, model, name) for name in names]
-    still = np.zeros((1, len(names), 3))
-    return Motion(
-        start=0.0, interval=1.0, bodies=names, position=np.array([[centre[0] for centre, _ in poses]]),
-        quaternion=np.array([[quaternion_of(turn[0]) for _, turn in poses]]), velocity=still,
-        angular_velocity=still,
-    )  # fmt: skip
+    rows = caption(shown_scene, result, motion, drawing.looks)
+    html = page(title=drawing.title, caption=rows, data=data, blob=blob.text())
+    return View(title=drawing.title, html=html, motion=motion, drawing=drawing, height=size)
 
 
 def _motion_data(motion: Motion, blob: Blob) -> dict[str, Any]:
@@ -224,25 +209,17 @@ def _motion_data(motion: Motion, blob: Blob) -> dict[str, Any]:
     return {"start": motion.start, "interval": motion.interval, **series}
 
 
-def _body_data(name: str, look: Look, blob: Blob) -> dict[str, Any]:
+def _mesh(shape: HullShape | MeshShape, blob: Blob) -> dict[str, Any]:
+    return {"vertices": blob.floats(shape.vertices), "faces": blob.whole(shape.faces)}
+
+
+def _body_data(name: str, number: int, look: Look, blob: Blob) -> dict[str, Any]:
     shapes = []
     for shape in look.shapes:
         if isinstance(shape, HullShape):
-            numbers = {"vertices": blob.floats(shape.vertices), "faces": blob.whole(shape.faces)}
-            shapes.append({"kind": "hull", "waterline": shape.waterline, **numbers})
-        else:
-            shapes.append(shape.data())
+            told = {"kind": "hull", "waterline": shape.waterline, "colours": HULL, **_mesh(shape, blob)}
+            shapes.append(told)
+            continue
+        told = {"kind": "mesh", **_mesh(shape, blob)} if isinstance(shape, MeshShape) else shape.data()
+        shapes.append(told | {"colour": body_colour(shape.colour, look.role, number)})
     return {"name": name, "role": look.role, "shapes": shapes}
-
-
-def _tracks(scene: Description, bodies: Sequence[str]) -> list[dict[str, Any]]:
-    """Points whose paths are drawn: tips of cranes, and what hangs on them."""
-    tips = [
-        {"kind": "tip", "name": label, "at": end_of(scene, bodies, body, point)}
-        for label, (body, point) in crane_parts.tips(scene).items()
-    ]
-    hanging = [
-        {"kind": "payload", "name": label, "at": [list(bodies).index(body), 0.0, 0.0, 0.0]}
-        for label, body in crane_parts.payloads(scene).items()
-    ]
-    return [*tips, *hanging]

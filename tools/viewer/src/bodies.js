@@ -5,20 +5,14 @@ import {
 } from 'three';
 import { floats, whole } from './unpack.js';
 
-const COLOURS = {
-  crane: 0xf0a818, tower: 0xe8e4da, barrel: 0x5b6670, rod: 0xc9d1d6, payload: 0xb5432f,
-  above: 0x2f5f86, deck: 0x93a58e, below: 0x8c3b32,
-};
-const PLAIN = [0x7c6aa6, 0x3f8f8a, 0xb0793a, 0x5578a8, 0x8a8f3c, 0xa65a7c];
-
-export function bodyGroup(body, number, buffer) {
+export function bodyGroup(body, buffer) {
   const group = new Group();
-  for (const shape of body.shapes) group.add(shape.kind === 'hull' ? hull(shape, buffer) : part(shape, body, number));
+  for (const shape of body.shapes) group.add(shape.vertices ? surface(shape, buffer) : part(shape));
   return group;
 }
 
-function part(shape, body, number) {
-  const colour = COLOURS[shape.colour] ?? COLOURS[body.role] ?? PLAIN[number % PLAIN.length];
+function part(shape) {
+  const { colour } = shape;
   const box = shape.kind === 'box';
   const geometry = box ? new BoxGeometry(...shape.size) : tube(shape);
   const mesh = new Mesh(geometry, new MeshLambertMaterial({ color: colour }));
@@ -47,8 +41,8 @@ function alongAxis(from, to) {
   return new Matrix4().makeRotationFromQuaternion(turn.quaternion);
 }
 
-// Flat faces, coloured by where they lie: antifouling below the still waterline, sides, deck.
-function hull(shape, buffer) {
+// Flat faces; those of a hull coloured by where they lie: antifouling below the still waterline, sides, deck.
+function surface(shape, buffer) {
   const vertices = floats(buffer, shape.vertices);
   const faces = whole(buffer, shape.faces);
   const points = new Float32Array(3 * faces.length);
@@ -59,7 +53,8 @@ function hull(shape, buffer) {
     const heights = corners.map((corner) => corner[2]);
     const flat = Math.min(...heights) > top - 1e-3 * Math.abs(top) - 1e-4;
     const wet = Math.max(...heights) <= shape.waterline + 1e-3;
-    const colour = new Color(flat ? COLOURS.deck : wet ? COLOURS.below : COLOURS.above);
+    const { deck, below, above } = shape.colours ?? {};
+    const colour = new Color(shape.colour ?? (flat ? deck : wet ? below : above));
     corners.forEach((corner, k) => {
       points.set(corner, 3 * (f + k));
       colours.set([colour.r, colour.g, colour.b], 3 * (f + k));

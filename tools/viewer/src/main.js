@@ -17,7 +17,6 @@ import { Track, Wire } from './wires.js';
 const SKY = 0xdfeaf2;
 const SHOWN_FORCES = { none: [], main: ['link', 'wave'], all: ['link', 'wave', 'joint'] };
 const SHOWN_NAMES = { none: -1, main: 1, all: 3 };
-const TRACKS = { tip: '#ffffff', payload: '#ffe14d' };
 const $ = (id) => document.getElementById(id);
 
 class Page {
@@ -65,7 +64,7 @@ class Page {
   }
 
   makeBodies() {
-    this.bodies = this.data.bodies.map((body, i) => bodyGroup(body, i, this.buffer));
+    this.bodies = this.data.bodies.map((body) => bodyGroup(body, this.buffer));
     this.scene.add(...this.bodies);
     this.boxes = this.bodies.map((group) => new Box3().setFromObject(group));
     this.move(this.start);
@@ -100,7 +99,7 @@ class Page {
     this.wires = this.data.wires.map((wire) => new Wire(wire, 1.1 * this.thin));
     this.wires.forEach((wire) => this.scene.add(wire.mesh));
     this.tracks = this.motion.frames < 2 ? [] : this.data.tracks.map(
-      (track) => new Track(track, this.motion, { recent: 30, whole: 600, colour: TRACKS[track.kind] }),
+      (track) => new Track(track, this.motion, { recent: 30, whole: 600, colour: track.colour }),
     );
     this.tracks.forEach((track) => this.scene.add(...track.group));
   }

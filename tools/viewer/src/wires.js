@@ -3,13 +3,12 @@ import { BufferAttribute, BufferGeometry, CatmullRomCurve3, Line, LineBasicMater
 
 const POINTS = 33;
 const SLACK = 1e-3; // of the length
-const COLOURS = { link: 0x1b1f24, wire: 0x1b1f24, spring: 0x6a4fa0, slack: 0xe0701a };
 
 export class Wire {
   constructor(wire, thickness) {
     Object.assign(this, wire);
     this.thickness = thickness;
-    this.mesh = new Mesh(new BufferGeometry(), new MeshLambertMaterial({ color: COLOURS[wire.kind] }));
+    this.mesh = new Mesh(new BufferGeometry(), new MeshLambertMaterial({ color: wire.colours[0] }));
     this.mesh.frustumCulled = false;
     this.slack = false;
   }
@@ -20,7 +19,7 @@ export class Wire {
     this.slack = this.length > 0 && chord < this.length * (1 - SLACK);
     const points = this.slack ? hanging(from, to, this.length) : [from, to];
     this.middle = this.slack ? points[POINTS >> 1] : from.clone().lerp(to, 0.5);
-    this.mesh.material.color.set(this.slack ? COLOURS.slack : COLOURS[this.kind]);
+    this.mesh.material.color.set(this.colours[this.slack ? 1 : 0]);
     this.mesh.geometry.dispose();
     const curve = new CatmullRomCurve3(points);
     this.mesh.geometry = new TubeGeometry(curve, this.slack ? 48 : 1, this.thickness, 6, false);

@@ -10,13 +10,13 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from seacrane.files.stl import read_stl
 from seacrane.hydro.hull.hydrostatics import Hydrostatics, area_vectors, panel_hydrostatics, triangles_of
 from seacrane.hydro.hull.mesh import mesh_triangles, require_closed
 from seacrane.hydro.hull.offsets import OffsetTable, read_offset_table
 from seacrane.hydro.hull.panels import along, cut_panels, end_cap, lofted, without_slivers
 from seacrane.hydro.hull.parametric_hull import ParametricHull
 from seacrane.hydro.hull.sections import Slice, slices
-from seacrane.hydro.hull.stl import read_stl
 
 FloatArray = NDArray[np.float64]
 
@@ -195,7 +195,7 @@ class Hull:
 
         Raises
         ------
-        ValueError, seacrane.errors.FileFormatError : as `from_mesh` and `seacrane.hydro.hull.stl.read_stl`.
+        ValueError, seacrane.errors.FileFormatError : as `from_mesh` and `seacrane.hydro.read_stl`.
         """
         if not (np.isfinite(scale) and scale > 0.0):
             raise ValueError(f"hull {str(path)!r}: scale is {scale}; give a positive number")

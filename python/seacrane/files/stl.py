@@ -21,10 +21,16 @@ HEADER, RECORD = 84, 50  # bytes
 FACET = np.dtype([("normal", "<f4", 3), ("vertices", "<f4", (3, 3)), ("attribute", "<u2")])
 
 
-def read_stl(path: str | PathLike[str]) -> FloatArray:
+def read_stl(path: str | PathLike[str], *, most: int | None = None) -> FloatArray:
     """Triangles of an STL file, in the file's own unit and axes.
 
     The stored normals are not read: the order of the vertices (anticlockwise from outside) says as much.
+
+    Parameters
+    ----------
+    path : path-like
+    most : int, optional
+        Triangles that the file may have; default: as many as fit the largest file that is read.
 
     Returns
     -------
@@ -36,16 +42,40 @@ def read_stl(path: str | PathLike[str]) -> FloatArray:
     """
     source = Path(path)
     try:
+        announced = _announced(source)
+        if most is not None and announced > most:
+            raise too_many(source, announced, most)
         content = read_whole(source, fix="export a coarser surface")
     except OSError as error:
         raise FileFormatError(f"{source}: cannot be read ({error}); give the path of an STL file") from error
+    if not _is_binary(content):
+        facets = content.lower().count(b"endfacet")
+        if most is not None and facets > most:
+            raise too_many(source, facets, most)
     triangles = _binary(content) if _is_binary(content) else _ascii(source, content)
     if len(triangles) == 0:
-        raise FileFormatError(f"{source}: holds no triangles; export the hull's surface again")
+        raise FileFormatError(f"{source}: holds no triangles; export the surface again")
     if not np.all(np.isfinite(triangles)):
         bad = int(np.flatnonzero(~np.isfinite(triangles).all(axis=(1, 2)))[0])
         raise FileFormatError(f"{source}: triangle {bad + 1} has a coordinate that is not finite; repair it")
     return triangles
+
+
+def too_many(source: Path, count: int, most: int) -> FileFormatError:
+    """What is said of a file of more triangles than are drawn."""
+    return FileFormatError(
+        f"{source}: has {count} triangles, above {most}; decimate the mesh in the program that made it"
+    )
+
+
+def _announced(source: Path) -> int:
+    """Triangles of a binary file by its size and its header, before it is read; 0 of other files."""
+    size = source.stat().st_size
+    if not source.is_file() or size < HEADER:
+        return 0
+    with source.open("rb") as file:
+        count = int.from_bytes(file.read(HEADER)[80:84], "little")
+    return count if size == HEADER + RECORD * count else 0
 
 
 def _is_binary(content: bytes) -> bool:

@@ -1,0 +1,207 @@
+"""Meshes that bodies are drawn by. They are looks alone: nothing that moves reads them."""
+
+from __future__ import annotations
+
+import base64
+import binascii
+import os
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from seacrane import _core
+from seacrane.description.scene import Description, insert
+from seacrane.errors import FileFormatError, SceneError
+from seacrane.files.gltf import read_gltf
+from seacrane.files.node import Node
+from seacrane.files.stl import read_stl
+from seacrane.inputs.checked import name_of, number_of, numbers_of, text_of
+from seacrane.inputs.shown import shown
+
+Array = NDArray[np.float64]
+Faces = NDArray[np.int64]
+
+MOST_TRIANGLES = 200_000  # of all meshes of a body together: pages stay a few MB
+LARGEST, FARTHEST = 1000.0, 1e5  # m: of a mesh, and from the body's origin
+READERS = {".stl": read_stl, ".glb": read_gltf, ".gltf": read_gltf}
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Mesh:
+    """Triangles that a body is drawn by; made by `Scene.add_mesh`, immutable.
+
+    Attributes
+    ----------
+    name, body : str
+    vertices : ndarray, shape (n, 3)
+        From the body's origin, body axes, m; read-only, in single precision.
+    faces : ndarray of int, shape (m, 3)
+        Vertices of each triangle, anticlockwise from outside; read-only.
+    """
+
+    name: str
+    body: str
+    vertices: Array
+    faces: Faces
+
+
+def add_mesh(
+    scene: Description,
+    *,
+    body: str,
+    file: str | os.PathLike[str] | None = None,
+    vertices: Any = None,
+    faces: Any = None,
+    scale: float = 1.0,
+    frame: _core.Frame | None = None,
+    name: str | None = None,
+) -> Mesh:
+    """Draw a body by a mesh, in place of what is drawn otherwise; its motion does not change.
+
+    The scene holds the triangles themselves: files of scenes and results need the mesh's file no more. A mesh
+    need not be closed: nothing is computed from it. A hull whose hydrostatics count comes from
+    `hydro.Hull.from_stl`, which has to be closed.
+
+    Parameters
+    ----------
+    body : str
+        That it is fixed to; several meshes of a body are drawn together.
+    file : path-like, optional
+        STL (binary or ASCII), or glTF (.glb, or .gltf with its buffers inside). glTF's y up becomes z up.
+    vertices : array_like, shape (n, 3)
+        In place of a file.
+    faces : array_like of int, shape (m, 3)
+        Vertices of each triangle, from 0; with `vertices`.
+    scale : float
+        By which coordinates are multiplied to be m, such as 1e-3 for a file in mm.
+    frame : Frame, optional
+        Where the mesh's origin and axes are in body coordinates; default: the body's own.
+    name : str, optional
+        Default: the body's.
+
+    Raises
+    ------
+    SceneError
+        For an unknown body, a name used twice, more than 200,000 triangles for a body, a mesh without extent,
+        or one of more than 1 km, which most likely is in mm.
+    FileFormatError
+        For a file that is damaged, too large, or of another kind.
+    """
+    if text_of("mesh: body", body) not in scene.bodies:
+        known = ", ".join(map(repr, scene.bodies)) or "none"
+        raise SceneError(f"mesh: body is {shown(body)}; the scene has {known}")
+    what = f"mesh {name_of('mesh', name, body)!r}"
+    points, triangles = _given(what, file, vertices, faces)
+    points = _placed(what, points, triangles, scale, frame)
+    mesh = _mesh(scene, name or body, body, points, triangles)
+    inserted: Mesh = insert("mesh", scene.meshes, mesh)
+    return inserted
+
+
+def _given(what: str, file: Any, vertices: Any, faces: Any) -> tuple[Array, Faces]:
+    """Vertices and triangles, from a file or from arrays."""
+    if (file is None) == (vertices is None) or (vertices is None) != (faces is None):
+        raise SceneError(f"{what}: give file, or vertices and faces")
+    if file is None:
+        return _from_arrays(what, vertices, faces)
+    try:
+        path = Path(file)
+    except TypeError as error:
+        raise SceneError(f"{what}: file is {shown(file)}; give a path") from error
+    reader = READERS.get(path.suffix.lower())
+    if reader is None:
+        raise SceneError(f"{what}: file is {shown(path.name)}; give {', '.join(READERS)}")
+    soup = np.float32(reader(path, most=MOST_TRIANGLES).reshape(-1, 3))
+    points, corners = np.unique(soup, axis=0, return_inverse=True)
+    return points.astype(float), corners.reshape(-1, 3)
+
+
+def _from_arrays(what: str, vertices: Any, faces: Any) -> tuple[Array, Faces]:
+    points, corners = numbers_of(f"{what}: vertices", vertices), np.asarray(faces)
+    if points.ndim != 2 or points.shape[1] != 3 or not len(points):
+        raise SceneError(f"{what}: vertices has shape {points.shape}; give (n, 3), m")
+    if corners.ndim != 2 or corners.shape[1] != 3 or corners.dtype.kind not in "iu":
+        raise SceneError(
+            f"{what}: faces has shape {corners.shape} of {corners.dtype}; give (m, 3) whole numbers"
+        )
+    return points, corners
+
+
+def _placed(what: str, points: Array, faces: Faces, scale: Any, frame: Any) -> Array:
+    """Points in body coordinates, m."""
+    factor = number_of(f"{what}: scale", scale)
+    if not (np.isfinite(factor) and factor > 0.0):
+        raise SceneError(f"{what}: scale is {factor:g}; give a positive number, such as 1e-3 for mm")
+    if frame is not None and not isinstance(frame, _core.Frame):
+        raise SceneError(f"{what}: frame is {shown(frame)}; give a seacrane.Frame")
+    if not np.isfinite(points).all():
+        raise SceneError(f"{what}: vertices hold a coordinate that is not finite; repair it")
+    with np.errstate(over="ignore"):
+        size = float(factor * np.ptp(points, axis=0).max())
+    if size > LARGEST:
+        raise SceneError(
+            f"{what}: is {size:.4g} m large, above {LARGEST:g} m; if it is in mm give scale="
+            f"{1e-3 * factor:g}, else draw a part of it"
+        )
+    frame = _core.Frame() if frame is None else frame
+    return np.asarray((factor * points) @ np.asarray(frame.axes).T + np.asarray(frame.point))
+
+
+def _mesh(scene: Description, name: str, body: str, points: Array, faces: Any) -> Mesh:
+    """The mesh, once it is one that can be drawn."""
+    what = f"mesh {name!r}"
+    if not np.isfinite(points).all() or np.abs(points).max() > FARTHEST:
+        raise SceneError(
+            f"{what}: has a vertex more than {FARTHEST:g} m from its body; check scale and frame"
+        )
+    faces = np.asarray(faces, dtype=np.int64)
+    if not len(faces) or faces.min() < 0 or faces.max() >= len(points):
+        raise SceneError(f"{what}: faces name vertices that are none of its {len(points)}; count from 0")
+    there = sum(len(mesh.faces) for mesh in scene.meshes.values() if mesh.body == body)
+    if there + len(faces) > MOST_TRIANGLES:
+        raise SceneError(
+            f"{what}: brings body {body!r} to {there + len(faces)} triangles, above {MOST_TRIANGLES}; "
+            "decimate it in the program that made it"
+        )
+    points = np.float32(points).astype(float)
+    if not np.ptp(points[np.unique(faces)], axis=0).max() > 0.0:
+        raise SceneError(f"{what}: all its vertices are one point; export it again, or check scale")
+    for array in (points, faces):
+        array.setflags(write=False)
+    return Mesh(name=name, body=body, vertices=points, faces=faces)
+
+
+def mesh_to_data(mesh: Mesh) -> dict[str, Any]:
+    """As plain data: single precision and indices of 32 bits, little-endian, in base64."""
+    arrays = {"vertices": mesh.vertices.astype("<f4"), "faces": mesh.faces.astype("<u4")}
+    texts = {key: base64.b64encode(array.tobytes()).decode("ascii") for key, array in arrays.items()}
+    return {"name": mesh.name, "body": mesh.body, **texts}
+
+
+def mesh_from_node(node: Node, scene: Description) -> None:
+    """Give a scene the mesh that `mesh_to_data` wrote; raises FileFormatError."""
+    node.expect(("name", "body", "vertices", "faces"))
+    points = np.frombuffer(_bytes(node.at("vertices")), "<f4").reshape(-1, 3).astype(float)
+    faces = np.frombuffer(_bytes(node.at("faces")), "<u4").reshape(-1, 3).astype(np.int64)
+    body = node.at("body").text()
+    if body not in scene.bodies:
+        node.at("body").fail("give a body of the scene")
+    with node.scene_errors():
+        name = name_of("mesh", node.at("name").text())
+        if len(points) and np.isfinite(points).all():
+            points = _placed(f"mesh {name!r}", points, faces, 1.0, None)
+        insert("mesh", scene.meshes, _mesh(scene, name, body, points, faces))
+
+
+def _bytes(node: Node) -> bytes:
+    """Rows of three numbers of 4 bytes."""
+    try:
+        data = base64.b64decode(node.text(), validate=True)
+    except (binascii.Error, ValueError) as error:
+        raise FileFormatError(f"{node.path}: {str(error)[:100]}; give base64") from error
+    if not data or len(data) % 12:
+        raise FileFormatError(f"{node.path}: has {len(data)} bytes; give rows of 12")
+    return data

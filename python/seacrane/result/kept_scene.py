@@ -1,0 +1,54 @@
+"""The scene that a result is of: as it was run, or the text of a file, which is read once it is asked for."""
+
+from __future__ import annotations
+
+import json
+from functools import cached_property
+
+from seacrane.description.file import described, scene_from_bytes
+from seacrane.description.file_text import LARGEST_FILE
+from seacrane.errors import SeacraneError
+from seacrane.scene.scene import Scene
+
+NOT_KEPT = "scene_not_kept"  # among the stats of a result: what of the scene its file does not hold, and why
+
+
+class KeptScene:
+    """A scene, or its text. Made by `of` and `from_text`."""
+
+    def __init__(self, scene: Scene | None, text: bytes, place: str) -> None:
+        self._live, self._text, self._place = scene, text, place
+
+    @classmethod
+    def of(cls, scene: Scene) -> KeptScene:
+        """The scene of a run, as long as the run's process holds it."""
+        return cls(scene, b"", "")
+
+    @classmethod
+    def from_text(cls, text: bytes, place: str) -> KeptScene:
+        """What `written` made, found at a place that errors name."""
+        return cls(None, text, place)
+
+    @property
+    def scene(self) -> Scene:
+        """The scene; FileFormatError where the text is none."""
+        return self._live if self._live is not None else self._read
+
+    @cached_property
+    def _read(self) -> Scene:
+        return scene_from_bytes(self._text, self._place, Scene())
+
+    def written(self) -> tuple[bytes, str]:
+        """The text of a scene file, and in words what it lacks; empty where nothing, or all, is lost."""
+        if self._live is None:
+            return self._text, ""
+        functions = ", ".join(f"function force {name!r}" for name in self._live.function_forces)
+        lacks = f"{functions}: a file holds data only" if functions else ""
+        try:
+            data = described(self._live.copy(notes={}, function_forces={}))
+            text = json.dumps(data, allow_nan=False, separators=(",", ":")).encode("ascii")
+        except (SeacraneError, ValueError) as error:
+            return b"", f"the scene: {error}"
+        if len(text) > LARGEST_FILE:
+            return b"", f"the scene: takes {len(text)} bytes, above {LARGEST_FILE}"
+        return text, lacks

@@ -1,0 +1,166 @@
+"""What is drawn of a result or a scene: the one source of pages, models and pictures."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from seacrane.crane import KnuckleBoomCrane
+from seacrane.description import crane_parts
+from seacrane.description.compilation import compile_scene
+from seacrane.description.joint_coordinates import start_pose
+from seacrane.description.scene import Description
+from seacrane.errors import SceneError
+from seacrane.hydro import Hull
+from seacrane.inputs.frames import quaternion_of, rotation_matrix
+from seacrane.inputs.shown import shown
+from seacrane.result import Result
+from seacrane.result.kept_scene import NOT_KEPT
+from seacrane.viewer.bodies import Look, looks
+from seacrane.viewer.motion import Motion, motion_of
+from seacrane.viewer.wires import end_of, wires_of
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Drawing:
+    """Bodies with their looks and their motion.
+
+    Attributes
+    ----------
+    title : str
+    scene : Description
+    result : Result or None
+        None: bodies stand at their assembled start.
+    motion : Motion
+    looks : mapping of str to Look
+        By body, in the order of the motion.
+    """
+
+    title: str
+    scene: Description
+    result: Result | None
+    motion: Motion
+    looks: Mapping[str, Look]
+
+    @cached_property
+    def wires(self) -> list[dict[str, Any]]:
+        """As `wires_of`."""
+        return wires_of(self.scene, self.motion.bodies)
+
+    @cached_property
+    def tracks(self) -> list[dict[str, Any]]:
+        """Points whose paths are drawn: tips of cranes, and what hangs on them."""
+        bodies = self.motion.bodies
+        tips = [
+            {"kind": "tip", "name": label, "at": end_of(self.scene, bodies, body, point)}
+            for label, (body, point) in crane_parts.tips(self.scene).items()
+        ]
+        hanging = [
+            {"kind": "payload", "name": label, "at": [list(bodies).index(body), 0.0, 0.0, 0.0]}
+            for label, body in crane_parts.payloads(self.scene).items()
+        ]
+        return [*tips, *hanging]
+
+    @cached_property
+    def box(self) -> Array:
+        """(2, 3): lowest and highest coordinates that bodies reach at the start, midway and at the end, m."""
+        times = self.motion.start + np.array([0.0, 0.5, 1.0]) * (self.motion.end - self.motion.start)
+        position, quaternion = self.motion.at(np.minimum(times, self.motion.end))
+        reached = []
+        for i, name in enumerate(self.motion.bodies):
+            points = self.looks[name].points
+            for centre, turn in zip(position[:, i], quaternion[:, i], strict=True):
+                reached.append(centre + points @ rotation_matrix(turn).T)
+        every = np.concatenate(reached)
+        return np.array([every.min(axis=0), every.max(axis=0)])
+
+    @property
+    def radius(self) -> float:
+        """Half the diagonal of the box, m."""
+        return 0.5 * float(np.linalg.norm(np.ptp(self.box, axis=0))) or 1.0
+
+    @property
+    def wire_radius(self) -> float:
+        """At which wires are drawn, m: thick enough to be seen."""
+        return 0.002 * self.radius
+
+    def place(self, end: list[float], position: Array, quaternion: Array) -> Array:
+        """Where the end of a wire is at poses (frames, bodies, 3 or 4): (frames, 3), m."""
+        number, point = int(end[0]), np.array(end[1:])
+        if number < 0:
+            return np.tile(point, (len(position), 1))
+        turn = rotation_matrix(quaternion[:, number])
+        return np.asarray(position[:, number] + turn @ point)
+
+
+def drawing_of(
+    what: Any,
+    *,
+    scene: Any = None,
+    hulls: Mapping[str, Hull] | None = None,
+    crane: KnuckleBoomCrane | None = None,
+) -> Drawing:
+    """The drawing of a result or a scene; arguments and errors as of `view`."""
+    described = _scene_of(what, scene)
+    result = what if isinstance(what, Result) else None
+    motion = _at_start(described) if result is None else motion_of(result)
+    _require_same_bodies(described, motion)
+    found = looks(described, hulls=hulls, crane=crane)
+    return Drawing(
+        title=described.name, scene=described, result=result, motion=motion,
+        looks={name: found[name] for name in motion.bodies},
+    )  # fmt: skip
+
+
+def _scene_of(what: Any, scene: Any) -> Description:
+    """The scene that is shown."""
+    if isinstance(what, Description):
+        if scene is not None:
+            raise SceneError("view: scene= is given beside a scene; give a result, or leave it out")
+        return what
+    if not isinstance(what, Result):
+        raise SceneError(f"view: {shown(what)} is neither a Result nor a Scene")
+    found = what.scene if scene is None else scene
+    if found is None:
+        lacks = what.stats.get(NOT_KEPT)
+        why = f" ({shown(lacks)})" if lacks else ""
+        raise SceneError(
+            f"view: result of {what.stats['scene']!r} is a copy or of a file that holds no scene{why}; "
+            "give its scene with view(result, scene=scene)"
+        )
+    if not isinstance(found, Description):
+        raise SceneError(f"view: scene is {shown(found)}; give a Scene")
+    return found
+
+
+def _require_same_bodies(scene: Description, motion: Motion) -> None:
+    if not scene.bodies:
+        raise SceneError(f"view: scene {scene.name!r} has no bodies; add some first")
+    if set(scene.bodies) != set(motion.bodies):
+        apart = sorted(set(scene.bodies) ^ set(motion.bodies))
+        raise SceneError(
+            f"view: scene {scene.name!r} is not the one of the result: {', '.join(map(repr, apart[:5]))} "
+            f"{'is' if len(apart) == 1 else 'are'} only in one of them; give the scene that was run"
+        )
+
+
+def _at_start(scene: Description) -> Motion:
+    """One frame: the assembled start."""
+    names = tuple(scene.bodies)
+    if not names:
+        raise SceneError(f"view: scene {scene.name!r} has no bodies; add some first")
+    model = compile_scene(scene)
+    poses = [start_pose(scene, model, name) for name in names]
+    still = np.zeros((1, len(names), 3))
+    return Motion(
+        start=0.0, interval=1.0, bodies=names, position=np.array([[centre[0] for centre, _ in poses]]),
+        quaternion=np.array([[quaternion_of(turn[0]) for _, turn in poses]]), velocity=still,
+        angular_velocity=still,
+    )  # fmt: skip

@@ -1,0 +1,187 @@
+"""A drawing as an animated glTF model: a node for each body and each wire."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from seacrane.errors import SceneError
+from seacrane.version import __version__
+from seacrane.viewer.drawing import Drawing
+from seacrane.viewer.glb import INDICES, VERTICES, Glb
+from seacrane.viewer.motion import quaternion_rate
+from seacrane.viewer.palette import WIRES, rgb
+from seacrane.viewer.surfaces import Surface, surfaces_of, tube
+
+Array = NDArray[np.float64]
+
+UPRIGHT = [-(0.5**0.5), 0.0, 0.0, 0.5**0.5]  # z up becomes glTF's y up; quaternion x, y, z, w
+SMALLEST = 1e-6  # m: shorter wires have no direction
+
+
+def gltf_of(drawing: Drawing) -> bytes:
+    """The model as a .glb file.
+
+    Under one node, which turns z up into glTF's y up, every body is a node of its name at its centre of mass,
+    in the axes and metres of the result. Its animation is a cubic spline with the velocities of the run, from
+    0 s at the first output; `extras` of the scene tell the time of that. Wires and links are nodes that turn
+    and stretch, straight also where they are slack. The sea is left out.
+
+    Raises
+    ------
+    SceneError
+        For a run too long for one file.
+    """
+    model = _Model(drawing)
+    model.bodies()
+    model.wires()
+    try:
+        return model.glb.to_bytes()
+    except ValueError as error:
+        raise SceneError(f"view: the glTF model of {drawing.title!r} {error}; save a shorter run") from error
+
+
+class _Model:
+    """The document as it is made."""
+
+    def __init__(self, drawing: Drawing) -> None:
+        self.drawing, self.motion = drawing, drawing.motion
+        self.nodes: list[dict[str, Any]] = [
+            {"name": drawing.title, "rotation": UPRIGHT, "children": []},
+        ]
+        self.materials: dict[str, int] = {}
+        self.meshes: list[dict[str, Any]] = []
+        self.channels: list[dict[str, Any]] = []
+        self.samplers: list[dict[str, Any]] = []
+        self.glb = Glb(
+            {
+                "asset": {"version": "2.0", "generator": f"seacrane {__version__}"},
+                "scene": 0,
+                "scenes": [{"nodes": [0], "extras": {"start_s": self.motion.start}}],
+                "nodes": self.nodes,
+                "meshes": self.meshes,
+                "materials": [],
+            }
+        )
+        self.times = -1
+        if len(self.motion.times) > 1:
+            self.times = self.glb.add(self.motion.times - self.motion.start, bounds=True)
+            self.glb.document["animations"] = [
+                {"name": "run", "channels": self.channels, "samplers": self.samplers}
+            ]
+
+    def bodies(self) -> None:
+        """Every body with its shapes, at its centre of mass."""
+        motion, drawing = self.motion, self.drawing
+        rate = quaternion_rate(motion.quaternion, motion.angular_velocity)
+        for i, name in enumerate(motion.bodies):
+            mesh = self._mesh(name, surfaces_of(drawing.looks[name], i))
+            place, turn = motion.position[:, i], _xyzw(motion.quaternion[:, i])
+            node = self._node(name, mesh, translation=place[0], rotation=turn[0])
+            self.nodes[node]["extras"] = {"role": drawing.looks[name].role}
+            self._cubic(node, "translation", place, motion.velocity[:, i])
+            self._cubic(node, "rotation", turn, _xyzw(rate[:, i]))
+
+    def wires(self) -> None:
+        """Every wire as a bar of one metre along z, which is moved, turned and stretched."""
+        drawing, motion = self.drawing, self.motion
+        for wire in drawing.wires:
+            vertices, faces = tube(np.zeros(3), np.array([0.0, 0.0, 1.0]), drawing.wire_radius, 8)
+            bar = Surface(vertices=vertices, faces=faces, colour=WIRES[wire["kind"]])
+            start, end = (
+                drawing.place(wire[key], motion.position, motion.quaternion) for key in ("from", "to")
+            )
+            length = np.maximum(np.linalg.norm(end - start, axis=1), SMALLEST)
+            turn = _from_z((end - start) / length[:, None])
+            scale = np.column_stack([np.ones_like(length), np.ones_like(length), length])
+            node = self._node(
+                wire["name"], self._mesh(wire["name"], [bar]), translation=start[0], rotation=turn[0],
+                scale=scale[0],
+            )  # fmt: skip
+            for path, values in (("translation", start), ("rotation", turn), ("scale", scale)):
+                self._sampler(node, path, values, "LINEAR")
+
+    def _node(self, name: str, mesh: int, **pose: Array) -> int:
+        self.nodes[0]["children"].append(len(self.nodes))
+        self.nodes.append({"name": name, "mesh": mesh} | {key: value.tolist() for key, value in pose.items()})
+        return len(self.nodes) - 1
+
+    def _mesh(self, name: str, surfaces: Sequence[Surface]) -> int:
+        """Without normals: faces are then flat."""
+        primitives = [
+            {
+                "attributes": {"POSITION": self.glb.add(one.vertices, target=VERTICES, bounds=True)},
+                "indices": self.glb.add(np.ravel(one.faces), target=INDICES),
+                "material": self._material(one.colour),
+            }
+            for one in map(_used, surfaces)
+        ]
+        self.meshes.append({"name": name, "primitives": primitives})
+        return len(self.meshes) - 1
+
+    def _material(self, colour: str) -> int:
+        if colour not in self.materials:
+            self.materials[colour] = len(self.materials)
+            paint = {"baseColorFactor": [*map(_linear, rgb(colour)), 1.0], "metallicFactor": 0.0,
+                     "roughnessFactor": 0.8}  # fmt: skip
+            self.glb.document["materials"].append(
+                {"name": colour, "pbrMetallicRoughness": paint, "doubleSided": True}
+            )
+        return self.materials[colour]
+
+    def _cubic(self, node: int, path: str, values: Array, rates: Array) -> None:
+        """Tangent, value, tangent at each time: the Hermite curves of the page."""
+        knots = np.stack([rates, values, rates], axis=1).reshape(-1, values.shape[1])
+        self._sampler(node, path, knots, "CUBICSPLINE")
+
+    def _sampler(self, node: int, path: str, values: Array, interpolation: str) -> None:
+        if self.times < 0:
+            return
+        self.channels.append({"sampler": len(self.samplers), "target": {"node": node, "path": path}})
+        self.samplers.append(
+            {"input": self.times, "output": self.glb.add(values), "interpolation": interpolation}
+        )
+
+
+def _used(surface: Surface) -> Surface:
+    """Without vertices of other surfaces."""
+    kept, faces = np.unique(surface.faces, return_inverse=True)
+    return Surface(vertices=surface.vertices[kept], faces=faces.reshape(-1, 3), colour=surface.colour)
+
+
+def _xyzw(quaternion: Array) -> Array:
+    return np.roll(quaternion, -1, axis=-1)
+
+
+def _linear(value: float) -> float:
+    """Of sRGB."""
+    return round(value / 12.92 if value <= 0.04045 else ((value + 0.055) / 1.055) ** 2.4, 6)
+
+
+def _from_z(direction: Array) -> Array:
+    """Quaternions (n, 4), x y z w, that turn z into unit vectors (n, 3).
+
+    The shortest way to the first of them, and from there the shortest: no jump unless a wire turns round.
+    """
+    first = _shortest(np.array([0.0, 0.0, 1.0]), direction[:1])[0]
+    turn = _product(_shortest(direction[0], direction), first)
+    flips = np.where(np.sum(turn[1:] * turn[:-1], axis=1) < 0.0, -1.0, 1.0)
+    return np.asarray(turn * np.cumprod(np.concatenate([[1.0], flips]))[:, None])
+
+
+def _shortest(start: Array, ends: Array) -> Array:
+    """Quaternions that turn a unit vector (3,) into others (n, 3)."""
+    half = np.column_stack([np.cross(start, ends), 1.0 + ends @ start])
+    across = np.cross(start, np.eye(3)[int(np.argmin(np.abs(start)))])
+    half[np.linalg.norm(half, axis=1) < 1e-6] = (*across, 0.0)
+    return np.asarray(half / np.linalg.norm(half, axis=1, keepdims=True))
+
+
+def _product(p: Array, q: Array) -> Array:
+    """Of quaternions (n, 4) with one (4,), which turns first."""
+    v, w = p[:, :3], p[:, 3:]
+    vector = w * q[:3] + q[3] * v + np.cross(v, q[:3])
+    return np.column_stack([vector, w[:, 0] * q[3] - v @ q[:3]])

@@ -1,0 +1,217 @@
+"""glTF models: what an independent reader finds in them is what the run did."""
+
+from __future__ import annotations
+
+import json
+import shutil
+import struct
+import subprocess
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from scipy.interpolate import CubicHermiteSpline
+from scipy.spatial.transform import Rotation, Slerp
+from view_scenes import HTML_NAME, angle_between, case2, pair
+
+from seacrane import SceneError, cases, view
+from seacrane.viewer.drawing import drawing_of
+from seacrane.viewer.surfaces import surfaces_of
+
+pygltflib = pytest.importorskip("pygltflib", reason="the extra dev holds pygltflib")
+COMPONENTS = {5126: "<f4", 5125: "<u4"}
+WIDTH = {"SCALAR": 1, "VEC3": 3, "VEC4": 4}
+
+
+class Model:
+    """A .glb file as pygltflib reads it."""
+
+    def __init__(self, path: Path) -> None:
+        self.gltf = pygltflib.GLTF2().load(str(path))
+        self.blob = self.gltf.binary_blob()
+        self.nodes = {node.name: i for i, node in enumerate(self.gltf.nodes)}
+
+    def numbers(self, index: int) -> np.ndarray:
+        accessor = self.gltf.accessors[index]
+        part = self.gltf.bufferViews[accessor.bufferView]
+        width = WIDTH[accessor.type]
+        kind = np.dtype(COMPONENTS[accessor.componentType])
+        assert part.byteLength == kind.itemsize * width * accessor.count
+        assert part.byteOffset % 4 == 0
+        values = np.frombuffer(self.blob, kind, width * accessor.count, part.byteOffset)
+        return values.reshape(accessor.count, width)
+
+    def track(self, node: str, path: str) -> tuple[np.ndarray, np.ndarray, str]:
+        """Times, outputs and interpolation of what moves a node."""
+        (animation,) = self.gltf.animations
+        (channel,) = (
+            one for one in animation.channels
+            if one.target.node == self.nodes[node] and one.target.path == path
+        )  # fmt: skip
+        sampler = animation.samplers[channel.sampler]
+        return self.numbers(sampler.input)[:, 0], self.numbers(sampler.output), sampler.interpolation
+
+    def cubic(self, node: str, path: str, times: np.ndarray) -> np.ndarray:
+        """As the specification interpolates CUBICSPLINE."""
+        knots, outputs, kind = self.track(node, path)
+        assert kind == "CUBICSPLINE"
+        before, value, after = np.moveaxis(outputs.reshape(len(knots), 3, -1), 1, 0).astype(float)
+        np.testing.assert_array_equal(before, after)
+        return CubicHermiteSpline(knots.astype(float), value, after)(times)
+
+
+@pytest.fixture(scope="module")
+def model(tmp_path_factory: pytest.TempPathFactory) -> Model:
+    return Model(view(case2()).save_gltf(tmp_path_factory.mktemp("gltf") / "lift.glb"))
+
+
+def test_nodes_are_where_the_run_had_its_bodies(model: Model) -> None:
+    result = case2()
+    times = np.minimum(result.time, model.track("payload", "translation")[0][-1])
+    for body in result.coords["body"]:
+        place = model.cubic(body, "translation", times)
+        np.testing.assert_allclose(place, result.select("position", body=body), rtol=0.0, atol=1e-3)
+        turn = model.cubic(body, "rotation", times)
+        turn /= np.linalg.norm(turn, axis=1, keepdims=True)
+        assert angle_between(np.roll(turn, 1, axis=1), result.select("quaternion", body=body)) < 1e-3
+
+
+def test_a_node_stands_at_its_first_pose(model: Model) -> None:
+    result = case2()
+    node = model.gltf.nodes[model.nodes["main_jib"]]
+    np.testing.assert_allclose(node.translation, result.select("position", body="main_jib")[0], atol=1e-4)
+    assert node.extras == {"role": "crane"}
+
+
+def test_up_is_up(model: Model) -> None:
+    (root,) = model.gltf.scenes[model.gltf.scene].nodes
+    turn = Rotation.from_quat(model.gltf.nodes[root].rotation)
+    np.testing.assert_allclose(turn.apply([[1, 0, 0], [0, 0, 1]]), [[1, 0, 0], [0, 1, 0]], atol=1e-12)
+    assert len(model.gltf.nodes[root].children) == len(model.gltf.nodes) - 1
+
+
+def test_a_link_reaches_from_tip_to_payload(model: Model) -> None:
+    scene, result = cases.case2(), case2()
+    knots, start, kind = model.track("link", "translation")
+    assert kind == "LINEAR"
+    turn, scale = model.track("link", "rotation")[1], model.track("link", "scale")[1]
+    np.testing.assert_allclose(scale[:, 2], 8.0, atol=2e-3)
+    end = start + scale[:, 2:] * Rotation.from_quat(turn).apply([0.0, 0.0, 1.0])
+    joint, load = scene.joints["link"], scene.bodies["payload"]
+    hook = np.asarray(joint.second_frame.point) - np.asarray(load.center_of_mass)
+    quaternion = np.roll(result.select("quaternion", body="payload")[::2], -1, axis=1)
+    expected = result.select("position", body="payload")[::2] + Rotation.from_quat(quaternion).apply(hook)
+    np.testing.assert_allclose(end, expected, atol=2e-3)
+    assert knots[0] == 0.0
+    assert np.sum(turn[1:] * turn[:-1], axis=1).min() > 0.9
+    Slerp(knots, Rotation.from_quat(turn))  # refuses times that do not increase
+
+
+def test_the_hull_has_its_length_and_its_colours(model: Model) -> None:
+    node = model.gltf.nodes[model.nodes["vessel"]]
+    primitives = model.gltf.meshes[node.mesh].primitives
+    vertices = np.concatenate([model.numbers(one.attributes.POSITION) for one in primitives])
+    np.testing.assert_allclose(np.ptp(vertices, axis=0)[:2], (115.0, 25.0), rtol=1e-3)
+    names = [model.gltf.materials[one.material].name for one in primitives]
+    assert len(set(names)) == 3
+    for one in primitives:
+        told = model.gltf.accessors[one.attributes.POSITION]
+        corners, faces = model.numbers(one.attributes.POSITION), model.numbers(one.indices)
+        np.testing.assert_array_equal(told.min, corners.min(axis=0))
+        np.testing.assert_array_equal(told.max, corners.max(axis=0))
+        assert faces.max() == len(corners) - 1
+
+
+def volume(vertices: np.ndarray, faces: np.ndarray) -> float:
+    a, b, c = np.moveaxis(vertices[faces], 1, 0)
+    return float(np.sum(a * np.cross(b, c))) / 6.0
+
+
+def test_triangles_face_outwards_and_enclose_their_shape() -> None:
+    drawing = drawing_of(cases.case2())
+    (box,) = surfaces_of(drawing.looks["payload"], 0)
+    assert volume(box.vertices, box.faces) == pytest.approx(6.0 * 6.0 * 4.0)
+    for surface, shape in zip(
+        surfaces_of(drawing.looks["main_barrel"], 0), drawing.looks["main_barrel"].shapes, strict=True
+    ):
+        length = float(np.linalg.norm(np.ptp(shape.points, axis=0)))
+        assert volume(surface.vertices, surface.faces) == pytest.approx(
+            length * 8.0 * np.sin(np.pi / 8.0) * shape.radius**2  # type: ignore[union-attr]
+        )
+
+
+def test_a_scene_alone_stands_still(tmp_path: Path) -> None:
+    found = Model(view(cases.vessel()).save_gltf(tmp_path / "vessel.glb"))
+    assert found.gltf.animations == []
+    assert [node.name for node in found.gltf.nodes][1:] == ["vessel"]
+
+
+def test_names_are_kept_and_the_container_is_whole(tmp_path: Path) -> None:
+    path = view(pair()).save_gltf(tmp_path / "pair.glb")
+    data = path.read_bytes()
+    magic, version, length = struct.unpack_from("<4sII", data)
+    assert (magic, version, length) == (b"glTF", 2, len(data))
+    size, kind = struct.unpack_from("<I4s", data, 12)
+    document: dict[str, Any] = json.loads(data[20 : 20 + size])
+    assert kind == b"JSON"
+    assert size % 4 == 0
+    rest, kind = struct.unpack_from("<I4s", data, 20 + size)
+    assert kind == b"BIN\0"
+    assert rest == document["buffers"][0]["byteLength"] == len(data) - 28 - size
+    assert HTML_NAME in {node["name"] for node in document["nodes"]}
+
+
+def test_a_model_replaces_nothing_unasked(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    shown = view(cases.vessel())
+    path = shown.save_gltf(tmp_path / "vessel.glb")
+    with pytest.raises(FileExistsError, match="overwrite=True"):
+        shown.save_gltf(path)
+    shown.save_gltf(path, overwrite=True)
+    with pytest.raises(SceneError, match=r"writes \.glb; path ends in 'vessel.gltf'"):
+        shown.save_gltf(tmp_path / "vessel.gltf")
+    monkeypatch.setattr("seacrane.viewer.glb.LARGEST", 1000)
+    with pytest.raises(SceneError, match=r"takes \d+ bytes, above 1000; save a shorter run"):
+        shown.save_gltf(tmp_path / "large.glb")
+    assert [one.name for one in tmp_path.iterdir()] == ["vessel.glb"]
+
+
+THREE = """
+import { readFileSync } from 'node:fs';
+const [packages, path, body, ...times] = process.argv.slice(2);
+const { AnimationMixer, Vector3 } = await import(`${packages}/three/build/three.module.js`);
+const { GLTFLoader } = await import(`${packages}/three/examples/jsm/loaders/GLTFLoader.js`);
+const data = readFileSync(path);
+const whole = data.buffer.slice(data.byteOffset, data.byteOffset + data.length);
+const { scene, animations } = await new GLTFLoader().parseAsync(whole, '');
+const mixer = new AnimationMixer(scene);
+mixer.clipAction(animations[0]).play();
+console.log(JSON.stringify(times.map((time) => {
+  mixer.setTime(+time);
+  scene.updateMatrixWorld(true);
+  const node = scene.getObjectByName(body);
+  return [...node.getWorldPosition(new Vector3()).toArray(), ...node.quaternion.toArray()];
+})));
+"""
+
+
+def test_the_loader_of_three_plays_the_run(repository: Path, tmp_path: Path) -> None:
+    """In world axes, y up, and between the knots too."""
+    packages = repository / "tools" / "viewer" / "node_modules"
+    if shutil.which("node") is None or not packages.is_dir():
+        pytest.skip("needs node and the packages that `make viewer` installs")
+    result = case2()
+    path = view(result).save_gltf(tmp_path / "lift.glb")
+    (tmp_path / "play.mjs").write_text(THREE)
+    indices = [0, 137, 333, 598]
+    times = [str(result.time[i]) for i in indices]
+    done = subprocess.run(
+        ["node", tmp_path / "play.mjs", packages, path, "payload", *times], capture_output=True, text=True,
+        check=False,
+    )  # fmt: skip
+    assert done.returncode == 0, done.stderr
+    found = np.array(json.loads(done.stdout))
+    x, y, z = result.select("position", body="payload")[indices].T
+    np.testing.assert_allclose(found[:, :3], np.column_stack([x, z, -y]), atol=1e-3)
+    quaternion = result.select("quaternion", body="payload")[indices]
+    assert angle_between(np.roll(found[:, 3:], 1, axis=1), quaternion) < 1e-3
