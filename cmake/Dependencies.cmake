@@ -74,6 +74,7 @@ endforeach()
 
 if(SEACRANE_PYTHON)
   set(PYBIND11_FINDPYTHON ON)
+  set(CMAKE_INTERPROCEDURAL_OPTIMIZATION ${SEACRANE_LTO})  # where it is set, pybind11 does not try the linker for it
   find_package(pybind11 2.13 CONFIG REQUIRED)
 endif()
 

@@ -28,8 +28,8 @@ PACKAGES = {"sundials": "sundials", "eigen": "eigen3"}  # Debian's names
 def compilers() -> dict[str, str]:
     """The environment with zig as compiler for the old glibc."""
     zig = Path(ziglang.__file__).with_name("zig")
-    # Optimised even where CMake only asks who the compiler is: zig builds its C++ library for each mode.
-    options = f"-target {platform.machine()}-linux-gnu.{GLIBC} -O2"
+    # All but the target only spare zig from building its C++ library once more, for what CMake tries first.
+    options = f"-target {platform.machine()}-linux-gnu.{GLIBC} -O2 -fPIC -s"
     return {
         **os.environ,
         "CC": f"{zig} cc {options}",
