@@ -2,13 +2,16 @@
 # make test     everything that CI checks: lint, types, formatting, sanitized C++ tests, Python tests
 # make build    the package in .venv, rebuilt only where something changed
 # make nightly  longer tests, C++ tests optimised and with every check of the sanitizers, ThreadSanitizer
-#                  (make cpp-tsan), the site (make docs), the stability atlas (make extremes), benchmarks (make bench)
+#                  (make cpp-tsan), the site (make docs), the wheel (make wheel), the stability atlas
+#                  (make extremes), benchmarks (make bench)
 # make notebooks  the notebooks in JupyterLab, with everything they need (NOTEBOOKS_ARGS: arguments of jupyter lab)
 # make stubs    python/seacrane/_core.pyi
 # make docs     the site in out/site, its notebooks executed; any warning is an error, and so is anything that a page
 #               would load from a network
 # make bench-peers  the same crane in Pinocchio, MuJoCo, Exudyn and NumPy, in an environment of their own;
 #                   either of the two with BENCH_ARGS=--publish writes into benchmarks/ (on an idle machine)
+# make wheel    dist/: the sdist, and a wheel for older Linux systems made from it, tried where no compiler is
+#                   (WHEEL_ARGS=--publish writes its facts into benchmarks/ and the documents)
 # make viewer   the script of the three-dimensional page, bundled with three.js (needs npm)
 # make fuzz     hostile files, guided by coverage: CASES for each kind of file (a million take hours), counts
 #               and findings in out/fuzz; goes on where the last call stopped
@@ -19,8 +22,8 @@ SHELL := /bin/bash
 .SHELLFLAGS := -euo pipefail -c
 .DELETE_ON_ERROR:
 .DEFAULT_GOAL := build
-.PHONY: demo test build nightly bench bench-peers docs extremes notebooks stubs viewer format clean distclean lint \
-        cpp-test cpp-allocations cpp-sanitize cpp-tsan python-test fuzz system-packages browser-packages \
+.PHONY: demo test build nightly bench bench-peers docs extremes notebooks stubs viewer wheel format clean distclean \
+        lint cpp-test cpp-allocations cpp-sanitize cpp-tsan python-test fuzz system-packages browser-packages \
         bundle-packages FORCE
 
 ifndef PYTHON
@@ -61,7 +64,7 @@ $(BIN)/python: | system-packages
 	touch $@
 
 # The list changes when a file appears or goes; its members' dates tell of edits.
-SOURCES = $(shell find cpp/seacrane cpp/bindings cpp/CMakeLists.txt cmake python/seacrane CMakeLists.txt \
+SOURCES = $(shell find cpp/seacrane cpp/bindings cpp/CMakeLists.txt cmake licenses python/seacrane CMakeLists.txt \
                   pyproject.toml README.md LICENSE -type f -not -path '*/__pycache__/*' | LC_ALL=C sort)
 $(STAMPS)/sources.txt: FORCE
 	@mkdir -p $(@D)
@@ -131,6 +134,7 @@ nightly: build .venv/.installed-dev bundle-packages
 	$(MAKE) --no-print-directory cpp-sanitize SANITIZE_BUILD=build/sanitize-all SANITIZE_NOT= UNITY=OFF
 	$(MAKE) --no-print-directory cpp-tsan
 	$(MAKE) --no-print-directory docs
+	$(MAKE) --no-print-directory wheel
 	$(MAKE) --no-print-directory extremes
 	$(MAKE) --no-print-directory bench
 
@@ -181,12 +185,24 @@ stubs: build .venv/.installed-dev
 viewer:
 	tools/viewer/build.sh python/seacrane/viewer/assets
 
+.venv/.installed-wheel: .venv/.installed-run
+	$(BIN)/python .ci/requirements.py wheel > .venv/requirements-wheel.txt
+	$(PIP) install -q -r .venv/requirements-wheel.txt
+	touch $@
+
+# What cibuildwheel would build elsewhere is printed, so that a mistake in its configuration is found here.
+wheel: build .venv/.installed-wheel
+	$(BIN)/python tools/wheel/build.py dist
+	$(BIN)/python tools/wheel/check.py dist/seacrane-*.whl $(WHEEL_ARGS)
+	for system in linux macos windows; do \
+	  $(BIN)/python -m cibuildwheel --print-build-identifiers --platform $$system --archs all; done
+
 format: .venv/.installed-dev
 	$(BIN)/ruff check --fix .
 	$(BIN)/ruff format .
 	$(BIN)/clang-format -i $(CPP_FILES)
 
 clean:
-	rm -rf build out docs/api .pytest_cache .mypy_cache .ruff_cache .hypothesis .venv/.installed-seacrane
+	rm -rf build out dist docs/api .pytest_cache .mypy_cache .ruff_cache .hypothesis .venv/.installed-seacrane
 distclean: clean
 	rm -rf .venv

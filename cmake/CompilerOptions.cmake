@@ -2,7 +2,14 @@
 add_library(seacrane_options INTERFACE)
 target_compile_features(seacrane_options INTERFACE cxx_std_20)
 # Results stay IEEE (no -ffast-math): only errno from libm is given up, which lets sqrt become one instruction.
-target_compile_options(seacrane_options INTERFACE -fno-math-errno $<$<CONFIG:Release>:-O3>)
+# -ffp-contract=off is what GCC does by itself here: a product and a sum are rounded each, on any processor.
+if(MSVC)  # clang-cl; not run by us
+  target_compile_options(seacrane_options INTERFACE /bigobj /utf-8)
+  target_compile_definitions(seacrane_options INTERFACE NOMINMAX)
+else()
+  target_compile_options(seacrane_options INTERFACE
+    -fno-math-errno $<$<CXX_COMPILER_ID:Clang,AppleClang>:-ffp-contract=off> $<$<CONFIG:Release>:-O3>)
+endif()
 if(SEACRANE_NATIVE)
   target_compile_options(seacrane_options INTERFACE -march=native)
 endif()
@@ -16,9 +23,13 @@ if(SEACRANE_SANITIZE)
 endif()
 
 add_library(seacrane_warnings INTERFACE)
-target_compile_options(seacrane_warnings INTERFACE -Wall -Wextra)
+if(MSVC)
+  target_compile_options(seacrane_warnings INTERFACE /W3)
+else()
+  target_compile_options(seacrane_warnings INTERFACE -Wall -Wextra)
+endif()
 if(SEACRANE_WERROR)
-  target_compile_options(seacrane_warnings INTERFACE -Werror)
+  target_compile_options(seacrane_warnings INTERFACE $<IF:$<BOOL:${MSVC}>,/WX,-Werror>)
 endif()
 
 if(SEACRANE_LTO)

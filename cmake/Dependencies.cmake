@@ -11,6 +11,13 @@ if(CMAKE_VERSION VERSION_GREATER_EQUAL 3.24)
   set(SEACRANE_FETCH_TIMESTAMP DOWNLOAD_EXTRACT_TIMESTAMP ON)
 endif()
 
+# Wheels take both from a folder of their own (tools/wheel/libraries.py), relative to this one where it is relative.
+set(SEACRANE_LIBRARIES "" CACHE STRING "Folder with Eigen and SUNDIALS, looked into first")
+if(SEACRANE_LIBRARIES)
+  get_filename_component(seacrane_libraries "${SEACRANE_LIBRARIES}" ABSOLUTE BASE_DIR "${PROJECT_SOURCE_DIR}")
+  list(PREPEND CMAKE_PREFIX_PATH "${seacrane_libraries}")
+endif()
+
 # Eigen 3.4 or newer; header-only, so the fall-back only needs its include folder (SOURCE_SUBDIR names a
 # folder without CMakeLists.txt: Eigen's own would configure its tests and demos).
 find_package(Eigen3 3.4 CONFIG QUIET)
@@ -67,6 +74,7 @@ endforeach()
 
 if(SEACRANE_PYTHON)
   set(PYBIND11_FINDPYTHON ON)
+  set(CMAKE_INTERPROCEDURAL_OPTIMIZATION ${SEACRANE_LTO})  # where it is set, pybind11 does not try the linker for it
   find_package(pybind11 2.13 CONFIG REQUIRED)
 endif()
 

@@ -1,6 +1,10 @@
 #include "without_gil.hpp"
 
+#ifdef _WIN32
+#include <process.h>
+#else
 #include <unistd.h>
+#endif
 
 #include <atomic>
 #include <condition_variable>
@@ -8,6 +12,14 @@
 #include <thread>
 
 namespace {
+
+int this_process() {
+#ifdef _WIN32
+  return ::_getpid();
+#else
+  return ::getpid();
+#endif
+}
 
 struct Threads {
   std::mutex mutex;
@@ -30,14 +42,14 @@ void wait_for_threads() {
   all.ending = true;
   const py::gil_scoped_release release;
   std::unique_lock lock(all.mutex);
-  all.left.wait(lock, [&] { return all.inside == 0 || all.process != ::getpid(); });
+  all.left.wait(lock, [&] { return all.inside == 0 || all.process != this_process(); });
 }
 
 }  // namespace
 
 bool WithoutGil::should_return() { return threads().ending && threads().last != std::this_thread::get_id(); }
 
-WithoutGil::Counted::Counted() : process(::getpid()) {
+WithoutGil::Counted::Counted() : process(this_process()) {
   if (should_return()) {
     PyErr_SetString(PyExc_SystemExit, "the interpreter is ending; nothing is begun any more");
     throw py::error_already_set();

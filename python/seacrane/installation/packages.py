@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from importlib.metadata import PackageNotFoundError, requires, version
 
-NOT_FOR_USERS = ("dev", "bench", "fuzz", "docs")  # extras that only work on the package itself needs
+NOT_FOR_USERS = ("dev", "bench", "fuzz", "docs", "wheel")  # extras that only work on the package itself needs
 NUMBER = re.compile(r"\d+")
 
 

@@ -1,0 +1,108 @@
+"""Builds a wheel for an old glibc by zig's compiler and its libc++: ``python tools/wheel/build.py [FOLDER]``.
+
+FOLDER (default dist) gets the sdist, and the wheel that is made from it alone. What the system's own compiler
+makes asks for its newer glibc. build/wheel keeps what can be used again. Needs the extra `wheel`, the
+build requirements, CMake, Ninja, and apt (debian_sources.sh).
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+import platform
+import shutil
+import subprocess
+import sys
+import tarfile
+from pathlib import Path
+
+import ziglang
+
+ROOT = Path(__file__).resolve().parents[2]
+HERE = Path(__file__).resolve().parent
+BUILD = ROOT / "build" / "wheel"
+GLIBC = "2.28"  # of RHEL 8 and Debian 10
+PACKAGES = {"sundials": "sundials", "eigen": "eigen3"}  # Debian's names
+
+
+def compilers() -> dict[str, str]:
+    """The environment with zig as compiler for the old glibc."""
+    zig = Path(ziglang.__file__).with_name("zig")
+    # All but the target only spare zig from building its C++ library once more, for what CMake tries first.
+    options = f"-target {platform.machine()}-linux-gnu.{GLIBC} -O2 -fPIC -s"
+    return {
+        **os.environ,
+        "CC": f"{zig} cc {options}",
+        "CXX": f"{zig} c++ {options}",
+        "ZIG_GLOBAL_CACHE_DIR": str(BUILD / "zig"),
+        "CMAKE_GENERATOR": "Ninja",
+    }
+
+
+def libraries() -> Path:
+    """Folder with SUNDIALS and Eigen; built once for each version of the scripts that build them."""
+    prefix, done = BUILD / "libraries", BUILD / "libraries.done"
+    scripts = [HERE / "libraries.py", HERE / "debian_sources.sh", Path(__file__)]
+    if done.exists() and all(done.stat().st_mtime > script.stat().st_mtime for script in scripts):
+        return prefix
+    sources = BUILD / "sources"
+    subprocess.run([HERE / "debian_sources.sh", sources], check=True)
+    archives = [f"--{name}={_archive(sources, package)}" for name, package in PACKAGES.items()]
+    command = [sys.executable, HERE / "libraries.py", prefix, *archives]
+    subprocess.run(command, check=True, env=compilers())
+    done.touch()
+    return prefix
+
+
+def _archive(folder: Path, package: str) -> Path:
+    return max(folder.glob(f"{package}_*.orig.tar.*"), key=lambda path: path.stat().st_mtime)
+
+
+def source_archive(out: Path) -> Path:
+    """The sdist."""
+    _clear(out, "seacrane-*.tar.gz")
+    command = [sys.executable, "-m", "build", "--sdist", "--no-isolation", "--outdir", out, ROOT]
+    subprocess.run(command, check=True)
+    (found,) = out.glob("seacrane-*.tar.gz")
+    return found
+
+
+def wheel(archive: Path) -> Path:
+    """The wheel as the build makes it from the sdist, tagged for this system only."""
+    source, raw = BUILD / "source", BUILD / "raw"
+    shutil.rmtree(source, ignore_errors=True)
+    with tarfile.open(archive) as tar:
+        tar.extractall(source, filter="data")
+    _clear(raw, "*.whl")
+    environment = compilers() | {
+        "SKBUILD_BUILD_DIR": str(BUILD / "package"),
+        "SKBUILD_CMAKE_DEFINE": f"SEACRANE_LIBRARIES={libraries()}",
+    }
+    pip = [sys.executable, "-m", "pip", "--disable-pip-version-check", "wheel", "-q"]
+    options = ["--no-deps", "--no-build-isolation", "--wheel-dir", raw, *source.iterdir()]
+    subprocess.run([*pip, *options], check=True, env=environment)
+    (built,) = raw.glob("*.whl")
+    return built
+
+
+def repaired(built: Path, out: Path) -> Path:
+    """The wheel with the tag of the oldest systems that have all it asks for."""
+    _clear(out, "seacrane-*.whl")
+    command = [sys.executable, "-m", "auditwheel", "repair", "--plat", "auto", "--wheel-dir", out, built]
+    subprocess.run(command, check=True)
+    (found,) = out.glob("seacrane-*.whl")
+    return found
+
+
+def _clear(folder: Path, pattern: str) -> None:
+    for old in folder.glob(pattern):
+        old.unlink()
+
+
+if __name__ == "__main__":
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.add_argument("folder", nargs="?", type=Path, default=ROOT / "dist")
+    folder = parser.parse_args().folder
+    print(repaired(wheel(source_archive(folder)), folder))

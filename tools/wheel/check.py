@@ -1,0 +1,130 @@
+"""Tries a wheel as one who installs it would, and keeps its facts: ``python tools/wheel/check.py WHEEL``.
+
+It is installed where no compiler is found. `seacrane doctor`, `seacrane --version` and the first notebook run
+from it. A run of case 2 is compared with one of the package that the system's own compiler made. Facts go to
+wheel-facts.csv beside the wheel, with --publish also into benchmarks/results and the documents.
+"""
+
+from __future__ import annotations
+
+import argparse
+import csv
+import statistics
+import subprocess
+import sys
+import time
+from collections.abc import Callable
+from pathlib import Path
+
+import jupytext
+import numpy as np
+from clean import Clean
+from inside import inside, oldest_system
+
+ROOT = Path(__file__).resolve().parents[2]
+HERE = Path(__file__).resolve().parent
+TRIAL = ROOT / "build" / "wheel" / "trial"
+PUBLISHED = ROOT / "benchmarks" / "results" / "wheel.csv"
+OLDEST = (2, 28)  # the newest glibc that the wheel may ask for
+SYSTEM = {"libc.so.6", "libm.so.6", "libpthread.so.0", "libdl.so.2", "librt.so.1"}  # and the loader
+LOADER = "ld-linux"
+SPAN = 20.0  # s of case 2
+APART = 1e-7  # m: compilers round differently; a wrong wheel is further away
+REPEATS = 5
+IMPORT = "import time; start = time.perf_counter(); import seacrane; print(time.perf_counter() - start)"
+NO_COMPILER = (
+    "import shutil; print(*filter(shutil.which, ('cc', 'c++', 'gcc', 'g++', 'clang', 'zig', 'cmake')))"
+)
+
+
+def require(good: bool, words: str) -> None:
+    """End with these words unless it is good."""
+    if not good:
+        raise SystemExit(words)
+
+
+def checked_inside(wheel: Path) -> dict[str, str]:
+    """Facts of the file; refused where it would not run on an old system or shows more than it must."""
+    facts = inside(wheel)
+    oldest = oldest_system(wheel)
+    require(oldest <= OLDEST, f"{wheel.name} needs glibc {oldest}; {OLDEST} was asked for")
+    needed = facts["libraries that the module needs"].split()
+    others = [name for name in needed if name not in SYSTEM and not name.startswith(LOADER)]
+    require(not others, f"{wheel.name} needs {', '.join(others)}, which not every system has")
+    shown = facts["names that it shows to others"]
+    require(shown == "PyInit__core", f"{wheel.name} shows {shown[:200]}")
+    return facts | {"auditwheel show": "manylinux_{}_{}".format(*oldest)}
+
+
+def timed(call: Callable[[], object]) -> float:
+    """Seconds that a call takes."""
+    start = time.perf_counter()
+    call()
+    return time.perf_counter() - start
+
+
+def tried(clean: Clean) -> dict[str, str]:
+    """What a new user does: ask, import, run the first notebook."""
+    found = clean.run("python", "-c", NO_COMPILER).strip()
+    require(not found, f"the clean environment is not clean: {found}")
+    print(clean.run("seacrane", "--version"))
+    print(clean.run("seacrane", "doctor"))
+    imports = [float(clean.run("python", "-c", IMPORT)) for _ in range(REPEATS)]
+    (first,) = (ROOT / "notebooks").glob("01_*.md")
+    script = clean.folder / "notebook.py"
+    jupytext.write(jupytext.read(first), script, fmt="py:percent")
+    seconds = timed(lambda: print(clean.run("python", str(script))))
+    return {
+        "import, s": f"{statistics.median(imports):.2f}",
+        "notebook 1, s": f"{seconds:.0f}",
+    }
+
+
+def compared(clean: Clean, against: Path) -> dict[str, str]:
+    """Case 2 of the wheel and of the other package: how far apart, and how much time each takes."""
+    kept = {"wheel": clean.folder / "wheel.npy", "other": clean.folder / "other.npy"}
+    script = str(HERE / "same_run.py")
+    seconds: dict[str, list[float]] = {"wheel": [], "other": []}
+    for _ in range(REPEATS):
+        seconds["wheel"].append(float(clean.run("python", script, str(SPAN), str(kept["wheel"]))))
+        command = [against, script, str(SPAN), kept["other"]]
+        said = subprocess.run(command, check=True, capture_output=True, text=True).stdout
+        seconds["other"].append(float(said))
+    apart = float(np.abs(np.load(kept["wheel"]) - np.load(kept["other"])).max())
+    require(apart < APART, f"case 2 of the wheel is {apart:.1e} m from that of {against}")
+    ratio = min(seconds["wheel"]) / min(seconds["other"])
+    return {
+        f"largest distance of a body from the system compiler's run, case 2, {SPAN:g} s, m": f"{apart:.1e}",
+        "time of that run over the system compiler's": f"{ratio:.2f}",
+    }
+
+
+def write(facts: dict[str, str], file: Path) -> None:
+    """A table of two columns."""
+    file.parent.mkdir(parents=True, exist_ok=True)
+    with file.open("w", newline="", encoding="utf-8") as out:
+        csv.writer(out, lineterminator="\n").writerows([("fact", "value"), *facts.items()])
+
+
+def main() -> None:
+    """Check, try, compare, keep."""
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.add_argument("wheel", type=Path)
+    other = "interpreter with the package that the system's compiler made (default: this one)"
+    parser.add_argument("--against", type=Path, default=Path(sys.executable), metavar="PYTHON", help=other)
+    parser.add_argument("--publish", action="store_true", help="also into benchmarks/ and the documents")
+    asked = parser.parse_args()
+    facts = checked_inside(asked.wheel)
+    clean = Clean.with_wheel(asked.wheel.resolve(), TRIAL)
+    facts |= tried(clean) | compared(clean, asked.against)
+    write(facts, asked.wheel.with_name("wheel-facts.csv"))
+    print("\n".join(f"{name}: {value}" for name, value in facts.items()))
+    if asked.publish:
+        write(facts, PUBLISHED)
+        subprocess.run([sys.executable, ROOT / "benchmarks" / "documents.py"], check=True)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,72 @@
+"""What a wheel holds and asks for: its tag, its sizes, and what its compiled module wants of the system."""
+
+from __future__ import annotations
+
+import io
+import re
+import subprocess
+import sys
+import zipfile
+from pathlib import Path
+
+from elftools.elf.elffile import ELFFile
+
+MANYLINUX = re.compile(r"manylinux_(\d+)_(\d+)_")
+
+
+def inside(wheel: Path) -> dict[str, str]:
+    """Facts by name; sizes in MB of 1e6 bytes."""
+    with zipfile.ZipFile(wheel) as archive:
+        unpacked = sum(entry.file_size for entry in archive.infolist())
+        (name,) = (entry for entry in archive.namelist() if Path(entry).name.startswith("_core.cpython"))
+        module = archive.read(name)
+    elf = ELFFile(io.BytesIO(module))
+    return {
+        "wheel": wheel.name,
+        "size, MB": f"{wheel.stat().st_size / 1e6:.1f}",
+        "unpacked, MB": f"{unpacked / 1e6:.1f}",
+        "compiled module, MB": f"{len(module) / 1e6:.1f}",
+        "libraries that the module needs": " ".join(needed_libraries(elf)),
+        "newest version of a symbol that it needs": newest_symbol(elf),
+        "names that it shows to others": " ".join(shown_names(elf)),
+    }
+
+
+def needed_libraries(elf: ELFFile) -> list[str]:
+    """Shared libraries that the loader must find."""
+    tags = elf.get_section_by_name(".dynamic").iter_tags("DT_NEEDED")
+    return sorted(tag.needed for tag in tags)
+
+
+def newest_symbol(elf: ELFFile) -> str:
+    """Of the C library: the least version that has all that the module calls."""
+    section = elf.get_section_by_name(".gnu.version_r")
+    versions = [entry.name for _, entries in section.iter_versions() for entry in entries]
+    return max(
+        (name for name in versions if name.startswith("GLIBC_")),
+        key=lambda name: [int(number) for number in name.removeprefix("GLIBC_").split(".")],
+    )
+
+
+def shown_names(elf: ELFFile) -> list[str]:
+    """Symbols that the module defines and other modules of a process can see."""
+    symbols = elf.get_section_by_name(".dynsym").iter_symbols()
+    seen = (symbol for symbol in symbols if symbol["st_shndx"] != "SHN_UNDEF")
+    return sorted(symbol.name for symbol in seen if symbol["st_other"]["visibility"] == "STV_DEFAULT")
+
+
+def oldest_system(wheel: Path) -> tuple[int, int]:
+    """The glibc that ``auditwheel show`` says is enough.
+
+    Raises
+    ------
+    SystemExit
+        auditwheel finds no manylinux that the wheel fits.
+    """
+    command = [sys.executable, "-m", "auditwheel", "show", wheel]
+    said = subprocess.run(command, check=True, capture_output=True, text=True).stdout
+    print(said)
+    found = MANYLINUX.search(said)
+    if not found:
+        raise SystemExit(f"{wheel.name} fits no manylinux: see the words of auditwheel above")
+    return int(found[1]), int(found[2])
