@@ -6,6 +6,8 @@ from typing import Any
 
 import numpy as np
 import pytest
+from matplotlib.figure import Figure
+from matplotlib.text import Text
 from test_result import crane_result, crane_run, vessel_result
 
 from seacrane import (
@@ -14,6 +16,7 @@ from seacrane import (
     SceneError,
     cases,
     plot_history,
+    plot_overview,
     plot_rao,
     plot_reactions,
     plot_scene,
@@ -22,8 +25,9 @@ from seacrane import (
     simulate,
 )
 from seacrane.figures.overview import overview_sheet
-from seacrane.figures.plots import history_sheet, rao_sheet, spectrum_sheet
+from seacrane.figures.plots import draw_track, history_sheet, rao_sheet, spectrum_sheet
 from seacrane.figures.traces import traces
+from seacrane.inputs.frames import AXES_NOTE
 from seacrane.plotting.panel import draw
 from seacrane.result import Result
 
@@ -85,6 +89,32 @@ def test_what_rounding_alone_draws_is_left_out() -> None:
     (cell,) = [axes for axes in draw(sheet).axes if axes.get_ylabel() == "vessel [deg]"]
     assert [text.get_text() for text in cell.get_legend().get_texts()] == ["pitch"], "the one left is named"
     assert "energy balance" not in [panel.quantity for panel in sheet.panels]
+
+
+def test_a_figure_of_directions_says_the_axes_once(lift: Result) -> None:
+    for figure in (plot_overview(lift), plot_history(lift, "vessel_motion", "position"), plot_track(lift)):
+        assert words_of(figure).count(AXES_NOTE) == 1
+    for figure in (plot_history(lift, "link_tension"), plot_reactions(lift), draw_track(lift)):
+        assert AXES_NOTE not in words_of(figure), "no direction, or on a page that says it itself"
+
+
+def words_of(figure: Figure) -> list[str]:
+    return [text.get_text() for text in figure.findobj(Text)]
+
+
+def test_a_long_label_takes_two_lines(lift: Result) -> None:
+    (panel,) = plot_spectrum(lift, "wave_elevation").axes
+    assert panel.get_ylabel() == "S, wave elevation\n[m2 s/rad]"
+
+
+def test_every_picture_is_a_figure_of_matplotlib(lift: Result) -> None:
+    """One call each, and no window."""
+    for figure in (
+        plot_overview(lift), plot_history(lift, "stroke"), plot_spectrum(lift, "wave_elevation"),
+        plot_track(lift), plot_reactions(lift),
+    ):  # fmt: skip
+        assert isinstance(figure, Figure)
+        assert not hasattr(figure, "number"), "pyplot does not know it"
 
 
 def test_a_constant_looks_constant() -> None:

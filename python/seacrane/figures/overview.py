@@ -120,6 +120,12 @@ def overview_sheet(result: Result) -> Sheet:
     )
 
 
+def axes_note(result: Result, channels: Iterable[str]) -> str:
+    """The axis convention, for a figure of channels that have directions."""
+    directed = any({"axis", "motion"} & set(result.dims[channel]) for channel in channels)
+    return AXES_NOTE if directed else ""
+
+
 def _panels(result: Result, chosen: Callable[[list[Trace]], list[Trace]]) -> list[Panel]:
     return [
         panel
@@ -151,4 +157,4 @@ def plot_overview(result: Result) -> Figure:
     ValueError
         If the run recorded nothing that is plotted.
     """
-    return draw(overview_sheet(result))
+    return draw(overview_sheet(result), note=axes_note(result, result.channels))

@@ -10,10 +10,10 @@ from numpy.typing import NDArray
 
 from seacrane.analysis.frequency_domain import motion_rao
 from seacrane.errors import SceneError
-from seacrane.figures.overview import marks_of, panels_of, payload_bodies, resultants
+from seacrane.figures.overview import axes_note, marks_of, panels_of, payload_bodies, resultants
 from seacrane.figures.traces import Trace, traces
 from seacrane.inputs.frames import AXES_NOTE, MOTIONS
-from seacrane.plotting.panel import COLOURS, MOST_NAMED, Line, Panel, Sheet, draw, plain
+from seacrane.plotting.panel import COLOURS, MOST_NAMED, Line, Panel, Sheet, draw, plain, write_note
 from seacrane.result import Result
 
 if TYPE_CHECKING:
@@ -83,7 +83,7 @@ def plot_history(result: Result, *channels: str, **names: str) -> Figure:
     SceneError
         For a channel or name that the result does not hold.
     """
-    return draw(history_sheet(result, *channels, **names))
+    return draw(history_sheet(result, *channels, **names), note=axes_note(result, channels))
 
 
 def history_sheet(result: Result, *channels: str, **names: str) -> Sheet:
@@ -210,6 +210,13 @@ def plot_track(result: Result, *bodies: str) -> Figure:
     SceneError
         For a body that is not in the result, or a result without `position`.
     """
+    figure = draw_track(result, *bodies)
+    write_note(figure, AXES_NOTE)
+    return figure
+
+
+def draw_track(result: Result, *bodies: str) -> Figure:
+    """The figure of `plot_track` for a page that says its axes itself."""
     from matplotlib.figure import Figure
 
     if "position" not in result.channels:
@@ -227,7 +234,7 @@ def plot_track(result: Result, *bodies: str) -> Figure:
             x, y = place[:, across], place[:, up]
             cell.plot(x, y, color=colour, linewidth=1.1, label=plain(body))
             cell.plot(x[0], y[0], "o", color=colour, markersize=5, markerfacecolor="white")
-            cell.plot(x[-1], y[-1], "s", color=colour, markersize=5)
+            cell.plot(x[-1], y[-1], "s", color=colour, markersize=6, markeredgecolor="black", zorder=4)
         cell.set(xlabel=f"{'xyz'[across]} [m]", ylabel=f"{'xyz'[up]} [m]", title=view)
         cell.set_aspect("equal", adjustable="datalim")
         cell.title.set_fontsize(9)

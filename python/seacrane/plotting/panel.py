@@ -24,10 +24,12 @@ Array = NDArray[np.float64]
 
 COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9", "#E69F00", "#000000")  # Okabe and Ito
 SHADE = "#EEF3F8"
+NOTE_COLOUR = "0.35"
 MARK_COLOURS = ("0.25", "#D55E00", "#0072B2")  # of what is marked along the abscissa
 ROUNDING = 1e-9  # of its size by which a constant may vary
 MOST_MARKS = 200  # of one kind that are drawn: more would hide the curves
 MOST_NAMED = 24  # lines that a legend lists: a longer one would hide the figure
+LONGEST_LABEL = 25  # letters that fit beside a panel in one line
 FEW_LINES = 3  # up to which a panel has room for its extremes in words
 DOTS_PER_INCH = 130
 
@@ -130,8 +132,14 @@ def plain(text: str) -> str:
     return f" {escaped}" if escaped.startswith("_") else escaped
 
 
-def draw(sheet: Sheet) -> Figure:
+def draw(sheet: Sheet, *, note: str = "") -> Figure:
     """Draw a sheet.
+
+    Parameters
+    ----------
+    sheet : Sheet
+    note : str
+        Words below the panels, for a figure that stands alone.
 
     Returns
     -------
@@ -168,7 +176,17 @@ def draw(sheet: Sheet) -> Figure:
         columns = min(6, len(handles))
         figure.legend(handles=handles, loc="outside lower center", ncols=columns, fontsize=9, frameon=False)
     figure.suptitle(plain(sheet.title), fontsize=11)
+    write_note(figure, note)
     return figure
+
+
+def write_note(figure: Figure, note: str) -> None:
+    """Small words at the foot of a figure, above its legend where it has one; none, nothing."""
+    for legend in figure.legends[:1] if note else ():
+        legend.set_title(note, prop={"size": 7})
+        legend.get_title().set_color(NOTE_COLOUR)
+    if note and not figure.legends:
+        figure.supxlabel(note, x=0.01, ha="left", fontsize=7, color=NOTE_COLOUR)
 
 
 def _draw_panel(cell: Axes, panel: Panel, abscissa: Array, *, legend: bool) -> None:
@@ -176,7 +194,8 @@ def _draw_panel(cell: Axes, panel: Panel, abscissa: Array, *, legend: bool) -> N
         colour = COLOURS[line.colour % len(COLOURS)]
         label = plain(line.label)
         cell.plot(abscissa, line.values, line.style, color=colour, label=label, linewidth=1.1, markersize=4)
-    cell.set_ylabel(plain(f"{panel.quantity} [{panel.unit}]"))
+    words = f"{panel.quantity} [{panel.unit}]"
+    cell.set_ylabel(plain(words if len(words) <= LONGEST_LABEL else f"{panel.quantity}\n[{panel.unit}]"))
     cell.margins(x=0)
     _hide_rounding(cell, panel)
     cell.grid(True, linewidth=0.4, alpha=0.6)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from seacrane.figures.overview import PANELS, overview_sheet, payload_bodies
-from seacrane.figures.plots import history_sheet, plot_track
+from seacrane.figures.plots import draw_track, history_sheet
 from seacrane.plotting.panel import draw
 from seacrane.reporting.blocks import drawn
 from seacrane.reporting.section import Section
@@ -38,7 +38,7 @@ def _histories(result: Result) -> str:
 
 
 def _track(result: Result) -> str:
-    return drawn(plot_track(result), "Payload", "Track of the centre of mass in inertial axes.")
+    return drawn(draw_track(result), "Payload", "Track of the centre of mass in inertial axes.")
 
 
 LOADS: Section[Result] = Section(
