@@ -15,10 +15,10 @@ import numpy as np
 import pytest
 
 from seacrane.cli.command_line import explain, main
-from seacrane.cli.scene_source import run_script
 from seacrane.cli.json_text import to_json
-from seacrane.plotting.text import text_table
+from seacrane.cli.scene_source import run_script
 from seacrane.errors import SceneError
+from seacrane.plotting.text import text_table
 from seacrane.result import Result
 
 PENDULUM = """
@@ -49,7 +49,9 @@ def refusal(done: subprocess.CompletedProcess[str]) -> str:
     return lines[0]
 
 
-@pytest.mark.parametrize("command", ["", "run", "paper", "report", "show", "hydro", "trade", "schema", "doctor"])
+@pytest.mark.parametrize(
+    "command", ["", "run", "paper", "report", "show", "hydro", "trade", "schema", "doctor"]
+)
 def test_every_command_explains_itself(command: str) -> None:
     done = command_line(*command.split(), "--help")
     assert done.returncode == 0 and done.stdout.startswith(f"usage: seacrane {command}".rstrip())

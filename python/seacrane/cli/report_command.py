@@ -5,11 +5,11 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
+from seacrane.cli.json_text import to_json
 from seacrane.cli.output_folder import output_folder
 from seacrane.cli.scene_source import CASES, load_scene
-from seacrane.cli.json_text import to_json
-from seacrane.plotting.text import text_table
 from seacrane.errors import SceneError
+from seacrane.plotting.text import text_table
 
 RESULT_BEGINS = (b"\x89HDF", b"CDF", b"seacrane partial result")  # NetCDF of both kinds, a run that goes on
 

@@ -168,8 +168,8 @@ def load_scene(path: str | os.PathLike[str], scene: Some) -> Some:
 
 
 def scene_digest(scene: Description) -> str:
-    """SHA-256 of what a scene describes: equal for scenes that move alike. Notes, limit states and provenance do not
-    count, and of C functions only their names."""
+    """SHA-256 of what a scene describes: equal for scenes that move alike. Notes, limit states and provenance
+    do not count, and of C functions only their names."""
     data = described(scene.copy(notes={}, provenance={}, limit_states={}))
     data["function_forces"] = [[force.name, force.body] for force in scene.function_forces.values()]
     return hashlib.sha256(json.dumps(data).encode("ascii")).hexdigest()
