@@ -113,7 +113,8 @@ def warn_of_loads_in_hulls(scene: Description) -> None:
                     f"body {roles.payload!r}: starts inside vessel {vessel.name!r}: its lower edge is at "
                     f"{centre[2] - half:.4g} m, {centre[0]:.4g} m forward and {centre[1]:.4g} m to port of "
                     f"its origin, below the deck at {deck:.4g} m, where the lowest joint on the hull is. "
-                    "Nothing keeps bodies apart: shorten the link, or turn the crane out before the load is lowered",
+                    "Nothing keeps bodies apart: shorten the link, or turn the crane out before the load is "
+                    "lowered",
                     LoadInHullWarning,
                 )
 
