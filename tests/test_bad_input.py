@@ -32,6 +32,9 @@ from seacrane import (
 )
 from seacrane.crane import Payload
 
+# Assembly makes consistent what some scenes describe roughly, on purpose.
+pytestmark = pytest.mark.filterwarnings("ignore::seacrane.AssemblyWarning")
+
 NAN, INF = float("nan"), float("inf")
 KINDS = tuple(joint_examples.KINDS)
 

@@ -119,4 +119,3 @@ def test_what_makes_no_ballast_is_refused() -> None:
         barge().add_ballast(tanks={})
     with pytest.raises(SceneError, match="content is 5 kg; give one from 0 to its capacity of 4 kg"):
         Tank(point=(0.0, 0.0, 0.0), capacity=4.0, content=5.0)
-

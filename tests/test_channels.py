@@ -14,6 +14,9 @@ from seacrane import Result, SceneError, _core, cases, simulate
 from seacrane.result import CHANNELS
 from seacrane.result.channels import DERIVED, FIXED, NAMED
 
+# Assembly makes consistent what some scenes describe roughly, on purpose.
+pytestmark = pytest.mark.filterwarnings("ignore::seacrane.AssemblyWarning")
+
 TOOL = Path(__file__).parents[1] / "tools" / "channel_table.py"
 
 

@@ -15,10 +15,10 @@ import numpy as np
 import pytest
 
 from seacrane.cli.command_line import explain, main
-from seacrane.cli.scene_source import run_script
 from seacrane.cli.json_text import to_json
-from seacrane.plotting.text import text_table
+from seacrane.cli.scene_source import run_script
 from seacrane.errors import SceneError
+from seacrane.plotting.text import text_table
 from seacrane.result import Result
 
 PENDULUM = """

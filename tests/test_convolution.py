@@ -34,6 +34,9 @@ from seacrane.hydro import (
     vessel_parameters,
 )
 
+# Assembly makes consistent what some scenes describe roughly, on purpose.
+pytestmark = pytest.mark.filterwarnings("ignore::seacrane.AssemblyWarning")
+
 Array = NDArray[np.float64]
 CHANNELS = ["vessel_motion", "energy_balance", "absolute_work"]
 

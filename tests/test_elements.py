@@ -20,6 +20,9 @@ from seacrane.description.file import _CLASSES, described
 from seacrane.description.loads import LOAD_KINDS, bodies_of
 from seacrane.errors import FileFormatError
 
+# Assembly makes consistent what some scenes describe roughly, on purpose.
+pytestmark = pytest.mark.filterwarnings("ignore::seacrane.AssemblyWarning")
+
 LOADS = {kind: type_ for kind, type_ in LOAD_KINDS.items() if hasattr(type_, "example")}
 SAVED = [kind for kind, type_ in LOADS.items() if all(field.type != "function" for field in type_.FIELDS)]
 

@@ -22,6 +22,9 @@ from test_redundant_joints import bars
 
 from seacrane import Evaluator, Model, Run, Scene, SceneError, _core, cases, simulate
 
+# Assembly makes consistent what some scenes describe roughly, on purpose.
+pytestmark = pytest.mark.filterwarnings("ignore::seacrane.AssemblyWarning")
+
 Array = NDArray[np.float64]
 AGREEMENT = 1e-9  # of the largest like quantity
 EPS = float(np.finfo(float).eps)

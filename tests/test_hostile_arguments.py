@@ -13,6 +13,9 @@ from hypothesis import strategies as st
 
 from seacrane import Curve, HullLoads, Scene, SceneError, SimulationError, Waves, sea, simulate, spline_curve
 
+# Assembly makes consistent what some scenes describe roughly, on purpose.
+pytestmark = pytest.mark.filterwarnings("ignore::seacrane.AssemblyWarning")
+
 NAN, INF = float("nan"), float("inf")
 SETTINGS = settings(
     max_examples=80,

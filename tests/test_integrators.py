@@ -15,6 +15,9 @@ from test_convergence import exact, payload_error, run
 
 from seacrane import Evaluator, Run, Scene, SceneError, _core, cases, integrator_names, simulate
 
+# Assembly makes consistent what some scenes describe roughly, on purpose.
+pytestmark = pytest.mark.filterwarnings("ignore::seacrane.AssemblyWarning")
+
 
 @pytest.mark.parametrize(
     "integrator", [m.name for m in _core.integrators() if m.setting == "rtol" and m.lowest_order == m.order]

@@ -16,6 +16,9 @@ from seacrane import FlowCoefficients, Scene, _core, cases, equilibrium, linear_
 from seacrane.analysis.linearise import jacobian
 from seacrane.analysis.reduced_coordinates import Terms
 
+# Assembly makes consistent what some scenes describe roughly, on purpose.
+pytestmark = pytest.mark.filterwarnings("ignore::seacrane.AssemblyWarning")
+
 Array = NDArray[np.float64]
 
 

@@ -53,8 +53,8 @@ def page(lift: Result) -> Report:
 
 def test_a_lift_leads_with_loads_and_ends_with_the_engines_tables(page: Report) -> None:
     assert titles(page) == [
-        "At a glance", "Summary", "Particulars", "Scene", "In three dimensions", "Link and wire tension", "Limits",
-        "Statistics", "Histories", "Payload track", "Warnings", "Checks", "Cost", "Provenance",
+        "At a glance", "Summary", "Particulars", "Scene", "In three dimensions", "Link and wire tension",
+        "Limits", "Statistics", "Histories", "Payload track", "Warnings", "Checks", "Cost", "Provenance",
     ]  # fmt: skip
 
 

@@ -10,9 +10,20 @@ import numpy as np
 import pytest
 from test_lift_report import titles
 from test_result import crane_run
-from test_summary import G, LENGTH, MASS, pendulum
+from test_summary import LENGTH, MASS, G, pendulum
 
-from seacrane import FileFormatError, Lift, LimitState, Result, Scene, SceneError, report, simulate, simulate_to_file, summary
+from seacrane import (
+    FileFormatError,
+    Lift,
+    LimitState,
+    Result,
+    Scene,
+    SceneError,
+    report,
+    simulate,
+    simulate_to_file,
+    summary,
+)
 
 TOP = MASS * G * (3.0 - 2.0 * np.cos(0.3))  # N, of a pendulum let go at 0.3 rad
 
@@ -20,7 +31,9 @@ TOP = MASS * G * (3.0 - 2.0 * np.cos(0.3))  # N, of a pendulum let go at 0.3 rad
 def limited() -> Scene:
     scene = pendulum()
     scene.add_limit_state(channel="link_tension", max=2.5e4, min=1.5e4)
-    scene.add_limit_state(name="swing", channel="position", where={"body": "load", "axis": "x"}, max=1.0, min=-2)
+    scene.add_limit_state(
+        name="swing", channel="position", where={"body": "load", "axis": "x"}, max=1.0, min=-2
+    )
     return scene
 
 
@@ -78,6 +91,14 @@ def test_it_is_in_files_summaries_and_reports(swinging: Result, tmp_path: Path) 
     assert told.load().utilisation == swinging.utilisation
 
 
+@pytest.mark.parametrize("noted", ["{", "[1]", '[{"name": "a"}]', '[{"channel": "tension", "where": 5}]'])
+def test_a_result_with_notes_that_no_run_writes_is_refused_by_name(noted: str) -> None:
+    run = crane_run(t_end=1.0)
+    broken = Result.from_arrays(**run | {"stats": {**run["stats"], "limit_states": noted}})
+    with pytest.raises(FileFormatError, match="limit states are none that a run writes"):
+        broken.utilisation.largest  # noqa: B018 - the property itself is asked for
+
+
 def test_scene_files_and_copies_keep_them(tmp_path: Path) -> None:
     scene = limited()
     scene.save(tmp_path / "scene.json")
@@ -127,11 +148,15 @@ def test_a_lift_gives_limits_with_their_unit() -> None:
     scene = lift('channel = "vessel_motion"\nwhere = { motion = "roll" }\nmax_deg = 5\nmin_deg = -5')
     (state,) = scene.limit_states.values()
     assert (state.maximum, state.minimum) == pytest.approx((np.radians(5.0), np.radians(-5.0)))
-    with pytest.raises(FileFormatError, match="max_m: channel 'vessel_motion' is in rad; give max_rad or max_deg"):
+    with pytest.raises(
+        FileFormatError, match="max_m: channel 'vessel_motion' is in rad; give max_rad or max_deg"
+    ):
         lift('channel = "vessel_motion"\nwhere = { motion = "roll" }\nmax_m = 5')
     with pytest.raises(FileFormatError, match="max_deg: channel 'link_tension' is in N; give max_N"):
         lift('channel = "link_tension"\nmax_deg = 5')
-    with pytest.raises(FileFormatError, match="max_m: channel 'vessel_motion' is in .*name one of its curves"):
+    with pytest.raises(
+        FileFormatError, match=r"max_m: channel 'vessel_motion' is in .*name one of its curves"
+    ):
         lift('channel = "vessel_motion"\nmax_m = 5')
 
 
@@ -144,9 +169,7 @@ def test_a_lift_gives_limits_with_their_unit() -> None:
         ({"channel": "position", "where": {"hook": "hook"}}, "has no dimension 'hook'; it has axis, body"),
     ],
 )
-def test_what_the_scene_does_not_have_is_refused_before_the_run(
-    given: dict[str, object], words: str
-) -> None:
+def test_what_the_scene_does_not_have_is_refused_before_the_run(given: dict[str, object], words: str) -> None:
     scene = pendulum()
     scene.add_limit_state(max=1.0, **given)  # type: ignore[arg-type]
     with pytest.raises(SceneError, match=words):

@@ -12,6 +12,9 @@ from seacrane import Curve, Run, Scene, _core, cases
 from seacrane.analysis.scene_report import scene_report
 from seacrane.scene.wind_current import FlowCoefficients
 
+# Assembly makes consistent what some scenes describe roughly, on purpose.
+pytestmark = pytest.mark.filterwarnings("ignore::seacrane.AssemblyWarning")
+
 TURNED = np.array([0.8, 0.2, -0.4, 0.4])  # unit quaternion
 COMPARED = ("position", "velocity", "angular_velocity", "acceleration", "reaction_force", "reaction_moment")
 FORCE = ctypes.CFUNCTYPE(None, ctypes.c_double, *[ctypes.POINTER(ctypes.c_double)] * 3)

@@ -10,7 +10,10 @@ from scipy.spatial.transform import Rotation
 
 from seacrane import Result, Scene, simulate
 
-pytestmark = pytest.mark.filterwarnings("ignore:.*are redundant:UserWarning")
+pytestmark = [
+    pytest.mark.filterwarnings("ignore:.*are redundant:UserWarning"),
+    pytest.mark.filterwarnings("ignore::seacrane.AssemblyWarning"),  # it makes rough velocities consistent
+]
 Array = NDArray[np.float64]
 MASS, GRAVITY = 2e4, 9.81
 INERTIA = np.array([3e4, 6e4, 8e4])

@@ -17,6 +17,9 @@ from seacrane.hydro import shipped_database
 from seacrane.scene.position import force_by_heading
 from seacrane.validity.hull_range import peak_frequency
 
+# Assembly makes consistent what some scenes describe roughly, on purpose.
+pytestmark = pytest.mark.filterwarnings("ignore::seacrane.AssemblyWarning")
+
 Array = NDArray[np.float64]
 CUTOFF = 0.5  # rad/s, of hulls that are driven: high, so that transients are short
 SIX = ("x", "y", "z", "roll", "pitch", "yaw")

@@ -18,6 +18,9 @@ from test_restart import SCENES
 from seacrane import FileFormatError, Result, Run, Scene, SceneError, State, _core, cases, simulate
 from seacrane.files.state import DIGEST, MAGIC
 
+# Assembly makes consistent what some scenes describe roughly, on purpose.
+pytestmark = pytest.mark.filterwarnings("ignore::seacrane.AssemblyWarning")
+
 Array = NDArray[np.float64]
 STOP, END = 0.43, 0.9
 CHANNELS = ["position", "quaternion", "energy_balance", "constraint_error_before_projection"]

@@ -1,4 +1,4 @@
-"""Statics against closed forms, virtual work, other functions of the package, and a run that comes to rest."""
+"""Statics against closed forms, virtual work, other functions, and a run that comes to rest."""
 
 from __future__ import annotations
 

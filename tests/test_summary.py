@@ -9,7 +9,18 @@ import numpy as np
 import pytest
 from test_result import crane_run, vessel_result
 
-from seacrane import Frame, Result, Scene, SceneError, cases, plot_summary, simulate, statics, summary
+from seacrane import (
+    FileFormatError,
+    Frame,
+    Result,
+    Scene,
+    SceneError,
+    cases,
+    plot_summary,
+    simulate,
+    statics,
+    summary,
+)
 
 G = 9.80665
 MASS, LENGTH = 2000.0, 5.0
@@ -34,7 +45,7 @@ def swinging() -> Result:
 
 
 def test_a_swinging_load_in_closed_form(swinging: Result) -> None:
-    """T = m g (3 cos phi - 2 cos phi0): weight over cosine at the ends, m g (3 - 2 cos phi0) at the bottom."""
+    """T = m g (3 cos phi - 2 cos phi0): m g cos phi0 at the ends, m g (3 - 2 cos phi0) at the bottom."""
     told, weight = summary(swinging), MASS * G / 1e3
     tension = told["link tension"]
     assert tension.unit == "kN" and tension.static_known
@@ -46,7 +57,7 @@ def test_a_swinging_load_in_closed_form(swinging: Result) -> None:
     assert swing.unit == "deg" and swing.maximum == pytest.approx(np.degrees(0.3), rel=1e-6)
     assert swing.factor is None and not swing.static_known and swing.static == pytest.approx(np.degrees(0.3))
     assert told["load offset x"].minimum == pytest.approx(-LENGTH * np.sin(0.3), rel=1e-4)
-    with pytest.raises(KeyError, match="'load offset y'.*has 'link tension'"):
+    with pytest.raises(KeyError, match=r"'load offset y'.*has 'link tension'"):
         told["load offset y"].mean  # noqa: B018 - nothing moves along y
 
 
@@ -118,6 +129,16 @@ def test_static_values_come_from_statics() -> None:
         summary(result, static=statics(scene, slew=[0.0, 1.0]))
     with pytest.raises(SceneError, match="static is a dict; give what statics"):
         summary(result, static={})  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize("note", ["hanging_weight", "cranes", "outline", "settings"])
+def test_notes_that_no_run_writes_are_refused_by_name(note: str, swinging: Result) -> None:
+    broken = Result(
+        time=swinging.time, channels=swinging.channels, coords=swinging.coords,
+        stats={**swinging.stats, note: "[5"},
+    )  # fmt: skip
+    with pytest.raises(FileFormatError, match="notes are none that a run writes"):
+        summary(broken)
 
 
 def test_what_makes_no_summary_is_refused() -> None:

@@ -15,6 +15,9 @@ from numpy.typing import NDArray
 from seacrane import ByHeading, Curve, HullLoads, Scene, SceneError, Waves, _core, simulate
 from seacrane.hydro import HydroDatabase, shipped_database
 
+# Assembly makes consistent what some scenes describe roughly, on purpose.
+pytestmark = pytest.mark.filterwarnings("ignore::seacrane.AssemblyWarning")
+
 Array = NDArray[np.float64]
 G = 9.80665
 TIMES = np.array([0.0, 0.4, 17.3, 99.0, 1234.5])

@@ -104,8 +104,8 @@ def add_ballast(
     Raises
     ------
     SceneError
-        Where tanks do not suffice, naming the one that would overflow or run dry; where nothing is carried and
-        there are no tanks; or where the scene does not come to rest.
+        Where tanks do not suffice, naming the one that would overflow or run dry; where nothing is carried
+        and there are no tanks; or where the scene does not come to rest.
     """
     vessel = _vessel(scene, body)
     target = np.radians([_angle("heel_deg", heel_deg), _angle("trim_deg", trim_deg)])
@@ -154,7 +154,7 @@ class _Force:
         self.moments = self.weight * np.array([[0.0, 1.0], [-1.0, 0.0]])
 
     def solve(self, needed: Array) -> Array:
-        return np.linalg.solve(self.moments, needed)
+        return np.asarray(np.linalg.solve(self.moments, needed), dtype=np.float64)
 
     def start(self) -> Array:
         return np.asarray(self.first[:2])

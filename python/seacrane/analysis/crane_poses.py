@@ -28,9 +28,7 @@ def crane_of(scene: Description, prefix: str | None) -> CraneRoles:
         return next(iter(scene.roles.values()))
     known = ", ".join(map(repr, scene.roles)) or "none"
     if prefix is None:
-        fix = (
-            "name one as crane" if scene.roles else "add one by add_crane, or tell its parts by add_roles"
-        )
+        fix = "name one as crane" if scene.roles else "add one by add_crane, or tell its parts by add_roles"
         raise SceneError(f"scene {scene.name!r}: its cranes have prefixes {known}; {fix}")
     if prefix not in scene.roles:
         raise SceneError(f"crane {prefix!r}: is not in the scene, whose cranes have prefixes {known}")
@@ -66,9 +64,7 @@ def posed(scene: Some, places: Mapping[str, Place], path: Mapping[str, _core.Cur
             del out.drivers[name]
     for label, (joint, coordinate) in places.items():
         curve = path.get(label, still)
-        add_driver(
-            out, joint=joint, coordinate=coordinate, curve=curve, name=drive_name((joint, coordinate))
-        )
+        add_driver(out, joint=joint, coordinate=coordinate, curve=curve, name=drive_name((joint, coordinate)))
     return out
 
 

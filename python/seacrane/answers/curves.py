@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane.answers.hanging import POSES, hanging_vectors, swing
+from seacrane.errors import FileFormatError
 from seacrane.figures.traces import NO_MOTION, Trace, beyond_rounding, traces
 from seacrane.result import Result
 
@@ -60,8 +61,16 @@ class Curve:
 def reported_curves(result: Result) -> list[Curve]:
     """Tensions, cylinder forces, slew torques, where loads hang, and the vessels' heave, roll and pitch.
 
-    What was not recorded, or is zero up to rounding, is left out.
+    What was not recorded, or is zero up to rounding, is left out. Raises FileFormatError where a result holds
+    notes that no run writes.
     """
+    try:
+        return _curves(result)
+    except (LookupError, TypeError, ValueError, AttributeError) as error:
+        raise FileFormatError(f"the result's notes are none that a run writes: {error}") from error
+
+
+def _curves(result: Result) -> list[Curve]:
     held = set(result.channels)
     loads = [name for name in (*TENSIONS, *CRANE) if name in held and SAME.get(name) not in held]
     found = [_load(result, one) for name in loads for one in beyond_rounding(traces(result, name))]
@@ -79,7 +88,8 @@ def _load(result: Result, one: Trace) -> Curve:
         factor, unit = TONNES[one.unit] / STANDARD_GRAVITY, "t"
     static = _hanging_weight(result, one) if one.channel in TENSIONS else None
     return Curve(
-        kind=one.channel.replace("_", " "), label=one.label, unit=unit, values=factor * one.values, load=one.channel != "slew_torque",
+        kind=one.channel.replace("_", " "), label=one.label, unit=unit, values=factor * one.values,
+        load=one.channel != "slew_torque",
         static=None if static is None else static * si_factor(unit),
     )  # fmt: skip
 

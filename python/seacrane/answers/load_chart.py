@@ -128,9 +128,9 @@ def load_chart(
 ) -> LoadChart:
     """The largest load on the hook at each radius and slew angle that keeps every limit, at rest.
 
-    The load of the scene is replaced by heavier and lighter ones, and the scene rests with each, until a limit
-    is reached: the ship heels, cylinders carry it. The ballast of the scene stays as it is. Dynamic factors
-    are not in it: take them off the limits, or off the load.
+    The load of the scene is replaced by heavier and lighter ones, and the scene rests with each, until a
+    limit is reached: the ship heels, cylinders carry it. The ballast of the scene stays as it is. Dynamic
+    factors are not in it: take them off the limits, or off the load.
 
     Parameters
     ----------
@@ -181,12 +181,11 @@ def load_chart(
         _Hook(at_rest, roles, bounds).allowable(pose["radius"])
         for pose, at_rest in zip(grid, resting(scene, roles, grid, luff), strict=True)
     ]
-    capacity = [allowed_at(roles.capacity, float(r)) / 1e3 for r in axes["radius"]]
     return LoadChart(
         scene=scene.name, slews=axes["slew"], radii=axes["radius"],
         allowable=np.array([load for load, _ in found]).reshape(shape) / 1e3,
         governing=np.array([name for _, name in found]).reshape(shape),
-        limits=bounds, capacity=np.array(capacity) if roles.capacity else None,
+        limits=bounds, capacity=allowed_at(roles.capacity, axes["radius"]) / 1e3 if roles.capacity else None,
     )  # fmt: skip
 
 
@@ -247,7 +246,7 @@ class _Hook:
         self, before: float, values: dict[str, float], now: float, later: dict[str, float], radius: float
     ) -> tuple[float, str]:
         """The load at which the first of the limits would be reached, and its name."""
-        reached = {CAPACITY: allowed_at(self._capacity, radius)} if self._capacity else {}
+        reached = {CAPACITY: float(allowed_at(self._capacity, radius))} if self._capacity else {}
         for name, (low, high) in self._bounds.items():
             slope = (later[name] - values[name]) / (now - before)
             if abs(slope) * now <= EXACT * max(abs(low), abs(high)):

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane.answers.curves import Curve
+from seacrane.errors import FileFormatError
 from seacrane.result import Result
 
 Array = NDArray[np.float64]
@@ -21,21 +22,25 @@ CALMED = 2.0  # times the standard deviation of the last part
 
 def remarks_on(result: Result, time: Array, curves: Sequence[Curve]) -> list[str]:
     """One sentence each, for the part of a run from the first to the last of `time`."""
-    stopped = (
-        [f"The run was interrupted: the record ends at {time[-1]:g} s."] if result.interrupted else []
-    )
+    stopped = [f"The run was interrupted: the record ends at {time[-1]:g} s."] if result.interrupted else []
     return [*stopped, *_short(result, time), *_transient(time, curves)]
 
 
 def _short(result: Result, time: Array) -> list[str]:
-    settings = json.loads(str(result.stats["settings"]))
-    period, span = settings.get("tp"), float(time[-1] - time[0])
+    period, span = _peak_period(result), float(time[-1] - time[0])
     if not isinstance(period, (int, float)) or not period or span >= ENOUGH_WAVES * period:
         return []
     return [
         f"Too short for statistics: {span:g} s are {span / period:.0f} peak periods. Largest and smallest "
         f"are those of these waves alone; run {ENOUGH_WAVES * period:g} s or more, or several seeds."
     ]
+
+
+def _peak_period(result: Result) -> object:
+    try:
+        return json.loads(str(result.stats["settings"])).get("tp")
+    except (ValueError, AttributeError) as error:
+        raise FileFormatError(f"the result's notes are none that a run writes: {error}") from error
 
 
 def _transient(time: Array, curves: Sequence[Curve]) -> list[str]:

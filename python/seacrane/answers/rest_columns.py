@@ -9,9 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane import _core
+from seacrane.analysis.crane_poses import drive_name
 from seacrane.analysis.rest_state import held
 from seacrane.answers.afloat import attitude, displaced_weight, heeling_stiffness
-from seacrane.analysis.crane_poses import drive_name
 from seacrane.description.compilation import compile_scene
 from seacrane.description.crane_parts import cylinders, hooks, slews
 from seacrane.description.crane_reach import tip_radius
@@ -39,9 +39,7 @@ class AtRest:
         run = _core.Simulation(
             model=model,
             start=_core.State(time=state.time, values=state.values, inputs=np.zeros(model.slots)),
-            options=_core.RunOptions(
-                integrator="rk4", output_times=[state.time], channels=CHANNELS & known
-            ),
+            options=_core.RunOptions(integrator="rk4", output_times=[state.time], channels=CHANNELS & known),
         )
         channels = {name: values[0] for name, values in run.channels().items() if name != "time"}
         return cls(scene=scene, model=model, state=state, channels=channels)

@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from seacrane.analysis.rest_state import rest_states
 from seacrane.analysis.crane_poses import crane_of, path_through, places_of, posed, values_of
+from seacrane.analysis.rest_state import rest_states
 from seacrane.answers.reach import Reach, luffing
 from seacrane.answers.rest_columns import AtRest, columns_of
 from seacrane.description.joint_coordinates import ANGLES
@@ -79,7 +79,10 @@ class Statics:
 
         dims = tuple(self.poses)
         return xarray.Dataset(
-            {name: (dims, values.copy(), {"units": self.units[name]}) for name, values in self.columns.items()},
+            {
+                name: (dims, values.copy(), {"units": self.units[name]})
+                for name, values in self.columns.items()
+            },
             {name: (name, values.copy(), {"units": _unit(name)}) for name, values in self.poses.items()},
             {"scene": self.scene},
         )

@@ -26,6 +26,7 @@ Array = NDArray[np.float64]
 HEAD = ("", "unit", "static", "mean", "std", "min", "at [s]", "max", "at [s]", "factor")
 STARRED = "* at the first output: no static value is known."
 ATTITUDE = {"heel": "roll", "trim": "pitch"}
+NO_LIMITS = Utilisation(())
 LEAST_STATIC = 1e-3  # of the largest value: a smaller static load makes no factor
 
 
@@ -84,7 +85,7 @@ class Summary:
     end: float
     rows: tuple[SummaryRow, ...]
     remarks: tuple[str, ...] = ()
-    utilisation: Utilisation = Utilisation(())
+    utilisation: Utilisation = NO_LIMITS
 
     def __iter__(self) -> Iterator[SummaryRow]:
         return iter(self.rows)
@@ -170,7 +171,7 @@ def summary(
     """Static value, mean, standard deviation, extremes and dynamic factor of what matters in a run.
 
     Rows: tension of links and wires, hook load, cylinder forces, slew torque, offset and swing of what hangs,
-    heave, roll and pitch of vessels; as far as the run recorded them, and without what is zero up to rounding.
+    heave, roll and pitch of vessels; as far as the run recorded them, without what is zero up to rounding.
     The static tension of a link is the weight that hangs on it. Of all else the value at the run's first
     output takes its place, marked by a star.
 

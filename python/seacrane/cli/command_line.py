@@ -218,8 +218,8 @@ def _complete(parser: argparse.ArgumentParser) -> None:
 
 def _version() -> str:
     """The version, and below it how the package was built."""
-    from seacrane.plotting.text import text_table
     from seacrane.installation.build import build_facts
+    from seacrane.plotting.text import text_table
 
     facts = build_facts()
     rows = [(name, text) for name, text in facts.items() if name != "seacrane"]

@@ -6,8 +6,8 @@ import argparse
 import dataclasses
 from typing import TYPE_CHECKING, Any
 
-from seacrane.cli.output_folder import output_folder
 from seacrane.cli.json_text import to_json
+from seacrane.cli.output_folder import output_folder
 from seacrane.plotting.text import text_table
 
 if TYPE_CHECKING:

@@ -5,8 +5,8 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from seacrane.cli.output_folder import output_folder
 from seacrane.cli.json_text import to_json
+from seacrane.cli.output_folder import output_folder
 from seacrane.cli.scene_source import is_result, load_scene
 from seacrane.errors import SceneError
 from seacrane.plotting.text import text_table

@@ -5,10 +5,12 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import rows_of
 
+Array = NDArray[np.float64]
 Capacity = tuple[tuple[float, float], ...]  # radius, m, and load, kg
 
 
@@ -23,9 +25,7 @@ def capacity_of(what: str, given: Any) -> Capacity:
     return tuple((float(radius), float(load)) for radius, load in rows)
 
 
-def allowed_at(capacity: Capacity, radius: float) -> float:
-    """Load (kg) at a radius: linear between rows, that of the first below it, none beyond the last."""
-    if not capacity or radius > capacity[-1][0]:
-        return 0.0
+def allowed_at(capacity: Capacity, radius: ArrayLike) -> Array:
+    """Loads (kg) at radii: linear between rows, that of the first below it, none beyond the last."""
     radii, loads = zip(*capacity, strict=True)
-    return float(np.interp(radius, radii, loads))
+    return np.asarray(np.interp(radius, radii, loads, right=0.0))

@@ -8,8 +8,8 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from typing import Any, TypeVar
 
 from seacrane._core import Curve
-from seacrane.analysis.weight_balance import balance_by_force
 from seacrane.analysis.inverse import Balance
+from seacrane.analysis.weight_balance import balance_by_force
 from seacrane.errors import FileFormatError, SceneError
 from seacrane.lift.calls import Caller, Keywords, keywords
 from seacrane.lift.check import Entry, plain

@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from seacrane.errors import FileFormatError
 from seacrane.plotting.html import notebook_table
 from seacrane.plotting.text import text_table
 from seacrane.result.units import read_as, unit_of
@@ -116,9 +117,12 @@ def utilisation_of(
     dims: Mapping[str, Sequence[str]],
     coords: Mapping[str, Sequence[str]],
 ) -> Utilisation:
-    """Of the limit states that a run noted, by its channels."""
-    noted = json.loads(str(stats.get("limit_states", "[]")))
-    return Utilisation(tuple(_utilised(state, time, channels, dims, coords) for state in noted))
+    """Of the limit states that a run noted, by its channels; FileFormatError for notes that no run writes."""
+    try:
+        noted = json.loads(str(stats.get("limit_states", "[]")))
+        return Utilisation(tuple(_utilised(state, time, channels, dims, coords) for state in noted))
+    except (LookupError, TypeError, ValueError, AttributeError) as error:
+        raise FileFormatError(f"the result's limit states are none that a run writes: {error}") from error
 
 
 def _utilised(

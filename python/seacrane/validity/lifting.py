@@ -76,7 +76,7 @@ def _overloads(scene: Description, time: Array, position: Array, quaternion: Arr
             continue
         mass = scene.bodies[str(roles.payload)].mass
         radius = np.atleast_1d(tip_radius(scene, roles, position, quaternion))
-        allowed = np.array([allowed_at(roles.capacity, float(one)) for one in radius])
+        allowed = allowed_at(roles.capacity, radius)
         at = int(allowed.argmin())
         if mass > allowed[at]:
             yield (
@@ -111,9 +111,10 @@ def warn_of_loads_in_hulls(scene: Description) -> None:
             if across and centre[2] - half < deck - CLEAR and centre[2] + half > keel:
                 warn_caller(
                     f"body {roles.payload!r}: starts inside vessel {vessel.name!r}: its lower edge is at "
-                    f"{centre[2] - half:.4g} m, {centre[0]:.4g} m forward and {centre[1]:.4g} m to port of the "
-                    f"origin, below the deck at {deck:.4g} m, where the lowest joint on the hull is. Nothing "
-                    "keeps bodies apart: shorten the link, or turn the crane out before the load is lowered",
+                    f"{centre[2] - half:.4g} m, {centre[0]:.4g} m forward and {centre[1]:.4g} m to port of "
+                    f"its origin, below the deck at {deck:.4g} m, where the lowest joint on the hull is. "
+                    "Nothing keeps bodies apart: shorten the link, or turn the crane out before the load is "
+                    "lowered",
                     LoadInHullWarning,
                 )
 
