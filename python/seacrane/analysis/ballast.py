@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from seacrane.analysis.inverse import Balance, balance
 from seacrane.description.forces import add_point_force
+from seacrane.description.given import given_vessels
 from seacrane.description.scene import Description
 from seacrane.errors import SceneError
 from seacrane.inputs.frames import rotation_matrix
@@ -29,8 +30,12 @@ def add_ballast(scene: Description, *, body: str = "vessel", name: str = "balanc
     Raises
     ------
     SceneError
-        If `body` is not the only vessel, or the scene is not at rest.
+        If `body` is not the only vessel or its motion is given, or the scene is not at rest.
     """
+    if body in given_vessels(scene):
+        raise SceneError(
+            f"balance: body is {body!r}, whose motion is given: it needs no ballast, leave it out"
+        )
     floating = [vessel.body for vessel in scene.vessels.values()]
     if floating != [body]:
         raise SceneError(
