@@ -16,6 +16,7 @@ from seacrane.analysis.rest_state import held, rest_states
 from seacrane.analysis.tanks import Tank, fills, tanks_of
 from seacrane.description.compilation import compile_scene
 from seacrane.description.forces import add_point_force
+from seacrane.description.given import given_vessels
 from seacrane.description.scene import Description
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import name_of, number_of
@@ -120,6 +121,8 @@ def add_ballast(
 
 
 def _vessel(scene: Description, body: str | None) -> _core.VesselHydrodynamics:
+    if (body or "vessel") in given_vessels(scene):
+        raise SceneError(f"ballast: the motion of {body or 'vessel'!r} is given: it needs no ballast, leave it out")
     floating = {vessel.body: vessel for vessel in scene.vessels.values()}
     known = ", ".join(map(repr, floating)) or "none"
     if body is None and len(floating) != 1:

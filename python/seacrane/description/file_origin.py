@@ -71,14 +71,17 @@ def provenance_from_node(node: Node, scene: Description) -> None:
             entry = Node({**_GIVEN, **entry.value}, entry.path)
         entry.expect(("name", "database", "omega", "memory", *_GIVEN))
         omega, size = _optional(entry, "omega"), _optional(entry, "size")
-        texts = {key: _optional(entry, key) for key in ("database", "memory", "motion")}
-        numbers = {key: _optional(entry, key) for key in ("ramp", "duration")}
-        scene.provenance[entry.at("name").text()] = VesselProvenance(
-            omega=None if omega is None else tuple(omega.array((2,)).tolist()),
-            size=None if size is None else tuple(size.array((3,)).tolist()),
-            **{key: None if text is None else text.text() for key, text in texts.items()},
-            **{key: None if number is None else number.number() for key, number in numbers.items()},
-        )
+        known: dict[str, Any] = {
+            "omega": None if omega is None else tuple(omega.array((2,)).tolist()),
+            "size": None if size is None else tuple(size.array((3,)).tolist()),
+        }
+        for key in ("database", "memory", "motion"):
+            text = _optional(entry, key)
+            known[key] = None if text is None else text.text()
+        for key in ("ramp", "duration"):
+            number = _optional(entry, key)
+            known[key] = None if number is None else number.number()
+        scene.provenance[entry.at("name").text()] = VesselProvenance(**known)
 
 
 def sea_to_data(provenance: SeaProvenance) -> dict[str, Any]:

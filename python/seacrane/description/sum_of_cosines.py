@@ -87,9 +87,9 @@ def _fitted(values: Callable[[Array], Array], duration: float, count: int) -> tu
     from scipy.interpolate import make_interp_spline
 
     step = duration / count
-    times = step * np.arange(-PADDING, count + PADDING + 1)
+    times: Array = step * np.arange(-PADDING, count + PADDING + 1, dtype=float)
     spline = make_interp_spline(times, values(times), k=5)
-    midway = step * (np.arange(count) + 0.5)
+    midway: Array = step * (np.arange(count, dtype=float) + 0.5)
     error = np.abs(spline(midway) - values(midway)).max(axis=0)
     starts = step * np.arange(count)
     powers = [spline(starts, nu=order) / math.factorial(order) for order in range(6)]

@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping
 from typing import Any
 
+import numpy as np
+
 from seacrane import _core
 from seacrane.crane import KnuckleBoomCrane, Payload
 from seacrane.description.scene import coordinate_of
@@ -16,6 +18,8 @@ from seacrane.lift.keys import DEGREES, EITHER, Key, into_si
 from seacrane.lift.tables import Table
 from seacrane.result.channels import CHANNELS
 from seacrane.result.units import unit_of
+from seacrane.scene.motion_history import MotionHistory
+from seacrane.scene.motion_raos import MotionRaos
 from seacrane.scene.realised_sea import spectrum_named
 from seacrane.scene.scene import Scene
 from seacrane.scene.wind_current import FlowCoefficients
@@ -25,6 +29,7 @@ Keywords = dict[str, Any]
 ANGLES = ("angle", "roll", "pitch", "yaw")
 RADIANS = {degrees: radians for radians, degrees in DEGREES.items()}
 SEA_OF_SYSTEMS = ("depth", "placement")
+MOTIONS = ("motion", "database", "raos", "history")  # what tells how a given vessel moves
 _MADE: Mapping[str, Callable[..., Any]] = {
     "payload": Payload,
     "coefficients": FlowCoefficients,
@@ -32,6 +37,8 @@ _MADE: Mapping[str, Callable[..., Any]] = {
     "second_frame": _core.Frame,
     "frame": _core.Frame,
     "tip": lambda body, point: (body, point),
+    "history": MotionHistory,
+    "raos": lambda **table: _raos(**table),
 }
 
 
@@ -115,7 +122,7 @@ class Caller:
 
     def __init__(self) -> None:
         self.read: dict[tuple[str, float | None], HydroDatabase] = {}
-        self.afloat: dict[str, HydroDatabase] = {}
+        self.afloat: dict[str, HydroDatabase | MotionRaos | None] = {}  # what [sea] moves or loads each by
 
     def call(self, scene: Scene, table: Table, values: Mapping[str, Any], *, at_rest: bool = False) -> None:
         """Add to a scene what a table describes; at rest, without what only moves it."""
@@ -125,6 +132,8 @@ class Caller:
         match table.name:
             case "vessel":
                 self._vessel(scene, given, at_rest=at_rest)
+            case "given_vessel":
+                self._given_vessel(scene, given, at_rest=at_rest)
             case "sea":
                 if not at_rest:
                     self._sea(scene, given)
@@ -145,7 +154,27 @@ class Caller:
         scene.add_crane(None if file is None else KnuckleBoomCrane.load(file), **given)
 
     def _vessel(self, scene: Scene, given: Keywords, *, at_rest: bool) -> None:
-        file, speed = given.pop("database"), given.pop("speed", None)
+        database = self._database(given.pop("database"), given.pop("speed", None))
+        if given.get("mooring_period") == float("inf"):
+            given["mooring_period"] = None
+        if at_rest:  # neither fluid memory nor kinematics matter
+            given = {key: value for key, value in given.items() if key != "kinematics"} | {"memory": "none"}
+        scene.add_vessel(database, **given)
+        self.afloat[given.get("name", "vessel")] = database
+
+    def _given_vessel(self, scene: Scene, given: Keywords, *, at_rest: bool) -> None:
+        found = [key for key in MOTIONS if key in given]
+        if len(found) != 1:
+            raise SceneError(f"given_vessel: has {' and '.join(found) or 'no motion'}; give one of {MOTIONS}")
+        motion = given.pop(found[0])
+        if found[0] == "database":
+            motion = self._database(motion, None)
+        scene.add_given_vessel("rest" if at_rest else motion, **given)
+        moved = motion if isinstance(motion, HydroDatabase | MotionRaos) else None
+        self.afloat[given.get("name", "vessel")] = moved
+
+    def _database(self, file: str, speed: float | None) -> HydroDatabase:
+        """Read once."""
         if file in SHIPPED and speed is not None:
             raise SceneError(
                 f"vessel: speed is {speed:g} m/s, and {file} holds zero speed alone; leave it out"
@@ -153,13 +182,7 @@ class Caller:
         if (file, speed) not in self.read:
             shipped = file in SHIPPED
             self.read[file, speed] = shipped_database() if shipped else load_database(file, speed=speed)
-        database = self.read[file, speed]
-        if given.get("mooring_period") == float("inf"):
-            given["mooring_period"] = None
-        if at_rest:  # neither fluid memory nor kinematics matter
-            given = {key: value for key, value in given.items() if key != "kinematics"} | {"memory": "none"}
-        scene.add_vessel(database, **given)
-        self.afloat[given.get("name", "vessel")] = database
+        return self.read[file, speed]
 
     def _sea(self, scene: Scene, given: Keywords) -> None:
         vessel = given.get("vessel", "vessel")
@@ -170,12 +193,29 @@ class Caller:
         systems = given.pop("systems", None)
         if systems is not None:
             of_state = {key: given.pop(key) for key in (*SEA_OF_SYSTEMS, "seed") if key in given}
-            depth = {"depth": database.depth} | of_state
+            depth = ({} if database is None else {"depth": database.depth}) | of_state
             given["sea"] = SeaState(systems=[_system(one) for one in systems], **depth)
         for key in SEA_OF_SYSTEMS:
             if key in given:
                 raise SceneError(f"sea: {key} is given without systems, whose sea is as deep as the database")
         scene.add_sea(database, **given)
+
+
+def _raos(headings: list[Keywords], **table: Any) -> MotionRaos:
+    """From amplitudes and phases, heading by heading."""
+    for one in headings:
+        if np.shape(one["amplitude"]) != np.shape(one["phase"]):
+            raise SceneError(
+                f"raos: amplitude has shape {np.shape(one['amplitude'])} and phase {np.shape(one['phase'])} "
+                f"at heading {one['heading']:.6g} rad; give one phase for each amplitude"
+            )
+        if len(one["amplitude"]) != len(table["omega"]):
+            raise SceneError(
+                f"raos: amplitude has {len(one['amplitude'])} rows at heading {one['heading']:.6g} rad, and "
+                f"omega {len(table['omega'])} values; give one row for each frequency"
+            )
+    values = [np.array(one["amplitude"]) * np.exp(1j * np.array(one["phase"])) for one in headings]
+    return MotionRaos(heading=[one["heading"] for one in headings], values=values, **table)
 
 
 def _system(given: Keywords) -> WaveSystem:

@@ -19,8 +19,10 @@ from seacrane.result.channels import CHANNELS
 from seacrane.result.units import units_of
 from seacrane.run.method import FORMULATIONS, Method
 from seacrane.run.outputs import Outputs
-from seacrane.scene import limits, lines, sea, vessel, wind_current
+from seacrane.scene import given_vessel, limits, lines, sea, vessel, wind_current
 from seacrane.scene.gusts import gust_curve
+from seacrane.scene.motion_history import MotionHistory
+from seacrane.scene.motion_raos import MotionRaos
 from seacrane.scene.realised_sea import SPECTRA
 from seacrane.sea import SeaState, WaveSystem
 from seacrane.simulation import simulate
@@ -94,6 +96,53 @@ def _vessel_keys() -> tuple[Key, ...]:
         },
     )
     return (*keys, *keys_of(load_database, more={"speed": {"unit": "m/s"}}, only=("speed",)))
+
+
+def _given_vessel_keys() -> tuple[Key, ...]:
+    """Of `add_given_vessel`, whose motion is one of four keys."""
+    motions: dict[str, Any] = {"type": "array", "unit": "m, rad", "shapes": ((-1, 6),)}
+    history = keys_of(
+        MotionHistory, more={"time": TIME | {"type": "array", "shapes": ((-1,),)}, "motion": motions}
+    )
+    keys = keys_of(
+        given_vessel.add_given_vessel,
+        more={
+            "motion": {"type": "text", "choices": ("rest",), "text": "Where it never moves."},
+            "position": POINT,
+            "ramp": TIME,
+            "duration": TIME,
+            "size": POINT,
+        },
+    )
+    database = Key(
+        name="database", type="file",
+        text="In place of motion: by the displacement RAOs of a database, or of hull_115.",
+    )  # fmt: skip
+    return (
+        database,
+        Key(name="raos", type="table", keys=_rao_keys(), text="In place of motion: by a table of RAOs."),
+        Key(name="history", type="table", keys=history, text="In place of motion: by a history."),
+        *(replace(key, required=False) for key in keys),
+    )
+
+
+def _rao_keys() -> tuple[Key, ...]:
+    """Of `MotionRaos`, whose values are written heading by heading."""
+    columns: dict[str, Any] = {"type": "array", "shapes": ((-1, 6),), "required": True}
+    at_heading = (
+        Key(name="heading", type="number", unit="rad", required=True, text="Where the waves go."),
+        Key(
+            name="amplitude", unit="m/m, rad/m", text="Six motions at each frequency, zero or more.",
+            **columns,
+        ),
+        Key(
+            name="phase", unit="rad", text="By which each leads the crest at the reference point.", **columns
+        ),
+    )  # fmt: skip
+    omega = {"type": "array", "unit": "rad/s", "shapes": ((-1,),)}
+    table = keys_of(MotionRaos, more={"omega": omega, "depth": LENGTH}, without=("heading", "values", "g"))
+    headings = Key(name="headings", type="tables", keys=at_heading, required=True, text="Of the table.")
+    return (*table, headings)
 
 
 def _joint_keys() -> tuple[Key, ...]:
@@ -223,6 +272,9 @@ _ALL = (
     Table(
         name="vessel", text="A vessel from a hydrodynamic database.",
         keys=_vessel_keys(),
+    ),
+    Table(
+        name="given_vessel", text=_summary(given_vessel.add_given_vessel), keys=_given_vessel_keys(),
     ),
     _call("body", bodies.add_body, _core.Body, inertia={"shapes": ((3, 3), (3,))}),
     Table(

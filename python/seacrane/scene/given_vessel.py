@@ -110,7 +110,7 @@ def add_given_vessel(
 
 def put_into_sea(
     scene: Description,
-    source: HydroDatabase | MotionRaos,
+    source: HydroDatabase | MotionRaos | None,
     waves: Waves,
     *,
     vessel: str,
@@ -119,7 +119,7 @@ def put_into_sea(
 ) -> Waves:
     """The sea with a given ship in it, which it does not load; one that follows RAOs is set moving."""
     known = scene.provenance[vessel]
-    if known.motion == "raos":
+    if known.motion == "raos" and source is not None:
         amplitude = motion_of_components(source, waves, place=place, heading=heading, gravity=scene.gravity)
         curves = curves_of_sum(
             np.asarray(waves.omega, dtype=float), amplitude, ramp=known.ramp or 0.0,

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from seacrane import _core
 from seacrane.description.curves import spline_curve
@@ -16,7 +17,10 @@ from seacrane.inputs.checked import rows_of, vector_of
 from seacrane.inputs.frames import MOTIONS
 from seacrane.inputs.plausible import AngleUnitWarning
 
+Array = NDArray[np.float64]
 FEWEST = 6
+BETWEEN = 8  # places looked at between two samples
+LARGEST_SWING, SMALLEST_SWING = 0.5, 0.01  # beyond the samples, of their range; and m or rad
 LARGEST_ANGLE = 0.6  # rad: a ship that rolls or pitches beyond is rather one in degrees
 
 
@@ -84,6 +88,28 @@ class MotionHistory:
             )
 
     def curves(self, ramp: float) -> tuple[_core.Curve, ...]:
-        """Splines through the samples, of each motion; from rest over `ramp` (s) where it is not zero."""
+        """Splines through the samples, of each motion; from rest over `ramp` (s) where it is not zero.
+
+        Raises
+        ------
+        SceneError
+            For samples so far apart that the spline swings out between them.
+        """
         values = self.motion * ramp_of(self.time, ramp)[:, None]
-        return tuple(spline_curve(times=self.time, values=column) for column in values.T)
+        curves = tuple(spline_curve(times=self.time, values=column) for column in values.T)
+        for name, curve, column in zip(MOTIONS, curves, values.T, strict=True):
+            self._refuse_swings(name, curve, column)
+        return curves
+
+    def _refuse_swings(self, name: str, curve: _core.Curve, samples: Array) -> None:
+        places = np.linspace(0.0, 1.0, BETWEEN, endpoint=False)
+        fine = (self.time[:-1, None] + np.diff(self.time)[:, None] * places).ravel()
+        values = curve.evaluate(fine)[:, 0]
+        beyond = np.maximum(values - samples.max(), samples.min() - values)
+        worst = int(beyond.argmax())
+        if beyond[worst] > max(LARGEST_SWING * float(np.ptp(samples)), SMALLEST_SWING):
+            raise SceneError(
+                f"motion history: {name} would reach {values[worst]:.4g} at {fine[worst]:.6g} s, between "
+                f"samples of {samples.min():.4g} to {samples.max():.4g}: they are too few there for a smooth "
+                "curve; give at least eight in each period of the motion"
+            )

@@ -18,6 +18,7 @@ from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.checked import flag_of, shaped_of
 from seacrane.inputs.frames import heading_of
 from seacrane.inputs.plausible import direction_of
+from seacrane.inputs.shown import shown
 from seacrane.scene.depth import require_depth
 from seacrane.scene.drift import add_drift
 from seacrane.scene.given_vessel import put_into_sea
@@ -36,7 +37,7 @@ class WavesWithoutLoadWarning(UserWarning):
 
 def add_sea(
     scene: Description,
-    database: HydroDatabase | MotionRaos,
+    database: HydroDatabase | MotionRaos | None = None,
     *,
     vessel: str = "vessel",
     hs: float | None = None,
@@ -65,7 +66,7 @@ def add_sea(
     database : HydroDatabase, or MotionRaos of a ship whose motion is given
         Whose force transfer is used, at the direction of every component. A ship added by
         `Scene.add_given_vessel` takes no load: one that follows RAOs begins to move by those of this
-        database or table.
+        database or table, and the others need none.
     vessel : str
         Body of the vessel.
     hs, tp : float
@@ -129,19 +130,19 @@ def add_sea(
     waves = _evaluated(
         _sea_of(scene, database, vessel, sea, given), relative_bound=relative_bound, evaluation=evaluation
     )
-    require_depth(waves, database, vessel)
+    given_motion = given_vessels(scene).get(vessel)
+    _require_source(vessel, given_motion, database)
+    if database is not None:
+        require_depth(waves, database, vessel)
     place, heading = _pose(scene, vessel, position, heading_deg)
-    if vessel in given_vessels(scene):
+    if given_motion is not None:
         if drift or phase != "mean":
             raise SceneError(
                 f"sea: vessel {vessel!r} has a given motion, no loads; leave out drift and phase"
             )
         scene.waves = put_into_sea(scene, database, waves, vessel=vessel, place=place, heading=heading)
         return
-    if not isinstance(database, HydroDatabase):
-        raise SceneError(
-            f"sea: vessel {vessel!r} floats, and RAOs of motions load no vessel; give a database"
-        )
+    assert isinstance(database, HydroDatabase)
     transfer = force_of_components(database, waves.omega, waves.direction - heading)
     hull = HullLoads(transfer=transfer, position=place, heading=heading)
     provenance = _with_shares(waves, database, vessel, hull)
@@ -156,7 +157,7 @@ def add_sea(
 
 def _sea_of(
     scene: Description,
-    database: HydroDatabase | MotionRaos,
+    database: HydroDatabase | MotionRaos | None,
     vessel: str,
     sea: SeaState | None,
     given: dict[str, Any],
@@ -165,7 +166,8 @@ def _sea_of(
     there = scene.waves
     if there is not None and sea is None and not given:
         return there
-    asked = realised_sea(sea, given, database.depth if there is None else there.depth)
+    depth = float("inf") if database is None else database.depth
+    asked = realised_sea(sea, given, depth if there is None else there.depth)
     if there is None:
         return asked
     arrays = ("omega", "amplitude", "phase", "direction", "depth")
@@ -176,6 +178,20 @@ def _sea_of(
             "systems into one SeaState, or set scene.waves = None before a new sea"
         )
     return there
+
+
+def _require_source(vessel: str, motion: str | None, database: Any) -> None:
+    """Refuse what does not tell how the sea loads or moves a vessel of that kind of given motion."""
+    if database is None and motion in ("rest", "history"):
+        return
+    if motion is None and not isinstance(database, HydroDatabase):
+        raise SceneError(
+            f"sea: database is {shown(database)}, and vessel {vessel!r} floats; give its HydroDatabase"
+        )
+    if not isinstance(database, HydroDatabase | MotionRaos):
+        raise SceneError(
+            f"sea: database is {shown(database)}; give the HydroDatabase or MotionRaos of vessel {vessel!r}"
+        )
 
 
 def _evaluated(waves: Waves, **given: Any) -> Waves:

@@ -71,6 +71,7 @@ def hull_findings(scene: Description, time: Array, channels: Mapping[str, Array]
     given = given_vessels(scene)
     for vessel, motion in motions(scene, channels):
         if vessel.body in given:
+            found += _unmoved(vessel.name, given[vessel.body], waves, vessel.body)
             continue
         found += _moored(vessel, time, motion)
         if waves is None or peak is None:
@@ -213,6 +214,19 @@ def _moored(vessel: _core.VesselHydrodynamics, time: Array, motion: Array) -> li
             f"vessel {vessel.name!r}: passes half a turn from its rest at t = {time[at]:.6g} s, where its "
             "mooring in yaw, a spring of the angle to the nearest whole turn, pulls the other way: it does "
             "not stop a turning vessel. Give it a stiffer mooring, or look for what turns it",
+        )
+    ]
+
+
+def _unmoved(name: str, motion: str, waves: Waves | None, body: str) -> list[Finding]:
+    """A ship that would move by RAOs in a sea that it was not put into."""
+    if motion != "raos" or waves is None or body in waves.hulls:
+        return []
+    return [
+        (
+            NoWaveLoadsWarning,
+            f"vessel {name!r}: rests in the sea that {', '.join(map(repr, waves.hulls))} meets, and would "
+            f"follow its RAOs there; call scene.add_sea(raos, vessel={body!r}) with its database or table",
         )
     ]
 
