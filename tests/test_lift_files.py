@@ -73,6 +73,7 @@ def test_every_table_is_its_call(tmp_path: Path) -> None:
 
 def test_the_lift_with_every_table_has_every_table() -> None:
     elsewhere = {"vessel", "sea", "crane", "balance", "control", "command", "run", "method", "outputs"}
+    elsewhere |= {"mesh"}  # names a file: test_meshes.py
     assert set(tomllib.loads(EVERY_TABLE)) - {"format", "version"} == set(TABLES) - elsewhere
 
 
@@ -472,6 +473,7 @@ def test_every_call_that_adds_has_its_table() -> None:
 def test_every_keyword_is_a_key(name: str) -> None:
     """What only a script can give is named here."""
     scripted = {"sea": {"database", "sea"}, "hydrodynamics": {"database", "memory"}, "vessel": {"body"}}
+    scripted |= {"mesh": {"vertices", "faces"}}
     parameters = inspect.signature(getattr(Scene, CALLS[name])).parameters.values()
     words = {one.name for one in parameters if one.kind is not one.VAR_KEYWORD} - {"scene"}
     assert words - scripted.get(name, set()) <= {key.name for key in TABLES[name].keys}
@@ -480,7 +482,7 @@ def test_every_keyword_is_a_key(name: str) -> None:
 PLAIN = {
     "length_scale", "mooring_damping", "inertia", "quaternion", "gamma", "spreading", "relative_bound",
     "axis", "second_axis", "axes", "x", "y", "yaw", "restitution", "damping_ratio", "tolerance",
-    "spectral_radius", "energy_limit",
+    "spectral_radius", "energy_limit", "scale",
 }  # fmt: skip
 IN_CURVES = {"value", "start", "end", "amplitude", "offset", "values"}  # by the key that holds the curve
 
