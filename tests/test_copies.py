@@ -25,6 +25,9 @@ def all_kinds() -> Scene:
     scene.add_friction(joint="pin", load=1.0 / 3.0, speed=0.1)
     scene.add_range(joint="pin", minimum=-2.0, maximum=2.0)
     scene.add_soft_stop(joint="sleeve", stiffness=1e5, minimum=-1.0)
+    scene.add_point(name="corner", body="hull", point=(1.0, 2.0, 1.0 / 3.0))
+    scene.add_limit_state(channel="constraint_error", max=1e-6)
+    scene.add_mesh(body="hull", vertices=np.eye(3), faces=[[0, 1, 2]])
     angles = np.linspace(-np.pi, np.pi, 8, endpoint=False)
     scene.add_load(
         FlowForce(name="wind", body="hull", point=(0, 0, 1), density=1.2, speed=Curve.constant(value=9.0),

@@ -47,6 +47,15 @@ class Mesh:
     vertices: Array
     faces: Faces
 
+    def _value(self) -> tuple[str, str, bytes, bytes]:
+        return self.name, self.body, self.vertices.tobytes(), self.faces.tobytes()
+
+    def __eq__(self, other: object) -> bool:
+        return self._value() == other._value() if isinstance(other, Mesh) else NotImplemented
+
+    def __hash__(self) -> int:
+        return hash(self._value())
+
 
 def add_mesh(
     scene: Description,
