@@ -2,9 +2,9 @@
 
 Runs the comparisons of `benchmarks/compared`, takes those that other measurements wrote from their files, and
 writes ``validation.csv`` and ``validation-orders.csv`` to ``out/bench/results``; with ``--publish`` to
-``benchmarks/results``, from which ``documents.py`` then fills docs/validation.md, and ``facts.py`` the README.
-Files of real ships are looked for in the folder that SEACRANE_SHARED names; without it their rows stay as they
-were. A difference beyond its bound ends the call, and nothing is written.
+``benchmarks/results``, and fills docs/validation.md and the README from there. Files of real ships are looked
+for in the folder that SEACRANE_SHARED names; without it their rows stay as they were. A difference beyond its
+bound ends the call, and nothing is written.
 """
 
 from __future__ import annotations
