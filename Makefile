@@ -3,7 +3,7 @@
 # make build    the package in .venv, rebuilt only where something changed
 # make nightly  longer tests, C++ tests optimised and with every check of the sanitizers, ThreadSanitizer
 #                  (make cpp-tsan), the site (make docs), the wheel (make wheel), the stability atlas
-#                  (make extremes), benchmarks (make bench)
+#                  (make extremes), every comparison (make validation), benchmarks (make bench)
 # make notebooks  the notebooks in JupyterLab, with everything they need (NOTEBOOKS_ARGS: arguments of jupyter lab)
 # make stubs    python/seacrane/_core.pyi
 # make docs     the site in out/site, its notebooks executed; any warning is an error, and so is anything that a page
@@ -23,7 +23,7 @@ SHELL := /bin/bash
 .DELETE_ON_ERROR:
 .DEFAULT_GOAL := build
 .PHONY: demo test build nightly bench bench-peers docs extremes notebooks stubs viewer wheel format clean distclean \
-        lint cpp-test cpp-allocations cpp-sanitize cpp-tsan python-test fuzz system-packages browser-packages \
+        lint cpp-test cpp-allocations cpp-sanitize cpp-tsan python-test fuzz validation system-packages browser-packages \
         bundle-packages FORCE
 
 ifndef PYTHON
@@ -136,10 +136,14 @@ nightly: build .venv/.installed-dev bundle-packages
 	$(MAKE) --no-print-directory docs
 	$(MAKE) --no-print-directory wheel
 	$(MAKE) --no-print-directory extremes
+	$(MAKE) --no-print-directory validation
 	$(MAKE) --no-print-directory bench
 
 extremes: build .venv/.installed-dev
 	PYTHONPATH=studies $(BIN)/python -m stability_atlas --out out/extremes $(EXTREMES_ARGS)
+
+validation: build .venv/.installed-dev
+	$(BIN)/python -W ignore benchmarks/validation.py
 
 bench: build .venv/.installed-dev
 	$(BIN)/python benchmarks/run.py $(BENCH_ARGS)

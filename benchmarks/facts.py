@@ -1,6 +1,6 @@
 """The table of the README: a few lines out of the files of measurements: ``python benchmarks/facts.py``.
 
-Writes ``results/facts.csv`` and fills the documents; ``run.py --publish`` and ``validation.py`` do it too.
+Writes ``results/facts.csv`` and fills the documents, as ``run.py`` and ``validation.py`` do with ``--publish``.
 """
 
 from __future__ import annotations
@@ -18,8 +18,8 @@ ENGINES = {"seacrane recursive": "seacrane", "Pinocchio": "Pinocchio", "MuJoCo":
            "NumPy/SciPy": "NumPy and SciPy"}  # fmt: skip
 VALIDATED = {
     "case 2, 100 s: places": "case 2 in two formulations that share no solver, 100 s",
-    "case 2 with fast references, 4 s: position": "case 2 in an independent program, NumPy and SciPy, 4 s",
-    "Andrews' squeezer: seven angles, 0.03 s; its equations": "Andrews' squeezer and SciPy, angles",
+    "case 2 with fast references, 4 s: position": "case 2, fast references, in an independent program, 4 s",
+    "Andrews' squeezer: seven angles, 0.03 s; its equations": "Andrews' squeezer, seven angles, with SciPy",
     "case 2, 100 s, `rtol` 1e-8: gap": "joints of case 2 over 100 s: largest gap",
     "case 2, 100 s, `rtol` 1e-8: energy": "energy balance of case 2 over the work done",
 }

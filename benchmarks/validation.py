@@ -1,14 +1,15 @@
-"""Everything that was compared with anything, with its number: ``python benchmarks/validation.py``.
+"""Everything that was compared with anything, with its number: ``benchmarks/validation.py [--publish]``.
 
 Runs the comparisons of `benchmarks/compared`, takes those that other measurements wrote from their files, and
-writes ``results/validation.csv`` and ``results/validation-orders.csv``. From these ``documents.py`` fills
-docs/validation.md, and ``facts.py`` the README. Files of real ships are looked for in the folder that
-SEACRANE_SHARED names; without it their rows stay as they were. A difference beyond its bound ends the call,
-and nothing is written.
+writes ``validation.csv`` and ``validation-orders.csv`` to ``out/bench/results``; with ``--publish`` to
+``benchmarks/results``, and fills docs/validation.md and the README from there. Files of real ships are looked
+for in the folder that SEACRANE_SHARED names; without it their rows stay as they were. A difference beyond its
+bound ends the call, and nothing is written.
 """
 
 from __future__ import annotations
 
+import argparse
 import os
 import sys
 from collections.abc import Iterable
@@ -72,11 +73,18 @@ def checked(row: Row) -> Row:
 
 
 def main() -> None:
-    """Run, check, write, fill the documents."""
+    """Run, check, write; fill the documents where asked to."""
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.add_argument("--publish", action="store_true", help="write into benchmarks/ instead of out/bench")
+    publish = parser.parse_args().publish
+    folder = RESULTS if publish else ROOT / "out" / "bench" / "results"
     found, methods = list(rows()), orders.orders()
-    write(RESULTS / "validation.csv", HEAD, found)
-    write(RESULTS / "validation-orders.csv", orders.HEAD, methods)
-    facts.publish()
+    write(folder / "validation.csv", HEAD, found)
+    write(folder / "validation-orders.csv", orders.HEAD, methods)
+    if publish:
+        facts.publish()
 
 
 if __name__ == "__main__":

@@ -112,8 +112,6 @@ def test_a_site_holds_the_three_dimensional_page_and_runs_a_notebook_once(
     pytest.importorskip("ipykernel", reason="the site's packages are missing: pip install seacrane[docs]")
     log = small_site / "log"
     shutil.copy(ROOT / "docs" / "live.md", small_site / "docs")
-    (small_site / "docs" / "figures").mkdir()
-    shutil.copy(ROOT / "docs" / "figures" / "view_case2.png", small_site / "docs" / "figures")
     (small_site / "docs" / "view.md").write_text("# View\n", encoding="utf-8")
     (small_site / "docs" / "notebook.md").write_text(NOTEBOOK.format(path=str(log)), encoding="utf-8")
     links = "- [Live](live.md)\n- [View](view.md)\n- [Notebook](notebook.md)\n"
