@@ -24,6 +24,7 @@ def all_kinds() -> Scene:
     scene.add_end_stop(joint="pin", maximum=2.0, restitution=0.1)
     scene.add_friction(joint="pin", load=1.0 / 3.0, speed=0.1)
     scene.add_range(joint="pin", minimum=-2.0, maximum=2.0)
+    scene.add_limit_state(channel="position", max=9.0, where={"body": "hull"})
     scene.add_soft_stop(joint="sleeve", stiffness=1e5, minimum=-1.0)
     scene.add_point(name="corner", body="hull", point=(1.0, 2.0, 1.0 / 3.0))
     scene.add_limit_state(channel="constraint_error", max=1e-6)

@@ -87,6 +87,7 @@ def test_it_is_in_files_summaries_and_reports(swinging: Result, tmp_path: Path) 
     assert "1.48 exceeded" in str(summary(loaded)) and "exceeded" in summary(loaded)._repr_html_()
     page = report(loaded)
     assert "Summary" in titles(page) and "Utilisation of limit states" in page.html
+    assert "Largest utilisation<strong>1.48, swing</strong>" in page.html
     told = simulate_to_file(limited(), tmp_path / "long.nc", t_end=20.0, dt_out=0.02)
     assert told.load().utilisation == swinging.utilisation
 

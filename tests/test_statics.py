@@ -142,6 +142,28 @@ def test_the_end_of_case_2_is_its_equilibrium_and_its_feed_forward() -> None:
     )
 
 
+def test_neither_fluid_memory_nor_a_wire_matters_at_rest() -> None:
+    plain = statics(cases.case2(hs=0.0, memory="none"), slew=-1.0)
+    wired = cases.case2(hs=0.0, memory="convolution")
+    wired.add_wire(joint="link")
+    told = statics(wired, slew=-1.0)
+    for name, values in plain.columns.items():
+        assert told[name].item() == pytest.approx(values.item(), rel=1e-6), name
+
+
+def test_each_of_two_cranes_is_told_apart() -> None:
+    scene = Scene(name="quay")
+    for prefix, y, mass in (("a ", 0.0, 2e4), ("b ", 30.0, 3e4)):
+        scene.add_crane(base="ground", foot=(0.0, y, 0.0), prefix=prefix, payload=Payload(mass=mass))
+    told = statics(scene, coordinates={"main": [0.0, 1.0]}, crane="b ")
+    assert told["hook load a hook"] == pytest.approx([20.0, 20.0])
+    assert told["hook load b hook"] == pytest.approx([30.0, 30.0])
+    np.testing.assert_allclose(*told["cylinder force a main"], rtol=1e-9)
+    assert abs(np.diff(told["cylinder force b main"])[0]) > 10.0
+    with pytest.raises(SceneError, match="its cranes have prefixes 'a ', 'b '; name one as crane"):
+        statics(scene, slew=0.0)
+
+
 def test_gm_of_a_ship_with_its_crane_by_its_weights() -> None:
     scene = cases.case2(hs=0.0, memory="none")
     (vessel,), hull = scene.vessels.values(), scene.bodies["vessel"]

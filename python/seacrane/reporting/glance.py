@@ -67,6 +67,14 @@ def _limits(result: Result) -> Cards:
     }
 
 
+def _utilisation(result: Result) -> Cards:
+    known = [state for state in result.utilisation if state.kept is not None]
+    if not known:
+        return {}
+    worst = max(known, key=lambda state: state.utilisation)
+    return {"Largest utilisation": (f"{worst.utilisation:.2f}, {worst.name}", worst.kept)}
+
+
 def _trust(result: Result) -> Cards:
     checks = [good for good in (joints_closed(result), energy_balanced(result)) if good is not None]
     warned = len(findings_of(result))
@@ -89,6 +97,7 @@ def _html(result: Result) -> str:
             **_largest(result, "slew_torque", "Largest slew torque"),
             **_roll(result),
             **_limits(result),
+            **_utilisation(result),
             **_trust(result),
         }
     )

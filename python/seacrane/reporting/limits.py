@@ -178,7 +178,8 @@ def _html(result: Result) -> str:
     head = "".join(f"<th>{name}</th>" for name in ("limit", "kind", "bound", "reached", "held?"))
     rows = "\n".join(map(_row, judged_bounds(result)))
     return f"<table><thead><tr>{head}</tr></thead><tbody>\n{rows}\n</tbody></table>" + note(
-        "Reached values are those at the outputs. Capacities of structure and wire are not part of the scene."
+        "Reached values are those at the outputs. Capacities of structure and wire are limit states: see the "
+        "summary."
     )
 
 
