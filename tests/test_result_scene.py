@@ -94,6 +94,15 @@ def test_notes_are_in_the_settings_alone(tmp_path: Path) -> None:
     assert json.loads(str(loaded.stats["settings"]))["notes"] == {"project": "secret"}
 
 
+def test_what_is_changed_in_the_scene_of_a_result_is_saved(tmp_path: Path) -> None:
+    loaded = Result.load(simulate(pendulum(), 0.5).save(tmp_path / "run.nc"))
+    assert loaded.scene is not None
+    loaded.scene.add_mesh(body="ball", vertices=np.eye(3), faces=[[0, 1, 2]])
+    again = Result.load(loaded.save(tmp_path / "again.nc")).scene
+    assert again is not None
+    assert list(again.meshes) == ["ball"]
+
+
 def test_a_scene_from_a_file_runs_as_it_ran(tmp_path: Path) -> None:
     result = Result.load(alone().save(tmp_path / "run.nc"))
     assert result.scene is not None
