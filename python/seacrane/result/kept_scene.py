@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-from functools import cached_property
 
 from seacrane.description.file import described, scene_from_bytes
 from seacrane.description.file_text import LARGEST_FILE
@@ -31,12 +30,10 @@ class KeptScene:
 
     @property
     def scene(self) -> Scene:
-        """The scene; FileFormatError where the text is none."""
-        return self._live if self._live is not None else self._read
-
-    @cached_property
-    def _read(self) -> Scene:
-        return scene_from_bytes(self._text, self._place, Scene())
+        """The scene, always the same one; FileFormatError where the text is none."""
+        if self._live is None:
+            self._live = scene_from_bytes(self._text, self._place, Scene())
+        return self._live
 
     def written(self) -> tuple[bytes, str]:
         """The text of a scene file, and in words what it lacks; empty where nothing, or all, is lost."""

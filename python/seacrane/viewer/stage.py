@@ -113,7 +113,8 @@ class Stage:
             start, end = (self.drawing.place(wire[key], position, quaternion)[0] for key in ("from", "to"))
             points, slack = wire_line(start, end, wire["length"])
             colour = SLACK if slack else WIRES[wire["kind"]]
-            self.wires.append(self._line(points, colour, self.drawing.wire_radius))
+            actor = self._line(points, colour, self.drawing.wire_radius)
+            self.wires += [] if actor is None else [actor]
 
     def _tracks(self) -> None:
         """Paths of tips and payloads over the whole run."""
