@@ -66,6 +66,12 @@ def test_without_a_folder_nothing_is_written(tmp_path: Path) -> None:
     assert list(tmp_path.iterdir()) == []
 
 
+def test_the_hook_load_on_a_given_ship_is_that_by_hand(tmp_path: Path) -> None:
+    run_, by_hand = run(FOLDER / "given_ship.py", tmp_path).splitlines()
+    for mine, theirs in zip(re.findall(NUMBER, run_), re.findall(NUMBER, by_hand), strict=True):
+        assert float(mine) == pytest.approx(float(theirs), rel=0.01)
+
+
 def test_controller_example_calms_its_load(tmp_path: Path) -> None:
     free, controlled = (
         float(line.split()[-2]) for line in run(FOLDER / "sampled_controller.py", tmp_path).splitlines()

@@ -192,13 +192,13 @@ def test_a_light_load_moves_as_on_the_floating_ship(database: HydroDatabase) -> 
     replayed = simulate(hanging(scene, 1e3), 30.0, dt_out=0.1, rtol=1e-10)
     np.testing.assert_allclose(replayed["vessel_motion"], alone["vessel_motion"], atol=1e-9)
     apart = []
-    for mass in (1e3, 1e4, 1e5):
+    for mass in (1e2, 1e3, 1e4):
         floating = of_floating(database, mass)
         away = floating.select("position", body="load") - replayed.select("position", body="load")
         apart.append(np.abs(away).max() / mass)
-    assert apart[0] * 1e3 < 1e-2
-    assert apart[1] == pytest.approx(apart[0], rel=0.02)
-    assert apart[2] == pytest.approx(apart[0], rel=0.1)
+    assert apart[0] * 1e2 < 2e-3
+    assert apart[1] == pytest.approx(apart[0], rel=1e-3)
+    assert apart[2] == pytest.approx(apart[0], rel=1e-2)
 
 
 def test_the_ledger_closes(database: HydroDatabase) -> None:
@@ -245,9 +245,9 @@ def test_a_run_continues_from_its_state(database: HydroDatabase) -> None:
     scene = given(database)
     scene.add_sea(database, **WAVES)
     hanging(scene, 1e4)
-    whole = simulate(scene, 10.0, dt_out=0.5, integrator="rk4", step=0.05)
-    half = simulate(scene, 5.0, dt_out=0.5, integrator="rk4", step=0.05)
-    rest = simulate(scene, 10.0, dt_out=0.5, integrator="rk4", step=0.05, start=half.state)
+    whole = simulate(scene, 10.0, dt_out=0.5, integrator="rk4", dt=0.0625)
+    half = simulate(scene, 5.0, dt_out=0.5, integrator="rk4", dt=0.0625)
+    rest = simulate(scene, 10.0, dt_out=0.5, integrator="rk4", dt=0.0625, start=half.state)
     np.testing.assert_array_equal(rest["position"][-1], whole["position"][-1])
 
 
@@ -277,10 +277,10 @@ heading_deg = 90
 size_m = [90, 30, 5]
 [given_vessel.raos]
 omega_rad_per_s = [0.3, 0.6]
-headings = [
-  { heading_deg = 0, amplitude = [[1, 0, 1, 0, 0.009, 0], [0.8, 0, 0.8, 0, 0.02, 0]],
-    phase_deg = [[-90, 0, 0, 0, -90, 0], [-90, 0, 0, 0, -90, 0]] },
-]
+[[given_vessel.raos.headings]]
+heading_deg = 0
+amplitude = [[1, 0, 1, 0, 0.009, 0], [0.8, 0, 0.8, 0, 0.02, 0]]
+phase_deg = [[-90, 0, 0, 0, -90, 0], [-90, 0, 0, 0, -90, 0]]
 [[given_vessel]]
 name = "quay"
 motion = "rest"
@@ -288,9 +288,10 @@ position_m = [0, 120, 0]
 [[given_vessel]]
 name = "measured"
 position_m = [0, 180, 0]
-history = { time_s = [0, 1, 2, 3, 4, 5], motion = [
-  [0, 0, 0, 0, 0, 0], [0, 0, 0.1, 0, 0, 0], [0, 0, 0.2, 0, 0, 0], [0, 0, 0.3, 0, 0, 0], [0, 0, 0.2, 0, 0, 0],
-  [0, 0, 0.1, 0, 0, 0]] }
+[given_vessel.history]
+time_s = [0, 1, 2, 3, 4, 5]
+motion = [[0, 0, 0, 0, 0, 0], [0, 0, 0.1, 0, 0, 0], [0, 0, 0.2, 0, 0, 0],
+          [0, 0, 0.3, 0, 0, 0], [0, 0, 0.2, 0, 0, 0], [0, 0, 0.1, 0, 0, 0]]
 [[sea]]
 hs_m = 1
 tp_s = 12
@@ -342,7 +343,7 @@ def test_mistakes_in_lift_files_are_told(case: str, tmp_path: Path) -> None:
     text = LIFT.replace(*MISTAKES_IN_LIFTS[case])
     assert text != LIFT
     (tmp_path / "lift.toml").write_text(text)
-    with pytest.raises(seacrane.FileFormatError, match=r"lift\.toml, line"):
+    with pytest.raises(seacrane.FileFormatError, match=r"lift\.toml line \d+: .*(given_vessel|raos)"):
         Lift.load(tmp_path / "lift.toml").scene()
 
 
@@ -368,7 +369,7 @@ def raos(**changes: Any) -> MotionRaos:
 
 def degrees() -> MotionRaos:
     values = raos().values.copy()
-    values[:, :, 3:] = np.degrees(values[:, :, 3:])
+    values[:, :, 3:] *= 180.0 / np.pi
     return raos(values=values)
 
 
@@ -395,7 +396,7 @@ BAD: dict[str, tuple[Callable[[], Any], str]] = {
     "duration": (lambda: given("rest", duration=0.0), "duration is 0.0 s; give"),
     "size": (lambda: given("rest", size=(100, 20, -5)), "size is"),
     "place": (lambda: given("rest", position=(0, 0)), "position has shape"),
-    "degrees per metre": (degrees, "pitch is .* in\\s*deg/m, give numpy.radians"),
+    "degrees per metre": (degrees, "pitch is .* multiply roll, pitch and yaw by pi / 180"),
     "headings in degrees": (lambda: raos(heading=np.degrees(HEADINGS)), "heading reaches 180 rad"),
     "headings twice": (lambda: raos(heading=[0, 0, 1, 2, 3]), "heading must increase"),
     "frequencies": (lambda: raos(omega=LONG_WAVES[::-1]), "omega must be positive, finite and increasing"),
@@ -417,7 +418,7 @@ BAD: dict[str, tuple[Callable[[], Any], str]] = {
     "short": (lambda: simulate(given(history()), 41.0), "ends at 40 s, and the run at 41 s; give a longer"),
     "drift": (lambda: in_sea(given(shipped_database()), shipped_database(), drift=True), "leave out drift"),
     "no RAOs": (lambda: in_sea(given(shipped_database())), "database is None; give the HydroDatabase"),
-    "no loads": (lambda: in_sea(afloat(shipped_database()), raos()), "'vessel' floats; give its"),
+    "no loads": (lambda: afloat(shipped_database()).add_sea(raos()), "'vessel' floats; give its"),
     "linear": (
         lambda: response_summed(afloat_and_given(), body="vessel"),
         "vessel 'barge': its motion is given",

@@ -87,6 +87,25 @@ def a_pose_in_degrees() -> None:
     lift(theta=-90.0, ballast=False)
 
 
+def raos_in_degrees() -> None:
+    omega = np.array([0.3, 0.6, 1.0])
+    values = np.zeros((1, 3, 6), dtype=complex)
+    values[0, :, 2] = 1.0
+    values[0, :, 4] = -1j * np.degrees(omega**2 / 9.81)
+    seacrane.MotionRaos(omega=omega, heading=[np.pi], values=values)
+
+
+def headings_in_degrees() -> None:
+    seacrane.MotionRaos(omega=[0.3, 0.6], heading=[0.0, 180.0], values=np.zeros((2, 2, 6)))
+
+
+def record_in_degrees() -> None:
+    time = np.linspace(0.0, 60.0, 121)
+    motion = np.zeros((121, 6))
+    motion[:, 3] = 2.5 * np.sin(0.7 * time)
+    seacrane.MotionHistory(time=time, motion=motion)
+
+
 def radians_for_degrees() -> None:
     lift(sea=np.pi * 3 / 4, ballast=False)
 
@@ -213,6 +232,8 @@ def forces_as_text() -> None:
 
 SCRIPTS: dict[str, list[Callable[[], None]]] = {
     "degrees where radians are meant": [degrees_for_radians, a_pose_in_degrees],
+    "RAOs in degrees per metre": [raos_in_degrees, headings_in_degrees],
+    "a record in degrees": [record_in_degrees],
     "radians where degrees are meant": [radians_for_degrees],
     "compass directions": [compass_bearing, wind_where_it_comes_from],
     "tonnes for kilograms": [payload_in_tonnes, body_in_tonnes],

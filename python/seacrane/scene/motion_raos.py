@@ -80,7 +80,7 @@ class MotionRaos:
             raise SceneError(
                 f"{what}: pitch is {pitch:.4g} rad/m at {self.omega[0]:.4g} rad/s, {pitch / slope:.3g} times "
                 "the slope of that wave, which long waves do not do; rotations are rad/m: if the table is in "
-                "deg/m, give numpy.radians of roll, pitch and yaw"
+                "deg/m, multiply roll, pitch and yaw by pi / 180"
             )
 
     def at(self, omega: Any, heading: Any) -> Complex:
