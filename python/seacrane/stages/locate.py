@@ -49,15 +49,15 @@ class Course:
     done: Callable[[Run], None]
     warned: bool = False
 
-    def run(self, start: _core.State, t_end: float) -> Run:
+    def run(self, start: _core.State, t_end: float, capacity: int | None = None) -> Run:
         """A run of the stage, not advanced yet; what its description warns of is told once."""
         with warnings.catch_warnings():
             if self.warned:
                 warnings.simplefilter("ignore")
             self.warned = True
             return Run(
-                self.scene, t_end, method=self.method, outputs=self.outputs, start=start, outputs_from=self.first,
-                model=self.model,
+                self.scene, t_end, method=self.method, outputs=self.outputs, start=start,
+                outputs_from=self.first, model=self.model, capacity=capacity,
             )  # fmt: skip
 
     def taken(self, start: _core.State, t_end: float) -> Run:
@@ -69,9 +69,11 @@ class Course:
         return run
 
     def tried(self, start: _core.State, t_end: float) -> Run:
-        """A run advanced to its end, and no part of the result."""
+        """A run advanced to its end, and no part of the result; KeyboardInterrupt by Ctrl-C."""
         run = self.run(start, t_end)
         drive(run, (), self.interrupts)
+        if run.interrupted:
+            raise KeyboardInterrupt
         return run
 
 
@@ -88,7 +90,7 @@ def to_its_end(course: Course, stage: Stage, start: _core.State) -> str:
         return "" if run.interrupted else "duration"
     assert stage.longest is not None
     end, state = start.time + stage.longest, start
-    met = _met_now(course.run(state, end), stage.conditions)
+    met = _met_now(course.run(state, end, capacity=1), stage.conditions)
     while met is None:
         stop = min(_next_look(course, state.time), end)
         run = course.run(state, stop)
@@ -96,12 +98,19 @@ def to_its_end(course: Course, stage: Stage, start: _core.State) -> str:
         drive(run, (), course.interrupts)
         found = [hit for hit in (_found(run, one) for one in stage.conditions) if hit is not None]
         if found and not run.interrupted:
-            return _located(course, state, min(found, key=lambda hit: hit.by), found)
+            try:
+                return _located(course, state, min(found, key=lambda hit: hit.by), found)
+            except KeyboardInterrupt:
+                return ""
         course.done(run)
         if run.interrupted:
             return ""
         if stop >= end:
-            raise SimulationError(_never(stage, run))
+            raise SimulationError(
+                f"{stage.title}: is not over after its longest of {stage.longest:g} s, at t = {end:.6g} s: "
+                f"it waits for {_waits_for(stage, run)}. Command what leads there, correct the condition, or "
+                "allow longer"
+            )
         state = run.state
     return met.text
 
@@ -175,7 +184,9 @@ def _crossing(course: Course, lead: _core.State, hit: _Hit) -> float:
     from scipy.optimize import brentq
 
     def excess(time: float) -> float:
-        return excess_now(course.tried(lead, time) if time > lead.time else course.run(lead, time), hit.condition)
+        return excess_now(
+            course.tried(lead, time) if time > lead.time else course.run(lead, time), hit.condition
+        )
 
     if excess(hit.by) <= 0.0:  # an output that touched it
         return hit.by
@@ -195,15 +206,13 @@ def _at_contact(course: Course, state: _core.State, time: float, condition: Cont
     return condition.text
 
 
-def _never(stage: Stage, run: Run) -> str:
+def _waits_for(stage: Stage, run: Run) -> str:
+    """The conditions of a stage, and how they stand."""
     said = []
     for condition in stage.conditions:
-        if isinstance(condition, Contact):
-            said.append(f"{condition.text} (it does not)")
-            continue
-        now = float(condition.series(run, {k: v[None] for k, v in run.measure().items()})[0])
-        said.append(f"{condition.text} (it is {now:.6g})")
-    return (
-        f"{stage.title}: is not over after its longest of {stage.longest:g} s, at t = {run.core.time:.6g} s: it "
-        f"waits for {' or '.join(said)}. Command what leads there, correct the condition, or give it longer"
-    )
+        now = "not yet"
+        if isinstance(condition, Level):
+            measured = {name: values[None] for name, values in run.measure().items()}
+            now = f"it is {float(condition.series(run, measured)[0]):.6g}"
+        said.append(f"{condition.text} ({now})")
+    return " or ".join(said)

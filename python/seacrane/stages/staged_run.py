@@ -20,7 +20,7 @@ from seacrane.run.outputs import Outputs
 from seacrane.run.run import Run
 from seacrane.run.shorthand import Shorthand, settled
 from seacrane.scene.scene import Scene
-from seacrane.stages.carry import carried, compiled_there, redescribed
+from seacrane.stages.carry import carried, compiled_there, lifted_seats, redescribed
 from seacrane.stages.commands import commanded
 from seacrane.stages.connections import without
 from seacrane.stages.joined import Piece, counters, joined
@@ -147,6 +147,7 @@ class StagedRun:
                     error.result = self._result_of_an_error()  # type: ignore[attr-defined]
                 raise
         self._spans.append(StageSpan(name=stage.name, start=begin, end=self._state.time, ended_by=ended))
+        self.interrupted = not ended
         return not self.interrupted and len(self._spans) < len(self.stages)
 
     def result(self) -> Result:
@@ -160,7 +161,8 @@ class StagedRun:
         if not self._pieces:
             raise SceneError("stages: nothing has been recorded yet; advance() them first")
         return joined(
-            self._pieces, scene=self._given, spans=self._spans, interrupted=self.interrupted, after=self._changes
+            self._pieces, scene=self._given, spans=self._spans, interrupted=self.interrupted,
+            after=self._changes,
         )  # fmt: skip
 
     def warn(self) -> None:
@@ -185,6 +187,7 @@ class StagedRun:
         for name in stage.connect:
             self._absent.discard(name)
             if name in self._whole.joints:
+                self._absent |= lifted_seats(self._scene, self._state)
                 self._whole = redescribed(self._whole, self._measured(), self._state)
             self._change(stage, name, "connection")
 
@@ -206,18 +209,20 @@ class StagedRun:
         run = self._still(scene, model, start)
         met = run.events()
         state = run.state
-        lost = before - _core.Evaluator(model).energy(start.time, state.values) - sum(e.energy_lost for e in met)
+        lost = (
+            before - _core.Evaluator(model).energy(start.time, state.values) - sum(e.energy_lost for e in met)
+        )
         self._scene, self._model, self._state = scene, model, state
         event = Event(time=start.time, name=name, kind=kind, speed=speed, energy_lost=lost)
         self._changes += [event, *met]
 
     def _check_gap(self, stage: Stage, name: str, model: _core.Model, start: _core.State) -> float:
-        """The rate (m/s or rad/s) at which a joint that connects is off; SceneError where it does not meet."""
+        """The rate (m/s or rad/s) at which a joint parts as it connects; SceneError where it is open."""
         gap, rate = _core.Evaluator(model).residual(start.time, start.values)
         if gap > LARGEST_GAP * self._scene.length_scale:
             raise SceneError(
-                f"{stage.title}: joint {name!r} is open by {gap:.4g} (m or rad) at t = {start.time:.6g} s and "
-                f"would have to jump; end the stage before where it closes to {LARGEST_GAP:g}, correct its "
+                f"{stage.title}: joint {name!r} is open by {gap:.4g} (m or rad) at t = {start.time:.6g} s "
+                f"and would jump; end the stage before where it closes to {LARGEST_GAP:g}, correct its "
                 "frames, or connect a line, which needs not be closed"
             )
         return float(rate)
@@ -274,7 +279,6 @@ class StagedRun:
         )  # fmt: skip
         self._changes, self._open = [], None
         self._found += [one for one in found if one not in self._found]
-        self.interrupted |= run.interrupted
         self._state = result.state if result.state is not None else self._state
 
 
