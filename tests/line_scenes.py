@@ -30,7 +30,8 @@ def hung(
     blocks = ["ground", "load"] * falls
     scene.add_line(
         name="hoist", bodies=blocks[: falls + 1], points=np.zeros((falls + 1, 3)),
-        stiffness=STIFFNESS * length / falls, length=falls * length, damping_ratio=damping, mass=MASS / falls**2,
+        stiffness=STIFFNESS * length / falls, length=falls * length, damping_ratio=damping,
+        mass=MASS / falls**2,
     )  # fmt: skip
     return scene
 
