@@ -1,6 +1,7 @@
-"""The table of the README: a few lines out of the files of measurements: ``python benchmarks/facts.py``.
+"""The table of the README, a few lines out of the files of measurements: ``python benchmarks/facts.py``.
 
-Writes ``results/facts.csv`` and fills the documents, as ``run.py`` and ``validation.py`` do with ``--publish``.
+Writes ``results/facts.csv`` and fills the documents, as ``run.py`` and ``validation.py`` do with
+``--publish``.
 """
 
 from __future__ import annotations

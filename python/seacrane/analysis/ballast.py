@@ -122,7 +122,9 @@ def add_ballast(
 
 def _vessel(scene: Description, body: str | None) -> _core.VesselHydrodynamics:
     if (body or "vessel") in given_vessels(scene):
-        raise SceneError(f"ballast: the motion of {body or 'vessel'!r} is given: it needs no ballast, leave it out")
+        raise SceneError(
+            f"ballast: the motion of {body or 'vessel'!r} is given: it needs no ballast, leave it out"
+        )
     floating = {vessel.body: vessel for vessel in scene.vessels.values()}
     known = ", ".join(map(repr, floating)) or "none"
     if body is None and len(floating) != 1:

@@ -143,6 +143,7 @@ def _add_show(commands: Any) -> None:
     show.add_argument("--out", metavar="DIR", help="draw it into this folder; made if absent")
     show.add_argument("--overwrite", action="store_true", help="replace an earlier picture")
 
+
 def _add_view(commands: Any) -> None:
     text = "write a result, or a scene at its start, as a page in three dimensions"
     view = commands.add_parser("view", help=text, description=f"{text}: one HTML file that needs no network")
