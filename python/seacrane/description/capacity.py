@@ -28,4 +28,4 @@ def capacity_of(what: str, given: Any) -> Capacity:
 def allowed_at(capacity: Capacity, radius: ArrayLike) -> Array:
     """Loads (kg) at radii: linear between rows, that of the first below it, none beyond the last."""
     radii, loads = zip(*capacity, strict=True)
-    return np.asarray(np.interp(radius, radii, loads, right=0.0))
+    return np.asarray(np.interp(np.asarray(radius, dtype=float), radii, loads, right=0.0))
