@@ -1,7 +1,6 @@
 """The table of the README, a few lines out of the files of measurements: ``python benchmarks/facts.py``.
 
-Writes ``results/facts.csv`` and fills the documents, as ``run.py`` and ``validation.py`` do with
-``--publish``.
+Writes ``results/facts.csv`` and fills the documents; so do ``run.py`` and ``validation.py --publish``.
 """
 
 from __future__ import annotations

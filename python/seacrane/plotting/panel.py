@@ -183,8 +183,8 @@ def draw(sheet: Sheet, *, note: str = "") -> Figure:
 def write_note(figure: Figure, note: str) -> None:
     """Small words at the foot of a figure, above its legend where it has one; none, nothing."""
     for legend in figure.legends[:1] if note else ():
-        legend.set_title(note, prop={"size": 7})
-        legend.get_title().set_color(NOTE_COLOUR)
+        legend.set_title(note)
+        legend.get_title().set(fontsize=7, color=NOTE_COLOUR)
     if note and not figure.legends:
         figure.supxlabel(note, x=0.01, ha="left", fontsize=7, color=NOTE_COLOUR)
 
