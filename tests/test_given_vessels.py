@@ -201,6 +201,32 @@ def test_a_light_load_moves_as_on_the_floating_ship(database: HydroDatabase) -> 
     assert apart[2] == pytest.approx(apart[0], rel=1e-2)
 
 
+@pytest.mark.filterwarnings("ignore::seacrane.MassUnitWarning")
+def test_a_light_load_moves_as_in_the_linear_response_of_the_floating_ship(database: HydroDatabase) -> None:
+    """On a rod too short to swing in these waves; what is left is of second order in the wave height."""
+    apart = []
+    for hs in (0.02, 0.1):
+        scenes = []
+        for add in ("add_vessel", "add_given_vessel"):
+            scene = Scene()
+            getattr(scene, add)(database)
+            scene.add_body(name="load", mass=100.0, inertia=np.full(3, 100.0), position=(5, 3, 8))
+            scene.add_joint(
+                kind="distance", name="rod", first="vessel", second="load", point=(5, 3, 9),
+                second_point=(5, 3, 8),
+            )  # fmt: skip
+            scene.add_sea(database, hs=hs, tp=10.0, direction_deg=100.0, count=40)
+            scenes.append(scene)
+        response = response_summed(scenes[0], body="load")
+        result = simulate(scenes[1], 60.0, dt_out=0.5, rtol=1e-10)
+        moved = result.select("position", body="load") - (5.0, 3.0, 8.0)
+        full = result.time > 20.0
+        error = np.abs(moved - response.at(result.time)[:, :3])[full].max(axis=0)
+        apart.append((error / response.std[:3]).max())
+    assert apart[1] < 2e-2
+    assert apart[0] < 0.3 * apart[1]
+
+
 def test_the_ledger_closes(database: HydroDatabase) -> None:
     scene = given(database)
     scene.add_sea(database, **WAVES)
@@ -416,6 +442,10 @@ BAD: dict[str, tuple[Callable[[], Any], str]] = {
     "hole": (lambda: history(motion=np.full((50, 6), np.nan)), "not finite"),
     "far apart": (far_apart, "heave would reach"),
     "short": (lambda: simulate(given(history()), 41.0), "ends at 40 s, and the run at 41 s; give a longer"),
+    "too long": (
+        lambda: in_sea(given(shipped_database(), duration=1e9), shipped_database()),
+        "motion of 1e\\+09 s: takes .* give a shorter duration",
+    ),
     "drift": (lambda: in_sea(given(shipped_database()), shipped_database(), drift=True), "leave out drift"),
     "no RAOs": (lambda: in_sea(given(shipped_database())), "database is None; give the HydroDatabase"),
     "no loads": (lambda: afloat(shipped_database()).add_sea(raos()), "'vessel' floats; give its"),

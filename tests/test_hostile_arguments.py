@@ -11,7 +11,19 @@ import pytest
 from hypothesis import HealthCheck, Phase, assume, example, given, seed, settings
 from hypothesis import strategies as st
 
-from seacrane import Curve, HullLoads, Scene, SceneError, SimulationError, Waves, sea, simulate, spline_curve
+from seacrane import (
+    Curve,
+    HullLoads,
+    MotionHistory,
+    MotionRaos,
+    Scene,
+    SceneError,
+    SimulationError,
+    Waves,
+    sea,
+    simulate,
+    spline_curve,
+)
 
 # Assembly makes consistent what some scenes describe roughly, on purpose.
 pytestmark = pytest.mark.filterwarnings("ignore::seacrane.AssemblyWarning")
@@ -88,6 +100,10 @@ CALLS: dict[str, dict[str, Any]] = {
         "name": "x", "body": "hull", "added_mass": MATRIX, "linear_damping": MATRIX, "restoring": RESTORING,
         "quadratic_damping": np.ones(6), "mooring_stiffness": np.ones(3), "mooring_damping": np.ones(3),
     },
+    "add_given_vessel": {
+        "motion": MotionHistory(time=range(6), motion=np.zeros((6, 6))), "name": "x", "position": (9.0, 0, 0),
+        "heading_deg": 30.0, "ramp": 1.0, "duration": 10.0, "size": (90.0, 20.0, 5.0),
+    },
     "record_coordinate": {"name": "x", "joint": "pin", "coordinate": "angle"},
 }  # fmt: skip
 
@@ -127,6 +143,36 @@ def test_scene_methods(call: str, data: st.DataObject) -> None:
     scene = base()
     refused(lambda: getattr(scene, call)(**arguments), (SceneError, TypeError))
     run_for_some_steps(scene)
+
+
+GIVEN: dict[str, tuple[type, dict[str, Any]]] = {
+    "RAOs": (
+        MotionRaos,
+        {"omega": [0.3, 0.6], "heading": [0.0], "values": np.zeros((1, 2, 6)), "depth": 60.0,
+         "symmetric": True, "name": "x", "g": 9.81},
+    ),
+    "history": (MotionHistory, {"time": np.arange(6.0), "motion": np.zeros((6, 6))}),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("kind", GIVEN)
+@seed(21)
+@SETTINGS
+@given(data=st.data())
+def test_given_motions(kind: str, data: st.DataObject) -> None:
+    """What is accepted tells finite motions, or is refused by name."""
+    make, usual = GIVEN[kind]
+    arguments = dict(usual)
+    for key in data.draw(st.lists(st.sampled_from(sorted(arguments)), min_size=1, max_size=2, unique=True)):
+        arguments[key] = data.draw(HOSTILE, label=key)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        motion = refused(lambda: make(**arguments), (SceneError,))
+        if isinstance(motion, MotionHistory):
+            refused(lambda: motion.curves(0.0), (SceneError,))
+        if isinstance(motion, MotionRaos):
+            found = refused(lambda: motion.at([0.4], [0.0]), (SceneError,))
+            assert found is None or np.isfinite(found).all()
 
 
 @pytest.mark.parametrize("call", CALLS)

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane._core import Curve
+from seacrane.errors import SceneError
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -16,6 +17,7 @@ CLOSE = 1e-6  # of the root mean square of the sum: largest error of the splines
 PER_PERIOD = 8  # samples of the fastest cosine that is tried first
 SMALLEST_SHARE = 1e-6  # of the largest amplitude: faster cosines below it set no interval
 MOST_HALVINGS = 6
+MOST_PIECES = 200_000  # to bound the memory that they take: more than half a day of waves
 PADDING = 16  # samples beyond both ends, where a spline is not as good
 AT_ONCE = 4096  # times summed together, to bound the memory it takes
 
@@ -41,6 +43,11 @@ def curves_of_sum(omega: Array, amplitude: Complex, *, ramp: float, duration: fl
     -------
     tuple of Curve
         Zero and at rest until t = 0 where there is a ramp.
+
+    Raises
+    ------
+    SceneError
+        For a duration of too many periods.
     """
 
     def values(times: Array) -> Array:
@@ -49,7 +56,13 @@ def curves_of_sum(omega: Array, amplitude: Complex, *, ramp: float, duration: fl
     scale = np.sqrt(0.5 * np.sum(np.abs(amplitude) ** 2, axis=0))
     if not scale.any():
         return tuple(Curve.constant(value=0.0) for _ in scale)
-    count = max(int(np.ceil(duration * PER_PERIOD * _fastest(omega, amplitude) / (2.0 * np.pi))), 1)
+    wanted = np.ceil(duration * PER_PERIOD * _fastest(omega, amplitude) / (2.0 * np.pi))
+    if wanted > MOST_PIECES:
+        raise SceneError(
+            f"motion of {duration:.6g} s: takes {wanted:.3g} pieces of a curve, above {MOST_PIECES}; give a "
+            "shorter duration"
+        )
+    count = max(int(wanted), 1)
     for _ in range(MOST_HALVINGS):
         fitted, error = _fitted(values, duration, count)
         if np.all(error <= CLOSE * scale):
@@ -71,7 +84,8 @@ def ramp_of(times: Array, ramp: float) -> Array:
     """From 0 at t = 0 to 1 at t = ramp, with four continuous derivatives; 1 at all times for a ramp of 0."""
     if ramp == 0.0:
         return np.ones_like(times)
-    x = np.clip(times / ramp, 0.0, 1.0)
+    with np.errstate(over="ignore"):  # a ramp of next to nothing
+        x = np.clip(times / ramp, 0.0, 1.0)
     return np.asarray(x**5 * (126.0 + x * (-420.0 + x * (540.0 + x * (-315.0 + 70.0 * x)))))
 
 

@@ -87,7 +87,10 @@ def add_given_vessel(
     lasting = _positive(f"{what}: duration", duration)
     outline = _size_of(what, motion, size)
     place = shaped_of(f"{what}: position", position, (3,))
-    half = 0.5 * np.radians(direction_of(f"{what}: heading_deg", heading_deg))
+    heading = direction_of(f"{what}: heading_deg", heading_deg)
+    if not np.isfinite([*place, heading]).all():
+        raise SceneError(f"{what}: stands at {place.tolist()} m, {heading} deg; give finite numbers")
+    half = 0.5 * np.radians(heading)
     add_body(
         scene, name=name, mass=LIGHT, inertia=(LIGHT, LIGHT, LIGHT), position=place,
         quaternion=(np.cos(half), 0.0, 0.0, np.sin(half)),

@@ -65,8 +65,11 @@ class MotionRaos:
         omega = _increasing(f"{what}: omega", self.omega, "rad/s")
         heading = _headings(f"{what}: heading", self.heading)
         values = _motions(what, self.values, (heading.size, omega.size, 6))
-        if not (number_of(f"{what}: depth", self.depth) > 0.0):
-            raise SceneError(f"{what}: depth is {self.depth} m; give a positive number")
+        for key, unit in (("depth", "m"), ("g", "m/s2")):
+            number = number_of(f"{what}: {key}", getattr(self, key))
+            if not number > 0.0:
+                raise SceneError(f"{what}: {key} is {number} {unit}; give a positive number")
+            object.__setattr__(self, key, number)
         flag_of(f"{what}: symmetric", self.symmetric)
         for key, array in (("omega", omega), ("heading", heading), ("values", values)):
             array.setflags(write=False)
