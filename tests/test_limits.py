@@ -11,7 +11,7 @@ import pytest
 from event_scenes import ball, lift, pendulum, pushed
 
 from seacrane import Result, Run, Scene, SceneError, cases, simulate
-from seacrane.cli.run_command import summary
+from seacrane.cli.run_command import costs
 
 
 @pytest.mark.parametrize(
@@ -76,7 +76,7 @@ def test_events_survive_a_file(tmp_path: Path) -> None:
     loaded = Result.load(result.save(tmp_path / "ball.nc"))
     assert loaded.events == result.events
     assert len(result.events) == result.stats["events"]
-    assert f"events of limits {len(result.events)}, energy lost in impacts" in summary(result)
+    assert f"events of limits {len(result.events)}, energy lost in impacts" in costs(result)
     assert loaded.coords["limit"] == ("floor",)
     dataset = result.to_xarray()
     assert list(dataset["event_name"].values) == ["floor"] * len(result.events)
