@@ -29,6 +29,7 @@ from seacrane import (
 from seacrane.analysis.ballast import add_ballast
 from seacrane.crane import Payload
 from seacrane.description.sum_of_cosines import curves_of_sum, ramp_of, summed
+from seacrane.figures.pose import outlined_skeleton
 from seacrane.hydro import shipped_database
 from seacrane.validity.hull_range import NoWaveLoadsWarning
 from seacrane.viewer.bodies import looks
@@ -382,7 +383,11 @@ def test_pictures_show_the_ship_that_the_light_body_stands_for(database: HydroDa
     assert np.ptp(found["vessel"].points[:, 0]) == pytest.approx(115.0, abs=1.0)
     np.testing.assert_allclose(np.ptp(found["barge"].points[:, :2], axis=0), [90.0, 30.0], rtol=1e-6)
     assert "nobody gave" in found["unknown"].note
-    assert "hull_115" in seacrane.view(simulate(scene, 1.0)).html
+    result = simulate(scene, 1.0)
+    assert "hull_115" in seacrane.view(result).html
+    drawn = outlined_skeleton(result)
+    assert np.ptp(np.concatenate(drawn["vessel"])[:, 0]) == pytest.approx(115.0)
+    assert np.ptp(np.concatenate(drawn["barge"])[:, 1]) == pytest.approx(30.0)
 
 
 def raos(**changes: Any) -> MotionRaos:

@@ -6,6 +6,8 @@ from typing import TYPE_CHECKING
 
 from seacrane.errors import SceneError
 
+USUAL_SIZE = (100.0, 20.0, 5.0)  # m, of a ship whose size nobody gave
+
 if TYPE_CHECKING:
     from seacrane.description.scene import Description
 
@@ -18,6 +20,12 @@ def given_vessels(scene: Description) -> dict[str, str]:
         if known is not None and known.motion is not None:
             found[vessel.body] = known.motion
     return found
+
+
+def shown_size(scene: Description, body: str) -> tuple[float, float, float]:
+    """Length, breadth and draught, m, of the ship that the light body of a given vessel stands for."""
+    known = next(scene.provenance[v.name] for v in scene.vessels.values() if v.body == body)
+    return known.size or USUAL_SIZE
 
 
 def require_described(scene: Description, end: float) -> None:

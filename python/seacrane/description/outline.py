@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane import _core
+from seacrane.description.given import given_vessels, shown_size
 from seacrane.description.loads import lines_of, path_of
 from seacrane.description.range import Range
 from seacrane.description.scene import GROUND, Description
@@ -26,11 +27,13 @@ def outline_of(scene: Description) -> dict[str, Any]:
     dict
         "bodies": by name "points" (joints, m from the centre of mass, body axes) and "box" (edges of the box
         of its mass and inertia, m); a vessel has "ship" instead of a box: length and breadth by its radii of
-        gyration, m, and its origin from the centre of mass. "links": bodies and points of both ends, ground
-        points in inertial axes.
+        gyration, or those of a given ship, m, and its origin from the centre of mass. "links": bodies and
+        points of both ends, ground points in inertial axes.
     """
     ships = {vessel.body for vessel in scene.vessels.values()}
     bodies = {name: _about(body, ship=name in ships) for name, body in scene.bodies.items()}
+    for name in given_vessels(scene):
+        bodies[name]["ship"] |= dict(zip(("length", "breadth"), shown_size(scene, name), strict=False))
     links = []
     for joint in scene.joints.values():
         ends = _ends(scene, joint.first, joint.first_frame.point, joint.second, joint.second_frame.point)

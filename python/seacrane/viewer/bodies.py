@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from seacrane.crane import KnuckleBoomCrane
 from seacrane.description import crane_parts
-from seacrane.description.given import given_vessels
+from seacrane.description.given import USUAL_SIZE, given_vessels, shown_size
 from seacrane.description.loads import lines_of, path_of
 from seacrane.description.scene import Description
 from seacrane.errors import SceneError
@@ -26,7 +26,6 @@ Array = NDArray[np.float64]
 SLENDER = 0.02  # radius of a generic body's tubes over its extent
 SMALLEST = 0.02  # edge of a box over the scene's extent
 SHIPPED = "hull_115"
-UNKNOWN = (100.0, 20.0, 5.0)  # m, length, breadth and draught of a ship whose size nobody gave
 LARGEST_HULL = 100_000  # panels: more make a page that browsers choke on
 
 
@@ -114,9 +113,9 @@ def _vessel(scene: Description, name: str, hull: Hull | None) -> Look:
         note = f"hull {hull.name!r} below the water, straight sides above"
         return Look(role="vessel", shapes=[hull_shape(hull, level, centre)], note=note)
     if name in given_vessels(scene):
-        size = scene.provenance[name].size
-        note = "schematic hull" if size is not None else "schematic hull, whose size nobody gave"
-        return Look(role="vessel", shapes=[box_hull(*(size or UNKNOWN), deck, centre)], note=note)
+        size = shown_size(scene, name)
+        note = "schematic hull, whose size nobody gave" if size == USUAL_SIZE else "schematic hull"
+        return Look(role="vessel", shapes=[box_hull(*size, deck, centre)], note=note)
     shape = schematic_hull(body.mass, np.asarray(body.inertia), deck, centre)
     return Look(role="vessel", shapes=[shape], note="schematic hull, from mass and inertia")
 
