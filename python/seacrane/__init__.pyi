@@ -95,6 +95,11 @@ from seacrane.scene.wind_current import FlowCoefficients as FlowCoefficients
 from seacrane.sea import SeaState as SeaState
 from seacrane.sea import WaveSystem as WaveSystem
 from seacrane.simulation import simulate as simulate
+from seacrane.stages.move import Move as Move
+from seacrane.stages.stage import Stage as Stage
+from seacrane.stages.staged_run import StagedRun as StagedRun
+from seacrane.stages.staged_run import simulate_stages as simulate_stages
+from seacrane.stages.until import Until as Until
 from seacrane.trading import Trade as Trade
 from seacrane.trading import trade as trade
 from seacrane.validity.following import FullTurnWarning as FullTurnWarning

@@ -1,4 +1,4 @@
-"""What wires, end stops and seats did during a run, as read-only values and as arrays of a file."""
+"""What wires, end stops and seats did during a run, and stages, as read-only values and as arrays of a file."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-KINDS = ("contact", "rebound", "release")
+KINDS = ("contact", "rebound", "release", "stage", "connection")
 PREFIX = "event_"
 NUMBERS: Mapping[str, tuple[str, str]] = {
     "time": ("s", "when it happened"),
@@ -22,23 +22,24 @@ TEXTS = ("name", "kind")
 
 @dataclass(frozen=True, kw_only=True)
 class Event:
-    """A limit that began or ceased to hold.
+    """A limit or a connection that began or ceased to hold, or a stage that began.
 
     Attributes
     ----------
     time : float
         s.
     name : str
-        The limit's; ".minimum" or ".maximum" is added where a stop has both.
+        The limit's, the connection's or the stage's; ".minimum" or ".maximum" is added where a stop has both.
     kind : str
         "contact": holds from now on (a wire is taut); "rebound": was hit and left at once; "release": holds
-        no more (a wire is slack, a seat is lifted off).
+        no more (a wire is slack, a seat is lifted off, a stage released a connection); "stage": a stage began;
+        "connection": a stage connected an element.
     speed : float
-        Rate of approach just before, m/s or rad/s; 0 for a release.
+        Rate of approach just before, m/s or rad/s; 0 for a release or a stage.
     impulse : float
-        N s or N m s, as the limit can act: tension of a wire, push of a stop.
+        N s or N m s, as the limit can act: tension of a wire, push of a stop; 0 of stages and connections.
     energy_lost : float
-        Mechanical energy lost in the impact, J.
+        Mechanical energy lost in the impact, or with what a stage connected or released, J.
     """
 
     time: float

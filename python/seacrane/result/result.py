@@ -24,6 +24,7 @@ from seacrane.result.events import TEXTS as EVENT_TEXTS
 from seacrane.result.events import Event, checked_events, event_arrays
 from seacrane.result.netcdf import Contents, read_arrays, write_netcdf
 from seacrane.result.partial_file import is_partial, partial_path, read_partial
+from seacrane.result.stages import StageSpan, spans_of
 from seacrane.result.table import as_html
 
 if TYPE_CHECKING:
@@ -56,12 +57,12 @@ ALWAYS_STATED = [
 ]
 
 
-def _checked_array(name: str, values: Any, shape: tuple[int, ...], interrupted: bool) -> Array:
-    """The values as a read-only float64 array of the stated shape."""
+def _checked_array(name: str, values: Any, shape: tuple[int, ...], gaps: bool) -> Array:
+    """The values as a read-only float64 array of the stated shape; `gaps`: some may be no numbers."""
     array = np.asarray(values, dtype=np.float64)
     if array.shape != shape:
         raise ValueError(f"channel {name!r} has shape {array.shape}; its dimensions ask for {shape}")
-    if not interrupted and not np.isfinite(array).all():
+    if not gaps and not np.isfinite(array).all():
         first = int(np.argwhere(~np.isfinite(array.reshape(len(array), -1)).all(axis=1))[0, 0])
         raise ValueError(
             f"channel {name!r} is not finite at output {first} of a finished run; "
@@ -138,7 +139,7 @@ class Result(Mapping[str, Array]):
     interrupted : bool
         True if the run was stopped before its end; it then holds the outputs up to that moment.
     events : tuple of Event
-        What wires, end stops and seats did, in order of time.
+        What wires, end stops, seats and stages did, in order of time.
     state : State or None
         Where the run stopped, to continue from by ``simulate(start=...)``.
     scene : Scene or None
@@ -215,7 +216,8 @@ class Result(Mapping[str, Array]):
             Attributes, at least `ALWAYS_STATED`; values that are None are left out, `settings` may be a
             mapping.
         interrupted : bool
-            True if the run did not reach its end; only then may channels hold values that are not finite.
+            True if the run did not reach its end. Only then, and in a run of stages, may channels hold values
+            that are not finite.
         state : State, optional
             Where the run stopped.
         scene : Scene, optional
@@ -229,13 +231,14 @@ class Result(Mapping[str, Array]):
         """
         checked_time = _checked_time(time)
         names = {dim: _checked_names(dim, given) for dim, given in coords.items()} | dict(FIXED)
+        gaps = interrupted or "stages" in stats  # where elements come and go
         channels = {}
         for name, values in arrays.items():
             if name not in CHANNELS:
                 raise ValueError(f"channel {name!r} is unknown; choose from {', '.join(CHANNELS)}")
             dims = CHANNELS[name].dims_of(np.ndim(values))
             shape = (checked_time.size, *(len(names.get(dim, ())) for dim in dims[1:]))
-            channels[name] = _checked_array(name, values, shape, interrupted)
+            channels[name] = _checked_array(name, values, shape, gaps)
         used = dict.fromkeys(dim for dims in _dims(channels).values() for dim in dims[1:])
         return cls(
             time=checked_time,
@@ -269,6 +272,23 @@ class Result(Mapping[str, Array]):
     def __bool__(self) -> bool:
         """True also without channels: a result is there."""
         return True
+
+    @property
+    def stages(self) -> tuple[StageSpan, ...]:
+        """When each stage began and ended, and what ended it; none: it was one run."""
+        return spans_of(self.stats)
+
+    def stage(self, name: str) -> slice:
+        """The outputs of a stage, to index time and channels: after its start and up to its end.
+
+        Those of the first stage include its start. Raises ValueError for a stage that was not run.
+        """
+        for place, span in enumerate(self.stages):
+            if span.name == name:
+                after, upto = np.searchsorted(self.time, [span.start, span.end], side="right")
+                return slice(0 if place == 0 else int(after), int(upto))
+        known = ", ".join(span.name for span in self.stages) or "none"
+        raise ValueError(f"no stage {name!r} in this result; choose from {known}")
 
     def select(self, channel: str, /, **names: str) -> Array:
         """A channel at named coordinates, as a read-only view.
@@ -320,7 +340,17 @@ class Result(Mapping[str, Array]):
                 variables[name] = (("event",), array.astype(str) if text else array, {})
         coords: dict[str, Any] = {"time": ("time", self.time.copy(), attributes("time"))}
         coords.update({dim: list(names) for dim, names in self.coords.items()})
+        if self.stages:
+            coords["stage"] = ("time", self._stage_names())
         return xarray.Dataset(variables, coords, {**self.stats, "interrupted": int(self.interrupted)})
+
+    def _stage_names(self) -> list[str]:
+        """The stage of each output."""
+        names = [self.stages[0].name] * self.time.size
+        for span in self.stages:
+            part = self.stage(span.name)
+            names[part] = [span.name] * (part.stop - part.start)
+        return names
 
     def save(self, path: str | os.PathLike[str]) -> Path:
         """Write the result as NetCDF4: complete under its name, or not at all.

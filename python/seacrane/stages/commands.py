@@ -1,0 +1,108 @@
+"""What a stage commands: curves of winches, lines, actuators and drivers, changed from a time on."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from seacrane import _core
+from seacrane.description.edit import replace_element
+from seacrane.description.loads import lines_of
+from seacrane.description.scene import Some
+from seacrane.errors import SceneError
+from seacrane.inputs.checked import number_of
+from seacrane.inputs.shown import shown
+from seacrane.scene.scene import Scene
+from seacrane.stages.move import Move
+
+RATE_TIME = 1.0  # s, in which a rate or a force that is commanded by a number is reached
+JUMP = 1e-6  # m or rad, of a commanded place
+
+Command = Move | _core.Curve | float
+
+
+@dataclass(frozen=True)
+class Target:
+    """What a command changes: an attribute of an element, and whether it is a place, which may not jump."""
+
+    kind: str
+    element: str
+    attribute: str
+    place: bool
+
+
+def targets(scene: Scene) -> dict[str, Target]:
+    """What may be commanded, by name; inputs of a run have the same names."""
+    found = {}
+    for name, line in lines_of(scene.loads).items():
+        attribute = "rate" if line.winch else "length"
+        found[f"{name}.{attribute}"] = Target("load", name, attribute, not line.winch)
+    for name in scene.actuators:
+        found[f"{name}.reference"] = Target("actuator", name, "reference", True)
+        found[f"{name}.force"] = Target("actuator", name, "feed_forward", False)
+    return found | {name: Target("driver", name, "curve", True) for name in scene.drivers}
+
+
+def check_command(what: str, name: str, value: object, known: Mapping[str, Target]) -> None:
+    """Raise SceneError for a command of what is not there, or one that is none."""
+    if name not in known:
+        raise SceneError(f"{what} commands {name!r}, which is not there; there are {', '.join(known) or 'none'}")
+    if isinstance(value, (Move, _core.Curve)):
+        return
+    number = number_of(f"{what}: command {name!r}", value)
+    if not np.isfinite(number):
+        raise SceneError(f"{what}: command {name!r} is {number}; give a finite number")
+    if known[name].place:
+        raise SceneError(
+            f"{what}: command {name!r} is {shown(value)}, a place to go to in no stated time; give "
+            f"Move(to={number:g}, over=...) with its seconds, or a Curve"
+        )
+
+
+def commanded(scene: Some, what: str, commands: Mapping[str, Command], time: float) -> Some:
+    """The scene with commands that begin at a time, s; the curves until then stay.
+
+    Raises
+    ------
+    SceneError
+        For a curve that does not begin where the command stands.
+    """
+    out = scene.copy()
+    known = targets(out)  # type: ignore[arg-type]
+    for name, value in commands.items():
+        target = known[name]
+        old = present(out, target)
+        if isinstance(value, _core.Curve):
+            new = old.then(time=time, curve=_begun(value, time))
+            _check_start(what, name, target, old, new, time)
+        else:
+            move = value if isinstance(value, Move) else Move(to=value, over=RATE_TIME)
+            new = move.from_where_it_is(old, time)
+        replace_element(out, target.element, kind=target.kind, **{target.attribute: new})
+    return out
+
+
+def present(scene: Scene | Some, target: Target) -> _core.Curve:
+    """The curve that a command would change."""
+    tables = {"load": scene.loads, "actuator": scene.actuators, "driver": scene.drivers}
+    curve: _core.Curve = getattr(tables[target.kind][target.element], target.attribute)
+    return curve
+
+
+def _begun(curve: _core.Curve, time: float) -> _core.Curve:
+    """A curve of the stage's own clock, 0 where it begins, on the clock of the run."""
+    pieces = curve.to_pieces()
+    return _core.Curve.pieces(**pieces | {"starts": [start + time for start in pieces["starts"]]})
+
+
+def _check_start(
+    what: str, name: str, target: Target, old: _core.Curve, new: _core.Curve, time: float
+) -> None:
+    before, after = (float(curve.evaluate([time])[0, 0]) for curve in (old, new))
+    if target.place and abs(after - before) > JUMP:
+        raise SceneError(
+            f"{what}: command {name!r} begins at {after:.6g} where it stands at {before:.6g} (t = {time:.6g} "
+            "s): that is a jump. Begin the curve there, or give Move(to=..., over=...)"
+        )

@@ -1,0 +1,165 @@
+"""Results of runs, one after the other, joined to one."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from seacrane.result.channels import CHANNELS, NAMED
+from seacrane.result.events import Event
+from seacrane.result.result import Result
+from seacrane.result.stages import StageSpan, spans_as_text
+from seacrane.run.run import Run
+from seacrane.scene.scene import Scene
+
+Array = NDArray[np.float64]
+COUNTED_ON = ("energy_balance", "impact_loss")  # each run counts from its own start
+SUMS = (
+    "simulated_s", "wall_s", "steps", "rejected_steps", "evaluations", "jacobians", "newton_iterations",
+    "projections", "restarts", "dense_solves", "events",
+)  # fmt: skip
+NOTHING = ("N", "N m", "N or N m", "W")  # units of what is zero where its element is not there
+
+
+@dataclass
+class Piece:
+    """One finished run of a sequence: its result, and its counters at both ends.
+
+    Attributes
+    ----------
+    result : Result
+    names : dict of str to tuple of str
+        All names along each dimension, also of channels that are not recorded.
+    start, end : dict of str to array
+        Values of `COUNTED_ON` and of angles that count turns.
+    lost : float
+        J, in connections made and released just before it.
+    before : list of Event
+        These changes.
+    """
+
+    result: Result
+    names: Mapping[str, tuple[str, ...]]
+    start: Mapping[str, Array]
+    end: Mapping[str, Array]
+    lost: float = 0.0
+    before: list[Event] = field(default_factory=list)
+
+
+def counters(run: Run) -> dict[str, Array]:
+    """Values at the present instant of what each run counts from its own start."""
+    wanted = {name for name in run.model.channel_names() if name in COUNTED_ON}
+    now = run.measure()
+    return {name: now[name] for name in now if name in wanted or CHANNELS[name].turns}
+
+
+def joined(
+    pieces: Sequence[Piece], *, scene: Scene, spans: Sequence[StageSpan], interrupted: bool, after: Sequence[Event]
+) -> Result:
+    """One result of all pieces: of two outputs at one time the earlier stays.
+
+    What an element does where it is not there is nothing for forces and powers, and not a number else.
+    """
+    offsets = _offsets(pieces)
+    kept = _kept(pieces)
+    names = _all_names(pieces)
+    channels = list(dict.fromkeys(name for piece in pieces for name in piece.result.channels))
+    arrays = {}
+    for channel in channels:
+        parts = [
+            _whole(channel, piece, names) + offsets[i].get(channel, 0.0) for i, piece in enumerate(pieces)
+        ]
+        array = np.concatenate([part[keep] for part, keep in zip(parts, kept, strict=True)])
+        arrays[channel] = _squeezed(channel, array)
+    last = pieces[-1].result
+    events = [event for piece in pieces for event in (*piece.before, *piece.result.events)]
+    return Result.from_arrays(
+        time=np.concatenate([piece.result.time[keep] for piece, keep in zip(pieces, kept, strict=True)]),
+        arrays=arrays, coords=names, events=[*events, *after], stats=_stats(pieces, spans), interrupted=interrupted,
+        state=last.state, scene=scene.copy(notes={}),
+    )  # fmt: skip
+
+
+def _offsets(pieces: Sequence[Piece]) -> list[dict[str, Any]]:
+    """What to add to counters of each piece so that they go on from the piece before."""
+    out: list[dict[str, Any]] = [{}]
+    total: dict[str, Any] = dict(pieces[0].end)
+    for piece in pieces[1:]:
+        added = {}
+        for name, start in piece.start.items():
+            before = total.get(name, start if CHANNELS[name].turns else np.zeros_like(start))
+            added[name] = before - start
+            if CHANNELS[name].turns:
+                added[name] = 2.0 * np.pi * np.round((before - start) / (2.0 * np.pi))
+            if name == "impact_loss":
+                added[name] = added[name] + piece.lost
+        total |= {name: piece.end[name] + value for name, value in added.items()}
+        out.append(added)
+    return out
+
+
+def _kept(pieces: Sequence[Piece]) -> list[NDArray[np.bool_]]:
+    """Outputs later than all before."""
+    out, last = [], -np.inf
+    for piece in pieces:
+        out.append(piece.result.time > last)
+        last = max(last, float(piece.result.time[-1]))
+    return out
+
+
+def _all_names(pieces: Sequence[Piece]) -> dict[str, list[str]]:
+    """Names along each dimension in any piece, each behind the one that it follows where it first appears."""
+    out: dict[str, list[str]] = {}
+    for piece in pieces:
+        for dim, names in piece.names.items():
+            known, at = out.setdefault(dim, []), 0
+            for name in names:
+                if name not in known:
+                    known.insert(at, name)
+                at = known.index(name) + 1
+    return out
+
+
+def _whole(channel: str, piece: Piece, names: Mapping[str, Sequence[str]]) -> Array:
+    """A channel of a piece with all names along its dimensions."""
+    dims = CHANNELS[channel].dims_of_several
+    sizes = [len(names[dim]) for dim in dims[1:] if dim in NAMED]
+    fixed = [len(piece.names[dim]) for dim in dims[1:] if dim not in NAMED]
+    assert all(dim in NAMED for dim in dims[1 : 1 + len(sizes)]), "named dimensions come first"
+    count = piece.result.time.size
+    nothing = 0.0 if CHANNELS[channel].unit in NOTHING or channel in COUNTED_ON else np.nan
+    out = np.full((count, *sizes, *fixed), nothing)
+    if channel not in piece.result:
+        return out
+    array = piece.result[channel]
+    own = [piece.names[dim] for dim in dims[1:] if dim in NAMED]
+    array = array.reshape(count, *(len(part) for part in own), *fixed)
+    place = [[names[dim].index(name) for name in part] for dim, part in zip(dims[1:], own, strict=False)]
+    out[np.ix_(range(count), *place, *(range(n) for n in fixed))] = array
+    return out
+
+
+def _squeezed(channel: str, array: Array) -> Array:
+    """Without the axis that only several vessels, slews or hooks have, where there is one of them."""
+    kind = CHANNELS[channel]
+    several = len(kind.dims_of_several) > len(kind.dims)
+    return array[:, 0] if several and array.ndim == len(kind.dims_of_several) and array.shape[1] == 1 else array
+
+
+def _stats(pieces: Sequence[Piece], spans: Sequence[StageSpan]) -> dict[str, Any]:
+    every = [piece.result.stats for piece in pieces]
+    out: dict[str, Any] = dict(every[-1])
+    out |= {key: sum(float(one.get(key, 0)) for one in every) for key in SUMS if any(key in one for one in every)}
+    out |= {key: int(out[key]) for key in SUMS if key in out and key not in ("simulated_s", "wall_s")}
+    told = dict.fromkeys(line for one in every for line in str(one.get("validity", "")).splitlines())
+    if told:
+        out["validity"] = "\n".join(told)
+    settings = json.loads(str(out["settings"]))
+    out["settings"] = settings | {"t_end": float(pieces[-1].result.time[-1])}
+    out["stages"] = spans_as_text(spans)
+    return out

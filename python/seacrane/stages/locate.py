@@ -1,0 +1,209 @@
+"""Runs of one stage, to its end: found between two outputs, then located in time."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from seacrane import _core
+from seacrane.errors import SimulationError
+from seacrane.run.advance import drive
+from seacrane.run.interrupts import Interrupts
+from seacrane.run.method import Method
+from seacrane.run.outputs import Outputs
+from seacrane.run.run import Run
+from seacrane.scene.scene import Scene
+from seacrane.stages.stage import Stage
+from seacrane.stages.until import Condition, Contact, Level
+
+LOOK = 50  # outputs between two looks at the conditions
+LOCATED = 1e-9  # s
+CONTACT_WAITS = (1e-9, 1e-8, 1e-7, 1e-6, 1e-5)  # s, after a limit's event that another step sees elsewhere
+
+
+@dataclass
+class Course:
+    """The runs of one stage.
+
+    Attributes
+    ----------
+    scene, model, method, outputs
+        What is stepped, how, and what is recorded, the channels of conditions among it.
+    first : float
+        Time from which outputs are counted, s.
+    interrupts : Interrupts
+    began, done : callables
+        Told of each run that begins, and of each that is part of the result.
+    """
+
+    scene: Scene
+    model: _core.Model
+    method: Method
+    outputs: Outputs
+    first: float
+    interrupts: Interrupts
+    began: Callable[[Run], None]
+    done: Callable[[Run], None]
+    warned: bool = False
+
+    def run(self, start: _core.State, t_end: float) -> Run:
+        """A run of the stage, not advanced yet; what its description warns of is told once."""
+        with warnings.catch_warnings():
+            if self.warned:
+                warnings.simplefilter("ignore")
+            self.warned = True
+            return Run(
+                self.scene, t_end, method=self.method, outputs=self.outputs, start=start, outputs_from=self.first,
+                model=self.model,
+            )  # fmt: skip
+
+    def taken(self, start: _core.State, t_end: float) -> Run:
+        """A run advanced to its end, and part of the result."""
+        run = self.run(start, t_end)
+        self.began(run)
+        drive(run, (), self.interrupts)
+        self.done(run)
+        return run
+
+    def tried(self, start: _core.State, t_end: float) -> Run:
+        """A run advanced to its end, and no part of the result."""
+        run = self.run(start, t_end)
+        drive(run, (), self.interrupts)
+        return run
+
+
+def to_its_end(course: Course, stage: Stage, start: _core.State) -> str:
+    """Run a stage from a state; returns what ended it, "" for an interruption.
+
+    Raises
+    ------
+    SimulationError
+        For a stage whose conditions are not met within its `longest`.
+    """
+    if stage.duration is not None:
+        run = course.taken(start, start.time + stage.duration)
+        return "" if run.interrupted else "duration"
+    assert stage.longest is not None
+    end, state = start.time + stage.longest, start
+    met = _met_now(course.run(state, end), stage.conditions)
+    while met is None:
+        stop = min(_next_look(course, state.time), end)
+        run = course.run(state, stop)
+        course.began(run)
+        drive(run, (), course.interrupts)
+        found = [hit for hit in (_found(run, one) for one in stage.conditions) if hit is not None]
+        if found and not run.interrupted:
+            return _located(course, state, min(found, key=lambda hit: hit.by), found)
+        course.done(run)
+        if run.interrupted:
+            return ""
+        if stop >= end:
+            raise SimulationError(_never(stage, run))
+        state = run.state
+    return met.text
+
+
+def _next_look(course: Course, now: float) -> float:
+    """The output that is so many outputs away, s."""
+    dt = course.outputs.dt
+    return float(course.first + dt * (np.floor((now - course.first) / dt + 1e-6) + LOOK))
+
+
+def _met_now(run: Run, conditions: tuple[Condition, ...]) -> Condition | None:
+    return next((one for one in conditions if excess_now(run, one) >= 0.0), None)
+
+
+def excess_now(run: Run, condition: Condition) -> float:
+    """By how much a condition is met at the present instant; of a limit 1 where it is, else -1."""
+    if isinstance(condition, Contact):
+        held = {name.removesuffix(".minimum").removesuffix(".maximum") for name in run.state.closed or ()}
+        holds = condition.limit in held or condition.limit in (run.state.closed or ())
+        return 1.0 if holds == condition.holds else -1.0
+    now = {name: values[None] for name, values in run.measure().items()}
+    return float(condition.excess(condition.series(run, now))[0])
+
+
+@dataclass(frozen=True)
+class _Hit:
+    """A condition that is not met yet at one time, and met by another, s."""
+
+    condition: Condition
+    after: float
+    by: float
+
+
+def _found(run: Run, condition: Condition) -> _Hit | None:
+    """Where a run first met a condition: between two of its outputs, or at an event."""
+    start = float(run.start.time)
+    if isinstance(condition, Contact):
+        kind = "contact" if condition.holds else "release"
+        names = (condition.limit, f"{condition.limit}.minimum", f"{condition.limit}.maximum")
+        times = [event.time for event in run.events() if event.kind == kind and event.name in names]
+        return _Hit(condition, times[0], times[0]) if times else None
+    arrays = run.core.channels()
+    time = arrays["time"]
+    met = np.flatnonzero(condition.excess(condition.series(run, run.named(arrays))) >= 0.0)
+    met = met[time[met] > start]
+    if not met.size:
+        return None
+    at = int(met[0])
+    return _Hit(condition, float(max(start, time[at - 1] if at else start)), float(time[at]))
+
+
+def _located(course: Course, state: _core.State, first: _Hit, hits: list[_Hit]) -> str:
+    """Run to the instant at which the first of the conditions is met."""
+    near = [hit for hit in hits if hit.after <= first.by]
+    levels = [hit for hit in near if isinstance(hit.condition, Level)]
+    after = min((hit.after for hit in levels), default=state.time)
+    lead = state if after <= state.time else course.tried(state, after).state
+    times = [(_crossing(course, lead, hit), hit) for hit in levels]
+    times += [(hit.by, hit) for hit in near if isinstance(hit.condition, Contact)]
+    time, hit = min(times, key=lambda one: one[0])
+    if isinstance(hit.condition, Contact):
+        return _at_contact(course, state, time, hit.condition)
+    if lead is not state:
+        lead = course.taken(state, after).state
+    course.taken(lead, time)
+    return hit.condition.text
+
+
+def _crossing(course: Course, lead: _core.State, hit: _Hit) -> float:
+    """The time at which a channel is at its bound, by Brent's method on runs from a state before it."""
+    from scipy.optimize import brentq
+
+    def excess(time: float) -> float:
+        return excess_now(course.tried(lead, time) if time > lead.time else course.run(lead, time), hit.condition)
+
+    if excess(hit.by) <= 0.0:  # an output that touched it
+        return hit.by
+    if excess(hit.after) >= 0.0:
+        return hit.after
+    return float(brentq(excess, hit.after, hit.by, xtol=LOCATED, rtol=8.9e-16))
+
+
+def _at_contact(course: Course, state: _core.State, time: float, condition: Contact) -> str:
+    """Run to just after an event of a limit: another last step may see it a little later."""
+    wait = CONTACT_WAITS[-1]
+    for one in CONTACT_WAITS:
+        if excess_now(course.tried(state, time + one), condition) >= 0.0:
+            wait = one
+            break
+    course.taken(state, time + wait)
+    return condition.text
+
+
+def _never(stage: Stage, run: Run) -> str:
+    said = []
+    for condition in stage.conditions:
+        if isinstance(condition, Contact):
+            said.append(f"{condition.text} (it does not)")
+            continue
+        now = float(condition.series(run, {k: v[None] for k, v in run.measure().items()})[0])
+        said.append(f"{condition.text} (it is {now:.6g})")
+    return (
+        f"{stage.title}: is not over after its longest of {stage.longest:g} s, at t = {run.core.time:.6g} s: it "
+        f"waits for {' or '.join(said)}. Command what leads there, correct the condition, or give it longer"
+    )

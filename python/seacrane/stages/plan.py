@@ -1,0 +1,125 @@
+"""The stages of a lift looked at together, before any of them is run."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from typing import Any
+
+from seacrane import _core
+from seacrane.description.edit import replace_element
+from seacrane.description.loads import lines_of
+from seacrane.errors import SceneError
+from seacrane.inputs.shown import shown
+from seacrane.scene.scene import Scene
+from seacrane.stages.commands import check_command, commanded, targets
+from seacrane.stages.connections import table_of, without
+from seacrane.stages.move import Move
+from seacrane.stages.reach import check_limits
+from seacrane.stages.stage import Stage
+from seacrane.stages.until import Level
+
+LEAST = 1.0  # s of a planned stage that takes as long as its conditions ask for
+
+
+def checked_stages(scene: Scene, given: Any) -> tuple[Stage, ...]:
+    """The stages, which fit the scene and each other.
+
+    Raises
+    ------
+    SceneError
+        For names given twice, connections of what is there and releases of what is not, commands and
+        conditions of what is not there in their stage.
+    """
+    stages = tuple(given) if isinstance(given, Iterable) else (given,)
+    for one in stages:
+        if not isinstance(one, Stage):
+            raise SceneError(f"stages hold {shown(one)}; give a list of seacrane.Stage")
+    if not stages:
+        raise SceneError("stages: there are none; give at least one seacrane.Stage")
+    seen: set[str] = set()
+    for stage in stages:
+        if stage.name in seen:
+            raise SceneError(f"{stage.title}: the name is used twice; names of stages must differ")
+        seen.add(stage.name)
+    absent = waiting(stages)
+    for stage in stages:
+        _change(scene, stage, absent)
+        there = without(scene, absent)
+        for name, value in stage.commands.items():
+            check_command(stage.title, name, value, targets(there))
+        check_limits(stage, there)
+        _check_lines(stage, there)
+    return stages
+
+
+def waiting(stages: Sequence[Stage]) -> set[str]:
+    """What is absent at the start: what a stage connects before any releases it."""
+    released: set[str] = set()
+    out: set[str] = set()
+    for stage in stages:
+        released |= set(stage.release)
+        out |= set(stage.connect) - released
+    return out
+
+
+def _change(scene: Scene, stage: Stage, absent: set[str]) -> None:
+    """Carry out a stage's connections on the set of absent ones."""
+    for name in stage.release:
+        table_of(scene, f"{stage.title} releases", name)
+        if name in absent:
+            raise SceneError(f"{stage.title}: releases {name!r}, which is not connected then; leave it out")
+        absent.add(name)
+    for name in stage.connect:
+        table_of(scene, f"{stage.title} connects", name)
+        if name not in absent:
+            raise SceneError(f"{stage.title}: connects {name!r}, which is connected already; release it before")
+        absent.discard(name)
+
+
+def _check_lines(stage: Stage, there: Scene) -> None:
+    lines = lines_of(there.loads)
+    for condition in stage.conditions:
+        name = dict(condition.names).get("line") if isinstance(condition, Level) else None
+        if name is not None and name not in lines:
+            has = ", ".join(lines) or "none"
+            raise SceneError(f"{stage.title}: waits for line {name!r}, which is not there then; there are {has}")
+
+
+def planned_scene(
+    scene: Scene, stages: Sequence[Stage], first: str | None
+) -> tuple[tuple[Stage, ...], Scene, float]:
+    """The stages from the one named `first` on, the scene in which it begins, and when (s).
+
+    Stages before it count as carried out: connected, released, commanded, each as long as its duration or,
+    where conditions end it, as its moves; winches at the lengths that conditions name.
+    """
+    names = [stage.name for stage in stages]
+    if first is None:
+        return tuple(stages), scene.copy(), 0.0
+    if first not in names:
+        raise SceneError(f"first is {shown(first)}; the stages are {', '.join(names)}")
+    at = names.index(first)
+    out, time, absent = scene.copy(), 0.0, waiting(stages)
+    for stage in stages[:at]:
+        _change(out, stage, absent)
+        out = commanded(out, stage.title, stage.commands, time)
+        time += _planned_time(stage)
+        _pay_out(out, stage)
+    gone = absent - waiting(stages[at:])
+    return tuple(stages[at:]), without(out, gone), time
+
+
+def _planned_time(stage: Stage) -> float:
+    if stage.duration is not None:
+        return stage.duration
+    return max([LEAST, *(value.over for value in stage.commands.values() if isinstance(value, Move))])
+
+
+def _pay_out(scene: Scene, stage: Stage) -> None:
+    """Winches at the length that ends the stage."""
+    for condition in stage.conditions:
+        if not isinstance(condition, Level) or condition.channel != "line_unstretched_length":
+            continue
+        line = scene.loads.get(dict(condition.names)["line"])
+        if isinstance(line, _core.Line) and line.winch:
+            replace_element(scene, line.name, kind="load", length=condition.value)

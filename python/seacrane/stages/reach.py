@@ -1,0 +1,74 @@
+"""Conditions that a stage can never meet, told before it is run."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from seacrane import _core
+from seacrane.description.loads import lines_of
+from seacrane.errors import SceneError
+from seacrane.scene.scene import Scene
+from seacrane.stages.stage import Stage
+from seacrane.stages.until import Contact, Level
+
+SAMPLES = 4001
+
+
+def check_limits(stage: Stage, scene: Scene) -> None:
+    """Raise SceneError for conditions on limits that the stage does not have, or that never take hold."""
+    limits = {name: load for name, load in scene.loads.items() if isinstance(load, _core.Limit)}
+    for condition in stage.conditions:
+        if not isinstance(condition, Contact):
+            continue
+        name = condition.limit
+        limit = limits.get(name) or limits.get(name.removesuffix(".minimum").removesuffix(".maximum"))
+        if limit is None:
+            has = ", ".join(limits) or "none"
+            raise SceneError(f"{stage.title}: waits for {name!r}, and there is no such limit; there are {has}")
+        if limit.kind == "seat" and condition.holds:
+            raise SceneError(
+                f"{stage.title}: would never end: seat {name!r} lets go and never takes hold again; set the "
+                "load down on an end stop of a free joint"
+            )
+
+
+def check_lengths(stage: Stage, scene: Scene, lengths: dict[str, float], begin: float) -> None:
+    """Raise SceneError for a length of line that no command of the stage leads to.
+
+    Parameters
+    ----------
+    lengths : dict of str to float
+        Unstretched, by line, m, as the stage begins.
+    begin : float
+        s.
+    """
+    lines = lines_of(scene.loads)
+    for condition in stage.conditions:
+        if not isinstance(condition, Level) or condition.channel != "line_unstretched_length":
+            continue
+        name = dict(condition.names).get("line", "")
+        if len(stage.conditions) > 1 or name not in lines:
+            continue  # another condition may end it; a line that is not there is told by its channel
+        assert stage.longest is not None
+        least, most = _reached(lines[name], lengths[name], begin, stage.longest)
+        if float(condition.excess(np.array([least, most])).max()) >= -1e-9 * lengths[name]:
+            continue
+        what = f"{name}.rate" if lines[name].winch else f"{name}.length"
+        raise SceneError(
+            f"{stage.title}: would never end: it waits for {condition.text}, and line {name!r} goes from "
+            f"{lengths[name]:.6g} m to {least:.6g} m at the least and {most:.6g} m at the most within its "
+            f"longest of {stage.longest:g} s. Command {what!r} towards it, or give it longer"
+        )
+
+
+def _reached(line: _core.Line, length: float, begin: float, longest: float) -> tuple[float, float]:
+    """The least and the most length that a stage's commands lead to; a lag only delays them."""
+    time = np.linspace(begin, begin + longest, SAMPLES)
+    if not line.winch:
+        lengths = line.length.evaluate(time)[:, 0]
+        return float(lengths.min()), float(lengths.max())
+    rate = np.clip(line.rate.evaluate(time)[:, 0], -line.maximum_rate, line.maximum_rate)
+    paid = np.concatenate([[0.0], np.cumsum(0.5 * (rate[1:] + rate[:-1]) * np.diff(time))])
+    slack = line.lag * float(np.abs(rate).max())  # what the drum goes on by while its rate dies out
+    least = max(line.minimum_length, length + float(paid.min()) - slack)
+    return least, length + float(paid.max()) + slack

@@ -1,0 +1,164 @@
+"""Conditions that end a stage: a channel beyond a value, a limit that takes hold or lets go."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from seacrane.errors import SceneError
+from seacrane.inputs.checked import name_of, number_of
+from seacrane.result.channels import CHANNELS, FIXED
+from seacrane.run.channel_names import derived_coords
+from seacrane.run.run import Run
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Level:
+    """A channel above or below a value; made by `Until`.
+
+    Attributes
+    ----------
+    channel : str
+    names : tuple of (str, str)
+        Dimension and name that pick one series of the channel.
+    value : float
+        In the channel's unit.
+    above : bool
+        Whether it is met at and above the value, else at and below it.
+    """
+
+    channel: str
+    names: tuple[tuple[str, str], ...]
+    value: float
+    above: bool
+
+    @property
+    def text(self) -> str:
+        """The condition in words."""
+        of = "".join(f" of {name!r}" for _, name in self.names)
+        unit = CHANNELS[self.channel].unit
+        return f"{self.channel}{of} {'above' if self.above else 'below'} {self.value:.6g} {unit}"
+
+    def excess(self, series: Any) -> Any:
+        """By how much values are beyond the bound: it is met where this is not negative."""
+        return series - self.value if self.above else self.value - series
+
+    def series(self, run: Run, arrays: Mapping[str, Array]) -> Array:
+        """Its numbers in channels of a run, by the names of a result.
+
+        Raises
+        ------
+        SceneError
+            Where the scene has no such channel, or no such name along it.
+        """
+        if self.channel not in arrays:
+            raise SceneError(f"until {self.text}: this scene has no channel {self.channel!r}; it has "
+                             f"{', '.join(arrays)}")  # fmt: skip
+        array, names = arrays[self.channel], dict(self.names)
+        for dim in reversed(CHANNELS[self.channel].dims_of(array.ndim)[1:]):
+            known = names_along(run)[dim]
+            if dim not in names:
+                raise SceneError(f"until {self.text}: say which {dim}, {dim}=...: {', '.join(known)}")
+            if names[dim] not in known:
+                raise SceneError(
+                    f"until {self.text}: there is no {dim} {names[dim]!r} in this stage; it has "
+                    f"{', '.join(known) or 'none'}"
+                )
+            array = array[..., known.index(names.pop(dim))]
+        if names:
+            raise SceneError(f"until {self.text}: {self.channel!r} has no {next(iter(names))}; leave it out")
+        return array
+
+
+@dataclass(frozen=True)
+class Contact:
+    """A limit that holds, or holds no more; made by `Until`.
+
+    Attributes
+    ----------
+    limit : str
+        Name of the wire, stop or seat; with ".minimum" or ".maximum" where a stop has both.
+    holds : bool
+    """
+
+    limit: str
+    holds: bool
+
+    @property
+    def text(self) -> str:
+        """The condition in words."""
+        return f"{self.limit!r} {'holds' if self.holds else 'lets go'}"
+
+
+Condition = Level | Contact
+
+
+def names_along(run: Run) -> dict[str, tuple[str, ...]]:
+    """Names along every dimension of the channels of a run but time."""
+    known = {**run.model.axes, **derived_coords(run.scene), **FIXED}
+    return {dim: tuple(names) for dim, names in known.items()}
+
+
+class Until:
+    """What ends a stage. Each of these makes a condition for `Stage(until=...)`.
+
+    A condition is met as soon as its channel is at its value or beyond, also where the stage begins so.
+    """
+
+    @staticmethod
+    def channel(
+        channel: str, *, above: float | None = None, below: float | None = None, **names: str
+    ) -> Level:
+        """Any channel at or above, or at or below, a value in its unit.
+
+        Parameters
+        ----------
+        channel : str
+            Such as "position".
+        above, below : float
+            One of them.
+        **names : str
+            One name for each dimension but time, such as ``body="load", axis="z"``.
+
+        Raises
+        ------
+        SceneError
+        """
+        if channel not in CHANNELS:
+            raise SceneError(f"until: channel {channel!r} is unknown; choose from {', '.join(CHANNELS)}")
+        if (above is None) == (below is None):
+            raise SceneError(f"until {channel}: above is {above} and below is {below}; give one of them")
+        value = number_of(f"until {channel}", below if above is None else above)
+        if not np.isfinite(value):
+            raise SceneError(f"until {channel}: is to pass {value}, which it never does; give a finite number")
+        return Level(channel, tuple(sorted(names.items())), value, above is not None)
+
+    @staticmethod
+    def tension(line: str, *, above: float | None = None, below: float | None = None) -> Level:
+        """The tension of an elastic line, N. For a rigid link: ``Until.channel("tension", link=...)``."""
+        return Until.channel("line_tension", above=above, below=below, line=name_of("until: line", line))
+
+    @staticmethod
+    def length(line: str, *, above: float | None = None, below: float | None = None) -> Level:
+        """The unstretched length of an elastic line, m: what its winch has paid out."""
+        return Until.channel(
+            "line_unstretched_length", above=above, below=below, line=name_of("until: line", line)
+        )
+
+    @staticmethod
+    def contact(limit: str) -> Contact:
+        """A limit takes hold: a stop is touched, a wire is taut."""
+        return Contact(name_of("until: limit", limit), True)
+
+    @staticmethod
+    def release(limit: str) -> Contact:
+        """A limit lets go: a load leaves its seat, a wire is slack."""
+        return Contact(name_of("until: limit", limit), False)
