@@ -11,12 +11,12 @@ from seacrane.description.loads import lines_of
 from seacrane.errors import SceneError
 from seacrane.inputs.shown import shown
 from seacrane.scene.scene import Scene
-from seacrane.stages.commands import check_command, commanded, targets
+from seacrane.stages.commands import Command, check_command, commanded, targets
 from seacrane.stages.connections import table_of, without
 from seacrane.stages.move import Move
 from seacrane.stages.reach import check_limits
 from seacrane.stages.stage import Stage
-from seacrane.stages.until import Level
+from seacrane.stages.until import Contact, Level
 
 LEAST = 1.0  # s of a planned stage that takes as long as its conditions ask for
 
@@ -91,7 +91,8 @@ def planned_scene(
     """The stages from the one named `first` on, the scene in which it begins, and when (s).
 
     Stages before it count as carried out: connected, released, commanded, each as long as its duration or,
-    where conditions end it, as its moves; winches at the lengths that conditions name.
+    where conditions end it, as its moves; winches at the lengths, and seats as open, as conditions say. A
+    winch whose rate goes on from a stage before takes it up from rest.
     """
     names = [stage.name for stage in stages]
     if first is None:
@@ -100,12 +101,19 @@ def planned_scene(
         raise SceneError(f"first is {shown(first)}; the stages are {', '.join(names)}")
     at = names.index(first)
     out, time, absent = scene.copy(), 0.0, waiting(stages)
+    rates: dict[str, Command] = {}
     for stage in stages[:at]:
         _change(out, stage, absent)
-        out = commanded(out, stage.title, stage.commands, time)
+        known = targets(out)
+        rates |= {name: value for name, value in stage.commands.items() if known[name].attribute == "rate"}
+        places = {name: value for name, value in stage.commands.items() if name not in rates}
+        out = commanded(out, stage.title, places, time)
         time += _planned_time(stage)
         _pay_out(out, stage)
+        absent |= _lifted(out, stage)
     gone = absent - waiting(stages[at:])
+    going_on = {name: value for name, value in rates.items() if name not in stages[at].commands}
+    out = commanded(out, stages[at].title, going_on, time)
     return tuple(stages[at:]), without(out, gone), time
 
 
@@ -113,6 +121,13 @@ def _planned_time(stage: Stage) -> float:
     if stage.duration is not None:
         return stage.duration
     return max([LEAST, *(value.over for value in stage.commands.values() if isinstance(value, Move))])
+
+
+def _lifted(scene: Scene, stage: Stage) -> set[str]:
+    """Joints of the seats that a stage waits for to let go: what is lifted stays lifted."""
+    left = {one.limit for one in stage.conditions if isinstance(one, Contact) and not one.holds}
+    limits = [load for name, load in scene.loads.items() if name in left and isinstance(load, _core.Limit)]
+    return {limit.joint for limit in limits if limit.kind == "seat"}
 
 
 def _pay_out(scene: Scene, stage: Stage) -> None:

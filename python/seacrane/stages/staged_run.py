@@ -11,6 +11,7 @@ from seacrane import _core
 from seacrane.analysis.rest_state import equilibrium
 from seacrane.description.loads import lines_of
 from seacrane.errors import SceneError
+from seacrane.inputs.checked import number_of
 from seacrane.result.events import Event
 from seacrane.result.result import Result
 from seacrane.result.stages import StageSpan
@@ -62,6 +63,8 @@ class StagedRun:
     stages : sequence of Stage
     start, first, method, outputs, **shorthand
         As `simulate_stages`.
+    outputs_from : float, optional
+        As of `Run`: time from which output times are counted, s; default: the start.
 
     Attributes
     ----------
@@ -80,6 +83,7 @@ class StagedRun:
         *,
         start: _core.State | None = None,
         first: str | None = None,
+        outputs_from: float | None = None,
         method: Method | None = None,
         outputs: Outputs | None = None,
         **shorthand: Unpack[Shorthand],
@@ -94,7 +98,8 @@ class StagedRun:
             start = _core.initial_state(self._model) if first is None else equilibrium(self._scene, time=time)
         if not isinstance(start, _core.State):
             raise SceneError(f"start is {start!r}; give a seacrane.State")
-        self._state, self._first = start, start.time
+        self._state = start
+        self._first = start.time if outputs_from is None else number_of("outputs_from", outputs_from)
         self._pieces: list[Piece] = []
         self._changes: list[Event] = []
         self._open: tuple[Run, dict[str, Any]] | None = None

@@ -1,0 +1,60 @@
+"""Scenes that stages are tried on, with the numbers of their closed forms."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from seacrane import Frame, Scene, Stage, Until
+
+G = 9.80665
+MASS, STIFFNESS, HEIGHT = 20e3, 5e7, 20.0  # kg, N, m from the load on deck to the block
+RATE = 0.05  # m/s
+
+
+def on_deck(*, length: float = 20.1, **line: Any) -> Scene:
+    """A load that rests on deck below a block, with a slack line on a winch."""
+    scene = Scene(name="on deck", gravity=G)
+    scene.add_body(name="load", mass=MASS, inertia=(1e4, 1e4, 1e4), position=(0.0, 0.0, 1.0))
+    scene.add_joint(kind="weld", name="on deck", first="ground", second="load", point=(0.0, 0.0, 0.0))
+    scene.add_seat(joint="on deck")
+    scene.add_line(
+        name="hoist", bodies=["ground", "load"], points=[(0.0, 0.0, HEIGHT + 1.0), (0.0, 0.0, 0.0)],
+        stiffness=STIFFNESS, length=length, **line,
+    )  # fmt: skip
+    scene.add_winch(line="hoist")
+    return scene
+
+
+def lift_off() -> list[Stage]:
+    """Hold, lift off, raise, stop, and let go."""
+    return [
+        Stage(name="hold", duration=1.05),
+        Stage(
+            name="lift off", until=Until.release("on deck"), longest=60.0, commands={"hoist.rate": -RATE}
+        ),
+        Stage(
+            name="raise", until=Until.length("hoist", below=18.5), longest=60.0, commands={"hoist.rate": -0.4}
+        ),
+        Stage(name="stop", duration=2.0, commands={"hoist.rate": 0.0}),
+        Stage(name="let go", duration=1.0, release=["hoist"]),
+    ]
+
+
+def meeting(kind: str = "weld", *, velocity: float = 0.6, after: float = 0.5) -> Scene:
+    """Two bodies in space, spinning, that meet at a joint when so many seconds have passed."""
+    scene = Scene(name="meeting", gravity=0.0)
+    scene.add_body(
+        name="hook", mass=2.0, inertia=(0.5, 0.6, 0.7), position=(0.0, 0.0, 0.0), velocity=(0.0, 0.3, 0.0)
+    )
+    scene.add_body(
+        name="load", mass=5.0, inertia=(1.5, 2.0, 2.5), position=(1.0, 0.3 * after, velocity * after),
+        velocity=(0.0, 0.0, -velocity),
+    )  # fmt: skip
+    axes = np.eye(3)
+    scene.add_joint(
+        kind=kind, name="shackle", first="hook", second="load",
+        first_frame=Frame(point=(0.4, 0.0, 0.0), axes=axes), second_frame=Frame(point=(-0.6, 0.0, 0.0), axes=axes),
+    )  # fmt: skip
+    return scene

@@ -1,0 +1,447 @@
+"""Lifts in stages against closed forms, conservation laws, one run without stages, and each other's formulation."""
+
+from __future__ import annotations
+
+import json
+import pickle
+import subprocess
+import sys
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from multibody_runs import masses, momentum
+from numpy.testing import assert_allclose
+from numpy.typing import NDArray
+from stage_scenes import HEIGHT, MASS, RATE, STIFFNESS, G, lift_off, meeting, on_deck
+
+from seacrane import (
+    Curve,
+    Method,
+    Move,
+    Result,
+    Scene,
+    SceneError,
+    SimulationError,
+    Stage,
+    StagedRun,
+    State,
+    Until,
+    cases,
+    simulate,
+    simulate_stages,
+)
+
+Array = NDArray[np.float64]
+TWO = [Stage(name="one", duration=2.0), Stage(name="two", duration=3.0)]
+
+
+def carried_out(scene: Scene, stages: list[Stage], **settings: Any) -> StagedRun:
+    run = StagedRun(scene, stages, **settings)
+    while run.advance():
+        pass
+    return run
+
+
+def height(result: Result, body: str = "load") -> Array:
+    return result.select("position", body=body, axis="z")
+
+
+def swinging() -> Scene:
+    """A load that swings on its winch, always taut."""
+    scene = on_deck(damping_ratio=0.1)
+    scene.remove("on deck", kind="load")
+    scene.remove("on deck", kind="joint")
+    scene.replace("load", position=(3.0, 0.0, 21.0 - np.sqrt(20.16**2 - 9.0)), velocity=(0.0, 0.8, 0.0))
+    return scene
+
+
+def hoisting() -> list[Stage]:
+    """Raise to a length, in mid-air stop, lower again."""
+    return [
+        Stage(name="raise", until=Until.length("hoist", below=19.0), longest=9.0, commands={"hoist.rate": -0.4}),
+        Stage(name="stop", duration=2.03, commands={"hoist.rate": 0.0}),
+        Stage(name="lower", until=Until.channel("position", body="load", axis="z", below=1.9), longest=9.0,
+              commands={"hoist.rate": Move(to=0.5, over=2.0)}),
+    ]  # fmt: skip
+
+
+@pytest.mark.parametrize("formulation", ["redundant", "recursive"])
+def test_stages_that_change_nothing_are_a_run_that_went_on(formulation: str) -> None:
+    """To the bit; against a run that does not land on the stage's end to the tolerance."""
+    scene = swinging()
+    settings: dict[str, Any] = {"rtol": 1e-8, "formulation": formulation, "dt_out": 0.125}
+    result = simulate_stages(scene, TWO, **settings)
+    first = simulate(scene, 2.0, **settings)
+    rest = simulate(scene, 5.0, start=first.state, **settings)
+    for name, channel in result.items():
+        assert np.array_equal(channel, np.concatenate([first[name], rest[name][1:]])), name
+    assert result.state == rest.state
+    whole = simulate(scene, 5.0, **settings)
+    assert np.array_equal(result.time, whole.time)
+    assert_allclose(result["position"], whole["position"], atol=1e-6)
+
+
+def test_fixed_steps_that_end_where_stages_do_are_those_of_one_run_to_the_bit() -> None:
+    settings: dict[str, Any] = {"integrator": "rk4", "dt": 2.0**-7, "dt_out": 0.125}
+    result, whole = simulate_stages(swinging(), TWO, **settings), simulate(swinging(), 5.0, **settings)
+    for name in whole:
+        assert np.array_equal(result[name], whole[name]), name
+
+
+def test_deck_and_hook_carry_the_weight_and_the_load_leaves_when_the_hook_carries_it() -> None:
+    """l0 = l / (1 + W / EA): the time follows from the winch's rate, which is reached by a quintic of 1 s."""
+    result = simulate_stages(on_deck(damping_ratio=0.0), lift_off(), rtol=1e-8)
+    hook = result.select("line_tension", line="hoist")
+    deck = result.select("limit_force", limit="on deck")
+    seated = slice(0, result.stage("lift off").stop - 1)
+    assert_allclose((hook + deck)[seated], MASS * G, rtol=1e-12)
+    assert hook[0] == 0.0
+    assert np.all(np.diff(hook[seated]) >= 0.0)
+    paid = 20.1 - HEIGHT / (1.0 + MASS * G / STIFFNESS)
+    span = result.stages[1]
+    assert span.end - span.start == pytest.approx(0.5 + paid / RATE, abs=1e-6)
+    assert span.ended_by == "'on deck' lets go"
+    lifted = result.stage("lift off").stop - 1
+    assert hook[lifted] == pytest.approx(MASS * G, rel=1e-6)
+    assert deck[lifted + 1 :].max() == 0.0
+
+
+def test_a_load_that_is_let_go_falls_and_its_rope_takes_its_energy_along() -> None:
+    result = simulate_stages(on_deck(), lift_off(), rtol=1e-8)
+    fall = result.stage("let go")
+    before = fall.start - 1
+    t = result.time[fall] - result.time[before]
+    speed = result.select("velocity", body="load", axis="z")[before]
+    assert_allclose(height(result)[fall], height(result)[before] + speed * t - 0.5 * G * t**2, atol=1e-11)
+    released = result.events[-1]
+    assert (released.name, released.kind, released.time) == ("hoist", "release", result.stages[-1].start)
+    length, tension = (
+        result.select(channel, line="hoist")[before] for channel in ("line_unstretched_length", "line_tension")
+    )
+    assert released.energy_lost == pytest.approx(tension**2 * length / (2.0 * STIFFNESS), rel=1e-2)
+    stretch = result.select("line_stretch", line="hoist")[before]
+    assert released.energy_lost == pytest.approx(STIFFNESS * stretch**2 / (2.0 * length), rel=1e-9)
+    assert result["impact_loss"][-1] == pytest.approx(released.energy_lost, rel=1e-12)
+    assert np.all(result.select("line_tension", line="hoist")[fall] == 0.0)
+    assert np.all(np.isnan(result.select("line_length", line="hoist")[fall]))
+    assert np.max(np.abs(result["energy_balance"])) < 1e-6 * result["absolute_work"][-1]
+
+
+@pytest.mark.parametrize("kind", ["weld", "spherical", "revolute"])
+@pytest.mark.parametrize("formulation", ["redundant", "recursive"])
+def test_a_connection_keeps_momentum_and_books_what_it_takes(kind: str, formulation: str) -> None:
+    scene = meeting(kind)
+    stages = [Stage(name="drift", duration=0.5), Stage(name="connected", duration=1.0, connect=["shackle"])]
+    result = simulate_stages(scene, stages, rtol=1e-10, formulation=formulation)
+    linear, angular = momentum(scene, dict(result))
+    assert_allclose(linear, np.broadcast_to(linear[0], linear.shape), atol=1e-9)
+    assert_allclose(angular, np.broadcast_to(angular[0], angular.shape), atol=1e-9)
+    (event,) = (event for event in result.events if event.kind == "connection")
+    energy = kinetic(scene, result)
+    joined = result.stage("connected")
+    assert event.energy_lost > 0.05
+    assert energy[0] - energy[joined] == pytest.approx(event.energy_lost, rel=1e-8)
+    assert event.speed > 0.5
+    assert result["constraint_error"].max() < 1e-9
+    assert np.all(result.select("reaction_force", joint="shackle")[: joined.start] == 0.0)
+
+
+def kinetic(scene: Scene, result: Result) -> Array:
+    inertia = np.array([np.diag(body.inertia) for body in scene.bodies.values()])
+    turn = np.array([[rotation(q) for q in row] for row in result["quaternion"]])
+    spin = np.einsum("tbji,tbj->tbi", turn, result["angular_velocity"])
+    moving = masses(scene) * np.sum(result["velocity"] ** 2, axis=-1) + np.sum(inertia * spin**2, axis=-1)
+    return np.asarray(0.5 * moving.sum(axis=1))
+
+
+def rotation(quaternion: Array) -> Array:
+    from seacrane.inputs.frames import rotation_matrix
+
+    return rotation_matrix(quaternion)
+
+
+def test_two_masses_that_connect_go_on_at_their_mean_velocity() -> None:
+    scene = Scene(name="train", gravity=0.0)
+    for name, mass, speed in (("a", 2.0, 1.0), ("b", 3.0, 0.0)):
+        scene.add_body(name=name, mass=mass, inertia=(1.0, 1.0, 1.0), position=(float(name == "b"), 0, 0),
+                       velocity=(speed, 0, 0))  # fmt: skip
+    scene.add_joint(kind="spherical", name="hitch", first="a", second="b", point=(1.0, 0.0, 0.0))
+    meet = Until.channel("position", body="a", axis="x", above=0.0)
+    scene.replace("a", position=(-0.4, 0.0, 0.0))
+    stages = [Stage(name="roll", until=meet, longest=1.0), Stage(name="go on", duration=0.5, connect=["hitch"])]
+    result = simulate_stages(scene, stages)
+    assert result.stages[0].end == pytest.approx(0.4, abs=1e-9)
+    assert_allclose(result["velocity"][-1, :, 0], 0.4, rtol=1e-9)
+    (event,) = (event for event in result.events if event.kind == "connection")
+    assert event.energy_lost == pytest.approx(0.5 * 1.2, rel=1e-9)  # reduced mass 6/5, 1 m/s
+    assert event.speed == pytest.approx(1.0, rel=1e-9)
+
+
+def falling(height: float = 10.0) -> Scene:
+    scene = Scene(name="falling", gravity=G)
+    scene.add_body(name="load", mass=3.0, inertia=(1.0, 1.0, 1.0), position=(0.0, 0.0, height))
+    scene.add_joint(kind="free", name="above deck", first="ground", second="load", point=(0.0, 0.0, 0.0))
+    scene.replace("above deck", second_frame=scene.joints["above deck"].first_frame)
+    scene.add_end_stop(joint="above deck", coordinate="z", minimum=0.0, name="landing")
+    return scene
+
+
+@pytest.mark.parametrize("settings", [{"rtol": 1e-9}, {"integrator": "rk4", "dt": 0.013}])
+def test_conditions_are_met_to_their_stated_error(settings: dict[str, Any]) -> None:
+    below = Until.channel("position", body="load", axis="z", below=6.3)
+    slow = Until.channel("velocity", body="load", axis="z", below=-20.0)
+    stages = [
+        Stage(name="fall", until=[slow, below], longest=5.0),
+        Stage(name="land", until=Until.contact("landing"), longest=5.0),
+        Stage(name="lie", duration=0.5),
+    ]
+    result = simulate_stages(falling(), stages, **settings)
+    passed, landed, _ = result.stages
+    assert passed.end == pytest.approx(np.sqrt(2.0 * 3.7 / G), abs=2e-9)
+    assert passed.ended_by == "position of 'z' of 'load' below 6.3 m"
+    assert height(result)[result.stage("fall").stop - 1] == pytest.approx(6.3, abs=1e-8)
+    assert landed.end == pytest.approx(np.sqrt(20.0 / G), abs=2e-6)
+    assert_allclose(height(result)[result.stage("lie")], 0.0, atol=1e-9)
+    assert [event.kind for event in result.events] == ["stage", "stage", "contact", "stage"]
+
+
+def test_a_condition_that_is_met_already_ends_its_stage_at_once() -> None:
+    high = Until.channel("position", body="load", axis="z", above=9.0)
+    stages = [Stage(name="look", until=high, longest=1.0), Stage(name="fall", duration=0.5)]
+    result = simulate_stages(falling(), stages)
+    assert [(span.start, span.end) for span in result.stages] == [(0.0, 0.0), (0.0, 0.5)]
+
+
+def test_commands_go_on_smoothly_from_where_they_are() -> None:
+    scene = Scene(name="jib", gravity=0.0)
+    scene.add_body(name="jib", mass=10.0, inertia=(3.0, 3.0, 5.0), position=(1.0, 0.0, 0.0))
+    scene.add_joint(kind="revolute", name="slew", first="ground", second="jib", point=(0, 0, 0), axis=(0, 0, 1))
+    scene.add_driver(joint="slew", curve=Curve.constant(value=0.0), name="slew")
+    scene.record_coordinate(joint="slew", name="slew")
+    stages = [
+        Stage(name="slew", duration=3.0, commands={"slew": Move(to=1.2, over=10.0)}),
+        Stage(name="go back", duration=5.0, commands={"slew": Move(by=-0.5, over=4.0)}),
+        Stage(name="follow", duration=2.0, commands={"slew": quartic(0.0)}),
+    ]
+    with pytest.raises(SceneError, match=r"'follow': command 'slew' begins at 0 where it stands at -0\.\d+"):
+        simulate_stages(scene, stages)
+    run = carried_out(scene, stages[:2])
+    moved = run.begun["go back"].scene.drivers["slew"].curve
+    start = moved.evaluate([3.0])[0]
+    assert start[0] == pytest.approx(1.2 * (10 * 0.3**3 - 15 * 0.3**4 + 6 * 0.3**5), rel=1e-12)
+    result = run.result()
+    angle = result.select("coordinate", joint_coordinate="slew")
+    assert_allclose(angle[result.time > 7.05], start[0] - 0.5, atol=1e-9)
+    again = carried_out(scene, [*stages[:2], Stage(name="follow", duration=2.0, commands={"slew": quartic(angle[-1])})])
+    curve = again.begun["follow"].scene.drivers["slew"].curve
+    for time in (3.0, 7.0):
+        assert_allclose(curve.evaluate([time - 1e-9])[0], curve.evaluate([time + 1e-9])[0], atol=1e-7)
+    assert again.result().select("coordinate", joint_coordinate="slew")[-1] == pytest.approx(angle[-1] + 0.32)
+
+
+def quartic(start: float) -> Curve:
+    return Curve.pieces(starts=[0.0], coefficients=[[start, 0.0, 0.0, 0.04, 0.0, 0.0]])
+
+
+@pytest.mark.parametrize("settings", [{"rtol": 1e-7}, {"rtol": 1e-5, "formulation": "redundant"},
+                                      {"integrator": "rk4", "dt": 0.004}])  # fmt: skip
+@pytest.mark.parametrize(("scene", "stages"), [(swinging, hoisting), (on_deck, lift_off)])
+def test_a_stage_runs_again_from_its_start_to_the_bit(
+    scene: Any, stages: Any, settings: dict[str, Any], tmp_path: Path
+) -> None:
+    run = carried_out(scene(), stages(), **settings)
+    whole = run.result()
+    for place in range(len(stages())):
+        name = stages()[place].name
+        begin = run.begun[name]
+        begin.scene.save(tmp_path / "stage.json")
+        begin.state.save(tmp_path / "stage.state")
+        again = carried_out(
+            Scene.load(tmp_path / "stage.json"), stages()[place:], start=State.load(tmp_path / "stage.state"),
+            outputs_from=0.0, **settings,
+        )  # fmt: skip
+        assert again.state.time == whole.state.time
+        assert np.array_equal(again.state.values, whole.state.values)
+        rest = again.result()
+        assert rest.stages == whole.stages[place:]
+        position = whole["position"][whole.stage(name)]
+        assert np.array_equal(rest["position"][rest.stage(name)][-len(position) + 1 :], position[1:])
+
+
+def test_a_stage_alone_starts_from_its_static_state() -> None:
+    """Its connections, its winch's length and its references are those that the stages before end with."""
+    result = simulate_stages(on_deck(damping_ratio=0.1), lift_off(), first="stop", rtol=1e-8)
+    assert [span.name for span in result.stages] == ["stop", "let go"]
+    assert result.time[0] == pytest.approx(1.05 + 1.0 + 1.0)
+    assert result["line_tension"][0, 0] == pytest.approx(MASS * G, rel=1e-6)
+    assert result["line_unstretched_length"][0, 0] == pytest.approx(18.5)
+    assert result["velocity"][0].max() == 0.0
+
+
+def test_formulations_agree() -> None:
+    runs = [
+        simulate_stages(swinging(), hoisting(), rtol=1e-9, formulation=name)
+        for name in ("redundant", "recursive")
+    ]
+    assert_allclose(runs[0].time, runs[1].time, atol=1e-7)
+    assert_allclose(runs[0]["position"], runs[1]["position"], atol=1e-6)
+
+
+def test_a_ship_in_waves_does_not_notice_that_its_cargo_is_fastened_anew() -> None:
+    """Released and connected by another joint at the same place, while the ship is away from its mean."""
+    scene = cases.vessel(count=20)
+    ship = scene.bodies["vessel"]
+    scene.add_body(
+        name="cargo", mass=4e5, inertia=(1e6, 1e6, 1e6), position=np.asarray(ship.position) + (10.0, 3.0, 12.0)
+    )
+    for name in ("bolts", "lashings"):
+        scene.add_joint(kind="weld", name=name, first="vessel", second="cargo")
+    stages = [
+        Stage(name="bolted", duration=12.0),
+        Stage(name="lashed", duration=8.0, release=["bolts"], connect=["lashings"]),
+    ]
+    settings: dict[str, Any] = {"rtol": 1e-8, "dt_out": 0.5}
+    result = simulate_stages(scene, stages, **settings)
+    scene.remove("lashings")
+    whole = simulate(scene, 20.0, **settings)
+    assert np.ptp(whole["vessel_motion"][:, 2]) > 0.1
+    assert_allclose(result["vessel_motion"], whole["vessel_motion"], atol=1e-6)
+    forces = (result.select("reaction_force", joint=name) for name in ("bolts", "lashings"))
+    assert_allclose(sum(forces), whole.select("reaction_force", joint="bolts"), rtol=1e-4, atol=10.0)
+    assert abs(result.events[-1].energy_lost) < 1e-3
+
+
+def test_results_keep_their_stages(tmp_path: Path) -> None:
+    wanted = ["position", "limit_force", "line_tension", "line_length", "impact_loss"]
+    result = simulate_stages(on_deck(), lift_off(), dt_out=0.2, channels=wanted)
+    again = Result.load(result.save(tmp_path / "lift.nc"))
+    assert again.stages == result.stages
+    assert again.events == result.events
+    for name in result:
+        assert np.array_equal(again[name], result[name], equal_nan=True), name
+    data = result.to_xarray()
+    assert [str(name) for name in np.unique(data.stage)] == sorted(stage.name for stage in lift_off())
+    raised = data.position.where(data.stage == "raise", drop=True)
+    assert raised.time.size == result.time[result.stage("raise")].size
+    with pytest.raises(ValueError, match="no stage 'lower' in this result; choose from hold, lift off"):
+        result.stage("lower")
+    assert simulate(on_deck(), 0.2).stages == ()
+
+
+def test_channels_are_recorded_in_the_stages_that_have_them() -> None:
+    wanted = ["position", "line_tension"]
+    result = simulate_stages(on_deck(), lift_off(), channels=wanted, method=Method(tolerance=1e-5))
+    assert set(result) == {*wanted, "line_unstretched_length"}
+
+
+def test_stages_are_values() -> None:
+    stage = lift_off()[2]
+    assert pickle.loads(pickle.dumps(stage)) == stage
+    assert stage == lift_off()[2] != lift_off()[1]
+    with pytest.raises(TypeError):
+        stage.commands["hoist.rate"] = 0.0  # type: ignore[index]
+
+
+@pytest.mark.parametrize(
+    ("given", "message"),
+    [
+        ({}, "nothing ends it; give its duration, or until and longest"),
+        ({"duration": 0.0}, "duration is 0 s; give a finite, positive time"),
+        ({"duration": np.inf}, "duration is inf s"),
+        ({"until": Until.release("on deck")}, "would never end where that is not met; give longest"),
+        ({"until": Until.release("on deck"), "duration": 1.0}, "has a duration and until; leave one out"),
+        ({"duration": 1.0, "longest": 2.0}, "longest goes with until"),
+        ({"until": "later", "longest": 2.0}, "until is 'l'; give conditions that Until makes"),
+        ({"duration": 1.0, "connect": "hoist"}, "connect is 'hoist'; give a list of texts"),
+        ({"duration": 1.0, "commands": ["hoist"]}, "commands is .*; give {name: command}"),
+    ],
+)
+def test_stages_that_cannot_be_are_told(given: dict[str, Any], message: str) -> None:
+    with pytest.raises(SceneError, match=f"stage 'wait': .*{message}"):
+        Stage(name="wait", **given)
+
+
+NEVER = {"longest": 10.0}
+
+
+@pytest.mark.parametrize(
+    ("given", "message"),
+    [
+        ({"until": Until.length("hoist", above=25.0), **NEVER}, "would never end: .* goes from 20.1 m to 20.1 m"),
+        (
+            {"until": Until.length("hoist", below=15.0), "commands": {"hoist.rate": -0.1}, **NEVER},
+            r"would never end: .* 19.15 m at the least .* Command 'hoist.rate' towards it, or give it longer",
+        ),
+        ({"until": Until.contact("on deck"), **NEVER}, "would never end: seat 'on deck' lets go and never takes"),
+        ({"until": Until.contact("landing"), **NEVER}, "there is no such limit; there are on deck"),
+        ({"until": Until.tension("tugger", above=1.0), **NEVER}, "line 'tugger', which is not there then"),
+        ({"duration": 1.0, "release": ["sling"]}, "releases: the scene has no 'sling'"),
+        ({"duration": 1.0, "commands": {"hoist": -0.1}}, "commands 'hoist', which is not there; there are hoist.rate"),
+        ({"duration": 1.0, "commands": {"hoist.rate": np.nan}}, "is nan; give a finite number"),
+    ],
+)
+def test_stages_that_do_not_fit_the_scene_are_told(given: dict[str, Any], message: str) -> None:
+    with pytest.raises(SceneError, match=f"stage 'wait'.*{message}"):
+        simulate_stages(on_deck(), [Stage(name="wait", **given)])
+
+
+def test_stages_that_do_not_fit_each_other_are_told() -> None:
+    wait = Stage(name="wait", duration=1.0)
+    for stages, message in (
+        ([wait, wait], "stage 'wait': the name is used twice"),
+        ([], "give at least one"),
+        ([Stage(name="a", duration=1.0, release=["hoist"]), Stage(name="b", duration=1.0, release=["hoist"])],
+         "stage 'b': releases 'hoist', which is not connected then"),
+        ([Stage(name="a", duration=1.0, connect=["hoist"]), Stage(name="b", duration=1.0, connect=["hoist"])],
+         "stage 'b': connects 'hoist', which is connected already"),
+        ([Stage(name="a", duration=1.0, commands={"hoist.rate": 0.1}),
+          Stage(name="b", duration=1.0, connect=["hoist"])], "stage 'a' commands 'hoist.rate', which is not there"),
+    ):  # fmt: skip
+        with pytest.raises(SceneError, match=message):
+            simulate_stages(on_deck(), stages)
+    with pytest.raises(SceneError, match="first is 'lower'; the stages are wait"):
+        simulate_stages(on_deck(), [wait], first="lower")
+
+
+def test_a_joint_that_does_not_meet_is_told() -> None:
+    stages = [Stage(name="drift", duration=0.2), Stage(name="join", duration=1.0, connect=["shackle"])]
+    with pytest.raises(SceneError, match="stage 'join': joint 'shackle' is open by 0.18 .* at t = 0.2 s") as error:
+        simulate_stages(meeting(), stages)
+    result: Any = error.value.result
+    assert result.time[-1] == 0.2
+    assert result.interrupted
+
+
+def test_a_stage_that_is_not_over_in_time_is_told_with_what_was_recorded() -> None:
+    deep = Until.channel("position", body="load", axis="z", below=-1.0)
+    stages = [Stage(name="drop", until=deep, longest=3.0), Stage(name="rest", duration=1.0)]
+    with pytest.raises(SimulationError, match="stage 'drop': is not over after its longest of 3 s.* .it is") as error:
+        simulate_stages(falling(), stages)
+    result: Any = error.value.result
+    assert result.time[-1] == 3.0
+    assert result.stages[0].ended_by == ""
+
+
+def test_ctrl_c_keeps_what_was_recorded(tmp_path: Path) -> None:
+    script = """
+import json, os, signal, sys, threading
+sys.path.insert(0, sys.argv[1])
+from stage_scenes import on_deck
+from seacrane import Stage, StagedRun
+run = StagedRun(on_deck(), [Stage(name="one", duration=1.0), Stage(name="two", duration=1e6)], dt_out=10.0)
+run.advance()
+threading.Timer(0.5, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
+more = run.advance()
+result = run.result()
+print(json.dumps([more, result.interrupted, float(result.time[-1]), [s.ended_by for s in result.stages]]))
+"""
+    finished = subprocess.run(
+        [sys.executable, "-c", script, str(Path(__file__).parent)], capture_output=True, text=True, check=False,
+        cwd=tmp_path, timeout=120,
+    )  # fmt: skip
+    assert finished.returncode == 0, finished.stderr
+    more, interrupted, last, ended = json.loads(finished.stdout)
+    assert (more, interrupted, ended) == (False, True, ["duration", ""])
+    assert 1.0 < last < 1e6
