@@ -31,9 +31,7 @@ def lift_off() -> list[Stage]:
     """Hold, lift off, raise, stop, and let go."""
     return [
         Stage(name="hold", duration=1.05),
-        Stage(
-            name="lift off", until=Until.release("on deck"), longest=60.0, commands={"hoist.rate": -RATE}
-        ),
+        Stage(name="lift off", until=Until.release("on deck"), longest=60.0, commands={"hoist.rate": -RATE}),
         Stage(
             name="raise", until=Until.length("hoist", below=18.5), longest=60.0, commands={"hoist.rate": -0.4}
         ),
@@ -55,6 +53,7 @@ def meeting(kind: str = "weld", *, velocity: float = 0.6, after: float = 0.5) ->
     axes = np.eye(3)
     scene.add_joint(
         kind=kind, name="shackle", first="hook", second="load",
-        first_frame=Frame(point=(0.4, 0.0, 0.0), axes=axes), second_frame=Frame(point=(-0.6, 0.0, 0.0), axes=axes),
+        first_frame=Frame(point=(0.4, 0.0, 0.0), axes=axes),
+        second_frame=Frame(point=(-0.6, 0.0, 0.0), axes=axes),
     )  # fmt: skip
     return scene

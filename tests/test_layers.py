@@ -34,6 +34,7 @@ FLOORS = """
     run
     accuracy
     simulation
+    stages
     experiment
     figures viewer
     reporting

@@ -19,7 +19,10 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 Panels = list[tuple[str, list[Trace]]]
 STYLES = ("-", "--", ":")
-EVENTS = {"contact": "contact: taut, or pressed", "rebound": "rebound", "release": "release: slack, or off"}
+EVENTS = {
+    "contact": "contact: taut, or pressed", "rebound": "rebound", "release": "release: slack, or off",
+    "stage": "stage begins", "connection": "connection",
+}  # fmt: skip
 
 
 def panels_of(quantity: str, found: Iterable[Trace], *, skip: int = 0) -> list[Panel]:

@@ -1,4 +1,4 @@
-"""What wires, end stops and seats did during a run, and stages, as read-only values and as arrays of a file."""
+"""What wires, end stops, seats and stages did during a run, as read-only values and as arrays of a file."""
 
 from __future__ import annotations
 
@@ -32,8 +32,8 @@ class Event:
         The limit's, the connection's or the stage's; ".minimum" or ".maximum" is added where a stop has both.
     kind : str
         "contact": holds from now on (a wire is taut); "rebound": was hit and left at once; "release": holds
-        no more (a wire is slack, a seat is lifted off, a stage released a connection); "stage": a stage began;
-        "connection": a stage connected an element.
+        no more (a wire is slack, a seat is lifted off, a stage released a connection); "stage": a stage
+        began; "connection": a stage connected an element.
     speed : float
         Rate of approach just before, m/s or rad/s; 0 for a release or a stage.
     impulse : float

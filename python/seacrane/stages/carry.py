@@ -41,9 +41,7 @@ def carried(state: _core.State, old: _core.Model, new: _core.Model) -> _core.Sta
     )  # fmt: skip
 
 
-def _closed(
-    state: _core.State, old: _core.Model, new: _core.Model, begun: _core.State
-) -> list[str]:
+def _closed(state: _core.State, old: _core.Model, new: _core.Model, begun: _core.State) -> list[str]:
     """Limits that hold: those that did, and new ones that do as they are described."""
     before = _core.initial_state(old).closed if state.closed is None else state.closed
     known = {name for name, _ in old.limits}
@@ -63,29 +61,14 @@ def redescribed(scene: Some, measured: Mapping[str, Array], state: _core.State) 
         Channels of the present instant.
     """
     out = scene.copy()
-    floating = {vessel.body for vessel in scene.vessels.values()}
-    names = list(scene.bodies)
-    turn, shift, now = _Way.none(), np.zeros(3), None
-    if floating:
-        vessel = next(iter(scene.vessels.values())).body
-        now = _Placed(scene, measured, names.index(vessel), vessel)
-        body = scene.bodies[vessel]
-        turn = _Way(np.asarray(body.quaternion), now.quaternion)
-        shift = np.asarray(body.position) - turn.matrix @ now.origin
-    for index, name in enumerate(names):
-        if name in floating:
-            continue
-        pose = _Placed(scene, measured, index, name)
-        velocity, spin = pose.velocity, pose.spin
-        if now is not None:
-            velocity = velocity - now.velocity - np.cross(now.spin, pose.origin - now.origin)
-            spin = spin - now.spin
-        changes = {
-            "position": turn.matrix @ pose.origin + shift, "velocity": turn.matrix @ velocity,
-            "quaternion": quaternion_product(turn.quaternion, pose.quaternion),
-            "angular_velocity": turn.matrix @ spin,
-        }  # fmt: skip
-        out.bodies[name] = _core.Body(**scene.bodies[name].__getstate__() | changes)
+    floating = {vessel.body: None for vessel in scene.vessels.values()}
+    now = {name: _Placed(body, measured, at) for at, (name, body) in enumerate(scene.bodies.items())}
+    way = _Way(None, None)
+    for ship in list(floating)[:1]:
+        way = _Way(scene.bodies[ship], now[ship])
+    for name, body in scene.bodies.items():
+        if name not in floating:
+            out.bodies[name] = _core.Body(**body.__getstate__() | way.described(now[name]))
     for name, driver in scene.drivers.items():
         held = _core.Curve.constant(value=float(driver.curve.evaluate([state.time])[0, 0]))
         curve = held.then(time=state.time, curve=driver.curve) if state.time > 0.0 else driver.curve
@@ -98,29 +81,40 @@ def redescribed(scene: Some, measured: Mapping[str, Array], state: _core.State) 
     return out
 
 
-class _Way:
-    """The rotation from the present orientation of a vessel to the described one."""
-
-    def __init__(self, described: Array, present: Array) -> None:
-        w, *vector = present
-        self.quaternion = quaternion_product(described, np.array([w, *(-np.array(vector))]))
-        self.matrix = rotation_matrix(self.quaternion)
-
-    @classmethod
-    def none(cls) -> _Way:
-        still = np.array([1.0, 0.0, 0.0, 0.0])
-        return cls(still, still)
-
-
 class _Placed:
     """Where a body's origin is, and how it moves."""
 
-    def __init__(self, scene: Scene, measured: Mapping[str, Array], index: int, name: str) -> None:
+    def __init__(self, body: _core.Body, measured: Mapping[str, Array], index: int) -> None:
         self.quaternion = np.asarray(measured["quaternion"][index])
-        lever = rotation_matrix(self.quaternion) @ np.asarray(scene.bodies[name].center_of_mass)
+        lever = rotation_matrix(self.quaternion) @ np.asarray(body.center_of_mass)
         self.spin = np.asarray(measured["angular_velocity"][index])
         self.origin = np.asarray(measured["position"][index]) - lever
         self.velocity = np.asarray(measured["velocity"][index]) - np.cross(self.spin, lever)
+
+
+class _Way:
+    """The motion that takes a vessel from where it is to where it is described; of none: no motion."""
+
+    def __init__(self, described: _core.Body | None, ship: _Placed | None) -> None:
+        self.ship = ship
+        self.quaternion, self.shift = np.array([1.0, 0.0, 0.0, 0.0]), np.zeros(3)
+        if described is not None and ship is not None:
+            back = ship.quaternion * (1.0, -1.0, -1.0, -1.0)
+            self.quaternion = quaternion_product(described.quaternion, back)
+            self.shift = np.asarray(described.position) - rotation_matrix(self.quaternion) @ ship.origin
+
+    def described(self, body: _Placed) -> dict[str, Array]:
+        """Entries of a body that goes along, its velocity relative to the vessel."""
+        turn, velocity, spin = rotation_matrix(self.quaternion), body.velocity, body.spin
+        if self.ship is not None:
+            carried = self.ship.velocity + np.cross(self.ship.spin, body.origin - self.ship.origin)
+            velocity, spin = velocity - carried, spin - self.ship.spin
+        return {
+            "position": turn @ body.origin + self.shift,
+            "quaternion": quaternion_product(self.quaternion, body.quaternion),
+            "velocity": turn @ velocity,
+            "angular_velocity": turn @ spin,
+        }
 
 
 def compiled_there(scene: Scene) -> _core.Model:

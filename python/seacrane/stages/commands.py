@@ -48,7 +48,9 @@ def targets(scene: Scene) -> dict[str, Target]:
 def check_command(what: str, name: str, value: object, known: Mapping[str, Target]) -> None:
     """Raise SceneError for a command of what is not there, or one that is none."""
     if name not in known:
-        raise SceneError(f"{what} commands {name!r}, which is not there; there are {', '.join(known) or 'none'}")
+        raise SceneError(
+            f"{what} commands {name!r}, which is not there; there are {', '.join(known) or 'none'}"
+        )
     if isinstance(value, (Move, _core.Curve)):
         return
     number = number_of(f"{what}: command {name!r}", value)

@@ -1,4 +1,4 @@
-"""Which elements of a scene are there in a stage: those that wait to be connected or were released are not."""
+"""Which elements of a scene are there in a stage: not those that wait to be connected or were released."""
 
 from __future__ import annotations
 
@@ -26,7 +26,9 @@ def table_of(scene: Scene, what: str, name: str) -> str:
         return "joints"
     if not found:
         known = [key for table in TABLES for key in getattr(scene, table)]
-        raise SceneError(f"{what}: the scene has no {name!r}; it has {', '.join(known) or 'nothing to connect'}")
+        raise SceneError(
+            f"{what}: the scene has no {name!r}; it has {', '.join(known) or 'nothing to connect'}"
+        )
     if len(found) > 1:
         kinds = " and ".join(f"a {KINDS[table]}" for table in found)
         raise SceneError(f"{what}: {name!r} is {kinds}; give one of them another name")

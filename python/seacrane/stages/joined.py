@@ -59,7 +59,12 @@ def counters(run: Run) -> dict[str, Array]:
 
 
 def joined(
-    pieces: Sequence[Piece], *, scene: Scene, spans: Sequence[StageSpan], interrupted: bool, after: Sequence[Event]
+    pieces: Sequence[Piece],
+    *,
+    scene: Scene,
+    spans: Sequence[StageSpan],
+    interrupted: bool,
+    after: Sequence[Event],
 ) -> Result:
     """One result of all pieces: of two outputs at one time the earlier stays.
 
@@ -80,8 +85,8 @@ def joined(
     events = [event for piece in pieces for event in (*piece.before, *piece.result.events)]
     return Result.from_arrays(
         time=np.concatenate([piece.result.time[keep] for piece, keep in zip(pieces, kept, strict=True)]),
-        arrays=arrays, coords=names, events=[*events, *after], stats=_stats(pieces, spans), interrupted=interrupted,
-        state=last.state, scene=scene.copy(notes={}),
+        arrays=arrays, coords=names, events=[*events, *after], stats=_stats(pieces, spans),
+        interrupted=interrupted, state=last.state, scene=scene.copy(notes={}),
     )  # fmt: skip
 
 
@@ -148,13 +153,17 @@ def _squeezed(channel: str, array: Array) -> Array:
     """Without the axis that only several vessels, slews or hooks have, where there is one of them."""
     kind = CHANNELS[channel]
     several = len(kind.dims_of_several) > len(kind.dims)
-    return array[:, 0] if several and array.ndim == len(kind.dims_of_several) and array.shape[1] == 1 else array
+    return (
+        array[:, 0] if several and array.ndim == len(kind.dims_of_several) and array.shape[1] == 1 else array
+    )
 
 
 def _stats(pieces: Sequence[Piece], spans: Sequence[StageSpan]) -> dict[str, Any]:
     every = [piece.result.stats for piece in pieces]
     out: dict[str, Any] = dict(every[-1])
-    out |= {key: sum(float(one.get(key, 0)) for one in every) for key in SUMS if any(key in one for one in every)}
+    out |= {
+        key: sum(float(one.get(key, 0)) for one in every) for key in SUMS if any(key in one for one in every)
+    }
     out |= {key: int(out[key]) for key in SUMS if key in out and key not in ("simulated_s", "wall_s")}
     told = dict.fromkeys(line for one in every for line in str(one.get("validity", "")).splitlines())
     if told:

@@ -56,8 +56,8 @@ class Course:
                 warnings.simplefilter("ignore")
             self.warned = True
             return Run(
-                self.scene, t_end, method=self.method, outputs=self.outputs, start=start, outputs_from=self.first,
-                model=self.model,
+                self.scene, t_end, method=self.method, outputs=self.outputs, start=start,
+                outputs_from=self.first, model=self.model,
             )  # fmt: skip
 
     def taken(self, start: _core.State, t_end: float) -> Run:
@@ -175,7 +175,9 @@ def _crossing(course: Course, lead: _core.State, hit: _Hit) -> float:
     from scipy.optimize import brentq
 
     def excess(time: float) -> float:
-        return excess_now(course.tried(lead, time) if time > lead.time else course.run(lead, time), hit.condition)
+        return excess_now(
+            course.tried(lead, time) if time > lead.time else course.run(lead, time), hit.condition
+        )
 
     if excess(hit.by) <= 0.0:  # an output that touched it
         return hit.by
@@ -204,6 +206,6 @@ def _never(stage: Stage, run: Run) -> str:
         now = float(condition.series(run, {k: v[None] for k, v in run.measure().items()})[0])
         said.append(f"{condition.text} (it is {now:.6g})")
     return (
-        f"{stage.title}: is not over after its longest of {stage.longest:g} s, at t = {run.core.time:.6g} s: it "
-        f"waits for {' or '.join(said)}. Command what leads there, correct the condition, or give it longer"
+        f"{stage.title}: is not over after its longest of {stage.longest:g} s, at t = {run.core.time:.6g} s: "
+        f"it waits for {' or '.join(said)}. Command what leads there, correct the condition, or allow longer"
     )

@@ -72,7 +72,9 @@ def _change(scene: Scene, stage: Stage, absent: set[str]) -> None:
     for name in stage.connect:
         table_of(scene, f"{stage.title} connects", name)
         if name not in absent:
-            raise SceneError(f"{stage.title}: connects {name!r}, which is connected already; release it before")
+            raise SceneError(
+                f"{stage.title}: connects {name!r}, which is connected already; release it before"
+            )
         absent.discard(name)
 
 
@@ -82,7 +84,9 @@ def _check_lines(stage: Stage, there: Scene) -> None:
         name = dict(condition.names).get("line") if isinstance(condition, Level) else None
         if name is not None and name not in lines:
             has = ", ".join(lines) or "none"
-            raise SceneError(f"{stage.title}: waits for line {name!r}, which is not there then; there are {has}")
+            raise SceneError(
+                f"{stage.title}: waits for line {name!r}, which is not there then; there are {has}"
+            )
 
 
 def planned_scene(

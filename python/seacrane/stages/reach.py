@@ -24,7 +24,9 @@ def check_limits(stage: Stage, scene: Scene) -> None:
         limit = limits.get(name) or limits.get(name.removesuffix(".minimum").removesuffix(".maximum"))
         if limit is None:
             has = ", ".join(limits) or "none"
-            raise SceneError(f"{stage.title}: waits for {name!r}, and there is no such limit; there are {has}")
+            raise SceneError(
+                f"{stage.title}: waits for {name!r}, and there is no such limit; there are {has}"
+            )
         if limit.kind == "seat" and condition.holds:
             raise SceneError(
                 f"{stage.title}: would never end: seat {name!r} lets go and never takes hold again; set the "

@@ -89,8 +89,8 @@ class Stage:
         if self.until and self.longest is None:
             met = " or ".join(condition.text for condition in self.until)  # type: ignore[union-attr]
             raise SceneError(
-                f"{self.title}: ends when {met}, and would never end where that is not met; give longest, the "
-                "seconds that it may take at most"
+                f"{self.title}: ends when {met}, and would never end where that is not met; give longest, "
+                "the seconds that it may take at most"
             )
         if self.longest is not None and not self.until:
             raise SceneError(f"{self.title}: longest goes with until; leave it out")

@@ -160,7 +160,8 @@ class StagedRun:
         if not self._pieces:
             raise SceneError("stages: nothing has been recorded yet; advance() them first")
         return joined(
-            self._pieces, scene=self._given, spans=self._spans, interrupted=self.interrupted, after=self._changes
+            self._pieces, scene=self._given, spans=self._spans, interrupted=self.interrupted,
+            after=self._changes,
         )  # fmt: skip
 
     def warn(self) -> None:
@@ -206,18 +207,20 @@ class StagedRun:
         run = self._still(scene, model, start)
         met = run.events()
         state = run.state
-        lost = before - _core.Evaluator(model).energy(start.time, state.values) - sum(e.energy_lost for e in met)
+        lost = (
+            before - _core.Evaluator(model).energy(start.time, state.values) - sum(e.energy_lost for e in met)
+        )
         self._scene, self._model, self._state = scene, model, state
         event = Event(time=start.time, name=name, kind=kind, speed=speed, energy_lost=lost)
         self._changes += [event, *met]
 
     def _check_gap(self, stage: Stage, name: str, model: _core.Model, start: _core.State) -> float:
-        """The rate (m/s or rad/s) at which a joint that connects is off; SceneError where it does not meet."""
+        """The rate (m/s or rad/s) at which a joint parts as it connects; SceneError where it is open."""
         gap, rate = _core.Evaluator(model).residual(start.time, start.values)
         if gap > LARGEST_GAP * self._scene.length_scale:
             raise SceneError(
-                f"{stage.title}: joint {name!r} is open by {gap:.4g} (m or rad) at t = {start.time:.6g} s and "
-                f"would have to jump; end the stage before where it closes to {LARGEST_GAP:g}, correct its "
+                f"{stage.title}: joint {name!r} is open by {gap:.4g} (m or rad) at t = {start.time:.6g} s "
+                f"and would jump; end the stage before where it closes to {LARGEST_GAP:g}, correct its "
                 "frames, or connect a line, which needs not be closed"
             )
         return float(rate)

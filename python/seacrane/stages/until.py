@@ -138,7 +138,9 @@ class Until:
             raise SceneError(f"until {channel}: above is {above} and below is {below}; give one of them")
         value = number_of(f"until {channel}", below if above is None else above)
         if not np.isfinite(value):
-            raise SceneError(f"until {channel}: is to pass {value}, which it never does; give a finite number")
+            raise SceneError(
+                f"until {channel}: is to pass {value}, which it never does; give a finite number"
+            )
         return Level(channel, tuple(sorted(names.items())), value, above is not None)
 
     @staticmethod
