@@ -24,7 +24,7 @@ Array = NDArray[np.float64]
 
 COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9", "#E69F00", "#000000")  # Okabe and Ito
 SHADE = "#EEF3F8"
-MARK_COLOURS = ("0.25", "#D55E00", "#0072B2")  # of what is marked along the abscissa
+MARK_COLOURS = ("0.25", "#D55E00", "#0072B2", "#009E73", "#CC79A7")  # of what is marked along the abscissa
 ROUNDING = 1e-9  # of its size by which a constant may vary
 MOST_MARKS = 200  # of one kind that are drawn: more would hide the curves
 MOST_NAMED = 24  # lines that a legend lists: a longer one would hide the figure

@@ -81,6 +81,14 @@ def redescribed(scene: Some, measured: Mapping[str, Array], state: _core.State) 
     return out
 
 
+def lifted_seats(scene: Scene, state: _core.State) -> set[str]:
+    """Joints of seats that hold no more: described anew, they would hold again."""
+    if state.closed is None:
+        return set()
+    seats = [load for load in scene.loads.values() if isinstance(load, _core.Limit) and load.kind == "seat"]
+    return {seat.joint for seat in seats if seat.name not in state.closed}
+
+
 class _Placed:
     """Where a body's origin is, and how it moves."""
 

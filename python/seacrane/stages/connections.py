@@ -6,11 +6,11 @@ from collections.abc import Iterable
 from typing import Any
 
 from seacrane.description.loads import named
-from seacrane.description.scene import ELEMENTS, KINDS, Some
+from seacrane.description.scene import KINDS, LOADS, Some
 from seacrane.errors import SceneError
 from seacrane.scene.scene import Scene
 
-TABLES = tuple(table for table in ELEMENTS if table not in ("bodies", "vessels"))
+TABLES = ("joints", "drivers", *LOADS)
 
 
 def table_of(scene: Scene, what: str, name: str) -> str:

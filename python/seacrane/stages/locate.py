@@ -101,7 +101,11 @@ def to_its_end(course: Course, stage: Stage, start: _core.State) -> str:
         if run.interrupted:
             return ""
         if stop >= end:
-            raise SimulationError(_never(stage, run))
+            raise SimulationError(
+                f"{stage.title}: is not over after its longest of {stage.longest:g} s, at t = {end:.6g} s: it "
+                f"waits for {_waits_for(stage, run)}. Command what leads there, correct the condition, or "
+                "allow longer"
+            )
         state = run.state
     return met.text
 
@@ -197,15 +201,13 @@ def _at_contact(course: Course, state: _core.State, time: float, condition: Cont
     return condition.text
 
 
-def _never(stage: Stage, run: Run) -> str:
+def _waits_for(stage: Stage, run: Run) -> str:
+    """The conditions of a stage, and how they stand."""
     said = []
     for condition in stage.conditions:
-        if isinstance(condition, Contact):
-            said.append(f"{condition.text} (it does not)")
-            continue
-        now = float(condition.series(run, {k: v[None] for k, v in run.measure().items()})[0])
-        said.append(f"{condition.text} (it is {now:.6g})")
-    return (
-        f"{stage.title}: is not over after its longest of {stage.longest:g} s, at t = {run.core.time:.6g} s: "
-        f"it waits for {' or '.join(said)}. Command what leads there, correct the condition, or allow longer"
-    )
+        now = "not yet"
+        if isinstance(condition, Level):
+            measured = {name: values[None] for name, values in run.measure().items()}
+            now = f"it is {float(condition.series(run, measured)[0]):.6g}"
+        said.append(f"{condition.text} ({now})")
+    return " or ".join(said)

@@ -20,7 +20,7 @@ from seacrane.run.outputs import Outputs
 from seacrane.run.run import Run
 from seacrane.run.shorthand import Shorthand, settled
 from seacrane.scene.scene import Scene
-from seacrane.stages.carry import carried, compiled_there, redescribed
+from seacrane.stages.carry import carried, compiled_there, lifted_seats, redescribed
 from seacrane.stages.commands import commanded
 from seacrane.stages.connections import without
 from seacrane.stages.joined import Piece, counters, joined
@@ -186,6 +186,7 @@ class StagedRun:
         for name in stage.connect:
             self._absent.discard(name)
             if name in self._whole.joints:
+                self._absent |= lifted_seats(self._scene, self._state)
                 self._whole = redescribed(self._whole, self._measured(), self._state)
             self._change(stage, name, "connection")
 
