@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from seacrane import Frame, Scene, Stage, Until
+from seacrane import Frame, Move, Scene, Stage, Until
 
 G = 9.80665
 MASS, STIFFNESS, HEIGHT = 20e3, 5e7, 20.0  # kg, N, m from the load on deck to the block
@@ -38,6 +38,26 @@ def lift_off() -> list[Stage]:
         Stage(name="stop", duration=2.0, commands={"hoist.rate": 0.0}),
         Stage(name="let go", duration=1.0, release=["hoist"]),
     ]
+
+
+def swinging() -> Scene:
+    """A load that swings on its winch, always taut."""
+    scene = on_deck(damping_ratio=0.1)
+    scene.remove("on deck", kind="load")
+    scene.remove("on deck", kind="joint")
+    scene.replace("load", position=(3.0, 0.0, 21.0 - np.sqrt(20.16**2 - 9.0)), velocity=(0.0, 0.8, 0.0))
+    return scene
+
+
+def hoisting() -> list[Stage]:
+    """Raise to a length, in mid-air stop, lower again."""
+    return [
+        Stage(name="raise", until=Until.length("hoist", below=19.0), longest=9.0,
+              commands={"hoist.rate": -0.4}),
+        Stage(name="stop", duration=2.03, commands={"hoist.rate": 0.0}),
+        Stage(name="lower", until=Until.channel("position", body="load", axis="z", below=1.9), longest=9.0,
+              commands={"hoist.rate": Move(to=0.5, over=2.0)}),
+    ]  # fmt: skip
 
 
 def meeting(kind: str = "weld", *, velocity: float = 0.6, after: float = 0.5) -> Scene:

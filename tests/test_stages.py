@@ -14,7 +14,7 @@ import pytest
 from multibody_runs import masses, momentum
 from numpy.testing import assert_allclose
 from numpy.typing import NDArray
-from stage_scenes import HEIGHT, MASS, RATE, STIFFNESS, G, lift_off, meeting, on_deck
+from stage_scenes import HEIGHT, MASS, RATE, STIFFNESS, G, hoisting, lift_off, meeting, on_deck, swinging
 
 from seacrane import (
     Curve,
@@ -46,26 +46,6 @@ def carried_out(scene: Scene, stages: list[Stage], **settings: Any) -> StagedRun
 
 def height(result: Result, body: str = "load") -> Array:
     return result.select("position", body=body, axis="z")
-
-
-def swinging() -> Scene:
-    """A load that swings on its winch, always taut."""
-    scene = on_deck(damping_ratio=0.1)
-    scene.remove("on deck", kind="load")
-    scene.remove("on deck", kind="joint")
-    scene.replace("load", position=(3.0, 0.0, 21.0 - np.sqrt(20.16**2 - 9.0)), velocity=(0.0, 0.8, 0.0))
-    return scene
-
-
-def hoisting() -> list[Stage]:
-    """Raise to a length, in mid-air stop, lower again."""
-    return [
-        Stage(name="raise", until=Until.length("hoist", below=19.0), longest=9.0,
-              commands={"hoist.rate": -0.4}),
-        Stage(name="stop", duration=2.03, commands={"hoist.rate": 0.0}),
-        Stage(name="lower", until=Until.channel("position", body="load", axis="z", below=1.9), longest=9.0,
-              commands={"hoist.rate": Move(to=0.5, over=2.0)}),
-    ]  # fmt: skip
 
 
 @pytest.mark.parametrize("formulation", ["redundant", "recursive"])
@@ -325,6 +305,32 @@ def test_a_ship_in_waves_does_not_notice_that_its_cargo_is_fastened_anew() -> No
     assert abs(result.events[-1].energy_lost) < 1e-3
 
 
+def test_every_kind_of_method_carries_out_stages() -> None:
+    exact = carried_out(swinging(), hoisting(), rtol=1e-9)
+    for settings in ({"integrator": "cvode-bdf", "rtol": 1e-8}, {"integrator": "cvode-adams", "rtol": 1e-8},
+                     {"integrator": "generalized-alpha", "dt": 1e-3}):  # fmt: skip
+        run = carried_out(swinging(), hoisting(), **settings)
+        assert run.state.time == pytest.approx(exact.state.time, abs=1e-4)
+        assert_allclose(run.result()["position"][-1], exact.result()["position"][-1], atol=1e-3)
+
+
+def test_a_condition_located_while_ctrl_c_is_pressed_keeps_what_was_there(monkeypatch: Any) -> None:
+    from seacrane.stages import locate
+
+    def pressed(self: Any, start: State, t_end: float) -> Any:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(locate.Course, "tried", pressed)
+    run = StagedRun(swinging(), [TWO[0], *hoisting()])
+    assert run.advance()
+    assert not run.advance()
+    assert run.interrupted
+    result = run.result()
+    assert result.interrupted
+    assert result.time[-1] == 2.0
+    assert [span.ended_by for span in result.stages] == ["duration", ""]
+
+
 def test_results_keep_their_stages(tmp_path: Path) -> None:
     wanted = ["position", "limit_force", "line_tension", "line_length", "impact_loss"]
     result = simulate_stages(on_deck(), lift_off(), dt_out=0.2, channels=wanted)
@@ -454,9 +460,9 @@ def test_ctrl_c_keeps_what_was_recorded(tmp_path: Path) -> None:
     script = """
 import json, os, signal, sys, threading
 sys.path.insert(0, sys.argv[1])
-from stage_scenes import on_deck
+from stage_scenes import swinging
 from seacrane import Stage, StagedRun
-run = StagedRun(on_deck(), [Stage(name="one", duration=1.0), Stage(name="two", duration=1e6)], dt_out=10.0)
+run = StagedRun(swinging(), [Stage(name="one", duration=1.0), Stage(name="two", duration=1e6)], dt_out=10.0)
 run.advance()
 threading.Timer(0.5, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
 more = run.advance()

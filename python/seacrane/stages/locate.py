@@ -49,7 +49,7 @@ class Course:
     done: Callable[[Run], None]
     warned: bool = False
 
-    def run(self, start: _core.State, t_end: float) -> Run:
+    def run(self, start: _core.State, t_end: float, capacity: int | None = None) -> Run:
         """A run of the stage, not advanced yet; what its description warns of is told once."""
         with warnings.catch_warnings():
             if self.warned:
@@ -57,7 +57,7 @@ class Course:
             self.warned = True
             return Run(
                 self.scene, t_end, method=self.method, outputs=self.outputs, start=start,
-                outputs_from=self.first, model=self.model,
+                outputs_from=self.first, model=self.model, capacity=capacity,
             )  # fmt: skip
 
     def taken(self, start: _core.State, t_end: float) -> Run:
@@ -69,9 +69,11 @@ class Course:
         return run
 
     def tried(self, start: _core.State, t_end: float) -> Run:
-        """A run advanced to its end, and no part of the result."""
+        """A run advanced to its end, and no part of the result; KeyboardInterrupt by Ctrl-C."""
         run = self.run(start, t_end)
         drive(run, (), self.interrupts)
+        if run.interrupted:
+            raise KeyboardInterrupt
         return run
 
 
@@ -88,7 +90,7 @@ def to_its_end(course: Course, stage: Stage, start: _core.State) -> str:
         return "" if run.interrupted else "duration"
     assert stage.longest is not None
     end, state = start.time + stage.longest, start
-    met = _met_now(course.run(state, end), stage.conditions)
+    met = _met_now(course.run(state, end, capacity=1), stage.conditions)
     while met is None:
         stop = min(_next_look(course, state.time), end)
         run = course.run(state, stop)
@@ -96,14 +98,17 @@ def to_its_end(course: Course, stage: Stage, start: _core.State) -> str:
         drive(run, (), course.interrupts)
         found = [hit for hit in (_found(run, one) for one in stage.conditions) if hit is not None]
         if found and not run.interrupted:
-            return _located(course, state, min(found, key=lambda hit: hit.by), found)
+            try:
+                return _located(course, state, min(found, key=lambda hit: hit.by), found)
+            except KeyboardInterrupt:
+                return ""
         course.done(run)
         if run.interrupted:
             return ""
         if stop >= end:
             raise SimulationError(
-                f"{stage.title}: is not over after its longest of {stage.longest:g} s, at t = {end:.6g} s: it "
-                f"waits for {_waits_for(stage, run)}. Command what leads there, correct the condition, or "
+                f"{stage.title}: is not over after its longest of {stage.longest:g} s, at t = {end:.6g} s: "
+                f"it waits for {_waits_for(stage, run)}. Command what leads there, correct the condition, or "
                 "allow longer"
             )
         state = run.state

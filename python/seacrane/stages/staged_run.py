@@ -147,6 +147,7 @@ class StagedRun:
                     error.result = self._result_of_an_error()  # type: ignore[attr-defined]
                 raise
         self._spans.append(StageSpan(name=stage.name, start=begin, end=self._state.time, ended_by=ended))
+        self.interrupted = not ended
         return not self.interrupted and len(self._spans) < len(self.stages)
 
     def result(self) -> Result:
@@ -278,7 +279,6 @@ class StagedRun:
         )  # fmt: skip
         self._changes, self._open = [], None
         self._found += [one for one in found if one not in self._found]
-        self.interrupted |= run.interrupted
         self._state = result.state if result.state is not None else self._state
 
 
