@@ -93,7 +93,7 @@ def joined(
 def _offsets(pieces: Sequence[Piece]) -> list[dict[str, Any]]:
     """What to add to counters of each piece so that they go on from the piece before."""
     out: list[dict[str, Any]] = []
-    before: dict[str, Any] = pieces[0].start
+    before: Mapping[str, Any] = pieces[0].start
     for piece in pieces:
         added = {name: before.get(name, 0.0) - piece.start.get(name, 0.0) for name in COUNTED_ON}
         added["impact_loss"] = added["impact_loss"] + piece.lost

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Collection, Iterable, Sequence
 from typing import Any
 
 from seacrane import _core
@@ -80,7 +80,7 @@ def _change(scene: Scene, stage: Stage, absent: set[str]) -> None:
 
 def _check_names(stage: Stage, there: Scene) -> None:
     """Raise SceneError for conditions on what the scene of the stage does not have."""
-    known = {
+    known: dict[str, Collection[str]] = {
         "line": lines_of(there.loads), "body": there.bodies, "joint": there.joints, "vessel": there.vessels,
         "actuator": there.actuators, "driver": there.drivers, "joint_coordinate": there.recorded,
         "point": there.points,
