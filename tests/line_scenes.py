@@ -56,6 +56,21 @@ def swinging(**winch: Any) -> Scene:
     return scene
 
 
+def on_deck() -> Scene:
+    """A load that a winch lifts off its seat."""
+    scene = Scene(name="on deck")
+    scene.add_body(name="load", mass=2e3, inertia=(300.0, 300.0, 300.0))
+    scene.add_joint(
+        kind="prismatic", name="guide", first="ground", second="load", point=(0, 0, 0), axis=(0, 0, 1)
+    )
+    scene.add_end_stop(joint="guide", minimum=0.0)
+    scene.add_line(
+        name="hoist", bodies=["ground", "load"], points=[(0, 0, 10), (0, 0, 0)], stiffness=2e6, length=10.05
+    )
+    scene.add_winch(line="hoist", rate=-0.2, lag=0.2)
+    return scene
+
+
 def reeved() -> Scene:
     """A swinging arm that carries a block, a tackle of two falls below it, and a tugger on a third body."""
     scene = Scene(name="reeved")

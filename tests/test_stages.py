@@ -332,8 +332,7 @@ def test_a_condition_located_while_ctrl_c_is_pressed_keeps_what_was_there(monkey
 
 
 def test_results_keep_their_stages(tmp_path: Path) -> None:
-    wanted = ["position", "limit_force", "line_tension", "line_length", "impact_loss"]
-    result = simulate_stages(on_deck(), lift_off(), dt_out=0.2, channels=wanted)
+    result = simulate_stages(on_deck(), lift_off(), dt_out=0.2)
     again = Result.load(result.save(tmp_path / "lift.nc"))
     assert again.stages == result.stages
     assert again.events == result.events
@@ -401,6 +400,10 @@ NEVER = {"longest": 10.0}
         ),
         ({"until": Until.contact("landing"), **NEVER}, "there is no such limit; there are on deck"),
         ({"until": Until.tension("tugger", above=1.0), **NEVER}, "line 'tugger', which is not there then"),
+        (
+            {"until": Until.channel("position", body="lid", axis="z", above=1.0), **NEVER},
+            "waits for body 'lid', which is not there then; there are load",
+        ),
         ({"duration": 1.0, "release": ["sling"]}, "releases: the scene has no 'sling'"),
         (
             {"duration": 1.0, "commands": {"hoist": -0.1}},
@@ -412,6 +415,60 @@ NEVER = {"longest": 10.0}
 def test_stages_that_do_not_fit_the_scene_are_told(given: dict[str, Any], message: str) -> None:
     with pytest.raises(SceneError, match=f"stage 'wait'.*{message}"):
         simulate_stages(on_deck(), [Stage(name="wait", **given)])
+
+
+@pytest.mark.parametrize(
+    ("channel", "given", "message"),
+    [
+        ("depth", {"above": 1.0}, "channel 'depth' is unknown"),
+        (
+            "position",
+            {"above": 1.0, "below": 2.0, "body": "load", "axis": "z"},
+            "above is 1.0 and below is 2.0",
+        ),
+        ("position", {"below": 2.0, "axis": "z"}, "says not which body; give body="),
+        ("position", {"below": 2.0, "body": "load", "axis": "up"}, "axis is 'up'; choose from x, y, z"),
+        (
+            "absolute_work",
+            {"above": 2.0, "line": "hoist"},
+            "line is 'hoist', and its dimensions are none but time",
+        ),
+        ("line_tension", {"above": np.nan, "line": "hoist"}, "is to pass nan, which it never does"),
+    ],
+)
+def test_conditions_that_cannot_be_are_told(channel: str, given: dict[str, Any], message: str) -> None:
+    with pytest.raises(SceneError, match=f"until.*{message}"):
+        Until.channel(channel, **given)
+
+
+@pytest.mark.parametrize(
+    ("given", "message"),
+    [
+        ({"over": 1.0}, "to is None and by is None; give one of them"),
+        ({"to": 1.0, "by": 1.0, "over": 1.0}, "give one of them"),
+        ({"to": 1.0, "over": 0.0}, "over is 0 s; give the positive time"),
+        ({"to": np.inf, "over": 1.0}, "to is inf; give a finite number"),
+    ],
+)
+def test_moves_that_cannot_be_are_told(given: dict[str, Any], message: str) -> None:
+    with pytest.raises(SceneError, match=f"move: .*{message}"):
+        Move(**given)
+
+
+def test_what_connections_take_is_counted_through_stages_without_limits() -> None:
+    scene = meeting("spherical")
+    scene.add_joint(kind="free", name="room", first="ground", second="load", point=(0.0, 0.0, 0.0))
+    scene.add_end_stop(joint="room", coordinate="z", minimum=-1e3)
+    stages = [
+        Stage(name="drift", duration=0.5, release=["room"]),
+        Stage(name="connected", duration=1.0, connect=["shackle"]),
+        Stage(name="in the room", duration=1.0, connect=["room"]),
+    ]
+    result = simulate_stages(scene, stages)
+    (event,) = (event for event in result.events if event.name == "shackle")
+    loss = result["impact_loss"]
+    assert np.all(loss[: result.stage("connected").start] == 0.0)
+    assert_allclose(loss[result.stage("connected").start :], event.energy_lost, rtol=1e-12)
 
 
 def test_stages_that_do_not_fit_each_other_are_told() -> None:

@@ -92,18 +92,14 @@ def joined(
 
 def _offsets(pieces: Sequence[Piece]) -> list[dict[str, Any]]:
     """What to add to counters of each piece so that they go on from the piece before."""
-    out: list[dict[str, Any]] = [{}]
-    total: dict[str, Any] = dict(pieces[0].end)
-    for piece in pieces[1:]:
-        added = {}
-        for name, start in piece.start.items():
-            before = total.get(name, start if CHANNELS[name].turns else np.zeros_like(start))
-            added[name] = before - start
-            if CHANNELS[name].turns:
-                added[name] = 2.0 * np.pi * np.round((before - start) / (2.0 * np.pi))
-            if name == "impact_loss":
-                added[name] = added[name] + piece.lost
-        total |= {name: piece.end[name] + value for name, value in added.items()}
+    out: list[dict[str, Any]] = []
+    before: Mapping[str, Any] = pieces[0].start
+    for piece in pieces:
+        added = {name: before.get(name, 0.0) - piece.start.get(name, 0.0) for name in COUNTED_ON}
+        added["impact_loss"] = added["impact_loss"] + piece.lost
+        for name in (name for name in piece.start if CHANNELS[name].turns and name in before):
+            added[name] = 2.0 * np.pi * np.round((before[name] - piece.start[name]) / (2.0 * np.pi))
+        before = {**piece.end, **{name: piece.end.get(name, 0.0) + more for name, more in added.items()}}
         out.append(added)
     return out
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Collection, Iterable, Sequence
 from typing import Any
 
 from seacrane import _core
@@ -48,7 +48,7 @@ def checked_stages(scene: Scene, given: Any) -> tuple[Stage, ...]:
         for name, value in stage.commands.items():
             check_command(stage.title, name, value, targets(there))
         check_limits(stage, there)
-        _check_lines(stage, there)
+        _check_names(stage, there)
     return stages
 
 
@@ -78,15 +78,20 @@ def _change(scene: Scene, stage: Stage, absent: set[str]) -> None:
         absent.discard(name)
 
 
-def _check_lines(stage: Stage, there: Scene) -> None:
-    lines = lines_of(there.loads)
+def _check_names(stage: Stage, there: Scene) -> None:
+    """Raise SceneError for conditions on what the scene of the stage does not have."""
+    known: dict[str, Collection[str]] = {
+        "line": lines_of(there.loads), "body": there.bodies, "joint": there.joints, "vessel": there.vessels,
+        "actuator": there.actuators, "driver": there.drivers, "joint_coordinate": there.recorded,
+        "point": there.points,
+    }  # fmt: skip
     for condition in stage.conditions:
-        name = dict(condition.names).get("line") if isinstance(condition, Level) else None
-        if name is not None and name not in lines:
-            has = ", ".join(lines) or "none"
-            raise SceneError(
-                f"{stage.title}: waits for line {name!r}, which is not there then; there are {has}"
-            )
+        for dim, name in condition.names if isinstance(condition, Level) else ():
+            if dim in known and name not in known[dim]:
+                has = ", ".join(known[dim]) or "none"
+                raise SceneError(
+                    f"{stage.title}: waits for {dim} {name!r}, which is not there then; there are {has}"
+                )
 
 
 def planned_scene(

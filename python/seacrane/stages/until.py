@@ -65,16 +65,12 @@ class Level:
         array, names = arrays[self.channel], dict(self.names)
         for dim in reversed(CHANNELS[self.channel].dims_of(array.ndim)[1:]):
             known = names_along(run)[dim]
-            if dim not in names:
-                raise SceneError(f"until {self.text}: say which {dim}, {dim}=...: {', '.join(known)}")
-            if names[dim] not in known:
+            if names.get(dim) not in known:
                 raise SceneError(
-                    f"until {self.text}: there is no {dim} {names[dim]!r} in this stage; it has "
+                    f"until {self.text}: {dim} is {names.get(dim)!r}; this stage has "
                     f"{', '.join(known) or 'none'}"
                 )
-            array = array[..., known.index(names.pop(dim))]
-        if names:
-            raise SceneError(f"until {self.text}: {self.channel!r} has no {next(iter(names))}; leave it out")
+            array = array[..., known.index(names[dim])]
         return array
 
 
@@ -99,6 +95,22 @@ class Contact:
 
 
 Condition = Level | Contact
+
+
+def _check_names(channel: str, names: Mapping[str, str]) -> None:
+    """Raise SceneError for names along dimensions that a channel has not, or none along one that it has."""
+    kind = CHANNELS[channel]
+    for dim in kind.dims[1:]:
+        if dim not in names:
+            raise SceneError(f"until {channel}: says not which {dim}; give {dim}=...")
+    for dim, name in names.items():
+        if dim not in kind.dims_of_several[1:]:
+            has = ", ".join(kind.dims_of_several[1:]) or "none but time"
+            raise SceneError(
+                f"until {channel}: {dim} is {name!r}, and its dimensions are {has}; leave it out"
+            )
+        if dim in FIXED and name not in FIXED[dim]:
+            raise SceneError(f"until {channel}: {dim} is {name!r}; choose from {', '.join(FIXED[dim])}")
 
 
 def names_along(run: Run) -> dict[str, tuple[str, ...]]:
@@ -134,6 +146,7 @@ class Until:
         """
         if channel not in CHANNELS:
             raise SceneError(f"until: channel {channel!r} is unknown; choose from {', '.join(CHANNELS)}")
+        _check_names(channel, names)
         if (above is None) == (below is None):
             raise SceneError(f"until {channel}: above is {above} and below is {below}; give one of them")
         value = number_of(f"until {channel}", below if above is None else above)
