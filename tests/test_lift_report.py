@@ -19,6 +19,7 @@ from seacrane.reporting.measures import statistics_of
 from seacrane.reporting.registry import SECTIONS
 from seacrane.reporting.section import Section, compose
 
+pytestmark = pytest.mark.filterwarnings("ignore::seacrane.LargeSwingWarning")  # thrown on purpose
 NASTY = "<img src=x onerror=alert(1)>&\"'"
 
 
