@@ -6,6 +6,7 @@ import base64
 import copy
 import json
 import os
+import pickle
 import random
 import re
 import struct
@@ -212,7 +213,11 @@ def test_scene_files_hold_the_triangles(tmp_path: Path) -> None:
     np.testing.assert_array_equal(loaded.meshes["ball"].vertices, mesh.vertices)
     np.testing.assert_array_equal(loaded.meshes["ball"].faces, mesh.faces)
     assert "meshes" in str(scene)
+    twin = pickle.loads(pickle.dumps(mesh))
+    assert twin == mesh and hash(twin) == hash(mesh)
+    assert not twin.vertices.flags.writeable
     assert copy.deepcopy(scene) == scene
+    assert mesh != pendulum().add_mesh(body="ball", vertices=CORNERS, faces=FACES)
 
 
 def test_a_lift_names_the_file(tmp_path: Path) -> None:

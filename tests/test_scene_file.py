@@ -132,6 +132,7 @@ def every_kind() -> Scene:
     scene.add_roles(prefix="aft ", slew="pin", cylinders={"luff": "sleeve"}, link="wire")
     scene.provenance["water"] = VesselProvenance(database="hull", omega=(0.1, THIRD * 10), memory="passive")
     scene.notes.update(author="someone", hs=THIRD, tries=[1, 2.5, None, True], nested={"limit": -math.inf})
+    scene.add_mesh(body="arm", name="look", vertices=np.eye(3) * THIRD, faces=[[0, 1, 2]])
     return scene
 
 
@@ -141,6 +142,8 @@ def plain(value: Any) -> Any:
         return struct.pack("<d", value)
     if isinstance(value, (complex, np.complexfloating)):
         return [plain(value.real), plain(value.imag)]
+    if isinstance(value, np.integer):
+        return int(value)
     if isinstance(value, Curve):
         return plain(value.to_pieces())
     if isinstance(value, np.ndarray):

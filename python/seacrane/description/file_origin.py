@@ -20,6 +20,7 @@ _ROLES = ("prefix", "slew", "cylinders", "link", "payload", "tip")
 def roles_to_data(roles: CraneRoles) -> dict[str, Any]:
     """As plain data."""
     slew, tip = roles.slew, roles.tip
+    capacity = {"capacity": [list(row) for row in roles.capacity]} if roles.capacity else {}
     return {
         "prefix": roles.prefix,
         "slew": None if slew is None else {"joint": slew[0], "coordinate": slew[1]},
@@ -27,8 +28,7 @@ def roles_to_data(roles: CraneRoles) -> dict[str, Any]:
         "link": roles.link,
         "payload": roles.payload,
         "tip": None if tip is None else {"body": tip[0], "point": list(tip[1])},
-        "capacity": [list(row) for row in roles.capacity],
-    }
+    } | capacity  # what is not there is not written: digests of older scenes stay
 
 
 def roles_from_node(node: Node, scene: Description) -> None:

@@ -47,14 +47,31 @@ class Mesh:
     vertices: Array
     faces: Faces
 
-    def _value(self) -> tuple[str, str, bytes, bytes]:
-        return self.name, self.body, self.vertices.tobytes(), self.faces.tobytes()
+    def __post_init__(self) -> None:
+        for array in (self.vertices, self.faces):
+            array.setflags(write=False)
 
     def __eq__(self, other: object) -> bool:
-        return self._value() == other._value() if isinstance(other, Mesh) else NotImplemented
+        if not isinstance(other, Mesh):
+            return NotImplemented
+        alike = (self.name, self.body) == (other.name, other.body)
+        return (
+            alike
+            and np.array_equal(self.vertices, other.vertices)
+            and np.array_equal(self.faces, other.faces)
+        )
 
     def __hash__(self) -> int:
-        return hash(self._value())
+        return hash((self.name, self.body, self.vertices.tobytes(), self.faces.tobytes()))
+
+    def __copy__(self) -> Mesh:
+        return self
+
+    def __deepcopy__(self, memo: dict[int, Any]) -> Mesh:
+        return self
+
+    def __reduce__(self) -> tuple[Any, ...]:  # arrays come back from a pickle writeable
+        return _mesh_of, (self.name, self.body, self.vertices, self.faces)
 
 
 def add_mesh(
@@ -108,6 +125,10 @@ def add_mesh(
     mesh = _mesh(scene, name or body, body, points, triangles)
     inserted: Mesh = insert("mesh", scene.meshes, mesh)
     return inserted
+
+
+def _mesh_of(name: str, body: str, vertices: Array, faces: Faces) -> Mesh:
+    return Mesh(name=name, body=body, vertices=vertices, faces=faces)
 
 
 def _given(what: str, file: Any, vertices: Any, faces: Any) -> tuple[Array, Faces]:
@@ -178,8 +199,6 @@ def _mesh(scene: Description, name: str, body: str, points: Array, faces: Any) -
     points = np.float32(points).astype(float)
     if not np.ptp(points[np.unique(faces)], axis=0).max() > 0.0:
         raise SceneError(f"{what}: all its vertices are one point; export it again, or check scale")
-    for array in (points, faces):
-        array.setflags(write=False)
     return Mesh(name=name, body=body, vertices=points, faces=faces)
 
 
