@@ -14,7 +14,7 @@ MaximalSystem::MaximalSystem(std::shared_ptr<const Model> model)
     : MaximalSystem(std::make_shared<Terms>(std::move(model))) {}
 
 MaximalSystem::MaximalSystem(std::shared_ptr<Terms> terms)
-    : terms_(std::move(terms)), model_(terms_->model()), solver_(*terms_), positions_(model_) {
+    : terms_(std::move(terms)), model_(terms_->model()), solver_(*terms_), positions_(model_), tensions_(model_) {
   for (auto* vectors : {&acceleration_, &correction_}) {
     vectors->assign(idx(model_.body_count()) + 1, Vec6d::Zero());
   }
@@ -28,6 +28,11 @@ void MaximalSystem::derivative(double t, const double* y, double* ydot) {
   if (model_.description.baumgarte > 0.0) rate_residual(*terms_, y, residual_.data());
   solver_.factor();
   solve_acceleration();
+  if (tensions_.any()) {
+    tensions_.add(*this, t, y + model_.layout.memory);
+    solve_acceleration();
+  }
+  if (model_.paper_kinematics || !solver_.is_regular()) ++dense_solves_;
   write_rates(y, ydot);
 }
 
@@ -48,7 +53,6 @@ void MaximalSystem::solve_acceleration() {
   } else {
     solver_.solve(terms_->loads(), gamma_, acceleration_, lambda_);
   }
-  if (m.paper_kinematics || !solver_.is_regular()) ++dense_solves_;
 }
 
 void MaximalSystem::write_pose_rates(const double* y, double* ydot) const {

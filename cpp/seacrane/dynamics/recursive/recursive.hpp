@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "seacrane/dynamics/formulation.hpp"
+#include "seacrane/dynamics/inertial_tensions.hpp"
 #include "seacrane/dynamics/recursive/recursive_jacobian.hpp"
 #include "seacrane/dynamics/terms.hpp"
 
@@ -54,6 +55,7 @@ class RecursiveSystem final : public Formulation, public PositionMap {
   void place(const double* y);
   void evaluate_inertia();
   void factor(double t);
+  void solve_acceleration(double* u_rate);
   void move_positions(double* y, const Vec6d* velocities);
   void twists_here();
   template <class F>
@@ -65,6 +67,7 @@ class RecursiveSystem final : public Formulation, public PositionMap {
   BodyTree tree_;
   ArticulatedTree<double> articulated_;
   LoopClosure loops_;
+  InertialTensions tensions_;
   Layout layout_;
   std::vector<Mat6d> mass_;
   std::vector<Vec6d> bias_, load_, acceleration_, twist_;
