@@ -7,15 +7,15 @@
 namespace seacrane::test {
 namespace {
 
-LineDescription line(const std::string& name) {
+LineDescription quasi_static_line(const std::string& name) {
   LineDescription out = Line::example();
   out.name = name;
   out.stretch = kQuasiStatic;
   return out;
 }
 
-LineDescription commanded() {
-  LineDescription out = line("commanded");
+LineDescription commanded_line() {
+  LineDescription out = quasi_static_line("commanded");
   out.points = {{1.0, 0.2, 1.0}, {0.5, 0.1, -0.3}, {0.2, -0.3, 1.0}};
   out.stiffness = 200.0;
   out.settling = 0.3;
@@ -28,18 +28,18 @@ LineDescription commanded() {
 
 /// A scene with two lines of quasi-static stretch over the same bodies, one on a winch: they feel each other.
 SceneDescription with_lines(SceneDescription scene) {
-  scene.loads_of<Line>().push_back(line("on winch"));
-  scene.loads_of<Line>().push_back(commanded());
+  scene.loads_of<Line>().push_back(quasi_static_line("on winch"));
+  scene.loads_of<Line>().push_back(commanded_line());
   return scene;
 }
 
-std::vector<SceneDescription> scenes() {
+std::vector<SceneDescription> lined_scenes() {
   Random random(71);
   return {with_lines(pair("revolute", random)), with_lines(pair("spherical", random)),
           with_lines(pair("distance", random))};
 }
 
-std::vector<double> disturbed(MaximalSystem& system) {
+std::vector<double> shaken(MaximalSystem& system) {
   std::vector<double> y = moving_state(system, 72);
   Random random(73);
   const StateLayout& s = system.model().layout;
@@ -47,7 +47,7 @@ std::vector<double> disturbed(MaximalSystem& system) {
   return y;
 }
 
-MatXd by_differences(System& system, const std::vector<double>& y) {
+MatXd differences_of(System& system, const std::vector<double>& y) {
   const auto n = static_cast<Eigen::Index>(y.size());
   MatXd out(n, n);
   for (Eigen::Index j = 0; j < n; ++j) {
@@ -64,11 +64,11 @@ MatXd by_differences(System& system, const std::vector<double>& y) {
   return out;
 }
 
-void check_jacobian(System& system, const std::vector<double>& y) {
+void check_exact(System& system, const std::vector<double>& y) {
   const auto n = static_cast<Eigen::Index>(y.size());
   MatXd found(n, n);
   REQUIRE(system.jacobian(0.7, y.data(), found.data()));
-  const MatXd expected = by_differences(system, y);
+  const MatXd expected = differences_of(system, y);
   const VecXd size = expected.cwiseAbs().rowwise().maxCoeff().cwiseMax(1.0);
   CHECK(((found - expected).cwiseAbs().array().colwise() / size.array()).maxCoeff() < 1e-8);
 }
@@ -76,9 +76,9 @@ void check_jacobian(System& system, const std::vector<double>& y) {
 }  // namespace
 
 TEST_CASE("a quasi-static line pulls EA (e + s (e' - w) + s^2 e'') + c l0 e', whatever its bodies do") {
-  for (const SceneDescription& scene : scenes()) {
+  for (const SceneDescription& scene : lined_scenes()) {
     MaximalSystem system(compile(scene, false));
-    const std::vector<double> y = disturbed(system);
+    const std::vector<double> y = shaken(system);
     std::vector<double> rate(y.size());
     const StateLayout& s = system.model().layout;
     for (const Line& one : std::get<std::vector<Line>>(*system.model().loads)) {
@@ -109,9 +109,9 @@ TEST_CASE("a quasi-static line pulls EA (e + s (e' - w) + s^2 e'') + c l0 e', wh
 }
 
 TEST_CASE("energy changes by the recorded power: inertial tensions") {
-  for (const SceneDescription& scene : scenes()) {
+  for (const SceneDescription& scene : lined_scenes()) {
     MaximalSystem system(compile(scene, false));
-    const std::vector<double> y = disturbed(system);
+    const std::vector<double> y = shaken(system);
     std::vector<double> rate(y.size());
     system.derivative(0.7, y.data(), rate.data());
     const double power = rate[idx(system.model().layout.work)];
@@ -127,11 +127,11 @@ TEST_CASE("energy changes by the recorded power: inertial tensions") {
 }
 
 TEST_CASE("both formulations find the same inertial tensions, with exact Jacobians") {
-  for (const SceneDescription& scene : scenes()) {
+  for (const SceneDescription& scene : lined_scenes()) {
     const auto terms = std::make_shared<Terms>(compile(scene, false));
     MaximalSystem maximal(terms);
     RecursiveSystem recursive(terms);
-    std::vector<double> y = disturbed(maximal), q(recursive.size());
+    std::vector<double> y = shaken(maximal), q(recursive.size());
     maximal.project(0.7, y.data(), false);
     recursive.read_bodies(0.7, y.data(), q.data());
     std::vector<double> rate(y.size()), tree_rate(q.size());
@@ -142,8 +142,8 @@ TEST_CASE("both formulations find the same inertial tensions, with exact Jacobia
       CHECK((recursive.accelerations()[b] - expected[b]).norm() < 1e-9 * (1.0 + expected[b].norm()));
     }
     CHECK(tree_rate[tree_rate.size() - 2] == doctest::Approx(rate[rate.size() - 2]).epsilon(1e-9));
-    check_jacobian(maximal, y);
-    check_jacobian(recursive, q);
+    check_exact(maximal, y);
+    check_exact(recursive, q);
   }
 }
 
@@ -159,17 +159,17 @@ TEST_CASE("a quasi-static stretch is refused where it cannot be") {
     }
     return "";
   };
-  LineDescription bad = commanded();
+  LineDescription bad = commanded_line();
   CHECK(message(bad).empty());
   bad.stretch = "stiff";
   CHECK(message(bad).find("stretch 'stiff' is unknown; choose 'elastic' or 'quasi-static'") != std::string::npos);
-  bad = commanded();
+  bad = commanded_line();
   bad.settling = 0.0;
   CHECK(message(bad).find("settling is 0 s; it must be positive") != std::string::npos);
-  bad = commanded();
+  bad = commanded_line();
   bad.length = Curve::constant(2.0).then(1.0, Curve::constant(2.1));
   CHECK(message(bad).find("jumps at t = 1 s, or its rate; smooth it") != std::string::npos);
-  bad = line("on winch");
+  bad = quasi_static_line("on winch");
   bad.lag = 0.0;
   bad.maximum_acceleration = kFarthest;
   CHECK(message(bad).find("its winch has no lag; give one") != std::string::npos);
