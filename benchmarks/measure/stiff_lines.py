@@ -69,7 +69,7 @@ def stiff_lines(*, repeats: int) -> Section:
             )
             rows.append(
                 [
-                    f"{stiffness:.0e}".replace("e+0", "e").replace("e+", "e"),
+                    power_of_ten(stiffness),
                     stretch,
                     f"{method.integrator} {method.tolerance:g}",
                     ran.evaluations,
@@ -128,3 +128,8 @@ def _run(scene: Scene, method: Method, *, repeats: int, t_end: float = T_END) ->
 def path_of(stiffness: float, t_end: float) -> Array:
     """Places of the payload on an elastic line, solved tightly."""
     return _run(lifted(stiffness, "elastic"), TIGHT, repeats=1, t_end=t_end).payload
+
+
+def power_of_ten(stiffness: float) -> str:
+    """As 1e8."""
+    return f"1e{round(np.log10(stiffness))}"

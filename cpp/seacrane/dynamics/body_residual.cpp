@@ -118,7 +118,8 @@ template <class Load>
 void BodyResidual::add_load(const Load& load, const LoadInput<Scalar>& input) {
   load.template apply<Scalar>(input, sum_);
   if constexpr (std::is_same_v<Load, Line>) {
-    if (load.quasi_static()) inertial_[idx(load.place)] = load.inertial_tension(input, held_.acceleration);
+    if (!load.quasi_static()) return;
+    inertial_[idx(load.place)] = load.inertial_tension(input, load.motion(input), held_.acceleration);
   }
 }
 

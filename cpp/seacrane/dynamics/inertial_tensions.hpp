@@ -3,12 +3,12 @@
 #include <Eigen/LU>
 #include <vector>
 
-#include "seacrane/dynamics/formulation.hpp"
 #include "seacrane/model/model.hpp"
 
 namespace seacrane {
 
 struct Line;
+class Terms;
 
 /// Tensions of lines that depend on the accelerations of bodies, as Line says of a quasi-static stretch. With u
 /// the wrenches of 1 N in a line, m its inertial mass, a0 the accelerations without such tensions, and w =
@@ -21,9 +21,17 @@ class InertialTensions {
   bool any() const { return !lines_.empty(); }
   Eigen::Index count() const { return tension_.size(); }
 
-  /// Right after `system` has been evaluated without them: solves for them, and adds them to the loads of its
-  /// terms. Accelerations are the caller's to renew.
-  void add(Formulation& system, double t, const double* memory);
+  // In this order, right after an evaluation without them.
+
+  /// With its accelerations, by body.
+  void start(const Terms& terms, double t, const double* memory, const Vec6d* acceleration);
+  /// u, and room for w, which is the caller's to find.
+  const std::vector<Vec6d>& unit(Eigen::Index line) const { return unit_[idx(line)]; }
+  std::vector<Vec6d>& response(Eigen::Index line) { return response_[idx(line)]; }
+  /// Solves for the tensions, and adds them to the loads of the terms.
+  const VecXd& finish(Terms& terms);
+  /// What they add to accelerations.
+  void add_accelerations(std::vector<Vec6d>& acceleration) const;
 
   // What Jacobians need, at that evaluation.
 
@@ -42,8 +50,8 @@ class InertialTensions {
 
   int bodies_;
   std::vector<const Line*> lines_;
-  std::vector<std::vector<Vec6d>> unit_;  // u, by place
-  std::vector<Vec6d> load_, response_;
+  std::vector<std::vector<Vec6d>> unit_, response_;  // u and w, by place
+  std::vector<Vec6d> load_;
   VecXd mass_, winding_, tension_, change_;
   MatXd matrix_;
   Eigen::PartialPivLU<MatXd> factors_;

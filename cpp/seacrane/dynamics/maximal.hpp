@@ -62,6 +62,7 @@ class MaximalSystem final : public Formulation {
                                                                 const double* y, long count);
 
   void solve_acceleration();
+  void add_inertial_tensions(double t, const double* memory);
   void write_rates(const double* y, double* ydot);
   void write_pose_rates(const double* y, double* ydot) const;
   void move_poses(double* y);
@@ -74,6 +75,7 @@ class MaximalSystem final : public Formulation {
   std::vector<Vec6d> acceleration_, correction_;
   std::vector<double> lambda_, gamma_, residual_;
   std::vector<double> no_right_, response_multipliers_;  // of load_response()
+  MatXd inertial_multipliers_;                           // for 1 N of each inertial tension
   std::optional<MaximalJacobian> jacobian_;
   std::vector<double> jacobian_rate_;
   double before_projection_ = 0.0;

@@ -56,6 +56,7 @@ class RecursiveSystem final : public Formulation, public PositionMap {
   void evaluate_inertia();
   void factor(double t);
   void solve_acceleration(double* u_rate);
+  void add_inertial_tensions(double t, const double* memory, double* u_rate);
   void move_positions(double* y, const Vec6d* velocities);
   void twists_here();
   template <class F>
@@ -74,6 +75,7 @@ class RecursiveSystem final : public Formulation, public PositionMap {
   std::vector<BodyKinematics<double>> scratch_;
   std::vector<RowBlock<double>> blocks_;
   std::vector<double> speed_rate_, position_rate_;
+  MatXd inertial_speed_rates_;  // for 1 N of each inertial tension
   VecXd residual_, loop_bias_;
   std::optional<RecursiveJacobian> jacobian_;
   std::vector<double> jacobian_rate_;

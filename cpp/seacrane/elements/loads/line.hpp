@@ -249,10 +249,9 @@ struct Line {
     return out;
   }
 
-  /// EA s^2 e'' of a quasi-static stretch, for these accelerations of the bodies.
+  /// EA s^2 e'' of a quasi-static stretch in this motion, for these accelerations of the bodies.
   template <class T>
-  T inertial_tension(const LoadInput<T>& in, const Vec6d* acceleration) const {
-    const Motion<T> now = motion(in);
+  T inertial_tension(const LoadInput<T>& in, const Motion<T>& now, const Vec6d* acceleration) const {
     T bend(0);  // l''
     for_each_span<T>(in, [&](const Span<T>& s) {
       const Vec3<T> apart = point_acceleration<T>(in, s.second, s.lever_second, acceleration) -
@@ -265,7 +264,7 @@ struct Line {
     return strain_inertia() * (bend - driven) / now.unstretched;
   }
   /// By how much that falls for each m/s2 by which the path shortens faster.
-  double inertial_mass(const LoadInput<double>& in) const { return strain_inertia() / motion(in).unstretched; }
+  double inertial_mass(const Motion<double>& now) const { return strain_inertia() / now.unstretched; }
 
   template <class T>
   void apply(const LoadInput<T>& in, LoadSum<T>& out) const {
