@@ -30,7 +30,8 @@ def hung(
     blocks = ["ground", "load"] * falls
     scene.add_line(
         name="hoist", bodies=blocks[: falls + 1], points=np.zeros((falls + 1, 3)),
-        stiffness=STIFFNESS * length / falls, length=falls * length, damping_ratio=damping, mass=MASS / falls**2,
+        stiffness=STIFFNESS * length / falls, length=falls * length, damping_ratio=damping,
+        mass=MASS / falls**2,
     )  # fmt: skip
     return scene
 
@@ -52,6 +53,21 @@ def swinging(**winch: Any) -> Scene:
     )  # fmt: skip
     pay_out = Curve.quintic(start_time=0.3, end_time=2.0, start=0.0, end=0.6)
     scene.add_winch(line="hoist", **{"rate": pay_out, "lag": 0.2} | winch)
+    return scene
+
+
+def on_deck() -> Scene:
+    """A load that a winch lifts off its seat."""
+    scene = Scene(name="on deck")
+    scene.add_body(name="load", mass=2e3, inertia=(300.0, 300.0, 300.0))
+    scene.add_joint(
+        kind="prismatic", name="guide", first="ground", second="load", point=(0, 0, 0), axis=(0, 0, 1)
+    )
+    scene.add_end_stop(joint="guide", minimum=0.0)
+    scene.add_line(
+        name="hoist", bodies=["ground", "load"], points=[(0, 0, 10), (0, 0, 0)], stiffness=2e6, length=10.05
+    )
+    scene.add_winch(line="hoist", rate=-0.2, lag=0.2)
     return scene
 
 

@@ -35,6 +35,11 @@ def test_every_channel_has_a_name_of_its_own_dimensions_a_unit_and_a_text() -> N
         assert channel.unit and channel.long_name, name
 
 
+def test_no_channel_has_the_name_of_a_dimension() -> None:
+    """A file has one name for either."""
+    assert not set(CHANNELS) & (NAMED | set(FIXED))
+
+
 def test_what_a_scene_offers_by_default_is_what_the_table_says() -> None:
     model = cases.case2().compile()
     offered, default = model.channel_names(defaults_only=False), model.channel_names()

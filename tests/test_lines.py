@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from line_scenes import MASS, STIFFNESS, G, hung, reeved, swinging
+from line_scenes import MASS, STIFFNESS, G, hung, on_deck, reeved, swinging
 from multibody_runs import record
 from numpy.testing import assert_allclose
 from numpy.typing import NDArray
@@ -19,6 +19,7 @@ from seacrane import (
     Curve,
     Evaluator,
     LineLengthWarning,
+    Result,
     Run,
     Scene,
     SceneError,
@@ -257,6 +258,31 @@ def test_states_are_named_read_and_set(tmp_path: Path) -> None:
     assert State.load(tmp_path / "a.state", scene=scene).load_states == state.load_states
     with pytest.raises(SceneError, match=r"state 'hoist.length' where this scene has"):
         simulate(hung(), 1.5, start=state)
+
+
+@pytest.mark.parametrize("formulation", ["redundant", "recursive"])
+def test_a_winch_lifts_a_load_off_its_stop(formulation: str) -> None:
+    """It takes the weight over while the line stretches; the load leaves when the line carries all of it."""
+    result = simulate(on_deck(), 3.0, dt_out=0.01, rtol=1e-8, formulation=formulation)
+    assert [event.kind for event in result.events] == ["contact", "release"]
+    lift_off = result.events[1].time
+    # Hauled in by 0.2 (t - 0.2 (1 - exp(-t / 0.2))) m: slack, then the stretch under the weight.
+    hauled = 0.2 * (lift_off - 0.2 * (1.0 - np.exp(-lift_off / 0.2)))
+    pulled = 2e6 * (10.0 / (10.05 - hauled) - 1.0)
+    damping = 2.0 * 0.02 * np.sqrt(2e6 * 2e3 / 10.0) * 0.2
+    assert pulled + damping == pytest.approx(2e3 * G, rel=1e-2)
+    carried = result["line_tension"][:, 0] + result["limit_force"][:, 0]
+    assert_allclose(carried[result.time < lift_off], 2e3 * G, rtol=1e-9)
+    assert np.max(np.abs(result["energy_balance"])) < 1e-6 * result["absolute_work"][-1]
+
+
+def test_a_file_holds_the_states(tmp_path: Path) -> None:
+    result = simulate(on_deck(), 0.5, dt_out=0.1)
+    result.save(tmp_path / "lift.nc")
+    again = Result.load(tmp_path / "lift.nc")
+    assert_allclose(again["load_state"], result["load_state"], rtol=0.0)
+    assert list(again.coords["state_name"]) == ["hoist.length", "hoist.rate"]
+    assert again.state.load_states == result.state.load_states
 
 
 def test_an_input_adds_to_the_winchs_command() -> None:

@@ -7,9 +7,9 @@
 namespace seacrane {
 namespace {
 
-const Axis load_state{"load_state", {}, [](const Model& m) {
+const Axis state_name{"state_name", {}, [](const Model& m) {
                         std::vector<std::string> names;
-                        for (const LoadState& state : m.load_states) names.push_back(state.name);
+                        for (const LoadState& one : m.load_states) names.push_back(one.name);
                         return names;
                       }};
 
@@ -46,7 +46,7 @@ double winch_power_of(Motion m) { return m.winch_power() + m.winch_power_per_ine
 std::vector<Channel> load_channels() {
   return {
       {.name = "load_state",
-       .axes = {&load_state},
+       .axes = {&state_name},
        .unit = "SI",
        .text = "states that loads have of their own, in the unit of each",
        .write = write_load_state},
