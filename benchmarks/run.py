@@ -32,8 +32,10 @@ from measure import (
     scenes,
     seas,
     speed,
+    stiff_lines,
     storm,
     strip_cost,
+    w_method,
     wave_loads,
 )
 from measure.machine import machine
@@ -73,6 +75,9 @@ def sections(folder: Path, *, repeats: int, quick: bool) -> Iterator[Section]:
     integrators.figure(rows, folder / PICTURE)
     yield integrators.table(rows, truth, repeats=tried)
     yield events.slack_wire()
+    yield stiff_lines.stiff_lines(repeats=tried)
+    yield w_method.w_method()
+    yield w_method.stiff_direction()
     yield linear.natural_periods()
     yield linear.linear_against_runs()
     yield linear.cost(repeats=min(repeats, 3))

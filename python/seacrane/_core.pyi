@@ -1300,7 +1300,7 @@ class Line:
         ...
     def __hash__(self) -> int:
         ...
-    def __init__(self, *, name: str, bodies: collections.abc.Sequence[str], points: numpy.typing.ArrayLike, stiffness: typing.SupportsFloat, length: Curve | typing.SupportsFloat, damping_ratio: typing.SupportsFloat = ..., mass: typing.SupportsFloat = ..., winch: bool = ..., rate: Curve | typing.SupportsFloat = ..., maximum_rate: typing.SupportsFloat = ..., maximum_acceleration: typing.SupportsFloat = ..., lag: typing.SupportsFloat = ..., minimum_length: typing.SupportsFloat = ...) -> None:
+    def __init__(self, *, name: str, bodies: collections.abc.Sequence[str], points: numpy.typing.ArrayLike, stiffness: typing.SupportsFloat, length: Curve | typing.SupportsFloat, damping_ratio: typing.SupportsFloat = ..., mass: typing.SupportsFloat = ..., stretch: str = ..., settling: typing.SupportsFloat = ..., winch: bool = ..., rate: Curve | typing.SupportsFloat = ..., maximum_rate: typing.SupportsFloat = ..., maximum_acceleration: typing.SupportsFloat = ..., lag: typing.SupportsFloat = ..., minimum_length: typing.SupportsFloat = ...) -> None:
         ...
     def __repr__(self) -> str:
         ...
@@ -1360,9 +1360,19 @@ class Line:
         m/s, commanded, positive: pays out
         """
     @property
+    def settling(self) -> float:
+        """
+        s, in which a quasi-static stretch follows
+        """
+    @property
     def stiffness(self) -> float:
         """
         N, EA: tension over strain
+        """
+    @property
+    def stretch(self) -> str:
+        """
+        'elastic', or 'quasi-static': then it follows the tension
         """
     @property
     def winch(self) -> bool:

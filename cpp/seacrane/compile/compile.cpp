@@ -88,6 +88,9 @@ class Compiler {
   /// Of lengths, m: what errors of positions count over.
   double length_scale() const { return kTranslationScale * scene_.length_scale; }
 
+  /// A place among the inertial tensions.
+  int inertial_tension() { return model_.inertial_tensions++; }
+
   /// The first of `count` slots of a zero-order-held input.
   int input(const std::string& name, int count = 1) {
     const int first = model_.slot_count;
@@ -258,8 +261,26 @@ class Compiler {
         if (acts(load)) std::get<std::vector<Load>>(*model_.loads).push_back(load);
       }
     });
+    check_quasi_static();
     for (const auto& d : scene_.coordinates) model_.coordinates.push_back(coordinate(d));
     for (const auto& d : scene_.points) model_.points.push_back(attach(d.body, d.point));
+  }
+
+  /// Impacts throw a stretch out of step with the tension, and the paper's masses have no response to loads.
+  void check_quasi_static() const {
+    for (const Line& line : std::get<std::vector<Line>>(*model_.loads)) {
+      if (!line.quasi_static()) continue;
+      const std::string what = "line '" + line.name + "': its stretch is quasi-static, and ";
+      if (!model_.limits.empty()) {
+        throw SceneError(what + "limit '" + model_.limits.front().name +
+                         "' makes impacts, which shake the line; choose stretch 'elastic'");
+      }
+      for (const VesselDescription& v : scene_.vessels) {
+        if (v.kinematics != VesselKinematics::paper) continue;
+        throw SceneError(what + "vessel '" + v.name + "' has kinematics 'paper', whose mass is not symmetric; "
+                         "choose 'yaw_following', or stretch 'elastic'");
+      }
+    }
   }
 
   /// A load on one body does nothing to the ground; one between bodies, nothing to bodies that move as one:

@@ -58,6 +58,7 @@ BodyResidual::BodyResidual(const Model& model, const std::vector<int>* counted)
   memory_rate_.resize(idx(most));
   state_.resize(model.load_states.size());
   state_rate_.resize(state_.size());
+  inertial_.resize(idx(model.inertial_tensions));
   wave_slopes_.resize(model.vessels.size());
   touched_.reserve(bodies_.size());
 }
@@ -78,11 +79,12 @@ void BodyResidual::start(const Terms& terms, double t, const Held& held) {
 LoadInput<BodyResidual::Scalar> BodyResidual::clear() {
   for (int other : touched_) wrench_[idx(other)] = second_wrench_[idx(other)] = BodyLoad<Scalar>();
   touched_.clear();
-  for (auto* rows : {&right_, &rate_, &position_, &state_rate_})
+  for (auto* rows : {&right_, &rate_, &position_, &state_rate_, &inertial_}) {
     std::fill(rows->begin(), rows->end(), Scalar());
+  }
   const LoadInput<double> now = terms_->load_input(t_, held_.memory);
   sum_ = LoadSum<Scalar>{wrench_.data(), state_rate_.data()};
-  return {t_, now.curve_limit, bodies_.data(), now.slots, state_.data()};
+  return {t_, now.curve_limit, bodies_.data(), now.slots, state_.data(), now.inertial};
 }
 
 void BodyResidual::differentiate(int b) {
@@ -105,11 +107,20 @@ void BodyResidual::differentiate_states(int first) {
       for (const Load& load : std::get<std::vector<Load>>(*model_->loads)) {
         if (load.states.first >= last || load.states.first + load.states.count <= first) continue;
         for (const int b : load.bodies()) wrench(b);
-        load.template apply<Scalar>(input, sum_);
+        add_load(load, input);
       }
     }
   });
   for (int i = first; i < last; ++i) state_[idx(i)].slope[idx(i - first)] = 0.0;
+}
+
+template <class Load>
+void BodyResidual::add_load(const Load& load, const LoadInput<Scalar>& input) {
+  load.template apply<Scalar>(input, sum_);
+  if constexpr (std::is_same_v<Load, Line>) {
+    if (!load.quasi_static()) return;
+    inertial_[idx(load.place)] = load.inertial_tension(input, load.motion(input), held_.acceleration);
+  }
 }
 
 BodyResidual::Slopes BodyResidual::slopes(const BodyLoad<Scalar>& w) {
@@ -180,7 +191,7 @@ void BodyResidual::add_loads(int b, const LoadInput<Scalar>& input) {
       if constexpr (std::is_same_v<Load, FunctionForce>) {
         add_differences(load);
       } else {
-        load.template apply<Scalar>(input, sum_);
+        add_load(load, input);
       }
     }
   });

@@ -55,6 +55,8 @@ class BodyResidual {
   const LoadSum<Scalar>& sum() const { return sum_; }
   /// Rates of the memory states of the body's vessel.
   const std::vector<Scalar>& memory_rates() const { return memory_rate_; }
+  /// Of lines, with accelerations held.
+  const std::vector<Scalar>& inertial_tensions() const { return inertial_; }
   /// Rates of the states of all loads.
   const std::vector<Scalar>& state_rates() const { return state_rate_; }
 
@@ -74,6 +76,8 @@ class BodyResidual {
   BodyLoad<Scalar>& wrench(int body);
   void add_inertia(int body);
   void add_loads(int body, const LoadInput<Scalar>& input);
+  template <class Load>
+  void add_load(const Load& load, const LoadInput<Scalar>& input);
   void add_differences(const FunctionForce& load);
   void add_hydrodynamics(int body, const LoadInput<Scalar>& input);
   void add_waves(int body);
@@ -89,7 +93,7 @@ class BodyResidual {
   std::vector<BodyKinematics<double>> moved_;
   std::vector<BodyLoad<Scalar>> wrench_, second_wrench_;
   std::vector<BodyLoad<double>> moved_wrench_;
-  std::vector<Scalar> right_, rate_, position_, memory_state_, memory_rate_, state_, state_rate_;
+  std::vector<Scalar> right_, rate_, position_, memory_state_, memory_rate_, state_, state_rate_, inertial_;
   std::vector<WaveSlopes> wave_slopes_;  // by vessel
   std::vector<int> touched_;
   LoadSum<Scalar> sum_{};

@@ -79,6 +79,7 @@ MaximalJacobian::MaximalJacobian(const Model& model)
       given_(idx(model.rows())),
       lambda_(given_),
       column_(idx(model.layout.size)),
+      own_(VecXd::Zero(model.inertial_tensions)),
       response_(model.layout.size, 6) {}
 
 void MaximalJacobian::evaluate(MaximalSystem& system, double t, const double* y, double* out) {
@@ -96,10 +97,19 @@ void MaximalJacobian::evaluate(MaximalSystem& system, double t, const double* y,
   write_pose_rates(y, out);
 }
 
-/// Rates of twists and work from load_ and given_; those of the memory and of loads' states are the caller's.
+/// Rates of twists and work from load_, given_ and own_; those of the memory and of loads' states are the
+/// caller's.
 void MaximalJacobian::solve_column(double* column, double power, double absolute_power) {
   const Model& m = *model_;
   system_->solver().solve(load_, given_, acceleration_, lambda_);
+  InertialTensions& tensions = system_->tensions();
+  if (tensions.any()) {
+    const VecXd& change = tensions.change(own_, acceleration_.data());
+    tensions.add_loads(change, load_.data());
+    power += tensions.power(change);
+    absolute_power += tensions.absolute_power(change);
+    system_->solver().solve(load_, given_, acceleration_, lambda_);
+  }
   for (int b = 0; b < m.body_count(); ++b) view<6>(column + m.layout.twist(b)) = acceleration_[idx(b)];
   for (const DriverData& driver : m.drivers) {
     const auto row = idx(m.elements[idx(driver.element)].row);
@@ -123,6 +133,7 @@ void MaximalJacobian::write_body_columns(int b, const double* y, double* out) {
     for (auto& load : load_) load.setZero();
     for (int touched : residual_.touched()) load_[idx(touched)] = residual_.load(touched).col(k);
     for (std::size_t r = 0; r < given_.size(); ++r) given_[r] = residual_.acceleration_rows()[r].slope[d];
+    write_slopes(residual_.inertial_tensions(), k, own_.data());
     column.setZero();
     solve_column(column_.data(), residual_.sum().power.slope[d], residual_.sum().absolute_power.slope[d]);
     if (vessel >= 0) {
@@ -155,9 +166,10 @@ void MaximalJacobian::write_memory_columns(const double* y, double* out) {
     const double direction = memory_power_sign(vessel, frame, y + vessel.memory_offset, column_.data());
     response_.setZero();
     std::fill(given_.begin(), given_.end(), 0.0);
-    for (auto& load : load_) load.setZero();
+    own_.setZero();
     for (int i = 0; i < 6; ++i) {
       const Vec6d unit = Vec6d::Unit(i);
+      for (auto& load : load_) load.setZero();
       load_[idx(vessel.body)] = frame.to_inertial(unit);
       solve_column(response_.col(i).data(), frame.twist[i], direction * frame.twist[i]);
     }
@@ -183,6 +195,7 @@ void MaximalJacobian::write_state_columns(double* out) {
     if (k == 0) residual_.differentiate_states(i);
     for (auto& load : load_) load.setZero();
     for (int touched : residual_.touched()) load_[idx(touched)] = residual_.load(touched).col(k);
+    write_slopes(residual_.inertial_tensions(), k, own_.data());
     double* const column = jacobian.col(m.layout.loads + i).data();
     solve_column(column, residual_.sum().power.slope[idx(k)], residual_.sum().absolute_power.slope[idx(k)]);
     write_slopes(residual_.state_rates(), k, column + m.layout.loads);

@@ -14,13 +14,14 @@ MaximalSystem::MaximalSystem(std::shared_ptr<const Model> model)
     : MaximalSystem(std::make_shared<Terms>(std::move(model))) {}
 
 MaximalSystem::MaximalSystem(std::shared_ptr<Terms> terms)
-    : terms_(std::move(terms)), model_(terms_->model()), solver_(*terms_), positions_(model_) {
+    : terms_(std::move(terms)), model_(terms_->model()), solver_(*terms_), positions_(model_), tensions_(model_) {
   for (auto* vectors : {&acceleration_, &correction_}) {
     vectors->assign(idx(model_.body_count()) + 1, Vec6d::Zero());
   }
   for (auto* values : {&lambda_, &gamma_, &residual_, &no_right_, &response_multipliers_}) {
     values->assign(idx(model_.rows()), 0.0);
   }
+  inertial_multipliers_ = MatXd::Zero(model_.rows(), tensions_.count());
 }
 
 void MaximalSystem::derivative(double t, const double* y, double* ydot) {
@@ -28,6 +29,8 @@ void MaximalSystem::derivative(double t, const double* y, double* ydot) {
   if (model_.description.baumgarte > 0.0) rate_residual(*terms_, y, residual_.data());
   solver_.factor();
   solve_acceleration();
+  if (tensions_.any()) add_inertial_tensions(t, y + model_.layout.memory);
+  if (model_.paper_kinematics || !solver_.is_regular()) ++dense_solves_;
   write_rates(y, ydot);
 }
 
@@ -48,7 +51,17 @@ void MaximalSystem::solve_acceleration() {
   } else {
     solver_.solve(terms_->loads(), gamma_, acceleration_, lambda_);
   }
-  if (m.paper_kinematics || !solver_.is_regular()) ++dense_solves_;
+}
+
+void MaximalSystem::add_inertial_tensions(double t, const double* memory) {
+  tensions_.start(*terms_, t, memory, acceleration_.data());
+  for (Eigen::Index i = 0; i < tensions_.count(); ++i) {
+    load_response(tensions_.unit(i), tensions_.response(i));
+    inertial_multipliers_.col(i) = Eigen::Map<const VecXd>(response_multipliers_.data(), model_.rows());
+  }
+  const VecXd& tension = tensions_.finish(*terms_);
+  tensions_.add_accelerations(acceleration_);
+  Eigen::Map<VecXd>(lambda_.data(), model_.rows()).noalias() += inertial_multipliers_ * tension;
 }
 
 void MaximalSystem::write_pose_rates(const double* y, double* ydot) const {

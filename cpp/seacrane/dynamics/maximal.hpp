@@ -8,6 +8,7 @@
 
 #include "seacrane/dynamics/constraint_solver.hpp"
 #include "seacrane/dynamics/formulation.hpp"
+#include "seacrane/dynamics/inertial_tensions.hpp"
 #include "seacrane/dynamics/jacobian.hpp"
 #include "seacrane/dynamics/pose_map.hpp"
 #include "seacrane/dynamics/terms.hpp"
@@ -50,6 +51,7 @@ class MaximalSystem final : public Formulation {
   const std::vector<double>& multipliers() const { return lambda_; }
   /// With the factors of the last evaluation.
   ConstraintSolver& solver() { return solver_; }
+  InertialTensions& tensions() { return tensions_; }
   /// Of the rows at (t, y), see ConstraintSolver::rank().
   ConstraintRank rank(double t, const double* y, int skipped = 0);
   /// Evaluations that the dense solver took.
@@ -60,6 +62,7 @@ class MaximalSystem final : public Formulation {
                                                                 const double* y, long count);
 
   void solve_acceleration();
+  void add_inertial_tensions(double t, const double* memory);
   void write_rates(const double* y, double* ydot);
   void write_pose_rates(const double* y, double* ydot) const;
   void move_poses(double* y);
@@ -68,9 +71,11 @@ class MaximalSystem final : public Formulation {
   const Model& model_;
   ConstraintSolver solver_;
   PoseMap positions_;
+  InertialTensions tensions_;
   std::vector<Vec6d> acceleration_, correction_;
   std::vector<double> lambda_, gamma_, residual_;
   std::vector<double> no_right_, response_multipliers_;  // of load_response()
+  MatXd inertial_multipliers_;                           // for 1 N of each inertial tension
   std::optional<MaximalJacobian> jacobian_;
   std::vector<double> jacobian_rate_;
   double before_projection_ = 0.0;

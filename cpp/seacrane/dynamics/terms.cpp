@@ -19,6 +19,7 @@ Terms::Terms(std::shared_ptr<const Model> model)
     : model_(std::move(model)),
       first_load_state_(model_->layout.loads - model_->layout.memory),
       slots_(idx(model_->slot_count), 0.0),
+      inertial_(VecXd::Zero(model_->inertial_tensions)),
       histories_(*model_) {
   const Model& m = *model_;
   const auto bodies = idx(m.body_count());
@@ -129,6 +130,7 @@ void Terms::apply_waves(double t, const double* memory, LoadSum<double>& sum) {
 void Terms::evaluate_wrenches(double t, const double* memory, double* memory_rate) {
   const Model& m = *model_;
   for (auto& w : wrench_) w = BodyLoad<double>();
+  inertial_.setZero();
   const LoadInput<double> input = load_input(t, memory);
   LoadSum<double> sum{wrench_.data(), memory_rate + first_load_state_};
   for (const auto& load : m.gravity) load.apply<double>(input, sum);
@@ -138,6 +140,16 @@ void Terms::evaluate_wrenches(double t, const double* memory, double* memory_rat
   apply_hydrodynamics(input, memory, memory_rate, sum);
   apply_waves(t, memory, sum);
   power_ = {sum.power, sum.absolute_power};
+}
+
+void Terms::add_inertial(const VecXd& tension, const VecXd& winding, const std::vector<Vec6d>& load) {
+  inertial_ = tension;
+  for (std::size_t b = 0; b < load.size(); ++b) {
+    wrench_[b].force += load[b].head<3>();
+    wrench_[b].moment += load[b].tail<3>();
+    load_[b] += load[b];
+  }
+  for (Eigen::Index i = 0; i < tension.size(); ++i) power_.add(winding[i] * tension[i]);
 }
 
 void Terms::evaluate_loads(double t, const double* y, double* ydot) {

@@ -74,11 +74,14 @@ class Terms {
   Vec3d wave_pose(const WaveLoad& wave, const double* memory) const;
   /// What loads look at; `memory`: the memory part of a state.
   LoadInput<double> load_input(double t, const double* memory) const {
-    return {t, curve_limit_, bodies_.data(), slots_.data(), memory + first_load_state_};
+    return {t, curve_limit_, bodies_.data(), slots_.data(), memory + first_load_state_, inertial_.data()};
   }
   /// Of the loads without potential, drivers included.
   const Power& power() const { return power_; }
   void add_driver_power(double power) { power_.add(power); }
+  /// Tensions that have been solved for with the accelerations, what each newton of them takes from a winch,
+  /// and what they put on the bodies.
+  void add_inertial(const VecXd& tension, const VecXd& winding, const std::vector<Vec6d>& load);
 
  private:
   /// The first load that is not finite at (t, y), by name and value; empty: all are. Evaluates them one by
@@ -93,6 +96,7 @@ class Terms {
   std::shared_ptr<const Model> model_;
   int first_load_state_;  // in the memory part of a state
   std::vector<double> slots_;
+  VecXd inertial_;  // tensions; zero until they are solved for
   double curve_limit_ = std::numeric_limits<double>::infinity();
   VesselHistories histories_;
   std::vector<BodyKinematics<double>> bodies_;

@@ -93,6 +93,7 @@ struct Model {
   std::vector<InputModel> inputs;      // in the order of their slots
   std::vector<LoadState> load_states;  // in their order in the state
   int slot_count = 0;
+  int inertial_tensions = 0;  // places of them
   StateLayout layout;
   double translation_scale = 0.0, rotation_scale = 0.0;  // typical magnitudes, m and rad, rates alike
   std::vector<double> scale;  // typical magnitude per state component; infinity: not in the error norm

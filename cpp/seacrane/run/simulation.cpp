@@ -123,7 +123,11 @@ void Simulation::reset_integrator() {
 /// Takes a step that crossed a kink of a load again, up to the crossing: what was stepped has seen both
 /// sides. Methods that lose much by a reset are left to their step control: they would lose it twice.
 bool Simulation::retake_to_switch() {
-  if (!switches_ || integrator().steps_lost_by_reset() > 0.0) return false;
+  if (!switches_) return false;
+  if (integrator().steps_lost_by_reset() > 0.0) {
+    switches_->watch(stepper(), time(), integrator().state());
+    return false;
+  }
   const std::optional<double> found = switches_->find(stepper());
   if (!found) return false;
   switch_at_ = *found;

@@ -6,6 +6,7 @@
 
 #include "seacrane/dynamics/recursive/body_tree.hpp"
 #include "seacrane/elements/check.hpp"
+#include "seacrane/integrate/registry.hpp"
 #include "seacrane/run/run_options.hpp"
 
 namespace seacrane {
@@ -43,7 +44,13 @@ Stepper::Stepper(std::shared_ptr<const Model> of, const RunOptions& options)
       system(bodies.described()),
       stepped(bodies.formulation()),
       loads(bodies.terms()) {
-  if (options.formulation == "redundant") residual.emplace(*bodies.maximal());
+  const bool inertial = model->inertial_tensions > 0;
+  if (options.formulation == "redundant" && !inertial) residual.emplace(*bodies.maximal());
+  if (inertial && integrator_of(options.integrator).residual_form) {
+    throw std::invalid_argument("integrator \"" + options.integrator +
+                                "\" has no accelerations for lines with stretch 'quasi-static'; choose "
+                                "another one, or stretch 'elastic'");
+  }
   integrator = make_integrator({stepped, &stepped.positions(), residual ? &*residual : nullptr},
                                integrator_options(stepped, options));
 }

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
+#include <string>
 
 #include "seacrane/elements/loads/registry.hpp"
 
@@ -53,13 +55,28 @@ double Switches::across(const Stepper& at, const LoadInput<double>& in, std::siz
   return out;
 }
 
-void Switches::watch(Stepper& at, double t, const double* y) { find_sides(at, t, y, before_); }
+void Switches::refuse(const Stepper& at, double t, const std::vector<int>& sides) const {
+  std::size_t i = 0;
+  for_each_switch(*at.model, [&](const auto& load) {
+    const int side = sides[i++];
+    if constexpr (requires { load.refused(side); }) {
+      const std::string why = load.refused(side);
+      if (!why.empty()) throw std::domain_error(why + ", at t = " + to_text(t) + " s");
+    }
+  });
+}
+
+void Switches::watch(Stepper& at, double t, const double* y) {
+  find_sides(at, t, y, before_);
+  refuse(at, t, before_);
+}
 
 std::optional<double> Switches::find(Stepper& at) {
   Integrator& integrator = *at.integrator;
   find_sides(at, integrator.time(), integrator.state(), after_);
   const double start = integrator.previous_time(), end = integrator.time(),
                margin = std::max(kAtEnd * (end - start), 100.0 * smallest_step(end));
+  refuse(at, end, after_);
   std::optional<double> first;
   for (std::size_t i = 0; i < after_.size(); ++i) {
     if (after_[i] == before_[i]) continue;

@@ -67,7 +67,7 @@ def drive(
     if not run.interrupted:
         last = run.last_state()
         states = [run.start] if last is None else [run.start, last]
-        run.slow = stiffness(run.model, list(run.scene.bodies), states, run.stats())
+        run.slow = stiffness(run.model, list(run.scene.bodies), run.scene.loads, states, run.stats())
 
 
 @contextlib.contextmanager

@@ -10,11 +10,13 @@ import numpy as np
 from seacrane import _core
 from seacrane._core import integrator as integrator_of
 from seacrane.analysis.linearise import LARGEST, jacobian
+from seacrane.description.loads import lines_of
 from seacrane.validity.range import Finding
 
 MANY_STEPS = 10_000  # fewer are no matter
 STATES_SQUARED_PER_STEP = 5.0  # so many steps cost ten times the eigenvalues of so many states
 NEAR_THE_LIMIT = 1.0  # |eigenvalue| times step; explicit methods stay stable up to 2 to 6
+SETTLES = 3.0  # |eigenvalue| times settling time: a quasi-static stretch is slower than the mode
 UNSEEN = 20.0  # |eigenvalue| times output interval: three periods between two outputs
 
 
@@ -23,7 +25,11 @@ class StiffWarning(UserWarning):
 
 
 def stiffness(
-    model: _core.Model, bodies: list[str], states: list[_core.State], stats: Mapping[str, Any]
+    model: _core.Model,
+    bodies: list[str],
+    loads: Mapping[str, Any],
+    states: list[_core.State],
+    stats: Mapping[str, Any],
 ) -> list[Finding]:
     """The mode that sets the steps of a slow run, looked for only where there are many steps.
 
@@ -32,6 +38,8 @@ def stiffness(
     model : Model
     bodies : list of str
         Their names, in the order of the model.
+    loads : mapping
+        Of the scene, by name.
     states : list of State
         Where to look; the fastest mode of them counts.
     stats : mapping
@@ -53,9 +61,26 @@ def stiffness(
             f"run: {integrator} took {steps} steps of {step:.2g} s on average, about the longest with which "
             f"it is stable: the fastest mode, {mode:.4g} per s at t = {at:.6g} s, moves body {body!r} most, "
             "far faster than the outputs show. Soften the gain, spring or stop that holds that body, or take "
-            "integrator='rosenbrock' or 'cvode-bdf', whose steps it does not limit",
+            "integrator='rosenbrock' or 'cvode-bdf', whose steps it does not limit"
+            + _taut_lines(loads, body, mode),
         )
     ]
+
+
+def _taut_lines(loads: Mapping[str, Any], body: str, mode: float) -> str:
+    """The rung that takes the mode, where it may be that of an elastic line on the body."""
+    names = [
+        repr(name)
+        for name, line in lines_of(loads).items()
+        if line.stretch == "elastic" and body in line.bodies and mode * line.settling > SETTLES
+    ]
+    if not names:
+        return ""
+    return (
+        f". If it is the stretch of line {' or '.join(names)} and the line stays taut, give it "
+        "stretch='quasi-static': with an explicit method it then costs what a soft line does. For motion of "
+        f"omega rad/s the tension errs by less than (omega / {mode:.4g})^2 of what omega makes of it"
+    )
 
 
 def _fastest(model: _core.Model, bodies: list[str], state: _core.State) -> tuple[float, str]:

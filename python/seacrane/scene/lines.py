@@ -26,6 +26,8 @@ def add_line(
     length: _core.Curve | float,
     damping_ratio: float = 0.02,
     mass: float = 0.0,
+    stretch: str = "elastic",
+    settling: float = 0.2,
 ) -> _core.Line:
     """An elastic line without mass from point to point, through which it runs without friction.
 
@@ -48,6 +50,11 @@ def add_line(
     mass : float
         kg; default (0): that of the path's last body, the ground left aside. Of a load on n falls, its mass
         over n^2.
+    stretch : {"elastic", "quasi-static"}
+        Quasi-static: the stretch follows the tension within `settling`, so that a stiff line costs no more
+        than a soft one. It must stay taut. See docs/lines.md.
+    settling : float
+        s, of a quasi-static stretch: no mode of the line is faster than 1 / settling.
 
     Returns
     -------
@@ -67,6 +74,8 @@ def add_line(
         length=length,
         damping_ratio=damping_ratio,
         mass=mass,
+        stretch=stretch,
+        settling=settling,
     )
     added: _core.Line = add_load(scene, line)
     return added

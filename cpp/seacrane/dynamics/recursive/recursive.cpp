@@ -51,6 +51,7 @@ RecursiveSystem::RecursiveSystem(std::shared_ptr<Terms> terms)
       tree_(build_tree(model_)),
       articulated_(tree_, model_.body_count()),
       loops_(model_, tree_),
+      tensions_(model_),
       residual_(VecXd::Zero(loops_.rows())),
       loop_bias_(VecXd::Zero(loops_.rows())) {
   if (model_.paper_kinematics) {
@@ -71,6 +72,7 @@ RecursiveSystem::RecursiveSystem(std::shared_ptr<Terms> terms)
   blocks_.resize(model_.elements.size());
   speed_rate_.assign(idx(tree_.speeds), 0.0);
   position_rate_.assign(idx(tree_.positions), 0.0);
+  inertial_speed_rates_ = MatXd::Zero(tree_.speeds, tensions_.count());
   layout_.speeds = tree_.positions;
   layout_.memory = layout_.speeds + tree_.speeds;
   layout_.work = layout_.memory + model_.layout.work - model_.layout.memory;
@@ -110,18 +112,38 @@ void RecursiveSystem::derivative(double t, const double* y, double* ydot) {
   terms_->follow_yaw();
   factor(t);
   terms_->evaluate_wrenches(t, y + layout_.memory, ydot + layout_.memory);
-  for (int b = 0; b < model_.body_count(); ++b) load_[idx(b)] = terms_->wrench(b) - bias_[idx(b)];
-  articulated_.solve(load_.data(), true, acceleration_.data(), ydot + layout_.speeds);
-  if (loops_.rows() > 0) {
-    loops_.acceleration_residual(blocks_.data(), acceleration_.data(), residual_);
-    const VecXd& lambda = loops_.solve(residual_);
-    loops_.add_load(blocks_.data(), lambda, load_.data());
-    articulated_.solve(load_.data(), true, acceleration_.data(), ydot + layout_.speeds);
-    loops_.add_driver_power(blocks_.data(), lambda, *terms_);
-  }
+  solve_acceleration(ydot + layout_.speeds);
+  if (tensions_.any()) add_inertial_tensions(t, y + layout_.memory, ydot + layout_.speeds);
+  if (loops_.rows() > 0) loops_.add_driver_power(blocks_.data(), loops_.multipliers(), *terms_);
   articulated_.kinematics().position_rates(y, y + layout_.speeds, terms_->bodies().data(), ydot);
   ydot[layout_.work] = terms_->power().sum;
   ydot[layout_.work + 1] = terms_->power().absolute;
+}
+
+/// Under the wrenches of the terms.
+void RecursiveSystem::solve_acceleration(double* u_rate) {
+  for (int b = 0; b < model_.body_count(); ++b) load_[idx(b)] = terms_->wrench(b) - bias_[idx(b)];
+  articulated_.solve(load_.data(), true, acceleration_.data(), u_rate);
+  if (loops_.rows() == 0) return;
+  loops_.acceleration_residual(blocks_.data(), acceleration_.data(), residual_);
+  loops_.add_load(blocks_.data(), loops_.solve(residual_), load_.data());
+  articulated_.solve(load_.data(), true, acceleration_.data(), u_rate);
+}
+
+void RecursiveSystem::add_inertial_tensions(double t, const double* memory, double* u_rate) {
+  tensions_.start(*terms_, t, memory, acceleration_.data());
+  for (Eigen::Index i = 0; i < tensions_.count(); ++i) {
+    load_response(tensions_.unit(i), tensions_.response(i));
+    inertial_speed_rates_.col(i) = Eigen::Map<const VecXd>(speed_rate_.data(), tree_.speeds);
+  }
+  const VecXd& tension = tensions_.finish(*terms_);
+  if (loops_.rows() > 0) {  // whose multipliers the responses have overwritten
+    solve_acceleration(u_rate);
+    return;
+  }
+  tensions_.add_loads(tension, load_.data());
+  tensions_.add_accelerations(acceleration_);
+  Eigen::Map<VecXd>(u_rate, tree_.speeds).noalias() += inertial_speed_rates_ * tension;
 }
 
 bool RecursiveSystem::jacobian(double t, const double* y, double* out) {
@@ -132,7 +154,7 @@ bool RecursiveSystem::jacobian(double t, const double* y, double* out) {
   derivative(t, y, jacobian_rate_.data());
   if (!loops_.regular()) return false;
   jacobian_->evaluate(
-      {*terms_, articulated_, loops_, mass_.data(), load_.data(), acceleration_.data(), blocks_.data()}, t, y,
+      {*terms_, articulated_, loops_, tensions_, mass_.data(), load_.data(), acceleration_.data(), blocks_.data()}, t, y,
       jacobian_rate_.data(), out);
   return true;
 }

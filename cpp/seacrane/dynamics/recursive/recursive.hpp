@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "seacrane/dynamics/formulation.hpp"
+#include "seacrane/dynamics/inertial_tensions.hpp"
 #include "seacrane/dynamics/recursive/recursive_jacobian.hpp"
 #include "seacrane/dynamics/terms.hpp"
 
@@ -54,6 +55,8 @@ class RecursiveSystem final : public Formulation, public PositionMap {
   void place(const double* y);
   void evaluate_inertia();
   void factor(double t);
+  void solve_acceleration(double* u_rate);
+  void add_inertial_tensions(double t, const double* memory, double* u_rate);
   void move_positions(double* y, const Vec6d* velocities);
   void twists_here();
   template <class F>
@@ -65,12 +68,14 @@ class RecursiveSystem final : public Formulation, public PositionMap {
   BodyTree tree_;
   ArticulatedTree<double> articulated_;
   LoopClosure loops_;
+  InertialTensions tensions_;
   Layout layout_;
   std::vector<Mat6d> mass_;
   std::vector<Vec6d> bias_, load_, acceleration_, twist_;
   std::vector<BodyKinematics<double>> scratch_;
   std::vector<RowBlock<double>> blocks_;
   std::vector<double> speed_rate_, position_rate_;
+  MatXd inertial_speed_rates_;  // for 1 N of each inertial tension
   VecXd residual_, loop_bias_;
   std::optional<RecursiveJacobian> jacobian_;
   std::vector<double> jacobian_rate_;

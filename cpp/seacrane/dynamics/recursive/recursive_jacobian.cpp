@@ -23,7 +23,9 @@ RecursiveJacobian::RecursiveJacobian(const Model& model, const BodyTree& tree)
       change_(bodies_.size()),
       torque_(tree.clusters.size()),
       load_(bodies_.size(), Vec6d::Zero()),
-      response_(load_) {
+      response_(load_),
+      given_load_(load_),
+      own_(VecXd::Zero(model.inertial_tensions)) {
   for (int e : tree.loops) {
     for (int r = 0; r < model.elements[idx(e)].rows; ++r) rows_.emplace_back(e, r);
   }
@@ -31,6 +33,7 @@ RecursiveJacobian::RecursiveJacobian(const Model& model, const BodyTree& tree)
   for (const Vessel& vessel : model.vessels) fluid_.emplace_back(vessel.memory_states(), kDirections);
   state_over_.assign(idx(model.body_count()),
                      Rates::Zero(static_cast<Eigen::Index>(model.load_states.size()), kDirections));
+  inertial_over_.assign(idx(model.body_count()), Rates::Zero(model.inertial_tensions, kDirections));
   to_fluid_.resize(tree.positions + tree.speeds + states_ + 2, 6);
 }
 
@@ -73,6 +76,9 @@ void RecursiveJacobian::differentiate_bodies(double t, const double* y) {
     absolute_power_[idx(b)] = slopes(residual_.sum().absolute_power);
     for (std::size_t i = 0; i < m.load_states.size(); ++i) {
       state_over_[idx(b)].row(static_cast<Eigen::Index>(i)) = slopes(residual_.state_rates()[i]);
+    }
+    for (Eigen::Index i = 0; i < own_.size(); ++i) {
+      inertial_over_[idx(b)].row(i) = slopes(residual_.inertial_tensions()[idx(i)]);
     }
     const int v = m.bodies[idx(b)].vessel;
     if (v < 0) continue;
@@ -207,6 +213,7 @@ void RecursiveJacobian::write_column(int k, double* column) {
     power += power_[idx(b)].dot(motion_[idx(b)].col(k));
     absolute_power += absolute_power_[idx(b)].dot(motion_[idx(b)].col(k));
   }
+  add_inertial_slopes(k);
   solve(column, power, absolute_power);
   double* fluid = column + tree_.positions + tree_.speeds;
   for (std::size_t v = 0; v < m.vessels.size(); ++v) {
@@ -217,6 +224,18 @@ void RecursiveJacobian::write_column(int k, double* column) {
   Eigen::Map<VecXd> of_loads(fluid + m.layout.loads - m.layout.memory,
                              static_cast<Eigen::Index>(m.load_states.size()));
   for (int b = 0; b < m.body_count(); ++b) of_loads.noalias() += state_over_[idx(b)] * motion_[idx(b)].col(k);
+}
+
+/// own_: by the bodies' directions, and by how their accelerations turn while rates of speeds are held.
+void RecursiveJacobian::add_inertial_slopes(int k) {
+  if (own_.size() == 0) return;
+  own_.setZero();
+  for (int b = 0; b < model_->body_count(); ++b) {
+    own_.noalias() += inertial_over_[idx(b)] * motion_[idx(b)].col(k);
+    const Vec6<Scalar>& a = acceleration_[idx(b)].vector();
+    for (int i = 0; i < 6; ++i) response_[idx(b)][i] = a[i].slope[idx(k)];
+  }
+  for (Eigen::Index i = 0; i < own_.size(); ++i) own_[i] += at_->tensions.along(i, response_.data());
 }
 
 void RecursiveJacobian::write_state_columns(double* out) {
@@ -230,23 +249,41 @@ void RecursiveJacobian::write_state_columns(double* out) {
     for (int touched : residual_.touched()) load_[idx(touched)] = residual_.load(touched).col(k);
     load_.back().setZero();
     right_.setZero();
+    write_slopes(residual_.inertial_tensions(), k, own_.data());
     double* const column = out + idx(n) * idx(first + i);
     solve(column, residual_.sum().power.slope[idx(k)], residual_.sum().absolute_power.slope[idx(k)]);
     write_slopes(residual_.state_rates(), k, column + first);
   }
 }
 
-/// Rates of the speeds and the work under load_ and right_, which it may overwrite.
+/// response_ and rates of the speeds under load_ and right_, which it overwrites.
+void RecursiveJacobian::respond(double* u_rate) {
+  at_->tree.solve(load_.data(), false, response_.data(), u_rate);
+  if (rows_.empty()) return;
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    right_[static_cast<Eigen::Index>(i)] -= along_row(static_cast<int>(i), response_.data());
+  }
+  lambda_ = at_->loops.solve(right_);
+  at_->loops.add_load(at_->blocks, lambda_, load_.data());
+  at_->tree.solve(load_.data(), false, response_.data(), u_rate);
+}
+
+/// Rates of the speeds and the work under load_, right_ and own_, which it may overwrite.
 void RecursiveJacobian::solve(double* column, double power, double absolute_power) {
   double* const u_rate = column + tree_.positions;
-  at_->tree.solve(load_.data(), false, response_.data(), u_rate);
+  if (at_->tensions.any()) {
+    given_load_ = load_;
+    given_right_ = right_;
+    respond(u_rate);
+    const VecXd& change = at_->tensions.change(own_, response_.data());
+    at_->tensions.add_loads(change, given_load_.data());
+    power += at_->tensions.power(change);
+    absolute_power += at_->tensions.absolute_power(change);
+    load_ = given_load_;
+    right_ = given_right_;
+  }
+  respond(u_rate);
   if (!rows_.empty()) {
-    for (std::size_t i = 0; i < rows_.size(); ++i) {
-      right_[static_cast<Eigen::Index>(i)] -= along_row(static_cast<int>(i), response_.data());
-    }
-    lambda_ = at_->loops.solve(right_);
-    at_->loops.add_load(at_->blocks, lambda_, load_.data());
-    at_->tree.solve(load_.data(), false, response_.data(), u_rate);
     for (std::size_t i = 0; i < rows_.size(); ++i) {
       const ElementModel& element = model_->elements[idx(rows_[i].first)];
       if (!element.driver) continue;
@@ -279,6 +316,7 @@ void RecursiveJacobian::write_memory_columns(const double* y, double* out) {
     const YawFrame<double>& frame = at_->terms.frames()[v];
     const double direction = memory_power_sign(vessel, frame, y + at, to_fluid_.col(0).data());
     to_fluid_.setZero();
+    own_.setZero();
     for (int i = 0; i < 6; ++i) {
       right_.setZero();
       for (auto& load : load_) load.setZero();

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "seacrane/dynamics/body_residual.hpp"
+#include "seacrane/dynamics/inertial_tensions.hpp"
 #include "seacrane/dynamics/jacobian.hpp"
 #include "seacrane/dynamics/recursive/loop_closure.hpp"
 
@@ -13,6 +14,7 @@ struct TreeEvaluation {
   const Terms& terms;
   ArticulatedTree<double>& tree;
   LoopClosure& loops;
+  InertialTensions& tensions;
   const Mat6d* mass;               // by body
   const Vec6d* load;               // by body: wrench less velocity terms, multipliers of loops included
   const Vec6d* acceleration;       // by body
@@ -59,6 +61,8 @@ class RecursiveJacobian {
   void gather();
   void write_column(int k, double* column);
   void solve(double* column, double power, double absolute_power);
+  void respond(double* u_rate);
+  void add_inertial_slopes(int direction);
   void write_memory_columns(const double* y, double* out);
   void write_state_columns(double* out);
   double along_row(int row, const Vec6d* acceleration) const;
@@ -88,8 +92,11 @@ class RecursiveJacobian {
   std::vector<BodyResidual::Slopes> change_;  // of p, by body
   std::vector<Eigen::Matrix<double, 6, kDirections>> torque_;  // dg, by cluster
 
-  std::vector<Vec6d> load_, response_;
-  VecXd right_, lambda_;
+  std::vector<Rates> inertial_over_;  // inertial tensions with accelerations held, by body
+
+  std::vector<Vec6d> load_, response_, given_load_;
+  VecXd right_, lambda_, given_right_;
+  VecXd own_;  // changes of inertial tensions with accelerations held
   MatXd to_fluid_;  // responses to unit loads of the memory
 };
 

@@ -13,6 +13,8 @@
 
 namespace seacrane {
 
+inline constexpr const char* kQuasiStatic = "quasi-static";
+
 struct LineDescription {
   std::string name;
   std::vector<std::string> bodies;
@@ -20,6 +22,8 @@ struct LineDescription {
   double stiffness = 0.0;
   Curve length;
   double damping_ratio = 0.02, mass = 0.0;
+  std::string stretch = "elastic";
+  double settling = 0.2;
   bool winch = false;
   Curve rate;
   double maximum_rate = kFarthest, maximum_acceleration = kFarthest, lag = 0.0;
@@ -37,6 +41,8 @@ struct LineDescription {
         required("length", &D::length, "m", "unstretched; with a winch, at the start"),
         optional("damping_ratio", &D::damping_ratio, "", "of critical damping of `mass` on the line"),
         optional("mass", &D::mass, "kg", "that moves with the line's end; 0: that of the path's last body"),
+        optional("stretch", &D::stretch, "", "'elastic', or 'quasi-static': then it follows the tension"),
+        optional("settling", &D::settling, "s", "in which a quasi-static stretch follows"),
         optional("winch", &D::winch, "", "whether the length is a state that `rate` drives"),
         optional("rate", &D::rate, "m/s", "commanded, positive: pays out"),
         optional("maximum_rate", &D::maximum_rate, "m/s", "of the winch; at 1e7 there is none"),
@@ -54,6 +60,14 @@ struct LineDescription {
 /// l0 is given over time, or it is a state of the winch, l0' = r. Its rate r is the command within its
 /// bounds; with a lag it is a state too, from rest, r' = (command - r) / lag within bounds. The rope carries
 /// its strain energy T e / 2 for each metre of l0 onto the drum.
+///
+/// A quasi-static stretch follows the tension within a settling time s, whatever EA and the load's mass are:
+///
+///   T = EA (e + s (e' - w) + s^2 e'') + c l0 e',   w' = (e' - w) / s,
+///
+/// so that no mode is faster than 1 / s. Of slow motion p = d/dt the strain is T / EA but for 2 s^2 p^2, and
+/// what is dissipated beside c, s^3 p^3. The part with e'' is an inertial tension: it depends on the
+/// accelerations of the bodies, and is solved for with them (InertialTensions). Its store is EA s^2 e'^2 l0 / 2.
 struct Line {
   static constexpr const char* kind = "line";
   using Description = LineDescription;
@@ -66,28 +80,37 @@ struct Line {
   template <class T>
   struct Motion {
     T length, rate, unstretched, unstretched_rate, elastic, tension;
+    T inertial, kinetic;  // N: of a quasi-static stretch, in the tension; stored for each metre
     T stretch() const { return length - unstretched; }
-    /// Into the line, of the winch and of what changes the length over time.
+    /// Rate of the stretch that strain alone would make: e' l0.
+    T straining() const { return rate - unstretched_rate * length / unstretched; }
+    T damping() const { return tension - elastic - inertial; }
+    /// Into the line, of the winch and of what changes the length over time, but for the inertial tension.
     T winch_power() const {
       const T strain = select(elastic > T(0), stretch() / unstretched, T(0));
-      const T carried = elastic * (T(1) + 0.5 * strain) + (tension - elastic) * length / unstretched;
+      const T carried = elastic * (T(1) + 0.5 * strain) + damping() * length / unstretched - kinetic;
       return -carried * unstretched_rate;
     }
-    T damping_power() const {
-      return -(tension - elastic) * (rate - unstretched_rate * length / unstretched);
-    }
+    /// The same of an inertial tension of 1 N.
+    T winch_power_per_inertial() const { return -length / unstretched * unstretched_rate; }
+    T damping_power() const { return -damping() * straining(); }
   };
 
+  std::string name;
   std::vector<Point> path;
   std::vector<int> on;  // bodies of the path, each once, the last of the path last
   double stiffness = 0.0;
   Curve length;
-  double viscous = 0.0;  // c sqrt(l0)
+  double viscous = 0.0;         // c sqrt(l0)
+  double settling = 0.0;        // s, of a quasi-static stretch; else zero
+  int settled = 0;              // w among the states
+  int place = 0;                // among the inertial tensions
+  double hung = 0.0;            // mass, kg
   bool winch = false;
   Curve command;
   double maximum_rate = 0.0, maximum_acceleration = 0.0, lag = 0.0, minimum_length = 0.0;
   int slot = 0;       // of the rate that is added to the command
-  StateRange states;  // length, rate; the second with a lag only
+  StateRange states;  // of a winch length, and rate with a lag; of a quasi-static stretch w
 
   static void check(const Description& d, const Check& c, SceneNames& names) {
     check_path(d, c, names);
@@ -104,6 +127,7 @@ struct Line {
     }
     c.not_negative("damping_ratio", d.damping_ratio);
     c.not_negative("mass", d.mass);
+    check_stretch(d, c);
     if (d.winch) {
       check_winch(d, c, names);
     } else if (d.rate.at(0.0).value != 0.0 || d.rate.pieces().size() > 1 || d.lag != 0.0) {
@@ -130,6 +154,7 @@ struct Line {
   template <class Context>
   static Line compile(const Description& d, Context& context) {
     Line line;
+    line.name = d.name;
     for (std::size_t i = 0; i < d.points.size(); ++i) {
       const Attachment at = context.attach(d.bodies[i], d.points[i]);
       line.path.push_back({at.body, at.point});
@@ -139,28 +164,19 @@ struct Line {
     line.on.push_back(line.path.back().body);
     line.stiffness = d.stiffness;
     line.length = d.length;
-    line.viscous = 2.0 * d.damping_ratio * std::sqrt(d.stiffness * hung_mass(d, context));
-    if (!d.winch) return line;
-    line.winch = true;
-    line.command = d.rate;
-    line.maximum_rate = d.maximum_rate;
-    line.maximum_acceleration = d.maximum_acceleration;
-    line.lag = d.lag;
-    line.minimum_length = d.minimum_length;
-    line.slot = context.input(d.name + ".rate");
-    const double start = d.length.at(0.0).value, scale = context.length_scale();
-    line.states = {context.state({d.name + ".length", "m", start, scale}), 1};
-    if (d.lag > 0.0) {
-      context.state({d.name + ".rate", "m/s", 0.0, scale});
-      line.states.count = 2;
-    }
+    line.hung = hung_mass(d, context);
+    line.viscous = 2.0 * d.damping_ratio * std::sqrt(d.stiffness * line.hung);
+    if (d.winch) line.wind(d, context);
+    if (d.stretch == kQuasiStatic) line.settle(d, context);
     return line;
   }
 
   const std::vector<int>& bodies() const { return on; }
 
+  bool quasi_static() const { return settling > 0.0; }
+
   /// Jumps of the tension, with the stretch left out: of what drives l0, once for c, and once more often
-  /// integrated for EA.
+  /// integrated for EA, once less for an inertial tension.
   std::vector<LoadKinks> kinks() const {
     const int later = winch ? (lag > 0.0 ? 2 : 1) : 0;  // integrations from the curve to l0
     const double share = winch && lag > 0.0 ? 1.0 / lag : 1.0;
@@ -175,7 +191,8 @@ struct Line {
         }
       };
       add(later, share * stiffness / l0);
-      add(later - 1, share * viscous / std::sqrt(l0));
+      add(later - 1, share * (damper(l0) + stiffness * settling / l0));
+      if (quasi_static()) add(later - 2, share * hung / (1.0 + hung * l0 / strain_inertia()));
     }
     return {out};
   }
@@ -185,6 +202,14 @@ struct Line {
       wrenches[s.first] += (Vec6d() << s.along, s.lever_first.cross(s.along)).finished();
       wrenches[s.second] -= (Vec6d() << s.along, s.lever_second.cross(s.along)).finished();
     });
+  }
+
+  /// Why a run cannot go on at a side; empty: it can.
+  std::string refused(int at) const {
+    const std::string what = "line '" + name + "': its stretch is quasi-static, and it ";
+    if (!quasi_static() || at == kTaut) return "";
+    if (at & 1) return what + "has hauled in to its minimum_length; give a smaller one, or stretch 'elastic'";
+    return what + "goes slack; give it stretch 'elastic', which snatches";
   }
 
   static bool has_sides() { return true; }
@@ -209,11 +234,37 @@ struct Line {
     const CurveValue given = length.at(in.time, in.curve_limit);
     out.unstretched = winch ? in.states[states.first] : T(given.value);
     out.unstretched_rate = winch ? drum_rate(in) : T(given.rate);
+    if (quasi_static()) {  // taut, or refused
+      const T strain_rate = out.straining() / out.unstretched;
+      out.inertial = T(in.inertial[place]);
+      out.kinetic = 0.5 * strain_inertia() * strain_rate * strain_rate;
+      out.elastic = elastic_pull(out);
+      const T unsettled = strain_rate - in.states[settled];
+      out.tension = unbounded_pull(out) + stiffness * settling * unsettled + out.inertial;
+      return out;
+    }
     out.elastic = select(out.stretch() > T(0), elastic_pull(out), T(0));
     const T sum = unbounded_pull(out);
     out.tension = select(sum > T(0), sum, T(0));
     return out;
   }
+
+  /// EA s^2 e'' of a quasi-static stretch in this motion, for these accelerations of the bodies.
+  template <class T>
+  T inertial_tension(const LoadInput<T>& in, const Motion<T>& now, const Vec6d* acceleration) const {
+    T bend(0);  // l''
+    for_each_span<T>(in, [&](const Span<T>& s) {
+      const Vec3<T> apart = point_acceleration<T>(in, s.second, s.lever_second, acceleration) -
+                            point_acceleration<T>(in, s.first, s.lever_first, acceleration);
+      bend += s.along.dot(apart) + s.swing;
+    });
+    const T strain_rate = now.straining() / now.unstretched;
+    const T driven = 2.0 * now.unstretched_rate * strain_rate +
+                     now.length / now.unstretched * unstretched_acceleration(in);
+    return strain_inertia() * (bend - driven) / now.unstretched;
+  }
+  /// By how much that falls for each m/s2 by which the path shortens faster.
+  double inertial_mass(const Motion<double>& now) const { return strain_inertia() / now.unstretched; }
 
   template <class T>
   void apply(const LoadInput<T>& in, LoadSum<T>& out) const {
@@ -226,6 +277,10 @@ struct Line {
     });
     out.add_power(now.damping_power());
     out.add_power(now.winch_power());
+    if (quasi_static()) {
+      out.add_power(now.winch_power_per_inertial() * now.inertial);
+      out.state_rates[settled] = (now.straining() / now.unstretched - in.states[settled]) / T(settling);
+    }
     if (!winch) return;
     out.state_rates[states.first] = now.unstretched_rate;
     if (lag > 0.0) out.state_rates[states.first + 1] = acceleration(in);
@@ -233,15 +288,18 @@ struct Line {
 
   double potential(const LoadInput<double>& in) const {
     const Motion<double> now = motion(in);
-    return 0.5 * now.elastic * std::max(now.stretch(), 0.0);
+    return 0.5 * now.elastic * std::max(now.stretch(), 0.0) + now.kinetic * now.unstretched;
   }
 
  private:
+  static constexpr int kTaut = 1 + 2 + 4;
+  static constexpr double kJump = 1e-9;  // m and m/s
+
   template <class T>
   struct Span {
     int first, second;
     Vec3<T> lever_first, lever_second, along;  // along: from the first to the second
-    T length, rate;
+    T length, rate, swing;  // swing: of the second rate, what turning makes
   };
 
   static void check_path(const Description& d, const Check& c, SceneNames& names) {
@@ -259,6 +317,23 @@ struct Line {
     const auto other = [&](const std::string& name) { return name != d.bodies.front(); };
     if (std::none_of(d.bodies.begin(), d.bodies.end(), other)) {
       c.fail("has all its points on '" + d.bodies.front() + "', which it cannot move; name two bodies");
+    }
+  }
+
+  static void check_stretch(const Description& d, const Check& c) {
+    if (d.stretch != kQuasiStatic && d.stretch != "elastic") {
+      c.fail("stretch '" + d.stretch + "' is unknown; choose 'elastic' or 'quasi-static'");
+    }
+    c.finite("settling", d.settling);
+    if (!(d.settling > 0.0)) c.fail("settling is " + to_text(d.settling) + " s; it must be positive");
+    if (d.stretch != kQuasiStatic) return;
+    if (d.winch && d.lag == 0.0) {
+      c.fail("a quasi-static stretch needs a smooth length, and its winch has no lag; give one, such as 0.1 s");
+    }
+    for (const CurveKink& kink : d.length.kinks()) {
+      if (std::abs(kink.jump(0)) + std::abs(kink.jump(1)) <= kJump) continue;
+      c.fail("a quasi-static stretch needs a smooth length, and that given jumps at t = " +
+             to_text(kink.time) + " s, or its rate; smooth it, or choose stretch 'elastic'");
     }
   }
 
@@ -285,6 +360,34 @@ struct Line {
   }
 
   template <class Context>
+  void wind(const Description& d, Context& context) {
+    winch = true;
+    command = d.rate;
+    maximum_rate = d.maximum_rate;
+    maximum_acceleration = d.maximum_acceleration;
+    lag = d.lag;
+    minimum_length = d.minimum_length;
+    slot = context.input(d.name + ".rate");
+    const double start = d.length.at(0.0).value, scale = context.length_scale();
+    states = {context.state({d.name + ".length", "m", start, scale}), 1};
+    if (d.lag > 0.0) {
+      context.state({d.name + ".rate", "m/s", 0.0, scale});
+      states.count = 2;
+    }
+  }
+
+  template <class Context>
+  void settle(const Description& d, Context& context) {
+    settling = d.settling;
+    place = context.inertial_tension();
+    const double scale = context.length_scale() / d.length.at(0.0).value;
+    settled = context.state({d.name + ".strain_rate", "1/s", 0.0, scale});
+    if (states.count == 0) states.first = settled;
+    ++states.count;
+  }
+  double strain_inertia() const { return stiffness * settling * settling; }  // N s2
+
+  template <class Context>
   static double hung_mass(const Description& d, const Context& context) {
     const auto last = std::find_if(d.bodies.rbegin(), d.bodies.rend(),
                                    [](const std::string& name) { return name != kGround; });
@@ -296,7 +399,7 @@ struct Line {
   void for_each_span(const LoadInput<T>& in, F&& f) const {
     using std::sqrt;
     Span<T> s;
-    Vec3<T> from, from_rate;
+    Vec3<T> from = Vec3<T>::Zero(), from_rate = from;
     for (std::size_t i = 0; i < path.size(); ++i) {
       const BodyKinematics<T>& k = in.bodies[path[i].body];
       s.second = path[i].body;
@@ -310,6 +413,7 @@ struct Line {
         s.length = has_direction ? T(sqrt(square)) : T(0);
         s.along = has_direction ? Vec3<T>(d / s.length) : Vec3<T>(Vec3<T>::Zero());
         s.rate = s.along.dot(d_rate);
+        s.swing = has_direction ? T((d_rate.dot(d_rate) - s.rate * s.rate) / s.length) : T(0);
         f(s);
       }
       s.first = s.second;
@@ -325,13 +429,26 @@ struct Line {
   }
   template <class T>
   T unbounded_pull(const Motion<T>& m) const {
+    return elastic_pull(m) + damper(m.unstretched) * m.straining();
+  }
+  /// c at an unstretched length.
+  template <class T>
+  T damper(const T& l0) const {
     using std::sqrt;
-    const T closing = m.rate - m.unstretched_rate * m.length / m.unstretched;
-    return elastic_pull(m) + T(viscous) / T(sqrt(m.unstretched)) * closing;
+    return T(viscous) / T(sqrt(l0));
+  }
+  template <class T>
+  static Vec3<T> point_acceleration(const LoadInput<T>& in, int body, const Vec3<T>& lever,
+                                    const Vec6d* acceleration) {
+    const Vec3<T> omega = in.bodies[body].angular_velocity;
+    const Vec6<T> a = acceleration[body].template cast<T>();
+    const Vec3<T> linear = a.template head<3>(), angular = a.template tail<3>();
+    return linear + cross<T>(angular, lever) + cross<T>(omega, cross<T>(omega, lever));
   }
   std::array<double, 3> margins(const LoadInput<double>& in) const {
     const Motion<double> now = motion(in);
-    return {unbounded_pull(now), now.stretch(), winch ? in.states[states.first] - minimum_length : 1.0};
+    const double pull = quasi_static() ? now.stretch() : unbounded_pull(now);
+    return {pull, now.stretch(), winch ? in.states[states.first] - minimum_length : 1.0};
   }
 
   template <class T>
@@ -344,6 +461,10 @@ struct Line {
     const T rate = lag > 0.0 ? in.states[states.first + 1] : commanded(in);
     const bool at_end = in.states[states.first] < T(minimum_length) && rate < T(0);
     return select(at_end, T(0), rate);
+  }
+  template <class T>
+  T unstretched_acceleration(const LoadInput<T>& in) const {
+    return winch ? acceleration(in) : T(length.at(in.time, in.curve_limit).acceleration);
   }
   template <class T>
   T acceleration(const LoadInput<T>& in) const {

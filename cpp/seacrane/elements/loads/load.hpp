@@ -18,6 +18,7 @@ struct LoadInput {
   const BodyKinematics<T>* bodies;
   const double* slots;  // zero-order-held inputs
   const T* states;      // of all loads
+  const double* inertial = nullptr;  // tensions that follow from accelerations, see InertialTensions
 };
 
 /// A differential state that a load has of its own, which it asks its context for when it is compiled.

@@ -39,7 +39,7 @@ double length_of(Motion m) { return m.length; }
 double unstretched_of(Motion m) { return m.unstretched; }
 double stretch_of(Motion m) { return m.stretch(); }
 double pay_out_of(Motion m) { return m.unstretched_rate; }
-double winch_power_of(Motion m) { return m.winch_power(); }
+double winch_power_of(Motion m) { return m.winch_power() + m.winch_power_per_inertial() * m.inertial; }
 
 }  // namespace
 
@@ -54,6 +54,7 @@ std::vector<Channel> load_channels() {
        .axes = {&line},
        .unit = "N",
        .text = "tension of the line, the same along all of it",
+       .needs = {.solution = true},
        .write = write_lines<tension_of>},
       {.name = "line_length",
        .axes = {&line},
@@ -79,6 +80,7 @@ std::vector<Channel> load_channels() {
        .axes = {&line},
        .unit = "W",
        .text = "power of the winch, or of what changes the length, into the line",
+       .needs = {.solution = true},
        .write = write_lines<winch_power_of>},
   };
 }

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <Eigen/LU>
+#include <vector>
+
+#include "seacrane/model/model.hpp"
+
+namespace seacrane {
+
+struct Line;
+class Terms;
+
+/// Tensions of lines that depend on the accelerations of bodies, as Line says of a quasi-static stretch. With u
+/// the wrenches of 1 N in a line, m its inertial mass, a0 the accelerations without such tensions, and w =
+/// M^-1 u of the bodies as they are joined,
+///
+///   T_i + m_i sum_j (u_i . w_j) T_j = T_i(a0).
+class InertialTensions {
+ public:
+  explicit InertialTensions(const Model& model);
+  bool any() const { return !lines_.empty(); }
+  Eigen::Index count() const { return tension_.size(); }
+
+  // In this order, right after an evaluation without them.
+
+  /// With its accelerations, by body.
+  void start(const Terms& terms, double t, const double* memory, const Vec6d* acceleration);
+  /// u, and room for w, which is the caller's to find.
+  const std::vector<Vec6d>& unit(Eigen::Index line) const { return unit_[idx(line)]; }
+  std::vector<Vec6d>& response(Eigen::Index line) { return response_[idx(line)]; }
+  /// Solves for the tensions, and adds them to the loads of the terms.
+  const VecXd& finish(Terms& terms);
+  /// What they add to accelerations.
+  void add_accelerations(std::vector<Vec6d>& acceleration) const;
+
+  // What Jacobians need, at that evaluation.
+
+  /// How the tensions change where they change by `own` with accelerations held, and these by `acceleration`
+  /// with tensions held; by body.
+  const VecXd& change(const VecXd& own, const Vec6d* acceleration);
+  /// How those with given accelerations change with these.
+  double along(Eigen::Index line, const Vec6d* acceleration) const;
+  void add_loads(const VecXd& tension, Vec6d* load) const;
+  /// Power of the winches, and the sum of magnitudes, for changes of the tensions.
+  double power(const VecXd& change) const { return winding_.dot(change); }
+  double absolute_power(const VecXd& change) const;
+
+ private:
+  double dot(Eigen::Index line, const Vec6d* acceleration) const;
+
+  int bodies_;
+  std::vector<const Line*> lines_;
+  std::vector<std::vector<Vec6d>> unit_, response_;  // u and w, by place
+  std::vector<Vec6d> load_;
+  VecXd mass_, winding_, tension_, change_;
+  MatXd matrix_;
+  Eigen::PartialPivLU<MatXd> factors_;
+};
+
+}  // namespace seacrane
