@@ -64,9 +64,9 @@ def oldest_system(wheel: Path) -> tuple[int, int]:
         auditwheel finds no manylinux that the wheel fits.
     """
     command = [sys.executable, "-m", "auditwheel", "show", wheel]
-    said = subprocess.run(command, check=True, capture_output=True, text=True).stdout
-    print(said)
-    found = MANYLINUX.search(said)
+    done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False)
+    print(done.stdout)
+    found = MANYLINUX.search(done.stdout)
     if not found:
         raise SystemExit(f"{wheel.name} fits no manylinux: see the words of auditwheel above")
     return int(found[1]), int(found[2])
