@@ -150,9 +150,7 @@ def test_the_energy_balance_closes(make: Any, formulation: str) -> None:
 
 
 def test_both_formulations_agree() -> None:
-    a, b = (
-        record(pulled(), 4.0, rtol=1e-9, formulation=form) for form in FORMULATIONS
-    )
+    a, b = (record(pulled(), 4.0, rtol=1e-9, formulation=form) for form in FORMULATIONS)
     for name in ("position", "velocity", "load_state"):
         assert_allclose(a[name], b[name], atol=1e-6)
     for name in ("acceleration", "line_tension"):
