@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import copy
 import json
+import subprocess
+import sys
 from html import unescape
 from pathlib import Path
 from typing import Any
@@ -230,3 +232,12 @@ def test_a_run_that_left_a_channel_open_has_a_report() -> None:
         run["arrays"][name][:] = np.nan
     page = report(Result.from_arrays(**run, interrupted=True))
     assert "Largest link tension" not in page.html and "Largest slew torque" in page.html
+
+
+def test_a_result_that_is_not_there_is_named(tmp_path: Path) -> None:
+    done = subprocess.run(
+        [sys.executable, "-m", "seacrane", "report", "my lift.nc", "--out", "."],
+        capture_output=True, text=True, check=False, cwd=tmp_path,
+    )  # fmt: skip
+    assert done.returncode == 1
+    assert "there is no file my lift.nc; `seacrane run` names the file" in done.stderr

@@ -17,6 +17,8 @@ def run(arguments: argparse.Namespace) -> int:
     source = str(arguments.source)
     if is_result(source):
         return _write(arguments, Path(source))
+    if source.endswith((".nc", ".partial")) and not Path(source).exists():
+        raise SceneError(f"there is no file {source}; `seacrane run` names the file that it saves")
     if arguments.out is not None or arguments.overwrite:
         raise SceneError(f"--out and --overwrite go with the file of a result, and {source} is none")
     return _print(arguments)
