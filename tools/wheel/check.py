@@ -29,7 +29,7 @@ OLDEST = (2, 28)  # the newest glibc that the wheel may ask for
 SYSTEM = {"libc.so.6", "libm.so.6", "libpthread.so.0", "libdl.so.2", "librt.so.1"}  # and the loader
 LOADER = "ld-linux"
 SPAN = 20.0  # s of case 2
-APART = 1e-7  # m: compilers round differently; a wrong wheel is further away
+APART = 1e-9  # m: compilers round differently; a wrong wheel is further away
 REPEATS = 5
 IMPORT = "import time; start = time.perf_counter(); import seacrane; print(time.perf_counter() - start)"
 NO_COMPILER = (
