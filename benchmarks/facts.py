@@ -58,7 +58,7 @@ def _agreement() -> list[tuple[str, str]]:
 
 def _page() -> tuple[str, str]:
     page = _row(RESULTS / "three-dimensional-pages.csv", run="60 s")
-    return "three-dimensional page of a lift of 60 s, one file", f"{page['MB']} MB"
+    return "three-dimensional page of a lift of 60 s, one file", f"{page['page, MB']} MB"
 
 
 def _row(path: Path, **wanted: str) -> dict[str, str]:
