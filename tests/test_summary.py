@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from line_scenes import hung
 from test_result import crane_run, vessel_result
 
 from seacrane import (
@@ -157,3 +158,15 @@ def test_the_picture_holds_what_the_table_holds(swinging: Result) -> None:
     run["arrays"] = {"constraint_error": run["arrays"]["constraint_error"]}
     with pytest.raises(SceneError, match="no load and no motion"):
         plot_summary(Result.from_arrays(**run))
+
+
+@pytest.mark.filterwarnings("ignore::seacrane.LargeSwingWarning")
+def test_lines_and_leads_are_told() -> None:
+    told = summary(simulate(hung(stretch=0.05), t_end=5.0))
+    lifted = told["line tension hoist"]
+    assert lifted.unit == "kN" and lifted.maximum > lifted.minimum > 0.0
+    crane = summary(simulate(cases.case2(), t_end=60.0))
+    assert {"offlead", "sidelead"} <= {row.name for row in crane.rows}
+    assert crane["sidelead"].unit == "deg"
+    swing = crane["payload swing"].maximum
+    assert max(abs(crane["sidelead"].minimum), crane["sidelead"].maximum) == pytest.approx(swing, rel=0.2)

@@ -15,14 +15,15 @@ from seacrane.result import Result
 
 Array = NDArray[np.float64]
 STANDARD_GRAVITY = 9.80665
-TENSIONS = ("hook_load", "link_tension", "tension")
+TENSIONS = ("hook_load", "link_tension", "tension", "line_tension")
 CRANE = ("cylinder_force", "slew_torque")
+LEADS = ("offlead", "sidelead")
 MOTIONS = ("heave", "roll", "pitch")
 # What is shown under a crane's own names is not shown again under those of its parts.
 SAME = {"tension": "link_tension"}
 REPORTED = {"MN": (1e3, "kN"), "MN m": (1e3, "kN m")}
 TONNES = {"N": 1e-3, "kN": 1.0, "MN": 1e3}  # times the weight of 1 t, from a load in that unit
-CHANNELS = (*TENSIONS, *CRANE, *POSES, "vessel_motion")  # of which the curves are made
+CHANNELS = (*TENSIONS, *CRANE, *LEADS, *POSES, "vessel_motion")  # of which the curves are made
 SI = {"kN": 1e-3, "kN m": 1e-3, "t": 1e-3 / STANDARD_GRAVITY, "deg": float(np.degrees(1.0))}
 
 
@@ -59,7 +60,7 @@ class Curve:
 
 
 def reported_curves(result: Result) -> list[Curve]:
-    """Tensions, cylinder forces, slew torques, where loads hang, and the vessels' heave, roll and pitch.
+    """Tensions, cylinder forces, slew torques, how loads hang, and the vessels' heave, roll and pitch.
 
     What was not recorded, or is zero up to rounding, is left out. Raises FileFormatError where a result holds
     notes that no run writes.
@@ -74,7 +75,13 @@ def _curves(result: Result) -> list[Curve]:
     held = set(result.channels)
     loads = [name for name in (*TENSIONS, *CRANE) if name in held and SAME.get(name) not in held]
     found = [_load(result, one) for name in loads for one in beyond_rounding(traces(result, name))]
-    return [*found, *_offsets(result), *_motions(result)]
+    leads = [
+        Curve(kind=one.channel, label=one.label, unit=one.unit, values=one.values)
+        for name in LEADS
+        if name in held
+        for one in beyond_rounding(traces(result, name))
+    ]
+    return [*found, *_offsets(result), *leads, *_motions(result)]
 
 
 def si_factor(unit: str) -> float:
