@@ -162,7 +162,8 @@ TEST_CASE("a quasi-static stretch is refused where it cannot be") {
   LineDescription bad = commanded_line();
   CHECK(message(bad).empty());
   bad.stretch = "stiff";
-  CHECK(message(bad).find("stretch 'stiff' is unknown; choose 'elastic' or 'quasi-static'") != std::string::npos);
+  CHECK(message(bad).find("stretch 'stiff' is unknown; choose 'elastic' or 'quasi-static'") !=
+        std::string::npos);
   bad = commanded_line();
   bad.settling = 0.0;
   CHECK(message(bad).find("settling is 0 s; it must be positive") != std::string::npos);

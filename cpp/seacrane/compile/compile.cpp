@@ -277,7 +277,8 @@ class Compiler {
       }
       for (const VesselDescription& v : scene_.vessels) {
         if (v.kinematics != VesselKinematics::paper) continue;
-        throw SceneError(what + "vessel '" + v.name + "' has kinematics 'paper', whose mass is not symmetric; "
+        throw SceneError(what + "vessel '" + v.name +
+                         "' has kinematics 'paper', whose mass is not symmetric; "
                          "choose 'yaw_following', or stretch 'elastic'");
       }
     }

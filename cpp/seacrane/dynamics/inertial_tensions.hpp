@@ -10,8 +10,8 @@ namespace seacrane {
 struct Line;
 class Terms;
 
-/// Tensions of lines that depend on the accelerations of bodies, as Line says of a quasi-static stretch. With u
-/// the wrenches of 1 N in a line, m its inertial mass, a0 the accelerations without such tensions, and w =
+/// Tensions of lines that depend on the accelerations of bodies, as Line says of a quasi-static stretch. With
+/// u the wrenches of 1 N in a line, m its inertial mass, a0 the accelerations without such tensions, and w =
 /// M^-1 u of the bodies as they are joined,
 ///
 ///   T_i + m_i sum_j (u_i . w_j) T_j = T_i(a0).

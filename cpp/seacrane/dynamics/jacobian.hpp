@@ -61,7 +61,7 @@ class MaximalJacobian {
   std::vector<MemoryMatrices> memory_;  // by vessel
   std::vector<Vec6d> load_, acceleration_;
   std::vector<double> given_, lambda_, column_;
-  VecXd own_;        // changes of inertial tensions with accelerations held
+  VecXd own_;       // changes of inertial tensions with accelerations held
   MatXd response_;  // to unit loads of the memory
 };
 

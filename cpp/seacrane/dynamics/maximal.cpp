@@ -14,7 +14,11 @@ MaximalSystem::MaximalSystem(std::shared_ptr<const Model> model)
     : MaximalSystem(std::make_shared<Terms>(std::move(model))) {}
 
 MaximalSystem::MaximalSystem(std::shared_ptr<Terms> terms)
-    : terms_(std::move(terms)), model_(terms_->model()), solver_(*terms_), positions_(model_), tensions_(model_) {
+    : terms_(std::move(terms)),
+      model_(terms_->model()),
+      solver_(*terms_),
+      positions_(model_),
+      tensions_(model_) {
   for (auto* vectors : {&acceleration_, &correction_}) {
     vectors->assign(idx(model_.body_count()) + 1, Vec6d::Zero());
   }

@@ -11,9 +11,9 @@ namespace seacrane {
 /// Kinks that loads have in the state: where a soft stop is touched, left or lets go, the corners of a
 /// spring's table, where a line goes slack or taut. They have no time to offer. A step that ends on another
 /// side of one is taken again, up to where it crossed, so that every step sees one side only. A load that may
-/// have kinks has has_sides(), side(input), a number for each side, and across(input, from, to), which changes
-/// its sign between two of them. One that cannot be on a side has refused(side), which says why: the run ends
-/// there.
+/// have kinks has has_sides(), side(input), a number for each side, and across(input, from, to), which
+/// changes its sign between two of them. One that cannot be on a side has refused(side), which says why: the
+/// run ends there.
 class Switches {
  public:
   /// Whether loads of a model have such kinks.

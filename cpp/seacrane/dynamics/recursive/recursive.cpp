@@ -153,9 +153,9 @@ bool RecursiveSystem::jacobian(double t, const double* y, double* out) {
   }
   derivative(t, y, jacobian_rate_.data());
   if (!loops_.regular()) return false;
-  jacobian_->evaluate(
-      {*terms_, articulated_, loops_, tensions_, mass_.data(), load_.data(), acceleration_.data(), blocks_.data()}, t, y,
-      jacobian_rate_.data(), out);
+  jacobian_->evaluate({*terms_, articulated_, loops_, tensions_, mass_.data(), load_.data(),
+                       acceleration_.data(), blocks_.data()},
+                      t, y, jacobian_rate_.data(), out);
   return true;
 }
 

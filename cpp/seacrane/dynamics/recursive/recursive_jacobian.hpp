@@ -96,7 +96,7 @@ class RecursiveJacobian {
 
   std::vector<Vec6d> load_, response_, given_load_;
   VecXd right_, lambda_, given_right_;
-  VecXd own_;  // changes of inertial tensions with accelerations held
+  VecXd own_;       // changes of inertial tensions with accelerations held
   MatXd to_fluid_;  // responses to unit loads of the memory
 };
 

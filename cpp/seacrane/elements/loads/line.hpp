@@ -67,7 +67,8 @@ struct LineDescription {
 ///
 /// so that no mode is faster than 1 / s. Of slow motion p = d/dt the strain is T / EA but for 2 s^2 p^2, and
 /// what is dissipated beside c, s^3 p^3. The part with e'' is an inertial tension: it depends on the
-/// accelerations of the bodies, and is solved for with them (InertialTensions). Its store is EA s^2 e'^2 l0 / 2.
+/// accelerations of the bodies, and is solved for with them (InertialTensions). Its store is half of
+/// EA s^2 e'^2 l0.
 struct Line {
   static constexpr const char* kind = "line";
   using Description = LineDescription;
@@ -101,11 +102,11 @@ struct Line {
   std::vector<int> on;  // bodies of the path, each once, the last of the path last
   double stiffness = 0.0;
   Curve length;
-  double viscous = 0.0;         // c sqrt(l0)
-  double settling = 0.0;        // s, of a quasi-static stretch; else zero
-  int settled = 0;              // w among the states
-  int place = 0;                // among the inertial tensions
-  double hung = 0.0;            // mass, kg
+  double viscous = 0.0;   // c sqrt(l0)
+  double settling = 0.0;  // s, of a quasi-static stretch; else zero
+  int settled = 0;        // w among the states
+  int place = 0;          // among the inertial tensions
+  double hung = 0.0;      // mass, kg
   bool winch = false;
   Curve command;
   double maximum_rate = 0.0, maximum_acceleration = 0.0, lag = 0.0, minimum_length = 0.0;
@@ -206,8 +207,8 @@ struct Line {
 
   /// Why a run cannot go on at a side; empty: it can.
   std::string refused(int at) const {
-    const std::string what = "line '" + name + "': its stretch is quasi-static, and it ";
     if (!quasi_static() || at == kTaut) return "";
+    const std::string what = "line '" + name + "': its stretch is quasi-static, and it ";
     if (at & 1) return what + "has hauled in to its minimum_length; give a smaller one, or stretch 'elastic'";
     return what + "goes slack; give it stretch 'elastic', which snatches";
   }
@@ -299,7 +300,7 @@ struct Line {
   struct Span {
     int first, second;
     Vec3<T> lever_first, lever_second, along;  // along: from the first to the second
-    T length, rate, swing;  // swing: of the second rate, what turning makes
+    T length, rate, swing;                     // swing: of the second rate, what turning makes
   };
 
   static void check_path(const Description& d, const Check& c, SceneNames& names) {
@@ -328,10 +329,11 @@ struct Line {
     if (!(d.settling > 0.0)) c.fail("settling is " + to_text(d.settling) + " s; it must be positive");
     if (d.stretch != kQuasiStatic) return;
     if (d.winch && d.lag == 0.0) {
-      c.fail("a quasi-static stretch needs a smooth length, and its winch has no lag; give one, such as 0.1 s");
+      c.fail(
+          "a quasi-static stretch needs a smooth length, and its winch has no lag; give one, such as 0.1 s");
     }
     for (const CurveKink& kink : d.length.kinks()) {
-      if (std::abs(kink.jump(0)) + std::abs(kink.jump(1)) <= kJump) continue;
+      if (kink.time <= 0.0 || std::abs(kink.jump(0)) + std::abs(kink.jump(1)) <= kJump) continue;
       c.fail("a quasi-static stretch needs a smooth length, and that given jumps at t = " +
              to_text(kink.time) + " s, or its rate; smooth it, or choose stretch 'elastic'");
     }

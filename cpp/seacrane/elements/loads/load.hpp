@@ -16,8 +16,8 @@ struct LoadInput {
   double time;
   double curve_limit;  // curve pieces from here on are not used yet, see Curve::at
   const BodyKinematics<T>* bodies;
-  const double* slots;  // zero-order-held inputs
-  const T* states;      // of all loads
+  const double* slots;               // zero-order-held inputs
+  const T* states;                   // of all loads
   const double* inertial = nullptr;  // tensions that follow from accelerations, see InertialTensions
 };
 
