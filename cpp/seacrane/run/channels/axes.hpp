@@ -5,7 +5,6 @@
 namespace seacrane::axes {
 
 extern const Axis xyz, wxyz, motion;
-extern const Axis body, vessel, joint, joint_coordinate, actuator, driver, link, limit,
-    point, load;
+extern const Axis body, vessel, joint, joint_coordinate, actuator, driver, link, limit, point, load;
 
 }  // namespace seacrane::axes
