@@ -13,7 +13,6 @@ import platform
 import shutil
 import subprocess
 import sys
-import tarfile
 from pathlib import Path
 
 import ziglang
@@ -71,8 +70,7 @@ def wheel(archive: Path) -> Path:
     """The wheel as the build makes it from the sdist, tagged for this system only."""
     source, raw = BUILD / "source", BUILD / "raw"
     shutil.rmtree(source, ignore_errors=True)
-    with tarfile.open(archive) as tar:
-        tar.extractall(source, filter="data")
+    shutil.unpack_archive(archive, source)
     _clear(raw, "*.whl")
     environment = compilers() | {
         "SKBUILD_BUILD_DIR": str(BUILD / "package"),
