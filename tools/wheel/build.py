@@ -13,6 +13,7 @@ import platform
 import shutil
 import subprocess
 import sys
+import sysconfig
 from pathlib import Path
 
 import ziglang
@@ -66,6 +67,23 @@ def source_archive(out: Path) -> Path:
     return found
 
 
+def python_headers() -> str:
+    """An option for Debian's own Python, whose pyconfig.h names a header from /usr/include.
+
+    All of /usr/include would bring the headers of this machine's C library, which is newer.
+    """
+    headers = Path(sysconfig.get_path("include"))
+    several = sysconfig.get_config_var("MULTIARCH") or ""
+    own = headers.parent / several / headers.name
+    if not several or not own.is_dir():
+        return ""
+    link = BUILD / "python" / several / headers.name
+    link.parent.mkdir(parents=True, exist_ok=True)
+    link.unlink(missing_ok=True)
+    link.symlink_to(own)
+    return f"-isystem {BUILD / 'python'}"
+
+
 def wheel(archive: Path) -> Path:
     """The wheel as the build makes it from the sdist, tagged for this system only."""
     source, raw = BUILD / "source", BUILD / "raw"
@@ -74,7 +92,7 @@ def wheel(archive: Path) -> Path:
     _clear(raw, "*.whl")
     environment = compilers() | {
         "SKBUILD_BUILD_DIR": str(BUILD / "package"),
-        "SKBUILD_CMAKE_DEFINE": f"SEACRANE_LIBRARIES={libraries()}",
+        "SKBUILD_CMAKE_DEFINE": f"SEACRANE_LIBRARIES={libraries()};CMAKE_CXX_FLAGS={python_headers()}",
     }
     pip = [sys.executable, "-m", "pip", "--disable-pip-version-check", "wheel", "-q"]
     options = ["--no-deps", "--no-build-isolation", "--wheel-dir", raw, *source.iterdir()]
