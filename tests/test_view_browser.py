@@ -45,7 +45,6 @@ def opened(tab: chromium.Tab, shown: View, folder: Path, address: str = "") -> N
 def test_a_page_opens_without_a_network_and_shows_something(
     tab: chromium.Tab, name: str, tmp_path: Path
 ) -> None:
-    pytest.importorskip("PIL", reason="comes with matplotlib")
     from PIL import Image
 
     opened(tab, view(getattr(view_scenes, name)()), tmp_path)
