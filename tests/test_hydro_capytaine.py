@@ -13,8 +13,15 @@ import xarray
 
 from seacrane.cli import main
 from seacrane.errors import FileFormatError
-from seacrane.hydro import HydroDatabase, load_database, read_capytaine, shipped_database
+from seacrane.hydro import (
+    HydroDatabase,
+    MissingMotionsWarning,
+    load_database,
+    read_capytaine,
+    shipped_database,
+)
 from seacrane.hydro.data.relations import damping_from_forces
+from seacrane.sea.dispersion import wavenumber
 
 ORDER = [4, 1, 5, 0, 3, 2]  # Capytaine's users may name their degrees of freedom in any order
 NAMES = np.array(["Surge", "Sway", "Heave", "Roll", "Pitch", "Yaw"])
@@ -148,6 +155,47 @@ def test_parameters_of_one_value_and_dofs_with_a_body(tmp_path: Path) -> None:
     assert np.array_equal(found.added_mass, shipped_database().added_mass[OMEGA])
 
 
+@pytest.mark.parametrize("measure", ["freq", "period", "wavenumber", "wavelength"])
+@pytest.mark.parametrize("depth", [np.inf, 60.0])
+def test_any_measure_of_frequency(measure: str, depth: float, tmp_path: Path) -> None:
+    """Solved for periods or wavelengths, with the limits 0 and infinity, in deep and shallow water."""
+    dataset = layout()
+    dataset["water_depth"] = depth
+    by_omega = read(dataset, tmp_path)
+    omega = dataset["omega"].values
+    between = (omega > 0.0) & np.isfinite(omega)
+    k = omega.copy()  # 0 and infinity stay
+    k[between] = wavenumber(omega[between], g=shipped_database().g, depth=depth)
+    with np.errstate(divide="ignore"):
+        values = {"freq": omega / (2.0 * np.pi), "period": 2.0 * np.pi / omega, "wavenumber": k,
+                  "wavelength": 2.0 * np.pi / k}[measure]  # fmt: skip
+    other = dataset.rename(omega=measure).assign_coords({measure: values})
+    found = read(other.assign_coords(omega=(measure, omega)), tmp_path)
+    assert found.omega == pytest.approx(by_omega.omega, rel=1e-12)
+    assert np.array_equal(found.added_mass, by_omega.added_mass)
+    assert found.infinite_frequency_added_mass == pytest.approx(by_omega.infinite_frequency_added_mass)
+    assert found.force == pytest.approx(by_omega.force, rel=1e-9)
+
+
+def test_motions_that_are_missing_have_no_load(tmp_path: Path) -> None:
+    base, dataset = shipped_database(), layout()
+    three = [
+        i for i, name in enumerate(dataset["radiating_dof"].values) if name in ("Surge", "Heave", "Pitch")
+    ]
+    part = dataset.isel(radiating_dof=three, influenced_dof=three)
+    with pytest.warns(MissingMotionsWarning, match="has no sway, roll, yaw; .* zero there"):
+        found = read(part, tmp_path, mass_matrix=base.mass_matrix, restoring=base.restoring)
+    kept = np.ix_([0, 2, 4], [0, 2, 4])
+    for name in ("added_mass", "damping"):
+        matrices = getattr(found, name)
+        assert np.array_equal(matrices[:, *kept], getattr(base, name)[OMEGA][:, *kept])
+        assert not matrices[:, [1, 3, 5]].any() and not matrices[:, :, [1, 3, 5]].any()
+    assert not found.force[..., [1, 3, 5]].any()
+    assert (
+        np.abs(found.force[..., 2] - base.force[HEADING, OMEGA, 2]).max() < 1e-12 * np.abs(base.force).max()
+    )
+
+
 def test_matrices_given_by_the_caller(tmp_path: Path) -> None:
     base, dataset = shipped_database(), layout().drop_vars(["inertia_matrix", "hydrostatic_stiffness"])
     with pytest.raises(FileFormatError, match=r"inertia_matrix is missing; set body\.inertia_matrix"):
@@ -168,7 +216,11 @@ def test_matrices_given_by_the_caller(tmp_path: Path) -> None:
         (lambda d: d.drop_vars("complex"), "parts .* re and im along complex"),
         (lambda d: d.assign_coords(forward_speed=2.5), "forward_speed is 2.5 m/s"),
         (lambda d: d.assign_coords(wave_direction=d.wave_direction * 57.3), "reaches 180.* radians"),
-        (lambda d: d.isel(radiating_dof=[0, 1, 2]), "radiating_dof holds .* six rigid motions"),
+        (lambda d: d.isel(radiating_dof=[0, 1, 2]), "radiating_dof holds .* heave among them"),
+        (lambda d: d.isel(radiating_dof=[0, 1, 3, 4, 5, 5]), "radiating_dof holds .* each once"),
+        (lambda d: d.isel(radiating_dof=[0, 1, 5]), "influenced_dof and radiating_dof name different"),
+        (lambda d: d.isel(radiating_dof=[0, 5], influenced_dof=[0, 5]), "has no surge, .* mass_matrix and"),
+        (lambda d: d.rename(omega="frequency"), "no dimension omega, freq, period"),
         (lambda d: d.assign_coords(influenced_dof=list("abcdef")), "influenced_dof holds a, b"),
         (
             lambda d: d.assign_coords(radiating_dof=[f"{i % 2}__{n}" for i, n in enumerate(NAMES)]),

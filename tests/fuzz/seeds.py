@@ -19,6 +19,8 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 from lift_examples import EVERY_TABLE
 from orcaflex_writer import model
 from test_elements import every_load
+from test_hydro_bemio import bemio_values
+from test_hydro_bemio import written as bemio_file
 from test_hydro_capytaine import layout
 from test_hydro_mafredo import dhyd
 from test_meshes import glb, gltf_of_box
@@ -222,6 +224,30 @@ def of_version_0_1(data: dict[str, Any]) -> dict[str, Any]:
     return dict(old)
 
 
+def bemio_seeds(folder: Path) -> None:
+    """A sound file, and one for each refusal."""
+    base = shipped_database().select(omega=[5, 20], heading=[0, 9])
+    part, body = "simulation_parameters", "body1/hydro_coeffs"
+    changes: dict[str, dict[str, Any]] = {
+        "ship": {},
+        "two-bodies": {"body2/dof": 6.0},
+        "scaled": {f"{part}/scaled": 1.0},
+        "no-water": {f"{part}/rho": 0.0},
+        "two-gravities": {f"{part}/g": np.ones(2)},
+        "no-frequencies": {f"{part}/w": None},
+        "short-frequencies": {f"{part}/w": np.ones(1)},
+        "no-added-mass": {f"{body}/added_mass/all": None},
+        "not-finite": {f"{body}/radiation_damping/all": np.full((6, 6, 2), np.nan)},
+    }
+    for name, change in changes.items():
+        values = bemio_values(base) | {f"{part}/water_depth": np.inf} | change
+        path = bemio_file({k: v for k, v in values.items() if v is not None}, folder / "ship.h5")
+        put("bemio", name, spec_of(path))
+    for name, depth in (("ship", b"infinite"), ("words", b"deep")):
+        path = bemio_file(bemio_values(base) | {f"{part}/water_depth": depth}, folder / "ship.h5")
+        put("bemio-bytes", name, path.read_bytes())
+
+
 def netcdf_seeds(folder: Path, hull: HydroDatabase) -> None:
     drift = DriftCoefficients(heading=hull.heading, omega=hull.omega, coefficient=np.ones((3, 2, 6)))
     full = dataclasses.replace(hull, drift=drift, memory=small_memory(), trusted_band=(0.5, 1.0))
@@ -233,6 +259,7 @@ def netcdf_seeds(folder: Path, hull: HydroDatabase) -> None:
     data.to_netcdf(folder / "ship.nc")
     put("capytaine", "ship", spec_of(folder / "ship.nc"))
     put("capytaine-bytes", "ship", (folder / "ship.nc").read_bytes())
+    bemio_seeds(folder)
     path = dhyd(hull, folder, phase_origin=(1.0, 0.0))
     put("mafredo", "ship", spec_of(path))
     put("mafredo-bytes", "ship", path.read_bytes())

@@ -25,7 +25,7 @@ from seacrane.files.netcdf_limits import LARGEST_DATABASE as LARGEST
 from seacrane.files.netcdf_limits import NETCDF_ERRORS
 from seacrane.files.state import load_state
 from seacrane.hydro import Hull, HydroDatabase
-from seacrane.hydro.readers import capytaine, orcaflex, veres, wamit
+from seacrane.hydro.readers import bemio, capytaine, orcaflex, veres, wamit
 from seacrane.result import Result
 
 CORPUS = Path(__file__).parent / "corpus"
@@ -131,6 +131,11 @@ def _wamit(path: Path) -> Any:
 def _capytaine(path: Path) -> Any:
     capytaine.is_capytaine(path)  # as `load_database` asks first
     return capytaine.read_capytaine(path)
+
+
+def _bemio(path: Path) -> Any:
+    bemio.is_bemio(path)
+    return bemio.read_bemio(path)
 
 
 def _mafredo(path: Path) -> Any:
@@ -263,6 +268,7 @@ _ALL = [
     *_netcdf_targets("database", "hull.nc", HydroDatabase.load, "hydro/database/netcdf.py"),
     *_netcdf_targets("mafredo", "ship.dhyd", _mafredo, "hydro/readers/mafredo_file.py"),
     *_netcdf_targets("capytaine", "ship.nc", _capytaine, "hydro/readers/capytaine.py"),
+    *_netcdf_targets("bemio", "ship.h5", _bemio, "hydro/readers/bemio.py"),
     *_netcdf_targets("result", "run.nc", _result, "result/netcdf.py"),
 ]  # fmt: skip
 TARGETS = {target.name: target for target in _ALL}

@@ -1,4 +1,4 @@
-"""The one place where a NetCDF file is opened for reading: only once what it holds has been looked at."""
+"""The one place where NetCDF and HDF5 files are opened for reading: only once what they hold is looked at."""
 
 from __future__ import annotations
 
@@ -50,6 +50,18 @@ def open_netcdf(path: Path, largest: int = LARGEST_DATABASE, fix: str = TOO_LARG
         _check_classic(path, largest, fix)
     with netCDF4.Dataset(path, "r") as file:
         file.set_auto_mask(False)
+        yield file
+
+
+@contextlib.contextmanager
+def open_hdf5(path: Path, largest: int = LARGEST_DATABASE, fix: str = TOO_LARGE) -> Iterator[Any]:
+    """An `h5py.File` open for reading; parameters and errors as `open_netcdf`."""
+    import h5py
+
+    from seacrane.files.hdf5_structure import Structure
+
+    Structure(path, largest, fix).check()
+    with h5py.File(path, "r") as file:
         yield file
 
 

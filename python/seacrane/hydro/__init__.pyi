@@ -38,6 +38,7 @@ from seacrane.hydro.memory.retardation import RetardationModel as RetardationMod
 from seacrane.hydro.memory.retardation import retardation_functions as retardation_functions
 from seacrane.hydro.memory.trade import MemoryTradeRow as MemoryTradeRow
 from seacrane.hydro.memory.trade import memory_trade as memory_trade
+from seacrane.hydro.readers.bemio import read_bemio as read_bemio
 from seacrane.hydro.readers.capytaine import read_capytaine as read_capytaine
 from seacrane.hydro.readers.load import available_speeds as available_speeds
 from seacrane.hydro.readers.load import load_database as load_database
@@ -47,6 +48,7 @@ from seacrane.hydro.readers.reader_warnings import AssumedInertiaWarning as Assu
 from seacrane.hydro.readers.reader_warnings import AssumedSymmetryWarning as AssumedSymmetryWarning
 from seacrane.hydro.readers.reader_warnings import EncounterFrequencyWarning as EncounterFrequencyWarning
 from seacrane.hydro.readers.reader_warnings import HydrostaticsWarning as HydrostaticsWarning
+from seacrane.hydro.readers.reader_warnings import MissingMotionsWarning as MissingMotionsWarning
 from seacrane.hydro.readers.reader_warnings import PartialSetWarning as PartialSetWarning
 from seacrane.hydro.readers.reader_warnings import SeveralSpeedsWarning as SeveralSpeedsWarning
 from seacrane.hydro.readers.veres import read_veres as read_veres

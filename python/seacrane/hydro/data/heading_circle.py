@@ -9,6 +9,7 @@ FloatArray = NDArray[np.float64]
 
 PORT_STARBOARD = np.array([1.0, -1.0, 1.0, -1.0, 1.0, -1.0])
 SAME_HEADING = 1e-6  # rad
+SYMMETRY_TOLERANCE = 0.02
 LARGEST_HEADING_GAP = np.radians(45.0)  # above it nothing is interpolated
 
 
@@ -36,3 +37,12 @@ def both_sides(heading: FloatArray) -> tuple[FloatArray, NDArray[np.intp], NDArr
 def largest_gap(circle: FloatArray) -> float:
     """Largest angle (rad) between neighbouring headings, across 2 pi too."""
     return float(np.diff(np.append(circle, circle[0] + 2.0 * np.pi)).max())
+
+
+def keeps_sides_apart(added_mass: FloatArray) -> bool:
+    """Whether motions that a port-starboard symmetric hull keeps apart are apart in (n, 6, 6), to 2 %."""
+    peak = np.sqrt(np.abs(np.diagonal(added_mass, axis1=1, axis2=2)).max(axis=0))
+    scale = np.outer(peak, peak)
+    mixed = np.outer(PORT_STARBOARD, PORT_STARBOARD) < 0.0
+    largest = np.abs(added_mass).max(axis=0)
+    return bool(np.all(largest[mixed] <= SYMMETRY_TOLERANCE * scale[mixed]))

@@ -7,6 +7,7 @@ the degrees of freedom, phases to the origin of the mesh; forces are shifted to 
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -16,12 +17,14 @@ from numpy.typing import ArrayLike, NDArray
 
 from seacrane.errors import FileFormatError
 from seacrane.files.netcdf_limits import NETCDF_ERRORS, open_netcdf
-from seacrane.hydro.data.heading_circle import PORT_STARBOARD
+from seacrane.hydro.data.heading_circle import keeps_sides_apart
 from seacrane.hydro.database.database import HydroDatabase
 from seacrane.hydro.readers.equivalent_box import equivalent_box
 from seacrane.hydro.readers.format import Format, is_file_of, of_one_speed, zero_speed
+from seacrane.hydro.readers.reader_warnings import MissingMotionsWarning
+from seacrane.hydro.readers.wave_directions import phase_at, rising_directions
+from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.shown import shown
-from seacrane.sea.dispersion import wavenumber
 
 if TYPE_CHECKING:
     import xarray
@@ -32,7 +35,19 @@ ComplexArray = NDArray[np.complex128]
 MOTION_NAMES = ("Surge", "Sway", "Heave", "Roll", "Pitch", "Yaw")
 NETCDF = (".nc", ".nc4")
 MATRIX = ("influenced_dof", "radiating_dof")
-SYMMETRY_TOLERANCE = 0.02
+
+
+def _of_wavenumber(k: FloatArray, g: float, depth: float) -> FloatArray:
+    """omega^2 = g k tanh(k h)."""
+    return np.asarray(np.sqrt(g * k * (1.0 if np.isinf(depth) else np.tanh(k * depth))))
+
+
+MEASURES: dict[str, Callable[[FloatArray, float, float], FloatArray]] = {
+    "freq": lambda value, g, depth: 2.0 * np.pi * value,
+    "period": lambda value, g, depth: 2.0 * np.pi / value,
+    "wavenumber": _of_wavenumber,
+    "wavelength": lambda value, g, depth: _of_wavenumber(2.0 * np.pi / value, g, depth),
+}
 
 
 def read_capytaine(
@@ -43,15 +58,21 @@ def read_capytaine(
     Parameters
     ----------
     path : file with ``added_mass``, ``radiation_damping`` and either ``excitation_force`` or
-        ``Froude_Krylov_force`` and ``diffraction_force``, for the six rigid motions of one body, zero speed,
-        one water depth. Frequencies 0 and infinity become the limits of the added mass.
+        ``Froude_Krylov_force`` and ``diffraction_force``, for rigid motions of one body, heave among them,
+        at zero speed and one water depth, over omega, freq, period, wavenumber or wavelength. Frequencies 0
+        and infinity become the limits of the added mass.
     mass_matrix, restoring : (6, 6) in SI about the rotation centre; they take the place of
-        ``inertia_matrix`` and ``hydrostatic_stiffness``, and are needed where the file lacks these.
+        ``inertia_matrix`` and ``hydrostatic_stiffness``, and are needed where the file lacks these, or has
+        not all six motions.
 
     Returns
     -------
     HydroDatabase : length, breadth and draught are those of the equivalent box; port-starboard symmetric if
         the matrices are, to 2 %.
+
+    Warns
+    -----
+    MissingMotionsWarning : some of the six motions are not in the file.
 
     Raises
     ------
@@ -95,7 +116,10 @@ def _convert(
     speed = _number(path, dataset, "forward_speed", default=0.0)
     if speed != 0.0:
         raise FileFormatError(f"{path}: forward_speed is {speed:g} m/s; only results of zero speed are read")
-    dataset = _single(path, _by_motion(path, dataset))
+    dataset = _over_omega(path, dataset, g, depth)
+    dataset = _single(
+        path, _by_motion(path, dataset, given=mass_matrix is not None and restoring is not None)
+    )
     omega = _omega(path, dataset)
     finite = (omega > 0.0) & np.isfinite(omega)
     rows = np.flatnonzero(finite)[np.argsort(omega[finite])]
@@ -121,7 +145,7 @@ def _convert(
         zero_frequency_added_mass=_limit(added_mass, omega == 0.0),
         restoring=stiffness,
         mass_matrix=mass,
-        force=force * _phase_at(centre, omega[rows], direction, g, depth),
+        force=force * phase_at(centre, omega[rows], direction, g, depth),
         rho=rho,
         g=g,
         depth=depth,
@@ -133,7 +157,7 @@ def _convert(
             "the origin of its mesh"
         ),
         source=f"Capytaine {version}, file {path.name}, body {body}",
-        port_starboard_symmetric=_symmetric(added_mass[rows], centre),
+        port_starboard_symmetric=bool(centre[1] == 0.0 and keeps_sides_apart(added_mass[rows])),
     )
 
 
@@ -164,8 +188,11 @@ def _single(path: Path, dataset: xarray.Dataset) -> xarray.Dataset:
     return dataset
 
 
-def _by_motion(path: Path, dataset: xarray.Dataset) -> xarray.Dataset:
-    """The dataset with its degrees of freedom in our order, found by name."""
+def _by_motion(path: Path, dataset: xarray.Dataset, *, given: bool) -> xarray.Dataset:
+    """The dataset with the six motions in our order, found by name; one that it lacks has zeros.
+
+    ``given``: mass matrix and restoring are, so that motions may be missing.
+    """
     for dimension in MATRIX:
         if dimension not in dataset.coords:
             raise FileFormatError(f"{path}: coordinate {dimension} is missing; it is no Capytaine dataset")
@@ -176,21 +203,50 @@ def _by_motion(path: Path, dataset: xarray.Dataset) -> xarray.Dataset:
                 f"{path}: {dimension} names several bodies ({', '.join(sorted(bodies))[:200]}); one is read"
             )
         plain = [label.rpartition("__")[2] for label in labels]
-        if sorted(plain) != sorted(MOTION_NAMES):
+        if not set(plain) <= set(MOTION_NAMES) or len(set(plain)) < len(plain) or "Heave" not in plain:
             raise FileFormatError(
-                f"{path}: {dimension} holds {', '.join(plain)[:200]}; the six rigid motions "
-                f"{', '.join(MOTION_NAMES)} are needed"
+                f"{path}: {dimension} holds {', '.join(plain)[:200]}; rigid motions are needed, each once, "
+                f"heave among them: {', '.join(MOTION_NAMES)}"
             )
-        dataset = dataset.isel({dimension: [plain.index(name) for name in MOTION_NAMES]})
-    return dataset
+        dataset = dataset.assign_coords({dimension: plain})
+    plain = [str(label) for label in dataset[MATRIX[0]].values]
+    if set(plain) != {str(label) for label in dataset[MATRIX[1]].values}:
+        raise FileFormatError(f"{path}: {' and '.join(MATRIX)} name different motions; solve for the same")
+    missing = [name for name in MOTION_NAMES if name not in plain]
+    if missing and not given:
+        raise FileFormatError(
+            f"{path}: has no {', '.join(missing).lower()}; pass mass_matrix and restoring (6, 6) to "
+            "read_capytaine, or solve for all six motions"
+        )
+    if missing:
+        warn_caller(
+            f"{path}: has no {', '.join(missing).lower()}; added mass, damping and wave forces are taken as "
+            "zero there. Keep the vessel from these motions, or solve for them",
+            MissingMotionsWarning,
+        )
+    every = {dimension: list(MOTION_NAMES) for dimension in MATRIX}
+    return dataset.reindex(every, fill_value=0.0) if missing else dataset.sel(every)
+
+
+def _over_omega(path: Path, dataset: xarray.Dataset, g: float, depth: float) -> xarray.Dataset:
+    """The dataset over omega (rad/s), whichever measure of frequency it was solved for."""
+    if "omega" in dataset.dims:
+        return dataset
+    found = [name for name in MEASURES if name in dataset.dims and name in dataset.coords]
+    if len(found) != 1:
+        raise FileFormatError(
+            f"{path}: no dimension omega, freq, period, wavenumber or wavelength with its values; solve for "
+            "one of these, and write it with the dataset"
+        )
+    measure = found[0]
+    with np.errstate(divide="ignore", invalid="ignore"):
+        omega = MEASURES[measure](np.asarray(dataset[measure].values, dtype=float), g, depth)
+    plain = dataset.drop_vars([name for name in ("omega", *MEASURES) if name in dataset.coords])
+    return plain.rename({measure: "omega"}).assign_coords(omega=omega)
 
 
 def _omega(path: Path, dataset: xarray.Dataset) -> FloatArray:
-    """Frequencies in rad/s; the main frequency must be omega."""
-    if "omega" not in dataset.dims or "omega" not in dataset.coords:
-        raise FileFormatError(
-            f"{path}: no dimension omega; solve for omega (rad/s), or swap the dimension before writing"
-        )
+    """Frequencies in rad/s."""
     omega = np.asarray(dataset["omega"].values, dtype=float)
     if len(np.unique(omega)) < len(omega) or np.any(np.isnan(omega)) or np.any(omega < 0.0):
         raise FileFormatError(
@@ -231,17 +287,13 @@ def _matrix(
 
 
 def _directions(path: Path, dataset: xarray.Dataset) -> tuple[FloatArray, NDArray[np.intp]]:
-    """Directions in [0, 2 pi), rising, and their places in the file; a full turn beside 0 is dropped."""
+    """As `rising_directions`, of the file."""
     if "wave_direction" not in dataset.coords:
         raise FileFormatError(f"{path}: wave_direction is missing; solve diffraction problems too")
     raw = np.ravel(np.asarray(dataset["wave_direction"].values, dtype=float))
     if np.any(np.abs(raw) > 2.0 * np.pi + 1e-6):
         raise FileFormatError(f"{path}: wave_direction reaches {np.abs(raw).max():g}; radians are expected")
-    wrapped = np.mod(raw, 2.0 * np.pi)
-    wrapped[2.0 * np.pi - wrapped < 1e-9] = 0.0
-    order = np.argsort(wrapped, kind="stable")
-    new = np.append(True, np.diff(wrapped[order]) > 1e-9)
-    return wrapped[order][new], order[new]
+    return rising_directions(raw)
 
 
 def _force(path: Path, dataset: xarray.Dataset) -> ComplexArray:
@@ -277,27 +329,10 @@ def _rotation_centre(dataset: xarray.Dataset) -> FloatArray:
     return np.asarray(np.ravel(dataset["rotation_center"].values), dtype=float)
 
 
-def _phase_at(
-    centre: FloatArray, omega: FloatArray, direction: FloatArray, g: float, depth: float
-) -> ComplexArray:
-    """Factor (m, n, 1) that gives waves of zero phase at the centre: exp(+i k (x cos b + y sin b))."""
-    along = centre[0] * np.cos(direction) + centre[1] * np.sin(direction)
-    return np.asarray(np.exp(1j * np.outer(along, wavenumber(omega, g=g, depth=depth))))[:, :, None]
-
-
 def _limit(matrices: FloatArray, where: NDArray[np.bool_]) -> FloatArray | None:
     """The matrix at a limiting frequency, if it is there."""
     found = matrices[where]
     return found[0] if len(found) and np.all(np.isfinite(found)) else None
-
-
-def _symmetric(added_mass: FloatArray, centre: FloatArray) -> bool:
-    """Whether motions that a port-starboard symmetric hull keeps apart are apart."""
-    peak = np.sqrt(np.abs(np.diagonal(added_mass, axis1=1, axis2=2)).max(axis=0))
-    scale = np.outer(peak, peak)
-    mixed = np.outer(PORT_STARBOARD, PORT_STARBOARD) < 0.0
-    largest = np.abs(added_mass).max(axis=0)
-    return bool(centre[1] == 0.0 and np.all(largest[mixed] <= SYMMETRY_TOLERANCE * scale[mixed]))
 
 
 def _name(dataset: xarray.Dataset) -> Any:

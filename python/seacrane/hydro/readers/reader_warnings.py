@@ -29,3 +29,7 @@ class EncounterFrequencyWarning(UserWarning):
 
 class HydrostaticsWarning(UserWarning):
     """The hydrostatics of a set contradict its matrices: mass, restoring or both are of another loading."""
+
+
+class MissingMotionsWarning(UserWarning):
+    """The source lacks some of the six motions: nothing of the water acts in them."""

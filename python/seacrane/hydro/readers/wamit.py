@@ -22,9 +22,9 @@ from seacrane.hydro.readers.equivalent_box import equivalent_box
 from seacrane.hydro.readers.format import Format, of_one_speed, zero_speed
 from seacrane.hydro.readers.reader_warnings import (
     AssumedDensityWarning,
-    AssumedInertiaWarning,
     PartialSetWarning,
 )
+from seacrane.hydro.readers.usual_inertia import usual_mass_matrix
 from seacrane.hydro.readers.wamit_control import (
     ForceControl,
     Listing,
@@ -52,7 +52,6 @@ HASKIND_LIMIT = np.array([0.05, 0.01, 0.01, 0.01, 0.01, 0.01])  # two force meth
 HASKIND_FLOOR = np.array([0.05, 1e-4, 1e-4, 1e-4, 1e-4, 1e-4])  # surge in beam seas is a difference of errors
 DIFFRACTION_LIMIT = np.full(6, 1e-3)  # the forces of .3 themselves, in seven digits
 PANELS_PER_WAVELENGTH = 8.0
-USUAL_RADII = (0.36, 0.25, 0.25)  # of breadth, length, length
 
 
 def read_wamit(path: str | PathLike[str]) -> HydroDatabase:
@@ -286,15 +285,9 @@ def _mass_matrix(stem: Path, body: _Body) -> FloatArray:
         return matrix
     if control is not None and control.centre_of_gravity is not None:
         centre = control.centre_of_gravity
-    length, breadth, _ = body.box
-    radii = np.array(USUAL_RADII) * (breadth, length, length)
-    warn_caller(
-        f"{stem}: no mass matrix in .frc; the displaced mass {mass:.6g} kg with radii of gyration of "
-        f"{radii[0]:.3g}, {radii[1]:.3g}, {radii[2]:.3g} m (0.36 B, 0.25 L, 0.25 L) is taken, and natural "
-        "periods in roll and pitch follow from that guess",
-        AssumedInertiaWarning,
+    return usual_mass_matrix(
+        stem, "no mass matrix in .frc", mass=mass, centre=centre, length=body.box[0], breadth=body.box[1]
     )
-    return rigid_mass_matrix(mass, centre, np.diag(mass * radii**2))
 
 
 def _origin(listing: Listing) -> str:
