@@ -18,6 +18,7 @@ from seacrane.hydro import (
     MissingMotionsWarning,
     load_database,
     read_capytaine,
+    read_wamit,
     shipped_database,
 )
 from seacrane.hydro.data.relations import damping_from_forces
@@ -266,42 +267,43 @@ def test_told_apart_from_our_own_files(tmp_path: Path, capsys: pytest.CaptureFix
     )
 
 
-@pytest.fixture(scope="module")
-def barge(tmp_path_factory: pytest.TempPathFactory) -> Any:
-    """Solves a barge centred at ``x``, ``y`` of the mesh; reads the file that Capytaine itself writes."""
+def solved_barge(x: float, y: float) -> xarray.Dataset:
+    """A barge centred at ``x``, ``y`` of the mesh, solved by Capytaine."""
     capytaine = pytest.importorskip("capytaine", reason="capytaine absent: pip install .[hydro]")
-    folder = tmp_path_factory.mktemp("capytaine")
     logging.getLogger("capytaine").setLevel(logging.ERROR)
-
-    def solve(x: float, y: float) -> HydroDatabase:
-        centre = (x, y, 0.0)
-        mesh = capytaine.mesh_parallelepiped(size=(24.0, 8.0, 4.0), center=centre, resolution=(12, 4, 4))
-        body = capytaine.FloatingBody(
-            mesh=mesh.immersed_part(),
-            dofs=capytaine.rigid_body_dofs(rotation_center=centre),
-            center_of_mass=(x, y, 0.5),
-            name="barge",
-        )
-        body.inertia_matrix = body.compute_rigid_body_inertia()
-        body.hydrostatic_stiffness = body.compute_hydrostatic_stiffness()
-        study = xarray.Dataset(
-            coords={
-                "omega": [0.6, 0.9, 1.2, 1.5],
-                "wave_direction": np.radians(np.arange(0.0, 181.0, 15.0)),
-                "radiating_dof": list(body.dofs),
-            }
-        )
-        dataset = capytaine.BEMSolver().fill_dataset(study, [body], progress_bar=False)
-        path = folder / f"barge_{x:g}_{y:g}.nc"
-        capytaine.export_dataset(path, dataset)
-        return load_database(path)
-
-    return solve
+    centre = (x, y, 0.0)
+    mesh = capytaine.mesh_parallelepiped(size=(24.0, 8.0, 4.0), center=centre, resolution=(12, 4, 4))
+    body = capytaine.FloatingBody(
+        mesh=mesh.immersed_part(),
+        dofs=capytaine.rigid_body_dofs(rotation_center=centre),
+        center_of_mass=(x, y, 0.5),
+        name="barge",
+    )
+    body.inertia_matrix = body.compute_rigid_body_inertia()
+    body.hydrostatic_stiffness = body.compute_hydrostatic_stiffness()
+    study = xarray.Dataset(
+        coords={
+            "omega": [0.6, 0.9, 1.2, 1.5],
+            "wave_direction": np.radians(np.arange(0.0, 181.0, 15.0)),
+            "radiating_dof": list(body.dofs),
+        }
+    )
+    solved: xarray.Dataset = capytaine.BEMSolver().fill_dataset(study, [body], progress_bar=False)
+    return solved
 
 
-def test_a_fresh_capytaine_run(barge: Any) -> None:
+@pytest.fixture(scope="module")
+def barge_dataset() -> xarray.Dataset:
+    """The barge at the origin."""
+    return solved_barge(0.0, 0.0)
+
+
+def test_a_fresh_capytaine_run(barge_dataset: xarray.Dataset, tmp_path: Path) -> None:
     """Energy relation (signs of the couplings included), long waves, and a mesh placed elsewhere."""
-    found, moved = barge(0.0, 0.0), barge(30.0, -10.0)
+    capytaine = pytest.importorskip("capytaine", reason="capytaine absent: pip install .[hydro]")
+    capytaine.export_dataset(tmp_path / "here.nc", barge_dataset)
+    capytaine.export_dataset(tmp_path / "there.nc", solved_barge(30.0, -10.0))
+    found, moved = load_database(tmp_path / "here.nc"), load_database(tmp_path / "there.nc")
     assert found.port_starboard_symmetric
     assert (found.length, found.breadth, found.draught) == pytest.approx((24.0, 8.0, 2.0), rel=0.05)
     radiated = damping_from_forces(found)
@@ -316,3 +318,30 @@ def test_a_fresh_capytaine_run(barge: Any) -> None:
     scale = np.abs(found.force).max(axis=(0, 1))
     assert np.all(np.abs(moved.force - found.force) <= 1e-4 * scale)
     assert np.all(np.abs(moved.added_mass - found.added_mass) <= 1e-4 * np.abs(found.added_mass).max())
+
+
+def test_what_capytaine_exports_as_wamit_files(barge_dataset: xarray.Dataset, tmp_path: Path) -> None:
+    """A set without .out: the caller gives volume and gravity. Digits are those of the export."""
+    capytaine = pytest.importorskip("capytaine", reason="capytaine absent: pip install .[hydro]")
+    exported = pytest.importorskip("capytaine.io.wamit", reason="capytaine 3 is needed: pip install .[hydro]")
+    capytaine.export_dataset(tmp_path / "whole.nc", barge_dataset)
+    whole = load_database(tmp_path / "whole.nc")
+    exported.export_to_wamit(barge_dataset, str(tmp_path / "barge"), exports=("1", "3", "hst"))
+    with pytest.raises(FileFormatError, match=r"barge\.out: no such file; .* displaced volume"):
+        load_database(tmp_path / "barge")
+    with pytest.raises(FileFormatError, match="g is 0"):
+        read_wamit(tmp_path / "barge", volume=1.0, g=0.0)
+    found = read_wamit(
+        tmp_path / "barge",
+        volume=whole.mass_matrix[0, 0] / whole.rho,
+        g=whole.g,
+        rho=whole.rho,
+        mass_matrix=whole.mass_matrix,
+    )
+    assert found.port_starboard_symmetric and found.depth == np.inf
+    assert np.array_equal(found.mass_matrix, whole.mass_matrix)
+    for name in ("omega", "heading", "added_mass", "damping", "restoring", "force"):
+        mine, theirs = getattr(found, name), getattr(whole, name)
+        if name in ("added_mass", "damping"):  # Capytaine 3 writes the moving motion first, WAMIT the force
+            theirs = theirs.swapaxes(1, 2)
+        assert np.abs(mine - theirs).max() <= 2e-6 * np.abs(theirs).max(), name

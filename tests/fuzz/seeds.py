@@ -23,6 +23,8 @@ from test_hydro_bemio import bemio_values
 from test_hydro_bemio import written as bemio_file
 from test_hydro_capytaine import layout
 from test_hydro_mafredo import dhyd
+from test_hydro_nemoh import DAMAGE as NEMOH_DAMAGE
+from test_hydro_nemoh import write_project
 from test_meshes import glb, gltf_of_box
 from test_scene_file import every_kind
 from veres_writer import VeresRun
@@ -224,6 +226,17 @@ def of_version_0_1(data: dict[str, Any]) -> dict[str, Any]:
     return dict(old)
 
 
+def nemoh_seeds(folder: Path) -> None:
+    """A sound set of files in one folder, and one file for each refusal."""
+    write_project(shipped_database().select(omega=[5, 20], heading=[0, 9]), folder / "ship")
+    for file in sorted(path for path in (folder / "ship").rglob("*") if path.is_file()):
+        put("nemoh", file.name, file.read_bytes())
+    for number, (file, change, _) in enumerate(NEMOH_DAMAGE):
+        if change is not None:
+            text = (CORPUS / "nemoh" / Path(file).name).read_text()
+            put(f"nemoh-{Path(file).stem.lower()}", f"damage-{number}", change(text).encode())
+
+
 def bemio_seeds(folder: Path) -> None:
     """A sound file, and one for each refusal."""
     base = shipped_database().select(omega=[5, 20], heading=[0, 9])
@@ -260,6 +273,7 @@ def netcdf_seeds(folder: Path, hull: HydroDatabase) -> None:
     put("capytaine", "ship", spec_of(folder / "ship.nc"))
     put("capytaine-bytes", "ship", (folder / "ship.nc").read_bytes())
     bemio_seeds(folder)
+    nemoh_seeds(folder)
     path = dhyd(hull, folder, phase_origin=(1.0, 0.0))
     put("mafredo", "ship", spec_of(path))
     put("mafredo-bytes", "ship", path.read_bytes())

@@ -25,7 +25,7 @@ from seacrane.files.netcdf_limits import LARGEST_DATABASE as LARGEST
 from seacrane.files.netcdf_limits import NETCDF_ERRORS
 from seacrane.files.state import load_state
 from seacrane.hydro import Hull, HydroDatabase
-from seacrane.hydro.readers import bemio, capytaine, orcaflex, veres, wamit
+from seacrane.hydro.readers import bemio, capytaine, nemoh, orcaflex, veres, wamit
 from seacrane.result import Result
 
 CORPUS = Path(__file__).parent / "corpus"
@@ -133,6 +133,10 @@ def _capytaine(path: Path) -> Any:
     return capytaine.read_capytaine(path)
 
 
+def _nemoh(path: Path) -> Any:
+    return nemoh.read_nemoh(path.parent)
+
+
 def _bemio(path: Path) -> Any:
     bemio.is_bemio(path)
     return bemio.read_bemio(path)
@@ -227,6 +231,7 @@ _VERES = tuple(
     for name in ("veres", "veres_files", "veres_set", "veres_hydrostatics", "text_records")
 )
 _WAMIT = tuple(f"hydro/readers/{name}.py" for name in ("wamit", "wamit_control", "wamit_tables"))
+_NEMOH = ("hydro/readers/nemoh.py",)
 _LIFT = tuple(f"lift/{name}.py" for name in ("document", "lines", "check", "curves"))
 _SHAPE = (FileFormatError, ValueError)
 
@@ -251,6 +256,10 @@ def _netcdf_targets(name: str, file: str, read: Callable[[Path], Any], module: s
 _ALL = [
     *_set_targets("veres", "re7 re8 re1 re2 hyd", _veres, _VERES),
     *_set_targets("wamit", "1 3 4 hst frc out cfg", _wamit, _WAMIT),
+    *[
+        Target(f"nemoh-{name.split('.')[0].lower()}", "nemoh", name, _nemoh, _NEMOH, beside="nemoh")
+        for name in (nemoh.RADIATION, nemoh.EXCITATION, nemoh.STIFFNESS, nemoh.HYDROSTATICS, nemoh.CONTROL)
+    ],
     Target("orcaflex", "orcaflex", "ship.yml", orcaflex.read_orcaflex, _ORCAFLEX, mutate_json),
     Target("orcaflex-text", "orcaflex", "ship.yml", orcaflex.read_orcaflex, _ORCAFLEX),
     Target("offsets", "offsets", "hull.txt", _hull_of_offsets, ("hydro/hull/offsets.py",), refusals=_SHAPE),

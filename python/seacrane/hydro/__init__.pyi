@@ -42,6 +42,7 @@ from seacrane.hydro.readers.bemio import read_bemio as read_bemio
 from seacrane.hydro.readers.capytaine import read_capytaine as read_capytaine
 from seacrane.hydro.readers.load import available_speeds as available_speeds
 from seacrane.hydro.readers.load import load_database as load_database
+from seacrane.hydro.readers.nemoh import read_nemoh as read_nemoh
 from seacrane.hydro.readers.orcaflex import read_orcaflex as read_orcaflex
 from seacrane.hydro.readers.reader_warnings import AssumedDensityWarning as AssumedDensityWarning
 from seacrane.hydro.readers.reader_warnings import AssumedInertiaWarning as AssumedInertiaWarning

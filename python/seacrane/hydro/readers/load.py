@@ -8,17 +8,10 @@ from pathlib import Path
 from seacrane.errors import FileFormatError
 from seacrane.hydro.data.data_warnings import warn_of_data
 from seacrane.hydro.database.database import HydroDatabase
-from seacrane.hydro.readers import bemio, capytaine, orcaflex, seacrane_netcdf, veres, wamit
+from seacrane.hydro.readers import bemio, capytaine, nemoh, orcaflex, seacrane_netcdf, veres, wamit
 from seacrane.hydro.readers.format import Format
 
-FORMATS = (
-    capytaine.FORMAT,
-    seacrane_netcdf.FORMAT,
-    veres.FORMAT,
-    wamit.FORMAT,
-    orcaflex.FORMAT,
-    bemio.FORMAT,
-)
+FORMATS = tuple(kind.FORMAT for kind in (capytaine, seacrane_netcdf, veres, wamit, orcaflex, bemio, nemoh))
 NAMED = 5  # files in a message
 
 
@@ -26,7 +19,7 @@ def load_database(path: str | PathLike[str], *, speed: float | None = None) -> H
     """Read a hydrodynamic database of any supported kind.
 
     NetCDF of seacrane or Capytaine (told apart by content), ShipX/VERES or WAMIT (folder, stem or any file of
-    the set), OrcaFlex (a text model, or MaFreDo's form), BEMIO's HDF5 (of WEC-Sim).
+    the set), OrcaFlex (a text model, or MaFreDo's form), BEMIO's HDF5 (of WEC-Sim), NEMOH (a folder).
 
     Parameters
     ----------

@@ -13,9 +13,10 @@ from os import PathLike
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from seacrane.errors import FileFormatError
+from seacrane.hydro.data.heading_circle import keeps_sides_apart
 from seacrane.hydro.data.rigid_mass import rigid_mass_matrix
 from seacrane.hydro.database.database import HydroDatabase
 from seacrane.hydro.readers.equivalent_box import equivalent_box
@@ -45,7 +46,7 @@ from seacrane.inputs.shown import shown
 FloatArray = NDArray[np.float64]
 
 SUFFIXES = (".1", ".3", ".4", ".hst", ".frc", ".out", ".cfg", ".pot")
-NEEDED = (".1", ".3", ".hst", ".out")
+NEEDED = (".1", ".3", ".hst")
 USUAL_DENSITY = 1025.0
 ROTATIONS = np.array([0, 0, 0, 1, 1, 1])
 HASKIND_LIMIT = np.array([0.05, 0.01, 0.01, 0.01, 0.01, 0.01])  # two force methods differ by the mesh's error
@@ -54,11 +55,28 @@ DIFFRACTION_LIMIT = np.full(6, 1e-3)  # the forces of .3 themselves, in seven di
 PANELS_PER_WAVELENGTH = 8.0
 
 
-def read_wamit(path: str | PathLike[str]) -> HydroDatabase:
+def read_wamit(
+    path: str | PathLike[str],
+    *,
+    volume: float | None = None,
+    depth: float = np.inf,
+    g: float = 9.80665,
+    length_scale: float = 1.0,
+    rho: float | None = None,
+    mass_matrix: ArrayLike | None = None,
+) -> HydroDatabase:
     """Read the WAMIT results at ``path``: a folder that holds one set, the common stem, or one of the files.
 
     Needs ``.1``, ``.3``, ``.hst`` and ``.out``. ``.4`` adds the motions, against which `check` compares;
     ``.frc``, of either form, the mass. One rigid body at the origin of the waves, zero speed.
+
+    Parameters
+    ----------
+    path : folder, stem or file.
+    volume, depth, g, length_scale : m3, m, m/s2, m (ULEN), of a set without ``.out``, such as another code
+        exports: there ``volume`` is needed. Beside a ``.out`` they are not used.
+    rho : kg/m3, of a set that does not tell it.
+    mass_matrix : (6, 6) in SI about the origin, of a set without ``.frc``.
 
     Returns
     -------
@@ -84,8 +102,10 @@ def read_wamit(path: str | PathLike[str]) -> HydroDatabase:
             raise FileFormatError(
                 f"{stem}{suffix}: no such file; WAMIT needs {', '.join(NEEDED)} of the same stem"
             )
+    mass = None if mass_matrix is None else np.asarray(mass_matrix, dtype=float)
+    given = _Given(volume, float(depth), float(g), float(length_scale), rho, mass)
     try:
-        return _convert(stem, files)
+        return _convert(stem, files, given)
     except FileFormatError:
         raise
     except ValueError as error:
@@ -124,6 +144,47 @@ def _sibling(stem: Path, suffix: str) -> Path | None:
 
 
 @dataclass(frozen=True, eq=False)
+class _Given:
+    """What the caller says of a set that lacks ``.out`` or ``.frc``."""
+
+    volume: float | None
+    depth: float
+    g: float
+    length_scale: float
+    rho: float | None
+    mass: FloatArray | None
+
+    def listing(self, stem: Path, radiation: Radiation) -> Listing:
+        """In the place of ``.out``."""
+        if self.volume is None:
+            raise FileFormatError(
+                f"{stem}.out: no such file; WAMIT needs it, or read_wamit the displaced volume in m3 (and "
+                "depth, g, length_scale where they are not inf, 9.80665, 1)"
+            )
+        values = {"volume": self.volume, "depth": self.depth, "g": self.g, "length_scale": self.length_scale}
+        for name, value in values.items():
+            if not (value > 0.0 and (np.isfinite(value) or name == "depth")):
+                raise FileFormatError(f"{stem}: {name} is {value!r}; give a positive number")
+        return Listing(
+            path=stem,
+            version="without .out,",
+            title="volume, depth and gravity as given",
+            g=self.g,
+            length_scale=self.length_scale,
+            depth=self.depth,
+            rho=None,
+            volume=float(self.volume),
+            centre_of_buoyancy=np.zeros(3),
+            centre_of_gravity=None,
+            body_height=0.0,
+            symmetric=keeps_sides_apart(radiation.added_mass),
+            panels=None,
+            period=radiation.period,
+            last_line=0,
+        )
+
+
+@dataclass(frozen=True, eq=False)
 class _Body:
     """What turns non-dimensional numbers into SI, and the inertia."""
 
@@ -132,26 +193,27 @@ class _Body:
     restoring: FloatArray
     box: tuple[float, float, float]
     control: ForceControl | None
+    mass: FloatArray | None
 
 
-def _convert(stem: Path, files: dict[str, Path | None]) -> HydroDatabase:
+def _convert(stem: Path, files: dict[str, Path | None], given: _Given) -> HydroDatabase:
     """The database in SI."""
     if files[".cfg"] is not None:
         check_period_output(files[".cfg"])
-    listing = read_listing(_there(files, ".out"))
     radiation = read_radiation(_there(files, ".1"))
+    listing = given.listing(stem, radiation) if files[".out"] is None else read_listing(files[".out"])
     force = read_waves(_there(files, ".3"))
     motion = None if files[".4"] is None else read_waves(files[".4"])
     control = None if files[".frc"] is None else read_force_control(files[".frc"])
     _check_periods(listing, radiation.period, _there(files, ".1"))
     period, heading_deg = _common(stem, radiation, force, motion)
-    rho = _density(stem, listing, control)
+    rho = _density(stem, listing, control, given.rho)
     length_scale, g = listing.length_scale, listing.g
     power = 3 + np.add.outer(ROTATIONS, ROTATIONS)
     mass_scale = rho * length_scale**power
     restoring = read_restoring(_there(files, ".hst")) * rho * g * length_scale ** (power - 1)
     box = equivalent_box(restoring, listing.volume, rho * g)
-    body = _Body(listing, rho, restoring, box, control)
+    body = _Body(listing, rho, restoring, box, control, given.mass)
     omega = (2.0 * np.pi / period)[::-1]
     rows = np.searchsorted(radiation.period, period)[::-1]
     direction, order = _directions(force.path, heading_deg)
@@ -252,8 +314,8 @@ class _Picker:
         return np.asarray(table.values[np.ix_(rows, columns)])
 
 
-def _density(stem: Path, listing: Listing, control: ForceControl | None) -> float:
-    given = None if control is None else control.rho
+def _density(stem: Path, listing: Listing, control: ForceControl | None, asked: float | None) -> float:
+    given = asked if control is None or control.rho is None else control.rho
     if given is None and listing.rho is None:
         warn_caller(
             f"{stem}: neither .frc nor .out holds the water density; 1025 kg/m3 is taken, and every mass, "
@@ -271,6 +333,8 @@ def _density(stem: Path, listing: Listing, control: ForceControl | None) -> floa
 def _mass_matrix(stem: Path, body: _Body) -> FloatArray:
     """Mass matrix (6, 6): as given, or the displaced mass with the radii of gyration of ``.frc``."""
     control, listing = body.control, body.listing
+    if body.mass is not None and (control is None or control.mass is None):
+        return body.mass
     if control is not None and control.mass is not None:
         return control.mass
     mass = body.rho * listing.volume

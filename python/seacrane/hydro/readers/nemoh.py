@@ -1,0 +1,313 @@
+"""Reader of NEMOH's results in Tecplot form, as NEMOH 2 writes them and Capytaine exports them.
+
+``RadiationCoefficients.tec`` has a block for each moving degree of freedom, with rows of omega and, for each
+force, A and B. ``ExcitationForce.tec`` has a block for each wave direction, with rows of omega and, for each
+force, modulus and phase (rad) in the time factor exp(-i omega t): its conjugate is ours. ``KH.dat`` is the
+restoring matrix in SI, ``Hydrostatics.dat`` tells centre of gravity and volume, ``Nemoh.cal`` the water, the
+directions and the point that the rotations turn about.
+"""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from os import PathLike
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from seacrane.errors import FileFormatError
+from seacrane.files.whole_file import read_whole
+from seacrane.hydro.data.heading_circle import keeps_sides_apart
+from seacrane.hydro.database.database import HydroDatabase
+from seacrane.hydro.readers.equivalent_box import equivalent_box
+from seacrane.hydro.readers.format import Format, of_one_speed, zero_speed
+from seacrane.hydro.readers.reader_warnings import AssumedDensityWarning
+from seacrane.hydro.readers.usual_inertia import usual_mass_matrix
+from seacrane.hydro.readers.wave_directions import phase_at, rising_directions
+from seacrane.inputs.caller import warn_caller
+
+FloatArray = NDArray[np.float64]
+
+RADIATION, EXCITATION = "RadiationCoefficients.tec", "ExcitationForce.tec"
+STIFFNESS, HYDROSTATICS, CONTROL = "KH.dat", "Hydrostatics.dat", "Nemoh.cal"
+INNER = ("results", "Results", "mesh", "Mesh")
+NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[EeDd][-+]?\d+)?"
+MOTIONS = 6
+
+
+def read_nemoh(
+    path: str | PathLike[str],
+    *,
+    rho: float = 1025.0,
+    g: float = 9.81,
+    depth: float = np.inf,
+    rotation_centre: ArrayLike = (0.0, 0.0, 0.0),
+    mass_matrix: ArrayLike | None = None,
+) -> HydroDatabase:
+    """Read a folder of NEMOH's results of one body with six motions.
+
+    Parameters
+    ----------
+    path : the folder, or a file in it. The files stand in it, or in its ``results`` and ``mesh``.
+    rho, g, depth, rotation_centre : kg/m3, m/s2, m and (3,) m from the origin of the mesh, of results without
+        ``Nemoh.cal``, such as Capytaine exports; beside it they are not used.
+    mass_matrix : (6, 6) in SI about the rotation centre; by default the displaced mass at the centre of
+        gravity with usual radii of gyration.
+
+    Returns
+    -------
+    HydroDatabase : length, breadth and draught are those of the equivalent box.
+
+    Warns
+    -----
+    AssumedDensityWarning : no ``Nemoh.cal``: density, gravity, depth and rotation centre are the arguments.
+    AssumedInertiaWarning : no ``mass_matrix``.
+
+    Raises
+    ------
+    FileFormatError : a file is missing, truncated or damaged; the message names it and the line.
+    """
+    folder = _project(Path(path))
+    files = {name: _found(folder, name) for name in (RADIATION, EXCITATION, STIFFNESS, HYDROSTATICS)}
+    if (control := _sought(folder, CONTROL)) is not None:
+        water = _read_control(control)
+    else:
+        centre = np.asarray(rotation_centre, dtype=float)
+        water = _Water(float(rho), float(g), float(depth), centre, (0.0, 0.0))
+        warn_caller(
+            f"{folder}: has no {CONTROL}; {rho:g} kg/m3, {g:g} m/s2, depth {depth:g} m and rotations about "
+            f"{tuple(centre.tolist())} m are taken",
+            AssumedDensityWarning,
+        )
+    try:
+        return _convert(folder, files, water, mass_matrix)
+    except FileFormatError:
+        raise
+    except ValueError as error:
+        raise FileFormatError(f"{folder}: {error}") from error
+
+
+@dataclass(frozen=True, eq=False)
+class _Water:
+    """``Nemoh.cal``: kg/m3, m/s2, m, and m from the origin of the mesh."""
+
+    rho: float
+    g: float
+    depth: float
+    rotation_centre: FloatArray
+    phase_origin: tuple[float, float]
+
+
+def _convert(
+    folder: Path, files: dict[str, Path], water: _Water, mass_matrix: ArrayLike | None
+) -> HydroDatabase:
+    radiation = _blocks(files[RADIATION])
+    if len(radiation) != MOTIONS:
+        raise FileFormatError(
+            f"{files[RADIATION]}: {len(radiation)} degrees of freedom; the six of one body are needed"
+        )
+    omega, order = _frequencies(files[RADIATION], radiation)
+    values = np.array([block.rows[order] for block in radiation])  # moving, omega, columns
+    added_mass, damping = values[:, :, 1::2].transpose(1, 2, 0), values[:, :, 2::2].transpose(1, 2, 0)
+    waves = _blocks(files[EXCITATION])
+    if not np.array_equal(_frequencies(files[EXCITATION], waves)[0], omega):
+        raise FileFormatError(
+            f"{files[EXCITATION]}: other frequencies than {RADIATION}; use files of one run"
+        )
+    direction, places = rising_directions(np.array([_direction(files[EXCITATION], each) for each in waves]))
+    wave = np.array([block.rows[order] for block in waves])[places]
+    force = wave[:, :, 1::2] * np.exp(-1j * wave[:, :, 2::2])
+    gravity, volume = _read_hydrostatics(files[HYDROSTATICS])
+    restoring = _matrix(files[STIFFNESS])
+    box = equivalent_box(restoring, volume, water.rho * water.g)
+    centre = water.rotation_centre
+    if mass_matrix is None:
+        mass_matrix = usual_mass_matrix(
+            folder, "NEMOH's results hold no mass matrix, pass mass_matrix to read_nemoh",
+            mass=water.rho * volume, centre=gravity - centre, length=box[0], breadth=box[1],
+        )  # fmt: skip
+    from_phases = np.array([centre[0] - water.phase_origin[0], centre[1] - water.phase_origin[1]])
+    return HydroDatabase(
+        name=folder.resolve().name,
+        omega=omega,
+        heading=direction,
+        added_mass=added_mass,
+        damping=damping,
+        restoring=restoring,
+        mass_matrix=np.asarray(mass_matrix, dtype=float),
+        force=force * phase_at(from_phases, omega, direction, water.g, water.depth),
+        rho=water.rho,
+        g=water.g,
+        depth=water.depth,
+        length=box[0],
+        breadth=box[1],
+        draught=box[2],
+        origin=(
+            f"rotation centre of the NEMOH body, ({centre[0]:g}, {centre[1]:g}, {centre[2]:g}) m from the "
+            "origin of its mesh"
+        ),
+        source=f"NEMOH results in folder {folder.resolve().name}",
+        port_starboard_symmetric=bool(centre[1] == 0.0 and keeps_sides_apart(added_mass)),
+    )
+
+
+@dataclass(frozen=True, eq=False)
+class _Block:
+    """Rows of numbers below a line of text."""
+
+    title: str
+    line: int
+    rows: FloatArray
+
+
+def _blocks(path: Path) -> list[_Block]:
+    """The blocks of a Tecplot file; lines of text without rows below them are its head."""
+    blocks: list[_Block] = []
+    title, start, rows = "", 0, list[list[float]]()
+
+    def close() -> None:
+        if rows:
+            blocks.append(_Block(title, start, np.array(rows)))
+
+    for number, line in enumerate(_lines(path), start=1):
+        words = line.split()
+        if words and re.fullmatch(NUMBER, words[0]):
+            rows.append(_numbers(path, number, words))
+            if len(rows[-1]) != 1 + 2 * MOTIONS:
+                raise FileFormatError(
+                    f"{path}, line {number}: {len(rows[-1])} numbers; omega and two for each of six motions "
+                    "are needed: the file is truncated, or of another body"
+                )
+        elif words:
+            close()
+            title, start, rows = line.strip(), number, []
+    close()
+    if not blocks:
+        raise FileFormatError(f"{path}: no numbers; the file is empty or truncated")
+    return blocks
+
+
+def _frequencies(path: Path, blocks: list[_Block]) -> tuple[FloatArray, NDArray[np.intp]]:
+    """Frequencies (rad/s), rising, the same in every block, and their places in it."""
+    first = blocks[0].rows[:, 0]
+    for block in blocks[1:]:
+        if not np.array_equal(block.rows[:, 0], first):
+            raise FileFormatError(
+                f"{path}, line {block.line}: {block.title[:60]!r} has other frequencies than the first; the "
+                "file is truncated"
+            )
+    order = np.argsort(first)
+    return first[order], order
+
+
+def _direction(path: Path, block: _Block) -> float:
+    """Direction of a block's waves, rad: ``angle = 0.5``, or in degrees where its title says so."""
+    found = re.findall(rf"(?:angle|direction|beta)\s*=\s*({NUMBER})\s*(deg)?", block.title, re.IGNORECASE)
+    if not found:
+        raise FileFormatError(
+            f"{path}, line {block.line}: no wave direction in {block.title[:60]!r}; 'angle = ...' is needed"
+        )
+    value, unit = found[-1]
+    angle = _numbers(path, block.line, [value])[0]
+    return float(np.radians(angle)) if unit else angle
+
+
+def _read_hydrostatics(path: Path) -> tuple[FloatArray, float]:
+    """Centre of gravity (3,) in m, and displaced volume in m3."""
+    text = "\n".join(_lines(path))
+    gravity = re.findall(rf"[XYZ]G\s*=\s*({NUMBER})", text)
+    volume = re.search(rf"Displacement\s*=\s*({NUMBER})", text)
+    if len(gravity) != 3 or volume is None:
+        raise FileFormatError(f"{path}: no centre of gravity or no Displacement; the file is truncated")
+    size = _numbers(path, 1, [volume.group(1)])[0]
+    if not size > 0.0:
+        raise FileFormatError(f"{path}: Displacement is {size:g} m3; give a positive one")
+    return np.array(_numbers(path, 1, gravity)), size
+
+
+def _matrix(path: Path) -> FloatArray:
+    """The restoring matrix (6, 6)."""
+    lines = [(number, line.split()) for number, line in enumerate(_lines(path), start=1) if line.strip()]
+    rows = [_numbers(path, number, words) for number, words in lines]
+    if len(rows) != MOTIONS or any(len(row) != MOTIONS for row in rows):
+        raise FileFormatError(f"{path}: is no matrix of six rows and columns; it is truncated or damaged")
+    return np.array(rows)
+
+
+def _read_control(path: Path) -> _Water:
+    """Water and body of ``Nemoh.cal``: values stand before the exclamation marks."""
+    rows = [line.split("!")[0].split() for line in _lines(path) if not line.lstrip().startswith("---")]
+    numbers = [[float(word) for word in row if re.fullmatch(NUMBER, word)] for row in rows]
+    if len(numbers) < 5 or [len(row) for row in numbers[:5]] != [1, 1, 1, 2, 1]:
+        raise FileFormatError(
+            f"{path}: does not begin with density, gravity, depth, wave measurement point and number of "
+            "bodies; give the file that NEMOH was run with"
+        )
+    (rho,), (g,), (depth,), origin, (bodies,) = numbers[:5]
+    if not (rho > 0.0 and g > 0.0 and depth >= 0.0):
+        raise FileFormatError(
+            f"{path}: density {rho:g} kg/m3, gravity {g:g} m/s2, depth {depth:g} m; give positive ones (a "
+            "depth of 0 is deep water)"
+        )
+    if bodies != 1.0:
+        raise FileFormatError(f"{path}: {bodies:g} bodies; one is read")
+    turns = [row for row in numbers[5:] if len(row) == 7 and row[0] == 2.0]
+    centres = {tuple(row[4:]) for row in turns[:3]}  # of the motions, before the forces
+    if len(centres) != 1:
+        raise FileFormatError(f"{path}: its rotations turn about {len(centres)} points; one is needed")
+    return _Water(rho, g, depth or np.inf, np.array(centres.pop()), (origin[0], origin[1]))
+
+
+def _numbers(path: Path, line: int, words: list[str]) -> list[float]:
+    try:
+        values = [float(word.upper().replace("D", "E")) for word in words]
+    except ValueError:
+        raise FileFormatError(f"{path}, line {line}: {' '.join(words)[:60]!r} are no numbers") from None
+    if not np.all(np.isfinite(values)):
+        raise FileFormatError(f"{path}, line {line}: {' '.join(words)[:60]!r} are not all finite")
+    return values
+
+
+def _lines(path: Path) -> list[str]:
+    try:
+        return read_whole(path).decode("latin-1").splitlines()
+    except OSError as error:
+        raise FileFormatError(
+            f"{path}: cannot be read ({error.strerror}); check the path and its rights"
+        ) from error
+
+
+def _project(path: Path) -> Path:
+    """The folder that holds everything, from itself, a folder in it, or a file."""
+    folder = path if path.is_dir() else path.parent
+    return folder.parent if folder.name in INNER else folder
+
+
+def _sought(folder: Path, name: str) -> Path | None:
+    places = [folder, *(folder / inner for inner in INNER)]
+    return next((place / name for place in places if (place / name).is_file()), None)
+
+
+def _found(folder: Path, name: str) -> Path:
+    file = _sought(folder, name)
+    if file is None:
+        needed = ", ".join((RADIATION, EXCITATION, STIFFNESS, HYDROSTATICS))
+        raise FileFormatError(f"{folder / name}: no such file, nor in results or mesh; NEMOH needs {needed}")
+    return file
+
+
+def _can_open(path: Path) -> bool:
+    return path.name in (RADIATION, EXCITATION, CONTROL) or (
+        path.is_dir() and _sought(_project(path), RADIATION) is not None
+    )
+
+
+FORMAT = Format(
+    name="NEMOH",
+    files="a NEMOH folder (RadiationCoefficients.tec, ExcitationForce.tec, KH.dat, Hydrostatics.dat)",
+    can_open=_can_open,
+    read=of_one_speed(read_nemoh),
+    speeds=zero_speed,
+)

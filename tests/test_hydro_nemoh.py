@@ -1,0 +1,174 @@
+"""NEMOH reader: a folder written after the format's description, one that Capytaine exports, damage."""
+
+from __future__ import annotations
+
+import logging
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+from test_hydro_capytaine import solved_barge
+
+from seacrane.errors import FileFormatError
+from seacrane.hydro import (
+    AssumedDensityWarning,
+    AssumedInertiaWarning,
+    HydroDatabase,
+    load_database,
+    read_nemoh,
+    shipped_database,
+)
+from seacrane.sea.dispersion import wavenumber
+
+CENTRE = np.array([3.0, 0.0, -2.0])  # of the rotations, from the origin of the mesh
+
+DAMAGE: list[tuple[str, Callable[[str], str] | None, str]] = [
+    ("mesh/KH.dat", None, "KH.dat: no such file, nor in results or mesh"),
+    ("mesh/KH.dat", lambda text: text[:200], "is no matrix of six rows"),
+    ("mesh/KH.dat", lambda text: text.replace("E", "x", 1), "are no numbers"),
+    ("mesh/Hydrostatics.dat", lambda text: text[:40], "no centre of gravity"),
+    (
+        "mesh/Hydrostatics.dat",
+        lambda text: text.replace("Displacement = ", "Displacement = -"),
+        "positive",
+    ),
+    ("results/RadiationCoefficients.tec", lambda text: "", "no numbers"),
+    ("results/RadiationCoefficients.tec", lambda text: text[:-30], "omega and two for each of six"),
+    (
+        "results/RadiationCoefficients.tec",
+        lambda text: text[: text.rindex("Zone")],
+        "5 degrees of freedom; the six",
+    ),
+    (
+        "results/RadiationCoefficients.tec",
+        lambda text: text.rstrip().rpartition("\n")[0] + "\n",
+        "has other frequencies than the first",
+    ),
+    ("results/RadiationCoefficients.tec", lambda text: text.replace("E+0", "E+999", 1), "not all finite"),
+    ("results/ExcitationForce.tec", lambda text: text.replace("beta", "wave", 1), "no wave direction in"),
+    ("Nemoh.cal", lambda text: text.replace("1025.0", "-1025.0"), "density -1025 kg/m3"),
+    ("Nemoh.cal", lambda text: text.replace("1 ! Number", "2 ! Number"), "2 bodies; one is read"),
+    ("Nemoh.cal", lambda text: text.replace("9.81", ""), "does not begin with density"),
+    ("Nemoh.cal", lambda text: text.replace("-2.0 !", "-1.0 !", 1), "turn about 2 points"),
+]
+
+
+def shipped_part() -> HydroDatabase:
+    """Some frequencies and headings of the shipped hull."""
+    return shipped_database().select(every=8, every_heading=6)
+
+
+def control(turn: np.ndarray, depth: float = 0.0, bodies: int = 1) -> str:
+    """``Nemoh.cal``."""
+    motions = [f"1 {x} {y} {z} 0. 0. 0. ! translation" for x, y, z in np.eye(3)]
+    motions += [f"2 {x} {y} {z} {turn[0]} {turn[1]} {turn[2]} ! rotation" for x, y, z in np.eye(3)]
+    head = ["--- Environment ---", "1025.0 ! RHO", "9.81 ! G", f"{depth} ! DEPTH", "0. 0. ! XEFF YEFF"]
+    body = [
+        "--- Bodies ---",
+        f"{bodies} ! Number of bodies",
+        "--- Body 1 ---",
+        "ship.dat ! Mesh",
+        "540 300 !",
+    ]
+    return "\n".join([*head, *body, "6 ! Degrees of freedom", *motions, "6 ! Forces", *motions, "0 !"]) + "\n"
+
+
+def write_project(base: HydroDatabase, folder: Path) -> None:
+    """A project folder as NEMOH 2 leaves it, results to twelve digits."""
+    (folder / "results").mkdir(parents=True)
+    (folder / "mesh").mkdir()
+    (folder / "Nemoh.cal").write_text(control(CENTRE))
+    radiation = ['VARIABLES="w (rad/s)"', *(f'"A\t1\t{i}" "B\t1\t{i}"' for i in range(1, 7))]
+    for j in range(6):
+        radiation.append(f'Zone t="Motion of body   1 in DoF   {j + 1}",I= {len(base.omega)},F=POINT')
+        for i, omega in enumerate(base.omega):
+            pairs = np.stack([base.added_mass[i, :, j], base.damping[i, :, j]], axis=1).ravel()
+            radiation.append(" ".join(f"{value:.12E}" for value in (omega, *pairs)))
+    (folder / "results" / "RadiationCoefficients.tec").write_text("\n".join(radiation) + "\n")
+    k = wavenumber(base.omega, g=base.g, depth=np.inf)
+    waves = ['VARIABLES="w (rad/s)"', *(f'"abs(F\t1\t{i})" "angle(F\t1\t{i})"' for i in range(1, 7))]
+    for heading, forces in zip(base.heading, base.force, strict=True):
+        degrees = np.degrees(heading)
+        waves.append(f'Zone t="Excitation force - beta = {degrees:.6f} deg",I= {len(k)},F=POINT')
+        at_mesh = np.conj(forces * np.exp(-1j * CENTRE[0] * np.cos(heading) * k)[:, None])
+        for omega, force in zip(base.omega, at_mesh, strict=True):
+            pairs = np.stack([np.abs(force), np.angle(force)], axis=1).ravel()
+            waves.append(" ".join(f"{value:.12E}" for value in (omega, *pairs)))
+    (folder / "results" / "ExcitationForce.tec").write_text("\n".join(waves) + "\n")
+    np.savetxt(folder / "mesh" / "KH.dat", base.restoring, fmt="%.12E")
+    volume = base.mass_matrix[0, 0] / base.rho
+    gravity = CENTRE + np.array([0.0, 0.0, 1.5])
+    lines = [f"{axis}F = 0.0 - {axis}G = {at:7.4f}" for axis, at in zip("XYZ", gravity, strict=True)]
+    (folder / "mesh" / "Hydrostatics.dat").write_text("\n".join([*lines, f"Displacement = {volume:.10E}\n"]))
+
+
+def assert_same(found: HydroDatabase, base: HydroDatabase, tolerance: float) -> None:
+    """Frequencies, headings, matrices and forces."""
+    for name in ("omega", "heading", "added_mass", "damping", "restoring", "force"):
+        mine, theirs = getattr(found, name), getattr(base, name)
+        assert np.abs(mine - theirs).max() <= tolerance * np.abs(theirs).max(), name
+
+
+@pytest.mark.parametrize("inside", ["", "results", "Nemoh.cal"])
+def test_what_was_written_comes_back(inside: str, tmp_path: Path) -> None:
+    base = shipped_part()
+    write_project(base, tmp_path / "ship")
+    with pytest.warns(AssumedInertiaWarning, match="pass mass_matrix to read_nemoh"):
+        found = load_database(tmp_path / "ship" / inside)
+    assert_same(found, base, 1e-8)
+    assert (found.name, found.rho, found.g, found.depth) == ("ship", 1025.0, 9.81, np.inf)
+    assert found.port_starboard_symmetric
+    assert found.mass_matrix[0, 4] == pytest.approx(1.5 * found.mass_matrix[0, 0])
+
+
+def test_what_capytaine_exports(tmp_path: Path) -> None:
+    """No Nemoh.cal: water and rotation centre are the caller's. Seven digits are written."""
+    capytaine = pytest.importorskip("capytaine", reason="capytaine absent: pip install .[hydro]")
+    logging.getLogger("capytaine").setLevel(logging.ERROR)
+    exported = pytest.importorskip("capytaine.io.legacy", reason="capytaine absent: pip install .[hydro]")
+    dataset = solved_barge(10.0, 0.0)
+    capytaine.export_dataset(tmp_path / "whole.nc", dataset)
+    whole = load_database(tmp_path / "whole.nc")
+    (tmp_path / "barge").mkdir()
+    exported.write_dataset_as_tecplot_files(tmp_path / "barge", dataset)
+    np.savetxt(tmp_path / "barge" / "KH.dat", whole.restoring)
+    (tmp_path / "barge" / "Hydrostatics.dat").write_text(
+        "XF = 10.0 - XG = 10.0\nYF = 0.0 - YG = 0.0\nZF = -1.0 - ZG = 0.5\nDisplacement = 384.0\n"
+    )
+    with pytest.warns(AssumedDensityWarning, match=r"has no Nemoh\.cal; 1000 kg/m3, 9.81 m/s2"):
+        found = read_nemoh(
+            tmp_path / "barge", rho=whole.rho, rotation_centre=(10.0, 0.0, 0.0), mass_matrix=whole.mass_matrix
+        )
+    assert_same(found, whole, 3e-6)
+    assert np.array_equal(found.mass_matrix, whole.mass_matrix)
+
+
+def test_depth_of_the_control_file(tmp_path: Path) -> None:
+    write_project(shipped_part(), tmp_path / "ship")
+    (tmp_path / "ship" / "Nemoh.cal").write_text(control(CENTRE, depth=30.0))
+    with pytest.warns(AssumedInertiaWarning):
+        assert load_database(tmp_path / "ship").depth == 30.0
+
+
+@pytest.mark.parametrize(("file", "change", "message"), DAMAGE)
+def test_damage_is_named(
+    file: str, change: Callable[[str], str] | None, message: str, tmp_path: Path
+) -> None:
+    folder = tmp_path / "ship"
+    write_project(shipped_part(), folder)
+    text = (folder / file).read_text()
+    (folder / file).unlink()
+    if change is not None:
+        (folder / file).write_text(change(text))
+    with pytest.raises(FileFormatError, match=message):
+        read_nemoh(folder, mass_matrix=shipped_part().mass_matrix)
+
+
+def test_frequencies_of_another_run_are_refused(tmp_path: Path) -> None:
+    write_project(shipped_part(), tmp_path / "ship")
+    write_project(shipped_part().select(omega=slice(1, None)), tmp_path / "other")
+    waves = (tmp_path / "other" / "results" / "ExcitationForce.tec").read_text()
+    (tmp_path / "ship" / "results" / "ExcitationForce.tec").write_text(waves)
+    with pytest.raises(FileFormatError, match="other frequencies than RadiationCoefficients"):
+        read_nemoh(tmp_path / "ship", mass_matrix=shipped_part().mass_matrix)
