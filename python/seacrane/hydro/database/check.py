@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from seacrane.hydro.data.encounter import encounter_frequency, inside_table
 from seacrane.hydro.data.hydro_data import HydroData
 from seacrane.hydro.data.memory_model import RADIATION, MemoryModel
-from seacrane.hydro.data.motion import motion_errors, motion_response, natural_frequency
+from seacrane.hydro.data.motion import motion_response, natural_frequency
 from seacrane.hydro.data.relations import (
     damping_from_forces,
     infinite_added_mass_from_damping,
@@ -26,6 +26,7 @@ from seacrane.inputs.frames import MOTIONS
 FloatArray = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
 
+SHORTEST_PERIOD = 5.0  # s, of waves by which motions are judged
 SYMMETRY_LIMIT = 0.03
 DAMPING_LIMIT = -0.01
 FORCE_DAMPING_LIMIT = 0.1
@@ -98,37 +99,51 @@ def memory_rows(database: HydroData, model: MemoryModel) -> list[CheckRow]:
 
 
 def _closure_rows(database: HydroData) -> list[CheckRow]:
-    """Motions solved from A, B, C, F against those of the source, within the trusted band.
+    """Motions solved from A, B, C, F against those of the source, by the largest of each motion.
 
-    At forward speed frequencies of waves and of encounter have to be within it.
+    In waves of 5 s and more, within the trusted band; at forward speed frequencies of waves and of encounter
+    have to be within it. Shorter waves move no ship, and what symmetry forbids is noise in files: neither is
+    judged by its own size.
     """
     if database.motion_rao is None:
         return []
     solved = motion_response(database)
-    inside = np.broadcast_to(in_trusted_band(database), solved.shape[:2])
+    inside = np.broadcast_to(in_trusted_band(database) & _long(database), solved.shape[:2])
     if database.speed != 0.0:
         encounter = np.abs(encounter_frequency(database))
         inside = inside & inside_table(database.omega, encounter) & in_trusted_band(database, encounter)
-    errors = motion_errors(database, solved, database.motion_rao, inside=inside)
+    given = np.where(inside[:, :, None], database.motion_rao, 0.0)
+    largest = np.abs(given).max(axis=(0, 1))
+    error = np.where(inside[:, :, None], np.abs(solved - given), 0.0).max(axis=(0, 1))
+    errors = np.where(largest > 0.0, error / np.where(largest > 0.0, largest, 1.0), 0.0)
     limits = database.motion_rao_limit.tolist()
     return [_at_most(f"motion_rao_{name}", errors[i], limits[i]) for i, name in enumerate(MOTIONS)]
 
 
-def _matrix_rows(database: HydroData) -> list[CheckRow]:
-    """Symmetry of A and B, semi-definite B, missing surge terms; without limits at forward speed.
+def _long(database: HydroData) -> NDArray[np.bool_]:
+    """Frequencies of waves of 5 s and more; all, where there are none such."""
+    long = database.omega <= 2.0 * np.pi / SHORTEST_PERIOD
+    return long if np.any(long & in_trusted_band(database)) else np.ones_like(long)
 
-    Speed couples heave and pitch, sway and yaw with opposite signs (Salvesen, Tuck and Faltinsen 1970).
+
+def _matrix_rows(database: HydroData) -> list[CheckRow]:
+    """Symmetry of A and B, semi-definite B in the trusted band, missing surge terms.
+
+    Without limits at forward speed, which couples heave and pitch, sway and yaw with opposite signs
+    (Salvesen, Tuck and Faltinsen 1970).
     """
     rows = []
     moving = database.speed != 0.0
-    for name, matrix in (("added_mass", database.added_mass), ("damping", database.damping)):
+    inside = in_trusted_band(database)
+    added_mass, damping = database.added_mass[inside], database.damping[inside]
+    for name, matrix in (("added_mass", added_mass), ("damping", damping)):
         scale = np.sqrt(np.abs(np.diagonal(matrix, axis1=1, axis2=2)).max(axis=0))
         product = np.outer(scale, scale)
         skew = np.abs(matrix - matrix.swapaxes(1, 2)).max(axis=0)
         asymmetry = np.where(product > 0.0, skew / np.where(product > 0.0, product, 1.0), 0.0).max()
         label = f"symmetry_{name}"
         rows.append(_info(label, asymmetry) if moving else _at_most(label, float(asymmetry), SYMMETRY_LIMIT))
-    label, smallest = "damping_smallest_eigenvalue", _smallest_damping(database.damping)
+    label, smallest = "damping_smallest_eigenvalue", _smallest_damping(damping)
     rows.append(_info(label, smallest) if moving else _at_least(label, smallest, DAMPING_LIMIT))
     rows.append(_info("surge_terms_missing", float(_surge_is_missing(database))))
     return rows
