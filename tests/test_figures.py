@@ -373,7 +373,7 @@ def test_the_databases_plots_hold_its_numbers(tmp_path: Path) -> None:
         fitted, database.memory.frequency_response(database.omega)[1][:, 2, 2], rtol=1e-8
     )
     assert not any(name.startswith("B12") for name in names), "symmetry makes it negligible"
-    index = chosen_headings(database)["90 deg"]
+    index, _ = chosen_headings(database)["90 deg"]
     assert np.rad2deg(database.heading[index]) == pytest.approx(90)
     names, numbers = read_csv(tmp_path / "motion.csv")
     roll = np.rad2deg(np.abs(motion_response(database)[index, :, 3]))

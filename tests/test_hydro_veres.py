@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from seacrane.errors import FileFormatError
-from seacrane.hydro import HydroDatabase, load_database, read_veres
+from seacrane.hydro import HydroDatabase, PartialSetWarning, load_database, read_veres
 
 TO_OURS = np.array([-1, -1, 1, -1, -1, 1])
 KEY = ["0", "9", "19", "24", "27", "31", "35"]
@@ -190,10 +190,31 @@ def test_motions_are_optional(copy: Path) -> None:
     assert read_veres(copy).motion_rao is None
 
 
-@pytest.mark.parametrize("suffix", [".re7", ".re8"])
-def test_missing_files_are_named(copy: Path, suffix: str) -> None:
-    (copy / f"input{suffix}").unlink()
-    with pytest.raises(FileFormatError, match=r"re7"):
+def test_wave_forces_follow_from_motions(copy: Path, database: HydroDatabase) -> None:
+    """Without .re8: forces in the digits that motions have, nothing left to compare."""
+    (copy / "input.re8").unlink()
+    with pytest.warns(PartialSetWarning, match=r"no \.re8; wave forces are solved from the motions"):
+        found = load_database(copy)
+    scale = np.abs(database.force).max(axis=(0, 1))
+    inside = database.omega <= 2.0
+    assert np.all(np.abs(found.force - database.force)[:, inside] <= 2e-3 * scale)
+    assert found.motion_rao is None
+    for lost in (r"no .re8: wave forces are solved", "no .re2: no drift", "no .hyd: hydrostatics are not"):
+        assert lost in found.source
+    assert "; no ." not in database.source
+
+
+@pytest.mark.parametrize(
+    ("suffixes", "message"),
+    [
+        ([".re7"], r"input\.re7: no such file; .* no mass, added mass, .*MotionRaos"),
+        ([".re8", ".re1"], r"input\.re8: no such file, nor \.re1"),
+    ],
+)
+def test_missing_files_are_named(copy: Path, suffixes: list[str], message: str) -> None:
+    for suffix in suffixes:
+        (copy / f"input{suffix}").unlink()
+    with pytest.raises(FileFormatError, match=message):
         read_veres(copy / "input")
 
 

@@ -353,3 +353,75 @@ def test_kinds_side_by_side(copy: Path) -> None:
     with pytest.raises(FileFormatError, match=r"not of a known kind; .*VERES.*WAMIT"):
         (copy / "notes.txt").write_text("")
         load_database(copy / "notes.txt")
+
+
+def drift_rows(database: HydroDatabase, kind: str) -> tuple[str, np.ndarray]:
+    """Text of a file of mean loads at two periods and three headings, and the loads in SI (3, 2, 6)."""
+    rng = np.random.default_rng(5)
+    value = rng.normal(size=(3, 2, 6))  # by heading, period
+    periods, headings = (8.0, 12.0), (0.0, 90.0, 180.0)
+    motions = (1, 2, 6) if kind == ".8" else range(1, 7)
+    lines = []
+    for p, period in enumerate(periods):
+        for h, heading in enumerate(headings):
+            for i in motions:
+                real = value[h, p, i - 1]
+                first = [period, period] if kind == ".12d" else [period]
+                phase = 0.0 if real > 0.0 else 180.0
+                numbers = [*first, heading, heading, i, abs(real), phase, real, 0.0]
+                lines.append(" ".join(f"{number:.9E}" for number in numbers))
+                if kind == ".12d":  # two periods beat: no mean load
+                    lines.append(" ".join(f"{n:.9E}" for n in [8.0, 12.0, *numbers[2:]]) if p == 0 else "")
+                else:  # two headings: no single wave
+                    lines.append(" ".join(f"{n:.9E}" for n in [period, heading, heading + 5.0, *numbers[3:]]))
+    there = np.zeros(6)
+    there[[i - 1 for i in motions]] = 1.0
+    return "\n".join(line for line in lines if line) + "\n", value[
+        :, ::-1
+    ] * database.rho * database.g * there
+
+
+@pytest.mark.parametrize("kind", [".8", ".9", ".12d"])
+def test_mean_drift(copy: Path, database: HydroDatabase, kind: str) -> None:
+    """Of one wave alone, in SI (ULEN is 1); frequencies rise."""
+    text, wanted = drift_rows(database, kind)
+    (copy / f"tanker{kind}").write_text(text)
+    drift = load_database(copy).drift
+    assert drift is not None
+    assert drift.omega == pytest.approx([2.0 * np.pi / 12.0, 2.0 * np.pi / 8.0])
+    assert np.degrees(drift.heading) == pytest.approx([0.0, 90.0, 180.0])
+    assert np.abs(drift.coefficient - wanted).max() <= 1e-8 * np.abs(wanted).max()
+
+
+def test_pressures_are_taken_before_momentum(copy: Path, database: HydroDatabase) -> None:
+    for kind in (".8", ".9"):
+        (copy / f"tanker{kind}").write_text(drift_rows(database, kind)[0])
+    drift = load_database(copy).drift
+    assert drift is not None and np.any(drift.coefficient[:, :, 3] != 0.0)
+
+
+@pytest.mark.parametrize(
+    ("row", "column", "value", "message"),
+    [
+        (4, 2, "9.100000000E+01", "a line of another motion is missing"),
+        (4, 7, "5.000000000E+00", "a mean load with an imaginary part of 5"),
+        (4, 3, "7.000000000E+00", "motion 7 is not one of 1 to 6"),
+        (4, 0, "nan", "a number is not finite"),
+        (4, 7, "", "8 numbers are expected, found 7"),
+    ],
+)
+def test_damaged_mean_drift(
+    copy: Path, database: HydroDatabase, row: int, column: int, value: str, message: str
+) -> None:
+    rows = [line.split() for line in drift_rows(database, ".9")[0].splitlines()]
+    rows[row][column] = value
+    (copy / "tanker.9").write_text("\n".join(" ".join(words) for words in rows) + "\n")
+    with pytest.raises(FileFormatError, match=rf"tanker\.9, line \d+: {message}"):
+        load_database(copy)
+
+
+def test_mean_drift_of_no_single_wave(copy: Path, database: HydroDatabase) -> None:
+    text = drift_rows(database, ".9")[0].split("\n")
+    (copy / "tanker.9").write_text("\n".join(text[1::2]) + "\n")
+    with pytest.raises(FileFormatError, match="no row of one period and one heading"):
+        load_database(copy)

@@ -74,7 +74,9 @@ class Sheet:
     columns : int
         Panels side by side; they fill column by column.
     shaded : (float, float) or None
-        Range of the abscissa that is shaded in every panel, as `caption` explains.
+        Range of the abscissa that is shaded in every panel.
+    shaded_name : str
+        What it is called in the legend; empty: not there.
     marks : mapping of str to ndarray
         Places on the abscissa that dashed lines mark, by what is there.
     extremes : bool
@@ -91,6 +93,7 @@ class Sheet:
     abscissa_unit: str = "s"
     columns: int = 1
     shaded: tuple[float, float] | None = None
+    shaded_name: str = ""
     marks: Mapping[str, Array] = field(default_factory=dict)
     extremes: bool = False
     logarithmic: bool = False
@@ -162,7 +165,7 @@ def draw(sheet: Sheet, *, note: str = "") -> Figure:
             _mark_extremes(cell, panel, sheet)
         if sheet.shaded is not None:
             low, high = np.clip(sheet.shaded, sheet.abscissa[0], sheet.abscissa[-1])
-            cell.axvspan(low, high, color=SHADE, linewidth=0.0, zorder=0)
+            shade = cell.axvspan(low, high, color=SHADE, linewidth=0.0, zorder=0)
         _mark_places(cell, sheet.marks)
     for cell in cells[len(sheet.panels) :]:
         cell.set_visible(False)
@@ -172,6 +175,9 @@ def draw(sheet: Sheet, *, note: str = "") -> Figure:
             cell.set_xlabel(f"{sheet.abscissa_name} [{sheet.abscissa_unit}]")
             cell.tick_params(labelbottom=True)
     handles = _shared_handles(cells[0], sheet.marks, every=shared and any(labels[0]))
+    if sheet.shaded is not None and sheet.shaded_name:
+        shade.set_label(sheet.shaded_name)
+        handles = [*handles, shade]
     if handles:
         columns = min(6, len(handles))
         figure.legend(handles=handles, loc="outside lower center", ncols=columns, fontsize=9, frameon=False)

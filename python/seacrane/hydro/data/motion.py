@@ -26,6 +26,26 @@ def motion_response(
     following waves are overtaken and it is negative). Where it lies outside the database's frequencies, so
     that nothing is known, the motions are NaN.
     """
+    dynamic, known = _dynamic_stiffness(database, added_mass, damping)
+    dynamic[~known] = np.eye(6)
+    motions = np.linalg.solve(dynamic, database.force[..., None])[..., 0]
+    return np.asarray(np.where(known[:, :, None], motions, np.nan))
+
+
+def force_of_motion(database: HydroData, motion: ComplexArray) -> ComplexArray:
+    """The wave forces (m, n, 6) that make these motions (m, n, 6): what `motion_response` solves, backwards.
+
+    NaN where the frequency of encounter lies outside the database's.
+    """
+    dynamic, known = _dynamic_stiffness(database, None, None)
+    force = (dynamic @ motion[..., None])[..., 0]
+    return np.asarray(np.where(known[:, :, None], force, np.nan))
+
+
+def _dynamic_stiffness(
+    database: HydroData, added_mass: FloatArray | None, damping: FloatArray | None
+) -> tuple[ComplexArray, NDArray[np.bool_]]:
+    """(m, n, 6, 6), and where it is known (m, n); arguments as of `motion_response`."""
     if added_mass is None or damping is None:
         added_mass = database.added_mass + sum(part.added_mass for part in database.additional)
         damping = database.damping + sum(part.damping for part in database.additional)
@@ -51,9 +71,7 @@ def motion_response(
     dynamic: ComplexArray = np.asarray(-square * inertia + 1j * first * damping + stiffness)
     if database.roll_damping is not None:
         dynamic[:, :, 3, 3] += 1j * w * database.roll_damping.linearised
-    dynamic[~known] = np.eye(6)
-    motions = np.linalg.solve(dynamic, database.force[..., None])[..., 0]
-    return np.asarray(np.where(known[:, :, None], motions, np.nan))
+    return dynamic, known
 
 
 def natural_frequency(database: HydroData, motion: int) -> float | None:

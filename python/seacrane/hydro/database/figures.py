@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from seacrane.hydro.data.heading_circle import PORT_STARBOARD
 from seacrane.hydro.data.hydro_data import HydroData
 from seacrane.hydro.data.memory_model import MemoryModel
 from seacrane.hydro.data.motion import motion_response
@@ -20,6 +21,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 Array = NDArray[np.float64]
+ComplexArray = NDArray[np.complex128]
 
 NEGLIGIBLE = 1e-4  # of the geometric mean of the diagonals: such an entry is not drawn
 HEADINGS_DEG = (0, 45, 90, 135, 180)
@@ -28,7 +30,7 @@ ADDED_MASS_UNITS = ("kg", "kg m", "kg m2")
 DAMPING_UNITS = ("kg/s", "kg m/s", "kg m2/s")
 RETARDATION_UNITS = ("N/m", "N", "N m")
 FAINT = 1e-2  # of a force's largest: its phase is not drawn
-BAND_CAPTION = " Shaded: the band in which the source vouches for its numbers."
+BAND = "trusted band: the source vouches for its numbers"
 
 
 def drawn_entries(matrices: Array) -> list[tuple[int, int]]:
@@ -88,7 +90,28 @@ def matrix_sheet(
         panels=tuple(panels),
         columns=2,
         shaded=band,
+        shaded_name=BAND,
     )
+
+
+def with_additional(database: HydroData, memory: MemoryModel | None, part: int) -> dict[str, Array]:
+    """Radiation and all other causes (tanks) together, and their fit; ``part``: 0 added mass, 1 damping.
+
+    Additional restoring counts as added mass, -C / omega^2, as in the fit.
+    """
+    if not database.additional:
+        return {}
+    square = database.omega[:, None, None] ** 2
+    sums = [
+        database.added_mass + sum(each.added_mass - each.restoring / square for each in database.additional),
+        database.damping + sum(each.damping for each in database.additional),
+    ]
+    causes = ", ".join(each.cause for each in database.additional)
+    curves = {f"with {causes}": sums[part]}
+    if memory is not None:
+        fit = memory.frequency_response(database.omega), memory.additional_response(database.omega)
+        curves[f"model with {causes}"] = fit[0][part] + fit[1][part]
+    return curves
 
 
 def added_mass_sheet(database: HydroData, memory: MemoryModel | None) -> Sheet:
@@ -96,6 +119,8 @@ def added_mass_sheet(database: HydroData, memory: MemoryModel | None) -> Sheet:
     curves = {"database": database.added_mass}
     if memory is not None:
         curves["memory model"] = memory.frequency_response(database.omega)[0]
+    curves |= with_additional(database, memory, 0)
+    if memory is not None:
         curves["model, infinite frequency"] = memory.added_mass
     if database.infinite_frequency_added_mass is not None:
         curves["database, infinite frequency"] = database.infinite_frequency_added_mass
@@ -105,7 +130,6 @@ def added_mass_sheet(database: HydroData, memory: MemoryModel | None) -> Sheet:
         symbol="A",
         units=ADDED_MASS_UNITS,
         title=f"Added mass, {database.name}",
-        caption=BAND_CAPTION if database.trusted_band else "",
         band=database.trusted_band,
     )
 
@@ -115,13 +139,13 @@ def damping_sheet(database: HydroData, memory: MemoryModel | None) -> Sheet:
     curves = {"database": database.damping}
     if memory is not None:
         curves["memory model"] = memory.frequency_response(database.omega)[1]
+    curves |= with_additional(database, memory, 1)
     return matrix_sheet(
         abscissa=("omega", "rad/s", database.omega),
         curves=curves,
         symbol="B",
         units=DAMPING_UNITS,
         title=f"Radiation damping, {database.name}",
-        caption=BAND_CAPTION if database.trusted_band else "",
         band=database.trusted_band,
     )
 
@@ -143,30 +167,36 @@ def retardation_sheet(database: HydroData, memory: MemoryModel | None) -> Sheet:
     )
 
 
-def chosen_headings(database: HydroData) -> dict[str, int]:
-    """The heading nearest to each of `HEADINGS_DEG`, on either side of a symmetric ship."""
+def chosen_headings(database: HydroData) -> dict[str, tuple[int, Array]]:
+    """By label, the heading nearest to each of `HEADINGS_DEG`, and the signs (6,) of its forces there.
+
+    A symmetric ship has the mirror images too: a table of one side serves for the other.
+    """
     chosen = {}
     for wanted in np.deg2rad(HEADINGS_DEG):
-        sides = (wanted, -wanted) if database.port_starboard_symmetric else (wanted,)
-        away = np.min([np.abs(np.angle(np.exp(1j * (database.heading - side)))) for side in sides], axis=0)
-        index = int(np.argmin(away))
-        chosen[f"{np.rad2deg(database.heading[index]):.4g} deg"] = index
+        sides = (database.heading, -database.heading)[: 1 + database.port_starboard_symmetric]
+        away = np.array([np.abs(np.angle(np.exp(1j * (side - wanted)))) for side in sides])
+        side, index = np.unravel_index(int(np.argmin(away)), away.shape)
+        angle = np.rad2deg(np.mod(sides[side][index], 2.0 * np.pi))
+        label = f"{np.round(angle, 6) % 360.0:.4g} deg"
+        chosen[label] = int(index), PORT_STARBOARD if side else np.ones(6)
     return chosen
 
 
 def force_sheet(database: HydroData) -> Sheet:
     """Amplitude and phase of the wave force per metre of wave amplitude, at a few headings."""
     headings = chosen_headings(database)
-    size = np.abs(database.force)
+    force = np.array([database.force[index] * signs for index, signs in headings.values()])
+    size = np.abs(force)
     low, high = database.trusted_band or (0.0, np.inf)
     doubtful = (database.omega < low - 1e-9) | (database.omega > high + 1e-9)
-    faint = (size < FAINT * size.max(axis=(0, 1))) | doubtful[:, None]
-    phase = np.where(faint, np.nan, np.rad2deg(np.angle(database.force)))
+    faint = (size < FAINT * np.abs(database.force).max(axis=(0, 1))) | doubtful[:, None]
+    phase = np.where(faint, np.nan, np.rad2deg(np.angle(force)))
 
     def panel(quantity: str, unit: str, values: Array, style: str) -> Panel:
         lines = [
-            Line(label=label, values=values[index], colour=HEADING_COLOURS[place], style=style)
-            for place, (label, index) in enumerate(headings.items())
+            Line(label=label, values=values[place], colour=HEADING_COLOURS[place], style=style)
+            for place, label in enumerate(headings)
         ]
         return Panel(quantity=quantity, unit=unit, lines=tuple(lines))
 
@@ -186,6 +216,7 @@ def force_sheet(database: HydroData) -> Sheet:
         panels=(*amplitudes, *phases),
         columns=2,
         shaded=database.trusted_band,
+        shaded_name=BAND,
     )
 
 
@@ -195,25 +226,38 @@ def motion_sheet(database: HydroData) -> Sheet:
     panels = []
     for i, motion in enumerate(MOTIONS):
         lines = []
-        for place, (label, index) in enumerate(chosen_headings(database).items()):
+        for place, (label, (index, _)) in enumerate(chosen_headings(database).items()):
             colour = HEADING_COLOURS[place]
             lines.append(Line(label=label, values=_degrees(np.abs(solved[index, :, i]), i), colour=colour))
             if database.motion_rao is not None:
                 values = _degrees(np.abs(database.motion_rao[index, :, i]), i)
                 lines.append(Line(label=f"{label}, file", values=values, colour=colour, style="x"))
         panels.append(Panel(quantity=f"|{motion}|", unit="m/m" if i < 3 else "deg/m", lines=tuple(lines)))
+    panels += [_motion_phase(database, solved, i, motion) for i, motion in enumerate(MOTIONS)]
     return Sheet(
         title=f"Motions, {database.name}",
         caption="Per metre of wave amplitude, solved from mass, added mass, damping, restoring and wave "
         "forces; crosses are the motions the file holds. The angle is the direction the waves travel to, "
-        "0 following.",
+        "0 following. Phases are ahead of the crest, of motions above 1 % of their largest.",
         abscissa=database.omega,
         abscissa_name="omega",
         abscissa_unit="rad/s",
         panels=tuple(panels),
         columns=2,
         shaded=database.trusted_band,
+        shaded_name=BAND,
     )
+
+
+def _motion_phase(database: HydroData, solved: ComplexArray, i: int, motion: str) -> Panel:
+    """Phase of a motion ahead of the crest, where it is above 1 % of its largest."""
+    lines = []
+    for place, (label, (index, signs)) in enumerate(chosen_headings(database).items()):
+        values = solved[index, :, i] * signs[i]
+        faint = ~(np.abs(values) >= FAINT * np.nanmax(np.abs(solved[..., i])))
+        phase = np.where(faint, np.nan, np.rad2deg(np.angle(values)))
+        lines.append(Line(label=label, values=phase, colour=HEADING_COLOURS[place], style="."))
+    return Panel(quantity=f"{motion} phase", unit="deg", lines=tuple(lines))
 
 
 def _degrees(values: Array, motion: int) -> Array:

@@ -9,7 +9,7 @@ degrees. Drift coefficients: surge and sway by rho g B^2 / L, yaw by rho g B^2, 
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from os import PathLike
 from pathlib import Path
 
@@ -20,12 +20,18 @@ from seacrane.errors import FileFormatError
 from seacrane.hydro.data.drift import DriftCoefficients
 from seacrane.hydro.data.encounter import one_function
 from seacrane.hydro.data.hydro_data import AdditionalMatrices, RollDamping
+from seacrane.hydro.data.motion import force_of_motion
 from seacrane.hydro.database.database import HydroDatabase
 from seacrane.hydro.readers.format import Format
-from seacrane.hydro.readers.reader_warnings import EncounterFrequencyWarning, HydrostaticsWarning
+from seacrane.hydro.readers.reader_warnings import (
+    EncounterFrequencyWarning,
+    HydrostaticsWarning,
+    PartialSetWarning,
+)
 from seacrane.hydro.readers.veres_files import DriftAtSpeed, DriftFile, MatricesAtSpeed, TransferAtSpeed
 from seacrane.hydro.readers.veres_hydrostatics import Loading, contradictions, read_veres_hydrostatics
 from seacrane.hydro.readers.veres_set import (
+    LOST,
     VeresSet,
     at_speed,
     choose_speed,
@@ -67,7 +73,9 @@ def read_veres(path: str | PathLike[str], *, speed: float | None = None) -> Hydr
     """Read the VERES results at ``path``: a folder that holds one set, the common stem, or one of the files.
 
     Needs ``.re7`` (version 1 or 2) and ``.re8``; ``.re1`` adds the motion transfer functions, against which
-    `check` compares; ``.re2`` the drift coefficients; ``.hyd`` is compared with the matrices.
+    `check` compares; ``.re2`` the drift coefficients; ``.hyd`` is compared with the matrices. Without
+    ``.re8`` the wave forces are those that make the motions of ``.re1``. `source` tells what a missing file
+    takes away.
 
     Parameters
     ----------
@@ -83,7 +91,7 @@ def read_veres(path: str | PathLike[str], *, speed: float | None = None) -> Hydr
     Warns
     -----
     SeveralSpeedsWarning : the set holds several speeds and ``speed`` is not given.
-    PartialSetWarning : a speed is not in every file.
+    PartialSetWarning : a speed is not in every file; or there is no ``.re8``.
     EncounterFrequencyWarning : at forward speed the headings do not agree on one function of the encounter
         frequency, or do not cover the files' range.
     HydrostaticsWarning : ``.hyd`` contradicts the matrices.
@@ -121,10 +129,10 @@ def _same_grid(path: Path, case: TransferAtSpeed, matrices: MatricesAtSpeed) -> 
 def _convert(found: VeresSet, speed: float) -> HydroDatabase:
     """The database in our conventions."""
     case, head = at_speed(found.matrices.cases, speed), found.matrices.header
-    force = _same_grid(found.force.path, at_speed(found.force.cases, speed), case)
-    motion = None
-    if found.motion is not None:
-        motion = _same_grid(found.motion.path, at_speed(found.motion.cases, speed), case)
+    force, motion = (
+        None if file is None else _same_grid(file.path, at_speed(file.cases, speed), case)
+        for file in (found.force, found.motion)
+    )
     direction = _direction(case.heading)
     by_heading, by_omega = np.argsort(direction), np.argsort(case.omega)
     omega = case.omega[by_omega]
@@ -139,7 +147,9 @@ def _convert(found: VeresSet, speed: float) -> HydroDatabase:
         return np.asarray(transfer.values[by_heading][:, by_omega] * TO_OURS)
 
     x_aft, z = case.motion_point
-    return HydroDatabase(
+    given = motion if force is None else force
+    assert given is not None
+    database = HydroDatabase(
         name=found.stem.name,
         omega=omega,
         heading=direction[by_heading],
@@ -147,8 +157,8 @@ def _convert(found: VeresSet, speed: float) -> HydroDatabase:
         damping=tables.damping,
         restoring=restoring[0, 0] * BOTH_SIDES + 0.0,
         mass_matrix=found.matrices.mass * BOTH_SIDES + 0.0,
-        force=of_wave(force),
-        motion_rao=None if motion is None else of_wave(motion),
+        force=of_wave(given),
+        motion_rao=None if motion is None or force is None else of_wave(motion),
         motion_rao_limit=CLOSURE_LIMIT if speed == 0.0 else SPEED_CLOSURE_LIMIT,
         roll_damping=RollDamping(
             linear=tables.roll[:, 0],
@@ -168,10 +178,33 @@ def _convert(found: VeresSet, speed: float) -> HydroDatabase:
             f"motion point of the files: {x_aft:g} m aft of midship, on the centreline, {z:g} m above the "
             "baseline"
         ),
-        source=f"ShipX/VERES files {found.stem.name} ({_names(found)}): {found.matrices.title}",
+        source=f"ShipX/VERES files {found.stem.name} ({_names(found)}): {found.matrices.title}{_lost(found)}",
         trusted_band=_trusted(omega),
         port_starboard_symmetric=True,
     )
+    return database if force is not None else _with_forces(found.stem, database)
+
+
+def _with_forces(stem: Path, database: HydroDatabase) -> HydroDatabase:
+    """Wave forces from motions, which stand in their place."""
+    force = force_of_motion(database, database.force)
+    if not np.all(np.isfinite(force)):
+        raise FileFormatError(
+            f"{stem}.re8: no such file, and at {database.speed:g} m/s some frequencies of encounter are "
+            "beyond the matrices, so that wave forces do not follow from the motions of .re1"
+        )
+    warn_caller(
+        f"{stem}: no .re8; wave forces are solved from the motions of .re1 and the matrices, which then "
+        "cannot be compared",
+        PartialSetWarning,
+    )
+    return replace(database, force=force)
+
+
+def _lost(found: VeresSet) -> str:
+    """What files that are not there take away."""
+    missing = [suffix for suffix in LOST if sibling(found.stem, suffix) is None]
+    return "".join(f"; no {suffix}: {LOST[suffix]}" for suffix in missing)
 
 
 def _names(found: VeresSet) -> str:

@@ -20,6 +20,12 @@ from seacrane.hydro.readers.veres_files import (
 )
 from seacrane.inputs.caller import warn_caller
 
+LOST = {  # with a file that need not be there
+    ".re8": "wave forces are solved from the motions",
+    ".re1": "motions are not compared",
+    ".re2": "no drift",
+    ".hyd": "hydrostatics are not compared",
+}
 SUFFIXES = (".re7", ".re8", ".re1", ".re2", ".hyd")
 MATRICES_AND_FORCE = SUFFIXES[:2]
 
@@ -30,7 +36,7 @@ class VeresSet:
 
     stem: Path
     matrices: MatricesFile
-    force: TransferFile
+    force: TransferFile | None
     motion: TransferFile | None
     drift: DriftFile | None
 
@@ -76,10 +82,17 @@ def sibling(stem: Path, suffix: str) -> Path | None:
 def read_set(stem: Path) -> VeresSet:
     """All files of the set, from one calculation."""
     re7, re8, re1, re2 = (sibling(stem, suffix) for suffix in SUFFIXES[:4])
-    if re7 is None or re8 is None:
-        missing = ".re7" if re7 is None else ".re8"
-        raise FileFormatError(f"{stem}{missing}: no such file; VERES needs .re7 and .re8 of the same stem")
-    matrices, force = read_matrices(re7), read_transfer(re8)
+    if re7 is None:
+        raise FileFormatError(
+            f"{stem}.re7: no such file; without it there is no mass, added mass, damping nor restoring. "
+            "Motions alone (.re1) move a given ship: seacrane.MotionRaos"
+        )
+    if re8 is None and re1 is None:
+        raise FileFormatError(
+            f"{stem}.re8: no such file, nor .re1, from whose motions wave forces follow: without both "
+            "there is no load of waves"
+        )
+    matrices, force = read_matrices(re7), None if re8 is None else read_transfer(re8)
     motion = None if re1 is None else read_transfer(re1)
     drift = None if re2 is None else read_drift(re2)
     found = VeresSet(stem, matrices, force, motion, drift)

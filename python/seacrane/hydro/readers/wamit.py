@@ -1,4 +1,4 @@
-"""Reader of WAMIT results: ``.1 .3 .4 .hst`` (numbers), ``.out`` (g, depth, volume), ``.frc`` (mass).
+"""Reader of WAMIT results: ``.1 .3 .4 .hst .8 .9 .12d`` (numbers), ``.out`` (water, volume), ``.frc`` (mass).
 
 File axes and headings are ours (x forward, y port, z up; heading = direction of travel from +x towards +y;
 exp(+i omega t)). Dimensions follow the WAMIT manual, chapter 3, with length scale L: A rho L^k and B rho
@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from seacrane.errors import FileFormatError
+from seacrane.hydro.data.drift import DriftCoefficients
 from seacrane.hydro.data.heading_circle import keeps_sides_apart
 from seacrane.hydro.data.rigid_mass import rigid_mass_matrix
 from seacrane.hydro.database.database import HydroDatabase
@@ -33,6 +34,7 @@ from seacrane.hydro.readers.wamit_control import (
     read_force_control,
     read_listing,
 )
+from seacrane.hydro.readers.wamit_drift import BY_PREFERENCE, read_mean_drift
 from seacrane.hydro.readers.wamit_tables import (
     Radiation,
     WaveTable,
@@ -45,7 +47,7 @@ from seacrane.inputs.shown import shown
 
 FloatArray = NDArray[np.float64]
 
-SUFFIXES = (".1", ".3", ".4", ".hst", ".frc", ".out", ".cfg", ".pot")
+SUFFIXES = (".1", ".3", ".4", ".hst", ".frc", ".out", ".cfg", ".pot", *BY_PREFERENCE)
 NEEDED = (".1", ".3", ".hst")
 USUAL_DENSITY = 1025.0
 ROTATIONS = np.array([0, 0, 0, 1, 1, 1])
@@ -68,7 +70,8 @@ def read_wamit(
     """Read the WAMIT results at ``path``: a folder that holds one set, the common stem, or one of the files.
 
     Needs ``.1``, ``.3``, ``.hst`` and ``.out``. ``.4`` adds the motions, against which `check` compares;
-    ``.frc``, of either form, the mass. One rigid body at the origin of the waves, zero speed.
+    ``.frc``, of either form, the mass; ``.9``, ``.8`` or ``.12d`` (the first of them that is there) the mean
+    drift. One rigid body at the origin of the waves, zero speed.
 
     Parameters
     ----------
@@ -248,6 +251,22 @@ def _convert(stem: Path, files: dict[str, Path | None], given: _Given) -> HydroD
         source=_source(stem, files, listing, haskind),
         trusted_band=_trusted(body, omega),
         port_starboard_symmetric=listing.symmetric,
+        drift=_drift(files, listing, rho),
+    )
+
+
+def _drift(files: dict[str, Path | None], listing: Listing, rho: float) -> DriftCoefficients | None:
+    """Mean loads per squared amplitude, N/m2 and N m/m2, of the first file that has them."""
+    path = next((files[suffix] for suffix in BY_PREFERENCE if files[suffix] is not None), None)
+    if path is None:
+        return None
+    found = read_mean_drift(path)
+    direction, order = _directions(path, found.heading_deg)
+    scale = rho * listing.g * listing.length_scale ** (1 + ROTATIONS)
+    return DriftCoefficients(
+        heading=direction,
+        omega=(2.0 * np.pi / found.period)[::-1],
+        coefficient=found.values[order][:, ::-1] * scale,
     )
 
 
@@ -381,7 +400,7 @@ def _trusted(body: _Body, omega: FloatArray) -> tuple[float, float] | None:
 
 FORMAT = Format(
     name="WAMIT",
-    files="a WAMIT folder, stem or file (.1 .3 .hst .out, with .4 and .frc)",
+    files="a WAMIT folder, stem or file (.1 .3 .hst .out, with .4, .frc and .8, .9 or .12d)",
     can_open=is_wamit,
     read=of_one_speed(read_wamit),
     speeds=zero_speed,

@@ -22,12 +22,16 @@ ROUND_OFF = 1e-8
 
 
 @dataclass(frozen=True, eq=False)
-class _Table:
+class Table:
     """Rows of numbers (rows, columns), NaN where a row is shorter, and the line of the file of each."""
 
     path: Path
     values: FloatArray
     lines: IntArray
+
+    def only(self, rows: NDArray[np.intp]) -> Table:
+        """Some of the rows."""
+        return Table(self.path, self.values[rows], self.lines[rows])
 
     def error(self, row: int, message: str) -> FileFormatError:
         return FileFormatError(f"{self.path}, line {int(self.lines[row])}: {message}")
@@ -57,7 +61,7 @@ class WaveTable:
 
 def read_radiation(path: Path) -> Radiation:
     """Read added mass and damping: rows of period, i, j, A, and B where the period is positive."""
-    table = _read(path, (4, 5))
+    table = read_table(path, (4, 5))
     period = table.values[:, 0]
     unknown = np.flatnonzero((period < 0.0) & (period != ZERO_FREQUENCY_PERIOD))
     if unknown.size:
@@ -68,9 +72,9 @@ def read_radiation(path: Path) -> Radiation:
     bare = np.flatnonzero((period > 0.0) & np.isnan(table.values[:, 4]))
     if bare.size:
         raise table.error(int(bare[0]), "no damping: period, i, j, A, B are expected; the file is truncated")
-    motions = 6 * _motion(table, 1) + _motion(table, 2)
+    motions = 6 * motion_of(table, 1) + motion_of(table, 2)
     periods, place = np.unique(period, return_inverse=True)
-    _check_complete(table, place, motions, len(periods), 36, "entry i j")
+    check_complete(table, place, motions, len(periods), 36, "entry i j")
     both = np.zeros((2, len(periods), 36))
     both[:, place, motions] = np.nan_to_num(table.values[:, 3:5].T)
     added_mass, damping = both.reshape(2, len(periods), 6, 6)
@@ -87,14 +91,14 @@ def read_radiation(path: Path) -> Radiation:
 
 def read_waves(path: Path) -> WaveTable:
     """Read exciting forces or motions: rows of period, heading, i, modulus, phase (deg), real, imaginary."""
-    table = _read(path, (7,))
+    table = read_table(path, (7,))
     rows = np.flatnonzero(table.values[:, 0] > 0.0)
     if rows.size == 0:
         raise table.error(
             len(table.lines) - 1, "ends without a positive period; the file is truncated, or of limits alone"
         )
-    table = _Table(path, table.values[rows], table.lines[rows])
-    motion = _motion(table, 2)
+    table = table.only(rows)
+    motion = motion_of(table, 2)
     value = _checked_complex(table, motion)
     periods, in_period = np.unique(table.values[:, 0], return_inverse=True)
     headings, in_heading = np.unique(table.values[:, 1], return_inverse=True)
@@ -105,7 +109,7 @@ def read_waves(path: Path) -> WaveTable:
             len(rows) - 1,
             f"{n} periods and {m} headings, but only {len(rows)} rows; the file is truncated or damaged",
         )
-    _check_complete(table, in_period * m + in_heading, motion, n * m, 6, "motion")
+    check_complete(table, in_period * m + in_heading, motion, n * m, 6, "motion")
     values = np.zeros((m, n, 6), dtype=complex)
     values[in_heading, in_period, motion] = value
     return WaveTable(path, periods, headings, values)
@@ -113,17 +117,17 @@ def read_waves(path: Path) -> WaveTable:
 
 def read_restoring(path: Path) -> FloatArray:
     """Read the restoring matrix (6, 6): rows of i, j, C."""
-    table = _read(path, (3,))
-    motions = 6 * _motion(table, 0) + _motion(table, 1)
+    table = read_table(path, (3,))
+    motions = 6 * motion_of(table, 0) + motion_of(table, 1)
     if len(motions) < 36:
         raise table.error(len(motions) - 1, f"{len(motions)} of 36 entries end here; the file is truncated")
-    _check_complete(table, np.zeros(len(motions), dtype=np.int64), motions, 1, 36, "entry i j")
+    check_complete(table, np.zeros(len(motions), dtype=np.int64), motions, 1, 36, "entry i j")
     restoring = np.zeros(36)
     restoring[motions] = table.values[:, 2]
     return restoring.reshape(6, 6)
 
 
-def _read(path: Path, widths: tuple[int, ...]) -> _Table:
+def read_table(path: Path, widths: tuple[int, ...]) -> Table:
     """All rows of a file; a first line of text (option NUMHDR) is passed over."""
     try:
         text = read_whole(path).decode("latin-1")
@@ -150,7 +154,7 @@ def _read(path: Path, widths: tuple[int, ...]) -> _Table:
             raise FileFormatError(f"{path}, line {number}: {bad[:40]!r} is not a number") from None
         if not np.all(np.isfinite(values[row, : len(words)])):
             raise FileFormatError(f"{path}, line {number}: a number is not finite: {line.strip()[:80]!r}")
-    return _Table(path, values, np.array([number for number, _ in every]))
+    return Table(path, values, np.array([number for number, _ in every]))
 
 
 def _check_last_line(path: Path, text: str, every: list[tuple[int, str]]) -> None:
@@ -168,7 +172,7 @@ def _is_number(word: str) -> bool:
     return True
 
 
-def _motion(table: _Table, column: int) -> IntArray:
+def motion_of(table: Table, column: int) -> IntArray:
     """Motion indices 0 to 5 from a column that counts from 1."""
     values = table.values[:, column]
     bad = np.flatnonzero(~np.isin(values, np.arange(1.0, 7.0)))
@@ -180,7 +184,7 @@ def _motion(table: _Table, column: int) -> IntArray:
     return values.astype(np.int64) - 1
 
 
-def _checked_complex(table: _Table, motion: IntArray) -> ComplexArray:
+def _checked_complex(table: Table, motion: IntArray) -> ComplexArray:
     """Real and imaginary part, which have to agree with modulus and phase of the same row.
 
     Motions that symmetry forbids are round-off, where WAMIT's four columns do not agree: a share of the
@@ -202,8 +206,8 @@ def _checked_complex(table: _Table, motion: IntArray) -> ComplexArray:
     return np.asarray(value)
 
 
-def _check_complete(
-    table: _Table, group: IntArray, entry: IntArray, groups: int, entries: int, what: str
+def check_complete(
+    table: Table, group: IntArray, entry: IntArray, groups: int, entries: int, what: str
 ) -> None:
     """Raise unless every group (period, or period and heading) holds the same entries, each once."""
     key = group.astype(np.int64) * entries + entry
