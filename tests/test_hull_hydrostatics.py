@@ -182,6 +182,38 @@ def test_restoring_is_what_the_heeled_and_trimmed_box_shows() -> None:
     assert -moment == pytest.approx(c[4, 4], rel=1e-5)
 
 
+@pytest.mark.parametrize(
+    ("half", "girth"),
+    [
+        ([[5.0, 0.0], [5.0, -4.0]], 7),  # a box, keel at the centre line added
+        ([[5.0, 0.0], [5.0, -4.0], [0.0, -4.0]], 3),
+        ([[6.0, 0.0], [5.0, -2.5], [2.0, -4.0], [0.0, -4.2]], 9),  # two chines
+    ],
+)
+def test_remeshing_keeps_bilges_and_waterlines(half: list[list[float]], girth: int) -> None:
+    """Corners of the section are corners of panels: outline, area and volume stay to rounding."""
+    barge = Hull.from_offsets(OffsetTable(x=[-20.0, 20.0], sections=(half, half)))
+    fine = barge.remeshed(stations=10, girth=girth)
+    assert fine.hydrostatics.volume == pytest.approx(barge.hydrostatics.volume, rel=1e-12)
+    assert fine.hydrostatics.wetted_surface == pytest.approx(barge.hydrostatics.wetted_surface, rel=1e-12)
+    points = fine.panels.reshape(-1, 3)
+    for y, z in half:
+        assert np.any(np.all(np.isclose(points[:, 1:], [y, z], atol=1e-9), axis=1))
+
+
+def test_remeshing_keeps_a_chine_that_wanders() -> None:
+    """The chine rises towards the bow, so that its share of the girth changes from station to station."""
+    x = np.linspace(0.0, 40.0, 9)
+    sections = tuple([[5.0, 0.0], [4.5, -3.0 + 0.05 * s], [0.0, -4.0]] for s in x)
+    hull = Hull.from_offsets(OffsetTable(x=x.tolist(), sections=sections))
+    even = hull.remeshed(stations=80, girth=12)
+    assert even.hydrostatics.volume == pytest.approx(hull.hydrostatics.volume, rel=1e-4)
+    points = even.panels.reshape(-1, 3)
+    for station in np.linspace(0.0, 40.0, 81):
+        chine = [station, 4.5, -3.0 + 0.05 * station]
+        assert np.abs(points - chine).max(axis=1).min() < 1e-9
+
+
 def test_remeshing_keeps_the_shape() -> None:
     hull = Hull.from_offsets(wigley_offsets(*SHIP, 24))
     even = hull.remeshed(stations=48, girth=16)

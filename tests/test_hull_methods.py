@@ -2,14 +2,27 @@
 
 from __future__ import annotations
 
+import re
+import warnings
 from dataclasses import replace
 from functools import cache
+from typing import Any
 
 import numpy as np
 import pytest
 from hull_shapes import wigley_offsets
 
-from seacrane.hydro import Hull, HydroDatabase, ParametricHull, hydro_from_hull, shipped_database
+from seacrane.hydro import (
+    Hull,
+    HydroDatabase,
+    MeshConvergenceWarning,
+    OffsetTable,
+    ParametricHull,
+    hydro_from_hull,
+    shipped_database,
+)
+from seacrane.hydro.hull import hull_database
+from seacrane.hydro.hull.solution import HullSolution
 
 SHIPPED = ParametricHull(  # tools/make_database.py, entrance and origin as its source text says
     length=115.0,
@@ -179,3 +192,41 @@ def test_capytaine_reproduces_the_shipped_database() -> None:
         scale = np.sqrt(np.outer(np.diag(one), np.diag(one)))
         np.testing.assert_array_less(np.abs(other - one) / scale, 0.01)  # the lid's panels differ
     np.testing.assert_allclose(found.force[0, 0], panel().force[27, i], rtol=0.01)
+
+
+def test_the_mesh_is_checked_when_asked_for() -> None:
+    """A coarse box warns and names its entries; a fine Wigley hull tells how far it is from there."""
+    box = OffsetTable(x=[-20.0, 20.0], sections=([[5.0, 0.0], [5.0, -4.0], [0.0, -4.0]],) * 2)
+    coarse = Hull.from_offsets(box).remeshed(stations=14, girth=5)
+    some: dict[str, Any] = {
+        "centre_of_gravity": (0.0, 0.0, -1.5),
+        "omega": [0.5, 0.8, 1.1],
+        "heading": [0.0, 1.5, 3.1],
+    }
+    with warnings.catch_warnings(record=True) as told:
+        warnings.simplefilter("always")
+        checked = hydro_from_hull(coarse, method="strip", stations=11, check=True, **some)
+    found = re.search(r"with (\d+) in place of (\d+) panels ([AB]\d\d) changes by ([\d.]+)%", checked.source)
+    assert found is not None
+    assert 0.3 < int(found[1]) / int(found[2]) < 0.8
+    warned = [each for each in told if issubclass(each.category, MeshConvergenceWarning)]
+    assert bool(warned) == (float(found[4]) > 5.0)
+    plain = hydro_from_hull(coarse, method="strip", stations=11, **some)
+    assert np.array_equal(plain.added_mass, checked.added_mass)
+    assert "in place of" not in plain.source
+
+
+def test_a_mesh_that_has_not_converged_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Heave damping a tenth larger on the coarse mesh."""
+    solve = hull_database.strip_solution
+
+    def off(hull: Hull, **given: Any) -> HullSolution:
+        found = solve(hull, **given)
+        factor = np.ones((6, 6))
+        factor[2, 2] = 1.1 if "remeshed" in hull.source else 1.0
+        return replace(found, damping=found.damping * factor)
+
+    monkeypatch.setattr(hull_database, "strip_solution", off)
+    hull = Hull.from_offsets(wigley_offsets(100.0, 10.0, 5.0, 24))
+    with pytest.warns(MeshConvergenceWarning, match=r"these change, by their largest: .*B33 (9|10|11)\.\d%"):
+        hydro_from_hull(hull, centre_of_gravity=(0, 0, -2), omega=[0.5, 0.8], heading=[0.0, 3.1], check=True)

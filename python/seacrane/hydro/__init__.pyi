@@ -20,6 +20,7 @@ from seacrane.hydro.database.database import HydroDatabase as HydroDatabase
 from seacrane.hydro.database.shipped import shipped_database as shipped_database
 from seacrane.hydro.database.transform import QuadraticDampingWarning as QuadraticDampingWarning
 from seacrane.hydro.hull.by_strip_theory import SubmergedPartWarning as SubmergedPartWarning
+from seacrane.hydro.hull.convergence import MeshConvergenceWarning as MeshConvergenceWarning
 from seacrane.hydro.hull.hull import Hull as Hull
 from seacrane.hydro.hull.hull_database import FloatingPositionWarning as FloatingPositionWarning
 from seacrane.hydro.hull.hull_database import hydro_from_hull as hydro_from_hull

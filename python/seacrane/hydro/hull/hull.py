@@ -11,10 +11,11 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from seacrane.files.stl import read_stl
+from seacrane.hydro.hull.girth import around
 from seacrane.hydro.hull.hydrostatics import Hydrostatics, area_vectors, panel_hydrostatics, triangles_of
 from seacrane.hydro.hull.mesh import mesh_triangles, require_closed
 from seacrane.hydro.hull.offsets import OffsetTable, read_offset_table
-from seacrane.hydro.hull.panels import along, cut_panels, end_cap, lofted, without_slivers
+from seacrane.hydro.hull.panels import cut_panels, end_cap, lofted, without_slivers
 from seacrane.hydro.hull.parametric_hull import ParametricHull
 from seacrane.hydro.hull.sections import Slice, slices
 
@@ -107,8 +108,9 @@ class Hull:
     def remeshed(self, *, stations: int, girth: int) -> Hull:
         """The hull with even panels: ``stations`` along the length, ``girth`` on each half section.
 
-        What a panel method wants of an offset table or a mesh from a drawing. Corners between the new points
-        are cut off; compare the hydrostatics.
+        What a panel method wants of an offset table or a mesh from a drawing. Bilges and chines that turn by
+        more than 15 deg stay corners; along the length corners between stations are cut off. Compare the
+        hydrostatics, and the hydrodynamics by ``hydro_from_hull(..., check=True)``.
 
         Raises
         ------
@@ -125,7 +127,7 @@ class Hull:
                 f"hull {self.name!r}: at x = {hanging[0]:.4g} m something hangs apart under water; remeshing "
                 "takes one outline: use the mesh as it is"
             )
-        even = [along(s.section, np.linspace(0.0, 1.0, girth + 1)) for s in cut]
+        even = around([s.section for s in cut], girth)
         parts = [
             lofted(x.tolist(), even),
             end_cap(float(x[0]), even[0], forward=False),

@@ -13,6 +13,7 @@ from seacrane.hydro.data.rigid_mass import rigid_mass_matrix
 from seacrane.hydro.database.database import HydroDatabase
 from seacrane.hydro.hull.by_capytaine import capytaine_solution
 from seacrane.hydro.hull.by_strip_theory import strip_solution
+from seacrane.hydro.hull.convergence import convergence_told
 from seacrane.hydro.hull.hull import Hull
 from seacrane.hydro.hull.parametric_hull import ParametricHull
 from seacrane.hydro.hull.solution import HullSolution, symmetric_solution
@@ -43,6 +44,7 @@ def hydro_from_hull(
     roll_damping_fraction: float = 0.0,
     trusted_band: tuple[float, float] | None = None,
     stations: int = 41,
+    check: bool = False,
     rho: float = 1025.0,
     g: float = 9.81,
     name: str | None = None,
@@ -66,6 +68,8 @@ def hydro_from_hull(
         frequency.
     trusted_band : (low, high) rad/s; None: what the method says, see docs/hull-hydrodynamics.md.
     stations : sections of the strip theory, evenly spaced, ends included.
+    check : whether to solve a mesh of half the panels too, and to tell in `source` what changes; half as long
+        again.
     rho, g : kg/m3, m/s2.
     name : of the database; None: the hull's.
 
@@ -83,6 +87,7 @@ def hydro_from_hull(
     FloatingPositionWarning : mass and displacement differ by more than 1 %, or the hull would trim by more
         than 0.001 rad.
     seacrane.hydro.SubmergedPartWarning : strip theory leaves out a part of the hull.
+    seacrane.hydro.MeshConvergenceWarning : checked, and added mass or damping changes by more than 5 %.
     """
     shape = Hull.from_parametric(hull) if isinstance(hull, ParametricHull) else hull
     _require_choice(shape.name, method, speed, roll_damping_fraction)
@@ -102,10 +107,20 @@ def hydro_from_hull(
     weight = displaced if mass is None else float(mass)
     radii = _radii(shape, radii_of_gyration)
     _require_afloat(shape, _restoring(shape, weight, centre, rho, g), displaced, weight, centre, g)
-    found = _solution(shape, method, frequencies, headings, rho, g, stations)
+
+    def solve(mesh: Hull) -> HullSolution:
+        found = _solution(mesh, method, frequencies, headings, rho, g, stations)
+        return symmetric_solution(found, heading=headings, reciprocal=True)
+
+    solution = solve(shape)
+    if check:
+        low, high = solution.trusted_band if trusted_band is None else trusted_band
+        inside = (frequencies >= low) & (frequencies <= high)
+        told = convergence_told(shape, solution, solve, inside if inside.any() else ~inside)
+        solution = replace(solution, method=solution.method + told)
     return database_of_solution(
         shape,
-        symmetric_solution(found, heading=headings, reciprocal=True),
+        solution,
         omega=frequencies,
         heading=headings,
         centre_of_gravity=centre,

@@ -73,7 +73,7 @@ def lofted(x: Sequence[float], sections: Sequence[FloatArray]) -> FloatArray:
 def _strip(x_aft: float, aft: FloatArray, x_fore: float, fore: FloatArray) -> FloatArray:
     """Panels (n, 4, 3) of the port side between two sections."""
     if len(aft) != len(fore):
-        at = np.union1d(_fractions(aft), _fractions(fore))
+        at = np.union1d(fractions(aft), fractions(fore))
         at = at[np.append(True, np.diff(at) > SAME_FRACTION)]
         aft, fore = along(aft, at), along(fore, at)
     a = np.column_stack([np.full(len(aft), x_aft), aft])
@@ -81,7 +81,7 @@ def _strip(x_aft: float, aft: FloatArray, x_fore: float, fore: FloatArray) -> Fl
     return np.stack([a[:-1], b[:-1], b[1:], a[1:]], axis=1)
 
 
-def _fractions(section: FloatArray) -> FloatArray:
+def fractions(section: FloatArray) -> FloatArray:
     """Share (p,) of the length up to each point; a section that is one point has 0 and 1."""
     steps = np.hypot(*np.diff(section, axis=0).T)
     arc = np.concatenate([[0.0], np.cumsum(steps)])
@@ -92,7 +92,7 @@ def along(section: FloatArray, fraction: FloatArray) -> FloatArray:
     """Points (n, 2) at shares of a section's length."""
     if np.all(section == section[0]):
         return np.repeat(section[:1], len(fraction), axis=0)
-    at = _fractions(section)
+    at = fractions(section)
     keep = np.append(True, np.diff(at) > 0.0)
     at, points = at[keep], section[keep]
     return np.column_stack([np.interp(fraction, at, points[:, i]) for i in (0, 1)])
