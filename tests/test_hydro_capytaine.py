@@ -148,6 +148,27 @@ def test_finite_depth_wavenumber(tmp_path: Path) -> None:
     assert shipped_database().g * k * np.tanh(20.0 * k) == pytest.approx(omega[0] ** 2, rel=1e-9)
 
 
+def test_one_of_several_depths(tmp_path: Path) -> None:
+    """Added mass of each is its own; the file asks which."""
+    deep = layout()
+    shallow = deep.assign_coords(water_depth=20.0)
+    shallow["added_mass"] = 1.5 * deep["added_mass"]
+    both = xarray.concat(
+        [shallow, deep], dim="water_depth", data_vars="all", coords="minimal", compat="override", join="exact"
+    )
+    for name in ("inertia_matrix", "hydrostatic_stiffness"):
+        both[name] = deep[name]
+    with pytest.raises(FileFormatError, match=r"holds water depths 20, inf m; choose one by read_capytaine"):
+        read(both, tmp_path)
+    with pytest.raises(FileFormatError, match="holds water depths 20, inf m, not 30 m"):
+        read(both, tmp_path, depth=30.0)
+    base = shipped_database().added_mass[OMEGA]
+    assert read(both, tmp_path, depth=20.0).added_mass == pytest.approx(1.5 * base, rel=1e-12)
+    assert read(both, tmp_path, depth=20.0).depth == 20.0
+    assert read(both, tmp_path, depth=np.inf).added_mass == pytest.approx(base, rel=1e-12)
+    assert read(deep, tmp_path, depth=np.inf).depth == np.inf
+
+
 def test_parameters_of_one_value_and_dofs_with_a_body(tmp_path: Path) -> None:
     dataset = layout().drop_vars(["water_depth", "rho"])
     study = dataset.expand_dims({"water_depth": [np.inf], "rho": [1025.0]})

@@ -34,6 +34,8 @@ ComplexArray = NDArray[np.complex128]
 
 MOTION_NAMES = ("Surge", "Sway", "Heave", "Roll", "Pitch", "Yaw")
 NETCDF = (".nc", ".nc4")
+SAME_DEPTH = 1e-9  # of it
+NAMED = 8  # depths in a message
 MATRIX = ("influenced_dof", "radiating_dof")
 
 
@@ -51,7 +53,11 @@ MEASURES: dict[str, Callable[[FloatArray, float, float], FloatArray]] = {
 
 
 def read_capytaine(
-    path: str | PathLike[str], *, mass_matrix: ArrayLike | None = None, restoring: ArrayLike | None = None
+    path: str | PathLike[str],
+    *,
+    depth: float | None = None,
+    mass_matrix: ArrayLike | None = None,
+    restoring: ArrayLike | None = None,
 ) -> HydroDatabase:
     """Read a dataset that Capytaine wrote to NetCDF (complex values split into ``re`` and ``im``).
 
@@ -61,6 +67,7 @@ def read_capytaine(
         ``Froude_Krylov_force`` and ``diffraction_force``, for rigid motions of one body, heave among them,
         at zero speed and one water depth, over omega, freq, period, wavenumber or wavelength. Frequencies 0
         and infinity become the limits of the added mass.
+    depth : m, which of the file's water depths; needed where it has several (inf: deep water).
     mass_matrix, restoring : (6, 6) in SI about the rotation centre; they take the place of
         ``inertia_matrix`` and ``hydrostatic_stiffness``, and are needed where the file lacks these, or has
         not all six motions.
@@ -86,13 +93,32 @@ def read_capytaine(
     try:
         with open_netcdf(source), xarray.open_dataset(source) as opened:
             dataset = opened.load()
-        return _convert(source, dataset, mass_matrix, restoring)
+        return _convert(source, _of_depth(source, dataset, depth), mass_matrix, restoring)
     except FileFormatError:
         raise
     except NETCDF_ERRORS as error:
         raise FileFormatError(
             f"{source}: cannot be read as a Capytaine dataset ({str(error)[:200]}); write it again"
         ) from error
+
+
+def _of_depth(path: Path, dataset: xarray.Dataset, depth: float | None) -> xarray.Dataset:
+    """The results in one water depth: the one there is, or the one asked for."""
+    if "water_depth" not in dataset.coords:
+        there = np.array([np.inf])
+    else:
+        there = np.ravel(np.asarray(dataset["water_depth"].values, dtype=float))
+    listed = ", ".join(f"{value:g}" for value in there[:NAMED])
+    if depth is None:
+        if len(there) > 1:
+            raise FileFormatError(
+                f"{path}: holds water depths {listed} m; choose one by read_capytaine(path, depth=...)"
+            )
+        return dataset
+    found = np.flatnonzero(np.isclose(there, depth, rtol=SAME_DEPTH, atol=0.0))
+    if found.size == 0:
+        raise FileFormatError(f"{path}: holds water depths {listed} m, not {depth:g} m; choose one of them")
+    return dataset.isel(water_depth=int(found[0])) if "water_depth" in dataset.dims else dataset
 
 
 def is_capytaine(path: Path) -> bool:
