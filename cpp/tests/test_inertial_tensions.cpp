@@ -11,6 +11,7 @@ LineDescription quasi_static_line(const std::string& name) {
   LineDescription out = Line::example();
   out.name = name;
   out.stretch = kQuasiStatic;
+  static_cast<DrumDescription&>(out) = {};
   return out;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <optional>
 #include <string>
@@ -141,6 +142,16 @@ struct Line {
     d.maximum_rate = 5.0;
     d.maximum_acceleration = 50.0;
     d.lag = 0.4;
+    d.tension = Curve::constant(10.0);
+    d.tension_gain = 0.01;
+    d.dead_band = 1.0;
+    d.drum_inertia = 2.0;
+    d.drum_radius = 0.5;
+    d.maximum_tension = 1e4;
+    d.maximum_power = 1e5;
+    d.brake = Curve::quintic(0.2, 1.2, 0.0, 1.0);
+    d.brake_capacity = 30.0;
+    d.brake_give = 0.5;
     return d;
   }
 
@@ -174,23 +185,25 @@ struct Line {
   /// Jumps of the tension, with the stretch left out: of what drives l0, once for c, and once more often
   /// integrated for EA, once less for an inertial tension.
   std::vector<LoadKinks> kinks() const {
-    const int later = winch ? winch->states.count : 0;  // integrations from the curve to l0
-    const double share = winch && winch->lag > 0.0 ? 1.0 / winch->lag : 1.0;
-    LoadKinks out;
-    for (const CurveKink& kink : (winch ? winch->command : length).kinks()) {
-      const double l0 = winch ? length.at(0.0).value : length.at(kink.time).value;
-      LoadKink& of = out.emplace_back(LoadKink{kink.time, Eigen::Matrix<double, 1, 4>::Zero()});
-      const auto add = [&](int order, double factor) {
-        for (int p = 1; p <= 3; ++p) {
-          const int derivative = p - 1 - order;
-          if (derivative >= 0 && derivative <= 3) of.jump(0, p) += factor * kink.jump(idx(derivative));
-        }
-      };
-      add(later, share * stiffness / l0);
-      add(later - 1, share * (damper(l0) + stiffness * settling / l0));
-      if (quasi_static()) add(later - 2, share * hung / (1.0 + hung * l0 / strain_inertia()));
+    const int later = winch ? winch->integrations() : 0;  // from the curve to l0
+    std::vector<LoadKinks> all;
+    for (const auto& [curve, share] : winch ? winch->driven_by() : Winch::Drives{{&length, 1.0}}) {
+      LoadKinks& out = all.emplace_back();
+      for (const CurveKink& kink : curve->kinks()) {
+        const double l0 = length.at(winch ? 0.0 : kink.time).value;
+        LoadKink& of = out.emplace_back(LoadKink{kink.time, Eigen::Matrix<double, 1, 4>::Zero()});
+        const auto add = [&](int order, double factor) {
+          for (int p = 1; p <= 3; ++p) {
+            const int derivative = p - 1 - order;
+            if (derivative >= 0 && derivative <= 3) of.jump(0, p) += factor * kink.jump(idx(derivative));
+          }
+        };
+        add(later, share * stiffness / l0);
+        add(later - 1, share * (damper(l0) + stiffness * settling / l0));
+        if (quasi_static()) add(later - 2, share * hung / (1.0 + hung * l0 / strain_inertia()));
+      }
     }
-    return {out};
+    return all;
   }
 
   void add_unit(int /*component*/, const LoadInput<double>& in, Vec6d* wrenches) const {
@@ -202,22 +215,35 @@ struct Line {
 
   /// Why a run cannot go on at a side; empty: it can.
   std::string refused(int at) const {
-    if (!quasi_static() || at == kTaut) return "";
+    if (!quasi_static() || (at & kTaut) == kTaut) return "";
     const std::string what = "line '" + name + "': its stretch is quasi-static, and it ";
     if (at & 1) return what + "has hauled in to its minimum_length; give a smaller one, or stretch 'elastic'";
     return what + "goes slack; give it stretch 'elastic', which snatches";
   }
 
   static bool has_sides() { return true; }
-  /// Whether it pulls, whether it is stretched (damping pulls a little before, and lets go before), and
-  /// whether hauling in has not reached its end.
+  /// A bit for each margin: of the line, and of the end of hauling in, where it is positive; of the winch,
+  /// where it is not.
   int side(const LoadInput<double>& in) const {
-    const std::array<double, 3> signs = margins(in);
-    return (signs[0] > 0.0 ? 1 : 0) + (signs[1] > 0.0 ? 2 : 0) + (signs[2] > 0.0 ? 4 : 0);
+    int out = 0;
+    const Margins now = margins(in);
+    for (std::size_t i = 0; i < now.size(); ++i) out |= (now[i] > 0.0) == (i <= kAtEnd) ? 1 << i : 0;
+    return out;
   }
   double across(const LoadInput<double>& in, int from, int to) const {
-    const int changed = from ^ to;
-    return margins(in)[changed & 1 ? 0 : (changed & 2 ? 1 : 2)];
+    const auto changed = static_cast<unsigned>(from ^ to);
+    return margins(in)[idx(std::countr_zero(changed))];
+  }
+  /// The bounds of the winch that are reached by a change of the side, such as "hoist.maximum_rate".
+  std::vector<std::string> reached(int from, int to) const {
+    std::vector<std::string> out;
+    if ((from & ~to) >> kAtEnd & 1) out.push_back(name + ".minimum_length");
+    for (std::size_t i = 0; i < Winch::kKinks; ++i) {
+      const int bit = 1 << (kAtEnd + 1 + i);
+      const std::string bound = Winch::bound(i);
+      if ((to & ~from & bit) != 0 && !bound.empty()) out.push_back(name + "." + bound);
+    }
+    return out;
   }
 
   template <class T>
@@ -229,17 +255,16 @@ struct Line {
     });
     const CurveValue given = length.at(in.time, in.curve_limit);
     out.unstretched = winch ? winch->length(in) : T(given.value);
-    out.unstretched_rate = winch ? winch->rate(in) : T(given.rate);
+    out.elastic = select(quasi_static() || out.stretch() > T(0), elastic_pull(out), T(0));
+    out.unstretched_rate = winch ? winch->rate(in, out.elastic) : T(given.rate);
     if (quasi_static()) {  // taut, or refused
       const T strain_rate = out.straining() / out.unstretched;
       out.inertial = T(in.inertial[place]);
       out.kinetic = 0.5 * strain_inertia() * strain_rate * strain_rate;
-      out.elastic = elastic_pull(out);
       const T unsettled = strain_rate - in.states[settled];
       out.tension = unbounded_pull(out) + stiffness * settling * unsettled + out.inertial;
       return out;
     }
-    out.elastic = select(out.stretch() > T(0), elastic_pull(out), T(0));
     const T sum = unbounded_pull(out);
     out.tension = select(sum > T(0), sum, T(0));
     return out;
@@ -256,11 +281,20 @@ struct Line {
     });
     const T strain_rate = now.straining() / now.unstretched;
     const T driven = 2.0 * now.unstretched_rate * strain_rate +
-                     now.length / now.unstretched * unstretched_acceleration(in);
+                     now.length / now.unstretched * unstretched_acceleration(in, now);
     return strain_inertia() * (bend - driven) / now.unstretched;
   }
   /// By how much that falls for each m/s2 by which the path shortens faster.
   double inertial_mass(const Motion<double>& now) const { return strain_inertia() / now.unstretched; }
+
+  /// What the winch's drum does.
+  Drum::Drive drive(const LoadInput<double>& in) const {
+    const Motion<double> now = motion(in);
+    const double rate = winch->turning(in, now.elastic);
+    const double motor =
+        winch->drum->motor(in, winch->asked_acceleration(in, now.elastic), now.tension, rate);
+    return {motor, winch->drum->braking(in, rate), rate, winch->drum->brake_power(in, rate)};
+  }
 
   template <class T>
   void apply(const LoadInput<T>& in, LoadSum<T>& out) const {
@@ -272,21 +306,28 @@ struct Line {
       out.wrench[s.second].add(back, s.lever_second);
     });
     out.add_power(now.damping_power());
-    out.add_power(now.winch_power());
+    if (winch) {
+      winch->add_power(in, now.elastic, now.tension, now.winch_power(), out);
+    } else {
+      out.add_power(now.winch_power());
+    }
     if (quasi_static()) {
       out.add_power(now.winch_power_per_inertial() * now.inertial);
       out.state_rates[settled] = (now.straining() / now.unstretched - in.states[settled]) / T(settling);
     }
-    if (winch) winch->set_rates(in, out.state_rates);
+    if (winch) winch->set_rates(in, now.elastic, now.tension, out.state_rates);
   }
 
   double potential(const LoadInput<double>& in) const {
     const Motion<double> now = motion(in);
-    return 0.5 * now.elastic * std::max(now.stretch(), 0.0) + now.kinetic * now.unstretched;
+    const double strain = 0.5 * now.elastic * std::max(now.stretch(), 0.0) + now.kinetic * now.unstretched;
+    return winch && winch->drum ? strain + winch->drum->stored(in, winch->turning(in, now.elastic)) : strain;
   }
 
  private:
+  static constexpr std::size_t kAtEnd = 2;
   static constexpr int kTaut = 1 + 2 + 4;
+  using Margins = std::array<double, kAtEnd + 1 + Winch::kKinks>;
   static constexpr double kJump = 1e-9;  // m and m/s
 
   template <class T>
@@ -324,6 +365,9 @@ struct Line {
     if (d.winch && d.lag == 0.0) {
       c.fail(
           "a quasi-static stretch needs a smooth length, and its winch has no lag; give one, such as 0.1 s");
+    }
+    if (d.drum_inertia > 0.0) {
+      c.fail("a drum with inertia rings with its line; choose stretch 'elastic', or leave drum_inertia out");
     }
     for (const CurveKink& kink : d.length.kinks()) {
       if (kink.time <= 0.0 || std::abs(kink.jump(0)) + std::abs(kink.jump(1)) <= kJump) continue;
@@ -401,15 +445,25 @@ struct Line {
     const Vec3<T> linear = a.template head<3>(), angular = a.template tail<3>();
     return linear + cross<T>(angular, lever) + cross<T>(omega, cross<T>(omega, lever));
   }
-  std::array<double, 3> margins(const LoadInput<double>& in) const {
+  /// Whether it pulls, whether it is stretched (damping pulls a little before, and lets go before), whether
+  /// hauling in has not reached its end, and the kinks of the winch.
+  Margins margins(const LoadInput<double>& in) const {
     const Motion<double> now = motion(in);
-    const double pull = quasi_static() ? now.stretch() : unbounded_pull(now);
-    return {pull, now.stretch(), winch ? winch->length(in) - winch->minimum_length : 1.0};
+    Margins out;
+    out.fill(1.0);
+    out[0] = quasi_static() ? now.stretch() : unbounded_pull(now);
+    out[1] = now.stretch();
+    if (!winch) return out;
+    out[kAtEnd] = winch->length(in) - winch->minimum_length;
+    const auto of_winch = winch->margins(in, now.elastic, now.tension);
+    std::copy(of_winch.begin(), of_winch.end(), out.begin() + kAtEnd + 1);
+    return out;
   }
 
   template <class T>
-  T unstretched_acceleration(const LoadInput<T>& in) const {
-    return winch ? winch->acceleration(in) : T(length.at(in.time, in.curve_limit).acceleration);
+  T unstretched_acceleration(const LoadInput<T>& in, const Motion<T>& now) const {
+    return winch ? winch->asked_acceleration(in, now.elastic)
+                 : T(length.at(in.time, in.curve_limit).acceleration);
   }
 };
 
