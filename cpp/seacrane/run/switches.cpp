@@ -111,7 +111,7 @@ std::optional<double> Switches::find(Stepper& at) {
                margin = std::max(kAtEnd * (end - start), 100.0 * smallest_step(end));
   refuse(at, end, after_);
   std::optional<double> first;
-  instants_.assign(after_.size(), end);
+  instants_.assign(after_.size(), start);  // where a curve has jumped
   for (std::size_t i = 0; i < after_.size(); ++i) {
     if (after_[i] == before_[i]) continue;
     const std::optional<double> found = integrator.locate(
