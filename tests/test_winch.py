@@ -15,14 +15,17 @@ from numpy.typing import NDArray
 from seacrane import (
     Curve,
     Evaluator,
+    Move,
     Run,
     Scene,
     SceneError,
+    Stage,
     State,
     WinchLimitWarning,
     equilibrium,
     linear_model,
     simulate,
+    simulate_stages,
 )
 
 Array = NDArray[np.float64]
@@ -32,7 +35,7 @@ CAPACITY = 1.5 * MASS * G  # N
 
 
 def on_drum(**given: Any) -> Scene:
-    """The load of `hung` on a drum with inertia; `given` has what the winch takes, and what the load does."""
+    """The load of `hung` on a drum with inertia; `given` has what the winch takes, and what `hung` does."""
     of_load = {key: given.pop(key) for key in ("length", "damping", "stretch", "velocity") if key in given}
     scene = hung(**of_load)
     drum = {"drum_inertia": INERTIA, "drum_radius": RADIUS, "lag": 0.2}
@@ -54,8 +57,9 @@ def steady(force: float) -> tuple[float, float]:
 
 def running(scene: Scene, **states: float) -> State:
     """The scene's start with states of its winch."""
-    start = Run(scene, t_end=1.0).core.state.with_load_states({f"hoist.{k}": v for k, v in states.items()})
-    return start
+    return Run(scene, t_end=1.0).core.state.with_load_states(
+        {f"hoist.{name}": value for name, value in states.items()}
+    )
 
 
 def test_a_load_falls_with_its_drum() -> None:
@@ -97,9 +101,7 @@ def test_a_brake_slips_at_its_capacity_and_holds_without_creep() -> None:
         stretch=10.0 * strain, velocity=(0, 0, -speed * (1.0 + strain)), damping=0.1, brake=1.0,
         brake_capacity=CAPACITY,
     )  # fmt: skip
-    result = simulate(
-        scene, 8.0, dt_out=0.01, rtol=1e-9, start=running(scene, rate=speed, brake=1e-3)
-    )
+    result = simulate(scene, 8.0, dt_out=0.01, rtol=1e-9, start=running(scene, rate=speed, brake=1e-3))
     stops = speed / -change
     slips = result.time < stops - 1e-3
     assert_allclose(result["line_pay_out_rate"][slips, 0], speed + change * result.time[slips], atol=1e-6)
@@ -119,16 +121,16 @@ def test_a_brake_holds_a_load_by_its_give() -> None:
     place = next(place for name, _, place, *_ in scene.compile().load_states if name == "hoist.brake")
     assert rest.values[place] == pytest.approx(1e-3 / 1.5, rel=1e-6)
     result = simulate(scene, 20.0, start=rest, dt_out=5.0, rtol=1e-8)
-    assert_allclose(result["line_unstretched_length"][:, 0], result["line_unstretched_length"][0, 0], atol=1e-9)
+    assert_allclose(
+        result["line_unstretched_length"][:, 0], result["line_unstretched_length"][0, 0], atol=1e-9
+    )
     assert not result.events
 
 
 def test_the_motor_hauls_in_within_its_bounds() -> None:
     """By (F - m g) / (m + J / r^2) at first, at P / (m g) in the end; the drum's lag plays no part."""
     most, power = 1.2 * MASS * G, 0.5 * MASS * G
-    scene = on_drum(
-        length=100.0, damping=0.3, rate=-2.0, maximum_tension=most, maximum_power=power, lag=0.01
-    )
+    scene = on_drum(length=100.0, damping=0.3, rate=-2.0, maximum_tension=most, maximum_power=power, lag=0.01)
     result = simulate(scene, 12.0, dt_out=0.02, rtol=1e-8)
     rate, time = result["line_pay_out_rate"][:, 0], result.time
     torque, early = result["drum_motor_torque"][:, 0], time < 0.2
@@ -237,7 +239,11 @@ def test_the_linear_model_has_the_gain_of_the_tension_loop() -> None:
     values = np.linalg.eigvals(linear_model(scene, state=rest).a)
     by_length = -STIFFNESS * (1.0 + MASS * G / STIFFNESS / l0)
     loop = np.array(
-        [[0.0, 1.0, 0.0], [-STIFFNESS / MASS, 0.0, -by_length / MASS], [gain * STIFFNESS, 0.0, gain * by_length]]
+        [
+            [0.0, 1.0, 0.0],
+            [-STIFFNESS / MASS, 0.0, -by_length / MASS],
+            [gain * STIFFNESS, 0.0, gain * by_length],
+        ]
     )
     for expected in np.linalg.eigvals(loop):
         assert np.min(np.abs(values - expected)) < 1e-4 * max(1.0, abs(expected))
@@ -247,8 +253,9 @@ def busy() -> Scene:
     """A swinging load on a drum that holds a tension, with a brake that closes on the way."""
     shut = Curve.quintic(start_time=2.0, end_time=2.3, start=0.0, end=1.0)
     return swinging(
-        tension=21e3, tension_gain=1e-5, dead_band=500.0, drum_inertia=400.0, drum_radius=0.4, maximum_rate=0.8,
-        maximum_tension=26e3, maximum_power=15e3, brake=shut, brake_capacity=28e3, brake_give=0.01,
+        tension=21e3, tension_gain=1e-5, dead_band=500.0, drum_inertia=400.0, drum_radius=0.4,
+        maximum_rate=0.8, maximum_tension=26e3, maximum_power=15e3, brake=shut, brake_capacity=28e3,
+        brake_give=0.01,
     )  # fmt: skip
 
 
@@ -262,17 +269,19 @@ def test_the_energy_balance_closes_with_motor_brake_and_rope(formulation: str) -
 
 def test_the_load_and_the_drum_take_what_motor_and_brake_give() -> None:
     out = record(busy(), 5.0, dt_out=2e-3, rtol=1e-8)
+    step = np.diff(out["time"])
+
+    def work(power: Array) -> Array:
+        return np.concatenate([[0.0], np.cumsum(0.5 * step * (power[1:] + power[:-1]))])
+
     given = out["drum_motor_power"][:, 0] + out["drum_brake_power"][:, 0]
-    work = np.concatenate([[0.0], np.cumsum(0.5 * np.diff(out["time"]) * (given[1:] + given[:-1]))])
-    rate, wound = out["load_state"][:, 1], out["load_state"][:, 2]
-    held = 0.5 * 2500.0 * rate**2 + 0.5 * 28e3 / 0.01 * wound**2
-    rope = out["line_winch_power"][:, 0] + out["line_tension"][:, 0] * out["line_pay_out_rate"][:, 0]
-    assert np.max(np.abs(rope)) < 0.02 * np.max(np.abs(given))  # the strain energy that the rope carries
-    into_line = np.concatenate(
-        [[0.0], np.cumsum(0.5 * np.diff(out["time"]) * (out["line_winch_power"][1:, 0] + out["line_winch_power"][:-1, 0]))]
-    )
-    carried = np.concatenate([[0.0], np.cumsum(0.5 * np.diff(out["time"]) * (rope[1:] + rope[:-1]))])
-    assert_allclose(work, held - held[0] + into_line - carried, atol=2e-4 * np.max(np.abs(work)))
+    into_line = out["line_winch_power"][:, 0]
+    carried = into_line + (out["line_tension"] * out["line_pay_out_rate"])[:, 0]
+    assert np.max(np.abs(carried)) < 0.02 * np.max(np.abs(given))  # strain energy, by the rope
+    rate, wound = out["load_state"][:, 1:].T
+    stored = 0.5 * 2500.0 * rate**2 + 0.5 * 28e3 / 0.01 * wound**2
+    expected = stored - stored[0] + work(into_line) - work(carried)
+    assert_allclose(work(given), expected, atol=2e-4 * np.max(np.abs(expected)))
 
 
 def test_both_formulations_and_merged_bodies_agree() -> None:
@@ -284,6 +293,44 @@ def test_both_formulations_and_merged_bodies_agree() -> None:
     for other in runs[1:]:
         assert_allclose(other["position"], runs[0]["position"], atol=1e-7)
         assert_allclose(other["load_state"], runs[0]["load_state"], atol=1e-7)
+
+
+@pytest.mark.parametrize("formulation", ["redundant", "recursive"])
+def test_a_drum_that_hauls_in_to_its_end_is_stopped(formulation: str) -> None:
+    scene = on_drum(length=8.0, damping=0.1, rate=-0.5, minimum_length=7.5)
+    with pytest.warns(WinchLimitWarning, match="has hauled in to minimum_length"):
+        result = simulate(scene, 4.0, dt_out=0.05, rtol=1e-8, formulation=formulation)
+    (met,) = result.events
+    hauled = 0.5 * (met.time - 0.2 * (1.0 - np.exp(-met.time / 0.2)))
+    assert met.name == "hoist.minimum_length" and hauled == pytest.approx(0.5, abs=1e-6)
+    assert_allclose(result["line_unstretched_length"][result.time > met.time], 7.5, atol=1e-6)
+    left = -0.5 * np.exp(-(result.time - met.time) / 0.2)
+    assert_allclose(result["load_state"][result.time > met.time, 1], left[result.time > met.time], atol=2e-3)
+    assert np.max(np.abs(result["energy_balance"])) < 1e-6 * result["absolute_work"][-1]
+
+
+@pytest.mark.parametrize(
+    ("integrator", "settings", "within"),
+    [("rk4", {"dt": 5e-4}, 1e-5), ("cvode-bdf", {"rtol": 1e-8}, 1e-4), ("ida", {"rtol": 1e-8}, 1e-4),
+     ("generalized-alpha", {"dt": 5e-4}, 1e-3), ("ark-dirk", {"rtol": 1e-8}, 1e-4)],
+)  # fmt: skip
+def test_other_integrators_agree(integrator: str, settings: dict[str, Any], within: float) -> None:
+    exact, other = (record(busy(), 2.6, dt_out=1.3, **given)
+                    for given in ({"rtol": 1e-10}, {"integrator": integrator} | settings))  # fmt: skip
+    assert_allclose(other["position"], exact["position"], atol=within)
+    assert_allclose(other["load_state"], exact["load_state"], atol=within)
+
+
+def test_stages_command_the_brake_and_the_tension() -> None:
+    scene = on_drum(damping=0.1, brake_capacity=CAPACITY)
+    stages = [Stage(name="hold", duration=1.0),
+              Stage(name="park", duration=6.0, commands={"hoist.brake": Move(to=1.0, over=0.2)})]  # fmt: skip
+    parked = simulate_stages(scene, stages, dt_out=0.5, rtol=1e-8)
+    assert_allclose(parked["drum_motor_torque"][[0, -1], 0], [-MASS * G * RADIUS, 0.0], rtol=1e-9)
+    assert parked["drum_brake_torque"][-1, 0] == pytest.approx(MASS * G * RADIUS, rel=1e-4)
+    stages = [Stage(name="slack off", duration=9.0, commands={"tugger.tension": 12e3})]
+    let_go = simulate_stages(pulled(0.0, dead_band=1e3), stages, dt_out=0.5, rtol=1e-8)
+    assert let_go["line_tension"][-1, 0] == pytest.approx(13e3, rel=1e-4)
 
 
 @pytest.mark.parametrize(
@@ -332,8 +379,14 @@ def test_a_scene_file_holds_the_winch_and_an_older_one_its_digest(tmp_path: Path
     [
         ({"tension": 1e4}, "holds a tension without a tension_gain; give the m/s"),
         ({"tension": 1e4, "tension_gain": -1.0}, "tension_gain is -1; it must not be negative"),
-        ({"tension": 1e4, "tension_gain": 1e-5, "dead_band": -1.0}, "dead_band is -1; it must not be negative"),
-        ({"tension_gain": 1e-5}, "tension is 0 N at t = 0 s and the dead_band 0 N: a slack line would not be"),
+        (
+            {"tension": 1e4, "tension_gain": 1e-5, "dead_band": -1.0},
+            "dead_band is -1; it must not be negative",
+        ),
+        (
+            {"tension_gain": 1e-5},
+            "tension is 0 N at t = 0 s and the dead_band 0 N: a slack line would not be",
+        ),
         ({"maximum_tension": 1e5}, "maximum_tension needs a drum: give drum_inertia and drum_radius"),
         ({"brake": 1.0}, "brake needs a drum"),
         ({"drum_inertia": 1e3, "lag": 0.1}, "drum_radius is 0; it must be positive"),
@@ -361,6 +414,14 @@ def test_winches_that_cannot_be_are_told(given: dict[str, Any], message: str) ->
     scene = hung()
     scene.add_winch(line="hoist", **given)
     with pytest.raises(SceneError, match=f"line 'hoist': .*{message}"):
+        scene.compile()
+
+
+@pytest.mark.parametrize("given", [{"tension_gain": 1e-5}, {"drum_inertia": 1e3}])
+def test_a_line_without_a_winch_holds_no_tension(given: dict[str, float]) -> None:
+    scene = hung()
+    scene.replace("hoist", **given)
+    with pytest.raises(SceneError, match="holds a tension or has a drum, and no winch; set winch, or leave"):
         scene.compile()
 
 

@@ -1,8 +1,8 @@
 """A tugger that holds 10 kN calms a swinging payload: it gives and takes rope as a damper does.
 
-By hand: its pull T leans the payload by L T / (m g), about which it swings from the vertical. Where the payload
-moves at v the winch takes in or pays out v, for v / gain of tension: a damper of 1 / gain, and a damping ratio
-z = 1 / (2 m omega gain), with omega^2 = g / L. The first swing passes the middle at lean omega exp(-z pi / 2).
+By hand: its pull T leans the payload by L T / (m g), about which it swings from the vertical. Where it moves
+at v the winch takes in or pays out v, for v / gain of tension: a damper of 1 / gain, and a damping ratio z =
+1 / (2 m omega gain), omega^2 = g / L. The first swing passes the middle at lean omega exp(-z pi / 2).
 """
 
 import numpy as np

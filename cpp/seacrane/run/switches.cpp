@@ -93,6 +93,7 @@ void Switches::note(const Stepper& at) {
   for_each_switch(*at.model, [&](const auto& load) {
     const int from = before_[i], to = after_[i];
     const double t = instants_[i++];
+    if (from == to) return;
     if constexpr (requires { load.reached(from, to); }) {
       append(reached_, t, load.reached(from, to));
     }

@@ -57,9 +57,10 @@ struct Drum {
   double capacity = 0.0, stiffness = 0.0, damping = 1.0;
   int wound = -1;  // z among the states; none: no brake
 
-  /// Kinks, each where its number changes its sign, and the bound that is met where it turns negative.
+  /// Kinks, each where its number changes its sign, and the bound that is met where it turns negative, or
+  /// null.
   static constexpr std::array<const char*, 6> kBounds = {
-      "maximum_tension", "maximum_tension", "maximum_power", "", "", "brake_capacity"};
+      "maximum_tension", "maximum_tension", "maximum_power", nullptr, nullptr, "brake_capacity"};
 
   static void check(const DrumDescription& d, double lag, const Check& c) {
     c.not_negative("drum_inertia", d.drum_inertia);

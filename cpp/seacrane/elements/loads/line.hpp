@@ -126,6 +126,8 @@ struct Line {
       Winch::check(d, d.length, c);
     } else if (d.rate.at(0.0).value != 0.0 || d.rate.pieces().size() > 1 || d.lag != 0.0) {
       c.fail("has a rate or a lag, and no winch; set winch, or leave them out");
+    } else if (d.tension_gain != 0.0 || d.drum_inertia != 0.0) {
+      c.fail("holds a tension or has a drum, and no winch; set winch, or leave them out");
     }
   }
 
@@ -240,8 +242,7 @@ struct Line {
     if ((from & ~to) >> kAtEnd & 1) out.push_back(name + ".minimum_length");
     for (std::size_t i = 0; i < Winch::kKinks; ++i) {
       const int bit = 1 << (kAtEnd + 1 + i);
-      const std::string bound = Winch::bound(i);
-      if ((to & ~from & bit) != 0 && !bound.empty()) out.push_back(name + "." + bound);
+      if ((to & ~from & bit) != 0 && Winch::bound(i) != nullptr) out.push_back(name + "." + Winch::bound(i));
     }
     return out;
   }

@@ -181,11 +181,11 @@ struct Winch {
     }
     return out;
   }
-  /// The bound that is met where a margin turns negative; empty: none.
+  /// The bound that is met where a margin turns negative; null: none.
   static const char* bound(std::size_t margin) {
     if (margin < 2) return "maximum_rate";
     if (margin < kOwn) return "maximum_acceleration";
-    return margin < kOwn + 2 ? "" : Drum::kBounds[margin - kOwn - 2];
+    return margin < kOwn + 2 ? nullptr : Drum::kBounds[margin - kOwn - 2];
   }
 
  private:
