@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <stdexcept>
 #include <string>
 
@@ -115,8 +116,10 @@ std::optional<double> Switches::find(Stepper& at) {
   instants_.assign(after_.size(), start);  // where a curve has jumped
   for (std::size_t i = 0; i < after_.size(); ++i) {
     if (after_[i] == before_[i]) continue;
-    const std::optional<double> found = integrator.locate(
-        [&](double t, const double* y) { return across(at, read(at, t, y), i, before_[i], after_[i]); });
+    const auto margin_at = [&](double t, const double* y) {
+      return across(at, read(at, t, y), i, before_[i], after_[i]);
+    };
+    const std::optional<double> found = integrator.locate(std::cref(margin_at));
     if (!found) continue;
     instants_[i] = *found;
     if (*found - start <= margin || end - *found <= margin) continue;
