@@ -1429,7 +1429,6 @@ class Line:
         """
         whether the length is a state that `rate` drives
         """
-
 class Limit:
     """
     What a joint does one way only; see Scene.add_wire, add_end_stop and add_seat. Immutable.
