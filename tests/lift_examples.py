@@ -190,6 +190,16 @@ maximum_rate_m_per_s = 1
 maximum_acceleration_m_per_s2 = 0.5
 lag_s = 0.1
 minimum_length_m = 2
+tension_N = {kind = "quintic", start_time_s = 1, end_time_s = 3, start = 2e3, end = 4e3}
+tension_gain_m_per_s_per_N = 1e-4
+dead_band_N = 100
+drum_inertia_kg_m2 = 500
+drum_radius_m = 0.5
+maximum_tension_N = 3e4
+maximum_power_W = 5e4
+brake = {kind = "quintic", start_time_s = 5, end_time_s = 5.1, start = 0, end = 1}
+brake_capacity_N = 4e4
+brake_give_m = 2e-3
 
 [[force_table]]
 name = "gust"
@@ -353,6 +363,9 @@ def every_table() -> Scene:
     scene.add_winch(
         line="hoist", rate=Curve.quintic(start_time=0, end_time=2, start=0, end=0.5), maximum_rate=1,
         maximum_acceleration=0.5, lag=0.1, minimum_length=2,
+        tension=Curve.quintic(start_time=1, end_time=3, start=2e3, end=4e3), tension_gain=1e-4, dead_band=100,
+        drum_inertia=500, drum_radius=0.5, maximum_tension=3e4, maximum_power=5e4,
+        brake=Curve.quintic(start_time=5, end_time=5.1, start=0, end=1), brake_capacity=4e4, brake_give=2e-3,
     )  # fmt: skip
     scene.add_force_table(name="gust", body="box", times=[0, 1], loads=np.arange(12.0).reshape(2, 6))
     _add_flows(scene)

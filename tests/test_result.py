@@ -202,7 +202,8 @@ GENERAL = {
     "drift_force", "driver_force", "tension", "limit_force", "impact_loss", "point_position",
     "point_velocity", "point_acceleration", "load_force", "load_moment", "load_state", "tip_velocity",
     "offlead", "sidelead", "line_tension", "line_length", "line_unstretched_length", "line_stretch",
-    "line_pay_out_rate", "line_winch_power",
+    "line_pay_out_rate", "line_winch_power", "drum_motor_torque", "drum_motor_power",
+    "drum_brake_torque", "drum_brake_power",
 }  # fmt: skip
 
 

@@ -25,6 +25,7 @@ std::vector<SceneDescription> scenes() {
   SceneDescription hoisted = slider_crank();
   Line::Description line = Line::example();
   line.bodies = {kGround, hoisted.bodies[0].name, hoisted.bodies[1].name};
+  line.brake_capacity = 1e3;  // holds: a bound that is reached is an event, which allocates
   hoisted.loads_of<Line>().push_back(line);
   return {slider_crank(), floating, light, euler, at_sea(true), at_sea(true, 0.7), at_sea(false), hoisted};
 }

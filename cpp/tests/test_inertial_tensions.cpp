@@ -11,6 +11,7 @@ LineDescription quasi_static_line(const std::string& name) {
   LineDescription out = Line::example();
   out.name = name;
   out.stretch = kQuasiStatic;
+  static_cast<DrumDescription&>(out) = {};
   return out;
 }
 
@@ -19,9 +20,7 @@ LineDescription commanded_line() {
   out.points = {{1.0, 0.2, 1.0}, {0.5, 0.1, -0.3}, {0.2, -0.3, 1.0}};
   out.stiffness = 200.0;
   out.settling = 0.3;
-  out.winch = false;
-  out.rate = Curve::constant(0.0);
-  out.lag = 0.0;
+  static_cast<WinchDescription&>(out) = {};
   out.length =
       Curve::harmonic(0.0, 1.4, 0.3, 2.0, 0.4);  // shorter than the path in every scene: slack is a kink
   return out;

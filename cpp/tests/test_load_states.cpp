@@ -59,10 +59,11 @@ TEST_CASE("states of loads stand behind the fluid's, with their names, starts an
   const auto model = compile(scene, false);
   const StateLayout& s = model->layout;
   CHECK(s.loads == s.memory + 2);
-  CHECK(s.work == s.loads + 2);
-  REQUIRE(model->load_states.size() == 2);
+  CHECK(s.work == s.loads + 3);
+  REQUIRE(model->load_states.size() == 3);
   CHECK(model->load_states[0].name == "load.length");
   CHECK(model->load_states[1].name == "load.rate");
+  CHECK(model->load_states[2].name == "load.brake");
   CHECK(model->initial_state[idx(s.loads)] == 3.0);
   CHECK(model->initial_state[idx(s.loads + 1)] == 0.0);
   CHECK(model->scale[idx(s.loads)] == model->translation_scale);

@@ -1300,7 +1300,7 @@ class Line:
         ...
     def __hash__(self) -> int:
         ...
-    def __init__(self, *, name: str, bodies: collections.abc.Sequence[str], points: numpy.typing.ArrayLike, stiffness: typing.SupportsFloat, length: Curve | typing.SupportsFloat, damping_ratio: typing.SupportsFloat = ..., mass: typing.SupportsFloat = ..., stretch: str = ..., settling: typing.SupportsFloat = ..., winch: bool = ..., rate: Curve | typing.SupportsFloat = ..., maximum_rate: typing.SupportsFloat = ..., maximum_acceleration: typing.SupportsFloat = ..., lag: typing.SupportsFloat = ..., minimum_length: typing.SupportsFloat = ...) -> None:
+    def __init__(self, *, name: str, bodies: collections.abc.Sequence[str], points: numpy.typing.ArrayLike, stiffness: typing.SupportsFloat, length: Curve | typing.SupportsFloat, damping_ratio: typing.SupportsFloat = ..., mass: typing.SupportsFloat = ..., stretch: str = ..., settling: typing.SupportsFloat = ..., winch: bool = ..., rate: Curve | typing.SupportsFloat = ..., maximum_rate: typing.SupportsFloat = ..., maximum_acceleration: typing.SupportsFloat = ..., lag: typing.SupportsFloat = ..., minimum_length: typing.SupportsFloat = ..., tension: Curve | typing.SupportsFloat = ..., tension_gain: typing.SupportsFloat = ..., dead_band: typing.SupportsFloat = ..., drum_inertia: typing.SupportsFloat = ..., drum_radius: typing.SupportsFloat = ..., maximum_tension: typing.SupportsFloat = ..., maximum_power: typing.SupportsFloat = ..., brake: Curve | typing.SupportsFloat = ..., brake_capacity: typing.SupportsFloat = ..., brake_give: typing.SupportsFloat = ...) -> None:
         ...
     def __repr__(self) -> str:
         ...
@@ -1312,9 +1312,39 @@ class Line:
         bodies of the points, in the order of the path
         """
     @property
+    def brake(self) -> Curve:
+        """
+        share of its capacity that is applied, 0 (open) to 1
+        """
+    @property
+    def brake_capacity(self) -> float:
+        """
+        N, of the brake, at the rope; 0: no brake
+        """
+    @property
+    def brake_give(self) -> float:
+        """
+        m, of rope, before the brake bears its capacity
+        """
+    @property
     def damping_ratio(self) -> float:
         """
         of critical damping of `mass` on the line
+        """
+    @property
+    def dead_band(self) -> float:
+        """
+        N, on both sides of the tension, in which it stands still
+        """
+    @property
+    def drum_inertia(self) -> float:
+        """
+        kg m2, of drum, gear and motor at the drum; 0: none
+        """
+    @property
+    def drum_radius(self) -> float:
+        """
+        m, at which the rope runs
         """
     @property
     def lag(self) -> float:
@@ -1337,9 +1367,19 @@ class Line:
         m/s2, likewise; needs a lag
         """
     @property
+    def maximum_power(self) -> float:
+        """
+        W, that the motor gives
+        """
+    @property
     def maximum_rate(self) -> float:
         """
         m/s, of the winch; at 1e7 there is none
+        """
+    @property
+    def maximum_tension(self) -> float:
+        """
+        N, of the motor, at the rope; 0: no motor
         """
     @property
     def minimum_length(self) -> float:
@@ -1373,6 +1413,16 @@ class Line:
     def stretch(self) -> str:
         """
         'elastic', or 'quasi-static': then it follows the tension
+        """
+    @property
+    def tension(self) -> Curve:
+        """
+        N, that the winch holds: it renders above, recovers below
+        """
+    @property
+    def tension_gain(self) -> float:
+        """
+        m/s/N, rate over tension beyond the band; 0: none held
         """
     @property
     def winch(self) -> bool:

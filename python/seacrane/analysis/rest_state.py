@@ -53,8 +53,8 @@ def held(scene: Some, *, time: float = 0.0) -> Some:
             name=name, body=table.body, point=table.point, times=[0.0, 1.0], wrenches=np.array([wrench] * 2)
         )
     for name, line in lines_of(scene.loads).items():
-        still = {"length": _frozen(line.length, time), "rate": 0.0}
-        out.loads[name] = _core.Line(**line.__getstate__() | still)
+        held_curves = {key: _frozen(getattr(line, key), time) for key in ("length", "tension", "brake")}
+        out.loads[name] = _core.Line(**line.__getstate__() | held_curves | {"rate": 0.0})
     return out
 
 

@@ -12,10 +12,25 @@ from seacrane.description.loads import LOAD_KINDS, kind_of
 from seacrane.errors import FileFormatError
 from seacrane.files.node import Node
 
+# Entries that came after files with elements of their kind: written where they are not as usual, so that
+# older scenes keep their digests.
+_ADDED_LATER: Mapping[type, frozenset[str]] = {
+    _core.Line: frozenset(
+        ("tension", "tension_gain", "dead_band", "drum_inertia", "drum_radius", "maximum_tension",
+         "maximum_power", "brake", "brake_capacity", "brake_give")
+    ),
+}  # fmt: skip
+
 
 def element_to_data(element: Any) -> dict[str, Any]:
     """An element's entries as plain data."""
-    return {field.name: _plain(getattr(element, field.name)) for field in type(element).FIELDS}
+    later = _ADDED_LATER.get(type(element), frozenset())
+    values = {field: getattr(element, field.name) for field in type(element).FIELDS}
+    return {
+        field.name: _plain(value)
+        for field, value in values.items()
+        if field.name not in later or value != field.default
+    }
 
 
 def element_from_node(kind: type, node: Node, keys: Mapping[str, str] | None = None) -> dict[str, Any]:

@@ -14,6 +14,7 @@ from seacrane.errors import SceneError
 from seacrane.inputs.checked import text_of
 
 NO_BOUND = 1e7  # m/s or m/s2: a bound here or beyond is none
+STRONGEST = 1e12  # N or W: likewise
 
 
 def add_line(
@@ -90,10 +91,23 @@ def add_winch(
     maximum_acceleration: float = NO_BOUND,
     lag: float = 0.0,
     minimum_length: float = 0.1,
+    tension: _core.Curve | float = 0.0,
+    tension_gain: float = 0.0,
+    dead_band: float = 0.0,
+    drum_inertia: float = 0.0,
+    drum_radius: float = 0.0,
+    maximum_tension: float = STRONGEST,
+    maximum_power: float = STRONGEST,
+    brake: _core.Curve | float = 0.0,
+    brake_capacity: float = 0.0,
+    brake_give: float = 1e-3,
 ) -> _core.Line:
     """Put a line on a winch: its unstretched length becomes a state, "<line>.length", driven by a rate.
 
     With a lag the rate is a state too, "<line>.rate". Input "<line>.rate" adds to the command during a run.
+    With `tension` and `tension_gain` it holds a tension; with `drum_inertia` and `drum_radius` its drum has
+    inertia, a motor within bounds and a brake. A bound that is reached is an event of the result, of kind
+    "limit". See docs/lines.md.
 
     Parameters
     ----------
@@ -109,6 +123,26 @@ def add_winch(
         s, of the rate behind the command, first order, from rest; 0 (default): the rate is the command.
     minimum_length : float
         m, at which hauling in stops.
+    tension : Curve or float
+        N, held: the winch pays out above it and hauls in below it, also a slack line. Needs `tension_gain`.
+    tension_gain : float
+        m/s for each N beyond the tension and its dead band, added to the command; 0 (default): none is held.
+    dead_band : float
+        N on both sides of the tension, in which nothing is added.
+    drum_inertia : float
+        kg m2, of drum, gear and motor at the drum; needs a lag. 0 (default): the rate is that of the lag.
+    drum_radius : float
+        m, at which the rope runs.
+    maximum_tension : float
+        N at the rope, of the motor in both directions; 0: no motor. 1e12 (default): no bound.
+    maximum_power : float
+        W that the motor gives; what it takes is not bounded. 1e12 (default): no bound.
+    brake : Curve or float
+        Share of its capacity that is applied, 0 (open) to 1 (closed). The motor lets go by that share.
+    brake_capacity : float
+        N at the rope, beyond which the brake slips; 0 (default): no brake.
+    brake_give : float
+        m of rope that the drum turns before the brake bears its capacity.
 
     Returns
     -------
@@ -131,6 +165,10 @@ def add_winch(
     winch = {
         "winch": True, "rate": rate, "maximum_rate": maximum_rate, "lag": lag,
         "maximum_acceleration": maximum_acceleration, "minimum_length": minimum_length,
+        "tension": tension, "tension_gain": tension_gain, "dead_band": dead_band,
+        "drum_inertia": drum_inertia, "drum_radius": drum_radius, "maximum_tension": maximum_tension,
+        "maximum_power": maximum_power, "brake": brake, "brake_capacity": brake_capacity,
+        "brake_give": brake_give,
     }  # fmt: skip
     wound = _core.Line(**old.__getstate__() | winch)
     scene.loads[name] = wound

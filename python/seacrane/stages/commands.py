@@ -17,7 +17,7 @@ from seacrane.inputs.shown import shown
 from seacrane.scene.scene import Scene
 from seacrane.stages.move import Move
 
-RATE_TIME = 1.0  # s, in which a rate or a force that is commanded by a number is reached
+RATE_TIME = 1.0  # s, in which a rate, a force or a brake that is commanded by a number is reached
 JUMP = 1e-6  # m or rad, of a commanded place
 
 Command = Move | _core.Curve | float
@@ -34,11 +34,15 @@ class Target:
 
 
 def targets(scene: Scene) -> dict[str, Target]:
-    """What may be commanded, by name; inputs of a run have the same names."""
+    """What may be commanded, by name; inputs of a run have the same names, but for tensions and brakes."""
     found = {}
     for name, line in lines_of(scene.loads).items():
         attribute = "rate" if line.winch else "length"
         found[f"{name}.{attribute}"] = Target("load", name, attribute, not line.winch)
+        if line.tension_gain > 0.0:
+            found[f"{name}.tension"] = Target("load", name, "tension", False)
+        if line.brake_capacity > 0.0:
+            found[f"{name}.brake"] = Target("load", name, "brake", False)
     for name in scene.actuators:
         found[f"{name}.reference"] = Target("actuator", name, "reference", True)
         found[f"{name}.force"] = Target("actuator", name, "feed_forward", False)

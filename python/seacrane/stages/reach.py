@@ -51,6 +51,8 @@ def check_lengths(stage: Stage, scene: Scene, lengths: dict[str, float], begin: 
         name = dict(condition.names).get("line", "")
         if len(stage.conditions) > 1 or name not in lines:
             continue  # another condition may end it; a line that is not there is told by its channel
+        if lines[name].tension_gain > 0.0 or lines[name].drum_inertia > 0.0:
+            continue  # its tension, motor or brake may lead it there
         assert stage.longest is not None
         least, most = _reached(lines[name], lengths[name], begin, stage.longest)
         if float(condition.excess(np.array([least, most])).max()) >= -1e-9 * lengths[name]:

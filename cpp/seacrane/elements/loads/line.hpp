@@ -2,12 +2,15 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "seacrane/elements/field.hpp"
 #include "seacrane/elements/loads/load.hpp"
+#include "seacrane/elements/loads/winch.hpp"
 #include "seacrane/math/curve.hpp"
 #include "seacrane/math/select.hpp"
 
@@ -15,7 +18,7 @@ namespace seacrane {
 
 inline constexpr const char* kQuasiStatic = "quasi-static";
 
-struct LineDescription {
+struct LineDescription : WinchDescription {
   std::string name;
   std::vector<std::string> bodies;
   std::vector<Vec3d> points;
@@ -24,31 +27,24 @@ struct LineDescription {
   double damping_ratio = 0.02, mass = 0.0;
   std::string stretch = "elastic";
   double settling = 0.2;
-  bool winch = false;
-  Curve rate;
-  double maximum_rate = kFarthest, maximum_acceleration = kFarthest, lag = 0.0;
-  double minimum_length = 0.1;
 
   static constexpr const char* type = "Line";
   static constexpr const char* text =
       "An elastic line without mass over points of bodies, with a winch or without; see Scene.add_line.";
   static constexpr auto fields() {
     using D = LineDescription;
-    return std::tuple(
-        on_body("bodies", &D::bodies, "bodies of the points, in the order of the path"),
-        required("points", &D::points, "m", "coordinates of these bodies"),
-        required("stiffness", &D::stiffness, "N", "EA: tension over strain"),
-        required("length", &D::length, "m", "unstretched; with a winch, at the start"),
-        optional("damping_ratio", &D::damping_ratio, "", "of critical damping of `mass` on the line"),
-        optional("mass", &D::mass, "kg", "that moves with the line's end; 0: that of the path's last body"),
-        optional("stretch", &D::stretch, "", "'elastic', or 'quasi-static': then it follows the tension"),
-        optional("settling", &D::settling, "s", "in which a quasi-static stretch follows"),
-        optional("winch", &D::winch, "", "whether the length is a state that `rate` drives"),
-        optional("rate", &D::rate, "m/s", "commanded, positive: pays out"),
-        optional("maximum_rate", &D::maximum_rate, "m/s", "of the winch; at 1e7 there is none"),
-        optional("maximum_acceleration", &D::maximum_acceleration, "m/s2", "likewise; needs a lag"),
-        optional("lag", &D::lag, "s", "of the winch's rate behind the command"),
-        optional("minimum_length", &D::minimum_length, "m", "at which hauling in stops"));
+    return std::tuple_cat(
+        std::tuple(
+            on_body("bodies", &D::bodies, "bodies of the points, in the order of the path"),
+            required("points", &D::points, "m", "coordinates of these bodies"),
+            required("stiffness", &D::stiffness, "N", "EA: tension over strain"),
+            required("length", &D::length, "m", "unstretched; with a winch, at the start"),
+            optional("damping_ratio", &D::damping_ratio, "", "of critical damping of `mass` on the line"),
+            optional("mass", &D::mass, "kg",
+                     "that moves with the line's end; 0: that of the path's last body"),
+            optional("stretch", &D::stretch, "", "'elastic', or 'quasi-static': then it follows the tension"),
+            optional("settling", &D::settling, "s", "in which a quasi-static stretch follows")),
+        WinchDescription::fields());
   }
 };
 
@@ -57,9 +53,8 @@ struct LineDescription {
 ///
 ///   T = max(0, EA e + c (l' - l0' l / l0)),   c = 2 damping_ratio sqrt(EA mass / l0).
 ///
-/// l0 is given over time, or it is a state of the winch, l0' = r. Its rate r is the command within its
-/// bounds; with a lag it is a state too, from rest, r' = (command - r) / lag within bounds. The rope carries
-/// its strain energy T e / 2 for each metre of l0 onto the drum.
+/// l0 is given over time, or it is a state of the winch. The rope carries its strain energy T e / 2 for each
+/// metre of l0 onto the drum.
 ///
 /// A quasi-static stretch follows the tension within a settling time s, whatever EA and the load's mass are:
 ///
@@ -107,11 +102,8 @@ struct Line {
   int settled = 0;        // w among the states
   int place = 0;          // among the inertial tensions
   double hung = 0.0;      // mass, kg
-  bool winch = false;
-  Curve command;
-  double maximum_rate = 0.0, maximum_acceleration = 0.0, lag = 0.0, minimum_length = 0.0;
-  int slot = 0;       // of the rate that is added to the command
-  StateRange states;  // of a winch length, and rate with a lag; of a quasi-static stretch w
+  std::optional<Winch> winch;
+  StateRange states;  // those of the winch; of a quasi-static stretch w
 
   static void check(const Description& d, const Check& c, SceneNames& names) {
     check_path(d, c, names);
@@ -130,9 +122,12 @@ struct Line {
     c.not_negative("mass", d.mass);
     check_stretch(d, c);
     if (d.winch) {
-      check_winch(d, c, names);
+      names.input(c, kind, d.name);
+      Winch::check(d, d.length, c);
     } else if (d.rate.at(0.0).value != 0.0 || d.rate.pieces().size() > 1 || d.lag != 0.0) {
       c.fail("has a rate or a lag, and no winch; set winch, or leave them out");
+    } else if (d.tension_gain != 0.0 || d.drum_inertia != 0.0) {
+      c.fail("holds a tension or has a drum, and no winch; set winch, or leave them out");
     }
   }
 
@@ -149,6 +144,16 @@ struct Line {
     d.maximum_rate = 5.0;
     d.maximum_acceleration = 50.0;
     d.lag = 0.4;
+    d.tension = Curve::constant(10.0);
+    d.tension_gain = 0.01;
+    d.dead_band = 1.0;
+    d.drum_inertia = 2.0;
+    d.drum_radius = 0.5;
+    d.maximum_tension = 1e4;
+    d.maximum_power = 1e5;
+    d.brake = Curve::quintic(0.2, 1.2, 0.0, 1.0);
+    d.brake_capacity = 30.0;
+    d.brake_give = 0.5;
     return d;
   }
 
@@ -167,7 +172,10 @@ struct Line {
     line.length = d.length;
     line.hung = hung_mass(d, context);
     line.viscous = 2.0 * d.damping_ratio * std::sqrt(d.stiffness * line.hung);
-    if (d.winch) line.wind(d, context);
+    if (d.winch) {
+      line.winch = Winch::compile(d, d.name, d.length.at(0.0).value, context);
+      line.states = line.winch->states;
+    }
     if (d.stretch == kQuasiStatic) line.settle(d, context);
     return line;
   }
@@ -179,23 +187,25 @@ struct Line {
   /// Jumps of the tension, with the stretch left out: of what drives l0, once for c, and once more often
   /// integrated for EA, once less for an inertial tension.
   std::vector<LoadKinks> kinks() const {
-    const int later = winch ? (lag > 0.0 ? 2 : 1) : 0;  // integrations from the curve to l0
-    const double share = winch && lag > 0.0 ? 1.0 / lag : 1.0;
-    LoadKinks out;
-    for (const CurveKink& kink : (winch ? command : length).kinks()) {
-      const double l0 = winch ? length.at(0.0).value : length.at(kink.time).value;
-      LoadKink& of = out.emplace_back(LoadKink{kink.time, Eigen::Matrix<double, 1, 4>::Zero()});
-      const auto add = [&](int order, double factor) {
-        for (int p = 1; p <= 3; ++p) {
-          const int derivative = p - 1 - order;
-          if (derivative >= 0 && derivative <= 3) of.jump(0, p) += factor * kink.jump(idx(derivative));
-        }
-      };
-      add(later, share * stiffness / l0);
-      add(later - 1, share * (damper(l0) + stiffness * settling / l0));
-      if (quasi_static()) add(later - 2, share * hung / (1.0 + hung * l0 / strain_inertia()));
+    const int later = winch ? winch->integrations() : 0;  // from the curve to l0
+    std::vector<LoadKinks> all;
+    for (const auto& [curve, share] : winch ? winch->driven_by() : Winch::Drives{{&length, 1.0}}) {
+      LoadKinks& out = all.emplace_back();
+      for (const CurveKink& kink : curve->kinks()) {
+        const double l0 = length.at(winch ? 0.0 : kink.time).value;
+        LoadKink& of = out.emplace_back(LoadKink{kink.time, Eigen::Matrix<double, 1, 4>::Zero()});
+        const auto add = [&](int order, double factor) {
+          for (int p = 1; p <= 3; ++p) {
+            const int derivative = p - 1 - order;
+            if (derivative >= 0 && derivative <= 3) of.jump(0, p) += factor * kink.jump(idx(derivative));
+          }
+        };
+        add(later, share * stiffness / l0);
+        add(later - 1, share * (damper(l0) + stiffness * settling / l0));
+        if (quasi_static()) add(later - 2, share * hung / (1.0 + hung * l0 / strain_inertia()));
+      }
     }
-    return {out};
+    return all;
   }
 
   void add_unit(int /*component*/, const LoadInput<double>& in, Vec6d* wrenches) const {
@@ -207,22 +217,34 @@ struct Line {
 
   /// Why a run cannot go on at a side; empty: it can.
   std::string refused(int at) const {
-    if (!quasi_static() || at == kTaut) return "";
+    if (!quasi_static() || (at & kTaut) == kTaut) return "";
     const std::string what = "line '" + name + "': its stretch is quasi-static, and it ";
     if (at & 1) return what + "has hauled in to its minimum_length; give a smaller one, or stretch 'elastic'";
     return what + "goes slack; give it stretch 'elastic', which snatches";
   }
 
   static bool has_sides() { return true; }
-  /// Whether it pulls, whether it is stretched (damping pulls a little before, and lets go before), and
-  /// whether hauling in has not reached its end.
+  /// A bit for each margin: of the line, and of the end of hauling in, where it is positive; of the winch,
+  /// where it is not.
   int side(const LoadInput<double>& in) const {
-    const std::array<double, 3> signs = margins(in);
-    return (signs[0] > 0.0 ? 1 : 0) + (signs[1] > 0.0 ? 2 : 0) + (signs[2] > 0.0 ? 4 : 0);
+    int out = 0;
+    const Margins now = margins(in);
+    for (std::size_t i = 0; i < now.size(); ++i) out |= (now[i] > 0.0) == (i <= kAtEnd) ? 1 << i : 0;
+    return out;
   }
   double across(const LoadInput<double>& in, int from, int to) const {
-    const int changed = from ^ to;
-    return margins(in)[changed & 1 ? 0 : (changed & 2 ? 1 : 2)];
+    const auto changed = static_cast<unsigned>(from ^ to);
+    return margins(in)[idx(std::countr_zero(changed))];
+  }
+  /// The bounds of the winch that are reached by a change of the side, such as "hoist.maximum_rate".
+  std::vector<std::string> reached(int from, int to) const {
+    std::vector<std::string> out;
+    if ((from & ~to) >> kAtEnd & 1) out.push_back(name + ".minimum_length");
+    for (std::size_t i = 0; i < Winch::kKinks; ++i) {
+      const int bit = 1 << (kAtEnd + 1 + i);
+      if ((to & ~from & bit) != 0 && Winch::bound(i) != nullptr) out.push_back(name + "." + Winch::bound(i));
+    }
+    return out;
   }
 
   template <class T>
@@ -233,18 +255,17 @@ struct Line {
       out.rate += s.rate;
     });
     const CurveValue given = length.at(in.time, in.curve_limit);
-    out.unstretched = winch ? in.states[states.first] : T(given.value);
-    out.unstretched_rate = winch ? drum_rate(in) : T(given.rate);
+    out.unstretched = winch ? winch->length(in) : T(given.value);
+    out.elastic = select(quasi_static() || out.stretch() > T(0), elastic_pull(out), T(0));
+    out.unstretched_rate = winch ? winch->rate(in, out.elastic) : T(given.rate);
     if (quasi_static()) {  // taut, or refused
       const T strain_rate = out.straining() / out.unstretched;
       out.inertial = T(in.inertial[place]);
       out.kinetic = 0.5 * strain_inertia() * strain_rate * strain_rate;
-      out.elastic = elastic_pull(out);
       const T unsettled = strain_rate - in.states[settled];
       out.tension = unbounded_pull(out) + stiffness * settling * unsettled + out.inertial;
       return out;
     }
-    out.elastic = select(out.stretch() > T(0), elastic_pull(out), T(0));
     const T sum = unbounded_pull(out);
     out.tension = select(sum > T(0), sum, T(0));
     return out;
@@ -261,11 +282,20 @@ struct Line {
     });
     const T strain_rate = now.straining() / now.unstretched;
     const T driven = 2.0 * now.unstretched_rate * strain_rate +
-                     now.length / now.unstretched * unstretched_acceleration(in);
+                     now.length / now.unstretched * unstretched_acceleration(in, now);
     return strain_inertia() * (bend - driven) / now.unstretched;
   }
   /// By how much that falls for each m/s2 by which the path shortens faster.
   double inertial_mass(const Motion<double>& now) const { return strain_inertia() / now.unstretched; }
+
+  /// What the winch's drum does.
+  Drum::Drive drive(const LoadInput<double>& in) const {
+    const Motion<double> now = motion(in);
+    const double rate = winch->turning(in, now.elastic);
+    const double motor =
+        winch->drum->motor(in, winch->asked_acceleration(in, now.elastic), now.tension, rate);
+    return {motor, winch->drum->braking(in, rate), rate, winch->drum->brake_power(in, rate)};
+  }
 
   template <class T>
   void apply(const LoadInput<T>& in, LoadSum<T>& out) const {
@@ -277,23 +307,28 @@ struct Line {
       out.wrench[s.second].add(back, s.lever_second);
     });
     out.add_power(now.damping_power());
-    out.add_power(now.winch_power());
+    if (winch) {
+      winch->add_power(in, now.elastic, now.tension, now.winch_power(), out);
+    } else {
+      out.add_power(now.winch_power());
+    }
     if (quasi_static()) {
       out.add_power(now.winch_power_per_inertial() * now.inertial);
       out.state_rates[settled] = (now.straining() / now.unstretched - in.states[settled]) / T(settling);
     }
-    if (!winch) return;
-    out.state_rates[states.first] = now.unstretched_rate;
-    if (lag > 0.0) out.state_rates[states.first + 1] = acceleration(in);
+    if (winch) winch->set_rates(in, now.elastic, now.tension, out.state_rates);
   }
 
   double potential(const LoadInput<double>& in) const {
     const Motion<double> now = motion(in);
-    return 0.5 * now.elastic * std::max(now.stretch(), 0.0) + now.kinetic * now.unstretched;
+    const double strain = 0.5 * now.elastic * std::max(now.stretch(), 0.0) + now.kinetic * now.unstretched;
+    return winch && winch->drum ? strain + winch->drum->stored(in, winch->turning(in, now.elastic)) : strain;
   }
 
  private:
+  static constexpr std::size_t kAtEnd = 2;
   static constexpr int kTaut = 1 + 2 + 4;
+  using Margins = std::array<double, kAtEnd + 1 + Winch::kKinks>;
   static constexpr double kJump = 1e-9;  // m and m/s
 
   template <class T>
@@ -332,49 +367,13 @@ struct Line {
       c.fail(
           "a quasi-static stretch needs a smooth length, and its winch has no lag; give one, such as 0.1 s");
     }
+    if (d.drum_inertia > 0.0) {
+      c.fail("a drum with inertia rings with its line; choose stretch 'elastic', or leave drum_inertia out");
+    }
     for (const CurveKink& kink : d.length.kinks()) {
       if (kink.time <= 0.0 || std::abs(kink.jump(0)) + std::abs(kink.jump(1)) <= kJump) continue;
       c.fail("a quasi-static stretch needs a smooth length, and that given jumps at t = " +
              to_text(kink.time) + " s, or its rate; smooth it, or choose stretch 'elastic'");
-    }
-  }
-
-  static void check_winch(const Description& d, const Check& c, SceneNames& names) {
-    names.input(c, kind, d.name);
-    if (d.length.pieces().size() > 1 || d.length.at(0.0).value != d.length.at(1.0).value) {
-      c.fail("length changes over time, and the winch does that; give the length at the start");
-    }
-    for (const auto& [what, value] : {std::pair{"maximum_rate", d.maximum_rate},
-                                      std::pair{"maximum_acceleration", d.maximum_acceleration},
-                                      std::pair{"minimum_length", d.minimum_length}}) {
-      c.finite(what, value);
-      if (!(value > 0.0)) c.fail(std::string(what) + " is " + to_text(value) + "; it must be positive");
-    }
-    c.not_negative("lag", d.lag);
-    if (d.maximum_acceleration < kFarthest && d.lag == 0.0) {
-      c.fail(
-          "maximum_acceleration needs a lag: without one the rate is the command; give a lag, such as 0.1 s");
-    }
-    if (!(d.length.at(0.0).value > d.minimum_length)) {
-      c.fail("starts with a length of " + to_text(d.length.at(0.0).value) + " m and a minimum_length of " +
-             to_text(d.minimum_length) + " m; start with a longer line");
-    }
-  }
-
-  template <class Context>
-  void wind(const Description& d, Context& context) {
-    winch = true;
-    command = d.rate;
-    maximum_rate = d.maximum_rate;
-    maximum_acceleration = d.maximum_acceleration;
-    lag = d.lag;
-    minimum_length = d.minimum_length;
-    slot = context.input(d.name + ".rate");
-    const double start = d.length.at(0.0).value, scale = context.length_scale();
-    states = {context.state({d.name + ".length", "m", start, scale}), 1};
-    if (d.lag > 0.0) {
-      context.state({d.name + ".rate", "m/s", 0.0, scale});
-      states.count = 2;
     }
   }
 
@@ -447,31 +446,25 @@ struct Line {
     const Vec3<T> linear = a.template head<3>(), angular = a.template tail<3>();
     return linear + cross<T>(angular, lever) + cross<T>(omega, cross<T>(omega, lever));
   }
-  std::array<double, 3> margins(const LoadInput<double>& in) const {
+  /// Whether it pulls, whether it is stretched (damping pulls a little before, and lets go before), whether
+  /// hauling in has not reached its end, and the kinks of the winch.
+  Margins margins(const LoadInput<double>& in) const {
     const Motion<double> now = motion(in);
-    const double pull = quasi_static() ? now.stretch() : unbounded_pull(now);
-    return {pull, now.stretch(), winch ? in.states[states.first] - minimum_length : 1.0};
+    Margins out;
+    out.fill(1.0);
+    out[0] = quasi_static() ? now.stretch() : unbounded_pull(now);
+    out[1] = now.stretch();
+    if (!winch) return out;
+    out[kAtEnd] = winch->length(in) - winch->minimum_length;
+    const auto of_winch = winch->margins(in, now.elastic, now.tension);
+    std::copy(of_winch.begin(), of_winch.end(), out.begin() + kAtEnd + 1);
+    return out;
   }
 
   template <class T>
-  T commanded(const LoadInput<T>& in) const {
-    const double asked = command.at(in.time, in.curve_limit).value + in.slots[slot];
-    return T(clamped(asked, -maximum_rate, maximum_rate));
-  }
-  template <class T>
-  T drum_rate(const LoadInput<T>& in) const {
-    const T rate = lag > 0.0 ? in.states[states.first + 1] : commanded(in);
-    const bool at_end = in.states[states.first] < T(minimum_length) && rate < T(0);
-    return select(at_end, T(0), rate);
-  }
-  template <class T>
-  T unstretched_acceleration(const LoadInput<T>& in) const {
-    return winch ? acceleration(in) : T(length.at(in.time, in.curve_limit).acceleration);
-  }
-  template <class T>
-  T acceleration(const LoadInput<T>& in) const {
-    const T asked = (commanded(in) - in.states[states.first + 1]) / T(lag);
-    return clamped(asked, T(-maximum_acceleration), T(maximum_acceleration));
+  T unstretched_acceleration(const LoadInput<T>& in, const Motion<T>& now) const {
+    return winch ? winch->asked_acceleration(in, now.elastic)
+                 : T(length.at(in.time, in.curve_limit).acceleration);
   }
 };
 

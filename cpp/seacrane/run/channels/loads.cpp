@@ -21,6 +21,16 @@ const Axis line{"line", {}, [](const Model& m) {
                   return names;
                 }};
 
+bool has_drum(const Line::Description& d) { return d.winch && d.drum_inertia > 0.0; }
+
+const Axis drum{"drum", {}, [](const Model& m) {
+                  std::vector<std::string> names;
+                  for (const auto& d : std::get<std::vector<Line::Description>>(*m.description.loads)) {
+                    if (has_drum(d)) names.push_back(d.name);
+                  }
+                  return names;
+                }};
+
 void write_load_state(const Output& o, double* out) {
   const StateLayout& layout = o.terms.model().layout;
   std::copy(o.state + layout.loads, o.state + layout.work, out);
@@ -32,6 +42,20 @@ void write_lines(const Output& o, double* out) {
   const LoadInput<double> in = o.terms.load_input(o.time, o.state + o.terms.model().layout.memory);
   for (const Line& one : std::get<std::vector<Line>>(*o.terms.model().loads)) *out++ = read(one.motion(in));
 }
+
+/// What `read` takes of the motor and the brake of each drum.
+template <double (*read)(const Drum& drum, const Drum::Drive& drive)>
+void write_drums(const Output& o, double* out) {
+  const LoadInput<double> in = o.terms.load_input(o.time, o.state + o.terms.model().layout.memory);
+  for (const Line& one : std::get<std::vector<Line>>(*o.terms.model().loads)) {
+    if (one.winch && one.winch->drum) *out++ = read(*one.winch->drum, one.drive(in));
+  }
+}
+
+double motor_torque_of(const Drum& d, const Drum::Drive& now) { return now.motor * d.radius; }
+double motor_power_of(const Drum& /*drum*/, const Drum::Drive& now) { return now.motor * now.rate; }
+double brake_torque_of(const Drum& d, const Drum::Drive& now) { return now.brake * d.radius; }
+double brake_power_of(const Drum& /*drum*/, const Drum::Drive& now) { return now.brake_power; }
 
 using Motion = const Line::Motion<double>&;
 double tension_of(Motion m) { return m.tension; }
@@ -82,6 +106,30 @@ std::vector<Channel> load_channels() {
        .text = "power of the winch, or of what changes the length, into the line",
        .needs = {.solution = true},
        .write = write_lines<winch_power_of>},
+      {.name = "drum_motor_torque",
+       .axes = {&drum},
+       .unit = "N m",
+       .text = "torque of the winch's motor on its drum; positive: pays out",
+       .needs = {.solution = true},
+       .write = write_drums<motor_torque_of>},
+      {.name = "drum_motor_power",
+       .axes = {&drum},
+       .unit = "W",
+       .text = "power that the winch's motor gives to its drum",
+       .needs = {.solution = true},
+       .write = write_drums<motor_power_of>},
+      {.name = "drum_brake_torque",
+       .axes = {&drum},
+       .unit = "N m",
+       .text = "torque of the winch's brake, against paying out",
+       .needs = {.solution = true},
+       .write = write_drums<brake_torque_of>},
+      {.name = "drum_brake_power",
+       .axes = {&drum},
+       .unit = "W",
+       .text = "power of the winch's brake, negative: heat",
+       .needs = {.solution = true},
+       .write = write_drums<brake_power_of>},
   };
 }
 

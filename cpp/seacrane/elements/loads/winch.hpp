@@ -1,0 +1,210 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "seacrane/elements/field.hpp"
+#include "seacrane/elements/loads/constant_tension.hpp"
+#include "seacrane/elements/loads/drum.hpp"
+#include "seacrane/elements/loads/load.hpp"
+#include "seacrane/math/curve.hpp"
+#include "seacrane/math/select.hpp"
+
+namespace seacrane {
+
+struct WinchDescription : ConstantTensionDescription, DrumDescription {
+  bool winch = false;
+  Curve rate;
+  double maximum_rate = kFarthest, maximum_acceleration = kFarthest, lag = 0.0;
+  double minimum_length = 0.1;
+
+  static constexpr auto fields() {
+    using D = WinchDescription;
+    return std::tuple_cat(
+        std::tuple(
+            optional("winch", &D::winch, "", "whether the length is a state that `rate` drives"),
+            optional("rate", &D::rate, "m/s", "commanded, positive: pays out"),
+            optional("maximum_rate", &D::maximum_rate, "m/s", "of the winch; at 1e7 there is none"),
+            optional("maximum_acceleration", &D::maximum_acceleration, "m/s2", "likewise; needs a lag"),
+            optional("lag", &D::lag, "s", "of the winch's rate behind the command"),
+            optional("minimum_length", &D::minimum_length, "m", "at which hauling in stops")),
+        ConstantTensionDescription::fields(), DrumDescription::fields());
+  }
+};
+
+/// What drives the unstretched length l0 of a line, a state, l0' = r. Its rate r is the command within its
+/// bounds; with a lag it is a state too, from rest, r' = (command - r) / lag within bounds. A drum with
+/// inertia follows that acceleration as its motor can.
+///
+/// `pull` is EA e, without damping: what the winch measures where it holds a tension.
+struct Winch {
+  Curve command;
+  double maximum_rate = 0.0, maximum_acceleration = 0.0, lag = 0.0, minimum_length = 0.0;
+  int slot = 0;       // of the rate that is added to the command
+  StateRange states;  // length, rate with a lag, and that of a drum's brake
+  std::optional<ConstantTension> tension;
+  std::optional<Drum> drum;
+
+  using Drives = std::vector<std::pair<const Curve*, double>>;
+  /// Kinks of the winch: see margins().
+  static constexpr std::size_t kOwn = 4, kKinks = kOwn + 2 + Drum::kBounds.size();
+
+  static void check(const WinchDescription& d, const Curve& length, const Check& c) {
+    if (length.pieces().size() > 1 || length.at(0.0).value != length.at(1.0).value) {
+      c.fail("length changes over time, and the winch does that; give the length at the start");
+    }
+    for (const auto& [what, value] : {std::pair{"maximum_rate", d.maximum_rate},
+                                      std::pair{"maximum_acceleration", d.maximum_acceleration},
+                                      std::pair{"minimum_length", d.minimum_length}}) {
+      c.finite(what, value);
+      if (!(value > 0.0)) c.fail(std::string(what) + " is " + to_text(value) + "; it must be positive");
+    }
+    c.not_negative("lag", d.lag);
+    if (d.maximum_acceleration < kFarthest && d.lag == 0.0) {
+      c.fail(
+          "maximum_acceleration needs a lag: without one the rate is the command; give a lag, such as 0.1 s");
+    }
+    if (!(length.at(0.0).value > d.minimum_length)) {
+      c.fail("starts with a length of " + to_text(length.at(0.0).value) + " m and a minimum_length of " +
+             to_text(d.minimum_length) + " m; start with a longer line");
+    }
+    ConstantTension::check(d, c);
+    Drum::check(d, d.lag, c);
+  }
+
+  /// Of the line of this name, whose unstretched length is `start` at first.
+  template <class Context>
+  static Winch compile(const WinchDescription& d, const std::string& name, double start, Context& context) {
+    Winch out;
+    out.command = d.rate;
+    out.maximum_rate = d.maximum_rate;
+    out.maximum_acceleration = d.maximum_acceleration;
+    out.lag = d.lag;
+    out.minimum_length = d.minimum_length;
+    out.slot = context.input(name + ".rate");
+    const double scale = context.length_scale();
+    out.states = {context.state({name + ".length", "m", start, scale}), 1};
+    if (d.lag > 0.0) {
+      context.state({name + ".rate", "m/s", 0.0, scale});
+      out.states.count = 2;
+    }
+    if (d.tension_gain > 0.0) out.tension = ConstantTension{d.tension, d.tension_gain, d.dead_band};
+    if (d.drum_inertia > 0.0) {
+      out.drum = Drum::compile(d, name, context);
+      if (out.drum->has_brake()) ++out.states.count;
+    }
+    return out;
+  }
+
+  /// Curves that drive l0, each by a factor, after `integrations`.
+  Drives driven_by() const {
+    const double share = lag > 0.0 ? 1.0 / lag : 1.0;
+    Drives out = {{&command, share}};
+    if (tension) out.emplace_back(&tension->tension, tension->gain * share);
+    if (drum && drum->has_brake()) out.emplace_back(&drum->brake, drum->capacity / drum->mass);
+    return out;
+  }
+  int integrations() const { return lag > 0.0 ? 2 : 1; }
+
+  template <class T>
+  T length(const LoadInput<T>& in) const {
+    return in.states[states.first];
+  }
+  /// r.
+  template <class T>
+  T turning(const LoadInput<T>& in, const T& pull) const {
+    return lag > 0.0 ? in.states[states.first + 1] : commanded(in, pull);
+  }
+  /// l0': r, but for hauling in beyond the end.
+  template <class T>
+  T rate(const LoadInput<T>& in, const T& pull) const {
+    const T r = turning(in, pull);
+    return select(at_end(in) && r < T(0), T(0), r);
+  }
+  /// r' that is asked for, with a lag. A drum is stopped at the end.
+  template <class T>
+  T asked_acceleration(const LoadInput<T>& in, const T& pull) const {
+    const T goal = commanded(in, pull);
+    const bool ended = drum.has_value() && at_end(in) && goal < T(0);
+    const T asked = (select(ended, T(0), goal) - in.states[states.first + 1]) / T(lag);
+    return clamped(asked, T(-maximum_acceleration), T(maximum_acceleration));
+  }
+
+  template <class T>
+  void set_rates(const LoadInput<T>& in, const T& pull, const T& line_tension, T* state_rates) const {
+    state_rates[states.first] = rate(in, pull);
+    if (!(lag > 0.0)) return;
+    const T asked = asked_acceleration(in, pull), r = turning(in, pull);
+    state_rates[states.first + 1] = drum ? drum->acceleration(in, asked, line_tension, r) : asked;
+    if (drum && drum->has_brake()) state_rates[drum->wound] = drum->winding(in, r);
+  }
+
+  /// The powers of motor and brake, and into the line that of the rope at the drum's rim; with a drum, what
+  /// is left of the last beside the tension's is the strain energy that the rope carries.
+  template <class T>
+  void add_power(const LoadInput<T>& in, const T& pull, const T& line_tension, const T& into_line,
+                 LoadSum<T>& out) const {
+    if (!drum) return out.add_power(into_line);
+    const T r = turning(in, pull);
+    out.add_power(drum->motor(in, asked_acceleration(in, pull), line_tension, r) * r);
+    out.add_power(drum->brake_power(in, r));
+    out.add_power(line_tension * r + into_line);
+  }
+
+  /// Kinks, each where its number changes its sign: the bounds of rate and acceleration on both sides, the
+  /// ends of the dead band, and those of the drum.
+  std::array<double, kKinks> margins(const LoadInput<double>& in, double pull, double line_tension) const {
+    std::array<double, kKinks> out;
+    out.fill(1.0);
+    const double asked = goal(in, pull), at_bound = (1.0 + kRounding) * maximum_rate;
+    out[0] = at_bound - asked;
+    out[1] = at_bound + asked;
+    if (lag > 0.0) {
+      const double change = (commanded(in, pull) - in.states[states.first + 1]) / lag,
+                   most = (1.0 + kRounding) * maximum_acceleration;
+      out[2] = most - change;
+      out[3] = most + change;
+    }
+    if (tension) {
+      const std::array<double, 2> band = tension->margins(in, pull);
+      std::copy(band.begin(), band.end(), out.begin() + kOwn);
+    }
+    if (drum) {
+      const std::array<double, Drum::kBounds.size()> of_drum =
+          drum->margins(in, asked_acceleration(in, pull), line_tension, turning(in, pull));
+      std::copy(of_drum.begin(), of_drum.end(), out.begin() + kOwn + 2);
+    }
+    return out;
+  }
+  /// The bound that is met where a margin turns negative; null: none.
+  static const char* bound(std::size_t margin) {
+    if (margin < 2) return "maximum_rate";
+    if (margin < kOwn) return "maximum_acceleration";
+    return margin < kOwn + 2 ? nullptr : Drum::kBounds[margin - kOwn - 2];
+  }
+
+ private:
+  static constexpr double kRounding = 1e-12;  // of a bound that is met and not exceeded
+
+  /// What is commanded, before its bound.
+  template <class T>
+  T goal(const LoadInput<T>& in, const T& pull) const {
+    const T asked(command.at(in.time, in.curve_limit).value + in.slots[slot]);
+    return tension ? T(asked + tension->rate(in, pull)) : asked;
+  }
+  template <class T>
+  T commanded(const LoadInput<T>& in, const T& pull) const {
+    return clamped(goal(in, pull), T(-maximum_rate), T(maximum_rate));
+  }
+  template <class T>
+  bool at_end(const LoadInput<T>& in) const {
+    return length(in) < T(minimum_length);
+  }
+};
+
+}  // namespace seacrane

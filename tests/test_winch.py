@@ -1,0 +1,432 @@
+"""Winches: the drum's inertia, its motor's bounds, its brake, and a tension that is held, by closed forms."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from line_scenes import MASS, STIFFNESS, G, hung, swinging
+from multibody_runs import ramp, record
+from numpy.testing import assert_allclose
+from numpy.typing import NDArray
+
+from seacrane import (
+    Curve,
+    Evaluator,
+    Move,
+    Run,
+    Scene,
+    SceneError,
+    Stage,
+    State,
+    WinchLimitWarning,
+    equilibrium,
+    linear_model,
+    simulate,
+    simulate_stages,
+)
+
+Array = NDArray[np.float64]
+RADIUS, DRUM = 0.5, 5e3  # m; kg, inertia over radius^2
+INERTIA = DRUM * RADIUS**2
+CAPACITY = 1.5 * MASS * G  # N
+
+
+def on_drum(**given: Any) -> Scene:
+    """The load of `hung` on a drum with inertia; `given` has what the winch takes, and what `hung` does."""
+    of_load = {key: given.pop(key) for key in ("length", "damping", "stretch", "velocity") if key in given}
+    scene = hung(**of_load)
+    drum = {"drum_inertia": INERTIA, "drum_radius": RADIUS, "lag": 0.2}
+    scene.add_winch(line="hoist", **drum | given)
+    return scene
+
+
+def steady(force: float) -> tuple[float, float]:
+    """Tension and l0'' of a load and drum that accelerate alike, with a force at the rope that holds them.
+
+    DRUM l0'' = T - force and MASS (1 + e) l0'' = MASS g - T with the constant strain e = T / EA.
+    """
+    tension = MASS * G
+    for _ in range(50):
+        strain = tension / (STIFFNESS * 10.0)
+        tension = (G + (1.0 + strain) * force / DRUM) / (1.0 / MASS + (1.0 + strain) / DRUM)
+    return tension, (tension - force) / DRUM
+
+
+def running(scene: Scene, **states: float) -> State:
+    """The scene's start with states of its winch."""
+    return Run(scene, t_end=1.0).core.state.with_load_states(
+        {f"hoist.{name}": value for name, value in states.items()}
+    )
+
+
+def test_a_load_falls_with_its_drum() -> None:
+    """a = g m / (m + J / r^2), with the strain of the rope."""
+    tension, fall = steady(0.0)
+    assert fall == pytest.approx(G * MASS / (MASS + DRUM), rel=2e-3)
+    scene = on_drum(stretch=tension / STIFFNESS, maximum_tension=0.0)
+    result = simulate(scene, 2.0, dt_out=0.1, rtol=1e-9)
+    assert_allclose(result["line_tension"][:, 0], tension, rtol=1e-7)
+    assert_allclose(result["line_pay_out_rate"][:, 0], fall * result.time, atol=1e-6)
+    assert_allclose(result["line_unstretched_length"][:, 0], 10.0 + 0.5 * fall * result.time**2, atol=1e-6)
+    assert not result.events and not np.any(result["drum_motor_torque"])
+
+
+def test_a_brake_closed_in_1_ms_makes_the_peak_of_its_closed_form() -> None:
+    """m g + v sqrt(k m), k being that of the rope and the brake's give in series."""
+    capacity, speed = 2e6, 1.0
+    give = 1e-3
+    shut = Curve.quintic(start_time=0.1, end_time=0.101, start=0.0, end=1.0)
+    scene = on_drum(
+        length=2000.0, velocity=(0, 0, -speed), rate=speed, drum_inertia=25.0, brake=shut,
+        brake_capacity=capacity, brake_give=give,
+    )  # fmt: skip
+    run = Run(scene, t_end=0.5, dt_out=5e-4, rtol=1e-7, start=running(scene, rate=speed))
+    run.advance(0.5)
+    out = run.core.channels()
+    assert_allclose(out["line_tension"][out["time"] < 0.1], MASS * G, rtol=1e-3)
+    k = 1.0 / (1.0 / STIFFNESS + give / capacity)
+    assert np.max(out["line_tension"]) == pytest.approx(MASS * G + speed * np.sqrt(k * MASS), rel=2e-3)
+    assert not np.any(out["drum_motor_torque"][out["time"] > 0.1015])
+
+
+def test_a_brake_slips_at_its_capacity_and_holds_without_creep() -> None:
+    """(m + J / r^2) a = capacity - m g while it slips; then the drum stands still."""
+    tension, change = steady(CAPACITY)
+    assert -change == pytest.approx((CAPACITY - MASS * G) / (MASS + DRUM), rel=1e-2)
+    strain, speed = tension / (STIFFNESS * 10.0), 1.0
+    scene = on_drum(
+        stretch=10.0 * strain, velocity=(0, 0, -speed * (1.0 + strain)), damping=0.1, brake=1.0,
+        brake_capacity=CAPACITY,
+    )  # fmt: skip
+    result = simulate(scene, 8.0, dt_out=0.01, rtol=1e-9, start=running(scene, rate=speed, brake=1e-3))
+    stops = speed / -change
+    slips = result.time < stops - 1e-3
+    assert_allclose(result["line_pay_out_rate"][slips, 0], speed + change * result.time[slips], atol=1e-6)
+    assert_allclose(result["drum_brake_torque"][slips, 0], CAPACITY * RADIUS, rtol=1e-12)
+    assert [(one.name, one.kind, one.time) for one in result.events] == [
+        ("hoist.brake_capacity", "limit", 0.0)
+    ]
+    held = result["line_unstretched_length"][result.time > stops + 4.0, 0]
+    assert np.ptp(held) < 1e-5
+    assert held[-1] == pytest.approx(10.0 + 0.5 * speed * stops, abs=1.1e-3)
+
+
+def test_a_brake_holds_a_load_by_its_give() -> None:
+    """The rest state is wound by m g / capacity of the give, and nothing creeps from there."""
+    scene = on_drum(damping=0.1, brake=1.0, brake_capacity=CAPACITY)
+    rest = equilibrium(scene)
+    place = next(place for name, _, place, *_ in scene.compile().load_states if name == "hoist.brake")
+    assert rest.values[place] == pytest.approx(1e-3 / 1.5, rel=1e-6)
+    result = simulate(scene, 20.0, start=rest, dt_out=5.0, rtol=1e-8)
+    assert_allclose(
+        result["line_unstretched_length"][:, 0], result["line_unstretched_length"][0, 0], atol=1e-9
+    )
+    assert not result.events
+
+
+def test_the_motor_hauls_in_within_its_bounds() -> None:
+    """By (F - m g) / (m + J / r^2) at first, at P / (m g) in the end; the drum's lag plays no part."""
+    most, power = 1.2 * MASS * G, 0.5 * MASS * G
+    scene = on_drum(length=100.0, damping=0.3, rate=-2.0, maximum_tension=most, maximum_power=power, lag=0.01)
+    result = simulate(scene, 12.0, dt_out=0.02, rtol=1e-8)
+    rate, time = result["line_pay_out_rate"][:, 0], result.time
+    torque, early = result["drum_motor_torque"][:, 0], time < 0.2
+    assert_allclose(torque[1:][early[1:]], -most * RADIUS, rtol=1e-12)
+    fall = (rate[np.searchsorted(time, 0.2)]) / 0.2
+    assert fall == pytest.approx((MASS * G - most) / (MASS + DRUM), rel=0.1)
+    assert rate[-1] == pytest.approx(-power / (MASS * G), rel=2e-3)
+    assert np.max(result["drum_motor_power"]) <= power * (1.0 + 1e-9)
+    assert [(one.name, one.kind) for one in result.events][:2] == [
+        ("hoist.maximum_tension", "limit"), ("hoist.maximum_power", "limit"),
+    ]  # fmt: skip
+
+
+def test_a_motor_too_weak_for_its_load_is_an_event() -> None:
+    scene = on_drum(damping=0.1, maximum_tension=0.9 * MASS * G)
+    result = simulate(scene, 1.0, dt_out=0.05)
+    assert (result.events[0].name, result.events[0].time) == ("hoist.maximum_tension", 0.0)
+    assert result["line_unstretched_length"][-1, 0] > 10.1
+
+
+def test_within_its_bounds_a_drum_follows_as_a_winch_without_one() -> None:
+    heavy, light = swinging(), swinging(drum_inertia=900.0, drum_radius=0.4)
+    one, two = (record(scene, 3.0, rtol=1e-10) for scene in (heavy, light))
+    assert_allclose(one["position"], two["position"], atol=1e-8)
+    assert_allclose(one["line_tension"], two["line_tension"], atol=0.1)
+
+
+def test_bounds_of_rate_and_acceleration_are_located_and_told() -> None:
+    """The instants at which a command's jump meets them, leaves one and meets the other."""
+    scene = hung(damping=0.02)
+    jump = Curve.constant(value=0.0).then(time=1.0, curve=ramp(0.5, 0.6 - 0.5))
+    scene.add_winch(line="hoist", rate=jump, maximum_rate=0.8, maximum_acceleration=0.9, lag=0.4)
+    with pytest.warns(WinchLimitWarning, match="beyond its maximum_rate"):
+        events = simulate(scene, 4.0, dt_out=0.05, rtol=1e-8).events
+    told = [(event.name, event.time) for event in events]
+    assert [name for name, _ in told] == ["hoist.maximum_acceleration", "hoist.maximum_rate"]
+    assert_allclose([time for _, time in told], [1.0, 1.4], atol=1e-6)
+
+
+def pulled(velocity: float, **winch: Any) -> Scene:
+    """A winch on the ground that holds 20 kN on a body that is led away; EA / l0 is 100 kN/m."""
+    scene = Scene(name="pulled", gravity=0.0)
+    scene.add_body(name="end", mass=100.0, inertia=(10.0, 10.0, 10.0), position=(2000.2, 0, 0))
+    scene.add_joint(
+        kind="prismatic", name="rail", first="ground", second="end", point=(2000.2, 0, 0), axis=(1, 0, 0)
+    )
+    scene.add_driver(name="lead", joint="rail", curve=ramp(velocity))
+    scene.add_line(
+        name="tugger", bodies=["ground", "end"], points=np.zeros((2, 3)), stiffness=2e8, length=2000.0,
+        damping_ratio=0.0,
+    )  # fmt: skip
+    scene.add_winch(line="tugger", **{"tension": 20e3, "tension_gain": 2e-5} | winch)
+    return scene
+
+
+def test_a_held_tension_follows_a_moving_point_as_a_loop_of_first_order() -> None:
+    """T = set + band + v / gain + ... exp(-k gain t), k = EA / l0."""
+    band, gain, speed = 3e3, 2e-5, 0.2
+    result = simulate(pulled(speed, dead_band=band), 4.0, dt_out=0.02, rtol=1e-9)
+    tension, time = result["line_tension"][:, 0], result.time
+    assert_allclose(tension[time < 0.14], 20e3 + 1e5 * speed * time[time < 0.14], rtol=1e-3)
+    inside = band / (1e5 * speed)  # s until the dead band ends
+    after = time > inside
+    rise = speed / gain * (1.0 - np.exp(-1e5 * gain * (time - inside)))
+    assert_allclose(tension[after], (20e3 + band + rise)[after], rtol=1e-3)
+    assert_allclose(result["line_pay_out_rate"][~after, 0], 0.0)
+
+
+def test_inside_its_dead_band_a_winch_stands_still() -> None:
+    scene = pulled(0.0, dead_band=3e3)
+    sway = Curve.harmonic(start_time=0.0, offset=-0.012, amplitude=0.012, omega=2.0)
+    scene.replace("lead", curve=sway)
+    result = simulate(scene, 6.0, dt_out=0.1)
+    assert_allclose(result["line_unstretched_length"][:, 0], 2000.0, rtol=0.0, atol=0.0)
+    assert np.ptp(result["line_tension"]) > 2.3e3
+
+
+def test_its_rate_is_bounded_and_the_bound_an_event() -> None:
+    """Led away at 0.5 m/s, rendered at 0.3: the tension grows by k times the difference."""
+    result = simulate(pulled(0.5, maximum_rate=0.3), 3.0, dt_out=0.05, rtol=1e-9)
+    (met,) = result.events
+    assert (met.name, met.kind) == ("tugger.maximum_rate", "limit")
+    reached = -np.log(1.0 - 0.3 / 0.5) / (1e5 * 2e-5)
+    assert met.time == pytest.approx(reached, rel=1e-3)
+    later = result.time > met.time
+    grown = 20e3 + 0.3 / 2e-5 + 1e5 * 0.2 * (result.time - met.time)
+    assert_allclose(result["line_tension"][later, 0], grown[later], rtol=1e-3)
+
+
+def test_a_slack_line_is_recovered() -> None:
+    """At the bound of its rate while it is slack, and up to the dead band in the end."""
+    scene = pulled(0.0, dead_band=2e3, maximum_rate=0.25, lag=0.05)
+    scene.replace("tugger", length=2000.6)
+    result = simulate(scene, 8.0, dt_out=0.05, rtol=1e-8)
+    rate = result["line_pay_out_rate"][:, 0]
+    assert_allclose(rate[(result.time > 1.0) & (result["line_tension"][:, 0] == 0.0)], -0.25, atol=1e-6)
+    assert result["line_tension"][-1, 0] == pytest.approx(18e3, rel=1e-3)
+
+
+def test_the_linear_model_has_the_gain_of_the_tension_loop() -> None:
+    """Of a load that hangs on its set tension: x'' = -dT / m, l0' = gain dT."""
+    gain, l0 = 3e-6, 10.0
+    scene = hung()
+    scene.add_winch(line="hoist", tension=MASS * G, tension_gain=gain)
+    rest = equilibrium(scene)
+    values = np.linalg.eigvals(linear_model(scene, state=rest).a)
+    by_length = -STIFFNESS * (1.0 + MASS * G / STIFFNESS / l0)
+    loop = np.array(
+        [
+            [0.0, 1.0, 0.0],
+            [-STIFFNESS / MASS, 0.0, -by_length / MASS],
+            [gain * STIFFNESS, 0.0, gain * by_length],
+        ]
+    )
+    for expected in np.linalg.eigvals(loop):
+        assert np.min(np.abs(values - expected)) < 1e-4 * max(1.0, abs(expected))
+
+
+def busy() -> Scene:
+    """A swinging load on a drum that holds a tension, with a brake that closes on the way."""
+    shut = Curve.quintic(start_time=2.0, end_time=2.3, start=0.0, end=1.0)
+    return swinging(
+        tension=21e3, tension_gain=1e-5, dead_band=500.0, drum_inertia=400.0, drum_radius=0.4,
+        maximum_rate=0.8, maximum_tension=26e3, maximum_power=15e3, brake=shut, brake_capacity=28e3,
+        brake_give=0.01,
+    )  # fmt: skip
+
+
+@pytest.mark.parametrize("formulation", ["redundant", "recursive"])
+def test_the_energy_balance_closes_with_motor_brake_and_rope(formulation: str) -> None:
+    out = record(busy(), 5.0, rtol=1e-8, formulation=formulation)
+    assert out["absolute_work"][-1] > 1e3
+    assert np.max(np.abs(out["energy_balance"])) < 1e-6 * out["absolute_work"][-1]
+    assert np.min(out["drum_brake_power"]) < -100.0 and np.max(out["drum_brake_power"]) < 1e-6
+
+
+def test_the_load_and_the_drum_take_what_motor_and_brake_give() -> None:
+    out = record(busy(), 5.0, dt_out=2e-3, rtol=1e-8)
+    step = np.diff(out["time"])
+
+    def work(power: Array) -> Array:
+        return np.concatenate([[0.0], np.cumsum(0.5 * step * (power[1:] + power[:-1]))])
+
+    given = out["drum_motor_power"][:, 0] + out["drum_brake_power"][:, 0]
+    into_line = out["line_winch_power"][:, 0]
+    carried = into_line + (out["line_tension"] * out["line_pay_out_rate"])[:, 0]
+    assert np.max(np.abs(carried)) < 0.02 * np.max(np.abs(given))  # strain energy, by the rope
+    rate, wound = out["load_state"][:, 1:].T
+    stored = 0.5 * 2500.0 * rate**2 + 0.5 * 28e3 / 0.01 * wound**2
+    expected = stored - stored[0] + work(into_line) - work(carried)
+    assert_allclose(work(given), expected, atol=2e-4 * np.max(np.abs(expected)))
+
+
+def test_both_formulations_and_merged_bodies_agree() -> None:
+    scene = busy()
+    runs = [record(scene, 4.0, rtol=1e-10, formulation=name) for name in ("redundant", "recursive")]
+    unmerged = Run(scene, t_end=4.0, dt_out=0.05, rtol=1e-10, model=scene.compile(merge=False))
+    unmerged.advance(4.0)
+    runs.append(dict(unmerged.core.channels()))
+    for other in runs[1:]:
+        assert_allclose(other["position"], runs[0]["position"], atol=1e-7)
+        assert_allclose(other["load_state"], runs[0]["load_state"], atol=1e-7)
+
+
+@pytest.mark.parametrize("formulation", ["redundant", "recursive"])
+def test_a_drum_that_hauls_in_to_its_end_is_stopped(formulation: str) -> None:
+    scene = on_drum(length=8.0, damping=0.1, rate=-0.5, minimum_length=7.5)
+    with pytest.warns(WinchLimitWarning, match="has hauled in to minimum_length"):
+        result = simulate(scene, 4.0, dt_out=0.05, rtol=1e-8, formulation=formulation)
+    (met,) = result.events
+    hauled = 0.5 * (met.time - 0.2 * (1.0 - np.exp(-met.time / 0.2)))
+    assert met.name == "hoist.minimum_length" and hauled == pytest.approx(0.5, abs=1e-6)
+    assert_allclose(result["line_unstretched_length"][result.time > met.time], 7.5, atol=1e-6)
+    left = -0.5 * np.exp(-(result.time - met.time) / 0.2)
+    assert_allclose(result["load_state"][result.time > met.time, 1], left[result.time > met.time], atol=2e-3)
+    assert np.max(np.abs(result["energy_balance"])) < 1e-6 * result["absolute_work"][-1]
+
+
+@pytest.mark.parametrize(
+    ("integrator", "settings", "within"),
+    [("rk4", {"dt": 5e-4}, 1e-5), ("cvode-bdf", {"rtol": 1e-8}, 1e-4), ("ida", {"rtol": 1e-8}, 1e-4),
+     ("generalized-alpha", {"dt": 5e-4}, 1e-3), ("ark-dirk", {"rtol": 1e-8}, 1e-4)],
+)  # fmt: skip
+def test_other_integrators_agree(integrator: str, settings: dict[str, Any], within: float) -> None:
+    exact, other = (record(busy(), 2.6, dt_out=1.3, **given)
+                    for given in ({"rtol": 1e-10}, {"integrator": integrator} | settings))  # fmt: skip
+    assert_allclose(other["position"], exact["position"], atol=within)
+    assert_allclose(other["load_state"], exact["load_state"], atol=within)
+
+
+def test_stages_command_the_brake_and_the_tension() -> None:
+    scene = on_drum(damping=0.1, brake_capacity=CAPACITY)
+    stages = [Stage(name="hold", duration=1.0),
+              Stage(name="park", duration=6.0, commands={"hoist.brake": Move(to=1.0, over=0.2)})]  # fmt: skip
+    parked = simulate_stages(scene, stages, dt_out=0.5, rtol=1e-8)
+    assert_allclose(parked["drum_motor_torque"][[0, -1], 0], [-MASS * G * RADIUS, 0.0], rtol=1e-9)
+    assert parked["drum_brake_torque"][-1, 0] == pytest.approx(MASS * G * RADIUS, rel=1e-4)
+    stages = [Stage(name="slack off", duration=9.0, commands={"tugger.tension": 12e3})]
+    let_go = simulate_stages(pulled(0.0, dead_band=1e3), stages, dt_out=0.5, rtol=1e-8)
+    assert let_go["line_tension"][-1, 0] == pytest.approx(13e3, rel=1e-4)
+
+
+@pytest.mark.parametrize(
+    "settings", [{"integrator": "dopri5", "rtol": 1e-7}, {"integrator": "rosenbrock", "rtol": 1e-5}]
+)
+def test_a_run_goes_on_bit_for_bit_and_tells_no_bound_twice(settings: dict[str, Any], tmp_path: Path) -> None:
+    whole = Run(busy(), t_end=3.0, dt_out=0.05, **settings)
+    whole.advance(2.13)
+    met = len(whole.events())
+    whole.core.state.save(tmp_path / "half.state")
+    whole.advance(3.0)
+    start = State.load(tmp_path / "half.state", scene=busy())
+    rest = Run(busy(), t_end=3.0, dt_out=0.05, start=start, **settings)
+    rest.advance(3.0)
+    assert np.array_equal(rest.core.state.values, whole.core.state.values)
+    assert met > 0 and [*whole.events()[met:]] == [*rest.events()]
+
+
+@pytest.mark.parametrize("time", [0.9, 2.1, 2.9])
+def test_the_exact_jacobian_is_that_of_differences(time: float) -> None:
+    """Before, while and after the brake closes."""
+    scene = busy()
+    model = scene.compile(merge=False)
+    run = Run(scene, t_end=time, dt_out=0.1, rtol=1e-8, model=model)
+    run.advance(time)
+    y = np.array(run.core.state.values)
+    at = Evaluator(model)
+    exact = np.asarray(at.jacobian(time, y))
+    for j in [*(place for _, _, place, *_ in model.load_states), 0, 2, model.twist_index(0)]:
+        step = np.zeros_like(y)
+        step[j] = 1e-7
+        expected = (at.derivative(time, y + step) - at.derivative(time, y - step)) / 2e-7
+        assert_allclose(exact[:, j], expected, atol=1e-5 * np.max(np.abs(exact[:, j])), rtol=1e-5)
+
+
+def test_a_scene_file_holds_the_winch_and_an_older_one_its_digest(tmp_path: Path) -> None:
+    scene = busy()
+    scene.save(tmp_path / "scene.json")
+    assert Scene.load(tmp_path / "scene.json") == scene
+    swinging().save(tmp_path / "plain.json")
+    assert "drum" not in (tmp_path / "plain.json").read_text()
+
+
+@pytest.mark.parametrize(
+    ("given", "message"),
+    [
+        ({"tension": 1e4}, "holds a tension without a tension_gain; give the m/s"),
+        ({"tension": 1e4, "tension_gain": -1.0}, "tension_gain is -1; it must not be negative"),
+        (
+            {"tension": 1e4, "tension_gain": 1e-5, "dead_band": -1.0},
+            "dead_band is -1; it must not be negative",
+        ),
+        (
+            {"tension_gain": 1e-5},
+            "tension is 0 N at t = 0 s and the dead_band 0 N: a slack line would not be",
+        ),
+        ({"maximum_tension": 1e5}, "maximum_tension needs a drum: give drum_inertia and drum_radius"),
+        ({"brake": 1.0}, "brake needs a drum"),
+        ({"drum_inertia": 1e3, "lag": 0.1}, "drum_radius is 0; it must be positive"),
+        ({"drum_inertia": -1.0}, "drum_inertia is -1; it must not be negative"),
+        ({"drum_inertia": 1e3, "drum_radius": 0.5}, "a drum with inertia needs a lag"),
+        (
+            {"drum_inertia": 1e3, "drum_radius": 0.5, "lag": 0.1, "brake": 1.0},
+            "has a brake without a capacity; give brake_capacity",
+        ),
+        (
+            {"drum_inertia": 1e3, "drum_radius": 0.5, "lag": 0.1, "brake": 2.0, "brake_capacity": 1e5},
+            "brake is 2 at t = 0 s; give the share of its capacity, 0 .open. to 1 .closed.",
+        ),
+        (
+            {"drum_inertia": 1e3, "drum_radius": 0.5, "lag": 0.1, "maximum_power": 0.0},
+            "maximum_power is 0; it must be positive",
+        ),
+        (
+            {"drum_inertia": 1e3, "drum_radius": 0.5, "lag": 0.1, "maximum_tension": np.nan},
+            "maximum_tension is nan; give a finite number",
+        ),
+    ],
+)
+def test_winches_that_cannot_be_are_told(given: dict[str, Any], message: str) -> None:
+    scene = hung()
+    scene.add_winch(line="hoist", **given)
+    with pytest.raises(SceneError, match=f"line 'hoist': .*{message}"):
+        scene.compile()
+
+
+@pytest.mark.parametrize("given", [{"tension_gain": 1e-5}, {"drum_inertia": 1e3}])
+def test_a_line_without_a_winch_holds_no_tension(given: dict[str, float]) -> None:
+    scene = hung()
+    scene.replace("hoist", **given)
+    with pytest.raises(SceneError, match="holds a tension or has a drum, and no winch; set winch, or leave"):
+        scene.compile()
+
+
+def test_a_quasi_static_line_takes_no_drum() -> None:
+    scene = on_drum()
+    scene.replace("hoist", stretch="quasi-static")
+    with pytest.raises(SceneError, match="a drum with inertia rings with its line; choose stretch 'elastic'"):
+        scene.compile()
