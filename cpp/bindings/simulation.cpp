@@ -58,8 +58,10 @@ py::dict statistics(const Simulation& s) {
   out["projections"] = r.counters.projections;
   out["restarts"] = r.counters.restarts;
   out["dense_solves"] = r.dense_solves;
+  if (s.has_limits() || !s.limits_reached().empty()) {
+    out["events"] = s.events().size() + s.limits_reached().size();
+  }
   if (s.has_limits()) {
-    out["events"] = s.events().size();
     out["impact_energy_lost_J"] = r.energy_lost;
   }
   if (r.rank) {
@@ -77,11 +79,17 @@ py::dict statistics(const Simulation& s) {
 }
 
 py::list events(const Simulation& s) {
-  py::list out;
+  std::vector<std::pair<double, py::tuple>> rows;
   for (const Event& e : s.events()) {
-    out.append(
-        py::make_tuple(e.time, s.limit_name(e.limit), to_text(e.kind), e.speed, e.impulse, e.energy_lost));
+    rows.emplace_back(e.time, py::make_tuple(e.time, s.limit_name(e.limit), to_text(e.kind), e.speed,
+                                             e.impulse, e.energy_lost));
   }
+  for (const LimitReached& l : s.limits_reached()) {
+    rows.emplace_back(l.time, py::make_tuple(l.time, l.name, "limit", 0.0, 0.0, 0.0));
+  }
+  std::stable_sort(rows.begin(), rows.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  py::list out;
+  for (const auto& row : rows) out.append(row.second);
   return out;
 }
 

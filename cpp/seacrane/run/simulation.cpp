@@ -67,7 +67,7 @@ void Simulation::begin_steps(const State& start) {
       if (contacts_) contacts_->continue_from(start.record->impact_loss);
     }
     stepper().started = true;
-    watch_limits();
+    watch_limits(true);
     return;
   }
   const ClosedSet closed = stepper().model->closed;
@@ -77,6 +77,11 @@ void Simulation::begin_steps(const State& start) {
 const std::vector<Event>& Simulation::events() const {
   static const std::vector<Event> none;
   return contacts_ ? contacts_->events() : none;
+}
+
+const std::vector<LimitReached>& Simulation::limits_reached() const {
+  static const std::vector<LimitReached> none;
+  return switches_ ? switches_->reached() : none;
 }
 
 /// Whether limits had an event in the last step: what has been stepped beyond it is dropped then.
@@ -92,6 +97,7 @@ bool Simulation::carry_out_event() {
   at.stepped.project(t, state_.data(), false);
   at.write_bodies(t, state_.data(), bodies_.data());
   event_time_ = t;
+  if (switches_) switches_->shorten(t);
   end_of_smooth_stretch(t);
   ClosedSet closed = at.model->closed;
   try {
@@ -137,9 +143,11 @@ bool Simulation::retake_to_switch() {
   return true;
 }
 
-void Simulation::watch_limits() {
+/// `goes_on`: a run before this one came here.
+void Simulation::watch_limits(bool goes_on) {
   switch_at_ = kNever;
-  if (switches_) switches_->watch(stepper(), time(), integrator().state());
+  if (switches_ && goes_on) switches_->resume(stepper(), time(), integrator().state());
+  if (switches_ && !goes_on) switches_->watch(stepper(), time(), integrator().state());
   if (!contacts_) return;
   write_bodies(bodies_.data());
   contacts_->start(stepper(), time(), bodies_.data());

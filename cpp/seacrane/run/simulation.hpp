@@ -56,6 +56,8 @@ class Simulation {
   /// What limits did so far, in order of time.
   const std::vector<Event>& events() const;
   bool has_limits() const { return contacts_ != nullptr; }
+  /// Bounds of loads that were reached so far.
+  const std::vector<LimitReached>& limits_reached() const;
   const std::string& limit_name(int limit) const { return model_->limits[idx(limit)].name; }
 
  private:
@@ -73,7 +75,7 @@ class Simulation {
   void finish_step(double now, double stop);
   void step_from(double t, ClosedSet closed);
   void reset_integrator();
-  void watch_limits();
+  void watch_limits(bool goes_on = false);
   void record_until(double t) { outputs_.record_until(stepper(), t, energy_lost()); }
   /// The state at time() in bodies' poses and twists.
   void write_bodies(double* bodies) const;

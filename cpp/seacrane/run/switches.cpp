@@ -67,8 +67,35 @@ void Switches::refuse(const Stepper& at, double t, const std::vector<int>& sides
 }
 
 void Switches::watch(Stepper& at, double t, const double* y) {
+  find_sides(at, t, y, after_);
+  refuse(at, t, after_);
+  if (before_.empty()) before_.assign(after_.size(), 0);
+  if (before_.size() != after_.size()) before_ = after_;  // of another set of limits
+  instants_.assign(after_.size(), t);
+  note(at);
+  before_.swap(after_);
+}
+
+void Switches::resume(Stepper& at, double t, const double* y) {
   find_sides(at, t, y, before_);
   refuse(at, t, before_);
+}
+
+void Switches::note(const Stepper& at) {
+  std::size_t i = 0;
+  for_each_switch(*at.model, [&](const auto& load) {
+    const int from = before_[i], to = after_[i];
+    const double t = instants_[i++];
+    if constexpr (requires { load.reached(from, to); }) {
+      const std::string name = load.reached(from, to);
+      if (!name.empty()) reached_.push_back({t, name});
+    }
+  });
+}
+
+void Switches::shorten(double t) {
+  std::erase_if(reached_, [t](const LimitReached& one) { return one.time > t; });
+  before_.swap(after_);
 }
 
 std::optional<double> Switches::find(Stepper& at) {
@@ -78,14 +105,19 @@ std::optional<double> Switches::find(Stepper& at) {
                margin = std::max(kAtEnd * (end - start), 100.0 * smallest_step(end));
   refuse(at, end, after_);
   std::optional<double> first;
+  instants_.assign(after_.size(), end);
   for (std::size_t i = 0; i < after_.size(); ++i) {
     if (after_[i] == before_[i]) continue;
     const std::optional<double> found = integrator.locate(
         [&](double t, const double* y) { return across(at, read(at, t, y), i, before_[i], after_[i]); });
-    if (!found || *found - start <= margin || end - *found <= margin) continue;
+    if (!found) continue;
+    instants_[i] = *found;
+    if (*found - start <= margin || end - *found <= margin) continue;
     if (!first || *found < *first) first = found;
   }
-  if (!first) before_.swap(after_);
+  if (first) return first;
+  note(at);
+  before_.swap(after_);
   return first;
 }
 

@@ -2,18 +2,26 @@
 
 #include <cstddef>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "seacrane/run/stepper.hpp"
 
 namespace seacrane {
 
+/// A bound that a load of the scene ran into, such as "hoist.stroke".
+struct LimitReached {
+  double time = 0.0;  // s
+  std::string name;
+};
+
 /// Kinks that loads have in the state: where a soft stop is touched, left or lets go, the corners of a
 /// spring's table, where a line goes slack or taut. They have no time to offer. A step that ends on another
 /// side of one is taken again, up to where it crossed, so that every step sees one side only. A load that may
 /// have kinks has has_sides(), side(input), a number for each side, and across(input, from, to), which
 /// changes its sign between two of them. One that cannot be on a side has refused(side), which says why: the
-/// run ends there.
+/// run ends there. Bounds that a user has to know of have reached(from, to), the name of the one that is
+/// reached by that change of the side.
 class Switches {
  public:
   /// Whether loads of a model have such kinks.
@@ -22,17 +30,26 @@ class Switches {
   /// Takes the sides at the state (t, y) of what is stepped, where a step starts. Throws std::domain_error
   /// where a load cannot be on its side.
   void watch(Stepper& at, double t, const double* y);
+  /// The same for a run that goes on: what is at a bound there has been noted before.
+  void resume(Stepper& at, double t, const double* y);
   /// Time of the first crossing inside the last step of `at`; nothing where there is none but at its ends:
   /// then the next step starts from the sides at its end.
   std::optional<double> find(Stepper& at);
+  /// Of the last step only the part until t counts.
+  void shorten(double t);
+  /// Bounds reached so far.
+  const std::vector<LimitReached>& reached() const { return reached_; }
 
  private:
   void find_sides(Stepper& at, double t, const double* y, std::vector<int>& sides);
   void refuse(const Stepper& at, double t, const std::vector<int>& sides) const;
+  void note(const Stepper& at);
   LoadInput<double> read(Stepper& at, double t, const double* y);
   static double across(const Stepper& at, const LoadInput<double>& in, std::size_t load, int from, int to);
 
   std::vector<int> before_, after_;  // by load with sides
+  std::vector<double> instants_;     // of their change, likewise
+  std::vector<LimitReached> reached_;
   std::vector<double> bodies_;
 };
 

@@ -41,6 +41,20 @@ def lines_of(loads: Mapping[str, Any]) -> dict[str, _core.Line]:
     return {name: load for name, load in loads.items() if isinstance(load, _core.Line)}
 
 
+def without_compensation(loads: Mapping[str, Any]) -> dict[str, Any]:
+    """Loads without the heave compensators that actuators follow."""
+    return {
+        name: load
+        for name, load in loads.items()
+        if not (isinstance(load, _core.HeaveCompensator) and load.actuator)
+    }
+
+
+def gas_springs_of(loads: Mapping[str, Any]) -> dict[str, _core.GasSpring]:
+    """The gas springs among loads."""
+    return {name: load for name, load in loads.items() if isinstance(load, _core.GasSpring)}
+
+
 def path_of(line: _core.Line) -> list[tuple[str, Any]]:
     """Body and point (m, its coordinates) of each point of a line, in their order."""
     return list(zip(line.bodies, line.points, strict=True))

@@ -22,6 +22,7 @@ STYLES = ("-", "--", ":")
 EVENTS = {
     "contact": "contact: taut, or pressed", "rebound": "rebound", "release": "release: slack, or off",
     "stage": "stage begins", "connection": "connection",
+    "limit": "bound reached",
 }  # fmt: skip
 
 

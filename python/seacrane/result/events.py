@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-KINDS = ("contact", "rebound", "release", "stage", "connection")
+KINDS = ("contact", "rebound", "release", "stage", "connection", "limit")
 PREFIX = "event_"
 NUMBERS: Mapping[str, tuple[str, str]] = {
     "time": ("s", "when it happened"),
@@ -33,11 +33,13 @@ class Event:
     kind : str
         "contact": holds from now on (a wire is taut); "rebound": was hit and left at once; "release": holds
         no more (a wire is slack, a seat is lifted off, a stage released a connection); "stage": a stage
-        began; "connection": a stage connected an element.
+        began; "connection": a stage connected an element; "limit": a winch, a compensator or a gas spring
+        reached one of its bounds, which the name ends with, such as ".stroke".
     speed : float
-        Rate of approach just before, m/s or rad/s; 0 for a release or a stage.
+        Rate of approach just before, m/s or rad/s; 0 for a release, a stage or a limit.
     impulse : float
-        N s or N m s, as the limit can act: tension of a wire, push of a stop; 0 of stages and connections.
+        N s or N m s, as the limit can act: tension of a wire, push of a stop; 0 of stages, connections and
+        limits of that kind.
     energy_lost : float
         Mechanical energy lost in the impact, or with what a stage connected or released, J.
     """

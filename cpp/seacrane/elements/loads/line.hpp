@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "seacrane/elements/field.hpp"
-#include "seacrane/elements/loads/load.hpp"
+#include "seacrane/elements/loads/heave_signal.hpp"
 #include "seacrane/math/curve.hpp"
 #include "seacrane/math/select.hpp"
 
@@ -111,6 +111,7 @@ struct Line {
   Curve command;
   double maximum_rate = 0.0, maximum_acceleration = 0.0, lag = 0.0, minimum_length = 0.0;
   int slot = 0;       // of the rate that is added to the command
+  Followed follows;   // so is the rate of a heave compensator
   StateRange states;  // of a winch length, and rate with a lag; of a quasi-static stretch w
 
   static void check(const Description& d, const Check& c, SceneNames& names) {
@@ -370,6 +371,11 @@ struct Line {
     lag = d.lag;
     minimum_length = d.minimum_length;
     slot = context.input(d.name + ".rate");
+    follows = context.followed(kind, d.name);
+    const int measured = follows.signal.body;
+    if (follows.any() && std::find(on.begin(), on.end(), measured) == on.end()) {
+      on.insert(on.begin(), measured);
+    }
     const double start = d.length.at(0.0).value, scale = context.length_scale();
     states = {context.state({d.name + ".length", "m", start, scale}), 1};
     if (d.lag > 0.0) {
@@ -455,8 +461,9 @@ struct Line {
 
   template <class T>
   T commanded(const LoadInput<T>& in) const {
-    const double asked = command.at(in.time, in.curve_limit).value + in.slots[slot];
-    return T(clamped(asked, -maximum_rate, maximum_rate));
+    const double given = command.at(in.time, in.curve_limit).value + in.slots[slot];
+    const T asked = T(given) + follows.rate(in);
+    return clamped(asked, T(-maximum_rate), T(maximum_rate));
   }
   template <class T>
   T drum_rate(const LoadInput<T>& in) const {
