@@ -23,7 +23,7 @@ def heaving(*, amplitude: float = 1.0, omega: float = 0.7) -> Scene:
         kind="prismatic", name="sea", first="ground", second="ship", point=(0, 0, 0), axis=(0, 0, 1)
     )
     wave = Curve.harmonic(start_time=0.0, amplitude=amplitude, omega=omega, phase=-0.5 * np.pi)
-    scene.add_driver(joint="sea", curve=wave)
+    scene.add_driver(joint="sea", name="wave", curve=wave)
     return scene
 
 

@@ -191,6 +191,32 @@ maximum_acceleration_m_per_s2 = 0.5
 lag_s = 0.1
 minimum_length_m = 2
 
+[[heave_compensation]]
+name = "ahc"
+body = "hull"
+point_m = [1, 2, 3]
+winch = "hoist"
+ratio = 1.5
+high_pass_Hz = 0.02
+lag_s = 0.3
+lag_order = 2
+actuator_frequency_Hz = 1.5
+maximum_rate_m_per_s = 2
+maximum_stroke_m = 3
+
+[[gas_spring]]
+name = "phc"
+first = "box"
+second = "bob"
+area_m2 = 0.05
+force_N = 2e4
+stiffness_N_per_m = 3e3
+length_m = 4
+exponent = 1.3
+damping_N_s_per_m = 100
+minimum_m = 1
+maximum_m = 7
+
 [[force_table]]
 name = "gust"
 body = "box"
@@ -353,6 +379,14 @@ def every_table() -> Scene:
     scene.add_winch(
         line="hoist", rate=Curve.quintic(start_time=0, end_time=2, start=0, end=0.5), maximum_rate=1,
         maximum_acceleration=0.5, lag=0.1, minimum_length=2,
+    )  # fmt: skip
+    scene.add_heave_compensation(
+        name="ahc", body="hull", point=(1, 2, 3), winch="hoist", ratio=1.5, high_pass=0.02, lag=0.3,
+        lag_order=2, actuator_frequency=1.5, maximum_rate=2, maximum_stroke=3,
+    )  # fmt: skip
+    scene.add_gas_spring(
+        name="phc", first="box", second="bob", area=0.05, force=2e4, stiffness=3e3, length=4, exponent=1.3,
+        damping=100, minimum=1, maximum=7,
     )  # fmt: skip
     scene.add_force_table(name="gust", body="box", times=[0, 1], loads=np.arange(12.0).reshape(2, 6))
     _add_flows(scene)

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import itertools
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
-from heave_scenes import MASS, ROPE, STIFFNESS, TIP, amplitude_of, compensated, heaving, hung, transfer
+from heave_scenes import MASS, ROPE, STIFFNESS, TIP, G, amplitude_of, compensated, heaving, hung, transfer
 from multibody_runs import record
 from numpy.testing import assert_allclose
 from scipy.integrate import solve_ivp
@@ -61,7 +60,7 @@ def test_a_winch_leaves_the_load_the_residual(falls: int, winch_lag: float, lag:
 def coupled(**settings: Any) -> Scene:
     """A ship on springs, which the load pulls back; compensated by the winch."""
     scene = hung()
-    del scene.drivers["sea"]
+    del scene.drivers["wave"]
     stiffness = 2e6
     scene.add_actuator(joint="sea", name="springs", stiffness=stiffness, damping=2e5)
     scene.actuators["springs"] = type(scene.actuators["springs"])(
@@ -73,7 +72,10 @@ def coupled(**settings: Any) -> Scene:
 
 
 def test_the_linear_model_of_a_coupled_scene_has_the_closed_form() -> None:
-    """Load over ship is G (1 - H) with G the hanging load's; the ship feels the tension."""
+    """Load over ship is G (1 - H) with G the hanging load's; the ship feels the tension.
+
+    A metre of rope that is paid out takes 1 + strain metres of the stretched wire.
+    """
     settings: dict[str, Any] = {"lag": 0.3, "high_pass": 0.03, "actuator_frequency": 1.0}
     scene = coupled(**settings)
     model = linear_model(scene)
@@ -86,9 +88,9 @@ def test_the_linear_model_of_a_coupled_scene_has_the_closed_form() -> None:
     for omega in (0.3, 0.7, 1.5, 4.0, 12.0):
         p = 1j * omega
         x = np.linalg.solve(p * np.eye(len(model.a)) - model.a, push)
-        h = transfer(omega, **settings)
+        h = transfer(omega, **settings) * (1.0 + MASS * G / STIFFNESS)
         of_load = (k + c * p) / (MASS * p**2 + k + c * p) * (1.0 - h)
-        assert (load @ x) / (ship @ x) == pytest.approx(of_load, rel=2e-3)
+        assert (load @ x) / (ship @ x) == pytest.approx(of_load, rel=1e-5)
         pulled = MASS * p**2 * of_load
         of_ship = 1.0 / (1e6 * p**2 + 2e5 * p + 2e6 + pulled)
         assert ship @ x == pytest.approx(of_ship, rel=1e-4)
@@ -109,15 +111,19 @@ def test_bounds_on_rate_and_stroke_are_kept_located_and_told() -> None:
         high, low = min(0.5, (0.6 - x[2]) / 0.3), max(-0.5, (-0.6 - x[2]) / 0.3)
         return [OMEGA * np.cos(OMEGA * t), behind, float(np.clip(wanted, low, high))]
 
-    expected = solve_ivp(
-        equations, (0.0, 20.0), [0.0, 0.0, 0.0], t_eval=result.time, rtol=1e-11, atol=1e-12, max_step=2e-3
+    fine = np.linspace(0.0, 20.0, 8001)
+    x = solve_ivp(
+        equations, (0.0, 20.0), [0.0, 0.0, 0.0], t_eval=fine, rtol=1e-9, atol=1e-10, max_step=5e-3
     ).y
-    assert_allclose(stroke, expected[2], atol=2e-6)
+    assert_allclose(stroke, x[2][::20], atol=2e-6)
+    wanted = (x[0] - x[1]) / 0.2 + (x[1] - x[2]) / 0.3
+    left = (0.6 - np.sign(wanted) * x[2]) / 0.3
+    at = np.where(np.abs(wanted) > np.minimum(left, 0.5), np.where(left < 0.5, 2, 1), 0)
+    entered = np.flatnonzero((np.diff(at) != 0) & (at[1:] != 0)) + 1
     told = [event for event in result.events if event.kind == "limit"]
-    assert {event.name for event in told} == {"ahc.rate", "ahc.stroke"}
-    assert 10 < len(told) < 60
-    for before, after in itertools.pairwise(told):
-        assert after.time > before.time
+    assert [event.name for event in told] == ["ahc.stroke" if at[i] == 2 else "ahc.rate" for i in entered]
+    assert len(told) >= 10
+    assert_allclose([event.time for event in told], fine[entered], atol=3e-3)
     # Where the rate's bound is first reached: wanted = 0.5 on the exact lag.
     first = told[0]
     assert first.name == "ahc.rate"
@@ -223,7 +229,7 @@ def test_the_exact_jacobian_is_that_of_differences() -> None:
     at = Evaluator(model)
     exact = np.asarray(at.jacobian(0.9, y))
     states = [place for _, _, place, *_ in model.load_states]
-    assert len(states) == 10
+    assert len(states) == 11
     for j in [*states, 2, 9, 16, model.twist_index(0) + 2, model.twist_index(1) + 4]:
         step = np.zeros_like(y)
         step[j] = 1e-5
@@ -233,7 +239,7 @@ def test_the_exact_jacobian_is_that_of_differences() -> None:
         assert_allclose(exact[:, j], expected, atol=1e-6 * np.max(np.abs(exact)), rtol=1e-6)
 
 
-def cylinder(lag: float = 0.0, *, gains: tuple[float, float] = (4e7, 4e6), **settings: Any) -> Scene:
+def cylinder(lag: float = 0.0, *, gains: tuple[float, float] = (4e5, 4e4), **settings: Any) -> Scene:
     """A ship with a slide at its tip, whose position an actuator controls; the load sits on the slide."""
     scene = heaving(omega=OMEGA)
     scene.add_body(name="slide", mass=MASS, inertia=(1e3, 1e3, 1e3), position=(0, 0, TIP))

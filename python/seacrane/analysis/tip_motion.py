@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -16,6 +17,7 @@ from seacrane.description.scene import GROUND, Description
 from seacrane.inputs.frames import rotation_matrix
 
 Array = NDArray[np.float64]
+SHORT = 1e-12  # m
 SIX = ("x", "y", "z", "roll", "pitch", "yaw")
 
 
@@ -25,7 +27,9 @@ def _unit(direction: Any) -> Array:
 
 
 def falls_of(scene: Description, line: _core.Line, direction: Any) -> float:
-    """By how much the path of a line shortens for each metre by which its last body moves.
+    """By how much the path of a line shortens for each metre by which its load moves.
+
+    The load is the body whose rise shortens it most.
 
     Parameters
     ----------
@@ -39,15 +43,16 @@ def falls_of(scene: Description, line: _core.Line, direction: Any) -> float:
     float
         n for n falls along the direction.
     """
-    along = _unit(direction)
-    hung = next((body for body in reversed(line.bodies) if body != GROUND), GROUND)
     places = [_placed(scene, body, point) for body, point in path_of(line)]
-    rate = 0.0
-    for i in range(1, len(places)):
-        span = places[i] - places[i - 1]
-        moves = float(line.bodies[i] == hung) - float(line.bodies[i - 1] == hung)
-        rate += moves * float(span @ along) / max(float(np.linalg.norm(span)), 1e-12)
-    return -rate
+    shortening = {body: np.zeros(3) for body in line.bodies if body != GROUND}
+    for (first, start), (second, end) in pairwise(zip(line.bodies, places, strict=True)):
+        span = end - start
+        along = span / max(float(np.linalg.norm(span)), SHORT)
+        for body, sign in ((first, 1.0), (second, -1.0)):
+            if body in shortening:
+                shortening[body] = shortening[body] + sign * along
+    load = max(shortening.values(), key=lambda slope: float(slope[2]))
+    return float(load @ _unit(direction))
 
 
 def _placed(scene: Description, name: str, point: Any) -> Array:

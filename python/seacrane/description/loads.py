@@ -50,9 +50,12 @@ def without_compensation(loads: Mapping[str, Any]) -> dict[str, Any]:
     }
 
 
-def gas_springs_of(loads: Mapping[str, Any]) -> dict[str, _core.GasSpring]:
-    """The gas springs among loads."""
-    return {name: load for name, load in loads.items() if isinstance(load, _core.GasSpring)}
+def springs_of(
+    springs: Mapping[str, _core.Spring], loads: Mapping[str, Any]
+) -> list[tuple[str, _core.Spring | _core.GasSpring]]:
+    """Names and elements of springs, and of the gas springs among loads."""
+    gas = [(name, load) for name, load in loads.items() if isinstance(load, _core.GasSpring)]
+    return [*springs.items(), *gas]
 
 
 def path_of(line: _core.Line) -> list[tuple[str, Any]]:

@@ -298,8 +298,12 @@ _ALL = (
     ),
     _call("line", lines.add_line, _core.Line),
     _call("winch", lines.add_winch, _core.Line),
-    _call("heave_compensation", heave.add_heave_compensation, _core.HeaveCompensator),
-    _call("gas_spring", heave.add_gas_spring, _core.GasSpring),
+    _call(
+        "heave_compensation", heave.add_heave_compensation, _core.HeaveCompensator, direction=DIRECTION,
+    ),
+    _call(
+        "gas_spring", heave.add_gas_spring, _core.GasSpring, force={"unit": "N"}, stiffness={"unit": "N/m"},
+    ),
     _flow("wind", wind_current.add_wind),
     _flow("current", wind_current.add_current),
     _call("wire", limits.add_wire, _core.Limit, sticking_speed={"unit": "m/s"}),

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from seacrane.description.loads import gas_springs_of, lines_of, path_of
+from seacrane.description.loads import lines_of, path_of, springs_of
 from seacrane.description.scene import Description
 from seacrane.viewer.shapes import plain
 
@@ -36,7 +36,7 @@ def wires_of(scene: Description, bodies: Sequence[str]) -> list[dict[str, Any]]:
                     "length": float(joint.parameters["length"]) if pulls else 0.0,
                 }
             )
-    for name, spring in (*scene.springs.items(), *gas_springs_of(scene.loads).items()):
+    for name, spring in springs_of(scene.springs, scene.loads):
         found.append(
             {
                 "name": name,
