@@ -380,10 +380,6 @@ def every_table() -> Scene:
         line="hoist", rate=Curve.quintic(start_time=0, end_time=2, start=0, end=0.5), maximum_rate=1,
         maximum_acceleration=0.5, lag=0.1, minimum_length=2,
     )  # fmt: skip
-    scene.add_heave_compensation(
-        name="ahc", body="hull", point=(1, 2, 3), winch="hoist", ratio=1.5, high_pass=0.02, lag=0.3,
-        lag_order=2, actuator_frequency=1.5, maximum_rate=2, maximum_stroke=3,
-    )  # fmt: skip
     scene.add_gas_spring(
         name="phc", first="box", second="bob", area=0.05, force=2e4, stiffness=3e3, length=4, exponent=1.3,
         damping=100, minimum=1, maximum=7,
@@ -398,6 +394,10 @@ def every_table() -> Scene:
     scene.add_seat(joint="deck")
     scene.add_soft_stop(joint="sleeve", maximum=2, stiffness=1e4, damping=0.5)
     scene.add_friction(joint="pin", load=4, speed=np.radians(1))
+    scene.add_heave_compensation(
+        name="ahc", body="hull", point=(1, 2, 3), winch="hoist", ratio=1.5, high_pass=0.02, lag=0.3,
+        lag_order=2, actuator_frequency=1.5, maximum_rate=2, maximum_stroke=3,
+    )  # fmt: skip
     scene.add_range(joint="sleeve", minimum=-1, maximum=3)
     scene.add_limit_state(channel="link_tension", max=8e4, min=1e3)
     scene.add_limit_state(name="luffing", channel="stroke", max=2.5, where={"cylinder": "aft luff"})

@@ -299,9 +299,6 @@ _ALL = (
     _call("line", lines.add_line, _core.Line),
     _call("winch", lines.add_winch, _core.Line),
     _call(
-        "heave_compensation", heave.add_heave_compensation, _core.HeaveCompensator, direction=DIRECTION,
-    ),
-    _call(
         "gas_spring", heave.add_gas_spring, _core.GasSpring, force={"unit": "N"}, stiffness={"unit": "N/m"},
     ),
     _flow("wind", wind_current.add_wind),
@@ -351,6 +348,9 @@ _ALL = (
     Table(
         name="command", keys=COMMAND,
         text="A joint coordinate that follows a reference: an actuator with gains and loads by [control].",
+    ),
+    _call(
+        "heave_compensation", heave.add_heave_compensation, _core.HeaveCompensator, direction=DIRECTION,
     ),
     Table(
         name="run", several=False, text="How long a run takes.",
