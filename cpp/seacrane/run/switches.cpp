@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <stdexcept>
 #include <string>
 
@@ -22,6 +23,14 @@ void for_each_switch(const Model& model, F&& f) {
       }
     }
   });
+}
+
+void append(std::vector<LimitReached>& out, double t, const std::string& name) {
+  if (!name.empty()) out.push_back({t, name});
+}
+[[maybe_unused]] void append(std::vector<LimitReached>& out, double t,
+                             const std::vector<std::string>& names) {
+  for (const std::string& name : names) append(out, t, name);
 }
 
 }  // namespace
@@ -86,9 +95,9 @@ void Switches::note(const Stepper& at) {
   for_each_switch(*at.model, [&](const auto& load) {
     const int from = before_[i], to = after_[i];
     const double t = instants_[i++];
+    if (from == to) return;
     if constexpr (requires { load.reached(from, to); }) {
-      const std::string name = load.reached(from, to);
-      if (!name.empty()) reached_.push_back({t, name});
+      append(reached_, t, load.reached(from, to));
     }
   });
 }
@@ -105,11 +114,13 @@ std::optional<double> Switches::find(Stepper& at) {
                margin = std::max(kAtEnd * (end - start), 100.0 * smallest_step(end));
   refuse(at, end, after_);
   std::optional<double> first;
-  instants_.assign(after_.size(), end);
+  instants_.assign(after_.size(), start);  // where a curve has jumped
   for (std::size_t i = 0; i < after_.size(); ++i) {
     if (after_[i] == before_[i]) continue;
-    const std::optional<double> found = integrator.locate(
-        [&](double t, const double* y) { return across(at, read(at, t, y), i, before_[i], after_[i]); });
+    const auto margin_at = [&](double t, const double* y) {
+      return across(at, read(at, t, y), i, before_[i], after_[i]);
+    };
+    const std::optional<double> found = integrator.locate(std::cref(margin_at));
     if (!found) continue;
     instants_[i] = *found;
     if (*found - start <= margin || end - *found <= margin) continue;

@@ -20,8 +20,8 @@ struct LimitReached {
 /// side of one is taken again, up to where it crossed, so that every step sees one side only. A load that may
 /// have kinks has has_sides(), side(input), a number for each side, and across(input, from, to), which
 /// changes its sign between two of them. One that cannot be on a side has refused(side), which says why: the
-/// run ends there. Bounds that a user has to know of have reached(from, to), the name of the one that is
-/// reached by that change of the side.
+/// run ends there. Bounds that a user has to know of have reached(from, to), the name of the one, or the
+/// names of those, that are reached by that change of the side.
 class Switches {
  public:
   /// Whether loads of a model have such kinks.
