@@ -201,6 +201,32 @@ brake = {kind = "quintic", start_time_s = 5, end_time_s = 5.1, start = 0, end = 
 brake_capacity_N = 4e4
 brake_give_m = 2e-3
 
+[[heave_compensation]]
+name = "ahc"
+body = "hull"
+point_m = [1, 2, 3]
+winch = "hoist"
+ratio = 1.5
+high_pass_Hz = 0.02
+lag_s = 0.3
+lag_order = 2
+actuator_frequency_Hz = 1.5
+maximum_rate_m_per_s = 2
+maximum_stroke_m = 3
+
+[[gas_spring]]
+name = "phc"
+first = "box"
+second = "bob"
+area_m2 = 0.05
+force_N = 2e4
+stiffness_N_per_m = 3e3
+length_m = 4
+exponent = 1.3
+damping_N_s_per_m = 100
+minimum_m = 1
+maximum_m = 7
+
 [[force_table]]
 name = "gust"
 body = "box"
@@ -367,6 +393,10 @@ def every_table() -> Scene:
         drum_inertia=500, drum_radius=0.5, maximum_tension=3e4, maximum_power=5e4,
         brake=Curve.quintic(start_time=5, end_time=5.1, start=0, end=1), brake_capacity=4e4, brake_give=2e-3,
     )  # fmt: skip
+    scene.add_gas_spring(
+        name="phc", first="box", second="bob", area=0.05, force=2e4, stiffness=3e3, length=4, exponent=1.3,
+        damping=100, minimum=1, maximum=7,
+    )  # fmt: skip
     scene.add_force_table(name="gust", body="box", times=[0, 1], loads=np.arange(12.0).reshape(2, 6))
     _add_flows(scene)
     scene.add_wire(joint="rope", restitution=0.2)
@@ -377,6 +407,10 @@ def every_table() -> Scene:
     scene.add_seat(joint="deck")
     scene.add_soft_stop(joint="sleeve", maximum=2, stiffness=1e4, damping=0.5)
     scene.add_friction(joint="pin", load=4, speed=np.radians(1))
+    scene.add_heave_compensation(
+        name="ahc", body="hull", point=(1, 2, 3), winch="hoist", ratio=1.5, high_pass=0.02, lag=0.3,
+        lag_order=2, actuator_frequency=1.5, maximum_rate=2, maximum_stroke=3,
+    )  # fmt: skip
     scene.add_range(joint="sleeve", minimum=-1, maximum=3)
     scene.add_limit_state(channel="link_tension", max=8e4, min=1e3)
     scene.add_limit_state(name="luffing", channel="stroke", max=2.5, where={"cylinder": "aft luff"})

@@ -24,6 +24,7 @@ from seacrane.errors import FileFormatError
 pytestmark = pytest.mark.filterwarnings("ignore::seacrane.AssemblyWarning")
 
 LOADS = {kind: type_ for kind, type_ in LOAD_KINDS.items() if hasattr(type_, "example")}
+FORCELESS = ("heave compensator",)  # only its states are for others
 SAVED = [kind for kind, type_ in LOADS.items() if all(field.type != "function" for field in type_.FIELDS)]
 
 
@@ -102,6 +103,8 @@ def test_a_load_tells_its_bodies_and_moves_no_other(kind: str) -> None:
     scene = loaded_scene(kind)
     concerned = bodies_of(scene.all_loads()[0], scene.joints)
     assert concerned and set(concerned) <= set(scene.bodies)
+    if kind in FORCELESS:
+        concerned = []
     load = np.zeros((3, 6))
     for held, sign in ((scene, 1.0), (three_bodies(), -1.0)):
         model = held.compile(merge=False)
@@ -128,7 +131,7 @@ def test_every_entry_of_a_load_is_checked_and_named(kind: str) -> None:
                 type_(**given | {field.name: np.ones((2, 2, 2))})
     with pytest.raises(TypeError, match="has no entry 'colour'; it takes "):
         type_(**given, colour="red")
-    with pytest.raises(SceneError, match="load: kind 'string' is unknown; choose one of actuator, "):
+    with pytest.raises(SceneError, match="load: kind 'string' is unknown; choose one of .*actuator, "):
         Scene().add_load(kind="string", **given)
 
 

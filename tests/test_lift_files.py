@@ -482,7 +482,8 @@ def test_every_keyword_is_a_key(name: str) -> None:
 PLAIN = {
     "length_scale", "mooring_damping", "inertia", "quaternion", "gamma", "spreading", "relative_bound",
     "axis", "second_axis", "axes", "x", "y", "yaw", "restitution", "damping_ratio", "tolerance",
-    "spectral_radius", "energy_limit", "scale", "brake",
+    "spectral_radius", "energy_limit", "scale", "brake", "direction", "ratio", "gain", "lag_order",
+    "actuator_damping", "exponent",
 }  # fmt: skip
 IN_CURVES = {"value", "start", "end", "amplitude", "offset", "values"}  # by the key that holds the curve
 

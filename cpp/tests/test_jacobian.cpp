@@ -177,6 +177,30 @@ TEST_CASE("exact Jacobian: more states of loads than directions at once") {
   check_residual(scene, 6);
 }
 
+TEST_CASE("exact Jacobian: a winch and an actuator that follow heave compensators") {
+  Random random(15);
+  SceneDescription scene = pair("revolute", random);
+  Line::Description line = Line::example();
+  line.name = "hoist";
+  scene.loads_of<Line>().push_back(line);
+  scene.loads_of<Actuator>().push_back(Actuator::example());
+  HeaveCompensator::Description heave = HeaveCompensator::example();
+  heave.name = "on winch";
+  heave.winch = "hoist";
+  scene.loads_of<HeaveCompensator>().push_back(heave);
+  heave.name = "on actuator";
+  heave.winch = "";
+  heave.actuator = "load";
+  heave.body = "third";
+  heave.ratio = -0.4;
+  heave.lag = 0.0;
+  heave.actuator_frequency = 0.0;
+  scene.loads_of<HeaveCompensator>().push_back(heave);
+  check_redundant(scene, 6);
+  check_recursive(scene, 6);
+  check_residual(scene, 6);
+}
+
 TEST_CASE("exact Jacobian: drivers on angles and displacements, Baumgarte, Euler angles") {
   Random random(5);
   for (const char* coordinate : {"angle", "displacement"}) {

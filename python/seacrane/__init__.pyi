@@ -13,6 +13,8 @@ from seacrane._core import Evaluator as Evaluator
 from seacrane._core import FlowForce as FlowForce
 from seacrane._core import Frame as Frame
 from seacrane._core import Friction as Friction
+from seacrane._core import GasSpring as GasSpring
+from seacrane._core import HeaveCompensator as HeaveCompensator
 from seacrane._core import Limit as Limit
 from seacrane._core import Line as Line
 from seacrane._core import Model as Model

@@ -6,7 +6,7 @@ import collections.abc
 import numpy
 import numpy.typing
 import typing
-__all__: list[str] = ['Actuator', 'Body', 'Channel', 'Curve', 'DriftLoad', 'DriftTable', 'Driver', 'Evaluator', 'ExactWaveLoad', 'Field', 'FlowForce', 'ForceTable', 'Frame', 'Friction', 'FunctionForce', 'Integrator', 'Joint', 'JointKind', 'LOAD_KINDS', 'Limit', 'Line', 'Model', 'Point', 'PointForce', 'PositionedWaveLoad', 'RecordHistory', 'RepeatPeriod', 'RetardationFunctions', 'RunOptions', 'Simulation', 'SoftStop', 'Spectrum', 'Spring', 'State', 'StateSpaceBlock', 'StepHistory', 'TwistHistory', 'VesselHydrodynamics', 'WaveComponents', 'WaveKinematics', 'WaveLoads', 'WaveTable', 'axes', 'channels', 'compile', 'dnv_gamma', 'initial_state', 'integrator', 'integrator_names', 'integrators', 'joint_kinds', 'jonswap', 'ochi_hubble', 'philox_uniform', 'pierson_moskowitz', 'realise_waves', 'section_radiation', 'stability_polynomial', 'strip_theory', 'tabulated_density', 'torsethaugen']
+__all__: list[str] = ['Actuator', 'Body', 'Channel', 'Curve', 'DriftLoad', 'DriftTable', 'Driver', 'Evaluator', 'ExactWaveLoad', 'Field', 'FlowForce', 'ForceTable', 'Frame', 'Friction', 'FunctionForce', 'GasSpring', 'HeaveCompensator', 'Integrator', 'Joint', 'JointKind', 'LOAD_KINDS', 'Limit', 'Line', 'Model', 'Point', 'PointForce', 'PositionedWaveLoad', 'RecordHistory', 'RepeatPeriod', 'RetardationFunctions', 'RunOptions', 'Simulation', 'SoftStop', 'Spectrum', 'Spring', 'State', 'StateSpaceBlock', 'StepHistory', 'TwistHistory', 'VesselHydrodynamics', 'WaveComponents', 'WaveKinematics', 'WaveLoads', 'WaveTable', 'axes', 'channels', 'compile', 'dnv_gamma', 'initial_state', 'integrator', 'integrator_names', 'integrators', 'joint_kinds', 'jonswap', 'ochi_hubble', 'philox_uniform', 'pierson_moskowitz', 'realise_waves', 'section_radiation', 'stability_polynomial', 'strip_theory', 'tabulated_density', 'torsethaugen']
 class Curve:
     """
     A reference as a function of time: pieces of quintic polynomials plus one cosine each.
@@ -821,6 +821,110 @@ class Point:
         """
         m, coordinates of the body
         """
+class HeaveCompensator:
+    """
+    Active heave compensation: a stroke that follows the motion of a point, and that a winch or an actuator follows; see Scene.add_heave_compensation. Immutable.
+    """
+    FIELDS: typing.ClassVar[tuple]
+    @staticmethod
+    def example() -> HeaveCompensator:
+        """
+        One for checks, on bodies 'first', 'second' and 'third'.
+        """
+    def __copy__(self) -> HeaveCompensator:
+        ...
+    def __deepcopy__(self, memo: dict) -> HeaveCompensator:
+        ...
+    def __eq__(self, arg0: typing.Any) -> typing.Any:
+        ...
+    def __getstate__(self) -> dict:
+        ...
+    def __hash__(self) -> int:
+        ...
+    def __init__(self, *, name: str, body: str, point: numpy.typing.ArrayLike = ..., direction: numpy.typing.ArrayLike = ..., winch: str = ..., actuator: str = ..., ratio: typing.SupportsFloat = ..., gain: typing.SupportsFloat = ..., high_pass: typing.SupportsFloat = ..., lag: typing.SupportsFloat = ..., lag_order: typing.SupportsFloat = ..., actuator_frequency: typing.SupportsFloat = ..., actuator_damping: typing.SupportsFloat = ..., maximum_rate: typing.SupportsFloat = ..., maximum_stroke: typing.SupportsFloat = ..., settling: typing.SupportsFloat = ...) -> None:
+        ...
+    def __repr__(self) -> str:
+        ...
+    def __setstate__(self, arg0: dict) -> None:
+        ...
+    @property
+    def actuator(self) -> str:
+        """
+        actuator that follows, in place of a winch
+        """
+    @property
+    def actuator_damping(self) -> float:
+        """
+        of critical damping of the drive
+        """
+    @property
+    def actuator_frequency(self) -> float:
+        """
+        Hz, natural frequency of the drive, second order; 0: none
+        """
+    @property
+    def body(self) -> str:
+        """
+        body whose motion is measured
+        """
+    @property
+    def direction(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
+        """
+        along which it is measured, inertial axes
+        """
+    @property
+    def gain(self) -> float:
+        """
+        of the stroke to the motion
+        """
+    @property
+    def high_pass(self) -> float:
+        """
+        Hz, corner of the filter; 0: none
+        """
+    @property
+    def lag(self) -> float:
+        """
+        s, of the measured motion
+        """
+    @property
+    def lag_order(self) -> float:
+        """
+        1, or 2: nearer to a pure delay
+        """
+    @property
+    def maximum_rate(self) -> float:
+        """
+        m/s, of the stroke; at 1e7 there is none
+        """
+    @property
+    def maximum_stroke(self) -> float:
+        """
+        m, of the stroke in both directions; at 1e7 there is none
+        """
+    @property
+    def name(self) -> str:
+        ...
+    @property
+    def point(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
+        """
+        m, measured point, coordinates of the body
+        """
+    @property
+    def ratio(self) -> float:
+        """
+        of what follows to the stroke: m/m, or rad/m
+        """
+    @property
+    def settling(self) -> float:
+        """
+        s, in which the stroke returns to the motion after a bound, and brakes before its own
+        """
+    @property
+    def winch(self) -> str:
+        """
+        line whose winch follows
+        """
 class Actuator:
     """
     State feedback on a joint coordinate q: feed_forward + stiffness (reference - q) + damping (reference rate - q rate), N (N/m, N s/m) or N m (N m/rad, N m s/rad). Immutable.
@@ -1428,6 +1532,110 @@ class Line:
     def winch(self) -> bool:
         """
         whether the length is a state that `rate` drives
+        """
+class GasSpring:
+    """
+    A cylinder with a gas accumulator between two body-fixed points, with oil damping and end stops; see Scene.add_gas_spring. Immutable.
+    """
+    FIELDS: typing.ClassVar[tuple]
+    @staticmethod
+    def example() -> GasSpring:
+        """
+        One for checks, on bodies 'first', 'second' and 'third'.
+        """
+    def __copy__(self) -> GasSpring:
+        ...
+    def __deepcopy__(self, memo: dict) -> GasSpring:
+        ...
+    def __eq__(self, arg0: typing.Any) -> typing.Any:
+        ...
+    def __getstate__(self) -> dict:
+        ...
+    def __hash__(self) -> int:
+        ...
+    def __init__(self, *, name: str, first: str, second: str, first_point: numpy.typing.ArrayLike = ..., second_point: numpy.typing.ArrayLike = ..., area: typing.SupportsFloat, pressure: typing.SupportsFloat, volume: typing.SupportsFloat, length: typing.SupportsFloat, exponent: typing.SupportsFloat = ..., pushes: bool = ..., damping: typing.SupportsFloat = ..., quadratic_damping: typing.SupportsFloat = ..., minimum: typing.SupportsFloat = ..., maximum: typing.SupportsFloat = ..., stop_stiffness: typing.SupportsFloat = ...) -> None:
+        ...
+    def __repr__(self) -> str:
+        ...
+    def __setstate__(self, arg0: dict) -> None:
+        ...
+    @property
+    def area(self) -> float:
+        """
+        m2, of the piston
+        """
+    @property
+    def damping(self) -> float:
+        """
+        N s/m, of the oil, times the rate of length
+        """
+    @property
+    def exponent(self) -> float:
+        """
+        of the gas: p V^exponent stays
+        """
+    @property
+    def first(self) -> str:
+        """
+        body
+        """
+    @property
+    def first_point(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
+        """
+        m, coordinates of the first body
+        """
+    @property
+    def length(self) -> float:
+        """
+        m, at which pressure and volume are given
+        """
+    @property
+    def maximum(self) -> float:
+        """
+        m, likewise; at 1e7 there is none
+        """
+    @property
+    def minimum(self) -> float:
+        """
+        m, length at which an end stop is met; 0: none
+        """
+    @property
+    def name(self) -> str:
+        ...
+    @property
+    def pressure(self) -> float:
+        """
+        Pa, of the gas at `length`
+        """
+    @property
+    def pushes(self) -> bool:
+        """
+        shortening compresses the gas, in place of lengthening
+        """
+    @property
+    def quadratic_damping(self) -> float:
+        """
+        N s2/m2, times the rate times its magnitude
+        """
+    @property
+    def second(self) -> str:
+        """
+        body
+        """
+    @property
+    def second_point(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
+        """
+        m, coordinates of the second body
+        """
+    @property
+    def stop_stiffness(self) -> float:
+        """
+        N/m, of the end stops
+        """
+    @property
+    def volume(self) -> float:
+        """
+        m3, of the gas at `length`
         """
 class Limit:
     """
@@ -2443,4 +2651,4 @@ def torsethaugen(*, hs: typing.SupportsFloat | typing.SupportsIndex, tp: typing.
     K. Torsethaugen and S. Haver, ISOPE 2004; DNV-RP-C205 appendix A. Norwegian waters, fetch 370 km. Normalised by
     quadrature instead of the fitted factor A_gamma.
     """
-LOAD_KINDS: dict = {'actuator': Actuator, 'point force': PointForce, 'spring': Spring, 'force table': ForceTable, 'function force': FunctionForce, 'flow force': FlowForce, 'friction': Friction, 'soft stop': SoftStop, 'line': Line, 'limit': Limit}
+LOAD_KINDS: dict = {'heave compensator': HeaveCompensator, 'actuator': Actuator, 'point force': PointForce, 'spring': Spring, 'force table': ForceTable, 'function force': FunctionForce, 'flow force': FlowForce, 'friction': Friction, 'soft stop': SoftStop, 'line': Line, 'gas spring': GasSpring, 'limit': Limit}

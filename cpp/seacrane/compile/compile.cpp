@@ -88,6 +88,18 @@ class Compiler {
   /// Of lengths, m: what errors of positions count over.
   double length_scale() const { return kTranslationScale * scene_.length_scale; }
 
+  /// The heave compensator that an actuator, or the winch of a line, follows.
+  Followed followed(const std::string& kind, const std::string& name) const {
+    Followed out;
+    const auto& compiled = std::get<std::vector<HeaveCompensator>>(*model_.loads);
+    const auto& described = std::get<std::vector<HeaveCompensatorDescription>>(*scene_.loads);
+    for (std::size_t i = 0; i < described.size(); ++i) {
+      const HeaveCompensatorDescription& d = described[i];
+      if ((kind == Line::kind ? d.winch : d.actuator) == name) out = {d.ratio, compiled[i].signal};
+    }
+    return out;
+  }
+
   /// A place among the inertial tensions.
   int inertial_tension() { return model_.inertial_tensions++; }
 

@@ -103,9 +103,9 @@ void BodyResidual::differentiate_states(int first) {
   const int last = std::min(first + kDirections, static_cast<int>(state_.size()));
   for (int i = first; i < last; ++i) state_[idx(i)].slope[idx(i - first)] = 1.0;
   for_each_load_type([&]<class Load>() {
-    if constexpr (HasStates<Load>) {
+    if constexpr (!std::is_same_v<Load, FunctionForce>) {
       for (const Load& load : std::get<std::vector<Load>>(*model_->loads)) {
-        if (load.states.first >= last || load.states.first + load.states.count <= first) continue;
+        if (!looks_at_states(load, first, last)) continue;
         for (const int b : load.bodies()) wrench(b);
         add_load(load, input);
       }

@@ -146,6 +146,24 @@ void check_drives(const SceneDescription& scene, const SceneNames& names) {
   for (const auto& d : scene.coordinates) names.coordinate(Check("recorded coordinate", d.joint), d);
 }
 
+/// What follows a heave compensator must be there, and can follow one only.
+void check_followers(const SceneDescription& scene, const SceneNames& names) {
+  std::map<std::string, std::string> led;
+  for (const auto& d : std::get<std::vector<HeaveCompensatorDescription>>(*scene.loads)) {
+    const Check c(HeaveCompensator::kind, d.name);
+    for (const auto& [what, kind, name] :
+         {std::tuple{"winch", Line::kind, d.winch}, std::tuple{"actuator", Actuator::kind, d.actuator}}) {
+      if (name.empty()) continue;
+      const auto owner = names.input_owners.find(name);
+      if (owner == names.input_owners.end() || owner->second != kind) {
+        c.fail("there is no " + std::string(what) + " '" + name + "'; add it first");
+      }
+      const auto [other, fresh] = led.insert({name, d.name});
+      if (!fresh) c.fail(std::string(what) + " '" + name + "' follows '" + other->second + "' already");
+    }
+  }
+}
+
 void check_points(const SceneDescription& scene, const SceneNames& names) {
   unique_names("point", scene.points);
   for (const auto& p : scene.points) {
@@ -206,6 +224,7 @@ void validate(const SceneDescription& scene) {
     unique_names(Load::kind, descriptions);
     for (const auto& d : descriptions) Load::check(d, Check(Load::kind, d.name), names);
   });
+  check_followers(scene, names);
   check_vessels(scene, names);
   check_points(scene, names);
   unique_names("limit", scene.limits);

@@ -17,6 +17,7 @@ from seacrane.description.compilation import compile_scene
 from seacrane.description.drives import add_driver
 from seacrane.description.given import given_vessels
 from seacrane.description.joints import add_joint
+from seacrane.description.loads import without_compensation
 from seacrane.description.scene import GROUND, Description, Some
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import numbers_of
@@ -181,7 +182,7 @@ def driven(scene: Some, *, references: Mapping[str, _core.Curve] | None = None) 
     """The scene with every actuator replaced by a driver that follows its reference exactly.
 
     Simulating it answers "which cylinder forces does this crane motion need in these waves": the result's
-    cylinder_force and slew_torque are the drivers' loads.
+    cylinder_force and slew_torque are the drivers' loads. Heave compensation of an actuator goes with it.
 
     Parameters
     ----------
@@ -196,7 +197,7 @@ def driven(scene: Some, *, references: Mapping[str, _core.Curve] | None = None) 
                 f"actuator {name!r} does not exist; this scene has {', '.join(chosen) or 'none'}"
             )
         chosen[name] = curve
-    out = scene.copy(actuators={})
+    out = scene.copy(actuators={}, loads=without_compensation(scene.loads))
     for name, actuator in scene.actuators.items():
         place: Any = {"joint": actuator.joint, "coordinate": actuator.coordinate}
         add_driver(out, **place, curve=chosen[name], name=_driver_name(name))

@@ -41,6 +41,23 @@ def lines_of(loads: Mapping[str, Any]) -> dict[str, _core.Line]:
     return {name: load for name, load in loads.items() if isinstance(load, _core.Line)}
 
 
+def without_compensation(loads: Mapping[str, Any]) -> dict[str, Any]:
+    """Loads without the heave compensators that actuators follow."""
+    return {
+        name: load
+        for name, load in loads.items()
+        if not (isinstance(load, _core.HeaveCompensator) and load.actuator)
+    }
+
+
+def springs_of(
+    springs: Mapping[str, _core.Spring], loads: Mapping[str, Any]
+) -> list[tuple[str, _core.Spring | _core.GasSpring]]:
+    """Names and elements of springs, and of the gas springs among loads."""
+    gas = [(name, load) for name, load in loads.items() if isinstance(load, _core.GasSpring)]
+    return [*springs.items(), *gas]
+
+
 def path_of(line: _core.Line) -> list[tuple[str, Any]]:
     """Body and point (m, its coordinates) of each point of a line, in their order."""
     return list(zip(line.bodies, line.points, strict=True))

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from seacrane import _core
 from seacrane.description.given import given_vessels, shown_size
-from seacrane.description.loads import lines_of, path_of
+from seacrane.description.loads import lines_of, path_of, springs_of
 from seacrane.description.range import Range
 from seacrane.description.scene import GROUND, Description
 
@@ -42,7 +42,7 @@ def outline_of(scene: Description) -> dict[str, Any]:
                 bodies[name]["points"].append(point)
         if joint.kind == "distance":
             links.append([*ends[0], *ends[1]])
-    for spring in scene.springs.values():
+    for _, spring in springs_of(scene.springs, scene.loads):
         ends = _ends(scene, spring.first, spring.first_point, spring.second, spring.second_point)
         links.append([*ends[0], *ends[1]])
     for line in lines_of(scene.loads).values():

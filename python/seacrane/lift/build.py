@@ -19,7 +19,8 @@ from seacrane.lift.keys import Key
 from seacrane.lift.lines import Place
 from seacrane.scene.scene import Scene
 
-NO_CALLS = ("scene", "run", "method", "outputs", "balance", "control", "command", "notes")
+LAST = ("heave_compensation",)  # what refers to commands
+NO_CALLS = ("scene", "run", "method", "outputs", "balance", "control", "command", "notes", *LAST)
 GAINS = ("stiffness", "damping")
 ABOUT = "(?:is|are|has|have|holds)"  # follows the name of what a message is about
 Made = TypeVar("Made")
@@ -78,6 +79,10 @@ class _Build:
                 with refused_at(self.document, entry):
                     given = keywords(entry.table.keys, entry.values, scene)
                     scene.add_actuator(**{key: value for key, value in given.items() if key != "reference"})
+        for entry in self.entries:
+            if entry.table.name in LAST:
+                with refused_at(self.document, entry):
+                    self.caller.call(scene, entry.table, entry.values, at_rest=at_rest)
         for entry in self.entries:
             if entry.table.name == "notes":
                 scene.notes.update(plain(entry.values))

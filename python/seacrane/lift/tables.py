@@ -19,7 +19,7 @@ from seacrane.result.channels import CHANNELS
 from seacrane.result.units import units_of
 from seacrane.run.method import FORMULATIONS, Method
 from seacrane.run.outputs import Outputs
-from seacrane.scene import given_vessel, limits, lines, sea, vessel, wind_current
+from seacrane.scene import given_vessel, heave, limits, lines, sea, vessel, wind_current
 from seacrane.scene.gusts import gust_curve
 from seacrane.scene.motion_history import MotionHistory
 from seacrane.scene.motion_raos import MotionRaos
@@ -298,6 +298,9 @@ _ALL = (
     ),
     _call("line", lines.add_line, _core.Line),
     _call("winch", lines.add_winch, _core.Line),
+    _call(
+        "gas_spring", heave.add_gas_spring, _core.GasSpring, force={"unit": "N"}, stiffness={"unit": "N/m"},
+    ),
     _flow("wind", wind_current.add_wind),
     _flow("current", wind_current.add_current),
     _call("wire", limits.add_wire, _core.Limit, sticking_speed={"unit": "m/s"}),
@@ -345,6 +348,9 @@ _ALL = (
     Table(
         name="command", keys=COMMAND,
         text="A joint coordinate that follows a reference: an actuator with gains and loads by [control].",
+    ),
+    _call(
+        "heave_compensation", heave.add_heave_compensation, _core.HeaveCompensator, direction=DIRECTION,
     ),
     Table(
         name="run", several=False, text="How long a run takes.",

@@ -15,6 +15,7 @@ from seacrane.inputs.checked import numbers_of
 from seacrane.scene.scene import Scene
 
 Array = NDArray[np.float64]
+ACTUATOR_INPUTS = ("force", "reference", "reference_rate")
 
 
 def slots_of(model: _core.Model) -> dict[str, slice]:
@@ -54,6 +55,5 @@ def steered(scene: Scene, model: _core.Model, inputs: Array) -> set[str]:
     return {
         name
         for name in scene.actuators
-        if np.any(values[places[f"{name}.force"]] != 0.0)
-        or np.any(values[places[f"{name}.reference"]] != 0.0)
+        if any(np.any(values[places[f"{name}.{kind}"]] != 0.0) for kind in ACTUATOR_INPUTS)
     }

@@ -26,8 +26,10 @@ class SampledController:
         s.
     function : callable
         function(time, measured) -> {input: value}: `measured` maps channel names to arrays of the present
-        instant, inputs are "<actuator>.force" (N or N m), "<actuator>.reference" (m or rad) and
-        "<point force>.force" (3 values, N). Inputs are held until the next call.
+        instant, inputs are "<actuator>.force" (N or N m), "<actuator>.reference" (m or rad),
+        "<actuator>.reference_rate" (m/s or rad/s; 0 unless set: then damping holds against a reference that
+        moves), "<line>.rate" of a winch (m/s) and "<point force>.force" (3 values, N). Inputs are held until
+        the next call.
     """
 
     period: float

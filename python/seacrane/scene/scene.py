@@ -25,6 +25,7 @@ from seacrane.description.scene import Description
 from seacrane.scene import (
     drift,
     given_vessel,
+    heave,
     limits,
     lines,
     position,
@@ -84,6 +85,8 @@ class Scene(Description):
     add_line = lines.add_line
     add_winch = lines.add_winch
     add_friction = limits.add_friction
+    add_heave_compensation = heave.add_heave_compensation
+    add_gas_spring = heave.add_gas_spring
 
     add_vessel = vessel.add_vessel
     add_given_vessel = given_vessel.add_given_vessel

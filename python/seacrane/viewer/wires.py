@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from seacrane.description.loads import lines_of, path_of
+from seacrane.description.loads import lines_of, path_of, springs_of
 from seacrane.description.scene import Description
 from seacrane.viewer.shapes import plain
 
@@ -36,7 +36,7 @@ def wires_of(scene: Description, bodies: Sequence[str]) -> list[dict[str, Any]]:
                     "length": float(joint.parameters["length"]) if pulls else 0.0,
                 }
             )
-    for name, spring in scene.springs.items():
+    for name, spring in springs_of(scene.springs, scene.loads):
         found.append(
             {
                 "name": name,
@@ -68,5 +68,7 @@ def end_of(scene: Description, bodies: Sequence[str], body: str, point: Any) -> 
 
 def _free_length(spring: Any) -> float:
     """The longest length at which a table of tension is still zero; 0 for a spring that also pushes."""
+    if not hasattr(spring, "lengths"):
+        return 0.0
     free = [length for length, force in zip(spring.lengths, spring.forces, strict=True) if force <= 0.0]
     return float(max(free)) if free and spring.forces[0] == 0.0 else 0.0

@@ -1,8 +1,12 @@
 #pragma once
 
+#include <array>
+#include <string>
+#include <vector>
+
 #include "seacrane/elements/field.hpp"
 #include "seacrane/elements/joint_coordinate.hpp"
-#include "seacrane/elements/loads/load.hpp"
+#include "seacrane/elements/loads/heave_signal.hpp"
 #include "seacrane/math/curve.hpp"
 
 namespace seacrane {
@@ -29,7 +33,8 @@ struct ActuatorDescription {
 
 /// State feedback on a joint coordinate: force = feed_forward + stiffness (reference - q) +
 /// damping (reference rate - q rate), along the coordinate, on both bodies; N or N m. An angle is known to
-/// whole turns only: the turn nearest to the reference counts.
+/// whole turns only: the turn nearest to the reference counts. The stroke of a heave compensator adds to the
+/// reference, and its rate to the reference's.
 struct Actuator {
   static constexpr const char* kind = "actuator";
   using Description = ActuatorDescription;
@@ -37,7 +42,8 @@ struct Actuator {
   CoordinateData coordinate;
   double stiffness = 0.0, damping = 0.0;
   Curve feed_forward, reference;
-  int slot = 0;  // inputs: [force added, reference added]
+  int slot = 0;  // inputs: [force added, reference added, its rate]
+  Followed follows;
 
   static void check(const Description& d, const Check& c, SceneNames& names) {
     names.coordinate(c, d.coordinate);
@@ -54,7 +60,9 @@ struct Actuator {
   static Actuator compile(const Description& d, Context& context) {
     const int force = context.input(d.name + ".force");
     context.input(d.name + ".reference");
-    return {context.coordinate(d.coordinate), d.stiffness, d.damping, d.feed_forward, d.reference, force};
+    context.input(d.name + ".reference_rate");
+    return {context.coordinate(d.coordinate), d.stiffness, d.damping, d.feed_forward, d.reference, force,
+            context.followed(kind, d.name)};
   }
 
   std::vector<LoadKinks> kinks() const {
@@ -73,13 +81,17 @@ struct Actuator {
     const auto& ka = in.bodies[coordinate.joint.first];
     const auto& kb = in.bodies[coordinate.joint.second];
     const CurveValue ref = reference.at(in.time, in.curve_limit);
-    const T error = T(ref.value + in.slots[slot + 1]) - row.value;
+    const T error = T(ref.value + in.slots[slot + 1]) + follows.stroke(in) - row.value;
     const T wrapped = is_angular(coordinate.kind) ? wrap_angle<T>(error) : error;
     return T(feed_forward.at(in.time, in.curve_limit).value + in.slots[slot]) + T(stiffness) * wrapped +
-           T(damping) * (T(ref.rate) - coordinate_rate<T>(row, ka, kb));
+           T(damping) *
+               (T(ref.rate + in.slots[slot + 2]) + follows.rate(in) - coordinate_rate<T>(row, ka, kb));
   }
 
-  std::array<int, 2> bodies() const { return coordinate.bodies(); }
+  std::array<int, 3> bodies() const {
+    const auto [first, second] = coordinate.bodies();
+    return {follows.any() ? follows.signal.body : first, first, second};
+  }
 
   template <class T>
   void apply(const LoadInput<T>& in, LoadSum<T>& out) const {

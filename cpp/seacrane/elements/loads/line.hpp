@@ -175,6 +175,9 @@ struct Line {
     if (d.winch) {
       line.winch = Winch::compile(d, d.name, d.length.at(0.0).value, context);
       line.states = line.winch->states;
+      const HeaveSignal& measured = line.winch->follows.signal;
+      const bool known = std::find(line.on.begin(), line.on.end(), measured.body) != line.on.end();
+      if (line.winch->follows.any() && !known) line.on.insert(line.on.begin(), measured.body);
     }
     if (d.stretch == kQuasiStatic) line.settle(d, context);
     return line;

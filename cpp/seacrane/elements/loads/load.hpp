@@ -38,6 +38,20 @@ concept HasStates = requires(const Load& load) {
   { load.states } -> std::convertible_to<StateRange>;
 };
 
+/// Whether a load looks at some of the states from `first` to before `last`: its own, or those of what it
+/// follows.
+template <class Load>
+bool looks_at_states(const Load& load, int first, int last) {
+  const auto within = [&](const StateRange& range) {
+    return range.first < last && range.first + range.count > first && range.count > 0;
+  };
+  if constexpr (HasStates<Load>) {
+    if (within(load.states)) return true;
+  }
+  if constexpr (requires { load.follows.signal.states; }) return within(load.follows.signal.states);
+  return false;
+}
+
 /// Where a load of a described body acts on the compiled body that carries it.
 struct Attachment {
   int body = 0;

@@ -8,6 +8,8 @@
 #include "seacrane/elements/loads/force_table.hpp"
 #include "seacrane/elements/loads/friction.hpp"
 #include "seacrane/elements/loads/function_force.hpp"
+#include "seacrane/elements/loads/gas_spring.hpp"
+#include "seacrane/elements/loads/heave_compensator.hpp"
 #include "seacrane/elements/loads/line.hpp"
 #include "seacrane/elements/loads/point_force.hpp"
 #include "seacrane/elements/loads/soft_stop.hpp"
@@ -15,9 +17,10 @@
 
 namespace seacrane {
 
-/// The one list of loads that a scene describes: a new one is its own file and an entry here.
-using LoadTypes = std::tuple<Actuator, PointForce, SpringDamper, ForceTable, FunctionForce, FlowForce,
-                             Friction, SoftStop, Line>;
+/// The one list of loads that a scene describes: a new one is its own file and an entry here. What others
+/// follow comes before them.
+using LoadTypes = std::tuple<HeaveCompensator, Actuator, PointForce, SpringDamper, ForceTable, FunctionForce,
+                             FlowForce, Friction, SoftStop, Line, GasSpring>;
 
 /// Calls f.template operator()<Load>() for every type of load.
 template <class F>

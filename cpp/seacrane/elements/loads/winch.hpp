@@ -11,6 +11,7 @@
 #include "seacrane/elements/field.hpp"
 #include "seacrane/elements/loads/constant_tension.hpp"
 #include "seacrane/elements/loads/drum.hpp"
+#include "seacrane/elements/loads/heave_signal.hpp"
 #include "seacrane/elements/loads/load.hpp"
 #include "seacrane/math/curve.hpp"
 #include "seacrane/math/select.hpp"
@@ -46,6 +47,7 @@ struct Winch {
   Curve command;
   double maximum_rate = 0.0, maximum_acceleration = 0.0, lag = 0.0, minimum_length = 0.0;
   int slot = 0;       // of the rate that is added to the command
+  Followed follows;   // so is the rate of a heave compensator
   StateRange states;  // length, rate with a lag, and that of a drum's brake
   std::optional<ConstantTension> tension;
   std::optional<Drum> drum;
@@ -87,6 +89,7 @@ struct Winch {
     out.lag = d.lag;
     out.minimum_length = d.minimum_length;
     out.slot = context.input(name + ".rate");
+    out.follows = context.followed("line", name);
     const double scale = context.length_scale();
     out.states = {context.state({name + ".length", "m", start, scale}), 1};
     if (d.lag > 0.0) {
@@ -194,7 +197,8 @@ struct Winch {
   /// What is commanded, before its bound.
   template <class T>
   T goal(const LoadInput<T>& in, const T& pull) const {
-    const T asked(command.at(in.time, in.curve_limit).value + in.slots[slot]);
+    const double given = command.at(in.time, in.curve_limit).value + in.slots[slot];
+    const T asked = T(given) + follows.rate(in);
     return tension ? T(asked + tension->rate(in, pull)) : asked;
   }
   template <class T>

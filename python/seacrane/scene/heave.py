@@ -1,0 +1,254 @@
+"""Heave compensation: active on a winch or an actuator, passive by a gas spring."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from seacrane import _core
+from seacrane.analysis.tip_motion import falls_of, tip_rate
+from seacrane.description.forces import add_load
+from seacrane.description.loads import lines_of
+from seacrane.description.scene import Description
+from seacrane.errors import SceneError
+from seacrane.inputs.checked import number_of, text_of
+from seacrane.inputs.frames import rotation_matrix
+
+NO_BOUND = 1e7  # m, m/s: a bound here or beyond is none
+UP = (0.0, 0.0, 1.0)
+LEAST_RATIO = 1e-3  # below it what follows does not move the load
+STOP_STIFFNESS = 1e8  # N/m
+
+
+def add_heave_compensation(
+    scene: Description,
+    *,
+    name: str,
+    body: str,
+    point: Any = (0.0, 0.0, 0.0),
+    winch: str | None = None,
+    actuator: str | None = None,
+    ratio: float | None = None,
+    direction: Any = UP,
+    gain: float = 1.0,
+    high_pass: float = 0.03,
+    lag: float = 0.0,
+    lag_order: float = 1,
+    actuator_frequency: float = 0.0,
+    actuator_damping: float = 0.7,
+    maximum_rate: float = NO_BOUND,
+    maximum_stroke: float = NO_BOUND,
+    settling: float = 0.2,
+) -> _core.HeaveCompensator:
+    """Let a winch or an actuator take the motion of a point away: active heave compensation.
+
+    The motion of the point along the direction, behind a high-pass filter, a lag and a drive, is the stroke,
+    a state "<name>.stroke". A winch pays out `ratio` times its rate; the reference of an actuator moves by
+    `ratio` times the stroke. With neither, a Python controller may read it. A bound that is reached is an
+    event "<name>.rate" or "<name>.stroke" of kind "limit". See docs/heave-compensation.md.
+
+    Parameters
+    ----------
+    name : str
+    body, point : str, array_like
+        The point whose motion is measured, m, in coordinates of the body. For an actuator, a point that the
+        actuator does not move itself: the tip as a point of the vessel.
+    winch : str, optional
+        The line whose winch follows.
+    actuator : str, optional
+        The actuator that follows, in place of a winch.
+    ratio : float, optional
+        Of what follows to the stroke. Default: of a winch the rope for each metre of the load, such as 2 on
+        two falls; of an actuator its coordinate for each metre that the crane's tip goes down, in the
+        described pose.
+    direction : array_like, shape (3,)
+        Along which the motion is measured, inertial axes; default: up.
+    gain : float
+        Of the stroke to the motion.
+    high_pass : float
+        Hz, corner of the filter, of first order; 0: none.
+    lag : float
+        s, of the measured motion.
+    lag_order : {1, 2}
+        Of the lag: 1 / (1 + T p), or 1 / (1 + T p + T^2 p^2 / 3), nearer to a pure delay.
+    actuator_frequency : float
+        Hz, natural frequency of the drive, of second order; 0 (default): none.
+    actuator_damping : float
+        Of critical damping of the drive.
+    maximum_rate, maximum_stroke : float
+        m/s and m, bounds on the stroke in both directions; 1e7 (default): none.
+    settling : float
+        s, in which the stroke returns to the motion after a bound, and in which it brakes before its own.
+
+    Returns
+    -------
+    HeaveCompensator
+
+    Raises
+    ------
+    SceneError
+        For a winch or an actuator that is not there, or whose ratio cannot be computed; what else does not
+        fit is said by `Scene.compile`.
+    """
+    what = f"heave compensator {text_of('heave compensation: name', name)!r}"
+    if winch is not None and actuator is not None:
+        raise SceneError(
+            f"{what}: moves winch {winch!r} and actuator {actuator!r}; give each its own compensator"
+        )
+    compensator = _core.HeaveCompensator(
+        name=name, body=body, point=point, direction=direction,
+        winch=winch or "", actuator=actuator or "",
+        ratio=_ratio(scene, what, winch, actuator, direction) if ratio is None else ratio,
+        gain=gain, high_pass=high_pass, lag=lag, lag_order=lag_order,
+        actuator_frequency=actuator_frequency, actuator_damping=actuator_damping,
+        maximum_rate=maximum_rate, maximum_stroke=maximum_stroke, settling=settling,
+    )  # fmt: skip
+    added: _core.HeaveCompensator = add_load(scene, compensator)
+    return added
+
+
+def _ratio(scene: Description, what: str, winch: str | None, actuator: str | None, direction: Any) -> float:
+    """Of what follows to the stroke, by the kinematics of the described pose."""
+    if winch is not None:
+        line = lines_of(scene.loads).get(winch)
+        if line is None or not line.winch:
+            raise SceneError(f"{what}: there is no winch {winch!r}; add the line and its winch first")
+        ratio = falls_of(scene, line, direction)
+    elif actuator is not None:
+        if actuator not in scene.actuators:
+            raise SceneError(f"{what}: there is no actuator {actuator!r}; add it first")
+        if len(scene.roles) != 1 or (tip := next(iter(scene.roles.values())).tip) is None:
+            raise SceneError(
+                f"{what}: its ratio is not known, as the scene has no one crane with a tip; give ratio, the "
+                "coordinate for each metre that the load goes down, or tell the tip by add_roles"
+            )
+        rate = tip_rate(scene, actuator, *tip, direction)
+        ratio = -1.0 / rate if abs(rate) > LEAST_RATIO else 0.0
+    else:
+        return 1.0
+    if abs(ratio) < LEAST_RATIO:
+        raise SceneError(
+            f"{what}: {winch or actuator!r} does not move the load along the direction in the described "
+            "pose; name another, or give ratio"
+        )
+    return ratio
+
+
+def add_gas_spring(
+    scene: Description,
+    *,
+    name: str,
+    first: str,
+    second: str,
+    area: float,
+    first_point: Any = (0.0, 0.0, 0.0),
+    second_point: Any = (0.0, 0.0, 0.0),
+    pressure: float | None = None,
+    volume: float | None = None,
+    force: float | None = None,
+    stiffness: float | None = None,
+    length: float | None = None,
+    exponent: float = 1.4,
+    pushes: bool = False,
+    damping: float = 0.0,
+    quadratic_damping: float = 0.0,
+    minimum: float = 0.0,
+    maximum: float = NO_BOUND,
+    stop_stiffness: float | None = None,
+) -> _core.GasSpring:
+    """Join two points by a cylinder on a gas accumulator: passive heave compensation.
+
+    Its tension is p area, with p V^exponent constant; lengthening compresses the gas. About the length it has
+    the stiffness exponent p area^2 / V. Oil damps it. An end stop that is met is an event "<name>.minimum" or
+    "<name>.maximum" of kind "limit". See docs/heave-compensation.md.
+
+    Parameters
+    ----------
+    name : str
+    first, second : str
+        Bodies; "ground" is one too.
+    area : float
+        Of the piston, m2.
+    first_point, second_point : array_like, shape (3,)
+        m, in coordinates of the bodies.
+    pressure, volume : float, optional
+        Of the gas at the length, Pa and m3.
+    force, stiffness : float, optional
+        In their place: the force (N) and the stiffness (N/m) at the length.
+    length : float, optional
+        m; default: the distance of the points as described.
+    exponent : float
+        1 for slow motion, 1.4 for nitrogen that keeps its heat, up to 1.67.
+    pushes : bool
+        Whether it pushes: shortening compresses the gas.
+    damping : float
+        N s/m, of the oil.
+    quadratic_damping : float
+        N s2/m2, likewise.
+    minimum, maximum : float
+        m, lengths of the end stops; 0 and 1e7 (default): none.
+    stop_stiffness : float, optional
+        N/m; default: 1e8 where there is a stop.
+
+    Returns
+    -------
+    GasSpring
+
+    Raises
+    ------
+    SceneError
+        For pressure and volume beside force and stiffness, or one without the other; what else does not fit
+        is said by `Scene.compile`.
+    """
+    what = f"gas spring {text_of('gas spring: name', name)!r}"
+    gas = _gas(what, area, exponent, {"pressure": pressure, "volume": volume},
+               {"force": force, "stiffness": stiffness})  # fmt: skip
+    stops = minimum > 0.0 or maximum < NO_BOUND
+    if stop_stiffness is None:
+        stop_stiffness = STOP_STIFFNESS if stops else 0.0
+    if length is None:
+        length = _distance(scene, what, (first, first_point), (second, second_point))
+    spring = _core.GasSpring(
+        name=name, first=first, second=second, first_point=first_point, second_point=second_point,
+        area=area, pressure=gas[0], volume=gas[1], length=length, exponent=exponent, pushes=pushes,
+        damping=damping, quadratic_damping=quadratic_damping, minimum=minimum, maximum=maximum,
+        stop_stiffness=stop_stiffness,
+    )  # fmt: skip
+    added: _core.GasSpring = add_load(scene, spring)
+    return added
+
+
+def _gas(
+    what: str, area: Any, exponent: Any, state: dict[str, Any], mechanics: dict[str, Any]
+) -> tuple[float, float]:
+    """Pressure and volume, from themselves or from force and stiffness."""
+    given = [{key: value for key, value in pair.items() if value is not None} for pair in (state, mechanics)]
+    if sorted(map(len, given)) != [0, 2]:
+        has = ", ".join(f"{key}={value}" for pair in given for key, value in pair.items()) or "none"
+        raise SceneError(
+            f"{what}: give pressure and volume, or force and stiffness, both of one pair; it has {has}"
+        )
+    values = {key: number_of(f"{what}: {key}", value) for pair in given for key, value in pair.items()}
+    for key, value in values.items():
+        if not (value > 0.0 and np.isfinite(value)):
+            raise SceneError(f"{what}: {key} is {value}; make it positive and finite")
+    if "pressure" in values:
+        return values["pressure"], values["volume"]
+    piston, kappa = number_of(f"{what}: area", area), number_of(f"{what}: exponent", exponent)
+    if not piston > 0.0:
+        raise SceneError(f"{what}: area is {piston} m2; make it positive")
+    return values["force"] / piston, kappa * values["force"] * piston / values["stiffness"]
+
+
+def _distance(scene: Description, what: str, *ends: tuple[str, Any]) -> float:
+    places = []
+    for name, point in ends:
+        if name != "ground" and name not in scene.bodies:
+            raise SceneError(f"{what}: there is no body {name!r}; add it first")
+        at = np.asarray(point, dtype=float)
+        if name != "ground":
+            body = scene.bodies[name]
+            at = np.asarray(body.position) + rotation_matrix(np.asarray(body.quaternion)) @ at
+        places.append(at)
+    return float(np.linalg.norm(places[1] - places[0]))

@@ -1,0 +1,72 @@
+"""Ships that heave by a harmonic, loads behind heave compensation, and the closed forms of what is left."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from seacrane import Curve, Scene
+
+Array = NDArray[np.float64]
+G = 9.80665
+TIP, ROPE = 20.0, 15.0  # m
+MASS, STIFFNESS = 2e3, 5e7  # kg, N
+
+
+def heaving(*, amplitude: float = 1.0, omega: float = 0.7) -> Scene:
+    """A ship on a vertical guide that heaves by amplitude sin(omega t)."""
+    scene = Scene(name="heaving")
+    scene.add_body(name="ship", mass=1e6, inertia=(1e7, 1e8, 1e8))
+    scene.add_joint(
+        kind="prismatic", name="sea", first="ground", second="ship", point=(0, 0, 0), axis=(0, 0, 1)
+    )
+    wave = Curve.harmonic(start_time=0.0, amplitude=amplitude, omega=omega, phase=-0.5 * np.pi)
+    scene.add_driver(joint="sea", name="wave", curve=wave)
+    return scene
+
+
+def hung(falls: int = 1, lag: float = 0.0, stretch: str = "elastic", **heave: Any) -> Scene:
+    """A load below the ship's tip on a winch."""
+    scene = heaving(**heave)
+    depth = TIP - ROPE - MASS * G * ROPE / STIFFNESS / falls
+    scene.add_body(name="load", mass=MASS, inertia=(500.0, 500.0, 500.0), position=(0.0, 0.0, depth))
+    scene.add_line(
+        name="hoist", bodies=(["ship", "load"] * falls)[: falls + 1],
+        points=([(0, 0, TIP), (0, 0, 0)] * falls)[: falls + 1],
+        stiffness=STIFFNESS, length=falls * ROPE, damping_ratio=0.05, stretch=stretch,
+    )  # fmt: skip
+    scene.add_winch(line="hoist", lag=lag)
+    return scene
+
+
+def compensated(*, falls: int = 1, winch_lag: float = 0.0, heave: Any = None, **settings: Any) -> Scene:
+    scene = hung(falls, winch_lag, **(heave or {}))
+    scene.add_heave_compensation(
+        name="ahc", body="ship", point=(0, 0, TIP), **{"winch": "hoist", "high_pass": 0.0} | settings
+    )
+    return scene
+
+
+def transfer(
+    omega: Any, *, high_pass: float = 0.0, lag: float = 0.0, lag_order: int = 1, gain: float = 1.0,
+    actuator_frequency: float = 0.0, actuator_damping: float = 0.7, winch_lag: float = 0.0,
+) -> Any:  # fmt: skip
+    """H(i omega), of the stroke to the motion."""
+    p = 1j * np.asarray(omega)
+    out = gain / (1.0 + winch_lag * p) * (p / (p + 2.0 * np.pi * high_pass) if high_pass else 1.0)
+    out = out / (1.0 + lag * p + ((lag * p) ** 2 / 3.0 if lag_order == 2 else 0.0))
+    if actuator_frequency:
+        w = 2.0 * np.pi * actuator_frequency
+        out = out * w**2 / (p**2 + 2.0 * actuator_damping * w * p + w**2)
+    return out
+
+
+def amplitude_of(time: Array, values: Array, omega: float, since: float) -> complex:
+    """Of the harmonic part from a time on: Re amplitude exp(i omega t)."""
+    kept = time >= since
+    t = time[kept]
+    basis = np.stack([np.cos(omega * t), -np.sin(omega * t), np.ones_like(t), t], axis=1)
+    found, *_ = np.linalg.lstsq(basis, values[kept], rcond=None)
+    return complex(found[0], found[1])
