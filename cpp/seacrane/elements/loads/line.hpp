@@ -7,6 +7,10 @@
 #include <vector>
 
 #include "seacrane/elements/field.hpp"
+#include "seacrane/elements/loads/line_elasticity.hpp"
+#include "seacrane/elements/loads/line_friction.hpp"
+#include "seacrane/elements/loads/line_path.hpp"
+#include "seacrane/elements/loads/line_sheaves.hpp"
 #include "seacrane/elements/loads/load.hpp"
 #include "seacrane/math/curve.hpp"
 #include "seacrane/math/select.hpp"
@@ -28,13 +32,15 @@ struct LineDescription {
   Curve rate;
   double maximum_rate = kFarthest, maximum_acceleration = kFarthest, lag = 0.0;
   double minimum_length = 0.1;
+  SheaveDescriptions sheaves;
+  std::vector<double> strains, tensions;
 
   static constexpr const char* type = "Line";
   static constexpr const char* text =
       "An elastic line without mass over points of bodies, with a winch or without; see Scene.add_line.";
   static constexpr auto fields() {
     using D = LineDescription;
-    return std::tuple(
+    const auto own = std::tuple(
         on_body("bodies", &D::bodies, "bodies of the points, in the order of the path"),
         required("points", &D::points, "m", "coordinates of these bodies"),
         required("stiffness", &D::stiffness, "N", "EA: tension over strain"),
@@ -49,13 +55,19 @@ struct LineDescription {
         optional("maximum_acceleration", &D::maximum_acceleration, "m/s2", "likewise; needs a lag"),
         optional("lag", &D::lag, "s", "of the winch's rate behind the command"),
         optional("minimum_length", &D::minimum_length, "m", "at which hauling in stops"));
+    const auto table = std::tuple(optional("strains", &D::strains, "", "from 0, of a table in place of EA"),
+                                  optional("tensions", &D::tensions, "N", "at these strains, from 0"));
+    return std::tuple_cat(own, sheave_fields<D>(), table);
   }
 };
 
-/// A line without mass over an ordered path of points, through which it runs without friction. With l the
-/// length of the path, l0 the unstretched length and e = l / l0 - 1,
+/// A line without mass over an ordered path of points and sheaves. With l the length of the path (LinePath),
+/// l0 the unstretched length and e = l / l0 - 1,
 ///
-///   T = max(0, EA e + c (l' - l0' l / l0)),   c = 2 damping_ratio sqrt(EA mass / l0).
+///   T = max(0, EA e + c (l' - l0' l / l0)),   c = 2 damping_ratio sqrt(EA mass / l0),
+///
+/// the same along all of it without friction, else its mean (SheaveFriction). A table takes the place of EA e
+/// (LineElasticity). The forces are -T dl.
 ///
 /// l0 is given over time, or it is a state of the winch, l0' = r. Its rate r is the command within its
 /// bounds; with a lag it is a state too, from rest, r' = (command - r) / lag within bounds. The rope carries
@@ -73,24 +85,21 @@ struct Line {
   static constexpr const char* kind = "line";
   using Description = LineDescription;
 
-  struct Point {
-    int body = 0;
-    Vec3d point;  // from the state point, body axes
-  };
   /// What the line does at an instant.
   template <class T>
   struct Motion {
     T length, rate, unstretched, unstretched_rate, elastic, tension;
     T inertial, kinetic;  // N: of a quasi-static stretch, in the tension; stored for each metre
+    T stored;             // J for each metre, by strain
+    T first, lost;        // N, in the first section; W, on sheaves
     T stretch() const { return length - unstretched; }
     /// Rate of the stretch that strain alone would make: e' l0.
     T straining() const { return rate - unstretched_rate * length / unstretched; }
     T damping() const { return tension - elastic - inertial; }
     /// Into the line, of the winch and of what changes the length over time, but for the inertial tension.
     T winch_power() const {
-      const T strain = select(elastic > T(0), stretch() / unstretched, T(0));
-      const T carried = elastic * (T(1) + 0.5 * strain) + damping() * length / unstretched - kinetic;
-      return -carried * unstretched_rate;
+      const T taken = (first - inertial) * length / unstretched;
+      return -(taken - stored - kinetic) * unstretched_rate;
     }
     /// The same of an inertial tension of 1 N.
     T winch_power_per_inertial() const { return -length / unstretched * unstretched_rate; }
@@ -98,9 +107,12 @@ struct Line {
   };
 
   std::string name;
-  std::vector<Point> path;
+  LinePath path;
   std::vector<int> on;  // bodies of the path, each once, the last of the path last
   double stiffness = 0.0;
+  LineElasticity elasticity;
+  double slip_speed = 0.0;
+  bool has_sheaves = false, has_friction = false;
   Curve length;
   double viscous = 0.0;   // c sqrt(l0)
   double settling = 0.0;  // s, of a quasi-static stretch; else zero
@@ -128,6 +140,9 @@ struct Line {
     }
     c.not_negative("damping_ratio", d.damping_ratio);
     c.not_negative("mass", d.mass);
+    d.sheaves.check(d.points.size(), c);
+    d.sheaves.check_neighbours(d.bodies, d.points, c);
+    LineElasticity::check(d.strains, d.tensions, c);
     check_stretch(d, c);
     if (d.winch) {
       check_winch(d, c, names);
@@ -149,6 +164,14 @@ struct Line {
     d.maximum_rate = 5.0;
     d.maximum_acceleration = 50.0;
     d.lag = 0.4;
+    d.sheaves.radii = {0.0, 0.2, 0.0};
+    d.sheaves.axes = {{0.0, 0.0, 0.0}, {0.3, -1.0, 0.2}, {0.0, 0.0, 0.0}};
+    d.sheaves.turns = {0.0, 1.0, 0.0};
+    d.sheaves.efficiencies = {1.0, 0.9, 1.0};
+    d.sheaves.frictions = {0.0, 0.02, 0.0};
+    d.sheaves.slip_speed = 0.4;
+    d.strains = {0.0, 0.5, 2.0, 9.0};
+    d.tensions = {0.0, 20.0, 150.0, 900.0};
     return d;
   }
 
@@ -156,14 +179,20 @@ struct Line {
   static Line compile(const Description& d, Context& context) {
     Line line;
     line.name = d.name;
+    std::vector<PathPoint> points;
     for (std::size_t i = 0; i < d.points.size(); ++i) {
       const Attachment at = context.attach(d.bodies[i], d.points[i]);
-      line.path.push_back({at.body, at.point});
+      points.push_back(d.sheaves.at(i, at));
       if (std::find(line.on.begin(), line.on.end(), at.body) == line.on.end()) line.on.push_back(at.body);
     }
-    std::erase(line.on, line.path.back().body);
-    line.on.push_back(line.path.back().body);
+    std::erase(line.on, points.back().body);
+    line.on.push_back(points.back().body);
+    line.path = LinePath(std::move(points));
+    line.has_sheaves = d.sheaves.any();
+    line.has_friction = line.path.has_friction();
+    line.slip_speed = d.sheaves.slip_speed;
     line.stiffness = d.stiffness;
+    line.elasticity = {d.stiffness, d.strains, d.tensions};
     line.length = d.length;
     line.hung = hung_mass(d, context);
     line.viscous = 2.0 * d.damping_ratio * std::sqrt(d.stiffness * line.hung);
@@ -199,36 +228,48 @@ struct Line {
   }
 
   void add_unit(int /*component*/, const LoadInput<double>& in, Vec6d* wrenches) const {
-    for_each_span<double>(in, [&](const Span<double>& s) {
-      wrenches[s.first] += (Vec6d() << s.along, s.lever_first.cross(s.along)).finished();
-      wrenches[s.second] -= (Vec6d() << s.along, s.lever_second.cross(s.along)).finished();
-    });
+    path.for_each_section<double>(in, [&](const Section<double>& s, std::size_t) { s.add_to(wrenches); });
   }
 
   /// Why a run cannot go on at a side; empty: it can.
   std::string refused(int at) const {
-    if (!quasi_static() || at == kTaut) return "";
-    const std::string what = "line '" + name + "': its stretch is quasi-static, and it ";
-    if (at & 1) return what + "has hauled in to its minimum_length; give a smaller one, or stretch 'elastic'";
-    return what + "goes slack; give it stretch 'elastic', which snatches";
+    const std::string what = "line '" + name + "': ";
+    for (std::size_t i = 1; has_sheaves && i + 1 < path.points().size(); ++i) {
+      if ((at & held(i)) == 0) return what + SheaveDescriptions::lost(i);
+    }
+    if (!quasi_static() || (at & kTaut) == kTaut) return "";
+    const std::string stretch = what + "its stretch is quasi-static, and it ";
+    if (at & 1)
+      return stretch + "has hauled in to its minimum_length; give a smaller one, or stretch 'elastic'";
+    return stretch + "goes slack; give it stretch 'elastic', which snatches";
   }
 
   static bool has_sides() { return true; }
-  /// Whether it pulls, whether it is stretched (damping pulls a little before, and lets go before), and
-  /// whether hauling in has not reached its end.
+  /// Whether it pulls, whether it is stretched (damping pulls a little before, and lets go before), whether
+  /// hauling in has not reached its end, and of each sheave whether the line is on it.
   int side(const LoadInput<double>& in) const {
     const std::array<double, 3> signs = margins(in);
-    return (signs[0] > 0.0 ? 1 : 0) + (signs[1] > 0.0 ? 2 : 0) + (signs[2] > 0.0 ? 4 : 0);
+    int out = (signs[0] > 0.0 ? 1 : 0) + (signs[1] > 0.0 ? 2 : 0) + (signs[2] > 0.0 ? 4 : 0);
+    if (!has_sheaves) return out;
+    path.for_each_section<double>(in, [&](const Section<double>& s, std::size_t i) {
+      if (i + 1 < path.points().size() && (path.points()[i].radius == 0.0 || s.hold > 0.0)) out += held(i);
+    });
+    return out;
   }
   double across(const LoadInput<double>& in, int from, int to) const {
     const int changed = from ^ to;
-    return margins(in)[changed & 1 ? 0 : (changed & 2 ? 1 : 2)];
+    if ((changed & kTaut) != 0) return margins(in)[changed & 1 ? 0 : (changed & 2 ? 1 : 2)];
+    double out = 0.0;
+    path.for_each_section<double>(in, [&](const Section<double>& s, std::size_t i) {
+      if (out == 0.0 && (changed & held(i)) != 0) out = s.hold;
+    });
+    return out;
   }
 
   template <class T>
   Motion<T> motion(const LoadInput<T>& in) const {
     Motion<T> out{};
-    for_each_span<T>(in, [&](const Span<T>& s) {
+    path.for_each_section<T>(in, [&](const Section<T>& s, std::size_t) {
       out.length += s.length;
       out.rate += s.rate;
     });
@@ -241,20 +282,36 @@ struct Line {
       out.kinetic = 0.5 * strain_inertia() * strain_rate * strain_rate;
       out.elastic = elastic_pull(out);
       const T unsettled = strain_rate - in.states[settled];
-      out.tension = unbounded_pull(out) + stiffness * settling * unsettled + out.inertial;
+      out.tension = out.first = unbounded_pull(out) + stiffness * settling * unsettled + out.inertial;
+      out.stored = elasticity.energy(T(out.stretch() / out.unstretched));
       return out;
     }
-    out.elastic = select(out.stretch() > T(0), elastic_pull(out), T(0));
+    const bool stretched = out.stretch() > T(0);
+    out.elastic = select(stretched, elastic_pull(out), T(0));
+    out.stored = select(stretched, elasticity.energy(T(out.stretch() / out.unstretched)), T(0));
     const T sum = unbounded_pull(out);
-    out.tension = select(sum > T(0), sum, T(0));
+    out.tension = out.first = select(sum > T(0), sum, T(0));
+    if (has_friction) rub(in, out);
     return out;
+  }
+
+  /// Calls f(section, tension, friction, i) for each section; i as in LinePath, the friction being that of
+  /// the sheaves up to the section's second end.
+  template <class T, class F>
+  void for_each_tension(const LoadInput<T>& in, const Motion<T>& now, F&& f) const {
+    SheaveFriction<T> friction = friction_of(now);
+    path.for_each_section<T>(in, [&](const Section<T>& s, std::size_t i) {
+      const T tension = now.first * friction.share();
+      if (has_friction) friction.pass(s, path.points()[i]);
+      f(s, tension, friction, i);
+    });
   }
 
   /// EA s^2 e'' of a quasi-static stretch in this motion, for these accelerations of the bodies.
   template <class T>
   T inertial_tension(const LoadInput<T>& in, const Motion<T>& now, const Vec6d* acceleration) const {
     T bend(0);  // l''
-    for_each_span<T>(in, [&](const Span<T>& s) {
+    path.for_each_section<T>(in, [&](const Section<T>& s, std::size_t) {
       const Vec3<T> apart = point_acceleration<T>(in, s.second, s.lever_second, acceleration) -
                             point_acceleration<T>(in, s.first, s.lever_first, acceleration);
       bend += s.along.dot(apart) + s.swing;
@@ -270,13 +327,12 @@ struct Line {
   template <class T>
   void apply(const LoadInput<T>& in, LoadSum<T>& out) const {
     const Motion<T> now = motion(in);
-    for_each_span<T>(in, [&](const Span<T>& s) {
-      const Vec3<T> pull = s.along * now.tension;
-      out.wrench[s.first].add(pull, s.lever_first);
-      const Vec3<T> back = -pull;
-      out.wrench[s.second].add(back, s.lever_second);
-    });
+    for_each_tension<T>(in, now,
+                        [&](const Section<T>& s, const T& tension, const SheaveFriction<T>&, std::size_t) {
+                          s.add_to(out.wrench, tension);
+                        });
     out.add_power(now.damping_power());
+    if (has_friction) out.add_power(-now.lost);
     out.add_power(now.winch_power());
     if (quasi_static()) {
       out.add_power(now.winch_power_per_inertial() * now.inertial);
@@ -289,7 +345,7 @@ struct Line {
 
   double potential(const LoadInput<double>& in) const {
     const Motion<double> now = motion(in);
-    return 0.5 * now.elastic * std::max(now.stretch(), 0.0) + now.kinetic * now.unstretched;
+    return (now.stored + now.kinetic) * now.unstretched;
   }
 
  private:
@@ -297,11 +353,9 @@ struct Line {
   static constexpr double kJump = 1e-9;  // m and m/s
 
   template <class T>
-  struct Span {
-    int first, second;
-    Vec3<T> lever_first, lever_second, along;  // along: from the first to the second
-    T length, rate, swing;                     // swing: of the second rate, what turning makes
-  };
+  using Section = PathSection<T>;
+
+  static constexpr int held(std::size_t point) { return (kTaut + 1) << (static_cast<int>(point) - 1); }
 
   static void check_path(const Description& d, const Check& c, SceneNames& names) {
     if (d.points.size() < 2 || d.points.size() != d.bodies.size()) {
@@ -328,6 +382,9 @@ struct Line {
     c.finite("settling", d.settling);
     if (!(d.settling > 0.0)) c.fail("settling is " + to_text(d.settling) + " s; it must be positive");
     if (d.stretch != kQuasiStatic) return;
+    if (d.sheaves.any() || d.sheaves.rub() || !d.strains.empty()) {
+      c.fail("a quasi-static stretch takes points only, without friction, and EA; choose stretch 'elastic'");
+    }
     if (d.winch && d.lag == 0.0) {
       c.fail(
           "a quasi-static stretch needs a smooth length, and its winch has no lag; give one, such as 0.1 s");
@@ -396,38 +453,23 @@ struct Line {
     return d.mass > 0.0 || last == d.bodies.rend() ? d.mass : context.mass(*last);
   }
 
-  /// Calls f(span) for every pair of neighbours on the path; a span without length has no direction.
-  template <class T, class F>
-  void for_each_span(const LoadInput<T>& in, F&& f) const {
-    using std::sqrt;
-    Span<T> s;
-    Vec3<T> from = Vec3<T>::Zero(), from_rate = from;
-    for (std::size_t i = 0; i < path.size(); ++i) {
-      const BodyKinematics<T>& k = in.bodies[path[i].body];
-      s.second = path[i].body;
-      s.lever_second = k.rotation * path[i].point.template cast<T>();
-      const Vec3<T> to = k.position + s.lever_second;
-      const Vec3<T> to_rate = k.velocity + cross<T>(k.angular_velocity, s.lever_second);
-      if (i > 0) {
-        const Vec3<T> d = to - from, d_rate = to_rate - from_rate;
-        const T square = d.dot(d);
-        const bool has_direction = square > T(0);
-        s.length = has_direction ? T(sqrt(square)) : T(0);
-        s.along = has_direction ? Vec3<T>(d / s.length) : Vec3<T>(Vec3<T>::Zero());
-        s.rate = s.along.dot(d_rate);
-        s.swing = has_direction ? T((d_rate.dot(d_rate) - s.rate * s.rate) / s.length) : T(0);
-        f(s);
-      }
-      s.first = s.second;
-      s.lever_first = s.lever_second;
-      from = to;
-      from_rate = to_rate;
-    }
+  template <class T>
+  SheaveFriction<T> friction_of(const Motion<T>& m) const {
+    return {m.length, m.rate, m.unstretched, m.unstretched_rate, slip_speed};
+  }
+  /// The tension of the first section, and what the sheaves take.
+  template <class T>
+  void rub(const LoadInput<T>& in, Motion<T>& m) const {
+    SheaveFriction<T> friction = friction_of(m);
+    path.for_each_section<T>(in,
+                             [&](const Section<T>& s, std::size_t i) { friction.pass(s, path.points()[i]); });
+    m.first = m.tension * m.length / friction.weight();
+    m.lost = m.first * friction.lost();
   }
 
   template <class T>
   T elastic_pull(const Motion<T>& m) const {
-    return T(stiffness) * m.stretch() / m.unstretched;
+    return elasticity.tension(T(m.stretch() / m.unstretched));
   }
   template <class T>
   T unbounded_pull(const Motion<T>& m) const {
