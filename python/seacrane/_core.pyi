@@ -1300,12 +1300,52 @@ class Line:
         ...
     def __hash__(self) -> int:
         ...
-    def __init__(self, *, name: str, bodies: collections.abc.Sequence[str], points: numpy.typing.ArrayLike, stiffness: typing.SupportsFloat, length: Curve | typing.SupportsFloat, damping_ratio: typing.SupportsFloat = ..., mass: typing.SupportsFloat = ..., stretch: str = ..., settling: typing.SupportsFloat = ..., winch: bool = ..., rate: Curve | typing.SupportsFloat = ..., maximum_rate: typing.SupportsFloat = ..., maximum_acceleration: typing.SupportsFloat = ..., lag: typing.SupportsFloat = ..., minimum_length: typing.SupportsFloat = ...) -> None:
+    def __init__(self, *, name: str, bodies: collections.abc.Sequence[str], points: numpy.typing.ArrayLike, stiffness: typing.SupportsFloat, length: Curve | typing.SupportsFloat, damping_ratio: typing.SupportsFloat = ..., mass: typing.SupportsFloat = ..., stretch: str = ..., settling: typing.SupportsFloat = ..., winch: bool = ..., rate: Curve | typing.SupportsFloat = ..., maximum_rate: typing.SupportsFloat = ..., maximum_acceleration: typing.SupportsFloat = ..., lag: typing.SupportsFloat = ..., minimum_length: typing.SupportsFloat = ..., radii: numpy.typing.ArrayLike = ..., axes: numpy.typing.ArrayLike = ..., turns: numpy.typing.ArrayLike = ..., efficiencies: numpy.typing.ArrayLike = ..., frictions: numpy.typing.ArrayLike = ..., slip_speed: typing.SupportsFloat = ..., strains: numpy.typing.ArrayLike = ..., tensions: numpy.typing.ArrayLike = ...) -> None:
         ...
     def __repr__(self) -> str:
         ...
     def __setstate__(self, arg0: dict) -> None:
         ...
+    @property
+    def axes(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 3]"]:
+        """
+        of the sheaves, body coordinates; the line runs about them by the right hand
+        """
+    @property
+    def efficiencies(self) -> list[float]:
+        """
+        of each: the smaller tension over the larger
+        """
+    @property
+    def frictions(self) -> list[float]:
+        """
+        coefficients of friction on each
+        """
+    @property
+    def radii(self) -> list[float]:
+        """
+        m, of sheaves at the points; 0: a point
+        """
+    @property
+    def slip_speed(self) -> float:
+        """
+        m/s, at which sheaves have 76 % of their friction
+        """
+    @property
+    def strains(self) -> list[float]:
+        """
+        from 0, of a table in place of EA
+        """
+    @property
+    def tensions(self) -> list[float]:
+        """
+        N, at these strains, from 0
+        """
+    @property
+    def turns(self) -> list[float]:
+        """
+        whole turns on each besides
+        """
     @property
     def bodies(self) -> list[str]:
         """

@@ -76,8 +76,8 @@ def simulate(
     Warns
     -----
     LargeHeelWarning, MeanPositionWarning, MeanHeadingWarning, ForwardSpeedWarning, MooringTurnWarning,
-    NoWaveLoadsWarning, OutsideDatabaseWarning, PushingLinkWarning, LineLengthWarning, WinchLimitWarning,
-    FullTurnWarning, OutsideRangeWarning, SoftGainsWarning, NearSingularWarning,
+    NoWaveLoadsWarning, OutsideDatabaseWarning, PushingLinkWarning, LineLengthWarning, LineTableWarning,
+    FleetAngleWarning, WinchLimitWarning, FullTurnWarning, OutsideRangeWarning, SoftGainsWarning, NearSingularWarning,
     LargeSwingWarning, OverloadWarning
         After the run, when its motions left the range in which the models hold; also in `stats`, as
         "validity". See docs/troubleshooting.md.

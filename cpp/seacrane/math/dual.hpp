@@ -81,10 +81,6 @@ struct Dual {
     }
     return out;
   }
-  friend Dual exp(const Dual& a) {
-    const double e = std::exp(a.value);
-    return a.chain(e, e);
-  }
   friend Dual tanh(const Dual& a) {
     const double t = std::tanh(a.value);
     return a.chain(t, 1.0 - t * t);

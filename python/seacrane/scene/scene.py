@@ -23,6 +23,7 @@ from seacrane.description import (
 )
 from seacrane.description.scene import Description
 from seacrane.scene import (
+    bridles,
     drift,
     given_vessel,
     limits,
@@ -83,6 +84,7 @@ class Scene(Description):
     add_soft_stop = limits.add_soft_stop
     add_line = lines.add_line
     add_winch = lines.add_winch
+    add_bridle = bridles.add_bridle
     add_friction = limits.add_friction
 
     add_vessel = vessel.add_vessel

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "seacrane/elements/loads/line_path.hpp"
-#include "seacrane/math/dual.hpp"
+#include "seacrane/math/exponential.hpp"
 
 namespace seacrane {
 
@@ -31,12 +31,12 @@ class SheaveFriction {
   const T& share() const { return share_; }
   /// Goes over the sheave behind a section.
   void pass(const PathSection<T>& section, const PathPoint& sheave) {
-    using std::exp, std::tanh;
+    using std::tanh;
     passes_ -= section.rate - section.length * straining_;
     weight_ += share_ * section.length;
     const T before = share_;
     const T slip = passes_ / T(speed_);
-    rise_ = T(exp((T(sheave.grip) * section.wrap + T(sheave.drag)) * T(tanh(slip)))) - T(1);
+    rise_ = T(exponential(T((T(sheave.grip) * section.wrap + T(sheave.drag)) * T(tanh(slip))))) - T(1);
     share_ += before * rise_;
     lost_ += before * rise_ * passes_;
   }
