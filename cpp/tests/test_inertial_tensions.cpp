@@ -11,6 +11,8 @@ LineDescription quasi_static_line(const std::string& name) {
   LineDescription out = Line::example();
   out.name = name;
   out.stretch = kQuasiStatic;
+  out.sheaves = {};
+  out.strains = out.tensions = {};
   return out;
 }
 

@@ -1312,41 +1312,6 @@ class Line:
         of the sheaves, body coordinates; the line runs about them by the right hand
         """
     @property
-    def efficiencies(self) -> list[float]:
-        """
-        of each: the smaller tension over the larger
-        """
-    @property
-    def frictions(self) -> list[float]:
-        """
-        coefficients of friction on each
-        """
-    @property
-    def radii(self) -> list[float]:
-        """
-        m, of sheaves at the points; 0: a point
-        """
-    @property
-    def slip_speed(self) -> float:
-        """
-        m/s, at which sheaves have 76 % of their friction
-        """
-    @property
-    def strains(self) -> list[float]:
-        """
-        from 0, of a table in place of EA
-        """
-    @property
-    def tensions(self) -> list[float]:
-        """
-        N, at these strains, from 0
-        """
-    @property
-    def turns(self) -> list[float]:
-        """
-        whole turns on each besides
-        """
-    @property
     def bodies(self) -> list[str]:
         """
         bodies of the points, in the order of the path
@@ -1355,6 +1320,16 @@ class Line:
     def damping_ratio(self) -> float:
         """
         of critical damping of `mass` on the line
+        """
+    @property
+    def efficiencies(self) -> list[float]:
+        """
+        of each: the smaller tension over the larger
+        """
+    @property
+    def frictions(self) -> list[float]:
+        """
+        coefficients of friction on each
         """
     @property
     def lag(self) -> float:
@@ -1395,6 +1370,11 @@ class Line:
         m, coordinates of these bodies
         """
     @property
+    def radii(self) -> list[float]:
+        """
+        m, of sheaves at the points; 0: a point
+        """
+    @property
     def rate(self) -> Curve:
         """
         m/s, commanded, positive: pays out
@@ -1405,14 +1385,34 @@ class Line:
         s, in which a quasi-static stretch follows
         """
     @property
+    def slip_speed(self) -> float:
+        """
+        m/s, at which sheaves have 76 % of their friction
+        """
+    @property
     def stiffness(self) -> float:
         """
         N, EA: tension over strain
         """
     @property
+    def strains(self) -> list[float]:
+        """
+        from 0, of a table in place of EA
+        """
+    @property
     def stretch(self) -> str:
         """
         'elastic', or 'quasi-static': then it follows the tension
+        """
+    @property
+    def tensions(self) -> list[float]:
+        """
+        N, at these strains, from 0
+        """
+    @property
+    def turns(self) -> list[float]:
+        """
+        whole turns on each besides
         """
     @property
     def winch(self) -> bool:

@@ -13,6 +13,13 @@ from seacrane.errors import FileFormatError
 from seacrane.files.node import Node
 
 
+LATER = {
+    "line": (
+        "radii", "axes", "turns", "efficiencies", "frictions", "slip_speed", "strains", "tensions",
+    ),
+}  # by kind of load, entries that are not written where they are usual: digests of older scenes stay  # fmt: skip
+
+
 def element_to_data(element: Any) -> dict[str, Any]:
     """An element's entries as plain data."""
     return {field.name: _plain(getattr(element, field.name)) for field in type(element).FIELDS}
@@ -35,7 +42,9 @@ def load_to_data(element: Any) -> dict[str, Any]:
     kind, data = kind_of(element), element_to_data(element)
     if "kind" in data:  # a limit's own
         data[kind] = data.pop("kind")
-    return {"kind": kind, **data}
+    usual = {f.name: _plain(f.default) for f in type(element).FIELDS if f.name in LATER.get(kind, ())}
+    kept = {name: value for name, value in data.items() if name not in usual or value != usual[name]}
+    return {"kind": kind, **kept}
 
 
 def load_from_node(node: Node) -> Any:
