@@ -1,4 +1,4 @@
-"""Lines over sheaves: geometry, tension and friction against closed forms, energy, and the other formulation."""
+"""Lines over sheaves: geometry, tension and friction against closed forms, energy, both formulations."""
 
 from __future__ import annotations
 
@@ -161,8 +161,8 @@ def test_the_engines_path_is_that_of_the_pictures() -> None:
     assert_allclose(out["sheave_wrap"], laid(line, described_poses(scene)).wraps[1:-1], rtol=1e-10)
 
 
-def test_the_exact_jacobian_is_that_of_differences() -> None:
-    scene = slewing()
+def check_jacobian(scene: Scene) -> None:
+    """That of the redundant form against differences, after a while of motion."""
     model = scene.compile(merge=False)
     run = Run(scene, t_end=0.9, dt_out=0.1, rtol=1e-8, model=model)
     run.advance(0.9)
@@ -179,6 +179,10 @@ def test_the_exact_jacobian_is_that_of_differences() -> None:
         assert_allclose(exact[:, j], expected, atol=1e-6 * np.max(np.abs(exact)), rtol=1e-6)
 
 
+def test_the_exact_jacobian_is_that_of_differences() -> None:
+    check_jacobian(slewing())
+
+
 def test_a_run_goes_on_bit_for_bit(tmp_path: Path) -> None:
     whole = Run(slewing(), t_end=1.0, dt_out=0.05, rtol=1e-7)
     whole.advance(0.53)
@@ -190,10 +194,40 @@ def test_a_run_goes_on_bit_for_bit(tmp_path: Path) -> None:
     assert np.array_equal(rest.core.state.values, whole.core.state.values)
 
 
+def stiff(stiffness: float, stretch: str, **change: Any) -> Scene:
+    """`slewing` with a taut line of that EA, which starts with 8 kN."""
+    scene = slewing(stiffness=stiffness, stretch=stretch, **change)
+    line: Any = scene.loads["hoist"]
+    scene.replace("hoist", length=path_length(scene, line) / (1.0 + 8e3 / stiffness))
+    return scene
+
+
+@pytest.mark.parametrize("formulation", ["redundant", "recursive"])
+def test_a_quasi_static_stretch_takes_sheaves_and_friction(formulation: str) -> None:
+    """The motion of the elastic line as EA grows, and its energy balance."""
+    apart = []
+    for stiffness in (3e7, 3e8):
+        ours, exact = (
+            record(stiff(stiffness, kind), 1.5, rtol=1e-8, formulation=formulation)
+            for kind in ("quasi-static", "elastic")
+        )
+        apart.append(float(np.max(np.abs(ours["position"] - exact["position"]))))
+        assert np.max(np.abs(ours["energy_balance"])) < 1e-6 * ours["absolute_work"][-1]
+        ratio = ours["section_tension"] / exact["section_tension"]
+        assert np.median(np.abs(ratio - 1.0)) < 0.05
+    assert apart[1] < 0.2 * apart[0] < 0.2 * 5e-3
+
+
+def test_the_exact_jacobian_of_a_quasi_static_stretch_is_that_of_differences() -> None:
+    check_jacobian(stiff(3e7, "quasi-static"))
+
+
 def corded(strain: float, *, last: float = 0.8) -> Scene:
     """A load on a shock cord of 4 m."""
     scene = Scene(name="cord")
-    scene.add_body(name="load", mass=60.0, inertia=(1.0, 1.0, 1.0), position=(0.0, 0.0, -4.0 * (1.0 + strain)))
+    scene.add_body(
+        name="load", mass=60.0, inertia=(1.0, 1.0, 1.0), position=(0.0, 0.0, -4.0 * (1.0 + strain))
+    )
     scene.add_line(
         name="cord", bodies=["ground", "load"], points=np.zeros((2, 3)), length=4.0, damping_ratio=0.0,
         strains=[0.0, 0.1, 0.3, last], tensions=[0.0, 300.0, 700.0, 3000.0],
@@ -216,12 +250,14 @@ def test_a_shock_cord_follows_its_table() -> None:
 
 
 def test_a_cord_beyond_its_table_is_told() -> None:
-    with pytest.warns(LineTableWarning, match=r"line 'cord': is strained by 0\.6 at t = 0 s, .* ends at 0\.5"):
+    with pytest.warns(
+        LineTableWarning, match=r"line 'cord': is strained by 0\.6 at t = 0 s, .* ends at 0\.5"
+    ):
         simulate(corded(0.6, last=0.5), 0.1, dt_out=0.1)
 
 
 def test_slings_share_a_load_by_their_stiffness() -> None:
-    """Four legs are one too many: opposite ones of twice the stiffness take twice the tension, all the load."""
+    """Four legs are one too many: opposite ones of twice the stiffness take twice the tension."""
     scene = four_legs(stiffnesses=(8e6, 4e6, 8e6, 4e6))
     assert list(scene.loads) == ["sling 1", "sling 2", "sling 3", "sling 4"]
     rest = equilibrium(scene)
@@ -254,7 +290,9 @@ def test_a_line_that_leaves_its_sheave_ends_the_run_by_name() -> None:
 
 def test_a_line_that_leans_out_of_its_groove_is_told() -> None:
     scene = slewing()
-    with pytest.warns(FleetAngleWarning, match=r"line at sheave 'hoist 3': leaves the plane .* degrees at t ="):
+    with pytest.warns(
+        FleetAngleWarning, match=r"line at sheave 'hoist 3': leaves the plane .* degrees at t ="
+    ):
         simulate(scene, 0.5, dt_out=0.1)
 
 
@@ -298,7 +336,10 @@ def test_files_hold_sheaves(tmp_path: Path) -> None:
         ({"efficiencies": [0.9, 1, 1]}, "has a sheave at point 0, where it ends; end it at a point"),
         ({"slip_speed": 0.0}, "slip_speed is 0 m/s; give a positive one"),
         ({"points": [(0.1, 0, 0), (0, 0, 0), (0, 0, 0)]}, "points 0 and 1 of body 'ground' within a rim"),
-        ({"stretch": "quasi-static"}, "a quasi-static stretch takes points only"),
+        (
+            {"stretch": "quasi-static", "strains": [0, 1], "tensions": [0, 1]},
+            "a quasi-static stretch takes EA, no table",
+        ),
         ({"strains": [0.0], "tensions": [0.0]}, "has 1 strains and 1 tensions; give as many of both"),
         ({"strains": [0.1, 1.0], "tensions": [0.0, 5.0]}, "its table starts with strain 0.1"),
         ({"strains": [0, 0.1, 0.2], "tensions": [0, 5, 4]}, "its table does not increase at strain 0.2"),

@@ -1,4 +1,4 @@
-"""Lines over sheaves against closed forms and Exudyn's reeving, whose run `peers/exudyn_reeving.py` recorded."""
+"""Lines over sheaves against closed forms, and Exudyn's reeving as `peers/exudyn_reeving.py` recorded it."""
 
 from __future__ import annotations
 
@@ -54,7 +54,7 @@ def exudyn(rows: Array | None = None) -> Iterator[Row]:
         yield Row(
             subject=SUBJECT, compared=f"hook on a line over three sheaves, 4 s: {what}",
             reference="reeving of Exudyn", difference=float(np.abs(difference).max()), unit=unit, limit=limit,
-            test=TEST,
+            test="test_reeving_peer.py",
         )  # fmt: skip
 
 
@@ -68,12 +68,16 @@ def closed_forms() -> Iterator[Row]:
     scene.add_winch(line="hoist", rate=-0.5, lag=0.3)
     tensions = record(scene, 4.0, dt_out=1.0)["section_tension"][-1]
     share = np.mean(0.98 ** np.arange(6))
-    yield _closed("six falls at 0.98, hoisting: load over six tensions", tensions.mean() / tensions[0] / share - 1.0)
+    yield _closed(
+        "six falls at 0.98, hoisting: load over six tensions", tensions.mean() / tensions[0] / share - 1.0
+    )
     tensions = record(capstan(turns=2.0), 3.0, dt_out=1.0)["section_tension"][-1]
     told = tensions[0] / tensions[1]
     yield _closed("capstan of 2 1/4 turns: tensions", told / np.exp(0.1 * 4.5 * np.pi) - 1.0)
     out = record(tackle(falls=4), 0.2)
-    yield _closed("four falls at rest: load over tension", np.abs(4.0 * out["line_tension"] / (MASS * G) - 1.0).max())
+    yield _closed(
+        "four falls at rest: load over tension", np.abs(4.0 * out["line_tension"] / (MASS * G) - 1.0).max()
+    )
 
 
 def _closed(what: str, difference: float) -> Row:

@@ -56,7 +56,9 @@ def run() -> list[list[float]]:
         )
     )  # fmt: skip
     kinds = exu.OutputVariableType
-    place = mbs.AddSensor(items.SensorBody(bodyNumber=hook, outputVariableType=kinds.Position, storeInternal=True))
+    place = mbs.AddSensor(
+        items.SensorBody(bodyNumber=hook, outputVariableType=kinds.Position, storeInternal=True)
+    )
     told = [
         mbs.AddSensor(items.SensorObject(objectNumber=line, outputVariableType=kind, storeInternal=True))
         for kind in (kinds.Distance, kinds.ForceLocal)

@@ -77,8 +77,8 @@ def simulate(
     -----
     LargeHeelWarning, MeanPositionWarning, MeanHeadingWarning, ForwardSpeedWarning, MooringTurnWarning,
     NoWaveLoadsWarning, OutsideDatabaseWarning, PushingLinkWarning, LineLengthWarning, LineTableWarning,
-    FleetAngleWarning, WinchLimitWarning, FullTurnWarning, OutsideRangeWarning, SoftGainsWarning, NearSingularWarning,
-    LargeSwingWarning, OverloadWarning
+    FleetAngleWarning, WinchLimitWarning, FullTurnWarning, OutsideRangeWarning, SoftGainsWarning,
+    NearSingularWarning, LargeSwingWarning, OverloadWarning
         After the run, when its motions left the range in which the models hold; also in `stats`, as
         "validity". See docs/troubleshooting.md.
     StiffWarning

@@ -12,12 +12,10 @@ from seacrane.description.loads import LOAD_KINDS, kind_of
 from seacrane.errors import FileFormatError
 from seacrane.files.node import Node
 
-
+# By kind of load, entries that are not written where they are usual: digests of older scenes stay.
 LATER = {
-    "line": (
-        "radii", "axes", "turns", "efficiencies", "frictions", "slip_speed", "strains", "tensions",
-    ),
-}  # by kind of load, entries that are not written where they are usual: digests of older scenes stay  # fmt: skip
+    "line": ("radii", "axes", "turns", "efficiencies", "frictions", "slip_speed", "strains", "tensions"),
+}
 
 
 def element_to_data(element: Any) -> dict[str, Any]:

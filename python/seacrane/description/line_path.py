@@ -63,7 +63,9 @@ class Laid:
     def length(self) -> float:
         """Of all of it, m."""
         straight = np.linalg.norm(self.ends - self.starts, axis=1).sum()
-        return float(straight + sum(one.radius * wrap for one, wrap in zip(self.sheaves, self.wraps, strict=True)))
+        return float(
+            straight + sum(one.radius * wrap for one, wrap in zip(self.sheaves, self.wraps, strict=True))
+        )
 
     def arc(self, at: int) -> Array:
         """Points along the arc on the sheave at a point of the path, shape (m, 3), without whole turns."""
@@ -116,7 +118,7 @@ def path_length(scene: Description, line: _core.Line) -> float:
 def _radii(first: Sheave, second: Sheave) -> tuple[Array, Array]:
     """Unit vectors from both centres to where the straight part touches; zero at points."""
     apart = second.center - first.center
-    alike = first.axis @ second.axis
+    alike = float(first.axis @ second.axis)
     n1 = _radius_at(first, apart, first.radius - alike * second.radius)
     n2 = _radius_at(second, apart, alike * first.radius - second.radius)
     for _ in range(STEPS if first.radius > 0.0 and second.radius > 0.0 else 0):
@@ -133,7 +135,7 @@ def _radius_at(sheave: Sheave, apart: Array, reach: float) -> Array:
     if sheave.radius == 0.0:
         return np.zeros(3)
     flat = apart - sheave.axis * (sheave.axis @ apart)
-    beside = np.sqrt(max(flat @ flat - reach * reach, 0.0))
+    beside = np.sqrt(max(float(flat @ flat) - reach * reach, 0.0))
     return np.asarray((reach * flat + beside * np.cross(flat, sheave.axis)) / (flat @ flat))
 
 
@@ -143,4 +145,3 @@ def _wrap(sheave: Sheave, arrives: Array, leaves: Array) -> float:
         return 0.0
     angle = np.arctan2(sheave.axis @ np.cross(arrives, leaves), arrives @ leaves)
     return float(angle + (TURN if angle < -0.25 * TURN else 0.0) + TURN * sheave.turns)
-

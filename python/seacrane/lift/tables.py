@@ -301,7 +301,7 @@ _ALL = (
     _call(
         "bridle", bridles.add_bridle, _core.Line,
         hook_point=POINT, stiffnesses=ROW | {"unit": "N"}, lengths=ROW | {"unit": "m"},
-    ),  # fmt: skip
+    ),
     _flow("wind", wind_current.add_wind),
     _flow("current", wind_current.add_current),
     _call("wire", limits.add_wire, _core.Limit, sticking_speed={"unit": "m/s"}),

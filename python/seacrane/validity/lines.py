@@ -76,8 +76,8 @@ def _beyond(name: str, line: _core.Line, time: Array, strain: Array) -> Iterator
     if strain[worst] > line.strains[-1]:
         yield (
             LineTableWarning,
-            f"line {name!r}: is strained by {strain[worst]:.4g} at t = {time[worst]:.6g} s, and its table ends "
-            f"at {line.strains[-1]:.4g}; it went on along its last tangent. Extend the table",
+            f"line {name!r}: is strained by {strain[worst]:.4g} at t = {time[worst]:.6g} s, and its table "
+            f"ends at {line.strains[-1]:.4g}; it went on along its last tangent. Extend the table",
         )
 
 
@@ -88,8 +88,8 @@ def _leaning(sheaves: list[str], time: Array, angles: Array) -> Iterator[Finding
             yield (
                 FleetAngleWarning,
                 f"line at sheave {name!r}: leaves the plane of its rim by {angle[worst]:.3g} degrees at t = "
-                f"{time[worst]:.6g} s, beyond {LARGEST_FLEET_ANGLE:g} degrees; the rope would climb out of its "
-                "groove. Turn the sheave's axis, or put it on a body that swivels",
+                f"{time[worst]:.6g} s, beyond {LARGEST_FLEET_ANGLE:g} degrees; the rope would climb out of "
+                "its groove. Turn the sheave's axis, or put it on a body that swivels",
             )
 
 

@@ -91,18 +91,20 @@ struct Line {
     T length, rate, unstretched, unstretched_rate, elastic, tension;
     T inertial, kinetic;  // N: of a quasi-static stretch, in the tension; stored for each metre
     T stored;             // J for each metre, by strain
-    T first, lost;        // N, in the first section; W, on sheaves
+    T share, lost;        // for 1 N: tension of the first section, and what sheaves take, W
     T stretch() const { return length - unstretched; }
     /// Rate of the stretch that strain alone would make: e' l0.
     T straining() const { return rate - unstretched_rate * length / unstretched; }
     T damping() const { return tension - elastic - inertial; }
     /// Into the line, of the winch and of what changes the length over time, but for the inertial tension.
     T winch_power() const {
-      const T taken = (first - inertial) * length / unstretched;
+      const T taken = (tension - inertial) * share * length / unstretched;
       return -(taken - stored - kinetic) * unstretched_rate;
     }
     /// The same of an inertial tension of 1 N.
-    T winch_power_per_inertial() const { return -length / unstretched * unstretched_rate; }
+    T winch_power_per_inertial() const { return -share * length / unstretched * unstretched_rate; }
+    T power_per_inertial() const { return winch_power_per_inertial() - lost; }
+    T friction_power() const { return -lost * (tension - inertial); }
     T damping_power() const { return -damping() * straining(); }
   };
 
@@ -228,7 +230,17 @@ struct Line {
   }
 
   void add_unit(int /*component*/, const LoadInput<double>& in, Vec6d* wrenches) const {
-    path.for_each_section<double>(in, [&](const Section<double>& s, std::size_t) { s.add_to(wrenches); });
+    Motion<double> now = movement(in);
+    now.tension = 1.0;
+    for_each_tension<double>(
+        in, now, [&](const Section<double>& s, double tension, const SheaveFriction<double>&, std::size_t) {
+          s.add_to(wrenches, tension);
+        });
+  }
+  /// By how much the path gets shorter along the twists of bodies: what a unit adds without friction.
+  void add_path(const LoadInput<double>& in, Vec6d* wrenches) const {
+    path.for_each_section<double>(in,
+                                  [&](const Section<double>& s, std::size_t) { s.add_to(wrenches, 1.0); });
   }
 
   /// Why a run cannot go on at a side; empty: it can.
@@ -268,21 +280,14 @@ struct Line {
 
   template <class T>
   Motion<T> motion(const LoadInput<T>& in) const {
-    Motion<T> out{};
-    path.for_each_section<T>(in, [&](const Section<T>& s, std::size_t) {
-      out.length += s.length;
-      out.rate += s.rate;
-    });
-    const CurveValue given = length.at(in.time, in.curve_limit);
-    out.unstretched = winch ? in.states[states.first] : T(given.value);
-    out.unstretched_rate = winch ? drum_rate(in) : T(given.rate);
+    Motion<T> out = movement(in);
     if (quasi_static()) {  // taut, or refused
       const T strain_rate = out.straining() / out.unstretched;
       out.inertial = T(in.inertial[place]);
       out.kinetic = 0.5 * strain_inertia() * strain_rate * strain_rate;
       out.elastic = elastic_pull(out);
       const T unsettled = strain_rate - in.states[settled];
-      out.tension = out.first = unbounded_pull(out) + stiffness * settling * unsettled + out.inertial;
+      out.tension = unbounded_pull(out) + stiffness * settling * unsettled + out.inertial;
       out.stored = elasticity.energy(T(out.stretch() / out.unstretched));
       return out;
     }
@@ -290,8 +295,7 @@ struct Line {
     out.elastic = select(stretched, elastic_pull(out), T(0));
     out.stored = select(stretched, elasticity.energy(T(out.stretch() / out.unstretched)), T(0));
     const T sum = unbounded_pull(out);
-    out.tension = out.first = select(sum > T(0), sum, T(0));
-    if (has_friction) rub(in, out);
+    out.tension = select(sum > T(0), sum, T(0));
     return out;
   }
 
@@ -301,7 +305,7 @@ struct Line {
   void for_each_tension(const LoadInput<T>& in, const Motion<T>& now, F&& f) const {
     SheaveFriction<T> friction = friction_of(now);
     path.for_each_section<T>(in, [&](const Section<T>& s, std::size_t i) {
-      const T tension = now.first * friction.share();
+      const T tension = now.tension * now.share * friction.share();
       if (has_friction) friction.pass(s, path.points()[i]);
       f(s, tension, friction, i);
     });
@@ -311,10 +315,12 @@ struct Line {
   template <class T>
   T inertial_tension(const LoadInput<T>& in, const Motion<T>& now, const Vec6d* acceleration) const {
     T bend(0);  // l''
-    path.for_each_section<T>(in, [&](const Section<T>& s, std::size_t) {
-      const Vec3<T> apart = point_acceleration<T>(in, s.second, s.lever_second, acceleration) -
-                            point_acceleration<T>(in, s.first, s.lever_first, acceleration);
-      bend += s.along.dot(apart) + s.swing;
+    path.for_each_section<T>(in, [&](const Section<T>& s, std::size_t i) {
+      bend += s.rate_change(point_acceleration<T>(in, s.first, s.lever_first, acceleration),
+                            point_acceleration<T>(in, s.second, s.lever_second, acceleration),
+                            acceleration[s.first].template tail<3>().template cast<T>(),
+                            acceleration[s.second].template tail<3>().template cast<T>());
+      if (s.turns) bend += path.swing<T>(in, i);
     });
     const T strain_rate = now.straining() / now.unstretched;
     const T driven = 2.0 * now.unstretched_rate * strain_rate +
@@ -332,10 +338,10 @@ struct Line {
                           s.add_to(out.wrench, tension);
                         });
     out.add_power(now.damping_power());
-    if (has_friction) out.add_power(-now.lost);
+    if (has_friction) out.add_power(now.friction_power());
     out.add_power(now.winch_power());
     if (quasi_static()) {
-      out.add_power(now.winch_power_per_inertial() * now.inertial);
+      out.add_power(now.power_per_inertial() * now.inertial);
       out.state_rates[settled] = (now.straining() / now.unstretched - in.states[settled]) / T(settling);
     }
     if (!winch) return;
@@ -382,9 +388,7 @@ struct Line {
     c.finite("settling", d.settling);
     if (!(d.settling > 0.0)) c.fail("settling is " + to_text(d.settling) + " s; it must be positive");
     if (d.stretch != kQuasiStatic) return;
-    if (d.sheaves.any() || d.sheaves.rub() || !d.strains.empty()) {
-      c.fail("a quasi-static stretch takes points only, without friction, and EA; choose stretch 'elastic'");
-    }
+    if (!d.strains.empty()) c.fail("a quasi-static stretch takes EA, no table; choose stretch 'elastic'");
     if (d.winch && d.lag == 0.0) {
       c.fail(
           "a quasi-static stretch needs a smooth length, and its winch has no lag; give one, such as 0.1 s");
@@ -457,14 +461,25 @@ struct Line {
   SheaveFriction<T> friction_of(const Motion<T>& m) const {
     return {m.length, m.rate, m.unstretched, m.unstretched_rate, slip_speed};
   }
-  /// The tension of the first section, and what the sheaves take.
+  /// Lengths and rates, and how friction shares the tension; no tension yet.
   template <class T>
-  void rub(const LoadInput<T>& in, Motion<T>& m) const {
-    SheaveFriction<T> friction = friction_of(m);
+  Motion<T> movement(const LoadInput<T>& in) const {
+    Motion<T> out{};
+    path.for_each_section<T>(in, [&](const Section<T>& s, std::size_t) {
+      out.length += s.length;
+      out.rate += s.rate;
+    });
+    const CurveValue given = length.at(in.time, in.curve_limit);
+    out.unstretched = winch ? in.states[states.first] : T(given.value);
+    out.unstretched_rate = winch ? drum_rate(in) : T(given.rate);
+    out.share = T(1);
+    if (!has_friction) return out;
+    SheaveFriction<T> friction = friction_of(out);
     path.for_each_section<T>(in,
                              [&](const Section<T>& s, std::size_t i) { friction.pass(s, path.points()[i]); });
-    m.first = m.tension * m.length / friction.weight();
-    m.lost = m.first * friction.lost();
+    out.share = out.length / friction.weight();
+    out.lost = out.share * friction.lost();
+    return out;
   }
 
   template <class T>

@@ -11,6 +11,7 @@
 
 #include "seacrane/elements/loads/line_tangent.hpp"
 #include "seacrane/elements/loads/load.hpp"
+#include "seacrane/math/with_rate.hpp"
 
 namespace seacrane {
 
@@ -34,7 +35,7 @@ struct PathSection {
   int first = 0, second = 0;  // bodies
   Vec3<T> lever_first, lever_second, along, pull, turning_first, turning_second;
   T length, rate;  // the rate is that of the length between the marks
-  T swing;         // between points: of that rate's own, what turning makes
+  T swing;         // of that rate's own, what moving makes; between sheaves see LinePath::swing
   T wrap;          // rad, on the sheave at its second end
   bool turns = false, moves = true;
   // Of the sheave at its second end, as numbers: by what it is held, and the larger fleet angle, rad.
@@ -51,13 +52,24 @@ struct PathSection {
     wrench[first].moment -= turning_first * tension;
     wrench[second].moment -= turning_second * tension;
   }
-  void add_to(Vec6d* wrench) const requires std::is_same_v<T, double> {
+  void add_to(Vec6d* wrench, double tension) const requires std::is_same_v<T, double> {
     if (!moves) return;
-    wrench[first] += (Vec6d() << pull, lever_first.cross(pull)).finished();
-    wrench[second] -= (Vec6d() << pull, lever_second.cross(pull)).finished();
+    const Vec3d force = tension * pull;
+    wrench[first] += (Vec6d() << force, lever_first.cross(force)).finished();
+    wrench[second] -= (Vec6d() << force, lever_second.cross(force)).finished();
     if (!turns) return;
-    wrench[first].tail<3>() -= turning_first;
-    wrench[second].tail<3>() -= turning_second;
+    wrench[first].tail<3>() -= tension * turning_first;
+    wrench[second].tail<3>() -= tension * turning_second;
+  }
+  /// Rate of `rate`, for accelerations of the points of both bodies that are at the levers, and of the
+  /// bodies' angular velocities.
+  T rate_change(const Vec3<T>& at_first, const Vec3<T>& at_second, const Vec3<T>& turn_first,
+                const Vec3<T>& turn_second) const {
+    if (!moves) return T(0);
+    const Vec3<T> apart = at_second - at_first;
+    T out = pull.dot(apart) + swing;
+    if (turns) out += turning_first.dot(turn_first) + turning_second.dot(turn_second);
+    return out;
   }
 };
 
@@ -97,6 +109,25 @@ class LinePath {
       f(before, i - 1);
     }
     f(sections[(points_.size() - 1) % 2], points_.size() - 1);
+  }
+
+  /// Of section i between sheaves: how its rate changes with the places alone, the velocities held.
+  template <class T>
+  T swing(const LoadInput<T>& in, std::size_t i) const {
+    Place<T> from, to;
+    place<T>(in, points_[i - 1], from);
+    place<T>(in, points_[i], to);
+    const Vec3<T>&turn_from = in.bodies[points_[i - 1].body].angular_velocity,
+          &turn_to = in.bodies[points_[i].body].angular_velocity;
+    const Tangent<WithRate<T>> line = tangent<WithRate<T>>(moving_end<T>(points_[i - 1], from, turn_from),
+                                                           moving_end<T>(points_[i], to, turn_to));
+    const Vec3<T> pull = value_of_each<T>(line.pull), pulled = rate_of<T>(line.pull);
+    const Vec3<T> velocity = touching<T>(points_[i], to, turn_to, line.in) -
+                             touching<T>(points_[i - 1], from, turn_from, line.out);
+    const Vec3<T> gliding =
+        glided<T>(points_[i], turn_to, line.in) - glided<T>(points_[i - 1], turn_from, line.out);
+    return pulled.dot(velocity) + pull.dot(gliding) + rate_of<T>(line.turning_from).dot(turn_from) +
+           rate_of<T>(line.turning_to).dot(turn_to);
   }
 
  private:
@@ -163,6 +194,26 @@ class LinePath {
   template <class T>
   static TangentEnd<T> end(const PathPoint& p, const Place<T>& at) {
     return {p.radius, at.center, p.radius > 0.0 ? at.axis : Vec3<T>(Vec3<T>::Zero())};
+  }
+
+  template <class T>
+  static TangentEnd<WithRate<T>> moving_end(const PathPoint& p, const Place<T>& at, const Vec3<T>& turning) {
+    const Vec3<T> axis = p.radius > 0.0 ? at.axis : Vec3<T>(Vec3<T>::Zero());
+    return {p.radius, with_rate<T>(at.center, at.rate), with_rate<T>(axis, cross<T>(turning, axis))};
+  }
+  /// Velocity of the point of a body that is where the line touches it.
+  template <class T>
+  static Vec3<T> touching(const PathPoint& p, const Place<T>& at, const Vec3<T>& turning,
+                          const Vec3<WithRate<T>>& radius) {
+    const Vec3<T> arm = value_of_each<T>(radius) * T(p.radius);
+    return at.rate + cross<T>(turning, arm);
+  }
+  /// What gliding along the rim adds to the rate of that velocity.
+  template <class T>
+  static Vec3<T> glided(const PathPoint& p, const Vec3<T>& turning, const Vec3<WithRate<T>>& radius) {
+    const Vec3<T> n = value_of_each<T>(radius);
+    const Vec3<T> glides = (rate_of<T>(radius) - cross<T>(turning, n)) * T(p.radius);
+    return cross<T>(turning, glides);
   }
 
   template <class T>

@@ -22,10 +22,6 @@ struct SheaveDescriptions {
   bool any() const {
     return std::any_of(radii.begin(), radii.end(), [](double r) { return r > 0.0; });
   }
-  bool rub() const {
-    return std::any_of(efficiencies.begin(), efficiencies.end(), [](double e) { return e != 1.0; }) ||
-           std::any_of(frictions.begin(), frictions.end(), [](double mu) { return mu != 0.0; });
-  }
 
   void check(std::size_t points, const Check& c) const {
     check_count("radii", radii.size(), points, c);
