@@ -11,7 +11,6 @@ LineDescription quasi_static_line(const std::string& name) {
   LineDescription out = Line::example();
   out.name = name;
   out.stretch = kQuasiStatic;
-  out.sheaves = {};
   out.strains = out.tensions = {};
   return out;
 }

@@ -55,7 +55,7 @@ def line_findings(scene: Description, time: Array, channels: Mapping[str, Array]
         return found
     stretches = np.asarray(channels["line_stretch"]).reshape(time.size, len(lines))
     if time[0] == 0.0:
-        found += _contradicted(list(lines), lengths[0], stretches[0])
+        found += _contradicted(lines, lengths[0], stretches[0])
     for (name, line), strain in zip(lines.items(), (stretches / lengths).T, strict=True):
         if len(line.strains):
             found += _beyond(name, line, time, strain)
@@ -93,9 +93,10 @@ def _leaning(sheaves: list[str], time: Array, angles: Array) -> Iterator[Finding
             )
 
 
-def _contradicted(names: list[str], lengths: Array, stretches: Array) -> Iterator[Finding]:
-    for name, length, stretch in zip(names, lengths, stretches, strict=True):
-        if abs(stretch) <= LARGEST_CONTRADICTION * length:
+def _contradicted(lines: Mapping[str, _core.Line], lengths: Array, stretches: Array) -> Iterator[Finding]:
+    for (name, line), length, stretch in zip(lines.items(), lengths, stretches, strict=True):
+        usual = max([LARGEST_CONTRADICTION, *line.strains])  # a cord is meant to be as long as its table
+        if -LARGEST_CONTRADICTION * length <= stretch <= usual * length:
             continue
         state = "stretched" if stretch > 0.0 else "slack"
         yield (
