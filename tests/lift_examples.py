@@ -183,6 +183,26 @@ length_m = 12
 damping_ratio = 0.05
 mass_kg = 300
 
+[[line]]
+name = "whip"
+bodies = ["ground", "ground", "bob"]
+points_m = [[-3, 0, 9], [0, 0, 9], [0, 0, 0]]
+strains = [0, 0.1]
+tensions_N = [0, 1000]
+length_m = 12
+radii_m = [0, 0.3, 0]
+axes = [[0, 0, 0], [0, 1, 0], [0, 0, 0]]
+efficiencies = [1, 0.98, 1]
+slip_speed_m_per_s = 0.02
+
+[[bridle]]
+name = "sling"
+hook = "ground"
+load = "box"
+hook_point_m = [0, 0, 9]
+points_m = [[0.5, 0, 0.5], [-0.5, 0, 0.5]]
+stiffnesses_N = [1e6]
+
 [[winch]]
 line = "hoist"
 rate_m_per_s = {kind = "quintic", start_time_s = 0, end_time_s = 2, start = 0, end = 0.5}
@@ -386,6 +406,11 @@ def every_table() -> Scene:
         name="hoist", bodies=["ground", "box", "bob"], points=[(0, 0, 9), (0, 0, 1), (0, 0, 0)],
         stiffness=1e6, length=12, damping_ratio=0.05, mass=300,
     )  # fmt: skip
+    scene.add_line(
+        name="whip", bodies=["ground", "ground", "bob"], points=[(-3, 0, 9), (0, 0, 9), (0, 0, 0)],
+        strains=[0, 0.1], tensions=[0, 1000], length=12, radii=[0, 0.3, 0],
+        axes=[(0, 0, 0), (0, 1, 0), (0, 0, 0)], efficiencies=[1, 0.98, 1], slip_speed=0.02,
+    )  # fmt: skip
     scene.add_winch(
         line="hoist", rate=Curve.quintic(start_time=0, end_time=2, start=0, end=0.5), maximum_rate=1,
         maximum_acceleration=0.5, lag=0.1, minimum_length=2,
@@ -396,6 +421,10 @@ def every_table() -> Scene:
     scene.add_gas_spring(
         name="phc", first="box", second="bob", area=0.05, force=2e4, stiffness=3e3, length=4, exponent=1.3,
         damping=100, minimum=1, maximum=7,
+    )  # fmt: skip
+    scene.add_bridle(
+        name="sling", hook="ground", load="box", hook_point=(0, 0, 9), stiffnesses=[1e6],
+        points=[(0.5, 0, 0.5), (-0.5, 0, 0.5)],
     )  # fmt: skip
     scene.add_force_table(name="gust", body="box", times=[0, 1], loads=np.arange(12.0).reshape(2, 6))
     _add_flows(scene)

@@ -177,6 +177,7 @@ def test_a_file_from_before_an_entry_loads_with_its_default(
     (tmp_path / "older.json").write_text(json.dumps(older))
     back = described(Scene.load(tmp_path / "older.json"))
     usual = field.default.to_pieces() if field.type == "curve" else field.default
+    usual = np.asarray(usual).tolist() if field.type == "array" else usual
     whole = at(back, place).pop(field.name, usual)
     assert np.array_equal(np.asarray(whole, dtype=object), np.asarray(usual, dtype=object)) or np.array_equal(
         whole, usual

@@ -79,6 +79,8 @@ SAMPLE = {
     "sea.drift": {},
     "hull.hydrostatics": {},
     "events.bouncing_ball": {},
+    "reeving.closed_forms": {},
+    "reeving.exudyn": {},
 }
 
 

@@ -12,6 +12,7 @@ LineDescription quasi_static_line(const std::string& name) {
   out.name = name;
   out.stretch = kQuasiStatic;
   static_cast<DrumDescription&>(out) = {};
+  out.strains = out.tensions = {};
   return out;
 }
 

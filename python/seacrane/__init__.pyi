@@ -130,7 +130,9 @@ from seacrane.validity.hull_range import NoWaveLoadsWarning as NoWaveLoadsWarnin
 from seacrane.validity.lifting import LargeSwingWarning as LargeSwingWarning
 from seacrane.validity.lifting import LoadInHullWarning as LoadInHullWarning
 from seacrane.validity.lifting import OverloadWarning as OverloadWarning
+from seacrane.validity.lines import FleetAngleWarning as FleetAngleWarning
 from seacrane.validity.lines import LineLengthWarning as LineLengthWarning
+from seacrane.validity.lines import LineTableWarning as LineTableWarning
 from seacrane.validity.lines import WinchLimitWarning as WinchLimitWarning
 from seacrane.validity.plausible import BallastWarning as BallastWarning
 from seacrane.validity.range import LargeHeelWarning as LargeHeelWarning

@@ -1411,6 +1411,11 @@ class Line:
     def __setstate__(self, arg0: dict) -> None:
         ...
     @property
+    def axes(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 3]"]:
+        """
+        of the sheaves, body coordinates; the line runs about them by the right hand
+        """
+    @property
     def bodies(self) -> list[str]:
         """
         bodies of the points, in the order of the path
@@ -1499,6 +1504,11 @@ class Line:
         m, coordinates of these bodies
         """
     @property
+    def radii(self) -> list[float]:
+        """
+        m, of sheaves at the points; 0: a point
+        """
+    @property
     def rate(self) -> Curve:
         """
         m/s, commanded, positive: pays out
@@ -1509,9 +1519,19 @@ class Line:
         s, in which a quasi-static stretch follows
         """
     @property
+    def slip_speed(self) -> float:
+        """
+        m/s, at which sheaves have 76 % of their friction
+        """
+    @property
     def stiffness(self) -> float:
         """
         N, EA: tension over strain
+        """
+    @property
+    def strains(self) -> list[float]:
+        """
+        from 0, of a table in place of EA
         """
     @property
     def stretch(self) -> str:

@@ -76,9 +76,9 @@ def simulate(
     Warns
     -----
     LargeHeelWarning, MeanPositionWarning, MeanHeadingWarning, ForwardSpeedWarning, MooringTurnWarning,
-    NoWaveLoadsWarning, OutsideDatabaseWarning, PushingLinkWarning, LineLengthWarning, WinchLimitWarning,
-    FullTurnWarning, OutsideRangeWarning, SoftGainsWarning, NearSingularWarning,
-    LargeSwingWarning, OverloadWarning
+    NoWaveLoadsWarning, OutsideDatabaseWarning, PushingLinkWarning, LineLengthWarning, LineTableWarning,
+    FleetAngleWarning, WinchLimitWarning, FullTurnWarning, OutsideRangeWarning, SoftGainsWarning,
+    NearSingularWarning, LargeSwingWarning, OverloadWarning
         After the run, when its motions left the range in which the models hold; also in `stats`, as
         "validity". See docs/troubleshooting.md.
     StiffWarning

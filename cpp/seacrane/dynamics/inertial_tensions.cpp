@@ -14,8 +14,7 @@ InertialTensions::InertialTensions(const Model& model)
   for (const Line& line : std::get<std::vector<Line>>(*model.loads)) {
     if (line.quasi_static()) lines_.push_back(&line);
   }
-  unit_.assign(idx(n), load_);
-  response_.assign(idx(n), load_);
+  for (auto* wrenches : {&unit_, &path_, &response_}) wrenches->assign(idx(n), load_);
   for (auto* values : {&mass_, &winding_, &tension_, &change_}) *values = VecXd::Zero(n);
   matrix_ = MatXd::Identity(n, n);
   factors_ = Eigen::PartialPivLU<MatXd>(n);
@@ -23,7 +22,7 @@ InertialTensions::InertialTensions(const Model& model)
 
 double InertialTensions::dot(Eigen::Index line, const Vec6d* acceleration) const {
   double sum = 0.0;
-  for (int b = 0; b < bodies_; ++b) sum += unit_[idx(line)][idx(b)].dot(acceleration[b]);
+  for (int b = 0; b < bodies_; ++b) sum += path_[idx(line)][idx(b)].dot(acceleration[b]);
   return sum;
 }
 
@@ -34,13 +33,14 @@ double InertialTensions::along(Eigen::Index line, const Vec6d* acceleration) con
 void InertialTensions::start(const Terms& terms, double t, const double* memory, const Vec6d* acceleration) {
   const LoadInput<double> in = terms.load_input(t, memory);
   for (const Line* line : lines_) {
-    std::vector<Vec6d>& unit = unit_[idx(line->place)];
-    for (const int b : line->bodies()) unit[idx(b)].setZero();
+    std::vector<Vec6d>&unit = unit_[idx(line->place)], &path = path_[idx(line->place)];
+    for (const int b : line->bodies()) unit[idx(b)] = path[idx(b)] = Vec6d::Zero();
     line->add_unit(0, in, unit.data());
-    unit.back().setZero();
+    line->add_path(in, path.data());
+    unit.back() = path.back() = Vec6d::Zero();
     const Line::Motion<double> now = line->motion(in);
     mass_[line->place] = line->inertial_mass(now);
-    winding_[line->place] = now.winch_power_per_inertial();
+    winding_[line->place] = now.power_per_inertial();
     change_[line->place] = line->inertial_tension(in, now, acceleration);
   }
 }

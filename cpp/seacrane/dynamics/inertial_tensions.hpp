@@ -11,10 +11,10 @@ struct Line;
 class Terms;
 
 /// Tensions of lines that depend on the accelerations of bodies, as Line says of a quasi-static stretch. With
-/// u the wrenches of 1 N in a line, m its inertial mass, a0 the accelerations without such tensions, and w =
-/// M^-1 u of the bodies as they are joined,
+/// u the wrenches of 1 N in a line, v these without friction, m its inertial mass, a0 the accelerations
+/// without such tensions, and w = M^-1 u of the bodies as they are joined,
 ///
-///   T_i + m_i sum_j (u_i . w_j) T_j = T_i(a0).
+///   T_i + m_i sum_j (v_i . w_j) T_j = T_i(a0).
 class InertialTensions {
  public:
   explicit InertialTensions(const Model& model);
@@ -41,7 +41,7 @@ class InertialTensions {
   /// How those with given accelerations change with these.
   double along(Eigen::Index line, const Vec6d* acceleration) const;
   void add_loads(const VecXd& tension, Vec6d* load) const;
-  /// Power of the winches, and the sum of magnitudes, for changes of the tensions.
+  /// Power of winches and sheaves, and the sum of magnitudes, for changes of the tensions.
   double power(const VecXd& change) const { return winding_.dot(change); }
   double absolute_power(const VecXd& change) const;
 
@@ -50,7 +50,7 @@ class InertialTensions {
 
   int bodies_;
   std::vector<const Line*> lines_;
-  std::vector<std::vector<Vec6d>> unit_, response_;  // u and w, by place
+  std::vector<std::vector<Vec6d>> unit_, path_, response_;  // u, v and w, by place
   std::vector<Vec6d> load_;
   VecXd mass_, winding_, tension_, change_;
   MatXd matrix_;

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from itertools import pairwise
-
 import numpy as np
 from numpy.typing import NDArray
 
 from seacrane import _core
 from seacrane.description.compilation import compile_scene
-from seacrane.description.loads import lines_of, path_of
+from seacrane.description.line_path import Pose, laid
+from seacrane.description.loads import lines_of
 from seacrane.description.scene import Description, Some
 from seacrane.inputs.frames import rotation_matrix
 
@@ -28,7 +27,7 @@ def tautened(scene: Some, values: Array) -> tuple[Some, Array] | None:
     out, state, found = scene.copy(), np.array(values), False
     for name, line in lines_of(scene.loads).items():
         length = state[places[f"{name}.length"]] if line.winch else line.length.evaluate([0.0])[0, 0]
-        path = _path_length(scene, model, line, values)
+        path = laid(line, lambda body: _pose(scene, model, body, values)).length
         if not (1.0 - LARGEST_SLACK) * length <= path <= (1.0 + STRAIN) * length:
             continue
         found = True
@@ -39,16 +38,12 @@ def tautened(scene: Some, values: Array) -> tuple[Some, Array] | None:
     return (out, state) if found else None
 
 
-def _path_length(scene: Description, model: _core.Model, line: _core.Line, values: Array) -> float:
-    points = [_place(scene, model, body, np.asarray(point), values) for body, point in path_of(line)]
-    return float(sum(np.linalg.norm(end - start) for start, end in pairwise(points)))
-
-
-def _place(scene: Description, model: _core.Model, body: str, point: Array, values: Array) -> Array:
-    """A point of a body in inertial axes; the state holds the centre of mass, of a vessel its origin."""
+def _pose(scene: Description, model: _core.Model, body: str, values: Array) -> Pose:
+    """Of a body's origin; the state holds the centre of mass, of a vessel its origin."""
     if body not in scene.bodies:
-        return point
+        return np.zeros(3), np.eye(3)
     at = model.pose_index(list(model.bodies).index(body))
+    rotation = rotation_matrix(values[at + 3 : at + 7])
     floating = {vessel.body for vessel in scene.vessels.values()}
     start = np.zeros(3) if body in floating else np.asarray(scene.bodies[body].center_of_mass)
-    return np.asarray(values[at : at + 3] + rotation_matrix(values[at + 3 : at + 7]) @ (point - start))
+    return values[at : at + 3] - rotation @ start, rotation

@@ -17,7 +17,8 @@ from seacrane.files.node import Node
 _ADDED_LATER: Mapping[type, frozenset[str]] = {
     _core.Line: frozenset(
         ("tension", "tension_gain", "dead_band", "drum_inertia", "drum_radius", "maximum_tension",
-         "maximum_power", "brake", "brake_capacity", "brake_give")
+         "maximum_power", "brake", "brake_capacity", "brake_give", "radii", "axes", "turns", "efficiencies",
+         "frictions", "slip_speed", "strains", "tensions")
     ),
 }  # fmt: skip
 
@@ -25,11 +26,11 @@ _ADDED_LATER: Mapping[type, frozenset[str]] = {
 def element_to_data(element: Any) -> dict[str, Any]:
     """An element's entries as plain data."""
     later = _ADDED_LATER.get(type(element), frozenset())
-    values = {field: getattr(element, field.name) for field in type(element).FIELDS}
+    values = {field: _plain(getattr(element, field.name)) for field in type(element).FIELDS}
     return {
-        field.name: _plain(value)
+        field.name: value
         for field, value in values.items()
-        if field.name not in later or value != field.default
+        if field.name not in later or value != _plain(field.default)
     }
 
 

@@ -19,7 +19,7 @@ from seacrane.result.channels import CHANNELS
 from seacrane.result.units import units_of
 from seacrane.run.method import FORMULATIONS, Method
 from seacrane.run.outputs import Outputs
-from seacrane.scene import given_vessel, heave, limits, lines, sea, vessel, wind_current
+from seacrane.scene import bridles, given_vessel, heave, limits, lines, sea, vessel, wind_current
 from seacrane.scene.gusts import gust_curve
 from seacrane.scene.motion_history import MotionHistory
 from seacrane.scene.motion_raos import MotionRaos
@@ -41,6 +41,7 @@ CHOSEN: dict[str, dict[str, Any]] = {
 POINT: dict[str, Any] = {"type": "array", "unit": "m", "shapes": ((3,),)}
 DIRECTION: dict[str, Any] = {"type": "array", "shapes": ((3,),)}
 LENGTH: dict[str, Any] = {"unit": "m"}
+ROW: dict[str, Any] = {"type": "array", "shapes": ((-1,),)}
 TIME: dict[str, Any] = {"unit": "s"}
 NUMBER = {"type": "number"}
 LIMITED = {"unit": EITHER.join(dict.fromkeys(unit for name in CHANNELS for unit in units_of(name)))}
@@ -187,8 +188,7 @@ def _system_keys() -> tuple[Key, ...]:
 
 def _flow(name: str, add: Callable[..., Any]) -> Table:
     """Wind or current."""
-    row: dict[str, Any] = {"type": "array", "shapes": ((-1,),)}
-    more = {"angle": row | {"unit": "rad"}, "x": row, "y": row, "yaw": row}
+    more = {"angle": ROW | {"unit": "rad"}, "x": ROW, "y": ROW, "yaw": ROW}
     coefficients = keys_of(wind_current.FlowCoefficients, more=more)
     table = _call(name, add, _core.FlowForce, coefficients={"type": "table", "keys": coefficients})
     if add is wind_current.add_wind:
@@ -300,6 +300,10 @@ _ALL = (
     _call("winch", lines.add_winch, _core.Line),
     _call(
         "gas_spring", heave.add_gas_spring, _core.GasSpring, force={"unit": "N"}, stiffness={"unit": "N/m"},
+    ),
+    _call(
+        "bridle", bridles.add_bridle, _core.Line,
+        hook_point=POINT, stiffnesses=ROW | {"unit": "N"}, lengths=ROW | {"unit": "m"},
     ),
     _flow("wind", wind_current.add_wind),
     _flow("current", wind_current.add_current),

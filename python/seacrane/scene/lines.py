@@ -11,7 +11,7 @@ from seacrane.description.forces import add_load
 from seacrane.description.loads import lines_of
 from seacrane.description.scene import Description
 from seacrane.errors import SceneError
-from seacrane.inputs.checked import text_of
+from seacrane.inputs.checked import text_of, vector_of
 
 NO_BOUND = 1e7  # m/s or m/s2: a bound here or beyond is none
 STRONGEST = 1e12  # N or W: likewise
@@ -23,17 +23,26 @@ def add_line(
     name: str,
     bodies: Sequence[str],
     points: ArrayLike,
-    stiffness: float,
+    stiffness: float | None = None,
     length: _core.Curve | float,
     damping_ratio: float = 0.02,
     mass: float = 0.0,
     stretch: str = "elastic",
     settling: float = 0.2,
+    radii: ArrayLike = (),
+    axes: ArrayLike = (),
+    turns: ArrayLike = (),
+    efficiencies: ArrayLike = (),
+    frictions: ArrayLike = (),
+    slip_speed: float = 0.01,
+    strains: ArrayLike = (),
+    tensions: ArrayLike = (),
 ) -> _core.Line:
-    """An elastic line without mass from point to point, through which it runs without friction.
+    """An elastic line without mass over points, through which it runs without friction, and sheaves.
 
-    Its tension is the same along all of it, EA e + c l0 e' with the strain e = l / l0 - 1, and never below
-    zero: it goes slack. A path that passes between two blocks n times makes n falls. See docs/lines.md.
+    Its tension is EA e + c l0 e' with the strain e = l / l0 - 1, and never below zero: it goes slack. It is
+    the same along all of the line, or with friction its mean. A path that passes between two blocks n times
+    makes n falls. See docs/lines.md.
 
     Parameters
     ----------
@@ -43,11 +52,12 @@ def add_line(
     points : array_like, shape (n, 3)
         In coordinates of these bodies, m.
     stiffness : float
-        EA, the tension over the strain, N.
+        EA, the tension over the strain, N; left out with a table.
     length : Curve or float
         Unstretched, m; for a line on a winch, that at the start.
     damping_ratio : float
-        Of critical damping, for `mass` on the line: c = 2 damping_ratio sqrt(EA mass / l0).
+        Of critical damping, for `mass` on the line: c = 2 damping_ratio sqrt(EA mass / l0), with a table EA
+        being the secant to its last row.
     mass : float
         kg; default (0): that of the path's last body, the ground left aside. Of a load on n falls, its mass
         over n^2.
@@ -56,6 +66,22 @@ def add_line(
         than a soft one. It must stay taut. See docs/lines.md.
     settling : float
         s, of a quasi-static stretch: no mode of the line is faster than 1 / settling.
+    radii : array_like, shape (n,), optional
+        Of the sheaves of which the points are the centres, m; 0: a point. Lines begin and end at points.
+    axes : array_like, shape (n, 3), optional
+        Of the sheaves, in coordinates of their bodies: the line runs about them by the right hand.
+    turns : array_like, shape (n,), optional
+        Whole turns on each sheave besides its wrap, which is between 0 and 264 degrees.
+    efficiencies : array_like, shape (n,), optional
+        Of each sheave or point, the smaller tension over the larger; 1: no friction. Roller bearings have
+        0.98, bushings 0.96.
+    frictions : array_like, shape (n,), optional
+        Coefficient mu of each sheave: tensions differ by exp(mu wrap).
+    slip_speed : float
+        m/s, of the rope over a sheave: friction acts with tanh of the rate over it.
+    strains, tensions : array_like, shape (m,), optional
+        Of a shock cord, in place of EA, N: a monotone cubic spline runs through them; both start at 0 and
+        increase. Beyond the last it goes on along its tangent.
 
     Returns
     -------
@@ -71,15 +97,36 @@ def add_line(
         name=name,
         bodies=bodies,
         points=points,
-        stiffness=stiffness,
+        stiffness=_stiffness_of(name, stiffness, strains, tensions),
         length=length,
         damping_ratio=damping_ratio,
         mass=mass,
         stretch=stretch,
         settling=settling,
+        radii=radii,
+        axes=axes,
+        turns=turns,
+        efficiencies=efficiencies,
+        frictions=frictions,
+        slip_speed=slip_speed,
+        strains=strains,
+        tensions=tensions,
     )
     added: _core.Line = add_load(scene, line)
     return added
+
+
+def _stiffness_of(name: str, stiffness: float | None, strains: ArrayLike, tensions: ArrayLike) -> float:
+    """EA as given, or the last secant of a table, N."""
+    rows = [vector_of(f"line {name!r}: table", column) for column in (strains, tensions)]
+    table = all(rows)
+    if table and stiffness is not None:
+        raise SceneError(f"line {name!r}: has a stiffness and a table; give one of them")
+    if table:
+        return rows[1][-1] / rows[0][-1] if rows[0][-1] > 0.0 else 1.0
+    if stiffness is None:
+        raise SceneError(f"line {name!r}: has no stiffness; give EA in N, or strains and tensions")
+    return stiffness
 
 
 def add_winch(

@@ -23,6 +23,7 @@ from seacrane.description import (
 )
 from seacrane.description.scene import Description
 from seacrane.scene import (
+    bridles,
     drift,
     given_vessel,
     heave,
@@ -84,6 +85,7 @@ class Scene(Description):
     add_soft_stop = limits.add_soft_stop
     add_line = lines.add_line
     add_winch = lines.add_winch
+    add_bridle = bridles.add_bridle
     add_friction = limits.add_friction
     add_heave_compensation = heave.add_heave_compensation
     add_gas_spring = heave.add_gas_spring

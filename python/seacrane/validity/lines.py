@@ -18,10 +18,19 @@ Array = NDArray[np.float64]
 Finding = tuple[type[Warning], str]
 LARGEST_CONTRADICTION = 0.01  # of the line's length, at the start
 AT_END = 1e-6  # m
+LARGEST_FLEET_ANGLE = 4.0  # degrees: ISO 4308-1 takes ropes to that angle from the plane of a sheave
 
 
 class LineLengthWarning(UserWarning):
     """A line starts far longer or shorter than its path: its length or a point is not what was meant."""
+
+
+class LineTableWarning(UserWarning):
+    """A line was strained beyond the table of its tension, which goes on along its last tangent."""
+
+
+class FleetAngleWarning(UserWarning):
+    """A line leaves a sheave at an angle at which ropes do not stay in their groove."""
 
 
 class WinchLimitWarning(UserWarning):
@@ -31,22 +40,63 @@ class WinchLimitWarning(UserWarning):
 def line_findings(scene: Description, time: Array, channels: Mapping[str, Array]) -> list[Finding]:
     """All of these in a run; channels left out are not judged."""
     lines = lines_of(scene.loads)
-    if not lines or "line_unstretched_length" not in channels:
-        return []
-    lengths = np.asarray(channels["line_unstretched_length"]).reshape(time.size, len(lines))
     found: list[Finding] = []
+    if "sheave_fleet_angle" in channels:
+        sheaves = [f"{name} {i}" for name, line in lines.items() for i in turned_at(line)]
+        angles = np.degrees(np.asarray(channels["sheave_fleet_angle"])).reshape(time.size, len(sheaves))
+        found += _leaning(sheaves, time, angles)
+    if not lines or "line_unstretched_length" not in channels:
+        return found
+    lengths = np.asarray(channels["line_unstretched_length"]).reshape(time.size, len(lines))
     for (name, line), length in zip(lines.items(), lengths.T, strict=True):
         if line.winch:
             found += _met(name, line, time, length)
-    if "line_stretch" in channels and time[0] == 0.0:
-        stretches = np.asarray(channels["line_stretch"]).reshape(time.size, len(lines))[0]
-        found += _contradicted(list(lines), lengths[0], stretches)
+    if "line_stretch" not in channels:
+        return found
+    stretches = np.asarray(channels["line_stretch"]).reshape(time.size, len(lines))
+    if time[0] == 0.0:
+        found += _contradicted(lines, lengths[0], stretches[0])
+    for (name, line), strain in zip(lines.items(), (stretches / lengths).T, strict=True):
+        if len(line.strains):
+            found += _beyond(name, line, time, strain)
     return found
 
 
-def _contradicted(names: list[str], lengths: Array, stretches: Array) -> Iterator[Finding]:
-    for name, length, stretch in zip(names, lengths, stretches, strict=True):
-        if abs(stretch) <= LARGEST_CONTRADICTION * length:
+def turned_at(line: _core.Line) -> list[int]:
+    """The points of a line's path at which it lies on a sheave or meets friction."""
+    turned = np.zeros(len(line.points), dtype=bool)
+    for values, usual in ((line.radii, 0.0), (line.efficiencies, 1.0), (line.frictions, 0.0)):
+        if len(values):
+            turned |= np.asarray(values) != usual
+    return [int(i) for i in np.flatnonzero(turned)]
+
+
+def _beyond(name: str, line: _core.Line, time: Array, strain: Array) -> Iterator[Finding]:
+    worst = int(np.argmax(strain))
+    if strain[worst] > line.strains[-1]:
+        yield (
+            LineTableWarning,
+            f"line {name!r}: is strained by {strain[worst]:.4g} at t = {time[worst]:.6g} s, and its table "
+            f"ends at {line.strains[-1]:.4g}; it went on along its last tangent. Extend the table",
+        )
+
+
+def _leaning(sheaves: list[str], time: Array, angles: Array) -> Iterator[Finding]:
+    for name, angle in zip(sheaves, angles.T, strict=True):
+        worst = int(np.argmax(angle))
+        if angle[worst] > LARGEST_FLEET_ANGLE:
+            yield (
+                FleetAngleWarning,
+                f"line at sheave {name!r}: leaves the plane of its rim by {angle[worst]:.3g} degrees at t = "
+                f"{time[worst]:.6g} s, beyond {LARGEST_FLEET_ANGLE:g} degrees; the rope would climb out of "
+                "its groove. Turn the sheave's axis, or put it on a body that swivels",
+            )
+
+
+def _contradicted(lines: Mapping[str, _core.Line], lengths: Array, stretches: Array) -> Iterator[Finding]:
+    for (name, line), length, stretch in zip(lines.items(), lengths, stretches, strict=True):
+        usual = max([LARGEST_CONTRADICTION, *line.strains])  # a cord is meant to be as long as its table
+        if -LARGEST_CONTRADICTION * length <= stretch <= usual * length:
             continue
         state = "stretched" if stretch > 0.0 else "slack"
         yield (

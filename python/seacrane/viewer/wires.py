@@ -8,7 +8,9 @@ from typing import Any
 
 import numpy as np
 
-from seacrane.description.loads import lines_of, path_of, springs_of
+from seacrane import _core
+from seacrane.description.line_path import Array, described_poses, laid
+from seacrane.description.loads import lines_of, springs_of
 from seacrane.description.scene import Description
 from seacrane.viewer.shapes import plain
 
@@ -20,7 +22,8 @@ def wires_of(scene: Description, bodies: Sequence[str]) -> list[dict[str, Any]]:
 
     Of each: name, kind ("link", "wire" or "spring"; a span is a link), both ends as the body's number (-1:
     the ground) and a point relative to its centre of mass, and the length (m) below which it hangs slack; 0
-    if it never does.
+    if it never does. Arcs over sheaves are short links without a name. Where a line meets a sheave is as in
+    the pose that the scene describes.
     """
     limits = {limit.joint for limit in scene.loads.values() if getattr(limit, "kind", None) == "wire"}
     found = []
@@ -47,11 +50,29 @@ def wires_of(scene: Description, bodies: Sequence[str]) -> list[dict[str, Any]]:
             }
         )
     for name, line in lines_of(scene.loads).items():
-        ends = [end_of(scene, bodies, body, point) for body, point in path_of(line)]
-        found += [
-            {"name": f"{name} {i + 1}", "kind": "link", "from": start, "to": end, "length": 0.0}
-            for i, (start, end) in enumerate(pairwise(ends))
-        ]
+        found += _over(scene, bodies, name, line)
+    return found
+
+
+def _over(scene: Description, bodies: Sequence[str], name: str, line: _core.Line) -> list[dict[str, Any]]:
+    """Spans and arcs of an elastic line."""
+    poses = described_poses(scene)
+    path = laid(line, poses)
+
+    def end(at: int, place: Array) -> list[float]:
+        origin, rotation = poses(line.bodies[at])
+        return end_of(scene, bodies, line.bodies[at], rotation.T @ (place - origin))
+
+    def link(label: str, start: list[float], stop: list[float]) -> dict[str, Any]:
+        return {"name": label, "kind": "link", "from": start, "to": stop, "length": 0.0}
+
+    found = [
+        link(f"{name} {i + 1}", end(i, start), end(i + 1, stop))
+        for i, (start, stop) in enumerate(zip(path.starts, path.ends, strict=True))
+    ]
+    for at in np.flatnonzero(path.wraps > 0.0).tolist():
+        arc = [end(at, place) for place in path.arc(at)]
+        found += [link("", start, stop) for start, stop in pairwise(arc)]
     return found
 
 

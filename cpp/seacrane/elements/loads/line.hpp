@@ -9,6 +9,10 @@
 #include <vector>
 
 #include "seacrane/elements/field.hpp"
+#include "seacrane/elements/loads/line_elasticity.hpp"
+#include "seacrane/elements/loads/line_friction.hpp"
+#include "seacrane/elements/loads/line_path.hpp"
+#include "seacrane/elements/loads/line_sheaves.hpp"
 #include "seacrane/elements/loads/load.hpp"
 #include "seacrane/elements/loads/winch.hpp"
 #include "seacrane/math/curve.hpp"
@@ -27,34 +31,39 @@ struct LineDescription : WinchDescription {
   double damping_ratio = 0.02, mass = 0.0;
   std::string stretch = "elastic";
   double settling = 0.2;
+  SheaveDescriptions sheaves;
+  std::vector<double> strains, tensions;
 
   static constexpr const char* type = "Line";
   static constexpr const char* text =
       "An elastic line without mass over points of bodies, with a winch or without; see Scene.add_line.";
   static constexpr auto fields() {
     using D = LineDescription;
-    return std::tuple_cat(
-        std::tuple(
-            on_body("bodies", &D::bodies, "bodies of the points, in the order of the path"),
-            required("points", &D::points, "m", "coordinates of these bodies"),
-            required("stiffness", &D::stiffness, "N", "EA: tension over strain"),
-            required("length", &D::length, "m", "unstretched; with a winch, at the start"),
-            optional("damping_ratio", &D::damping_ratio, "", "of critical damping of `mass` on the line"),
-            optional("mass", &D::mass, "kg",
-                     "that moves with the line's end; 0: that of the path's last body"),
-            optional("stretch", &D::stretch, "", "'elastic', or 'quasi-static': then it follows the tension"),
-            optional("settling", &D::settling, "s", "in which a quasi-static stretch follows")),
-        WinchDescription::fields());
+    const auto own = std::tuple(
+        on_body("bodies", &D::bodies, "bodies of the points, in the order of the path"),
+        required("points", &D::points, "m", "coordinates of these bodies"),
+        required("stiffness", &D::stiffness, "N", "EA: tension over strain"),
+        required("length", &D::length, "m", "unstretched; with a winch, at the start"),
+        optional("damping_ratio", &D::damping_ratio, "", "of critical damping of `mass` on the line"),
+        optional("mass", &D::mass, "kg", "that moves with the line's end; 0: that of the path's last body"),
+        optional("stretch", &D::stretch, "", "'elastic', or 'quasi-static': then it follows the tension"),
+        optional("settling", &D::settling, "s", "in which a quasi-static stretch follows"));
+    const auto table = std::tuple(optional("strains", &D::strains, "", "from 0, of a table in place of EA"),
+                                  optional("tensions", &D::tensions, "N", "at these strains, from 0"));
+    return std::tuple_cat(own, WinchDescription::fields(), sheave_fields<D>(), table);
   }
 };
 
-/// A line without mass over an ordered path of points, through which it runs without friction. With l the
-/// length of the path, l0 the unstretched length and e = l / l0 - 1,
+/// A line without mass over an ordered path of points and sheaves. With l the length of the path (LinePath),
+/// l0 the unstretched length and e = l / l0 - 1,
 ///
-///   T = max(0, EA e + c (l' - l0' l / l0)),   c = 2 damping_ratio sqrt(EA mass / l0).
+///   T = max(0, EA e + c (l' - l0' l / l0)),   c = 2 damping_ratio sqrt(EA mass / l0),
 ///
-/// l0 is given over time, or it is a state of the winch. The rope carries its strain energy T e / 2 for each
-/// metre of l0 onto the drum.
+/// the same along all of it without friction, else its mean (SheaveFriction). A table takes the place of EA e
+/// (LineElasticity). The forces are -T dl.
+///
+/// l0 is given over time, or it is a state of the winch, which feels the tension of the first section and
+/// measures the mean. The rope carries its strain energy T e / 2 for each metre of l0 onto the drum.
 ///
 /// A quasi-static stretch follows the tension within a settling time s, whatever EA and the load's mass are:
 ///
@@ -68,34 +77,37 @@ struct Line {
   static constexpr const char* kind = "line";
   using Description = LineDescription;
 
-  struct Point {
-    int body = 0;
-    Vec3d point;  // from the state point, body axes
-  };
   /// What the line does at an instant.
   template <class T>
   struct Motion {
     T length, rate, unstretched, unstretched_rate, elastic, tension;
     T inertial, kinetic;  // N: of a quasi-static stretch, in the tension; stored for each metre
+    T stored;             // J for each metre, by strain
+    T share, lost;        // for 1 N: tension of the first section, and what sheaves take, W
     T stretch() const { return length - unstretched; }
     /// Rate of the stretch that strain alone would make: e' l0.
     T straining() const { return rate - unstretched_rate * length / unstretched; }
     T damping() const { return tension - elastic - inertial; }
+    T first() const { return tension * share; }
     /// Into the line, of the winch and of what changes the length over time, but for the inertial tension.
     T winch_power() const {
-      const T strain = select(elastic > T(0), stretch() / unstretched, T(0));
-      const T carried = elastic * (T(1) + 0.5 * strain) + damping() * length / unstretched - kinetic;
-      return -carried * unstretched_rate;
+      const T taken = (tension - inertial) * share * length / unstretched;
+      return -(taken - stored - kinetic) * unstretched_rate;
     }
     /// The same of an inertial tension of 1 N.
-    T winch_power_per_inertial() const { return -length / unstretched * unstretched_rate; }
+    T winch_power_per_inertial() const { return -share * length / unstretched * unstretched_rate; }
+    T power_per_inertial() const { return winch_power_per_inertial() - lost; }
+    T friction_power() const { return -lost * (tension - inertial); }
     T damping_power() const { return -damping() * straining(); }
   };
 
   std::string name;
-  std::vector<Point> path;
+  LinePath path;
   std::vector<int> on;  // bodies of the path, each once, the last of the path last
   double stiffness = 0.0;
+  LineElasticity elasticity;
+  double slip_speed = 0.0;
+  bool has_sheaves = false, has_friction = false;
   Curve length;
   double viscous = 0.0;   // c sqrt(l0)
   double settling = 0.0;  // s, of a quasi-static stretch; else zero
@@ -120,6 +132,9 @@ struct Line {
     }
     c.not_negative("damping_ratio", d.damping_ratio);
     c.not_negative("mass", d.mass);
+    d.sheaves.check(d.points.size(), kSides - first_held(d.winch) + 2, c);
+    d.sheaves.check_neighbours(d.bodies, d.points, c);
+    LineElasticity::check(d.strains, d.tensions, c);
     check_stretch(d, c);
     if (d.winch) {
       names.input(c, kind, d.name);
@@ -154,6 +169,14 @@ struct Line {
     d.brake = Curve::quintic(0.2, 1.2, 0.0, 1.0);
     d.brake_capacity = 30.0;
     d.brake_give = 0.5;
+    d.sheaves.radii = {0.0, 0.2, 0.0};
+    d.sheaves.axes = {{0.0, 0.0, 0.0}, {0.3, -1.0, 0.2}, {0.0, 0.0, 0.0}};
+    d.sheaves.turns = {0.0, 1.0, 0.0};
+    d.sheaves.efficiencies = {1.0, 0.9, 1.0};
+    d.sheaves.frictions = {0.0, 0.02, 0.0};
+    d.sheaves.slip_speed = 0.4;
+    d.strains = {0.0, 0.5, 2.0, 9.0};
+    d.tensions = {0.0, 20.0, 150.0, 900.0};
     return d;
   }
 
@@ -161,24 +184,24 @@ struct Line {
   static Line compile(const Description& d, Context& context) {
     Line line;
     line.name = d.name;
+    std::vector<PathPoint> points;
     for (std::size_t i = 0; i < d.points.size(); ++i) {
       const Attachment at = context.attach(d.bodies[i], d.points[i]);
-      line.path.push_back({at.body, at.point});
+      points.push_back(d.sheaves.at(i, at));
       if (std::find(line.on.begin(), line.on.end(), at.body) == line.on.end()) line.on.push_back(at.body);
     }
-    std::erase(line.on, line.path.back().body);
-    line.on.push_back(line.path.back().body);
+    std::erase(line.on, points.back().body);
+    line.on.push_back(points.back().body);
+    line.path = LinePath(std::move(points));
+    line.has_sheaves = d.sheaves.any();
+    line.has_friction = line.path.has_friction();
+    line.slip_speed = d.sheaves.slip_speed;
     line.stiffness = d.stiffness;
+    line.elasticity = {d.stiffness, d.strains, d.tensions};
     line.length = d.length;
     line.hung = hung_mass(d, context);
     line.viscous = 2.0 * d.damping_ratio * std::sqrt(d.stiffness * line.hung);
-    if (d.winch) {
-      line.winch = Winch::compile(d, d.name, d.length.at(0.0).value, context);
-      line.states = line.winch->states;
-      const HeaveSignal& measured = line.winch->follows.signal;
-      const bool known = std::find(line.on.begin(), line.on.end(), measured.body) != line.on.end();
-      if (line.winch->follows.any() && !known) line.on.insert(line.on.begin(), measured.body);
-    }
+    if (d.winch) line.wind(d, context);
     if (d.stretch == kQuasiStatic) line.settle(d, context);
     return line;
   }
@@ -212,36 +235,60 @@ struct Line {
   }
 
   void add_unit(int /*component*/, const LoadInput<double>& in, Vec6d* wrenches) const {
-    for_each_span<double>(in, [&](const Span<double>& s) {
-      wrenches[s.first] += (Vec6d() << s.along, s.lever_first.cross(s.along)).finished();
-      wrenches[s.second] -= (Vec6d() << s.along, s.lever_second.cross(s.along)).finished();
-    });
+    Motion<double> now = movement(in);
+    now.tension = 1.0;
+    for_each_tension<double>(
+        in, now, [&](const Section<double>& s, double tension, const SheaveFriction<double>&, std::size_t) {
+          s.add_to(wrenches, tension);
+        });
+  }
+  /// By how much the path gets shorter along the twists of bodies: what a unit adds without friction.
+  void add_path(const LoadInput<double>& in, Vec6d* wrenches) const {
+    path.for_each_section<double>(in,
+                                  [&](const Section<double>& s, std::size_t) { s.add_to(wrenches, 1.0); });
   }
 
   /// Why a run cannot go on at a side; empty: it can.
   std::string refused(int at) const {
+    const std::string what = "line '" + name + "': ";
+    for (std::size_t i = 1; has_sheaves && i + 1 < path.points().size(); ++i) {
+      if ((at & held(i)) == 0) return what + SheaveDescriptions::lost(i);
+    }
     if (!quasi_static() || (at & kTaut) == kTaut) return "";
-    const std::string what = "line '" + name + "': its stretch is quasi-static, and it ";
-    if (at & 1) return what + "has hauled in to its minimum_length; give a smaller one, or stretch 'elastic'";
-    return what + "goes slack; give it stretch 'elastic', which snatches";
+    const std::string stretch = what + "its stretch is quasi-static, and it ";
+    if (at & 1)
+      return stretch + "has hauled in to its minimum_length; give a smaller one, or stretch 'elastic'";
+    return stretch + "goes slack; give it stretch 'elastic', which snatches";
   }
 
   static bool has_sides() { return true; }
   /// A bit for each margin: of the line, and of the end of hauling in, where it is positive; of the winch,
-  /// where it is not.
+  /// where it is not; and of each sheave, where the line is on it.
   int side(const LoadInput<double>& in) const {
     int out = 0;
     const Margins now = margins(in);
-    for (std::size_t i = 0; i < now.size(); ++i) out |= (now[i] > 0.0) == (i <= kAtEnd) ? 1 << i : 0;
+    for (std::size_t i = 0; i < now.size(); ++i) {
+      if (winch || i <= kAtEnd) out |= (now[i] > 0.0) == (i <= kAtEnd) ? 1 << i : 0;
+    }
+    if (!has_sheaves) return out;
+    path.for_each_section<double>(in, [&](const Section<double>& s, std::size_t i) {
+      if (i + 1 < path.points().size() && (path.points()[i].radius == 0.0 || s.hold > 0.0)) out |= held(i);
+    });
     return out;
   }
   double across(const LoadInput<double>& in, int from, int to) const {
-    const auto changed = static_cast<unsigned>(from ^ to);
-    return margins(in)[idx(std::countr_zero(changed))];
+    const int lowest = std::countr_zero(static_cast<unsigned>(from ^ to));
+    if (lowest < first_held(winch.has_value())) return margins(in)[idx(lowest)];
+    double out = 0.0;
+    path.for_each_section<double>(in, [&](const Section<double>& s, std::size_t i) {
+      if (out == 0.0 && i + 1 < path.points().size() && held(i) == 1 << lowest) out = s.hold;
+    });
+    return out;
   }
   /// The bounds of the winch that are reached by a change of the side, such as "hoist.maximum_rate".
   std::vector<std::string> reached(int from, int to) const {
     std::vector<std::string> out;
+    if (!winch) return out;
     if ((from & ~to) >> kAtEnd & 1) out.push_back(name + ".minimum_length");
     for (std::size_t i = 0; i < Winch::kKinks; ++i) {
       const int bit = 1 << (kAtEnd + 1 + i);
@@ -252,36 +299,45 @@ struct Line {
 
   template <class T>
   Motion<T> motion(const LoadInput<T>& in) const {
-    Motion<T> out{};
-    for_each_span<T>(in, [&](const Span<T>& s) {
-      out.length += s.length;
-      out.rate += s.rate;
-    });
-    const CurveValue given = length.at(in.time, in.curve_limit);
-    out.unstretched = winch ? winch->length(in) : T(given.value);
-    out.elastic = select(quasi_static() || out.stretch() > T(0), elastic_pull(out), T(0));
-    out.unstretched_rate = winch ? winch->rate(in, out.elastic) : T(given.rate);
+    Motion<T> out = movement(in);
+    const T strain = out.stretch() / out.unstretched;
     if (quasi_static()) {  // taut, or refused
       const T strain_rate = out.straining() / out.unstretched;
       out.inertial = T(in.inertial[place]);
       out.kinetic = 0.5 * strain_inertia() * strain_rate * strain_rate;
       const T unsettled = strain_rate - in.states[settled];
       out.tension = unbounded_pull(out) + stiffness * settling * unsettled + out.inertial;
+      out.stored = elasticity.energy(strain);
       return out;
     }
+    out.stored = select(strain > T(0), elasticity.energy(strain), T(0));
     const T sum = unbounded_pull(out);
     out.tension = select(sum > T(0), sum, T(0));
     return out;
+  }
+
+  /// Calls f(section, tension, friction, i) for each section; i as in LinePath, the friction being that of
+  /// the sheaves up to the section's second end.
+  template <class T, class F>
+  void for_each_tension(const LoadInput<T>& in, const Motion<T>& now, F&& f) const {
+    SheaveFriction<T> friction = friction_of(now);
+    path.for_each_section<T>(in, [&](const Section<T>& s, std::size_t i) {
+      const T tension = now.tension * now.share * friction.share();
+      if (has_friction) friction.pass(s, path.points()[i]);
+      f(s, tension, friction, i);
+    });
   }
 
   /// EA s^2 e'' of a quasi-static stretch in this motion, for these accelerations of the bodies.
   template <class T>
   T inertial_tension(const LoadInput<T>& in, const Motion<T>& now, const Vec6d* acceleration) const {
     T bend(0);  // l''
-    for_each_span<T>(in, [&](const Span<T>& s) {
-      const Vec3<T> apart = point_acceleration<T>(in, s.second, s.lever_second, acceleration) -
-                            point_acceleration<T>(in, s.first, s.lever_first, acceleration);
-      bend += s.along.dot(apart) + s.swing;
+    path.for_each_section<T>(in, [&](const Section<T>& s, std::size_t i) {
+      bend += s.rate_change(point_acceleration<T>(in, s.first, s.lever_first, acceleration),
+                            point_acceleration<T>(in, s.second, s.lever_second, acceleration),
+                            acceleration[s.first].template tail<3>().template cast<T>(),
+                            acceleration[s.second].template tail<3>().template cast<T>());
+      if (s.turns) bend += path.swing<T>(in, i);
     });
     const T strain_rate = now.straining() / now.unstretched;
     const T driven = 2.0 * now.unstretched_rate * strain_rate +
@@ -296,50 +352,53 @@ struct Line {
     const Motion<double> now = motion(in);
     const double rate = winch->turning(in, now.elastic);
     const double motor =
-        winch->drum->motor(in, winch->asked_acceleration(in, now.elastic), now.tension, rate);
+        winch->drum->motor(in, winch->asked_acceleration(in, now.elastic), now.first(), rate);
     return {motor, winch->drum->braking(in, rate), rate, winch->drum->brake_power(in, rate)};
   }
 
   template <class T>
   void apply(const LoadInput<T>& in, LoadSum<T>& out) const {
     const Motion<T> now = motion(in);
-    for_each_span<T>(in, [&](const Span<T>& s) {
-      const Vec3<T> pull = s.along * now.tension;
-      out.wrench[s.first].add(pull, s.lever_first);
-      const Vec3<T> back = -pull;
-      out.wrench[s.second].add(back, s.lever_second);
-    });
+    for_each_tension<T>(in, now,
+                        [&](const Section<T>& s, const T& tension, const SheaveFriction<T>&, std::size_t) {
+                          s.add_to(out.wrench, tension);
+                        });
     out.add_power(now.damping_power());
+    if (has_friction) out.add_power(now.friction_power());
     if (winch) {
-      winch->add_power(in, now.elastic, now.tension, now.winch_power(), out);
+      winch->add_power(in, now.elastic, now.first(), now.winch_power(), out);
     } else {
       out.add_power(now.winch_power());
     }
     if (quasi_static()) {
-      out.add_power(now.winch_power_per_inertial() * now.inertial);
+      out.add_power(now.power_per_inertial() * now.inertial);
       out.state_rates[settled] = (now.straining() / now.unstretched - in.states[settled]) / T(settling);
     }
-    if (winch) winch->set_rates(in, now.elastic, now.tension, out.state_rates);
+    if (winch) winch->set_rates(in, now.elastic, now.first(), out.state_rates);
   }
 
   double potential(const LoadInput<double>& in) const {
     const Motion<double> now = motion(in);
-    const double strain = 0.5 * now.elastic * std::max(now.stretch(), 0.0) + now.kinetic * now.unstretched;
+    const double strain = (now.stored + now.kinetic) * now.unstretched;
     return winch && winch->drum ? strain + winch->drum->stored(in, winch->turning(in, now.elastic)) : strain;
   }
 
  private:
   static constexpr std::size_t kAtEnd = 2;
-  static constexpr int kTaut = 1 + 2 + 4;
+  static constexpr int kTaut = 1 + 2 + 4, kSides = 31;
   using Margins = std::array<double, kAtEnd + 1 + Winch::kKinks>;
   static constexpr double kJump = 1e-9;  // m and m/s
 
   template <class T>
-  struct Span {
-    int first, second;
-    Vec3<T> lever_first, lever_second, along;  // along: from the first to the second
-    T length, rate, swing;                     // swing: of the second rate, what turning makes
-  };
+  using Section = PathSection<T>;
+
+  /// Number of the first bit of a side that tells of a sheave.
+  static constexpr int first_held(bool winds) {
+    return static_cast<int>(kAtEnd + 1 + (winds ? Winch::kKinks : 0));
+  }
+  int held(std::size_t point) const {
+    return 1 << (first_held(winch.has_value()) + static_cast<int>(point) - 1);
+  }
 
   static void check_path(const Description& d, const Check& c, SceneNames& names) {
     if (d.points.size() < 2 || d.points.size() != d.bodies.size()) {
@@ -366,6 +425,7 @@ struct Line {
     c.finite("settling", d.settling);
     if (!(d.settling > 0.0)) c.fail("settling is " + to_text(d.settling) + " s; it must be positive");
     if (d.stretch != kQuasiStatic) return;
+    if (!d.strains.empty()) c.fail("a quasi-static stretch takes EA, no table; choose stretch 'elastic'");
     if (d.winch && d.lag == 0.0) {
       c.fail(
           "a quasi-static stretch needs a smooth length, and its winch has no lag; give one, such as 0.1 s");
@@ -377,6 +437,16 @@ struct Line {
       if (kink.time <= 0.0 || std::abs(kink.jump(0)) + std::abs(kink.jump(1)) <= kJump) continue;
       c.fail("a quasi-static stretch needs a smooth length, and that given jumps at t = " +
              to_text(kink.time) + " s, or its rate; smooth it, or choose stretch 'elastic'");
+    }
+  }
+
+  template <class Context>
+  void wind(const Description& d, Context& context) {
+    winch = Winch::compile(d, d.name, d.length.at(0.0).value, context);
+    states = winch->states;
+    const int measured = winch->follows.signal.body;
+    if (winch->follows.any() && std::find(on.begin(), on.end(), measured) == on.end()) {
+      on.insert(on.begin(), measured);
     }
   }
 
@@ -398,38 +468,35 @@ struct Line {
     return d.mass > 0.0 || last == d.bodies.rend() ? d.mass : context.mass(*last);
   }
 
-  /// Calls f(span) for every pair of neighbours on the path; a span without length has no direction.
-  template <class T, class F>
-  void for_each_span(const LoadInput<T>& in, F&& f) const {
-    using std::sqrt;
-    Span<T> s;
-    Vec3<T> from = Vec3<T>::Zero(), from_rate = from;
-    for (std::size_t i = 0; i < path.size(); ++i) {
-      const BodyKinematics<T>& k = in.bodies[path[i].body];
-      s.second = path[i].body;
-      s.lever_second = k.rotation * path[i].point.template cast<T>();
-      const Vec3<T> to = k.position + s.lever_second;
-      const Vec3<T> to_rate = k.velocity + cross<T>(k.angular_velocity, s.lever_second);
-      if (i > 0) {
-        const Vec3<T> d = to - from, d_rate = to_rate - from_rate;
-        const T square = d.dot(d);
-        const bool has_direction = square > T(0);
-        s.length = has_direction ? T(sqrt(square)) : T(0);
-        s.along = has_direction ? Vec3<T>(d / s.length) : Vec3<T>(Vec3<T>::Zero());
-        s.rate = s.along.dot(d_rate);
-        s.swing = has_direction ? T((d_rate.dot(d_rate) - s.rate * s.rate) / s.length) : T(0);
-        f(s);
-      }
-      s.first = s.second;
-      s.lever_first = s.lever_second;
-      from = to;
-      from_rate = to_rate;
-    }
+  template <class T>
+  SheaveFriction<T> friction_of(const Motion<T>& m) const {
+    return {m.length, m.rate, m.unstretched, m.unstretched_rate, slip_speed};
+  }
+  /// Lengths and rates, and how friction shares the tension; no tension yet.
+  template <class T>
+  Motion<T> movement(const LoadInput<T>& in) const {
+    Motion<T> out{};
+    path.for_each_section<T>(in, [&](const Section<T>& s, std::size_t) {
+      out.length += s.length;
+      out.rate += s.rate;
+    });
+    const CurveValue given = length.at(in.time, in.curve_limit);
+    out.unstretched = winch ? winch->length(in) : T(given.value);
+    out.elastic = select(quasi_static() || out.stretch() > T(0), elastic_pull(out), T(0));
+    out.unstretched_rate = winch ? winch->rate(in, out.elastic) : T(given.rate);
+    out.share = T(1);
+    if (!has_friction) return out;
+    SheaveFriction<T> friction = friction_of(out);
+    path.for_each_section<T>(in,
+                             [&](const Section<T>& s, std::size_t i) { friction.pass(s, path.points()[i]); });
+    out.share = out.length / friction.weight();
+    out.lost = out.share * friction.lost();
+    return out;
   }
 
   template <class T>
   T elastic_pull(const Motion<T>& m) const {
-    return T(stiffness) * m.stretch() / m.unstretched;
+    return elasticity.tension(T(m.stretch() / m.unstretched));
   }
   template <class T>
   T unbounded_pull(const Motion<T>& m) const {
@@ -459,7 +526,7 @@ struct Line {
     out[1] = now.stretch();
     if (!winch) return out;
     out[kAtEnd] = winch->length(in) - winch->minimum_length;
-    const auto of_winch = winch->margins(in, now.elastic, now.tension);
+    const auto of_winch = winch->margins(in, now.elastic, now.first());
     std::copy(of_winch.begin(), of_winch.end(), out.begin() + kAtEnd + 1);
     return out;
   }

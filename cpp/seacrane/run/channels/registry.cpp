@@ -11,6 +11,7 @@ std::vector<Channel> vessel_channels();
 std::vector<Channel> joint_channels();
 std::vector<Channel> load_channels();
 std::vector<Channel> heave_channels();
+std::vector<Channel> sheave_channels();
 std::vector<Channel> sea_channels();
 std::vector<Channel> limit_channels();
 std::vector<Channel> point_channels();
@@ -21,8 +22,8 @@ const std::vector<Channel>& all_channels() {
   static const std::vector<Channel> all = [] {
     std::vector<Channel> out;
     for (const auto& channels :
-         {body_channels, vessel_channels, joint_channels, load_channels, heave_channels, sea_channels,
-          limit_channels, point_channels, load_force_channels, accuracy_channels}) {
+         {body_channels, vessel_channels, joint_channels, load_channels, heave_channels, sheave_channels,
+          sea_channels, limit_channels, point_channels, load_force_channels, accuracy_channels}) {
       for (Channel& channel : channels()) out.push_back(std::move(channel));
     }
     return out;
