@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane import _core
-from seacrane.description.loads import lines_of
+from seacrane.description.loads import lines_of, whole_of
 
 if TYPE_CHECKING:
     from seacrane.description.scene import Description
@@ -40,8 +40,16 @@ def line_findings(scene: Description, time: Array, channels: Mapping[str, Array]
             found += _met(name, line, time, length)
     if "line_stretch" in channels and time[0] == 0.0:
         stretches = np.asarray(channels["line_stretch"]).reshape(time.size, len(lines))[0]
-        found += _contradicted(list(lines), lengths[0], stretches)
+        wholes = [whole_of(name, line) for name, line in lines.items()]
+        found += _contradicted(*_together(wholes, lengths[0], stretches))
     return found
+
+
+def _together(wholes: list[str], lengths: Array, stretches: Array) -> tuple[list[str], Array, Array]:
+    """Names, lengths and stretches of whole lines: the sums of their segments."""
+    names = list(dict.fromkeys(wholes))
+    belongs = np.array([[whole == name for whole in wholes] for name in names], dtype=float)
+    return names, belongs @ lengths, belongs @ stretches
 
 
 def _contradicted(names: list[str], lengths: Array, stretches: Array) -> Iterator[Finding]:

@@ -9,15 +9,17 @@
 #include "seacrane/elements/loads/friction.hpp"
 #include "seacrane/elements/loads/function_force.hpp"
 #include "seacrane/elements/loads/line.hpp"
+#include "seacrane/elements/loads/pendulum_damping.hpp"
 #include "seacrane/elements/loads/point_force.hpp"
 #include "seacrane/elements/loads/soft_stop.hpp"
+#include "seacrane/elements/loads/span_drag.hpp"
 #include "seacrane/elements/loads/spring_damper.hpp"
 
 namespace seacrane {
 
 /// The one list of loads that a scene describes: a new one is its own file and an entry here.
 using LoadTypes = std::tuple<Actuator, PointForce, SpringDamper, ForceTable, FunctionForce, FlowForce,
-                             Friction, SoftStop, Line>;
+                             Friction, SoftStop, Line, PendulumDamping, SpanDrag>;
 
 /// Calls f.template operator()<Load>() for every type of load.
 template <class F>
