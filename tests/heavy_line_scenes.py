@@ -29,7 +29,7 @@ def slung(count: int) -> Scene:
 
 
 def weights_of_shape(count: int) -> tuple[float, float]:
-    """H and V (N) at the upper end of that line, as it is described: of its last segment and half its mass."""
+    """H and V (N) at the upper end of that line, as described: of its last segment and half its mass."""
     scene = slung(count)
     last = scene.bodies["end"].position - scene.bodies[f"line.{count - 1}"].position
     length, step = float(np.linalg.norm(last)), 900.0 / count

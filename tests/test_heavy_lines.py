@@ -153,9 +153,7 @@ def test_tensions_come_from_a_saved_result_by_name(tmp_path: Path) -> None:
         warnings.simplefilter("ignore", LineLengthWarning)
         result = simulate(hanging(3), t_end=0.2)
     again = Result.load(result.save(tmp_path / "one.nc"))
-    assert np.array_equal(
-        heavy_line_tension(again, line="wire"), heavy_line_tension(result, line="wire")
-    )
+    assert np.array_equal(heavy_line_tension(again, line="wire"), heavy_line_tension(result, line="wire"))
     with pytest.raises(SceneError, match=r"heavy line 'rope': is not in the result.*wire\.1"):
         heavy_line_tension(result, line="rope")
 

@@ -482,7 +482,7 @@ def test_every_keyword_is_a_key(name: str) -> None:
 PLAIN = {
     "length_scale", "mooring_damping", "inertia", "quaternion", "gamma", "spreading", "relative_bound",
     "axis", "second_axis", "axes", "x", "y", "yaw", "restitution", "damping_ratio", "tolerance",
-    "spectral_radius", "energy_limit", "scale",
+    "spectral_radius", "energy_limit", "scale", "swing_damping_ratio", "drag_coefficient", "ratio",
 }  # fmt: skip
 IN_CURVES = {"value", "start", "end", "amplitude", "offset", "values"}  # by the key that holds the curve
 

@@ -58,9 +58,7 @@ def test_a_swing_on_a_line_beyond_20_deg_warns(speed: float, warned: bool) -> No
 @pytest.mark.parametrize("second", ["tugger", "joint"])
 def test_a_line_that_does_not_alone_hold_its_body_is_not_judged(second: str) -> None:
     scene = Scene(name="held")
-    scene.add_body(
-        name="load", mass=1e3, inertia=(1e3, 1e3, 1e3), position=(0, 0, -9), velocity=(4.0, 0, 0)
-    )
+    scene.add_body(name="load", mass=1e3, inertia=(1e3, 1e3, 1e3), position=(0, 0, -9), velocity=(4.0, 0, 0))
     wire = {"points": np.zeros((2, 3)), "bodies": ["ground", "load"], "stiffness": 1e7}
     scene.add_line(name="wire", length=8.99, **wire)  # type: ignore[arg-type]
     if second == "tugger":

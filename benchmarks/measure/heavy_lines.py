@@ -24,8 +24,8 @@ sys.path.insert(0, str(ROOT / "benchmarks"))
 sys.path.insert(0, str(ROOT / "tests"))
 
 from heavy_line_scenes import EA, LENGTH, MASS, RATIO, heave, heaving, weights_of_shape  # noqa: E402
-from measure.table import write  # noqa: E402
 
+from measure.table import write  # noqa: E402
 from seacrane import simulate  # noqa: E402
 
 Array = NDArray[np.float64]

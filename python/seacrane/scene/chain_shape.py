@@ -56,7 +56,7 @@ class Chain:
             if np.linalg.norm(gap) <= LARGEST_ERROR * self.segment * self.count:
                 return tension
             step = -np.linalg.solve(self._slope(tension, scale), gap)
-            force = force + self._share(force, hung, step, float(gap @ step)) * step
+            force = np.asarray(force + self._share(force, hung, step, float(gap @ step)) * step)
         return None
 
     def points(self, forces: Array) -> Array:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -116,14 +117,12 @@ def add_heavy_line(
     inertia = np.full(3, mass * (GYRATION * step) ** 2)
     for i, place in enumerate(places, start=1):
         velocity = first.velocity + (last.velocity - first.velocity) * (i / count)
-        add_body(
-            scene, name=f"{name}.{i}", mass=mass, inertia=inertia, position=place, velocity=velocity
-        )
+        add_body(scene, name=f"{name}.{i}", mass=mass, inertia=inertia, position=place, velocity=velocity)
     nodes = [(f"{name}.{i}", np.zeros(3)) for i in range(1, count)]
     path = [_tied(scene, f"{name}.first", first, 0.5 * mass, 0.5 * inertia), *nodes]
     path.append(_tied(scene, f"{name}.last", last, 0.5 * mass, 0.5 * inertia))
     lines = []
-    for i, (one, two) in enumerate(zip(path[:-1], path[1:], strict=True), start=1):
+    for i, (one, two) in enumerate(pairwise(path), start=1):
         lines.append(
             add_line(
                 scene, name=f"{name}.{i}", bodies=[one[0], two[0]], points=[one[1], two[1]],

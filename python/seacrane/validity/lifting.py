@@ -33,7 +33,7 @@ BLOCK = 0.7  # of a hull: its volume over that of the box around it
 
 
 class LargeSwingWarning(UserWarning):
-    """A load on a crane's link, or on a line alone, swung beyond 20 deg from vertical, further than any lift is let."""
+    """A load on a crane's link, or on one line alone, swung beyond 20 deg from vertical: too far for a lift."""
 
 
 class OverloadWarning(UserWarning):

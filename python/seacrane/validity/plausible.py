@@ -30,7 +30,16 @@ LARGEST_RADIUS = 200.0  # m, of gyration
 HUNG_SHARE = 1e-5  # of the vessel's mass
 LARGEST_HEEL = np.radians(2.0)
 LARGEST_SINKAGE = 2.0  # m
-JUDGED_LOADS = ("point force", "actuator", "flow force", "limit", "friction", "soft stop", "pendulum damping", "span drag")
+JUDGED_LOADS = (
+    "point force",
+    "actuator",
+    "flow force",
+    "limit",
+    "friction",
+    "soft stop",
+    "pendulum damping",
+    "span drag",
+)
 
 
 class BallastWarning(UserWarning):
