@@ -55,8 +55,8 @@ class Chain:
             gap = self._reach(tension) - self.span
             if np.linalg.norm(gap) <= LARGEST_ERROR * self.segment * self.count:
                 return tension
-            step = -np.linalg.solve(self._slope(tension, scale), gap)
-            force = np.asarray(force + self._share(force, hung, step, float(gap @ step)) * step)
+            step: Array = np.asarray(-np.linalg.solve(self._slope(tension, scale), gap), dtype=np.float64)
+            force = force + self._share(force, hung, step, float(gap @ step)) * step
         return None
 
     def points(self, forces: Array) -> Array:
