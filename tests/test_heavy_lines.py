@@ -20,16 +20,19 @@ from heavy_line_scenes import (
 )
 
 from seacrane import (
+    Curve,
     LineLengthWarning,
     Result,
     Scene,
     SceneError,
     StiffWarning,
+    equilibrium,
     fastest_mode,
     heavy_line_tension,
     natural_modes,
     simulate,
 )
+from seacrane.inputs.frames import rotation_matrix
 from seacrane.scene.chain_shape import Chain
 
 
@@ -97,7 +100,7 @@ def test_the_fastest_mode_is_what_the_document_says() -> None:
 
 def test_a_stiff_line_warns_of_its_mode_and_a_quasi_static_one_is_cheap() -> None:
     stiff = {"stiffness": 1e10, "mass_per_length": 20.0, "velocity": 1.0}
-    with pytest.warns(StiffWarning, match="'wire"):
+    with pytest.warns(StiffWarning, match=r"'rosenbrock' or 'cvode-bdf'.* stretch of line 'wire' and"):
         slow = simulate(hanging(10, **stiff), t_end=15.0, integrator="dopri5", channels=["position"])
     with warnings.catch_warnings():
         warnings.simplefilter("error")
@@ -125,6 +128,30 @@ def test_drag_slows_a_line_across_and_not_along() -> None:
         else:
             final = np.sqrt(400.0 * G / (0.5 * 1.2 * 1.1 * area))
             assert speed[-1] == pytest.approx(-final * np.tanh(5.0 * G / final), rel=1e-6)
+
+
+@pytest.mark.parametrize("stretch", ["elastic", "quasi-static"])
+def test_a_deep_wire_below_a_crane_finds_its_rest_in_both_formulations(stretch: str) -> None:
+    """Described with its unstretched length; tension and stretch are those of the weights."""
+    scene = Scene(name="deep")
+    tip, point = scene.add_crane(base="ground", s1=2.0, s2=2.0).tip  # type: ignore[misc]
+    for joint in ("A", "main_cylinder", "knuckle_cylinder"):
+        scene.add_driver(joint=joint, curve=Curve.constant(value=0.0))
+    jib = scene.bodies[tip]
+    top = jib.position + rotation_matrix(jib.quaternion) @ np.array(point)
+    scene.add_body(name="load", mass=20e3, inertia=(1e4, 1e4, 1e4), position=top - [0.0, 0.0, 1000.0])
+    scene.add_heavy_line(
+        name="wire", bodies=[tip, "load"], points=[point, (0, 0, 0)], stiffness=2e8, length=1000.0,
+        mass_per_length=12.0, segments=8, stretch=stretch,
+    )  # fmt: skip
+    start = equilibrium(scene)
+    runs = [simulate(scene, t_end=1.0, start=start, formulation=one) for one in ("redundant", "recursive")]
+    for run in runs:
+        tension = heavy_line_tension(run, line="wire")[-1]
+        assert tension == pytest.approx([32e3 * G, 20e3 * G], rel=1e-5)
+        stretched = 1000.0 + (20e3 + 6e3) * G * 1000.0 / 2e8
+        assert run.select("position", body="load")[-1, 2] == pytest.approx(top[2] - stretched, abs=1e-5)
+        assert np.abs(run["velocity"]).max() < 1e-5
 
 
 def test_half_masses_are_carried_by_the_ends() -> None:
