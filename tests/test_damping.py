@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 from numpy.typing import NDArray
+from test_jacobian import largest_error, moving
 
 from seacrane import (
     CompassDirectionWarning,
@@ -150,6 +151,25 @@ def test_half_swings_in_still_air_end_where_their_closed_form_says(formulation: 
     averaged = start / (1.0 + 4.0 * b * start * halves / (3.0 * np.pi))
     assert np.array(peaks) == pytest.approx(averaged, rel=0.03)
     assert np.abs(result["energy_balance"]).max() < 1e-6 * result["absolute_work"][-1]
+
+
+@pytest.mark.parametrize("kind", ["pendulum damping", "span drag"])
+def test_the_jacobian_is_exact_and_both_formulations_agree(kind: str) -> None:
+    scene = Scene(name="two")
+    rng = np.random.default_rng(5)
+    for name in ("first", "second"):
+        scene.add_body(
+            name=name, mass=2.0, inertia=(1.0, 2.0, 2.5), position=rng.normal(size=3),
+            velocity=rng.normal(size=3), angular_velocity=rng.normal(size=3), gravity=False,
+        )  # fmt: skip
+    scene.add_load(_core.LOAD_KINDS[kind].example())
+    model = scene.compile()
+    for seed in (1, 2):
+        assert largest_error(model, 0.0, moving(model, seed), step=3e-4) < 1e-7
+    ends = [simulate(scene, t_end=2.0, rtol=1e-10, formulation=one) for one in ("redundant", "recursive")]
+    assert ends[0]["position"][-1] == pytest.approx(ends[1]["position"][-1], abs=1e-8)
+    for result in ends:
+        assert np.abs(result["energy_balance"]).max() < 1e-7 * result["absolute_work"][-1]
 
 
 def test_drag_of_an_oblique_wind_is_that_of_each_area() -> None:
