@@ -1,7 +1,8 @@
-"""Heavy lines against MoorDyn and MoorPy: ``python benchmarks/measure/heavy_lines.py [--publish]``.
+"""Heavy lines: their cost, and themselves against MoorDyn and MoorPy.
 
-Both are needed (``pip install moorpy moordyn``), which seacrane itself is not. A line hangs between a fixed
-point and one that moves up and down; each program has the same nodes, EA, mass, damping and no water. Writes
+``python benchmarks/measure/heavy_lines.py [--publish] [--cost]``; with ``--cost`` the cost alone. Else it needs
+both programs (``pip install moorpy moordyn``). A line hangs between a fixed point and one that moves up and
+down; each program has the same nodes, EA, mass, damping and no water. Writes ``heavy-lines-cost.csv``,
 ``heavy-lines-against-moordyn.csv`` and ``heavy-lines-against-moorpy.csv`` to ``out/bench/results``, with
 ``--publish`` to ``benchmarks/results``.
 """
@@ -23,10 +24,10 @@ ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "benchmarks"))
 sys.path.insert(0, str(ROOT / "tests"))
 
-from heavy_line_scenes import EA, LENGTH, MASS, RATIO, heave, heaving, weights_of_shape  # noqa: E402
+from heavy_line_scenes import EA, LENGTH, MASS, RATIO, hanging, heave, heaving, weights_of_shape  # noqa: E402
 
 from measure.table import write  # noqa: E402
-from seacrane import simulate  # noqa: E402
+from seacrane import fastest_mode, simulate  # noqa: E402
 
 Array = NDArray[np.float64]
 SEGMENTS = 20
@@ -125,14 +126,36 @@ def against_moorpy() -> Iterator[tuple[str, ...]]:
         yield str(count), f"{level:.3f}", f"{upper:.3f}", f"{abs(h - level):.4g}", f"{abs(v - upper):.4g}"
 
 
+def cost() -> Iterator[tuple[str, ...]]:
+    """A load that is pushed aside on 1000 m of wire, 10 s: what segments, stretch and method make of it."""
+    for count in (5, 10, 20, 40):
+        for stretch in ("elastic", "quasi-static"):
+            for integrator in ("dopri5", "cvode-bdf") if stretch == "elastic" else ("dopri5",):
+                scene = hanging(
+                    count, load=20e3, velocity=1.0, stiffness=2e8, length=1000.0, mass_per_length=12.0,
+                    stretch=stretch,
+                )  # fmt: skip
+                mode = fastest_mode(scene.compile()) or 0.0
+                result = simulate(scene, t_end=10.0, integrator=integrator, rtol=1e-4)
+                place = np.hypot(*result.select("position", body="load")[-1, [0, 2]])
+                told = (f"{mode:.3g}", stretch, integrator, str(result.stats["evaluations"]))
+                yield str(count), *told, f"{place:.3f}"
+
+
 def main() -> None:
     """Measure and write."""
     parser = argparse.ArgumentParser(
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )
     parser.add_argument("--publish", action="store_true", help="write into benchmarks/ instead of out/bench")
-    publish = parser.parse_args().publish
+    parser.add_argument("--cost", action="store_true", help="nothing but the cost")
+    given = parser.parse_args()
+    publish = given.publish
     folder = ROOT / "benchmarks" / "results" if publish else ROOT / "out" / "bench" / "results"
+    head = ("segments", "fastest mode, 1/s", "stretch", "method", "evaluations", "load from the top, m")
+    write(folder / "heavy-lines-cost.csv", head, list(cost()))
+    if given.cost:
+        return
     head = ("segments", "H of MoorPy, N", "V of MoorPy, N", "error of H, N", "error of V, N")
     write(folder / "heavy-lines-against-moorpy.csv", head, list(against_moorpy()))
     head = ("coupling step, s", "fixed end", "moving end")

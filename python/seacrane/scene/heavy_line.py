@@ -24,7 +24,7 @@ from seacrane.scene.lines import add_line
 
 Array = NDArray[np.float64]
 CYLINDER_DRAG = 1.2  # C_D of a cylinder across the flow, below its critical Reynolds number: DNV-RP-C205
-GYRATION = 0.1  # radius of gyration of a mass over its segment; nothing turns it
+GYRATION = 0.005  # radius of gyration of a mass over its segment: nothing turns it, pictures draw it
 MOST_SEGMENTS = 1000
 STRAIGHT = 0.01  # of the span: a line that hangs slack by less starts straight where it has no rest shape
 
