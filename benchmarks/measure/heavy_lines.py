@@ -1,10 +1,11 @@
 """Heavy lines: their cost, and themselves against MoorDyn and MoorPy.
 
-``python benchmarks/measure/heavy_lines.py [--publish] [--cost]``; with ``--cost`` the cost alone. Else it needs
-both programs (``pip install moorpy moordyn``). A line hangs between a fixed point and one that moves up and
-down; each program has the same nodes, EA, mass, damping and no water. Writes ``heavy-lines-cost.csv``,
-``heavy-lines-against-moordyn.csv`` and ``heavy-lines-against-moorpy.csv`` to ``out/bench/results``, with
-``--publish`` to ``benchmarks/results``.
+``python benchmarks/measure/heavy_lines.py [--publish] [--cost]``; with ``--cost`` the cost alone.
+
+Else it needs both programs (``pip install moorpy moordyn``). A line hangs between a fixed point and one that
+moves up and down; each program has the same nodes, EA, mass, damping and no water. Writes
+``heavy-lines-cost.csv``, ``heavy-lines-against-moordyn.csv`` and ``heavy-lines-against-moorpy.csv`` to
+``out/bench/results``, with ``--publish`` to ``benchmarks/results``.
 """
 
 from __future__ import annotations
