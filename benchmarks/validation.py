@@ -22,7 +22,7 @@ ROOT = Path(__file__).resolve().parents[1]
 RESULTS = ROOT / "benchmarks" / "results"
 sys.path.insert(0, str(ROOT / "tests"))
 
-from compared import crane, engine, events, files, hull, orders, real_ships, reeving, sea  # noqa: E402
+from compared import crane, engine, events, files, hull, lines, orders, real_ships, reeving, sea  # noqa: E402
 from compared.row import HEAD, Row  # noqa: E402
 
 COMPARISONS = (
@@ -49,6 +49,9 @@ COMPARISONS = (
     events.bouncing_ball,
     reeving.closed_forms,
     reeving.exudyn,
+    lines.catenary,
+    lines.swinging,
+    lines.peers,
 )
 
 

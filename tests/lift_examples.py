@@ -253,6 +253,32 @@ body = "box"
 times_s = [0, 1]
 loads = [[0, 1, 2, 3, 4, 5], [6, 7, 8, 9, 10, 11]]
 
+[heavy_line]
+name = "chain"
+bodies = ["ground", "box"]
+points_m = [[20, 5, 10], [0, 0, 1]]
+stiffness_N = 1e8
+length_m = 40
+mass_per_length_kg_per_m = 5
+segments = 3
+stretch = "quasi-static"
+settling_s = 0.3
+diameter_m = 0.02
+flow_m_per_s = [1, 0, 0]
+
+[pendulum_damping]
+name = "swing"
+first = "ground"
+first_point_m = [0, 0, 9]
+second = "bob"
+ratio = 0.01
+
+[air_drag]
+body = "bob"
+frontal_area_m2 = 2
+lateral_area_m2 = 3
+drag_coefficient = 0.8
+
 [wind]
 body = "hull"
 direction_deg = 90
@@ -426,6 +452,12 @@ def every_table() -> Scene:
         name="sling", hook="ground", load="box", hook_point=(0, 0, 9), stiffnesses=[1e6],
         points=[(0.5, 0, 0.5), (-0.5, 0, 0.5)],
     )  # fmt: skip
+    scene.add_heavy_line(
+        name="chain", bodies=["ground", "box"], points=[(20, 5, 10), (0, 0, 1)], stiffness=1e8, length=40,
+        mass_per_length=5, segments=3, stretch="quasi-static", settling=0.3, diameter=0.02, flow=(1, 0, 0),
+    )  # fmt: skip
+    scene.add_pendulum_damping(name="swing", first="ground", first_point=(0, 0, 9), second="bob", ratio=0.01)
+    scene.add_air_drag(body="bob", frontal_area=2, lateral_area=3, drag_coefficient=0.8)
     scene.add_force_table(name="gust", body="box", times=[0, 1], loads=np.arange(12.0).reshape(2, 6))
     _add_flows(scene)
     scene.add_wire(joint="rope", restitution=0.2)

@@ -114,7 +114,7 @@ def crane_scene(
 def add_crane(
     scene: Scene, *, base: str, payload: bool, references: dict[str, Curve] | None = None, **pose: float
 ) -> None:
-    scene.add_crane(base=base, payload=Payload() if payload else None, **pose)
+    scene.add_crane(base=base, payload=Payload() if payload else None, damping=False, **pose)
     for name, joint in ACTUATORS.items():
         stiffness, damping = GAINS[name]
         scene.add_actuator(

@@ -48,6 +48,15 @@ def test_corrections_below_the_stated_distance_are_not_told() -> None:
         boom(0.0).compile()
 
 
+def test_a_metre_is_told_on_any_length_scale() -> None:
+    scene = Scene(name="sledge", length_scale=1e4)
+    scene.add_body(name="sledge", mass=1e3, inertia=[1e3, 1e3, 1e3])
+    scene.add_joint(kind="prismatic", name="rail", first="ground", second="sledge", axis=(1, 0, 0))
+    scene.add_driver(joint="rail", curve=Curve.constant(value=1.1))
+    with pytest.warns(AssemblyWarning):
+        scene.compile()
+
+
 def test_the_distance_goes_with_the_scene_s_length_scale() -> None:
     scene = boom(0.9 * LARGEST_TURN)
     scene.length_scale = 20.0  # a chord of 0.18 m, and a turn below 0.01 rad

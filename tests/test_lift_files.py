@@ -483,7 +483,8 @@ PLAIN = {
     "length_scale", "mooring_damping", "inertia", "quaternion", "gamma", "spreading", "relative_bound",
     "axis", "second_axis", "axes", "x", "y", "yaw", "restitution", "damping_ratio", "tolerance",
     "spectral_radius", "energy_limit", "scale", "brake", "direction", "ratio", "gain", "lag_order",
-    "actuator_damping", "exponent", "turns", "efficiencies", "frictions", "strains",
+    "actuator_damping", "exponent", "turns", "efficiencies", "frictions", "strains", "swing_damping_ratio",
+    "drag_coefficient",
 }  # fmt: skip
 IN_CURVES = {"value", "start", "end", "amplitude", "offset", "values"}  # by the key that holds the curve
 

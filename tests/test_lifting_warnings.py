@@ -40,6 +40,35 @@ def test_a_swing_beyond_20_deg_warns(angle: float, warned: bool) -> None:
         assert f"a pendulum of {2.0 * np.pi * np.sqrt(5.0 / 9.80665):.3g} s" in found[LargeSwingWarning]
 
 
+@pytest.mark.parametrize(("speed", "warned"), [(3.0, False), (3.4, True)])
+def test_a_swing_on_a_line_beyond_20_deg_warns(speed: float, warned: bool) -> None:
+    """v^2 = 2 g L (1 - cos 20 deg) at 3.26 m/s."""
+    scene = Scene(name="hook")
+    scene.add_body(
+        name="load", mass=1e3, inertia=(1e3, 1e3, 1e3), position=(0, 0, -9), velocity=(speed, 0, 0)
+    )
+    scene.add_line(
+        name="wire", bodies=["ground", "load"], points=np.zeros((2, 3)), stiffness=1e8, length=8.9991
+    )
+    found = told(scene, 3.0)
+    assert (LargeSwingWarning in found) == warned
+    assert not warned or "line 'wire': 'load' swings" in found[LargeSwingWarning]
+
+
+@pytest.mark.parametrize("second", ["tugger", "joint"])
+def test_a_line_that_does_not_alone_hold_its_body_is_not_judged(second: str) -> None:
+    scene = Scene(name="held")
+    scene.add_body(name="load", mass=1e3, inertia=(1e3, 1e3, 1e3), position=(0, 0, -9), velocity=(4.0, 0, 0))
+    wire = {"points": np.zeros((2, 3)), "bodies": ["ground", "load"], "stiffness": 1e7}
+    scene.add_line(name="wire", length=8.99, **wire)  # type: ignore[arg-type]
+    if second == "tugger":
+        wire = wire | {"points": [(20.0, 0.0, -9.0), (0.0, 0.0, 0.0)]}
+        scene.add_line(name="tugger", length=19.9, **wire)  # type: ignore[arg-type]
+    else:
+        scene.add_joint(kind="planar", name="plane", first="ground", second="load", axis=(0, 1, 0))
+    assert LargeSwingWarning not in told(scene, 3.0)
+
+
 def test_a_swing_without_poses_is_not_judged() -> None:
     assert not told(pendulum(angle=0.5), 2.0, channels=["tension"])
 

@@ -206,6 +206,23 @@ def a_slew_that_flings_its_load() -> None:
     simulate(driven(scene, references={"slew": move(-np.pi / 2, until=10.0)}), t_end=15.0)
 
 
+def a_hook_on_a_wire_that_is_let_go() -> None:
+    scene = Scene(name="hook")
+    scene.add_body(name="load", mass=1e3, inertia=(1e3, 1e3, 1e3), position=(0, 0, -9), velocity=(5.0, 0, 0))
+    scene.add_line(
+        name="wire", bodies=["ground", "load"], points=np.zeros((2, 3)), stiffness=1e7, length=8.99
+    )
+    simulate(scene, t_end=3.0)
+
+
+def a_stop_of_steel() -> None:
+    scene = Scene(name="stop")
+    scene.add_body(name="pin", mass=1.0, inertia=(1, 1, 1), velocity=(0.1, 0, 0), gravity=False)
+    scene.add_joint(kind="prismatic", name="rail", first="ground", second="pin", axis=(1, 0, 0))
+    scene.add_actuator(joint="rail", stiffness=1e8, damping=2e4)
+    simulate(scene, t_end=10.0, integrator="dopri5", channels=["position"])
+
+
 def above_the_table() -> None:
     scene = Scene(name="crane")
     roles = scene.add_crane(base="ground", payload=Payload(mass=20e3))
@@ -245,9 +262,10 @@ SCRIPTS: dict[str, list[Callable[[], None]]] = {
     "motions in no time": [a_hoist_in_no_time, a_hoist_at_once_at_full_speed],
     "a start that joints do not allow": [a_reference_that_starts_elsewhere],
     "two masters of one input": [two_controllers],
-    "a load that swings too far": [a_slew_that_flings_its_load],
+    "a load that swings too far": [a_slew_that_flings_its_load, a_hook_on_a_wire_that_is_let_go],
     "more than the crane may lift": [above_the_table],
     "a load in the hull": [a_link_down_to_the_keel],
+    "a mode far faster than the outputs": [a_stop_of_steel],
     "texts for numbers": [forces_as_text],
 }
 

@@ -24,7 +24,7 @@ def thrown_crane() -> Scene:
     """The crane, nothing driving it, on a vessel that turns in empty space."""
     scene = Scene(name="thrown crane", gravity=0.0)
     scene.add_body(name="vessel", mass=4.0e6, inertia=(4e8, 3e9, 3e9), angular_velocity=(0.05, 0.02, 0.1))
-    scene.add_crane(base="vessel", payload=Payload())
+    scene.add_crane(base="vessel", payload=Payload(), damping=False)
     return scene
 
 

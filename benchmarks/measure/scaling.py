@@ -53,7 +53,7 @@ def cranes(count: int) -> Scene:
     scene = Scene(name="cranes")
     scene.add_body(name="base", mass=1e7, inertia=(1e9, 1e9, 1e9), position=(0.0, 0.0, -5.0))
     one = Scene()
-    one.add_crane(base="ground", payload=Payload())
+    one.add_crane(base="ground", payload=Payload(), damping=False)
     for i in range(count):
         shift = np.array([0.0, 50.0 * i, 0.0])
         for name, body in one.bodies.items():

@@ -92,6 +92,7 @@ from seacrane.reporting import Report as Report
 from seacrane.reporting import report as report
 from seacrane.result import Event as Event
 from seacrane.result import Result as Result
+from seacrane.result.heavy_lines import heavy_line_tension as heavy_line_tension
 from seacrane.result.utilisation import Utilisation as Utilisation
 from seacrane.run.method import Method as Method
 from seacrane.run.output_times import OutputMemoryError as OutputMemoryError

@@ -48,7 +48,9 @@ def _gains() -> dict[str, tuple[float, float]]:
     attached, the others locked and the vessel held.
     """
     scene = Scene(name="case 2, final pose")
-    scene.add_crane(base="ground", theta=SLEW_END, s1=STROKE_END, s2=STROKE_END, payload=Payload())
+    scene.add_crane(
+        base="ground", theta=SLEW_END, s1=STROKE_END, s2=STROKE_END, payload=Payload(), damping=False
+    )
     for name, joint in ACTUATORS.items():
         scene.add_actuator(name=name, joint=joint)
     return tuned_gains(
@@ -111,7 +113,7 @@ def _crane_afloat(
     fixed = {key: options.get(key, default) for key, default in _OPTIONS.items()}
     sea = {key: value for key, value in options.items() if key not in _OPTIONS}
     scene = _afloat(name, sea=sea, **fixed)
-    scene.add_crane(base="vessel", foot=foot, payload=payload)
+    scene.add_crane(base="vessel", foot=foot, payload=payload, damping=False)
     for actuator, joint in ACTUATORS.items():
         scene.record_coordinate(joint=joint)
         scene.add_actuator(name=actuator, joint=joint)

@@ -50,7 +50,7 @@ def _gains(factor: float) -> Case:
 def held_crane(references: dict[str, _core.Curve] | None = None) -> Scene:
     """The crane on the ground with its payload, balanced, with the gains of case 2."""
     scene = Scene(name="crane on the ground")
-    scene.add_crane(base="ground", payload=Payload())
+    scene.add_crane(base="ground", payload=Payload(), damping=False)
     for name, joint in cases.ACTUATORS.items():
         scene.add_actuator(name=name, joint=joint)
     loads = balance(scene).loads

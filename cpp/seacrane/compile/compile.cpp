@@ -86,6 +86,7 @@ class Compiler {
   }
   double mass(const std::string& body) const { return scene_.bodies[idx(index_.at(body))].mass; }
   /// Of lengths, m: what errors of positions count over.
+  double gravity() const { return scene_.gravity; }
   double length_scale() const { return kTranslationScale * scene_.length_scale; }
 
   /// The heave compensator that an actuator, or the winch of a line, follows.

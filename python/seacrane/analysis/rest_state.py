@@ -19,6 +19,8 @@ from seacrane.inputs.checked import number_of
 
 Array = NDArray[np.float64]
 CONVERGED = 1e-9  # m/s2 and rad/s2
+ROUNDED = 1e-6  # likewise, where no step is left that the digits of positions can hold
+DIGITS = 1e-15  # of the largest position
 LARGEST_MOVE = 0.5  # m and rad in one step
 MOST_STEPS = 100
 DAMPING = 0.03  # 1/m and 1/rad, of the accelerations that are left
@@ -164,6 +166,9 @@ def _search(model: _core.Model, time: float, values: Array) -> _core.State:
         reduced = np.concatenate([coordinates.basis.T @ acceleration, rows.T @ drift])
         step = vt[fixed].T @ (-(u.T @ reduced) * damped)[fixed]
         move = coordinates.basis @ step[: coordinates.size]
+        finest = DIGITS * float(np.max(np.abs(y[: model.twist_index(0)])))
+        if np.max(np.abs(move)) <= finest and np.max(np.abs(acceleration)) < ROUNDED:
+            return _core.State(time=time, values=y, inputs=np.zeros(model.slots))
         share = min(1.0, LARGEST_MOVE / max(float(np.max(np.abs(move))), 1e-300))
         y = terms.moved(y, displacement=share * move)
         y[terms.load_states] += share * (columns @ step[coordinates.size :]) * terms.load_scales

@@ -12,12 +12,13 @@ from seacrane.crane.payload import Payload
 from seacrane.crane.records import BodyRecord, JointRecord
 from seacrane.description.bodies import add_body
 from seacrane.description.crane_parts import add_roles
+from seacrane.description.damping import add_air_drag, add_pendulum_damping
 from seacrane.description.joints import add_joint
 from seacrane.description.recorded import add_range
 from seacrane.description.roles import CraneRoles
 from seacrane.description.scene import Description
 from seacrane.errors import SceneError
-from seacrane.inputs.checked import text_of
+from seacrane.inputs.checked import flag_of, text_of
 from seacrane.inputs.frames import quaternion_product, rotation_matrix
 from seacrane.inputs.shown import shown
 
@@ -25,6 +26,7 @@ Array = npt.NDArray[np.float64]
 SLEW = "A"
 CYLINDERS = {"main": "main_cylinder", "knuckle": "knuckle_cylinder"}
 TIP_BODY = "knuckle_jib"
+PAYLOAD = "payload"
 POINTS = ("point", "second_point")
 AXES = ("axis", "second_axis")
 
@@ -39,6 +41,7 @@ def add_crane(
     s1: float = 0.0,
     s2: float = 0.0,
     payload: Payload | None = None,
+    damping: bool = True,
     prefix: str = "",
 ) -> CraneRoles:
     """Add a crane, and a payload hanging at rest; its strokes keep the data file's range.
@@ -54,6 +57,8 @@ def add_crane(
     theta, s1, s2 : float
         Slew angle, rad; strokes of the main and the knuckle cylinder, m.
     payload : Payload or None
+    damping : bool
+        Whether the payload has its small damping: of its swing, and drag in the air. False: neither.
     prefix : str
         Begins the names of all bodies and joints of this crane and the labels of its channels, such as
         "aft "; a scene's cranes need different ones.
@@ -82,6 +87,7 @@ def add_crane(
         raise SceneError(f"crane: there is one with prefix {prefix!r}; give this one another, such as 'aft '")
     place: dict[str, Any] = {"foot": foot, "theta": theta, "s1": s1, "s2": s2}
     records = crane.bodies(**place)
+    damped = flag_of("crane: damping", damping)
     if payload is not None:
         records.append(crane.payload_body(payload, **place))
     names = {"": base} | {body.name: prefix + body.name for body in records}
@@ -93,15 +99,39 @@ def add_crane(
     for name, stroke in zip(CYLINDERS.values(), (s1, s2), strict=True):
         longest = getattr(crane.data, name).stroke
         add_range(scene, joint=prefix + name, minimum=-stroke, maximum=longest - stroke)
+    tip = frame.in_body(prefix + TIP_BODY, _tip(crane, place))
+    if payload is not None and damped:
+        _damp(scene, payload, tip, names[PAYLOAD])
     return add_roles(
         scene,
         prefix=prefix,
         slew=prefix + SLEW,
         cylinders={label: prefix + name for label, name in CYLINDERS.items()},
         link=None if payload is None else f"{prefix}link",
-        tip=None if payload is not None else frame.in_body(prefix + TIP_BODY, _tip(crane, place)),
+        tip=None if payload is not None else tip,
         capacity=crane.data.capacity,
     )
+
+
+def _damp(scene: Description, payload: Payload, tip: tuple[str, Vector], body: str) -> None:
+    length, breadth, height = payload.size
+    if payload.swing_damping_ratio > 0.0:
+        add_pendulum_damping(
+            scene,
+            name=f"{body} swing",
+            first=tip[0],
+            first_point=tip[1],
+            second=body,
+            ratio=payload.swing_damping_ratio,
+        )
+    if payload.drag_coefficient > 0.0:
+        add_air_drag(
+            scene,
+            body=body,
+            frontal_area=breadth * height,
+            lateral_area=length * height,
+            drag_coefficient=payload.drag_coefficient,
+        )
 
 
 def _tip(crane: KnuckleBoomCrane, place: dict[str, Any]) -> Array:

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
+from seacrane.description.damping import BOX_DRAG, SWING_RATIO
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import number_of
 from seacrane.inputs.plausible import warn_of_density
@@ -28,6 +29,10 @@ class Payload:
         Edges along body x, y and z, m.
     link_length : float
         Tip to the centroid of the top, m.
+    swing_damping_ratio : float
+        Of critical damping of its swing, as in `Scene.add_pendulum_damping`; 0 is none. Default: an estimate.
+    drag_coefficient : float
+        C_D of the box in still air, as in `Scene.add_air_drag`; 0 is no drag. Default 1.05 (Hoerner 1965).
 
     Warns
     -----
@@ -38,6 +43,8 @@ class Payload:
     mass: float = 10.0e3
     size: Vector = (6.0, 6.0, 4.0)
     link_length: float = 8.0
+    swing_damping_ratio: float = SWING_RATIO
+    drag_coefficient: float = BOX_DRAG
 
     def __post_init__(self) -> None:
         values = {"mass": self.mass, "link_length": self.link_length}
@@ -46,6 +53,10 @@ class Payload:
             value = number_of(f"payload: {name}", given)
             if not (math.isfinite(value) and value > 0.0):
                 raise SceneError(f"payload: {name} is {value!r}; it must be finite and greater than zero.")
+        for name in ("swing_damping_ratio", "drag_coefficient"):
+            value = number_of(f"payload: {name}", getattr(self, name))
+            if not (math.isfinite(value) and value >= 0.0):
+                raise SceneError(f"payload: {name} is {value!r}; it must be finite, and zero or more.")
         warn_of_density("payload", self.mass, math.prod(self.size))
 
     @property

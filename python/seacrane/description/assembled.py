@@ -12,6 +12,7 @@ from seacrane.inputs.frames import rotation_matrix
 
 Array = NDArray[np.float64]
 LARGEST_MOVE = 0.01  # m times the scene's length scale: a tenth of the length that tolerances refer to
+MOST_MOVE = 1.0  # m: however large the scale
 LARGEST_TURN = 0.01  # rad: the angle that they refer to
 LARGEST_SHARE = 0.01  # of a velocity that was described
 NAMED = 3
@@ -30,7 +31,7 @@ def moves(scene: Jointed, model: _core.Model) -> list[tuple[str, float, float]]:
         Name, m of the centre of mass (of the reference point of a vessel), rad.
     """
     found = model.assembly
-    limit = LARGEST_MOVE * scene.length_scale
+    limit = min(LARGEST_MOVE * scene.length_scale, MOST_MOVE)
     if found["largest_translation_m"] <= limit and found["largest_rotation_rad"] <= LARGEST_TURN:
         return []
     out = []

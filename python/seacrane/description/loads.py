@@ -58,6 +58,13 @@ def springs_of(
     return [*springs.items(), *gas]
 
 
+def whole_of(name: str, line: _core.Line) -> str:
+    """The line that one is a segment of, as `Scene.add_heavy_line` names them; else its own name."""
+    whole, _, number = name.rpartition(".")
+    tied = any(body.startswith(f"{whole}.") for body in line.bodies)
+    return whole if number.isdigit() and whole and tied else name
+
+
 def path_of(line: _core.Line) -> list[tuple[str, Any]]:
     """Body and point (m, its coordinates) of each point of a line, in their order."""
     return list(zip(line.bodies, line.points, strict=True))

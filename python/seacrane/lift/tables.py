@@ -10,7 +10,17 @@ from typing import Any, get_overloads
 from seacrane import _core
 from seacrane.crane.add_crane import add_crane
 from seacrane.crane.payload import Payload
-from seacrane.description import bodies, crane_parts, drives, forces, joints, limit_states, meshes, recorded
+from seacrane.description import (
+    bodies,
+    crane_parts,
+    damping,
+    drives,
+    forces,
+    joints,
+    limit_states,
+    meshes,
+    recorded,
+)
 from seacrane.description.curves import spline_curve
 from seacrane.description.scene import Description
 from seacrane.hydro import load_database
@@ -19,7 +29,7 @@ from seacrane.result.channels import CHANNELS
 from seacrane.result.units import units_of
 from seacrane.run.method import FORMULATIONS, Method
 from seacrane.run.outputs import Outputs
-from seacrane.scene import bridles, given_vessel, heave, limits, lines, sea, vessel, wind_current
+from seacrane.scene import bridles, given_vessel, heave, heavy_line, limits, lines, sea, vessel, wind_current
 from seacrane.scene.gusts import gust_curve
 from seacrane.scene.motion_history import MotionHistory
 from seacrane.scene.motion_raos import MotionRaos
@@ -297,6 +307,13 @@ _ALL = (
         loads={"type": "array", "unit": "N, N m", "shapes": ((-1, 6),)},
     ),
     _call("line", lines.add_line, _core.Line),
+    _call(
+        "heavy_line", heavy_line.add_heavy_line,
+        length=LENGTH, stiffness={"unit": "N"}, mass_per_length={"unit": "kg/m"}, diameter=LENGTH,
+        points={"type": "array", "unit": "m", "shapes": ((2, 3),)}, bodies={"type": "texts"},
+        density={"unit": "kg/m3"}, settling=TIME,
+        flow={"type": "array", "unit": "m/s", "shapes": ((3,),)},
+    ),
     _call("winch", lines.add_winch, _core.Line),
     _call(
         "gas_spring", heave.add_gas_spring, _core.GasSpring, force={"unit": "N"}, stiffness={"unit": "N/m"},
@@ -305,6 +322,8 @@ _ALL = (
         "bridle", bridles.add_bridle, _core.Line,
         hook_point=POINT, stiffnesses=ROW | {"unit": "N"}, lengths=ROW | {"unit": "m"},
     ),
+    _call("pendulum_damping", damping.add_pendulum_damping, _core.PendulumDamping),
+    _call("air_drag", damping.add_air_drag, _core.FlowForce),
     _flow("wind", wind_current.add_wind),
     _flow("current", wind_current.add_current),
     _call("wire", limits.add_wire, _core.Limit, sticking_speed={"unit": "m/s"}),

@@ -10,7 +10,7 @@ import numpy as np
 from seacrane import _core
 from seacrane._core import integrator as integrator_of
 from seacrane.analysis.linearise import LARGEST, jacobian
-from seacrane.description.loads import lines_of
+from seacrane.description.loads import lines_of, whole_of
 from seacrane.validity.range import Finding
 
 MANY_STEPS = 10_000  # fewer are no matter
@@ -69,11 +69,12 @@ def stiffness(
 
 def _taut_lines(loads: Mapping[str, Any], body: str, mode: float) -> str:
     """The rung that takes the mode, where it may be that of an elastic line on the body."""
-    names = [
-        repr(name)
+    fast = {
+        whole_of(name, line)
         for name, line in lines_of(loads).items()
         if line.stretch == "elastic" and body in line.bodies and mode * line.settling > SETTLES
-    ]
+    }
+    names = [repr(name) for name in sorted(fast)]
     if not names:
         return ""
     return (

@@ -12,6 +12,7 @@ from seacrane.description import (
     bodies,
     compilation,
     crane_parts,
+    damping,
     drives,
     edit,
     file,
@@ -27,6 +28,7 @@ from seacrane.scene import (
     drift,
     given_vessel,
     heave,
+    heavy_line,
     limits,
     lines,
     position,
@@ -79,11 +81,15 @@ class Scene(Description):
     add_function_force = forces.add_function_force
     add_load = forces.add_load
 
+    add_pendulum_damping = damping.add_pendulum_damping
+    add_air_drag = damping.add_air_drag
+
     add_wire = limits.add_wire
     add_end_stop = limits.add_end_stop
     add_seat = limits.add_seat
     add_soft_stop = limits.add_soft_stop
     add_line = lines.add_line
+    add_heavy_line = heavy_line.add_heavy_line
     add_winch = lines.add_winch
     add_bridle = bridles.add_bridle
     add_friction = limits.add_friction

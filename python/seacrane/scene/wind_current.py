@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane import _core
+from seacrane.description.damping import AIR
 from seacrane.description.forces import add_load
 from seacrane.description.scene import Description
 from seacrane.errors import SceneError
@@ -17,7 +18,6 @@ from seacrane.inputs.checked import curve_of, name_of, number_of, shaped_of, tex
 from seacrane.inputs.plausible import direction_of
 
 Array = NDArray[np.float64]
-AIR = 1.226  # kg/m3 at 15 deg C, DNV-RP-C205
 SEA_WATER = 1025.0  # kg/m3
 PORT_STARBOARD = np.array([1.0, -1.0, -1.0])  # of x, y, yaw
 HORIZONTAL = [0, 1, 5]

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterator, Mapping
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,6 +12,7 @@ from numpy.typing import NDArray
 from seacrane.description.capacity import allowed_at
 from seacrane.description.crane_parts import hooks
 from seacrane.description.crane_reach import placed, tip_radius
+from seacrane.description.loads import lines_of, path_of
 from seacrane.description.outline import box_edges, ship_size
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.frames import rotation_matrix
@@ -23,6 +25,7 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 Channels = Mapping[str, Array]
 Finding = tuple[type[Warning], str]
+_Place = tuple[str, Any]  # a body and a point in its coordinates, m
 LARGEST_SWING = np.radians(20.0)
 CLEAR = 0.01  # m of a load below a deck on which it stands
 WATER = 1025.0  # kg/m3
@@ -30,7 +33,7 @@ BLOCK = 0.7  # of a hull: its volume over that of the box around it
 
 
 class LargeSwingWarning(UserWarning):
-    """The load of a crane swung beyond 20 deg from vertical, further than any lift is let."""
+    """A load on a crane's link, or on one line alone, swung beyond 20 deg: further than any lift is let."""
 
 
 class OverloadWarning(UserWarning):
@@ -50,24 +53,42 @@ def lifting(scene: Description, time: Array, channels: Channels) -> list[Finding
 
 
 def _swings(scene: Description, time: Array, position: Array, quaternion: Array) -> Iterator[Finding]:
-    for link in hooks(scene).values():
-        joint = scene.joints[link]
-        upper, _ = placed(scene, joint.first, joint.first_frame.point, position, quaternion)
-        lower, _ = placed(scene, joint.second, joint.second_frame.point, position, quaternion)
+    for what, upper_end, lower_end in [*_links(scene), *_lines(scene)]:
+        upper, _ = placed(scene, *upper_end, position, quaternion)
+        lower, _ = placed(scene, *lower_end, position, quaternion)
         hung = np.broadcast_to(lower - upper, (time.size, 3))
         swing = np.arctan2(np.hypot(hung[:, 0], hung[:, 1]), -hung[:, 2])
         at = int(swing.argmax())
-        if swing[at] <= LARGEST_SWING:
+        slanted = what.startswith("line") and swing[0] > LARGEST_SWING  # as a tugger does
+        if swing[at] <= LARGEST_SWING or slanted:
             continue
         period = 2.0 * np.pi * np.sqrt(np.linalg.norm(hung[at]) / max(scene.gravity, 1e-9))
         yield (
             LargeSwingWarning,
-            f"link {link!r}: {joint.second!r} swings {np.degrees(swing[at]):.3g} deg from vertical at t = "
+            f"{what}: {lower_end[0]!r} swings {np.degrees(swing[at]):.3g} deg from vertical at t = "
             f"{time[at]:.6g} s, beyond {np.degrees(LARGEST_SWING):.0f} deg: no lift is let swing so far, and "
-            f"a pendulum of {period:.3g} s without damping gathers what waves and drives put in. Move "
-            "slower, keep its period away from the sea's, hold it by taglines (add_spring), or give it the "
-            "damping that it has",
+            f"a pendulum of {period:.3g} s gathers what waves and drives put in. Move slower, keep its "
+            "period away from the sea's, hold it by taglines (add_spring), or give it the damping that it "
+            "has (add_pendulum_damping, add_air_drag)",
         )
+
+
+def _links(scene: Description) -> Iterator[tuple[str, _Place, _Place]]:
+    for link in hooks(scene).values():
+        joint = scene.joints[link]
+        first, second = joint.first_frame.point, joint.second_frame.point
+        yield f"link {link!r}", (joint.first, first), (joint.second, second)
+
+
+def _lines(scene: Description) -> Iterator[tuple[str, _Place, _Place]]:
+    """The last spans of lines that alone hold a body."""
+    lines = lines_of(scene.loads)
+    used = Counter(body for line in lines.values() for body in set(line.bodies))
+    used.update(end for joint in scene.joints.values() for end in (joint.first, joint.second))
+    for name, line in lines.items():
+        upper, lower = path_of(line)[-2:]
+        if used[lower[0]] == 1 and lower[0] in scene.bodies and upper[0] != lower[0]:
+            yield f"line {name!r}", upper, lower
 
 
 def _overloads(scene: Description, time: Array, position: Array, quaternion: Array) -> Iterator[Finding]:

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane import _core
-from seacrane.description.loads import lines_of
+from seacrane.description.loads import lines_of, whole_of
 
 if TYPE_CHECKING:
     from seacrane.description.scene import Description
@@ -94,8 +94,13 @@ def _leaning(sheaves: list[str], time: Array, angles: Array) -> Iterator[Finding
 
 
 def _contradicted(lines: Mapping[str, _core.Line], lengths: Array, stretches: Array) -> Iterator[Finding]:
-    for (name, line), length, stretch in zip(lines.items(), lengths, stretches, strict=True):
-        usual = max([LARGEST_CONTRADICTION, *line.strains])  # a cord is meant to be as long as its table
+    """Whole lines whose described length is not that of their path; a heavy line is the sum of its segments."""
+    wholes = [whole_of(name, line) for name, line in lines.items()]
+    for name in dict.fromkeys(wholes):
+        own = np.array([whole == name for whole in wholes])
+        length, stretch = float(lengths[own].sum()), float(stretches[own].sum())
+        strains = [strain for line, mine in zip(lines.values(), own, strict=True) if mine for strain in line.strains]
+        usual = max([LARGEST_CONTRADICTION, *strains])  # a cord is meant to be as long as its table
         if -LARGEST_CONTRADICTION * length <= stretch <= usual * length:
             continue
         state = "stretched" if stretch > 0.0 else "slack"

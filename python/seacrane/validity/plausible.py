@@ -30,7 +30,16 @@ LARGEST_RADIUS = 200.0  # m, of gyration
 HUNG_SHARE = 1e-5  # of the vessel's mass
 LARGEST_HEEL = np.radians(2.0)
 LARGEST_SINKAGE = 2.0  # m
-JUDGED_LOADS = ("point force", "actuator", "flow force", "limit", "friction", "soft stop")
+JUDGED_LOADS = (
+    "point force",
+    "actuator",
+    "flow force",
+    "limit",
+    "friction",
+    "soft stop",
+    "pendulum damping",
+    "span drag",
+)
 
 
 class BallastWarning(UserWarning):
@@ -65,7 +74,7 @@ def _warn_of_winds(scene: Description) -> None:
     energy = np.square(np.asarray(scene.waves.amplitude, dtype=float)) * np.ones(len(scene.waves.omega))
     direction = np.asarray(scene.waves.direction, dtype=float)
     for name, load in scene.loads.items():
-        if not (isinstance(load, _core.FlowForce) and load.density < HEAVIEST_AIR):
+        if not (isinstance(load, _core.FlowForce) and load.density < HEAVIEST_AIR) or _still(load):
             continue
         along = np.cos(direction - load.direction) >= np.cos(AGAINST)
         if np.sum(energy * along) < LEAST_ENERGY * np.sum(energy):
@@ -76,6 +85,10 @@ def _warn_of_winds(scene: Description) -> None:
                 "and compasses tell where wind comes from: turn it by 180 deg?",
                 CompassDirectionWarning,
             )
+
+
+def _still(wind: _core.FlowForce) -> bool:
+    return not np.any(np.asarray(wind.speed.to_pieces()["coefficients"]))
 
 
 def _warn_of_masses(scene: Description) -> None:

@@ -11,8 +11,10 @@
 #include "seacrane/elements/loads/gas_spring.hpp"
 #include "seacrane/elements/loads/heave_compensator.hpp"
 #include "seacrane/elements/loads/line.hpp"
+#include "seacrane/elements/loads/pendulum_damping.hpp"
 #include "seacrane/elements/loads/point_force.hpp"
 #include "seacrane/elements/loads/soft_stop.hpp"
+#include "seacrane/elements/loads/span_drag.hpp"
 #include "seacrane/elements/loads/spring_damper.hpp"
 
 namespace seacrane {
@@ -20,7 +22,7 @@ namespace seacrane {
 /// The one list of loads that a scene describes: a new one is its own file and an entry here. What others
 /// follow comes before them.
 using LoadTypes = std::tuple<HeaveCompensator, Actuator, PointForce, SpringDamper, ForceTable, FunctionForce,
-                             FlowForce, Friction, SoftStop, Line, GasSpring>;
+                             FlowForce, Friction, SoftStop, Line, GasSpring, PendulumDamping, SpanDrag>;
 
 /// Calls f.template operator()<Load>() for every type of load.
 template <class F>

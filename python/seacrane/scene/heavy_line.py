@@ -1,0 +1,212 @@
+"""Lines with mass: point masses between elastic segments, from one call."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from seacrane import _core
+from seacrane.description.bodies import add_body
+from seacrane.description.damping import AIR
+from seacrane.description.forces import add_load
+from seacrane.description.joints import add_joint
+from seacrane.description.scene import GROUND, Description
+from seacrane.errors import SceneError
+from seacrane.inputs.checked import name_of, number_of, shaped_of, text_of, texts_of
+from seacrane.inputs.frames import rotation_matrix
+from seacrane.scene.chain_shape import Chain
+from seacrane.scene.lines import add_line
+
+Array = NDArray[np.float64]
+CYLINDER_DRAG = 1.2  # C_D of a cylinder across the flow, below its critical Reynolds number: DNV-RP-C205
+GYRATION = 0.005  # radius of gyration of a mass over its segment: nothing turns it, pictures draw it
+MOST_SEGMENTS = 1000
+STRAIGHT = 0.01  # of the span: a line that hangs slack by less starts straight where it has no rest shape
+
+
+@dataclass(frozen=True, kw_only=True)
+class _End:
+    """An end of a line: body and point (m) in its coordinates, and place (m) and velocity (m/s) of it."""
+
+    body: str
+    point: Array
+    place: Array
+    velocity: Array
+
+
+def add_heavy_line(
+    scene: Description,
+    *,
+    name: str,
+    bodies: Sequence[str],
+    points: ArrayLike,
+    stiffness: float,
+    length: float,
+    mass_per_length: float,
+    segments: int = 20,
+    damping_ratio: float = 0.02,
+    stretch: str = "elastic",
+    settling: float = 0.2,
+    diameter: float = 0.0,
+    drag_coefficient: float = CYLINDER_DRAG,
+    density: float = AIR,
+    flow: Any = (0.0, 0.0, 0.0),
+) -> list[_core.Line]:
+    """A line with mass between two points: equal elastic segments with point masses between them.
+
+    Adds the lines and bodies "<name>.1", "<name>.2", ... from the first end on, segments and one body less;
+    half a segment's mass sits at either end, on bodies "<name>.first" and "<name>.last" that are welded to
+    what is not the ground. It starts in its rest shape. See docs/lines.md.
+
+    Parameters
+    ----------
+    name : str
+    bodies : sequence of str, length 2
+        Of the ends; "ground" is one too.
+    points : array_like, shape (2, 3)
+        In coordinates of these bodies, m.
+    stiffness : float
+        EA, N.
+    length : float
+        Unstretched, m.
+    mass_per_length : float
+        kg/m.
+    segments : int
+        From 1 to 1000. The fastest mode is 2 segments / length sqrt(EA / mass_per_length), 1/s.
+    damping_ratio : float
+        Of critical damping of one mass on one segment. Default 0.02: an estimate.
+    stretch, settling : {"elastic", "quasi-static"}, float
+        Of every segment, as in `add_line`. Quasi-static: waves along the line settle within `settling` (s),
+        and no fast mode is left; the line must stay taut.
+    diameter : float
+        m, for drag across the line; 0 (default): no drag.
+    drag_coefficient : float
+        Across the line; there is none along it. Default 1.2, a cylinder (DNV-RP-C205).
+    density : float
+        kg/m3, of the fluid; default: air. Buoyancy and added mass are left out.
+    flow : array_like, shape (3,)
+        Velocity of the fluid, m/s, inertial axes.
+
+    Returns
+    -------
+    list of Line
+        The segments.
+
+    Raises
+    ------
+    SceneError
+        For ends that are not there, values out of range, or a slack line without a rest shape.
+    """
+    what = f"heavy line {name_of('heavy line', name)!r}"
+    first, last = _ends(scene, what, bodies, points)
+    count = _count(what, segments)
+    whole = _positive(what, "length", length)
+    step, mass = whole / count, _positive(what, "mass_per_length", mass_per_length) * whole / count
+    chain = Chain(
+        span=last.place - first.place,
+        segment=step,
+        stiffness=_positive(what, "stiffness", stiffness),
+        weights=np.full(count - 1, mass * scene.gravity),
+    )
+    places = first.place + _shape(what, chain)
+    inertia = np.full(3, mass * (GYRATION * step) ** 2)
+    for i, place in enumerate(places, start=1):
+        velocity = first.velocity + (last.velocity - first.velocity) * (i / count)
+        add_body(scene, name=f"{name}.{i}", mass=mass, inertia=inertia, position=place, velocity=velocity)
+    nodes = [(f"{name}.{i}", np.zeros(3)) for i in range(1, count)]
+    path = [_tied(scene, f"{name}.first", first, 0.5 * mass, 0.5 * inertia), *nodes]
+    path.append(_tied(scene, f"{name}.last", last, 0.5 * mass, 0.5 * inertia))
+    lines = []
+    for i, (one, two) in enumerate(pairwise(path), start=1):
+        lines.append(
+            add_line(
+                scene, name=f"{name}.{i}", bodies=[one[0], two[0]], points=[one[1], two[1]],
+                stiffness=stiffness, length=step, damping_ratio=damping_ratio, mass=mass,
+                stretch=stretch, settling=settling,
+            )
+        )  # fmt: skip
+        if number_of(f"{what}: diameter", diameter) == 0.0:
+            continue
+        add_load(
+            scene,
+            _core.SpanDrag(
+                name=f"{name}.{i} drag", first=one[0], second=two[0], first_point=one[1], second_point=two[1],
+                density=density, diameter=diameter, length=step, coefficient=drag_coefficient, flow=flow,
+            ),
+        )  # fmt: skip
+    return lines
+
+
+def _ends(scene: Description, what: str, bodies: Any, points: Any) -> tuple[_End, _End]:
+    names = texts_of(f"{what}: bodies", bodies)
+    if len(names) != 2:
+        raise SceneError(f"{what}: bodies has {len(names)} names; give those of its two ends")
+    if names[0] == names[1]:
+        raise SceneError(f"{what}: both ends are on {names[0]!r}; name two bodies")
+    rows = shaped_of(f"{what}: points", points, (2, 3))
+    first, last = (_end(scene, what, *end) for end in zip(names, rows, strict=True))
+    if not np.any(last.place - first.place):
+        raise SceneError(f"{what}: points are both at {first.place.tolist()} m; give two places")
+    return first, last
+
+
+def _end(scene: Description, what: str, name: str, point: Array) -> _End:
+    if not np.all(np.isfinite(point)):
+        raise SceneError(f"{what}: points holds {point.tolist()}; give finite numbers")
+    if name == GROUND:
+        return _End(body=name, point=point, place=point, velocity=np.zeros(3))
+    if text_of(f"{what}: bodies", name) not in scene.bodies:
+        raise SceneError(f"{what}: there is no body {name!r}; add it first")
+    body = scene.bodies[name]
+    lever = rotation_matrix(body.quaternion) @ point
+    velocity = body.velocity + np.cross(body.angular_velocity, lever)
+    return _End(body=name, point=point, place=body.position + lever, velocity=velocity)
+
+
+def _tied(scene: Description, name: str, end: _End, mass: float, inertia: Array) -> tuple[str, Array]:
+    """Half a segment's mass on what an end is tied to, and where the line begins."""
+    if end.body == GROUND:
+        return end.body, end.point
+    add_body(
+        scene, name=name, mass=mass, inertia=inertia, position=end.place,
+        quaternion=scene.bodies[end.body].quaternion, velocity=end.velocity,
+        angular_velocity=scene.bodies[end.body].angular_velocity,
+    )  # fmt: skip
+    add_joint(scene, kind="weld", name=name, first=end.body, second=name)
+    return name, np.zeros(3)
+
+
+def _shape(what: str, chain: Chain) -> Array:
+    """Places of the masses from the first end, (n - 1, 3), m."""
+    if chain.count == 1:
+        return np.zeros((0, 3))
+    forces = chain.forces()
+    if forces is not None:
+        return chain.points(forces)
+    if not chain.segment * chain.count < (1.0 + STRAIGHT) * np.linalg.norm(chain.span):
+        raise SceneError(
+            f"{what}: length is {chain.segment * chain.count:.6g} m over a span of "
+            f"{np.linalg.norm(chain.span):.6g} m, and it has no rest shape; give it less length, ends that "
+            "are not one above the other, or gravity"
+        )
+    return np.arange(1, chain.count)[:, None] / chain.count * chain.span
+
+
+def _count(what: str, segments: Any) -> int:
+    if isinstance(segments, bool) or not isinstance(segments, (int, np.integer)):
+        raise SceneError(f"{what}: segments is {segments!r}; give a whole number")
+    if not 1 <= segments <= MOST_SEGMENTS:
+        raise SceneError(f"{what}: segments is {segments}; give 1 to {MOST_SEGMENTS}")
+    return int(segments)
+
+
+def _positive(what: str, key: str, value: Any) -> float:
+    number = number_of(f"{what}: {key}", value)
+    if not (np.isfinite(number) and number > 0.0):
+        raise SceneError(f"{what}: {key} is {number!r}; it must be finite and greater than zero")
+    return number

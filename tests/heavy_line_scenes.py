@@ -1,0 +1,90 @@
+"""Lines with mass, with the numbers of their closed forms."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from seacrane import Curve, Scene, spline_curve
+
+Array = NDArray[np.float64]
+G = 9.80665
+EA, MASS, LENGTH, RATIO = 1e8, 100.0, 900.0, 0.02  # N, kg/m, m: of the line that heaves
+HEAVE, PERIOD = 1.0, 12.0  # m, s
+CATENARY_H, CATENARY_V = 663_644.668, 728_230.403  # N, at the upper end: Irvine's elastic catenary
+
+
+def slung(count: int) -> Scene:
+    """The catenary of those forces: 800 m across, 300 m up, 900 m of 1000 N/m and EA 1e9 N."""
+    scene = Scene(name="slung")
+    scene.add_body(name="end", mass=1e3, inertia=(1e3, 1e3, 1e3), position=(800.0, 0.0, 300.0))
+    scene.add_joint(kind="weld", name="bolts", first="ground", second="end")
+    scene.add_heavy_line(
+        name="line", bodies=["ground", "end"], points=np.zeros((2, 3)), stiffness=1e9, length=900.0,
+        mass_per_length=1000.0 / G, segments=count,
+    )  # fmt: skip
+    return scene
+
+
+def weights_of_shape(count: int) -> tuple[float, float]:
+    """H and V (N) at the upper end of that line, as described: of its last segment and half its mass."""
+    scene = slung(count)
+    last = scene.bodies["end"].position - scene.bodies[f"line.{count - 1}"].position
+    length, step = float(np.linalg.norm(last)), 900.0 / count
+    tension = 1e9 * (length / step - 1.0)
+    return tension * last[0] / length, tension * last[2] / length + 0.5 * 1000.0 * step
+
+
+def heave(t_end: float) -> Curve:
+    """Up and down from rest, m."""
+    times = np.arange(0.0, t_end + 1.0, 0.02)
+    return spline_curve(times=times, values=HEAVE * np.sin(2.0 * np.pi * times / PERIOD) ** 3)
+
+
+def heaving(count: int, t_end: float, **more: Any) -> Scene:
+    """A slack line below an end that moves up and down."""
+    scene = Scene(name="heaving")
+    scene.add_body(name="end", mass=1e3, inertia=(1e3, 1e3, 1e3), position=(800.0, 0.0, 0.0))
+    scene.add_joint(
+        kind="prismatic", name="guide", first="ground", second="end", point=(800, 0, 0), axis=(0, 0, 1)
+    )
+    scene.add_driver(joint="guide", curve=heave(t_end))
+    line = {"stiffness": EA, "length": LENGTH, "mass_per_length": MASS, "damping_ratio": RATIO} | more
+    scene.add_heavy_line(
+        name="line", bodies=["ground", "end"], points=[(0, 0, -300), (0, 0, 0)], segments=count, **line
+    )
+    return scene
+
+
+def hanging(count: int, *, load: float = 1e3, velocity: float = 0.0, **more: Any) -> Scene:
+    """A load on a wire of 100 m that hangs at rest, stretched by its own weight and the load's."""
+    line = {"stiffness": 1e6, "length": 100.0, "mass_per_length": 50.0} | more
+    length, weight = line["length"], line["mass_per_length"] * G
+    stretched = length + (load * G * length + 0.5 * weight * length**2) / line["stiffness"]
+    scene = Scene(name="hanging")
+    scene.add_body(
+        name="load", mass=load, inertia=(1e3, 1e3, 1e3), position=(0.0, 0.0, -stretched),
+        velocity=(velocity, 0.0, 0.0),
+    )  # fmt: skip
+    scene.add_heavy_line(
+        name="wire", bodies=["ground", "load"], points=np.zeros((2, 3)), segments=count, **line
+    )
+    return scene
+
+
+def string(count: int, *, strain: float = 0.01, amplitude: float = 0.01) -> Scene:
+    """A taut string of 50 m without weight, its nodes moving as the first transverse mode does, m/s."""
+    scene = Scene(name="string", gravity=0.0)
+    scene.add_body(name="end", mass=1e3, inertia=(1e3, 1e3, 1e3), position=(50.0, 0.0, 0.0))
+    scene.add_joint(kind="weld", name="bolts", first="ground", second="end")
+    scene.add_heavy_line(
+        name="line", bodies=["ground", "end"], points=np.zeros((2, 3)), stiffness=1e6,
+        length=50.0 / (1.0 + strain), mass_per_length=2.0 * (1.0 + strain), segments=count,
+    )  # fmt: skip
+    for i in range(1, count):
+        node = scene.bodies[f"line.{i}"]
+        pluck = amplitude * np.sin(np.pi * i / count)
+        scene.bodies[node.name] = type(node)(**node.__getstate__() | {"velocity": (0.0, 0.0, pluck)})
+    return scene
