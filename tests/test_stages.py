@@ -31,6 +31,7 @@ from seacrane import (
     cases,
     simulate,
     simulate_stages,
+    simulate_stages_to_file,
 )
 
 Array = NDArray[np.float64]
@@ -534,3 +535,39 @@ print(json.dumps([more, result.interrupted, float(result.time[-1]), [s.ended_by 
     more, interrupted, last, ended = json.loads(finished.stdout)
     assert (more, interrupted, ended) == (False, True, ["duration", ""])
     assert 1.0 < last < 1e6
+
+
+def test_a_file_holds_the_stages_that_are_over_whenever_the_process_ends(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    path, states = tmp_path / "lift.nc", []
+    saved = Result.save
+
+    def save(result: Result, to: Path) -> Path:
+        states.append(([span.name for span in result.stages], result.interrupted))
+        return saved(result, to)
+
+    monkeypatch.setattr(Result, "save", save)
+    result = simulate_stages_to_file(on_deck(), lift_off()[:3], path, dt_out=0.25)
+    assert states == [
+        (["hold"], True), (["hold", "lift off"], True), (["hold", "lift off", "raise"], False)
+    ]  # fmt: skip
+    assert not Result.load(path).interrupted
+    np.testing.assert_array_equal(Result.load(path)["position"], result["position"])
+    with pytest.raises(FileExistsError, match=r"lift.nc is there already; give another name, or overwrite"):
+        simulate_stages_to_file(on_deck(), lift_off(), path)
+    with pytest.raises(FileNotFoundError, match="there is no folder"):
+        simulate_stages_to_file(on_deck(), lift_off(), tmp_path / "none" / "lift.nc")
+
+
+def test_a_file_keeps_what_an_error_left(tmp_path: Path) -> None:
+    path = tmp_path / "lift.nc"
+    hold, off = lift_off()[:2]
+    short = Stage(name="lift off", until=off.until, longest=0.5, commands=off.commands)
+    with pytest.raises(SimulationError, match="is not over after its longest"):
+        simulate_stages_to_file(on_deck(), [hold, short], path, dt_out=0.25)
+    kept = Result.load(path)
+    assert kept.interrupted and [span.name for span in kept.stages] == ["hold", "lift off"]
+    assert kept.time[-1] == pytest.approx(1.55)
+    simulate_stages_to_file(on_deck(), [hold], path, dt_out=0.25, overwrite=True)
+    assert Result.load(path).time[-1] == 1.05

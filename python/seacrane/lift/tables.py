@@ -8,15 +8,16 @@ from types import MappingProxyType
 from typing import Any, get_overloads
 
 from seacrane import _core
+from seacrane.analysis.ballast import add_ballast
+from seacrane.analysis.tanks import Tank
 from seacrane.crane.add_crane import add_crane
 from seacrane.crane.payload import Payload
 from seacrane.description import bodies, crane_parts, drives, forces, joints, limit_states, meshes, recorded
 from seacrane.description.curves import spline_curve
 from seacrane.description.scene import Description
 from seacrane.hydro import load_database
-from seacrane.lift.keys import EITHER, Key, field_keys, fields_of, keys_of
-from seacrane.result.channels import CHANNELS
-from seacrane.result.units import units_of
+from seacrane.lift.keys import Key, field_keys, fields_of, keys_of
+from seacrane.lift.stage_keys import CHANNEL_UNITS, STAGE
 from seacrane.run.method import FORMULATIONS, Method
 from seacrane.run.outputs import Outputs
 from seacrane.scene import given_vessel, limits, lines, sea, vessel, wind_current
@@ -26,6 +27,7 @@ from seacrane.scene.motion_raos import MotionRaos
 from seacrane.scene.realised_sea import SPECTRA
 from seacrane.sea import SeaState, WaveSystem
 from seacrane.simulation import simulate
+from seacrane.stages.stage import Stage
 
 CHOSEN: dict[str, dict[str, Any]] = {
     "spectrum": {"type": "text", "choices": SPECTRA},
@@ -43,7 +45,7 @@ DIRECTION: dict[str, Any] = {"type": "array", "shapes": ((3,),)}
 LENGTH: dict[str, Any] = {"unit": "m"}
 TIME: dict[str, Any] = {"unit": "s"}
 NUMBER = {"type": "number"}
-LIMITED = {"unit": EITHER.join(dict.fromkeys(unit for name in CHANNELS for unit in units_of(name)))}
+LIMITED = {"unit": CHANNEL_UNITS}
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -197,6 +199,10 @@ def _flow(name: str, add: Callable[..., Any]) -> Table:
     return replace(table, keys=tuple(replace(key, text=texts[key.name]) for key in table.keys))
 
 
+TANK = (
+    Key(name="name", type="text", required=True, text="Differs from those of the other tanks."),
+    *keys_of(Tank, more={"point": POINT, "capacity": {"unit": "kg"}, "content": {"unit": "kg"}}),
+)
 PAYLOAD = keys_of(Payload, more={"mass": {"unit": "kg"}, "size": POINT, "link_length": LENGTH})
 POSE: dict[str, dict[str, Any]] = {"theta": {"unit": "rad"}, "s1": LENGTH, "s2": LENGTH}
 CRANE = keys_of(
@@ -341,11 +347,19 @@ _ALL = (
         text="A constant force on a vessel that carries the weight of all else at the start: its ballast.",
         keys=(Key(name="body", type="text", required=True, text="The vessel."),),
     ),
+    Table(
+        name="ballast", text=_summary(add_ballast), add=add_ballast,
+        keys=keys_of(add_ballast, more={
+            "heel_deg": {"unit": "deg"}, "trim_deg": {"unit": "deg"},
+            "tanks": {"type": "tables", "keys": TANK, "text": "Without them one force."},
+        }),
+    ),
     Table(name="control", several=False, text="How commanded coordinates are controlled.", keys=CONTROL),
     Table(
         name="command", keys=COMMAND,
         text="A joint coordinate that follows a reference: an actuator with gains and loads by [control].",
     ),
+    Table(name="stage", text=_summary(Stage), keys=STAGE),
     Table(
         name="run", several=False, text="How long a run takes.",
         keys=keys_of(simulate, more={"t_end": TIME}, only=("t_end",)),

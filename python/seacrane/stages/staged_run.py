@@ -151,7 +151,7 @@ class StagedRun:
         return not self.interrupted and len(self._spans) < len(self.stages)
 
     def result(self) -> Result:
-        """All that has been recorded so far.
+        """All that has been recorded so far; `interrupted` until the last stage is over.
 
         Raises
         ------
@@ -161,8 +161,8 @@ class StagedRun:
         if not self._pieces:
             raise SceneError("stages: nothing has been recorded yet; advance() them first")
         return joined(
-            self._pieces, scene=self._given, spans=self._spans, interrupted=self.interrupted,
-            after=self._changes,
+            self._pieces, scene=self._given, spans=self._spans,
+            interrupted=self.interrupted or len(self._spans) < len(self.stages), after=self._changes,
         )  # fmt: skip
 
     def warn(self) -> None:
