@@ -12,6 +12,7 @@ from seacrane import _core
 from seacrane.result.result import Result
 from seacrane.run.method import Method
 from seacrane.run.outputs import Outputs
+from seacrane.run.sampled_controller import SampledController
 from seacrane.run.shorthand import Shorthand
 from seacrane.scene.scene import Scene
 from seacrane.stages.stage import Stage
@@ -30,6 +31,7 @@ def simulate_stages_to_file(
     first: str | None = None,
     method: Method | None = None,
     outputs: Outputs | None = None,
+    controllers: Sequence[SampledController] = (),
     overwrite: bool = False,
     **shorthand: Unpack[Shorthand],
 ) -> Result:
@@ -40,7 +42,7 @@ def simulate_stages_to_file(
 
     Parameters
     ----------
-    scene, stages, start, first, method, outputs, **shorthand
+    scene, stages, start, first, method, outputs, controllers, **shorthand
         As `simulate_stages`.
     path : path
         NetCDF file; its folder must exist.
@@ -69,7 +71,10 @@ def simulate_stages_to_file(
         raise FileExistsError(f"{path.name} is there already; give another name, or overwrite=True")
     if not path.parent.is_dir():
         raise FileNotFoundError(f"{path}: there is no folder {path.parent}; make it first")
-    run = StagedRun(scene, stages, start=start, first=first, method=method, outputs=outputs, **shorthand)
+    run = StagedRun(
+        scene, stages, start=start, first=first, method=method, outputs=outputs, controllers=controllers,
+        **shorthand,
+    )  # fmt: skip
     try:
         while run.advance():
             run.result().save(path)
