@@ -18,9 +18,9 @@ GROUND = -1
 def wires_of(scene: Description, bodies: Sequence[str]) -> list[dict[str, Any]]:
     """Distance joints, springs and the spans of elastic lines for the page.
 
-    Of each: name, kind ("link", "wire" or "spring"; a span is a link), both ends as the body's number (-1:
-    the ground) and a point relative to its centre of mass, and the length (m) below which it hangs slack; 0
-    if it never does.
+    Of each: name, the element that it is of, kind ("link", "wire" or "spring"; a span is a link), both ends
+    as the body's number (-1: the ground) and a point relative to its centre of mass, and the length (m) below
+    which it hangs slack; 0 if it never does.
     """
     limits = {limit.joint for limit in scene.loads.values() if getattr(limit, "kind", None) == "wire"}
     found = []
@@ -30,6 +30,7 @@ def wires_of(scene: Description, bodies: Sequence[str]) -> list[dict[str, Any]]:
             found.append(
                 {
                     "name": name,
+                    "element": name,
                     "kind": "wire" if pulls else "link",
                     "from": end_of(scene, bodies, joint.first, joint.first_frame.point),
                     "to": end_of(scene, bodies, joint.second, joint.second_frame.point),
@@ -40,6 +41,7 @@ def wires_of(scene: Description, bodies: Sequence[str]) -> list[dict[str, Any]]:
         found.append(
             {
                 "name": name,
+                "element": name,
                 "kind": "spring",
                 "from": end_of(scene, bodies, spring.first, spring.first_point),
                 "to": end_of(scene, bodies, spring.second, spring.second_point),
@@ -49,7 +51,14 @@ def wires_of(scene: Description, bodies: Sequence[str]) -> list[dict[str, Any]]:
     for name, line in lines_of(scene.loads).items():
         ends = [end_of(scene, bodies, body, point) for body, point in path_of(line)]
         found += [
-            {"name": f"{name} {i + 1}", "kind": "link", "from": start, "to": end, "length": 0.0}
+            {
+                "name": f"{name} {i + 1}",
+                "element": name,
+                "kind": "link",
+                "from": start,
+                "to": end,
+                "length": 0.0,
+            }
             for i, (start, end) in enumerate(pairwise(ends))
         ]
     return found
