@@ -101,6 +101,11 @@ def add_crane(
         link=None if payload is None else f"{prefix}link",
         tip=None if payload is not None else frame.in_body(prefix + TIP_BODY, _tip(crane, place)),
         capacity=crane.data.capacity,
+        areas={
+            label: areas
+            for label, name in CYLINDERS.items()
+            if (areas := getattr(crane.data, name).areas) is not None
+        },
     )
 
 

@@ -146,6 +146,9 @@ class Caller:
             case "joint":
                 scene.add_joint(**given)
             case "roles":
+                if "areas" in given:
+                    rows = given["areas"]
+                    given["areas"] = {one["cylinder"]: (one["full"], one["rod_side"]) for one in rows}
                 scene.add_roles(**given)
             case _:
                 assert table.add is not None

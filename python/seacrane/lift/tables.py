@@ -203,6 +203,11 @@ TANK = (
     Key(name="name", type="text", required=True, text="Differs from those of the other tanks."),
     *keys_of(Tank, more={"point": POINT, "capacity": {"unit": "kg"}, "content": {"unit": "kg"}}),
 )
+PISTON = (
+    Key(name="cylinder", type="text", required=True, text="Its label."),
+    Key(name="full", type="number", unit="m2", required=True, text="Area of the full side."),
+    Key(name="rod_side", type="number", unit="m2", required=True, text="Area of the rod side."),
+)
 PAYLOAD = keys_of(Payload, more={"mass": {"unit": "kg"}, "size": POINT, "link_length": LENGTH})
 POSE: dict[str, dict[str, Any]] = {"theta": {"unit": "rad"}, "s1": LENGTH, "s2": LENGTH}
 CRANE = keys_of(
@@ -328,6 +333,7 @@ _ALL = (
                     Key(name="body", type="text", required=True), Key(name="point", required=True, **POINT)
                 )},
                 "capacity": {"type": "array", "unit": "m, kg", "shapes": ((-1, 2),)},
+                "areas": {"type": "tables", "keys": PISTON},
             },
         ),
     ),

@@ -75,6 +75,12 @@ DERIVED: Mapping[str, Channel] = MappingProxyType(
         "cylinder_force": _derived(
             "cylinder", "N", "actuator force of the cylinder, positive pushes", _DRIVE
         ),
+        "cylinder_pressure": _derived(
+            "piston",
+            "Pa",
+            "pressure in the loaded chamber of the cylinder, the rod side's negative",
+            _DRIVE,
+        ),
         "slew_angle": _derived(
             "", "rad", "slew angle of the crane", "coordinate", several="slew", turns=True
         ),

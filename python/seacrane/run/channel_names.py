@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from seacrane.description.crane_parts import cylinders, hooks, slews, tips
+from seacrane.description.crane_parts import cylinders, hooks, piston_areas, slews, tips
+from seacrane.description.cylinder_areas import pressure
 from seacrane.errors import SceneError
 from seacrane.result.channels import CHANNELS, DERIVED, FIXED
 from seacrane.run.hanging import lead_angles, tip_velocities
@@ -40,6 +41,7 @@ def derived_coords(scene: Description) -> dict[str, list[str]]:
     """Names along the dimensions of derived channels."""
     return {
         "cylinder": list(cylinders(scene)),
+        "piston": list(piston_areas(scene)),
         "slew": list(slews(scene)),
         "hook": list(hooks(scene)),
         "tip": list(tips(scene)),
@@ -105,6 +107,7 @@ def named_channels(
         "stroke": _recorded(scene, arrays.get("coordinate"), strokes),
         "stroke_rate": _recorded(scene, arrays.get("coordinate_rate"), strokes),
         "cylinder_force": _loads(scene, arrays, strokes),
+        "cylinder_pressure": _pressures(scene, arrays, strokes),
         "slew_angle": _turned(_recorded(scene, arrays.get("coordinate"), drives)),
         "slew_torque": _without_axis_of_one(_loads(scene, arrays, drives)),
         "link_tension": _without_axis_of_one(
@@ -146,6 +149,17 @@ def _loads(
     columns = [_drive_load(scene, arrays, place) for place in wanted.values()]
     known = [column for column in columns if column is not None]
     return np.column_stack(known) if known and len(known) == len(columns) else None
+
+
+def _pressures(
+    scene: Description, arrays: Mapping[str, Array], cylinders: Mapping[str, tuple[str, str]]
+) -> Array | None:
+    """In the loaded chambers of the cylinders whose areas are known."""
+    areas = piston_areas(scene)
+    forces = _loads(scene, arrays, {label: cylinders[label] for label in areas})
+    if forces is None:
+        return None
+    return np.column_stack([pressure(forces[:, i], pair) for i, pair in enumerate(areas.values())])
 
 
 def _drive_load(scene: Description, arrays: Mapping[str, Array], wanted: tuple[str, str]) -> Array | None:
