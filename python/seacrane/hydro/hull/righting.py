@@ -93,7 +93,7 @@ def righting_arms(
         triangles = triangles - np.array([0.0, 0.0, triangles[..., 2].min() + draught])
     centre = np.asarray(center_of_gravity, dtype=float)
     if centre.shape != (3,) or not np.all(np.isfinite(centre)):
-        raise ValueError(f"hull {name!r}: center_of_gravity is {center_of_gravity}; give x, y and z, m")
+        raise ValueError(f"hull {name!r}: center_of_gravity is {center_of_gravity!r}; give x, y and z, m")
     if trim not in TRIMS:
         raise ValueError(f"hull {name!r}: trim is {trim!r}; give {' or '.join(map(repr, TRIMS))}")
     if not triangles[..., 2].min() < 0.0 < triangles[..., 2].max():
@@ -180,4 +180,4 @@ def _turn(heel: float, trim: float) -> FloatArray:
     """Heel about x, then trim about y."""
     (c, s), (ct, st) = (np.cos(heel), np.sin(heel)), (np.cos(trim), np.sin(trim))
     roll = np.array([[1.0, 0.0, 0.0], [0.0, c, -s], [0.0, s, c]])
-    return np.array([[ct, 0.0, st], [0.0, 1.0, 0.0], [-st, 0.0, ct]]) @ roll
+    return np.asarray(np.array([[ct, 0.0, st], [0.0, 1.0, 0.0], [-st, 0.0, ct]]) @ roll)
