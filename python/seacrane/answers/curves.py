@@ -42,6 +42,8 @@ class Curve:
         In the unit.
     load : bool
         Whether it has a dynamic factor.
+    pulls : bool
+        Whether it is a tension, which may go slack.
     static : float or None
         In the unit, where the run noted it.
     """
@@ -51,6 +53,7 @@ class Curve:
     unit: str
     values: Array
     load: bool = False
+    pulls: bool = False
     static: float | None = None
 
     @property
@@ -97,6 +100,7 @@ def _load(result: Result, one: Trace) -> Curve:
     return Curve(
         kind=one.channel.replace("_", " "), label=one.label, unit=unit, values=factor * one.values,
         load=one.channel != "slew_torque",
+        pulls=one.channel in TENSIONS,
         static=None if static is None else static * si_factor(unit),
     )  # fmt: skip
 
@@ -104,12 +108,18 @@ def _load(result: Result, one: Trace) -> Curve:
 def _hanging_weight(result: Result, one: Trace) -> float | None:
     """Of the load on a link, N, as the run noted it."""
     weights = json.loads(str(result.stats.get("hanging_weight", "{}")))
-    if one.channel == "tension":
-        weight = weights.get(one.names[0])
+    on_lines = json.loads(str(result.stats.get("line_weight", "{}")))
+    name = one.names[0] if one.names else ""
+    if one.channel == "line_tension":
+        weight = on_lines[name][0] / on_lines[name][1] if name in on_lines else None
+    elif one.channel == "hook_load" and name in on_lines:
+        weight = on_lines[name][0]
+    elif one.channel in ("tension", "hook_load"):
+        weight = weights.get(name)
     else:
         cranes = json.loads(str(result.stats.get("cranes", "[]")))
         links = {f"{crane['prefix']}hook": crane["link"] for crane in cranes if crane["link"]}
-        link = links.get(one.names[0]) if one.names else next(iter(links.values()), None)
+        link = links.get(name) if one.names else next(iter(links.values()), None)
         weight = weights.get(link)
     return None if weight is None else float(weight)
 

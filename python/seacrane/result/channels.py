@@ -55,12 +55,19 @@ def _core_channel(channel: _core.Channel) -> Channel:
 
 
 def _derived(
-    dims: str, unit: str, long_name: str, made_of: str, *, several: str = "", turns: bool = False
+    dims: str,
+    unit: str,
+    long_name: str,
+    made_of: str,
+    *,
+    several: str = "",
+    turns: bool = False,
+    by_default: bool = True,
 ) -> Channel:
     own = dims.split()
     return Channel(
         dims=("time", *own), dims_of_several=("time", *several.split(), *own), unit=unit, long_name=long_name,
-        made_of=tuple(made_of.split()), turns=turns,
+        by_default=by_default, made_of=tuple(made_of.split()), turns=turns,
     )  # fmt: skip
 
 
@@ -87,6 +94,13 @@ DERIVED: Mapping[str, Channel] = MappingProxyType(
         "slew_torque": _derived("", "N m", "actuator torque of the slew drive", _DRIVE, several="slew"),
         "link_tension": _derived(
             "", "N", "tension of the link between crane tip and payload", "tension", several="hook"
+        ),
+        "hook_load": _derived(
+            "suspension",
+            "N",
+            "load on the lower end of a link, a wire or a line, all its falls together",
+            f"tension line_tension {_POSE}",
+            by_default=False,
         ),
         "tip_velocity": _derived(
             "axis", "m/s", "velocity of the crane tip, inertial frame", _MOTION, several="tip"

@@ -14,6 +14,7 @@ from seacrane.description.cylinder_areas import pressure
 from seacrane.errors import SceneError
 from seacrane.result.channels import CHANNELS, DERIVED, FIXED
 from seacrane.run.hanging import lead_angles, tip_velocities
+from seacrane.run.hook_loads import hook_loads, suspensions
 
 if TYPE_CHECKING:
     from seacrane import _core
@@ -42,10 +43,26 @@ def derived_coords(scene: Description) -> dict[str, list[str]]:
     return {
         "cylinder": list(cylinders(scene)),
         "piston": list(piston_areas(scene)),
+        "suspension": suspensions(scene),
         "slew": list(slews(scene)),
         "hook": list(hooks(scene)),
         "tip": list(tips(scene)),
     }
+
+
+NEEDS = {  # what a channel of Python's own has its names from, by the dimension
+    "piston": "areas of pistons: give add_roles(areas=...), or a crane's file with them",
+    "suspension": "a link, a wire or a line: add one",
+}
+
+
+def require_names(scene: Description, wanted: Iterable[str]) -> None:
+    """SceneError where nothing in the scene has a derived channel that is asked for."""
+    names = derived_coords(scene)
+    for channel in wanted:
+        for dim in CHANNELS[channel].dims if channel in DERIVED else ():
+            if dim in NEEDS and not names[dim]:
+                raise SceneError(f"channel {channel!r} is unknown to this scene; it needs {NEEDS[dim]}")
 
 
 def require_limited_channels(scene: Description, model: _core.Model) -> None:
@@ -55,6 +72,7 @@ def require_limited_channels(scene: Description, model: _core.Model) -> None:
     for name, state in scene.limit_states.items():
         try:
             core_channels([state.channel], known)
+            require_names(scene, [state.channel])
         except SceneError as error:
             raise SceneError(f"limit state {name!r}: {error}") from error
         dims = {*CHANNELS[state.channel].dims[1:], *CHANNELS[state.channel].dims_of_several[1:]}
@@ -115,6 +133,7 @@ def named_channels(
                 arrays.get("tension"), [links.index(link) for link in hooks(scene).values() if link in links]
             )
         ),
+        "hook_load": hook_loads(scene, arrays),
         "tip_velocity": _without_axis_of_one(
             tip_velocities(scene, arrays) if "tip_velocity" in wanted else None
         ),
