@@ -260,6 +260,13 @@ name = "corner"
 body = "box"
 point_m = [0.1, 0.2, 0.3]
 
+[clearance]
+name = "hull"
+points = ["corner"]
+body = "hull"
+center_m = [1, 0, 2]
+size_m = [3, 4, 5]
+
 [[limit_state]]
 channel = "link_tension"
 max_N = 8e4
@@ -370,6 +377,7 @@ def every_table() -> Scene:
     scene.add_limit_state(channel="vessel_motion", max=np.radians(90), where={"motion": "roll"})
     scene.record_coordinate(joint="pin", name="angle of the arm")
     scene.add_point(name="corner", body="box", point=(0.1, 0.2, 0.3))
+    scene.add_clearance(name="hull", points="corner", body="hull", center=(1, 0, 2), size=(3, 4, 5))
     scene.record_coordinate(joint="sleeve", coordinate="angle")
     scene.add_roles(
         prefix="aft ", slew="pin", cylinders={"luff": "sleeve"}, link="rope", tip=("arm", (0, 0, 1))

@@ -27,6 +27,7 @@ def all_kinds() -> Scene:
     scene.add_limit_state(channel="position", max=9.0, where={"body": "hull"})
     scene.add_soft_stop(joint="sleeve", stiffness=1e5, minimum=-1.0)
     scene.add_point(name="corner", body="hull", point=(1.0, 2.0, 1.0 / 3.0))
+    scene.add_clearance(name="gap", points="corner", center=(1.0, 2.0, 1.0 / 3.0), size=(3.0, 0.0, 1.0))
     scene.add_limit_state(channel="constraint_error", max=1e-6)
     scene.add_mesh(body="hull", vertices=np.eye(3), faces=[[0, 1, 2]])
     angles = np.linspace(-np.pi, np.pi, 8, endpoint=False)

@@ -18,12 +18,13 @@ STANDARD_GRAVITY = 9.80665
 TENSIONS = ("hook_load", "link_tension", "tension", "line_tension")
 CRANE = ("cylinder_force", "slew_torque")
 LEADS = ("offlead", "sidelead")
+GAPS = "clearance"
 MOTIONS = ("heave", "roll", "pitch")
 # What is shown under a crane's own names is not shown again under those of its parts.
 SAME = {"tension": "link_tension"}
 REPORTED = {"MN": (1e3, "kN"), "MN m": (1e3, "kN m")}
 TONNES = {"N": 1e-3, "kN": 1.0, "MN": 1e3}  # times the weight of 1 t, from a load in that unit
-CHANNELS = (*TENSIONS, *CRANE, *LEADS, *POSES, "vessel_motion")  # of which the curves are made
+CHANNELS = (*TENSIONS, *CRANE, *LEADS, GAPS, *POSES, "vessel_motion")  # of which the curves are made
 SI = {"kN": 1e-3, "kN m": 1e-3, "t": 1e-3 / STANDARD_GRAVITY, "deg": float(np.degrees(1.0))}
 
 
@@ -84,7 +85,11 @@ def _curves(result: Result) -> list[Curve]:
         if name in held
         for one in beyond_rounding(traces(result, name))
     ]
-    return [*found, *_offsets(result), *leads, *_motions(result)]
+    gaps = [
+        Curve(kind=one.channel, label=one.label, unit=one.unit, values=one.values)
+        for one in (traces(result, GAPS) if GAPS in held else [])
+    ]
+    return [*found, *_offsets(result), *leads, *gaps, *_motions(result)]
 
 
 def si_factor(unit: str) -> float:

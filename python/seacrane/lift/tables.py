@@ -12,7 +12,17 @@ from seacrane.analysis.ballast import add_ballast
 from seacrane.analysis.tanks import Tank
 from seacrane.crane.add_crane import add_crane
 from seacrane.crane.payload import Payload
-from seacrane.description import bodies, crane_parts, drives, forces, joints, limit_states, meshes, recorded
+from seacrane.description import (
+    bodies,
+    clearances,
+    crane_parts,
+    drives,
+    forces,
+    joints,
+    limit_states,
+    meshes,
+    recorded,
+)
 from seacrane.description.curves import spline_curve
 from seacrane.description.scene import Description
 from seacrane.hydro import load_database
@@ -319,6 +329,9 @@ _ALL = (
     _call("range", recorded.add_range, minimum={"unit": "m or rad"}, maximum={"unit": "m or rad"}),
     _call("record", recorded.record_coordinate),
     _call("point", recorded.add_point, _core.Point),
+    _call(
+        "clearance", clearances.add_clearance, points={"type": "texts"}, center=POINT, size=POINT,
+    ),
     _call(
         "limit_state", limit_states.add_limit_state,
         max=NUMBER | LIMITED, min=NUMBER | LIMITED, where={"type": "names"},

@@ -102,6 +102,7 @@ DERIVED: Mapping[str, Channel] = MappingProxyType(
             f"tension line_tension {_POSE}",
             by_default=False,
         ),
+        "clearance": _derived("gap", "m", "distance of points from a box, negative inside", _POSE),
         "tip_velocity": _derived(
             "axis", "m/s", "velocity of the crane tip, inertial frame", _MOTION, several="tip"
         ),

@@ -13,6 +13,7 @@ from seacrane.description.crane_parts import cylinders, hooks, piston_areas, sle
 from seacrane.description.cylinder_areas import pressure
 from seacrane.errors import SceneError
 from seacrane.result.channels import CHANNELS, DERIVED, FIXED
+from seacrane.run.clearances import clearances
 from seacrane.run.hanging import lead_angles, tip_velocities
 from seacrane.run.hook_loads import hook_loads, suspensions
 
@@ -44,6 +45,7 @@ def derived_coords(scene: Description) -> dict[str, list[str]]:
         "cylinder": list(cylinders(scene)),
         "piston": list(piston_areas(scene)),
         "suspension": suspensions(scene),
+        "gap": list(scene.clearances),
         "slew": list(slews(scene)),
         "hook": list(hooks(scene)),
         "tip": list(tips(scene)),
@@ -53,6 +55,7 @@ def derived_coords(scene: Description) -> dict[str, list[str]]:
 NEEDS = {  # what a channel of Python's own has its names from, by the dimension
     "piston": "areas of pistons: give add_roles(areas=...), or a crane's file with them",
     "suspension": "a link, a wire or a line: add one",
+    "gap": "a clearance: add_clearance one",
 }
 
 
@@ -134,6 +137,7 @@ def named_channels(
             )
         ),
         "hook_load": hook_loads(scene, arrays),
+        "clearance": clearances(scene, arrays),
         "tip_velocity": _without_axis_of_one(
             tip_velocities(scene, arrays) if "tip_velocity" in wanted else None
         ),
