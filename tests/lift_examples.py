@@ -342,6 +342,13 @@ name = "corner"
 body = "box"
 point_m = [0.1, 0.2, 0.3]
 
+[clearance]
+name = "hull"
+points = ["corner"]
+body = "hull"
+center_m = [1, 0, 2]
+size_m = [3, 4, 5]
+
 [[limit_state]]
 channel = "link_tension"
 max_N = 8e4
@@ -478,6 +485,7 @@ def every_table() -> Scene:
     scene.add_limit_state(channel="vessel_motion", max=np.radians(90), where={"motion": "roll"})
     scene.record_coordinate(joint="pin", name="angle of the arm")
     scene.add_point(name="corner", body="box", point=(0.1, 0.2, 0.3))
+    scene.add_clearance(name="hull", points="corner", body="hull", center=(1, 0, 2), size=(3, 4, 5))
     scene.record_coordinate(joint="sleeve", coordinate="angle")
     scene.add_roles(
         prefix="aft ", slew="pin", cylinders={"luff": "sleeve"}, link="rope", tip=("arm", (0, 0, 1))
@@ -497,3 +505,67 @@ def _add_flows(scene: Scene) -> None:
         coefficients=current, speed=0.5, direction_deg=0, frontal_area=200, lateral_area=700, length=100,
         body="hull",
     )  # fmt: skip
+
+
+ON_DECK = (
+    HEAD
+    + """
+[scene]
+name = "on deck"
+
+[[body]]
+name = "load"
+mass_kg = 20e3
+inertia_kg_m2 = [1e4, 1e4, 1e4]
+position_m = [0, 0, 1]
+
+[[joint]]
+kind = "weld"
+name = "on deck"
+first = "ground"
+second = "load"
+point_m = [0, 0, 0]
+
+[seat]
+joint = "on deck"
+
+[line]
+name = "hoist"
+bodies = ["ground", "load"]
+points_m = [[0, 0, 21], [0, 0, 0]]
+stiffness_N = 5e7
+length_m = 20.1
+
+[winch]
+line = "hoist"
+
+[[stage]]
+name = "hold"
+duration_s = 1.05
+
+[[stage]]
+name = "lift off"
+until = [{ release = "on deck" }]
+longest_s = 60
+commands = [{ name = "hoist.rate", value_m_per_s = -0.05 }]
+
+[[stage]]
+name = "raise"
+until = [{ length = "hoist", below_m = 19.6 }]
+longest_s = 60
+commands = [{ name = "hoist.rate", to_m_per_s = -0.4, over_s = 1 }]
+
+[[stage]]
+name = "stop"
+duration_s = 1
+commands = [{ name = "hoist.rate", curve_m_per_s = { kind = "constant", value = 0 } }]
+
+[[stage]]
+name = "let go"
+duration_s = 0.5
+release = ["hoist"]
+
+[outputs]
+dt_s = 0.05
+"""
+)

@@ -21,6 +21,7 @@ from seacrane import (
     Method,
     Move,
     Result,
+    SampledController,
     Scene,
     SceneError,
     SimulationError,
@@ -31,6 +32,7 @@ from seacrane import (
     cases,
     simulate,
     simulate_stages,
+    simulate_stages_to_file,
 )
 
 Array = NDArray[np.float64]
@@ -534,3 +536,118 @@ print(json.dumps([more, result.interrupted, float(result.time[-1]), [s.ended_by 
     more, interrupted, last, ended = json.loads(finished.stdout)
     assert (more, interrupted, ended) == (False, True, ["duration", ""])
     assert 1.0 < last < 1e6
+
+
+def test_a_file_holds_the_stages_that_are_over_whenever_the_process_ends(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    path, states = tmp_path / "lift.nc", []
+    saved = Result.save
+
+    def save(result: Result, to: Path) -> Path:
+        states.append(([span.name for span in result.stages], result.interrupted))
+        return saved(result, to)
+
+    monkeypatch.setattr(Result, "save", save)
+    result = simulate_stages_to_file(on_deck(), lift_off()[:3], path, dt_out=0.25)
+    assert states == [
+        (["hold"], True), (["hold", "lift off"], True), (["hold", "lift off", "raise"], False)
+    ]  # fmt: skip
+    assert not Result.load(path).interrupted
+    np.testing.assert_array_equal(Result.load(path)["position"], result["position"])
+    with pytest.raises(FileExistsError, match=r"lift.nc is there already; give another name, or overwrite"):
+        simulate_stages_to_file(on_deck(), lift_off(), path)
+    with pytest.raises(FileNotFoundError, match="there is no folder"):
+        simulate_stages_to_file(on_deck(), lift_off(), tmp_path / "none" / "lift.nc")
+
+
+def test_a_file_keeps_what_an_error_left(tmp_path: Path) -> None:
+    path = tmp_path / "lift.nc"
+    hold, off = lift_off()[:2]
+    short = Stage(name="lift off", until=off.until, longest=0.5, commands=off.commands)
+    with pytest.raises(SimulationError, match="is not over after its longest"):
+        simulate_stages_to_file(on_deck(), [hold, short], path, dt_out=0.25)
+    kept = Result.load(path)
+    assert kept.interrupted and [span.name for span in kept.stages] == ["hold", "lift off"]
+    assert kept.time[-1] == pytest.approx(1.55)
+    simulate_stages_to_file(on_deck(), [hold], path, dt_out=0.25, overwrite=True)
+    assert Result.load(path).time[-1] == 1.05
+
+
+def motored() -> Scene:
+    """A bob on a motor, in no gravity: torque 1 N m gives 0.5 rad/s2."""
+    scene = Scene(name="motored", gravity=0.0)
+    scene.add_body(name="bob", mass=1.0, inertia=(1.0, 1.0, 1.0), position=(1.0, 0.0, 0.0))
+    scene.add_joint(
+        kind="revolute", name="pin", first="ground", second="bob", point=(0.0, 0.0, 0.0), axis=(0.0, 1.0, 0.0)
+    )
+    scene.record_coordinate(joint="pin", name="angle")
+    scene.add_actuator(name="motor", joint="pin")
+    return scene
+
+
+def noted(calls: list[float], period: float = 0.1) -> SampledController:
+    """A torque that depends on how often it was called, which a second call would change."""
+
+    def function(now: float, measured: Any) -> dict[str, float]:
+        calls.append(now)
+        return {"motor.force": 1.0 + 0.1 * len(calls)}
+
+    return SampledController(period=period, function=function)
+
+
+def test_a_controller_goes_on_through_stages_as_in_one_run() -> None:
+    once: list[float] = []
+    whole = simulate(motored(), 1.0, controllers=[noted(once)], integrator="rk4", dt=0.01, dt_out=0.05)
+    calls: list[float] = []
+    stages = [Stage(name="one", duration=0.37), Stage(name="two", duration=0.63)]
+    result = simulate_stages(
+        motored(), stages, controllers=[noted(calls)], integrator="rk4", dt=0.01, dt_out=0.05
+    )
+    assert_allclose(calls, once, atol=1e-12)
+    shared = np.isin(result.time.round(9), whole.time.round(9))
+    assert_allclose(result["position"][shared], whole["position"], atol=1e-11)
+
+
+@pytest.mark.parametrize("period", [0.03, 0.4])
+def test_a_condition_is_located_without_calling_controllers_twice(period: float) -> None:
+    """The bob turns by a staircase of torques; the angle at the end is the condition's."""
+    calls: list[float] = []
+    until = Until.channel("coordinate", joint_coordinate="angle", above=0.2)
+    stages = [
+        Stage(name="turn", until=until, longest=5.0),
+        Stage(name="go on", duration=0.5),
+    ]
+    result = simulate_stages(motored(), stages, controllers=[noted(calls, period)], rtol=1e-10, dt_out=0.17)
+    end = result.stages[0].end
+    angle, rate, at = 0.0, 0.0, 0.0
+    for i, time in enumerate([*calls[1:], np.inf]):
+        pull = 0.5 * (1.0 + 0.1 * (i + 1))
+        span = min(time, end) - at
+        angle, rate, at = angle + rate * span + 0.5 * pull * span**2, rate + pull * span, min(time, end)
+        if at == end:
+            break
+    assert angle == pytest.approx(0.2, abs=1e-7)
+    assert_allclose(np.diff(calls), period, rtol=1e-9)
+    assert calls[-1] < result.time[-1] <= calls[-1] + period + 1e-9
+    assert result.stages[0].ended_by.startswith("coordinate of 'angle' above 0.2")
+
+
+def test_inputs_of_what_is_absent_are_left_out() -> None:
+    scene = motored()
+    scene.add_point_force(name="push", body="bob", force=(0.0, 0.0, 0.0))
+    seen: list[float] = []
+
+    def function(now: float, measured: Any) -> dict[str, Any]:
+        seen.append(now)
+        return {"push.force": (0.0, 0.0, 1.0)}
+
+    stages = [Stage(name="alone", duration=0.5), Stage(name="pushed", duration=0.5, connect=["push"])]
+    pushed = SampledController(period=0.25, function=function)
+    result = simulate_stages(scene, stages, controllers=[pushed], dt_out=0.25, rtol=1e-9)
+    assert seen == [0.0, 0.25, 0.5, 0.75]
+    turned = result.select("coordinate", joint_coordinate="angle")
+    assert turned[2] == 0.0 and abs(turned[-1]) == pytest.approx(0.5 * 0.5 * 0.5**2, rel=1e-3)
+    wrong = SampledController(period=0.25, function=lambda now, measured: {"pull.force": 1.0})
+    with pytest.raises(SceneError, match=r"input .pull.force. is unknown"):
+        simulate_stages(scene, stages, controllers=[wrong])

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 
 from seacrane import (
     Curve,
+    FileFormatError,
     Frame,
     Scene,
     SceneError,
@@ -19,6 +22,7 @@ from seacrane import (
     statics,
 )
 from seacrane.crane import KnuckleBoomCrane, Payload
+from seacrane.crane.data_file import DEFAULT_PATH
 
 G = 9.80665
 MASS = 4.0e6  # kg, of the barge
@@ -240,3 +244,74 @@ def test_a_scene_without_a_crane_has_no_poses() -> None:
     scene.add_roles(slew="pin", cylinders={})
     with pytest.raises(SceneError, match="there are none"):
         statics(scene, radius=5.0)
+
+
+def test_pressures_are_forces_over_the_loaded_side(tmp_path: Path) -> None:
+    scene = Scene(name="crane", gravity=G)
+    scene.add_crane(base="ground", s1=1.5, s2=1.0)
+    force = statics(scene)
+    roles = scene.roles[""]
+    areas = {"main": (0.5, 0.25), "knuckle": (0.4, 0.2)}
+    given = {"slew": roles.slew, "cylinders": roles.cylinders, "tip": roles.tip, "areas": areas}
+    scene.roles.clear()
+    scene.add_roles(**given)
+    found = statics(scene)
+    for label, (full, ring) in areas.items():
+        kn = float(force[f"cylinder force {label}"])
+        assert float(found[f"cylinder force {label}"]) == kn
+        assert float(found[f"cylinder pressure {label}"]) == pytest.approx(
+            kn / (full if kn > 0.0 else ring) / 100.0
+        )
+        assert found.units[f"cylinder pressure {label}"] == "bar"
+    scene.save(tmp_path / "scene.json")
+    assert Scene.load(tmp_path / "scene.json").roles[""].areas == areas
+
+
+def _limited(scene: Scene, piston: str) -> Scene:
+    out = scene.copy()
+    out.add_limit_state(channel="cylinder_pressure", max=1e6, where={"piston": piston})
+    return out
+
+
+def test_areas_come_from_the_crane_s_file_and_have_limit_states(tmp_path: Path) -> None:
+    text = DEFAULT_PATH.read_text()
+    both = "[main_cylinder]\nfull_area = 0.5\nrod_side_area = 0.25"
+    (tmp_path / "crane.toml").write_text(text.replace("[main_cylinder]", both))
+    scene = Scene(name="crane", gravity=G)
+    scene.add_crane(KnuckleBoomCrane.load(tmp_path / "crane.toml"), base="ground", s1=1.5, s2=1.0)
+    assert scene.roles[""].areas == {"main": (0.5, 0.25)}
+    for joint in ("A", "main_cylinder", "knuckle_cylinder"):
+        scene.add_driver(joint=joint, curve=Curve.constant(value=0.0))
+    scene.add_limit_state(channel="cylinder_pressure", max=20e6, where={"piston": "main"})
+    result = simulate(scene, 0.1, dt_out=0.1)
+    force, found = result["cylinder_force"], result["cylinder_pressure"]
+    np.testing.assert_allclose(found, force[:, :1] / 0.5)
+    with pytest.raises(SceneError, match="there is no piston 'knuckle'; choose from main"):
+        simulate(_limited(scene, "knuckle"), 0.1)
+    (used,) = result.utilisation
+    assert used.unit == "bar" and used.limit == pytest.approx(200.0)
+    assert used.utilisation == pytest.approx(force[:, 0].max() / 0.5 / 20e6)
+    for wrong, message in (
+        ("full_area = 0.5", "rod_side_area is missing"),
+        ("full_area = 0.5\nrod_side_area = 0.6", "give the full side and then the rod side"),
+    ):
+        (tmp_path / "wrong.toml").write_text(text.replace("[main_cylinder]", f"[main_cylinder]\n{wrong}"))
+        with pytest.raises(FileFormatError, match=message):
+            KnuckleBoomCrane.load(tmp_path / "wrong.toml")
+    with pytest.raises(SceneError, match=r"areas are given of cylinder 'luff'; the cylinders are none"):
+        Scene().add_roles(areas={"luff": (1.0, 0.5)})
+
+
+def test_lines_tell_their_lengths() -> None:
+    """A load of 10 t on a steel wire: T = m g, stretch = T L0 / EA."""
+    scene = Scene(name="line", gravity=G)
+    scene.add_body(name="load", mass=1e4, inertia=(1e4, 1e4, 1e4), position=(0.0, 0.0, -20.0))
+    scene.add_line(
+        name="hoist", bodies=["ground", "load"], points=[(0.0, 0.0, 0.0), (0.0, 0.0, 0.0)], stiffness=1e7,
+        length=19.9,
+    )  # fmt: skip
+    found = statics(scene)
+    tension = 1e4 * G
+    assert float(found["line tension hoist"]) == pytest.approx(tension / 1e3, rel=1e-6)
+    assert float(found["line unstretched length hoist"]) == pytest.approx(19.9, rel=1e-12)
+    assert float(found["line length hoist"]) == pytest.approx(19.9 * (1.0 + tension / 1e7), rel=1e-9)

@@ -18,12 +18,13 @@ STANDARD_GRAVITY = 9.80665
 TENSIONS = ("hook_load", "link_tension", "tension", "line_tension")
 CRANE = ("cylinder_force", "slew_torque")
 LEADS = ("offlead", "sidelead")
+GAPS = "clearance"
 MOTIONS = ("heave", "roll", "pitch")
 # What is shown under a crane's own names is not shown again under those of its parts.
 SAME = {"tension": "link_tension"}
 REPORTED = {"MN": (1e3, "kN"), "MN m": (1e3, "kN m")}
 TONNES = {"N": 1e-3, "kN": 1.0, "MN": 1e3}  # times the weight of 1 t, from a load in that unit
-CHANNELS = (*TENSIONS, *CRANE, *LEADS, *POSES, "vessel_motion")  # of which the curves are made
+CHANNELS = (*TENSIONS, *CRANE, *LEADS, GAPS, *POSES, "vessel_motion")  # of which the curves are made
 SI = {"kN": 1e-3, "kN m": 1e-3, "t": 1e-3 / STANDARD_GRAVITY, "deg": float(np.degrees(1.0))}
 
 
@@ -42,6 +43,8 @@ class Curve:
         In the unit.
     load : bool
         Whether it has a dynamic factor.
+    pulls : bool
+        Whether it is a tension, which may go slack.
     static : float or None
         In the unit, where the run noted it.
     """
@@ -51,6 +54,7 @@ class Curve:
     unit: str
     values: Array
     load: bool = False
+    pulls: bool = False
     static: float | None = None
 
     @property
@@ -81,7 +85,11 @@ def _curves(result: Result) -> list[Curve]:
         if name in held
         for one in beyond_rounding(traces(result, name))
     ]
-    return [*found, *_offsets(result), *leads, *_motions(result)]
+    gaps = [
+        Curve(kind=one.channel, label=one.label, unit=one.unit, values=one.values)
+        for one in (traces(result, GAPS) if GAPS in held else [])
+    ]
+    return [*found, *_offsets(result), *leads, *gaps, *_motions(result)]
 
 
 def si_factor(unit: str) -> float:
@@ -97,6 +105,7 @@ def _load(result: Result, one: Trace) -> Curve:
     return Curve(
         kind=one.channel.replace("_", " "), label=one.label, unit=unit, values=factor * one.values,
         load=one.channel != "slew_torque",
+        pulls=one.channel in TENSIONS,
         static=None if static is None else static * si_factor(unit),
     )  # fmt: skip
 
@@ -104,12 +113,18 @@ def _load(result: Result, one: Trace) -> Curve:
 def _hanging_weight(result: Result, one: Trace) -> float | None:
     """Of the load on a link, N, as the run noted it."""
     weights = json.loads(str(result.stats.get("hanging_weight", "{}")))
-    if one.channel == "tension":
-        weight = weights.get(one.names[0])
+    on_lines = json.loads(str(result.stats.get("line_weight", "{}")))
+    name = one.names[0] if one.names else ""
+    if one.channel == "line_tension":
+        weight = on_lines[name][0] / on_lines[name][1] if name in on_lines else None
+    elif one.channel == "hook_load" and name in on_lines:
+        weight = on_lines[name][0]
+    elif one.channel in ("tension", "hook_load"):
+        weight = weights.get(name)
     else:
         cranes = json.loads(str(result.stats.get("cranes", "[]")))
         links = {f"{crane['prefix']}hook": crane["link"] for crane in cranes if crane["link"]}
-        link = links.get(one.names[0]) if one.names else next(iter(links.values()), None)
+        link = links.get(name) if one.names else next(iter(links.values()), None)
         weight = weights.get(link)
     return None if weight is None else float(weight)
 

@@ -13,13 +13,17 @@ from seacrane.analysis.crane_poses import drive_name
 from seacrane.analysis.rest_state import held
 from seacrane.answers.afloat import attitude, displaced_weight, heeling_stiffness
 from seacrane.description.compilation import compile_scene
-from seacrane.description.crane_parts import cylinders, hooks, slews
+from seacrane.description.crane_parts import cylinders, hooks, piston_areas, slews
 from seacrane.description.crane_reach import tip_radius
+from seacrane.description.cylinder_areas import pressure
+from seacrane.description.loads import lines_of
 from seacrane.description.roles import CraneRoles
 from seacrane.description.scene import Description
 
 Array = NDArray[np.float64]
-CHANNELS = {"driver_force", "tension", "position", "quaternion"}
+LINES = {"line_tension": ("tension", "kN", 1e-3), "line_length": ("length", "m", 1.0),
+         "line_unstretched_length": ("unstretched length", "m", 1.0)}  # fmt: skip
+CHANNELS = {"driver_force", "tension", "position", "quaternion", *LINES}
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -61,7 +65,7 @@ class AtRest:
 
 def columns_of(at_rest: AtRest) -> dict[str, tuple[str, float]]:
     """Unit and value of everything that is told, by name."""
-    return {**_vessels(at_rest), **_cranes(at_rest)}
+    return {**_vessels(at_rest), **_cranes(at_rest), **_lines(at_rest)}
 
 
 def _vessels(at_rest: AtRest) -> dict[str, tuple[str, float]]:
@@ -83,14 +87,26 @@ def _cranes(at_rest: AtRest) -> dict[str, tuple[str, float]]:
     for roles in scene.roles.values():
         if roles.slew is not None and roles.tip is not None:
             found[f"{roles.prefix}tip radius"] = ("m", at_rest.radius(roles))
-    several = len(hooks(scene)) > 1
+    several, areas = len(hooks(scene)) > 1, piston_areas(scene)
     for label, link in hooks(scene).items():
         tension = at_rest.tension(link)
         found[f"hook load {label}" if several else "hook load"] = ("t", tension / scene.gravity / 1e3)
         found[f"link tension {label}" if several else "link tension"] = ("kN", tension / 1e3)
     for label, joint in cylinders(scene).items():
-        found[f"cylinder force {label}"] = ("kN", at_rest.drive(joint, "displacement") / 1e3)
+        force = at_rest.drive(joint, "displacement")
+        found[f"cylinder force {label}"] = ("kN", force / 1e3)
+        if label in areas:
+            found[f"cylinder pressure {label}"] = ("bar", float(pressure(force, areas[label])) / 1e5)
     several = len(slews(scene)) > 1
     for label, place in slews(scene).items():
         found[f"slew torque {label}" if several else "slew torque"] = ("kN m", at_rest.drive(*place) / 1e3)
+    return found
+
+
+def _lines(at_rest: AtRest) -> dict[str, tuple[str, float]]:
+    """Tension and lengths of elastic lines, as they are stretched."""
+    found = {}
+    for i, name in enumerate(lines_of(at_rest.scene.loads)):
+        for channel, (what, unit, factor) in LINES.items():
+            found[f"line {what} {name}"] = (unit, factor * float(at_rest.channels[channel][i]))
     return found

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     import xarray
 
 Array = NDArray[np.float64]
-HEAD = ("", "unit", "static", "mean", "std", "min", "at [s]", "max", "at [s]", "factor")
+HEAD = ("", "unit", "static", "mean", "std", "min", "at [s]", "max", "at [s]", "factor", "min/static")
 STARRED = "* at the first output: no static value is known."
 ATTITUDE = {"heel": "roll", "trim": "pitch"}
 NO_LIMITS = Utilisation(())
@@ -47,6 +47,8 @@ class SummaryRow:
     factor : float or None
         Dynamic factor of a load: what is largest in the sense of the static load, over the static load. None
         where no static load is known.
+    slack_margin : float or None
+        Smallest tension over the static one, of what pulls; zero and below is slack.
     """
 
     name: str
@@ -60,6 +62,7 @@ class SummaryRow:
     maximum: float
     maximum_at: float
     factor: float | None
+    slack_margin: float | None = None
 
 
 @dataclass(frozen=True, kw_only=True, repr=False)
@@ -138,7 +141,8 @@ class Summary:
 
         names = [item.name for item in fields(SummaryRow) if item.name != "name"]
         columns: dict[str, Any] = {key: [getattr(row, key) for row in self.rows] for key in names}
-        columns["factor"] = [np.nan if factor is None else factor for factor in columns["factor"]]
+        for key in ("factor", "slack_margin"):
+            columns[key] = [np.nan if value is None else value for value in columns[key]]
         return xarray.Dataset(
             {key: ("row", np.array(values)) for key, values in columns.items()},
             {"row": [row.name for row in self.rows]},
@@ -153,7 +157,8 @@ def _cells(row: SummaryRow) -> list[str]:
     star = "" if row.static_known else "*"
     numbers = (row.mean, row.std, row.minimum, row.minimum_at, row.maximum, row.maximum_at)
     factor = "" if row.factor is None else f"{row.factor:.2f}"
-    return [row.name, row.unit, f"{_shown(row.static)}{star}", *map(_shown, numbers), factor]
+    margin = "" if row.slack_margin is None else f"{row.slack_margin:.2f}"
+    return [row.name, row.unit, f"{_shown(row.static)}{star}", *map(_shown, numbers), factor, margin]
 
 
 def _shown(value: float) -> str:
@@ -256,6 +261,7 @@ def _row(curve: Curve, time: Array, values: Array) -> SummaryRow:
         minimum=float(values[low]), minimum_at=float(time[low]),
         maximum=float(values[high]), maximum_at=float(time[high]),
         factor=_factor(static, float(values[low]), float(values[high])) if curve.load and known else None,
+        slack_margin=float(values[low]) / static if curve.pulls and known and static > 0.0 else None,
     )  # fmt: skip
 
 

@@ -8,25 +8,46 @@ from typing import TYPE_CHECKING, Any
 
 from seacrane.cli.command_line import INTERRUPTED
 from seacrane.cli.output_folder import output_folder
-from seacrane.cli.scene_source import load_source
+from seacrane.cli.scene_source import Source, load_source
+from seacrane.errors import SceneError
+from seacrane.plotting.text import text_table
 
 if TYPE_CHECKING:
+    from pathlib import Path
+
     from seacrane.result import Result
+    from seacrane.run.method import Method
+    from seacrane.run.outputs import Outputs
 
 KEPT = ("constraint_error", "energy_balance", "absolute_work")
+SPANS = ("t_end", "checkpoint_every", "resume", "progress")
 SETTINGS = ("dt_out", "integrator", "rtol", "dt", "spectral_radius", "formulation")
 
 
 def run(arguments: argparse.Namespace) -> int:
     """Simulate and summarise; 130 if the run was interrupted."""
     source = load_source(arguments.scene, arguments, scripts=True)
+    if source.stages:
+        _require_no_span(arguments)
     folder = output_folder(arguments.out)
-    from seacrane.run.shorthand import overridden
+    path = folder / f"{source.name}.nc"
+    result, saved = _staged(arguments, source, path) if source.stages else _whole(arguments, source, path)
+    from seacrane.answers.summary import summary
+
+    print(costs(result))
+    print(f"\n{summary(result)}\n")
+    if result.stages:
+        print(f"{stage_table(result)}\n")
+    print(f"saved {saved}")
+    return INTERRUPTED if result.interrupted else 0
+
+
+def _whole(arguments: argparse.Namespace, source: Source, path: Path) -> tuple[Result, Path]:
+    """One run, written as it is stepped; what the summary needs of it, and where it is."""
+    from seacrane.answers.curves import CHANNELS
     from seacrane.run.to_file import simulate_to_file
 
-    words = {word: getattr(arguments, word) for word in SETTINGS}
-    method, outputs = overridden(source.method, source.outputs, words)
-    path = folder / f"{source.name}.nc"
+    method, outputs = _settings(arguments, source)
     t_end = source.t_end if arguments.t_end is None else arguments.t_end
     span: dict[str, Any] = {} if t_end is None else {"t_end": t_end}
     told = simulate_to_file(
@@ -34,15 +55,44 @@ def run(arguments: argparse.Namespace) -> int:
         checkpoint_every=arguments.checkpoint_every, resume=arguments.resume, overwrite=arguments.overwrite,
         progress=arguments.progress,
     )  # fmt: skip
-    from seacrane.answers.curves import CHANNELS
-    from seacrane.answers.summary import summary
-
     limited = [state["channel"] for state in json.loads(str(told.stats.get("limit_states", "[]")))]
-    result = told.load((*KEPT, *CHANNELS, *limited))
-    print(costs(result))
-    print(f"\n{summary(result)}\n")
-    print(f"saved {told.path}")
-    return INTERRUPTED if told.interrupted else 0
+    return told.load((*KEPT, *CHANNELS, *limited)), told.path
+
+
+def _staged(arguments: argparse.Namespace, source: Source, path: Path) -> tuple[Result, Path]:
+    """The stages of a lift, written after each of them."""
+    from seacrane.stages.to_file import simulate_stages_to_file
+
+    method, outputs = _settings(arguments, source)
+    result = simulate_stages_to_file(
+        source.scene, source.stages, path, method=method, outputs=outputs, overwrite=arguments.overwrite
+    )
+    return result, path
+
+
+def _settings(arguments: argparse.Namespace, source: Source) -> tuple[Method, Outputs]:
+    from seacrane.run.shorthand import overridden
+
+    words = {word: getattr(arguments, word) for word in SETTINGS}
+    return overridden(source.method, source.outputs, words)
+
+
+def _require_no_span(arguments: argparse.Namespace) -> None:
+    """Refuse the options that stages have no use for."""
+    given = [name for name in SPANS if getattr(arguments, name) not in (None, False)]
+    if given:
+        options = ", ".join(f"--{name.replace('_', '-')}" for name in given)
+        raise SceneError(f"{options} does not go with a lift in stages, which is written stage by stage and "
+                         "ends with its last; leave it out")  # fmt: skip
+
+
+def stage_table(result: Result) -> str:
+    """When each stage began and ended, and what ended it."""
+    rows = [
+        [span.name, f"{span.start:.2f}", f"{span.end:.2f}", span.ended_by or "interrupted"]
+        for span in result.stages
+    ]
+    return text_table(["stage", "from [s]", "to [s]", "ended by"], rows, right=(1, 2))
 
 
 def costs(result: Result) -> str:

@@ -7,7 +7,7 @@ import contextlib
 import runpy
 import sys
 import traceback
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from seacrane.run.method import Method
     from seacrane.run.outputs import Outputs
     from seacrane.scene.scene import Scene
+    from seacrane.stages.stage import Stage
 
 CASES = ("case1", "case2", "case3", "vessel")
 RESULT_BEGINS = (b"\x89HDF", b"CDF", b"seacrane partial result")  # NetCDF of both kinds, a run that goes on
@@ -34,6 +35,7 @@ class Source:
     t_end: float | None = None
     method: Method | None = None
     outputs: Outputs | None = None
+    stages: Sequence[Stage] = ()
 
 
 def load_scene(source: str, options: argparse.Namespace, *, scripts: bool) -> tuple[str, Scene]:
@@ -83,8 +85,9 @@ def _lift(path: Path) -> Source:
 
     lift = Lift.load(path)
     return Source(
-        name=path.stem, scene=lift.scene(), t_end=lift.t_end, method=lift.method, outputs=lift.outputs
-    )
+        name=path.stem, scene=lift.scene(), t_end=None if lift.stages else lift.t_end, method=lift.method,
+        outputs=lift.outputs, stages=lift.stages,
+    )  # fmt: skip
 
 
 def _scene_file(path: Path) -> Source:

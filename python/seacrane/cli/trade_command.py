@@ -6,7 +6,8 @@ import argparse
 from typing import TYPE_CHECKING
 
 from seacrane.cli.output_folder import output_folder
-from seacrane.cli.scene_source import load_scene
+from seacrane.cli.scene_source import load_source
+from seacrane.errors import SceneError
 from seacrane.plotting.text import text_table
 
 if TYPE_CHECKING:
@@ -15,11 +16,15 @@ if TYPE_CHECKING:
 
 def run(arguments: argparse.Namespace) -> int:
     """Measure, save trade.csv and trade.png, and print the Pareto front."""
-    _, scene = load_scene(arguments.scene, arguments, scripts=False)
+    source = load_source(arguments.scene, arguments, scripts=False)
+    if source.stages:
+        raise SceneError(
+            f"{arguments.scene} is a lift in stages; trade measures one run: leave [[stage]] out"
+        )
     folder = output_folder(arguments.out)
     from seacrane.trading import trade
 
-    result = trade(scene, quick=arguments.quick, out=folder)
+    result = trade(source.scene, quick=arguments.quick, out=folder)
     print(summary(result))
     print(f"saved {folder / 'trade.csv'} and {folder / 'trade.png'}")
     return 0

@@ -110,6 +110,11 @@ def add_crane(
         link=None if payload is None else f"{prefix}link",
         tip=None if payload is not None else tip,
         capacity=crane.data.capacity,
+        areas={
+            label: areas
+            for label, name in CYLINDERS.items()
+            if (areas := getattr(crane.data, name).areas) is not None
+        },
     )
 
 

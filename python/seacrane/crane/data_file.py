@@ -11,6 +11,7 @@ from typing import Any
 
 from seacrane.crane.mass_properties import Box, Member, Point, Tube
 from seacrane.description.capacity import Capacity, capacity_of
+from seacrane.description.cylinder_areas import Areas, areas_of
 from seacrane.errors import FileFormatError, SceneError
 from seacrane.files.whole_file import read_whole
 from seacrane.inputs.shown import shown
@@ -27,12 +28,16 @@ APART = 1e-6  # m: pivots nearer than that are one
 
 @dataclass(frozen=True, kw_only=True)
 class CylinderData:
-    """A hydraulic cylinder: length between its pivots at stroke 0 and largest stroke, m; its members."""
+    """A hydraulic cylinder: length between its pivots at stroke 0 and largest stroke, m; its members.
+
+    Areas of the piston's full side and rod side, m2, where the file has them.
+    """
 
     retracted_length: float
     stroke: float
     barrel: tuple[Member, ...]
     rod: tuple[Member, ...]
+    areas: Areas | None = None
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -151,6 +156,16 @@ class _Table:
         except SceneError as error:
             raise FileFormatError(f"{error}.") from error
 
+    def areas(self) -> Areas | None:
+        """Both areas of a piston, or neither."""
+        if not {"full_area", "rod_side_area"} & set(self.values):
+            return None
+        pair = self.number("full_area"), self.number("rod_side_area")
+        try:
+            return areas_of(f"{self.source}: {self.where}", pair)
+        except SceneError as error:
+            raise FileFormatError(f"{error}.") from error
+
     def members(self, key: str) -> tuple[Member, ...]:
         value = self.take(key)
         if not isinstance(value, list) or not value:
@@ -228,6 +243,7 @@ def _cylinder(table: _Table) -> CylinderData:
         stroke=table.number("stroke"),
         barrel=table.members("barrel"),
         rod=table.members("rod"),
+        areas=table.areas(),
     )
     table.finish()
     return data

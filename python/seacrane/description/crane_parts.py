@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 
 from seacrane.description.capacity import capacity_of
+from seacrane.description.cylinder_areas import Areas, areas_by_label
 from seacrane.description.roles import CraneRoles, Vector
 from seacrane.description.scene import Description, coordinate_of
 from seacrane.errors import SceneError
@@ -28,6 +29,7 @@ def add_roles(
     payload: str | None = None,
     tip: tuple[str, Vector] | None = None,
     capacity: Any = (),
+    areas: Mapping[str, Any] | None = None,
 ) -> CraneRoles:
     """Tell which elements are the parts of a crane that was described by hand; `add_crane` does it by itself.
 
@@ -51,6 +53,8 @@ def add_roles(
     capacity : array_like, shape (n, 2), optional
         Allowable load (kg) over radii of the tip from the slew axis (m, increasing): linear in between, none
         beyond the last.
+    areas : mapping of str to (float, float), optional
+        Full side and rod side of the piston, m2, by the cylinder's label: the channel cylinder_pressure.
 
     Returns
     -------
@@ -84,6 +88,7 @@ def add_roles(
         payload=payload,
         tip=None if tip is None else _tip(scene, what, tip),
         capacity=capacity_of(what, capacity),
+        areas=areas_by_label(what, {} if areas is None else areas, cylinders or {}),
     )
     scene.roles[prefix] = roles
     return roles
@@ -121,6 +126,15 @@ def cylinders(scene: Description) -> dict[str, str]:
         for label, joint in roles.cylinders.items()
         if joint in scene.joints
     }
+
+
+def piston_areas(scene: Description) -> dict[str, Areas]:
+    """Full side and rod side of the pistons that are known, m2, by the cylinders' labels."""
+    known = cylinders(scene)
+    found = {
+        roles.prefix + label: areas for roles in scene.roles.values() for label, areas in roles.areas.items()
+    }
+    return {label: areas for label, areas in found.items() if label in known}
 
 
 def slews(scene: Description) -> dict[str, tuple[str, str]]:

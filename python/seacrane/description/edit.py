@@ -13,7 +13,14 @@ from seacrane.errors import SceneError
 from seacrane.inputs.checked import curve_of
 from seacrane.inputs.shown import shown
 
-EDITED = (*ELEMENTS, "recorded", "ranges", "limit_states", "meshes")  # tables of what has a name of its own
+EDITED = (
+    *ELEMENTS,
+    "recorded",
+    "ranges",
+    "limit_states",
+    "clearances",
+    "meshes",
+)  # tables of what has a name of its own
 
 
 def replace_element(scene: Description, name: str, /, *, kind: str | None = None, **changes: Any) -> Any:
@@ -68,8 +75,8 @@ def remove_element(scene: Description, name: str, /, *, kind: str | None = None)
     ----------
     name : str
     kind : str, optional
-        As for `replace`, or "recorded coordinate", "range", "limit state" or "mesh"; needed where elements of
-        several kinds have this name.
+        As for `replace`, or "recorded coordinate", "range", "limit state", "clearance" or "mesh"; needed where
+        elements of several kinds have this name.
 
     Raises
     ------
@@ -110,6 +117,13 @@ def _users(scene: Description, key: str, name: str) -> Iterator[str]:
                 yield f"{KINDS[table]} {other!r}"
     if key == "bodies":
         yield from (f"mesh {mesh.name!r}" for mesh in scene.meshes.values() if mesh.body == name)
+    if key in ("bodies", "points"):
+        gaps = scene.clearances.values()
+        yield from (
+            f"clearance {gap.name!r}"
+            for gap in gaps
+            if name in (gap.points if key == "points" else (gap.body,))
+        )
     if key == "joints":
         yield from (f"recorded coordinate {r!r}" for r, (joint, _) in scene.recorded.items() if joint == name)
     body = {"bodies": name, "vessels": getattr(scene.vessels.get(name), "body", None)}.get(key)

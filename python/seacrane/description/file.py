@@ -18,6 +18,7 @@ from typing import Any, TypeVar
 
 from seacrane import _core
 from seacrane.description.bodies import add_body
+from seacrane.description.clearances import clearances_from_node, clearances_to_data
 from seacrane.description.drives import add_actuator, add_driver
 from seacrane.description.file_elements import (
     element_from_node,
@@ -71,6 +72,7 @@ _ADDED_LATER: dict[str, Any] = {
     "points": [],
     "ranges": [],
     "limit_states": [],
+    "clearances": [],
     "roles": None,
     "provenance": None,
     "meshes": [],
@@ -168,6 +170,7 @@ def scene_from_bytes(data: bytes, place: str, scene: Some) -> Some:
         "recorded",
         "ranges",
         "limit_states",
+        "clearances",
         "roles",
         "provenance",
         "meshes",
@@ -180,9 +183,9 @@ def scene_from_bytes(data: bytes, place: str, scene: Some) -> Some:
 def scene_digest(scene: Description) -> str:
     """SHA-256 of what a scene describes: equal for scenes that move alike.
 
-    Notes, provenance, limit states and meshes do not count, and of C functions only their names.
+    Notes, provenance, limit states, clearances and meshes do not count, and of C functions only their names.
     """
-    data = described(scene.copy(notes={}, provenance={}, limit_states={}, meshes={}))
+    data = described(scene.copy(notes={}, provenance={}, limit_states={}, clearances={}, meshes={}))
     data["function_forces"] = [[force.name, force.body] for force in scene.function_forces.values()]
     return hashlib.sha256(json.dumps(data).encode("ascii")).hexdigest()
 
@@ -209,6 +212,7 @@ def _scene(root: Node, scene: Some) -> Some:
         with node.scene_errors():
             add_range(scene, **limits)
     limit_states_from_node(root.at("limit_states"), scene)
+    clearances_from_node(root.at("clearances"), scene)
     waves = root.at("waves")
     if waves.value is not None:
         scene.waves = waves_from_node(waves)
@@ -257,6 +261,7 @@ def described(scene: Description) -> dict[str, Any]:
     out["provenance"] = [{"name": name, **asdict(known)} for name, known in scene.provenance.items()]
     later = {
         "limit_states": limit_states_to_data(scene),
+        "clearances": clearances_to_data(scene),
         "meshes": [mesh_to_data(mesh) for mesh in scene.meshes.values()],
     }
     out |= {key: value for key, value in later.items() if value}  # as for points

@@ -20,7 +20,9 @@ _ROLES = ("prefix", "slew", "cylinders", "link", "payload", "tip")
 def roles_to_data(roles: CraneRoles) -> dict[str, Any]:
     """As plain data."""
     slew, tip = roles.slew, roles.tip
-    capacity = {"capacity": [list(row) for row in roles.capacity]} if roles.capacity else {}
+    more: dict[str, Any] = {"capacity": [list(row) for row in roles.capacity]} if roles.capacity else {}
+    if roles.areas:
+        more["areas"] = [{"name": name, "areas": list(pair)} for name, pair in roles.areas.items()]
     return {
         "prefix": roles.prefix,
         "slew": None if slew is None else {"joint": slew[0], "coordinate": slew[1]},
@@ -28,13 +30,13 @@ def roles_to_data(roles: CraneRoles) -> dict[str, Any]:
         "link": roles.link,
         "payload": roles.payload,
         "tip": None if tip is None else {"body": tip[0], "point": list(tip[1])},
-    } | capacity  # what is not there is not written: digests of older scenes stay
+    } | more  # what is not there is not written: digests of older scenes stay
 
 
 def roles_from_node(node: Node, scene: Description) -> None:
     """Give a scene the roles that `roles_to_data` wrote; raises FileFormatError."""
     for entry in node.items():
-        entry.expect(_ROLES, optional=("capacity",))
+        entry.expect(_ROLES, optional=("capacity", "areas"))
         parts = {key: _optional(entry, key) for key in ("slew", "link", "payload", "tip")}
         found: dict[str, Any] = {"prefix": entry.at("prefix").text(), "cylinders": _cylinders(entry)}
         found |= {key: None if (part := parts[key]) is None else part.text() for key in ("link", "payload")}
@@ -45,6 +47,8 @@ def roles_from_node(node: Node, scene: Description) -> None:
             found["tip"] = (parts["tip"].at("body").text(), parts["tip"].at("point").array((3,)))
         if "capacity" in entry.value:  # which files of 0.1 lack
             found["capacity"] = entry.at("capacity").array((-1, 2))
+        if "areas" in entry.value:
+            found["areas"] = _areas(entry)
         with entry.scene_errors():
             add_roles(scene, **found)
 
@@ -62,6 +66,14 @@ def _cylinders(node: Node) -> dict[str, str]:
     return {
         name: joint for name, joint in (_texts(one, "name", "joint") for one in node.at("cylinders").items())
     }
+
+
+def _areas(node: Node) -> dict[str, Any]:
+    found = {}
+    for one in node.at("areas").items():
+        one.expect(("name", "areas"))
+        found[one.at("name").text()] = one.at("areas").array((2,))
+    return found
 
 
 def provenance_from_node(node: Node, scene: Description) -> None:

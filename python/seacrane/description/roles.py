@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 from seacrane.description.capacity import Capacity
+from seacrane.description.cylinder_areas import Areas
 
 Vector = tuple[float, float, float]
 
@@ -30,6 +31,8 @@ class CraneRoles:
         Body that carries the tip, and the tip in its coordinates, m.
     capacity : tuple of (float, float)
         Largest allowable load (kg) over the radius of the tip from the slew axis (m); empty: none is known.
+    areas : mapping of str to (float, float)
+        Full side and rod side of the piston, m2, by the cylinder's label, where they are known.
     """
 
     prefix: str = ""
@@ -39,6 +42,8 @@ class CraneRoles:
     payload: str | None = None
     tip: tuple[str, Vector] | None = None
     capacity: Capacity = ()
+    areas: Mapping[str, Areas] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "cylinders", dict(self.cylinders))
+        object.__setattr__(self, "areas", dict(self.areas))

@@ -39,6 +39,7 @@ KINDS: Mapping[str, str] = {  # what the elements of each table are called
     "roles": "crane",
     "provenance": "provenance",
     "limit_states": "limit state",
+    "clearances": "clearance",
     "meshes": "mesh",
 }
 ELEMENTS = tuple(KINDS)[:11]  # tables of what is compiled
@@ -73,6 +74,8 @@ class Description:
         Joint and coordinate that are recorded under a name.
     ranges : dict of str to Range
     limit_states : dict of str to LimitState
+    clearances : dict of str to Clearance
+        Distances of points from boxes, which are recorded.
     roles : dict of str to CraneRoles
         By the prefix of each crane's names.
     provenance : dict of str to VesselProvenance
@@ -103,6 +106,7 @@ class Description:
     recorded: dict[str, tuple[str, str]] = field(default_factory=dict)
     ranges: dict[str, Range] = field(default_factory=dict)
     limit_states: dict[str, LimitState] = field(default_factory=dict)
+    clearances: dict[str, Any] = field(default_factory=dict)
     roles: dict[str, CraneRoles] = field(default_factory=dict)
     provenance: dict[str, VesselProvenance] = field(default_factory=dict)
     meshes: dict[str, Any] = field(default_factory=dict)

@@ -28,6 +28,8 @@ from seacrane.hydro.hull.hydrostatics import Hydrostatics as Hydrostatics
 from seacrane.hydro.hull.offsets import OffsetTable as OffsetTable
 from seacrane.hydro.hull.offsets import read_offset_table as read_offset_table
 from seacrane.hydro.hull.parametric_hull import ParametricHull as ParametricHull
+from seacrane.hydro.hull.righting import RightingArms as RightingArms
+from seacrane.hydro.hull.righting import righting_arms as righting_arms
 from seacrane.hydro.memory.audit import MemoryMismatchWarning as MemoryMismatchWarning
 from seacrane.hydro.memory.certificate import PassivityCertificate as PassivityCertificate
 from seacrane.hydro.memory.certificate import PassivityError as PassivityError

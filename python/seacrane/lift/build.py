@@ -20,7 +20,9 @@ from seacrane.lift.lines import Place
 from seacrane.scene.scene import Scene
 
 LAST = ("heave_compensation",)  # what refers to commands
-NO_CALLS = ("scene", "run", "method", "outputs", "balance", "control", "command", "notes", *LAST)
+NO_CALLS = (
+    "scene", "run", "method", "outputs", "ballast", "balance", "control", "command", "stage", "notes", *LAST
+)  # fmt: skip
 GAINS = ("stiffness", "damping")
 ABOUT = "(?:is|are|has|have|holds)"  # follows the name of what a message is about
 Made = TypeVar("Made")
@@ -86,11 +88,22 @@ class _Build:
         for entry in self.entries:
             if entry.table.name == "notes":
                 scene.notes.update(plain(entry.values))
-        ballast = _only(self.entries, "balance")
-        if ballast is None:
-            return scene, None
-        with refused_at(self.document, ballast):
-            return scene, balance_by_force(scene, body=ballast.values["body"])
+        return scene, self._ballasted(scene, at_rest=at_rest)
+
+    def _ballasted(self, scene: Scene, *, at_rest: bool) -> Balance | None:
+        """Add ballast, once drives hold the scene; what [balance] balances."""
+        balanced = _only(self.entries, "balance")
+        for entry in self.entries:
+            if entry.table.name != "ballast":
+                continue
+            if balanced is not None:
+                self.document.fail(balanced.path, "[balance] stands beside [ballast]; leave one out")
+            with refused_at(self.document, entry):
+                self.caller.call(scene, entry.table, entry.values, at_rest=at_rest)
+        if balanced is None:
+            return None
+        with refused_at(self.document, balanced):
+            return balance_by_force(scene, body=balanced.values["body"])
 
     def _control(
         self, scene: Scene, control: Entry, commands: Sequence[Entry], start: Balance | None

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from seacrane import _core
+from seacrane.analysis.tanks import Tank
 from seacrane.crane import KnuckleBoomCrane, Payload
 from seacrane.description.scene import coordinate_of
 from seacrane.errors import SceneError
@@ -103,13 +104,14 @@ def _require_unit(scene: Scene, key: Key, spelling: str, values: Mapping[str, An
         )
 
 
-def _require_unit_of_channel(table: Table, values: Mapping[str, Any]) -> None:
+def require_unit_of_channel(
+    keys: Iterable[Key], values: Mapping[str, Any], channel: str, where: Mapping[str, str]
+) -> None:
     """Refuse a limit in another unit than that of the channel, as far as that is known here."""
-    channel = values["channel"]
     if channel not in CHANNELS:
         return  # the run says so
-    own = unit_of(channel, list(values.get("where", {}).values())).split(EITHER)
-    for key in table.keys:
+    own = unit_of(channel, list(where.values())).split(EITHER)
+    for key in keys:
         for spelling, unit in key.spellings.items():
             if spelling in values and unit and not {unit, RADIANS.get(unit)} & set(own):
                 right = [one for one, u in key.spellings.items() if {u, RADIANS.get(u)} & set(own)]
@@ -128,7 +130,7 @@ class Caller:
         """Add to a scene what a table describes; at rest, without what only moves it."""
         given = keywords(table.keys, values, scene)
         if table.name == "limit_state":
-            _require_unit_of_channel(table, values)
+            require_unit_of_channel(table.keys, values, values["channel"], values.get("where", {}))
         match table.name:
             case "vessel":
                 self._vessel(scene, given, at_rest=at_rest)
@@ -139,9 +141,14 @@ class Caller:
                     self._sea(scene, given)
             case "crane":
                 self.crane(scene, table, values, {})
+            case "ballast":
+                scene.add_ballast(**given | _tanks(given))
             case "joint":
                 scene.add_joint(**given)
             case "roles":
+                if "areas" in given:
+                    rows = given["areas"]
+                    given["areas"] = {one["cylinder"]: (one["full"], one["rod_side"]) for one in rows}
                 scene.add_roles(**given)
             case _:
                 assert table.add is not None
@@ -199,6 +206,19 @@ class Caller:
             if key in given:
                 raise SceneError(f"sea: {key} is given without systems, whose sea is as deep as the database")
         scene.add_sea(database, **given)
+
+
+def _tanks(given: Keywords) -> Keywords:
+    """Tanks by their names; nothing where there are none."""
+    if "tanks" not in given:
+        return {}
+    tanks: dict[str, Tank] = {}
+    for table in given["tanks"]:
+        name = table["name"]
+        if name in tanks:
+            raise SceneError(f"ballast: tanks has {name!r} twice; names of tanks must differ")
+        tanks[name] = Tank(**{key: value for key, value in table.items() if key != "name"})
+    return {"tanks": tanks}
 
 
 def _raos(headings: list[Keywords], **table: Any) -> MotionRaos:

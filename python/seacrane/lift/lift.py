@@ -15,12 +15,15 @@ from seacrane.files.atomic import atomic_write
 from seacrane.lift.build import made, scene_of
 from seacrane.lift.check import SHIPPED, Entry, entries_of, plain
 from seacrane.lift.document import FORMAT, LARGEST_FILE, VERSION, Document, read_document
+from seacrane.lift.stages import check_stages, stages_of
 from seacrane.lift.text import toml_text
 from seacrane.result.result import Result
 from seacrane.run.method import Method
 from seacrane.run.outputs import Outputs
 from seacrane.scene.scene import Scene
 from seacrane.simulation import simulate
+from seacrane.stages.stage import Stage
+from seacrane.stages.staged_run import simulate_stages
 
 T_END = float(inspect.signature(simulate).parameters["t_end"].default)
 LIFTS = ("case1", "case2", "case3", "vessel")
@@ -45,7 +48,9 @@ class Lift:
     method : Method
     outputs : Outputs
     t_end : float
-        End time, s.
+        End time, s; without stages.
+    stages : tuple of Stage
+        In their order; none where one run is the whole lift.
 
     Raises
     ------
@@ -56,6 +61,7 @@ class Lift:
     method: Method
     outputs: Outputs
     t_end: float
+    stages: tuple[Stage, ...]
     _document: Document
     _folder: Path
     _entries: tuple[Entry, ...]
@@ -70,6 +76,11 @@ class Lift:
         checked["method"] = made(document, entries, "method", Method)
         checked["outputs"] = made(document, entries, "outputs", Outputs)
         checked["t_end"] = made(document, entries, "run", lambda t_end=T_END: t_end)
+        checked["stages"] = stages_of(document, entries)
+        if checked["stages"] and "run" in document.data:
+            document.fail(
+                ("run",), "[run] stands beside [[stage]]: a lift ends with its last stage; leave it out"
+            )
         for name, value in checked.items():
             object.__setattr__(self, name, value)
 
@@ -104,12 +115,20 @@ class Lift:
         Raises
         ------
         FileFormatError
-            With the line of the table that a scene refuses, or whose file cannot be read.
+            With the line of the table that a scene refuses, or whose file cannot be read, and of a stage
+            that does not fit the scene.
         """
-        return scene_of(self._document, self._entries)
+        scene = scene_of(self._document, self._entries)
+        check_stages(self._document, self._entries, scene, self.stages)
+        return scene
 
     def simulate(self, *, progress: bool = False) -> Result:
-        """Simulate the scene with the method, the outputs and the end time of the lift; see `simulate`."""
+        """Simulate the scene with the method, the outputs and the end time of the lift; see `simulate`.
+
+        A lift with stages is carried out stage by stage, without a progress bar; see `simulate_stages`.
+        """
+        if self.stages:
+            return simulate_stages(self.scene(), self.stages, method=self.method, outputs=self.outputs)
         return simulate(self.scene(), self.t_end, method=self.method, outputs=self.outputs, progress=progress)
 
     def save(self, path: str | os.PathLike[str]) -> None:

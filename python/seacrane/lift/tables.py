@@ -8,10 +8,13 @@ from types import MappingProxyType
 from typing import Any, get_overloads
 
 from seacrane import _core
+from seacrane.analysis.ballast import add_ballast
+from seacrane.analysis.tanks import Tank
 from seacrane.crane.add_crane import add_crane
 from seacrane.crane.payload import Payload
 from seacrane.description import (
     bodies,
+    clearances,
     crane_parts,
     damping,
     drives,
@@ -24,9 +27,8 @@ from seacrane.description import (
 from seacrane.description.curves import spline_curve
 from seacrane.description.scene import Description
 from seacrane.hydro import load_database
-from seacrane.lift.keys import EITHER, Key, field_keys, fields_of, keys_of
-from seacrane.result.channels import CHANNELS
-from seacrane.result.units import units_of
+from seacrane.lift.keys import Key, field_keys, fields_of, keys_of
+from seacrane.lift.stage_keys import CHANNEL_UNITS, STAGE
 from seacrane.run.method import FORMULATIONS, Method
 from seacrane.run.outputs import Outputs
 from seacrane.scene import bridles, given_vessel, heave, heavy_line, limits, lines, sea, vessel, wind_current
@@ -36,6 +38,7 @@ from seacrane.scene.motion_raos import MotionRaos
 from seacrane.scene.realised_sea import SPECTRA
 from seacrane.sea import SeaState, WaveSystem
 from seacrane.simulation import simulate
+from seacrane.stages.stage import Stage
 
 CHOSEN: dict[str, dict[str, Any]] = {
     "spectrum": {"type": "text", "choices": SPECTRA},
@@ -54,7 +57,7 @@ LENGTH: dict[str, Any] = {"unit": "m"}
 ROW: dict[str, Any] = {"type": "array", "shapes": ((-1,),)}
 TIME: dict[str, Any] = {"unit": "s"}
 NUMBER = {"type": "number"}
-LIMITED = {"unit": EITHER.join(dict.fromkeys(unit for name in CHANNELS for unit in units_of(name)))}
+LIMITED = {"unit": CHANNEL_UNITS}
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -207,6 +210,15 @@ def _flow(name: str, add: Callable[..., Any]) -> Table:
     return replace(table, keys=tuple(replace(key, text=texts[key.name]) for key in table.keys))
 
 
+TANK = (
+    Key(name="name", type="text", required=True, text="Differs from those of the other tanks."),
+    *keys_of(Tank, more={"point": POINT, "capacity": {"unit": "kg"}, "content": {"unit": "kg"}}),
+)
+PISTON = (
+    Key(name="cylinder", type="text", required=True, text="Its label."),
+    Key(name="full", type="number", unit="m2", required=True, text="Area of the full side."),
+    Key(name="rod_side", type="number", unit="m2", required=True, text="Area of the rod side."),
+)
 PAYLOAD = keys_of(Payload, more={"mass": {"unit": "kg"}, "size": POINT, "link_length": LENGTH})
 POSE: dict[str, dict[str, Any]] = {"theta": {"unit": "rad"}, "s1": LENGTH, "s2": LENGTH}
 CRANE = keys_of(
@@ -335,6 +347,9 @@ _ALL = (
     _call("record", recorded.record_coordinate),
     _call("point", recorded.add_point, _core.Point),
     _call(
+        "clearance", clearances.add_clearance, points={"type": "texts"}, center=POINT, size=POINT,
+    ),
+    _call(
         "limit_state", limit_states.add_limit_state,
         max=NUMBER | LIMITED, min=NUMBER | LIMITED, where={"type": "names"},
     ),
@@ -348,6 +363,7 @@ _ALL = (
                     Key(name="body", type="text", required=True), Key(name="point", required=True, **POINT)
                 )},
                 "capacity": {"type": "array", "unit": "m, kg", "shapes": ((-1, 2),)},
+                "areas": {"type": "tables", "keys": PISTON},
             },
         ),
     ),
@@ -367,6 +383,13 @@ _ALL = (
         text="A constant force on a vessel that carries the weight of all else at the start: its ballast.",
         keys=(Key(name="body", type="text", required=True, text="The vessel."),),
     ),
+    Table(
+        name="ballast", text=_summary(add_ballast), add=add_ballast,
+        keys=keys_of(add_ballast, more={
+            "heel_deg": {"unit": "deg"}, "trim_deg": {"unit": "deg"},
+            "tanks": {"type": "tables", "keys": TANK, "text": "Without them one force."},
+        }),
+    ),
     Table(name="control", several=False, text="How commanded coordinates are controlled.", keys=CONTROL),
     Table(
         name="command", keys=COMMAND,
@@ -375,6 +398,7 @@ _ALL = (
     _call(
         "heave_compensation", heave.add_heave_compensation, _core.HeaveCompensator, direction=DIRECTION,
     ),
+    Table(name="stage", text=_summary(Stage), keys=STAGE),
     Table(
         name="run", several=False, text="How long a run takes.",
         keys=keys_of(simulate, more={"t_end": TIME}, only=("t_end",)),

@@ -55,12 +55,19 @@ def _core_channel(channel: _core.Channel) -> Channel:
 
 
 def _derived(
-    dims: str, unit: str, long_name: str, made_of: str, *, several: str = "", turns: bool = False
+    dims: str,
+    unit: str,
+    long_name: str,
+    made_of: str,
+    *,
+    several: str = "",
+    turns: bool = False,
+    by_default: bool = True,
 ) -> Channel:
     own = dims.split()
     return Channel(
         dims=("time", *own), dims_of_several=("time", *several.split(), *own), unit=unit, long_name=long_name,
-        made_of=tuple(made_of.split()), turns=turns,
+        by_default=by_default, made_of=tuple(made_of.split()), turns=turns,
     )  # fmt: skip
 
 
@@ -75,6 +82,12 @@ DERIVED: Mapping[str, Channel] = MappingProxyType(
         "cylinder_force": _derived(
             "cylinder", "N", "actuator force of the cylinder, positive pushes", _DRIVE
         ),
+        "cylinder_pressure": _derived(
+            "piston",
+            "Pa",
+            "pressure in the loaded chamber of the cylinder, the rod side's negative",
+            _DRIVE,
+        ),
         "slew_angle": _derived(
             "", "rad", "slew angle of the crane", "coordinate", several="slew", turns=True
         ),
@@ -82,6 +95,14 @@ DERIVED: Mapping[str, Channel] = MappingProxyType(
         "link_tension": _derived(
             "", "N", "tension of the link between crane tip and payload", "tension", several="hook"
         ),
+        "hook_load": _derived(
+            "suspension",
+            "N",
+            "load on the lower end of a link, a wire or a line, all its falls together",
+            f"tension line_tension {_POSE}",
+            by_default=False,
+        ),
+        "clearance": _derived("gap", "m", "distance of points from a box, negative inside", _POSE),
         "tip_velocity": _derived(
             "axis", "m/s", "velocity of the crane tip, inertial frame", _MOTION, several="tip"
         ),

@@ -14,6 +14,7 @@ READ: dict[str, tuple[float, str]] = {
     "rad/s": (float(np.degrees(1.0)), "deg/s"),
     "N": (1e-3, "kN"),
     "N m": (1e-3, "kN m"),
+    "Pa": (1e-5, "bar"),
 }
 
 

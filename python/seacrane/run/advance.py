@@ -4,15 +4,15 @@ from __future__ import annotations
 
 import contextlib
 from collections.abc import Callable, Iterator, Sequence
-from typing import Any
 
 from seacrane._core import integrator
 from seacrane.analysis.linearise import fastest_mode
 from seacrane.errors import SimulationError
 from seacrane.result.result import Result
+from seacrane.run.controller_calls import Calls
 from seacrane.run.interrupts import Interrupts
 from seacrane.run.run import Run
-from seacrane.run.sampled_controller import SampledController, called_at, next_call, only_setter
+from seacrane.run.sampled_controller import SampledController
 from seacrane.run.step_advice import step_advice
 from seacrane.run.stiffness import stiffness
 from seacrane.validity.range import warn_of
@@ -27,7 +27,7 @@ def finished(run: Run, controllers: Sequence[SampledController] = (), *, progres
     """
     with Interrupts() as interrupts:
         try:
-            drive(run, controllers, interrupts, progress=progress)
+            drive(run, Calls(controllers, run.start.time), interrupts, progress=progress)
         except BaseException as error:
             with contextlib.suppress(MemoryError, AttributeError):  # errors of others take no attributes
                 error.result = run.result()  # type: ignore[attr-defined]
@@ -39,20 +39,22 @@ def finished(run: Run, controllers: Sequence[SampledController] = (), *, progres
 
 def drive(
     run: Run,
-    controllers: Sequence[SampledController],
+    calls: Calls,
     interrupts: Interrupts,
     *,
     progress: bool = False,
     watch: Look | None = None,
+    halt: Callable[[], bool] | None = None,
 ) -> None:
     """Advance a run to its end, or to where Ctrl-C stops it.
 
     What ends it otherwise is raised as by `simulate`. `watch` is called with the time now and then, between
-    two steps, and where a piece of the run ends.
+    two steps, and where a piece of the run ends; there `halt` may end the run, before controllers are called.
     """
     try:
         with _bar(run.start.time, run.t_end, progress) as report:
-            _advance(run, controllers, interrupts, [look for look in (watch, report) if look], watch)
+            looks = [look for look in (watch, report) if look]
+            _advance(run, calls, interrupts, looks, watch, halt)
     except KeyboardInterrupt:  # between two pieces of the loop, or inside a controller
         run.interrupted = True
     except MemoryError as error:
@@ -84,48 +86,26 @@ def _bar(t_start: float, t_end: float, wanted: bool) -> Iterator[Look | None]:
 
 def _advance(
     run: Run,
-    controllers: Sequence[SampledController],
+    calls: Calls,
     interrupts: Interrupts,
     looks: Sequence[Look],
     watch: Look | None,
+    halt: Callable[[], bool] | None,
 ) -> None:
     def look(now: float) -> None:
         for one in looks:
             one(now)
         interrupts.take()
 
-    due = [run.start.time for _ in controllers]
-    setters: dict[str, SampledController] = {}
     while True:
         interrupts.take()
-        _call(run, controllers, due, setters, interrupts)
-        stop = min([run.t_end, *due])
+        calls.call(run, interrupts)
+        stop = min(run.t_end, calls.next(run.core.time))
         reached = run.advance(stop, look)
         if watch is not None:
             watch(run.core.time)
-        if not reached or stop >= run.t_end:
+        if not reached or stop >= run.t_end or (halt is not None and halt()):
             return
-
-
-def _call(
-    run: Run,
-    controllers: Sequence[SampledController],
-    due: list[float],
-    setters: dict[str, SampledController],
-    interrupts: Interrupts,
-) -> None:
-    """Call the controllers that are due now, and set the inputs that they return."""
-    now = run.core.time
-    called: dict[str, Any] = {}
-    for i, controller in enumerate(controllers):
-        if due[i] <= now and now < run.t_end:
-            with interrupts.at_once():
-                inputs = called_at(controller, now, run.measure)
-            only_setter(inputs, controller, setters)
-            called.update(inputs)
-            due[i] = next_call(controller, now, run.start.time)
-    if called:
-        run.set_inputs(called)
 
 
 def _advise(run: Run, error: BaseException) -> None:

@@ -9,10 +9,13 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from seacrane.description.crane_parts import cylinders, hooks, slews, tips
+from seacrane.description.crane_parts import cylinders, hooks, piston_areas, slews, tips
+from seacrane.description.cylinder_areas import pressure
 from seacrane.errors import SceneError
 from seacrane.result.channels import CHANNELS, DERIVED, FIXED
+from seacrane.run.clearances import clearances
 from seacrane.run.hanging import lead_angles, tip_velocities
+from seacrane.run.hook_loads import hook_loads, suspensions
 
 if TYPE_CHECKING:
     from seacrane import _core
@@ -40,10 +43,29 @@ def derived_coords(scene: Description) -> dict[str, list[str]]:
     """Names along the dimensions of derived channels."""
     return {
         "cylinder": list(cylinders(scene)),
+        "piston": list(piston_areas(scene)),
+        "suspension": suspensions(scene),
+        "gap": list(scene.clearances),
         "slew": list(slews(scene)),
         "hook": list(hooks(scene)),
         "tip": list(tips(scene)),
     }
+
+
+NEEDS = {  # what a channel of Python's own has its names from, by the dimension
+    "piston": "areas of pistons: give add_roles(areas=...), or a crane's file with them",
+    "suspension": "a link, a wire or a line: add one",
+    "gap": "a clearance: add_clearance one",
+}
+
+
+def require_names(scene: Description, wanted: Iterable[str]) -> None:
+    """SceneError where nothing in the scene has a derived channel that is asked for."""
+    names = derived_coords(scene)
+    for channel in wanted:
+        for dim in CHANNELS[channel].dims if channel in DERIVED else ():
+            if dim in NEEDS and not names[dim]:
+                raise SceneError(f"channel {channel!r} is unknown to this scene; it needs {NEEDS[dim]}")
 
 
 def require_limited_channels(scene: Description, model: _core.Model) -> None:
@@ -53,6 +75,7 @@ def require_limited_channels(scene: Description, model: _core.Model) -> None:
     for name, state in scene.limit_states.items():
         try:
             core_channels([state.channel], known)
+            require_names(scene, [state.channel])
         except SceneError as error:
             raise SceneError(f"limit state {name!r}: {error}") from error
         dims = {*CHANNELS[state.channel].dims[1:], *CHANNELS[state.channel].dims_of_several[1:]}
@@ -105,6 +128,7 @@ def named_channels(
         "stroke": _recorded(scene, arrays.get("coordinate"), strokes),
         "stroke_rate": _recorded(scene, arrays.get("coordinate_rate"), strokes),
         "cylinder_force": _loads(scene, arrays, strokes),
+        "cylinder_pressure": _pressures(scene, arrays, strokes),
         "slew_angle": _turned(_recorded(scene, arrays.get("coordinate"), drives)),
         "slew_torque": _without_axis_of_one(_loads(scene, arrays, drives)),
         "link_tension": _without_axis_of_one(
@@ -112,6 +136,8 @@ def named_channels(
                 arrays.get("tension"), [links.index(link) for link in hooks(scene).values() if link in links]
             )
         ),
+        "hook_load": hook_loads(scene, arrays),
+        "clearance": clearances(scene, arrays),
         "tip_velocity": _without_axis_of_one(
             tip_velocities(scene, arrays) if "tip_velocity" in wanted else None
         ),
@@ -146,6 +172,17 @@ def _loads(
     columns = [_drive_load(scene, arrays, place) for place in wanted.values()]
     known = [column for column in columns if column is not None]
     return np.column_stack(known) if known and len(known) == len(columns) else None
+
+
+def _pressures(
+    scene: Description, arrays: Mapping[str, Array], cylinders: Mapping[str, tuple[str, str]]
+) -> Array | None:
+    """In the loaded chambers of the cylinders whose areas are known."""
+    areas = piston_areas(scene)
+    forces = _loads(scene, arrays, {label: cylinders[label] for label in areas})
+    if forces is None:
+        return None
+    return np.column_stack([pressure(forces[:, i], pair) for i, pair in enumerate(areas.values())])
 
 
 def _drive_load(scene: Description, arrays: Mapping[str, Array], wanted: tuple[str, str]) -> Array | None:

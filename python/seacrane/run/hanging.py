@@ -55,9 +55,9 @@ def _slews(scene: Description, crane: CraneRoles) -> bool:
 def _angles_of(scene: Description, arrays: Mapping[str, Array], crane: CraneRoles) -> tuple[Array, Array]:
     assert crane.tip is not None and crane.slew is not None and crane.link is not None
     link, slew = scene.joints[crane.link], scene.joints[crane.slew[0]]
-    tip = _position(scene, arrays, *crane.tip)
-    hook = _position(scene, arrays, link.second, link.second_frame.point)
-    out = tip - _position(scene, arrays, slew.first, slew.first_frame.point)
+    tip = position_of(scene, arrays, *crane.tip)
+    hook = position_of(scene, arrays, link.second, link.second_frame.point)
+    out = tip - position_of(scene, arrays, slew.first, slew.first_frame.point)
     out[:, 2] = 0.0
     with np.errstate(invalid="ignore"):  # a tip on the slew axis has no plane: NaN
         out /= np.linalg.norm(out, axis=1, keepdims=True)
@@ -78,7 +78,8 @@ def _lever(scene: Description, arrays: Mapping[str, Array], body: str, point: Ar
     return np.asarray(in_body + 2.0 * (w * across + np.cross(axis, across)))
 
 
-def _position(scene: Description, arrays: Mapping[str, Array], body: str, point: ArrayLike) -> Array:
+def position_of(scene: Description, arrays: Mapping[str, Array], body: str, point: ArrayLike) -> Array:
+    """Of a point of a body, or of the ground, inertial frame, m, shape (time, 3)."""
     if body not in scene.bodies:  # the ground
         return np.broadcast_to(np.asarray(point, float), (len(arrays["position"]), 3)).copy()
     return np.asarray(arrays["position"][:, _place(scene, body)] + _lever(scene, arrays, body, point))

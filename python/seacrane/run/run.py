@@ -12,9 +12,16 @@ from seacrane import _core
 from seacrane.description.references import check_references
 from seacrane.errors import SceneError, SeacraneError
 from seacrane.inputs.checked import number_of
+from seacrane.result.channels import DERIVED
 from seacrane.result.events import Event
 from seacrane.result.result import Result, checked_stats
-from seacrane.run.channel_names import core_channels, derived_coords, named_channels, require_limited_channels
+from seacrane.run.channel_names import (
+    core_channels,
+    derived_coords,
+    named_channels,
+    require_limited_channels,
+    require_names,
+)
 from seacrane.run.formulation import stepped
 from seacrane.run.input_slots import changed_inputs, steered
 from seacrane.run.method import Method
@@ -93,6 +100,7 @@ class Run:
         warn_of_description(self.scene, start=begin, end=end, described=described)
         self.settings = settings_of(self.scene, self.t_end, self.method, self.outputs)
         require_limited_channels(self.scene, self.model)
+        require_names(self.scene, self.outputs.channels or ())
         self.core = _simulation(self, capacity)
         if self.scene.waves is not None:
             self.scene.waves.warn_of_repeats(self.t_end - self.start.time)
@@ -135,9 +143,15 @@ class Run:
 
     def wanted(self, arrays: Mapping[str, Array]) -> dict[str, Array]:
         """As `named`, those that the outputs ask for."""
-        asked = self.outputs.channels
-        named = self.named(arrays)
-        return named if asked is None else {name: v for name, v in named.items() if name in set(asked)}
+        asked, named = self.outputs.channels, self.named(arrays)
+        if asked is not None:
+            return {name: values for name, values in named.items() if name in set(asked)}
+        limited = {state.channel for state in self.scene.limit_states.values()}
+        return {
+            name: values
+            for name, values in named.items()
+            if name not in DERIVED or DERIVED[name].by_default or name in limited
+        }
 
     def set_inputs(self, values: Mapping[str, Any]) -> None:
         """Set inputs by name from now on; see `SampledController`."""

@@ -13,6 +13,7 @@ from seacrane.description.origin import origin_settings
 from seacrane.description.outline import bounds_of, outline_of
 from seacrane.files.plain_data import plain_notes
 from seacrane.run.channel_names import hanging_bodies, hanging_weights
+from seacrane.run.hook_loads import line_weights
 from seacrane.run.method import Method
 from seacrane.run.outputs import Outputs
 from seacrane.scene.scene import Scene
@@ -52,12 +53,13 @@ def stats_of(
     """`Result.stats` of a run so far; `start` is its start time, s."""
     recursive = formulation == "recursive"
     cranes = [roles_to_data(roles) for roles in scene.roles.values()]
-    bounds, weights = bounds_of(scene), hanging_weights(scene)
+    bounds, weights, on_lines = bounds_of(scene), hanging_weights(scene), line_weights(scene)
     return {
         "seacrane_version": __version__,
         "scene": scene.name,
         "payload": "\n".join(hanging_bodies(scene)) or None,
         "hanging_weight": json.dumps(weights) if weights else None,
+        "line_weight": json.dumps(on_lines) if on_lines else None,
         "cranes": json.dumps(cranes) if cranes else None,
         "outline": json.dumps(outline_of(scene)),
         "limit_states": json.dumps(limit_states_to_data(scene)) if scene.limit_states else None,

@@ -20,6 +20,7 @@ from seacrane.result.kept_scene import NOT_KEPT, KeptScene
 from seacrane.result.result import Result, checked_stats
 from seacrane.result.stream import DIGEST, Left, ResultFile, difference, rows_of_piece
 from seacrane.run.advance import drive
+from seacrane.run.controller_calls import Calls
 from seacrane.run.interrupts import Interrupts
 from seacrane.run.method import Method
 from seacrane.run.outputs import Outputs
@@ -145,7 +146,7 @@ def simulate_to_file(
             writer = _Writer(run, digest, file, every)
             writer.begin(left, overwrite=overwrite, unlike=_unlike(scene, given))
             try:
-                drive(run, given, interrupts, progress=progress, watch=writer.look)
+                drive(run, Calls(given, run.start.time), interrupts, progress=progress, watch=writer.look)
             except BaseException:
                 with contextlib.suppress(OSError):  # the error at hand tells more
                     writer.close()

@@ -10,6 +10,7 @@ from seacrane.analysis.scene_report import scene_report
 from seacrane.crane.add_crane import add_crane
 from seacrane.description import (
     bodies,
+    clearances,
     compilation,
     crane_parts,
     damping,
@@ -62,9 +63,10 @@ class Scene(Description):
     points
         Elements by name, immutable; `loads` are wind, current, lines, limits and friction.
     waves : Waves or None
-    recorded, ranges, limit_states, roles, provenance, meshes, notes
+    recorded, ranges, limit_states, clearances, roles, provenance, meshes, notes
         As of `Description`: what is recorded, where coordinates are meant to stay, what channels may reach,
-        the parts of cranes, where vessels come from, what bodies are drawn by, and the user's own notes.
+        which distances are recorded, the parts of cranes, where vessels come from, what bodies are drawn by,
+        and the user's own notes.
     """
 
     add_body = bodies.add_body
@@ -75,6 +77,7 @@ class Scene(Description):
     add_range = recorded.add_range
     add_point = recorded.add_point
     add_limit_state = limit_states.add_limit_state
+    add_clearance = clearances.add_clearance
     add_point_force = forces.add_point_force
     add_spring = forces.add_spring
     add_force_table = forces.add_force_table

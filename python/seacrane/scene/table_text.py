@@ -26,6 +26,7 @@ def rows(scene: Description) -> list[tuple[str, list[str]]]:
         )
     )
     found.append(("limit states", list(scene.limit_states)))
+    found.append(("clearances", list(scene.clearances)))
     found.append(("meshes", list(scene.meshes)))
     return [(kind, names) for kind, names in found if names]
 

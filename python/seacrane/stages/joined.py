@@ -23,7 +23,8 @@ SUMS = (
     "simulated_s", "wall_s", "steps", "rejected_steps", "evaluations", "jacobians", "newton_iterations",
     "projections", "restarts", "dense_solves", "events",
 )  # fmt: skip
-NOTHING = ("N", "N m", "N or N m", "W")  # units of what is zero where its element is not there
+WEIGHTS = ("hanging_weight", "line_weight")  # of what hangs in any stage
+NOTHING = ("N", "N m", "N or N m", "W", "Pa")  # units of what is zero where its element is not there
 
 
 @dataclass
@@ -164,6 +165,12 @@ def _stats(pieces: Sequence[Piece], spans: Sequence[StageSpan]) -> dict[str, Any
     told = dict.fromkeys(line for one in every for line in str(one.get("validity", "")).splitlines())
     if told:
         out["validity"] = "\n".join(told)
+    for key in WEIGHTS:
+        known: dict[str, Any] = {}
+        for one in every:
+            known |= json.loads(str(one.get(key, "{}")))
+        if known:
+            out[key] = json.dumps(known)
     settings = json.loads(str(out["settings"]))
     out["settings"] = settings | {"t_end": float(pieces[-1].result.time[-1])}
     out["stages"] = spans_as_text(spans)

@@ -11,6 +11,7 @@ import numpy as np
 from seacrane import _core
 from seacrane.errors import SimulationError
 from seacrane.run.advance import drive
+from seacrane.run.controller_calls import Calls
 from seacrane.run.interrupts import Interrupts
 from seacrane.run.method import Method
 from seacrane.run.outputs import Outputs
@@ -35,6 +36,8 @@ class Course:
     first : float
         Time from which outputs are counted, s.
     interrupts : Interrupts
+    calls : Calls
+        Of controllers.
     began, done : callables
         Told of each run that begins, and of each that is part of the result.
     """
@@ -45,6 +48,7 @@ class Course:
     outputs: Outputs
     first: float
     interrupts: Interrupts
+    calls: Calls
     began: Callable[[Run], None]
     done: Callable[[Run], None]
     warned: bool = False
@@ -64,14 +68,14 @@ class Course:
         """A run advanced to its end, and part of the result."""
         run = self.run(start, t_end)
         self.began(run)
-        drive(run, (), self.interrupts)
+        drive(run, self.calls, self.interrupts)
         self.done(run)
         return run
 
     def tried(self, start: _core.State, t_end: float) -> Run:
         """A run advanced to its end, and no part of the result; KeyboardInterrupt by Ctrl-C."""
         run = self.run(start, t_end)
-        drive(run, (), self.interrupts)
+        drive(run, self.calls, self.interrupts)
         if run.interrupted:
             raise KeyboardInterrupt
         return run
@@ -86,17 +90,20 @@ def to_its_end(course: Course, stage: Stage, start: _core.State) -> str:
         For a stage whose conditions are not met within its `longest`.
     """
     if stage.duration is not None:
+        course.calls.begin(replayed=False)
         run = course.taken(start, start.time + stage.duration)
         return "" if run.interrupted else "duration"
     assert stage.longest is not None
     end, state = start.time + stage.longest, start
     met = _met_now(course.run(state, end, capacity=1), stage.conditions)
     while met is None:
+        course.calls.begin(replayed=True)
         stop = min(_next_look(course, state.time), end)
         run = course.run(state, stop)
         course.began(run)
-        drive(run, (), course.interrupts)
-        found = [hit for hit in (_found(run, one) for one in stage.conditions) if hit is not None]
+        looks = _Looks(run, stage.conditions)
+        drive(run, course.calls, course.interrupts, halt=looks.any if course.calls.controllers else None)
+        found = looks.hits()
         if found and not run.interrupted:
             try:
                 return _located(course, state, min(found, key=lambda hit: hit.by), found)
@@ -142,6 +149,31 @@ class _Hit:
     condition: Condition
     after: float
     by: float
+
+
+class _Looks:
+    """Looks at the conditions of a stage in one of its runs."""
+
+    def __init__(self, run: Run, conditions: tuple[Condition, ...]) -> None:
+        self._run, self._conditions = run, conditions
+
+    def any(self) -> bool:
+        """Whether one is met by now: no controller is called beyond the end of its stage."""
+        return bool(self.hits())
+
+    def hits(self) -> list[_Hit]:
+        """Those that are met by now, in the outputs, at events or at this instant."""
+        found = (_found(self._run, one) or _found_now(self._run, one) for one in self._conditions)
+        return [hit for hit in found if hit is not None]
+
+
+def _found_now(run: Run, condition: Condition) -> _Hit | None:
+    """A condition that is met between the last output and now."""
+    start, now = float(run.start.time), float(run.core.time)
+    if isinstance(condition, Contact) or now <= start or excess_now(run, condition) < 0.0:
+        return None
+    times = run.core.channels()["time"]
+    return _Hit(condition, float(max([start, *times[times < now]])), now)
 
 
 def _found(run: Run, condition: Condition) -> _Hit | None:

@@ -3,21 +3,24 @@
 from __future__ import annotations
 
 import contextlib
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from seacrane import _core
 from seacrane.analysis.rest_state import equilibrium
 from seacrane.description.loads import lines_of
+from seacrane.description.scene import LOADS
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import number_of
 from seacrane.result.events import Event
 from seacrane.result.result import Result
 from seacrane.result.stages import StageSpan
+from seacrane.run.controller_calls import Calls
 from seacrane.run.interrupts import Interrupts
 from seacrane.run.outputs import Outputs
 from seacrane.run.run import Run
+from seacrane.run.sampled_controller import SampledController, checked_controllers
 from seacrane.run.shorthand import Shorthand, settled
 from seacrane.scene.scene import Scene
 from seacrane.stages.carry import carried, compiled_there, lifted_seats, redescribed
@@ -61,7 +64,7 @@ class StagedRun:
     ----------
     scene : Scene
     stages : sequence of Stage
-    start, first, method, outputs, **shorthand
+    start, first, method, outputs, controllers, **shorthand
         As `simulate_stages`.
     outputs_from : float, optional
         As of `Run`: time from which output times are counted, s; default: the start.
@@ -86,6 +89,7 @@ class StagedRun:
         outputs_from: float | None = None,
         method: Method | None = None,
         outputs: Outputs | None = None,
+        controllers: Sequence[SampledController] = (),
         **shorthand: Unpack[Shorthand],
     ) -> None:
         self.method, self.outputs = settled(method, outputs, shorthand)
@@ -100,6 +104,7 @@ class StagedRun:
             raise SceneError(f"start is {start!r}; give a seacrane.State")
         self._state = start
         self._first = start.time if outputs_from is None else number_of("outputs_from", outputs_from)
+        self._calls = Calls(checked_controllers(controllers), self._first, start=start.time, kept=self._kept)
         self._pieces: list[Piece] = []
         self._changes: list[Event] = []
         self._open: tuple[Run, dict[str, Any]] | None = None
@@ -151,7 +156,7 @@ class StagedRun:
         return not self.interrupted and len(self._spans) < len(self.stages)
 
     def result(self) -> Result:
-        """All that has been recorded so far.
+        """All that has been recorded so far; `interrupted` until the last stage is over.
 
         Raises
         ------
@@ -161,8 +166,8 @@ class StagedRun:
         if not self._pieces:
             raise SceneError("stages: nothing has been recorded yet; advance() them first")
         return joined(
-            self._pieces, scene=self._given, spans=self._spans, interrupted=self.interrupted,
-            after=self._changes,
+            self._pieces, scene=self._given, spans=self._spans,
+            interrupted=self.interrupted or len(self._spans) < len(self.stages), after=self._changes,
         )  # fmt: skip
 
     def warn(self) -> None:
@@ -254,8 +259,13 @@ class StagedRun:
         outputs = Outputs(dt=self.outputs.dt, channels=wanted)
         return Course(
             scene=self._scene, model=self._model, method=self.method, outputs=outputs, first=self._first,
-            interrupts=interrupts, began=self._began, done=self._done,
+            interrupts=interrupts, calls=self._calls, began=self._began, done=self._done,
         )  # fmt: skip
+
+    def _kept(self, run: Run, inputs: Mapping[str, Any]) -> dict[str, Any]:
+        """Inputs without those of elements that are absent in this stage."""
+        gone = _loads(self._given) - _loads(run.scene)
+        return {name: value for name, value in inputs.items() if name.rpartition(".")[0] not in gone}
 
     def _channels(self) -> list[str] | None:
         """Channels that were asked for, as far as this stage has them."""
@@ -282,6 +292,10 @@ class StagedRun:
         self._state = result.state if result.state is not None else self._state
 
 
+def _loads(scene: Scene) -> set[str]:
+    return {name for table in LOADS for name in getattr(scene, table)}
+
+
 def simulate_stages(
     scene: Scene,
     stages: Sequence[Stage],
@@ -290,6 +304,7 @@ def simulate_stages(
     first: str | None = None,
     method: Method | None = None,
     outputs: Outputs | None = None,
+    controllers: Sequence[SampledController] = (),
     **shorthand: Unpack[Shorthand],
 ) -> Result:
     """Carry out a lift stage by stage and return one result.
@@ -310,6 +325,9 @@ def simulate_stages(
         where their moves and lengths end. It then starts from its static state, unless `start` is given.
     method, outputs, **shorthand
         As `simulate`. Channels are recorded in the stages that have them.
+    controllers : sequence of SampledController
+        As `simulate`; their periods count from the first start, through all stages. Inputs of elements that
+        are absent in a stage are left out there.
 
     Returns
     -------
@@ -329,7 +347,10 @@ def simulate_stages(
     -----
     As `simulate`, each kind once.
     """
-    run = StagedRun(scene, stages, start=start, first=first, method=method, outputs=outputs, **shorthand)
+    run = StagedRun(
+        scene, stages, start=start, first=first, method=method, outputs=outputs, controllers=controllers,
+        **shorthand,
+    )  # fmt: skip
     while run.advance():
         pass
     run.warn()

@@ -21,6 +21,7 @@ from seacrane.inputs.frames import quaternion_of, rotation_matrix
 from seacrane.inputs.shown import shown
 from seacrane.result import Result
 from seacrane.result.kept_scene import NOT_KEPT
+from seacrane.viewer.absences import absences
 from seacrane.viewer.bodies import Look, looks
 from seacrane.viewer.motion import Motion, motion_of
 from seacrane.viewer.wires import end_of, wires_of
@@ -51,8 +52,10 @@ class Drawing:
 
     @cached_property
     def wires(self) -> list[dict[str, Any]]:
-        """As `wires_of`."""
-        return wires_of(self.scene, self.motion.bodies)
+        """As `wires_of`, with the times at which each is absent."""
+        gone = absences(self.result)
+        wires = wires_of(self.scene, self.motion.bodies)
+        return [wire | {"absent": gone.get(wire["element"], [])} for wire in wires]
 
     @cached_property
     def tracks(self) -> list[dict[str, Any]]:
@@ -80,6 +83,11 @@ class Drawing:
                 reached.append(centre + points @ rotation_matrix(turn).T)
         every = np.concatenate(reached)
         return np.array([every.min(axis=0), every.max(axis=0)])
+
+    def absent(self, wire: Mapping[str, Any], times: Array) -> Array:
+        """Whether a wire is absent at times, s."""
+        spans = [(start <= times) & (times < end) for start, end in wire["absent"]]
+        return np.any(spans, axis=0) if spans else np.zeros(np.shape(times), dtype=bool)
 
     @property
     def radius(self) -> float:

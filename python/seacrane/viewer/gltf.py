@@ -96,7 +96,8 @@ class _Model:
             )
             length = np.maximum(np.linalg.norm(end - start, axis=1), SMALLEST)
             turn = _from_z((end - start) / length[:, None])
-            scale = np.column_stack([np.ones_like(length), np.ones_like(length), length])
+            there = np.where(drawing.absent(wire, motion.times), SMALLEST, 1.0)
+            scale = np.column_stack([there, there, there * length])
             node = self._node(
                 wire["name"], self._mesh(wire["name"], [bar]), translation=start[0], rotation=turn[0],
                 scale=scale[0],

@@ -56,7 +56,7 @@ class Stage:
             for actor in actors:
                 actor.user_matrix = pose
         self._show_sea(time)
-        self._show_wires(position, quaternion)
+        self._show_wires(time, position, quaternion)
         place, target = self.camera.at(position[0])
         self.plotter.camera_position = [place.tolist(), target.tolist(), (0.0, 0.0, 1.0)]
         self.plotter.camera.view_angle = OPENING
@@ -105,11 +105,13 @@ class Stage:
         self.water.point_data["colour"][:] = self.sea.colours(height)
         self.water.Modified()
 
-    def _show_wires(self, position: Array, quaternion: Array) -> None:
+    def _show_wires(self, time: float, position: Array, quaternion: Array) -> None:
         for actor in self.wires:
             self.plotter.remove_actor(actor, render=False)
         self.wires = []
         for wire in self.drawing.wires:
+            if self.drawing.absent(wire, np.asarray(time)):
+                continue
             start, end = (self.drawing.place(wire[key], position, quaternion)[0] for key in ("from", "to"))
             points, slack = wire_line(start, end, wire["length"])
             colour = SLACK if slack else WIRES[wire["kind"]]

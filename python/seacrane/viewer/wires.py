@@ -20,10 +20,10 @@ GROUND = -1
 def wires_of(scene: Description, bodies: Sequence[str]) -> list[dict[str, Any]]:
     """Distance joints, springs and the spans of elastic lines for the page.
 
-    Of each: name, kind ("link", "wire" or "spring"; a span is a link), both ends as the body's number (-1:
-    the ground) and a point relative to its centre of mass, and the length (m) below which it hangs slack; 0
-    if it never does. Arcs over sheaves are short links without a name. Where a line meets a sheave is as in
-    the pose that the scene describes.
+    Of each: name, the element that it is of, kind ("link", "wire" or "spring"; a span is a link), both ends
+    as the body's number (-1: the ground) and a point relative to its centre of mass, and the length (m) below
+    which it hangs slack; 0 if it never does. Arcs over sheaves are short links without a name. Where a line
+    meets a sheave is as in the pose that the scene describes.
     """
     limits = {limit.joint for limit in scene.loads.values() if getattr(limit, "kind", None) == "wire"}
     found = []
@@ -33,6 +33,7 @@ def wires_of(scene: Description, bodies: Sequence[str]) -> list[dict[str, Any]]:
             found.append(
                 {
                     "name": name,
+                    "element": name,
                     "kind": "wire" if pulls else "link",
                     "from": end_of(scene, bodies, joint.first, joint.first_frame.point),
                     "to": end_of(scene, bodies, joint.second, joint.second_frame.point),
@@ -43,6 +44,7 @@ def wires_of(scene: Description, bodies: Sequence[str]) -> list[dict[str, Any]]:
         found.append(
             {
                 "name": name,
+                "element": name,
                 "kind": "spring",
                 "from": end_of(scene, bodies, spring.first, spring.first_point),
                 "to": end_of(scene, bodies, spring.second, spring.second_point),
@@ -64,7 +66,7 @@ def _over(scene: Description, bodies: Sequence[str], name: str, line: _core.Line
         return end_of(scene, bodies, line.bodies[at], rotation.T @ (place - origin))
 
     def link(label: str, start: list[float], stop: list[float]) -> dict[str, Any]:
-        return {"name": label, "kind": "link", "from": start, "to": stop, "length": 0.0}
+        return {"name": label, "element": name, "kind": "link", "from": start, "to": stop, "length": 0.0}
 
     found = [
         link(f"{name} {i + 1}", end(i, start), end(i + 1, stop))

@@ -126,7 +126,7 @@ class Page {
       this.labels.add(track.name, 1, () => this.motion.point(track.at, this.time), 'tip');
     });
     this.wires.forEach((wire) => {
-      const element = this.labels.add(wire.name, 2, () => wire.middle, 'wire');
+      const element = this.labels.add(wire.name, 2, () => (wire.mesh.visible ? wire.middle : null), 'wire');
       wire.label = { element, entry: this.labels.labels.find((one) => one.element === element) };
     });
     this.arrows.forEach((arrow) => {
@@ -387,6 +387,7 @@ class Page {
         return [...p.toArray(), q.w, q.x, q.y, q.z];
       },
       elevation: (x, y, t) => this.sea.elevation(x, y, t),
+      absent: () => this.wires.filter((wire) => !wire.mesh.visible).map((wire) => wire.name),
       slack: () => this.wires.filter((wire) => wire.slack).map((wire) => wire.name),
       software: this.software,
       wavesDrawn: this.sea ? this.sea.drawn.length : 0,

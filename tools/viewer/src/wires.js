@@ -1,4 +1,5 @@
-// Links, wires and springs. A slack wire is drawn with its own length, hanging to one side of its chord.
+// Links, wires and springs. A slack wire is drawn with its own length, hanging to one side of its chord; one that a
+// stage of the lift has not is hidden.
 import { BufferAttribute, BufferGeometry, CatmullRomCurve3, Line, LineBasicMaterial, Mesh, MeshLambertMaterial, TubeGeometry, Vector3 } from 'three';
 
 const POINTS = 33;
@@ -13,10 +14,15 @@ export class Wire {
     this.slack = false;
   }
 
+  there(t) {
+    return !this.absent.some(([start, end]) => start <= t && t < end);
+  }
+
   show(motion, t) {
+    this.mesh.visible = this.there(t);
     const [from, to] = [motion.point(this.from, t), motion.point(this.to, t)];
     const chord = from.distanceTo(to);
-    this.slack = this.length > 0 && chord < this.length * (1 - SLACK);
+    this.slack = this.mesh.visible && this.length > 0 && chord < this.length * (1 - SLACK);
     const points = this.slack ? hanging(from, to, this.length) : [from, to];
     this.middle = this.slack ? points[POINTS >> 1] : from.clone().lerp(to, 0.5);
     this.mesh.material.color.set(this.colours[this.slack ? 1 : 0]);

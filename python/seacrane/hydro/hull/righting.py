@@ -1,0 +1,183 @@
+"""Righting arms of a closed hull over large angles of heel, at constant displacement."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from seacrane.hydro.hull.hydrostatics import Hydrostatics, panel_hydrostatics
+from seacrane.hydro.hull.mesh import mesh_triangles, require_closed
+from seacrane.hydro.hull.panels import cut_panels
+from seacrane.plotting.text import text_table
+
+FloatArray = NDArray[np.float64]
+LARGEST = 90.0  # deg
+ROUNDS, EXACT = 60, 1e-11  # of Newton's method; of the length
+TRIMS = ("free", "fixed")
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class RightingArms:
+    """Righting arms over heel. Made by `righting_arms`; prints as a table.
+
+    Attributes
+    ----------
+    heel : ndarray, shape (n,)
+        rad; positive lifts port.
+    GZ : ndarray, shape (n,)
+        m; positive brings the hull back from a positive heel.
+    sinkage : ndarray, shape (n,)
+        By which the origin is lower than upright, m.
+    trim : ndarray, shape (n,)
+        rad; positive lowers the bow.
+    volume : float
+        Displaced, m3.
+    GM : float
+        Upright, from the waterplane, m.
+    """
+
+    heel: FloatArray
+    GZ: FloatArray
+    sinkage: FloatArray
+    trim: FloatArray
+    volume: float
+    GM: float
+
+    def __str__(self) -> str:
+        columns = (np.degrees(self.heel), self.GZ, self.sinkage, np.degrees(self.trim))
+        rows = [[f"{value:.4g}" for value in row] for row in zip(*columns, strict=True)]
+        head = ["heel [deg]", "GZ [m]", "sinkage [m]", "trim [deg]"]
+        return (
+            f"displacement {self.volume:.6g} m3, GM {self.GM:.4g} m\n{text_table(head, rows, right=range(4))}"
+        )
+
+
+def righting_arms(
+    *,
+    vertices: ArrayLike,
+    faces: ArrayLike,
+    center_of_gravity: ArrayLike,
+    heel_deg: ArrayLike,
+    draught: float | None = None,
+    trim: str = "free",
+    name: str = "hull",
+) -> RightingArms:
+    """GZ over heel of a closed surface, deck included, that keeps its displacement.
+
+    The hull is turned about its x axis, then sinks, and with free trim turns about the horizontal axis
+    across it, until its buoyancy carries its weight. GZ is the horizontal distance, across the hull, from
+    the centre of gravity to the line of buoyancy. A load that hangs free counts at its tip.
+
+    Parameters
+    ----------
+    vertices : (n, 3) m. x forward, y port with the centre plane at y = 0, z up.
+    faces : (m, 3) or (m, 4) indices, anticlockwise from outside; what is open there floods.
+    center_of_gravity : (3,) m, from the origin on the waterline. With free trim the hull first takes the
+        trim of this x; upright without trim it is that of the centre of buoyancy.
+    heel_deg : angles, deg, within 90; positive lifts port.
+    draught : m above the lowest vertex; None: z = 0 of the mesh is the waterline.
+    trim : "free", or "fixed" at zero.
+    name : of the hull, for messages.
+
+    Raises
+    ------
+    ValueError : an open surface, or one that is wholly above or under water; angles beyond 90 deg; a hull
+        that does not come to rest, such as one that founders.
+    """
+    triangles = require_closed(name, mesh_triangles(name, vertices, faces))
+    if draught is not None:
+        if not (np.isfinite(draught) and draught > 0.0):
+            raise ValueError(f"hull {name!r}: draught is {draught} m; give a positive number")
+        triangles = triangles - np.array([0.0, 0.0, triangles[..., 2].min() + draught])
+    centre = np.asarray(center_of_gravity, dtype=float)
+    if centre.shape != (3,) or not np.all(np.isfinite(centre)):
+        raise ValueError(f"hull {name!r}: center_of_gravity is {center_of_gravity!r}; give x, y and z, m")
+    if trim not in TRIMS:
+        raise ValueError(f"hull {name!r}: trim is {trim!r}; give {' or '.join(map(repr, TRIMS))}")
+    if not triangles[..., 2].min() < 0.0 < triangles[..., 2].max():
+        raise ValueError(
+            f"hull {name!r}: lies from z = {triangles[..., 2].min():.4g} to {triangles[..., 2].max():.4g} m, "
+            "not across the waterline z = 0; give the draught, and the surface up to the deck"
+        )
+    heels = np.atleast_1d(np.asarray(heel_deg, dtype=float))
+    if not np.all(np.abs(heels) <= LARGEST):
+        raise ValueError(f"hull {name!r}: heel_deg has {heels}; give angles within {LARGEST:g} deg")
+    return _Heeled(name, triangles, centre, free=trim == "free").arms(np.radians(heels))
+
+
+class _Heeled:
+    """A hull that is heeled at constant displacement."""
+
+    def __init__(self, name: str, triangles: FloatArray, centre: FloatArray, *, free: bool) -> None:
+        self.name, self.triangles, self.centre, self.free = name, triangles, centre, free
+        self.length = float(np.ptp(triangles.reshape(-1, 3), axis=0).max())
+        self.upright = self.under(np.eye(3), 0.0)
+        if self.upright.volume <= 0.0:
+            raise ValueError(
+                f"hull {name!r}: encloses {self.upright.volume:.4g} m3, so its normals point inwards; "
+                "reverse the order of the vertices of every face"
+            )
+
+    def under(self, turn: FloatArray, sinkage: float) -> Hydrostatics:
+        """Of what is under water, in axes of the water."""
+        placed = self.triangles @ turn.T - np.array([0.0, 0.0, sinkage])
+        wet = cut_panels(placed[:, [0, 1, 2, 2]], axis=2, side=-1, tolerance=1e-12 * self.length)
+        if not len(wet):
+            raise ValueError(f"hull {self.name!r}: leaves the water; correct its draught")
+        return panel_hydrostatics(wet)
+
+    def arms(self, heels: FloatArray) -> RightingArms:
+        rows = [self.arm(float(heel)) for heel in heels]
+        gz, sinkage, trim = np.array(rows).reshape(-1, 3).T
+        up = self.upright
+        metacentre = up.centre_of_buoyancy[2] + up.waterplane_inertia_roll / up.volume
+        return RightingArms(
+            heel=heels, GZ=gz, sinkage=sinkage, trim=trim, volume=up.volume,
+            GM=float(metacentre - self.centre[2]),
+        )  # fmt: skip
+
+    def arm(self, heel: float) -> tuple[float, float, float]:
+        """GZ, sinkage and trim at a heel, by Newton's method with the waterplane as its Jacobian."""
+        trim, sinkage = 0.0, 0.0
+        for _ in range(ROUNDS):
+            turn = _turn(heel, trim)
+            under, weight = self.under(turn, sinkage), turn @ self.centre
+            x, y, _ = under.centre_of_buoyancy - weight
+            missing = self.upright.volume - under.volume
+            needs_trim = self.free and abs(x) > EXACT * self.length
+            if abs(missing) <= EXACT * self.upright.volume and not needs_trim:
+                return float(-y), sinkage, trim
+            weight = weight - np.array([0.0, 0.0, sinkage])
+            down, bow = self._step(under, missing, float(x), weight)
+            sinkage, trim = sinkage + down, trim + bow
+        raise ValueError(
+            f"hull {self.name!r}: does not come to rest at a heel of {np.degrees(heel):.4g} deg; does it "
+            "founder? Give the surface up to the deck, or ask for less heel"
+        )
+
+    def _step(
+        self, under: Hydrostatics, missing: float, off: float, weight: FloatArray
+    ) -> tuple[float, float]:
+        """Sinkage (m) and trim (rad) towards equilibrium, not far at once.
+
+        The waterplane tells how the volume changes, and its moment about the centre of gravity at `weight`.
+        """
+        area = max(under.waterplane_area, 1e-9 * self.length**2)
+        farthest = 0.1 * self.length
+        if not self.free:
+            return float(np.clip(missing / area, -farthest, farthest)), 0.0
+        first = under.waterplane_moment_x
+        lever = float(under.centre_of_buoyancy[2] - weight[2])
+        second = under.waterplane_inertia_pitch - weight[0] * first + under.volume * lever
+        matrix = np.array([[area, first], [first - weight[0] * area, second]])
+        down, bow = np.linalg.lstsq(matrix, np.array([missing, -off * under.volume]), rcond=1e-12)[0]
+        return float(np.clip(down, -farthest, farthest)), float(np.clip(bow, -0.1, 0.1))
+
+
+def _turn(heel: float, trim: float) -> FloatArray:
+    """Heel about x, then trim about y."""
+    (c, s), (ct, st) = (np.cos(heel), np.sin(heel)), (np.cos(trim), np.sin(trim))
+    roll = np.array([[1.0, 0.0, 0.0], [0.0, c, -s], [0.0, s, c]])
+    return np.asarray(np.array([[ct, 0.0, st], [0.0, 1.0, 0.0], [-st, 0.0, ct]]) @ roll)

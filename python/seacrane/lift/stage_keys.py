@@ -1,0 +1,44 @@
+"""Keys of a stage in a lift file: `Stage`, with its conditions and commands as tables."""
+
+from __future__ import annotations
+
+from seacrane.lift.keys import EITHER, Key, keys_of
+from seacrane.result.channels import CHANNELS
+from seacrane.result.units import units_of
+from seacrane.stages.stage import Stage
+
+CHANNEL_UNITS = EITHER.join(dict.fromkeys(unit for name in CHANNELS for unit in units_of(name)))
+COMMAND_UNITS = EITHER.join(("m", "rad", "m/s", "N", "N m"))
+WAITS = {
+    "tension": "Line whose tension ends the stage.",
+    "length": "Line whose unstretched length ends it.",
+    "channel": "Channel that ends it.",
+    "contact": "Limit that takes hold.",
+    "release": "Limit that lets go.",
+}
+
+_UNTIL = (
+    *(Key(name=name, type="text", text=text) for name, text in WAITS.items()),
+    Key(name="above", type="number", unit=CHANNEL_UNITS, text="Met at this value and above."),
+    Key(name="below", type="number", unit=CHANNEL_UNITS, text="Met at this value and below."),
+    Key(name="where", type="names", text="One name for each dimension of the channel."),
+)
+_COMMANDS = (
+    Key(name="name", type="text", required=True, text='Such as "hoist.rate".'),
+    Key(name="to", type="number", unit=COMMAND_UNITS, text="Where a move ends."),
+    Key(name="by", type="number", unit=COMMAND_UNITS, text="How far it goes."),
+    Key(name="over", type="number", unit="s", text="How long it takes."),
+    Key(name="value", type="number", unit=COMMAND_UNITS, text="A rate or force, reached within 1 s."),
+    Key(name="curve", type="curve", unit=COMMAND_UNITS, text="On the stage's clock, 0 where it begins."),
+)
+STAGE = keys_of(
+    Stage,
+    more={
+        "duration": {"unit": "s"},
+        "longest": {"unit": "s"},
+        "until": {"type": "tables", "keys": _UNTIL, "text": "The first that is met ends the stage."},
+        "commands": {"type": "tables", "keys": _COMMANDS, "text": "What moves during it."},
+        "connect": {"type": "texts"},
+        "release": {"type": "texts"},
+    },
+)

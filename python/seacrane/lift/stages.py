@@ -1,0 +1,172 @@
+"""The stages of a lift from its [[stage]] tables."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from typing import Any
+
+from seacrane.description.joint_coordinates import ANGLES
+from seacrane.description.scene import coordinate_of
+from seacrane.errors import SceneError
+from seacrane.lift.build import refused_at
+from seacrane.lift.calls import require_unit_of_channel
+from seacrane.lift.check import Entry
+from seacrane.lift.curves import curve_from
+from seacrane.lift.document import Document
+from seacrane.lift.keys import DEGREES, EITHER, Key, into_si
+from seacrane.lift.stage_keys import STAGE, WAITS
+from seacrane.scene.scene import Scene
+from seacrane.stages.commands import Command, targets
+from seacrane.stages.move import Move
+from seacrane.stages.plan import checked_stages
+from seacrane.stages.stage import Stage
+from seacrane.stages.until import Condition, Until
+
+LIMITED = {"tension": "line_tension", "length": "line_unstretched_length"}
+WAYS = ("to", "by", "value", "curve")
+
+
+def stages_of(document: Document, entries: Iterable[Entry]) -> tuple[Stage, ...]:
+    """The stages, as far as they make sense by themselves.
+
+    Raises
+    ------
+    FileFormatError
+        With the line of the table.
+    """
+    made = []
+    for entry in _tables(entries):
+        with refused_at(document, entry):
+            made.append(_stage(entry))
+    return tuple(made)
+
+
+def check_stages(document: Document, entries: Sequence[Entry], scene: Scene, stages: Any) -> None:
+    """Raise FileFormatError for stages that do not fit the scene or one another."""
+    if not stages:
+        return
+    for entry in _tables(entries):
+        with refused_at(document, entry):
+            for command in entry.values.get("commands", ()):
+                _require_unit_of_target(scene, command)
+    try:
+        checked_stages(scene, stages)
+    except SceneError as error:
+        told = next((one for one in _tables(entries) if str(error).startswith(_title(one))), None)
+        document.fail(("stage",) if told is None else told.path, str(error))
+
+
+def _tables(entries: Iterable[Entry]) -> list[Entry]:
+    return [entry for entry in entries if entry.table.name == "stage"]
+
+
+def _title(entry: Entry) -> str:
+    return f"stage {entry.values['name']!r}"
+
+
+def _stage(entry: Entry) -> Stage:
+    known = {key.name: key for key in entry.table.keys}
+    given: dict[str, Any] = {}
+    for key in known.values():
+        for spelling in key.spellings:
+            if spelling in entry.values:
+                given[key.name] = entry.values[spelling]
+    given["until"] = [_condition(known["until"].keys, one) for one in given.get("until", ())]
+    given["commands"] = _commands(known["commands"].keys, given.get("commands", ()))
+    return Stage(**given)
+
+
+def _read(keys: Iterable[Key], table: Mapping[str, Any]) -> dict[str, Any]:
+    """A table in SI by keyword."""
+    values: dict[str, Any] = {}
+    for key in keys:
+        for spelling, unit in key.spellings.items():
+            if spelling in table:
+                value = table[spelling]
+                turn = curve_from if key.type == "curve" else lambda one, of: float(into_si(of)(one))
+                values[key.name] = turn(value, unit) if unit else value
+    return values
+
+
+def _condition(keys: tuple[Key, ...], table: Mapping[str, Any]) -> Condition:
+    values = _read(keys, table)
+    kinds = [name for name in WAITS if name in values]
+    if len(kinds) != 1:
+        raise SceneError(f"until: has {' and '.join(kinds) or 'nothing to wait for'}; give one of "
+                         f"{', '.join(WAITS)}")  # fmt: skip
+    kind, where = kinds[0], values.get("where", {})
+    if kind != "channel" and "where" in values:
+        raise SceneError(f"until: where goes with channel; leave it out beside {kind}")
+    bounds = {key: values[key] for key in ("above", "below") if key in values}
+    if kind in ("contact", "release"):
+        if bounds:
+            raise SceneError(f"until: {' and '.join(bounds)} stands beside {kind}; leave it out")
+        return Until.contact(values[kind]) if kind == "contact" else Until.release(values[kind])
+    channel = LIMITED.get(kind, values[kind])
+    require_unit_of_channel(keys, table, channel, where)
+    if kind == "channel":
+        return Until.channel(values[kind], **bounds, **where)
+    return (
+        Until.tension(values[kind], **bounds) if kind == "tension" else Until.length(values[kind], **bounds)
+    )
+
+
+def _commands(keys: tuple[Key, ...], tables: Iterable[Mapping[str, Any]]) -> dict[str, Command]:
+    found: dict[str, Command] = {}
+    for table in tables:
+        values = _read(keys, table)
+        name = values["name"]
+        if name in found:
+            raise SceneError(f"commands: {name!r} is given twice; give one command of it in a stage")
+        found[name] = _command(name, values)
+    return found
+
+
+def _command(name: str, values: Mapping[str, Any]) -> Command:
+    ways = [way for way in WAYS if way in values]
+    if len(ways) != 1:
+        told = " and ".join(ways) or "no value"
+        raise SceneError(f"commands: {name!r} has {told}; give one of {', '.join(WAYS)}")
+    (way,) = ways
+    moves = way in ("to", "by")
+    if moves != ("over" in values):
+        fix = "give over_s, the time that the move takes" if moves else f"leave over_s out beside {way}"
+        raise SceneError(f"commands: {name!r} {'has no' if moves else 'has an'} over_s; {fix}")
+    if moves:
+        return Move(over=values["over"], **{way: values[way]})
+    command: Command = values[way]
+    return command
+
+
+def _require_unit_of_target(scene: Scene, table: Mapping[str, Any]) -> None:
+    """Refuse metres of an angle, and the like."""
+    name = table["name"]
+    known = targets(scene)
+    if name not in known:
+        return  # the check of all stages says so, with what there is
+    unit = _unit(scene, name)
+    fits = {unit, DEGREES.get(unit)}
+    for spelling, given, key in _of_commands(table):
+        if given not in fits:
+            right = [one for one, own in key.spellings.items() if own in fits]
+            raise SceneError(
+                f"{spelling} is given of {name!r}, which is in {unit}; give {EITHER.join(right)}"
+            )
+
+
+def _of_commands(table: Mapping[str, Any]) -> list[tuple[str, str, Key]]:
+    keys = next(key.keys for key in STAGE if key.name == "commands")
+    pairs = [(spelling, unit, key) for key in keys for spelling, unit in key.spellings.items()]
+    return [one for one in pairs if one[0] in table and one[2].name in WAYS]
+
+
+def _unit(scene: Scene, name: str) -> str:
+    target = targets(scene)[name]
+    if target.kind == "load":
+        return "m/s" if target.attribute == "rate" else "m"
+    table = scene.actuators if target.kind == "actuator" else scene.drivers
+    element = table[target.element]
+    angular = coordinate_of(scene, target.kind, element.joint, element.coordinate) in ANGLES
+    if target.attribute == "feed_forward":
+        return "N m" if angular else "N"
+    return "rad" if angular else "m"

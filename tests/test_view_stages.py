@@ -1,0 +1,79 @@
+"""What a stage does not have is not drawn in it: on pages, in models, in pictures."""
+
+from __future__ import annotations
+
+from functools import lru_cache
+from pathlib import Path
+
+import chromium
+import numpy as np
+import pytest
+from stage_scenes import on_deck
+
+from seacrane import Result, Stage, simulate_stages, view
+from seacrane.viewer.drawing import drawing_of
+
+
+@lru_cache(maxsize=1)
+def lifted() -> Result:
+    """A spring that is connected at 1 s, and a hoist that is released at 2 s and taken again at 3 s."""
+    scene = on_deck()
+    scene.add_spring(name="tugger", first="ground", second="load", stiffness=1.0, natural_length=1.0,
+                     first_point=(5.0, 0.0, 1.0))  # fmt: skip
+    stages = [
+        Stage(name="hold", duration=1.0),
+        Stage(name="tug", duration=1.0, connect=["tugger"]),
+        Stage(name="let go", duration=1.0, release=["hoist"]),
+        Stage(name="take", duration=1.0, connect=["hoist"]),
+    ]
+    return simulate_stages(scene, stages, dt_out=0.2)
+
+
+def test_wires_are_absent_from_release_to_connection() -> None:
+    drawing = drawing_of(lifted())
+    tugger, hoist = drawing.wires
+    assert [tugger["element"], hoist["element"]] == ["tugger", "hoist"]
+    times = np.array([0.0, 0.9, 1.1, 1.9, 2.1, 2.9, 3.1, 4.0])
+    assert drawing.absent(tugger, times).tolist() == [True, True, *[False] * 6]
+    assert drawing.absent(hoist, times).tolist() == [*[False] * 4, True, True, False, False]
+    assert not drawing.absent(hoist, np.asarray(0.0))
+    alone = drawing_of(lifted().scene)
+    assert [wire["absent"] for wire in alone.wires] == [[], []]
+
+
+def test_models_have_no_wire_where_there_is_none(tmp_path: Path) -> None:
+    pygltflib = pytest.importorskip("pygltflib", reason="the extra dev holds pygltflib")
+    model = pygltflib.GLTF2().load(str(view(lifted()).save_gltf(tmp_path / "lift.glb")))
+    blob = model.binary_blob()
+
+    def numbers(index: int) -> np.ndarray:
+        accessor = model.accessors[index]
+        start = model.bufferViews[accessor.bufferView].byteOffset
+        width = {"SCALAR": 1, "VEC3": 3}[accessor.type]
+        found = np.frombuffer(blob, "<f4", accessor.count * width, start)
+        return found.reshape(accessor.count, width)
+
+    (animation,) = model.animations
+    node = next(i for i, one in enumerate(model.nodes) if one.name == "hoist 1")
+    channel = next(
+        one for one in animation.channels if one.target.node == node and one.target.path == "scale"
+    )
+    sampler = animation.samplers[channel.sampler]
+    times, scale = numbers(sampler.input)[:, 0], numbers(sampler.output)
+    gone = (times > 2.0 + 1e-6) & (times < 3.0 - 1e-6)
+    assert gone.any() and np.all(scale[gone] < 1e-4)
+    assert np.all(scale[times < 1.9][:, :2] == 1.0) and np.all(scale[times < 1.9][:, 2] > 19.0)
+
+
+@pytest.mark.nightly
+def test_pages_hide_it(tmp_path: Path) -> None:
+    command = chromium.found()
+    if command is None:
+        pytest.skip("no Chromium: install Debian's package chromium")
+    path = view(lifted()).save(tmp_path / "page.html")
+    with chromium.tab(command) as tab:
+        tab.open(path.as_uri())
+        for time, absent in ((0.5, ["tugger"]), (1.5, []), (2.5, ["hoist 1"]), (4.0, [])):
+            tab.value(f"seacrane.seek({time})")
+            assert tab.value("seacrane.absent()") == absent
+        assert tab.errors == []
