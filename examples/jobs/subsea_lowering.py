@@ -24,7 +24,7 @@ lower = Stage(name="lower", until=Until.length("wire", above=deep), longest=300,
 stop = Stage(name="stop", duration=30.0, commands={"wire.rate": 0.0})
 result = simulate_stages(scene, [lower, stop, Stage(name="hold", duration=200.0)], dt_out=0.1)
 
-hold, late = result.stage("hold"), 0.5 + 0.2  # s: half the second in which a rate is reached, and the lag
+hold, late = result.stage("hold"), 0.5 + 0.2  # s: half of the second that a rate is reached in, and the lag
 rise = result.select("tip_velocity", axis="z")[hold]
 acceleration = np.gradient(rise, result.time[hold])
 softness = (acceleration.std() / rise.std()) ** 2 * deep * MASS / EA  # of the wire: frequencies squared
