@@ -266,9 +266,9 @@ ADDED = [
         ("joint 'x'",),
     ),
     (
-        "driver curve a number",
-        lambda s: s.add_driver(joint="pin", curve=0.0),
-        ("driver", "curve is 0.0", "Curve"),
+        "driver curve a text",
+        lambda s: s.add_driver(joint="pin", curve="0"),
+        ("driver", "curve is '0'", "give a number"),
     ),
     (
         "driver coordinate not offered",

@@ -33,7 +33,7 @@ def test_the_examples_of_the_issue_exist() -> None:
     names = {path.stem for path in EXAMPLES}
     assert names >= {
         "pendulum", "vessel_in_waves", "crane_on_fixed_base", "full_scene_by_hand", "sampled_controller",
-        "which_cylinder_forces",
+        "which_cylinder_forces", "winch_and_wire", "tandem_lift", "load_chart", "lift_in_stages",
     }  # fmt: skip
 
 
@@ -70,6 +70,13 @@ def test_the_hook_load_on_a_given_ship_is_that_by_hand(tmp_path: Path) -> None:
     run_, by_hand = run(FOLDER / "given_ship.py", tmp_path).splitlines()
     for mine, theirs in zip(re.findall(NUMBER, run_), re.findall(NUMBER, by_hand), strict=True):
         assert float(mine) == pytest.approx(float(theirs), rel=0.01)
+
+
+def test_two_cranes_share_their_load_as_levers_do(tmp_path: Path) -> None:
+    lines = [re.findall(NUMBER, line)[-2:] for line in run(FOLDER / "tandem_lift.py", tmp_path).splitlines()]
+    found, by_hand = zip(*((float(mine), float(theirs)) for mine, theirs in lines), strict=True)
+    assert found[:-2] == pytest.approx(by_hand[:-2], rel=0.005, abs=0.03)  # kN and deg at rest
+    assert found[-2:] == pytest.approx(by_hand[-2:], rel=0.12)  # in waves, to first order of the swing
 
 
 def test_controller_example_calms_its_load(tmp_path: Path) -> None:

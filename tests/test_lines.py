@@ -303,6 +303,7 @@ def test_rest_modes_and_the_linear_model_hold_the_states() -> None:
     rest = equilibrium(scene)
     stretch = 2e3 * G * 8.5 / 4e6
     assert rest.values[2] == pytest.approx(-8.5 - stretch, abs=1e-9)
+    assert rest.load_states == pytest.approx({"hoist.length": 8.5, "hoist.rate": 0.0}, abs=1e-12)
     values = np.sort(np.linalg.eigvals(linear_model(scene, state=rest).a).real)
     assert np.min(np.abs(values + 1.0 / 0.2)) < 1e-7
     modes = natural_modes(scene)

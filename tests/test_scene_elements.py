@@ -53,6 +53,8 @@ def test_a_number_becomes_a_constant_curve() -> None:
     scene.replace("drive", feed_forward=3.0)
     assert scene.actuators["drive"].feed_forward == Curve.constant(value=3.0)
     assert scene.actuators["drive"].stiffness == 10.0
+    held = scene.add_driver(joint="rail", curve=0.0)
+    assert held.curve == Curve.constant(value=0.0)
 
 
 WRONG: dict[str, tuple[Callable[[Scene], Any], str]] = {

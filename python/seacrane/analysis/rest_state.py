@@ -157,7 +157,8 @@ def _search(model: _core.Model, time: float, values: Array) -> _core.State:
         acceleration = terms.acceleration(y)
         drift = terms.drift(y)
         if np.max(np.abs(acceleration)) < CONVERGED and np.max(np.abs(drift), initial=0.0) < CONVERGED:
-            return _core.State(time=time, values=y, inputs=np.zeros(model.slots))
+            parts = _core.initial_state(model).parts
+            return _core.State(time=time, values=y, inputs=np.zeros(model.slots), parts=parts)
         matrix, rows, columns = coordinates.rest_matrix()
         u, size, vt = np.linalg.svd(matrix)
         fixed = size > NEUTRAL

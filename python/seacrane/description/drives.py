@@ -4,28 +4,26 @@ from __future__ import annotations
 
 from seacrane import _core
 from seacrane.description.scene import Description, coordinate_of, insert
-from seacrane.errors import SceneError
-from seacrane.inputs.checked import name_of
+from seacrane.inputs.checked import curve_of, name_of
 
 
 def add_driver(
     scene: Description,
     *,
     joint: str,
-    curve: _core.Curve,
+    curve: _core.Curve | float,
     coordinate: str | None = None,
     name: str | None = None,
 ) -> _core.Driver:
-    """Prescribe a joint coordinate (m or rad) as a function of time.
+    """Prescribe a joint coordinate (m or rad) as a function of time; a number holds it there.
 
     `coordinate`: "angle" of revolute, "displacement" of prismatic and cylindrical joints (their default),
     "x y z roll pitch yaw" of a free joint.
     """
     coordinate = coordinate_of(scene, "driver", joint, coordinate)
     name = name_of("driver", name, f"{joint}.{coordinate}")
-    if not isinstance(curve, _core.Curve):
-        raise SceneError(f"driver {name!r}: curve is {curve!r}; give a seacrane.Curve")
-    driver = _core.Driver(name=name, joint=joint, coordinate=coordinate, curve=curve)
+    path = curve_of(f"driver {name!r}: curve", curve)
+    driver = _core.Driver(name=name, joint=joint, coordinate=coordinate, curve=path)
     inserted: _core.Driver = insert("driver", scene.drivers, driver)
     return inserted
 

@@ -100,6 +100,7 @@ PANELS: dict[str, Callable[[Result], Panels]] = {
     "stroke": _channel("stroke"),
     "cylinder_force": _channel("cylinder_force"),
     "link_tension": _channel("link_tension"),
+    "line_tension": _channel("line_tension"),
     "limit_force": _channel("limit_force"),
     "reaction_force": lambda result: [("joint force", resultants(result, "reaction_force"))],
     "energy_balance": _channel("energy_balance"),

@@ -21,6 +21,7 @@ from seacrane.description import (
     joints,
     limit_states,
     meshes,
+    places,
     recorded,
 )
 from seacrane.description.scene import Description
@@ -112,6 +113,8 @@ class Scene(Description):
     add_crane = add_crane
     add_roles = crane_parts.add_roles
     add_mesh = meshes.add_mesh
+
+    place_of = places.place_of
 
     compile = compilation.compile_scene
     replace = edit.replace_element

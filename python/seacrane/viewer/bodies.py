@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping, Set
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -65,7 +65,8 @@ def looks(
     """
     floating = {vessel.body for vessel in scene.vessels.values()}
     given = _checked_hulls(hulls or {}, floating)
-    members, hanging = crane_shapes(scene, crane), set(crane_parts.payloads(scene).values())
+    members = crane_shapes(scene, crane)
+    hanging = {*crane_parts.payloads(scene).values(), *_on_lines(scene, floating | members.keys())}
     found: dict[str, Look] = {}
     extent = _extent(scene)
     meshed = {mesh.body for mesh in scene.meshes.values()}
@@ -80,6 +81,13 @@ def looks(
         else:
             found[name] = _generic(scene, name, "payload" if name in hanging else "body", extent)
     return found
+
+
+def _on_lines(scene: Description, holding: Set[str]) -> Iterator[str]:
+    """Of each elastic line the last body on its path that is none of those that hold lines."""
+    for line in lines_of(scene.loads).values():
+        free = [body for body, _ in path_of(line) if body in scene.bodies and body not in holding]
+        yield from free[-1:]
 
 
 def _checked_hulls(hulls: Mapping[str, Hull], floating: set[str]) -> dict[str, Hull]:

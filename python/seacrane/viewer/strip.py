@@ -22,6 +22,7 @@ MOST_LINES, MOST_PANELS, USUAL_PANELS = 6, 8, 4
 FINENESS = 2.0**-13  # step of a line over its range
 USUAL: Sequence[Choice] = (
     "link_tension",
+    "line_tension",
     ("vessel_motion", "roll"),
     ("vessel_motion", "heave"),
     "wave_elevation",

@@ -158,8 +158,8 @@ def view(
         That the result belongs to; needed for a result that holds none: a copy, a file of version 0.1.
     channels : sequence, optional
         What is drawn over time: names of channels, or tuples of a channel and names along its dimensions,
-        such as ``["link_tension", ("vessel_motion", "roll"), ("position", "payload", "z")]``. Default: link
-        tension, roll and heave, and what else the result has of the usual; () for none.
+        such as ``["link_tension", ("vessel_motion", "roll"), ("position", "payload", "z")]``. Default:
+        tensions, roll and heave, and what else the result has of the usual; () for none.
     hulls : mapping of str to Hull, optional
         Hulls by the vessel's body. Default: the shipped hull for the shipped database; for other vessels a
         schematic one from mass and inertia, which the caption says.

@@ -1,0 +1,112 @@
+"""Every script of examples/jobs, run as its user would: ``python benchmarks/jobs.py [--publish]``.
+
+Takes what each prints, its lines and its time, and writes ``jobs.md`` and ``results/jobs.csv`` to
+``out/bench``; with ``--publish`` to ``docs`` and ``benchmarks``. A script that fails or warns ends the call,
+and nothing is written.
+"""
+
+from __future__ import annotations
+
+import argparse
+import ast
+import os
+import subprocess
+import sys
+import tempfile
+import time
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from measure.machine import machine
+from measure.section import significant
+from measure.table import markdown, write
+
+from seacrane.files.atomic import atomic_write
+
+ROOT = Path(__file__).resolve().parents[1]
+SCRIPTS = ROOT / "examples" / "jobs"
+TABLE = "benchmarks/results/jobs.csv"
+HEAD = ("job", "lines", "wall, s", "CPU, s")
+LONGEST = 300.0  # s
+INTRODUCTION = """# Jobs
+
+Ordinary work of an offshore lift, each in a script that fits on a page and prints its numbers beside those by
+hand. `benchmarks/jobs.py --publish` runs the scripts in [`examples/jobs`](../examples/jobs), and writes this
+page from them and from what they printed. Times are those of the whole call, with the start of Python; other
+work may share the machine.
+
+"""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Job:
+    """A script, and what came of one run of it."""
+
+    path: Path
+    printed: str
+    wall: float
+    cpu: float
+
+    @property
+    def source(self) -> str:
+        return self.path.read_text(encoding="utf-8")
+
+    @property
+    def title(self) -> str:
+        """Of its file, in words."""
+        return self.path.stem.replace("_", " ").capitalize()
+
+    @property
+    def cells(self) -> tuple[str, ...]:
+        lines = len(self.source.splitlines())
+        return self.title, str(lines), significant(self.wall, 2), significant(self.cpu, 2)
+
+    def section(self) -> str:
+        """Its idea, what it printed, and itself."""
+        idea = (ast.get_docstring(ast.parse(self.source)) or "").strip()
+        script = f"<details><summary>Script</summary>\n\n```python\n{self.source.rstrip()}\n```\n\n</details>"
+        return f"## {self.title}\n\n{idea}\n\n```text\n{self.printed.rstrip()}\n```\n\n{script}\n"
+
+
+def run(path: Path) -> Job:
+    """Run a script in a process of its own, in an empty folder."""
+    before, begun = os.times(), time.perf_counter()
+    with tempfile.TemporaryDirectory() as folder:
+        done = subprocess.run(
+            [sys.executable, str(path)], cwd=folder, capture_output=True, text=True, timeout=LONGEST
+        )
+    wall, after = time.perf_counter() - begun, os.times()
+    if done.returncode or done.stderr:
+        raise SystemExit(f"{path.name} ended with {done.returncode}:\n{done.stderr}")
+    cpu = after.children_user + after.children_system - before.children_user - before.children_system
+    return Job(path=path, printed=done.stdout, wall=wall, cpu=cpu)
+
+
+def document(jobs: Sequence[Job]) -> str:
+    """All jobs as one Markdown text."""
+    table = markdown(HEAD, [job.cells for job in jobs])
+    head = f"{INTRODUCTION}Machine: {machine()}\n\n<!-- table {TABLE} -->\n{table}\n<!-- end of table -->\n"
+    return "\n".join([head, *(job.section() for job in jobs)])
+
+
+def main() -> None:
+    """Run all, then write."""
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.add_argument("--publish", action="store_true", help="write into docs and benchmarks")
+    publish = parser.parse_args().publish
+    jobs = []
+    for path in sorted(SCRIPTS.glob("*.py")):
+        jobs.append(run(path))
+        print(f"{path.name}: {jobs[-1].wall:.1f} s\n{jobs[-1].printed}", flush=True)
+    folder = ROOT / "docs" if publish else ROOT / "out" / "bench"
+    results = ROOT / TABLE if publish else folder / "results" / "jobs.csv"
+    write(results, HEAD, [job.cells for job in jobs])
+    with atomic_write(folder / "jobs.md") as draft:
+        draft.write_text(document(jobs), encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,39 @@
+"""Lift 50 t off a feeder barge that moves by its RAOs, with a fixed crane: lift-off and its peak."""
+
+import numpy as np
+
+from seacrane import MotionRaos, Scene, Stage, Until, simulate_stages
+
+MASS, EA, RATE, LATE, DECK, SLACK = 50e3, 2e8, 0.4, 0.7, 3.0, 0.25  # kg, N, m/s, s by ramp and lag, m, m
+OMEGA = [0.3, 0.5, 0.7, 0.9, 1.1, 1.4, 1.8, 2.4]  # rad/s
+HEAVE = [0.98, 0.92, 0.80, 0.60, 0.38, 0.15, 0.02, 0.0]  # m/m in head waves, in phase with them
+raos = MotionRaos(omega=OMEGA, heading=[np.pi], values=np.outer(HEAVE, [0, 0, 1, 0, 0, 0])[None])
+
+scene = Scene(name="feeder lift")
+crane = scene.add_crane(base="ground", foot=(0.0, 0.0, 12.0), s1=2.0, s2=1.0)
+for joint in (crane.slew[0], *crane.cylinders.values()):
+    scene.add_driver(joint=joint, curve=0.0)
+x, y, tip = scene.place_of(body=crane.tip[0], point=crane.tip[1])
+scene.add_given_vessel(raos, name="barge", position=(x, y, 0.0))
+scene.add_sea(raos, vessel="barge", hs=1.5, tp=8.0, direction_deg=180.0, seed=2)
+scene.add_body(name="load", mass=MASS, inertia=(2e5, 2e5, 2e5), position=(x, y, DECK))
+scene.add_joint(kind="weld", name="grillage", first="barge", second="load")
+scene.add_seat(joint="grillage")
+path = {"bodies": [crane.tip[0], "load"], "points": [crane.tip[1], (0.0, 0.0, 0.0)]}
+scene.add_line(name="hoist", **path, stiffness=EA, length=tip - DECK + SLACK)
+scene.add_winch(line="hoist", lag=0.2)
+lift = Stage(name="lift", until=Until.release("grillage"), longest=60.0, commands={"hoist.rate": -RATE})
+stages = [Stage(name="wait", duration=30.0), lift, Stage(name="raised", duration=30.0)]
+result = simulate_stages(scene, stages, dt_out=0.02)
+
+at = np.searchsorted(result.time, result.stages[1].end)
+heave, rise = (result.select(name, body="barge", axis="z") for name in ("position", "velocity"))
+hook, k = result["line_tension"][:, 0], EA / result["line_unstretched_length"][at, 0]
+weight, push = MASS * scene.gravity, MASS * np.gradient(rise, result.time)[at]
+snap = np.hypot(push, (RATE - rise[at]) * np.sqrt(k * MASS))
+for name, run, by_hand in (
+    ("lift-off after, s", result.time[at] - 30.0, (SLACK + (weight + push) / k + heave[at]) / RATE + LATE),
+    ("hook load at lift-off, kN", hook[at] / 1e3, (weight + push) / 1e3),
+    ("largest hook load, kN", hook.max() / 1e3, (weight + snap) / 1e3),
+):
+    print(f"{name:26} {run:7.2f}, by hand {by_hand:7.2f}")
