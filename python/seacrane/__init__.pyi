@@ -91,6 +91,7 @@ from seacrane.reporting import report as report
 from seacrane.result import Event as Event
 from seacrane.result import Result as Result
 from seacrane.result.utilisation import Utilisation as Utilisation
+from seacrane.run.line_rungs import LineRungWarning as LineRungWarning
 from seacrane.run.method import Method as Method
 from seacrane.run.output_times import OutputMemoryError as OutputMemoryError
 from seacrane.run.outputs import Outputs as Outputs

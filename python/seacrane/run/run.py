@@ -9,14 +9,25 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane import _core
+from seacrane._core import integrator
 from seacrane.description.references import check_references
-from seacrane.errors import SceneError, SeacraneError
+from seacrane.description.stretch import QUASI_STATIC, with_stretch
+from seacrane.errors import SceneError, SeacraneError, SimulationError
 from seacrane.inputs.checked import number_of
 from seacrane.result.events import Event
 from seacrane.result.result import Result, checked_stats
+from seacrane.run.carried_state import carried
 from seacrane.run.channel_names import core_channels, derived_coords, named_channels, require_limited_channels
 from seacrane.run.formulation import stepped
 from seacrane.run.input_slots import changed_inputs, steered
+from seacrane.run.line_rungs import (
+    LineRung,
+    LineRungWarning,
+    as_compiled,
+    as_told,
+    begun_anew,
+    line_rungs,
+)
 from seacrane.run.method import Method
 from seacrane.run.output_times import output_times
 from seacrane.run.outputs import Outputs
@@ -64,6 +75,8 @@ class Run:
         As given, or their defaults.
     settings : dict
         Method and outputs by the words of `simulate`, as results record them.
+    rungs : mapping of str to LineRung
+        What lines with stretch="auto" are in this run, and why.
     core : Simulation
         The run in the core: time, counters, recorded channels by the core's names.
     interrupted : bool
@@ -84,9 +97,10 @@ class Run:
         **shorthand: Unpack[Shorthand],
     ) -> None:
         self.method, self.outputs = settled(method, outputs, shorthand)
-        self.scene, self.model, self.formulation = stepped(scene, model, self.method)
-        self.start = _start(self.model, start)
         self.t_end = number_of("t_end", t_end)
+        self._given, self._given_start, self._capacity = scene, _checked_state(start), capacity
+        self.rungs = self._chosen_rungs(model)
+        self._step(model)
         self.first = self.start.time if outputs_from is None else number_of("outputs_from", outputs_from)
         begin, end, described = self.start.time, self.t_end, start is None
         check_references(self.scene, self.model, start=begin, end=end, described=described)
@@ -99,7 +113,39 @@ class Run:
         self.interrupted = False
         self.steered = steered(self.scene, self.model, self.start.inputs)
         self.slow: list[Finding] = []  # what made the run slow, known at its end
+        self.slack: list[Finding] = []  # what made it begin anew
         self._require_plain_stats()
+
+    def _chosen_rungs(self, model: _core.Model | None) -> Mapping[str, LineRung]:
+        if model is not None:
+            return as_compiled(self._given, model)
+        return line_rungs(
+            self._given, integrator(self.method.integrator), end=self.t_end, start=self._given_start,
+            in_memory=self._capacity is None,
+        )  # fmt: skip
+
+    def _step(self, model: _core.Model | None) -> None:
+        """What is stepped, from where, with the rungs that its lines have."""
+        stretches = {name: rung.stretch for name, rung in self.rungs.items()}
+        scene = with_stretch(self._given, stretches)
+        self.scene, self.model, self.formulation = stepped(scene, model, self.method)
+        start = self._given_start
+        if start is None:
+            self.start = _core.initial_state(self.model)
+        elif QUASI_STATIC in stretches.values() and start.time == 0.0:
+            self.start = carried(start, self._given.compile(), self.model)
+        else:
+            self.start = start
+
+    @property
+    def _may_begin_anew(self) -> bool:
+        return any(rung.stretch == QUASI_STATIC for rung in self.rungs.values())
+
+    def _begin_anew(self, reason: str) -> None:
+        """From the start, with elastic lines in the place of those whose stretch is automatic."""
+        self.rungs = begun_anew(self.rungs, reason)
+        self._step(None)
+        self.core = _simulation(self, self._capacity)
 
     def __repr__(self) -> str:
         method = f"{self.formulation}, {self.method.integrator}"
@@ -107,9 +153,28 @@ class Run:
 
     def advance(self, t_end: float, progress: Callable[[float], None] | None = None) -> bool:
         """Step to t_end (s); False when Ctrl-C stopped it."""
-        if not self.core.advance(float(t_end), progress):
+        try:
+            reached = self.core.advance(float(t_end), progress)
+        except SimulationError as error:
+            if not self._may_begin_anew or "its stretch is quasi-static" not in str(error):
+                raise
+            self._went_slack(error)
+            reached = self.core.advance(float(t_end), progress)
+        if not reached:
             self.interrupted = True
         return not self.interrupted
+
+    def _went_slack(self, error: SimulationError) -> None:
+        """Begin anew where a line that was settled to be quasi-static cannot be."""
+        time = self.core.time
+        self._begin_anew(f"a quasi-static one went slack or reached its end at t = {time:.6g} s")
+        self.slack = [
+            (
+                LineRungWarning,
+                f"{str(error).partition(';')[0]} at t = {time:.6g} s. Its stretch was chosen by 'auto'; the "
+                "run began anew from its start with elastic lines. Give stretch='elastic' to save the first run",
+            )
+        ]
 
     @property
     def state(self) -> _core.State:
@@ -141,10 +206,23 @@ class Run:
 
     def set_inputs(self, values: Mapping[str, Any]) -> None:
         """Set inputs by name from now on; see `SampledController`."""
+        if self._may_begin_anew:
+            self._steer_elastic()
         with self.core:
             slots = changed_inputs(self.scene, self.model, np.array(self.core.state.inputs), values)
             self.core.set_inputs(slots)
             self.steered |= steered(self.scene, self.model, slots)
+
+    def _steer_elastic(self) -> None:
+        """Inputs jump and make a line ring: as long as nothing has been stepped, lines can be elastic."""
+        if self.core.time > self.start.time:
+            lines = ", ".join(name for name, rung in self.rungs.items() if rung.stretch == QUASI_STATIC)
+            raise SceneError(
+                f"inputs: set at t = {self.core.time:.6g} s in a run whose lines {lines} 'auto' made "
+                "quasi-static, and inputs that jump make a line ring; set inputs at the start, or give the "
+                "lines stretch 'elastic' (or 'quasi-static', where the inputs are smooth)"
+            )
+        self._begin_anew("inputs are set during the run, and their jumps may make it ring")
 
     def events(self) -> list[Event]:
         """What limits did so far."""
@@ -155,7 +233,8 @@ class Run:
 
     def stats(self) -> dict[str, Any]:
         """Version, settings and counters so far: `Result.stats`."""
-        return stats_of(
+        told = {"line_rungs": as_told(self.rungs)} if self.rungs else {}
+        return told | stats_of(
             self.scene, self.model, self.formulation, self.method, self.settings, self.core, self.start.time
         )
 
@@ -175,7 +254,7 @@ class Run:
             arrays = self.core.channels() if most is None else self.core.channels(most)
             channels, stats = self.wanted(arrays), self.stats()
             scene = self.scene
-            found = findings(scene, arrays["time"], channels, stats, self.steered) + self.slow
+            found = findings(scene, arrays["time"], channels, stats, self.steered) + self.slow + self.slack
             if found:
                 stats["validity"] = as_text(found)
             result = Result.from_arrays(
@@ -198,11 +277,10 @@ class Run:
             raise SceneError(f"scene {self.scene.name!r}: {error}") from error
 
 
-def _start(model: _core.Model, given: Any) -> _core.State:
-    state = _core.initial_state(model) if given is None else given
-    if not isinstance(state, _core.State):
+def _checked_state(given: Any) -> _core.State | None:
+    if given is not None and not isinstance(given, _core.State):
         raise SceneError(f"start is {given!r}; give a seacrane.State")
-    return state
+    return given
 
 
 def _simulation(run: Run, capacity: int | None) -> _core.Simulation:

@@ -15,12 +15,13 @@ from seacrane.inputs.checked import number_of
 from seacrane.result.events import Event
 from seacrane.result.result import Result
 from seacrane.result.stages import StageSpan
+from seacrane.run.carried_state import carried
 from seacrane.run.interrupts import Interrupts
 from seacrane.run.outputs import Outputs
 from seacrane.run.run import Run
 from seacrane.run.shorthand import Shorthand, settled
 from seacrane.scene.scene import Scene
-from seacrane.stages.carry import carried, compiled_there, lifted_seats, redescribed
+from seacrane.stages.carry import compiled_there, lifted_seats, redescribed
 from seacrane.stages.commands import commanded
 from seacrane.stages.connections import without
 from seacrane.stages.joined import Piece, counters, joined
