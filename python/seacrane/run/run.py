@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from seacrane import _core
 from seacrane._core import integrator
 from seacrane.description.references import check_references
-from seacrane.description.stretch import QUASI_STATIC, with_stretch
+from seacrane.description.stretch import QUASI_STATIC, automatic, with_stretch
 from seacrane.errors import SceneError, SeacraneError, SimulationError
 from seacrane.inputs.checked import number_of
 from seacrane.result.events import Event
@@ -98,7 +98,8 @@ class Run:
     ) -> None:
         self.method, self.outputs = settled(method, outputs, shorthand)
         self.t_end = number_of("t_end", t_end)
-        self._given, self._given_start, self._capacity = scene, _checked_state(start), capacity
+        self._given = scene.copy() if automatic(scene) else scene  # to begin anew with it
+        self._given_start, self._capacity = _checked_state(start), capacity
         self.rungs = self._chosen_rungs(model)
         self._step(model)
         self.first = self.start.time if outputs_from is None else number_of("outputs_from", outputs_from)
@@ -129,13 +130,16 @@ class Run:
         stretches = {name: rung.stretch for name, rung in self.rungs.items()}
         scene = with_stretch(self._given, stretches)
         self.scene, self.model, self.formulation = stepped(scene, model, self.method)
-        start = self._given_start
-        if start is None:
-            self.start = _core.initial_state(self.model)
-        elif QUASI_STATIC in stretches.values() and start.time == 0.0:
-            self.start = carried(start, self._given.compile(), self.model)
-        else:
-            self.start = start
+        begun, start = _core.initial_state(self.model), self._given_start
+        if start is not None and self._differs_by_rungs(start, begun):
+            start = carried(start, self._given.compile(), self.model)
+        self.start = begun if start is None else start
+
+    def _differs_by_rungs(self, start: _core.State, begun: _core.State) -> bool:
+        """Whether two states hold the same but for what the rungs of lines add."""
+        own = {f"{name}.strain_rate" for name in self.rungs}
+        apart = start.load_states.keys() ^ begun.load_states.keys()
+        return bool(apart) and apart <= own
 
     @property
     def _may_begin_anew(self) -> bool:
@@ -171,8 +175,8 @@ class Run:
         self.slack = [
             (
                 LineRungWarning,
-                f"{str(error).partition(';')[0]} at t = {time:.6g} s. Its stretch was chosen by 'auto'; the "
-                "run began anew from its start with elastic lines. Give stretch='elastic' to save the first run",
+                f"{str(error).partition(';')[0]} at t = {time:.6g} s. 'auto' had chosen its stretch; the run "
+                "began anew from its start with elastic lines. Give stretch='elastic' to save the first one",
             )
         ]
 
