@@ -14,7 +14,9 @@ from numpy.typing import NDArray
 
 from seacrane import (
     Curve,
+    EnergyErrorWarning,
     LineRungWarning,
+    PushingLineWarning,
     Result,
     Run,
     SampledController,
@@ -232,7 +234,9 @@ def test_a_run_whose_line_goes_slack_begins_anew_elastic() -> None:
         with pytest.warns(LineRungWarning, match=r"it goes slack at t = 1\.\d+ s.*began anew from its start"):
             result = simulate(over_the_top(), 2.5, dt_out=0.1, rtol=1e-6)
     assert np.array_equal(result["position"], elastic["position"])
-    assert "went slack or reached its end at t = " in result.stats["line_rungs"]
+    assert result.stats["line_rungs"].startswith(
+        "hoist: elastic: the run began anew: line 'hoist': its stretch"
+    )
     assert "it goes slack at t = " in result.stats["validity"]
     assert result.time[0] == 0.0
     assert result.time[-1] == 2.5
@@ -312,3 +316,38 @@ def test_the_error_law_is_the_closed_form() -> None:
     fast = np.geomspace(0.01, 1e3, 400)
     assert np.all(tension_error(fast, settling=0.2, own=20.0) < 4.0 * (fast / 20.0) ** 2)
     assert LARGEST_ERROR < 0.01
+
+
+def shaken(stretch: str) -> Scene:
+    """A block whose short drop is faster than a load falls; the strain follows too late to go slack."""
+    scene = heaved()
+    drop = Curve.quintic(start_time=0.5, end_time=0.65, start=0.0, end=-0.1)
+    scene.replace("guide.displacement", curve=drop)
+    scene.replace("hoist", stretch=stretch)
+    return scene
+
+
+def test_a_line_that_pushes_for_a_moment_is_told() -> None:
+    with pytest.warns(PushingLineWarning, match=r"line 'hoist': pushes with .* its stretch is quasi-static"):
+        out = simulate(shaken("quasi-static"), 1.0, dt_out=0.01)
+    assert np.min(out["line_tension"]) < 0.0 < np.min(out["line_stretch"])
+    assert "a jump at t = 0.5 s" in rung_of(shaken("auto"))[1]
+
+
+def test_one_that_auto_let_push_begins_anew(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("seacrane.run.line_rungs.LARGEST_RINGING", np.inf)
+    monkeypatch.setattr("seacrane.run.line_rungs.LARGEST_ERROR", np.inf)
+    with pytest.warns(LineRungWarning, match="and it pushed for a moment. 'auto' had chosen its stretch"):
+        out = simulate(shaken("auto"), 1.0, dt_out=0.01)
+    assert np.min(out["line_tension"]) == 0.0
+    assert np.array_equal(out["position"], simulate(shaken("elastic"), 1.0, dt_out=0.01)["position"])
+
+
+def test_an_energy_that_does_not_close_is_told() -> None:
+    scene = heaved(stiffness=1e10)
+    scene.replace("hoist", stretch="elastic")
+    with pytest.warns(
+        EnergyErrorWarning, match=r"run: energy_balance reaches .* this is not the scene's motion"
+    ):
+        result = simulate(scene, 4.0, dt_out=0.1, integrator="rk4", dt=0.02)
+    assert "energy_balance reaches" in result.stats["validity"]

@@ -118,6 +118,7 @@ from seacrane.stages.staged_run import simulate_stages as simulate_stages
 from seacrane.stages.until import Until as Until
 from seacrane.trading import Trade as Trade
 from seacrane.trading import trade as trade
+from seacrane.validity.energy import EnergyErrorWarning as EnergyErrorWarning
 from seacrane.validity.following import FullTurnWarning as FullTurnWarning
 from seacrane.validity.following import OutsideRangeWarning as OutsideRangeWarning
 from seacrane.validity.following import SoftGainsWarning as SoftGainsWarning
@@ -130,6 +131,7 @@ from seacrane.validity.lifting import LargeSwingWarning as LargeSwingWarning
 from seacrane.validity.lifting import LoadInHullWarning as LoadInHullWarning
 from seacrane.validity.lifting import OverloadWarning as OverloadWarning
 from seacrane.validity.lines import LineLengthWarning as LineLengthWarning
+from seacrane.validity.lines import PushingLineWarning as PushingLineWarning
 from seacrane.validity.lines import WinchLimitWarning as WinchLimitWarning
 from seacrane.validity.plausible import BallastWarning as BallastWarning
 from seacrane.validity.range import LargeHeelWarning as LargeHeelWarning

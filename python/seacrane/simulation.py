@@ -76,7 +76,8 @@ def simulate(
     Warns
     -----
     LargeHeelWarning, MeanPositionWarning, MeanHeadingWarning, ForwardSpeedWarning, MooringTurnWarning,
-    NoWaveLoadsWarning, OutsideDatabaseWarning, PushingLinkWarning, LineLengthWarning, WinchLimitWarning,
+    NoWaveLoadsWarning, OutsideDatabaseWarning, PushingLinkWarning, LineLengthWarning, PushingLineWarning,
+    WinchLimitWarning, EnergyErrorWarning,
     FullTurnWarning, OutsideRangeWarning, SoftGainsWarning, NearSingularWarning,
     LargeSwingWarning, OverloadWarning
         After the run, when its motions left the range in which the models hold; also in `stats`, as

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from seacrane import _core
 from seacrane._core import integrator
+from seacrane.description.loads import lines_of
 from seacrane.description.references import check_references
 from seacrane.description.stretch import QUASI_STATIC, automatic, with_stretch
 from seacrane.errors import SceneError, SeacraneError, SimulationError
@@ -162,23 +163,32 @@ class Run:
         except SimulationError as error:
             if not self._may_begin_anew or "its stretch is quasi-static" not in str(error):
                 raise
-            self._went_slack(error)
+            self._went_slack(f"{str(error).partition(';')[0]} at t = {self.core.time:.6g} s")
+            reached = self.core.advance(float(t_end), progress)
+        if reached and self.core.time >= self.t_end and (pushing := self._pushing()):
+            self._went_slack(f"line {pushing!r}: its stretch is quasi-static, and it pushed for a moment")
             reached = self.core.advance(float(t_end), progress)
         if not reached:
             self.interrupted = True
         return not self.interrupted
 
-    def _went_slack(self, error: SimulationError) -> None:
+    def _pushing(self) -> str:
+        """A line that 'auto' made quasi-static and whose recorded tension is negative somewhere; or none."""
+        if not self._may_begin_anew:
+            return ""
+        arrays = self.core.channels()
+        least = arrays["line_tension"].min(axis=0, initial=0.0) if "line_tension" in arrays else []
+        pushed = [name for name, value in zip(lines_of(self.scene.loads), least, strict=False) if value < 0.0]
+        return next((name for name in pushed if name in self.rungs), "")
+
+    def _went_slack(self, what: str) -> None:
         """Begin anew where a line that was settled to be quasi-static cannot be."""
-        time = self.core.time
-        self._begin_anew(f"a quasi-static one went slack or reached its end at t = {time:.6g} s")
-        self.slack = [
-            (
-                LineRungWarning,
-                f"{str(error).partition(';')[0]} at t = {time:.6g} s. 'auto' had chosen its stretch; the run "
-                "began anew from its start with elastic lines. Give stretch='elastic' to save the first one",
-            )
-        ]
+        self._begin_anew(f"the run began anew: {what}")
+        text = (
+            f"{what}. 'auto' had chosen its stretch; the run began anew from its start with elastic lines. "
+            "Give stretch='elastic' to save the first one"
+        )
+        self.slack = [(LineRungWarning, text)]
 
     @property
     def state(self) -> _core.State:
