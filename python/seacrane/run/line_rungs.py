@@ -23,6 +23,7 @@ LARGEST_ERROR = 0.005  # of what a source makes of the tension
 LARGEST_RINGING = 0.02  # of the tension at the start
 MOST_KINKS = 5000
 JUST, SLOPE = 1e-9, 1e-5  # s: before and after a kink, and over which slopes are taken there
+COMPILED = "a model that is compiled already, as by accuracy and in stages, has elastic lines"
 UNSMOOTH = "its winch has no lag, and so may jump"
 OWN_PACE = (_core.SoftStop, _core.FunctionForce)  # loads that strike, or whose frequency nobody knows
 
@@ -82,7 +83,7 @@ def line_rungs(
 
 def as_compiled(scene: Scene, model: _core.Model) -> dict[str, LineRung]:
     """The rungs of a model that is given."""
-    return _all_elastic(automatic(scene), "the compiled model that was given has it so")
+    return _all_elastic(automatic(scene), COMPILED)
 
 
 def begun_anew(rungs: Mapping[str, LineRung], reason: str) -> dict[str, LineRung]:
