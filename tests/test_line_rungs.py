@@ -193,6 +193,20 @@ def test_it_stays_elastic_where_the_bound_does_not_hold(make: Any, words: str) -
     assert words in reason
 
 
+def test_a_scene_warns_once_and_a_large_one_is_left_elastic() -> None:
+    scene = heaved()
+    scene.add_joint(kind="prismatic", name="twin", first="ground", second="block", point=(0, 0, 0))
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        assert rung_of(scene)[0] == "quasi-static"
+    assert [str(one.message).count("are redundant") for one in caught] == [1]
+    for i in range(120):
+        scene.add_body(name=f"chip {i}", mass=1.0, inertia=(1, 1, 1), position=(5.0 + i, 0, 0))
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        assert "states, more than 1500" in rung_of(scene)[1]
+
+
 def stepped_winch(lag: float) -> Scene:
     scene = heaved()
     jump = Curve.constant(value=0.0).then(time=1.0, curve=Curve.constant(value=0.5))

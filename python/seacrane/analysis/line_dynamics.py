@@ -121,7 +121,8 @@ def _response(terms: dict[str, Any], forces: Array) -> Array:
         return np.asarray(free)
     along = np.linalg.solve(mass, rows.T)
     yielding = rows @ along
-    scale = 1.0 / np.sqrt(np.diag(yielding))
+    size = np.sqrt(np.diag(yielding))
+    scale = np.where(size > 0.0, 1.0 / np.where(size > 0.0, size, 1.0), 0.0)  # a row may move nothing
     inverse = np.linalg.pinv(scale[:, None] * yielding * scale, rcond=DEPENDENT, hermitian=True)
     return np.asarray(free - along @ (scale[:, None] * (inverse @ (scale[:, None] * (rows @ free)))))
 

@@ -12,7 +12,8 @@ from seacrane import _core
 from seacrane._core import Integrator
 from seacrane.analysis.excitation import excitations
 from seacrane.analysis.line_dynamics import LineDynamics, line_dynamics
-from seacrane.description.compilation import compile_scene
+from seacrane.analysis.linearise import LARGEST
+from seacrane.description.compilation import compiled
 from seacrane.description.stretch import ELASTIC, QUASI_STATIC, automatic, with_stretch
 from seacrane.errors import SceneError
 from seacrane.scene.scene import Scene
@@ -75,7 +76,7 @@ def line_rungs(
     found = _by_their_own(scene, lines, end, start)
     settled = [name for name, rung in found.items() if rung.stretch == QUASI_STATIC]
     try:
-        compile_scene(with_stretch(scene, dict.fromkeys(settled, QUASI_STATIC)))
+        compiled(with_stretch(scene, dict.fromkeys(settled, QUASI_STATIC)), merge=True)
     except SceneError as error:
         return _all_elastic(lines, f"the core says of quasi-static: {error}")
     return found
@@ -123,7 +124,9 @@ def _by_their_own(
     scene: Scene, lines: Mapping[str, _core.Line], end: float, start: _core.State | None
 ) -> dict[str, LineRung]:
     """Each by its own bound."""
-    model = compile_scene(scene, merge=False)
+    model = compiled(scene, merge=False)
+    if model.states > LARGEST:
+        return _all_elastic(lines, f"the scene has {model.states} states, more than {LARGEST}")
     values = np.array(model.initial_state if start is None else start.values)
     begin = 0.0 if start is None else start.time
     if values.size != len(model.initial_state):

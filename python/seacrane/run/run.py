@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from seacrane import _core
 from seacrane._core import integrator
+from seacrane.description.compilation import compiled
 from seacrane.description.loads import lines_of
 from seacrane.description.references import check_references
 from seacrane.description.stretch import QUASI_STATIC, automatic, with_stretch
@@ -133,7 +134,7 @@ class Run:
         self.scene, self.model, self.formulation = stepped(scene, model, self.method)
         begun, start = _core.initial_state(self.model), self._given_start
         if start is not None and self._differs_by_rungs(start, begun):
-            start = carried(start, self._given.compile(), self.model)
+            start = carried(start, compiled(self._given, merge=True), self.model)
         self.start = begun if start is None else start
 
     def _differs_by_rungs(self, start: _core.State, begun: _core.State) -> bool:
