@@ -21,6 +21,7 @@ from measure import (
     footprint,
     formulations,
     integrators,
+    line_methods,
     linear,
     memory_cost,
     memory_kinds,
@@ -31,6 +32,7 @@ from measure import (
     scaling,
     scenes,
     seas,
+    snatch_cost,
     speed,
     stiff_lines,
     storm,
@@ -76,6 +78,8 @@ def sections(folder: Path, *, repeats: int, quick: bool) -> Iterator[Section]:
     yield integrators.table(rows, truth, repeats=tried)
     yield events.slack_wire()
     yield stiff_lines.stiff_lines(repeats=tried)
+    yield line_methods.line_methods()
+    yield snatch_cost.snatch_cost()
     yield w_method.w_method()
     yield w_method.stiff_direction()
     yield linear.natural_periods()

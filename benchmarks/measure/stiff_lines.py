@@ -59,12 +59,12 @@ def lifted(stiffness: float, stretch: str) -> Scene:
 
 def stiff_lines(*, repeats: int) -> Section:
     """Cost and error of every rung and sensible method over EA."""
-    rigid = _run(cases.case2(), RIGID, repeats=repeats)
+    rigid = run_of(cases.case2(), RIGID, repeats=repeats)
     rows: list[list[Any]] = []
     for stiffness in STIFFNESSES:
-        truth = _run(lifted(stiffness, "elastic"), TIGHT, repeats=1)
+        truth = run_of(lifted(stiffness, "elastic"), TIGHT, repeats=1)
         for stretch, method in _tried(stiffness):
-            ran = _run(
+            ran = run_of(
                 lifted(stiffness, stretch), method, repeats=1 if method.integrator != "dopri5" else repeats
             )
             rows.append(
@@ -110,7 +110,7 @@ def _tried(stiffness: float) -> Iterator[tuple[str, Method]]:
             yield "elastic", method
 
 
-def _run(scene: Scene, method: Method, *, repeats: int, t_end: float = T_END) -> Ran:
+def run_of(scene: Scene, method: Method, *, repeats: int, t_end: float = T_END) -> Ran:
     case = Case(scene=scene, t_end=t_end, dt_out=DT_OUT)
     has_line = "link" in scene.loads
     done = timed(case, method, ["position", "line_tension" if has_line else "tension"], repeats=repeats)
@@ -127,7 +127,7 @@ def _run(scene: Scene, method: Method, *, repeats: int, t_end: float = T_END) ->
 
 def path_of(stiffness: float, t_end: float) -> Array:
     """Places of the payload on an elastic line, solved tightly."""
-    return _run(lifted(stiffness, "elastic"), TIGHT, repeats=1, t_end=t_end).payload
+    return run_of(lifted(stiffness, "elastic"), TIGHT, repeats=1, t_end=t_end).payload
 
 
 def power_of_ten(stiffness: float) -> str:

@@ -94,6 +94,7 @@ from seacrane.result import Event as Event
 from seacrane.result import Result as Result
 from seacrane.result.heavy_lines import heavy_line_tension as heavy_line_tension
 from seacrane.result.utilisation import Utilisation as Utilisation
+from seacrane.run.line_rungs import LineRungWarning as LineRungWarning
 from seacrane.run.method import Method as Method
 from seacrane.run.output_times import OutputMemoryError as OutputMemoryError
 from seacrane.run.outputs import Outputs as Outputs
@@ -121,6 +122,7 @@ from seacrane.stages.to_file import simulate_stages_to_file as simulate_stages_t
 from seacrane.stages.until import Until as Until
 from seacrane.trading import Trade as Trade
 from seacrane.trading import trade as trade
+from seacrane.validity.energy import EnergyErrorWarning as EnergyErrorWarning
 from seacrane.validity.following import FullTurnWarning as FullTurnWarning
 from seacrane.validity.following import OutsideRangeWarning as OutsideRangeWarning
 from seacrane.validity.following import SoftGainsWarning as SoftGainsWarning
@@ -135,6 +137,7 @@ from seacrane.validity.lifting import OverloadWarning as OverloadWarning
 from seacrane.validity.lines import FleetAngleWarning as FleetAngleWarning
 from seacrane.validity.lines import LineLengthWarning as LineLengthWarning
 from seacrane.validity.lines import LineTableWarning as LineTableWarning
+from seacrane.validity.lines import PushingLineWarning as PushingLineWarning
 from seacrane.validity.lines import WinchLimitWarning as WinchLimitWarning
 from seacrane.validity.plausible import BallastWarning as BallastWarning
 from seacrane.validity.range import LargeHeelWarning as LargeHeelWarning

@@ -77,12 +77,14 @@ def simulate(
     -----
     LargeHeelWarning, MeanPositionWarning, MeanHeadingWarning, ForwardSpeedWarning, MooringTurnWarning,
     NoWaveLoadsWarning, OutsideDatabaseWarning, PushingLinkWarning, LineLengthWarning, LineTableWarning,
-    FleetAngleWarning, WinchLimitWarning, FullTurnWarning, OutsideRangeWarning, SoftGainsWarning,
-    NearSingularWarning, LargeSwingWarning, OverloadWarning
+    FleetAngleWarning, PushingLineWarning, WinchLimitWarning, FullTurnWarning, OutsideRangeWarning, SoftGainsWarning,
+    EnergyErrorWarning, NearSingularWarning, LargeSwingWarning, OverloadWarning
         After the run, when its motions left the range in which the models hold; also in `stats`, as
         "validity". See docs/troubleshooting.md.
     StiffWarning
         After a slow run, when one fast mode set the steps of its explicit method; in `stats` likewise.
+    LineRungWarning
+        After a run that began anew because a line with stretch="auto" went slack; in `stats` likewise.
     DriverImpulseWarning, AngleUnitWarning, CompassDirectionWarning, MassUnitWarning, BallastWarning,
     LoadInHullWarning
         Before it, when the description most likely does not say what was meant. See docs/mistakes.md.

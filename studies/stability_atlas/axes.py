@@ -2,11 +2,18 @@
 
 from __future__ import annotations
 
-from stability_atlas import crane_axes, duration_axes, mechanism_axes, switching_axes, vessel_axes
+from stability_atlas import (
+    crane_axes,
+    duration_axes,
+    line_axes,
+    mechanism_axes,
+    switching_axes,
+    vessel_axes,
+)
 from stability_atlas.axis import Axis
 
 AXES: dict[str, Axis] = {
     axis.name: axis
-    for group in (crane_axes, vessel_axes, mechanism_axes, switching_axes, duration_axes)
+    for group in (crane_axes, vessel_axes, mechanism_axes, switching_axes, line_axes, duration_axes)
     for axis in group.AXES
 }

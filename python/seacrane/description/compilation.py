@@ -7,6 +7,7 @@ import warnings
 from seacrane import _core
 from seacrane.description.assembled import warn_of_moves
 from seacrane.description.scene import Description
+from seacrane.description.stretch import compiled_loads
 from seacrane.description.wave_loads import compiled_waves
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.checked import name_of, number_of, text_of
@@ -39,7 +40,7 @@ def compile_scene(scene: Description, *, merge: bool = True) -> _core.Model:
         bodies=list(scene.bodies.values()),
         joints=list(scene.joints.values()),
         drivers=list(scene.drivers.values()),
-        loads=scene.all_loads(),
+        loads=compiled_loads(scene.all_loads()),
         vessels=list(scene.vessels.values()),
         wave_loads=[] if scene.waves is None else compiled_waves(scene.waves, prune=merge),
         coordinates=[(name, *place) for name, place in scene.recorded.items()],

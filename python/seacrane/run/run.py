@@ -9,12 +9,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane import _core
+from seacrane._core import integrator
+from seacrane.description.compilation import compiled
+from seacrane.description.loads import lines_of
 from seacrane.description.references import check_references
-from seacrane.errors import SceneError, SeacraneError
+from seacrane.description.stretch import QUASI_STATIC, automatic, with_stretch
+from seacrane.errors import SceneError, SeacraneError, SimulationError
 from seacrane.inputs.checked import number_of
 from seacrane.result.channels import DERIVED
 from seacrane.result.events import Event
 from seacrane.result.result import Result, checked_stats
+from seacrane.run.carried_state import carried
 from seacrane.run.channel_names import (
     core_channels,
     derived_coords,
@@ -24,6 +29,14 @@ from seacrane.run.channel_names import (
 )
 from seacrane.run.formulation import stepped
 from seacrane.run.input_slots import changed_inputs, steered
+from seacrane.run.line_rungs import (
+    LineRung,
+    LineRungWarning,
+    as_compiled,
+    as_told,
+    begun_anew,
+    line_rungs,
+)
 from seacrane.run.method import Method
 from seacrane.run.output_times import output_times
 from seacrane.run.outputs import Outputs
@@ -71,6 +84,8 @@ class Run:
         As given, or their defaults.
     settings : dict
         Method and outputs by the words of `simulate`, as results record them.
+    rungs : mapping of str to LineRung
+        What lines with stretch="auto" are in this run, and why.
     core : Simulation
         The run in the core: time, counters, recorded channels by the core's names.
     interrupted : bool
@@ -91,9 +106,11 @@ class Run:
         **shorthand: Unpack[Shorthand],
     ) -> None:
         self.method, self.outputs = settled(method, outputs, shorthand)
-        self.scene, self.model, self.formulation = stepped(scene, model, self.method)
-        self.start = _start(self.model, start)
         self.t_end = number_of("t_end", t_end)
+        self._given = scene.copy() if automatic(scene) else scene  # to begin anew with it
+        self._given_start, self._capacity = _checked_state(start), capacity
+        self.rungs = self._chosen_rungs(model)
+        self._step(model)
         self.first = self.start.time if outputs_from is None else number_of("outputs_from", outputs_from)
         begin, end, described = self.start.time, self.t_end, start is None
         check_references(self.scene, self.model, start=begin, end=end, described=described)
@@ -107,7 +124,42 @@ class Run:
         self.interrupted = False
         self.steered = steered(self.scene, self.model, self.start.inputs)
         self.slow: list[Finding] = []  # what made the run slow, known at its end
+        self.slack: list[Finding] = []  # what made it begin anew
         self._require_plain_stats()
+
+    def _chosen_rungs(self, model: _core.Model | None) -> Mapping[str, LineRung]:
+        if model is not None:
+            return as_compiled(self._given, model)
+        return line_rungs(
+            self._given, integrator(self.method.integrator), end=self.t_end, start=self._given_start,
+            in_memory=self._capacity is None,
+        )  # fmt: skip
+
+    def _step(self, model: _core.Model | None) -> None:
+        """What is stepped, from where, with the rungs that its lines have."""
+        stretches = {name: rung.stretch for name, rung in self.rungs.items()}
+        scene = with_stretch(self._given, stretches)
+        self.scene, self.model, self.formulation = stepped(scene, model, self.method)
+        begun, start = _core.initial_state(self.model), self._given_start
+        if start is not None and self._differs_by_rungs(start, begun):
+            start = carried(start, compiled(self._given, merge=True), self.model)
+        self.start = begun if start is None else start
+
+    def _differs_by_rungs(self, start: _core.State, begun: _core.State) -> bool:
+        """Whether two states hold the same but for what the rungs of lines add."""
+        own = {f"{name}.strain_rate" for name in self.rungs}
+        apart = start.load_states.keys() ^ begun.load_states.keys()
+        return bool(apart) and apart <= own
+
+    @property
+    def _may_begin_anew(self) -> bool:
+        return any(rung.stretch == QUASI_STATIC for rung in self.rungs.values())
+
+    def _begin_anew(self, reason: str) -> None:
+        """From the start, with elastic lines in the place of those whose stretch is automatic."""
+        self.rungs = begun_anew(self.rungs, reason)
+        self._step(None)
+        self.core = _simulation(self, self._capacity)
 
     def __repr__(self) -> str:
         method = f"{self.formulation}, {self.method.integrator}"
@@ -115,9 +167,37 @@ class Run:
 
     def advance(self, t_end: float, progress: Callable[[float], None] | None = None) -> bool:
         """Step to t_end (s); False when Ctrl-C stopped it."""
-        if not self.core.advance(float(t_end), progress):
+        try:
+            reached = self.core.advance(float(t_end), progress)
+        except SimulationError as error:
+            if not self._may_begin_anew or "its stretch is quasi-static" not in str(error):
+                raise
+            self._went_slack(f"{str(error).partition(';')[0]} at t = {self.core.time:.6g} s")
+            reached = self.core.advance(float(t_end), progress)
+        if reached and self.core.time >= self.t_end and (pushing := self._pushing()):
+            self._went_slack(f"line {pushing!r}: its stretch is quasi-static, and it pushed for a moment")
+            reached = self.core.advance(float(t_end), progress)
+        if not reached:
             self.interrupted = True
         return not self.interrupted
+
+    def _pushing(self) -> str:
+        """A line that 'auto' made quasi-static and whose recorded tension is negative somewhere; or none."""
+        if not self._may_begin_anew:
+            return ""
+        arrays = self.core.channels()
+        least = arrays["line_tension"].min(axis=0, initial=0.0) if "line_tension" in arrays else []
+        pushed = [name for name, value in zip(lines_of(self.scene.loads), least, strict=False) if value < 0.0]
+        return next((name for name in pushed if name in self.rungs), "")
+
+    def _went_slack(self, what: str) -> None:
+        """Begin anew where a line that was settled to be quasi-static cannot be."""
+        self._begin_anew(f"the run began anew: {what}")
+        text = (
+            f"{what}. 'auto' had chosen its stretch; the run began anew from its start with elastic lines. "
+            "Give stretch='elastic' to save the first one"
+        )
+        self.slack = [(LineRungWarning, text)]
 
     @property
     def state(self) -> _core.State:
@@ -155,10 +235,23 @@ class Run:
 
     def set_inputs(self, values: Mapping[str, Any]) -> None:
         """Set inputs by name from now on; see `SampledController`."""
+        if self._may_begin_anew:
+            self._steer_elastic()
         with self.core:
             slots = changed_inputs(self.scene, self.model, np.array(self.core.state.inputs), values)
             self.core.set_inputs(slots)
             self.steered |= steered(self.scene, self.model, slots)
+
+    def _steer_elastic(self) -> None:
+        """Inputs jump and make a line ring: as long as nothing has been stepped, lines can be elastic."""
+        if self.core.time > self.start.time:
+            lines = ", ".join(name for name, rung in self.rungs.items() if rung.stretch == QUASI_STATIC)
+            raise SceneError(
+                f"inputs: set at t = {self.core.time:.6g} s in a run whose lines {lines} 'auto' made "
+                "quasi-static, and inputs that jump make a line ring; set inputs at the start, or give the "
+                "lines stretch 'elastic' (or 'quasi-static', where the inputs are smooth)"
+            )
+        self._begin_anew("inputs are set during the run, and their jumps may make it ring")
 
     def events(self) -> list[Event]:
         """What limits did so far."""
@@ -169,7 +262,8 @@ class Run:
 
     def stats(self) -> dict[str, Any]:
         """Version, settings and counters so far: `Result.stats`."""
-        return stats_of(
+        told = {"line_rungs": as_told(self.rungs)} if self.rungs else {}
+        return told | stats_of(
             self.scene, self.model, self.formulation, self.method, self.settings, self.core, self.start.time
         )
 
@@ -189,7 +283,7 @@ class Run:
             arrays = self.core.channels() if most is None else self.core.channels(most)
             channels, stats = self.wanted(arrays), self.stats()
             scene = self.scene
-            found = findings(scene, arrays["time"], channels, stats, self.steered) + self.slow
+            found = findings(scene, arrays["time"], channels, stats, self.steered) + self.slow + self.slack
             if found:
                 stats["validity"] = as_text(found)
             result = Result.from_arrays(
@@ -212,11 +306,10 @@ class Run:
             raise SceneError(f"scene {self.scene.name!r}: {error}") from error
 
 
-def _start(model: _core.Model, given: Any) -> _core.State:
-    state = _core.initial_state(model) if given is None else given
-    if not isinstance(state, _core.State):
+def _checked_state(given: Any) -> _core.State | None:
+    if given is not None and not isinstance(given, _core.State):
         raise SceneError(f"start is {given!r}; give a seacrane.State")
-    return state
+    return given
 
 
 def _simulation(run: Run, capacity: int | None) -> _core.Simulation:

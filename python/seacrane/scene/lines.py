@@ -61,9 +61,10 @@ def add_line(
     mass : float
         kg; default (0): that of the path's last body, the ground left aside. Of a load on n falls, its mass
         over n^2.
-    stretch : {"elastic", "quasi-static"}
+    stretch : {"elastic", "quasi-static", "auto"}
         Quasi-static: the stretch follows the tension within `settling`, so that a stiff line costs no more
-        than a soft one. It must stay taut. See docs/lines.md.
+        than a soft one. It must stay taut. Auto: a run takes it where its bound holds, else the elastic line;
+        `stats` say which, and why. See docs/lines.md.
     settling : float
         s, of a quasi-static stretch: no mode of the line is faster than 1 / settling.
     radii : array_like, shape (n,), optional

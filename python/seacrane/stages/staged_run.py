@@ -16,6 +16,7 @@ from seacrane.inputs.checked import number_of
 from seacrane.result.events import Event
 from seacrane.result.result import Result
 from seacrane.result.stages import StageSpan
+from seacrane.run.carried_state import carried
 from seacrane.run.controller_calls import Calls
 from seacrane.run.interrupts import Interrupts
 from seacrane.run.outputs import Outputs
@@ -23,7 +24,7 @@ from seacrane.run.run import Run
 from seacrane.run.sampled_controller import SampledController, checked_controllers
 from seacrane.run.shorthand import Shorthand, settled
 from seacrane.scene.scene import Scene
-from seacrane.stages.carry import carried, compiled_there, lifted_seats, redescribed
+from seacrane.stages.carry import compiled_there, lifted_seats, redescribed
 from seacrane.stages.commands import commanded
 from seacrane.stages.connections import without
 from seacrane.stages.joined import Piece, counters, joined

@@ -50,7 +50,8 @@ def work_precision(
     """One panel per quantity: largest error over cost per simulated second, both logarithmic.
 
     Lines join the tolerances or steps of one integrator, solid in the recursive and dotted in the redundant
-    formulation; crosses with a label change the physics; the grey band is the reference's uncertainty.
+    formulation; crosses with a label change the physics, dashed lines the rung of elastic lines; the grey
+    band is the reference's uncertainty.
     """
     from matplotlib.figure import Figure
 
@@ -79,14 +80,14 @@ def _draw(
     quantity = measured.quantity
     colours: dict[str, Any] = {}
     groups: dict[tuple[str, str], list[Row]] = {}
-    fewer: list[Row] = []
+    fewer: dict[tuple[str, ...], list[Row]] = {}
     for row in every:
         if not row.stable or not np.isfinite(row.error(quantity)):
             continue
         if row.case == full_case:
             groups.setdefault((row.method.integrator, row.formulation), []).append(row)
         else:
-            fewer.append(row)
+            fewer.setdefault(tuple(map(str, row.case.values())), []).append(row)
     for (integrator, formulation), rows in groups.items():
         number = colours.setdefault(integrator, len(colours))
         axes.loglog(
@@ -102,7 +103,9 @@ def _draw(
         [_cost(row, over) for row in best], [row.error(quantity) for row in best], where="post",
         color="black", linewidth=2.5, alpha=0.35, label="Pareto front",
     )  # fmt: skip
-    _mark(axes, fewer, quantity, full_case, over)
+    alone = [rows[0] for rows in fewer.values() if len(rows) == 1]
+    _join(axes, [rows for rows in fewer.values() if len(rows) > 1], quantity, full_case, over)
+    _mark(axes, alone, quantity, full_case, over)
     axes.axhspan(0.0, measured.uncertainty, color="0.85")
     axes.xaxis.set_major_locator(LogLocator(subs=(1.0, 3.0)))
     axes.xaxis.set_major_formatter("{x:g}")
@@ -117,13 +120,29 @@ def _cost(row: Row, over: str) -> float:
     return float(getattr(row, over)) / row.simulated_s
 
 
+def _join(
+    axes: Axes, rungs: Sequence[Sequence[Row]], quantity: str, full: Mapping[str, str], over: str
+) -> None:
+    """Rungs at several tolerances, each a dashed line."""
+    for number, rows in enumerate(rungs):
+        axes.loglog(
+            [_cost(row, over) for row in rows], [row.error(quantity) for row in rows], "--", color="black",
+            marker=MARKERS[number % len(MARKERS)], markersize=5, linewidth=1.5, label=_changed(rows[0], full),
+        )  # fmt: skip
+
+
+def _changed(row: Row, full: Mapping[str, str]) -> str:
+    """What a row has that the full scene has not."""
+    changed = [name for name in full if row.case[name] != full[name]]
+    return ", ".join(f"memory {row.case[n]}" if n == "memory" else str(row.case[n]) for n in changed)
+
+
 def _mark(axes: Axes, rows: list[Row], quantity: str, full: Mapping[str, str], over: str) -> None:
     """Rungs, each labelled by what differs from the full scene; labels keep a distance from each other."""
     height = -np.inf
     low, high = np.log10(axes.get_ylim())
     for row in sorted(rows, key=lambda row: row.error(quantity)):
-        changed = [name for name in full if row.case[name] != full[name]]
-        label = ", ".join(f"memory {row.case[n]}" if n == "memory" else str(row.case[n]) for n in changed)
+        label = _changed(row, full)
         axes.loglog(_cost(row, over), row.error(quantity), "kx", markersize=6)
         height = max(height + 0.028 * (high - low), np.log10(row.error(quantity)))
         place = (1.03 * axes.get_xlim()[1], 10.0**height)

@@ -28,6 +28,12 @@ PHYSICS = Method(formulation="auto", integrator="dop853", tolerance=1e-8)
 """How the physics rungs are run: an error far below what leaving physics out brings."""
 
 
+LINES = tuple(
+    Method(integrator="dopri5", tolerance=tolerance) for tolerance in (1e-2, 1e-3, 1e-4, 1e-5, 1e-6)
+)
+"""How the rungs of lines are run: they differ in cost more than in error, so that each is a line."""
+
+
 def measured_methods(*, quick: bool) -> Iterator[Method]:
     """All methods of the grid; `quick` takes every third tolerance or step of a few integrators."""
     if quick:

@@ -20,6 +20,7 @@ from seacrane.description.provenance import VesselProvenance
 from seacrane.errors import SceneError
 from seacrane.hydro import HydroDatabase, fit_memory
 from seacrane.scene.scene import Scene
+from seacrane.trading.line_rungs import line_variants
 
 if TYPE_CHECKING:
     from seacrane.hydro.data.memory_model import MemoryModel
@@ -61,12 +62,14 @@ def waves_name(scene: Scene) -> str:
 
 
 def variants(scene: Scene, database: HydroDatabase | None, *, quick: bool) -> Iterator[Variant]:
-    """Scenes with one thing changed: memory models, wave evaluations, rungs of coupling."""
+    """Scenes with one thing changed: memory models, wave evaluations, rungs of lines and of coupling."""
     memory, waves = memory_name(scene), waves_name(scene)
     for name, build in _memory_variants(scene, database, quick=quick):
         yield Variant(memory=name, waves=waves, rung=FULL, build=build)
     for name, build in _wave_variants(scene, quick=quick):
         yield Variant(memory=memory, waves=name, rung=FULL, build=build)
+    for name, build in line_variants(scene):
+        yield Variant(memory=memory, waves=waves, rung=name, build=build)
     if scene.actuators:
         yield Variant(memory=memory, waves=waves, rung=LOCKED, build=lambda: locked(scene))
         if len(scene.vessels) == 1 and not given_vessels(scene):

@@ -27,8 +27,9 @@ from seacrane.run.outputs import Outputs
 from seacrane.run.shorthand import settled
 from seacrane.trading import rungs
 from seacrane.trading.diagram import COSTS, Measured, work_precision
+from seacrane.trading.line_rungs import LINE_RUNGS
 from seacrane.trading.measure import Bench, frequency_domain, measure, measure_variant, tight_reference
-from seacrane.trading.methods import PHYSICS, measured_methods
+from seacrane.trading.methods import LINES, PHYSICS, measured_methods
 from seacrane.trading.table import as_html, front, write_csv
 from seacrane.version import __version__
 
@@ -230,7 +231,8 @@ def trade(
 
     A tight reference comes first: two formulations, two methods. Then every formulation, integrator and
     tolerance or step on the full scene; then, at a tight tolerance, the scene with one part of its physics
-    changed: fluid memory, evaluation of the waves, coupling of crane, payload and vessel. Methods and physics
+    changed: fluid memory, evaluation of the waves, coupling of crane, payload and vessel; the other rungs of
+    elastic lines (rigid, quasi-static, elastic), each at several tolerances. Methods and physics
     are not crossed: their errors add. What a method cannot do is a row that is not stable and says why.
 
     Parameters
@@ -304,16 +306,23 @@ def _methods(bench: Bench, metadata: Mapping[str, Any], methods: Iterable[Method
 
 
 def _physics(bench: Bench, database: HydroDatabase | None, *, quick: bool) -> Iterator[Task]:
-    """One row for each scene with less physics, all by the same method."""
+    """One row for each scene with less physics, all by the same method; rungs of lines by several."""
     scene = bench.case.scene
     for variant in rungs.variants(scene, database or _shipped(scene), quick=quick):
         case = {"memory": variant.memory, "waves": variant.waves, "rung": variant.rung}
         if variant.rung == rungs.LINEAR:
             row = Row(case=case, method=LINEAR)
             yield row.key, partial(frequency_domain, bench, row)
-        else:
-            row = Row(case=case, method=PHYSICS)
+            continue
+        for method in _of_rung(variant.rung, quick=quick):
+            row = Row(case=case, method=method)
             yield row.key, partial(measure_variant, bench, variant, row)
+
+
+def _of_rung(rung: str, *, quick: bool) -> Sequence[Method]:
+    if rung in LINE_RUNGS:
+        return LINES[1::2] if quick else LINES
+    return (PHYSICS,)
 
 
 def _row_file(out: str | os.PathLike[str] | None, experiment: Mapping[str, Any], scene: Scene) -> RowFile:

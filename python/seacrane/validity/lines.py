@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from seacrane import _core
 from seacrane.description.loads import lines_of, whole_of
+from seacrane.description.stretch import QUASI_STATIC
 
 if TYPE_CHECKING:
     from seacrane.description.scene import Description
@@ -37,6 +38,10 @@ class WinchLimitWarning(UserWarning):
     """A winch met a limit: it did not do what it was commanded."""
 
 
+class PushingLineWarning(UserWarning):
+    """A quasi-static line pushed for a moment while it was stretched; an elastic one would be slack."""
+
+
 def line_findings(scene: Description, time: Array, channels: Mapping[str, Array]) -> list[Finding]:
     """All of these in a run; channels left out are not judged."""
     lines = lines_of(scene.loads)
@@ -51,6 +56,9 @@ def line_findings(scene: Description, time: Array, channels: Mapping[str, Array]
     for (name, line), length in zip(lines.items(), lengths.T, strict=True):
         if line.winch:
             found += _met(name, line, time, length)
+    if "line_tension" in channels:
+        tensions = np.asarray(channels["line_tension"]).reshape(time.size, len(lines))
+        found += [one for item in zip(lines.items(), tensions.T, strict=True) for one in _pushed(*item, time)]
     if "line_stretch" not in channels:
         return found
     stretches = np.asarray(channels["line_stretch"]).reshape(time.size, len(lines))
@@ -99,7 +107,9 @@ def _contradicted(lines: Mapping[str, _core.Line], lengths: Array, stretches: Ar
     for name in dict.fromkeys(wholes):
         own = np.array([whole == name for whole in wholes])
         length, stretch = float(lengths[own].sum()), float(stretches[own].sum())
-        strains = [strain for line, mine in zip(lines.values(), own, strict=True) if mine for strain in line.strains]
+        strains = [
+            strain for line, mine in zip(lines.values(), own, strict=True) if mine for strain in line.strains
+        ]
         usual = max([LARGEST_CONTRADICTION, *strains])  # a cord is meant to be as long as its table
         if -LARGEST_CONTRADICTION * length <= stretch <= usual * length:
             continue
@@ -110,6 +120,18 @@ def _contradicted(lines: Mapping[str, _core.Line], lengths: Array, stretches: Ar
             f"unstretched {length:.6g} m: its path is {length + stretch:.6g} m long. Correct its length or "
             "its points, or take this as meant where the line starts slack",
         )
+
+
+def _pushed(named: tuple[str, _core.Line], tension: Array, time: Array) -> Iterator[Finding]:
+    name, line = named
+    worst = int(np.argmin(tension))
+    if line.stretch != QUASI_STATIC or tension[worst] >= 0.0:
+        return
+    yield (
+        PushingLineWarning,
+        f"line {name!r}: pushes with {-tension[worst]:.4g} N at t = {time[worst]:.6g} s: its stretch is "
+        "quasi-static, and follows the tension too late to go slack. Give it stretch 'elastic'",
+    )
 
 
 def _met(name: str, line: _core.Line, time: Array, length: Array) -> Iterator[Finding]:

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.frames import MOTIONS
+from seacrane.validity.energy import energy_findings
 from seacrane.validity.following import FullTurnWarning, following
 from seacrane.validity.hull_range import hull_findings, motions
 from seacrane.validity.lifting import lifting
@@ -56,7 +57,8 @@ def findings(
     `steered` names actuators that a controller has moved: they do not follow their references alone.
     """
     found: list[Finding] = []
-    for look in (_heel, hull_findings, _frequencies, _links, line_findings, lifting, _turns):
+    looks = (_heel, hull_findings, _frequencies, _links, line_findings, lifting, _turns, energy_findings)
+    for look in looks:
         found += look(scene, time, channels)
     return found + following(scene, time, channels, steered) + _singular(scene, stats)
 

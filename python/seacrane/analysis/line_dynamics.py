@@ -1,0 +1,200 @@
+"""Elastic lines at an instant: how they are stretched, and how fast the bodies as joined let them ring."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from seacrane import _core
+from seacrane.description.loads import lines_of, path_of
+from seacrane.description.scene import Description
+from seacrane.inputs.frames import rotation_matrix
+
+Array = NDArray[np.float64]
+DEPENDENT = 1e-10  # of the largest singular value: rows, or lines, that depend on each other
+COUPLED = 1e-9  # of the largest eigenvalue: strains that move no body
+
+
+@dataclass(frozen=True, kw_only=True)
+class LineDynamics:
+    """An elastic line at an instant.
+
+    Attributes
+    ----------
+    tension : float
+        N; negative where a slack line would push.
+    ringing : float
+        Amplitude (N) of the oscillation of its tension that starts there.
+    mass : float
+        kg, that its tension accelerates along the line, as the bodies are joined.
+    omega : float
+        rad/s: motion of a frequency far below it strains the line by (frequency / omega)^2 of what bends a
+        rigid one. That of a single line: sqrt(stiffness / (length mass)).
+    longest_span : float
+        m, between two points of its path.
+    direction : ndarray, shape (6 bodies,)
+        Rate of the path's length for each speed of the bodies.
+    """
+
+    tension: float
+    ringing: float
+    mass: float
+    omega: float
+    longest_span: float
+    direction: Array
+
+    def shaken(self, accelerations: Array) -> float:
+        """Amplitude (N) that a jump of the bodies' accelerations (bodies, 6) makes."""
+        return self.mass * abs(float(self.direction @ accelerations.ravel()))
+
+
+def line_dynamics(
+    scene: Description, model: _core.Model, values: Array, time: float
+) -> dict[str, LineDynamics]:
+    """Those of all lines of a scene.
+
+    Parameters
+    ----------
+    scene : Description
+    model : Model
+        Of the scene, its lines elastic, without merging.
+    values : ndarray
+        A state of the model, whose orientation is the quaternion.
+    time : float
+        s.
+    """
+    evaluator = _core.Evaluator(model)
+    terms = evaluator.terms(time, values)
+    accelerations = np.asarray(evaluator.accelerations(time, values))
+    lines = lines_of(scene.loads)
+    paths = {name: _Path(scene, model, line, values, accelerations) for name, line in lines.items()}
+    directions = np.stack([path.direction for path in paths.values()], axis=1)
+    yielding = directions.T @ _response(terms, directions)
+    stiffness = np.array([line.stiffness / _unstretched(line, time)[0] for line in lines.values()])
+    pulls = [
+        line.stiffness * max(path.length / _unstretched(line, time)[0] - 1.0, 0.0)
+        for line, path in zip(lines.values(), paths.values(), strict=True)
+    ]
+    omegas = _omegas(yielding, stiffness, np.array(pulls))
+    states = {state: float(values[place]) for state, _, place, *_ in model.load_states}
+    out = {}
+    for i, (name, line) in enumerate(lines.items()):
+        path, mass = paths[name], 1.0 / max(float(yielding[i, i]), 1e-300)
+        l0, rate, bend = _unstretched(line, time, states)
+        strain_rate = (path.rate - rate * path.length / l0) / l0
+        damping = 2.0 * line.damping_ratio * np.sqrt(line.stiffness * (line.mass or mass) / l0)
+        straining = path.bend - path.length / l0 * bend - 2.0 * rate * strain_rate
+        out[name] = LineDynamics(
+            tension=float(line.stiffness * (path.length / l0 - 1.0) + damping * l0 * strain_rate),
+            ringing=float(mass * np.hypot(straining, omegas[i] * strain_rate * l0)),
+            mass=mass,
+            omega=float(omegas[i]),
+            longest_span=path.longest,
+            direction=path.direction,
+        )
+    return out
+
+
+def _omegas(yielding: Array, stiffness: Array, pulls: Array) -> Array:
+    """From what slow motion adds to each tension, the lines of a scene being strained by theirs together.
+
+    With the flexibility of the lines 1 / k, and m the mass that they move, T changes by omega^2 m T / k.
+    """
+    root = np.sqrt(stiffness)
+    flexible = np.linalg.pinv(root[:, None] * yielding * root, rcond=COUPLED, hermitian=True)
+    strained = np.where(pulls > 0.0, pulls, 0.0) / root
+    own = np.abs(np.diag(flexible))
+    with np.errstate(divide="ignore", invalid="ignore"):
+        squares = np.where(strained > 0.0, np.abs(flexible) @ strained / strained, own)
+        return np.asarray(1.0 / np.sqrt(np.maximum(squares, own)))
+
+
+def _response(terms: dict[str, Any], forces: Array) -> Array:
+    """Accelerations for forces (6 bodies, n), the joints kept."""
+    mass, rows = np.asarray(terms["mass"]), np.asarray(terms["jacobian"])
+    free = np.linalg.solve(mass, forces)
+    if not rows.size:
+        return np.asarray(free)
+    along = np.linalg.solve(mass, rows.T)
+    yielding = rows @ along
+    size = np.sqrt(np.diag(yielding))
+    scale = np.where(size > 0.0, 1.0 / np.where(size > 0.0, size, 1.0), 0.0)  # a row may move nothing
+    inverse = np.linalg.pinv(scale[:, None] * yielding * scale, rcond=DEPENDENT, hermitian=True)
+    return np.asarray(free - along @ (scale[:, None] * (inverse @ (scale[:, None] * (rows @ free)))))
+
+
+def _unstretched(
+    line: _core.Line, time: float, states: dict[str, float] | None = None
+) -> tuple[float, float, float]:
+    """Unstretched length (m), its rate and acceleration; of a winch with its states, or else at its start."""
+    if not line.winch:
+        value, rate, bend = line.length.evaluate([time])[0]
+        return float(value), float(rate), float(bend)
+    known = states or {}
+    length = known.get(f"{line.name}.length", float(line.length.evaluate([0.0])[0, 0]))
+    command = float(np.clip(line.rate.evaluate([time])[0, 0], -line.maximum_rate, line.maximum_rate))
+    if line.lag == 0.0:
+        return length, command, 0.0
+    rate, bound = known.get(f"{line.name}.rate", 0.0), line.maximum_acceleration
+    return length, rate, float(np.clip((command - rate) / line.lag, -bound, bound))
+
+
+class _Path:
+    """The path of a line: its length (m), rate, acceleration, longest span, direction among all speeds."""
+
+    def __init__(
+        self, scene: Description, model: _core.Model, line: _core.Line, values: Array, accelerations: Array
+    ) -> None:
+        self.length = self.rate = self.bend = self.longest = 0.0
+        self.direction = np.zeros(6 * len(model.bodies))
+        points = [_Point(scene, model, body, np.asarray(p), values) for body, p in path_of(line)]
+        for start, end in pairwise(points):
+            apart, parting = end.place - start.place, end.velocity - start.velocity
+            span = float(np.linalg.norm(apart))
+            if span == 0.0:
+                continue
+            along = apart / span
+            rate = float(along @ parting)
+            self.length += span
+            self.rate += rate
+            self.longest = max(self.longest, span)
+            bend = end.acceleration(accelerations) - start.acceleration(accelerations)
+            self.bend += float(along @ bend) + float(parting @ parting - rate**2) / span
+            for point, sign in ((end, 1.0), (start, -1.0)):
+                point.add(sign * along, self.direction)
+
+
+class _Point:
+    """A point of a path; of the ground it rests."""
+
+    def __init__(
+        self, scene: Description, model: _core.Model, body: str, point: Array, values: Array
+    ) -> None:
+        self.index = list(model.bodies).index(body) if body in scene.bodies else -1
+        self.place, self.velocity, self.lever, self.spin = point, np.zeros(3), np.zeros(3), np.zeros(3)
+        if self.index < 0:
+            return
+        at, speed = model.pose_index(self.index), model.twist_index(self.index)
+        floating = {vessel.body for vessel in scene.vessels.values()}
+        start = np.zeros(3) if body in floating else np.asarray(scene.bodies[body].center_of_mass)
+        self.lever = np.asarray(rotation_matrix(values[at + 3 : at + 7]) @ (point - start))
+        self.spin = values[speed + 3 : speed + 6]
+        self.place = values[at : at + 3] + self.lever
+        self.velocity = values[speed : speed + 3] + np.cross(self.spin, self.lever)
+
+    def acceleration(self, accelerations: Array) -> Array:
+        if self.index < 0:
+            return np.zeros(3)
+        own = accelerations[self.index]
+        turning = np.cross(own[3:], self.lever) + np.cross(self.spin, np.cross(self.spin, self.lever))
+        return np.asarray(own[:3] + turning)
+
+    def add(self, along: Array, direction: Array) -> None:
+        if self.index >= 0:
+            first = 6 * self.index
+            direction[first : first + 3] += along
+            direction[first + 3 : first + 6] += np.cross(self.lever, along)

@@ -1,0 +1,226 @@
+"""The rung that a line with stretch="auto" takes in a run: quasi-static where its bound holds."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from seacrane import _core
+from seacrane._core import Integrator
+from seacrane.analysis.excitation import excitations
+from seacrane.analysis.line_dynamics import LineDynamics, line_dynamics
+from seacrane.analysis.linearise import LARGEST
+from seacrane.description.compilation import compiled
+from seacrane.description.stretch import ELASTIC, QUASI_STATIC, automatic, with_stretch
+from seacrane.errors import SceneError
+from seacrane.scene.scene import Scene
+
+Array = NDArray[np.float64]
+Jump = tuple[Array, Array]
+LARGEST_ERROR = 0.005  # of what a source makes of the tension
+LARGEST_RINGING = 0.02  # of the tension at the start
+MOST_KINKS = 5000
+JUST, SLOPE = 1e-9, 1e-5  # s: before and after a kink, and over which slopes are taken there
+COMPILED = "a model that is compiled already, as by accuracy and in stages, has elastic lines"
+UNSMOOTH = "its winch has no lag, and so may jump"
+OWN_PACE = (_core.SoftStop, _core.FunctionForce)  # loads that strike, or whose frequency nobody knows
+
+
+class LineRungWarning(UserWarning):
+    """A line with stretch="auto" went slack as quasi-static: the run began anew with elastic lines."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class LineRung:
+    """What a line with stretch="auto" is in a run.
+
+    Attributes
+    ----------
+    stretch : str
+        "elastic" or "quasi-static".
+    reason : str
+    """
+
+    stretch: str
+    reason: str
+
+
+def line_rungs(
+    scene: Scene, known: Integrator, *, end: float, start: _core.State | None, in_memory: bool
+) -> dict[str, LineRung]:
+    """The rungs of a run, by line; none where no line has stretch="auto".
+
+    Parameters
+    ----------
+    scene : Scene
+    known : Integrator
+        That steps it.
+    end : float
+        s.
+    start : State, optional
+        Where it begins; default: the assembled start of the scene.
+    in_memory : bool
+        Whether its outputs stay in memory, so that it can begin anew.
+    """
+    lines = automatic(scene)
+    if not lines:
+        return {}
+    if start is not None and start.time > 0.0:
+        return {name: _kept(name, start) for name in lines}
+    reason = _why_elastic(scene, known, in_memory=in_memory)
+    if reason:
+        return _all_elastic(lines, reason)
+    found = _by_their_own(scene, lines, end, start)
+    settled = [name for name, rung in found.items() if rung.stretch == QUASI_STATIC]
+    try:
+        compiled(with_stretch(scene, dict.fromkeys(settled, QUASI_STATIC)), merge=True)
+    except SceneError as error:
+        return _all_elastic(lines, f"the core says of quasi-static: {error}")
+    return found
+
+
+def as_compiled(scene: Scene, model: _core.Model) -> dict[str, LineRung]:
+    """The rungs of a model that is given."""
+    return _all_elastic(automatic(scene), COMPILED)
+
+
+def begun_anew(rungs: Mapping[str, LineRung], reason: str) -> dict[str, LineRung]:
+    """All elastic, for a reason that showed during the run."""
+    return _all_elastic(rungs, reason)
+
+
+def as_told(rungs: Mapping[str, LineRung]) -> str:
+    """One line of text for each."""
+    return "\n".join(f"{name}: {rung.stretch}: {rung.reason}" for name, rung in rungs.items())
+
+
+def _all_elastic(names: Mapping[str, object], reason: str) -> dict[str, LineRung]:
+    return {name: LineRung(stretch=ELASTIC, reason=reason) for name in names}
+
+
+def _kept(name: str, start: _core.State) -> LineRung:
+    stretch = QUASI_STATIC if f"{name}.strain_rate" in start.load_states else ELASTIC
+    return LineRung(stretch=stretch, reason=f"as in the state it goes on from, at {start.time:g} s")
+
+
+def _why_elastic(scene: Scene, known: Integrator, *, in_memory: bool) -> str:
+    """What keeps every line elastic; empty: nothing."""
+    if known.residual_form:
+        return f"integrator {known.name!r} has no accelerations for lines"
+    if not in_memory:
+        return "outputs leave memory during the run, which could not begin anew if a line went slack"
+    if scene.orientation != "quaternion":
+        return f"the orientation is {scene.orientation!r}"
+    for load in scene.all_loads():
+        if isinstance(load, OWN_PACE):
+            return f"{type(load).__name__} {load.name!r} may shake a line faster than anything known"
+    return ""
+
+
+def _by_their_own(
+    scene: Scene, lines: Mapping[str, _core.Line], end: float, start: _core.State | None
+) -> dict[str, LineRung]:
+    """Each by its own bound."""
+    model = compiled(scene, merge=False)
+    if model.states > LARGEST:
+        return _all_elastic(lines, f"the scene has {model.states} states, more than {LARGEST}")
+    values = np.array(model.initial_state if start is None else start.values)
+    begin = 0.0 if start is None else start.time
+    if values.size != len(model.initial_state):
+        return _all_elastic(lines, "the state that the run starts from holds other states")
+    kinks = [time for time in model.breakpoints if begin < time < end]
+    if len(kinks) > MOST_KINKS:
+        return _all_elastic(lines, f"curves have {len(kinks)} kinks, each of which may shake it")
+    accelerations = _core.Evaluator(model).accelerations
+    jumps = [_jump(lambda t: np.asarray(accelerations(t, values)), time) for time in kinks]
+    sources = list(excitations(scene, start=begin, end=end))
+    now = line_dynamics(scene, model, values, begin)
+    out = {}
+    for name, line in lines.items():
+        reason = UNSMOOTH if line.winch and line.lag == 0.0 else _ringing(line, now[name], kinks, jumps)
+        out[name] = _bounded(scene, line, now[name], sources) if not reason else _elastic(reason)
+    return out
+
+
+def _elastic(reason: str) -> LineRung:
+    return LineRung(stretch=ELASTIC, reason=reason)
+
+
+def _jump(of: Callable[[float], Array], time: float) -> tuple[Array, Array]:
+    """How much a function of time jumps at a kink, and its slope."""
+    near, far = ([of(time + side * apart) for side in (-1.0, 1.0)] for apart in (JUST, JUST + SLOPE))
+    slopes = [(near[0] - far[0]) / SLOPE, (far[1] - near[1]) / SLOPE]
+    return near[1] - near[0], slopes[1] - slopes[0]
+
+
+def _ringing(line: _core.Line, now: LineDynamics, kinks: list[float], jumps: list[Jump]) -> str:
+    """Why the line's own mode is not quiet; empty: it is."""
+    if now.tension <= 0.0:
+        return "it starts slack"
+    limit = LARGEST_RINGING * now.tension
+    if now.ringing > limit:
+        return (
+            f"its tension of {now.tension:.4g} N would ring from the start, by {now.ringing:.3g} N; start it "
+            "from rest (equilibrium)"
+        )
+    for time, (step, slope) in zip(kinks, jumps, strict=True):
+        driven, faster = (abs(float(part)) for part in _jump(lambda t: _driven(line, t), time))
+        shaken = now.shaken(step) + now.shaken(slope) / now.omega
+        shaken += now.mass * (driven + faster / now.omega)
+        if shaken > limit:
+            return f"a jump at t = {time:.6g} s would make its tension ring, by {shaken:.3g} N"
+    return ""
+
+
+def _driven(line: _core.Line, time: float) -> Array:
+    """Second derivative of its unstretched length, but for what lags behind, m/s2."""
+    if not line.winch:
+        return np.asarray(line.length.evaluate([time])[0, 2])
+    bound, fastest = line.maximum_rate, line.maximum_acceleration
+    command = np.clip(line.rate.evaluate([time])[0, 0], -bound, bound)
+    return np.asarray(np.clip(command / line.lag, -2.0 * fastest, 2.0 * fastest))
+
+
+def _bounded(
+    scene: Scene, line: _core.Line, now: LineDynamics, sources: list[tuple[str, Array, Array]]
+) -> LineRung:
+    """By the error that the sources make."""
+    swing = np.array([2.0 * np.sqrt(scene.gravity / now.longest_span)])  # of the tension of what swings
+    every = [*sources, ("the swing of its load", swing, np.ones(1))]
+    errors = {name: _error(line.settling, now.omega, omega, weight) for name, omega, weight in every}
+    worst = max(errors, key=lambda name: errors[name])
+    text = (
+        f"its tension would err by {100.0 * errors[worst]:.2g} % of what {worst} makes of it, its own "
+        f"frequency being {now.omega:.4g} rad/s"
+    )
+    if errors[worst] > LARGEST_ERROR:
+        return _elastic(f"{text}: more than {100.0 * LARGEST_ERROR:g} %")
+    return LineRung(stretch=QUASI_STATIC, reason=text)
+
+
+def _error(settling: float, own: float, omega: Array, weight: Array) -> float:
+    """Root mean square of the tension's error over that of the tension that the frequencies make."""
+    errors = tension_error(omega, settling=settling, own=own)
+    return float(np.sqrt((weight * errors**2).sum() / weight.sum()))
+
+
+def tension_error(omega: Array, *, settling: float, own: float) -> Array:
+    """Error of the tension of a quasi-static stretch, of what motion of a frequency makes of it.
+
+    (omega / own)^2 times the error of the strain. See docs/lines.md.
+
+    Parameters
+    ----------
+    omega : ndarray
+        rad/s.
+    settling : float
+        s.
+    own : float
+        Frequency of the elastic line, rad/s.
+    """
+    p = 1j * settling * np.asarray(omega, dtype=float)
+    follows = 1.0 + p**2 * (2.0 + p) / (1.0 + p)  # T / (EA e)
+    return np.asarray(np.abs(1.0 / follows - 1.0) * (np.asarray(omega) / own) ** 2)

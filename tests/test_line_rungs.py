@@ -1,0 +1,367 @@
+"""Lines with stretch="auto": what they become in a run, why, and what happens where the choice was wrong."""
+
+from __future__ import annotations
+
+import warnings
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from line_scenes import MASS, STIFFNESS, G, hung, on_deck, swinging
+from numpy.testing import assert_allclose
+from numpy.typing import NDArray
+
+from seacrane import (
+    Curve,
+    EnergyErrorWarning,
+    LineRungWarning,
+    PushingLineWarning,
+    Result,
+    Run,
+    SampledController,
+    Scene,
+    SceneError,
+    StiffWarning,
+    cases,
+    equilibrium,
+    natural_modes,
+    simulate,
+    simulate_to_file,
+)
+from seacrane.analysis.excitation import curve_frequency, excitations
+from seacrane.analysis.line_dynamics import line_dynamics
+from seacrane.analysis.linearise import jacobian
+from seacrane.run.line_rungs import COMPILED, LARGEST_ERROR, tension_error
+
+Array = NDArray[np.float64]
+STIFF = 1e4 * STIFFNESS  # N, EA of 10 m
+
+
+def automatic(scene: Scene, **change: Any) -> Scene:
+    """The scene with its hoist automatic."""
+    scene.replace("hoist", stretch="auto", **change)
+    return scene
+
+
+def heaved(*, omega: float = 0.8, amplitude: float = 1.0, stiffness: float = STIFF) -> Scene:
+    """20 t below a block that moves up and down from rest, on 10 m of line that carries the weight."""
+    scene = Scene(name="heaved")
+    scene.add_body(name="block", mass=100.0, inertia=(10.0, 10.0, 10.0))
+    scene.add_joint(kind="prismatic", name="guide", first="ground", second="block", point=(0, 0, 0))
+    scene.add_driver(
+        joint="guide", curve=Curve.quintic(start_time=0.0, end_time=6.0 / omega, start=0.0, end=amplitude)
+    )
+    scene.add_body(name="load", mass=MASS, inertia=(1e4, 1e4, 1e4), position=(0.0, 0.0, -10.0))
+    scene.add_line(
+        name="hoist", bodies=["block", "load"], points=np.zeros((2, 3)), stiffness=stiffness,
+        length=10.0 / (1.0 + MASS * G / stiffness), stretch="auto",
+    )  # fmt: skip
+    return scene
+
+
+def over_the_top() -> Scene:
+    """A load at the lowest point of its circle, too slow to reach the highest with its line taut."""
+    scene = Scene(name="over the top")
+    speed = np.sqrt(3.5 * G * 10.0)
+    tension = MASS * (G + speed**2 / 10.0)
+    scene.add_body(
+        name="load", mass=MASS, inertia=(1e4, 1e4, 1e4), position=(0, 0, -10.0), velocity=(speed, 0, 0)
+    )
+    scene.add_line(
+        name="hoist", bodies=["ground", "load"], points=np.zeros((2, 3)), stiffness=STIFF,
+        length=10.0 / (1.0 + tension / STIFF), stretch="auto",
+    )  # fmt: skip
+    return scene
+
+
+def rung_of(scene: Scene, t_end: float = 1.0, **settings: Any) -> tuple[str, str]:
+    """The rung of its hoist, and why."""
+    rung = Run(scene, t_end, **settings).rungs["hoist"]
+    return rung.stretch, rung.reason
+
+
+def link_of_case2(stiffness: float) -> Scene:
+    scene = cases.case2()
+    link = scene.joints["link"]
+    points = [link.first_frame.point, link.second_frame.point]
+    scene.remove("link")
+    scene.add_line(
+        name="hoist", bodies=[link.first, link.second], points=points, stiffness=stiffness,
+        length=8.0 / (1.0 + 1e4 * G / stiffness), stretch="auto",
+    )  # fmt: skip
+    return scene
+
+
+@pytest.mark.parametrize(("stiffness", "expected"), [(1e7, "elastic"), (1e8, "quasi-static")])
+def test_case2_takes_the_rung_that_its_stiffness_allows(stiffness: float, expected: str) -> None:
+    stretch, reason = rung_of(link_of_case2(stiffness), 100.0)
+    assert stretch == expected
+    assert "% of what the swing of its load makes of it, its own frequency being" in reason
+
+
+def test_stiff_costs_like_soft_by_itself() -> None:
+    settings: dict[str, Any] = {"dt_out": 1.0, "rtol": 1e-4, "channels": ["position"]}
+    rigid = simulate(cases.case2(), 20.0, **settings)
+    out = simulate(link_of_case2(1e11), 20.0, **settings)
+    assert out.stats["evaluations"] < 1.5 * rigid.stats["evaluations"]
+    assert out.stats["line_rungs"].startswith("hoist: quasi-static: its tension would err by ")
+
+
+def test_it_is_the_run_of_the_rung_it_takes() -> None:
+    chosen = simulate(heaved(), 4.0, dt_out=0.5)
+    given = heaved()
+    given.replace("hoist", stretch="quasi-static")
+    assert np.array_equal(chosen["position"], simulate(given, 4.0, dt_out=0.5)["position"])
+    soft, elastic = heaved(stiffness=1e6), heaved(stiffness=1e6)
+    elastic.replace("hoist", stretch="elastic")
+    assert np.array_equal(
+        simulate(soft, 4.0, dt_out=0.5)["position"], simulate(elastic, 4.0, dt_out=0.5)["position"]
+    )
+
+
+def test_the_error_that_it_names_is_that_of_the_run() -> None:
+    """Of a block that heaves steadily: what the two rungs make of the tension differs by the law."""
+    omega = 2.0
+    scene = heaved()
+    wave = Curve.harmonic(offset=-0.2, amplitude=0.2, omega=omega)
+    scene.replace("guide.displacement", curve=wave)
+    for stiffness in (6e7, 6e8):
+        own = np.sqrt(stiffness / 10.0 / MASS)
+        tension = []
+        for rung in ("quasi-static", "elastic"):
+            scene.replace(
+                "hoist", stretch=rung, stiffness=stiffness, damping_ratio=0.2,
+                length=10.0 / (1.0 + MASS * G / stiffness),
+            )  # fmt: skip
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore", StiffWarning)
+                out = simulate(scene, 10.0, dt_out=0.05, rtol=1e-9)
+            tension.append(out["line_tension"][out.time > 4.0, 0])
+        apart = np.std(tension[0] - tension[1]) / np.std(tension[1])
+        law = float(tension_error(np.array([omega]), settling=0.2, own=own)[0])
+        assert apart == pytest.approx(law, rel=0.1)
+
+
+def test_frequencies_of_what_moves_a_scene() -> None:
+    ramp = Curve.quintic(start_time=0.0, end_time=10.0, start=0.0, end=1.0)
+    assert curve_frequency(ramp, 2, start=0.0, end=60.0) == pytest.approx(np.sqrt(42.0) / 10.0, rel=1e-12)
+    wave = Curve.harmonic(amplitude=0.3, omega=1.7)
+    assert curve_frequency(wave, 2, start=0.0, end=9.0) == pytest.approx(1.7)
+    assert curve_frequency(Curve.constant(value=4.0), 0, start=0.0, end=9.0) == 0.0
+    sources = {name: (omega, weight) for name, omega, weight in excitations(cases.case2(), start=0, end=100)}
+    omega, weight = sources["the sea"]
+    assert 0.5 < np.sqrt((weight * omega**2).sum() / weight.sum()) < 1.2
+    assert "the reference of 'slew'" in sources
+
+
+def test_the_frequency_of_a_line_is_that_of_its_mode() -> None:
+    """As bodies are joined: falls, two lines in series with a light block between, and one beside another."""
+    for falls in (1, 3):
+        scene = hung(falls=falls)
+        own = line_dynamics(scene, scene.compile(merge=False), scene.compile().initial_state, 0.0)["hoist"]
+        assert own.omega == pytest.approx(np.sqrt(STIFFNESS / MASS), rel=1e-9)
+        assert own.tension == pytest.approx(MASS * G / falls, rel=1e-9)
+        assert own.mass == pytest.approx(MASS / falls**2, rel=1e-9)
+    series = Scene(name="series")
+    series.add_body(name="block", mass=10.0, inertia=(1, 1, 1), position=(0, 0, -5.0))
+    series.add_body(name="load", mass=MASS, inertia=(1e4, 1e4, 1e4), position=(0, 0, -10.0))
+    for name, bodies, at in (("upper", ["ground", "block"], 0.0), ("lower", ["block", "load"], 0.0)):
+        series.add_line(
+            name=name, bodies=bodies, points=[(0, 0, at), (0, 0, 0)], stiffness=1e8, damping_ratio=0.0,
+            length=5.0 / (1.0 + MASS * G / 1e8),
+        )  # fmt: skip
+    model = series.compile(merge=False)
+    rates = np.abs(np.linalg.eigvals(jacobian(model)))
+    found = line_dynamics(series, model, np.array(model.initial_state), 0.0)
+    for line in found.values():
+        assert np.min(np.abs(rates / line.omega - 1.0)) < 1e-2
+
+
+@pytest.mark.parametrize(
+    ("make", "words"),
+    [
+        (lambda: automatic(hung(stretch=-0.1)), "it starts slack"),
+        (lambda: automatic(swinging()), "would ring from the start, by"),
+        (lambda: automatic(on_deck()), "it starts slack"),
+        (lambda: heaved(stiffness=1e6), "more than 0.5 %"),
+    ],
+)
+def test_it_stays_elastic_where_the_bound_does_not_hold(make: Any, words: str) -> None:
+    stretch, reason = rung_of(make())
+    assert stretch == "elastic"
+    assert words in reason
+
+
+def test_a_scene_warns_once_and_a_large_one_is_left_elastic() -> None:
+    scene = heaved()
+    scene.add_joint(kind="prismatic", name="twin", first="ground", second="block", point=(0, 0, 0))
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        assert rung_of(scene)[0] == "quasi-static"
+    assert [str(one.message).count("are redundant") for one in caught] == [1]
+    for i in range(120):
+        scene.add_body(name=f"chip {i}", mass=1.0, inertia=(1, 1, 1), position=(5.0 + i, 0, 0))
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        assert "states, more than 1500" in rung_of(scene)[1]
+
+
+def stepped_winch(lag: float) -> Scene:
+    scene = heaved()
+    jump = Curve.constant(value=0.0).then(time=1.0, curve=Curve.constant(value=0.5))
+    scene.add_winch(line="hoist", rate=jump, lag=lag)
+    return scene
+
+
+def test_it_stays_elastic_where_something_would_shake_it() -> None:
+    stopped = heaved()
+    stopped.add_soft_stop(name="buffer", joint="guide", minimum=-5.0, stiffness=1e6)
+    for scene, words in (
+        (stepped_winch(0.2), r"a jump at t = 1 s would make its tension ring"),
+        (stepped_winch(0.0), "its winch has no lag"),
+        (stopped, "SoftStop 'buffer' may shake a line"),
+    ):
+        stretch, reason = rung_of(scene, 3.0)
+        assert stretch == "elastic"
+        assert words in reason
+    for integrator in ("ida", "generalized-alpha"):
+        assert f"'{integrator}' has no accelerations" in rung_of(heaved(), integrator=integrator)[1]
+    scene = heaved()
+    scene.add_body(name="float", mass=1.0, inertia=(1, 1, 1), position=(0, 0, -20))
+    scene.add_joint(
+        kind="prismatic", name="rail", first="ground", second="float", point=(0, 0, -20), axis=(0, 0, 1)
+    )
+    scene.add_end_stop(name="stop", joint="rail", minimum=-1.0)
+    stretch, reason = rung_of(scene)
+    assert stretch == "elastic"
+    assert "limit 'stop' makes impacts" in reason
+
+
+def test_a_run_whose_line_goes_slack_begins_anew_elastic() -> None:
+    expected = over_the_top()
+    expected.replace("hoist", stretch="elastic")
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", StiffWarning)
+        elastic = simulate(expected, 2.5, dt_out=0.1, rtol=1e-6)
+        assert np.min(elastic["line_tension"]) == 0.0
+        with pytest.warns(LineRungWarning, match=r"it goes slack at t = 1\.\d+ s.*began anew from its start"):
+            result = simulate(over_the_top(), 2.5, dt_out=0.1, rtol=1e-6)
+    assert np.array_equal(result["position"], elastic["position"])
+    assert result.stats["line_rungs"].startswith(
+        "hoist: elastic: the run began anew: line 'hoist': its stretch"
+    )
+    assert "it goes slack at t = " in result.stats["validity"]
+    assert result.time[0] == 0.0
+    assert result.time[-1] == 2.5
+
+
+def test_one_that_goes_on_and_then_goes_slack_begins_anew_from_its_own_start() -> None:
+    start = simulate(over_the_top(), 0.5, dt_out=0.1).state
+    assert "hoist.strain_rate" in start.load_states
+    with pytest.warns(LineRungWarning, match=r"goes slack at t = 1\.\d+ s"):
+        result = simulate(over_the_top(), 1.6, start=start, dt_out=0.1)
+    assert result.time[0] == 0.5
+    assert result.state.load_states == {}
+    assert np.min(result["line_tension"]) == 0.0
+
+
+def test_a_run_goes_on_with_the_rung_of_its_start(tmp_path: Path) -> None:
+    whole = Run(heaved(), t_end=4.0, dt_out=0.1)
+    whole.advance(4.0)
+    first = Run(heaved(), t_end=2.0, dt_out=0.1)
+    first.advance(2.0)
+    rest = Run(heaved(), t_end=4.0, dt_out=0.1, start=first.state)
+    assert rest.rungs["hoist"].reason == "as in the state it goes on from, at 2 s"
+    rest.advance(4.0)
+    assert_allclose(rest.state.values, whole.state.values, atol=1e-9)
+    scene = heaved()
+    scene.replace("hoist", stretch="elastic")
+    other = simulate(scene, 1.0).state
+    assert rung_of(heaved(), 2.0, start=other)[0] == "elastic"
+    result = simulate(heaved(), 0.5, dt_out=0.1)
+    result.save(tmp_path / "a.nc")
+    again = Result.load(tmp_path / "a.nc")
+    assert again.stats["line_rungs"] == result.stats["line_rungs"]
+
+
+def test_rest_modes_and_files_take_it_as_elastic(tmp_path: Path) -> None:
+    scene = automatic(hung(stretch=0.0))
+    elastic = hung(stretch=0.0)
+    rest = equilibrium(scene)
+    assert_allclose(rest.values, equilibrium(elastic).values, atol=1e-12)
+    assert_allclose(natural_modes(scene).natural_period, natural_modes(elastic).natural_period)
+    stiff = automatic(hung(stretch=0.0), stiffness=STIFF)
+    settled = Run(stiff, 1.0, start=equilibrium(stiff))
+    assert settled.rungs["hoist"].stretch == "quasi-static"
+    settled.advance(1.0)
+    assert_allclose(settled.state.values[2], equilibrium(stiff).values[2], atol=1e-9)
+    scene.save(tmp_path / "scene.json")
+    assert Scene.load(tmp_path / "scene.json") == scene
+
+
+def test_what_cannot_begin_anew_stays_elastic(tmp_path: Path) -> None:
+    simulate_to_file(heaved(), tmp_path / "a.nc", 0.2, dt_out=0.1)
+    told = Result.load(tmp_path / "a.nc").stats["line_rungs"]
+    assert told.startswith("hoist: elastic: outputs leave memory")
+    model = heaved().compile()
+    assert rung_of(heaved(), model=model) == ("elastic", COMPILED)
+
+
+def test_inputs_that_jump_make_it_elastic() -> None:
+    scene = heaved()
+    scene.add_winch(line="hoist", lag=0.2)
+    assert rung_of(scene)[0] == "quasi-static"
+    controller = SampledController(function=lambda time, state: {"hoist.rate": 0.1}, period=0.1)
+    result = simulate(scene, 0.3, dt_out=0.1, controllers=[controller])
+    assert "inputs are set during the run" in result.stats["line_rungs"]
+    assert result["line_pay_out_rate"][-1, 0] > 0.05
+    run = Run(scene, 1.0)
+    run.advance(0.2)
+    with pytest.raises(SceneError, match=r"inputs: set at t = 0\.2 s in a run whose lines hoist 'auto' made"):
+        run.set_inputs({"hoist.rate": 0.1})
+
+
+def test_the_error_law_is_the_closed_form() -> None:
+    """2 (s omega)^2 of (omega / own)^2 for slow motion, and no more than four times it for any."""
+    omega = np.array([0.1, 0.2])
+    error = tension_error(omega, settling=0.2, own=20.0)
+    assert_allclose(error, 2.0 * (0.2 * omega) ** 2 * (omega / 20.0) ** 2, rtol=0.01)
+    fast = np.geomspace(0.01, 1e3, 400)
+    assert np.all(tension_error(fast, settling=0.2, own=20.0) < 4.0 * (fast / 20.0) ** 2)
+    assert LARGEST_ERROR < 0.01
+
+
+def shaken(stretch: str) -> Scene:
+    """A block whose short drop is faster than a load falls; the strain follows too late to go slack."""
+    scene = heaved()
+    drop = Curve.quintic(start_time=0.5, end_time=0.65, start=0.0, end=-0.1)
+    scene.replace("guide.displacement", curve=drop)
+    scene.replace("hoist", stretch=stretch)
+    return scene
+
+
+def test_a_line_that_pushes_for_a_moment_is_told() -> None:
+    with pytest.warns(PushingLineWarning, match=r"line 'hoist': pushes with .* its stretch is quasi-static"):
+        out = simulate(shaken("quasi-static"), 1.0, dt_out=0.01)
+    assert np.min(out["line_tension"]) < 0.0 < np.min(out["line_stretch"])
+    assert "a jump at t = 0.5 s" in rung_of(shaken("auto"))[1]
+
+
+def test_one_that_auto_let_push_begins_anew(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("seacrane.run.line_rungs.LARGEST_RINGING", np.inf)
+    monkeypatch.setattr("seacrane.run.line_rungs.LARGEST_ERROR", np.inf)
+    with pytest.warns(LineRungWarning, match="and it pushed for a moment. 'auto' had chosen its stretch"):
+        out = simulate(shaken("auto"), 1.0, dt_out=0.01)
+    assert np.min(out["line_tension"]) == 0.0
+    assert np.array_equal(out["position"], simulate(shaken("elastic"), 1.0, dt_out=0.01)["position"])
+
+
+def test_an_energy_that_does_not_close_is_told() -> None:
+    scene = heaved(stiffness=1e10)
+    scene.replace("hoist", stretch="elastic")
+    with pytest.warns(
+        EnergyErrorWarning, match=r"run: energy_balance reaches .* this is not the scene's motion"
+    ):
+        result = simulate(scene, 4.0, dt_out=0.1, integrator="rk4", dt=0.02)
+    assert "energy_balance reaches" in result.stats["validity"]

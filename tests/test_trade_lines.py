@@ -1,0 +1,76 @@
+"""The rungs of elastic lines in a trade: rigid, quasi-static and elastic, as lines of one diagram."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from line_scenes import G, reeved
+from numpy.testing import assert_allclose
+
+from seacrane import Scene, SceneError, simulate, trade
+from seacrane.trading.line_rungs import LINE_RUNGS, RIGID_LINES, line_variants, with_rigid_lines
+
+
+def hung(stretch: str) -> Scene:
+    """2 t that swing on 8 m of stiff line below an arm that is not at the origin."""
+    scene = Scene(name="pendulum")
+    scene.add_body(name="arm", mass=5e3, inertia=(50, 50, 50), position=(1, 2, 3), quaternion=(0, 0, 0, 1))
+    scene.add_joint(kind="prismatic", name="guide", first="ground", second="arm", point=(1, 2, 3))
+    scene.add_actuator(joint="guide", stiffness=1e6, damping=5e4)
+    place = np.array([1.0, 2.0, 3.0]) + 8.0 * np.array([np.sin(0.3), 0.0, -np.cos(0.3)]) + (0.5, 0, 0)
+    scene.add_body(name="load", mass=2e3, inertia=(300.0, 400.0, 500.0), position=place)
+    scene.add_line(
+        name="hoist", bodies=["arm", "load"], points=[(-0.5, 0, 0), (0, 0, 0)], stiffness=1e10,
+        length=8.0 / (1.0 + 2e3 * G * np.cos(0.3) / 1e10), stretch=stretch,
+    )  # fmt: skip
+    return scene
+
+
+@pytest.mark.parametrize(
+    ("stretch", "others"), [("elastic", LINE_RUNGS[:2]), ("auto", LINE_RUNGS[:2]),
+                            ("quasi-static", (RIGID_LINES, LINE_RUNGS[2]))],
+)  # fmt: skip
+def test_the_rungs_that_a_scene_does_not_have_are_tried(stretch: str, others: tuple[str, ...]) -> None:
+    made = {name: build() for name, build in line_variants(hung(stretch))}
+    assert tuple(made) == others
+    assert not made[RIGID_LINES].loads.keys() & {"hoist"}
+    assert made[RIGID_LINES].joints["hoist"].length == pytest.approx(8.0, rel=1e-12)
+    own = made[others[1]].loads["hoist"]
+    assert f"lines {own.stretch}" == others[1]
+    scene = Scene(name="without")
+    assert not list(line_variants(scene))
+
+
+def test_a_rigid_link_moves_as_the_stiff_line() -> None:
+    runs = [
+        simulate(scene, 2.0, dt_out=0.1) for scene in (hung("elastic"), with_rigid_lines(hung("elastic")))
+    ]
+    assert_allclose(runs[0]["position"], runs[1]["position"], atol=2e-3)
+
+
+def test_each_rung_is_a_line_with_its_cost_and_error() -> None:
+    found = trade(hung("elastic"), t_end=2.0, quick=True, progress=False)
+    rows = {name: [row for row in found.rows if row.case["rung"] == name] for name in LINE_RUNGS}
+    assert [len(rows[name]) for name in LINE_RUNGS] == [2, 2, 0]
+    elastic = min(row.evaluations for row in found.rows if row.stable and row.case["rung"] == "full")
+    for name in LINE_RUNGS[:2]:
+        assert all(row.stable for row in rows[name])
+        assert rows[name][-1].error("position") < 2e-3
+        assert rows[name][0].evaluations < elastic
+    labels = {line.get_label(): line for line in found.plot().axes[0].get_lines()}
+    for name in LINE_RUNGS[:2]:
+        assert len(labels[name].get_xdata()) == 2
+        assert labels[name].get_linestyle() == "--"
+
+
+def test_what_has_no_rigid_rung_is_a_row_with_its_reason() -> None:
+    with pytest.raises(SceneError, match="line 'hoist': runs over 4 points, and a rigid link over two"):
+        with_rigid_lines(reeved())
+    scene = hung("elastic")
+    scene.add_winch(line="hoist", lag=0.2)
+    with pytest.raises(SceneError, match="line 'hoist': its length changes"):
+        with_rigid_lines(scene)
+    found = trade(scene, t_end=0.5, quick=True, progress=False)
+    (row, _) = [row for row in found.rows if row.case["rung"] == RIGID_LINES]
+    assert row.verdict == "refused"
+    assert "its length changes" in row.message
