@@ -102,7 +102,7 @@ def _leaning(sheaves: list[str], time: Array, angles: Array) -> Iterator[Finding
 
 
 def _contradicted(lines: Mapping[str, _core.Line], lengths: Array, stretches: Array) -> Iterator[Finding]:
-    """Whole lines whose described length is not that of their path; a heavy line is the sum of its segments."""
+    """Lines whose described length is not that of their path; a heavy one is the sum of its segments."""
     wholes = [whole_of(name, line) for name, line in lines.items()]
     for name in dict.fromkeys(wholes):
         own = np.array([whole == name for whole in wholes])
