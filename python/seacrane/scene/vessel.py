@@ -15,7 +15,7 @@ from seacrane.description.scene import Description
 from seacrane.errors import SceneError
 from seacrane.hydro import HydroDatabase, vessel_parameters
 from seacrane.hydro.data.data_warnings import warn_of_water
-from seacrane.hydro.vessel.parameters import VesselParameters
+from seacrane.hydro.vessel.parameters import VesselParameters, following_yaw
 from seacrane.inputs.checked import shaped_of
 from seacrane.inputs.plausible import direction_of
 from seacrane.inputs.shown import shown
@@ -154,7 +154,7 @@ def _from_database(
         added_mass=parameters.added_mass,
         linear_damping=parameters.linear_damping,
         quadratic_damping=parameters.quadratic_damping,
-        restoring=_without_yaw(parameters.restoring),
+        restoring=following_yaw(parameters.restoring),
         mooring_stiffness=heavy * omega**2,
         mooring_damping=2.0 * mooring_damping * omega * heavy,
         memory=[] if memory == "none" else core_memory(parameters.memory),
@@ -170,14 +170,3 @@ def _horizontal_inertia(parameters: VesselParameters) -> NDArray[np.float64]:
     heavy = parameters.mass * np.array([1.0, 1.0, 0.0]) + np.diag(parameters.added_mass)[[0, 1, 5]]
     heavy[2] += parameters.inertia[2, 2] + parameters.mass * float(np.sum(parameters.centre_of_mass[:2] ** 2))
     return np.asarray(heavy)
-
-
-def _without_yaw(restoring: NDArray[np.float64]) -> NDArray[np.float64]:
-    """The restoring matrix without C46 and C56 (a new array).
-
-    About fixed axes these turn a residual trim or heel moment with the ship (WAMIT: m g x_G - rho g V x_B);
-    in the frame that follows yaw, where restoring acts here, that moment does not depend on yaw.
-    """
-    kept = restoring.copy()
-    kept[3:5, 5] = 0.0
-    return kept
