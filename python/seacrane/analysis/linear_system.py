@@ -155,9 +155,7 @@ class LinearModel:
         if not self.memories:
             return x
         load, motion = self._memory_loads()
-        by_load = np.stack(
-            [resolvent.response(np.broadcast_to(each, x.shape).astype(complex)) for each in load.T], axis=2
-        )
+        by_load = np.stack([resolvent.response(np.broadcast_to(each, x.shape)) for each in load.T], axis=2)
         impedance = self._impedance(w)
         # x = x_0 - by_load Z y of the motions y of the vessels with memory, y = motion x.
         closed = np.eye(len(motion)) + motion @ by_load @ impedance
@@ -258,7 +256,7 @@ class _Resolvent:
         self.triangle, self.unitary = schur(balanced, output="complex")
         self.name, self.omega = linear.scene.name, omega
 
-    def response(self, rates: Complex) -> Complex:
+    def response(self, rates: Array | Complex) -> Complex:
         """x (k, n) under rates of x (k, n); raises SceneError at the frequency of an undamped mode."""
         w, triangle = self.omega, self.triangle
         load = (rates / self.scale) @ self.unitary.conj()

@@ -83,7 +83,9 @@ def _add_run(commands: Any) -> None:
     run.add_argument("--progress", action="store_true", help="show a progress bar")
     case = run.add_argument_group("the built-in cases", "these choose the vessel and the sea of a named case")
     case.add_argument(
-        "--memory", choices=("per-pair", "passive", "convolution", "none"), help="fluid memory of the vessel"
+        "--memory",
+        choices=("per-pair", "passive", "by-motion", "convolution", "none"),
+        help="fluid memory of the vessel",
     )
     case.add_argument("--hs", metavar="M", type=float, help="significant wave height, m")
     case.add_argument("--tp", metavar="S", type=float, help="peak period, s")

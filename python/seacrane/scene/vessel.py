@@ -23,7 +23,7 @@ from seacrane.scene.vessel_memory import core_memory, memory_of
 
 MOORING_PERIOD = 200.0  # s, of surge, sway and yaw (PAPER, "station keeping")
 MOORING_DAMPING = 0.1  # of critical
-MEMORY = ("per-pair", "passive", "convolution", "none")
+MEMORY = ("per-pair", "passive", "by-motion", "convolution", "none")
 
 
 @overload
@@ -75,6 +75,7 @@ def add_vessel(
     memory : str, or list of StateSpaceBlock, or RetardationFunctions
         With a database, "per-pair" (default): fluid memory as one state-space model per pair of motions, eqs
         (28)-(31). "passive": one model per group of coupled motions, proven passive and with fewer states.
+        "by-motion": of that form, the smallest that leaves the motions within 1 % of the database's own.
         "convolution": the reference, without a fit: the database's retardation functions convolved with the
         history of the motion, see `seacrane.hydro.retardation_functions`; the steps land on its samples.
         "none": without radiation damping, as the paper does for comparison. The database's own fitted memory

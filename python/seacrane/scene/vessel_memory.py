@@ -16,11 +16,17 @@ def memory_of(database: HydroDatabase, kind: str) -> MemoryModel | RetardationMo
     if kind == "convolution":
         return retardation_functions(database=database)
     own = database.memory
-    if own is not None:
-        joint = all(is_energy_form(block) for block in own.blocks if block.cause == RADIATION)
-        if joint == (kind == "passive"):
-            return own
+    if own is not None and kind_of(own) == kind:
+        return own
     return fit_memory(database=database, kind=kind)
+
+
+def kind_of(model: MemoryModel) -> str:
+    """The kind of a fitted model, as `fit_memory` takes it."""
+    if model.motion is not None:
+        return "by-motion"
+    joint = all(is_energy_form(block) for block in model.blocks if block.cause == RADIATION)
+    return "passive" if joint else "per-pair"
 
 
 def core_memory(

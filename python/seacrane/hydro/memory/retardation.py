@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from seacrane.hydro.data.hydro_data import AdditionalMatrices, HydroData
-from seacrane.hydro.memory.fit import FEWEST_FREQUENCIES, memory_entries
+from seacrane.hydro.memory.entries import FEWEST_FREQUENCIES, memory_entries
 
 FloatArray = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
