@@ -179,8 +179,15 @@ class LinearModel:
         for i, memory in enumerate(self.memories):
             at = slice(6 * i, 6 * i + 6)
             load[dof : 2 * dof, at] = _excitation(model, values, memory.body, self.basis, self.mass)
-            motion[at, :dof] = _along(model, values, memory.body, self.basis)
+            motion[at] = self.motion_of(memory.body)
         return load, motion
+
+    def motion_of(self, vessel: str) -> Array:
+        """C (6, n): motion (m) of a vessel's origin and its rotation vector from x, in its yaw axes."""
+        out = np.zeros((6, len(self.a)))
+        at = _along(self._terms.model, np.array(self.state.values), vessel, self.basis)
+        out[:, : self.degrees_of_freedom] = at
+        return out
 
     def at_frequency(self, omega: float) -> LinearModel:
         """The same model with the matrices that `memories` have at one frequency (rad/s), for all of them."""

@@ -13,13 +13,13 @@ from seacrane.description.hydrodynamics import add_hydrodynamics
 from seacrane.description.provenance import VesselProvenance
 from seacrane.description.scene import Description
 from seacrane.errors import SceneError
-from seacrane.hydro import HydroDatabase, vessel_parameters
+from seacrane.hydro import HydroDatabase, MemoryModel, vessel_parameters
 from seacrane.hydro.data.data_warnings import warn_of_water
 from seacrane.hydro.vessel.parameters import VesselParameters, following_yaw
 from seacrane.inputs.checked import shaped_of
 from seacrane.inputs.plausible import direction_of
 from seacrane.inputs.shown import shown
-from seacrane.scene.vessel_memory import core_memory, memory_of
+from seacrane.scene.vessel_memory import core_memory, memory_of, remember
 
 MOORING_PERIOD = 200.0  # s, of surge, sway and yaw (PAPER, "station keeping")
 MOORING_DAMPING = 0.1  # of critical
@@ -161,9 +161,20 @@ def _from_database(
         memory=[] if memory == "none" else core_memory(parameters.memory),
         kinematics=kinematics,
     )
+    remember(added, database)
     band = (float(database.omega[0]), float(database.omega[-1]))
-    scene.provenance[name] = VesselProvenance(database=database.name, omega=band, memory=memory)
+    scene.provenance[name] = VesselProvenance(
+        database=database.name, omega=band, memory=memory, memory_error=_memory_error(parameters, memory)
+    )
     return added
+
+
+def _memory_error(parameters: VesselParameters, memory: str) -> float | None:
+    """What a memory fitted by motion changes of the motions; None of others."""
+    model = parameters.memory
+    if memory != "by-motion" or not isinstance(model, MemoryModel) or model.motion is None:
+        return None
+    return model.motion.error.worst
 
 
 def _horizontal_inertia(parameters: VesselParameters) -> NDArray[np.float64]:
