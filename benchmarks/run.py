@@ -23,6 +23,7 @@ from measure import (
     integrators,
     line_methods,
     linear,
+    memory_by_motion,
     memory_cost,
     memory_kinds,
     memory_models,
@@ -87,6 +88,7 @@ def sections(folder: Path, *, repeats: int, quick: bool) -> Iterator[Section]:
     yield linear.cost(repeats=min(repeats, 3))
     yield from paper_form.paper_form(t_end=5.0 if quick else 100.0)
     yield crane.shipped_crane()
+    yield memory_by_motion.roll_by_cause()
     yield memory_models.self_check()
     yield memory_models.fits()
     yield memory_models.trade()

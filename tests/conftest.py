@@ -14,6 +14,9 @@ os.environ["MPLBACKEND"] = "Agg"
 for threads in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS"):
     os.environ.setdefault(threads, "1")
 
+# Fits are made here, not taken from what another run left on disk.
+os.environ["SEACRANE_CACHE"] = "off"
+
 # A test run in the background of a shell script inherits an ignored SIGINT, and would hand it on to the
 # processes that tests interrupt.
 if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:

@@ -22,7 +22,6 @@ from seacrane import (
     State,
     TwistHistory,
     cases,
-    linear_model,
     load_database,
     simulate,
 )
@@ -319,8 +318,6 @@ def test_what_it_cannot_do_is_refused_by_name() -> None:
         cases.vessel(memory="convolution", kinematics="paper").compile()
     with pytest.raises(SceneError, match=r"memory 'convoluted' is not available .* or convolution or"):
         cases.vessel(memory="convoluted")
-    with pytest.raises(SceneError, match="convolution, which has no states"):
-        linear_model(cases.vessel(memory="convolution", hs=0.0))
 
 
 @pytest.mark.parametrize(

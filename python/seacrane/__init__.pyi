@@ -27,6 +27,9 @@ from seacrane._core import TwistHistory as TwistHistory
 from seacrane._core import VesselHydrodynamics as VesselHydrodynamics
 from seacrane._core import integrator_names as integrator_names
 from seacrane._core import joint_kinds as joint_kinds
+from seacrane.accuracy.model_error import ModelError as ModelError
+from seacrane.accuracy.model_error import ModelErrorWarning as ModelErrorWarning
+from seacrane.accuracy.model_error import model_error as model_error
 from seacrane.accuracy.step_error import StepError as StepError
 from seacrane.accuracy.step_error import step_error as step_error
 from seacrane.analysis.ballast import Ballast as Ballast

@@ -71,7 +71,7 @@ def vessel(
     Parameters
     ----------
     memory : str
-        "per-pair", "passive", "convolution" or "none".
+        "per-pair", "passive", "by-motion", "convolution" or "none".
     kinematics : str
         "yaw_following" or "paper".
     database : path or HydroDatabase, optional

@@ -13,6 +13,7 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 from seacrane.accuracy.expected import TIGHTEST, expected_error, method_for, probe_of, unit_error
+from seacrane.accuracy.model_error import model_errors
 from seacrane.accuracy.quantities import Quantity, compare, limits_of, quantities_of
 from seacrane.errors import SceneError
 from seacrane.run.advance import finished
@@ -252,6 +253,8 @@ def _with_estimate(case: _Case, done: Sequence[_Done], errors: Mapping[str, floa
     stats["accuracy_evaluations"] = sum(int(result.stats["evaluations"]) for result in runs)
     for name, limit in case.limits.items():
         stats |= {f"accuracy_{name}": limit, f"error_estimate_{name}": errors[name]}
+    by_model = model_errors(case.scene, last.result.time, case.limits)
+    stats |= {f"model_error_{name}": error for name, error in by_model.items()}
     return replace(last.result, stats=stats)
 
 

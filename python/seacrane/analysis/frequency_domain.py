@@ -38,6 +38,7 @@ def motion_rao(
     body: str,
     point: ArrayLike = (0.0, 0.0, 0.0),
     state: _core.State | None = None,
+    memory: str = "scene",
 ) -> Complex:
     """Complex motion of a point of any body per metre of wave amplitude.
 
@@ -53,6 +54,9 @@ def motion_rao(
         Body coordinates, from the body origin, m.
     state : State, optional
         At rest; default ``equilibrium(scene)``. Not with a LinearModel.
+    memory : str
+        "scene" (default), or "database": A and B of `database` by frequency, see `linear_model`. Not with a
+        LinearModel.
 
     Returns
     -------
@@ -65,20 +69,27 @@ def motion_rao(
     SceneError
         As `linear_model`, for frequencies outside the database, or with a ship whose motion is given.
     """
-    linear = _linear(scene, state)
+    linear = _linear(scene, state, memory, database)
     w, b = np.broadcast_arrays(np.asarray(omega, dtype=float), np.asarray(heading, dtype=float))
     force = database.force_at(w.ravel(), b.ravel()).reshape(-1, 6)
     x = linear.response(omega=w.ravel(), force=force)
     return np.asarray((x @ linear.output(body=body, point=point).T).reshape(*w.shape, 6))
 
 
-def _linear(scene: Description | LinearModel, state: _core.State | None) -> LinearModel:
+def _linear(
+    scene: Description | LinearModel,
+    state: _core.State | None,
+    memory: str = "scene",
+    database: HydroDatabase | None = None,
+) -> LinearModel:
     _require_afloat(scene.scene if isinstance(scene, LinearModel) else scene)
     if isinstance(scene, LinearModel):
         if state is not None:
             raise SceneError("state: a LinearModel has one already; give the Scene with a state")
+        if memory != "scene":
+            raise SceneError(f"memory {memory!r}: a LinearModel has its memory already; give the Scene")
         return scene
-    return linear_model(scene, state=state)
+    return linear_model(scene, state=state, memory=memory, database=database)
 
 
 def _require_afloat(scene: Description) -> None:
@@ -238,6 +249,7 @@ def response_statistics(
     point: ArrayLike = (0.0, 0.0, 0.0),
     duration: float = 10800.0,
     state: _core.State | None = None,
+    memory: str = "scene",
 ) -> ResponseStatistics:
     """Response spectrum, significant and most probable largest motion of a point of any body.
 
@@ -245,7 +257,7 @@ def response_statistics(
 
     Parameters
     ----------
-    scene, database, body, point, state
+    scene, database, body, point, state, memory
         As `motion_rao`.
     spectrum : Spectrum
     heading : float
@@ -266,7 +278,7 @@ def response_statistics(
     span = number_of("duration", duration)
     if not (np.isfinite(span) and span > 0.0):
         raise SceneError(f"duration is {span} s; give a finite positive number")
-    linear = _linear(scene, state)
+    linear = _linear(scene, state, memory, database)
     low, high = float(database.omega[0]), float(database.omega[-1])
     omega = _frequencies(linear, low, high)
     rao = motion_rao(linear, database=database, omega=omega, heading=heading, body=body, point=point)

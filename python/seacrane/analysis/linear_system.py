@@ -3,11 +3,18 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from seacrane import _core
+from seacrane.analysis.frequency_memory import (
+    FrequencyMemory,
+    frequency_memories,
+    state_without_memory,
+    without_memory,
+)
 from seacrane.analysis.reduced_coordinates import NEUTRAL, ReducedCoordinates, Terms
 from seacrane.analysis.rest_state import at_rest, equilibrium, held, state_values
 from seacrane.description.compilation import compile_scene
@@ -15,6 +22,9 @@ from seacrane.description.scene import Description
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import shaped_of
 from seacrane.inputs.frames import rotation_about_z, rotation_matrix
+
+if TYPE_CHECKING:
+    from seacrane.hydro import HydroDatabase
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -48,6 +58,9 @@ class LinearModel:
         Of all bodies about their state points, added mass at infinite frequency included; kg, kg m2.
     neutral : ndarray, shape (degrees of freedom, k)
         Directions in which nothing brings the system back.
+    memories : tuple of FrequencyMemory
+        Memory that depends on the frequency and is in `response`, not in `a`: that of convolutions, or of a
+        database. `at_frequency` puts its matrices of one frequency into `a`.
     """
 
     scene: Description
@@ -59,6 +72,7 @@ class LinearModel:
     basis: Array
     mass: Array
     neutral: Array
+    memories: tuple[FrequencyMemory, ...]
     _terms: Terms
 
     @property
@@ -129,8 +143,6 @@ class LinearModel:
         SceneError
             Without a vessel, for values that are not finite, or at the frequency of an undamped mode.
         """
-        from scipy.linalg import matrix_balance, schur
-
         if self.vessel is None:
             raise SceneError(f"scene {self.scene.name!r}: has no vessel on which waves act; add one")
         w, f = np.asarray(omega, dtype=float), np.asarray(force, dtype=complex)
@@ -138,21 +150,71 @@ class LinearModel:
             raise SceneError(
                 f"omega has shape {w.shape}, force {f.shape}; give (k,) and (k, 6) finite numbers"
             )
-        # Memory states may be 1e6 times larger than motions: unbalanced, the triangular form loses motions.
-        balanced, (scale, _) = matrix_balance(self.a, permute=False, separate=True)
-        triangle, unitary = schur(balanced, output="complex")
-        load = (f @ self.b.T / scale) @ unitary.conj()
-        x = np.zeros(load.shape, dtype=complex)
-        for i in reversed(range(len(self.a))):
-            pivot = 1j * w - triangle[i, i]
-            near = np.abs(pivot) < RESONANCE * np.abs(w)
-            if np.any(near):
-                raise SceneError(
-                    f"scene {self.scene.name!r}: omega = {w[near][0]:.9g} rad/s is that of an undamped mode; "
-                    "add damping, or leave the frequency out"
-                )
-            x[:, i] = (load[:, i] + x[:, i + 1 :] @ triangle[i, i + 1 :]) / pivot
-        return np.asarray(x @ unitary.T * scale)
+        resolvent = _Resolvent(self, w)
+        x = resolvent.response(f @ self.b.T)
+        if not self.memories:
+            return x
+        load, motion = self._memory_loads()
+        by_load = np.stack([resolvent.response(np.broadcast_to(each, x.shape)) for each in load.T], axis=2)
+        impedance = self._impedance(w)
+        # x = x_0 - by_load Z y of the motions y of the vessels with memory, y = motion x.
+        closed = np.eye(len(motion)) + motion @ by_load @ impedance
+        y = np.linalg.solve(closed, (x @ motion.T)[..., None])
+        return np.asarray(x - (by_load @ (impedance @ y))[..., 0])
+
+    def _impedance(self, omega: Array) -> Complex:
+        """Of all vessels of `memories` (k, 6 m, 6 m), block diagonal."""
+        size = 6 * len(self.memories)
+        out = np.zeros((len(omega), size, size), dtype=complex)
+        for i, memory in enumerate(self.memories):
+            out[:, 6 * i : 6 * i + 6, 6 * i : 6 * i + 6] = memory.impedance(omega)
+        return out
+
+    def _memory_loads(self) -> tuple[Array, Array]:
+        """Rates of x by loads on the vessels of `memories` (n, 6 m), and their motions by x (6 m, n)."""
+        dof, values = self.degrees_of_freedom, np.array(self.state.values)
+        load = np.zeros((len(self.a), 6 * len(self.memories)))
+        motion = np.zeros(load.shape[::-1])
+        model = self._terms.model
+        for i, memory in enumerate(self.memories):
+            at = slice(6 * i, 6 * i + 6)
+            load[dof : 2 * dof, at] = _excitation(model, values, memory.body, self.basis, self.mass)
+            motion[at] = self.motion_of(memory.body)
+        return load, motion
+
+    def motion_of(self, vessel: str) -> Array:
+        """C (6, n): motion (m) of a vessel's origin and its rotation vector from x, in its yaw axes."""
+        out = np.zeros((6, len(self.a)))
+        at = _along(self._terms.model, np.array(self.state.values), vessel, self.basis)
+        out[:, : self.degrees_of_freedom] = at
+        return out
+
+    def at_frequency(self, omega: float) -> LinearModel:
+        """The same model with the matrices that `memories` have at one frequency (rad/s), for all of them."""
+        if not self.memories:
+            return self
+        dof = self.degrees_of_freedom
+        load, motion = self._memory_loads()
+        speeds, moved = load[dof : 2 * dof], motion[:, :dof]
+        a, b, mass = self.a.copy(), self.b.copy(), self.mass.copy()
+        added = np.zeros((len(moved), len(moved)))
+        for i, memory in enumerate(self.memories):
+            at = slice(6 * i, 6 * i + 6)
+            added[at, at], damping, stiffness = (x[0] for x in memory.matrices(np.array([omega])))
+            a[dof : 2 * dof, :dof] -= speeds[:, at] @ stiffness @ moved[at]
+            a[dof : 2 * dof, dof : 2 * dof] -= speeds[:, at] @ damping @ moved[at]
+            k = self.bodies.index(memory.body)
+            axes = _yaw_axes(
+                self._terms.model,
+                np.array(self.state.values),
+                k,
+                paper=self._terms.model.paper_kinematics,
+            )
+            mass[6 * k : 6 * k + 6, 6 * k : 6 * k + 6] += axes @ added[at, at] @ axes.T
+        heavier = np.eye(dof) + speeds @ added @ moved
+        a[dof : 2 * dof] = np.linalg.solve(heavier, a[dof : 2 * dof])
+        b[dof : 2 * dof] = np.linalg.solve(heavier, b[dof : 2 * dof])
+        return replace(self, a=a, b=b, mass=mass, memories=())
 
     def excited(self, vessel: str) -> LinearModel:
         """The same model with waves on another vessel, by its body; raises SceneError if there is none."""
@@ -164,7 +226,18 @@ class LinearModel:
         return replace(self, vessel=name, b=b)
 
     def full_state(self, x: ArrayLike) -> _core.State:
-        """State of the scene for small x (n,), on the constraints; a run may start from it."""
+        """State of the scene for small x (n,), on the constraints; a run may start from it.
+
+        Raises
+        ------
+        SceneError
+            For an x of another shape, or with `memories`, whose past x does not hold.
+        """
+        if self.memories:
+            raise SceneError(
+                f"scene {self.scene.name!r}: its linear model has memory by frequency, whose past is not in "
+                "x; start from a linear model with memory='per-pair' or 'passive' on the vessel"
+            )
         values = np.asarray(x, dtype=float)
         if values.shape != (len(self.a),):
             raise SceneError(f"x has shape {values.shape}; give ({len(self.a)},)")
@@ -179,8 +252,41 @@ class LinearModel:
         return _core.State(time=terms.time, values=y, inputs=np.zeros(terms.model.slots))
 
 
+class _Resolvent:
+    """(i omega - a)^-1 at several frequencies."""
+
+    def __init__(self, linear: LinearModel, omega: Array) -> None:
+        from scipy.linalg import matrix_balance, schur
+
+        # Memory states may be 1e6 times larger than motions: unbalanced, the triangular form loses motions.
+        balanced, (self.scale, _) = matrix_balance(linear.a, permute=False, separate=True)
+        self.triangle, self.unitary = schur(balanced, output="complex")
+        self.name, self.omega = linear.scene.name, omega
+
+    def response(self, rates: Array | Complex) -> Complex:
+        """x (k, n) under rates of x (k, n); raises SceneError at the frequency of an undamped mode."""
+        w, triangle = self.omega, self.triangle
+        load = (rates / self.scale) @ self.unitary.conj()
+        x = np.zeros(load.shape, dtype=complex)
+        for i in reversed(range(len(triangle))):
+            pivot = 1j * w - triangle[i, i]
+            near = np.abs(pivot) < RESONANCE * np.abs(w)
+            if np.any(near):
+                raise SceneError(
+                    f"scene {self.name!r}: omega = {w[near][0]:.9g} rad/s is that of an undamped mode; "
+                    "add damping, or leave the frequency out"
+                )
+            x[:, i] = (load[:, i] + x[:, i + 1 :] @ triangle[i, i + 1 :]) / pivot
+        return np.asarray(x @ self.unitary.T * self.scale)
+
+
 def linear_model(
-    scene: Description, *, state: _core.State | None = None, vessel: str | None = None
+    scene: Description,
+    *,
+    state: _core.State | None = None,
+    vessel: str | None = None,
+    memory: str = "scene",
+    database: HydroDatabase | None = None,
 ) -> LinearModel:
     """Linearise a scene about a state at rest, its references held.
 
@@ -195,21 +301,30 @@ def linear_model(
         At rest, its time that of the references. Default: ``equilibrium(scene)``.
     vessel : str, optional
         Body on which waves act. Default: that of the scene's waves, or the only vessel.
+    memory : str
+        "scene" (default): the vessel's fitted states, or its convolution by frequency. "database": the A, B
+        and additional matrices of `database` by frequency in place of the vessel's memory, so that nothing
+        is fitted.
+    database : HydroDatabase, optional
+        The one that the vessel was added from; with ``memory="database"``.
 
     Raises
     ------
     SceneError
-        If something moves or accelerates at the state, the vessel is not clear, or its memory is a
-        convolution.
+        If something moves or accelerates at the state, the vessel is not clear, or the database is missing or
+        not the vessel's.
     """
+    memories = frequency_memories(
+        scene, memory=memory, database=database, vessel=_wave_body(scene, vessel) if database else None
+    )
+    if memories:
+        if state is not None:
+            first = Terms(compile_scene(held(scene, time=state.time)), time=state.time).memory.start
+            state = state_without_memory(scene, state, memories, first=first)
+        scene = without_memory(scene, memories)
     rest = equilibrium(scene) if state is None else state
     values = state_values(scene.copy(orientation="quaternion") if state is None else scene, rest)
     model = compile_scene(held(scene, time=rest.time))
-    if model.history_samples:
-        raise SceneError(
-            f"scene {scene.name!r}: its fluid memory is a convolution, which has no states to linearise; "
-            "add the vessel with memory='per-pair' or 'passive'"
-        )
     terms = Terms(model, time=rest.time)
     _require_rest(terms, terms.checked(values))
     values = at_rest(model, values)
@@ -233,15 +348,21 @@ def linear_model(
         basis=basis,
         mass=np.asarray(matrices["mass"]),
         neutral=neutral,
+        memories=memories,
         _terms=terms,
     )
 
 
 def _excitation(model: _core.Model, values: Array, vessel: str, basis: Array, mass: Array) -> Array:
     """Accelerations of the coordinates per wave load on a vessel, (degrees of freedom, 6)."""
+    return np.asarray(np.linalg.solve(basis.T @ mass @ basis, _along(model, values, vessel, basis).T))
+
+
+def _along(model: _core.Model, values: Array, vessel: str, basis: Array) -> Array:
+    """Motion of a vessel in axes that follow its yaw per coordinate, (6, degrees of freedom)."""
     k = list(model.bodies).index(vessel)
-    load = basis[6 * k : 6 * k + 6].T @ _yaw_axes(model, values, k, paper=model.paper_kinematics)
-    return np.asarray(np.linalg.solve(basis.T @ mass @ basis, load))
+    axes = _yaw_axes(model, values, k, paper=model.paper_kinematics)
+    return np.asarray(axes.T @ basis[6 * k : 6 * k + 6])
 
 
 def _state_matrix(coordinates: ReducedCoordinates, poses: Array) -> tuple[Array, Array]:

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,8 +13,17 @@ from seacrane.analysis.linear_system import LinearModel, linear_model
 from seacrane.description.scene import Description
 from seacrane.inputs.frames import MOTIONS
 
+if TYPE_CHECKING:
+    from seacrane.hydro import HydroDatabase
+
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
+MOST_ITERATIONS = 60
+SETTLED = 1e-10  # relative change of a frequency between iterations
+SAME = 1e-6  # relative distance of eigenvalues below which two iterations found one mode
+STARTS = np.geomspace(0.02, 10.0, 10)  # rad/s
+REACH = 2.0  # ratio of a mode's frequency to the start
+PER_MODE = ("eigenvalues", "shapes", "energy_share", "mechanical_share", "state_vectors")
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -97,7 +107,13 @@ class NaturalModes:
         return "\n".join(rows)
 
 
-def natural_modes(scene: Description | LinearModel, *, state: _core.State | None = None) -> NaturalModes:
+def natural_modes(
+    scene: Description | LinearModel,
+    *,
+    state: _core.State | None = None,
+    memory: str = "scene",
+    database: HydroDatabase | None = None,
+) -> NaturalModes:
     """Natural modes of a scene with its references held, fluid memory included.
 
     Parameters
@@ -105,13 +121,64 @@ def natural_modes(scene: Description | LinearModel, *, state: _core.State | None
     scene : Scene or LinearModel
     state : State, optional
         At rest; default ``equilibrium(scene)``. Not with a LinearModel.
+    memory, database
+        As `linear_model`; not with a LinearModel. With the memory of a database or of a convolution, each
+        mode takes the matrices of its own damped frequency, those of the lowest one below the table.
 
     Raises
     ------
     SceneError
         As `linear_model`.
     """
-    linear = scene if isinstance(scene, LinearModel) else linear_model(scene, state=state)
+    if isinstance(scene, LinearModel):
+        linear = scene
+    else:
+        linear = linear_model(scene, state=state, memory=memory, database=database)
+    return _modes_by_frequency(linear) if linear.memories else _modes(linear)
+
+
+def _modes_by_frequency(linear: LinearModel) -> NaturalModes:
+    """Each mode with the matrices at its own frequency.
+
+    Matrices of one frequency may overdamp the mode of another: iterations start at several, each with the
+    modes near it, and those that arrive at the same mode count once.
+    """
+    found: list[tuple[NaturalModes, int]] = []
+    start = _modes(linear.at_frequency(1.0))
+    for frequency in STARTS:
+        modes = _modes(linear.at_frequency(frequency))
+        for mode, value in enumerate(modes.eigenvalues):
+            if not 1.0 / REACH < value.imag / frequency < REACH:
+                continue
+            settled, at = _settled(linear, modes, mode)
+            value = settled.eigenvalues[at]
+            if all(abs(value - other.eigenvalues[i]) > SAME * abs(value) for other, i in found):
+                found.append((settled, at))
+    found.sort(key=lambda each: abs(each[0].eigenvalues[each[1]]))
+    kept: dict[str, Any] = {
+        name: np.array([getattr(modes, name)[i] for modes, i in found]) for name in PER_MODE
+    }
+    return replace(start, **kept) if found else start
+
+
+def _settled(linear: LinearModel, modes: NaturalModes, mode: int) -> tuple[NaturalModes, int]:
+    """Modes with the matrices at the frequency of one of them, and its index: that of the same shape."""
+    for _ in range(MOST_ITERATIONS):
+        frequency = float(modes.eigenvalues[mode].imag)
+        following = _modes(linear.at_frequency(frequency))
+        if not len(following.eigenvalues):
+            break
+        old = modes.state_vectors[mode] / np.linalg.norm(modes.state_vectors[mode])
+        size = np.linalg.norm(following.state_vectors, axis=1)
+        mode = int(np.argmax(np.abs(following.state_vectors @ old.conj()) / size))
+        modes = following
+        if abs(float(modes.eigenvalues[mode].imag) - frequency) <= SETTLED * frequency:
+            break
+    return modes, mode
+
+
+def _modes(linear: LinearModel) -> NaturalModes:
+    """Of the state matrix."""
     free = _without_neutral_positions(linear)
     values, right = np.linalg.eig(free.T @ linear.a @ free)
     participation = np.abs(right * np.linalg.pinv(right).T)

@@ -83,7 +83,9 @@ def _add_run(commands: Any) -> None:
     run.add_argument("--progress", action="store_true", help="show a progress bar")
     case = run.add_argument_group("the built-in cases", "these choose the vessel and the sea of a named case")
     case.add_argument(
-        "--memory", choices=("per-pair", "passive", "convolution", "none"), help="fluid memory of the vessel"
+        "--memory",
+        choices=("per-pair", "passive", "by-motion", "convolution", "none"),
+        help="fluid memory of the vessel",
     )
     case.add_argument("--hs", metavar="M", type=float, help="significant wave height, m")
     case.add_argument("--tp", metavar="S", type=float, help="peak period, s")
@@ -160,6 +162,12 @@ def _add_hydro(commands: Any) -> None:
     text = "read a hydrodynamic database and print the verdict table of its self-check"
     hydro = commands.add_parser("hydro", help=text, description=text)
     hydro.add_argument("path", metavar="PATH", help=PATH_HELP)
+    hydro.add_argument(
+        "--memory", choices=("per-pair", "passive", "by-motion"), help="kind of the memory that is fitted"
+    )
+    hydro.add_argument(
+        "--band", nargs=2, type=float, metavar=("LOW", "HIGH"), help="rad/s that the memory is fitted over"
+    )
     hydro.add_argument("--json", action="store_true", help="print JSON instead of a table")
     hydro.add_argument("--out", metavar="DIR", help="also plot the database into this folder; made if absent")
     hydro.add_argument("--overwrite", action="store_true", help="replace earlier plots in that folder")

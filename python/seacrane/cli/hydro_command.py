@@ -20,7 +20,8 @@ def run(arguments: argparse.Namespace) -> int:
     """Print the verdict table; a failing verdict is a finding about the file, not an error of ours."""
     from seacrane.hydro import load_database
 
-    database = _with_memory(load_database(arguments.path))
+    band = None if arguments.band is None else (arguments.band[0], arguments.band[1])
+    database = _with_memory(load_database(arguments.path), kind=arguments.memory, band=band)
     rows: list[dict[str, Any]] = [{name: getattr(row, name) for name in COLUMNS} for row in database.check()]
     print(to_json(rows) if arguments.json else _as_text(rows))
     if arguments.out is not None:
@@ -34,13 +35,21 @@ def run(arguments: argparse.Namespace) -> int:
     return 0
 
 
-def _with_memory(database: HydroDatabase) -> HydroDatabase:
-    """The database with its memory, fitted here once where it holds none and has frequencies for it."""
+def _with_memory(
+    database: HydroDatabase, *, kind: str | None, band: tuple[float, float] | None
+) -> HydroDatabase:
+    """The database with its memory, fitted here where it holds none, or where a kind or a band is asked for.
+
+    The band becomes the trusted one.
+    """
     from seacrane.hydro.memory.fit import enough_frequencies, fit_memory
 
-    if database.memory is not None or not enough_frequencies(database):
+    if band is not None:
+        database = dataclasses.replace(database, trusted_band=band, memory=None)
+    asked = kind is not None or band is not None
+    if not asked and (database.memory is not None or not enough_frequencies(database)):
         return database
-    return dataclasses.replace(database, memory=fit_memory(database=database))
+    return dataclasses.replace(database, memory=fit_memory(database=database, kind=kind or "per-pair"))
 
 
 def _as_text(rows: list[dict[str, Any]]) -> str:

@@ -26,7 +26,12 @@ from seacrane.description.file_elements import (
     load_from_node,
     load_to_data,
 )
-from seacrane.description.file_origin import provenance_from_node, roles_from_node, roles_to_data
+from seacrane.description.file_origin import (
+    provenance_from_node,
+    provenance_to_data,
+    roles_from_node,
+    roles_to_data,
+)
 from seacrane.description.file_text import LARGEST_FILE, parsed, read_scene_file
 from seacrane.description.file_waves import waves_from_node, waves_to_data
 from seacrane.description.forces import add_force_table, add_load, add_point_force, add_spring
@@ -258,7 +263,9 @@ def described(scene: Description) -> dict[str, Any]:
     ]
     out["ranges"] = [asdict(limit) for limit in scene.ranges.values()]
     out["roles"] = [roles_to_data(roles) for roles in scene.roles.values()]
-    out["provenance"] = [{"name": name, **asdict(known)} for name, known in scene.provenance.items()]
+    out["provenance"] = [
+        {"name": name, **provenance_to_data(known)} for name, known in scene.provenance.items()
+    ]
     later = {
         "limit_states": limit_states_to_data(scene),
         "clearances": clearances_to_data(scene),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import asdict
 from typing import Any
 
 from seacrane.description.crane_parts import add_roles
@@ -13,7 +14,8 @@ from seacrane.files.node import Node
 from seacrane.files.plain_data import notes_from_node, plain_data
 from seacrane.inputs.shown import shown
 
-_GIVEN: dict[str, Any] = dict.fromkeys(("motion", "ramp", "duration", "size"))  # older files lack them
+# older files lack them
+_GIVEN: dict[str, Any] = dict.fromkeys(("motion", "ramp", "duration", "size", "memory_error"))
 _ROLES = ("prefix", "slew", "cylinders", "link", "payload", "tip")
 
 
@@ -76,6 +78,14 @@ def _areas(node: Node) -> dict[str, Any]:
     return found
 
 
+def provenance_to_data(known: VesselProvenance) -> dict[str, Any]:
+    """Its entries; that of a memory's error only where it is known, as files of older versions have none."""
+    data = asdict(known)
+    if known.memory_error is None:
+        del data["memory_error"]
+    return data
+
+
 def provenance_from_node(node: Node, scene: Description) -> None:
     """Give a scene's vessels the provenance that a file holds; raises FileFormatError."""
     for entry in node.items():
@@ -90,7 +100,7 @@ def provenance_from_node(node: Node, scene: Description) -> None:
         for key in ("database", "memory", "motion"):
             text = _optional(entry, key)
             known[key] = None if text is None else text.text()
-        for key in ("ramp", "duration"):
+        for key in ("ramp", "duration", "memory_error"):
             number = _optional(entry, key)
             known[key] = None if number is None else number.number()
         scene.provenance[entry.at("name").text()] = VesselProvenance(**known)

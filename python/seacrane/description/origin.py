@@ -21,8 +21,8 @@ def origin_settings(scene: Description) -> dict[str, Any]:
     for vessel in scene.vessels.values():
         known = scene.provenance.get(vessel.name, VesselProvenance())
         band = None if known.omega is None else list(known.omega)
-        values = {"database": known.database, "database_omega": band, "memory": known.memory}
-        values |= {"given_motion": known.motion}
+        values: dict[str, Any] = {"database": known.database, "database_omega": band, "memory": known.memory}
+        values |= {"memory_error": known.memory_error, "given_motion": known.motion}
         for key, value in {**values, "kinematics": vessel.kinematics}.items():
             found.setdefault(key, {})[vessel.body] = value
     hulls = {} if scene.waves is None else scene.waves.hulls

@@ -19,6 +19,8 @@ class VesselProvenance:
         Its lowest and highest frequency, rad/s.
     memory : str or None
         Kind of fluid memory, as `Scene.add_vessel` takes it.
+    memory_error : float or None
+        What a memory fitted by motion changes of any motion: `MotionError.worst`.
     motion : str or None
         Of a vessel whose motion is given: "raos", "history" or "rest"; None for one that floats.
     ramp, duration : float or None
@@ -34,6 +36,7 @@ class VesselProvenance:
     ramp: float | None = None
     duration: float | None = None
     size: tuple[float, float, float] | None = None
+    memory_error: float | None = None
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -10,6 +10,8 @@ from seacrane.hydro.data.hydro_data import RollDamping as RollDamping
 from seacrane.hydro.data.memory_model import FitRow as FitRow
 from seacrane.hydro.data.memory_model import MemoryBlock as MemoryBlock
 from seacrane.hydro.data.memory_model import MemoryModel as MemoryModel
+from seacrane.hydro.data.memory_model import MotionError as MotionError
+from seacrane.hydro.data.memory_model import MotionFit as MotionFit
 from seacrane.hydro.data.memory_model import Passivity as Passivity
 from seacrane.hydro.data.motion import motion_response as motion_response
 from seacrane.hydro.data.motion import natural_frequency as natural_frequency

@@ -25,7 +25,12 @@ STATED_SEA = {
     "wave_components": "wave components",
     "repeat_period_s": "the realisation repeats after [s]",
 }
-VESSEL = {"database": "hydrodynamic database", "memory": "fluid memory", "drift": "slow drift"}
+VESSEL = {
+    "database": "hydrodynamic database",
+    "memory": "fluid memory",
+    "memory_error": "largest share of a motion that its fit changes",
+    "drift": "slow drift",
+}
 METHOD = {
     "rtol": "tolerance",
     "dt": "step [s]",

@@ -13,17 +13,17 @@ from seacrane.description.hydrodynamics import add_hydrodynamics
 from seacrane.description.provenance import VesselProvenance
 from seacrane.description.scene import Description
 from seacrane.errors import SceneError
-from seacrane.hydro import HydroDatabase, vessel_parameters
+from seacrane.hydro import HydroDatabase, MemoryModel, vessel_parameters
 from seacrane.hydro.data.data_warnings import warn_of_water
-from seacrane.hydro.vessel.parameters import VesselParameters
+from seacrane.hydro.vessel.parameters import VesselParameters, following_yaw
 from seacrane.inputs.checked import shaped_of
 from seacrane.inputs.plausible import direction_of
 from seacrane.inputs.shown import shown
-from seacrane.scene.vessel_memory import core_memory, memory_of
+from seacrane.scene.vessel_memory import core_memory, memory_of, remember
 
 MOORING_PERIOD = 200.0  # s, of surge, sway and yaw (PAPER, "station keeping")
 MOORING_DAMPING = 0.1  # of critical
-MEMORY = ("per-pair", "passive", "convolution", "none")
+MEMORY = ("per-pair", "passive", "by-motion", "convolution", "none")
 
 
 @overload
@@ -75,6 +75,7 @@ def add_vessel(
     memory : str, or list of StateSpaceBlock, or RetardationFunctions
         With a database, "per-pair" (default): fluid memory as one state-space model per pair of motions, eqs
         (28)-(31). "passive": one model per group of coupled motions, proven passive and with fewer states.
+        "by-motion": of that form, the smallest that leaves the motions within 1 % of the database's own.
         "convolution": the reference, without a fit: the database's retardation functions convolved with the
         history of the motion, see `seacrane.hydro.retardation_functions`; the steps land on its samples.
         "none": without radiation damping, as the paper does for comparison. The database's own fitted memory
@@ -154,15 +155,26 @@ def _from_database(
         added_mass=parameters.added_mass,
         linear_damping=parameters.linear_damping,
         quadratic_damping=parameters.quadratic_damping,
-        restoring=_without_yaw(parameters.restoring),
+        restoring=following_yaw(parameters.restoring),
         mooring_stiffness=heavy * omega**2,
         mooring_damping=2.0 * mooring_damping * omega * heavy,
         memory=[] if memory == "none" else core_memory(parameters.memory),
         kinematics=kinematics,
     )
+    remember(added, database)
     band = (float(database.omega[0]), float(database.omega[-1]))
-    scene.provenance[name] = VesselProvenance(database=database.name, omega=band, memory=memory)
+    scene.provenance[name] = VesselProvenance(
+        database=database.name, omega=band, memory=memory, memory_error=_memory_error(parameters, memory)
+    )
     return added
+
+
+def _memory_error(parameters: VesselParameters, memory: str) -> float | None:
+    """What a memory fitted by motion changes of the motions; None of others."""
+    model = parameters.memory
+    if memory != "by-motion" or not isinstance(model, MemoryModel) or model.motion is None:
+        return None
+    return model.motion.error.worst
 
 
 def _horizontal_inertia(parameters: VesselParameters) -> NDArray[np.float64]:
@@ -170,14 +182,3 @@ def _horizontal_inertia(parameters: VesselParameters) -> NDArray[np.float64]:
     heavy = parameters.mass * np.array([1.0, 1.0, 0.0]) + np.diag(parameters.added_mass)[[0, 1, 5]]
     heavy[2] += parameters.inertia[2, 2] + parameters.mass * float(np.sum(parameters.centre_of_mass[:2] ** 2))
     return np.asarray(heavy)
-
-
-def _without_yaw(restoring: NDArray[np.float64]) -> NDArray[np.float64]:
-    """The restoring matrix without C46 and C56 (a new array).
-
-    About fixed axes these turn a residual trim or heel moment with the ship (WAMIT: m g x_G - rho g V x_B);
-    in the frame that follows yaw, where restoring acts here, that moment does not depend on yaw.
-    """
-    kept = restoring.copy()
-    kept[3:5, 5] = 0.0
-    return kept

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass, fields
 
 import numpy as np
@@ -11,6 +12,7 @@ FloatArray = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
 
 RADIATION = "radiation"
+PEAK_ALLOWANCE = 5.0  # a resonant peak may be off by this many times what a sea may
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -94,6 +96,76 @@ class Passivity:
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
+class MotionError:
+    """What a memory changes of a vessel's motions, against the data's own added mass and damping.
+
+    Attributes
+    ----------
+    seas : ndarray, shape (6,)
+        Standard deviation of the difference of each motion over that of the motion, at the heading where this
+        is largest; the worst heading and the worst sea of Tp 5 to 18 s.
+    peaks : ndarray, shape (6,)
+        Complex difference of heave, roll and pitch over their value, at the largest of the band; zero for the
+        others.
+    """
+
+    seas: FloatArray
+    peaks: FloatArray
+
+    def __post_init__(self) -> None:
+        for name in ("seas", "peaks"):
+            array = np.array(getattr(self, name), dtype=float)
+            if array.shape != (6,) or not np.all(array >= 0.0):
+                raise ValueError(f"motion error: {name} must be six numbers of zero or more")
+            array.setflags(write=False)
+            object.__setattr__(self, name, array)
+
+    @property
+    def worst(self) -> float:
+        """What a limit is compared with: the largest of `seas` and of a fifth of `peaks`."""
+        return self.of(range(6))
+
+    def of(self, motions: Iterable[int]) -> float:
+        """The same of some motions."""
+        chosen = list(motions)
+        return float(max(self.seas[chosen].max(), self.peaks[chosen].max() / PEAK_ALLOWANCE))
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class MotionFit:
+    """How a model fitted by motion meets its limit.
+
+    Attributes
+    ----------
+    limit : asked of `MotionError.worst`.
+    error : MotionError
+        Reached.
+    floor : `MotionError.worst` of the database's own convolution, into which nothing is fitted.
+    left_out : pairs (j, k), counted from 0, whose memory no motion feels or symmetry forbids.
+    """
+
+    limit: float
+    error: MotionError
+    floor: float
+    left_out: tuple[tuple[int, int], ...]
+
+    @property
+    def reached(self) -> bool:
+        """Whether the limit is kept."""
+        return self.error.worst <= self.limit
+
+    @property
+    def obstacle(self) -> str:
+        """What keeps a better fit away."""
+        if self.floor > 0.5 * self.limit:
+            return (
+                "its data break the Kramers-Kronig relation, so that even their convolution is "
+                f"{self.floor:.2g} off"
+            )
+        return "more states gain nothing"
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
 class MemoryModel:
     """Radiation memory (and that of additional causes) as state-space blocks.
 
@@ -106,6 +178,7 @@ class MemoryModel:
     r2 : the R2 asked for.
     rows : quality of each fit.
     passivity : of the radiation blocks together.
+    motion : of a model fitted by motion, how near the motions are; None for others.
     """
 
     blocks: tuple[MemoryBlock, ...]
@@ -116,6 +189,7 @@ class MemoryModel:
     r2: float
     rows: tuple[FitRow, ...]
     passivity: Passivity
+    motion: MotionFit | None = None
 
     def __post_init__(self) -> None:
         for entry in fields(self):

@@ -78,6 +78,9 @@ def memory_rows(database: HydroData, model: MemoryModel) -> list[CheckRow]:
         rows.append(_at_least(f"memory_r2_damping_{suffix}", row.r2_damping, model.r2))
     slowest = min((row.slowest_decay for row in model.rows), default=np.inf)
     rows.append(_info("memory_states", float(model.states)))
+    if model.motion is not None:
+        rows.append(_at_most("memory_motion_error", model.motion.error.worst, model.motion.limit))
+        rows.append(_info("memory_motion_error_of_convolution", model.motion.floor))
     rows.append(_at_least("memory_slowest_decay_per_s", slowest, 0.0, strict=True))
     rows.append(
         _info("memory_fastest_pole_per_s", max((row.fastest_pole for row in model.rows), default=0.0))

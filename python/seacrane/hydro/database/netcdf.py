@@ -15,7 +15,14 @@ from seacrane.errors import FileFormatError
 from seacrane.files.netcdf_limits import NETCDF_ERRORS, open_netcdf
 from seacrane.hydro.data.drift import DriftCoefficients
 from seacrane.hydro.data.hydro_data import AdditionalMatrices, HydroData, RollDamping
-from seacrane.hydro.data.memory_model import FitRow, MemoryBlock, MemoryModel, Passivity
+from seacrane.hydro.data.memory_model import (
+    FitRow,
+    MemoryBlock,
+    MemoryModel,
+    MotionError,
+    MotionFit,
+    Passivity,
+)
 from seacrane.inputs.frames import MOTIONS
 
 if TYPE_CHECKING:
@@ -180,6 +187,8 @@ def _write(file: Any, database: HydroData) -> None:
 def _write_memory(group: Any, model: MemoryModel) -> None:
     group.band, group.r2 = np.array(model.band, dtype=float), float(model.r2)
     group.passivity = np.array([getattr(model.passivity, entry.name) for entry in fields(Passivity)])
+    if model.motion is not None:
+        _write_motion(group.createGroup("motion"), model.motion)
     for name in _MODEL_MATRICES:
         _put(group, name, getattr(model, name), _MATRIX)
     shapes = [(len(block.A), len(block.outputs), len(block.inputs)) for block in model.blocks]
@@ -201,6 +210,21 @@ def _write_memory(group: Any, model: MemoryModel) -> None:
             _put(
                 group, f"row_{entry.name}", np.array([row[entry.name] for row in rows], dtype=kind), ("row",)
             )
+
+
+def _write_motion(group: Any, motion: MotionFit) -> None:
+    group.limit, group.floor = float(motion.limit), float(motion.floor)
+    group.seas, group.peaks = np.array(motion.error.seas), np.array(motion.error.peaks)
+    group.left_out = " ".join(f"{j + 1}{k + 1}" for j, k in motion.left_out)
+
+
+def _read_motion(group: Any) -> MotionFit:
+    return MotionFit(
+        limit=float(group.limit),
+        error=MotionError(seas=np.asarray(group.seas), peaks=np.asarray(group.peaks)),
+        floor=float(group.floor),
+        left_out=tuple((int(pair[0]) - 1, int(pair[1]) - 1) for pair in str(group.left_out).split()),
+    )
 
 
 def _put(group: Any, name: str, value: Any, dimensions: tuple[str, ...]) -> Any:
@@ -288,6 +312,7 @@ def _read_memory(group: Any) -> MemoryModel:
         r2=float(group.r2),
         rows=tuple(rows),
         passivity=passivity,
+        motion=_read_motion(group.groups["motion"]) if "motion" in group.groups else None,
     )
 
 

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from seacrane.hydro.data.hydro_data import HydroData
 from seacrane.hydro.data.memory_model import RADIATION, FitRow, MemoryModel
-from seacrane.hydro.memory.fit import memory_entries
+from seacrane.hydro.memory.entries import memory_entries
 from seacrane.hydro.memory.identification import r_squared
 from seacrane.inputs.caller import warn_caller
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
 from typing import Literal
 
 import numpy as np
@@ -10,10 +9,14 @@ from numpy.typing import NDArray
 
 from seacrane.hydro.data.encounter import require_zero_speed
 from seacrane.hydro.data.hydro_data import AdditionalMatrices, HydroData
-from seacrane.hydro.data.memory_model import RADIATION, FitRow, MemoryBlock, MemoryModel, Passivity
+from seacrane.hydro.data.memory_model import RADIATION, FitRow, MemoryBlock, MemoryModel
 from seacrane.hydro.data.trusted_band import in_trusted_band
+from seacrane.hydro.memory.by_motion import fit_by_motion
+from seacrane.hydro.memory.cache import FitSettings, keep_fit, kept_fit
 from seacrane.hydro.memory.certificate import require_passive
+from seacrane.hydro.memory.entries import FEWEST_FREQUENCIES, dissipation_limit, memory_entries
 from seacrane.hydro.memory.identification import IdentificationData, RationalFit, fit_lowest_order
+from seacrane.hydro.memory.joint_passivity import joint_passivity
 from seacrane.hydro.memory.passive import fit_passive
 from seacrane.hydro.memory.realisation import realise
 from seacrane.inputs.caller import warn_caller
@@ -21,9 +24,8 @@ from seacrane.inputs.caller import warn_caller
 FloatArray = NDArray[np.float64]
 
 ORDERS = range(2, 9)
-NEGLIGIBLE = 1e-6
-FEWEST_FREQUENCIES = 8
-KINDS = ("per-pair", "passive")
+KINDS = ("per-pair", "passive", "by-motion")
+LIMIT = 0.01  # of the motions
 
 
 class InfiniteFrequencyWarning(UserWarning):
@@ -37,6 +39,7 @@ def fit_memory(
     r2: float = 0.99,
     infinite_frequency: Literal["estimated", "known"] = "estimated",
     kind: str = "per-pair",
+    limit: float = LIMIT,
 ) -> MemoryModel:
     """Identify the fluid memory of ``database``.
 
@@ -50,8 +53,13 @@ def fit_memory(
     infinite_frequency : whether each entry's infinite-frequency added mass is estimated with its model, or
         taken from the database. A panel code's value carries the error of its mesh at wavelengths the mesh
         cannot resolve, and forcing it on the model costs states and puts poles beyond the data.
-    kind : "per-pair", one single-input model per entry of the matrices; or "passive", one model with common
-        poles per group of coupled motions that cannot deliver energy (`passivity_certificate` proves it).
+    kind : "per-pair", one single-input model per entry of the matrices; "passive", one model with common
+        poles per group of coupled motions that cannot deliver energy (`passivity_certificate` proves it); or
+        "by-motion", of the passive form, as small as `limit` allows.
+    limit : of kind "by-motion", which does not ask for an R2: by how much the memory may change the standard
+        deviation of any motion in seas of Tp 5 to 18 s from any stored heading, against the database's own
+        matrices; a fifth of what it may change the peaks of heave, roll and pitch. What was reached is
+        `MemoryModel.motion`.
 
     Returns
     -------
@@ -64,7 +72,8 @@ def fit_memory(
 
     Raises
     ------
-    ValueError : a band that holds fewer than eight frequencies, an ``r2`` outside (0, 1), another ``kind``,
+    ValueError : a band that holds fewer than eight frequencies, an ``r2`` or ``limit`` outside (0, 1),
+        another ``kind``,
         a known infinite-frequency added mass asked for and not there, or a database of a forward speed.
 
     Notes
@@ -76,8 +85,9 @@ def fit_memory(
     require_zero_speed(database)
     if kind not in KINDS:
         raise ValueError(f"memory kind {kind!r} is unknown; choose {' or '.join(KINDS)}")
-    if not 0.0 < r2 < 1.0:
-        raise ValueError(f"r2 is {r2}; give a number between 0 and 1")
+    for name, value in (("r2", r2), ("limit", limit)):
+        if not 0.0 < value < 1.0:
+            raise ValueError(f"{name} is {value}; give a number between 0 and 1")
     low, high = band or database.trusted_band or (float(database.omega[0]), float(database.omega[-1]))
     trusted = (database.omega >= low - 1e-9) & (database.omega <= high + 1e-9)
     if trusted.sum() < FEWEST_FREQUENCIES:
@@ -98,6 +108,32 @@ def fit_memory(
             "acceleration. Look at the rows memory_motion_* of database.check()",
             InfiniteFrequencyWarning,
         )
+    settings = FitSettings(
+        kind=kind,
+        band=(float(low), float(high)),
+        target=limit if kind == "by-motion" else r2,
+        known=infinite_frequency == "known",
+    )
+    model = kept_fit(database, settings)
+    if model is None:
+        symmetric = None if known is None else 0.5 * (known + known.T)
+        if kind == "by-motion":
+            model = fit_by_motion(database=database, band=settings.band, known=symmetric, limit=limit)
+        else:
+            model = _fit_to_data(database, known, settings.band, trusted, r2, kind)
+        keep_fit(database, settings, model)
+    return model
+
+
+def _fit_to_data(
+    database: HydroData,
+    known: FloatArray | None,
+    band: tuple[float, float],
+    trusted: NDArray[np.bool_],
+    r2: float,
+    kind: str,
+) -> MemoryModel:
+    """Model of kind "per-pair" or "passive"."""
     fit = _fit_radiation if kind == "per-pair" else _fit_passive_radiation
     blocks, rows, added_mass = fit(database, known, trusted, r2)
     extra_mass, stiffness = np.zeros((6, 6)), np.zeros((6, 6))
@@ -112,10 +148,10 @@ def fit_memory(
         added_mass=added_mass,
         additional_added_mass=extra_mass,
         additional_stiffness=stiffness,
-        band=(float(low), float(high)),
+        band=band,
         r2=r2,
         rows=tuple(rows),
-        passivity=joint_passivity(blocks, database.damping, (float(low), float(high))),
+        passivity=joint_passivity(blocks, database.damping, band),
     )
     if kind == "passive" and any(row.cause == RADIATION for row in rows):
         require_passive(model)
@@ -145,7 +181,7 @@ def _fit_radiation(
             damping=symmetric_b[:, j, k],
             trusted=trusted,
             added_mass_infinite=None if known is None else float(infinite[j, k]),
-            dissipation_limit=_dissipation_limit(fits, j, k),
+            dissipation_limit=dissipation_limit(fits, j, k),
         )
         fit = fits[j, k] = fit_lowest_order(data, r2=r2, orders=ORDERS)
         infinite[j, k] = infinite[k, j] = fit.added_mass_infinite
@@ -194,43 +230,12 @@ def _fit_additional(
             added_mass_infinite=0.0,
             zero_at_origin=False,
             static_stiffness=True,
-            dissipation_limit=_dissipation_limit(fits, j, k),
+            dissipation_limit=dissipation_limit(fits, j, k),
         )
         fit = fits[j, k] = fit_lowest_order(data, r2=r2, orders=ORDERS)
         stiffness[j, k] = stiffness[k, j] = fit.static_stiffness
         _append(blocks, rows, fit, j, k, cause=part.cause, r2=r2)
     return blocks, rows, mass, stiffness
-
-
-def _dissipation_limit(
-    fits: dict[tuple[int, int], RationalFit], j: int, k: int
-) -> Callable[[FloatArray], tuple[FloatArray, FloatArray]]:
-    """Bounds of the fitted damping: a 2 x 2 damping matrix is positive if b_jk^2 <= b_jj b_kk."""
-
-    def limit(omega: FloatArray) -> tuple[FloatArray, FloatArray]:
-        if j == k:
-            return np.zeros_like(omega), np.full_like(omega, np.inf)
-        bound = np.zeros_like(omega)
-        if (j, j) in fits and (k, k) in fits:
-            bound = np.sqrt(
-                np.maximum(fits[j, j].damping(omega), 0.0) * np.maximum(fits[k, k].damping(omega), 0.0)
-            )
-        return -bound, bound
-
-    return limit
-
-
-def memory_entries(
-    added_mass: FloatArray, damping: FloatArray, omega: FloatArray
-) -> Iterator[tuple[int, int]]:
-    """Entries (j <= k) with any memory, judged against the geometric mean of their diagonals."""
-    variation = np.ptp(added_mass, axis=0) * float(np.mean(omega)) + np.abs(damping).max(axis=0)
-    diagonal = np.sqrt(np.diag(variation))
-    for offset in range(6):  # diagonals first: they bound the damping of the others
-        for j in range(6 - offset):
-            k = j + offset
-            if variation[j, k] > NEGLIGIBLE * diagonal[j] * diagonal[k] and variation[j, k] > 0.0:
-                yield j, k
 
 
 def _keep_constant_entries(
@@ -268,28 +273,3 @@ def _append(
             accepted=fit.worst >= r2,
         )
     )
-
-
-def joint_passivity(blocks: list[MemoryBlock], damping: FloatArray, band: tuple[float, float]) -> Passivity:
-    """Smallest scaled eigenvalue of the radiation blocks' damping, 1e-3 to 1e3 rad/s, and over ``band``."""
-    radiation = [block for block in blocks if block.cause == RADIATION]
-
-    def smallest(omega: FloatArray) -> tuple[float, float]:
-        total = np.zeros((len(omega), 6, 6))
-        for block in radiation:
-            total[:, block.outputs[:, None], block.inputs] += block.transfer(omega).real
-        lowest = scaled_damping(total, damping)
-        where = int(lowest.argmin())
-        return float(lowest[where]), float(omega[where])
-
-    minimum, at = smallest(np.geomspace(1e-3, 1e3, 4001))
-    in_band, in_band_at = smallest(np.linspace(*band, 1001))
-    return Passivity(minimum=minimum, omega=at, in_band=in_band, in_band_omega=in_band_at)
-
-
-def scaled_damping(damping: FloatArray, data: FloatArray) -> FloatArray:
-    """Smallest eigenvalues (n,) of ``damping`` (n, 6, 6), scaled by the largest diagonals of ``data``."""
-    peak = np.sqrt(np.maximum(np.diagonal(data, axis1=1, axis2=2).max(axis=0), 1e-300))
-    active = peak > 1e-6 * peak.max()
-    scaled = (0.5 * (damping + damping.swapaxes(1, 2)) / np.outer(peak, peak))[:, active][:, :, active]
-    return np.asarray(np.linalg.eigvalsh(scaled)[:, 0])

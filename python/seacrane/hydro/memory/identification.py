@@ -64,7 +64,8 @@ class IdentificationData:
     """One entry's data (n,), which of them are ``trusted`` (n,) bool, and what is known beside them.
 
     ``dissipation_limit`` gives, at any frequencies, the (low, high) between which the fitted damping is to
-    stay: above zero on the diagonal, within the geometric mean of the fitted diagonals elsewhere.
+    stay: above zero on the diagonal, within the geometric mean of the fitted diagonals elsewhere. ``weight``
+    (n,), where it is given, is that of a misfit of the damping, and times omega that of the added mass.
     """
 
     omega: FloatArray
@@ -75,6 +76,7 @@ class IdentificationData:
     zero_at_origin: bool = True
     static_stiffness: bool = False
     dissipation_limit: Callable[[FloatArray], tuple[FloatArray, FloatArray]] | None = None
+    weight: FloatArray | None = None
 
 
 def fit_lowest_order(data: IdentificationData, *, r2: float, orders: range) -> RationalFit:
@@ -123,6 +125,8 @@ class _Problem:
         weight = np.where(inside, 1.0, OUTSIDE_WEIGHT)
         self.scale_a = weight / _spread(data.added_mass[inside])
         self.scale_b = weight / _spread(data.damping[inside])
+        if data.weight is not None:
+            self.scale_b, self.scale_a = data.weight, data.weight * data.omega
         known = data.added_mass_infinite
         self.target = np.concatenate(
             [data.damping * self.scale_b, (data.added_mass - (known or 0.0)) * self.scale_a]

@@ -95,7 +95,7 @@ def first_guess(data: GroupData) -> Oscillators:
 def fit_oscillators(data: GroupData, lower: Oscillators | None) -> Oscillators:
     """Best fit with one mass more than ``lower``, or with one per motion where there is no lower one."""
     guesses = [first_guess(data)] if lower is None else _one_more(data, lower)
-    problem = _Problem(data, len(guesses[0].w))
+    problem = Problem(data, len(guesses[0].w))
     found = [problem.solve(problem.pack(guess), evaluations=60) for guess in guesses]
     found.append(problem.solve(min(found, key=lambda each: each[1])[0], evaluations=300))
     quick = [each for each in found if problem.oscillators(each[0]).slowest_decay >= SLOWEST_DECAY]
@@ -123,8 +123,10 @@ def _one_more(data: GroupData, lower: Oscillators) -> list[Oscillators]:
     return guesses
 
 
-class _Problem:
+class Problem:
     """Least squares of the weighted misfit of B and A over log w, L and b, with its exact Jacobian."""
+
+    floor = FLOOR
 
     def __init__(self, data: GroupData, masses: int) -> None:
         self.data, self.n, self.m = data, masses, data.damping.shape[1]
@@ -152,7 +154,7 @@ class _Problem:
     def pack(self, guess: Oscillators) -> FloatArray:
         """Parameters: angles that keep w within its bounds, the lower triangle of L, b."""
         share = np.clip((np.log(guess.w) - self.bottom) / self.span, 0.005, 0.995)
-        factor = np.linalg.cholesky(guess.dampers - FLOOR * np.eye(self.n) + 1e-6 * np.eye(self.n))
+        factor = np.linalg.cholesky(guess.dampers - self.floor * np.eye(self.n) + 1e-6 * np.eye(self.n))
         return np.concatenate([np.arcsin(2.0 * share - 1.0), factor[self.lower], guess.coupling.ravel()])
 
     def _unpack(self, parameters: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
@@ -166,7 +168,7 @@ class _Problem:
     def oscillators(self, parameters: FloatArray) -> Oscillators:
         """The model that the parameters stand for."""
         w, factor, coupling = self._unpack(parameters)
-        return Oscillators(w=w, dampers=factor @ factor.T + FLOOR * np.eye(self.n), coupling=coupling)
+        return Oscillators(w=w, dampers=factor @ factor.T + self.floor * np.eye(self.n), coupling=coupling)
 
     def solve(self, start: FloatArray, *, evaluations: int) -> tuple[FloatArray, float]:
         """Parameters and cost after a Levenberg-Marquardt search."""
@@ -186,15 +188,34 @@ class _Problem:
 
     def residual(self, parameters: FloatArray) -> FloatArray:
         """Weighted misfit of B, then of A, then the dampers' sizes."""
-        factor = self._unpack(parameters)[1]
         kernel = self.oscillators(parameters).transfer(self.data.omega)[:, self.j, self.k]
         damping = kernel.real * self.weight_b - self.target_b
         added_mass = kernel.imag / self.data.omega[:, None] * self.weight_a - self.target_a
-        sizes = DAMPER_WEIGHT * np.sum(factor**2, axis=1)
+        sizes = self.sizes(parameters)[0]
         return np.concatenate([damping.ravel(), self._eliminate(added_mass).ravel(), sizes])
 
+    def sizes(self, parameters: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Weighted sizes (masses,) of the dampers, and their derivative."""
+        factor = self._unpack(parameters)[1]
+        p, q = self.lower
+        slope = np.zeros((self.n, len(parameters)))
+        slope[p, self.n + np.arange(len(p))] = 2.0 * DAMPER_WEIGHT * factor[p, q]
+        return DAMPER_WEIGHT * np.sum(factor**2, axis=1), slope
+
     def jacobian(self, parameters: FloatArray) -> FloatArray:
-        """Derivative of `residual`, by ``d (Q^-1) = -Q^-1 dQ Q^-1`` with Q the oscillators' stiffness."""
+        """Derivative of `residual`."""
+        d_kernel = self.kernel_slope(parameters)
+        damping = d_kernel.real * self.weight_b[:, :, None]
+        added_mass = d_kernel.imag / self.data.omega[:, None, None] * self.weight_a[:, :, None]
+        count = len(parameters)
+        sizes = self.sizes(parameters)[1]
+        return np.concatenate(
+            [damping.reshape(-1, count), self._eliminate(added_mass).reshape(-1, count), sizes]
+        )
+
+    def kernel_slope(self, parameters: FloatArray) -> ComplexArray:
+        """Derivative (n, entries, parameters) of the kernel, by ``d (Q^-1) = -Q^-1 dQ Q^-1`` with Q the
+        oscillators' stiffness."""
         w, factor, _ = self._unpack(parameters)
         x = self.oscillators(parameters).deflection(self.data.omega)
         s: ComplexArray = np.asarray(1j * self.data.omega[:, None, None])
@@ -205,15 +226,7 @@ class _Problem:
         y_left, y_right = y[:, :, self.j].swapaxes(1, 2), y[:, :, self.k].swapaxes(1, 2)
         p, q = self.lower
         d_factor = -(s**2) * (left[:, :, p] * y_right[:, :, q] + y_left[:, :, q] * right[:, :, p])
-        d_kernel = np.concatenate([d_w, d_factor, self._by_coupling(s, left, right)], axis=2)
-        damping = d_kernel.real * self.weight_b[:, :, None]
-        added_mass = d_kernel.imag / self.data.omega[:, None, None] * self.weight_a[:, :, None]
-        count = len(parameters)
-        sizes = np.zeros((self.n, count))
-        sizes[p, self.n + np.arange(len(p))] = 2.0 * DAMPER_WEIGHT * factor[p, q]
-        return np.concatenate(
-            [damping.reshape(-1, count), self._eliminate(added_mass).reshape(-1, count), sizes]
-        )
+        return np.concatenate([d_w, d_factor, self._by_coupling(s, left, right)], axis=2)
 
     def _by_coupling(self, s: ComplexArray, left: ComplexArray, right: ComplexArray) -> ComplexArray:
         """Derivatives (n, entries, masses * m) of the kernel with respect to b."""

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from seacrane.hydro.data.hydro_data import AdditionalMatrices, HydroData
-from seacrane.hydro.memory.fit import FEWEST_FREQUENCIES, memory_entries
+from seacrane.hydro.memory.entries import FEWEST_FREQUENCIES, memory_entries
 
 FloatArray = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
@@ -197,13 +198,23 @@ def _power_law_transform(exponent: FloatArray, end: float, tau: FloatArray) -> F
 
 def transform(kernel: FloatArray, step: float, omega: FloatArray) -> ComplexArray:
     """``integral_0^T K(tau) exp(-i omega tau) dtau`` (m, ...) of samples (n, ...), by a cubic spline."""
+    return transformer(kernel, step)(omega)
+
+
+def transformer(kernel: FloatArray, step: float) -> Callable[[FloatArray], ComplexArray]:
+    """`transform` of one kernel, for any number of calls with ``omega`` (m,)."""
     from scipy.interpolate import CubicSpline
 
     times = step * np.arange(len(kernel))
     nodes, weights = np.polynomial.legendre.leggauss(4)
     at = (times[:-1, None] + 0.5 * step * (1.0 + nodes)).ravel()
-    phases = np.exp(-1j * np.outer(omega, at)) * np.tile(0.5 * step * weights, len(kernel) - 1)
-    return np.asarray(np.tensordot(phases, CubicSpline(times, kernel)(at), axes=1))
+    weight = np.tile(0.5 * step * weights, len(kernel) - 1)
+    values = CubicSpline(times, kernel)(at)
+
+    def of(omega: FloatArray) -> ComplexArray:
+        return np.asarray(np.tensordot(np.exp(-1j * np.outer(omega, at)) * weight, values, axes=1))
+
+    return of
 
 
 def _tail_exponent(omega: FloatArray, damping: FloatArray) -> FloatArray:

@@ -11,14 +11,15 @@ from numpy.typing import NDArray
 from seacrane.hydro.data.hydro_data import HydroData
 from seacrane.hydro.data.memory_model import RADIATION, MemoryModel
 from seacrane.hydro.memory.certificate import passivity_certificate
-from seacrane.hydro.memory.fit import KINDS as FITTED
-from seacrane.hydro.memory.fit import fit_memory, scaled_damping
+from seacrane.hydro.memory.fit import fit_memory
+from seacrane.hydro.memory.joint_passivity import scaled_damping
 from seacrane.hydro.memory.motion_errors import memory_motion_errors
 from seacrane.hydro.memory.retardation import RetardationModel, retardation_functions
 from seacrane.inputs.frames import MOTIONS
 
 FloatArray = NDArray[np.float64]
 
+FITTED = ("per-pair", "passive")
 KINDS = (*FITTED, "convolution")
 POINTS_PER_STEP = 2  # of the convolution's quadrature
 FREQUENCIES = 4001

@@ -11,7 +11,7 @@ from seacrane.hydro.data.heading_circle import PORT_STARBOARD
 from seacrane.hydro.data.hydro_data import HydroData
 from seacrane.hydro.data.memory_model import MemoryBlock, MemoryModel
 from seacrane.hydro.memory.audit import judged_rows
-from seacrane.hydro.memory.fit import joint_passivity
+from seacrane.hydro.memory.joint_passivity import joint_passivity
 from seacrane.hydro.memory.realisation import TYPICAL_VELOCITY, largest_states
 
 FloatArray = NDArray[np.float64]

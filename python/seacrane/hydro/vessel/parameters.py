@@ -88,6 +88,23 @@ def time_domain_vessel(
     )
 
 
+def rigid_part(database: HydroData) -> tuple[float, FloatArray]:
+    """Mass (kg) of a database's rigid body, and what its mass matrix (6, 6) holds beyond such a body."""
+    mass, centre, inertia = _split_mass_matrix(database.mass_matrix, database.name)
+    return mass, _not_of_a_rigid_body(database.mass_matrix, rigid_mass_matrix(mass, centre, inertia))
+
+
+def following_yaw(restoring: FloatArray) -> FloatArray:
+    """Restoring (..., 6, 6) without C46 and C56 (a new array), as it acts in the frame that follows yaw.
+
+    About fixed axes these turn a residual trim or heel moment with the ship (WAMIT: m g x_G - rho g V x_B);
+    in that frame the moment does not depend on yaw.
+    """
+    kept = restoring.copy()
+    kept[..., 3:5, 5] = 0.0
+    return kept
+
+
 def _weight_restoring(weight: float, position: FloatArray) -> FloatArray:
     """Share of a weight (N) at ``position`` in the restoring matrix about the reference point."""
     x, y, z = position

@@ -8,13 +8,14 @@ import numpy as np
 
 from seacrane.hydro.data.data_warnings import warn_of_damping
 from seacrane.hydro.data.hydro_data import HydroData
-from seacrane.hydro.data.memory_model import MemoryModel
+from seacrane.hydro.data.memory_model import PEAK_ALLOWANCE, MemoryModel, MotionFit
 from seacrane.hydro.data.motion import natural_frequency
 from seacrane.hydro.memory.audit import warn_of_mismatch
 from seacrane.hydro.memory.retardation import RetardationModel
 from seacrane.hydro.vessel.lost_passivity import warn_of_lost_passivity
 from seacrane.hydro.vessel.parameters import RigidPart, VesselParameters, time_domain_vessel
 from seacrane.inputs.caller import warn_caller
+from seacrane.inputs.frames import MOTIONS
 
 LOST_DAMPING = 0.02  # of its standard deviation
 
@@ -87,6 +88,9 @@ def _warn(database: HydroData, vessel: VesselParameters) -> None:
 
 
 def _warn_of_misfits(name: str, fit: MemoryModel) -> None:
+    if fit.motion is not None:
+        _warn_of_motions(name, fit.motion)
+        return
     for row in fit.rows:
         if not row.accepted:
             warn_caller(
@@ -95,6 +99,22 @@ def _warn_of_misfits(name: str, fit: MemoryModel) -> None:
                 f"{fit.r2} was asked, and motions that depend on it carry that error",
                 MemoryFitWarning,
             )
+
+
+def _warn_of_motions(name: str, fit: MotionFit) -> None:
+    if fit.reached:
+        return
+    error = fit.error
+    seas, peaks = int(error.seas.argmax()), int(error.peaks.argmax())
+    what = f"{error.seas[seas]:.2g} of {MOTIONS[seas]} in a sea"
+    if error.peaks[peaks] / PEAK_ALLOWANCE > error.seas[seas]:
+        what = f"{error.peaks[peaks]:.2g} of {MOTIONS[peaks]} at its peak"
+    warn_caller(
+        f"database {name!r}: the memory errs by {what}, at best, where {fit.limit:g} was asked "
+        f"({PEAK_ALLOWANCE * fit.limit:g} at a peak): {fit.obstacle}. Ask for a larger limit, a narrower "
+        "band, or memory='convolution' where that is nearer",
+        MemoryFitWarning,
+    )
 
 
 def _warn_of_lost_damping(name: str, model: RetardationModel) -> None:

@@ -1,0 +1,157 @@
+"""Fluid memory of a vessel as matrices by frequency: a database's own, or those of a convolution."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from seacrane import _core
+from seacrane.description.scene import Description
+from seacrane.errors import SceneError
+from seacrane.hydro.memory.retardation import transformer
+from seacrane.hydro.vessel.parameters import following_yaw, rigid_part
+
+if TYPE_CHECKING:
+    from seacrane.hydro import HydroDatabase
+
+Array = NDArray[np.float64]
+Complex = NDArray[np.complex128]
+SAME_MASS = 1e-6  # of the database's, by which a vessel is known as its own
+KINDS = ("scene", "database")
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class FrequencyMemory:
+    """What a vessel's matrices hold by frequency beyond those that the scene has at all frequencies.
+
+    The load is ``-(-w^2 added_mass + i w damping + stiffness)`` times the displacement of the vessel's origin
+    and its rotation vector, in axes that follow its yaw. ``matrices`` takes ``omega`` (k,) in rad/s and gives
+    the three, each (k, 6, 6).
+    """
+
+    vessel: str
+    body: str
+    matrices: Callable[[Array], tuple[Array, Array, Array]]
+
+    def impedance(self, omega: Array) -> Complex:
+        """``-w^2 added_mass + i w damping + stiffness`` (k, 6, 6)."""
+        added_mass, damping, stiffness = self.matrices(omega)
+        w = omega[:, None, None]
+        return np.asarray(-(w**2) * added_mass + 1j * w * damping + stiffness)
+
+
+def frequency_memories(
+    scene: Description, *, memory: str, database: HydroDatabase | None, vessel: str | None
+) -> tuple[FrequencyMemory, ...]:
+    """The vessels of a scene whose memory has no states, or is to be that of a database.
+
+    Parameters
+    ----------
+    scene : Scene
+    memory : str
+        "scene": convolutions only. "database": the matrices of `database` for `vessel` too.
+    database : HydroDatabase or None
+    vessel : str or None
+        Body on which waves act.
+
+    Raises
+    ------
+    SceneError
+        For another ``memory``, a database that is missing, or one that is not the vessel's.
+    """
+    if memory not in KINDS:
+        raise SceneError(f"memory {memory!r} is unknown to a linear model; choose {' or '.join(KINDS)}")
+    if memory == "database" and (database is None or vessel is None):
+        missing = "a database" if database is None else "a vessel"
+        raise SceneError(f"scene {scene.name!r}: memory='database' needs {missing}; give one")
+    found = []
+    for name, element in scene.vessels.items():
+        if memory == "database" and element.body == vessel:
+            assert database is not None
+            found.append(_of_database(scene, name, element, database))
+        elif isinstance(element.memory, _core.RetardationFunctions):
+            found.append(_of_convolution(name, element))
+    return tuple(found)
+
+
+def without_memory(scene: Description, memories: tuple[FrequencyMemory, ...]) -> Description:
+    """The scene with the memory of these vessels left out; itself where there are none."""
+    if not memories:
+        return scene
+    out = scene.copy()
+    for each in memories:
+        fields = out.vessels[each.vessel].__getstate__()
+        out.vessels[each.vessel] = _core.VesselHydrodynamics(**{**fields, "memory": []})
+    return out
+
+
+def state_without_memory(
+    scene: Description, state: _core.State, memories: tuple[FrequencyMemory, ...], *, first: int
+) -> _core.State:
+    """A state of the scene without the memory states of these vessels; `first` is the index of the first."""
+    left_out = {each.vessel for each in memories}
+    drop: list[int] = []
+    for name, element in scene.vessels.items():
+        blocks = [] if isinstance(element.memory, _core.RetardationFunctions) else element.memory
+        count = sum(len(block.a) for block in blocks)
+        if name in left_out:
+            drop += range(first, first + count)
+        first += count
+    return _core.State(
+        time=state.time, values=np.delete(np.array(state.values), drop), inputs=np.array(state.inputs)
+    )
+
+
+def _of_convolution(name: str, element: _core.VesselHydrodynamics) -> FrequencyMemory:
+    functions = element.memory
+    assert isinstance(functions, _core.RetardationFunctions)
+    transform = transformer(np.asarray(functions.kernel), float(functions.step))
+
+    def matrices(omega: Array) -> tuple[Array, Array, Array]:
+        response = transform(omega)
+        return response.imag / omega[:, None, None], response.real, np.zeros((len(omega), 6, 6))
+
+    return FrequencyMemory(vessel=name, body=element.body, matrices=matrices)
+
+
+def _of_database(
+    scene: Description, name: str, element: _core.VesselHydrodynamics, database: HydroDatabase
+) -> FrequencyMemory:
+    """A, B and the additional matrices of a database less what the scene's vessel has at all frequencies.
+
+    Between the frequencies by cubic splines, beyond them those of the nearest.
+    """
+    from scipy.interpolate import CubicSpline
+
+    mass, rest = rigid_part(database)
+    if abs(scene.bodies[element.body].mass / mass - 1.0) > SAME_MASS:
+        raise SceneError(
+            f"vessel {element.body!r}: has a mass of {scene.bodies[element.body].mass:.6g} kg, database "
+            f"{database.name!r} one of {mass:.6g} kg; give the database that the vessel was added from"
+        )
+    if database.speed != 0.0:
+        raise SceneError(
+            f"database {database.name!r}: is of {database.speed:g} m/s; a scene is linearised at zero speed"
+        )
+    parts = database.additional
+    splines = [
+        CubicSpline(database.omega, table)
+        for table in (
+            database.added_mass + sum(part.added_mass for part in parts),
+            database.damping + sum(part.damping for part in parts),
+            np.broadcast_to(database.restoring, database.damping.shape)
+            + sum(part.restoring for part in parts),
+        )
+    ]
+    low, high = database.omega[[0, -1]]
+    inertia, restoring = np.array(element.added_mass) - rest, np.array(element.restoring)
+
+    def matrices(omega: Array) -> tuple[Array, Array, Array]:
+        added_mass, damping, stiffness = (spline(np.clip(omega, low, high)) for spline in splines)
+        return added_mass - inertia, damping, following_yaw(stiffness) - restoring
+
+    return FrequencyMemory(vessel=name, body=element.body, matrices=matrices)

@@ -1,0 +1,333 @@
+"""`fit_by_motion`: the smallest passive memory that leaves the vessel's motions within a limit."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Iterator
+
+import numpy as np
+from numpy.typing import NDArray
+
+from seacrane.hydro.data.hydro_data import AdditionalMatrices, HydroData
+from seacrane.hydro.data.memory_model import (
+    RADIATION,
+    FitRow,
+    MemoryBlock,
+    MemoryModel,
+    MotionError,
+    MotionFit,
+)
+from seacrane.hydro.memory.entries import dissipation_limit, memory_entries
+from seacrane.hydro.memory.identification import IdentificationData, RationalFit, fit_order, r_squared
+from seacrane.hydro.memory.joint_passivity import joint_passivity
+from seacrane.hydro.memory.motion_judge import MotionJudge, motion_judge
+from seacrane.hydro.memory.oscillator_motions import MotionData, MotionProblem, fit_to_motions
+from seacrane.hydro.memory.oscillators import GroupData, Oscillators
+from seacrane.hydro.memory.passive import motion_groups
+from seacrane.hydro.memory.realisation import TYPICAL_VELOCITY, largest_states, realise
+from seacrane.hydro.memory.retardation import retardation_functions
+
+FloatArray = NDArray[np.float64]
+ComplexArray = NDArray[np.complex128]
+Pairs = list[tuple[int, int]]
+
+SHARE = 0.8  # of the limit that the radiation of one group may take
+UNFELT = 0.1  # of the limit: pairs that together change no motion by more are left out
+MOST_MASSES = 6  # beyond one per motion
+PATIENCE = 2  # orders in a row without gain, after which more masses are not tried
+GAIN = 0.05  # of the error
+BEYOND_BAND = 1.3  # times its upper end: data further up are not looked at
+MOST_INERTIA = 0.1  # of the vessel's, that an additional cause may add or take at once
+ADDITIONAL_ORDERS = range(2, 11)
+
+
+def fit_by_motion(
+    *, database: HydroData, band: tuple[float, float], known: FloatArray | None, limit: float
+) -> MemoryModel:
+    """Radiation as damped oscillators per group of motions, other causes per pair; orders as `limit` allows.
+
+    Parameters
+    ----------
+    database : of zero speed.
+    band : (low, high) in rad/s over which motions are judged.
+    known : (6, 6) infinite-frequency added mass, or None to estimate it.
+    limit : of `MotionError.worst`.
+
+    Returns
+    -------
+    MemoryModel : with `motion`; its ``r2`` is that of its worst pair.
+    """
+    judge = motion_judge(database, band)
+    grid = _grid(database, judge, band)
+    kept, left_out = felt_pairs(database, judge, limit)
+    blocks: list[MemoryBlock] = []
+    infinite = _constant(database, judge)
+    for group in motion_groups(kept):
+        fit = _Group(judge, grid, band, group, known)
+        block, inner = fit.lowest_order(SHARE * limit)
+        blocks.append(block)
+        infinite[np.ix_(group, group)] = inner
+    if known is not None:
+        infinite = known
+    mass, stiffness = np.zeros((6, 6)), np.zeros((6, 6))
+    for part in database.additional:
+        more, inertia, spring = _additional(database, part, judge, grid, band, 0.5 * limit)
+        blocks += more
+        mass, stiffness = mass + inertia, stiffness + spring
+    bare = MemoryModel(
+        blocks=tuple(blocks),
+        added_mass=infinite,
+        additional_added_mass=mass,
+        additional_stiffness=stiffness,
+        band=band,
+        r2=0.0,
+        rows=(),
+        passivity=joint_passivity(blocks, database.damping, band),
+    )
+    return _judged(database, bare, judge, kept, limit, left_out)
+
+
+def felt_pairs(
+    database: HydroData, judge: MotionJudge, limit: float
+) -> tuple[Pairs, tuple[tuple[int, int], ...]]:
+    """Pairs (j <= k) to fit, and those left out: forbidden by symmetry, or felt by no motion.
+
+    A panel code's noise in a pair that the hull's shape makes zero is such a pair.
+    """
+    added_mass, damping = (0.5 * (x + x.swapaxes(1, 2)) for x in (database.added_mass, database.damping))
+    pairs = [(min(pair), max(pair)) for pair in memory_entries(added_mass, damping, database.omega)]
+    forbidden = [pair for pair in pairs if database.port_starboard_symmetric and sum(pair) % 2]
+    others = [pair for pair in pairs if pair not in forbidden and pair[0] != pair[1]]
+    felt = {pair: judge.error(_without(judge, [pair])).worst for pair in others}
+    faint = sorted((pair for pair in others if felt[pair] < UNFELT * limit), key=lambda pair: felt[pair])
+    while faint and judge.error(_without(judge, faint)).worst > UNFELT * limit:
+        faint.pop()
+    left_out = sorted([*forbidden, *faint])
+    return [pair for pair in pairs if pair not in left_out], tuple(left_out)
+
+
+def _without(judge: MotionJudge, pairs: Pairs) -> ComplexArray:
+    """Change of impedance (n, 6, 6) if pairs had no damping and a constant added mass."""
+    w = judge.omega
+    out = np.zeros((len(w), 6, 6), dtype=complex)
+    for j, k in pairs:
+        variation = judge.added_mass[:, j, k] - judge.added_mass[:, j, k].mean()
+        out[:, j, k] = out[:, k, j] = w**2 * variation - 1j * w * judge.damping[:, j, k]
+    return out
+
+
+def _constant(database: HydroData, judge: MotionJudge) -> FloatArray:
+    """Added mass (6, 6) of entries without memory: its mean over the band, zero where symmetry says so."""
+    mean = judge.added_mass.mean(axis=0)
+    if database.port_starboard_symmetric:
+        mean = np.where(np.add.outer(np.arange(6), np.arange(6)) % 2, 0.0, mean)
+    return np.asarray(mean)
+
+
+def _grid(database: HydroData, judge: MotionJudge, band: tuple[float, float]) -> FloatArray:
+    """Frequencies of the fit: the database's, and some about each resonance."""
+    low, high = band
+    below = database.omega[database.omega < BEYOND_BAND * high]
+    about = judge.about_peaks[(judge.about_peaks > low) & (judge.about_peaks < high)]
+    return np.unique(np.concatenate([below, about]))
+
+
+class _Group:
+    """One group of coupled motions: its data, and what a model of it does to its motions."""
+
+    def __init__(
+        self,
+        judge: MotionJudge,
+        omega: FloatArray,
+        band: tuple[float, float],
+        group: list[int],
+        known: FloatArray | None,
+    ) -> None:
+        self.judge, self.group = judge, group
+        a, b = (
+            table(omega)[:, group][:, :, group] for table in (judge.table.added_mass, judge.table.damping)
+        )
+        self.scale = np.sqrt(np.maximum(b.max(axis=0).diagonal(), 1e-300))
+        self.product = np.outer(self.scale, self.scale)
+        data = GroupData(
+            omega=omega,
+            added_mass=a / self.product,
+            damping=b / self.product,
+            trusted=(omega >= band[0] - 1e-9) & (omega <= band[1] + 1e-9),
+            added_mass_infinite=None if known is None else known[np.ix_(group, group)] / self.product,
+        )
+        pair = np.triu_indices(len(group))
+        self.data = MotionData(group=data, lever=judge.lever(omega, group) * self.product[pair])
+
+    def lowest_order(self, limit: float) -> tuple[MemoryBlock, FloatArray]:
+        """Block and infinite-frequency added mass (m, m) of the fewest masses that keep the limit."""
+        best: tuple[float, Oscillators] | None = None
+        model: Oscillators | None = None
+        idle = 0
+        for _ in range(MOST_MASSES + 1):
+            model = fit_to_motions(self.data, model)
+            error = self._error(model).of(self.group)
+            idle = 0 if best is None or error < (1.0 - GAIN) * best[0] else idle + 1
+            if best is None or error < best[0]:
+                best = (error, model)
+            if error <= limit or idle == PATIENCE:
+                break
+        assert best is not None
+        return self._block(best[1]), self._infinite(best[1])
+
+    def _infinite(self, model: Oscillators) -> FloatArray:
+        inner = MotionProblem(self.data, len(model.w)).infinite(model)
+        return np.asarray(inner * self.product)
+
+    def _error(self, model: Oscillators) -> MotionError:
+        judge, w = self.judge, self.judge.omega[:, None, None]
+        square = np.ix_(range(len(judge.omega)), self.group, self.group)
+        misfit = model.transfer(judge.omega) * self.product - judge.damping[square]
+        inertia = self._infinite(model) - judge.added_mass[square]
+        out = np.zeros((len(judge.omega), 6, 6), dtype=complex)
+        out[square] = 1j * w * misfit - w**2 * inertia
+        return judge.error(out)
+
+    def _block(self, model: Oscillators) -> MemoryBlock:
+        """Block in SI units; its states carry the root of an energy, ``|x|^2 / 2`` in joule."""
+        a, b, _ = model.state_space()
+        b = b * self.scale
+        motions = np.array(self.group)
+        return MemoryBlock(
+            cause=RADIATION,
+            outputs=motions,
+            inputs=motions,
+            A=a,
+            B=b,
+            C=b.T.copy(),
+            D=np.zeros((len(motions), len(motions))),
+            state_scale=largest_states(a, b * TYPICAL_VELOCITY[motions]),
+        )
+
+
+def _additional(
+    database: HydroData,
+    part: AdditionalMatrices,
+    judge: MotionJudge,
+    omega: FloatArray,
+    band: tuple[float, float],
+    limit: float,
+) -> tuple[list[MemoryBlock], FloatArray, FloatArray]:
+    """Blocks, instantaneous added mass and static stiffness (6, 6) of one additional cause."""
+    from scipy.interpolate import CubicSpline
+
+    a, b = (0.5 * (x + x.swapaxes(1, 2)) for x in (part.added_mass, part.damping))
+    inside = (omega >= band[0] - 1e-9) & (omega <= band[1] + 1e-9)
+    at_grid = [CubicSpline(database.omega, table)(omega) for table in (a, b)]
+    at_judge = [CubicSpline(database.omega, table)(judge.omega) for table in (a, b)]
+    blocks: list[MemoryBlock] = []
+    fits: dict[tuple[int, int], RationalFit] = {}
+    mass, stiffness = np.zeros((6, 6)), np.zeros((6, 6))
+    for j, k in memory_entries(a, b, database.omega):
+        lever = judge.lever(omega, [j]) if j == k else judge.lever(omega, [j, k])[:, :, 1:2]
+        data = IdentificationData(
+            omega=omega[inside],
+            added_mass=at_grid[0][inside, j, k],
+            damping=at_grid[1][inside, j, k],
+            trusted=np.ones(np.count_nonzero(inside), dtype=bool),
+            added_mass_infinite=None,
+            zero_at_origin=False,
+            static_stiffness=True,
+            dissipation_limit=dissipation_limit(fits, j, k),
+            weight=np.linalg.norm(lever[inside], axis=(1, 2)),
+        )
+        inertia = float(np.sqrt(database.mass_matrix[j, j] * database.mass_matrix[k, k]))
+        fit = fits[j, k] = _lowest_additional(data, judge, (j, k), at_judge, limit, inertia)
+        mass[j, k] = mass[k, j] = fit.added_mass_infinite
+        stiffness[j, k] = stiffness[k, j] = fit.static_stiffness
+        for output, input_ in dict.fromkeys([(j, k), (k, j)]):
+            blocks.append(
+                realise(fit.numerator, fit.denominator, output=output, input=input_, cause=part.cause)
+            )
+    return blocks, mass, stiffness
+
+
+def _lowest_additional(
+    data: IdentificationData,
+    judge: MotionJudge,
+    pair: tuple[int, int],
+    table: list[FloatArray],
+    limit: float,
+    inertia: float,
+) -> RationalFit:
+    """Fit of the lowest order that keeps the limit, or the best; none takes much of the vessel's inertia."""
+    best: tuple[float, RationalFit] | None = None
+    start: list[FloatArray] = []
+    w, (j, k) = judge.omega, pair
+    for order in ADDITIONAL_ORDERS:
+        fit, parameters = fit_order(data, order=order, starts=start)
+        start = [parameters]
+        kernel = np.polyval(fit.numerator, 1j * w) / np.polyval(fit.denominator, 1j * w)
+        model = 1j * w * kernel - w**2 * fit.added_mass_infinite + fit.static_stiffness
+        out = np.zeros((len(w), 6, 6), dtype=complex)
+        out[:, j, k] = out[:, k, j] = model - (1j * w * table[1][:, j, k] - w**2 * table[0][:, j, k])
+        error = judge.error(out).worst
+        if best is not None and abs(fit.added_mass_infinite) > MOST_INERTIA * inertia:
+            continue
+        if best is None or error < (1.0 - GAIN) * best[0]:
+            best = (error, fit)
+        if error <= limit:
+            break
+    assert best is not None
+    return best[1]
+
+
+def _judged(
+    database: HydroData,
+    model: MemoryModel,
+    judge: MotionJudge,
+    pairs: Pairs,
+    limit: float,
+    left_out: tuple[tuple[int, int], ...],
+) -> MemoryModel:
+    """The model with its rows and with how it meets its limit."""
+    motion = MotionFit(
+        limit=limit,
+        error=judge.error_of(model),
+        floor=judge.error_of(retardation_functions(database=database)).worst,
+        left_out=left_out,
+    )
+    rows = tuple(_rows(database, model, pairs, motion.reached))
+    worst = min((min(row.r2_added_mass, row.r2_damping) for row in rows), default=1.0)
+    return dataclasses.replace(model, rows=rows, r2=max(worst, 0.0), motion=motion)
+
+
+def _rows(database: HydroData, model: MemoryModel, pairs: Pairs, accepted: bool) -> Iterator[FitRow]:
+    low, high = model.band
+    inside = (database.omega >= low - 1e-9) & (database.omega <= high + 1e-9)
+    tables = {RADIATION: (database.added_mass, database.damping)}
+    tables |= {part.cause: (part.added_mass, part.damping) for part in database.additional}
+    fitted = {RADIATION: model.frequency_response(database.omega)}
+    fitted |= {part.cause: model.additional_response(database.omega) for part in database.additional}
+    blocks: dict[tuple[str, int, int], MemoryBlock] = {
+        (block.cause, int(j), int(k)): block
+        for block in model.blocks
+        for j in block.outputs
+        for k in block.inputs
+        if j <= k
+    }
+    for (cause, j, k), block in blocks.items():
+        if cause == RADIATION and (j, k) not in pairs:
+            continue
+        a, b = (
+            (0.5 * (table[:, j, k] + table[:, k, j]), model_table[:, j, k])
+            for table, model_table in zip(tables[cause], fitted[cause], strict=True)
+        )
+        yield FitRow(
+            cause=cause,
+            output=j,
+            input=k,
+            order=len(block.A),
+            r2_added_mass=r_squared(a[0][inside], a[1][inside]),
+            r2_damping=r_squared(b[0][inside], b[1][inside]),
+            r2_added_mass_all=r_squared(*a),
+            r2_damping_all=r_squared(*b),
+            slowest_decay=float(-block.poles.real.max()),
+            fastest_pole=float(np.abs(block.poles).max()),
+            accepted=accepted,
+        )

@@ -1,0 +1,190 @@
+"""How far a fluid memory moves a vessel's motions: in seas, and at the peak of each resonance."""
+
+from __future__ import annotations
+
+from functools import lru_cache
+
+import numpy as np
+from numpy.typing import NDArray
+
+from seacrane.hydro.data.hydro_data import HydroData
+from seacrane.hydro.data.memory_model import MemoryModel, MotionError
+from seacrane.hydro.memory.retardation import RetardationModel
+
+FloatArray = NDArray[np.float64]
+ComplexArray = NDArray[np.complex128]
+
+PEAK_PERIODS = np.geomspace(5.0, 18.0, 9)  # s, of the seas
+PEAK_ENHANCEMENT = 3.3
+GRID = 160  # frequencies over the band, beside those of the database
+ABOUT_PEAK = np.array([-3.0, -2.0, -1.2, -0.6, -0.25, 0.0, 0.25, 0.6, 1.2, 2.0, 3.0])  # half widths
+SPRING_PERIOD, SPRING_DAMPING = 200.0, 0.1  # s and share of critical, of `Scene.add_vessel`
+RESONANT = (2, 3, 4)
+FAINT = 1e-4  # share of the largest motion below which a motion is not there
+
+
+class MotionJudge:
+    """The motions of one database, with its springs and viscous damping, and the seas that weigh them.
+
+    Attributes
+    ----------
+    omega : (n,) frequencies within the band, rad/s.
+    added_mass, damping : (n, 6, 6) radiation, made symmetric.
+    motion : (m, n, 6) per metre of wave amplitude.
+    moves : (6,) bool, what is more than noise. variance : (seas, 6) of each motion at its largest heading.
+    about_peaks : frequencies about each resonance, rad/s.
+    """
+
+    def __init__(self, database: HydroData, band: tuple[float, float]) -> None:
+        self.table = _Table(database)
+        coarse = np.linspace(*band, 4 * GRID)
+        peaks = _Solved(self.table, coarse).peak_frequencies()
+        inner = database.omega[(database.omega >= band[0] - 1e-9) & (database.omega <= band[1] + 1e-9)]
+        self.about_peaks = np.concatenate([[w * (1.0 + z * ABOUT_PEAK)] for w, z in peaks] or [[]]).ravel()
+        every = np.concatenate([inner, np.linspace(*band, GRID), self.about_peaks])
+        self.omega = np.unique(np.clip(every, *band))
+        solved = self.solved = _Solved(self.table, self.omega)
+        self.added_mass, self.damping, self.motion = solved.added_mass, solved.damping, solved.motion
+        self.weights = _sea_energies(self.omega)
+        variance = np.einsum("sn,mni->smi", self.weights, np.abs(self.motion) ** 2).max(axis=1)
+        size = np.abs(self.motion).max(axis=(0, 1))
+        self.moves = size > FAINT * np.where(np.arange(6) < 3, size[:3].max(), size[3:].max())
+        self.variance = np.maximum(variance, 1e-300)
+
+    def error(self, difference: ComplexArray) -> MotionError:
+        """Of a difference (n, 6, 6) of impedance, the model's less the data's."""
+        changed = np.linalg.solve(self.solved.impedance + difference, self.solved.force[..., None])[..., 0]
+        apart = np.abs(changed - self.motion)
+        variance = np.einsum("sn,mni->smi", self.weights, apart**2)
+        share = np.sqrt(variance.max(axis=1) / self.variance)
+        seas = np.where(self.moves, share, 0.0).max(axis=0)
+        peaks = np.zeros(6)
+        for i in RESONANT:
+            if self.moves[i]:
+                heading, at = np.unravel_index(int(np.abs(self.motion[..., i]).argmax()), apart.shape[:2])
+                peaks[i] = apart[heading, at, i] / np.abs(self.motion[heading, at, i])
+        return MotionError(seas=seas, peaks=peaks)
+
+    def error_of(self, model: MemoryModel | RetardationModel) -> MotionError:
+        """Of a memory model of all causes."""
+        w = self.omega[:, None, None]
+        added_mass, damping = model.frequency_response(self.omega)
+        more_mass, more_damping = model.additional_response(self.omega)
+        fitted = -(w**2) * (added_mass + more_mass) + 1j * w * (damping + more_damping)
+        return self.error(fitted + self.solved.static - self.solved.memory)
+
+    def lever(self, omega: FloatArray, group: list[int]) -> ComplexArray:
+        """Weighted motions (n, p, p) by misfit of the kernel's pairs of a group at ``omega`` (n,).
+
+        A misfit dK of the retardation functions moves the motions X by -H i w dK X, to first order. Squares
+        are summed over motions, headings and seas, each over the variance of the motion; zero out of the
+        band.
+        """
+        solved = _Solved(self.table, omega)
+        inside = (omega >= self.omega[0] - 1e-9) & (omega <= self.omega[-1] + 1e-9)
+        weight = (_sea_energies(omega) * inside).T @ np.where(self.moves, 1.0 / self.variance, 0.0)
+        square = np.ix_(range(len(omega)), group, group)
+        left = solved.receptance[square] * np.sqrt(weight[:, group])[:, :, None]
+        headings = np.linalg.qr(np.moveaxis(solved.motion[:, :, group], 1, 0))[1].swapaxes(1, 2)
+        columns = []
+        for j, k in zip(*np.triu_indices(len(group)), strict=True):
+            column = left[:, :, j, None] * headings[:, k, None, :]
+            if j != k:
+                column = column + left[:, :, k, None] * headings[:, j, None, :]
+            columns.append(column.reshape(len(omega), -1))
+        moved = 1j * omega[:, None, None] * np.stack(columns, axis=2)
+        pairs = len(columns)
+        short = max(0, pairs - moved.shape[1])
+        return np.asarray(np.linalg.qr(np.pad(moved, ((0, 0), (0, short), (0, 0))))[1][:, :pairs])
+
+
+@lru_cache(maxsize=8)
+def motion_judge(database: HydroData, band: tuple[float, float]) -> MotionJudge:
+    """One for each database and band of a process."""
+    return MotionJudge(database, band)
+
+
+class _Table:
+    """Splines of a database over the frequency."""
+
+    def __init__(self, database: HydroData) -> None:
+        from scipy.interpolate import CubicSpline
+
+        def spline(values: FloatArray | ComplexArray, axis: int = 0) -> CubicSpline:
+            return CubicSpline(database.omega, values, axis=axis)
+
+        def symmetric(values: FloatArray) -> FloatArray:
+            return np.asarray(0.5 * (values + values.swapaxes(1, 2)))
+
+        self.database = database
+        self.added_mass = spline(symmetric(database.added_mass))
+        self.damping = spline(symmetric(database.damping))
+        w = database.omega[:, None, None]
+        nothing = np.zeros((len(database.omega), 6, 6), dtype=complex)
+        self.additional = spline(
+            sum(
+                (
+                    -(w**2) * part.added_mass + 1j * w * part.damping + part.restoring
+                    for part in database.additional
+                ),
+                nothing,
+            )
+        )
+        self.force = spline(database.force, 1)
+        roll = database.roll_damping
+        self.roll = None if roll is None else spline(roll.linear + roll.linearised, 1)
+
+
+class _Solved:
+    """Impedance and motions of a database at some frequencies."""
+
+    def __init__(self, table: _Table, omega: FloatArray) -> None:
+        database = table.database
+        self.omega = omega
+        w = omega[:, None, None]
+        self.added_mass, self.damping = table.added_mass(omega), table.damping(omega)
+        self.additional, self.force = table.additional(omega), table.force(omega)
+        self.memory = -(w**2) * self.added_mass + 1j * w * self.damping + self.additional
+        self.static = sum((part.restoring[0] for part in database.additional), np.zeros((6, 6)))
+        heavy = np.zeros(6)
+        heavy[[0, 1, 5]] = (database.mass_matrix + self.added_mass[-1])[[0, 1, 5], [0, 1, 5]]
+        spring = 2.0 * np.pi / SPRING_PERIOD
+        still = -(w**2) * database.mass_matrix + 1j * w * database.linear_damping + database.restoring
+        still = still + np.diag(heavy) * (spring**2 + 2j * w * SPRING_DAMPING * spring)
+        if table.roll is None:
+            self.impedance = still + self.memory
+        else:
+            whole = np.broadcast_to(still + self.memory, (len(database.heading), *self.memory.shape)).copy()
+            whole[:, :, 3, 3] += 1j * omega * table.roll(omega)
+            self.impedance = whole
+        self.motion = np.linalg.solve(self.impedance, self.force[..., None])[..., 0]
+        middle = self.impedance if self.impedance.ndim == 3 else self.impedance.mean(axis=0)
+        self.receptance = np.linalg.inv(middle)
+
+    def peak_frequencies(self) -> list[tuple[float, float]]:
+        """Frequency and half width over it of the resonances of heave, roll and pitch."""
+        found = []
+        for i in RESONANT:
+            size = np.abs(self.receptance[:, i, i])
+            at = int(size.argmax())
+            if not 0 < at < len(size) - 1:
+                continue
+            dynamic = 1.0 / self.receptance[at, i, i]
+            slope = abs((1.0 / self.receptance[at + 1, i, i] - 1.0 / self.receptance[at - 1, i, i]).real)
+            width = abs(dynamic.imag) * (self.omega[at + 1] - self.omega[at - 1]) / max(slope, 1e-300)
+            found.append((float(self.omega[at]), float(np.clip(width / self.omega[at], 1e-3, 0.2))))
+        return found
+
+
+def _sea_energies(omega: FloatArray) -> FloatArray:
+    """Energy (seas, n) of every sea at every frequency, on a scale of its own."""
+    steps = np.gradient(omega)
+    return np.stack([_jonswap(omega, tp) * steps for tp in PEAK_PERIODS])
+
+
+def _jonswap(omega: FloatArray, tp: float) -> FloatArray:
+    """Shape of the spectrum; its size does not matter here."""
+    peak = 2.0 * np.pi / tp
+    width = np.where(omega <= peak, 0.07, 0.09)
+    near = np.exp(-0.5 * ((omega - peak) / (width * peak)) ** 2)
+    return np.asarray(omega**-5.0 * np.exp(-1.25 * (peak / omega) ** 4) * PEAK_ENHANCEMENT**near)
