@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -232,9 +232,16 @@ struct Line {
     for (std::size_t i = 0; i < now.size(); ++i) out |= (now[i] > 0.0) == (i <= kAtEnd) ? 1 << i : 0;
     return out;
   }
+  /// Of all margins that change, positive on the first side: the least, so that the first crossing is found.
   double across(const LoadInput<double>& in, int from, int to) const {
-    const auto changed = static_cast<unsigned>(from ^ to);
-    return margins(in)[idx(std::countr_zero(changed))];
+    const Margins now = margins(in);
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < now.size(); ++i) {
+      if (((from ^ to) >> i & 1) == 0) continue;
+      const bool was_positive = ((from >> i & 1) != 0) == (i <= kAtEnd);
+      least = std::min(least, was_positive ? now[i] : -now[i]);
+    }
+    return least;
   }
   /// The bounds of the winch that are reached by a change of the side, such as "hoist.maximum_rate".
   std::vector<std::string> reached(int from, int to) const {
