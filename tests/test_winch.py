@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+import runpy
 from pathlib import Path
 from typing import Any
 
@@ -230,6 +232,16 @@ def test_a_slack_line_is_recovered() -> None:
     assert result["line_tension"][-1, 0] == pytest.approx(18e3, rel=1e-3)
 
 
+def test_a_tugger_calms_a_load_as_computed_by_hand(
+    repository: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    runpy.run_path(str(repository / "examples" / "jobs" / "tugger.py"))
+    rows = re.findall(r"(\d+\.\d+) +(\d+\.\d+)$", capsys.readouterr().out, flags=re.MULTILINE)
+    assert len(rows) == 4
+    for by_hand, computed in rows:
+        assert float(computed) == pytest.approx(float(by_hand), rel=0.01)
+
+
 def test_the_linear_model_has_the_gain_of_the_tension_loop() -> None:
     """Of a load that hangs on its set tension: x'' = -dT / m, l0' = gain dT."""
     gain, l0 = 3e-6, 10.0
@@ -250,11 +262,12 @@ def test_the_linear_model_has_the_gain_of_the_tension_loop() -> None:
 
 
 def busy() -> Scene:
-    """A swinging load on a drum that holds a tension, with a brake that closes on the way."""
+    """A swinging load that is hauled in by a drum, with a tension held and a brake that closes on the way."""
+    haul = Curve.quintic(start_time=0.3, end_time=1.0, start=0.0, end=-0.4)
     shut = Curve.quintic(start_time=2.0, end_time=2.3, start=0.0, end=1.0)
     return swinging(
-        tension=21e3, tension_gain=1e-5, dead_band=500.0, drum_inertia=400.0, drum_radius=0.4,
-        maximum_rate=0.8, maximum_tension=26e3, maximum_power=15e3, brake=shut, brake_capacity=28e3,
+        rate=haul, tension=30e3, tension_gain=3e-5, dead_band=500.0, drum_inertia=400.0, drum_radius=0.4,
+        maximum_rate=0.8, maximum_tension=26e3, maximum_power=5e3, brake=shut, brake_capacity=28e3,
         brake_give=0.01,
     )  # fmt: skip
 
@@ -282,6 +295,18 @@ def test_the_load_and_the_drum_take_what_motor_and_brake_give() -> None:
     stored = 0.5 * 2500.0 * rate**2 + 0.5 * 28e3 / 0.01 * wound**2
     expected = stored - stored[0] + work(into_line) - work(carried)
     assert_allclose(work(given), expected, atol=2e-4 * np.max(np.abs(expected)))
+
+
+def test_errors_fall_with_the_tolerance_past_every_kink() -> None:
+    """Bounds, dead band and brake are located: nothing is left of the steps that met them."""
+    ends = [record(busy(), 5.0, rtol=rtol, dt_out=5.0)["position"][-1] for rtol in (1e-11, 1e-9, 1e-7, 1e-5)]
+    exact, *others = ends
+    for end, bound in zip(others, (1e-7, 1e-5, 1e-3), strict=True):
+        assert np.max(np.abs(end - exact)) < bound
+    run = Run(busy(), t_end=5.0)
+    run.advance(5.0)
+    bounds = ("maximum_tension", "maximum_power", "maximum_rate", "brake_capacity")
+    assert {event.name for event in run.events()} == {f"hoist.{bound}" for bound in bounds}
 
 
 def test_both_formulations_and_merged_bodies_agree() -> None:

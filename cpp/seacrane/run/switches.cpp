@@ -75,6 +75,7 @@ void Switches::refuse(const Stepper& at, double t, const std::vector<int>& sides
 }
 
 void Switches::watch(Stepper& at, double t, const double* y) {
+  make_room(at);
   find_sides(at, t, y, after_);
   refuse(at, t, after_);
   if (before_.empty()) before_.assign(after_.size(), 0);
@@ -84,7 +85,15 @@ void Switches::watch(Stepper& at, double t, const double* y) {
   before_.swap(after_);
 }
 
+void Switches::make_room(const Stepper& at) {
+  std::size_t count = 0;
+  for_each_switch(*at.model, [&](const auto&) { ++count; });
+  for (std::vector<int>* sides : {&before_, &after_, &passed_}) sides->reserve(count);
+  state_.resize(at.stepped.size());
+}
+
 void Switches::resume(Stepper& at, double t, const double* y) {
+  make_room(at);
   find_sides(at, t, y, before_);
   refuse(at, t, before_);
 }
@@ -106,6 +115,17 @@ void Switches::shorten(double t) {
   before_.swap(after_);
 }
 
+/// Takes as passed what the step crossed as it began: a crossing that the last one ended on, a curve's jump.
+void Switches::pass_start(Stepper& at, double start, double margin) {
+  at.integrator->interpolate(start + margin, state_.data());
+  passed_.swap(after_);
+  find_sides(at, start + margin, state_.data(), after_);
+  instants_.assign(after_.size(), start);
+  note(at);
+  before_.swap(after_);
+  passed_.swap(after_);
+}
+
 std::optional<double> Switches::find(Stepper& at) {
   Integrator& integrator = *at.integrator;
   find_sides(at, integrator.time(), integrator.state(), after_);
@@ -113,7 +133,8 @@ std::optional<double> Switches::find(Stepper& at) {
                margin = std::max(kAtEnd * (end - start), 100.0 * smallest_step(end));
   refuse(at, end, after_);
   std::optional<double> first;
-  instants_.assign(after_.size(), start);  // where a curve has jumped
+  if (after_ != before_ && start + margin < end) pass_start(at, start, margin);
+  instants_.assign(after_.size(), end);
   for (std::size_t i = 0; i < after_.size(); ++i) {
     if (after_[i] == before_[i]) continue;
     const auto margin_at = [&](double t, const double* y) {

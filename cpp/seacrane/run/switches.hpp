@@ -43,14 +43,16 @@ class Switches {
  private:
   void find_sides(Stepper& at, double t, const double* y, std::vector<int>& sides);
   void refuse(const Stepper& at, double t, const std::vector<int>& sides) const;
+  void make_room(const Stepper& at);
   void note(const Stepper& at);
+  void pass_start(Stepper& at, double start, double margin);
   LoadInput<double> read(Stepper& at, double t, const double* y);
   static double across(const Stepper& at, const LoadInput<double>& in, std::size_t load, int from, int to);
 
-  std::vector<int> before_, after_;  // by load with sides
-  std::vector<double> instants_;     // of their change, likewise
+  std::vector<int> before_, after_, passed_;  // by load with sides
+  std::vector<double> instants_;              // of their change, likewise
   std::vector<LimitReached> reached_;
-  std::vector<double> bodies_;
+  std::vector<double> bodies_, state_;
 };
 
 }  // namespace seacrane

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -276,14 +276,22 @@ struct Line {
     });
     return out;
   }
+  /// Of all margins that change, positive on the first side: the least, so that the first crossing is found.
   double across(const LoadInput<double>& in, int from, int to) const {
-    const int lowest = std::countr_zero(static_cast<unsigned>(from ^ to));
-    if (lowest < first_held(winch.has_value())) return margins(in)[idx(lowest)];
-    double out = 0.0;
+    const Margins now = margins(in);
+    const int changed = from ^ to, sheaves = first_held(winch.has_value());
+    double least = std::numeric_limits<double>::infinity();
+    const auto see = [&](int bit, double margin, bool was_positive) {
+      if ((changed & bit) != 0) least = std::min(least, was_positive ? margin : -margin);
+    };
+    for (int i = 0; i < sheaves; ++i) {
+      see(1 << i, now[idx(i)], ((from >> i & 1) != 0) == (idx(i) <= kAtEnd));
+    }
+    if (changed >> sheaves == 0) return least;
     path.for_each_section<double>(in, [&](const Section<double>& s, std::size_t i) {
-      if (out == 0.0 && i + 1 < path.points().size() && held(i) == 1 << lowest) out = s.hold;
+      if (i + 1 < path.points().size()) see(held(i), s.hold, (from & held(i)) != 0);
     });
-    return out;
+    return least;
   }
   /// The bounds of the winch that are reached by a change of the side, such as "hoist.maximum_rate".
   std::vector<std::string> reached(int from, int to) const {
