@@ -202,7 +202,8 @@ GENERAL = {
     "drift_force", "driver_force", "tension", "limit_force", "impact_loss", "point_position",
     "point_velocity", "point_acceleration", "load_force", "load_moment", "load_state", "tip_velocity",
     "heave_stroke", "heave_stroke_rate", "heave_reference", "gas_spring_tension", "gas_spring_length",
-    "gas_spring_pressure", "offlead", "sidelead", "line_tension", "line_length", "line_unstretched_length", "line_stretch",
+    "gas_spring_pressure",
+    "offlead", "sidelead", "line_tension", "line_length", "line_unstretched_length", "line_stretch",
     "line_pay_out_rate", "line_winch_power",
 }  # fmt: skip
 
