@@ -56,6 +56,17 @@ def test_a_winch_leaves_the_load_the_residual(falls: int, winch_lag: float, lag:
     assert abs(out["energy_balance"][-1]) < 1e-5 * out["absolute_work"][-1]
 
 
+def test_a_quasi_static_line_follows_too() -> None:
+    """Its stretch needs a smooth length, which the winch's lag gives."""
+    scene = hung(lag=0.1, stretch="quasi-static", omega=OMEGA, amplitude=0.1)
+    settings: dict[str, Any] = {"lag": 0.2, "high_pass": 0.08}
+    scene.add_heave_compensation(name="ahc", body="ship", point=(0, 0, TIP), winch="hoist", **settings)
+    out = record(scene, 30.0, dt_out=0.1, rtol=1e-8)
+    found = amplitude_of(out["time"], out["position"][:, 1, 2], OMEGA, 18.0)
+    assert found == pytest.approx(-0.1j * (1.0 - transfer(OMEGA, winch_lag=0.1, **settings)), abs=1e-4)
+    assert np.max(np.abs(out["energy_balance"])) < 1e-6 * out["absolute_work"][-1]
+
+
 def coupled(**settings: Any) -> Scene:
     """A ship on springs, which the load pulls back; compensated by the winch."""
     scene = hung()
