@@ -131,7 +131,7 @@ def test_every_entry_of_a_load_is_checked_and_named(kind: str) -> None:
                 type_(**given | {field.name: np.ones((2, 2, 2))})
     with pytest.raises(TypeError, match="has no entry 'colour'; it takes "):
         type_(**given, colour="red")
-    with pytest.raises(SceneError, match="load: kind 'string' is unknown; choose one of .*actuator, "):
+    with pytest.raises(SceneError, match=r"load: kind 'string' is unknown; choose one of .*actuator, "):
         Scene().add_load(kind="string", **given)
 
 

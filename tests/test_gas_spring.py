@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -11,6 +12,8 @@ from numpy.testing import assert_allclose
 from scipy.integrate import solve_ivp
 
 from seacrane import Scene, SceneError, natural_modes, simulate
+from seacrane.description.outline import outline_of
+from seacrane.viewer.wires import wires_of
 
 G = 9.80665
 MASS, AREA, LENGTH = 20e3, 0.02, 8.0  # kg, m2, m
@@ -120,6 +123,14 @@ def test_both_formulations_agree_and_energy_closes() -> None:
     assert_allclose(runs[1]["position"], runs[0]["position"], atol=1e-7)
     for out in runs:
         assert np.max(np.abs(out["energy_balance"])) < 1e-6 * out["absolute_work"][-1]
+
+
+def test_it_is_drawn_and_kept_in_files(tmp_path: Path) -> None:
+    scene = swinging()
+    assert {"phc", "side"} <= {wire["name"] for wire in wires_of(scene, list(scene.bodies))}
+    assert [link[0] for link in outline_of(scene)["links"]] == ["ground", "ground"]
+    scene.save(tmp_path / "scene.json")
+    assert Scene.load(tmp_path / "scene.json") == scene
 
 
 @pytest.mark.parametrize(

@@ -201,6 +201,8 @@ GENERAL = {
     "acceleration", "angular_acceleration", "coordinate", "coordinate_rate", "actuator_force",
     "drift_force", "driver_force", "tension", "limit_force", "impact_loss", "point_position",
     "point_velocity", "point_acceleration", "load_force", "load_moment", "load_state", "tip_velocity",
+    "heave_stroke", "heave_stroke_rate", "heave_reference", "gas_spring_tension", "gas_spring_length",
+    "gas_spring_pressure",
     "offlead", "sidelead", "line_tension", "line_length", "line_unstretched_length", "line_stretch",
     "line_pay_out_rate", "line_winch_power", "drum_motor_torque", "drum_motor_power",
     "drum_brake_torque", "drum_brake_power",

@@ -38,7 +38,7 @@ def test_counts_of_case_2() -> None:
         "bodies": 10, "joints": 11, "drivers": 0,
         "coordinates": 60, "constraints": 46, "degrees_of_freedom": 14,
         "compiled_coordinates": 54, "compiled_constraints": 40, "pose states": 70, "velocity states": 60,
-        "memory states": memory, "wave components": 30, "input slots": 2 * 3 + 3,
+        "memory states": memory, "wave components": 30, "input slots": 3 * 3 + 3,
     }  # fmt: skip
     assert {name: size[name] for name in expected} == expected
     assert memory > 0
