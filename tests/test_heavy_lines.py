@@ -142,7 +142,7 @@ def test_a_deep_wire_below_a_crane_finds_its_rest_in_both_formulations(stretch: 
     scene.add_body(name="load", mass=20e3, inertia=(1e4, 1e4, 1e4), position=top - [0.0, 0.0, 1000.0])
     scene.add_heavy_line(
         name="wire", bodies=[tip, "load"], points=[point, (0, 0, 0)], stiffness=2e8, length=1000.0,
-        mass_per_length=12.0, segments=8, stretch=stretch,
+        mass_per_length=12.0, segments=20, stretch=stretch,
     )  # fmt: skip
     start = equilibrium(scene)
     runs = [simulate(scene, t_end=1.0, start=start, formulation=one) for one in ("redundant", "recursive")]
@@ -152,6 +152,18 @@ def test_a_deep_wire_below_a_crane_finds_its_rest_in_both_formulations(stretch: 
         stretched = 1000.0 + (20e3 + 6e3) * G * 1000.0 / 2e8
         assert run.select("position", body="load")[-1, 2] == pytest.approx(top[2] - stretched, abs=1e-5)
         assert np.abs(run["velocity"]).max() < 1e-5
+
+
+def test_a_winch_on_the_first_segment_lowers_what_hangs() -> None:
+    scene = hanging(5, stiffness=1e8)
+    slow = Curve.quintic(start_time=0.0, end_time=2.0, start=0.0, end=0.4)
+    stop = Curve.quintic(start_time=3.0, end_time=5.0, start=0.4, end=0.0)
+    scene.add_winch(line="wire.1", rate=slow.then(time=3.0, curve=stop), lag=0.1)
+    result = simulate(scene, t_end=8.0, integrator="cvode-bdf", rtol=1e-6)
+    place = result.select("position", body="load")[:, 2]
+    paid = result["line_unstretched_length"][-1, 0] - 20.0
+    assert paid == pytest.approx(0.4 * 3.0, rel=1e-3)
+    assert place[0] - place[-1] == pytest.approx(paid, abs=2e-3)
 
 
 def test_half_masses_are_carried_by_the_ends() -> None:
