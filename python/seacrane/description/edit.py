@@ -75,8 +75,8 @@ def remove_element(scene: Description, name: str, /, *, kind: str | None = None)
     ----------
     name : str
     kind : str, optional
-        As for `replace`, or "recorded coordinate", "range", "limit state", "clearance" or "mesh"; needed where
-        elements of several kinds have this name.
+        As for `replace`, or "recorded coordinate", "range", "limit state", "clearance" or "mesh"; needed
+        where elements of several kinds have this name.
 
     Raises
     ------
