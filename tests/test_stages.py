@@ -651,3 +651,46 @@ def test_inputs_of_what_is_absent_are_left_out() -> None:
     wrong = SampledController(period=0.25, function=lambda now, measured: {"pull.force": 1.0})
     with pytest.raises(SceneError, match=r"input .pull.force. is unknown"):
         simulate_stages(scene, stages, controllers=[wrong])
+
+
+@pytest.mark.parametrize(
+    ("given", "message"),
+    [
+        (
+            {"until": Until.tension("hoist", below=-1.0)},
+            "would never end: it waits for line_tension of 'hoist' below -1 N, and a line does not push",
+        ),
+        (
+            {"until": Until.length("hoist", below=1.5)},
+            "would never end: .* the winch stops at its minimum_length of 2 m; wait for more, or give it",
+        ),
+        (
+            {"commands": {"hoist.rate": -0.6}},
+            "command 'hoist.rate' reaches 0.6 m/s, beyond the winch's maximum",
+        ),
+        (
+            {"commands": {"hoist.rate": Move(to=0.7, over=3.0)}},
+            "reaches 0.7 m/s, beyond .* of 0.5 m/s; command",
+        ),
+        (
+            {"commands": {"hoist.rate": Curve.harmonic(amplitude=0.8, omega=1.0)}},
+            "command 'hoist.rate' reaches 0.8 m/s, beyond the winch's maximum_rate of 0.5 m/s",
+        ),
+    ],
+)
+def test_what_a_winch_never_does_is_told_before_any_stage_is_run(given: dict[str, Any], message: str) -> None:
+    scene = on_deck()
+    scene.replace("hoist", kind="load", maximum_rate=0.5, minimum_length=2.0)
+    ends = {"longest": 9.0} if "until" in given else {"duration": 9.0}
+    stages = [Stage(name="hold", duration=1e6), Stage(name="haul", **given, **ends)]
+    with pytest.raises(SceneError, match=f"stage 'haul': .*{message}"):
+        simulate_stages(scene, stages)
+
+
+def test_a_winch_at_its_limits_is_carried_out() -> None:
+    scene = on_deck()
+    scene.replace("hoist", kind="load", maximum_rate=0.5, minimum_length=18.9)
+    shorter = Until.length("hoist", below=19.0)
+    stages = [Stage(name="haul", until=shorter, longest=9.0, commands={"hoist.rate": -0.5})]
+    result = simulate_stages(scene, stages, dt_out=0.1, rtol=1e-4)
+    assert result["line_unstretched_length"][-1, 0] == pytest.approx(19.0, abs=1e-6)

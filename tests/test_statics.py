@@ -312,6 +312,7 @@ def test_lines_tell_their_lengths() -> None:
     )  # fmt: skip
     found = statics(scene)
     tension = 1e4 * G
+    assert float(found["hook load hoist"]) == pytest.approx(10.0, rel=1e-6)
     assert float(found["line tension hoist"]) == pytest.approx(tension / 1e3, rel=1e-6)
     assert float(found["line unstretched length hoist"]) == pytest.approx(19.9, rel=1e-12)
     assert float(found["line length hoist"]) == pytest.approx(19.9 * (1.0 + tension / 1e7), rel=1e-9)

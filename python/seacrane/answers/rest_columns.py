@@ -19,6 +19,7 @@ from seacrane.description.cylinder_areas import pressure
 from seacrane.description.loads import lines_of
 from seacrane.description.roles import CraneRoles
 from seacrane.description.scene import Description
+from seacrane.run.hook_loads import hook_loads
 
 Array = NDArray[np.float64]
 LINES = {"line_tension": ("tension", "kN", 1e-3), "line_length": ("length", "m", 1.0),
@@ -104,9 +105,16 @@ def _cranes(at_rest: AtRest) -> dict[str, tuple[str, float]]:
 
 
 def _lines(at_rest: AtRest) -> dict[str, tuple[str, float]]:
-    """Tension and lengths of elastic lines, as they are stretched."""
-    found = {}
-    for i, name in enumerate(lines_of(at_rest.scene.loads)):
+    """Load, tension and lengths of elastic lines, as they are stretched."""
+    scene, found = at_rest.scene, {}
+    lines = lines_of(scene.loads)
+    if not lines:
+        return {}
+    loads = hook_loads(scene, {name: values[None] for name, values in at_rest.channels.items()})
+    assert loads is not None
+    carried = loads[0, -len(lines) :]
+    for i, name in enumerate(lines):
+        found[f"hook load {name}"] = ("t", float(carried[i]) / scene.gravity / 1e3)
         for channel, (what, unit, factor) in LINES.items():
             found[f"line {what} {name}"] = (unit, factor * float(at_rest.channels[channel][i]))
     return found

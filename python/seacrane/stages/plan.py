@@ -14,7 +14,7 @@ from seacrane.scene.scene import Scene
 from seacrane.stages.commands import Command, check_command, commanded, targets
 from seacrane.stages.connections import table_of, without
 from seacrane.stages.move import Move
-from seacrane.stages.reach import check_limits
+from seacrane.stages.reach import check_bounds, check_limits
 from seacrane.stages.stage import Stage
 from seacrane.stages.until import Contact, Level
 
@@ -48,6 +48,7 @@ def checked_stages(scene: Scene, given: Any) -> tuple[Stage, ...]:
         for name, value in stage.commands.items():
             check_command(stage.title, name, value, targets(there))
         check_limits(stage, there)
+        check_bounds(stage, there)
         _check_names(stage, there)
     return stages
 

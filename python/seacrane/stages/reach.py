@@ -8,6 +8,8 @@ from seacrane import _core
 from seacrane.description.loads import lines_of
 from seacrane.errors import SceneError
 from seacrane.scene.scene import Scene
+from seacrane.stages.commands import Command
+from seacrane.stages.move import Move
 from seacrane.stages.stage import Stage
 from seacrane.stages.until import Contact, Level
 
@@ -32,6 +34,51 @@ def check_limits(stage: Stage, scene: Scene) -> None:
                 f"{stage.title}: would never end: seat {name!r} lets go and never takes hold again; set the "
                 "load down on an end stop of a free joint"
             )
+
+
+def check_bounds(stage: Stage, scene: Scene) -> None:
+    """Raise SceneError for what no line or winch of the stage does, whatever it is commanded.
+
+    A line does not push, and a winch stops at its `minimum_length`. Commands stay within its `maximum_rate`.
+    """
+    lines = lines_of(scene.loads)
+    for condition in stage.conditions if len(stage.conditions) == 1 else ():
+        if not isinstance(condition, Level) or condition.above:
+            continue
+        line = lines.get(dict(condition.names).get("line", ""))
+        if line is None:
+            continue
+        if condition.channel == "line_tension" and condition.value < 0.0:
+            raise SceneError(
+                f"{stage.title}: would never end: it waits for {condition.text}, and a line does not push; "
+                "slack is a tension below 0"
+            )
+        short = condition.channel == "line_unstretched_length" and condition.value < line.minimum_length
+        if short and line.winch:
+            raise SceneError(
+                f"{stage.title}: would never end: it waits for {condition.text}, and the winch stops at its "
+                f"minimum_length of {line.minimum_length:g} m; wait for more, or give it a smaller one"
+            )
+    for name, value in stage.commands.items():
+        line = lines.get(name.removesuffix(".rate"))
+        if line is not None and line.winch and name.endswith(".rate"):
+            _check_rate(stage, name, line, value)
+
+
+def _check_rate(stage: Stage, name: str, line: _core.Line, command: Command) -> None:
+    if isinstance(command, Move):
+        fastest = 0.0 if command.to is None else abs(command.to)
+    elif isinstance(command, _core.Curve):
+        longest = stage.duration if stage.duration is not None else stage.longest
+        assert longest is not None
+        fastest = float(np.abs(command.evaluate(np.linspace(0.0, longest, SAMPLES))[:, 0]).max())
+    else:
+        fastest = abs(float(command))
+    if fastest > line.maximum_rate:
+        raise SceneError(
+            f"{stage.title}: command {name!r} reaches {fastest:.6g} m/s, beyond the winch's maximum_rate of "
+            f"{line.maximum_rate:g} m/s; command less, or give a larger maximum_rate"
+        )
 
 
 def check_lengths(stage: Stage, scene: Scene, lengths: dict[str, float], begin: float) -> None:
