@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from seacrane import Curve, Scene
+from seacrane import Curve, Scene, cases
 
 Array = NDArray[np.float64]
 G = 9.80665
@@ -95,5 +95,18 @@ def reeved() -> Scene:
     scene.add_line(
         name="tugger", bodies=["ground", "load"], points=[(10.0, 3.0, -5.0), (0.5, 0, 0)], stiffness=2e4,
         length=tugger,
+    )  # fmt: skip
+    return scene
+
+
+def case2_on_a_line(stretch: str, stiffness: float) -> Scene:
+    """Case 2 with a line of EA (N) in the place of its link, as long under the payload's weight."""
+    scene = cases.case2()
+    link = scene.joints["link"]
+    points = [link.first_frame.point, link.second_frame.point]
+    scene.remove("link")
+    scene.add_line(
+        name="link", bodies=[link.first, link.second], points=points, stiffness=stiffness,
+        length=8.0 / (1.0 + 1e4 * G / stiffness), stretch=stretch,
     )  # fmt: skip
     return scene

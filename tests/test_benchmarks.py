@@ -4,6 +4,7 @@ import csv
 from pathlib import Path
 
 import pytest
+from line_scenes import case2_on_a_line
 
 from seacrane import cases, simulate
 
@@ -39,3 +40,27 @@ def test_published_evaluations_are_those_of_today(case2, integrator, setting):
     told = published_evaluations()[integrator, label]
     run = simulate(case2, t_end=100.0, dt_out=1.0, integrator=integrator, channels=["position"], **setting)
     assert run.stats["evaluations"] == pytest.approx(told, rel=OTHER_MACHINES)
+
+
+def rows_of(name: str) -> list[dict[str, str]]:
+    with (RESULTS / name).open(encoding="utf-8") as file:
+        return list(csv.DictReader(file))
+
+
+def test_published_costs_of_lines_are_those_of_today():
+    """A quasi-static line on case 2, and the periods after a snatch of an elastic one."""
+    (told,) = [
+        int(row["evaluations"])
+        for row in rows_of("stiff-lines-by-every-method.csv")
+        if (row["EA, N"], row["stretch"], row["method"]) == ("1e9", "quasi-static", "dopri5 rtol=0.0001")
+    ]
+    run = simulate(
+        case2_on_a_line("quasi-static", 1e9), t_end=100.0, dt_out=0.2, integrator="dopri5", rtol=1e-4,
+        channels=["position", "line_tension"],
+    )  # fmt: skip
+    assert run.stats["evaluations"] == pytest.approx(told, rel=OTHER_MACHINES)
+    snatches = [row for row in rows_of("cost-of-a-snatch.csv") if row["method"] == "dopri5 0.0001"]
+    assert [row["EA, N"] for row in snatches] == ["1e7", "1e8", "1e9", "1e10", "1e11"]
+    for row in snatches:
+        assert 0 < int(row["evaluations"]) < 2000
+        assert -5.0 < float(row["off the closed form, %"]) < 0.0  # the damping takes of the peak

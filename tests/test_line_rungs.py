@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from line_scenes import MASS, STIFFNESS, G, hung, on_deck, swinging
+from line_scenes import MASS, STIFFNESS, G, case2_on_a_line, hung, on_deck, swinging
 from numpy.testing import assert_allclose
 from numpy.typing import NDArray
 
@@ -81,31 +81,19 @@ def rung_of(scene: Scene, t_end: float = 1.0, **settings: Any) -> tuple[str, str
     return rung.stretch, rung.reason
 
 
-def link_of_case2(stiffness: float) -> Scene:
-    scene = cases.case2()
-    link = scene.joints["link"]
-    points = [link.first_frame.point, link.second_frame.point]
-    scene.remove("link")
-    scene.add_line(
-        name="hoist", bodies=[link.first, link.second], points=points, stiffness=stiffness,
-        length=8.0 / (1.0 + 1e4 * G / stiffness), stretch="auto",
-    )  # fmt: skip
-    return scene
-
-
 @pytest.mark.parametrize(("stiffness", "expected"), [(1e7, "elastic"), (1e8, "quasi-static")])
 def test_case2_takes_the_rung_that_its_stiffness_allows(stiffness: float, expected: str) -> None:
-    stretch, reason = rung_of(link_of_case2(stiffness), 100.0)
-    assert stretch == expected
-    assert "% of what the swing of its load makes of it, its own frequency being" in reason
+    rung = Run(case2_on_a_line("auto", stiffness), 100.0).rungs["link"]
+    assert rung.stretch == expected
+    assert "% of what the swing of its load makes of it, its own frequency being" in rung.reason
 
 
 def test_stiff_costs_like_soft_by_itself() -> None:
     settings: dict[str, Any] = {"dt_out": 1.0, "rtol": 1e-4, "channels": ["position"]}
     rigid = simulate(cases.case2(), 20.0, **settings)
-    out = simulate(link_of_case2(1e11), 20.0, **settings)
+    out = simulate(case2_on_a_line("auto", 1e11), 20.0, **settings)
     assert out.stats["evaluations"] < 1.5 * rigid.stats["evaluations"]
-    assert out.stats["line_rungs"].startswith("hoist: quasi-static: its tension would err by ")
+    assert out.stats["line_rungs"].startswith("link: quasi-static: its tension would err by ")
 
 
 def test_it_is_the_run_of_the_rung_it_takes() -> None:

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from line_scenes import MASS, STIFFNESS, G, hung, reeved, swinging
+from line_scenes import MASS, STIFFNESS, G, case2_on_a_line, hung, reeved, swinging
 from multibody_runs import record
 from numpy.testing import assert_allclose
 from numpy.typing import NDArray
@@ -213,25 +213,13 @@ def test_a_run_goes_on_bit_for_bit(tmp_path: Path) -> None:
     assert set(start.load_states) == {"hoist.length", "hoist.rate", "hoist.strain_rate"}
 
 
-def link_of_case2(stretch: str, stiffness: float) -> Scene:
-    scene = cases.case2()
-    link = scene.joints["link"]
-    points = [link.first_frame.point, link.second_frame.point]
-    scene.remove("link")
-    scene.add_line(
-        name="link", bodies=[link.first, link.second], points=points, stiffness=stiffness,
-        length=8.0 / (1.0 + 1e4 * G / stiffness), stretch=stretch,
-    )  # fmt: skip
-    return scene
-
-
 def test_stiff_costs_like_soft_on_case2() -> None:
     """From 1e8 to 1e11 N: 1 cm of the payload, 2 % of the tension's range, 1.5 times the evaluations."""
     settings: dict[str, Any] = {"dt_out": 0.2, "rtol": 1e-4}
     rigid = simulate(cases.case2(), 60.0, channels=["position"], **settings)
     evaluations = {}
     for stiffness in (1e8, 1e11):
-        scene = link_of_case2("quasi-static", stiffness)
+        scene = case2_on_a_line("quasi-static", stiffness)
         out = simulate(scene, 60.0, channels=["position", "line_tension"], **settings)
         evaluations[stiffness] = out.stats["evaluations"]
         assert evaluations[stiffness] < 1.5 * rigid.stats["evaluations"]
@@ -240,7 +228,7 @@ def test_stiff_costs_like_soft_on_case2() -> None:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", StiffWarning)
             elastic = simulate(
-                link_of_case2("elastic", stiffness), 60.0, channels=["position", "line_tension"],
+                case2_on_a_line("elastic", stiffness), 60.0, channels=["position", "line_tension"],
                 dt_out=0.2, rtol=1e-7,
             )  # fmt: skip
         payload = list(scene.bodies).index("payload")

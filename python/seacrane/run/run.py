@@ -140,16 +140,18 @@ class Run:
         stretches = {name: rung.stretch for name, rung in self.rungs.items()}
         scene = with_stretch(self._given, stretches)
         self.scene, self.model, self.formulation = stepped(scene, model, self.method)
-        begun, start = _core.initial_state(self.model), self._given_start
-        if start is not None and self._differs_by_rungs(start, begun):
+        start = self._given_start
+        if start is None:
+            start = _core.initial_state(self.model)
+        elif self._differs_by_rungs(start):
             start = carried(start, compiled(self._given, merge=True), self.model)
-        self.start = begun if start is None else start
+        self.start = start
 
-    def _differs_by_rungs(self, start: _core.State, begun: _core.State) -> bool:
-        """Whether two states hold the same but for what the rungs of lines add."""
+    def _differs_by_rungs(self, start: _core.State) -> bool:
+        """Whether a state holds what the model has but for what the rungs of lines add."""
         own = {f"{name}.strain_rate" for name in self.rungs}
-        apart = start.load_states.keys() ^ begun.load_states.keys()
-        return bool(apart) and apart <= own
+        there = {name for name, *_ in self.model.load_states}
+        return bool(there ^ start.load_states.keys()) and there ^ start.load_states.keys() <= own
 
     @property
     def _may_begin_anew(self) -> bool:
