@@ -107,10 +107,9 @@ def _contradicted(lines: Mapping[str, _core.Line], lengths: Array, stretches: Ar
     for name in dict.fromkeys(wholes):
         own = np.array([whole == name for whole in wholes])
         length, stretch = float(lengths[own].sum()), float(stretches[own].sum())
-        strains = [
-            strain for line, mine in zip(lines.values(), own, strict=True) if mine for strain in line.strains
-        ]
-        usual = max([LARGEST_CONTRADICTION, *strains])  # a cord is meant to be as long as its table
+        mine = [line for line, is_own in zip(lines.values(), own, strict=True) if is_own]
+        tables = [strain for line in mine for strain in line.strains]
+        usual = max([LARGEST_CONTRADICTION, *tables])  # a cord is meant to be as long as its table
         if -LARGEST_CONTRADICTION * length <= stretch <= usual * length:
             continue
         state = "stretched" if stretch > 0.0 else "slack"
