@@ -92,6 +92,7 @@ struct Actuator {
     const auto [first, second] = coordinate.bodies();
     return {follows.any() ? follows.signal.body : first, first, second};
   }
+  StateRange followed() const { return follows.signal.states; }
 
   template <class T>
   void apply(const LoadInput<T>& in, LoadSum<T>& out) const {

@@ -207,6 +207,7 @@ struct Line {
   }
 
   const std::vector<int>& bodies() const { return on; }
+  StateRange followed() const { return winch ? winch->follows.signal.states : StateRange{}; }
 
   bool quasi_static() const { return settling > 0.0; }
 

@@ -39,7 +39,7 @@ concept HasStates = requires(const Load& load) {
 };
 
 /// Whether a load looks at some of the states from `first` to before `last`: its own, or those of what it
-/// follows.
+/// follows, which a load that follows something tells by followed().
 template <class Load>
 bool looks_at_states(const Load& load, int first, int last) {
   const auto within = [&](const StateRange& range) {
@@ -48,7 +48,7 @@ bool looks_at_states(const Load& load, int first, int last) {
   if constexpr (HasStates<Load>) {
     if (within(load.states)) return true;
   }
-  if constexpr (requires { load.follows.signal.states; }) return within(load.follows.signal.states);
+  if constexpr (requires { load.followed(); }) return within(load.followed());
   return false;
 }
 
