@@ -203,19 +203,19 @@ def stiff(stiffness: float, stretch: str, **change: Any) -> Scene:
 
 
 @pytest.mark.parametrize("formulation", ["redundant", "recursive"])
-def test_a_quasi_static_stretch_takes_sheaves_and_friction(formulation: str) -> None:
-    """The motion of the elastic line as EA grows, and its energy balance."""
-    apart = []
-    for stiffness in (3e7, 3e8):
-        ours, exact = (
-            record(stiff(stiffness, kind), 1.5, rtol=1e-8, formulation=formulation)
-            for kind in ("quasi-static", "elastic")
-        )
-        apart.append(float(np.max(np.abs(ours["position"] - exact["position"]))))
-        assert np.max(np.abs(ours["energy_balance"])) < 1e-6 * ours["absolute_work"][-1]
-        ratio = ours["section_tension"] / exact["section_tension"]
-        assert np.median(np.abs(ratio - 1.0)) < 0.05
-    assert apart[1] < 0.2 * apart[0] < 0.2 * 5e-3
+@pytest.mark.parametrize("stiffness", [3e7, 3e8])
+def test_a_quasi_static_stretch_takes_sheaves_and_friction(stiffness: float, formulation: str) -> None:
+    """Places are the elastic line's to less than its stretch, the tensions its once both have settled."""
+    ours, exact = (
+        record(stiff(stiffness, kind, damping_ratio=0.7), 1.5, rtol=1e-8, formulation=formulation)
+        for kind in ("quasi-static", "elastic")
+    )
+    stretch = 8e3 / stiffness * exact["line_length"][0, 0]
+    assert np.max(np.abs(ours["position"] - exact["position"])) < stretch
+    ratio = ours["section_tension"] / exact["section_tension"]
+    assert_allclose(ratio[ours["time"] > 1.0], 1.0, atol=2e-3)
+    assert np.max(np.abs(ours["energy_balance"])) < 1e-6 * ours["absolute_work"][-1]
+    assert np.min(ours["sheave_friction_power"]) < -1.0
 
 
 def test_the_exact_jacobian_of_a_quasi_static_stretch_is_that_of_differences() -> None:
