@@ -161,26 +161,26 @@ def test_the_engines_path_is_that_of_the_pictures() -> None:
     assert_allclose(out["sheave_wrap"], laid(line, described_poses(scene)).wraps[1:-1], rtol=1e-10)
 
 
-def check_jacobian(scene: Scene) -> None:
+def check_jacobian(scene: Scene, time: float) -> None:
     """That of the redundant form against differences, after a while of motion."""
     model = scene.compile(merge=False)
-    run = Run(scene, t_end=0.9, dt_out=0.1, rtol=1e-8, model=model)
-    run.advance(0.9)
+    run = Run(scene, t_end=time, dt_out=0.1, rtol=1e-8, model=model)
+    run.advance(time)
     y = np.array(run.core.state.values)
     at = Evaluator(model)
-    exact = np.asarray(at.jacobian(0.9, y))
+    exact = np.asarray(at.jacobian(time, y))
     states = [place for _, _, place, *_ in model.load_states]
     for j in [*states, 0, 5, 7, 11, 14, 17, model.twist_index(0), model.twist_index(2) + 4]:
         step = np.zeros_like(y)
         step[j] = 1e-5
-        near, far = ((at.derivative(0.9, y + k * step) - at.derivative(0.9, y - k * step)) / (2e-5 * k)
+        near, far = ((at.derivative(time, y + k * step) - at.derivative(time, y - k * step)) / (2e-5 * k)
                      for k in (1.0, 2.0))  # fmt: skip
         expected = (4.0 * near - far) / 3.0
         assert_allclose(exact[:, j], expected, atol=1e-6 * np.max(np.abs(exact)), rtol=1e-6)
 
 
 def test_the_exact_jacobian_is_that_of_differences() -> None:
-    check_jacobian(slewing())
+    check_jacobian(slewing(), 0.9)
 
 
 def test_a_run_goes_on_bit_for_bit(tmp_path: Path) -> None:
@@ -203,23 +203,23 @@ def stiff(stiffness: float, stretch: str, **change: Any) -> Scene:
 
 
 @pytest.mark.parametrize("formulation", ["redundant", "recursive"])
-def test_a_quasi_static_stretch_takes_sheaves_and_friction(formulation: str) -> None:
-    """The motion of the elastic line as EA grows, and its energy balance."""
-    apart = []
-    for stiffness in (3e7, 3e8):
-        ours, exact = (
-            record(stiff(stiffness, kind), 1.5, rtol=1e-8, formulation=formulation)
-            for kind in ("quasi-static", "elastic")
-        )
-        apart.append(float(np.max(np.abs(ours["position"] - exact["position"]))))
-        assert np.max(np.abs(ours["energy_balance"])) < 1e-6 * ours["absolute_work"][-1]
-        ratio = ours["section_tension"] / exact["section_tension"]
-        assert np.median(np.abs(ratio - 1.0)) < 0.05
-    assert apart[1] < 0.2 * apart[0] < 0.2 * 5e-3
+@pytest.mark.parametrize("stiffness", [3e7, 3e8])
+def test_a_quasi_static_stretch_takes_sheaves_and_friction(stiffness: float, formulation: str) -> None:
+    """Places are the elastic line's to less than its stretch, the tensions its once both have settled."""
+    ours, exact = (
+        record(stiff(stiffness, kind, damping_ratio=0.7), 1.5, rtol=1e-8, formulation=formulation)
+        for kind in ("quasi-static", "elastic")
+    )
+    stretch = 8e3 / stiffness * exact["line_length"][0, 0]
+    assert np.max(np.abs(ours["position"] - exact["position"])) < stretch
+    ratio = ours["section_tension"] / exact["section_tension"]
+    assert_allclose(ratio[ours["time"] > 1.0], 1.0, atol=2e-3)
+    assert np.max(np.abs(ours["energy_balance"])) < 1e-6 * ours["absolute_work"][-1]
+    assert np.min(ours["sheave_friction_power"]) < -1.0
 
 
 def test_the_exact_jacobian_of_a_quasi_static_stretch_is_that_of_differences() -> None:
-    check_jacobian(stiff(3e7, "quasi-static"))
+    check_jacobian(stiff(3e7, "quasi-static"), 0.5)
 
 
 def corded(strain: float, *, last: float = 0.8) -> Scene:

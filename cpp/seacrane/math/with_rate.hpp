@@ -48,6 +48,12 @@ double value_of(const WithRate<T>& x) {
   return value_of(x.value);
 }
 
+/// Of what order the derivatives are that a scalar carries.
+template <class T>
+inline constexpr int derivative_order = 1;
+template <class T>
+inline constexpr int derivative_order<WithRate<T>> = 1 + derivative_order<T>;
+
 /// A vector with its rate, and its two parts.
 template <class T>
 Eigen::Matrix<WithRate<T>, 3, 1> with_rate(const Eigen::Matrix<T, 3, 1>& v,

@@ -19,7 +19,7 @@ Array = NDArray[np.float64]
 Finding = tuple[type[Warning], str]
 LARGEST_CONTRADICTION = 0.01  # of the line's length, at the start
 AT_END = 1e-6  # m
-LARGEST_FLEET_ANGLE = 4.0  # degrees: ISO 4308-1 takes ropes to that angle from the plane of a sheave
+LARGEST_FLEET_ANGLE = 4.0  # degrees, the usual bound for ropes of cranes
 
 
 class LineLengthWarning(UserWarning):

@@ -7,6 +7,7 @@
 
 #include "seacrane/math/dual.hpp"
 #include "seacrane/math/spatial.hpp"
+#include "seacrane/math/with_rate.hpp"
 
 namespace seacrane {
 
@@ -127,7 +128,8 @@ inline double clearance(const TangentEnd<double>& a, const TangentEnd<double>& b
 
 }  // namespace line_tangent
 
-/// Of two ends of which one is a sheave.
+/// Of two ends of which one is a sheave. From radii as numbers each step of Newton's method brings
+/// derivatives of one more order.
 template <class T>
 Tangent<T> tangent(const TangentEnd<T>& a, const TangentEnd<T>& b) {
   using std::sqrt;
@@ -135,7 +137,7 @@ Tangent<T> tangent(const TangentEnd<T>& a, const TangentEnd<T>& b) {
   Vec3<T> n1 = Vec3<T>::Zero(), n2 = n1;
   if (a.radius > 0.0) n1 = line_tangent::into_plane<T>(first, a.axis);
   if (b.radius > 0.0) n2 = line_tangent::into_plane<T>(second, b.axis);
-  line_tangent::improve<T>(a, b, n1, n2);  // brings the derivatives
+  for (int i = 0; i < derivative_order<T>; ++i) line_tangent::improve<T>(a, b, n1, n2);
   const line_tangent::Conditions<T> c(a, b, n1, n2);
   Tangent<T> out;
   out.from = a.center + n1 * T(a.radius);
