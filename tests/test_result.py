@@ -202,7 +202,7 @@ GENERAL = {
     "drift_force", "driver_force", "tension", "limit_force", "impact_loss", "point_position",
     "point_velocity", "point_acceleration", "load_force", "load_moment", "load_state", "tip_velocity",
     "offlead", "sidelead", "line_tension", "line_length", "line_unstretched_length", "line_stretch",
-    "line_pay_out_rate", "line_winch_power",
+    "line_pay_out_rate", "line_winch_power", "cylinder_pressure", "clearance", "hook_load",
 }  # fmt: skip
 
 
