@@ -379,6 +379,7 @@ slew = "pin"
 cylinders = { luff = "sleeve" }
 link = "rope"
 tip = { body = "arm", point_m = [0, 0, 1] }
+areas = [{ cylinder = "luff", full_m2 = 0.5, rod_side_m2 = 0.25 }]
 
 [notes]
 project = "A-17"
@@ -488,8 +489,9 @@ def every_table() -> Scene:
     scene.add_clearance(name="hull", points="corner", body="hull", center=(1, 0, 2), size=(3, 4, 5))
     scene.record_coordinate(joint="sleeve", coordinate="angle")
     scene.add_roles(
-        prefix="aft ", slew="pin", cylinders={"luff": "sleeve"}, link="rope", tip=("arm", (0, 0, 1))
-    )
+        prefix="aft ", slew="pin", cylinders={"luff": "sleeve"}, link="rope", tip=("arm", (0, 0, 1)),
+        areas={"luff": (0.5, 0.25)},
+    )  # fmt: skip
     scene.notes.update(project="A-17", tries=[1, 2.5])
     return scene
 

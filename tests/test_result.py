@@ -206,6 +206,7 @@ GENERAL = {
     "offlead", "sidelead", "line_tension", "line_length", "line_unstretched_length", "line_stretch",
     "line_pay_out_rate", "line_winch_power", "drum_motor_torque", "drum_motor_power",
     "drum_brake_torque", "drum_brake_power",
+    "cylinder_pressure", "clearance", "hook_load",
 }  # fmt: skip
 
 

@@ -33,6 +33,7 @@ from seacrane import (
     simulate,
     simulate_stages,
     simulate_stages_to_file,
+    summary,
 )
 
 Array = NDArray[np.float64]
@@ -694,3 +695,29 @@ def test_a_winch_at_its_limits_is_carried_out() -> None:
     stages = [Stage(name="haul", until=shorter, longest=9.0, commands={"hoist.rate": -0.5})]
     result = simulate_stages(scene, stages, dt_out=0.1, rtol=1e-4)
     assert result["line_unstretched_length"][-1, 0] == pytest.approx(19.0, abs=1e-6)
+
+
+def test_a_stage_that_is_run_again_calls_its_controllers_at_the_same_times() -> None:
+    def timed(calls: list[float]) -> SampledController:
+        def function(now: float, measured: Any) -> dict[str, float]:
+            calls.append(now)
+            return {"motor.force": np.sin(now)}
+
+        return SampledController(period=0.1, function=function)
+
+    stages = [Stage(name="one", duration=0.37), Stage(name="two", duration=0.5)]
+    calls: list[float] = []
+    run = carried_out(motored(), stages, controllers=[timed(calls)], dt_out=0.05)
+    begin, again = run.begun["two"], []
+    other = carried_out(
+        begin.scene, stages[1:], start=begin.state, outputs_from=0.0, controllers=[timed(again)], dt_out=0.05
+    )
+    assert again == calls[4:]
+    np.testing.assert_array_equal(other.state.values, run.state.values)
+
+
+def test_the_weight_on_a_line_is_known_though_it_is_let_go_at_last() -> None:
+    table = summary(simulate_stages(on_deck(), lift_off(), dt_out=0.1, rtol=1e-5))
+    row = table["line tension hoist"]
+    assert row.static_known and row.static == pytest.approx(MASS * G / 1e3)
+    assert row.factor is not None and row.factor > 1.0
