@@ -22,7 +22,7 @@ ROOT = Path(__file__).resolve().parents[1]
 RESULTS = ROOT / "benchmarks" / "results"
 sys.path.insert(0, str(ROOT / "tests"))
 
-from compared import crane, engine, events, files, hull, orders, real_ships, sea  # noqa: E402
+from compared import crane, engine, events, files, hull, lines, orders, real_ships, sea  # noqa: E402
 from compared.row import HEAD, Row  # noqa: E402
 
 COMPARISONS = (
@@ -47,6 +47,8 @@ COMPARISONS = (
     files.database,
     files.wires,
     events.bouncing_ball,
+    lines.snatches,
+    lines.rigid_limit,
 )
 
 
