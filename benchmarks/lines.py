@@ -1,6 +1,7 @@
 """Measures what stiff lines and snatches cost: ``python benchmarks/lines.py`` (a part of ``run.py``).
 
-Prints the tables and writes them to ``benchmarks/results`` with ``--publish``, else to ``out/bench/results``.
+Prints the tables and writes them to ``benchmarks/results`` with ``--publish``, from which
+``benchmarks/documents.py`` fills the documents; else to ``out/bench/results``.
 ``--counts`` leaves out the table of CPU times, for a machine that does other work too.
 """
 

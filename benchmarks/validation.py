@@ -22,7 +22,19 @@ ROOT = Path(__file__).resolve().parents[1]
 RESULTS = ROOT / "benchmarks" / "results"
 sys.path.insert(0, str(ROOT / "tests"))
 
-from compared import crane, engine, events, files, hull, lines, orders, real_ships, reeving, sea  # noqa: E402
+from compared import (  # noqa: E402
+    crane,
+    engine,
+    events,
+    files,
+    heavy_lines,
+    hull,
+    lines,
+    orders,
+    real_ships,
+    reeving,
+    sea,
+)
 from compared.row import HEAD, Row  # noqa: E402
 
 COMPARISONS = (
@@ -49,9 +61,11 @@ COMPARISONS = (
     events.bouncing_ball,
     reeving.closed_forms,
     reeving.exudyn,
-    lines.catenary,
-    lines.swinging,
-    lines.peers,
+    heavy_lines.catenary,
+    heavy_lines.swinging,
+    heavy_lines.peers,
+    lines.snatches,
+    lines.rigid_limit,
 )
 
 

@@ -131,6 +131,28 @@ def test_the_error_that_it_names_is_that_of_the_run() -> None:
         assert apart == pytest.approx(law, rel=0.1)
 
 
+@pytest.mark.parametrize("seed", range(8))
+def test_whatever_it_takes_is_near_the_elastic_line(seed: int) -> None:
+    """Random loads, lines, swings and ramps of the block: 1 % of the weight, 1 cm of the load."""
+    rng = np.random.default_rng(seed)
+    stiffness, mass, length = 10.0 ** rng.uniform(7, 10), 10.0 ** rng.uniform(3, 5), rng.uniform(3.0, 40.0)
+    angle, period, rise = rng.uniform(0.0, 0.6), rng.uniform(1.0, 8.0), rng.uniform(0.05, 1.0)
+    scene = heaved()
+    ramp = Curve.quintic(start_time=0.5, end_time=0.5 + period, start=0.0, end=rise)
+    scene.replace("guide.displacement", curve=ramp)
+    place = length * np.array([np.sin(angle), 0.0, -np.cos(angle)])
+    scene.replace("load", mass=mass, inertia=mass * np.eye(3), position=place)
+    strain = mass * G * np.cos(angle) / stiffness
+    scene.replace("hoist", stiffness=stiffness, length=length / (1.0 + strain))
+    chosen = simulate(scene, 10.0, dt_out=0.05, rtol=1e-7)
+    scene.replace("hoist", stretch="elastic")
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        elastic = simulate(scene, 10.0, dt_out=0.05, rtol=1e-7)
+    assert np.abs(chosen["position"] - elastic["position"]).max() < 0.01
+    assert np.abs(chosen["line_tension"] - elastic["line_tension"]).max() < 0.01 * mass * G
+
+
 def test_frequencies_of_what_moves_a_scene() -> None:
     ramp = Curve.quintic(start_time=0.0, end_time=10.0, start=0.0, end=1.0)
     assert curve_frequency(ramp, 2, start=0.0, end=60.0) == pytest.approx(np.sqrt(42.0) / 10.0, rel=1e-12)

@@ -1,57 +1,50 @@
-"""Lines with mass against the closed catenary, MoorPy and MoorDyn; a pendulum with damping."""
+"""Elastic lines against closed forms, the rigid wire, and each other's rungs."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 
 import numpy as np
-from heavy_line_scenes import CATENARY_H, CATENARY_V, weights_of_shape
-from test_damping import decay, pendulum, swing
+from line_scenes import MASS, G
+from multibody_runs import record
+from test_line_limits import falling, pendulum
 
-from seacrane import simulate
-
-from .files import RESULTS, records
 from .row import Row
 
-SUBJECT = "Lines and hanging loads"
+SUBJECT = "Lines"
 
 
-def catenary() -> Iterator[Row]:
-    """A chain at rest: the worse of the two forces at its upper end."""
-    h, v = weights_of_shape(160)
-    yield Row(
-        subject=SUBJECT, compared="line with mass at rest, 160 segments: forces at its upper end",
-        reference="closed elastic catenary (Irvine)",
-        difference=max(abs(h / CATENARY_H - 1.0), abs(v / CATENARY_V - 1.0)), unit="", limit=2e-5,
-        test="test_heavy_lines.py",
+def snatches() -> Iterator[Row]:
+    """A load that falls into its slack line."""
+    settings = {"dt_out": 2e-5, "rtol": 1e-9}
+    line = record(falling(3.0, stiffness=3e10, along=0.5), 0.02, **settings)
+    wire = record(falling(3.0, stiffness=None, along=0.5), 0.02, **settings)
+    impulse = np.trapezoid(line["line_tension"][:, 0], line["time"])
+    change = MASS * (wire["velocity"][-1, 0, 2] - wire["velocity"][0, 0, 2] + G * 0.02)
+    rigid = "rigid wire of the same restitution"
+    yield _row("snatch of 20 t at 3 m/s: impulse", rigid, impulse / change - 1.0, 0.01)
+    apart = line["velocity"][-1, 0] - wire["velocity"][-1, 0]
+    yield _row("the same: velocity after it", rigid, np.abs(apart).max() / 3.0, 0.01)
+    half = np.pi / np.sqrt(3e8 / MASS)
+    out = record(falling(2.0, stiffness=3e8, ratio=0.0), 0.01 + 1.5 * half, dt_out=half / 400, rtol=1e-9)
+    expected = MASS * G + np.sqrt((MASS * G) ** 2 + 3e8 * MASS * 4.0)
+    peak = float(out["line_tension"].max())
+    yield _row("peak of a snatch at 2 m/s", "m g + sqrt((m g)^2 + k m v^2)", peak / expected - 1.0, 2e-5)
+
+
+def rigid_limit() -> Iterator[Row]:
+    """A pendulum on a line of 1e9 N against one on a rigid link: errors fall as 1 / EA."""
+    settings = {"dt_out": 0.1, "rtol": 1e-9}
+    rigid = record(pendulum(None), 6.0, **settings)
+    for stretch in ("elastic", "quasi-static"):
+        line = record(pendulum(1e9, stretch=stretch), 6.0, **settings)
+        apart = np.abs(line["line_tension"][10:, 0] - rigid["tension"][10:, 0]).max()
+        compared = f"pendulum on a line of 1e9 N, {stretch}: tension"
+        yield _row(compared, "rigid link", apart / np.abs(rigid["tension"]).max(), 1e-4)
+
+
+def _row(compared: str, reference: str, difference: float, limit: float) -> Row:
+    return Row(
+        subject=SUBJECT, compared=compared, reference=reference, unit="", difference=abs(float(difference)),
+        limit=limit, test="test_line_limits.py",
     )  # fmt: skip
-
-
-def swinging() -> Iterator[Row]:
-    """A point mass with the default of a payload's swing."""
-    scene = pendulum(1e-3)
-    scene.add_pendulum_damping(name="swing", first="ground", second="load")
-    result = simulate(scene, t_end=30.0, rtol=1e-10)
-    yield Row(
-        subject=SUBJECT, compared="pendulum with 0.5 % of critical damping: angle over its start, 30 s",
-        reference="closed form, small angles",
-        difference=float(np.abs(swing(result) / 1e-3 - decay(result.time, 0.005)).max()), unit="",
-        limit=1e-5, test="test_damping.py",
-    )  # fmt: skip
-
-
-def peers() -> Iterator[Row]:
-    """What `benchmarks/measure/heavy_lines.py` wrote: the finest of its runs."""
-    row = records(RESULTS / "heavy-lines-against-moorpy.csv")[-1]
-    yield Row(
-        subject=SUBJECT, compared=f"line with mass at rest, {row['segments']} segments: level force",
-        reference="MoorPy, catenary", difference=float(row["error of H, N"]) / float(row["H of MoorPy, N"]),
-        unit="", limit=None, test="test_heavy_lines.py",
-    )  # fmt: skip
-    row = records(RESULTS / "heavy-lines-against-moordyn.csv")[-1]
-    for end in ("fixed end", "moving end"):
-        yield Row(
-            subject=SUBJECT, compared=f"line with mass, one end heaves: tension at its {end}, of its range",
-            reference="MoorDyn, same masses, EA and damping", difference=float(row[end]), unit="", limit=None,
-            test="test_heavy_lines.py",
-        )  # fmt: skip

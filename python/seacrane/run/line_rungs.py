@@ -21,7 +21,8 @@ from seacrane.scene.scene import Scene
 Array = NDArray[np.float64]
 Jump = tuple[Array, Array]
 LARGEST_ERROR = 0.005  # of what a source makes of the tension
-LARGEST_RINGING = 0.02  # of the tension at the start
+LARGEST_RINGING = 0.005  # of the tension at the start, from a kink
+LARGEST_AT_START = 0.02  # likewise, from the start: a sea begins at once, and that decays
 MOST_KINKS = 5000
 JUST, SLOPE = 1e-9, 1e-5  # s: before and after a kink, and over which slopes are taken there
 COMPILED = "a model that is compiled already, as by accuracy and in stages, has elastic lines"
@@ -161,7 +162,7 @@ def _ringing(line: _core.Line, now: LineDynamics, kinks: list[float], jumps: lis
     if now.tension <= 0.0:
         return "it starts slack"
     limit = LARGEST_RINGING * now.tension
-    if now.ringing > limit:
+    if now.ringing > LARGEST_AT_START * now.tension:
         return (
             f"its tension of {now.tension:.4g} N would ring from the start, by {now.ringing:.3g} N; start it "
             "from rest (equilibrium)"
