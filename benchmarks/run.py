@@ -25,6 +25,7 @@ from measure import (
     linear,
     memory_by_motion,
     memory_cost,
+    memory_fits,
     memory_kinds,
     memory_models,
     pages,
@@ -89,6 +90,7 @@ def sections(folder: Path, *, repeats: int, quick: bool) -> Iterator[Section]:
     yield from paper_form.paper_form(t_end=5.0 if quick else 100.0)
     yield crane.shipped_crane()
     yield memory_by_motion.roll_by_cause()
+    yield memory_fits.memory_fits()
     yield memory_models.self_check()
     yield memory_models.fits()
     yield memory_models.trade()

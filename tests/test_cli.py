@@ -538,3 +538,15 @@ def test_warnings_name_the_users_line_or_none(launcher: str, tmp_path: Path) -> 
     start = "seacrane run: UserWarning: scene 'door': constraints"
     assert told and all(line.startswith(start) for line in told)
     assert f"{script}:8: UserWarning: look here" in done.stderr
+
+
+def test_hydro_fits_over_a_band_that_is_named(capsys: pytest.CaptureFixture[str], shared: Path) -> None:
+    from seacrane.cli import main
+
+    path = str(shared / "veres" / "supply")
+    with pytest.warns(UserWarning, match="no infinite-frequency added mass"):
+        assert main(["hydro", path, "--band", "0.4", "2.0", "--memory", "by-motion", "--json"]) == 0
+    rows = {row["check"]: row for row in json.loads(capsys.readouterr().out)}
+    assert rows["memory_motion_error"]["limit"] == 0.01
+    assert main(["hydro", path, "--band", "2.9", "3.0"]) != 0
+    assert "the band 2.9 to 3 rad/s holds" in capsys.readouterr().err

@@ -35,7 +35,7 @@ from seacrane.hydro.data.memory_model import RADIATION
 from seacrane.hydro.memory import passive
 from seacrane.hydro.memory.certificate import certify
 from seacrane.hydro.memory.identification import r_squared
-from seacrane.hydro.memory.oscillators import GroupData, Oscillators, _Problem, first_guess, fit_oscillators
+from seacrane.hydro.memory.oscillators import GroupData, Oscillators, Problem, first_guess, fit_oscillators
 from seacrane.hydro.memory.passive import motion_groups
 from seacrane.hydro.memory.trade import memory_trade
 
@@ -284,7 +284,7 @@ def test_causes_without_blocks_are_named(hull: MemoryModel) -> None:
 
 def test_the_search_has_the_right_derivatives() -> None:
     data = known_data()
-    problem = _Problem(data, 4)
+    problem = Problem(data, 4)
     random = np.random.default_rng(2)
     at = random.normal(size=4 + 10 + 8) * 0.7
     exact = problem.jacobian(at)

@@ -259,3 +259,22 @@ def test_nothing_is_written_where_it_is_switched_off(tmp_path: Path, monkeypatch
     assert not list(tmp_path.iterdir())
     monkeypatch.delenv("SEACRANE_CACHE")
     assert kept.cache_folder() == tmp_path / "seacrane" / "memory"
+
+
+def test_a_fit_per_pair_leaves_noise_out_too() -> None:
+    """Of pairs that symmetry forbids, and of pairs a hundred-thousandth of their diagonals."""
+    noisy = disturbed({(0, 1): 1e-3, (2, 3): 1e-3, (0, 2): 1e-5, (2, 4): 1e-5})
+    pairs = {(row.output, row.input) for row in fit_memory(database=noisy, r2=0.9).rows}
+    assert pairs == {*((i, i) for i in range(6)), (0, 4), (1, 3), (1, 5), (3, 5)}
+
+
+def test_about_another_point_the_motions_of_that_point_are_judged() -> None:
+    """Moved up and forward: heave there holds pitch; turned over to the other side nothing changes."""
+    database = dataclasses.replace(shipped_database(), memory=fitted())
+    moved = database.at((30.0, 0.0, 5.0)).memory
+    assert moved is not None and moved.motion is not None and fitted().motion is not None
+    assert moved.motion.error.seas[2] != pytest.approx(fitted().motion.error.seas[2], rel=1e-3)
+    assert moved.motion.error.seas[3] == pytest.approx(fitted().motion.error.seas[3], rel=0.05)
+    assert moved.motion.error.worst < 0.02
+    mirrored = database.mirror().memory
+    assert mirrored is not None and mirrored.motion is fitted().motion

@@ -69,7 +69,10 @@ def cache_folder() -> Path | None:
     if named is not None:
         return Path(named) / "memory"
     base = os.environ.get("XDG_CACHE_HOME")
-    return (Path(base) if base else Path.home() / ".cache") / "seacrane" / "memory"
+    try:
+        return (Path(base) if base else Path.home() / ".cache") / "seacrane" / "memory"
+    except RuntimeError:  # there is no home
+        return None
 
 
 def kept_fit(database: HydroData, settings: FitSettings) -> MemoryModel | None:

@@ -11,19 +11,25 @@ from seacrane.hydro.memory.identification import RationalFit
 
 FloatArray = NDArray[np.float64]
 
-NEGLIGIBLE = 1e-6
+NEGLIGIBLE = 1e-4  # a panel code's noise in pairs that a box makes zero is a fifth of it
 FEWEST_FREQUENCIES = 8
 
 
 def memory_entries(
-    added_mass: FloatArray, damping: FloatArray, omega: FloatArray
+    added_mass: FloatArray, damping: FloatArray, omega: FloatArray, *, symmetric: bool = False
 ) -> Iterator[tuple[int, int]]:
-    """Entries (j <= k) with any memory, judged against the geometric mean of their diagonals."""
+    """Entries (j <= k) with any memory, judged against the geometric mean of their diagonals.
+
+    ``symmetric``: of a vessel alike to port and starboard, whose surge, heave and pitch know nothing of sway,
+    roll and yaw; what a file holds there is noise.
+    """
     variation = np.ptp(added_mass, axis=0) * float(np.mean(omega)) + np.abs(damping).max(axis=0)
     diagonal = np.sqrt(np.diag(variation))
     for offset in range(6):  # diagonals first: they bound the damping of the others
         for j in range(6 - offset):
             k = j + offset
+            if symmetric and offset % 2:
+                continue
             if variation[j, k] > NEGLIGIBLE * diagonal[j] * diagonal[k] and variation[j, k] > 0.0:
                 yield j, k
 

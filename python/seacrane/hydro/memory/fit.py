@@ -78,9 +78,10 @@ def fit_memory(
 
     Notes
     -----
-    Entries whose damping and whose variation of added mass stay below 1e-6 of the geometric mean of their
-    diagonals are dropped. Additional matrices (roll tanks) get a static stiffness and a model of their own,
-    in which the retardation function need not vanish at zero frequency, always of the per-pair kind.
+    Entries whose damping and whose variation of added mass stay below 1e-4 of the geometric mean of their
+    diagonals are dropped, and those that symmetry forbids. Additional matrices (roll tanks) get a static
+    stiffness and a model of their own, in which the retardation function need not vanish at zero frequency,
+    always of the per-pair kind.
     """
     require_zero_speed(database)
     if kind not in KINDS:
@@ -164,6 +165,12 @@ def enough_frequencies(database: HydroData) -> bool:
     return bool(database.speed == 0.0 and np.count_nonzero(inside) >= FEWEST_FREQUENCIES)
 
 
+def _entries(database: HydroData, added_mass: FloatArray, damping: FloatArray) -> list[tuple[int, int]]:
+    """Those of the radiation to fit."""
+    symmetric = database.port_starboard_symmetric
+    return list(memory_entries(added_mass, damping, database.omega, symmetric=symmetric))
+
+
 def _fit_radiation(
     database: HydroData, known: FloatArray | None, trusted: NDArray[np.bool_], r2: float
 ) -> tuple[list[MemoryBlock], list[FitRow], FloatArray]:
@@ -174,7 +181,7 @@ def _fit_radiation(
     infinite = np.zeros((6, 6)) if known is None else 0.5 * (known + known.T)
     symmetric_a = 0.5 * (database.added_mass + database.added_mass.swapaxes(1, 2))
     symmetric_b = 0.5 * (database.damping + database.damping.swapaxes(1, 2))
-    for j, k in memory_entries(symmetric_a, symmetric_b, database.omega):
+    for j, k in _entries(database, symmetric_a, symmetric_b):
         data = IdentificationData(
             omega=database.omega,
             added_mass=symmetric_a[:, j, k],
@@ -201,7 +208,7 @@ def _fit_passive_radiation(
         database=database,
         added_mass=symmetric_a,
         damping=symmetric_b,
-        entries=memory_entries(symmetric_a, symmetric_b, database.omega),
+        entries=_entries(database, symmetric_a, symmetric_b),
         known=None if known is None else 0.5 * (known + known.T),
         trusted=trusted,
         r2=r2,

@@ -9,10 +9,12 @@ from numpy.typing import NDArray
 
 from seacrane.hydro.data.heading_circle import PORT_STARBOARD
 from seacrane.hydro.data.hydro_data import HydroData
-from seacrane.hydro.data.memory_model import MemoryBlock, MemoryModel
+from seacrane.hydro.data.memory_model import MemoryBlock, MemoryModel, MotionFit
 from seacrane.hydro.memory.audit import judged_rows
 from seacrane.hydro.memory.joint_passivity import joint_passivity
+from seacrane.hydro.memory.motion_judge import motion_judge
 from seacrane.hydro.memory.realisation import TYPICAL_VELOCITY, largest_states
+from seacrane.hydro.memory.retardation import retardation_functions
 
 FloatArray = NDArray[np.float64]
 
@@ -32,7 +34,16 @@ def moved_memory(model: MemoryModel, transform: FloatArray, moved: HydroData) ->
     matrices = {name: transform.T @ getattr(model, name) @ transform for name in MATRICES}
     passivity = joint_passivity(list(blocks), moved.damping, model.band)
     about = dataclasses.replace(model, blocks=blocks, passivity=passivity, **matrices)
+    if model.motion is not None:
+        about = dataclasses.replace(about, motion=_moved_motion(model.motion, about, moved))
     return dataclasses.replace(about, rows=judged_rows(about, moved))
+
+
+def _moved_motion(motion: MotionFit, model: MemoryModel, moved: HydroData) -> MotionFit:
+    """The motions of the new point judged anew."""
+    judge = motion_judge(moved, model.band)
+    floor = judge.error_of(retardation_functions(database=moved)).worst
+    return dataclasses.replace(motion, error=judge.error_of(model), floor=floor)
 
 
 def _moved_block(block: MemoryBlock, transform: FloatArray) -> MemoryBlock:
