@@ -6,7 +6,7 @@ import collections.abc
 import numpy
 import numpy.typing
 import typing
-__all__: list[str] = ['Actuator', 'Body', 'Channel', 'Curve', 'DriftLoad', 'DriftTable', 'Driver', 'Evaluator', 'ExactWaveLoad', 'Field', 'FlowForce', 'ForceTable', 'Frame', 'Friction', 'FunctionForce', 'GasSpring', 'HeaveCompensator', 'Integrator', 'Joint', 'JointKind', 'LOAD_KINDS', 'Limit', 'Line', 'Model', 'Point', 'PointForce', 'PositionedWaveLoad', 'RecordHistory', 'RepeatPeriod', 'RetardationFunctions', 'RunOptions', 'Simulation', 'SoftStop', 'Spectrum', 'Spring', 'State', 'StateSpaceBlock', 'StepHistory', 'TwistHistory', 'VesselHydrodynamics', 'WaveComponents', 'WaveKinematics', 'WaveLoads', 'WaveTable', 'axes', 'channels', 'compile', 'dnv_gamma', 'initial_state', 'integrator', 'integrator_names', 'integrators', 'joint_kinds', 'jonswap', 'ochi_hubble', 'philox_uniform', 'pierson_moskowitz', 'realise_waves', 'section_radiation', 'stability_polynomial', 'strip_theory', 'tabulated_density', 'torsethaugen']
+__all__: list[str] = ['Actuator', 'Body', 'Channel', 'Curve', 'DriftLoad', 'DriftTable', 'Driver', 'Evaluator', 'ExactWaveLoad', 'Field', 'FlowForce', 'ForceTable', 'Frame', 'Friction', 'FunctionForce', 'GasSpring', 'HeaveCompensator', 'Integrator', 'Joint', 'JointKind', 'LOAD_KINDS', 'Limit', 'Line', 'Model', 'PendulumDamping', 'Point', 'PointForce', 'PositionedWaveLoad', 'RecordHistory', 'RepeatPeriod', 'RetardationFunctions', 'RunOptions', 'Simulation', 'SoftStop', 'SpanDrag', 'Spectrum', 'Spring', 'State', 'StateSpaceBlock', 'StepHistory', 'TwistHistory', 'VesselHydrodynamics', 'WaveComponents', 'WaveKinematics', 'WaveLoads', 'WaveTable', 'axes', 'channels', 'compile', 'dnv_gamma', 'initial_state', 'integrator', 'integrator_names', 'integrators', 'joint_kinds', 'jonswap', 'ochi_hubble', 'philox_uniform', 'pierson_moskowitz', 'realise_waves', 'section_radiation', 'stability_polynomial', 'strip_theory', 'tabulated_density', 'torsethaugen']
 class Curve:
     """
     A reference as a function of time: pieces of quintic polynomials plus one cosine each.
@@ -1404,7 +1404,7 @@ class Line:
         ...
     def __hash__(self) -> int:
         ...
-    def __init__(self, *, name: str, bodies: collections.abc.Sequence[str], points: numpy.typing.ArrayLike, stiffness: typing.SupportsFloat, length: Curve | typing.SupportsFloat, damping_ratio: typing.SupportsFloat = ..., mass: typing.SupportsFloat = ..., stretch: str = ..., settling: typing.SupportsFloat = ..., winch: bool = ..., rate: Curve | typing.SupportsFloat = ..., maximum_rate: typing.SupportsFloat = ..., maximum_acceleration: typing.SupportsFloat = ..., lag: typing.SupportsFloat = ..., minimum_length: typing.SupportsFloat = ..., tension: Curve | typing.SupportsFloat = ..., tension_gain: typing.SupportsFloat = ..., dead_band: typing.SupportsFloat = ..., drum_inertia: typing.SupportsFloat = ..., drum_radius: typing.SupportsFloat = ..., maximum_tension: typing.SupportsFloat = ..., maximum_power: typing.SupportsFloat = ..., brake: Curve | typing.SupportsFloat = ..., brake_capacity: typing.SupportsFloat = ..., brake_give: typing.SupportsFloat = ...) -> None:
+    def __init__(self, *, name: str, bodies: collections.abc.Sequence[str], points: numpy.typing.ArrayLike, stiffness: typing.SupportsFloat, length: Curve | typing.SupportsFloat, damping_ratio: typing.SupportsFloat = ..., mass: typing.SupportsFloat = ..., stretch: str = ..., settling: typing.SupportsFloat = ..., winch: bool = ..., rate: Curve | typing.SupportsFloat = ..., maximum_rate: typing.SupportsFloat = ..., maximum_acceleration: typing.SupportsFloat = ..., lag: typing.SupportsFloat = ..., minimum_length: typing.SupportsFloat = ..., tension: Curve | typing.SupportsFloat = ..., tension_gain: typing.SupportsFloat = ..., dead_band: typing.SupportsFloat = ..., drum_inertia: typing.SupportsFloat = ..., drum_radius: typing.SupportsFloat = ..., maximum_tension: typing.SupportsFloat = ..., maximum_power: typing.SupportsFloat = ..., brake: Curve | typing.SupportsFloat = ..., brake_capacity: typing.SupportsFloat = ..., brake_give: typing.SupportsFloat = ..., radii: numpy.typing.ArrayLike = ..., axes: numpy.typing.ArrayLike = ..., turns: numpy.typing.ArrayLike = ..., efficiencies: numpy.typing.ArrayLike = ..., frictions: numpy.typing.ArrayLike = ..., slip_speed: typing.SupportsFloat = ..., strains: numpy.typing.ArrayLike = ..., tensions: numpy.typing.ArrayLike = ...) -> None:
         ...
     def __repr__(self) -> str:
         ...
@@ -1454,6 +1454,16 @@ class Line:
     def drum_radius(self) -> float:
         """
         m, at which the rope runs
+        """
+    @property
+    def efficiencies(self) -> list[float]:
+        """
+        of each: the smaller tension over the larger
+        """
+    @property
+    def frictions(self) -> list[float]:
+        """
+        coefficients of friction on each
         """
     @property
     def lag(self) -> float:
@@ -1547,6 +1557,16 @@ class Line:
     def tension_gain(self) -> float:
         """
         m/s/N, rate over tension beyond the band; 0: none held
+        """
+    @property
+    def tensions(self) -> list[float]:
+        """
+        N, at these strains, from 0
+        """
+    @property
+    def turns(self) -> list[float]:
+        """
+        whole turns on each besides
         """
     @property
     def winch(self) -> bool:
@@ -1656,6 +1676,139 @@ class GasSpring:
     def volume(self) -> float:
         """
         m3, of the gas at `length`
+        """
+class PendulumDamping:
+    """
+    Damping of a load that swings below a point, as a ratio of critical; see Scene.add_pendulum_damping. Immutable.
+    """
+    FIELDS: typing.ClassVar[tuple]
+    @staticmethod
+    def example() -> PendulumDamping:
+        """
+        One for checks, on bodies 'first', 'second' and 'third'.
+        """
+    def __copy__(self) -> PendulumDamping:
+        ...
+    def __deepcopy__(self, memo: dict) -> PendulumDamping:
+        ...
+    def __eq__(self, arg0: typing.Any) -> typing.Any:
+        ...
+    def __getstate__(self) -> dict:
+        ...
+    def __hash__(self) -> int:
+        ...
+    def __init__(self, *, name: str, first: str, second: str, first_point: numpy.typing.ArrayLike = ..., second_point: numpy.typing.ArrayLike = ..., ratio: typing.SupportsFloat, mass: typing.SupportsFloat = ...) -> None:
+        ...
+    def __repr__(self) -> str:
+        ...
+    def __setstate__(self, arg0: dict) -> None:
+        ...
+    @property
+    def first(self) -> str:
+        """
+        body
+        """
+    @property
+    def first_point(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
+        """
+        m, on the first body: where the wire hangs
+        """
+    @property
+    def mass(self) -> float:
+        """
+        kg, that swings; 0: that of the second body
+        """
+    @property
+    def name(self) -> str:
+        ...
+    @property
+    def ratio(self) -> float:
+        """
+        of critical damping of the swing
+        """
+    @property
+    def second(self) -> str:
+        """
+        body
+        """
+    @property
+    def second_point(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
+        """
+        m, on the second body: what swings
+        """
+class SpanDrag:
+    """
+    Drag across a straight span of wire between two points, in air or water that flows steadily. Immutable.
+    """
+    FIELDS: typing.ClassVar[tuple]
+    @staticmethod
+    def example() -> SpanDrag:
+        """
+        One for checks, on bodies 'first', 'second' and 'third'.
+        """
+    def __copy__(self) -> SpanDrag:
+        ...
+    def __deepcopy__(self, memo: dict) -> SpanDrag:
+        ...
+    def __eq__(self, arg0: typing.Any) -> typing.Any:
+        ...
+    def __getstate__(self) -> dict:
+        ...
+    def __hash__(self) -> int:
+        ...
+    def __init__(self, *, name: str, first: str, second: str, first_point: numpy.typing.ArrayLike = ..., second_point: numpy.typing.ArrayLike = ..., density: typing.SupportsFloat, diameter: typing.SupportsFloat, length: typing.SupportsFloat, coefficient: typing.SupportsFloat, flow: numpy.typing.ArrayLike = ...) -> None:
+        ...
+    def __repr__(self) -> str:
+        ...
+    def __setstate__(self, arg0: dict) -> None:
+        ...
+    @property
+    def coefficient(self) -> float:
+        """
+        drag coefficient across the wire
+        """
+    @property
+    def density(self) -> float:
+        """
+        kg/m3, of the fluid
+        """
+    @property
+    def diameter(self) -> float:
+        """
+        m
+        """
+    @property
+    def first(self) -> str:
+        """
+        body
+        """
+    @property
+    def first_point(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
+        """
+        m, coordinates of the first body
+        """
+    @property
+    def flow(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
+        """
+        m/s, velocity of the fluid, inertial axes
+        """
+    @property
+    def length(self) -> float:
+        """
+        m, of wire in the span
+        """
+    @property
+    def name(self) -> str:
+        ...
+    @property
+    def second(self) -> str:
+        """
+        body
+        """
+    @property
+    def second_point(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
+        """
+        m, coordinates of the second body
         """
 class Limit:
     """
@@ -2671,4 +2824,4 @@ def torsethaugen(*, hs: typing.SupportsFloat | typing.SupportsIndex, tp: typing.
     K. Torsethaugen and S. Haver, ISOPE 2004; DNV-RP-C205 appendix A. Norwegian waters, fetch 370 km. Normalised by
     quadrature instead of the fitted factor A_gamma.
     """
-LOAD_KINDS: dict = {'heave compensator': HeaveCompensator, 'actuator': Actuator, 'point force': PointForce, 'spring': Spring, 'force table': ForceTable, 'function force': FunctionForce, 'flow force': FlowForce, 'friction': Friction, 'soft stop': SoftStop, 'line': Line, 'gas spring': GasSpring, 'limit': Limit}
+LOAD_KINDS: dict = {'heave compensator': HeaveCompensator, 'actuator': Actuator, 'point force': PointForce, 'spring': Spring, 'force table': ForceTable, 'function force': FunctionForce, 'flow force': FlowForce, 'friction': Friction, 'soft stop': SoftStop, 'line': Line, 'gas spring': GasSpring, 'pendulum damping': PendulumDamping, 'span drag': SpanDrag, 'limit': Limit}
