@@ -146,7 +146,7 @@ def _arrays(model: MemoryModel) -> dict[str, Any]:
 def _read(path: Path) -> MemoryModel:
     if path.stat().st_size > MOST_BYTES:
         raise ValueError("too large for a memory model")
-    with path.open("rb") as stream, np.load(stream, allow_pickle=False) as file:
+    with path.open("rb") as stream, np.load(stream) as file:
         arrays = {name: file[name] for name in file.files}
     head = json.loads(arrays["head"].tobytes())
     motion = head.get("motion")
