@@ -64,6 +64,24 @@ def _hauled_in(minimum: float) -> Case:
     return Case(scene=scene, t_end=7.0, dt_out=0.1)
 
 
+def _braked(within: float) -> Case:
+    """A load that is lowered at 0.5 m/s when the brake closes within this time."""
+    scene = _heaved(heave=_core.Curve.constant(0.0))
+    brake = _core.Curve.quintic(start_time=1.0, end_time=1.0 + within, start=0.0, end=1.0)
+    scene.add_winch(
+        line="hoist", rate=_core.Curve.quintic(end_time=0.8, end=0.5), lag=0.1,
+        drum_inertia=1e3, drum_radius=0.5, brake=brake, brake_capacity=2.0 * MASS * GRAVITY, brake_give=0.02,
+    )  # fmt: skip
+    return Case(scene=scene, t_end=3.0, dt_out=0.1)
+
+
+def _held(band: float) -> Case:
+    """A tension held within a band while the block heaves."""
+    scene = _heaved()
+    scene.add_winch(line="hoist", tension=MASS * GRAVITY, tension_gain=2e-5, dead_band=band, lag=0.1)
+    return Case(scene=scene, t_end=5.0, dt_out=0.1)
+
+
 def _falls(falls: float) -> Case:
     return Case(scene=_heaved(falls=round(falls)), t_end=5.0, dt_out=0.1)
 
@@ -84,6 +102,10 @@ AXES = (
          values=(0.0, 1e-6, 1e-4, 1e-2, 1.0, 100.0), quick=(0.0, 1.0), case=_length),
     Axis(name="line-hauled-in", title="20 t hauled in by a winch", label="minimum length [m]",
          values=(1e-3, 0.01, 0.1, 1.0, 5.0), quick=(1.0,), case=_hauled_in),
+    Axis(name="line-brake", title="20 t lowered when the brake closes", label="within [s]",
+         values=(1.0, 0.1, 0.01, 1e-3, 1e-4), quick=(1e-3,), case=_braked),
+    Axis(name="line-dead-band", title="20 t at a held tension", label="dead band [N]",
+         values=(0.0, 1.0, 1e2, 1e4, 1e6), quick=(1e2,), case=_held),
     Axis(name="line-falls", title="20 t on many falls", label="falls",
          values=(1.0, 2.0, 4.0, 8.0, 16.0, 32.0, 64.0), quick=(16.0,), case=_falls),
     Axis(name="line-load", title="What hangs on 10 m of line", label="load [t]",
