@@ -613,8 +613,8 @@ def test_settings_of_a_run(arguments: dict[str, Any], parts: tuple[str, ...]) ->
         pytest.param({"values": np.full(15, NAN)}, ("state", "not finite"), id="nan"),
         pytest.param({"values": np.zeros(15)}, ("state", "give a state of this scene"), id="no orientation"),
         pytest.param({"values": np.r_[5.0, 0, 0, 1, np.zeros(11)]}, (), id="off its joints"),
-        pytest.param({"inputs": []}, ("inputs", "0 values", "2 slots"), id="inputs missing"),
-        pytest.param({"inputs": [NAN, 0.0]}, ("inputs", "not finite"), id="inputs nan"),
+        pytest.param({"inputs": []}, ("inputs", "0 values", "3 slots"), id="inputs missing"),
+        pytest.param({"inputs": [NAN, 0.0, 0.0]}, ("inputs", "not finite"), id="inputs nan"),
         pytest.param({"time": NAN}, ("start time is nan",), id="time nan"),
         pytest.param({"time": 7.0}, ("t_end is 1.0 s", "7.0"), id="time after the end"),
     ],
@@ -757,7 +757,7 @@ def test_controller_period_below_the_resolution_of_time_does_not_hang() -> None:
 def test_inputs_of_a_run() -> None:
     run = Run(pendulum(), t_end=1.0)
     refused(lambda: run.set_inputs({"motor": 1.0}), "input 'motor'", "motor.force, motor.reference")
-    refused(lambda: run.core.set_inputs([1.0]), "inputs", "1 values", "2 slots")
+    refused(lambda: run.core.set_inputs([1.0]), "inputs", "1 values", "3 slots")
     refused(lambda: run.advance(NAN), "t_end", "finite")
 
 

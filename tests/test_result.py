@@ -206,7 +206,8 @@ GENERAL = {
     "offlead", "sidelead", "line_tension", "line_length", "line_unstretched_length", "line_stretch",
     "line_pay_out_rate", "line_winch_power", "drum_motor_torque", "drum_motor_power",
     "drum_brake_torque", "drum_brake_power",
-    "cylinder_pressure", "clearance", "hook_load",
+    "cylinder_pressure", "clearance", "hook_load", "section_tension", "sheave_wrap",
+    "sheave_fleet_angle", "sheave_friction_power",
 }  # fmt: skip
 
 

@@ -336,5 +336,7 @@ def test_names_and_kinds_are_kept_apart() -> None:
         else:
             with pytest.raises(SceneError, match=expected):
                 scene.add_wind(coefficients=smooth(), speed=1.0, direction_deg=0.0, body="block", **AREAS)
-    with pytest.raises(SceneError, match="is of no known kind; give one of Actuator, PointForce"):
+    with pytest.raises(
+        SceneError, match="is of no known kind; give one of HeaveCompensator, Actuator, PointForce"
+    ):
         scene.add_load(3.0)

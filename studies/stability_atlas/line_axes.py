@@ -66,10 +66,10 @@ def _hauled_in(minimum: float) -> Case:
 
 def _braked(within: float) -> Case:
     """A load that is lowered at 0.5 m/s when the brake closes within this time."""
-    scene = _heaved(heave=_core.Curve.constant(0.0))
+    scene = _heaved(heave=_core.Curve.constant(value=0.0))
     brake = _core.Curve.quintic(start_time=1.0, end_time=1.0 + within, start=0.0, end=1.0)
     scene.add_winch(
-        line="hoist", rate=_core.Curve.quintic(end_time=0.8, end=0.5), lag=0.1,
+        line="hoist", rate=_core.Curve.quintic(start_time=0.0, end_time=0.8, start=0.0, end=0.5), lag=0.1,
         drum_inertia=1e3, drum_radius=0.5, brake=brake, brake_capacity=2.0 * MASS * GRAVITY, brake_give=0.02,
     )  # fmt: skip
     return Case(scene=scene, t_end=3.0, dt_out=0.1)

@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 from seacrane import _core
 from seacrane.errors import FileFormatError
 from seacrane.files.atomic import atomic_write
+from seacrane.files.state_parts import require_parts
 from seacrane.inputs.shown import shown
 
 Array = NDArray[np.float64]
@@ -119,9 +120,7 @@ def load_state(path: str | os.PathLike[str], *, scene: Compilable | None = None)
         raise FileFormatError(f"{path}: has {size} bytes, a state file no more than {LARGEST_FILE}")
     state = state_from_bytes(path.read_bytes(), path)
     if scene is not None:
-        own = _core.initial_state(scene.compile()).parts
-        if state.parts and state.parts != own:
-            raise FileFormatError(f"{path}: {_difference(state.parts, own)}; give a state of this scene")
+        require_parts(path, state.parts, scene.compile())
     return state
 
 
@@ -132,13 +131,6 @@ def state_from_bytes(data: bytes, path: Path) -> _core.State:
         return _state(header, arrays)
     except (KeyError, TypeError, ValueError) as error:
         raise FileFormatError(f"{path}: is not a state: {error}; save the state again") from error
-
-
-def _difference(parts: list[str], own: list[str]) -> str:
-    count = max(len(parts), len(own))
-    padded = [[*some, *["nothing more"] * (count - len(some))] for some in (parts, own)]
-    there, here = next(pair for pair in zip(*padded, strict=True) if pair[0] != pair[1])
-    return f"is the state of another scene: it holds {there[:80]} where the scene has {here}"
 
 
 def _checked(data: bytes, path: Path) -> tuple[dict[str, Any], dict[str, Array]]:

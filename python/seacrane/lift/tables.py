@@ -319,13 +319,6 @@ _ALL = (
         loads={"type": "array", "unit": "N, N m", "shapes": ((-1, 6),)},
     ),
     _call("line", lines.add_line, _core.Line),
-    _call(
-        "heavy_line", heavy_line.add_heavy_line,
-        length=LENGTH, stiffness={"unit": "N"}, mass_per_length={"unit": "kg/m"}, diameter=LENGTH,
-        points={"type": "array", "unit": "m", "shapes": ((2, 3),)}, bodies={"type": "texts"},
-        density={"unit": "kg/m3"}, settling=TIME,
-        flow={"type": "array", "unit": "m/s", "shapes": ((3,),)},
-    ),
     _call("winch", lines.add_winch, _core.Line),
     _call(
         "gas_spring", heave.add_gas_spring, _core.GasSpring, force={"unit": "N"}, stiffness={"unit": "N/m"},
@@ -333,6 +326,13 @@ _ALL = (
     _call(
         "bridle", bridles.add_bridle, _core.Line,
         hook_point=POINT, stiffnesses=ROW | {"unit": "N"}, lengths=ROW | {"unit": "m"},
+    ),
+    _call(
+        "heavy_line", heavy_line.add_heavy_line,
+        length=LENGTH, stiffness={"unit": "N"}, mass_per_length={"unit": "kg/m"}, diameter=LENGTH,
+        points={"type": "array", "unit": "m", "shapes": ((2, 3),)}, bodies={"type": "texts"},
+        density={"unit": "kg/m3"}, settling=TIME,
+        flow={"type": "array", "unit": "m/s", "shapes": ((3,),)},
     ),
     _call("pendulum_damping", damping.add_pendulum_damping, _core.PendulumDamping),
     _call("air_drag", damping.add_air_drag, _core.FlowForce),

@@ -15,6 +15,7 @@ from seacrane.description.loads import lines_of
 from seacrane.description.references import check_references
 from seacrane.description.stretch import QUASI_STATIC, automatic, with_stretch
 from seacrane.errors import SceneError, SeacraneError, SimulationError
+from seacrane.files.state_parts import with_present_inputs
 from seacrane.inputs.checked import number_of
 from seacrane.result.channels import DERIVED
 from seacrane.result.events import Event
@@ -141,6 +142,8 @@ class Run:
         scene = with_stretch(self._given, stretches)
         self.scene, self.model, self.formulation = stepped(scene, model, self.method)
         start = self._given_start
+        if start is not None:
+            start = with_present_inputs(start, self.model)
         if start is None:
             start = _core.initial_state(self.model)
         elif self._differs_by_rungs(start):

@@ -86,7 +86,8 @@ def read_nemoh(
     except FileFormatError:
         raise
     except ValueError as error:
-        raise FileFormatError(f"{folder}: {error}") from error
+        names = ", ".join(str(file) for file in (*files.values(), control) if file is not None)
+        raise FileFormatError(f"{names}: {error}") from error
 
 
 @dataclass(frozen=True, eq=False)
@@ -238,8 +239,11 @@ def _matrix(path: Path) -> FloatArray:
 
 def _read_control(path: Path) -> _Water:
     """Water and body of ``Nemoh.cal``: values stand before the exclamation marks."""
-    rows = [line.split("!")[0].split() for line in _lines(path) if not line.lstrip().startswith("---")]
-    numbers = [[float(word) for word in row if re.fullmatch(NUMBER, word)] for row in rows]
+    lines = enumerate(_lines(path), start=1)
+    rows = [(n, line.split("!")[0].split()) for n, line in lines if not line.lstrip().startswith("---")]
+    numbers = [
+        _numbers(path, line, [word for word in row if re.fullmatch(NUMBER, word)]) for line, row in rows
+    ]
     if len(numbers) < 5 or [len(row) for row in numbers[:5]] != [1, 1, 1, 2, 1]:
         raise FileFormatError(
             f"{path}: does not begin with density, gravity, depth, wave measurement point and number of "
