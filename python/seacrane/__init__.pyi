@@ -97,6 +97,7 @@ from seacrane.result import Event as Event
 from seacrane.result import Result as Result
 from seacrane.result.heavy_lines import heavy_line_tension as heavy_line_tension
 from seacrane.result.utilisation import Utilisation as Utilisation
+from seacrane.run.growth import GrowingModeWarning as GrowingModeWarning
 from seacrane.run.line_rungs import LineRungWarning as LineRungWarning
 from seacrane.run.method import Method as Method
 from seacrane.run.output_times import OutputMemoryError as OutputMemoryError
