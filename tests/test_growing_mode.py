@@ -1,4 +1,4 @@
-"""A method that feeds an oscillation over many steps tells so; one that damps it, or a damped mode, does not."""
+"""A method that feeds an oscillation over many steps is told of; one that damps it is not."""
 
 from __future__ import annotations
 
@@ -9,7 +9,9 @@ from typing import Any
 import numpy as np
 import pytest
 from numpy.polynomial import Polynomial
+
 from seacrane import GrowingModeWarning, Scene, _core, simulate
+from seacrane.run import growth
 
 MODE, STEP = 2.2, 0.5  # rad/s, s
 AMPLITUDE = 1e-6  # m
@@ -70,7 +72,5 @@ def test_what_does_not_grow_is_not_told(damping_ratio: float, integrator: str, s
 
 
 def test_a_short_run_pays_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
-    from seacrane.run import growth
-
     monkeypatch.setattr(growth, "jacobian", None)
     run(swinging(), t_end=1000.0)

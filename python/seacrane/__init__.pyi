@@ -130,6 +130,7 @@ from seacrane.validity.energy import EnergyErrorWarning as EnergyErrorWarning
 from seacrane.validity.following import FullTurnWarning as FullTurnWarning
 from seacrane.validity.following import OutsideRangeWarning as OutsideRangeWarning
 from seacrane.validity.following import SoftGainsWarning as SoftGainsWarning
+from seacrane.validity.holding import FreeCraneWarning as FreeCraneWarning
 from seacrane.validity.hull_range import ForwardSpeedWarning as ForwardSpeedWarning
 from seacrane.validity.hull_range import MeanHeadingWarning as MeanHeadingWarning
 from seacrane.validity.hull_range import MeanPositionWarning as MeanPositionWarning

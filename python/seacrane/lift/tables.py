@@ -318,7 +318,7 @@ _ALL = (
         "force_table", forces.add_force_table, _core.ForceTable,
         loads={"type": "array", "unit": "N, N m", "shapes": ((-1, 6),)},
     ),
-    _call("line", lines.add_line, _core.Line),
+    _call("line", lines.add_line, _core.Line, tension_at_start={"unit": "N"}),
     _call(
         "heavy_line", heavy_line.add_heavy_line,
         length=LENGTH, stiffness={"unit": "N"}, mass_per_length={"unit": "kg/m"}, diameter=LENGTH,

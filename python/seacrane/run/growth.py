@@ -1,4 +1,4 @@
-"""A long run that an explicit method feeds: an oscillation with little damping that each step makes larger."""
+"""A long run with an oscillation of little damping that each step of an explicit method makes larger."""
 
 from __future__ import annotations
 
@@ -70,8 +70,8 @@ def growing(
             f"{np.exp(min(worst.rate * HOUR, 99.0)):.3g} an hour: a mode of {worst.frequency:.4g} rad/s with "
             f"{worst.damping_ratio:.2g} of critical damping, which its steps of {step:.3g} s on average "
             "outweigh. energy_balance hardly shows it, standard deviations do. Give a smaller "
-            f"{setting}, take another integrator ('dopri5' or 'verner65' at rtol 1e-4), or give the mode "
-            "damping",
+            f"{setting}, take another integrator ('verner65' or 'dop853' damp up to longer steps), or give "
+            "the mode damping",
         )
     ]
 
@@ -105,9 +105,7 @@ def _fastest_growth(
     )
 
 
-def added(
-    polynomial: Polynomial, modes: NDArray[np.complex128], step: float
-) -> NDArray[np.float64]:
+def added(polynomial: Polynomial, modes: NDArray[np.complex128], step: float) -> NDArray[np.float64]:
     """Rates (1/s) by which steps change amplitudes beyond what the modes do by themselves."""
     z = step * modes
     return np.asarray(np.log(np.abs(polynomial(z))) - z.real) / step
