@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from seacrane import Curve, LineLengthWarning, Scene, simulate
+from seacrane import Curve, Lift, LineLengthWarning, Scene, simulate
 from seacrane.errors import SceneError
 
 MASS, G, DROP = 20e3, 9.80665, 30.0
@@ -70,6 +70,24 @@ def with_length(scene: Scene, length: float) -> Scene:
 def test_what_makes_no_start_is_refused(given: dict[str, Any], words: str) -> None:
     with pytest.raises(SceneError, match=words):
         hung(**given)
+
+
+def test_a_lift_file_tells_both() -> None:
+    place = {"inertia_kg_m2": [1e5, 1e5, 1e5], "position_m": [0, 0, -DROP]}
+    lift = Lift(
+        {
+            "crane": {"base": "ground", "held": True},
+            "body": [{"name": "load", "mass_kg": MASS, **place}],
+            "line": [
+                {"name": "hoist", "bodies": ["ground", "load"], "points_m": [[0, 0, 0], [0, 0, 0]],
+                 "stiffness_N": SOFT, "tension_at_start_N": MASS * G}
+            ],
+        }
+    )  # fmt: skip
+    scene = lift.scene()
+    assert len(scene.drivers) == 3
+    start = scene.loads["hoist"].length.evaluate([0.0])[0, 0]
+    assert start == pytest.approx(DROP / (1.0 + MASS * G / SOFT), rel=1e-12)
 
 
 def test_a_path_over_a_body_that_is_not_there_has_no_length() -> None:
