@@ -20,6 +20,7 @@ from measure import (
     events,
     footprint,
     formulations,
+    hours,
     integrators,
     line_methods,
     linear,
@@ -69,6 +70,7 @@ def sections(folder: Path, *, repeats: int, quick: bool) -> Iterator[Section]:
     yield formulations.formulations(repeats=repeats)
     yield formulations.throughput(repeats=repeats)
     yield storm.storm(repeats=min(repeats, 3))
+    yield hours.hours()
     yield scaling.growth(repeats=min(repeats, 3))
     yield scaling.loop_rows(repeats=repeats)
     yield memory_cost.memory_cost(repeats=repeats)

@@ -25,9 +25,8 @@ def lift(hs: float) -> Result:
     across = MASS / 12.0 * (LENGTH**2 + HEIGHT**2)
     lengths = {}
     for name, x in FEET.items():
-        crane = scene.add_crane(foot=(x, 10.0, 10.0), theta=-np.pi / 2, s1=2.0, s2=1.0, prefix=f"{name} ")
-        for joint in (crane.slew[0], *crane.cylinders.values()):
-            scene.add_driver(joint=joint, curve=0.0)
+        pose = {"foot": (x, 10.0, 10.0), "theta": -np.pi / 2, "s1": 2.0, "s2": 1.0}
+        crane = scene.add_crane(**pose, held=True, prefix=f"{name} ")
         body, point = crane.tip
         tip = scene.place_of(body=body, point=point)
         if not lengths:

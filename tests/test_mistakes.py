@@ -243,6 +243,22 @@ def a_link_down_to_the_keel() -> None:
     simulate(driven(scene), t_end=0.5)
 
 
+def a_crane_without_drives() -> None:
+    scene = Scene(name="quay")
+    scene.add_crane(base="ground", payload=Payload(mass=20e3))
+    simulate(scene, t_end=0.1)
+
+
+def hours_at_a_loose_tolerance() -> None:
+    """A box on a spring in place of the load, with the steps that waves would give."""
+    scene = Scene(name="rocking")
+    scene.add_body(name="box", mass=1.0, inertia=[1, 1, 1], velocity=(1e-6, 0, 0))
+    scene.add_joint(kind="prismatic", name="rail", first="ground", second="box", axis=(1, 0, 0))
+    scene.add_spring(name="spring", first="ground", second="box", first_point=(-9, 0, 0), stiffness=5.0,
+                     natural_length=9.0)  # fmt: skip
+    simulate(scene, t_end=3 * 3600.0, dt_out=1.0, integrator="tsit5", rtol=1e-2, max_step=0.5)
+
+
 def forces_as_text() -> None:
     lift(ballast=False).add_point_force(name="pull", body="payload", force=["1e3", "0", "0"])
 
@@ -266,6 +282,8 @@ SCRIPTS: dict[str, list[Callable[[], None]]] = {
     "more than the crane may lift": [above_the_table],
     "a load in the hull": [a_link_down_to_the_keel],
     "a mode far faster than the outputs": [a_stop_of_steel],
+    "a crane that nothing holds": [a_crane_without_drives],
+    "a loose tolerance for hours": [hours_at_a_loose_tolerance],
     "texts for numbers": [forces_as_text],
 }
 

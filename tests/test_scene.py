@@ -219,7 +219,8 @@ def test_redundant_joints_warn_by_name_and_the_motion_is_that_of_one() -> None:
 
 def test_names_of_one_kind_differ_and_kinds_do_not_share_names() -> None:
     scene = mass_on_rail()
-    with pytest.raises(SceneError, match="actuator 'motor': the name is used twice"):
+    told = "actuator 'motor': the name is used twice: actuator 'motor' has it; give this one another"
+    with pytest.raises(SceneError, match=told):
         scene.add_actuator(name="motor", joint="rail")
     scene.add_spring(name="motor", first="ground", second="cart", stiffness=1.0)
     scene.compile()

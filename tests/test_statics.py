@@ -198,7 +198,7 @@ def test_it_is_a_labelled_value() -> None:
     assert "slew [deg]" in str(told) and "<td" in told._repr_html_()
     assert told.to_dict()["hook load"] == pytest.approx([20.0, 20.0])
     assert told.to_xarray()["cylinder force main"].attrs["units"] == "kN"
-    with pytest.raises(KeyError, match="no column 'roll'; statics has tip radius, hook load"):
+    with pytest.raises(KeyError, match="no column 'roll'; statics has tip radius, tip height, hook load"):
         told["roll"]
 
 
@@ -316,3 +316,29 @@ def test_lines_tell_their_lengths() -> None:
     assert float(found["line tension hoist"]) == pytest.approx(tension / 1e3, rel=1e-6)
     assert float(found["line unstretched length hoist"]) == pytest.approx(19.9, rel=1e-12)
     assert float(found["line length hoist"]) == pytest.approx(19.9 * (1.0 + tension / 1e7), rel=1e-9)
+
+
+def test_numbers_give_numbers_and_rows_give_axes() -> None:
+    """Also beside a row: only that one makes an axis."""
+    scene = crane_on_ground()
+    one = statics(scene, slew=-0.5, radius=20.0)
+    assert one["tip radius"].shape == () and f"{one['tip radius']:.3f}" == "20.000"
+    row = statics(scene, slew=-0.5, radius=[20.0, 22.0])
+    assert row["tip radius"] == pytest.approx([20.0, 22.0])
+    assert row["link tension"][0] == pytest.approx(one["link tension"], rel=1e-6)
+    assert str(one).count("\n") == 2 and str(row).count("\n") == 3
+    assert one.to_xarray()["tip radius"].dims == () and row.to_xarray()["tip radius"].dims == ("radius",)
+    assert one.to_xarray()["tip radius"].coords["slew"].item() == -0.5
+    assert one.to_dict()["tip radius"] == pytest.approx(20.0)
+    assert isinstance(statics(scene)["tip radius"], float)
+
+
+def test_the_height_of_the_tip_is_where_it_is_described() -> None:
+    """And rises with the main cylinder by what the geometry says."""
+    scene = crane_on_ground()
+    body, point = scene.roles[""].tip
+    assert statics(scene)["tip height"] == pytest.approx(scene.place_of(body=body, point=point)[2], abs=1e-9)
+    up = statics(scene, coordinates={"main": 0.5})["tip height"]
+    raised = crane_on_ground(s1=1.5)
+    body, point = raised.roles[""].tip
+    assert up == pytest.approx(raised.place_of(body=body, point=point)[2], abs=1e-6)

@@ -90,6 +90,15 @@ def test_no_static_load_is_made_up() -> None:
     assert "* at the first output" in str(told)
 
 
+def test_a_starred_value_is_that_at_the_start_asked_for(swinging: Result) -> None:
+    """Not of the run: what happened before does not matter to the part."""
+    row = summary(swinging, start=3.05)["load offset x"]
+    first = int(np.argmax(swinging.time >= 3.05))
+    assert not row.static_known
+    assert row.static == pytest.approx(swinging["position"][first, 0, 0], rel=1e-9)
+    assert summary(swinging)["load offset x"].static == pytest.approx(swinging["position"][0, 0, 0])
+
+
 def test_it_prints_as_a_table_and_becomes_data(swinging: Result) -> None:
     told = summary(swinging)
     head, *lines = str(told).splitlines()

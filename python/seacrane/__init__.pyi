@@ -97,6 +97,7 @@ from seacrane.result import Event as Event
 from seacrane.result import Result as Result
 from seacrane.result.heavy_lines import heavy_line_tension as heavy_line_tension
 from seacrane.result.utilisation import Utilisation as Utilisation
+from seacrane.run.growth import GrowingModeWarning as GrowingModeWarning
 from seacrane.run.line_rungs import LineRungWarning as LineRungWarning
 from seacrane.run.method import Method as Method
 from seacrane.run.output_times import OutputMemoryError as OutputMemoryError
@@ -129,6 +130,7 @@ from seacrane.validity.energy import EnergyErrorWarning as EnergyErrorWarning
 from seacrane.validity.following import FullTurnWarning as FullTurnWarning
 from seacrane.validity.following import OutsideRangeWarning as OutsideRangeWarning
 from seacrane.validity.following import SoftGainsWarning as SoftGainsWarning
+from seacrane.validity.holding import FreeCraneWarning as FreeCraneWarning
 from seacrane.validity.hull_range import ForwardSpeedWarning as ForwardSpeedWarning
 from seacrane.validity.hull_range import MeanHeadingWarning as MeanHeadingWarning
 from seacrane.validity.hull_range import MeanPositionWarning as MeanPositionWarning

@@ -83,10 +83,12 @@ def simulate(
         "validity". See docs/troubleshooting.md.
     StiffWarning
         After a slow run, when one fast mode set the steps of its explicit method; in `stats` likewise.
+    GrowingModeWarning
+        After a long run, when its method fed an oscillation with little damping; in `stats` likewise.
     LineRungWarning
         After a run that began anew because a line with stretch="auto" went slack; in `stats` likewise.
     DriverImpulseWarning, AngleUnitWarning, CompassDirectionWarning, MassUnitWarning, BallastWarning,
-    LoadInHullWarning
+    LoadInHullWarning, FreeCraneWarning
         Before it, when the description most likely does not say what was meant. See docs/mistakes.md.
     """
     called = checked_controllers(controllers)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,7 +15,7 @@ from seacrane.analysis.rest_state import held
 from seacrane.answers.afloat import attitude, displaced_weight, heeling_stiffness
 from seacrane.description.compilation import compile_scene
 from seacrane.description.crane_parts import cylinders, hooks, piston_areas, slews
-from seacrane.description.crane_reach import tip_radius
+from seacrane.description.crane_reach import placed, tip_radius
 from seacrane.description.cylinder_areas import pressure
 from seacrane.description.loads import lines_of
 from seacrane.description.roles import CraneRoles
@@ -63,6 +64,11 @@ class AtRest:
         """Of a crane's tip, m."""
         return float(tip_radius(self.scene, roles, self.channels["position"], self.channels["quaternion"]))
 
+    def height(self, body: str, point: Any) -> float:
+        """Of a point of a body (its coordinates, m) above z = 0, m."""
+        at, _ = placed(self.scene, body, point, self.channels["position"], self.channels["quaternion"])
+        return float(at[2])
+
 
 def columns_of(at_rest: AtRest) -> dict[str, tuple[str, float]]:
     """Unit and value of everything that is told, by name."""
@@ -88,6 +94,8 @@ def _cranes(at_rest: AtRest) -> dict[str, tuple[str, float]]:
     for roles in scene.roles.values():
         if roles.slew is not None and roles.tip is not None:
             found[f"{roles.prefix}tip radius"] = ("m", at_rest.radius(roles))
+        if roles.tip is not None:
+            found[f"{roles.prefix}tip height"] = ("m", at_rest.height(*roles.tip))
     several, areas = len(hooks(scene)) > 1, piston_areas(scene)
     for label, link in hooks(scene).items():
         tension = at_rest.tension(link)

@@ -38,28 +38,29 @@ class Statics:
     ----------
     scene : str
         Its name.
-    poses : mapping of str to ndarray
+    poses : mapping of str to ndarray or float
         Values along each axis of the grid: "slew" (rad), "radius" (m), strokes by the cylinder's label (m);
-        empty for the pose described.
-    columns : mapping of str to ndarray
-        Values over the grid, in the unit that `units` tells; ``statics["GM"]`` is one of them.
+        a number that was given as one makes no axis. Empty for the pose described.
+    columns : mapping of str to ndarray or float
+        Values over the grid, numbers where it has no axis, in the unit that `units` tells;
+        ``statics["GM"]`` is one of them.
     units : mapping of str to str
         Of each column: deg, m, kN, kN m, t.
     """
 
     scene: str
-    poses: Mapping[str, Array]
-    columns: Mapping[str, Array]
+    poses: Mapping[str, Any]
+    columns: Mapping[str, Any]
     units: Mapping[str, str]
 
-    def __getitem__(self, name: str) -> Array:
+    def __getitem__(self, name: str) -> Any:
         """A column over the grid; KeyError names those that are there."""
         if name not in self.columns:
             raise KeyError(f"there is no column {name!r}; statics has {', '.join(self.columns)}")
         return self.columns[name]
 
     def __repr__(self) -> str:
-        grid = " x ".join(f"{len(values)} {name}" for name, values in self.poses.items()) or "as described"
+        grid = " x ".join(f"{np.size(v)} {name}" for name, v in self.poses.items()) or "as described"
         return f"<Statics of {self.scene!r}: {grid}; {', '.join(self.columns)}>"
 
     def __str__(self) -> str:
@@ -77,13 +78,16 @@ class Statics:
         """Columns over the axes of the grid, with their units."""
         import xarray
 
-        dims = tuple(self.poses)
+        dims = tuple(name for name, values in self.poses.items() if np.ndim(values))
         return xarray.Dataset(
             {
                 name: (dims, values.copy(), {"units": self.units[name]})
                 for name, values in self.columns.items()
             },
-            {name: (name, values.copy(), {"units": _unit(name)}) for name, values in self.poses.items()},
+            {
+                name: ((name,) if np.ndim(values) else (), values.copy(), {"units": _unit(name)})
+                for name, values in self.poses.items()
+            },
             {"scene": self.scene},
         )
 
@@ -94,11 +98,12 @@ class Statics:
             return ["", "value", "unit"], rows
         axes = [f"{name} [{'deg' if name == 'slew' else 'm'}]" for name in self.poses]
         head = [*axes, *(f"{name} [{self.units[name]}]" for name in self.columns)]
-        shown_axes = [np.degrees(v) if name == "slew" else v for name, v in self.poses.items()]
-        rows = []
-        for index in np.ndindex(*(len(values) for values in self.poses.values())):
-            place = [float(axis[i]) for axis, i in zip(shown_axes, index, strict=True)]
-            rows.append([_shown(v) for v in (*place, *(float(c[index]) for c in self.columns.values()))])
+        axes_values = [
+            np.atleast_1d(np.degrees(v) if name == "slew" else v) for name, v in self.poses.items()
+        ]
+        places = itertools.product(*axes_values)
+        told = zip(*(np.ravel(values) for values in self.columns.values()), strict=True)
+        rows = [[_shown(float(v)) for v in (*place, *row)] for place, row in zip(places, told, strict=True)]
         return head, rows
 
 
@@ -123,7 +128,7 @@ def statics(
     """Heel, trim, draught, GM, hook load, cylinder forces and slew torque at rest, in every pose asked for.
 
     The whole scene rests in each pose, without waves: vessels heel and trim, loads hang, and drives hold the
-    cranes' coordinates. Arrays make a grid, in the order slew, radius or coordinates.
+    cranes' coordinates. Arrays make a grid, in the order slew, radius or coordinates; numbers make no axis.
 
     Parameters
     ----------
@@ -144,9 +149,10 @@ def statics(
     -------
     Statics
         heel (deg; positive lifts port), trim (deg; positive lowers the bow), draught change (m, of the
-        reference point from its place at rest in the database), GM (m), tip radius (m), hook load (t), link
-        tension (kN), cylinder forces (kN, positive pushes), slew torque (kN m). GM is the heeling moment for
-        each radian over the displaced weight, with loads free to swing: a load that hangs counts at its tip.
+        reference point from its place at rest in the database), GM (m), tip radius (m), tip height (m, above
+        z = 0), hook load (t), link tension (kN), cylinder forces (kN, positive pushes), slew torque (kN m).
+        GM is the heeling moment for each radian over the displaced weight, with loads free to swing: a load
+        that hangs counts at its tip.
 
     Raises
     ------
@@ -158,25 +164,37 @@ def statics(
     axes, roles = _axes(slew, radius, coordinates), None
     if axes:
         roles = crane_of(scene, crane)
-    grid = [dict(zip(axes, one, strict=True)) for one in itertools.product(*axes.values())]
-    shape = tuple(len(values) for values in axes.values())
+    every = [np.atleast_1d(values) for values in axes.values()]
+    grid = [dict(zip(axes, one, strict=True)) for one in itertools.product(*every)]
+    shape = tuple(len(values) for values in axes.values() if np.ndim(values))
     rows = [columns_of(one) for one in resting(scene, roles, grid, luff)]
     return Statics(
         scene=scene.name,
         poses=axes,
-        columns={name: np.array([row[name][1] for row in rows]).reshape(shape) + 0.0 for name in rows[0]},
+        columns={name: _over(shape, [row[name][1] for row in rows]) for name in rows[0]},
         units={name: unit for name, (unit, _) in rows[0].items()},
     )
 
 
-def _axes(slew: Any, radius: Any, coordinates: Mapping[str, Any] | None) -> dict[str, Array]:
+def _over(shape: tuple[int, ...], values: list[float]) -> Any:
+    """Values over a grid; one number where it has no axis."""
+    return np.array(values).reshape(shape)[()] + 0.0
+
+
+def _axes(slew: Any, radius: Any, coordinates: Mapping[str, Any] | None) -> dict[str, Any]:
     given = {"slew": slew, "radius": radius}
-    axes = {name: values_of(f"statics: {name}", v) for name, v in given.items() if v is not None}
+    axes = {name: _axis(f"statics: {name}", v) for name, v in given.items() if v is not None}
     for label, values in (coordinates or {}).items():
-        axes[label] = values_of(f"statics: coordinate {label!r}", values)
-    for angle in axes.get("slew", ()):
+        axes[label] = _axis(f"statics: coordinate {label!r}", values)
+    for angle in np.atleast_1d(axes.get("slew", ())):
         angle_of("statics: slew", float(angle))
     return axes
+
+
+def _axis(what: str, given: Any) -> Any:
+    """A row of numbers, or a number where one was given."""
+    values = values_of(what, given)
+    return values if np.ndim(given) else values[0]
 
 
 def resting(

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 HEAD = ("", "unit", "static", "mean", "std", "min", "at [s]", "max", "at [s]", "factor", "min/static")
-STARRED = "* at the first output: no static value is known."
+STARRED = "* at the first output told of: no static value is known."
 ATTITUDE = {"heel": "roll", "trim": "pitch"}
 NO_LIMITS = Utilisation(())
 LEAST_STATIC = 1e-3  # of the largest value: a smaller static load makes no factor
@@ -38,7 +38,7 @@ class SummaryRow:
     ----------
     name, unit : str
     static : float
-        Value at rest, or at the first output of the run; see `static_known`.
+        Value at rest, or at the first output of what is summarised; see `static_known`.
     static_known : bool
         Whether `static` is the value at rest.
     mean, std, minimum, maximum : float
@@ -177,15 +177,15 @@ def summary(
 
     Rows: tension of links and wires, hook load, cylinder forces, slew torque, offset and swing of what hangs,
     heave, roll and pitch of vessels; as far as the run recorded them, without what is zero up to rounding.
-    The static tension of a link is the weight that hangs on it. Of all else the value at the run's first
-    output takes its place, marked by a star.
+    The static tension of a link is the weight that hangs on it. Of all else the value at the first output
+    from `start` on takes its place, marked by a star.
 
     Parameters
     ----------
     result : Result
         Of any run.
     start, end : float, optional
-        Part of it that mean, standard deviation and extremes are taken over, s; default: all.
+        Part of it that mean, standard deviation, extremes and starred values are taken from, s; default: all.
     static : Statics, optional
         In one pose, as `statics` tells it: the static values of its tensions, cylinder forces, slew torque,
         heel and trim.
@@ -253,7 +253,8 @@ def _part(result: Result, start: float | None, end: float | None) -> slice:
 
 def _row(curve: Curve, time: Array, values: Array) -> SummaryRow:
     known = curve.static is not None
-    static = float(curve.values[0] if curve.static is None else curve.static)
+    first = values[np.isfinite(values)][0]
+    static = float(first if curve.static is None else curve.static)
     low, high = int(np.nanargmin(values)), int(np.nanargmax(values))
     return SummaryRow(
         name=curve.name, unit=curve.unit, static=static, static_known=known,

@@ -13,6 +13,7 @@ from seacrane.crane.records import BodyRecord, JointRecord
 from seacrane.description.bodies import add_body
 from seacrane.description.crane_parts import add_roles
 from seacrane.description.damping import add_air_drag, add_pendulum_damping
+from seacrane.description.drives import add_driver
 from seacrane.description.joints import add_joint
 from seacrane.description.recorded import add_range
 from seacrane.description.roles import CraneRoles
@@ -42,6 +43,7 @@ def add_crane(
     s2: float = 0.0,
     payload: Payload | None = None,
     damping: bool = True,
+    held: bool = False,
     prefix: str = "",
 ) -> CraneRoles:
     """Add a crane, and a payload hanging at rest; its strokes keep the data file's range.
@@ -59,6 +61,8 @@ def add_crane(
     payload : Payload or None
     damping : bool
         Whether the payload has its small damping: of its swing, and drag in the air. False: neither.
+    held : bool
+        Whether drivers hold slew angle and strokes where they are described. False: drives are to be added.
     prefix : str
         Begins the names of all bodies and joints of this crane and the labels of its channels, such as
         "aft "; a scene's cranes need different ones.
@@ -87,21 +91,23 @@ def add_crane(
         raise SceneError(f"crane: there is one with prefix {prefix!r}; give this one another, such as 'aft '")
     place: dict[str, Any] = {"foot": foot, "theta": theta, "s1": s1, "s2": s2}
     records = crane.bodies(**place)
-    damped = flag_of("crane: damping", damping)
+    damped, is_held = flag_of("crane: damping", damping), flag_of("crane: held", held)
     if payload is not None:
         records.append(crane.payload_body(payload, **place))
     names = {"": base} | {body.name: prefix + body.name for body in records}
     frame = _Frame(scene, base)
     for body in records:
         frame.add_body(body, names[body.name])
-    for joint in crane.joints(**place, base="", payload=payload):
-        frame.add_joint(joint, prefix + joint.name, names[joint.first], names[joint.second])
+    for one in crane.joints(**place, base="", payload=payload):
+        frame.add_joint(one, prefix + one.name, names[one.first], names[one.second])
     for name, stroke in zip(CYLINDERS.values(), (s1, s2), strict=True):
         longest = getattr(crane.data, name).stroke
         add_range(scene, joint=prefix + name, minimum=-stroke, maximum=longest - stroke)
     tip = frame.in_body(prefix + TIP_BODY, _tip(crane, place))
     if payload is not None and damped:
         _damp(scene, payload, tip, names[PAYLOAD])
+    for joint in (SLEW, *CYLINDERS.values()) if is_held else ():
+        add_driver(scene, joint=prefix + joint, curve=0.0)
     return add_roles(
         scene,
         prefix=prefix,

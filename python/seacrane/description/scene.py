@@ -145,7 +145,12 @@ class Description:
 def insert(kind: str, table: dict[str, Any], element: Any) -> Any:
     """Put an element into its table and return it; SceneError where the name is taken."""
     if element.name in table:
-        raise SceneError(f"{kind} {element.name!r}: the name is used twice; names of a kind must differ")
+        held = table[element.name]
+        has = next((of for of, one in _core.LOAD_KINDS.items() if isinstance(held, one)), kind)
+        raise SceneError(
+            f"{kind} {element.name!r}: the name is used twice: {has} {element.name!r} has it; give this one "
+            "another, or remove that one first (Scene.remove)"
+        )
     table[element.name] = element
     return element
 

@@ -13,6 +13,7 @@ from seacrane.errors import SceneError
 from seacrane.figures.overview import axes_note, marks_of, panels_of, payload_bodies, resultants
 from seacrane.figures.traces import Trace, traces
 from seacrane.inputs.frames import AXES_NOTE, MOTIONS
+from seacrane.plotting.figure import new_figure
 from seacrane.plotting.panel import COLOURS, MOST_NAMED, Line, Panel, Sheet, draw, plain, write_note
 from seacrane.result import Result
 
@@ -217,8 +218,6 @@ def plot_track(result: Result, *bodies: str) -> Figure:
 
 def draw_track(result: Result, *bodies: str) -> Figure:
     """The figure of `plot_track` for a page that says its axes itself."""
-    from matplotlib.figure import Figure
-
     if "position" not in result.channels:
         raise SceneError("channel 'position' is not in this result; record it to draw tracks")
     chosen = bodies or tuple(payload_bodies(result)) or result.coords["body"]
@@ -227,7 +226,7 @@ def draw_track(result: Result, *bodies: str) -> Figure:
             raise SceneError(
                 f"body {body!r} is not in this result; it holds {', '.join(result.coords['body'])}"
             )
-    figure = Figure(figsize=(12.0, 4.6), layout="constrained")
+    figure = new_figure(figsize=(12.0, 4.6), layout="constrained")
     for cell, (across, up, view) in zip(figure.subplots(1, 3), VIEWS, strict=True):
         for i, body in enumerate(chosen):
             place, colour = result.select("position", body=body), COLOURS[i % len(COLOURS)]

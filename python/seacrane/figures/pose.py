@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane.inputs.frames import rotation_matrix
+from seacrane.plotting.figure import new_figure
 from seacrane.plotting.panel import COLOURS, MOST_NAMED, Picture, plain, save_figure, save_table
 from seacrane.result import Result
 
@@ -214,9 +215,7 @@ def draw_poses(
 
     `wires` are the lines (k, 3) that belong to no body, at outputs 0 and -1, m, inertial axes.
     """
-    from matplotlib.figure import Figure
-
-    figure = Figure(figsize=(13.0, 5.6))
+    figure = new_figure(figsize=(13.0, 5.6))
     ships = ships_of(result)
     own = {**dict.fromkeys(ships, "0.45"), **{payload: "#8B0000" for payload in _payloads(result)}}
     drawn = {index: list(posed_lines(result, skeleton, index)) for index in (0, -1)}

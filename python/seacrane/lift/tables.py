@@ -318,7 +318,7 @@ _ALL = (
         "force_table", forces.add_force_table, _core.ForceTable,
         loads={"type": "array", "unit": "N, N m", "shapes": ((-1, 6),)},
     ),
-    _call("line", lines.add_line, _core.Line),
+    _call("line", lines.add_line, _core.Line, tension_at_start={"unit": "N"}),
     _call("winch", lines.add_winch, _core.Line),
     _call(
         "gas_spring", heave.add_gas_spring, _core.GasSpring, force={"unit": "N"}, stiffness={"unit": "N/m"},

@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane.files.atomic import atomic_write
+from seacrane.plotting.figure import new_figure
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -149,10 +150,8 @@ def draw(sheet: Sheet, *, note: str = "") -> Figure:
     matplotlib.figure.Figure
         Belongs to no window and no global state; ``savefig`` writes it.
     """
-    from matplotlib.figure import Figure
-
     rows = -(-len(sheet.panels) // sheet.columns)
-    figure = Figure(figsize=(max(8.0, 5.6 * sheet.columns), 1.0 + 2.1 * rows), layout="constrained")
+    figure = new_figure(figsize=(max(8.0, 5.6 * sheet.columns), 1.0 + 2.1 * rows), layout="constrained")
     grid = figure.subplots(rows, sheet.columns, sharex=True, squeeze=False)
     cells = list(grid.T.flat)
     labels = [tuple(line.label for line in panel.lines) for panel in sheet.panels]

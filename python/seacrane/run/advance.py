@@ -10,6 +10,7 @@ from seacrane.analysis.linearise import fastest_mode
 from seacrane.errors import SimulationError
 from seacrane.result.result import Result
 from seacrane.run.controller_calls import Calls
+from seacrane.run.growth import growing
 from seacrane.run.interrupts import Interrupts
 from seacrane.run.run import Run
 from seacrane.run.sampled_controller import SampledController
@@ -69,7 +70,9 @@ def drive(
     if not run.interrupted:
         last = run.last_state()
         states = [run.start] if last is None else [run.start, last]
-        run.slow = stiffness(run.model, list(run.scene.bodies), run.scene.loads, states, run.stats())
+        bodies, stats = list(run.scene.bodies), run.stats()
+        run.slow = stiffness(run.model, bodies, run.scene.loads, states, stats)
+        run.slow = run.slow or growing(run.model, bodies, states, stats)
 
 
 @contextlib.contextmanager

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from seacrane.description.line_weights import hooked_body
 from seacrane.description.loads import lines_of, path_of
 from seacrane.run.hanging import position_of
 
@@ -23,29 +24,6 @@ def suspensions(scene: Description) -> list[str]:
     """Links and wires, then elastic lines, by name; a line that has a link's name is "<name> line"."""
     links = [name for name, joint in scene.joints.items() if joint.kind == "distance"]
     return [*links, *(f"{name} line" if name in links else name for name in lines_of(scene.loads))]
-
-
-def line_weights(scene: Description) -> dict[str, tuple[float, int]]:
-    """Weight (N) that hangs on one line and on nothing else, and on how many of its falls, by the line.
-
-    A seat or a free joint does not carry it for good, and does not count.
-    """
-    lines = lines_of(scene.loads)
-    seats = {load.joint for load in scene.loads.values() if getattr(load, "kind", None) == "seat"}
-    joints = [one for name, one in scene.joints.items() if name not in seats and one.kind != "free"]
-    carried = {body for one in joints for body in (one.first, one.second)}
-    carried |= {vessel.body for vessel in scene.vessels.values()}
-    carried |= {body for spring in scene.springs.values() for body in (spring.first, spring.second)}
-    hung = {name: _hooked(line) for name, line in lines.items()}
-    on_lines = [body for line in lines.values() for body in set(line.bodies)]
-    return {
-        name: (scene.bodies[body].mass * scene.gravity, _falls_of(lines[name], body))
-        for name, body in hung.items()
-        if body in scene.bodies
-        and body not in carried
-        and on_lines.count(body) == 1
-        and scene.bodies[body].gravity
-    }
 
 
 def hook_loads(scene: Description, arrays: Mapping[str, Array]) -> Array | None:
@@ -67,7 +45,7 @@ def hook_loads(scene: Description, arrays: Mapping[str, Array]) -> Array | None:
 def _falls(scene: Description, arrays: Mapping[str, Array], line: Any) -> Array:
     """The resultant of unit tensions on the hooked body, (time,)."""
     path = path_of(line)
-    hooked = _hooked(line)
+    hooked = hooked_body(line)
     pull = np.zeros((len(arrays["position"]), 3))
     for (first, start), (second, end) in pairwise(path):
         if (first == hooked) == (second == hooked):
@@ -76,12 +54,3 @@ def _falls(scene: Description, arrays: Mapping[str, Array], line: Any) -> Array:
         unit = along / np.linalg.norm(along, axis=1, keepdims=True)
         pull += unit if first == hooked else -unit
     return np.asarray(np.linalg.norm(pull, axis=1))
-
-
-def _hooked(line: Any) -> str:
-    """The body that a line reaches last."""
-    return str(list(dict.fromkeys(line.bodies))[-1])
-
-
-def _falls_of(line: Any, hooked: str) -> int:
-    return sum((first == hooked) != (second == hooked) for first, second in pairwise(line.bodies))

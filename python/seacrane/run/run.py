@@ -124,7 +124,7 @@ class Run:
             self.scene.waves.warn_of_repeats(self.t_end - self.start.time)
         self.interrupted = False
         self.steered = steered(self.scene, self.model, self.start.inputs)
-        self.slow: list[Finding] = []  # what made the run slow, known at its end
+        self.slow: list[Finding] = []  # what made the run slow, or a mode of it grow, known at its end
         self.slack: list[Finding] = []  # what made it begin anew
         self._require_plain_stats()
 

@@ -9,11 +9,11 @@ from typing import Any
 from seacrane import _core
 from seacrane.description.file_origin import roles_to_data
 from seacrane.description.limit_states import limit_states_to_data
+from seacrane.description.line_weights import line_weights
 from seacrane.description.origin import origin_settings
 from seacrane.description.outline import bounds_of, outline_of
 from seacrane.files.plain_data import plain_notes
 from seacrane.run.channel_names import hanging_bodies, hanging_weights
-from seacrane.run.hook_loads import line_weights
 from seacrane.run.method import Method
 from seacrane.run.outputs import Outputs
 from seacrane.scene.scene import Scene

@@ -24,6 +24,11 @@ class StiffWarning(UserWarning):
     """One mode is so fast that an explicit method takes short steps for it alone."""
 
 
+def fewest_steps(states: int) -> int:
+    """Of a run that is worth the eigenvalues of so many states."""
+    return max(MANY_STEPS, int(states**2 / STATES_SQUARED_PER_STEP))
+
+
 def stiffness(
     model: _core.Model,
     bodies: list[str],
@@ -48,8 +53,7 @@ def stiffness(
     integrator, steps = str(stats["integrator"]), int(stats["steps"])
     method = integrator_of(integrator)
     adjusts = method.setting == "rtol" and not method.uses_jacobian
-    few = max(MANY_STEPS, int(model.states**2 / STATES_SQUARED_PER_STEP))
-    if not adjusts or steps < few or model.states > LARGEST:
+    if not adjusts or steps < fewest_steps(model.states) or model.states > LARGEST:
         return []
     step = float(stats["simulated_s"]) / steps
     mode, body, at = max((*_fastest(model, bodies, state), state.time) for state in states)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import Any
 
 from numpy.typing import ArrayLike
 
@@ -12,6 +13,7 @@ from seacrane.description.loads import lines_of
 from seacrane.description.scene import Description
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import text_of, vector_of
+from seacrane.scene.line_start import starting_line
 
 NO_BOUND = 1e7  # m/s or m/s2: a bound here or beyond is none
 STRONGEST = 1e12  # N or W: likewise
@@ -24,7 +26,8 @@ def add_line(
     bodies: Sequence[str],
     points: ArrayLike,
     stiffness: float | None = None,
-    length: _core.Curve | float,
+    length: _core.Curve | float | None = None,
+    tension_at_start: float | None = None,
     damping_ratio: float = 0.02,
     mass: float = 0.0,
     stretch: str = "elastic",
@@ -53,8 +56,11 @@ def add_line(
         In coordinates of these bodies, m.
     stiffness : float
         EA, the tension over the strain, N; left out with a table.
-    length : Curve or float
-        Unstretched, m; for a line on a winch, that at the start.
+    length : Curve or float, optional
+        Unstretched, m; for a line on a winch, that at the start. Default: the one with `tension_at_start`.
+    tension_at_start : float, optional
+        N, that the line carries along its path as described, in place of a length; default (0): the length
+        is that of the path.
     damping_ratio : float
         Of critical damping, for `mass` on the line: c = 2 damping_ratio sqrt(EA mass / l0), with a table EA
         being the secant to its last row.
@@ -92,27 +98,22 @@ def add_line(
     ------
     SceneError
         For a path of fewer than two points or two bodies, or one that visits a point twice in a row; and for
-        values that are no numbers, or not positive where they must be.
+        values that are no numbers, or not positive where they must be; for a length beside a tension, or
+        neither where a body of the path is not there yet.
     """
-    line = _core.Line(
-        name=name,
-        bodies=bodies,
-        points=points,
-        stiffness=_stiffness_of(name, stiffness, strains, tensions),
-        length=length,
-        damping_ratio=damping_ratio,
-        mass=mass,
-        stretch=stretch,
-        settling=settling,
-        radii=radii,
-        axes=axes,
-        turns=turns,
-        efficiencies=efficiencies,
-        frictions=frictions,
-        slip_speed=slip_speed,
-        strains=strains,
-        tensions=tensions,
-    )
+    given: dict[str, Any] = {
+        "name": name, "bodies": bodies, "points": points,
+        "stiffness": _stiffness_of(name, stiffness, strains, tensions), "damping_ratio": damping_ratio,
+        "mass": mass, "stretch": stretch, "settling": settling, "radii": radii, "axes": axes, "turns": turns,
+        "efficiencies": efficiencies, "frictions": frictions, "slip_speed": slip_speed, "strains": strains,
+        "tensions": tensions,
+    }  # fmt: skip
+    if length is not None and tension_at_start is not None:
+        raise SceneError(f"line {name!r}: has a length and a tension_at_start; give one of them")
+    if length is None:
+        line = starting_line(scene, tension_at_start, given)
+    else:
+        line = _core.Line(**given, length=length)
     added: _core.Line = add_load(scene, line)
     return added
 

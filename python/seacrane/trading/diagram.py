@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from seacrane.experiment.row import Row
+from seacrane.plotting.figure import new_figure
 from seacrane.plotting.panel import plain
 
 if TYPE_CHECKING:
@@ -53,10 +54,8 @@ def work_precision(
     formulation; crosses with a label change the physics, dashed lines the rung of elastic lines; the grey
     band is the reference's uncertainty.
     """
-    from matplotlib.figure import Figure
-
     down = -(-len(measured) // COLUMNS)
-    figure = Figure(figsize=(15.0, 5.2 * down), layout="constrained")
+    figure = new_figure(figsize=(15.0, 5.2 * down), layout="constrained")
     panels = figure.subplots(down, COLUMNS, squeeze=False).ravel()
     for panel in panels[len(measured) :]:
         panel.set_axis_off()

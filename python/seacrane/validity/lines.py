@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane import _core
+from seacrane.description.line_weights import line_weights
 from seacrane.description.loads import lines_of, whole_of
 from seacrane.description.stretch import QUASI_STATIC
 
@@ -63,7 +64,7 @@ def line_findings(scene: Description, time: Array, channels: Mapping[str, Array]
         return found
     stretches = np.asarray(channels["line_stretch"]).reshape(time.size, len(lines))
     if time[0] == 0.0:
-        found += _contradicted(lines, lengths[0], stretches[0])
+        found += _contradicted(lines, strains_at_rest(scene), lengths[0], stretches[0])
     for (name, line), strain in zip(lines.items(), (stretches / lengths).T, strict=True):
         if len(line.strains):
             found += _beyond(name, line, time, strain)
@@ -101,16 +102,33 @@ def _leaning(sheaves: list[str], time: Array, angles: Array) -> Iterator[Finding
             )
 
 
-def _contradicted(lines: Mapping[str, _core.Line], lengths: Array, stretches: Array) -> Iterator[Finding]:
-    """Lines whose described length is not that of their path; a heavy one is the sum of its segments."""
+def strains_at_rest(scene: Description) -> dict[str, float]:
+    """Of lines with a constant EA that alone carry what hangs on them, by that weight."""
+    lines = lines_of(scene.loads)
+    return {
+        name: weight / falls / lines[name].stiffness
+        for name, (weight, falls) in line_weights(scene).items()
+        if not len(lines[name].strains)
+    }
+
+
+def _contradicted(
+    lines: Mapping[str, _core.Line], resting: Mapping[str, float], lengths: Array, stretches: Array
+) -> Iterator[Finding]:
+    """Lines whose described length is not that of their path; a heavy one is the sum of its segments.
+
+    What hangs on a line stretches it at rest, by the strain in `resting`; that is no contradiction.
+    """
     wholes = [whole_of(name, line) for name, line in lines.items()]
     for name in dict.fromkeys(wholes):
         own = np.array([whole == name for whole in wholes])
         length, stretch = float(lengths[own].sum()), float(stretches[own].sum())
         mine = [line for line, is_own in zip(lines.values(), own, strict=True) if is_own]
+        segments = [one for one, whole in zip(lines, wholes, strict=True) if whole == name]
+        at_rest = max(resting.get(one, 0.0) for one in segments)
         tables = [strain for line in mine for strain in line.strains]
         usual = max([LARGEST_CONTRADICTION, *tables])  # a cord is meant to be as long as its table
-        if -LARGEST_CONTRADICTION * length <= stretch <= usual * length:
+        if -LARGEST_CONTRADICTION * length <= stretch <= (usual + at_rest) * length:
             continue
         state = "stretched" if stretch > 0.0 else "slack"
         yield (

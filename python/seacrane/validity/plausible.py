@@ -16,6 +16,7 @@ from seacrane.description.references import references
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.frames import rotation_matrix
 from seacrane.inputs.plausible import CompassDirectionWarning, MassUnitWarning, angle_of
+from seacrane.validity.holding import warn_of_free_cranes
 from seacrane.validity.lifting import warn_of_loads_in_hulls
 
 if TYPE_CHECKING:
@@ -52,6 +53,7 @@ def warn_of_description(scene: Description, *, start: float, end: float, describ
     _warn_of_winds(scene)
     _warn_of_masses(scene)
     if described:
+        warn_of_free_cranes(scene)
         _warn_of_ballast(scene)
         warn_of_loads_in_hulls(scene)
 

@@ -1,0 +1,76 @@
+"""A method that feeds an oscillation over many steps is told of; one that damps it is not."""
+
+from __future__ import annotations
+
+import re
+import warnings
+from typing import Any
+
+import numpy as np
+import pytest
+from numpy.polynomial import Polynomial
+
+from seacrane import GrowingModeWarning, Scene, _core, simulate
+from seacrane.run import growth
+
+MODE, STEP = 2.2, 0.5  # rad/s, s
+AMPLITUDE = 1e-6  # m
+
+
+def swinging(damping_ratio: float = 0.0) -> Scene:
+    scene = Scene(name="swing")
+    scene.add_body(name="box", mass=1.0, inertia=[1, 1, 1], velocity=(AMPLITUDE * MODE, 0, 0))
+    scene.add_joint(kind="prismatic", name="rail", first="ground", second="box", axis=(1, 0, 0))
+    scene.add_actuator(name="hold", joint="rail", stiffness=MODE**2, damping=2.0 * damping_ratio * MODE)
+    return scene
+
+
+def run(scene: Scene, integrator: str = "tsit5", **settings: Any) -> Any:
+    given = {"t_end": 6000.0, "dt_out": 1.0, "max_step": STEP, "rtol": 1e-2} | settings
+    return simulate(scene, integrator=integrator, **given)
+
+
+def log_growth(integrator: str, step: float) -> float:
+    """Of the amplitude in one step, as the polynomial has it."""
+    return float(np.log(np.abs(Polynomial(_core.stability_polynomial(integrator))(1j * step * MODE))))
+
+
+@pytest.mark.parametrize("integrator", ["tsit5", "dopri5"])
+def test_the_growth_told_is_that_of_the_motion_and_of_the_stability_polynomial(integrator: str) -> None:
+    with pytest.warns(GrowingModeWarning, match=f"{integrator} makes .* body 'box' grow") as caught:
+        result = run(swinging(), integrator)
+    told = re.search(r"factor of (\S+) an hour: a mode of (\S+) rad/s", str(caught[0].message))
+    assert told is not None
+    assert float(told[2]) == pytest.approx(MODE, rel=1e-3)
+    assert float(told[1]) == pytest.approx(np.exp(3600.0 / STEP * log_growth(integrator, STEP)), rel=2e-3)
+    position = np.abs(result["position"][:, 0, 0])
+    hours = (result.time[-1] - 20.0) / 3600.0
+    assert position[-20:].max() / position[:20].max() == pytest.approx(float(told[1]) ** hours, rel=0.05)
+    assert "grow by a factor" in str(result.stats["validity"])
+
+
+@pytest.mark.parametrize(
+    ("damping_ratio", "integrator", "settings"),
+    [
+        (0.0, "verner65", {}),  # damps up to 2.5
+        (0.0, "rk4", {"max_step": None, "rtol": None, "dt": STEP}),
+        (0.0, "dopri5", {"max_step": 0.4}),
+        (0.001, "tsit5", {}),  # outweighs the growth
+        (0.0, "tsit5", {"t_end": 1000.0}),  # too short for the growth to matter
+    ],
+)
+def test_what_does_not_grow_is_not_told(damping_ratio: float, integrator: str, settings: Any) -> None:
+    given = {"max_step": STEP, "rtol": 1e-2} | settings
+    kept = {name: value for name, value in given.items() if value is not None}
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        result = simulate(
+            swinging(damping_ratio), integrator=integrator, dt_out=1.0, **{"t_end": 6000.0} | kept
+        )
+    start, end = np.abs(result["position"][:20, 0, 0]).max(), np.abs(result["position"][-20:, 0, 0]).max()
+    assert end < 2.0 * start
+
+
+def test_a_short_run_pays_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(growth, "jacobian", None)
+    run(swinging(), t_end=1000.0)
