@@ -108,6 +108,9 @@ from seacrane.run.to_file import StreamedResult as StreamedResult
 from seacrane.run.to_file import simulate_to_file as simulate_to_file
 from seacrane.scene.given_motion import OutsideRaosWarning as OutsideRaosWarning
 from seacrane.scene.gusts import gust_curve as gust_curve
+from seacrane.scene.mooring import MooringSpring as MooringSpring
+from seacrane.scene.mooring import OwnMooringWarning as OwnMooringWarning
+from seacrane.scene.mooring import mooring_matrix as mooring_matrix
 from seacrane.scene.motion_history import MotionHistory as MotionHistory
 from seacrane.scene.motion_raos import MotionRaos as MotionRaos
 from seacrane.scene.scene import Scene as Scene

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from os import PathLike
 from typing import TYPE_CHECKING, Literal
 
@@ -92,6 +93,16 @@ class HydroDatabase(HydroData):
         the mirrored headings are the other side of the same `full_circle`.
         """
         return mirrored_database(self)
+
+    def without_mooring(self) -> HydroDatabase:
+        """The database without the stiffness of surge, sway and yaw that its restoring holds.
+
+        What a mooring added to heave, roll and pitch among themselves stays: nothing tells it from water.
+        """
+        kept = self.restoring.copy()
+        kept[[0, 1, 5], :] = 0.0
+        kept[:3, [0, 1, 5]] = 0.0
+        return replace(self, restoring=kept)
 
     def select(
         self,
