@@ -27,6 +27,9 @@ from seacrane.hydro.hull.hull import Hull as Hull
 from seacrane.hydro.hull.hull_database import FloatingPositionWarning as FloatingPositionWarning
 from seacrane.hydro.hull.hull_database import hydro_from_hull as hydro_from_hull
 from seacrane.hydro.hull.hydrostatics import Hydrostatics as Hydrostatics
+from seacrane.hydro.hull.ikeda import IkedaDamping as IkedaDamping
+from seacrane.hydro.hull.ikeda import MainParticulars as MainParticulars
+from seacrane.hydro.hull.ikeda import ikeda_roll_damping as ikeda_roll_damping
 from seacrane.hydro.hull.offsets import OffsetTable as OffsetTable
 from seacrane.hydro.hull.offsets import read_offset_table as read_offset_table
 from seacrane.hydro.hull.parametric_hull import ParametricHull as ParametricHull

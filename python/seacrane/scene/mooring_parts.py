@@ -103,7 +103,7 @@ def _without_twist(what: str, wrenches: Array) -> Array:
     if abs(np.trace(twist)) > SYMMETRIC * size:
         raise SceneError(
             f"{what}: mooring turns the vessel about the axis of its force, C14 + C25 come to "
-            f"{np.trace(twist):.4g} N, which no springs do; check both, which are zero for a symmetric mooring"
+            f"{np.trace(twist):.4g} N, which no springs do; both are zero for a symmetric mooring"
         )
     if len(wrenches) < 2:
         return wrenches

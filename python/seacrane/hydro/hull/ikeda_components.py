@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import numpy as np
 
+
 def friction(
     *, radius: float, surface: float, amplitude: float, omega: float, rho: float, viscosity: float
 ) -> float:
@@ -56,9 +57,7 @@ def bilge_keels(
     keel += (5.2857 * breadth**2 - 0.01185 * breadth + 0.00189) * length
     height = 5.0 * breadth + 0.3 * bd - 0.2 * length + 0.00125 * degrees**2 - 0.0425 * degrees - 1.86
     fullness = -15.0 * breadth + 1.2 * cb - 0.1 * bd - 0.0657 * og**2 + 0.0586 * og + 1.6164
-    return float(
-        hull * swing * keel * np.exp(height * og + fullness * cm ** (2.5 * og + 15.75)) * frequency
-    )
+    return float(hull * swing * keel * np.exp(height * og + fullness * cm ** (2.5 * og + 15.75)) * frequency)
 
 
 def lift(*, length: float, draught: float, speed: float, og: float, slope: float, rho: float) -> float:
