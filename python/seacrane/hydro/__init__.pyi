@@ -1,6 +1,7 @@
 """Hydrodynamics of the vessel: databases, their readers and self-check, fluid memory."""
 
 from seacrane.files.stl import read_stl as read_stl
+from seacrane.hydro.data.below_band import BelowBandWarning as BelowBandWarning
 from seacrane.hydro.data.data_warnings import DampingWarning as DampingWarning
 from seacrane.hydro.data.data_warnings import HeadingGapWarning as HeadingGapWarning
 from seacrane.hydro.data.data_warnings import WaterMismatchWarning as WaterMismatchWarning
