@@ -19,6 +19,7 @@ from seacrane import (
     mooring_matrix,
     simulate,
 )
+from seacrane.description.outline import outline_of
 from seacrane.hydro import HydroDatabase, shipped_database
 
 Array = NDArray[np.float64]
@@ -178,6 +179,10 @@ def test_a_scene_with_springs_is_saved(tmp_path: Any) -> None:
     scene = vessel(mooring=FOUR)
     scene.save(tmp_path / "moored.json")
     assert Scene.load(tmp_path / "moored.json") == scene
+
+
+def test_drawings_leave_the_far_ends_out() -> None:
+    assert outline_of(vessel(mooring=FOUR))["links"] == []
 
 
 def test_lift_files_hold_matrices_and_springs(tmp_path: Any) -> None:

@@ -128,6 +128,7 @@ from seacrane.stages.to_file import simulate_stages_to_file as simulate_stages_t
 from seacrane.stages.until import Until as Until
 from seacrane.trading import Trade as Trade
 from seacrane.trading import trade as trade
+from seacrane.validity.current_in_waves import CurrentInWavesWarning as CurrentInWavesWarning
 from seacrane.validity.energy import EnergyErrorWarning as EnergyErrorWarning
 from seacrane.validity.following import FullTurnWarning as FullTurnWarning
 from seacrane.validity.following import OutsideRangeWarning as OutsideRangeWarning

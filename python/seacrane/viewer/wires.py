@@ -15,7 +15,6 @@ from seacrane.description.scene import Description
 from seacrane.viewer.shapes import plain
 
 GROUND = -1
-BEYOND = 1e5  # m: springs to such ends stand for a direction
 
 
 def wires_of(scene: Description, bodies: Sequence[str]) -> list[dict[str, Any]]:
@@ -24,8 +23,7 @@ def wires_of(scene: Description, bodies: Sequence[str]) -> list[dict[str, Any]]:
     Of each: name, the element that it is of, kind ("link", "wire" or "spring"; a span is a link), both ends
     as the body's number (-1: the ground) and a point relative to its centre of mass, and the length (m) below
     which it hangs slack; 0 if it never does. Arcs over sheaves are short links without a name. Where a line
-    meets a sheave is as in the pose that the scene describes. Springs of moorings, whose ends are far beyond
-    any view, are left out.
+    meets a sheave is as in the pose that the scene describes.
     """
     limits = {limit.joint for limit in scene.loads.values() if getattr(limit, "kind", None) == "wire"}
     found = []
@@ -43,8 +41,6 @@ def wires_of(scene: Description, bodies: Sequence[str]) -> list[dict[str, Any]]:
                 }
             )
     for name, spring in springs_of(scene.springs, scene.loads):
-        if max(np.abs(spring.first_point).max(), np.abs(spring.second_point).max()) > BEYOND:
-            continue
         found.append(
             {
                 "name": name,

@@ -28,7 +28,7 @@ def warn_of_waves_below_band(database: HydroData, share: float, what: str) -> No
         return
     warn_caller(
         f"{what}: {share:.0%} of their energy is below {database.trusted_band[0]:.3g} rad/s, where the "
-        f" trusted band of database {database.name!r} begins; {_consequence(database)}",
+        f"trusted band of database {database.name!r} begins; {_consequence(database)}",
         BelowBandWarning,
     )
 
