@@ -13,12 +13,13 @@ from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
-from make_database import GM_TRANSVERSE, HULL, MASS, RHO, ROLL_DAMPING_FRACTION
+from make_database import GM_TRANSVERSE, MASS, ROLL_DAMPING_FRACTION
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from seacrane import Scene, response_statistics
-from seacrane.hydro import Hull, HydroDatabase, hydro_from_hull, shipped_database
+from seacrane.hydro import HydroDatabase, hydro_from_hull, shipped_database
+from seacrane.hydro.hull.shipped_hull import shipped_hull
 from seacrane.sea import jonswap
 
 FREQUENCIES = (0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0, 1.1, 1.2, 1.3, 1.5, 2.0)
@@ -36,6 +37,7 @@ def main() -> None:
     folder = parser.parse_args().out
     panel, strip = shipped_database(), strip_database()
     save_ratios(panel, strip)
+    save_bands(panel, strip)
     save_forces(panel, strip)
     save_motions(panel, strip)
     for symbol, name in (("A", "added_mass"), ("B", "damping")):
@@ -46,9 +48,7 @@ def main() -> None:
 def strip_database() -> HydroDatabase:
     """The shipped hull on the shipped grids, by strip theory."""
     panel = shipped_database()
-    hull = Hull.from_parametric(
-        HULL.scaled_to_volume(MASS / RHO, stations=56, girth=20), name="hull_115_strip"
-    )
+    hull = replace(shipped_hull(), name="hull_115_strip")
     centre = [0.0, 0.0, hull.hydrostatics.metacentre_transverse - GM_TRANSVERSE]
     strip = hydro_from_hull(
         hull,
@@ -87,6 +87,23 @@ def save_ratios(panel: HydroDatabase, strip: HydroDatabase) -> None:
         panel.infinite_frequency_added_mass
     )
     print("A_inf:", np.round(limits, 3), "\n")
+
+
+def save_bands(panel: HydroDatabase, strip: HydroDatabase) -> None:
+    """Strip over panel less 1, %, least and largest: below the trusted band, in it, and above."""
+    low = strip.trusted_band[0]
+    bands = ((0.3, low), (low, 0.8), (0.8, 1.3), (1.3, 2.0))
+    rows = []
+    for symbol, name in (("A", "added_mass"), ("B", "damping")):
+        ratio = getattr(strip, name) / np.where(getattr(panel, name) == 0.0, np.nan, getattr(panel, name))
+        for j, k in ENTRIES:
+            row = [f"{symbol}{j + 1}{k + 1}"]
+            for first, last in bands:
+                inside = (panel.omega >= first - 1e-9) & (panel.omega <= last + 1e-9)
+                off = 100.0 * (ratio[inside, j, k] - 1.0)
+                row.append(f"{off.min():+.0f} to {off.max():+.0f}")
+            rows.append(row)
+    save("strip-off-by-band", ["entry", *(f"{a:.2f} to {b:.2f} rad/s" for a, b in bands)], rows)
 
 
 def save_forces(panel: HydroDatabase, strip: HydroDatabase) -> None:

@@ -109,6 +109,9 @@ from seacrane.run.to_file import StreamedResult as StreamedResult
 from seacrane.run.to_file import simulate_to_file as simulate_to_file
 from seacrane.scene.given_motion import OutsideRaosWarning as OutsideRaosWarning
 from seacrane.scene.gusts import gust_curve as gust_curve
+from seacrane.scene.mooring import MooringSpring as MooringSpring
+from seacrane.scene.mooring import OwnMooringWarning as OwnMooringWarning
+from seacrane.scene.mooring import mooring_matrix as mooring_matrix
 from seacrane.scene.motion_history import MotionHistory as MotionHistory
 from seacrane.scene.motion_raos import MotionRaos as MotionRaos
 from seacrane.scene.scene import Scene as Scene
@@ -126,6 +129,7 @@ from seacrane.stages.to_file import simulate_stages_to_file as simulate_stages_t
 from seacrane.stages.until import Until as Until
 from seacrane.trading import Trade as Trade
 from seacrane.trading import trade as trade
+from seacrane.validity.current_in_waves import CurrentInWavesWarning as CurrentInWavesWarning
 from seacrane.validity.energy import EnergyErrorWarning as EnergyErrorWarning
 from seacrane.validity.following import FullTurnWarning as FullTurnWarning
 from seacrane.validity.following import OutsideRangeWarning as OutsideRangeWarning

@@ -78,7 +78,8 @@ def simulate(
     LargeHeelWarning, MeanPositionWarning, MeanHeadingWarning, ForwardSpeedWarning, MooringTurnWarning,
     NoWaveLoadsWarning, OutsideDatabaseWarning, PushingLinkWarning, LineLengthWarning, LineTableWarning,
     FleetAngleWarning, PushingLineWarning, WinchLimitWarning, FullTurnWarning, OutsideRangeWarning,
-    SoftGainsWarning, EnergyErrorWarning, NearSingularWarning, LargeSwingWarning, OverloadWarning
+    SoftGainsWarning, EnergyErrorWarning, NearSingularWarning, LargeSwingWarning, OverloadWarning,
+    CurrentInWavesWarning
         After the run, when its motions left the range in which the models hold; also in `stats`, as
         "validity". See docs/troubleshooting.md.
     StiffWarning

@@ -15,6 +15,7 @@ from seacrane.description.given import given_vessels
 from seacrane.description.scene import Description
 from seacrane.description.waves import Waves
 from seacrane.errors import SceneError
+from seacrane.hydro.data.below_band import warn_of_waves_below_band
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.checked import number_of
 
@@ -274,12 +275,17 @@ def response_statistics(
     -----
     UserWarning
         For a mode in the band without damping: its variance has no finite value.
+    BelowBandWarning
+        More than 10 % of the energy of the waves is below the database's trusted band.
     """
     span = number_of("duration", duration)
     if not (np.isfinite(span) and span > 0.0):
         raise SceneError(f"duration is {span} s; give a finite positive number")
     linear = _linear(scene, state, memory, database)
     low, high = float(database.omega[0]), float(database.omega[-1])
+    if database.trusted_band is not None and database.trusted_band[0] > low:
+        below = spectrum.energy(omega_min=low, omega_max=database.trusted_band[0]) / spectrum.moment(0)
+        warn_of_waves_below_band(database, below, "waves of a spectrum")
     omega = _frequencies(linear, low, high)
     rao = motion_rao(linear, database=database, omega=omega, heading=heading, body=body, point=point)
     density = np.abs(rao) ** 2 * np.asarray(spectrum.density(omega))[:, None]

@@ -12,6 +12,7 @@ from seacrane import _core
 from seacrane.errors import SceneError
 
 LOAD_KINDS: Mapping[str, type] = _core.LOAD_KINDS
+BEYOND = 1e5  # m: springs to such ends stand for a direction
 
 
 def kind_of(element: Any) -> str:
@@ -53,9 +54,17 @@ def without_compensation(loads: Mapping[str, Any]) -> dict[str, Any]:
 def springs_of(
     springs: Mapping[str, _core.Spring], loads: Mapping[str, Any]
 ) -> list[tuple[str, _core.Spring | _core.GasSpring]]:
-    """Names and elements of springs, and of the gas springs among loads."""
+    """Names and elements of springs, and of the gas springs among loads, for drawings.
+
+    Springs whose ends are beyond any view, as those of moorings are, are left out.
+    """
+    near = [
+        (name, one)
+        for name, one in springs.items()
+        if max(map(abs, (*map(float, one.first_point), *map(float, one.second_point)))) < BEYOND
+    ]
     gas = [(name, load) for name, load in loads.items() if isinstance(load, _core.GasSpring)]
-    return [*springs.items(), *gas]
+    return [*near, *gas]
 
 
 def whole_of(name: str, line: _core.Line) -> str:

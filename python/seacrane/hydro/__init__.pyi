@@ -1,6 +1,7 @@
 """Hydrodynamics of the vessel: databases, their readers and self-check, fluid memory."""
 
 from seacrane.files.stl import read_stl as read_stl
+from seacrane.hydro.data.below_band import BelowBandWarning as BelowBandWarning
 from seacrane.hydro.data.data_warnings import DampingWarning as DampingWarning
 from seacrane.hydro.data.data_warnings import HeadingGapWarning as HeadingGapWarning
 from seacrane.hydro.data.data_warnings import WaterMismatchWarning as WaterMismatchWarning
@@ -27,6 +28,9 @@ from seacrane.hydro.hull.hull import Hull as Hull
 from seacrane.hydro.hull.hull_database import FloatingPositionWarning as FloatingPositionWarning
 from seacrane.hydro.hull.hull_database import hydro_from_hull as hydro_from_hull
 from seacrane.hydro.hull.hydrostatics import Hydrostatics as Hydrostatics
+from seacrane.hydro.hull.ikeda import IkedaDamping as IkedaDamping
+from seacrane.hydro.hull.ikeda import MainParticulars as MainParticulars
+from seacrane.hydro.hull.ikeda import ikeda_roll_damping as ikeda_roll_damping
 from seacrane.hydro.hull.offsets import OffsetTable as OffsetTable
 from seacrane.hydro.hull.offsets import read_offset_table as read_offset_table
 from seacrane.hydro.hull.parametric_hull import ParametricHull as ParametricHull

@@ -19,6 +19,7 @@ from seacrane.lift.keys import DEGREES, EITHER, Key, into_si
 from seacrane.lift.tables import Table
 from seacrane.result.channels import CHANNELS
 from seacrane.result.units import unit_of
+from seacrane.scene.mooring import MooringSpring
 from seacrane.scene.motion_history import MotionHistory
 from seacrane.scene.motion_raos import MotionRaos
 from seacrane.scene.realised_sea import spectrum_named
@@ -164,6 +165,10 @@ class Caller:
         database = self._database(given.pop("database"), given.pop("speed", None))
         if given.get("mooring_period") == float("inf"):
             given["mooring_period"] = None
+        if "mooring_springs" in given:
+            if "mooring" in given:
+                raise SceneError("vessel: has mooring and mooring_springs; give one of them")
+            given["mooring"] = [MooringSpring(**row) for row in given.pop("mooring_springs")]
         if at_rest:  # neither fluid memory nor kinematics matter
             given = {key: value for key, value in given.items() if key != "kinematics"} | {"memory": "none"}
         scene.add_vessel(database, **given)

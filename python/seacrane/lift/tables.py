@@ -33,6 +33,7 @@ from seacrane.run.method import FORMULATIONS, Method
 from seacrane.run.outputs import Outputs
 from seacrane.scene import bridles, given_vessel, heave, heavy_line, limits, lines, sea, vessel, wind_current
 from seacrane.scene.gusts import gust_curve
+from seacrane.scene.mooring import MooringSpring
 from seacrane.scene.motion_history import MotionHistory
 from seacrane.scene.motion_raos import MotionRaos
 from seacrane.scene.realised_sea import SPECTRA
@@ -96,6 +97,7 @@ def _summary(call: Any) -> str:
 def _vessel_keys() -> tuple[Key, ...]:
     """Of `add_vessel` with a database, and of reading that."""
     mooring = "Natural period of soft station keeping in surge, sway and yaw; default 200 s; inf: no mooring."
+    matrix = "Stiffness of the mooring about the reference point, vessel's axes."
     keys = keys_of(
         get_overloads(vessel.add_vessel)[0],
         described=vessel.add_vessel,
@@ -106,10 +108,15 @@ def _vessel_keys() -> tuple[Key, ...]:
                 "text": "Path of a database, or hull_115, which comes with seacrane.",
             },
             "position": POINT,
+            "mooring": {"type": "array", "unit": "N/m, N m/rad", "shapes": ((6, 6),), "text": matrix},
             "mooring_period": {"unit": "s", "text": mooring},
         },
     )
-    return (*keys, *keys_of(load_database, more={"speed": {"unit": "m/s"}}, only=("speed",)))
+    spring = keys_of(
+        MooringSpring, more={"point": POINT, "direction_deg": {"unit": "deg"}, "stiffness": {"unit": "N/m"}}
+    )
+    springs = Key(name="mooring_springs", type="tables", keys=spring, text="Mooring by horizontal springs.")
+    return (*keys, springs, *keys_of(load_database, more={"speed": {"unit": "m/s"}}, only=("speed",)))
 
 
 def _given_vessel_keys() -> tuple[Key, ...]:

@@ -13,6 +13,7 @@ from seacrane.description.scene import Description
 from seacrane.description.waves import HullLoads, Waves
 from seacrane.errors import SceneError
 from seacrane.hydro import HydroDatabase
+from seacrane.hydro.data.below_band import warn_of_waves_below_band
 from seacrane.hydro.data.beyond_band import without_load
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.checked import flag_of, shaped_of
@@ -115,6 +116,8 @@ def add_sea(
         More than 2 % of the energy of the waves is outside the frequencies of a table of RAOs.
     WavesWithoutLoadWarning
         More than 2 % of the variance of a load is that of waves above the database's frequencies.
+    BelowBandWarning
+        More than 10 % of the energy of the waves is below the database's trusted band.
     """
     arguments = {"hs": hs, "tp": tp, "gamma": gamma, "spectrum": spectrum, "direction_deg": direction_deg,
                  "spreading": spreading, "seed": seed, "count": count}  # fmt: skip
@@ -242,6 +245,10 @@ def _with_shares(waves: Waves, database: HydroDatabase, vessel: str, hull: HullL
             "database to higher frequencies, or take its motions in this sea for too small",
             WavesWithoutLoadWarning,
         )
+    energy = waves.amplitude**2
+    low = 0.0 if database.trusted_band is None else database.trusted_band[0]
+    below = float(energy[waves.omega < low].sum() / energy.sum()) if energy.any() else 0.0
+    warn_of_waves_below_band(database, below, f"waves on {vessel!r}")
     known = waves.provenance
     return replace(
         known,

@@ -19,6 +19,8 @@ from seacrane.hydro.vessel.parameters import VesselParameters, following_yaw
 from seacrane.inputs.checked import shaped_of
 from seacrane.inputs.plausible import direction_of
 from seacrane.inputs.shown import shown
+from seacrane.scene.mooring import add_mooring_springs, chosen_mooring, with_mooring
+from seacrane.scene.mooring_parts import Mooring
 from seacrane.scene.vessel_memory import core_memory, memory_of, remember
 
 MOORING_PERIOD = 200.0  # s, of surge, sway and yaw (PAPER, "station keeping")
@@ -36,6 +38,7 @@ def add_vessel(
     heading_deg: float = 0.0,
     memory: str = "per-pair",
     kinematics: str = "yaw_following",
+    mooring: Any = None,
     mooring_period: float | None = MOORING_PERIOD,
     mooring_damping: float = MOORING_DAMPING,
 ) -> _core.VesselHydrodynamics: ...
@@ -83,6 +86,11 @@ def add_vessel(
         database: the models themselves.
     kinematics : str
         "yaw_following" (default) or "paper", eqs (17)-(31).
+    mooring : float, array_like of shape (6, 6), or list of MooringSpring, optional
+        With a database, in place of `mooring_period`: a natural period (s); or a stiffness matrix about the
+        reference point, vessel's axes, N/m to N m/rad; or horizontal springs. It holds the pose of the start.
+        Default: by `mooring_period`, or the stiffness of surge, sway and yaw that the database's own
+        restoring holds, with an `OwnMooringWarning`.
     mooring_period : float or None
         With a database. Natural period (s) of soft linear station keeping in surge, sway and yaw; default
         200 s; None: no mooring.
@@ -98,13 +106,15 @@ def add_vessel(
     Raises
     ------
     SceneError
-        For a memory model that this version does not have, a place or heading that is no finite number, or
-        matrices of another shape.
+        For a memory model that this version does not have, a place or heading that is no finite number,
+        matrices of another shape, a mooring that no springs have, or a second one beside the database's own.
 
     Warns
     -----
     WaterMismatchWarning
         The scene's gravity is not the database's; `vessel_parameters` has warnings of its own.
+    OwnMooringWarning
+        The database's own mooring is used.
     AngleUnitWarning, CompassDirectionWarning
         A heading that looks like radians, or like a compass bearing.
     """
@@ -130,6 +140,7 @@ def _from_database(
     heading_deg: float = 0.0,
     memory: str = "per-pair",
     kinematics: str = "yaw_following",
+    mooring: Any = None,
     mooring_period: float | None = MOORING_PERIOD,
     mooring_damping: float = MOORING_DAMPING,
 ) -> _core.VesselHydrodynamics:
@@ -138,26 +149,38 @@ def _from_database(
     warn_of_water(database, gravity=scene.gravity)
     half = 0.5 * np.radians(direction_of(f"vessel {name!r}: heading_deg", heading_deg))
     parameters = vessel_parameters(database, memory=None if memory == "none" else memory_of(database, memory))
+    place = shaped_of(f"vessel {name!r}: position", position, (3,))
     add_body(
         scene,
         name=name,
         mass=parameters.mass,
         inertia=parameters.inertia,
         center_of_mass=parameters.centre_of_mass,
-        position=shaped_of(f"vessel {name!r}: position", position, (3,)),
+        position=place,
         quaternion=(np.cos(half), 0.0, 0.0, np.sin(half)),
     )
+    held = chosen_mooring(
+        f"vessel {name!r}", database, mooring, mooring_period, usual=mooring_period == MOORING_PERIOD
+    )
     heavy = _horizontal_inertia(parameters)
-    omega = 0.0 if mooring_period is None else 2.0 * np.pi / mooring_period
+    restoring = following_yaw(parameters.restoring)
+    if isinstance(held, Mooring):
+        restoring = with_mooring(restoring, held)
+        stiffness = held.horizontal
+        damping = 2.0 * mooring_damping * np.sqrt(np.diagonal(held.matrix)[[0, 1, 5]] * heavy)
+        add_mooring_springs(scene, name, held, pose=(place, 2.0 * half))
+    else:
+        omega = 0.0 if held is None else 2.0 * np.pi / held
+        stiffness, damping = heavy * omega**2, 2.0 * mooring_damping * omega * heavy
     added = add_hydrodynamics(
         scene,
         body=name,
         added_mass=parameters.added_mass,
         linear_damping=parameters.linear_damping,
         quadratic_damping=parameters.quadratic_damping,
-        restoring=following_yaw(parameters.restoring),
-        mooring_stiffness=heavy * omega**2,
-        mooring_damping=2.0 * mooring_damping * omega * heavy,
+        restoring=restoring,
+        mooring_stiffness=stiffness,
+        mooring_damping=damping,
         memory=[] if memory == "none" else core_memory(parameters.memory),
         kinematics=kinematics,
     )

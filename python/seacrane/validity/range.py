@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.frames import MOTIONS
+from seacrane.validity.current_in_waves import current_findings
 from seacrane.validity.energy import energy_findings
 from seacrane.validity.following import FullTurnWarning, following
 from seacrane.validity.hull_range import hull_findings, motions
@@ -57,7 +58,10 @@ def findings(
     `steered` names actuators that a controller has moved: they do not follow their references alone.
     """
     found: list[Finding] = []
-    looks = (_heel, hull_findings, _frequencies, _links, line_findings, lifting, _turns, energy_findings)
+    looks = (
+        _heel, hull_findings, current_findings, _frequencies, _links, line_findings, lifting, _turns,
+        energy_findings,
+    )  # fmt: skip
     for look in looks:
         found += look(scene, time, channels)
     return found + following(scene, time, channels, steered) + _singular(scene, stats)

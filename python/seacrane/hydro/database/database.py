@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from os import PathLike
 from typing import TYPE_CHECKING, Literal
 
@@ -14,6 +15,7 @@ from seacrane.hydro.data.hydro_data import HydroData
 from seacrane.hydro.database.check import CheckRow, check_database
 from seacrane.hydro.database.figures import hydro_figures
 from seacrane.hydro.database.netcdf import load_database_file, save_database, to_xarray
+from seacrane.hydro.database.roll_damping import with_roll_damping
 from seacrane.hydro.database.selection import Choice, selected_database
 from seacrane.hydro.database.table import as_html
 from seacrane.hydro.database.transform import mirrored_database, moved_database
@@ -92,6 +94,33 @@ class HydroDatabase(HydroData):
         the mirrored headings are the other side of the same `full_circle`.
         """
         return mirrored_database(self)
+
+    def without_mooring(self) -> HydroDatabase:
+        """The database without the stiffness of surge, sway and yaw that its restoring holds.
+
+        What a mooring added to heave, roll and pitch among themselves stays: nothing tells it from water.
+        """
+        kept = self.restoring.copy()
+        kept[[0, 1, 5], :] = 0.0
+        kept[:3, [0, 1, 5]] = 0.0
+        return replace(self, restoring=kept)
+
+    def with_roll_damping(
+        self, *, linear: float = 0.0, quadratic: float = 0.0, fraction: float = 0.0
+    ) -> HydroDatabase:
+        """The database with this roll damping beside radiation, in place of what it has.
+
+        Parameters
+        ----------
+        linear : N m s/rad, of the rate of roll.
+        quadratic : N m s2/rad2, of rate |rate|; `ikeda_roll_damping` estimates both.
+        fraction : of the critical damping at the roll natural frequency, added to ``linear``.
+
+        Raises
+        ------
+        SceneError : a negative value, or a fraction where the roll natural frequency is outside the table.
+        """
+        return with_roll_damping(self, linear, quadratic, fraction)
 
     def select(
         self,

@@ -8,7 +8,6 @@ from typing import Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from seacrane.hydro.data.motion import natural_frequency
 from seacrane.hydro.data.rigid_mass import rigid_mass_matrix
 from seacrane.hydro.database.database import HydroDatabase
 from seacrane.hydro.hull.by_capytaine import capytaine_solution
@@ -173,7 +172,7 @@ def database_of_solution(
     )
     if roll_damping_fraction == 0.0:
         return bare
-    return replace(bare, linear_damping=_roll_damping(bare, roll_damping_fraction))
+    return bare.with_roll_damping(fraction=roll_damping_fraction)
 
 
 def _solution(
@@ -241,20 +240,6 @@ def _require_afloat(
             f"{np.degrees(trim):+.3g} deg, which the database leaves out. Move one over the other",
             FloatingPositionWarning,
         )
-
-
-def _roll_damping(database: HydroDatabase, fraction: float) -> FloatArray:
-    """Linear damping (6, 6): a fraction of the critical roll damping at the roll natural frequency."""
-    resonance = natural_frequency(database, 3)
-    if resonance is None:
-        raise ValueError(
-            f"hull {database.name!r}: the roll natural frequency lies outside {database.omega[0]:.4g} to "
-            f"{database.omega[-1]:.4g} rad/s; widen omega, or check centre of gravity and radii of gyration"
-        )
-    inertia = database.mass_matrix[3, 3] + np.interp(resonance, database.omega, database.added_mass[:, 3, 3])
-    damping = np.zeros((6, 6))
-    damping[3, 3] = fraction * 2.0 * np.sqrt(database.restoring[3, 3] * inertia)
-    return damping
 
 
 def _require_choice(name: str, method: str, speed: float, fraction: float) -> None:

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from seacrane.hydro.data.below_band import warn_of_resonance_below_band
 from seacrane.hydro.data.data_warnings import warn_of_damping
 from seacrane.hydro.data.hydro_data import HydroData
 from seacrane.hydro.data.memory_model import PEAK_ALLOWANCE, MemoryModel, MotionFit
@@ -51,7 +52,8 @@ def vessel_parameters(
 
     Warns
     -----
-    RollDampingWarning, MemoryFitWarning, MemoryMismatchWarning, NonPassiveMemoryWarning, DampingWarning
+    RollDampingWarning, MemoryFitWarning, MemoryMismatchWarning, NonPassiveMemoryWarning, DampingWarning,
+    BelowBandWarning
 
     Raises
     ------
@@ -66,6 +68,7 @@ def vessel_parameters(
 def _warn(database: HydroData, vessel: VesselParameters) -> None:
     """Name fits that miss their aim, a memory of other data or that delivers energy, and roll damping."""
     warn_of_damping(database)
+    warn_of_resonance_below_band(database)
     if isinstance(vessel.memory, MemoryModel):
         _warn_of_misfits(database.name, vessel.memory)
         warn_of_mismatch(database, vessel.memory)

@@ -1,0 +1,260 @@
+"""`ikeda_roll_damping`: roll damping that waves do not explain, from a hull or its main particulars."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from seacrane.errors import SceneError
+from seacrane.hydro.hull.hull import Hull
+from seacrane.hydro.hull.ikeda_components import (
+    bilge_keels,
+    eddy,
+    eddy_at_speed,
+    friction,
+    friction_at_speed,
+    lift,
+    lift_slope,
+)
+from seacrane.inputs.checked import number_of
+
+STATIONS = 41
+HARMONIC = 8.0 / (3.0 * np.pi)  # of v |v| over a period
+RANGES = {
+    "block_coefficient": (0.5, 0.85),
+    "midship_coefficient": (0.9, 0.99),
+    "breadth / draught": (2.5, 4.5),
+    "depth of the roll axis / draught": (-1.5, 0.2),
+    "omega sqrt(B / 2 g)": (0.0, 1.0),
+    "bilge_keel_breadth / breadth": (0.01, 0.06),
+    "bilge_keel_length / length": (0.05, 0.4),
+}
+LARGEST_AMPLITUDE = 20.0  # deg: ours, the sources state none
+
+
+@dataclass(frozen=True, kw_only=True)
+class MainParticulars:
+    """What Ikeda's simple formulas ask of a ship: ``length`` between perpendiculars, ``breadth``, ``draught``
+    (m), ``block_coefficient`` and ``midship_coefficient``."""
+
+    length: float
+    breadth: float
+    draught: float
+    block_coefficient: float
+    midship_coefficient: float
+
+    def __post_init__(self) -> None:
+        for name in self.__dataclass_fields__:
+            value = number_of(f"main particulars: {name}", getattr(self, name))
+            if not (np.isfinite(value) and value > 0.0):
+                raise SceneError(f"main particulars: {name} is {value:g}; give a positive number")
+
+    @staticmethod
+    def of(hull: Hull) -> MainParticulars:
+        """Of the wetted surface of a hull; the midship coefficient is that of its largest section."""
+        cut = hull.sections(np.linspace(hull.extent[0, 0], hull.extent[1, 0], STATIONS))
+        areas = [2.0 * abs(float(np.trapezoid(one.section[:, 0], one.section[:, 1]))) for one in cut]
+        box = hull.breadth * hull.draught
+        return MainParticulars(
+            length=hull.length,
+            breadth=hull.breadth,
+            draught=hull.draught,
+            block_coefficient=hull.hydrostatics.volume / (hull.length * box),
+            midship_coefficient=max(areas) / box,
+        )
+
+
+@dataclass(frozen=True, kw_only=True)
+class IkedaDamping:
+    """Roll damping beside waves, by component, as linear damping of the same work per period.
+
+    Attributes
+    ----------
+    friction, eddy, lift, bilge_keels : float
+        N m s/rad at the amplitude and frequency asked for.
+    linear : float
+        N m s/rad, and
+    quadratic : float
+        N m s2/rad2, of rate and rate |rate|: the pair that does the method's work at the amplitude and at
+        half of it.
+    amplitude_deg, omega : float
+        deg and rad/s, for which all this holds.
+    """
+
+    friction: float
+    eddy: float
+    lift: float
+    bilge_keels: float
+    linear: float
+    quadratic: float
+    amplitude_deg: float
+    omega: float
+
+    @property
+    def total(self) -> float:
+        """Equivalent linear B44, N m s/rad."""
+        return self.friction + self.eddy + self.lift + self.bilge_keels
+
+
+def ikeda_roll_damping(
+    hull: Hull | MainParticulars,
+    *,
+    amplitude_deg: float,
+    omega: float,
+    axis_height: float = 0.0,
+    bilge_keel_length: float = 0.0,
+    bilge_keel_breadth: float = 0.0,
+    speed: float = 0.0,
+    rho: float = 1025.0,
+    g: float = 9.81,
+    viscosity: float = 1.19e-6,
+) -> IkedaDamping:
+    """Friction, eddies, bilge keels and, at speed, lift: what joins a database's radiation damping.
+
+    Friction and lift follow ITTC 7.5-02-07-04.5; eddies and bilge keels follow the simple formulas that
+    Kawahara, Maekawa and Ikeda (2009) fitted to Ikeda's method. Their wave component is left out: databases
+    have it. The lift of bilge keels at speed and skegs are left out too. docs/hull-hydrodynamics.md says what
+    was checked against which source, and what could not be.
+
+    Parameters
+    ----------
+    hull : Hull or MainParticulars
+        A hull counts with its wetted length.
+    amplitude_deg : float
+        Of roll, deg.
+    omega : float
+        Of roll, rad/s.
+    axis_height : float
+        Of the roll axis, commonly the centre of gravity, above the waterline, m.
+    bilge_keel_length, bilge_keel_breadth : float
+        m, of the keel on one side; both sides have one. Default: none.
+    speed : float
+        m/s.
+    rho, g, viscosity : float
+        kg/m3, m/s2, m2/s.
+
+    Returns
+    -------
+    IkedaDamping
+
+    Raises
+    ------
+    SceneError
+        Outside the range that the formulas were fitted to, which the message states.
+    """
+    ship = MainParticulars.of(hull) if isinstance(hull, Hull) else hull
+    if not isinstance(ship, MainParticulars):
+        raise SceneError(f"roll damping: {type(hull).__name__} is no hull; give a Hull or MainParticulars")
+    keels = (bilge_keel_length, bilge_keel_breadth)
+    _require_numbers(
+        positive={"amplitude_deg": amplitude_deg, "omega": omega, "rho": rho, "g": g, "viscosity": viscosity},
+        not_negative={"bilge_keel_length": keels[0], "bilge_keel_breadth": keels[1], "speed": speed},
+    )
+    _require_range(ship, amplitude_deg, omega * np.sqrt(ship.breadth / 2.0 / g), -axis_height, keels)
+
+    def at(degrees: float) -> dict[str, float]:
+        return _components(
+            ship, np.radians(degrees), omega, -axis_height, keels, speed=speed, rho=rho, g=g, nu=viscosity
+        )
+
+    found = at(amplitude_deg)
+    if found["eddy"] < 0.0:
+        raise SceneError(
+            f"roll damping: eddies come out at {found['eddy']:.4g} N m s/rad, below zero: block_coefficient "
+            f"{ship.block_coefficient:.4g} is at the end of the formulas. Take roll damping from a model test"
+        )
+    linear, quadratic = _pair(
+        sum(found.values()), sum(at(0.5 * amplitude_deg).values()), omega * np.radians(amplitude_deg)
+    )
+    return IkedaDamping(
+        **found, linear=linear, quadratic=quadratic, amplitude_deg=float(amplitude_deg), omega=float(omega)
+    )
+
+
+def _components(
+    ship: MainParticulars,
+    amplitude: float,
+    omega: float,
+    depth: float,
+    keels: tuple[float, float],
+    *,
+    speed: float,
+    rho: float,
+    g: float,
+    nu: float,
+) -> dict[str, float]:
+    """By name, N m s/rad; ``depth`` of the roll axis below the waterline, m."""
+    length, breadth, draught = ship.length, ship.breadth, ship.draught
+    cb, cm = ship.block_coefficient, ship.midship_coefficient
+    surface = length * (1.7 * draught + cb * breadth)
+    radius = ((0.887 + 0.145 * cb) * surface / length - 2.0 * depth) / np.pi
+    frequency = omega * np.sqrt(breadth / 2.0 / g)
+    unit = rho * cb * length * breadth**3 * draught * np.sqrt(2.0 * g / breadth)
+    ratios = {"cb": cb, "cm": cm, "bd": breadth / draught, "og": depth / draught}
+    swing = {"amplitude": amplitude, "frequency": frequency}
+    on = keels[0] > 0.0 and keels[1] > 0.0
+    parts = {
+        "friction": friction_at_speed(speed, omega, length)
+        * friction(radius=radius, surface=surface, amplitude=amplitude, omega=omega, rho=rho, viscosity=nu),
+        "eddy": unit * eddy_at_speed(speed, omega, length) * eddy(**ratios, **swing),
+        "lift": lift(
+            length=length,
+            draught=draught,
+            speed=speed,
+            og=depth,
+            slope=lift_slope(length=length, breadth=breadth, draught=draught, cm=cm),
+            rho=rho,
+        ),
+        "bilge_keels": unit
+        * (bilge_keels(**ratios, **swing, breadth=keels[1] / breadth, length=keels[0] / length) if on else 0),
+    }
+    return {name: float(value) for name, value in parts.items()}
+
+
+def _pair(whole: float, half: float, rate: float) -> tuple[float, float]:
+    """Linear and quadratic damping with these equivalents at a rate's amplitude (rad/s) and at half of it."""
+    quadratic = max((whole - half) / (HARMONIC * 0.5 * rate), 0.0)
+    linear = whole - HARMONIC * rate * quadratic
+    if linear < 0.0:
+        return 0.0, whole / (HARMONIC * rate)
+    return float(linear), float(quadratic)
+
+
+def _require_numbers(*, positive: dict[str, float], not_negative: dict[str, float]) -> None:
+    for name, given in (positive | not_negative).items():
+        value = number_of(f"roll damping: {name}", given)
+        if not np.isfinite(value) or value < 0.0 or (name in positive and value == 0.0):
+            wanted = "a positive number" if name in positive else "zero or more"
+            raise SceneError(f"roll damping: {name} is {value:g}; give {wanted}")
+
+
+def _require_range(
+    ship: MainParticulars, amplitude: float, frequency: float, depth: float, keels: tuple[float, float]
+) -> None:
+    values = {
+        "block_coefficient": ship.block_coefficient,
+        "midship_coefficient": ship.midship_coefficient,
+        "breadth / draught": ship.breadth / ship.draught,
+        "depth of the roll axis / draught": depth / ship.draught,
+        "omega sqrt(B / 2 g)": frequency,
+    }
+    if (keels[0] > 0.0) != (keels[1] > 0.0):
+        raise SceneError(
+            f"roll damping: bilge keels are {keels[0]:g} m long and {keels[1]:g} m broad; give both, or none"
+        )
+    if keels[0] > 0.0:
+        values["bilge_keel_breadth / breadth"] = keels[1] / ship.breadth
+        values["bilge_keel_length / length"] = keels[0] / ship.length
+    for name, value in values.items():
+        low, high = RANGES[name]
+        if not low - 1e-9 <= value <= high + 1e-9:
+            raise SceneError(
+                f"roll damping: {name} is {value:.4g}; the formulas hold from {low:g} to {high:g}. Take roll "
+                "damping from a model test or from free decay"
+            )
+    if amplitude > LARGEST_AMPLITUDE:
+        raise SceneError(
+            f"roll damping: amplitude_deg is {amplitude:g}; give {LARGEST_AMPLITUDE:g} or less, beyond which "
+            "bilge keels come out of the water"
+        )

@@ -1,0 +1,222 @@
+"""Station keeping of a vessel: by a period, by a full stiffness matrix, or by horizontal springs."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from seacrane.description.forces import add_spring
+from seacrane.description.scene import GROUND, Description
+from seacrane.errors import SceneError
+from seacrane.hydro import HydroDatabase
+from seacrane.inputs.caller import warn_caller
+from seacrane.inputs.checked import number_of, shaped_of
+from seacrane.inputs.shown import shown
+from seacrane.scene.mooring_parts import (
+    FLOATING,
+    HORIZONTAL,
+    SMALL,
+    SYMMETRIC,
+    Mooring,
+    check_mooring,
+    parts_of,
+)
+
+Array = NDArray[np.float64]
+
+FAR = 1e6  # m, of the ends of springs: so far that they keep their directions
+IN_PLANE = np.array([1.0, 1.0, 0.0, 0.0, 0.0, 1.0])
+USUAL = "the usual period of 200 s"
+
+
+class OwnMooringWarning(UserWarning):
+    """The database's restoring holds a mooring, which is used."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class MooringSpring:
+    """A horizontal spring of a mooring, without tension where the vessel starts.
+
+    It keeps its direction: the line that it stands for is long against the vessel's motions.
+
+    Parameters
+    ----------
+    point : array_like, shape (3,)
+        Where it holds, m from the reference point, vessel's axes.
+    direction_deg : float
+        Where it leads, deg from the bow towards port, at the start.
+    stiffness : float
+        N/m. It pulls and pushes, as lines under tension do about their mean.
+    """
+
+    point: Any
+    direction_deg: float
+    stiffness: float
+
+    def __post_init__(self) -> None:
+        point = shaped_of("mooring spring: point", self.point, (3,))
+        object.__setattr__(self, "point", tuple(point.tolist()))
+        number_of("mooring spring: direction_deg", self.direction_deg)
+        stiffness = number_of("mooring spring: stiffness", self.stiffness)
+        if not stiffness > 0.0:
+            raise SceneError(f"mooring spring: stiffness is {stiffness:g} N/m; give a positive one")
+
+    @property
+    def direction(self) -> Array:
+        """Unit vector (3,), vessel's axes."""
+        angle = np.radians(self.direction_deg)
+        return np.array([np.cos(angle), np.sin(angle), 0.0])
+
+
+def mooring_matrix(springs: Sequence[MooringSpring]) -> Array:
+    """Stiffness (6, 6) of horizontal springs about the reference point, N/m to N m/rad, vessel's axes.
+
+    The sum of k n n^T with n = (u, p x u) for a spring of stiffness k at p along the unit vector u.
+    """
+    total = np.zeros((6, 6))
+    for spring in springs:
+        wrench = np.concatenate([spring.direction, np.cross(spring.point, spring.direction)])
+        total += spring.stiffness * np.outer(wrench, wrench)
+    return total
+
+
+def mooring_of(what: str, given: Any) -> Mooring:
+    """A mooring by its matrix or its springs; `what` names the vessel in errors.
+
+    Raises
+    ------
+    SceneError
+        Neither of them, a matrix that is not symmetric or pushes away, or one that no springs have.
+    """
+    if isinstance(given, Sequence) and all(isinstance(one, MooringSpring) for one in given):
+        return Mooring(
+            matrix=mooring_matrix(given),
+            horizontal=np.zeros(3),
+            floating=np.zeros((3, 3)),
+            springs=tuple((np.array(s.point), s.direction, float(s.stiffness)) for s in given),
+            left=np.zeros(3),
+        )
+    if isinstance(given, str) or np.ndim(given) != 2:
+        raise SceneError(
+            f"{what}: mooring is {shown(given)}; give a natural period in s, a matrix (6, 6), or a list of "
+            "MooringSpring"
+        )
+    matrix = shaped_of(f"{what}: mooring", given, (6, 6))
+    check_mooring(what, matrix)
+    parts = parts_of(what, 0.5 * (matrix + matrix.T))
+    left = np.abs(parts.left)
+    if np.any(left > SYMMETRIC * np.sqrt(np.abs(np.diagonal(matrix)[FLOATING] * matrix[5, 5]))):
+        at = int(left.argmax())
+        raise SceneError(
+            f"{what}: mooring({at + 2}, 5) couples yaw with more than surge and sway explain: "
+            f"{parts.left[at]:.4g} is left; give the springs themselves, mooring=[MooringSpring(...)]"
+        )
+    return parts
+
+
+def chosen_mooring(
+    what: str, database: HydroDatabase, mooring: Any, period: float | None, *, usual: bool
+) -> Mooring | float | None:
+    """The one mooring of a vessel: parts, a natural period (s), or None for none.
+
+    Parameters
+    ----------
+    what : str
+        Names the vessel in messages.
+    database : HydroDatabase
+        Whose restoring may hold a mooring of its own.
+    mooring, period : as in `add_vessel`.
+    usual : bool
+        Whether the period is that of a user who gave none.
+
+    Raises
+    ------
+    SceneError
+        Two moorings: `mooring` beside a period, or either beside the database's own.
+    """
+    if mooring is not None and not usual:
+        raise SceneError(f"{what}: mooring and mooring_period are both given; leave mooring_period out")
+    own = own_mooring(database)
+    if own is not None:
+        return _own(what, database, own, given=mooring is not None or not (usual or period is None))
+    if mooring is None:
+        return period
+    if np.ndim(mooring) > 0 or isinstance(mooring, str):
+        return mooring_of(what, mooring)
+    if not number_of(f"{what}: mooring", mooring) > 0.0:
+        raise SceneError(f"{what}: mooring is a period of {mooring:g} s; give a positive one")
+    return float(mooring)
+
+
+def _own(what: str, database: HydroDatabase, own: Array, *, given: bool) -> Mooring:
+    surge, sway, yaw = np.diagonal(own)[HORIZONTAL]
+    held = (
+        f"{what}: the restoring of database {database.name!r} holds a mooring already "
+        f"(C11 = {surge:.4g} N/m, C22 = {sway:.4g} N/m, C66 = {yaw:.4g} N m/rad)"
+    )
+    if given:
+        raise SceneError(
+            f"{held}, and a second one is given; leave it out to use the database's, or give "
+            "database.without_mooring()"
+        )
+    warn_caller(
+        f"{held}: it is used, in place of {USUAL}. Take database.without_mooring() for another one",
+        OwnMooringWarning,
+    )
+    what = f"{what}, by its database"
+    check_mooring(what, own * np.outer(IN_PLANE, IN_PLANE))
+    return parts_of(what, own)
+
+
+def with_mooring(restoring: Array, mooring: Mooring) -> Array:
+    """Restoring (6, 6) of heave, roll and pitch alone, with what the mooring adds to them."""
+    total = np.zeros((6, 6))
+    total[FLOATING, FLOATING] = restoring[FLOATING, FLOATING] + mooring.floating
+    return total
+
+
+def add_mooring_springs(scene: Description, body: str, mooring: Mooring, *, pose: tuple[Any, float]) -> None:
+    """Springs from the vessel to far ends on the ground; ``pose``: place (x, y, ...) in m and heading in rad.
+
+    They are named "<body> mooring 1" and so on, and have no tension with the vessel afloat at that place.
+    """
+    place, heading = pose
+    turned = np.array(
+        [[np.cos(heading), -np.sin(heading), 0.0], [np.sin(heading), np.cos(heading), 0.0], [0.0, 0.0, 1.0]]
+    )
+    start = np.array([place[0], place[1], 0.0])
+    for i, (point, direction, stiffness) in enumerate(mooring.springs):
+        add_spring(
+            scene,
+            name=f"{body} mooring {i + 1}",
+            first=body,
+            second=GROUND,
+            first_point=point,
+            second_point=start + turned @ (point + FAR * direction),
+            stiffness=stiffness,
+            natural_length=FAR,
+        )
+
+
+def own_mooring(database: HydroDatabase) -> Array | None:
+    """Stiffness (6, 6) that a database's restoring holds in surge, sway and yaw; None where it holds none.
+
+    What heave, roll and pitch have among themselves stays with the restoring. C36, C46 and C56 are no sign of
+    a mooring: they turn a residual trim or heel moment with the ship.
+    """
+    own = 0.5 * (database.restoring + database.restoring.T)
+    own[FLOATING, FLOATING] = 0.0
+    own[FLOATING, 5] = own[5, FLOATING] = 0.0
+    return own if np.any(np.abs(own) > _scale(database.restoring)) else None
+
+
+def _scale(matrix: Array) -> Array:
+    """What counts as zero in each entry (6, 6); surge, sway and yaw by heave and pitch at least."""
+    size = np.abs(np.diagonal(matrix)).copy()
+    size[:2] = np.maximum(size[:2], size[2])
+    size[5] = max(size[5], size[4])
+    return np.asarray(SMALL * np.sqrt(np.outer(size, size)))

@@ -1,0 +1,49 @@
+"""Waves that meet a current: what the loads on a vessel leave out of both together."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+from numpy.typing import NDArray
+
+from seacrane import _core
+from seacrane.description.scene import Description
+from seacrane.validity.energy import Finding
+from seacrane.validity.hull_range import LARGEST_SHIFT, Peak
+
+Array = NDArray[np.float64]
+LIGHTEST_WATER = 500.0  # kg/m3: a denser medium is water
+
+
+class CurrentInWavesWarning(UserWarning):
+    """A current is strong enough to change the waves that a vessel meets, and its loads do not know it."""
+
+
+def current_findings(scene: Description, time: Array, channels: Mapping[str, Array]) -> list[Finding]:
+    """Currents on vessels in waves, where k U along the waves is a tenth of the frequency or more."""
+    waves = scene.waves
+    if waves is None or not time.size:
+        return []
+    found: list[Finding] = []
+    peak = Peak.of(waves)
+    for name, load in scene.loads.items():
+        in_water = isinstance(load, _core.FlowForce) and load.density > LIGHTEST_WATER
+        if not in_water or load.body not in waves.hulls:
+            continue
+        speed = float(np.abs(load.speed.evaluate(time)[:, 0]).max())
+        flow = speed * np.array([[np.cos(load.direction), np.sin(load.direction)]])
+        shift = float(peak.phase(flow)[0]) / peak.omega
+        if shift > LARGEST_SHIFT:
+            found.append((CurrentInWavesWarning, _told(name, load.body, speed, shift)))
+    return found
+
+
+def _told(name: str, body: str, speed: float, shift: float) -> str:
+    return (
+        f"current {name!r}: {speed:.3g} m/s on vessel {body!r} shift the frequency of waves at the peak by "
+        f"{shift:.0%} between the water and a fixed place. The sea is taken as a fixed observer sees it, with "
+        "the wave lengths of still water, and wave loads, added mass and damping are those without flow: "
+        "lengths are off by about twice that share. Give the spectrum as measured at a fixed place, and take "
+        "motions in this current as an estimate"
+    )
