@@ -39,9 +39,9 @@ def hoist(*, drum_on_path: bool = False, winch: bool = True, drum: bool = True) 
     if drum_on_path:
         bodies, points = ["ground", *bodies], [(-RADIUS, 0, 0), *points]
         radii, axes = [0, RADIUS, OVER, 0], [(0, 0, 0), ACROSS, ACROSS, (0, 0, 0)]
-    path: dict[str, Any] = {"bodies": bodies, "points": points, "stiffness": 1e7, "radii": radii, "axes": axes}
-    length = laid(Line(name="hoist", length=1.0, **path), described_poses(scene)).length
-    scene.add_line(name="hoist", length=length - 0.01, damping_ratio=0.1, **path)
+    path: dict[str, Any] = {"bodies": bodies, "points": points, "radii": radii, "axes": axes}
+    length = laid(Line(name="hoist", stiffness=1e7, length=1.0, **path), described_poses(scene)).length
+    scene.add_line(name="hoist", stiffness=1e7, length=length - 0.01, damping_ratio=0.1, **path)
     if winch:
         own = {"drum_inertia": 100.0, "drum_radius": RADIUS} if drum else {}
         scene.add_winch(line="hoist", rate=RATE, lag=0.1, maximum_acceleration=2.0, **own)
@@ -73,9 +73,9 @@ def test_the_rim_of_a_drum_moves_with_the_rope(drum_on_path: bool) -> None:
     small = drum.angle[1] * np.cross(drum.axis, out)
     paid = result["line_unstretched_length"][:, 0] - result["line_unstretched_length"][0, 0]
     motion = drawing_of(result).motion
-    np.testing.assert_allclose(small, np.interp(motion.times[1], result.time, paid) * span / np.linalg.norm(span),
-                               atol=1e-4)  # fmt: skip
-    np.testing.assert_allclose(drum.angle, np.interp(motion.times, result.time, paid) / RADIUS, atol=1e-12)
+    paid = np.interp(motion.times, result.time, paid)
+    np.testing.assert_allclose(small, paid[1] * span / np.linalg.norm(span), atol=1e-4)
+    np.testing.assert_allclose(drum.angle, paid / RADIUS, atol=1e-12)
     assert drum.angle[-1] < -3.0
 
 
@@ -107,7 +107,9 @@ def test_a_block_that_lines_pass_often_is_drawn_once() -> None:
 def test_a_line_straight_down_has_a_level_drum() -> None:
     scene = Scene(name="down")
     scene.add_body(name="load", mass=2e3, inertia=(500.0, 500.0, 500.0), position=(0, 0, -9))
-    scene.add_line(name="hoist", bodies=["ground", "load"], points=np.zeros((2, 3)), stiffness=1e7, length=9.0)
+    scene.add_line(
+        name="hoist", bodies=["ground", "load"], points=np.zeros((2, 3)), stiffness=1e7, length=9.0
+    )
     scene.add_winch(line="hoist", rate=0.0, lag=0.1, drum_inertia=100.0, drum_radius=RADIUS)
     drawing = drawing_of(scene)
     (drum,) = drawing.wheels
@@ -171,7 +173,8 @@ def test_stills_turn_drums() -> None:
         stage.show(2.0)
         pose = np.asarray(stage.wheels[0][0].user_matrix)
     half = 0.5 * np.interp(2.0, drawing.motion.times, drum.angle)
-    np.testing.assert_allclose(pose[:3, :3], rotation_matrix([np.cos(half), 0.0, np.sin(half), 0.0]), atol=1e-9)
+    turn = rotation_matrix([np.cos(half), 0.0, np.sin(half), 0.0])
+    np.testing.assert_allclose(pose[:3, :3], turn, atol=1e-9)
     np.testing.assert_allclose(pose[:3, 3], drum.at[1:], atol=1e-9)
 
 

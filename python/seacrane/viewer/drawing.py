@@ -79,8 +79,8 @@ class Drawing:
 
     @cached_property
     def box(self) -> Array:
-        """(2, 3): lowest and highest coordinates that bodies, sheaves and drums reach at the start, midway and at the
-        end, m."""
+        """(2, 3): lowest and highest coordinates that bodies and wheels reach, m: at the start, midway, and
+        at the end."""
         times = self.motion.start + np.array([0.0, 0.5, 1.0]) * (self.motion.end - self.motion.start)
         position, quaternion = self.motion.at(np.minimum(times, self.motion.end))
         reached = []

@@ -29,7 +29,7 @@ def gltf_of(drawing: Drawing) -> bytes:
     Under one node, which turns z up into glTF's y up, every body is a node of its name at its centre of mass,
     in the axes and metres of the result. Its animation is a cubic spline with the velocities of the run, from
     0 s at the first output; `extras` of the scene tell the time of that. Wires and links are nodes that turn
-    and stretch, straight also where they are slack. Sheaves and drums are nodes below their bodies; drums turn.
+    and stretch, straight also where they are slack. Sheaves and drums are nodes below their bodies'.
     The sea is left out.
 
     Raises

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
@@ -70,35 +68,43 @@ class Wheel:
 
 
 def turns(axis: Array, angles: Array) -> Array:
-    """Unit quaternions (n, 4), w first, about an axis by angles, rad."""
-    return np.column_stack([np.cos(0.5 * angles), np.sin(0.5 * angles)[:, None] * axis])
+    """Unit quaternions (n, 4), w first, that turn about an axis by angles, rad."""
+    return np.asarray(np.column_stack([np.cos(0.5 * angles), np.sin(0.5 * angles)[:, None] * axis]))
 
 
 def wheels_of(scene: Description, result: Result | None, motion: Motion) -> list[Wheel]:
-    """Drums first, then every sheave once, through which lines pass however often."""
+    """Drums, and every other sheave once, however often lines pass it."""
     lines = lines_of(scene.loads)
-    found: dict[Any, Wheel] = {}
-    for name, line in lines.items():
-        if line.winch:
-            _add_drum(found, scene, result, motion, name, line)
-    for name, line in lines.items():
-        for i in np.flatnonzero(line.radii).tolist():
-            at = end_of(scene, motion.bodies, line.bodies[i], line.points[i])
-            axis = _unit(line.axes[i])
-            found.setdefault(
-                _place(at, axis),
-                Wheel(
-                    name=f"{name} sheave {i}", kind="sheave", at=at, axis=axis,
-                    shapes=_sheave(axis, line.radii[i]),
-                ),
-            )  # fmt: skip
+    drums = [_drum(scene, result, motion, name, line) for name, line in lines.items() if line.winch]
+    sheaves = [
+        _sheave(scene, motion, f"{name} sheave {i}", line, i)
+        for name, line in lines.items()
+        for i in np.flatnonzero(line.radii).tolist()
+    ]
+    found: dict[tuple[float, ...], Wheel] = {}
+    for wheel in (*drums, *sheaves):
+        if wheel is not None:
+            found.setdefault(_place(wheel), wheel)
     return list(found.values())
 
 
-def _add_drum(
-    found: dict[Any, Wheel], scene: Description, result: Result | None, motion: Motion, name: str,
-    line: _core.Line,
-) -> None:  # fmt: skip
+def _place(wheel: Wheel) -> tuple[float, ...]:
+    """Alike for wheels at one place about one axis, whatever its sign."""
+    sign = np.sign(wheel.axis[int(np.argmax(np.abs(wheel.axis)))])
+    return (*wheel.at, *plain(sign * wheel.axis))
+
+
+def _sheave(scene: Description, motion: Motion, name: str, line: _core.Line, i: int) -> Wheel:
+    axis, radius = _unit(line.axes[i]), line.radii[i]
+    at = end_of(scene, motion.bodies, line.bodies[i], line.points[i])
+    disc = _round(axis, DISC * radius, radius, "sheave")
+    hub = _round(axis, HUB_WIDTH * radius, HUB * radius, "hub")
+    return Wheel(name=name, kind="sheave", at=at, axis=axis, shapes=[disc, hub])
+
+
+def _drum(
+    scene: Description, result: Result | None, motion: Motion, name: str, line: _core.Line
+) -> Wheel | None:
     """That of a winch, if it has one: the sheave on whose rim its line starts, or one of `drum_radius`."""
     if _starts_on_rim(line):
         centre, axis, radius = line.points[1], _unit(line.axes[1]), float(line.radii[1])
@@ -106,12 +112,11 @@ def _add_drum(
         radius = line.drum_radius
         centre, axis = _beside_first_span(scene, line, radius)
     else:
-        return
-    at = end_of(scene, motion.bodies, line.bodies[0], centre)
-    angle = _angle(result, motion, name, radius)
-    found[_place(at, axis)] = Wheel(
-        name=f"{name} drum", kind="drum", at=at, axis=axis, shapes=_drum(axis, radius), angle=angle
-    )
+        return None
+    return Wheel(
+        name=f"{name} drum", kind="drum", at=end_of(scene, motion.bodies, line.bodies[0], centre), axis=axis,
+        shapes=_barrel(axis, radius), angle=_angle(result, motion, name, radius),
+    )  # fmt: skip
 
 
 def _starts_on_rim(line: _core.Line) -> bool:
@@ -142,26 +147,22 @@ def _angle(result: Result | None, motion: Motion, line: str, radius: float) -> A
     ):
         if result is not None and channel in result.channels and name in result.coords[dim]:
             length = result.select(channel, **{dim: name})
-            return linear_rows(motion, result.time, ((length - length[0]) / radius)[:, None])[0]
+            return np.asarray(linear_rows(motion, result.time, (length - length[0]) / radius)[0])
     return None
 
 
-def _sheave(axis: Array, radius: float) -> list[TubeShape]:
-    hub = _round(axis, HUB_WIDTH * radius, HUB * radius, "hub")
-    return [_round(axis, DISC * radius, radius, "sheave"), hub]
-
-
-def _drum(axis: Array, radius: float) -> list[TubeShape]:
-    """A barrel between flanges, with a mark on each that shows how it turns."""
+def _barrel(axis: Array, radius: float) -> list[TubeShape]:
+    """Between two flanges, with a mark on each that shows how it turns."""
     out = 0.5 * BARREL * radius * axis
-    flange = _round(axis, FLANGE_WIDTH * radius, FLANGE * radius, "drum")
+    thick = 0.5 * FLANGE_WIDTH * radius * axis
     across = _unit(np.cross(axis, np.eye(3)[int(np.argmin(np.abs(axis)))]))
     shapes = [_round(axis, BARREL * radius, radius, "barrel")]
-    for side in (-out, out):
-        face = side * (1.0 + FLANGE_WIDTH / BARREL)
+    for side in (-1.0, 1.0):
+        centre, face = side * out, side * (out + thick)
+        rim = face + FLANGE * radius * across
         shapes += [
-            TubeShape(start=flange.start + side, end=flange.end + side, radius=flange.radius, colour="drum"),
-            TubeShape(start=face, end=face + FLANGE * radius * across, radius=MARK * radius, colour="mark"),
+            TubeShape(start=centre - thick, end=centre + thick, radius=FLANGE * radius, colour="drum"),
+            TubeShape(start=face, end=rim, radius=MARK * radius, colour="mark"),
         ]
     return shapes
 
@@ -171,11 +172,5 @@ def _round(axis: Array, width: float, radius: float, colour: str) -> TubeShape:
     return TubeShape(start=-0.5 * width * axis, end=0.5 * width * axis, radius=radius, colour=colour)
 
 
-def _unit(vector: Sequence[float] | Array) -> Array:
+def _unit(vector: Array) -> Array:
     return np.asarray(vector / np.linalg.norm(vector))
-
-
-def _place(at: list[float], axis: Array) -> tuple[float, ...]:
-    """Alike for sheaves at one place about one axis, whatever its sign."""
-    sign = np.sign(axis[int(np.argmax(np.abs(axis)))])
-    return (*at, *plain(sign * axis))
