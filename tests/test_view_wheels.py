@@ -104,9 +104,10 @@ def test_a_block_that_lines_pass_often_is_drawn_once() -> None:
     assert set(wheels(scene)) == {"hoist drum", "hoist sheave 1"}
 
 
-def test_a_line_straight_down_has_a_level_drum() -> None:
+@pytest.mark.parametrize("below", [0.0, 9.0])
+def test_a_line_straight_down_has_a_level_drum(below: float) -> None:
     scene = Scene(name="down")
-    scene.add_body(name="load", mass=2e3, inertia=(500.0, 500.0, 500.0), position=(0, 0, -9))
+    scene.add_body(name="load", mass=2e3, inertia=(500.0, 500.0, 500.0), position=(0, 0, -below))
     scene.add_line(
         name="hoist", bodies=["ground", "load"], points=np.zeros((2, 3)), stiffness=1e7, length=9.0
     )

@@ -97,7 +97,7 @@ class View:
         return _written(path, self.html.encode("utf-8"), overwrite)
 
     def save_gltf(self, path: str | os.PathLike[str], *, overwrite: bool = False) -> Path:
-        """Write bodies and wires as an animated glTF model, which modellers and viewers open.
+        """Write bodies, sheaves, drums and wires as an animated glTF model, which modellers and viewers open.
 
         A node for each body, by its name, at its centre of mass; its animation is exact to what the page
         shows. The root node turns z up into glTF's y up. Slack wires are straight; the sea is left out.

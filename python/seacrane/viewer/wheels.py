@@ -64,7 +64,7 @@ class Wheel:
     def turned(self, frame_times: Array, time: float) -> Array:
         """Unit quaternion (w, x, y, z) of its turning at a time, s."""
         angle = 0.0 if self.angle is None else float(np.interp(time, frame_times, self.angle))
-        return turns(self.axis, np.array([angle]))[0]
+        return np.asarray(turns(self.axis, np.array([angle]))[0])
 
 
 def turns(axis: Array, angles: Array) -> Array:
@@ -132,8 +132,9 @@ def _beside_first_span(scene: Description, line: _core.Line, radius: float) -> t
     poses = described_poses(scene)
     _, turn = poses(line.bodies[0])
     path = laid(line, poses)
-    along = path.ends[0] - path.starts[0]
-    level = (np.cross(UP, one) for one in (_unit(along), turn[:, 0], turn[:, 1]))
+    span = path.ends[0] - path.starts[0]
+    along = _unit(span) if np.any(span) else -UP
+    level = (np.cross(UP, one) for one in (along, turn[:, 0], turn[:, 1]))
     axis = _unit(next(one for one in level if np.linalg.norm(one) > UPRIGHT))
     out = _unit(np.cross(along, axis))
     return line.points[0] - radius * (turn.T @ out), turn.T @ axis
