@@ -24,6 +24,7 @@ from seacrane.result.kept_scene import NOT_KEPT
 from seacrane.viewer.absences import absences
 from seacrane.viewer.bodies import Look, looks
 from seacrane.viewer.motion import Motion, motion_of
+from seacrane.viewer.wheels import Wheel, wheels_of
 from seacrane.viewer.wires import end_of, wires_of
 
 Array = NDArray[np.float64]
@@ -58,6 +59,11 @@ class Drawing:
         return [wire | {"absent": gone.get(wire["element"], [])} for wire in wires]
 
     @cached_property
+    def wheels(self) -> list[Wheel]:
+        """Sheaves and drums."""
+        return wheels_of(self.scene, self.result, self.motion)
+
+    @cached_property
     def tracks(self) -> list[dict[str, Any]]:
         """Points whose paths are drawn: tips of cranes, and what hangs on them."""
         bodies = self.motion.bodies
@@ -73,7 +79,8 @@ class Drawing:
 
     @cached_property
     def box(self) -> Array:
-        """(2, 3): lowest and highest coordinates that bodies reach at the start, midway and at the end, m."""
+        """(2, 3): lowest and highest coordinates that bodies and wheels reach, m: at the start, midway, and
+        at the end."""
         times = self.motion.start + np.array([0.0, 0.5, 1.0]) * (self.motion.end - self.motion.start)
         position, quaternion = self.motion.at(np.minimum(times, self.motion.end))
         reached = []
@@ -81,6 +88,9 @@ class Drawing:
             points = self.looks[name].points
             for centre, turn in zip(position[:, i], quaternion[:, i], strict=True):
                 reached.append(centre + points @ rotation_matrix(turn).T)
+        for wheel in self.wheels:
+            centres = self.place(wheel.at, position, quaternion)
+            reached += [centres - wheel.reach, centres + wheel.reach]
         every = np.concatenate(reached)
         return np.array([every.min(axis=0), every.max(axis=0)])
 

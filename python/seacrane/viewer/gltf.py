@@ -1,4 +1,4 @@
-"""A drawing as an animated glTF model: a node for each body and each wire."""
+"""A drawing as an animated glTF model: a node for each body, wheel and wire."""
 
 from __future__ import annotations
 
@@ -15,6 +15,7 @@ from seacrane.viewer.glb import INDICES, VERTICES, Glb
 from seacrane.viewer.motion import quaternion_rate
 from seacrane.viewer.palette import WIRES, rgb
 from seacrane.viewer.surfaces import Surface, surfaces_of, tube
+from seacrane.viewer.wheels import turns
 
 Array = NDArray[np.float64]
 
@@ -28,7 +29,8 @@ def gltf_of(drawing: Drawing) -> bytes:
     Under one node, which turns z up into glTF's y up, every body is a node of its name at its centre of mass,
     in the axes and metres of the result. Its animation is a cubic spline with the velocities of the run, from
     0 s at the first output; `extras` of the scene tell the time of that. Wires and links are nodes that turn
-    and stretch, straight also where they are slack. The sea is left out.
+    and stretch, straight also where they are slack. Sheaves and drums are nodes below their bodies'.
+    The sea is left out.
 
     Raises
     ------
@@ -37,6 +39,7 @@ def gltf_of(drawing: Drawing) -> bytes:
     """
     model = _Model(drawing)
     model.bodies()
+    model.wheels()
     model.wires()
     try:
         return model.glb.to_bytes()
@@ -85,6 +88,17 @@ class _Model:
             self._cubic(node, "translation", place, motion.velocity[:, i])
             self._cubic(node, "rotation", turn, _xyzw(rate[:, i]))
 
+    def wheels(self) -> None:
+        """Sheaves and drums, below the nodes of their bodies."""
+        for wheel in self.drawing.wheels:
+            number, *centre = wheel.at
+            mesh = self._mesh(wheel.name, surfaces_of(wheel.look, 0))
+            node = self._node(wheel.name, mesh, below=1 + int(number), translation=np.array(centre))
+            if wheel.angle is not None:
+                turn = _xyzw(turns(wheel.axis, wheel.angle))
+                self.nodes[node]["rotation"] = turn[0].tolist()
+                self._sampler(node, "rotation", turn, "LINEAR")
+
     def wires(self) -> None:
         """Every wire as a bar of one metre along z, which is moved, turned and stretched."""
         drawing, motion = self.drawing, self.motion
@@ -105,8 +119,8 @@ class _Model:
             for path, values in (("translation", start), ("rotation", turn), ("scale", scale)):
                 self._sampler(node, path, values, "LINEAR")
 
-    def _node(self, name: str, mesh: int, **pose: Array) -> int:
-        self.nodes[0]["children"].append(len(self.nodes))
+    def _node(self, name: str, mesh: int, *, below: int = 0, **pose: Array) -> int:
+        self.nodes[below].setdefault("children", []).append(len(self.nodes))
         self.nodes.append({"name": name, "mesh": mesh} | {key: value.tolist() for key, value in pose.items()})
         return len(self.nodes) - 1
 

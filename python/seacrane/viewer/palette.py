@@ -8,6 +8,10 @@ BODIES = {
     "barrel": "#5b6670",
     "rod": "#c9d1d6",
     "payload": "#b5432f",
+    "sheave": "#5b6670",
+    "hub": "#c9d1d6",
+    "drum": "#2f4a6b",
+    "mark": "#ffe14d",
 }
 PLAIN = ("#7c6aa6", "#3f8f8a", "#b0793a", "#5578a8", "#8a8f3c", "#a65a7c")  # bodies of no other kind, in turn
 HULL = {"above": "#2f5f86", "deck": "#93a58e", "below": "#8c3b32"}

@@ -1,4 +1,4 @@
-"""A drawing set up in pyvista: bodies, sea, wires and tracks, moved from time to time."""
+"""A drawing set up in pyvista: bodies, wheels, sea, wires and tracks, moved from time to time."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane.inputs.frames import rotation_matrix
+from seacrane.viewer.bodies import Look
 from seacrane.viewer.camera import OPENING, Camera
 from seacrane.viewer.drawing import Drawing
 from seacrane.viewer.hanging import wire_line
@@ -33,7 +34,9 @@ class Stage:
         self.drawing, self.camera = drawing, camera
         self.plotter = self.pv.Plotter(off_screen=True, window_size=list(size))
         self.plotter.set_background(SKY)
-        self.bodies = [self._body(i) for i in range(len(drawing.motion.bodies))]
+        looks = [drawing.looks[name] for name in drawing.motion.bodies]
+        self.bodies = [self._solid(look, i) for i, look in enumerate(looks)]
+        self.wheels = [self._solid(wheel.look, 0) for wheel in drawing.wheels]
         self.sea, self.water = self._sea()
         self.wires: list[Any] = []
         self._tracks()
@@ -51,10 +54,8 @@ class Stage:
         within = np.array([min(max(time, motion.start), motion.end)])
         position, quaternion = motion.at(within)
         for i, actors in enumerate(self.bodies):
-            pose = np.eye(4)
-            pose[:3, :3], pose[:3, 3] = rotation_matrix(quaternion[0, i]), position[0, i]
-            for actor in actors:
-                actor.user_matrix = pose
+            _put(actors, rotation_matrix(quaternion[0, i]), position[0, i])
+        self._show_wheels(float(within[0]), position, quaternion)
         self._show_sea(time)
         self._show_wires(time, position, quaternion)
         place, target = self.camera.at(position[0])
@@ -69,8 +70,15 @@ class Stage:
         self.plotter.render()  # a screenshot repeats what was drawn last
         return np.asarray(self.plotter.screenshot(return_img=True))[..., :3]
 
-    def _body(self, number: int) -> list[Any]:
-        look = self.drawing.looks[self.drawing.motion.bodies[number]]
+    def _show_wheels(self, time: float, position: Array, quaternion: Array) -> None:
+        frames = self.drawing.motion.times
+        for wheel, actors in zip(self.drawing.wheels, self.wheels, strict=True):
+            number = int(wheel.at[0])
+            body = rotation_matrix(quaternion[0, number]) if number >= 0 else np.eye(3)
+            turn = rotation_matrix(wheel.turned(frames, time))
+            _put(actors, body @ turn, self.drawing.place(wheel.at, position, quaternion)[0])
+
+    def _solid(self, look: Look, number: int) -> list[Any]:
         return [
             self.plotter.add_mesh(
                 self.pv.PolyData.from_regular_faces(one.vertices, one.faces), color=one.colour, ambient=0.35,
@@ -133,3 +141,11 @@ class Stage:
             return None
         line = self.pv.lines_from_points(kept).tube(radius=radius, n_sides=8)
         return self.plotter.add_mesh(line, color=colour, ambient=0.4, render=False)
+
+
+def _put(actors: list[Any], turn: Array, place: Array) -> None:
+    """Actors to a pose."""
+    pose = np.eye(4)
+    pose[:3, :3], pose[:3, 3] = turn, place
+    for actor in actors:
+        actor.user_matrix = pose

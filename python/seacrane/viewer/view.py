@@ -29,9 +29,11 @@ from seacrane.viewer.palette import HULL, SLACK, TRACKS, WIRES, body_colour
 from seacrane.viewer.sea import sea_components, without_sea
 from seacrane.viewer.shapes import HullShape, MeshShape
 from seacrane.viewer.strip import Choice, strip_of
+from seacrane.viewer.wheels import Wheel
 
 SCENE_ALONE = 60.0  # s that the sea of a scene without a run is shown
 LOWEST, HIGHEST = 200, 4000  # pixels
+ANGLE_STEP = 1e-3  # rad, of a drum
 
 
 @dataclass(frozen=True, kw_only=True, repr=False)
@@ -95,7 +97,7 @@ class View:
         return _written(path, self.html.encode("utf-8"), overwrite)
 
     def save_gltf(self, path: str | os.PathLike[str], *, overwrite: bool = False) -> Path:
-        """Write bodies and wires as an animated glTF model, which modellers and viewers open.
+        """Write bodies, sheaves, drums and wires as an animated glTF model, which modellers and viewers open.
 
         A node for each body, by its name, at its centre of mass; its animation is exact to what the page
         shows. The root node turns z up into glTF's y up. Slack wires are straight; the sea is left out.
@@ -191,6 +193,7 @@ def view(
         "motion": _motion_data(motion, blob),
         "least": SCENE_ALONE if result is None and shown_scene.waves is not None else 0.0,
         "bodies": [_body_data(name, i, drawing.looks[name], blob) for i, name in enumerate(motion.bodies)],
+        "wheels": [_wheel_data(wheel, blob) for wheel in drawing.wheels],
         "sea": None if without_sea(shown_scene) else blob.floats(sea_components(shown_scene)),
         "wires": [wire | {"colours": [WIRES[wire["kind"]], SLACK]} for wire in drawing.wires],
         "tracks": [track | {"colour": TRACKS[track["kind"]]} for track in drawing.tracks],
@@ -223,3 +226,9 @@ def _body_data(name: str, number: int, look: Look, blob: Blob) -> dict[str, Any]
         told = {"kind": "mesh", **_mesh(shape, blob)} if isinstance(shape, MeshShape) else shape.data()
         shapes.append(told | {"colour": body_colour(shape.colour, look.role, number)})
     return {"name": name, "role": look.role, "shapes": shapes}
+
+
+def _wheel_data(wheel: Wheel, blob: Blob) -> dict[str, Any]:
+    told = _body_data(wheel.name, 0, wheel.look, blob)
+    angle = None if wheel.angle is None else blob.series(wheel.angle[None], ANGLE_STEP)
+    return told | {"at": wheel.at, "axis": [round(float(x), 6) for x in wheel.axis], "angle": angle}

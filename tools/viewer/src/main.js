@@ -12,6 +12,7 @@ import { Motion } from './motion.js';
 import { Sea } from './sea.js';
 import { Strip } from './strip.js';
 import { floats, gunzip } from './unpack.js';
+import { Wheel } from './wheels.js';
 import { Track, Wire } from './wires.js';
 
 const SKY = 0xdfeaf2;
@@ -65,13 +66,15 @@ class Page {
 
   makeBodies() {
     this.bodies = this.data.bodies.map((body) => bodyGroup(body, this.buffer));
-    this.scene.add(...this.bodies);
+    this.wheels = this.data.wheels.map((wheel) => new Wheel(wheel, this.buffer));
+    this.scene.add(...this.bodies, ...this.wheels.map(({ group }) => group));
     this.boxes = this.bodies.map((group) => new Box3().setFromObject(group));
     this.move(this.start);
     const all = new Box3();
     for (const u of [0, 0.5, 1]) {
       this.move(this.start + u * (this.motion.end - this.start));
       this.bodies.forEach((group) => all.expandByObject(group));
+      this.wheels.forEach(({ group }) => all.expandByObject(group));
     }
     this.all = all;
     this.centre = all.getCenter(new Vector3());
@@ -257,6 +260,7 @@ class Page {
       this.motion.pose(i, t, group.position, group.quaternion);
       group.updateMatrixWorld(true);
     });
+    this.wheels.forEach((wheel) => wheel.show(this.motion, t));
   }
 
   size() {
@@ -384,6 +388,10 @@ class Page {
       look: (name) => { this.look(name); this.render(); },
       pose: (body, t) => {
         const { position: p, quaternion: q } = this.motion.pose(this.data.bodies.findIndex(({ name }) => name === body), t);
+        return [...p.toArray(), q.w, q.x, q.y, q.z];
+      },
+      wheel: (name, t) => {
+        const { position: p, quaternion: q } = this.wheels.find((wheel) => wheel.name === name).pose(this.motion, t);
         return [...p.toArray(), q.w, q.x, q.y, q.z];
       },
       elevation: (x, y, t) => this.sea.elevation(x, y, t),
