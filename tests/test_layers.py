@@ -31,6 +31,7 @@ FLOORS = """
     analysis
     scene
     result
+    statistics
     run
     accuracy
     simulation

@@ -1,0 +1,147 @@
+"""extremes(): of a channel of one run, or of the same channel over the runs of several seeds."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from seacrane.errors import SceneError
+from seacrane.inputs.checked import flag_of, number_of
+from seacrane.inputs.described import described
+from seacrane.result import Result
+from seacrane.result.units import unit_of
+from seacrane.statistics.gaussian import THREE_HOURS
+from seacrane.statistics.judged import warn_of_repeat, warn_of_start
+from seacrane.statistics.record import FEWEST_VALUES, record_of, up_crossings
+from seacrane.statistics.record_extremes import RecordExtremes, record_extremes
+from seacrane.statistics.seeds import SeedExtremes, seed_extremes
+
+Array = NDArray[np.float64]
+EVEN = 1e-6  # of a step by which output times may be uneven
+
+
+def extremes(
+    result: Result | Iterable[Result],
+    *,
+    channel: str,
+    exposure: float = THREE_HOURS,
+    start: float = 0.0,
+    smallest: bool = False,
+    tail: str = "exponential",
+    threshold: float | None = None,
+    static: float | None = None,
+    half_width: float | None = None,
+    **names: str,
+) -> RecordExtremes | SeedExtremes:
+    """Estimate the largest value of a channel in an exposure time, and how sure that is.
+
+    Parameters
+    ----------
+    result : Result or several
+        Of one run: by its up-crossings and its peaks over a threshold. Of the same lift with several seeds: by
+        the distribution of their maxima.
+    channel : str
+        As in `Result.channels`, with outputs at even times.
+    exposure : float
+        s; default 3 h.
+    start : float
+        Time before which outputs are left out, s.
+    smallest : bool
+        Ask for the smallest value: every number is then that of the channel with its sign changed.
+    tail, threshold
+        Of one run, as `record_extremes` takes them.
+    static : float, optional
+        As both functions take it; default the mean of the outputs, with the sign changed where they are.
+    half_width : float, optional
+        Of several runs, as `seed_extremes` takes it.
+    **names : str
+        One for each dimension of the channel, such as ``body="payload", axis="z"``.
+
+    Returns
+    -------
+    RecordExtremes or SeedExtremes
+
+    Raises
+    ------
+    SceneError
+        For a channel or name that is not there, runs of different length, uneven times, or a number out of range.
+
+    Warns
+    -----
+    FewSeedsWarning, StartTransientWarning, RepeatingSeaWarning, PoorFitWarning
+    """
+    sign = -1.0 if flag_of("smallest", smallest) else 1.0
+    begin = number_of("start", start)
+    results = [result] if isinstance(result, Result) else _several(result)
+    records = [_record(one, channel, begin, sign, names) for one in results]
+    words = {"name": _name(channel, names, sign), "unit": unit_of(channel, names.values())}
+    if isinstance(result, Result):
+        (values, step), repeat = records[0], _repeat(result)
+        return record_extremes(
+            values, dt=step, exposure=exposure, tail=tail, threshold=threshold, static=static, repeat=repeat, **words
+        )
+    durations = [values.size * step for values, step in records]
+    if max(durations) - min(durations) > EVEN * max(durations):
+        raise SceneError(
+            f"runs of {min(durations):g} to {max(durations):g} s: the maxima of seeds are of one length; leave "
+            "interrupted runs out"
+        )
+    for one, (values, _) in zip(results, records, strict=True):
+        warn_of_start(values, up_crossings(values, float(values.mean())).size)
+        warn_of_repeat(_repeat(one), durations[0])
+    rest = float(np.mean([values.mean() for values, _ in records]))
+    return seed_extremes(
+        [values.max() for values, _ in records], duration=durations[0], exposure=exposure,
+        static=rest if static is None else static, half_width=half_width, **words,
+    )  # fmt: skip
+
+
+def _several(results: Iterable[Result]) -> list[Result]:
+    if not isinstance(results, Iterable):
+        raise SceneError(f"result is {described(results)}; give a Result, or those of several seeds")
+    listed = list(results)
+    for one in listed:
+        if not isinstance(one, Result):
+            raise SceneError(f"results hold {described(one)}; give what simulate() returns")
+    if not listed:
+        raise SceneError("results: none is given")
+    return listed
+
+
+def _record(
+    result: Result, channel: str, start: float, sign: float, names: dict[str, str]
+) -> tuple[Array, float]:
+    """One curve from `start` on, and the time between two of its values, s."""
+    if channel not in result.channels:
+        raise SceneError(f"channel {channel!r} is not in this result; it holds {', '.join(result)}")
+    try:
+        curve = result.select(channel, **names)
+    except ValueError as error:
+        raise SceneError(str(error)) from error
+    if curve.ndim != 1:
+        missing = [dim for dim in result.dims[channel][1:] if dim not in names]
+        listed = "; ".join(f"{dim}= one of {', '.join(result.coords[dim])}" for dim in missing)
+        raise SceneError(f"channel {channel!r} holds several curves: give {listed}")
+    late = result.time >= start
+    time, values = result.time[late], sign * curve[late]
+    if time.size < FEWEST_VALUES:
+        raise SceneError(f"{time.size} outputs from {start:g} s on: at least {FEWEST_VALUES} are needed")
+    if not np.isfinite(values).all():
+        raise SceneError(f"channel {channel!r} has gaps: ask for a part of the run, or another channel")
+    steps = np.diff(time)
+    if np.ptp(steps) > EVEN * steps.mean():
+        raise SceneError(f"output times are uneven ({steps.min():g} to {steps.max():g} s): simulate with dt_out=")
+    return record_of(values), float(steps.mean())
+
+
+def _repeat(result: Result) -> float | None:
+    """Time after which the sea of a run comes back on itself, s."""
+    found: Any = result.stats.get("repeat_period_s")
+    return None if found is None else float(found)
+
+
+def _name(channel: str, names: dict[str, str], sign: float) -> str:
+    return " ".join(["minus " * (sign < 0.0) + channel, *names.values()])

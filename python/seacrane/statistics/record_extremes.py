@@ -1,0 +1,212 @@
+"""Everything one record tells of its extremes."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from seacrane.errors import SceneError
+from seacrane.inputs.caller import warn_caller
+from seacrane.inputs.checked import number_of
+from seacrane.plotting.html import notebook_table
+from seacrane.plotting.text import text_table
+from seacrane.statistics.estimate import CONFIDENCE, HEAD, Estimate, Maximum
+from seacrane.statistics.gaussian import THREE_HOURS, gaussian_maximum
+from seacrane.statistics.judged import PoorFitWarning, warn_of_repeat, warn_of_start
+from seacrane.statistics.record import crests, positive, record_of, up_crossings
+from seacrane.statistics.spectrum import SpectrumEstimate, spectrum_estimate
+from seacrane.statistics.tail import Tail, peaks_over_threshold
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, kw_only=True, eq=False, repr=False)
+class RecordExtremes:
+    """Statistics of one record. Made by `record_extremes` and `extremes`; prints as a table.
+
+    Attributes
+    ----------
+    name, unit : str
+        What was recorded.
+    duration, exposure : float
+        Of the record, and of what is asked, s.
+    mean, std, largest : float
+    static : float
+        What the dynamic factor is taken of.
+    significant : float
+        Mean of the highest third of crests above the mean of the record.
+    crossing_rate, period : float
+        Up-crossings of the mean, 1/s, and the time between two, s.
+    crests : ndarray, shape (n,)
+        The largest value between each two up-crossings, ascending.
+    spectrum : SpectrumEstimate
+    gaussian : Maximum
+        As if the process were Gaussian, every crossing independent: sqrt(2 ln N). The intervals hold the scatter
+        of the standard deviation.
+    clumped : Maximum
+        The same with crossings in clumps, by the bandwidth of the spectrum.
+    tail : Tail or None
+        Peaks over a threshold; None where the record has too few.
+    over_threshold : Maximum or None
+        From this tail.
+    """
+
+    name: str
+    unit: str
+    duration: float
+    exposure: float
+    mean: float
+    std: float
+    largest: float
+    static: float
+    significant: float
+    crossing_rate: float
+    crests: Array
+    spectrum: SpectrumEstimate
+    gaussian: Maximum
+    clumped: Maximum
+    tail: Tail | None
+    over_threshold: Maximum | None
+
+    @property
+    def period(self) -> float:
+        """Mean time between two up-crossings of the mean, s."""
+        return 1.0 / self.crossing_rate
+
+    @property
+    def maximum(self) -> Maximum:
+        """By peaks over the threshold; where these are too few, as if Gaussian with clumps."""
+        return self.over_threshold or self.clumped
+
+    @property
+    def dynamic_factor(self) -> float:
+        """Most probable maximum over the static value."""
+        if self.static == 0.0:
+            raise SceneError("static=0: a dynamic factor needs a static value; give static=")
+        return self.maximum.mpm.value / self.static
+
+    def exceedance(self, levels: Any) -> Array:
+        """Share of the crests above levels."""
+        above = self.crests.size - np.searchsorted(self.crests, np.asarray(levels, dtype=float), side="right")
+        return np.asarray(above / self.crests.size)
+
+    def __str__(self) -> str:
+        return f"{self._caption()}\n{text_table(HEAD, self._rows(), right=(1, 2, 3))}\n{self._tail_words()}"
+
+    __repr__ = __str__
+
+    def _repr_html_(self) -> str:
+        return notebook_table(HEAD, self._rows(), caption=f"{self._caption()} {self._tail_words()}")
+
+    def _caption(self) -> str:
+        return (
+            f"{self.name} [{self.unit}], {self.duration:.4g} s: mean {self.mean:.4g}, std {self.std:.4g}, significant "
+            f"crest {self.significant:.4g}, largest {self.largest:.4g}, period {self.period:.4g} s. "
+            f"Maximum in {self.exposure:g} s, 95 % intervals:"
+        )
+
+    def _rows(self) -> list[list[str]]:
+        rows = [self.gaussian.cells("Gaussian, sqrt(2 ln N)"), self.clumped.cells("Gaussian, clumped")]
+        return rows if self.over_threshold is None else [*rows, self.over_threshold.cells("peaks over threshold")]
+
+    def _tail_words(self) -> str:
+        if self.tail is None:
+            return "Too few crests for peaks over a threshold."
+        chosen = "chosen" if self.tail.chosen else "given"
+        return (
+            f"Threshold {self.tail.threshold:.4g} ({chosen}), {self.tail.peaks.size} clusters, {self.tail.kind} tail, "
+            f"extremal index {self.tail.extremal_index:.2f}."
+        )
+
+
+def record_extremes(
+    values: Any,
+    *,
+    dt: float,
+    exposure: float = THREE_HOURS,
+    tail: str = "exponential",
+    threshold: float | None = None,
+    static: float | None = None,
+    repeat: float | None = None,
+    name: str = "record",
+    unit: str = "-",
+) -> RecordExtremes:
+    """Estimate the largest value in an exposure time from one record.
+
+    Parameters
+    ----------
+    values : array_like, shape (n,)
+        At even times, any unit; for smallest values give them negative.
+    dt : float
+        Between two values, s; a tenth of the shortest period or less.
+    exposure : float
+        s; default 3 h.
+    tail : str
+        Of the peaks over the threshold: "exponential" (default) or "pareto".
+    threshold : float, optional
+        By default the lowest acceptable; `tail.threshold` tells which.
+    static : float, optional
+        What the dynamic factor is taken of; default the mean of the record.
+    repeat : float, optional
+        After which the sea repeats, s.
+    name, unit : str
+        What the table calls it.
+
+    Returns
+    -------
+    RecordExtremes
+
+    Raises
+    ------
+    SceneError
+        For a record that is too short, does not vary or never crosses its mean, or a number out of range.
+
+    Warns
+    -----
+    StartTransientWarning, RepeatingSeaWarning, PoorFitWarning
+    """
+    record, step, asked = record_of(values), positive("dt", dt), positive("exposure", exposure)
+    duration, mean, std = record.size * step, float(record.mean()), float(record.std())
+    crossings = up_crossings(record, mean).size
+    heights = crests(record, mean)
+    if heights.size < 2:
+        raise SceneError("values: the record crosses its mean fewer than three times; make it longer")
+    warn_of_start(record, crossings)
+    warn_of_repeat(repeat, duration)
+    spectrum, rate = spectrum_estimate(record, dt=step), crossings / duration
+    found = peaks_over_threshold(mean + heights, duration=duration, threshold=threshold, kind=tail)
+    if found is not None and not found.accepted:
+        warn_caller(
+            f"the {tail} tail does not describe the {found.peaks.size} peaks over {found.threshold:.4g}: take another "
+            "threshold= or tail=, or the maxima of many seeds",
+            PoorFitWarning,
+        )
+    third = np.sort(heights)[-max(1, heights.size // 3) :]
+    return RecordExtremes(
+        name=name, unit=unit, duration=duration, exposure=asked, mean=mean, std=std, largest=float(record.max()),
+        static=mean if static is None else number_of("static", static), significant=float(third.mean()),
+        crossing_rate=rate, crests=np.sort(mean + heights), spectrum=spectrum,
+        gaussian=_gaussian(mean, std, rate, asked, spectrum, None),
+        clumped=_gaussian(mean, std, rate, asked, spectrum, max(spectrum.bandwidth, 1e-6)),
+        tail=found, over_threshold=None if found is None else found.maximum(asked),
+    )  # fmt: skip
+
+
+def _gaussian(
+    mean: float, std: float, rate: float, exposure: float, spectrum: SpectrumEstimate, bandwidth: float | None
+) -> Maximum:
+    """The Gaussian maximum, with intervals from the scatter of the standard deviation."""
+    from scipy.stats import chi2
+
+    degrees, tails = spectrum.variance_degrees, (1.0 - CONFIDENCE) / 2.0
+    low, high = np.sqrt(degrees / chi2.ppf([1.0 - tails, tails], degrees)).tolist()
+    unit = gaussian_maximum(std=1.0, rate=rate, exposure=exposure, bandwidth=bandwidth)
+
+    def scaled(one: Estimate) -> Estimate:
+        level = std * one.value
+        return Estimate(value=mean + level, low=mean + low * level, high=mean + high * level)
+
+    return Maximum(mpm=scaled(unit.mpm), mean=scaled(unit.mean), p90=scaled(unit.p90), exposure=exposure)

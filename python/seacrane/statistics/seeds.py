@@ -1,0 +1,280 @@
+"""The largest values of several seeds: Gumbel's distribution, the empirical one, and how many seeds are enough."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from seacrane.errors import SceneError
+from seacrane.inputs.caller import warn_caller
+from seacrane.inputs.checked import number_of, numbers_of
+from seacrane.plotting.html import notebook_table
+from seacrane.plotting.text import text_table
+from seacrane.statistics.estimate import CONFIDENCE, EULER, HEAD, P90_REDUCED, Estimate, Maximum
+from seacrane.statistics.gumbel import anderson_darling, gumbel_fit, standard_fits
+from seacrane.statistics.judged import FewSeedsWarning, PoorFitWarning
+from seacrane.statistics.record import positive
+
+Array = NDArray[np.float64]
+FEWEST = 3
+FEW = 10  # below which the fit test finds nothing
+POOR = 0.05  # probability of a worse fit below which Gumbel's is not believed
+REDUCED = {"mpm": 0.0, "mean": EULER, "p90": P90_REDUCED}  # in one record
+ASKED = ("mpm", "mean", "p90")
+NORMAL = 1.959964  # half width of the 95 % interval in standard deviations
+
+
+@dataclass(frozen=True, kw_only=True, eq=False, repr=False)
+class SeedExtremes:
+    """Statistics of the maxima of several seeds. Made by `seed_extremes` and `extremes`; prints as a table.
+
+    Attributes
+    ----------
+    name, unit : str
+        What was recorded.
+    maxima : ndarray, shape (k,)
+        One of each seed, ascending.
+    duration, exposure : float
+        Of each record, and of what is asked, s.
+    static : float
+        Of which half widths and the dynamic factor do not count.
+    location, scale : float
+        Of the Gumbel distribution of the maxima in one record, by maximum likelihood.
+    fit_probability : float
+        Probability that a Gumbel sample of as many fits worse (Anderson-Darling, parametric bootstrap).
+    gumbel : Maximum
+        In the exposure time, from this distribution.
+    empirical : Maximum
+        The same from the ordered maxima alone; intervals by their ranks, without any distribution.
+    """
+
+    name: str
+    unit: str
+    maxima: Array
+    duration: float
+    exposure: float
+    static: float
+    location: float
+    scale: float
+    fit_probability: float
+    gumbel: Maximum
+    empirical: Maximum
+
+    @property
+    def maximum(self) -> Maximum:
+        """By Gumbel's distribution."""
+        return self.gumbel
+
+    @property
+    def dynamic_factor(self) -> float:
+        """Most probable maximum over the static value."""
+        if self.static == 0.0:
+            raise SceneError("static=0: a dynamic factor needs a static value; give static=")
+        return self.gumbel.mpm.value / self.static
+
+    def relative_half_width(self, number: str = "mpm") -> float:
+        """Half width of the 95 % interval over the dynamic part of "mpm", "mean" or "p90"."""
+        estimate: Estimate = getattr(self.gumbel, _asked(number))
+        return estimate.half_width / abs(estimate.value - self.static)
+
+    def seeds_needed(self, half_width: float = 0.02, *, number: str = "mpm") -> int:
+        """How many seeds bring the 95 % interval to +- `half_width` of the dynamic part.
+
+        Parameters
+        ----------
+        half_width : float
+            Share, such as 0.02.
+        number : str
+            "mpm", "mean" or "p90".
+
+        Returns
+        -------
+        int
+            At least 3, by the scatter of maximum likelihood with many seeds.
+        """
+        share = positive("half_width", half_width)
+        estimate: Estimate = getattr(self.gumbel, _asked(number))
+        reduced = REDUCED[number] + np.log(self.exposure / self.duration)
+        one = self.scale * np.sqrt(_likelihood_variance(float(reduced)))
+        return max(FEWEST, int(np.ceil((NORMAL * one / (share * abs(estimate.value - self.static))) ** 2)))
+
+    def __str__(self) -> str:
+        return f"{self._caption()}\n{text_table(HEAD, self._rows(), right=(1, 2, 3))}\n{self._words()}"
+
+    __repr__ = __str__
+
+    def _repr_html_(self) -> str:
+        return notebook_table(HEAD, self._rows(), caption=f"{self._caption()} {self._words()}")
+
+    def _caption(self) -> str:
+        return (
+            f"{self.name} [{self.unit}], {self.maxima.size} seeds of {self.duration:g} s. "
+            f"Maximum in {self.exposure:g} s, 95 % intervals:"
+        )
+
+    def _rows(self) -> list[list[str]]:
+        return [self.gumbel.cells("Gumbel"), self.empirical.cells("empirical")]
+
+    def _words(self) -> str:
+        return (
+            f"Fit: a Gumbel sample is worse with probability {self.fit_probability:.2g}. "
+            f"+-2 % of the most probable maximum takes {self.seeds_needed()} seeds."
+        )
+
+
+def seed_extremes(
+    maxima: Any,
+    *,
+    duration: float,
+    exposure: float | None = None,
+    static: float = 0.0,
+    half_width: float | None = None,
+    number: str = "mpm",
+    name: str = "maximum",
+    unit: str = "-",
+) -> SeedExtremes:
+    """Estimate the largest value in an exposure time from the maxima of several seeds.
+
+    Parameters
+    ----------
+    maxima : array_like, shape (k,)
+        One of each seed, at least 3, any unit; for smallest values give them negative.
+    duration : float
+        Of each record, without its start, s.
+    exposure : float, optional
+        s; by default that of the records. Another one moves Gumbel's location by scale ln(exposure / duration).
+    static : float
+        Subtracted where a share of the value is told, for seeds change the dynamic part alone.
+    half_width : float, optional
+        Asked half width of the 95 % interval, as a share of the dynamic part: a FewSeedsWarning tells if it is
+        not reached. By default one comes below ten seeds.
+    number : str
+        Of which: "mpm" (default), "mean" or "p90".
+    name, unit : str
+        What the table calls it.
+
+    Returns
+    -------
+    SeedExtremes
+
+    Raises
+    ------
+    SceneError
+        For fewer than 3 maxima, maxima that are all equal, or a number out of range.
+
+    Warns
+    -----
+    FewSeedsWarning, PoorFitWarning
+    """
+    values, length = _maxima_of(maxima), positive("duration", duration)
+    asked = length if exposure is None else positive("exposure", exposure)
+    share = None if half_width is None else positive("half_width", half_width)
+    location, scale = (float(one) for one in gumbel_fit(values))
+    worse = standard_fits(values.size)[2] > anderson_darling(values, np.array(location), np.array(scale))
+    found = SeedExtremes(
+        name=name, unit=unit, maxima=values, duration=length, exposure=asked, static=number_of("static", static),
+        location=location, scale=scale, fit_probability=float(worse.mean()),
+        gumbel=_gumbel_maximum(values.size, location, scale, length, asked),
+        empirical=_empirical_maximum(values, length, asked),
+    )  # fmt: skip
+    _judge(found, share, _asked(number))
+    return found
+
+
+def _maxima_of(maxima: Any) -> Array:
+    values = numbers_of("maxima", maxima)
+    if values.ndim != 1 or values.size < FEWEST:
+        raise SceneError(f"maxima of shape {values.shape}: give one list of at least {FEWEST}, one of each seed")
+    if not np.isfinite(values).all():
+        raise SceneError("maxima: not all are finite; leave failed seeds out")
+    if np.ptp(values) <= 1e-12 * np.abs(values).max():
+        raise SceneError(f"maxima: all are {values[0]:g}; were the seeds different?")
+    return np.sort(values)
+
+
+def _asked(number: str) -> str:
+    if number not in ASKED:
+        raise SceneError(f"number={number!r}: choose from {', '.join(ASKED)}")
+    return number
+
+
+def _judge(found: SeedExtremes, share: float | None, number: str) -> None:
+    """Warn of too few seeds and of a poor fit."""
+    count = found.maxima.size
+    if share is None and count < FEW:
+        warn_caller(
+            f"{count} seeds: the fit cannot be tested with fewer than {FEW}, and {number} is known to "
+            f"+-{100.0 * found.relative_half_width(number):.2g} %",
+            FewSeedsWarning,
+        )
+    if share is not None and found.relative_half_width(number) > share:
+        warn_caller(
+            f"{count} seeds give {number} to +-{100.0 * found.relative_half_width(number):.2g} %, not "
+            f"+-{100.0 * share:.2g} %: about {found.seeds_needed(share, number=number)} would",
+            FewSeedsWarning,
+        )
+    if found.fit_probability < POOR:
+        warn_caller(
+            f"Gumbel's distribution does not describe the maxima of {found.name} (a Gumbel sample fits worse with "
+            f"probability {found.fit_probability:.2g}): look at plot_extremes, and take the empirical numbers",
+            PoorFitWarning,
+        )
+
+
+def _likelihood_variance(reduced: float) -> float:
+    """Variance of location + reduced * scale, times the number of maxima, for scale 1."""
+    return 6.0 / np.pi**2 * (np.pi**2 / 6.0 + (1.0 - EULER + reduced) ** 2)
+
+
+def _gumbel_maximum(count: int, location: float, scale: float, duration: float, exposure: float) -> Maximum:
+    """Estimates with the intervals of the parametric bootstrap, studentised by the scale: exact for Gumbel samples."""
+    drawn_location, drawn_scale, _ = standard_fits(count)
+
+    def estimate(reduced: float) -> Estimate:
+        at = reduced + float(np.log(exposure / duration))
+        pivot = (drawn_location + at * drawn_scale - at) / drawn_scale
+        low, high = np.quantile(pivot, [(1.0 - CONFIDENCE) / 2.0, (1.0 + CONFIDENCE) / 2.0])
+        value = location + at * scale
+        return Estimate(value=value, low=float(value - scale * high), high=float(value - scale * low))
+
+    return Maximum(**{name: estimate(REDUCED[name]) for name in ASKED}, exposure=exposure)
+
+
+def _empirical_maximum(ascending: Array, duration: float, exposure: float) -> Maximum:
+    """Quantiles of the ordered maxima, at 1/e for the most probable one, and their mean.
+
+    In `exposure / duration` records the distribution is that of one to this power.
+    """
+    records = exposure / duration
+    rank = np.arange(ascending.size + 1) / ascending.size
+    mean = float(np.sum(ascending * np.diff(rank**records)))
+    return Maximum(
+        mpm=_ordered(ascending, float(np.exp(-1.0 / records))),
+        mean=Estimate(value=mean, **_mean_interval(ascending, records)),
+        p90=_ordered(ascending, 0.9 ** (1.0 / records)),
+        exposure=exposure,
+    )
+
+
+def _mean_interval(ascending: Array, records: float) -> dict[str, float]:
+    """By Student's t, where one record is the exposure; nothing elsewhere."""
+    from scipy.stats import t
+
+    if records != 1.0:
+        return {}
+    half = float(t.ppf((1.0 + CONFIDENCE) / 2.0, ascending.size - 1) * ascending.std(ddof=1)) / ascending.size**0.5
+    return {"low": float(ascending.mean()) - half, "high": float(ascending.mean()) + half}
+
+
+def _ordered(ascending: Array, share: float) -> Estimate:
+    """A quantile, between those ordered values that enclose it with a probability of 95 %."""
+    from scipy.stats import binom
+
+    below = int(binom.ppf((1.0 - CONFIDENCE) / 2.0, ascending.size, share))
+    above = int(binom.ppf((1.0 + CONFIDENCE) / 2.0, ascending.size, share)) + 1
+    edged = np.concatenate([[-np.inf], ascending, [np.inf]])
+    value = float(np.quantile(ascending, share, method="weibull"))
+    return Estimate(value=value, low=float(edged[below]), high=float(edged[min(above, ascending.size + 1)]))
