@@ -34,6 +34,7 @@ FLOORS = """
     run
     accuracy
     simulation
+    ensembles
     stages
     experiment
     figures viewer
