@@ -35,6 +35,7 @@ FLOORS = """
     run
     accuracy
     simulation
+    ensembles
     stages
     experiment
     figures viewer

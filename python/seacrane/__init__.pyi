@@ -72,6 +72,11 @@ from seacrane.description.waves import ByHeading as ByHeading
 from seacrane.description.waves import HullLoads as HullLoads
 from seacrane.description.waves import RepeatingSeaWarning as RepeatingSeaWarning
 from seacrane.description.waves import Waves as Waves
+from seacrane.ensembles.ensemble import Ensemble as Ensemble
+from seacrane.ensembles.ensemble import ensemble as ensemble
+from seacrane.ensembles.job import WorkerVersionError as WorkerVersionError
+from seacrane.ensembles.kept import Kept as Kept
+from seacrane.ensembles.latin_hypercube import LatinHypercube as LatinHypercube
 from seacrane.errors import ChatteringError as ChatteringError
 from seacrane.errors import FileFormatError as FileFormatError
 from seacrane.errors import SceneError as SceneError

@@ -27,8 +27,12 @@ DEFAULTS: dict[str, Any] = {
 SPECTRA = ("jonswap", "pierson-moskowitz", "torsethaugen")
 
 
-def realised_sea(sea: SeaState | None, given: dict[str, Any], depth: float) -> Waves:
+def realised_sea(
+    sea: SeaState | None, given: dict[str, Any], depth: float, *, look_for_repeats: bool = True
+) -> Waves:
     """A sea with no vessel in it yet, of that depth where it is not a SeaState.
+
+    Looking for repeats takes longer than all the rest; without, its provenance does not tell them.
 
     Raises
     ------
@@ -60,8 +64,8 @@ def realised_sea(sea: SeaState | None, given: dict[str, Any], depth: float) -> W
             seed=sea.seed,
             realised_hs=float(realised.hs),
             wave_components=len(waves.omega),
-            repeat_period_s=float(realised.repeat.time),
-            repeat_found=int(realised.repeat.found),
+            repeat_period_s=float(realised.repeat.time) if look_for_repeats else None,
+            repeat_found=int(realised.repeat.found) if look_for_repeats else None,
         ),
     )
 

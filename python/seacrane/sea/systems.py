@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -113,13 +114,15 @@ class RealisedSea:
     waves : WaveComponents
         All systems, one after another.
     systems : tuple of RealisedSystem
-    repeat : RepeatPeriod
-        First return of the autocorrelation to 0.99, searched up to three hours.
     """
 
     waves: _core.WaveComponents
     systems: tuple[RealisedSystem, ...]
-    repeat: _core.RepeatPeriod
+
+    @cached_property
+    def repeat(self) -> _core.RepeatPeriod:
+        """First return of the autocorrelation to 0.99, searched up to three hours when it is asked for."""
+        return self.waves.repeat_period()
 
     @property
     def m0(self) -> float:
@@ -201,7 +204,7 @@ class SeaState:
             for name in ("omega", "amplitude", "phase", "direction")
         }
         waves = parts[0] if len(parts) == 1 else _core.WaveComponents(**arrays, depth=self.depth)
-        return RealisedSea(waves=waves, systems=realised, repeat=waves.repeat_period())
+        return RealisedSea(waves=waves, systems=realised)
 
     def _waves_of(self, j: int, system: WaveSystem | MeasuredWaves) -> _core.WaveComponents:
         mean = np.array(float(np.radians(system.direction_deg)))

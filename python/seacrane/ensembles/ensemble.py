@@ -1,0 +1,251 @@
+"""ensemble(): many runs of one lift over seeds, seas and parameters, on any executor."""
+
+from __future__ import annotations
+
+import contextlib
+import os
+from collections.abc import Iterator, Mapping
+from concurrent.futures import Executor
+from dataclasses import dataclass, field
+from math import ceil
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Literal
+
+from seacrane.ensembles.dataset import Table, table_of
+from seacrane.ensembles.gather import gathered
+from seacrane.ensembles.identity import identity_of
+from seacrane.ensembles.job import Job, Pack
+from seacrane.ensembles.kept import Kept
+from seacrane.ensembles.members import Members, Over, members_of
+from seacrane.ensembles.other_sea import Databases
+from seacrane.ensembles.outcome import Outcome
+from seacrane.ensembles.store import Folder, Memory, Store, folder_of, study_in
+from seacrane.ensembles.study import Keep, Source, Study, checked_keep, outputs_for
+from seacrane.errors import SceneError, SimulationError
+from seacrane.inputs.checked import number_of
+from seacrane.inputs.shown import shown
+from seacrane.run.method import Method
+from seacrane.run.outputs import Outputs
+from seacrane.run.shorthand import Shorthand, settled
+from seacrane.scene.scene import Scene
+
+if TYPE_CHECKING:
+    import xarray
+    from typing_extensions import Unpack
+
+MOST_PACKS = 1000  # so that a folder holds no more files, as a rule
+LARGEST_PACK = 64
+
+
+@dataclass(frozen=True, kw_only=True, eq=False, repr=False)
+class Ensemble:
+    """What the members of an ensemble kept.
+
+    Attributes
+    ----------
+    dataset : xarray.Dataset
+        A variable for everything kept, over the parameters of a grid or over `member`, NaN where a member
+        failed or was not run; `failure` and `validity` are texts.
+    failures : mapping of int to str
+        Why members failed, by their number in order of the parameters, the last of a grid fastest.
+    """
+
+    members: Members
+    dataset: xarray.Dataset
+    failures: Mapping[int, str] = field(default_factory=dict)
+
+    def __repr__(self) -> str:
+        shape = " x ".join(f"{size} {name}" for name, size in self.members.shape.items())
+        return f"<Ensemble of {len(self.members)} members ({shape}), {len(self.failures)} failed>"
+
+    def parameters(self, index: int) -> dict[str, Any]:
+        """What a member has of what varies."""
+        return self.members.values(index)
+
+    @classmethod
+    def load(cls, folder: str | os.PathLike[str]) -> Ensemble:
+        """What a store holds so far. Raises FileFormatError for a folder that is none, or damaged."""
+        path = Path(folder)
+        data = study_in(path)
+        axes = {name: tuple(values) for name, values in data["axes"].items()}
+        members = Members(axes=axes, grid=bool(data["grid"]))
+        return _ensemble(members, table_of(members, Folder(path).outcomes()))
+
+
+def ensemble(
+    source: Source,
+    *,
+    over: Over,
+    keep: Keep,
+    t_end: float = 100.0,
+    method: Method | None = None,
+    outputs: Outputs | None = None,
+    database: Databases = None,
+    executor: Executor | None = None,
+    store: str | os.PathLike[str] | None = None,
+    on_error: Literal["record", "raise"] = "record",
+    pack: int | None = None,
+    progress: bool = False,
+    **shorthand: Unpack[Shorthand],
+) -> Ensemble:
+    """Run a lift for many seeds, seas or parameters, and keep of each run what is asked for.
+
+    The results are the same to the bit whatever the executor, its workers, the packs and their order, and
+    whether the ensemble was killed and resumed.
+
+    Parameters
+    ----------
+    source : Scene or callable
+        A scene of which parts vary, or ``function(**parameters)`` that returns one. For executors of other
+        processes the function stands at the top level of a module.
+    over : mapping, list of mappings, or LatinHypercube
+        Values by name. A mapping is a grid of all combinations; a list has one mapping for each member. Of a
+        scene, names are paths such as "bodies.payload.mass", or words of its sea: "seed", "hs", "tp",
+        "direction_deg" and "gamma". Up to a million members.
+    keep : mapping
+        By name: a `Kept`, or a function of a `Result` that returns numbers.
+    t_end : float
+        End time, s.
+    method, outputs : Method, Outputs, optional
+        As of `simulate`. Without channels in `outputs`, runs record only what is kept.
+    database : HydroDatabase or mapping, optional
+        Where words of the sea vary: that with which it was added, by vessel where there are several.
+    executor : concurrent.futures.Executor, optional
+        Threads, processes, or ``client.get_executor()`` of dask.distributed; default: one member after
+        another, here.
+    store : path, optional
+        A folder for results as they come. A call with the same study goes on where the last one ended.
+    on_error : str
+        "record": a member that fails is recorded, the others go on. "raise": the first failure ends it.
+    pack : int, optional
+        Members that are run, kept and lost together; default: so many that there are at most a thousand
+        packs, no more than 64.
+    progress : bool
+        Show a progress bar with the time left.
+    **shorthand
+        Parts of `method` and `outputs` by name, as of `simulate`.
+
+    Returns
+    -------
+    Ensemble
+
+    Raises
+    ------
+    SceneError
+        For a parameter that the scene does not have, too many members, or a store of another study.
+    SimulationError
+        With ``on_error="raise"``, or where a worker died; what came back before is in the store.
+    WorkerVersionError
+        Where a worker has another version of seacrane.
+    OSError
+        If the store cannot be written; the packs before it are in it.
+    """
+    if not isinstance(source, Scene) and not callable(source):
+        raise SceneError(f"ensemble of {shown(source)}; give a Scene, or a function that returns one")
+    if on_error not in ("record", "raise"):
+        raise SceneError(f"on_error is {shown(on_error)}; choose 'record' or 'raise'")
+    if executor is not None and not isinstance(executor, Executor):
+        raise SceneError(f"executor is {shown(executor)}; give a concurrent.futures.Executor")
+    how, recorded = settled(method, outputs, shorthand)
+    wanted = checked_keep(keep)
+    study = Study(
+        source=source.copy() if isinstance(source, Scene) else source,
+        databases=database,
+        t_end=number_of("t_end", t_end),
+        method=how,
+        outputs=outputs_for(wanted, recorded),
+        keep=wanted,
+    )
+    for what in wanted.values():
+        if isinstance(what, Kept):
+            what.require_times(study.t_end, recorded.dt)
+    members = members_of(over)
+    _require_free_names(members, wanted)
+    study.require_names(list(members.axes))
+    size = _pack_size(pack, len(members))
+    with _store(store, study, members, size) as kept:
+        _run(study, members, size, kept, executor, raises=on_error == "raise", progress=progress)
+        return _ensemble(members, table_of(members, kept.outcomes()))
+
+
+def _ensemble(members: Members, table: Table) -> Ensemble:
+    return Ensemble(members=members, dataset=table.dataset(), failures=dict(table.failures))
+
+
+def _require_free_names(members: Members, keep: Keep) -> None:
+    for name in members.axes:
+        if name in keep or name in ("member", "time", "failure", "validity"):
+            raise SceneError(f"over: the name {name!r} is taken by what is kept; rename one of them")
+
+
+def _pack_size(pack: int | None, count: int) -> int:
+    if pack is None:
+        return min(LARGEST_PACK, ceil(count / MOST_PACKS))
+    if not isinstance(pack, int) or isinstance(pack, bool) or pack < 1:
+        raise SceneError(f"pack is {shown(pack)}; give a whole number from 1 on")
+    return pack
+
+
+@contextlib.contextmanager
+def _store(
+    path: str | os.PathLike[str] | None, study: Study, members: Members, size: int
+) -> Iterator[Store]:
+    if path is None:
+        yield Memory()
+        return
+    data = {"identity": identity_of(study, members, size), "grid": members.grid, "axes": dict(members.axes)}
+    with folder_of(path, data) as folder:
+        yield folder
+
+
+def _run(
+    study: Study,
+    members: Members,
+    size: int,
+    store: Store,
+    executor: Executor | None,
+    *,
+    raises: bool,
+    progress: bool,
+) -> None:
+    """Run the packs that are not in the store."""
+    if raises:
+        for outcome in store.outcomes():
+            _require_success(members, outcome)
+    there = store.done()
+    wanted = [number for number in range(ceil(len(members) / size)) if number not in there]
+    packs = ((number, _pack(members, number, size)) for number in wanted)
+    count = len(members)
+    left = sum(min(size, count - number * size) for number in wanted)
+    with (
+        _bar(count, count - left, progress) as bar,
+        contextlib.closing(gathered(Job(study), packs, executor)) as coming,
+    ):
+        for number, outcomes in coming:
+            store.keep(number, outcomes)
+            bar(len(outcomes))
+            if raises:
+                for outcome in outcomes:
+                    _require_success(members, outcome)
+
+
+def _pack(members: Members, number: int, size: int) -> Pack:
+    first = number * size
+    return tuple((index, members.values(index)) for index in range(first, min(first + size, len(members))))
+
+
+def _require_success(members: Members, outcome: Outcome) -> None:
+    if outcome.failure:
+        told = ", ".join(f"{name}={value!r}" for name, value in members.values(outcome.index).items())
+        raise SimulationError(f"ensemble: member {outcome.index} ({told}) failed: {outcome.failure}")
+
+
+@contextlib.contextmanager
+def _bar(total: int, done: int, wanted: bool) -> Iterator[Any]:
+    if not wanted:
+        yield lambda count: None
+        return
+    from tqdm.auto import tqdm
+
+    with tqdm(total=total, initial=done, unit="member", desc="ensemble") as bar:
+        yield bar.update

@@ -1,0 +1,65 @@
+"""What tells one study from another: what was run, of what, and how."""
+
+from __future__ import annotations
+
+import hashlib
+import inspect
+import json
+from collections.abc import Callable
+from dataclasses import asdict
+from typing import Any
+
+from seacrane.description.file import scene_digest
+from seacrane.ensembles.kept import Kept
+from seacrane.ensembles.members import Members
+from seacrane.ensembles.study import Study
+from seacrane.scene.scene import Scene
+from seacrane.version import __version__
+
+
+def identity_of(study: Study, members: Members, pack: int) -> dict[str, Any]:
+    """Plain data, equal only for studies whose members have the same results.
+
+    The scenes of the first and the last member stand for what a function uses beyond its own text.
+    """
+    source = study.source
+    return {
+        "version": __version__,
+        "scene": scene_digest(source) if isinstance(source, Scene) else _function(source),
+        "first and last member": [_scene(study, members, place) for place in (0, len(members) - 1)],
+        "over": _digest([members.grid, *members.axes.items()]),
+        "members": len(members),
+        "members in a pack": pack,
+        "t_end": study.t_end,
+        "method": _text(asdict(study.method)),
+        "outputs": _text(asdict(study.outputs)),
+        "keep": {
+            name: _text(asdict(what)) if isinstance(what, Kept) else _function(what)
+            for name, what in study.keep.items()
+        },
+    }
+
+
+def _scene(study: Study, members: Members, place: int) -> str:
+    try:
+        return scene_digest(study.scene(members.values(place)))
+    except Exception as error:  # its failure is recorded when it is run
+        return f"{type(error).__name__}: {error}"
+
+
+def _function(function: Callable[..., Any]) -> str:
+    """Its name and a digest of its text, or of its code where there is no text."""
+    name = f"{getattr(function, '__module__', '')}.{getattr(function, '__qualname__', type(function).__name__)}"
+    try:
+        return f"{name} {_digest(inspect.getsource(function))}"
+    except (OSError, TypeError):
+        code = getattr(function, "__code__", None)
+        return f"{name} {_digest([code.co_code.hex(), repr(code.co_names)]) if code else ''}"
+
+
+def _text(data: dict[str, Any]) -> str:
+    return json.dumps(data, sort_keys=True, default=str)
+
+
+def _digest(data: Any) -> str:
+    return hashlib.sha256(json.dumps(data).encode()).hexdigest()[:16]

@@ -1,0 +1,113 @@
+"""What of a run is kept: a channel now and then, its mean, scatter and extremes, or what a function makes."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from typing import Any, Literal
+
+import numpy as np
+
+from seacrane.ensembles.labelled import Labelled
+from seacrane.errors import SceneError
+from seacrane.inputs.checked import number_of, text_of
+from seacrane.inputs.shown import shown
+from seacrane.result import Result
+from seacrane.result.channels import attributes
+
+NUMBERS: Mapping[str, Callable[..., Any]] = {
+    "mean": np.mean,
+    "standard_deviation": np.std,
+    "maximum": np.max,
+    "minimum": np.min,
+}
+TEXTS = {"mean": "mean", "standard_deviation": "standard deviation", "maximum": "largest", "minimum": "smallest"}
+
+
+@dataclass(frozen=True, kw_only=True)
+class Kept:
+    """One channel of a run, or a number for it.
+
+    Attributes
+    ----------
+    channel : str
+    what : str
+        "series" (default): values over time. "mean", "standard_deviation", "maximum", "minimum": of its
+        output times, each with the same weight.
+    at : mapping of str to str
+        Names along its dimensions, as of `Result.select`, such as ``{"body": "payload", "axis": "z"}``;
+        dimensions that are not named are kept.
+    after : float
+        s: earlier outputs are left out, such as transients of the start.
+    step : float, optional
+        s between the values of a series, a multiple of the output interval; default: that interval.
+
+    Raises
+    ------
+    SceneError
+        For a value that makes no sense. Whether a scene has the channel is known when it is run.
+    """
+
+    channel: str
+    what: Literal["series", "mean", "standard_deviation", "maximum", "minimum"] = "series"
+    at: Mapping[str, str] = field(default_factory=dict)
+    after: float = 0.0
+    step: float | None = None
+
+    def __post_init__(self) -> None:
+        text_of("kept: channel", self.channel)
+        if self.what not in ("series", *NUMBERS):
+            raise SceneError(f"kept {self.channel}: what is {self.what!r}; choose 'series', {_listed()}")
+        if not isinstance(self.at, Mapping):
+            raise SceneError(f"kept {self.channel}: at is {shown(self.at)}; give names by dimension")
+        if not np.isfinite(number_of(f"kept {self.channel}: after", self.after)):
+            raise SceneError(f"kept {self.channel}: after is {self.after}; give a finite time in s")
+        if self.step is None:
+            return
+        if self.what != "series":
+            raise SceneError(f"kept {self.channel}: step is for a series; leave it out of {self.what!r}")
+        if not number_of(f"kept {self.channel}: step", self.step) > 0.0:
+            raise SceneError(f"kept {self.channel}: step is {self.step}; give a positive number of s")
+
+    def require_times(self, t_end: float, interval: float) -> None:
+        """Raise SceneError where a run to `t_end` (s) with outputs at an interval (s) has none of it."""
+        if self.after > t_end:
+            raise SceneError(f"kept {self.channel}: after is {self.after:g} s, the run ends at {t_end:g} s")
+        every = 1.0 if self.step is None else self.step / interval
+        if abs(every - round(every)) > 1e-9 * every or every < 0.5:
+            raise SceneError(
+                f"kept {self.channel}: step is {self.step:g} s, no multiple of the output interval of "
+                f"{interval:g} s; give a multiple"
+            )
+
+    def of(self, result: Result) -> Labelled:
+        """It, of a result."""
+        channel = result.select(self.channel, **self.at)
+        dims = tuple(dim for dim in result.dims[self.channel] if dim not in self.at)
+        coords = {dim: np.array(result.coords[dim]) for dim in dims[1:]}
+        told = attributes(self.channel)
+        first = int(np.searchsorted(result.time, self.after))
+        if self.what == "series":
+            every = 1
+            if self.step is not None and result.time.size > 1:
+                every = round(self.step / float(result.time[1] - result.time[0]))
+            time = result.time[first::every]
+            return Labelled(
+                values=np.array(channel[first::every]), dims=dims, coords={"time": time, **coords}, attributes=told
+            )
+        values = np.asarray(NUMBERS[self.what](channel[first:], axis=0), dtype=float)
+        told = told | {"long_name": f"{TEXTS[self.what]} of {told['long_name']}"}
+        return Labelled(values=values, dims=dims[1:], coords=coords, attributes=told)
+
+
+def made_by(name: str, function: Callable[[Result], Any], result: Result) -> Labelled:
+    """What a user's function makes of a result, in dimensions named after it."""
+    try:
+        values = np.asarray(function(result), dtype=np.float64)
+    except (TypeError, ValueError) as error:
+        raise SceneError(f"keep {name!r}: {error}; return a number or an array of numbers") from error
+    return Labelled(values=values, dims=tuple(f"{name}_{axis}" for axis in range(values.ndim)))
+
+
+def _listed() -> str:
+    return ", ".join(map(repr, NUMBERS))

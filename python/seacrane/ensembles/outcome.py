@@ -1,0 +1,29 @@
+"""What came of one member."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+from seacrane.ensembles.labelled import Labelled
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Outcome:
+    """What a member kept, or why it failed.
+
+    Attributes
+    ----------
+    index : int
+    kept : mapping of str to Labelled
+        Empty where it failed.
+    failure : str
+        Why it failed; empty where it did not.
+    validity : str
+        What was out of range in its run, as of a result's stats.
+    """
+
+    index: int
+    kept: Mapping[str, Labelled] = field(default_factory=dict)
+    failure: str = ""
+    validity: str = ""
