@@ -1,1 +1,1 @@
-"""Statistics of records and of the maxima of seeds: what is exceeded in an exposure time, and how sure that is."""
+"""Statistics of records and of the maxima of seeds: what is exceeded, and how sure that is."""

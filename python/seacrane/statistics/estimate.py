@@ -19,8 +19,8 @@ class Estimate:
     Attributes
     ----------
     value, low, high : float
-        `low` is minus infinity, `high` infinity, where the data bound nothing on that side; both are nan where no
-        interval was formed.
+        `low` is minus infinity, `high` infinity, where the data bound nothing on that side; both are
+        nan where no interval was formed.
     """
 
     value: float

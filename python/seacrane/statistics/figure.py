@@ -56,15 +56,17 @@ def extremes_sheet(found: RecordExtremes | SeedExtremes) -> Sheet:
 def _crossing_paper(found: RecordExtremes) -> Sheet:
     top = max(found.largest, found.gaussian.p90.value, found.maximum.p90.value)
     levels = np.linspace(found.mean, top, LEVELS)
+    counted = found.crests.size * found.exceedance(levels) * found.exposure / found.duration
+    clumped = _gaussian(found, levels, found.spectrum.bandwidth)
     lines = [
-        Line(label="crests counted", values=_shown(found.crests.size * found.exceedance(levels) * _scale(found)))
+        Line(label="crests counted", values=_shown(counted)),
+        Line(label="Gaussian", values=_shown(_gaussian(found, levels, None)), colour=1, style="--"),
+        Line(label="Gaussian, clumped", values=_shown(clumped), colour=2, style="--"),
     ]
-    for number, (label, width) in enumerate((("Gaussian", None), ("Gaussian, clumped", found.spectrum.bandwidth))):
-        lines.append(Line(label=label, values=_shown(_gaussian(found, levels, width)), colour=1 + number, style="--"))
     if found.tail is not None:
-        above = levels >= found.tail.threshold
-        fitted = np.where(above, found.tail.crossings(np.maximum(levels, found.tail.threshold), found.exposure), np.nan)
-        lines.append(Line(label="peaks over threshold", values=_shown(fitted), colour=3))
+        above = np.where(levels >= found.tail.threshold, levels, np.nan)
+        fitted = _shown(found.tail.crossings(above, found.exposure))
+        lines.append(Line(label="peaks over threshold", values=fitted, colour=3))
     return Sheet(
         title=f"{found.name}: crossings in {found.exposure:g} s",
         caption="Up-crossings of levels above the mean. One is left at the most probable maximum.",
@@ -72,10 +74,6 @@ def _crossing_paper(found: RecordExtremes) -> Sheet:
         panels=(Panel(quantity="crossings", unit="-", lines=tuple(lines)),),
         marks={"most probable maximum": np.array([found.maximum.mpm.value])},
     )  # fmt: skip
-
-
-def _scale(found: RecordExtremes) -> float:
-    return found.exposure / found.duration
 
 
 def _gaussian(found: RecordExtremes, levels: Array, bandwidth: float | None) -> Array:

@@ -24,12 +24,11 @@ def expected_crossings(level: float, *, cycles: float, bandwidth: float | None) 
     bandwidth : float or None
         Vanmarcke's, which gathers crossings into clumps; None: every crossing counts.
     """
-    if bandwidth is None:
-        return float(cycles * np.exp(-0.5 * level**2))
-    if level <= 0.0:
-        return cycles
+    single = float(cycles * np.exp(-0.5 * level**2))
+    if bandwidth is None or level <= 0.0:
+        return single
     alone = -np.expm1(-np.sqrt(2.0 * np.pi) * bandwidth * level)
-    return float(cycles * alone / np.expm1(0.5 * level**2))
+    return min(single, float(cycles * alone / np.expm1(0.5 * level**2)))
 
 
 def level_crossed(count: float, *, cycles: float, bandwidth: float | None) -> float:
@@ -45,7 +44,7 @@ def level_crossed(count: float, *, cycles: float, bandwidth: float | None) -> fl
     def beyond(level: float) -> float:
         return float(np.log(expected_crossings(level, cycles=cycles, bandwidth=bandwidth) / count))
 
-    return float(brentq(beyond, 1e-6, top + 1.0)) if beyond(1e-6) > 0.0 else 0.0
+    return float(brentq(beyond, 0.0, top))
 
 
 def gaussian_maximum(
@@ -56,7 +55,7 @@ def gaussian_maximum(
     mean: float = 0.0,
     bandwidth: float | None = None,
 ) -> Maximum:
-    """The largest value of a Gaussian process in an exposure time, its crossings of high levels taken as Poisson.
+    """Estimate the largest value of a Gaussian process in an exposure time, by its up-crossings.
 
     Parameters
     ----------

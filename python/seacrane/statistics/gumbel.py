@@ -8,7 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
-DRAWS = 4000  # samples that a parametric bootstrap draws
+DRAWS, FEWEST_DRAWS, VALUES = 4000, 500, 2_000_000  # samples that a bootstrap draws; values in all of them
+BLOCK = 200_000  # values held at a time
 SEED = 20250101
 STEPS = 60  # of Newton's iteration, which has converged long before
 
@@ -57,9 +58,17 @@ def standard_fits(count: int) -> tuple[Array, Array, Array]:
     Of a family of location and scale they depend on the number of values alone: what they scatter by is the
     parametric bootstrap of every fit to as many maxima.
     """
-    draws = np.random.Generator(np.random.Philox(SEED)).gumbel(size=(DRAWS, count))
-    location, scale = gumbel_fit(draws)
-    fits = (location, scale, anderson_darling(draws, location, scale))
+    random = np.random.Generator(np.random.Philox(SEED))
+    left = min(DRAWS, max(FEWEST_DRAWS, VALUES // count))
+    blocks = []
+    while left > 0:
+        rows = min(left, max(1, BLOCK // count))
+        draws = random.gumbel(size=(rows, count))
+        location, scale = gumbel_fit(draws)
+        blocks.append(np.array([location, scale, anderson_darling(draws, location, scale)]))
+        left -= rows
+    location, scale, distance = np.concatenate(blocks, axis=1)
+    fits = (location, scale, distance)
     for one in fits:
         one.setflags(write=False)
     return fits

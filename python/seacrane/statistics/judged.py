@@ -28,7 +28,7 @@ class PoorFitWarning(UserWarning):
 
 
 def start_differs(values: Array, cycles: float) -> bool | None:
-    """Whether mean or standard deviation of the first fifth differ from the rest, clearly and by more than chance.
+    """Whether the first fifth differs from the rest in mean or standard deviation, beyond chance.
 
     Parameters
     ----------
@@ -64,8 +64,8 @@ def warn_of_start(values: Array, cycles: float) -> None:
     """Warn with StartTransientWarning."""
     if start_differs(values, cycles):
         warn_caller(
-            "the first fifth of the record differs from the rest in mean or standard deviation: leave the start out, "
-            "with start= in s",
+            "the first fifth of the record differs from the rest in mean or standard deviation: leave the "
+            "start out, with start= in s",
             StartTransientWarning,
         )
 

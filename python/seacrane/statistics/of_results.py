@@ -30,7 +30,7 @@ def extremes(
     exposure: float = THREE_HOURS,
     start: float = 0.0,
     smallest: bool = False,
-    tail: str = "exponential",
+    tail: str = "pareto",
     threshold: float | None = None,
     static: float | None = None,
     half_width: float | None = None,
@@ -41,8 +41,8 @@ def extremes(
     Parameters
     ----------
     result : Result or several
-        Of one run: by its up-crossings and its peaks over a threshold. Of the same lift with several seeds: by
-        the distribution of their maxima.
+        Of one run: by its up-crossings and its peaks over a threshold. Of the same lift with several seeds:
+        by the distribution of their maxima.
     channel : str
         As in `Result.channels`, with outputs at even times.
     exposure : float
@@ -67,7 +67,8 @@ def extremes(
     Raises
     ------
     SceneError
-        For a channel or name that is not there, runs of different length, uneven times, or a number out of range.
+        For a channel or name that is not there, runs of different length, uneven times, or a number out
+        of range.
 
     Warns
     -----
@@ -81,13 +82,20 @@ def extremes(
     if isinstance(result, Result):
         (values, step), repeat = records[0], _repeat(result)
         return record_extremes(
-            values, dt=step, exposure=exposure, tail=tail, threshold=threshold, static=static, repeat=repeat, **words
+            values,
+            dt=step,
+            exposure=exposure,
+            tail=tail,
+            threshold=threshold,
+            static=static,
+            repeat=repeat,
+            **words,
         )
     durations = [values.size * step for values, step in records]
     if max(durations) - min(durations) > EVEN * max(durations):
         raise SceneError(
-            f"runs of {min(durations):g} to {max(durations):g} s: the maxima of seeds are of one length; leave "
-            "interrupted runs out"
+            f"runs of {min(durations):g} to {max(durations):g} s: the maxima of seeds are of one length; "
+            "leave interrupted runs out"
         )
     for one, (values, _) in zip(results, records, strict=True):
         warn_of_start(values, up_crossings(values, float(values.mean())).size)
@@ -133,7 +141,9 @@ def _record(
         raise SceneError(f"channel {channel!r} has gaps: ask for a part of the run, or another channel")
     steps = np.diff(time)
     if np.ptp(steps) > EVEN * steps.mean():
-        raise SceneError(f"output times are uneven ({steps.min():g} to {steps.max():g} s): simulate with dt_out=")
+        raise SceneError(
+            f"output times are uneven ({steps.min():g} to {steps.max():g} s): simulate with dt_out="
+        )
     return record_of(values), float(steps.mean())
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -37,6 +38,8 @@ def record_of(values: Any) -> Array:
         raise SceneError(
             f"values of shape {record.shape}: a record is one list of at least {FEWEST_VALUES} numbers"
         )
+    if not np.isfinite(record).all():
+        raise SceneError("values: not all are finite; take a part of the record without gaps")
     if np.ptp(record) <= ROUNDING * np.abs(record).max():
         raise SceneError(f"values: all are {record[0]:g}; a record that does not vary has no extremes")
     return record
@@ -49,7 +52,7 @@ def up_crossings(values: Array, level: float) -> Places:
 
 
 def crests(values: Array, level: float) -> Array:
-    """Largest value between each two successive up-crossings of `level`, with the parabola through its neighbours.
+    """Largest value between each two up-crossings of `level`, by the parabola through its neighbours.
 
     Returns
     -------
@@ -59,8 +62,7 @@ def crests(values: Array, level: float) -> Array:
     starts = up_crossings(values, level)
     if starts.size < 2:
         return np.empty(0)
-    ends = zip(starts[:-1], starts[1:], strict=True)
-    tops = np.array([start + 1 + int(np.argmax(values[start + 1 : end + 1])) for start, end in ends])
+    tops = np.array([a + 1 + int(np.argmax(values[a + 1 : b + 1])) for a, b in pairwise(starts.tolist())])
     return np.asarray(_vertex(values, tops) - level)
 
 

@@ -34,6 +34,8 @@ class RecordExtremes:
     duration, exposure : float
         Of the record, and of what is asked, s.
     mean, std, largest : float
+    skewness, kurtosis : float
+        Both 0 for a Gaussian process: the latter is the excess over 3.
     static : float
         What the dynamic factor is taken of.
     significant : float
@@ -44,8 +46,8 @@ class RecordExtremes:
         The largest value between each two up-crossings, ascending.
     spectrum : SpectrumEstimate
     gaussian : Maximum
-        As if the process were Gaussian, every crossing independent: sqrt(2 ln N). The intervals hold the scatter
-        of the standard deviation.
+        As if the process were Gaussian, every crossing independent: sqrt(2 ln N). The intervals hold the
+        scatter of the standard deviation.
     clumped : Maximum
         The same with crossings in clumps, by the bandwidth of the spectrum.
     tail : Tail or None
@@ -61,6 +63,8 @@ class RecordExtremes:
     mean: float
     std: float
     largest: float
+    skewness: float
+    kurtosis: float
     static: float
     significant: float
     crossing_rate: float
@@ -103,22 +107,26 @@ class RecordExtremes:
 
     def _caption(self) -> str:
         return (
-            f"{self.name} [{self.unit}], {self.duration:.4g} s: mean {self.mean:.4g}, std {self.std:.4g}, significant "
-            f"crest {self.significant:.4g}, largest {self.largest:.4g}, period {self.period:.4g} s. "
-            f"Maximum in {self.exposure:g} s, 95 % intervals:"
+            f"{self.name} [{self.unit}], {self.duration:.4g} s: mean {self.mean:.4g}, std {self.std:.4g}, "
+            f"significant crest {self.significant:.4g}, largest {self.largest:.4g}, "
+            f"period {self.period:.4g} s. Maximum in {self.exposure:g} s, 95 % intervals:"
         )
 
     def _rows(self) -> list[list[str]]:
         rows = [self.gaussian.cells("Gaussian, sqrt(2 ln N)"), self.clumped.cells("Gaussian, clumped")]
-        return rows if self.over_threshold is None else [*rows, self.over_threshold.cells("peaks over threshold")]
+        return (
+            rows
+            if self.over_threshold is None
+            else [*rows, self.over_threshold.cells("peaks over threshold")]
+        )
 
     def _tail_words(self) -> str:
         if self.tail is None:
             return "Too few crests for peaks over a threshold."
         chosen = "chosen" if self.tail.chosen else "given"
         return (
-            f"Threshold {self.tail.threshold:.4g} ({chosen}), {self.tail.peaks.size} clusters, {self.tail.kind} tail, "
-            f"extremal index {self.tail.extremal_index:.2f}."
+            f"Threshold {self.tail.threshold:.4g} ({chosen}), {self.tail.peaks.size} clusters, "
+            f"{self.tail.kind} tail, extremal index {self.tail.extremal_index:.2f}."
         )
 
 
@@ -127,7 +135,7 @@ def record_extremes(
     *,
     dt: float,
     exposure: float = THREE_HOURS,
-    tail: str = "exponential",
+    tail: str = "pareto",
     threshold: float | None = None,
     static: float | None = None,
     repeat: float | None = None,
@@ -145,7 +153,8 @@ def record_extremes(
     exposure : float
         s; default 3 h.
     tail : str
-        Of the peaks over the threshold: "exponential" (default) or "pareto".
+        Of the peaks over the threshold: "pareto" (default; generalised), or "exponential", which is on the
+        safe side of a Gaussian process.
     threshold : float, optional
         By default the lowest acceptable; `tail.threshold` tells which.
     static : float, optional
@@ -180,13 +189,16 @@ def record_extremes(
     found = peaks_over_threshold(mean + heights, duration=duration, threshold=threshold, kind=tail)
     if found is not None and not found.accepted:
         warn_caller(
-            f"the {tail} tail does not describe the {found.peaks.size} peaks over {found.threshold:.4g}: take another "
-            "threshold= or tail=, or the maxima of many seeds",
+            f"the {tail} tail does not describe the {found.peaks.size} peaks over {found.threshold:.4g}: "
+            "take another threshold= or tail=, or the maxima of many seeds",
             PoorFitWarning,
         )
+    reduced = (record - mean) / std
     third = np.sort(heights)[-max(1, heights.size // 3) :]
     return RecordExtremes(
-        name=name, unit=unit, duration=duration, exposure=asked, mean=mean, std=std, largest=float(record.max()),
+        name=name, unit=unit, duration=duration, exposure=asked, mean=mean, std=std,
+        largest=float(record.max()),
+        skewness=float(np.mean(reduced**3)), kurtosis=float(np.mean(reduced**4)) - 3.0,
         static=mean if static is None else number_of("static", static), significant=float(third.mean()),
         crossing_rate=rate, crests=np.sort(mean + heights), spectrum=spectrum,
         gaussian=_gaussian(mean, std, rate, asked, spectrum, None),

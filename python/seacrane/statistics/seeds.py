@@ -1,4 +1,4 @@
-"""The largest values of several seeds: Gumbel's distribution, the empirical one, and how many seeds are enough."""
+"""The largest values of several seeds: by Gumbel's distribution and by rank, and how many are enough."""
 
 from __future__ import annotations
 
@@ -145,12 +145,13 @@ def seed_extremes(
     duration : float
         Of each record, without its start, s.
     exposure : float, optional
-        s; by default that of the records. Another one moves Gumbel's location by scale ln(exposure / duration).
+        s; by default that of the records. Another one moves Gumbel's location by
+        scale ln(exposure / duration).
     static : float
         Subtracted where a share of the value is told, for seeds change the dynamic part alone.
     half_width : float, optional
-        Asked half width of the 95 % interval, as a share of the dynamic part: a FewSeedsWarning tells if it is
-        not reached. By default one comes below ten seeds.
+        Asked half width of the 95 % interval, as a share of the dynamic part: a FewSeedsWarning tells if it
+        is not reached. By default one comes below ten seeds.
     number : str
         Of which: "mpm" (default), "mean" or "p90".
     name, unit : str
@@ -175,8 +176,9 @@ def seed_extremes(
     location, scale = (float(one) for one in gumbel_fit(values))
     worse = standard_fits(values.size)[2] > anderson_darling(values, np.array(location), np.array(scale))
     found = SeedExtremes(
-        name=name, unit=unit, maxima=values, duration=length, exposure=asked, static=number_of("static", static),
-        location=location, scale=scale, fit_probability=float(worse.mean()),
+        name=name, unit=unit, maxima=values, duration=length, exposure=asked,
+        static=number_of("static", static), location=location, scale=scale,
+        fit_probability=float(worse.mean()),
         gumbel=_gumbel_maximum(values.size, location, scale, length, asked),
         empirical=_empirical_maximum(values, length, asked),
     )  # fmt: skip
@@ -187,7 +189,9 @@ def seed_extremes(
 def _maxima_of(maxima: Any) -> Array:
     values = numbers_of("maxima", maxima)
     if values.ndim != 1 or values.size < FEWEST:
-        raise SceneError(f"maxima of shape {values.shape}: give one list of at least {FEWEST}, one of each seed")
+        raise SceneError(
+            f"maxima of shape {values.shape}: give one list of at least {FEWEST}, one of each seed"
+        )
     if not np.isfinite(values).all():
         raise SceneError("maxima: not all are finite; leave failed seeds out")
     if np.ptp(values) <= 1e-12 * np.abs(values).max():
@@ -218,8 +222,9 @@ def _judge(found: SeedExtremes, share: float | None, number: str) -> None:
         )
     if found.fit_probability < POOR:
         warn_caller(
-            f"Gumbel's distribution does not describe the maxima of {found.name} (a Gumbel sample fits worse with "
-            f"probability {found.fit_probability:.2g}): look at plot_extremes, and take the empirical numbers",
+            f"Gumbel's distribution does not describe these maxima (a Gumbel sample fits worse "
+            f"with probability {found.fit_probability:.2g}): look at plot_extremes, and take the empirical "
+            "numbers",
             PoorFitWarning,
         )
 
@@ -230,7 +235,10 @@ def _likelihood_variance(reduced: float) -> float:
 
 
 def _gumbel_maximum(count: int, location: float, scale: float, duration: float, exposure: float) -> Maximum:
-    """Estimates with the intervals of the parametric bootstrap, studentised by the scale: exact for Gumbel samples."""
+    """Estimates, and intervals by a parametric bootstrap of (estimate - value) / scale.
+
+    Of a family of location and scale this is exact for any number of maxima.
+    """
     drawn_location, drawn_scale, _ = standard_fits(count)
 
     def estimate(reduced: float) -> Estimate:
@@ -265,7 +273,10 @@ def _mean_interval(ascending: Array, records: float) -> dict[str, float]:
 
     if records != 1.0:
         return {}
-    half = float(t.ppf((1.0 + CONFIDENCE) / 2.0, ascending.size - 1) * ascending.std(ddof=1)) / ascending.size**0.5
+    half = (
+        float(t.ppf((1.0 + CONFIDENCE) / 2.0, ascending.size - 1) * ascending.std(ddof=1))
+        / ascending.size**0.5
+    )
     return {"low": float(ascending.mean()) - half, "high": float(ascending.mean()) + half}
 
 

@@ -68,7 +68,9 @@ class SpectrumEstimate:
         from scipy.stats import chi2
 
         tails = (1.0 - CONFIDENCE) / 2.0
-        low, high = (self.degrees_of_freedom / chi2.ppf([1.0 - tails, tails], self.degrees_of_freedom)).tolist()
+        low, high = (
+            self.degrees_of_freedom / chi2.ppf([1.0 - tails, tails], self.degrees_of_freedom)
+        ).tolist()
         return self.density * low, self.density * high
 
 

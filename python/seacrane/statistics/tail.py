@@ -1,4 +1,4 @@
-"""Peaks over a threshold: crests gathered into clusters, and the distribution of what their peaks exceed it by."""
+"""Peaks over a threshold: clusters of crests, and the distribution of their excess."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from seacrane.statistics.estimate import CONFIDENCE, EULER, P90_COUNT, Estimate,
 Array = NDArray[np.float64]
 CANDIDATES = np.linspace(0.85, 0.98, 14)  # shares of the crests below a threshold that is tried
 FEWEST_PEAKS = 20
-ACCEPTED = {"exponential": 1.062, "pareto": 0.80}  # Anderson-Darling distance that one fit of ten exceeds
+ACCEPTED = {"exponential": 1.062, "pareto": 0.95}  # Anderson-Darling distance that one fit of ten exceeds
 STEEPEST = 0.45  # shape parameters of Pareto's beyond which nothing is believed
 DRAWS = 500
 SEED = 20250102
@@ -120,7 +120,7 @@ def _bootstrap(tail: Tail) -> tuple[Array, Array, Array]:
 
 
 def peaks_over_threshold(
-    crests: Array, *, duration: float, threshold: float | None = None, kind: str = "exponential"
+    crests: Array, *, duration: float, threshold: float | None = None, kind: str = "pareto"
 ) -> Tail | None:
     """Fit the tail of the crests of one record.
 
@@ -133,7 +133,7 @@ def peaks_over_threshold(
     threshold : float, optional
         By default the lowest of the 85 % to 98 % quantiles of the crests at which the fit is acceptable.
     kind : str
-        "exponential" or "pareto".
+        "pareto" (default) or "exponential".
 
     Returns
     -------
@@ -151,7 +151,9 @@ def peaks_over_threshold(
         if tail is not None and tail.accepted:
             break
     if found is None and given is not None:
-        raise SceneError(f"threshold={given:g}: fewer than {FEWEST_PEAKS} clusters of crests lie above it; lower it")
+        raise SceneError(
+            f"threshold={given:g}: fewer than {FEWEST_PEAKS} clusters of crests lie above it; lower it"
+        )
     return found
 
 
@@ -180,10 +182,10 @@ def extremal_index(places: NDArray[np.intp]) -> float:
 
 
 def _cluster_peaks(crests: Array, places: NDArray[np.intp], index: float) -> Array:
-    """The largest crest of each cluster, ascending; as many of the longest gaps part clusters as the index tells."""
+    """The largest crest of each cluster, ascending; the longest gaps part as many as the index tells."""
     parts = int(index * places.size)
     gaps = np.diff(places)
-    longest = np.sort(gaps)[::-1][min(parts, gaps.size - 1)]
+    longest = np.sort(gaps)[::-1][parts] if parts < gaps.size else 0
     starts = np.concatenate([[0], 1 + np.flatnonzero(gaps > longest)])
     return np.sort(np.maximum.reduceat(crests[places], starts))
 
@@ -219,7 +221,7 @@ def _fitted(kind: str, excess: Array) -> tuple[float, float]:
 
 
 def _distance(excess: Array, scale: float, shape: float) -> float:
-    """Anderson and Darling's distance of ascending excesses from a tail; Stephens' correction for few of them."""
+    """Anderson and Darling's distance of ascending excesses from a tail; Stephens' correction for few."""
     ratio = excess / scale
     reduced = ratio if abs(shape) < 1e-9 else np.log1p(np.maximum(shape * ratio, -1.0 + 1e-12)) / shape
     log_above, log_below = -reduced, np.log(np.maximum(-np.expm1(-reduced), 1e-300))
