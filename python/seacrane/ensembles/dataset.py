@@ -45,8 +45,8 @@ class Table:
             first = self._first.get(name, kept)
             if not kept.lies_like(first):
                 return (
-                    f"SceneError: {name} has dimensions {kept.dims} of lengths {kept.values.shape} and its own "
-                    f"coordinates, those of the members before it are {first.dims} of {first.values.shape}"
+                    f"SceneError: {name} has dimensions {kept.dims} of lengths {kept.values.shape}, or values "
+                    f"along them, unlike those of the first member: {first.dims} of {first.values.shape}"
                 )
         return ""
 
@@ -69,7 +69,11 @@ class Table:
             values = self._arrays[name].reshape(*lengths, *first.values.shape)
             variables[name] = (dims, values, dict(first.attributes))
             coords |= {own[dim]: (own[dim], along) for dim, along in first.coords.items()}
-        variables["failure"] = (over, texts.astype(str).reshape(lengths), {"long_name": "why a member failed"})
+        variables["failure"] = (
+            over,
+            texts.astype(str).reshape(lengths),
+            {"long_name": "why a member failed"},
+        )
         remarks = self._validity.astype(str).reshape(lengths)
         variables["validity"] = (over, remarks, {"long_name": "what was out of range in a member"})
         return xarray.Dataset(variables, coords)

@@ -187,9 +187,7 @@ def _pack_size(pack: int | None, count: int) -> int:
 
 
 @contextlib.contextmanager
-def _store(
-    path: str | os.PathLike[str] | None, study: Study, members: Members, size: int
-) -> Iterator[Store]:
+def _store(path: str | os.PathLike[str] | None, study: Study, members: Members, size: int) -> Iterator[Store]:
     if path is None:
         yield Memory()
         return

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Generator, Iterator
 from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, Executor, Future, wait
 from itertools import islice
 
@@ -16,7 +16,9 @@ AT_ONCE = 256  # packs on their way: what came back and is not yet kept takes me
 Gathered = tuple[int, list[Outcome]]
 
 
-def gathered(job: Job, packs: Iterator[tuple[int, Pack]], executor: Executor | None) -> Iterator[Gathered]:
+def gathered(
+    job: Job, packs: Iterator[tuple[int, Pack]], executor: Executor | None
+) -> Generator[Gathered, None, None]:
     """The outcomes of packs by their number, as they come.
 
     Raises
@@ -45,8 +47,8 @@ def gathered(job: Job, packs: Iterator[tuple[int, Pack]], executor: Executor | N
     if lost:
         number, error = min(lost.items(), key=lambda item: item[0])
         raise SimulationError(
-            f"ensemble: pack {number} was lost with its worker ({type(error).__name__}: {error}). Members that "
-            "came back are in the store, if one was given: call again with the same store and a new executor "
+            f"ensemble: pack {number} was lost with its worker ({type(error).__name__}: {error}). "
+            "Members that came back are in the store, if one was given: call again with the same store and a new executor "
             "to run the others"
         ) from error
 
@@ -72,9 +74,7 @@ def _fill(
     return sent
 
 
-def _taken(
-    future: Future[list[Outcome]], number: int, lost: dict[int, BaseException]
-) -> Iterator[Gathered]:
+def _taken(future: Future[list[Outcome]], number: int, lost: dict[int, BaseException]) -> Iterator[Gathered]:
     """What a pack brought; what lost it is noted."""
     try:
         outcomes = future.result()

@@ -49,7 +49,9 @@ def _scene(study: Study, members: Members, place: int) -> str:
 
 def _function(function: Callable[..., Any]) -> str:
     """Its name and a digest of its text, or of its code where there is no text."""
-    name = f"{getattr(function, '__module__', '')}.{getattr(function, '__qualname__', type(function).__name__)}"
+    name = (
+        f"{getattr(function, '__module__', '')}.{getattr(function, '__qualname__', type(function).__name__)}"
+    )
     try:
         return f"{name} {_digest(inspect.getsource(function))}"
     except (OSError, TypeError):

@@ -69,7 +69,9 @@ class Job:
         if run.interrupted:
             raise KeyboardInterrupt
         result = run.result()
-        return Outcome(index=index, kept=study.kept_of(result), validity=str(result.stats.get("validity", "")))
+        return Outcome(
+            index=index, kept=study.kept_of(result), validity=str(result.stats.get("validity", ""))
+        )
 
 
 @lru_cache(maxsize=4)

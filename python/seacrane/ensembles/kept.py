@@ -21,7 +21,12 @@ NUMBERS: Mapping[str, Callable[..., Any]] = {
     "maximum": np.max,
     "minimum": np.min,
 }
-TEXTS = {"mean": "mean", "standard_deviation": "standard deviation", "maximum": "largest", "minimum": "smallest"}
+TEXTS = {
+    "mean": "mean",
+    "standard_deviation": "standard deviation",
+    "maximum": "largest",
+    "minimum": "smallest",
+}
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -93,7 +98,10 @@ class Kept:
                 every = round(self.step / float(result.time[1] - result.time[0]))
             time = result.time[first::every]
             return Labelled(
-                values=np.array(channel[first::every]), dims=dims, coords={"time": time, **coords}, attributes=told
+                values=np.array(channel[first::every]),
+                dims=dims,
+                coords={"time": time, **coords},
+                attributes=told,
             )
         values = np.asarray(NUMBERS[self.what](channel[first:], axis=0), dtype=float)
         told = told | {"long_name": f"{TEXTS[self.what]} of {told['long_name']}"}

@@ -71,7 +71,7 @@ def members_of(over: Over) -> Members:
         return _grid(over)
     if isinstance(over, (str, bytes)) or not isinstance(over, Sequence):
         raise SceneError(
-            f"over is {shown(over)}; give a mapping of names to values, a list of mappings, or a LatinHypercube"
+            f"over is {shown(over)}; give names with their values, a list of mappings, or a LatinHypercube"
         )
     return _rows(over)
 

@@ -7,19 +7,19 @@ from typing import Any
 
 import numpy as np
 
-from seacrane.description.waves import HullLoads
+from seacrane.description.waves import HullLoads, Waves
 from seacrane.errors import SceneError
 from seacrane.hydro import HydroDatabase
 from seacrane.inputs.frames import heading_of
 from seacrane.inputs.shown import shown
 from seacrane.scene.drift import add_drift
-from seacrane.scene.position import use_actual_position, use_slow_position
+from seacrane.scene.position import SLOW_SHARE, peak_frequency, use_actual_position, use_slow_position
 from seacrane.scene.realised_sea import realised_sea
 from seacrane.scene.scene import Scene
 from seacrane.sea import Spreading
 
 WORDS = ("seed", "hs", "tp", "direction_deg", "gamma")
-SAME = {"rtol": 1e-9, "atol": 0.0}
+SAME = 1e-9  # relative
 
 Databases = HydroDatabase | Mapping[str, HydroDatabase] | None
 
@@ -34,7 +34,7 @@ def with_sea(scene: Scene, databases: Databases, given: Mapping[str, Any]) -> Sc
     new = realised_sea(None, {**settings, **given}, old.depth, look_for_repeats=False)
     out = scene.copy(waves=new)
     for body, hull in old.hulls.items():
-        _put(out, _database_of(databases, body), body, hull, old.relative_bound, old.evaluation)
+        _put(out, _database_of(databases, body), body, hull, old)
     return out
 
 
@@ -44,18 +44,19 @@ def require_same_sea(scene: Scene, databases: Databases) -> None:
         raise SceneError(f"over: scene {scene.name!r} has no sea; add one, or vary something else")
     if not scene.waves.hulls:
         raise SceneError(
-            f"over: the sea of scene {scene.name!r} loads no floating vessel; give a function that makes the scene"
+            f"over: the sea of scene {scene.name!r} loads no floating vessel; give a function "
+            "that makes the scene"
         )
     made = with_sea(scene, databases, {}).waves
     assert made is not None
     arrays = ("omega", "amplitude", "phase", "direction")
     if not all(np.array_equal(getattr(made, name), getattr(scene.waves, name)) for name in arrays):
         raise SceneError(
-            f"over: the sea of scene {scene.name!r} is not the one that its record describes, so it cannot be "
-            "made again with another seed; give a function that makes the scene"
+            f"over: the sea of scene {scene.name!r} is not the one that its record describes, so it cannot "
+            "be made again with another seed; give a function that makes the scene"
         )
     for body, hull in scene.waves.hulls.items():
-        if not np.allclose(made.hulls[body].transfer, hull.transfer, **SAME):
+        if not np.allclose(made.hulls[body].transfer, hull.transfer, rtol=SAME, atol=0.0):
             name = _database_of(databases, body).name
             raise SceneError(
                 f"over: with database {name!r} the waves load vessel {body!r} otherwise than in scene "
@@ -68,8 +69,8 @@ def _settings(scene: Scene) -> dict[str, Any]:
     known = scene.waves.provenance
     if known.spectrum is None or known.seed is None:
         raise SceneError(
-            f"over: the sea of scene {scene.name!r} is no single wave system of add_sea(hs=, tp=, ...), so its "
-            "words cannot vary; give a function that makes the scene"
+            f"over: the sea of scene {scene.name!r} is no single wave system of add_sea(hs=, tp=, ...), so "
+            "its words cannot vary; give a function that makes the scene"
         )
     spread = known.spreading
     return {
@@ -88,24 +89,24 @@ def _database_of(databases: Databases, body: str) -> HydroDatabase:
     found = databases.get(body) if isinstance(databases, Mapping) else databases
     if not isinstance(found, HydroDatabase):
         raise SceneError(
-            f"database is {shown(databases)}; words of the sea vary, so give the HydroDatabase of vessel {body!r}"
+            f"database is {shown(databases)} and the sea varies; give the HydroDatabase of vessel {body!r}"
         )
     return found
 
 
-def _put(
-    scene: Scene, database: HydroDatabase, body: str, old: HullLoads, bound: float, evaluation: str
-) -> None:
-    as_at_start = old.heading == heading_of(scene.bodies[body].quaternion)
+def _put(scene: Scene, database: HydroDatabase, body: str, hull: HullLoads, old: Waves) -> None:
+    """Put a vessel into the sea of the scene as it was put into the old one."""
+    as_at_start = hull.heading == heading_of(scene.bodies[body].quaternion)
     scene.add_sea(
-        database, vessel=body, position=old.position, relative_bound=bound, evaluation=evaluation,
-        heading_deg=None if as_at_start else float(np.degrees(old.heading)),
+        database, vessel=body, position=hull.position, relative_bound=old.relative_bound,
+        evaluation=old.evaluation, heading_deg=None if as_at_start else float(np.degrees(hull.heading)),
     )  # fmt: skip
-    if old.drift is not None:
+    if hull.drift is not None:
         add_drift(scene, database, vessel=body, outside="hold")
-    if old.force_by_heading is None:
+    if hull.force_by_heading is None:
         return
-    if old.cutoff:
-        use_slow_position(scene, database, vessel=body, cutoff=old.cutoff)
+    if hull.cutoff:
+        usual = hull.cutoff == SLOW_SHARE * peak_frequency(old)
+        use_slow_position(scene, database, vessel=body, cutoff=None if usual else hull.cutoff)
     else:
         use_actual_position(scene, database, vessel=body)

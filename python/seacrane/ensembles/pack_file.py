@@ -59,8 +59,8 @@ def read_pack(path: Path) -> list[Outcome]:
             ]
     except NETCDF_ERRORS as error:
         raise FileFormatError(
-            f"{path}: is no pack of an ensemble, or damaged: {str(error)[:200]}; remove it and run the ensemble "
-            "again to make it anew"
+            f"{path}: is no pack of an ensemble, or damaged: {str(error)[:200]}; remove it and run the "
+            "ensemble again to make it anew"
         ) from error
 
 

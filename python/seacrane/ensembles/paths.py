@@ -23,7 +23,8 @@ def require_paths(scene: Scene, names: list[str], words: tuple[str, ...]) -> Non
             raise SceneError(
                 f"over: scene {scene.name!r} has no parameter {name!r}"
                 + (f"; nearest: {near[0]!r}" if near else "")
-                + ". Give a path such as 'bodies.<name>.mass', or a word of the sea: " + ", ".join(words)
+                + ". Give a path such as 'bodies.<name>.mass', or a word of the sea: "
+                + ", ".join(words)
             )
 
 

@@ -100,7 +100,9 @@ def folder_of(path: str | os.PathLike[str], study: Mapping[str, Any]) -> Iterato
     lock = opened(folder / "writer.lock")
     try:
         if not claim(lock):
-            raise FileExistsError(f"store {str(folder)!r}: another process is writing it; wait, or give another")
+            raise FileExistsError(
+                f"store {str(folder)!r}: another process is writing it; wait, or give another"
+            )
         _require_same(folder, study)
         yield Folder(folder)
     finally:

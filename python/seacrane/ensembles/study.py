@@ -47,7 +47,7 @@ class Study:
     keep: Keep
 
     def require_names(self, names: list[str]) -> None:
-        """Raise SceneError for a parameter that the scene does not have, or a sea that cannot be made again."""
+        """Raise SceneError for a parameter that the scene does not have, or one whose sea cannot vary."""
         if not isinstance(self.source, Scene):
             return
         require_paths(self.source, names, WORDS)

@@ -1,0 +1,90 @@
+"""What a member of an ensemble costs beside the loop, and how many workers share."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from concurrent.futures import Executor, ProcessPoolExecutor, ThreadPoolExecutor
+from contextlib import nullcontext
+from typing import Any
+
+from seacrane import Kept, Run, Scene, cases, ensemble
+from seacrane.ensembles.other_sea import with_sea
+from seacrane.hydro import shipped_database
+
+from .section import Section
+from .timing import best_seconds
+
+TRACK = {"track": Kept(channel="position", at={"body": "payload"}, step=1.0)}
+HOW: dict[str, Any] = {"rtol": 1e-2, "dt_out": 1.0}
+
+
+def one_member(*, repeats: int) -> Section:
+    """CPU time of the parts of one member."""
+    scene, database = cases.case2(), shipped_database()
+
+    def stepped() -> Run:
+        run = _run(scene)
+        run.advance(100.0)
+        return run
+
+    done = stepped()
+    describing = best_seconds(cases.case2, repeats=repeats)
+    sea = best_seconds(lambda: with_sea(scene, database, {"seed": 2}), repeats=repeats)
+    preparing = best_seconds(lambda: _run(scene), repeats=repeats)
+    loop = best_seconds(stepped, repeats=repeats) - preparing
+    result = best_seconds(done.result, repeats=repeats)
+    return Section(
+        title="One member of an ensemble",
+        text=(
+            "CPU time in ms of the parts of one member: case 2, 100 s, default method at rtol 1e-2, payload "
+            "every second. A function describes the whole lift; of a scene only the sea is made again. To "
+            "prepare is to check and compile; to end is to look for what is out of range and to make the "
+            f"result. Best of {repeats}."
+        ),
+        head=["part", "ms"],
+        rows=[
+            ["describe the lift (function)", 1e3 * describing],
+            ["make the sea again (scene)", 1e3 * sea],
+            ["prepare the run", 1e3 * preparing],
+            ["step", 1e3 * loop],
+            ["end", 1e3 * result],
+        ],
+    )
+
+
+def workers(*, repeats: int, members: int = 16, t_end: float = 1000.0) -> Section:
+    """Wall time of an ensemble by executor."""
+    scene, database = cases.case2(), shipped_database()
+
+    def wall(executor: Executor | None) -> float:
+        start = time.perf_counter()
+        ensemble(
+            scene, over={"seed": range(members)}, keep=TRACK, t_end=t_end, database=database,
+            executor=executor, **HOW,
+        )  # fmt: skip
+        return time.perf_counter() - start
+
+    kinds: list[tuple[str, Callable[[], Any]]] = [
+        ("none", nullcontext),
+        ("two threads", lambda: ThreadPoolExecutor(2)),
+        ("two processes", lambda: ProcessPoolExecutor(2)),
+    ]
+    rows = []
+    for name, opened in kinds:
+        with opened() as executor:
+            wall(executor)
+            rows.append([name, min(wall(executor) for _ in range(repeats))])
+    return Section(
+        title="Ensembles by executor",
+        text=(
+            f"Wall time in s of {members} seeds of case 2, {t_end:g} s each, default method at rtol 1e-2, "
+            f"payload every second. Best of {repeats}."
+        ),
+        head=["executor", "wall, s"],
+        rows=rows,
+    )
+
+
+def _run(scene: Scene) -> Run:
+    return Run(scene, 100.0, channels=["position"], **HOW)

@@ -1,0 +1,63 @@
+"""Lifts of ensembles, at the top level of a module so that other processes find them."""
+
+from __future__ import annotations
+
+import os
+import time
+from pathlib import Path
+from typing import Any
+
+from seacrane import Kept, Result, Scene
+
+SWING: dict[str, Any] = {"t_end": 2.0, "rtol": 1e-6, "dt_out": 0.1}
+
+
+def pendulum(*, mass: float = 2.0, start: float = 1.0) -> Scene:
+    scene = Scene(name="pendulum")
+    scene.add_body(name="bob", mass=mass, inertia=(0.1, 0.1, 0.1), position=(start, 0.0, 0.0))
+    scene.add_joint(
+        kind="revolute", name="pin", first="ground", second="bob", point=(0, 0, 0), axis=(0, 1, 0)
+    )
+    return scene
+
+
+def lowest(result: Result) -> float:
+    return float(result["position"][..., 2].min())
+
+
+def two_numbers_or_three(result: Result) -> list[float]:
+    return [0.0] * (2 if result.stats["scene"] == "short" else 3)
+
+
+KEEP = {
+    "track": Kept(channel="position", at={"body": "bob"}, step=0.5),
+    "highest": Kept(channel="position", what="maximum", at={"body": "bob", "axis": "z"}, after=1.0),
+    "mean": Kept(channel="position", what="mean", at={"body": "bob"}),
+    "scatter": Kept(channel="position", what="standard_deviation", at={"body": "bob", "axis": "x"}),
+    "lowest": lowest,
+}
+
+
+def fails_in_the_middle(*, start: float) -> Scene:
+    if start == 3.0:
+        raise ValueError("no such start")
+    return pendulum(start=start)
+
+
+def dies_once(*, start: float, mark: str) -> Scene:
+    """The process that describes member 3 ends at once, as long as the mark is not there."""
+    if (
+        start == 3.0
+        and not Path(mark).exists()
+        and os.environ.get("SEACRANE_TEST_PARENT") != str(os.getpid())
+    ):
+        time.sleep(0.3)  # others come back first
+        Path(mark).touch()
+        os._exit(1)
+    return pendulum(start=start)
+
+
+def short_or_long(*, start: float) -> Scene:
+    scene = pendulum(start=start)
+    scene.name = "short" if start < 2.5 else "long"
+    return scene

@@ -1,0 +1,375 @@
+"""Ensembles: the same numbers whatever runs them, nothing lost, and refusals by name."""
+
+from __future__ import annotations
+
+import os
+import pickle
+import resource
+import signal
+import subprocess
+import sys
+import time
+from concurrent.futures import Executor, ProcessPoolExecutor, ThreadPoolExecutor
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from ensemble_studies import (
+    KEEP,
+    SWING,
+    dies_once,
+    fails_in_the_middle,
+    lowest,
+    pendulum,
+    short_or_long,
+    two_numbers_or_three,
+)
+
+from seacrane import (
+    Ensemble,
+    FileFormatError,
+    HydroDatabase,
+    Kept,
+    LatinHypercube,
+    Method,
+    Outputs,
+    Scene,
+    SceneError,
+    SimulationError,
+    WorkerVersionError,
+    ensemble,
+    simulate,
+)
+from seacrane.cases import vessel
+from seacrane.description.file import described
+from seacrane.ensembles.job import Job
+from seacrane.ensembles.other_sea import with_sea
+from seacrane.ensembles.study import Study
+from seacrane.hydro import DriftCoefficients, shipped_database
+
+GRID = {"start": [1.0, 2.0, 3.0], "mass": [2.0, 5.0]}
+
+
+@pytest.fixture(scope="module")
+def database() -> HydroDatabase:
+    return shipped_database()
+
+
+@pytest.fixture(scope="module")
+def afloat() -> Scene:
+    return vessel(seed=7, hs=1.5)
+
+
+@pytest.fixture(scope="module")
+def serial() -> Ensemble:
+    return ensemble(pendulum, over=GRID, keep=KEEP, **SWING)
+
+
+def test_members_are_what_simulate_gives(serial: Ensemble) -> None:
+    result = simulate(pendulum(start=2.0, mass=5.0), **SWING)
+    z = result.select("position", body="bob", axis="z")
+    one = serial.dataset.sel(start=2.0, mass=5.0)
+    assert np.array_equal(one.track, result.select("position", body="bob")[::5])
+    assert np.array_equal(one.time, result.time[::5])
+    assert one.highest == z[result.time >= 1.0].max()
+    assert np.array_equal(one["mean"], result.select("position", body="bob").mean(axis=0))
+    assert one.scatter == result.select("position", body="bob", axis="x").std()
+    assert one.lowest == z.min()
+    assert serial.dataset.track.attrs["units"] == "m"
+    assert serial.failures == {}
+
+
+@pytest.mark.parametrize("pack", [1, 4, 100])
+@pytest.mark.parametrize("pool", [ThreadPoolExecutor, ProcessPoolExecutor])
+def test_results_are_the_same_to_the_bit(
+    pool: type[Executor], pack: int, serial: Ensemble, tmp_path: Path
+) -> None:
+    with pool(2) as executor:  # type: ignore[call-arg]
+        there = ensemble(
+            pendulum, over=GRID, keep=KEEP, executor=executor, pack=pack, store=tmp_path / "store", **SWING
+        )
+    assert there.dataset.identical(serial.dataset)
+    assert Ensemble.load(tmp_path / "store").dataset.identical(serial.dataset)
+
+
+def test_dask_gives_the_same(afloat: Scene, database: HydroDatabase) -> None:
+    distributed = pytest.importorskip("distributed", reason="dask.distributed is not installed")
+    given: dict[str, Any] = {"over": {"seed": [1, 2, 3]}, "database": database, "t_end": 2.0, "rtol": 1e-3}
+    keep = {"heave": Kept(channel="position", at={"body": "vessel", "axis": "z"})}
+    with (
+        distributed.LocalCluster(
+            n_workers=2, threads_per_worker=1, processes=False, dashboard_address=None
+        ) as cluster,
+        distributed.Client(cluster) as client,
+    ):
+        there = ensemble(afloat, keep=keep, executor=client.get_executor(), **given)
+    assert there.dataset.identical(ensemble(afloat, keep=keep, **given).dataset)
+
+
+def test_seas_of_a_scene_are_those_of_add_sea(afloat: Scene, database: HydroDatabase) -> None:
+    words: dict[str, Any] = {"seed": 11, "hs": 2.5, "tp": 9.0, "gamma": 2.0, "direction_deg": 160.0}
+    assert afloat.waves is not None
+    made, asked = with_sea(afloat, database, words), vessel(**words)
+    assert made.waves is not None
+    assert asked.waves is not None
+    known = replace(asked.waves.provenance, repeat_period_s=None, repeat_found=None)
+    asked.waves = replace(asked.waves, provenance=known)
+    assert described(made)["waves"] == described(asked)["waves"]
+    assert afloat.waves.provenance.seed == 7
+
+
+@pytest.mark.parametrize("phase", ["slow", "actual"])
+def test_what_a_sea_does_to_a_vessel_stays(phase: str) -> None:
+    omega, heading = np.array([0.3, 0.9, 2.0]), np.linspace(0.0, np.pi, 13)
+    values = np.zeros((13, 3, 6))
+    values[..., 0], values[..., 1] = (turn(heading)[:, None] * omega for turn in (np.cos, np.sin))
+    drift = DriftCoefficients(heading=heading, omega=omega, coefficient=values)
+    database = replace(shipped_database(), drift=drift)
+    scenes = [vessel(hs=0.0) for _ in range(2)]
+    for seed, scene in enumerate(scenes):
+        scene.add_sea(
+            database, seed=seed, hs=1.0, tp=7.0, spreading=6.0, phase=phase, drift=True, position=(3.0, -2.0),
+            heading_deg=20.0,
+        )  # fmt: skip
+    made, asked = with_sea(scenes[0], database, {"seed": 1}).waves, scenes[1].waves
+    assert made is not None
+    assert asked is not None
+    own, other = made.hull(), asked.hull()
+    assert (own.position, own.heading, own.cutoff) == (other.position, other.heading, other.cutoff)
+    assert np.allclose(own.transfer, other.transfer, rtol=1e-12)
+    for name in ("force_by_heading", "drift_by_heading"):
+        assert np.allclose(getattr(own, name).values, getattr(other, name).values, rtol=1e-12)
+
+
+def test_paths_change_elements_of_a_copy() -> None:
+    scene = pendulum()
+    scene.add_actuator(name="motor", joint="pin", stiffness=500.0, damping=50.0)
+    keep = {"x": Kept(channel="position", at={"body": "bob", "axis": "x"})}
+    there = ensemble(
+        scene, over={"actuators.motor.stiffness": [500.0, 900.0], "gravity": [9.81, 1.62]}, keep=keep, **SWING
+    )
+    other = scene.copy(gravity=1.62)
+    other.replace("motor", stiffness=900.0)
+    expected = simulate(other, **SWING).select("position", body="bob", axis="x")
+    picked = there.dataset.x.sel({"actuators.motor.stiffness": 900.0, "gravity": 1.62})
+    assert np.array_equal(picked, expected)
+    assert scene.actuators["motor"].stiffness == 500.0
+
+
+def test_a_design_fills_every_part_of_its_ranges() -> None:
+    design = LatinHypercube(ranges={"start": (1.0, 3.0), "mass": (2.0, 6.0)}, count=8, seed=3)
+    there = ensemble(pendulum, over=design, keep={"lowest": lowest}, **SWING)
+    assert there.dataset.lowest.dims == ("member",)
+    for name, (low, high) in design.ranges.items():
+        parts = np.floor((there.dataset[name].to_numpy() - low) / (high - low) * 8)
+        assert sorted(parts) == list(range(8))
+    assert ensemble(pendulum, over=design, keep={"lowest": lowest}, **SWING).dataset.identical(there.dataset)
+    listed = [there.parameters(index) for index in range(8)]
+    again = ensemble(pendulum, over=listed, keep={"lowest": lowest}, **SWING)
+    assert again.dataset.identical(there.dataset)
+
+
+@pytest.mark.parametrize("stored", [False, True])
+def test_a_member_that_fails_is_recorded(stored: bool, tmp_path: Path) -> None:
+    there = ensemble(
+        fails_in_the_middle,
+        over={"start": [1.0, 2.0, 3.0, 4.0]},
+        keep={"lowest": lowest},
+        store=tmp_path / "store" if stored else None,
+        **SWING,
+    )
+    assert there.failures == {2: "ValueError: no such start"}
+    assert np.isnan(there.dataset.lowest.to_numpy()).tolist() == [False, False, True, False]
+    assert there.dataset.failure.sel(start=3.0) == "ValueError: no such start"
+
+
+def test_the_first_failure_ends_it_where_asked(tmp_path: Path) -> None:
+    given: dict[str, Any] = {
+        "over": {"start": [1.0, 2.0, 3.0, 4.0]},
+        "keep": {"lowest": lowest},
+        "store": tmp_path / "store",
+        "on_error": "raise",
+        **SWING,
+    }
+    for _ in range(2):
+        with pytest.raises(
+            SimulationError, match=r"member 2 \(start=3.0\) failed: ValueError: no such start"
+        ):
+            ensemble(fails_in_the_middle, **given)
+    left = Ensemble.load(tmp_path / "store")
+    assert left.dataset.failure.to_numpy().tolist() == ["", "", "ValueError: no such start", "not run"]
+
+
+def test_members_of_other_shapes_are_failures() -> None:
+    there = ensemble(
+        short_or_long, over={"start": [1.0, 2.0, 3.0]}, keep={"numbers": two_numbers_or_three}, **SWING
+    )
+    assert list(there.failures) == [2]
+    assert "numbers has dimensions" in there.failures[2]
+
+
+def test_a_killed_worker_loses_only_what_was_in_flight(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("SEACRANE_TEST_PARENT", str(os.getpid()))
+    over = {"start": [1.0, 2.0, 3.0, 4.0, 5.0], "mark": [str(tmp_path / "mark")]}
+    given: dict[str, Any] = {"over": over, "keep": KEEP, "store": tmp_path / "store", **SWING}
+    with (
+        ProcessPoolExecutor(2) as executor,
+        pytest.raises(SimulationError, match=r"pack \d was lost with its worker"),
+    ):
+        ensemble(dies_once, executor=executor, **given)
+    before = {path.name: path.stat().st_mtime_ns for path in (tmp_path / "store").glob("pack_*")}
+    assert before
+    assert "pack_0000002.nc" not in before
+    with ProcessPoolExecutor(2) as executor:
+        resumed = ensemble(dies_once, executor=executor, **given)
+    assert all((tmp_path / "store" / name).stat().st_mtime_ns == kept for name, kept in before.items())
+    whole = ensemble(dies_once, over=over, keep=KEEP, **SWING)
+    assert resumed.dataset.identical(whole.dataset)
+
+
+INTERRUPTED = """
+import sys
+from concurrent.futures import ThreadPoolExecutor
+from ensemble_studies import KEEP, pendulum
+from seacrane import ensemble
+with ThreadPoolExecutor(2) as pool:
+    ensemble(pendulum, over={"start": [1.0 + 0.01 * k for k in range(400)]}, keep=KEEP, t_end=20.0, rtol=1e-9,
+             executor=pool if sys.argv[2] == "threads" else None, store=sys.argv[1])
+"""
+
+
+@pytest.mark.parametrize("where", ["serial", "threads"])
+def test_ctrl_c_keeps_what_came_back(where: str, tmp_path: Path) -> None:
+    store = tmp_path / "store"
+    path = os.pathsep.join([str(Path(__file__).parent), os.environ.get("PYTHONPATH", "")])
+    child = subprocess.Popen(
+        [sys.executable, "-c", INTERRUPTED, str(store), where],
+        env={**os.environ, "PYTHONPATH": path}, stderr=subprocess.PIPE,
+    )  # fmt: skip
+    until = time.monotonic() + 60.0
+    while len(list(store.glob("pack_*.nc"))) < 3 and time.monotonic() < until:
+        time.sleep(0.01)
+    child.send_signal(signal.SIGINT)
+    _, told = child.communicate(timeout=60)
+    assert b"KeyboardInterrupt" in told
+    left = Ensemble.load(store)
+    done = left.dataset.failure.to_numpy() == ""
+    assert 3 <= done.sum() < 400
+    assert np.isfinite(left.dataset.lowest.to_numpy()[done]).all()
+
+
+def test_a_full_disk_is_named_and_loses_nothing(tmp_path: Path) -> None:
+    store, given = tmp_path / "store", {"over": GRID, "keep": {"lowest": lowest}, **SWING}
+    ensemble(pendulum, store=store, **given)
+    for path in sorted(store.glob("pack_*"))[3:]:
+        path.unlink()
+    number = os.fork()
+    if not number:
+        resource.setrlimit(resource.RLIMIT_FSIZE, (1000, 1000))
+        try:
+            ensemble(pendulum, store=store, **given)
+        except OSError as error:
+            os._exit(4 if "pack_0000003.nc" in str(error) and "free in" in str(error) else 5)
+        os._exit(6)
+    assert os.waitstatus_to_exitcode(os.waitpid(number, 0)[1]) == 4
+    assert [path.name for path in sorted(store.glob("pack_*"))] == [f"pack_000000{k}.nc" for k in range(3)]
+    assert ensemble(pendulum, store=store, **given).failures == {}
+
+
+@pytest.mark.parametrize(
+    ("changes", "named"),
+    [
+        ({"rtol": 1e-5}, "method differ"),
+        ({"t_end": 3.0}, "t_end differ"),
+        ({"over": {"start": [1.0, 2.0], "mass": [2.0, 6.0]}}, "first and last member, over differ"),
+        ({"keep": {"lowest": max}}, "keep differ"),
+        ({"source": short_or_long, "over": {"start": [1.0]}}, "scene, first and last member"),
+        ({"pack": 2}, "members in a pack differ"),
+    ],
+)
+def test_the_store_of_another_study_is_refused(changes: dict[str, Any], named: str, tmp_path: Path) -> None:
+    given: dict[str, Any] = {
+        "source": pendulum,
+        "over": {"start": [1.0, 2.0], "mass": [2.0, 5.0]},
+        "keep": {"lowest": lowest},
+        "store": tmp_path / "store",
+        **SWING,
+    }
+    first = ensemble(**given)
+    with pytest.raises(SceneError, match=f"is of another study: .*{named}"):
+        ensemble(**{**given, **changes})
+    assert ensemble(**given).dataset.identical(first.dataset)
+
+
+def test_a_folder_of_something_else_is_refused(tmp_path: Path) -> None:
+    (tmp_path / "letter.txt").write_text("dear")
+    with pytest.raises(SceneError, match="holds something else than an ensemble"):
+        ensemble(pendulum, over=GRID, keep=KEEP, store=tmp_path, **SWING)
+    with pytest.raises(FileFormatError, match=r"has no study\.json"):
+        Ensemble.load(tmp_path)
+
+
+def test_a_damaged_pack_is_named(tmp_path: Path) -> None:
+    ensemble(pendulum, over=GRID, keep={"lowest": lowest}, store=tmp_path / "store", **SWING)
+    (tmp_path / "store" / "pack_0000001.nc").write_bytes(b"nothing")
+    with pytest.raises(FileFormatError, match=r"pack_0000001\.nc: is no pack"):
+        Ensemble.load(tmp_path / "store")
+
+
+def test_a_worker_of_another_version_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
+    with ProcessPoolExecutor(1) as executor:
+        executor.submit(os.getpid).result()  # it is there, with the version of before
+        monkeypatch.setattr("seacrane.ensembles.gather.__version__", "9.9")
+        with pytest.raises(
+            WorkerVersionError, match=r"a worker has seacrane .*, and the ensemble is of 9\.9"
+        ):
+            ensemble(pendulum, over=GRID, keep=KEEP, executor=executor, **SWING)
+
+
+def test_a_job_is_read_once_in_a_process() -> None:
+    study = Study(source=pendulum(), databases=None, t_end=1.0, method=Method(), outputs=Outputs(), keep=KEEP)
+    data = pickle.dumps(Job(study))
+    assert pickle.loads(data) is pickle.loads(data)
+
+
+@pytest.mark.parametrize(
+    ("given", "message"),
+    [
+        ({"over": {"bodies.bob.mas": [1.0]}}, r"no parameter 'bodies.bob.mas'; nearest: 'bodies.bob.mass'"),
+        ({"over": {"seed": [1, 2]}}, "scene 'pendulum' has no sea"),
+        ({"over": {"gravity": range(1000), "baumgarte": range(1001)}}, "are 1001000 members"),
+        ({"over": {"gravity": range(10**9)}}, "1000000000 gravity are 1000000000 members"),
+        ({"over": {}}, "over is empty"),
+        ({"over": {"gravity": []}}, "gravity has no values"),
+        ({"over": {"gravity": [1.0, 1.0]}}, "gravity has 1.0 twice"),
+        ({"over": {"gravity": [[1.0]]}}, "give numbers or texts"),
+        ({"over": [{"gravity": 1.0}, {"baumgarte": 1.0}]}, r"over\[1\] has baumgarte, over\[0\] has gravity"),
+        ({"keep": {}}, "keep is {}"),
+        ({"keep": {"failure": lowest}}, "'failure' is taken"),
+        ({"keep": {"x": 3}}, "keep: x is 3"),
+        ({"keep": {"x": Kept(channel="position", step=0.15)}}, "no multiple of the output interval"),
+        ({"keep": {"x": Kept(channel="position", after=5.0)}}, "after is 5 s, the run ends at 2 s"),
+        ({"on_error": "ignore"}, "on_error is 'ignore'"),
+        ({"executor": 4}, "executor is 4"),
+        ({"pack": 0}, "pack is 0"),
+        ({"source": 3}, "ensemble of 3"),
+        ({"store": "nowhere/at/all"}, "there is no folder nowhere/at"),
+    ],
+)
+def test_bad_input_is_named(given: dict[str, Any], message: str) -> None:
+    usual: dict[str, Any] = {"source": pendulum(), "over": {"gravity": [9.0]}, "keep": KEEP, **SWING}
+    with pytest.raises(SceneError, match=message):
+        ensemble(**{**usual, **given})
+
+
+def test_another_database_is_refused(afloat: Scene, database: HydroDatabase) -> None:
+    keep = {"heave": Kept(channel="position", at={"body": "vessel", "axis": "z"})}
+    with pytest.raises(SceneError, match="give the HydroDatabase of vessel 'vessel'"):
+        ensemble(afloat, over={"seed": [1]}, keep=keep)
+    other = replace(database, force=1.1 * database.force)
+    with pytest.raises(SceneError, match="the waves load vessel 'vessel' otherwise"):
+        ensemble(afloat, over={"seed": [1]}, keep=keep, database=other)
