@@ -42,8 +42,8 @@ def current_findings(scene: Description, time: Array, channels: Mapping[str, Arr
 def _told(name: str, body: str, speed: float, shift: float) -> str:
     return (
         f"current {name!r}: {speed:.3g} m/s on vessel {body!r} shift the frequency of waves at the peak by "
-        f"{shift:.0%} between the water and a fixed place. The sea is taken as a fixed observer sees it, with "
-        "the wave lengths of still water, and wave loads, added mass and damping are those without flow: "
-        "lengths are off by about twice that share. Give the spectrum as measured at a fixed place, and take "
+        f"{shift:.0%} between the water and a fixed place. The sea is taken as a fixed observer sees it, "
+        "with the wave lengths of still water, which are off by about twice that share; wave loads, added "
+        "mass and damping are those without flow. Give the spectrum as measured at a fixed place, and take "
         "motions in this current as an estimate"
     )

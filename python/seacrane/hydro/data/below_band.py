@@ -51,7 +51,7 @@ def warn_of_resonance_below_band(database: HydroData) -> None:
 def _consequence(database: HydroData) -> str:
     if "strip theory" in database.source:
         return (
-            "radiation damping of strip theory is too large there, by many times in pitch and yaw. Use "
-            "hydro_from_hull(..., method='capytaine')"
+            "radiation damping of strip theory is too large there, several times in roll and more in pitch "
+            "and yaw. Use hydro_from_hull(..., method='capytaine')"
         )
     return "its numbers are doubtful there. Use a database that covers these frequencies"
