@@ -214,3 +214,13 @@ def own_mooring(database: HydroDatabase) -> Array | None:
     size = np.abs(np.diagonal(database.restoring))
     held = np.diagonal(own)[HORIZONTAL] > SMALL * np.array([size[2], size[2], max(size[4], size[5])])
     return own if np.any(held) else None
+
+
+def without_rounding(restoring: Array) -> Array:
+    """Restoring (6, 6) without the rounding that files hold in surge, sway and yaw."""
+    size = np.abs(np.diagonal(restoring)).copy()
+    size[:2], size[5] = size[2], max(size[4], size[5])
+    small = np.abs(restoring) <= SMALL * np.sqrt(np.outer(size, size))
+    small[FLOATING, FLOATING] = False
+    small &= restoring != 0.0
+    return np.where(small, 0.0, restoring) if small.any() else restoring
