@@ -136,6 +136,22 @@ def test_a_second_mooring_is_refused(second: dict[str, Any]) -> None:
     assert plain == vessel(replace(database, restoring=shipped_database().restoring), **second)
 
 
+def test_a_coupling_without_its_spring_is_no_mooring() -> None:
+    odd = np.zeros((6, 6))
+    odd[0, 4] = odd[4, 0] = 1e5
+    scene = vessel(with_own(shipped_database(), odd))
+    with pytest.raises(SceneError, match=r"restoring\(0, 4\)"):
+        scene.compile()
+    assert not scene.springs
+
+
+def test_rounding_is_no_mooring() -> None:
+    scene = vessel(with_own(shipped_database(), np.diag([1e-6, 0, 0, 0, 0, 0])).without_mooring())
+    assert np.array_equal(
+        scene.vessels["vessel"].mooring_stiffness, vessel().vessels["vessel"].mooring_stiffness
+    )
+
+
 def test_without_mooring_gives_the_water_back() -> None:
     database = shipped_database()
     moored = with_own(database, np.diag([1e5, 2e5, 0, 0, 0, 3e8]))

@@ -211,12 +211,16 @@ def own_mooring(database: HydroDatabase) -> Array | None:
     own = 0.5 * (database.restoring + database.restoring.T)
     own[FLOATING, FLOATING] = 0.0
     own[FLOATING, 5] = own[5, FLOATING] = 0.0
-    return own if np.any(np.abs(own) > _scale(database.restoring)) else None
+    size = np.abs(np.diagonal(database.restoring))
+    held = np.diagonal(own)[HORIZONTAL] > SMALL * np.array([size[2], size[2], max(size[4], size[5])])
+    return own if np.any(held) else None
 
 
-def _scale(matrix: Array) -> Array:
-    """What counts as zero in each entry (6, 6); surge, sway and yaw by heave and pitch at least."""
-    size = np.abs(np.diagonal(matrix)).copy()
-    size[:2] = np.maximum(size[:2], size[2])
-    size[5] = max(size[5], size[4])
-    return np.asarray(SMALL * np.sqrt(np.outer(size, size)))
+def without_rounding(restoring: Array) -> Array:
+    """Restoring (6, 6) without the rounding that files hold in surge, sway and yaw."""
+    size = np.abs(np.diagonal(restoring)).copy()
+    size[:2], size[5] = size[2], max(size[4], size[5])
+    small = np.abs(restoring) <= SMALL * np.sqrt(np.outer(size, size))
+    small[FLOATING, FLOATING] = False
+    small &= restoring != 0.0
+    return np.where(small, 0.0, restoring) if small.any() else restoring

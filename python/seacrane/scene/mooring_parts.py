@@ -52,7 +52,7 @@ def parts_of(what: str, matrix: Array) -> Mooring:
     coupled = matrix - np.diag(np.diagonal(matrix))
     coupled[FLOATING, FLOATING] = coupled[FLOATING, 5] = coupled[5, FLOATING] = 0.0
     lines = np.zeros((0, 6))
-    if np.any(np.abs(coupled) > SMALL * np.maximum(np.outer(size, size), size.max() * SMALL)):
+    if np.any(np.abs(coupled) > SMALL * np.outer(size, size)):
         lines = _without_twist(what, _wrenches(matrix))
     rest = matrix - lines.T @ lines
     alone = np.diagonal(rest)[HORIZONTAL].copy()

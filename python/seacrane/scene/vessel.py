@@ -19,7 +19,7 @@ from seacrane.hydro.vessel.parameters import VesselParameters, following_yaw
 from seacrane.inputs.checked import shaped_of
 from seacrane.inputs.plausible import direction_of
 from seacrane.inputs.shown import shown
-from seacrane.scene.mooring import add_mooring_springs, chosen_mooring, with_mooring
+from seacrane.scene.mooring import add_mooring_springs, chosen_mooring, with_mooring, without_rounding
 from seacrane.scene.mooring_parts import Mooring
 from seacrane.scene.vessel_memory import core_memory, memory_of, remember
 
@@ -163,7 +163,7 @@ def _from_database(
         f"vessel {name!r}", database, mooring, mooring_period, usual=mooring_period == MOORING_PERIOD
     )
     heavy = _horizontal_inertia(parameters)
-    restoring = following_yaw(parameters.restoring)
+    restoring = without_rounding(following_yaw(parameters.restoring))
     if isinstance(held, Mooring):
         restoring = with_mooring(restoring, held)
         stiffness = held.horizontal
