@@ -71,8 +71,11 @@ def drive(
         last = run.last_state()
         states = [run.start] if last is None else [run.start, last]
         bodies, stats = list(run.scene.bodies), run.stats()
+        remembering = (
+            [vessel.body for vessel in run.scene.vessels.values()] if stats["history_samples"] else []
+        )
         run.slow = stiffness(run.model, bodies, run.scene.loads, states, stats)
-        run.slow = run.slow or growing(run.model, bodies, states, stats)
+        run.slow += growing(run.model, bodies, states, stats, remembering)
 
 
 @contextlib.contextmanager

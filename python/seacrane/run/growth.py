@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -16,31 +16,50 @@ from seacrane.run.stiffness import fewest_steps
 from seacrane.validity.range import Finding
 
 HOUR = 3600.0  # s
+FEWEST_STEPS = 2000  # fewer are no matter
 LEAST_GROWTH = np.log(2.0)  # of the amplitude over the run
 MOST_DAMPING = 0.05  # ratio: what is damped more, waves and drives keep in bounds
+LOOSE = 1e-3  # rtol from which on step control lets a mode ring as much as matters
+LEAST_SEEN = 0.1  # frequency times step: below, growth is rounding
+LONGER = 1.15  # steps that step control tries now and then, over their mean
+FIX = (
+    "energy_balance hardly shows it, standard deviations do. Give a smaller {setting}, take another "
+    "integrator ('verner65' or 'dop853' damp up to longer steps), or give the mode damping"
+)
 
 
 class GrowingModeWarning(UserWarning):
-    """The method made an oscillation with little damping grow over a long run."""
+    """The method made an oscillation with little damping grow over a long run, or kept it ringing."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class _Growth:
-    """What a method adds to a mode: rates of the amplitude, 1/s."""
+    """What steps make of a mode's amplitude: rates in 1/s, at the mean step and at longer ones."""
 
     rate: float
+    rings: bool
     frequency: float
     damping_ratio: float
     body: str
 
+    @property
+    def words(self) -> str:
+        damping = abs(max(self.damping_ratio, 0.0))
+        return f"a mode of {self.frequency:.4g} rad/s with {damping:.2g} of critical damping"
+
 
 def growing(
-    model: _core.Model, bodies: list[str], states: list[_core.State], stats: Mapping[str, Any]
+    model: _core.Model,
+    bodies: list[str],
+    states: list[_core.State],
+    stats: Mapping[str, Any],
+    undamped: Collection[str] = (),
 ) -> list[Finding]:
     """The mode that a method feeds, looked for only where there are many steps.
 
     A step h of y' = lambda y multiplies y by R(h lambda). Where log|R| exceeds the decay of the mode, its
-    amplitude grows by that much in each step, though the solution's does not.
+    amplitude grows by that much in each step, though the solution's does not; step control ends that only
+    where the amplitude has come to its tolerance.
 
     Parameters
     ----------
@@ -48,61 +67,75 @@ def growing(
     bodies : list of str
         Their names, in the order of the model.
     states : list of State
-        Where to look, with speeds of zero; a mode counts that grows at all of them.
+        Where to look, with speeds of zero; the mode counts that grows most.
     stats : mapping
         Of the run: `Result.stats`.
+    undamped : collection of str
+        Bodies whose damping the linear model lacks, whose modes are not judged.
     """
     integrator, steps = str(stats["integrator"]), int(stats["steps"])
     polynomial = _core.stability_polynomial(integrator)
-    if not polynomial or steps < fewest_steps(model.states) or model.states > LARGEST:
+    if not polynomial or steps < fewest_steps(model.states, FEWEST_STEPS) or model.states > LARGEST:
         return []
     duration = float(stats["simulated_s"])
-    step = duration / steps
-    found = [_fastest_growth(model, bodies, state, Polynomial(polynomial), step) for state in states]
-    worst = min(found, key=lambda one: one.rate)
-    if worst.rate * duration < LEAST_GROWTH:
-        return []
-    setting = "rtol" if _core.integrator(integrator).setting == "rtol" else "dt"
-    return [
-        (
-            GrowingModeWarning,
+    step, tolerance = duration / steps, float(stats["settings"]["rtol"])
+    judged = [_modes(model, bodies, state, Polynomial(polynomial), step, undamped) for state in states]
+    every = [one for found in judged for one in found]
+    adapts = _core.integrator(integrator).setting == "rtol"
+    fix = FIX.format(setting="rtol" if adapts else "dt")
+    worst = max(every, key=lambda one: one.rate, default=None)
+    if worst is not None and worst.rate * duration >= LEAST_GROWTH:
+        text = (
             f"run: {integrator} makes an oscillation of body {worst.body!r} grow by a factor of "
-            f"{np.exp(min(worst.rate * HOUR, 99.0)):.3g} an hour: a mode of {worst.frequency:.4g} rad/s with "
-            f"{worst.damping_ratio:.2g} of critical damping, which its steps of {step:.3g} s on average "
-            "outweigh. energy_balance hardly shows it, standard deviations do. Give a smaller "
-            f"{setting}, take another integrator ('verner65' or 'dop853' damp up to longer steps), or give "
-            "the mode damping",
+            f"{np.exp(min(worst.rate * HOUR, 99.0)):.3g} an hour: {worst.words}, which its steps of "
+            f"{step:.3g} s on average outweigh. {fix}"
         )
-    ]
+        return [(GrowingModeWarning, text)]
+    ringing = next((one for one in every if one.rings), None)
+    if ringing is not None and adapts and tolerance >= LOOSE:
+        text = (
+            f"run: {integrator} at rtol {tolerance:g} keeps an oscillation of body {ringing.body!r} ringing: "
+            f"{ringing.words}, which grows with steps a little longer than those of {step:.3g} s on average, "
+            f"until it comes to the tolerance. {fix}"
+        )
+        return [(GrowingModeWarning, text)]
+    return []
 
 
-def _fastest_growth(
-    model: _core.Model, bodies: list[str], state: _core.State, polynomial: Polynomial, step: float
-) -> _Growth:
-    """The mode that a method with this stability polynomial makes grow fastest, at rest in a pose."""
+def _modes(
+    model: _core.Model,
+    bodies: list[str],
+    state: _core.State,
+    polynomial: Polynomial,
+    step: float,
+    undamped: Collection[str],
+) -> list[_Growth]:
+    """Oscillations with little damping, at rest in a pose, under a method with this stability polynomial."""
     first = (6 if model.euler_angles else 7) * len(bodies)
     speeds = slice(first, first + 6 * len(bodies))
     values = np.array(state.values)
     values[speeds] = 0.0
     matrix = jacobian(model, state=values, time=state.time)
-    none = _Growth(rate=-np.inf, frequency=0.0, damping_ratio=0.0, body="")
     if not bodies or not np.all(np.isfinite(matrix)):
-        return none
+        return []
     modes, shapes = np.linalg.eig(matrix)
     little = (modes.imag > 0.0) & (np.abs(modes.real) < MOST_DAMPING * np.abs(modes))
-    if not np.any(little):
-        return none
     modes, shapes = modes[little], shapes[:, little]
-    rates = added(polynomial, modes, step) + np.minimum(modes.real, 0.0)
-    worst = int(rates.argmax())
     scale = np.array(model.scale)
-    sizes = (np.abs(shapes[:, worst]) / scale[np.isfinite(scale)])[speeds]
-    return _Growth(
-        rate=float(rates[worst]),
-        frequency=float(modes[worst].imag),
-        damping_ratio=float(-modes[worst].real / np.abs(modes[worst])),
-        body=bodies[int(sizes.argmax()) // 6],
-    )
+    sizes = (np.abs(shapes) / scale[np.isfinite(scale), None])[speeds]
+    own = np.minimum(modes.real, 0.0)
+    fed, longer = added(polynomial, modes, step), added(polynomial, modes, LONGER * step)
+    found = [
+        _Growth(
+            rate=float(fed[i] + own[i]),
+            rings=bool(fed[i] > 0.0 and longer[i] + own[i] > 0.0 and abs(modes[i]) * step > LEAST_SEEN),
+            frequency=float(modes[i].imag),
+            damping_ratio=float(-modes[i].real / np.abs(modes[i])),
+            body=bodies[int(sizes[:, i].argmax()) // 6],
+        )
+        for i in range(modes.size)
+    ]
+    return [one for one in found if one.body not in undamped]
 
 
 def added(polynomial: Polynomial, modes: NDArray[np.complex128], step: float) -> NDArray[np.float64]:

@@ -24,9 +24,9 @@ class StiffWarning(UserWarning):
     """One mode is so fast that an explicit method takes short steps for it alone."""
 
 
-def fewest_steps(states: int) -> int:
+def fewest_steps(states: int, least: int = MANY_STEPS) -> int:
     """Of a run that is worth the eigenvalues of so many states."""
-    return max(MANY_STEPS, int(states**2 / STATES_SQUARED_PER_STEP))
+    return max(least, int(states**2 / STATES_SQUARED_PER_STEP))
 
 
 def stiffness(
