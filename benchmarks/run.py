@@ -16,6 +16,7 @@ from pathlib import Path
 import facts
 from measure import (
     crane,
+    ensemble,
     evaluation,
     events,
     footprint,
@@ -97,6 +98,8 @@ def sections(folder: Path, *, repeats: int, quick: bool) -> Iterator[Section]:
     yield memory_models.fits()
     yield memory_models.trade()
     yield seas.seas(repeats=min(repeats, 3))
+    yield ensemble.one_member(repeats=repeats)
+    yield ensemble.workers(repeats=min(repeats, 3), t_end=100.0 if quick else 1000.0)
     yield strip_cost.strip_cost(repeats=min(repeats, 3))
     yield rival.rival(repeats=repeats, t_end=5.0 if quick else 100.0)
     yield footprint.memory(repeats=min(repeats, 3))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import time
 from collections.abc import Callable
 from concurrent.futures import Executor, ProcessPoolExecutor, ThreadPoolExecutor
@@ -79,7 +80,8 @@ def workers(*, repeats: int, members: int = 16, t_end: float = 1000.0) -> Sectio
         title="Ensembles by executor",
         text=(
             f"Wall time in s of {members} seeds of case 2, {t_end:g} s each, default method at rtol 1e-2, "
-            f"payload every second. Best of {repeats}."
+            f"payload every second. Best of {repeats}. Load of the machine, with this: {os.getloadavg()[0]:.1f} on "
+            f"{os.cpu_count()} cores; shares are of workers only where nothing else ran."
         ),
         head=["executor", "wall, s"],
         rows=rows,

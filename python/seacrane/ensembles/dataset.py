@@ -45,8 +45,8 @@ class Table:
             first = self._first.get(name, kept)
             if not kept.lies_like(first):
                 return (
-                    f"SceneError: {name} has dimensions {kept.dims} of lengths {kept.values.shape}, or values "
-                    f"along them, unlike those of the first member: {first.dims} of {first.values.shape}"
+                    f"SceneError: {name} has dimensions {kept.dims} of lengths {kept.values.shape}, or "
+                    f"values along them, unlike the first member's: {first.dims} of {first.values.shape}"
                 )
         return ""
 

@@ -47,9 +47,9 @@ def gathered(
     if lost:
         number, error = min(lost.items(), key=lambda item: item[0])
         raise SimulationError(
-            f"ensemble: pack {number} was lost with its worker ({type(error).__name__}: {error}). "
-            "Members that came back are in the store, if one was given: call again with the same store and a new executor "
-            "to run the others"
+            f"ensemble: pack {number} was lost with its worker ({type(error).__name__}: {error}). Members "
+            "that came back are in the store, if one was given: call again with the same store and a new "
+            "executor to run the others"
         ) from error
 
 

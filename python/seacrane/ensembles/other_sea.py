@@ -13,10 +13,11 @@ from seacrane.hydro import HydroDatabase
 from seacrane.inputs.frames import heading_of
 from seacrane.inputs.shown import shown
 from seacrane.scene.drift import add_drift
-from seacrane.scene.position import SLOW_SHARE, peak_frequency, use_actual_position, use_slow_position
+from seacrane.scene.position import SLOW_SHARE, use_actual_position, use_slow_position
 from seacrane.scene.realised_sea import realised_sea
 from seacrane.scene.scene import Scene
 from seacrane.sea import Spreading
+from seacrane.validity.hull_range import peak_frequency
 
 WORDS = ("seed", "hs", "tp", "direction_deg", "gamma")
 SAME = 1e-9  # relative
