@@ -40,7 +40,7 @@ def hours() -> Section:
             "The scene of `examples/jobs/three_hours.py`: 50 t below the crane in head waves, with the small "
             f"damping of loads and without. Standard deviation of the hook load, kN, hour by hour from "
             f"{SETTLED:g} s on. Growth is what `GrowingModeWarning` tells of a mode's amplitude, each hour; "
-            "nothing where it does not warn."
+            "nothing where it does not warn, or warns of ringing alone."
         ),
         head=["integrator", "rtol or dt", "damping", "steps", "mean step, s",
               *(f"hour {i + 1}, kN" for i in range(HOURS)), "energy error over work", "growth an hour"],

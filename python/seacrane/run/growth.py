@@ -17,7 +17,7 @@ from seacrane.validity.range import Finding
 
 HOUR = 3600.0  # s
 FEWEST_STEPS = 2000  # fewer are no matter
-LEAST_GROWTH = np.log(2.0)  # of the amplitude over the run
+LEAST_GROWTH = np.log(3.0)  # of the amplitude over the run
 MOST_DAMPING = 0.05  # ratio: what is damped more, waves and drives keep in bounds
 LOOSE = 1e-3  # rtol from which on step control lets a mode ring as much as matters
 LEAST_SEEN = 0.1  # frequency times step: below, growth is rounding
