@@ -1,8 +1,9 @@
 """Statistics of extremes on Gaussian records, and against pyextremes and qats.
 
 ``python benchmarks/measure/extreme_values.py [--publish]`` needs both programs (``pip install pyextremes
-pymatreader``, ``pip install --no-deps qats``). Writes ``extremes-by-method.csv``, ``extremes-over-seeds.csv`` and
-``extremes-against-judges.csv`` to ``out/bench/results``, with ``--publish`` to ``benchmarks/results``.
+pymatreader``, ``pip install --no-deps qats``). It writes ``extremes-by-method.csv``,
+``extremes-over-seeds.csv`` and ``extremes-against-judges.csv`` to ``out/bench/results``; with ``--publish``
+to ``benchmarks/results``.
 """
 
 from __future__ import annotations
