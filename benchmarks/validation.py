@@ -26,6 +26,7 @@ from compared import (  # noqa: E402
     crane,
     engine,
     events,
+    extreme_values,
     files,
     heavy_lines,
     hull,
@@ -66,6 +67,8 @@ COMPARISONS = (
     heavy_lines.peers,
     lines.snatches,
     lines.rigid_limit,
+    extreme_values.judges,
+    extreme_values.narrow_band,
 )
 
 

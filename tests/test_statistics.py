@@ -274,9 +274,13 @@ def test_steady_records_are_seldom_taken_for_a_start() -> None:
 
 
 def test_a_sea_that_repeats_is_named() -> None:
-    run = result_of(records(400)[1], repeat_period_s=600.0)
+    repeats = result_of(records(400)[1], repeat_period_s=600.0, repeat_found=1)
     with pytest.warns(RepeatingSeaWarning, match="600 s"):
-        sc.extremes(run, channel="link_tension")
+        sc.extremes(repeats, channel="link_tension")
+    searched = result_of(records(400)[1], repeat_period_s=600.0, repeat_found=0)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error", RepeatingSeaWarning)
+        sc.extremes(searched, channel="link_tension")
 
 
 def test_papers_hold_the_numbers_they_show() -> None:

@@ -1,8 +1,9 @@
 """Statistics of extremes on Gaussian records, and against pyextremes and qats.
 
-``python benchmarks/measure/extreme_values.py [--publish]`` needs both programs (``pip install pyextremes`` and
-``pip install --no-deps qats``). Writes ``extremes-by-method.csv``, ``extremes-over-seeds.csv`` and
-``extremes-against-judges.csv`` to ``out/bench/results``, with ``--publish`` to ``benchmarks/results``.
+``python benchmarks/measure/extreme_values.py [--publish]`` needs both programs (``pip install pyextremes
+pymatreader``, ``pip install --no-deps qats``). It writes ``extremes-by-method.csv``,
+``extremes-over-seeds.csv`` and ``extremes-against-judges.csv`` to ``out/bench/results``; with ``--publish``
+to ``benchmarks/results``.
 """
 
 from __future__ import annotations
@@ -30,6 +31,7 @@ from seacrane.statistics.gumbel import gumbel_fit  # noqa: E402
 Array = NDArray[np.float64]
 RECORDS, JUDGED = 400, 100
 SEEDS = (5, 10, 20, 40)
+YEAR = 31_556_952.0  # s, the unit of return periods in pyextremes
 SAMPLES = 2000  # of seeds, drawn from all records
 
 
@@ -96,8 +98,9 @@ def against_judges(runs: Array) -> Iterator[tuple[str, ...]]:
         eva = EVA(series)
         eva.get_extremes("POT", threshold=threshold, r="40s")
         eva.fit_model("MLE", distribution=distribution)
-        yield _row(f"clusters above {threshold:.3f}, {tail}", mine.tail.peaks.size, "pyextremes", len(eva.extremes))
-        level = float(eva.get_return_value(THREE_HOURS / 31_556_952.0 * 1.0, alpha=None)[0])
+        clusters, name = mine.tail.peaks.size, f"clusters above {threshold:.3f}, {tail}"
+        yield _row(name, clusters, "pyextremes", len(eva.extremes))
+        level = float(eva.get_return_value(THREE_HOURS / YEAR, alpha=None)[0])
         once = np.interp(0.0, *_once(mine.tail.crossings, threshold))
         yield _row(f"level exceeded once in 3 h, {tail}", float(once), "pyextremes", level)
 

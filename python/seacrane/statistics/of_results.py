@@ -148,9 +148,9 @@ def _record(
 
 
 def _repeat(result: Result) -> float | None:
-    """Time after which the sea of a run comes back on itself, s."""
-    found: Any = result.stats.get("repeat_period_s")
-    return None if found is None else float(found)
+    """Time after which the sea of a run comes back on itself, s; None where it is not known to."""
+    period: Any = result.stats.get("repeat_period_s") if result.stats.get("repeat_found") else None
+    return None if period is None else float(period)
 
 
 def _name(channel: str, names: dict[str, str], sign: float) -> str:
