@@ -33,7 +33,7 @@ if TYPE_CHECKING:
     import xarray
     from typing_extensions import Unpack
 
-MOST_PACKS = 1000  # so that a folder holds no more files, as a rule
+MOST_PACKS = 250  # as a rule: a file costs far more than what one member puts into it
 LARGEST_PACK = 64
 
 
@@ -118,8 +118,8 @@ def ensemble(
     on_error : str
         "record": a member that fails is recorded, the others go on. "raise": the first failure ends it.
     pack : int, optional
-        Members that are run, kept and lost together; default: so many that there are at most a thousand
-        packs, no more than 64.
+        Members that are run, kept and lost together; default: so many that there are at most 250 packs,
+        but no more than 64.
     progress : bool
         Show a progress bar with the time left.
     **shorthand
