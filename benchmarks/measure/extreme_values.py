@@ -98,16 +98,9 @@ def against_judges(runs: Array) -> Iterator[tuple[str, ...]]:
         eva = EVA(series)
         eva.get_extremes("POT", threshold=threshold, r="40s")
         eva.fit_model("MLE", distribution=distribution)
-<<<<<<< Updated upstream
         clusters, name = mine.tail.peaks.size, f"clusters above {threshold:.3f}, {tail}"
         yield _row(name, clusters, "pyextremes", len(eva.extremes))
         level = float(eva.get_return_value(THREE_HOURS / YEAR, alpha=None)[0])
-=======
-        yield _row(
-            f"clusters above {threshold:.3f}, {tail}", mine.tail.peaks.size, "pyextremes", len(eva.extremes)
-        )
-        level = float(eva.get_return_value(THREE_HOURS / 31_556_952.0 * 1.0, alpha=None)[0])
->>>>>>> Stashed changes
         once = np.interp(0.0, *_once(mine.tail.crossings, threshold))
         yield _row(f"level exceeded once in 3 h, {tail}", float(once), "pyextremes", level)
 
