@@ -81,7 +81,8 @@ def workers(*, repeats: int, members: int = 16, t_end: float = 1000.0) -> Sectio
         text=(
             f"Wall time in s of {members} seeds of case 2, {t_end:g} s each, default method at rtol 1e-2, "
             f"payload every second. Best of {repeats}. Load of the machine, with this: "
-            f"{os.getloadavg()[0]:.1f} on {os.cpu_count()} cores; ratios tell of workers only where nothing else ran."
+            f"{os.getloadavg()[0]:.1f} on {os.cpu_count()} cores; ratios tell of workers only where nothing "
+            "else ran."
         ),
         head=["executor", "wall, s"],
         rows=rows,

@@ -66,6 +66,7 @@ class Job:
         run = Run(study.scene(values), study.t_end, method=study.method, outputs=study.outputs)
         with Interrupts() as interrupts:
             drive(run, Calls((), run.start.time), interrupts)
+        interrupts.take()  # pressed as the run ended: the members after it are not to be run
         if run.interrupted:
             raise KeyboardInterrupt
         result = run.result()
