@@ -20,8 +20,8 @@ MODULES = {
     "runpy",
     "code",
 }
-# A .py script named on the command line is run, as the command says; YAML is read by a safe loader; an ensemble
-# hands its study to workers as bytes, which are in no file.
+# A .py script named on the command line is run, as the command says; YAML is read by a safe loader; an
+# ensemble hands its study to workers as bytes, which are in no file.
 ALLOWED = {
     "ensembles/job.py": {"pickle"},
     "cli/scene_source.py": {"run_path", "runpy"},
