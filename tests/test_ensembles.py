@@ -237,8 +237,8 @@ from concurrent.futures import ThreadPoolExecutor
 from ensemble_studies import KEEP, pendulum
 from seacrane import ensemble
 with ThreadPoolExecutor(2) as pool:
-    ensemble(pendulum, over={"start": [1.0 + 0.01 * k for k in range(400)]}, keep=KEEP, t_end=200.0, rtol=1e-9,
-             executor=pool if sys.argv[2] == "threads" else None, store=sys.argv[1])
+    ensemble(pendulum, over={"start": [1.0 + 0.01 * k for k in range(400)]}, keep=KEEP,
+             t_end=200.0, rtol=1e-9, executor=pool if sys.argv[2] == "threads" else None, store=sys.argv[1])
 """
 
 
