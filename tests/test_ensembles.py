@@ -95,7 +95,9 @@ def test_results_are_the_same_to_the_bit(
 
 
 def test_dask_gives_the_same(afloat: Scene, database: HydroDatabase) -> None:
-    distributed = pytest.importorskip("distributed", reason="dask.distributed is not installed")
+    distributed = pytest.importorskip(
+        "distributed", reason="needs the extra ensemble: pip install 'seacrane[ensemble]'"
+    )
     given: dict[str, Any] = {"over": {"seed": [1, 2, 3]}, "database": database, "t_end": 2.0, "rtol": 1e-3}
     keep = {"heave": Kept(channel="position", at={"body": "vessel", "axis": "z"})}
     with (
