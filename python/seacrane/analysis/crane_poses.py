@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from seacrane import _core
 from seacrane.analysis.inverse import driven
+from seacrane.description.crane_parts import luffing_ropes
 from seacrane.description.drives import add_driver
 from seacrane.description.joint_coordinates import ANGLES
 from seacrane.description.roles import CraneRoles
@@ -36,9 +37,9 @@ def crane_of(scene: Description, prefix: str | None) -> CraneRoles:
 
 
 def places_of(roles: CraneRoles) -> dict[str, Place]:
-    """Joint and coordinate of the slew drive, as "slew", and of every cylinder by its label."""
+    """Joint and coordinate of the slew drive, as "slew", and of every luff and cylinder by its label."""
     found = {} if roles.slew is None else {"slew": roles.slew}
-    return found | {label: (joint, "displacement") for label, joint in roles.cylinders.items()}
+    return found | dict(roles.luffs) | {label: (joint, "displacement") for label, joint in roles.cylinders.items()}
 
 
 def drive_name(place: Place) -> str:
@@ -58,6 +59,8 @@ def posed(scene: Some, places: Mapping[str, Place], path: Mapping[str, _core.Cur
         Some of them from their described value 0 on; the others are held.
     """
     out = driven(scene).copy(waves=None)
+    for rope in luffing_ropes(scene).values():  # its hinge is led; what it carries is told from the moment
+        out.loads.pop(rope.name, None)
     still = _core.Curve.constant(value=0.0)
     for name, driver in list(out.drivers.items()):
         if (driver.joint, driver.coordinate) in places.values():

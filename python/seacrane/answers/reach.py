@@ -1,4 +1,4 @@
-"""How far out a crane's tip is, and the stroke of one cylinder that brings it to a radius."""
+"""How far out a crane's tip is, and the stroke or the luff that brings it to a radius."""
 
 from __future__ import annotations
 
@@ -22,21 +22,23 @@ CLOSE = 1e-10  # s of the path
 
 
 def luffing(scene: Description, roles: CraneRoles, luff: str | None) -> str:
-    """Label of the cylinder that changes the radius; SceneError where there is none."""
-    cylinders = ", ".join(map(repr, roles.cylinders)) or "none"
-    label = next(iter(roles.cylinders), None) if luff is None else luff
-    if label is None or label not in roles.cylinders:
-        raise SceneError(f"luff is {luff!r}; name the cylinder that sets the radius; there are {cylinders}")
-    if not any(limit.joint == roles.cylinders[label] for limit in scene.ranges.values()):
+    """Label of the coordinate that changes the radius; SceneError where there is none."""
+    known = {label: place for label, place in places_of(roles).items() if label != "slew"}
+    label = next(iter(known), None) if luff is None else luff
+    if label is None or label not in known:
+        which = ", ".join(map(repr, known)) or "none"
+        raise SceneError(f"luff is {luff!r}; name the cylinder or hinge that sets the radius; there are {which}")
+    joint, coordinate = known[label]
+    if not any((one.joint, one.coordinate) == (joint, coordinate) for one in scene.ranges.values()):
         raise SceneError(
-            f"cylinder {label!r}: its stroke has no range, within which a radius is looked for; give one by "
-            f"add_range(joint={roles.cylinders[label]!r}, minimum=..., maximum=...)"
+            f"coordinate {label!r}: it has no range, within which a radius is looked for; give one by "
+            f"add_range(joint={joint!r}, minimum=..., maximum=...)"
         )
     return label
 
 
 class Reach:
-    """Radius of the tip over the stroke of one cylinder, the other coordinates at values of their own."""
+    """Radius of the tip over one stroke or luff, the other coordinates at values of their own."""
 
     def __init__(
         self, scene: Description, roles: CraneRoles, label: str, others: Mapping[str, float]
@@ -65,7 +67,7 @@ class Reach:
         crossed = np.flatnonzero((over[:-1] <= 0.0) != (over[1:] <= 0.0))
         if not crossed.size:
             raise SceneError(
-                f"radius {radius:g} m: cylinder {self._label!r} brings the tip from {min(self.radii):.4g} to "
+                f"radius {radius:g} m: {self._label!r} brings the tip from {min(self.radii):.4g} to "
                 f"{max(self.radii):.4g} m with the other coordinates as they are; give one between, or "
                 "another pose of these (coordinates=)"
             )

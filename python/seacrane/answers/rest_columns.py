@@ -14,10 +14,11 @@ from seacrane.analysis.crane_poses import drive_name
 from seacrane.analysis.rest_state import held
 from seacrane.answers.afloat import attitude, displaced_weight, heeling_stiffness
 from seacrane.description.compilation import compile_scene
-from seacrane.description.crane_parts import cylinders, hooks, piston_areas, slews
+from seacrane.description.crane_parts import cylinders, hooks, luffing_ropes, luffs, piston_areas, slews
 from seacrane.description.crane_reach import placed, tip_radius
 from seacrane.description.cylinder_areas import pressure
 from seacrane.description.loads import lines_of
+from seacrane.description.luffing_rope import LuffingRope, lengthening
 from seacrane.description.roles import CraneRoles
 from seacrane.description.scene import Description
 from seacrane.run.hook_loads import hook_loads
@@ -60,14 +61,24 @@ class AtRest:
         links = [name for name, joint in self.scene.joints.items() if joint.kind == "distance"]
         return float(self.channels["tension"][links.index(link)])
 
+    def rope_tension(self, place: tuple[str, str], rope: LuffingRope) -> float:
+        """Of each fall of a rope that carries the moment of a hinge, N; below zero where it would be slack."""
+        joint = self.scene.joints[place[0]]
+        hinge, turn = self._placed(joint.first, joint.first_frame.point)
+        first, second = (self._placed(*block)[0] for block in (rope.first, rope.second))
+        rate = lengthening(hinge, turn @ np.asarray(joint.first_frame.axes)[:, 2], first, second)
+        return -self.drive(*place) / (rope.falls * rate)
+
+    def _placed(self, body: str, point: Any) -> tuple[Array, Array]:
+        return placed(self.scene, body, point, self.channels["position"], self.channels["quaternion"])
+
     def radius(self, roles: CraneRoles) -> float:
         """Of a crane's tip, m."""
         return float(tip_radius(self.scene, roles, self.channels["position"], self.channels["quaternion"]))
 
     def height(self, body: str, point: Any) -> float:
         """Of a point of a body (its coordinates, m) above z = 0, m."""
-        at, _ = placed(self.scene, body, point, self.channels["position"], self.channels["quaternion"])
-        return float(at[2])
+        return float(self._placed(body, point)[0][2])
 
 
 def columns_of(at_rest: AtRest) -> dict[str, tuple[str, float]]:
@@ -106,6 +117,10 @@ def _cranes(at_rest: AtRest) -> dict[str, tuple[str, float]]:
         found[f"cylinder force {label}"] = ("kN", force / 1e3)
         if label in areas:
             found[f"cylinder pressure {label}"] = ("bar", float(pressure(force, areas[label])) / 1e5)
+    for label, place in luffs(scene).items():
+        found[f"luff moment {label}"] = ("kN m", at_rest.drive(*place) / 1e3)
+    for label, rope in luffing_ropes(scene).items():
+        found[f"rope tension {label}"] = ("kN", at_rest.rope_tension(luffs(scene)[label], rope) / 1e3)
     several = len(slews(scene)) > 1
     for label, place in slews(scene).items():
         found[f"slew torque {label}" if several else "slew torque"] = ("kN m", at_rest.drive(*place) / 1e3)

@@ -39,19 +39,23 @@ class Statics:
     scene : str
         Its name.
     poses : mapping of str to ndarray or float
-        Values along each axis of the grid: "slew" (rad), "radius" (m), strokes by the cylinder's label (m);
+        Values along each axis of the grid: "slew" (rad), "radius" (m), strokes (m) and luffs
+        (rad) by their labels;
         a number that was given as one makes no axis. Empty for the pose described.
     columns : mapping of str to ndarray or float
         Values over the grid, numbers where it has no axis, in the unit that `units` tells;
         ``statics["GM"]`` is one of them.
     units : mapping of str to str
         Of each column: deg, m, kN, kN m, t.
+    pose_units : mapping of str to str
+        Of each axis of the grid: rad or m.
     """
 
     scene: str
     poses: Mapping[str, Any]
     columns: Mapping[str, Any]
     units: Mapping[str, str]
+    pose_units: Mapping[str, str]
 
     def __getitem__(self, name: str) -> Any:
         """A column over the grid; KeyError names those that are there."""
@@ -85,7 +89,7 @@ class Statics:
                 for name, values in self.columns.items()
             },
             {
-                name: ((name,) if np.ndim(values) else (), values.copy(), {"units": _unit(name)})
+                name: ((name,) if np.ndim(values) else (), values.copy(), {"units": self.pose_units[name]})
                 for name, values in self.poses.items()
             },
             {"scene": self.scene},
@@ -96,10 +100,11 @@ class Statics:
         if not self.poses:
             rows = [[name, _shown(float(v)), self.units[name]] for name, v in self.columns.items()]
             return ["", "value", "unit"], rows
-        axes = [f"{name} [{'deg' if name == 'slew' else 'm'}]" for name in self.poses]
+        turned = {name for name, unit in self.pose_units.items() if unit == "rad"}
+        axes = [f"{name} [{'deg' if name in turned else 'm'}]" for name in self.poses]
         head = [*axes, *(f"{name} [{self.units[name]}]" for name in self.columns)]
         axes_values = [
-            np.atleast_1d(np.degrees(v) if name == "slew" else v) for name, v in self.poses.items()
+            np.atleast_1d(np.degrees(v) if name in turned else v) for name, v in self.poses.items()
         ]
         places = itertools.product(*axes_values)
         told = zip(*(np.ravel(values) for values in self.columns.values()), strict=True)
@@ -112,8 +117,9 @@ def _shown(value: float) -> str:
     return f"{0.0 if abs(value) < NOTHING else value:.4g}"
 
 
-def _unit(name: str) -> str:
-    return "rad" if name == "slew" else "m"
+def _unit(roles: CraneRoles | None, name: str) -> str:
+    place = None if roles is None else places_of(roles).get(name)
+    return "rad" if place is not None and place[1] in ANGLES else "m"
 
 
 def statics(
@@ -173,6 +179,7 @@ def statics(
         poses=axes,
         columns={name: _over(shape, [row[name][1] for row in rows]) for name in rows[0]},
         units={name: unit for name, (unit, _) in rows[0].items()},
+        pose_units={name: _unit(roles, name) for name in axes},
     )
 
 

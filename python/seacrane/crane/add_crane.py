@@ -1,13 +1,18 @@
-"""A knuckle-boom crane in a scene, with its roles."""
+"""A crane in a scene, with its roles."""
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
+from seacrane import _core
 from seacrane.crane.builder import FOOT, KnuckleBoomCrane, Vector
+from seacrane.crane.jointed import JointedCrane
+from seacrane.crane.jointed_data import MeshData, RopeData
+from seacrane.crane.parts import CraneParts
 from seacrane.crane.payload import Payload
 from seacrane.crane.records import BodyRecord, JointRecord
 from seacrane.description.bodies import add_body
@@ -15,6 +20,8 @@ from seacrane.description.crane_parts import add_roles
 from seacrane.description.damping import add_air_drag, add_pendulum_damping
 from seacrane.description.drives import add_driver
 from seacrane.description.joints import add_joint
+from seacrane.description.luffing_rope import LuffingRope
+from seacrane.description.meshes import add_mesh
 from seacrane.description.recorded import add_range
 from seacrane.description.roles import CraneRoles
 from seacrane.description.scene import Description
@@ -24,45 +31,47 @@ from seacrane.inputs.frames import quaternion_product, rotation_matrix
 from seacrane.inputs.shown import shown
 
 Array = npt.NDArray[np.float64]
-SLEW = "A"
-CYLINDERS = {"main": "main_cylinder", "knuckle": "knuckle_cylinder"}
-TIP_BODY = "knuckle_jib"
 PAYLOAD = "payload"
+FAR = 20.0  # times the crane's extent: no mesh in m
 POINTS = ("point", "second_point")
 AXES = ("axis", "second_axis")
 
 
 def add_crane(
     scene: Description,
-    crane: KnuckleBoomCrane | None = None,
+    crane: KnuckleBoomCrane | JointedCrane | None = None,
     *,
     base: str = "vessel",
     foot: Vector = FOOT,
     theta: float = 0.0,
     s1: float = 0.0,
     s2: float = 0.0,
+    coordinates: Mapping[str, float] | None = None,
     payload: Payload | None = None,
     damping: bool = True,
     held: bool = False,
     prefix: str = "",
 ) -> CraneRoles:
-    """Add a crane, and a payload hanging at rest; its strokes keep the data file's range.
+    """Add a crane, and a payload hanging at rest; its coordinates keep the data file's ranges.
 
     Parameters
     ----------
-    crane : KnuckleBoomCrane, optional
-        Default: the 250 t crane that comes with seacrane.
+    crane : KnuckleBoomCrane or JointedCrane, optional
+        As `load_crane` reads it. Default: the 250 t knuckle boom that comes with seacrane.
     base : str
         Body that carries the crane, wherever it is described ("ground" for a fixed base).
     foot : (float, float, float)
         Crane foot in the frame of the base, m.
     theta, s1, s2 : float
-        Slew angle, rad; strokes of the main and the knuckle cylinder, m.
+        Of a knuckle boom: slew angle, rad; strokes of the main and the knuckle cylinder, m.
+    coordinates : mapping of str to float, optional
+        Of another crane: angles (rad) and strokes (m) from the pose in which it is drawn, by label, such as
+        ``{"slew": 0.5, "boom": 1.0}``; those that are not given stay there, or follow their loop.
     payload : Payload or None
     damping : bool
         Whether the payload has its small damping: of its swing, and drag in the air. False: neither.
     held : bool
-        Whether drivers hold slew angle and strokes where they are described. False: drives are to be added.
+        Whether drivers hold slew, luffs and strokes where they are described. False: drives are to be added.
     prefix : str
         Begins the names of all bodies and joints of this crane and the labels of its channels, such as
         "aft "; a scene's cranes need different ones.
@@ -84,44 +93,83 @@ def add_crane(
     """
     if crane is None:
         crane = KnuckleBoomCrane.load()
-    if not isinstance(crane, KnuckleBoomCrane):
-        raise SceneError(f"crane is {shown(crane)}; give a KnuckleBoomCrane, or leave it out")
     prefix = text_of("crane: prefix", prefix) if prefix else ""
     if prefix in scene.roles:
         raise SceneError(f"crane: there is one with prefix {prefix!r}; give this one another, such as 'aft '")
-    place: dict[str, Any] = {"foot": foot, "theta": theta, "s1": s1, "s2": s2}
-    records = crane.bodies(**place)
+    parts = _parts(crane, foot, {"theta": theta, "s1": s1, "s2": s2}, coordinates)
     damped, is_held = flag_of("crane: damping", damping), flag_of("crane: held", held)
+    bodies, joints = list(parts.bodies), list(parts.joints)
     if payload is not None:
-        records.append(crane.payload_body(payload, **place))
-    names = {"": base} | {body.name: prefix + body.name for body in records}
+        bodies.append(payload.under(parts.tip[1]))
+        joints.append(payload.link(parts.tip[1], parts.tip[0]))
+    names = {"": base} | {body.name: prefix + body.name for body in bodies}
     frame = _Frame(scene, base)
-    for body in records:
+    for body in bodies:
         frame.add_body(body, names[body.name])
-    for one in crane.joints(**place, base="", payload=payload):
+    for one in joints:
         frame.add_joint(one, prefix + one.name, names[one.first], names[one.second])
-    for name, stroke in zip(CYLINDERS.values(), (s1, s2), strict=True):
-        longest = getattr(crane.data, name).stroke
-        add_range(scene, joint=prefix + name, minimum=-stroke, maximum=longest - stroke)
-    tip = frame.in_body(prefix + TIP_BODY, _tip(crane, place))
+    for joint, (low, high) in parts.ranges.items():
+        add_range(scene, joint=prefix + joint, minimum=low, maximum=high)
+    for body_name, meshes in parts.meshes.items():
+        for mesh in meshes:
+            _draw(scene, mesh, names[body_name], prefix, parts)
+    tip = frame.in_body(prefix + parts.tip[0], parts.tip[1])
     if payload is not None and damped:
         _damp(scene, payload, tip, names[PAYLOAD])
-    for joint in (SLEW, *CYLINDERS.values()) if is_held else ():
+    for joint in parts.drives if is_held else ():
         add_driver(scene, joint=prefix + joint, curve=0.0)
     return add_roles(
         scene,
         prefix=prefix,
-        slew=prefix + SLEW,
-        cylinders={label: prefix + name for label, name in CYLINDERS.items()},
+        slew=None if parts.slew is None else prefix + parts.slew,
+        cylinders={label: prefix + name for label, name in parts.cylinders.items()},
         link=None if payload is None else f"{prefix}link",
         tip=None if payload is not None else tip,
-        capacity=crane.data.capacity,
-        areas={
-            label: areas
-            for label, name in CYLINDERS.items()
-            if (areas := getattr(crane.data, name).areas) is not None
-        },
+        capacity=parts.capacity,
+        areas=parts.areas,
+        luffs={label: prefix + name for label, name in parts.luffs.items()},
+        ropes={rope.luff: frame.rope(rope, prefix, names) for rope in parts.ropes},
     )
+
+
+def _parts(
+    crane: Any, foot: Vector, place: dict[str, float], coordinates: Mapping[str, float] | None
+) -> CraneParts:
+    """Of either kind of crane, each by its own coordinates."""
+    if isinstance(crane, KnuckleBoomCrane):
+        if coordinates is not None:
+            raise SceneError("crane: coordinates are those of other cranes; give a knuckle boom theta, s1, s2")
+        return crane.parts(foot=foot, **place)
+    if not isinstance(crane, JointedCrane):
+        raise SceneError(
+            f"crane is {shown(crane)}; give what load_crane or KnuckleBoomCrane.load returns, or leave it out"
+        )
+    given = ", ".join(name for name, value in place.items() if value != 0.0)
+    if given:
+        raise SceneError(
+            f"crane: {given} are those of a knuckle boom; give coordinates={{...}} with the labels "
+            f"{', '.join(map(repr, crane.data.coordinates))}"
+        )
+    if not isinstance(coordinates, Mapping | None):
+        raise SceneError(f"crane: coordinates are {shown(coordinates)}; give {{label: rad or m}}")
+    return crane.parts(foot=foot, coordinates=coordinates)
+
+
+def _draw(scene: Description, mesh: MeshData, body: str, prefix: str, parts: CraneParts) -> None:
+    """SceneError for a mesh that is far larger than its crane."""
+    frame = _core.Frame(point=mesh.origin, axes=mesh.axes)
+    shape: dict[str, Any] = {"file": mesh.file, "scale": mesh.scale}
+    if mesh.file is None:
+        shape = {"vertices": mesh.vertices, "faces": mesh.faces}
+    added = add_mesh(scene, body=body, name=prefix + mesh.name, frame=frame, **shape)
+    size = float(np.ptp(added.vertices, axis=0).max())
+    points = np.array([*(joint.point for joint in parts.joints), parts.tip[1]])
+    extent = float(np.ptp(points, axis=0).max())
+    if size > FAR * extent > 0.0:
+        raise SceneError(
+            f"mesh {added.name!r}: spans {size:.4g} m, and the joints of its crane {extent:.4g} m; it is most "
+            "likely in mm: give it scale 0.001"
+        )
 
 
 def _damp(scene: Description, payload: Payload, tip: tuple[str, Vector], body: str) -> None:
@@ -143,12 +191,6 @@ def _damp(scene: Description, payload: Payload, tip: tuple[str, Vector], body: s
             lateral_area=length * height,
             drag_coefficient=payload.drag_coefficient,
         )
-
-
-def _tip(crane: KnuckleBoomCrane, place: dict[str, Any]) -> Array:
-    """In the frame of the base, m."""
-    foot, pose = place["foot"], {key: place[key] for key in ("theta", "s1", "s2")}
-    return np.asarray(foot, dtype=float) + crane.geometry.tip(**pose)
 
 
 class _Frame:
@@ -185,4 +227,17 @@ class _Frame:
         body = self.scene.bodies[name]
         at = self.origin + self.to_inertial @ point
         x, y, z = (rotation_matrix(body.quaternion).T @ (at - body.position)).tolist()
+        return name, (x, y, z)
+
+    def rope(self, rope: RopeData, prefix: str, names: Mapping[str, str]) -> LuffingRope:
+        """With its blocks in the coordinates of the scene's bodies."""
+        ends = [self._block(names.get(body, names[""]), at) for body, at in (rope.first, rope.second)]
+        return LuffingRope(
+            name=prefix + rope.name, falls=rope.falls, stiffness=rope.stiffness, first=ends[0], second=ends[1]
+        )
+
+    def _block(self, name: str, at: Array) -> tuple[str, Vector]:
+        if name in self.scene.bodies:
+            return self.in_body(name, at)
+        x, y, z = at.tolist()
         return name, (x, y, z)

@@ -15,6 +15,7 @@ import numpy.typing as npt
 from seacrane.crane import data_file, statics
 from seacrane.crane.geometry import BODIES, CraneGeometry, plane_axes
 from seacrane.crane.mass_properties import MassProperties, combine
+from seacrane.crane.parts import CraneParts
 from seacrane.crane.payload import Payload
 from seacrane.crane.records import BodyRecord, JointRecord
 from seacrane.errors import SceneError
@@ -23,6 +24,9 @@ from seacrane.inputs.plausible import angle_of
 
 Array = npt.NDArray[np.float64]
 Vector = tuple[float, float, float]
+SLEW = "A"
+CYLINDERS = {"main": "main_cylinder", "knuckle": "knuckle_cylinder"}
+TIP_BODY = "knuckle_jib"
 
 FOOT: Vector = (33.0, 10.0, 10.0)
 """Crane foot V seen from {0} in the paper's vessel: 33 m forward, 10 m to port, 10 m above."""
@@ -139,6 +143,27 @@ class KnuckleBoomCrane:
             )
         return records
 
+    def parts(
+        self, *, foot: Vector = FOOT, theta: float = 0.0, s1: float = 0.0, s2: float = 0.0
+    ) -> CraneParts:
+        """All that it brings into a scene at a pose; arguments and errors as of `bodies`."""
+        place: dict[str, Any] = {"foot": foot, "theta": theta, "s1": s1, "s2": s2}
+        cylinders = {name: getattr(self.data, name) for name in CYLINDERS.values()}
+        areas = {label: cylinders[name].areas for label, name in CYLINDERS.items()}
+        return CraneParts(
+            bodies=self.bodies(**place),
+            joints=self.joints(**place, base=""),
+            tip=(TIP_BODY, _vector("foot", foot) + self.geometry.tip(theta=theta, s1=s1, s2=s2)),
+            slew=SLEW,
+            cylinders=CYLINDERS,
+            ranges={
+                name: (-stroke, cylinders[name].stroke - stroke)
+                for name, stroke in zip(CYLINDERS.values(), (s1, s2), strict=True)
+            },
+            capacity=self.data.capacity,
+            areas={label: pair for label, pair in areas.items() if pair is not None},
+        )
+
     def payload_body(
         self,
         payload: Payload,
@@ -149,16 +174,7 @@ class KnuckleBoomCrane:
         s2: float = 0.0,
     ) -> BodyRecord:
         """The payload hanging at rest under the tip, its frame at its centre, parallel to the vessel's."""
-        tip = _vector("foot", foot) + self.geometry.tip(theta=theta, s1=s1, s2=s2)
-        drop = payload.link_length + payload.size[2] / 2.0
-        return BodyRecord(
-            name="payload",
-            mass=payload.mass,
-            inertia=payload.inertia,
-            center_of_mass=np.zeros(3),
-            position=tip - np.array([0.0, 0.0, drop]),
-            quaternion=np.array([1.0, 0.0, 0.0, 0.0]),
-        )
+        return payload.under(_vector("foot", foot) + self.geometry.tip(theta=theta, s1=s1, s2=s2))
 
     def joints(
         self,
@@ -210,18 +226,5 @@ class KnuckleBoomCrane:
                   axis=knuckle_along),
         ]  # fmt: skip
         if payload is not None:
-            records.append(_link(p["tip"], payload))
+            records.append(payload.link(p["tip"], TIP_BODY))
         return records
-
-
-def _link(tip: Array, payload: Payload) -> JointRecord:
-    top = tip - np.array([0.0, 0.0, payload.link_length])
-    return JointRecord(
-        name="link",
-        kind="distance",
-        first="knuckle_jib",
-        second="payload",
-        point=tip.copy(),
-        second_point=top,
-        length=payload.link_length,
-    )

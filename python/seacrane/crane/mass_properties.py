@@ -10,7 +10,9 @@ import numpy as np
 import numpy.typing as npt
 
 Array = npt.NDArray[np.float64]
-Point = tuple[float, float]
+UPRIGHT = 1e-9  # level part of a unit vector, below which it is upright
+Point = tuple[float, ...]
+"""(along, above) in the crane plane of a body, or (x, y, z); m."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -22,8 +24,8 @@ class Tube:
     name : str
     mass : float
         kg.
-    start, end : (float, float)
-        Ends of the centre line, m, (along, above) in the body's plane frame.
+    start, end : (float, float) or (float, float, float)
+        Ends of the centre line, m, (along, above) in the body's plane frame, or (x, y, z) in its own.
     outer_diameter, inner_diameter : float
         m; inner 0 means a solid cylinder.
     """
@@ -52,10 +54,11 @@ class Box:
     name : str
     mass : float
         kg.
-    start, end : (float, float)
-        Ends of the centre line, m, (along, above) in the body's plane frame.
+    start, end : (float, float) or (float, float, float)
+        Ends of the centre line, m, (along, above) in the body's plane frame, or (x, y, z) in its own.
     width, depth : float
-        Section across the crane plane and in it, m.
+        Section across the crane plane and in it, m; in space, across the vertical plane of the member and
+        in it, of an upright one along y and along x.
     wall : float
         Wall thickness, m; 0 means solid.
     """
@@ -126,16 +129,40 @@ def combine(members: Sequence[Member], plane: Array) -> MassProperties:
     """
     along, above = plane[:, 0], plane[:, 1]
     across = np.array([0.0, 1.0, 0.0])
-    mass = math.fsum(member.mass for member in members)
     centres = [
         plane @ ((np.asarray(m.start, dtype=float) + np.asarray(m.end, dtype=float)) / 2.0) for m in members
     ]
-    center = np.sum([m.mass * c for m, c in zip(members, centres, strict=True)], axis=0) / mass
-    inertia = np.zeros((3, 3))
-    for member, centre in zip(members, centres, strict=True):
+    triads = []
+    for member in members:
         delta = (np.asarray(member.end) - np.asarray(member.start)) / _length(member)
         axis = delta[0] * along + delta[1] * above
-        normal = -delta[1] * along + delta[0] * above
+        triads.append((axis, across, -delta[1] * along + delta[0] * above))
+    return _sum(members, centres, triads)
+
+
+def combine_in_space(members: Sequence[Member]) -> MassProperties:
+    """Add up members whose ends have three coordinates, in body axes; see `combine`."""
+    centres = [(np.asarray(m.start, dtype=float) + np.asarray(m.end, dtype=float)) / 2.0 for m in members]
+    return _sum(members, centres, [member_axes(member) for member in members])
+
+
+def member_axes(member: Member) -> tuple[Array, Array, Array]:
+    """Unit vectors along a member in space, across its vertical plane, and in that normal to it."""
+    axis = (np.asarray(member.end, dtype=float) - np.asarray(member.start, dtype=float)) / _length(member)
+    across = np.array([-axis[1], axis[0], 0.0])
+    level = float(np.linalg.norm(across))
+    across = np.array([0.0, 1.0, 0.0]) if level < UPRIGHT else across / level
+    return axis, across, np.cross(axis, across)
+
+
+def _sum(
+    members: Sequence[Member], centres: Sequence[Array], triads: Sequence[tuple[Array, Array, Array]]
+) -> MassProperties:
+    """Of members by their centres and their principal axes, in body axes."""
+    mass = math.fsum(member.mass for member in members)
+    center = np.sum([m.mass * c for m, c in zip(members, centres, strict=True)], axis=0) / mass
+    inertia = np.zeros((3, 3))
+    for member, centre, (axis, across, normal) in zip(members, centres, triads, strict=True):
         axial, lateral, vertical = member.principal_moments()
         inertia += axial * np.outer(axis, axis) + lateral * np.outer(across, across)
         inertia += vertical * np.outer(normal, normal)

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
+from seacrane.crane.records import BodyRecord, JointRecord
 from seacrane.description.damping import BOX_DRAG, SWING_RATIO
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import number_of
@@ -64,3 +65,27 @@ class Payload:
         """About the centre of mass, body axes, shape (3, 3), kg m2."""
         x, y, z = (edge**2 for edge in self.size)
         return np.diag([y + z, z + x, x + y]) * (self.mass / 12.0)
+
+    def under(self, tip: Array) -> BodyRecord:
+        """Hanging at rest under a tip, its frame at its centre, along the frame of the tip's coordinates."""
+        drop = self.link_length + self.size[2] / 2.0
+        return BodyRecord(
+            name="payload",
+            mass=self.mass,
+            inertia=self.inertia,
+            center_of_mass=np.zeros(3),
+            position=tip - np.array([0.0, 0.0, drop]),
+            quaternion=np.array([1.0, 0.0, 0.0, 0.0]),
+        )
+
+    def link(self, tip: Array, body: str) -> JointRecord:
+        """From a tip and its body to the centroid of the top."""
+        return JointRecord(
+            name="link",
+            kind="distance",
+            first=body,
+            second="payload",
+            point=tip.copy(),
+            second_point=tip - np.array([0.0, 0.0, self.link_length]),
+            length=self.link_length,
+        )

@@ -13,10 +13,12 @@ import numpy as np
 
 from seacrane.description.capacity import capacity_of
 from seacrane.description.cylinder_areas import Areas, areas_by_label
+from seacrane.description.luffing_rope import LuffingRope
 from seacrane.description.roles import CraneRoles, Vector
-from seacrane.description.scene import Description, coordinate_of
+from seacrane.description.scene import GROUND, Description, coordinate_of
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import shaped_of, text_of
+from seacrane.inputs.shown import shown
 
 
 def add_roles(
@@ -30,6 +32,8 @@ def add_roles(
     tip: tuple[str, Vector] | None = None,
     capacity: Any = (),
     areas: Mapping[str, Any] | None = None,
+    luffs: Mapping[str, str | tuple[str, str]] | None = None,
+    ropes: Mapping[str, LuffingRope] | None = None,
 ) -> CraneRoles:
     """Tell which elements are the parts of a crane that was described by hand; `add_crane` does it by itself.
 
@@ -55,6 +59,10 @@ def add_roles(
         beyond the last.
     areas : mapping of str to (float, float), optional
         Full side and rod side of the piston, m2, by the cylinder's label: the channel cylinder_pressure.
+    luffs : mapping of str to str or (str, str), optional
+        Hinge that raises and lowers the jib, or hinge and coordinate, by its label.
+    ropes : mapping of str to LuffingRope, optional
+        That holds a hinge, by the hinge's label.
 
     Returns
     -------
@@ -80,9 +88,14 @@ def add_roles(
         _require(what, f"cylinder {label!r}", joint, scene.joints, "joint")
     if payload is not None:
         _require(what, "payload", payload, scene.bodies, "body")
+    hinges = {label: _drive(scene, f"{what}: luff {label!r}", one) for label, one in (luffs or {}).items()}
+    for label, rope in (ropes or {}).items():
+        _check_rope(scene, what, label, rope, hinges)
     roles = CraneRoles(
         prefix=prefix,
-        slew=None if slew is None else _drive(scene, what, slew),
+        luffs=hinges,
+        ropes=ropes or {},
+        slew=None if slew is None else _drive(scene, f"{what}: slew", slew),
         cylinders=cylinders or {},
         link=link,
         payload=payload,
@@ -99,9 +112,27 @@ def _require(what: str, part: str, name: str, table: Mapping[str, object], kind:
         raise SceneError(f"{what}: its {part} is {kind} {name!r}, which is not in the scene; add it first")
 
 
-def _drive(scene: Description, what: str, slew: str | tuple[str, str]) -> tuple[str, str]:
-    joint, coordinate = (slew, None) if isinstance(slew, str) else slew
-    return joint, coordinate_of(scene, f"{what}: slew", joint, coordinate)
+def _drive(scene: Description, what: str, drive: str | tuple[str, str]) -> tuple[str, str]:
+    joint, coordinate = (drive, None) if isinstance(drive, str) else drive
+    return joint, coordinate_of(scene, what, joint, coordinate)
+
+
+def _check_rope(
+    scene: Description, what: str, label: str, rope: Any, hinges: Mapping[str, tuple[str, str]]
+) -> None:
+    if not isinstance(rope, LuffingRope):
+        raise SceneError(f"{what}: rope {label!r} is {shown(rope)}; give a LuffingRope")
+    if label not in hinges:
+        known = ", ".join(map(repr, hinges)) or "none"
+        raise SceneError(f"{what}: a rope holds hinge {label!r}; the luffs are {known}")
+    for body, _ in (rope.first, rope.second):
+        if body != GROUND:
+            _require(what, f"rope {rope.name!r}: block", body, scene.bodies, "body")
+    if not (rope.falls >= 1 and np.isfinite(rope.stiffness) and rope.stiffness > 0.0):
+        raise SceneError(
+            f"{what}: rope {rope.name!r} has {rope.falls} falls of EA {rope.stiffness:g} N; give one fall or "
+            "more, and a stiffness above zero"
+        )
 
 
 def _tip(scene: Description, what: str, tip: tuple[str, Vector]) -> tuple[str, Vector]:
@@ -141,6 +172,25 @@ def slews(scene: Description) -> dict[str, tuple[str, str]]:
     """Joint and coordinate of every slew drive, by label."""
     found = {f"{roles.prefix}slew": roles.slew for roles in scene.roles.values() if roles.slew}
     return {label: slew for label, slew in found.items() if slew[0] in scene.joints}
+
+
+def luffs(scene: Description) -> dict[str, tuple[str, str]]:
+    """Joint and coordinate of every hinge that luffs, by label."""
+    return {
+        roles.prefix + label: place
+        for roles in scene.roles.values()
+        for label, place in roles.luffs.items()
+        if place[0] in scene.joints
+    }
+
+
+def luffing_ropes(scene: Description) -> dict[str, LuffingRope]:
+    """Ropes that hold hinges, by the label of the hinge."""
+    known = luffs(scene)
+    found = {
+        roles.prefix + label: rope for roles in scene.roles.values() for label, rope in roles.ropes.items()
+    }
+    return {label: rope for label, rope in found.items() if label in known}
 
 
 def hooks(scene: Description) -> dict[str, str]:

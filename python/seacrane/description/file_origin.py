@@ -6,8 +6,9 @@ from dataclasses import asdict
 from typing import Any
 
 from seacrane.description.crane_parts import add_roles
+from seacrane.description.luffing_rope import LuffingRope
 from seacrane.description.provenance import SEA_KINDS, SeaProvenance, VesselProvenance
-from seacrane.description.roles import CraneRoles
+from seacrane.description.roles import CraneRoles, Vector
 from seacrane.description.scene import Description
 from seacrane.errors import FileFormatError
 from seacrane.files.node import Node
@@ -25,6 +26,13 @@ def roles_to_data(roles: CraneRoles) -> dict[str, Any]:
     more: dict[str, Any] = {"capacity": [list(row) for row in roles.capacity]} if roles.capacity else {}
     if roles.areas:
         more["areas"] = [{"name": name, "areas": list(pair)} for name, pair in roles.areas.items()]
+    if roles.luffs:
+        more["luffs"] = [
+            {"name": name, "joint": joint, "coordinate": coordinate}
+            for name, (joint, coordinate) in roles.luffs.items()
+        ]
+    if roles.ropes:
+        more["ropes"] = [{"luff": label, **_rope_to_data(rope)} for label, rope in roles.ropes.items()]
     return {
         "prefix": roles.prefix,
         "slew": None if slew is None else {"joint": slew[0], "coordinate": slew[1]},
@@ -38,7 +46,7 @@ def roles_to_data(roles: CraneRoles) -> dict[str, Any]:
 def roles_from_node(node: Node, scene: Description) -> None:
     """Give a scene the roles that `roles_to_data` wrote; raises FileFormatError."""
     for entry in node.items():
-        entry.expect(_ROLES, optional=("capacity", "areas"))
+        entry.expect(_ROLES, optional=("capacity", "areas", "luffs", "ropes"))
         parts = {key: _optional(entry, key) for key in ("slew", "link", "payload", "tip")}
         found: dict[str, Any] = {"prefix": entry.at("prefix").text(), "cylinders": _cylinders(entry)}
         found |= {key: None if (part := parts[key]) is None else part.text() for key in ("link", "payload")}
@@ -51,6 +59,11 @@ def roles_from_node(node: Node, scene: Description) -> None:
             found["capacity"] = entry.at("capacity").array((-1, 2))
         if "areas" in entry.value:
             found["areas"] = _areas(entry)
+        if "luffs" in entry.value:
+            rows = [_texts(one, "name", "joint", "coordinate") for one in entry.at("luffs").items()]
+            found["luffs"] = {name: (joint, coordinate) for name, joint, coordinate in rows}
+        if "ropes" in entry.value:
+            found["ropes"] = dict(_rope_from_node(one) for one in entry.at("ropes").items())
         with entry.scene_errors():
             add_roles(scene, **found)
 
@@ -76,6 +89,28 @@ def _areas(node: Node) -> dict[str, Any]:
         one.expect(("name", "areas"))
         found[one.at("name").text()] = one.at("areas").array((2,))
     return found
+
+
+def _rope_to_data(rope: LuffingRope) -> dict[str, Any]:
+    ends = {key: {"body": body, "point": list(point)} for key, (body, point) in _ends(rope).items()}
+    return {"name": rope.name, "falls": rope.falls, "stiffness": rope.stiffness} | ends
+
+
+def _ends(rope: LuffingRope) -> dict[str, tuple[str, Vector]]:
+    return {"first": rope.first, "second": rope.second}
+
+
+def _rope_from_node(node: Node) -> tuple[str, LuffingRope]:
+    """The hinge's label, and the rope."""
+    node.expect(("luff", "name", "falls", "stiffness", "first", "second"))
+    ends = {}
+    for key in ("first", "second"):
+        node.at(key).expect(("body", "point"))
+        x, y, z = node.at(key).at("point").array((3,)).tolist()
+        ends[key] = (node.at(key).at("body").text(), (x, y, z))
+    falls, stiffness = (node.at(key).number() for key in ("falls", "stiffness"))
+    rope = LuffingRope(name=node.at("name").text(), falls=int(falls), stiffness=stiffness, **ends)
+    return node.at("luff").text(), rope
 
 
 def provenance_to_data(known: VesselProvenance) -> dict[str, Any]:

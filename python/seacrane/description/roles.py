@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 
 from seacrane.description.capacity import Capacity
 from seacrane.description.cylinder_areas import Areas
+from seacrane.description.luffing_rope import LuffingRope
 
 Vector = tuple[float, float, float]
 
@@ -23,6 +24,10 @@ class CraneRoles:
         Joint and coordinate of the slew drive.
     cylinders : mapping of str to str
         Sliding joint of every cylinder, by its label without the prefix.
+    luffs : mapping of str to (str, str)
+        Joint and coordinate of every hinge that raises and lowers the jib, by its label.
+    ropes : mapping of str to LuffingRope
+        That hold hinges, by the hinge's label.
     link : str or None
         Distance joint from the tip to the payload.
     payload : str or None
@@ -43,7 +48,11 @@ class CraneRoles:
     tip: tuple[str, Vector] | None = None
     capacity: Capacity = ()
     areas: Mapping[str, Areas] = field(default_factory=dict)
+    luffs: Mapping[str, tuple[str, str]] = field(default_factory=dict)
+    ropes: Mapping[str, LuffingRope] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "cylinders", dict(self.cylinders))
         object.__setattr__(self, "areas", dict(self.areas))
+        object.__setattr__(self, "luffs", dict(self.luffs))
+        object.__setattr__(self, "ropes", dict(self.ropes))

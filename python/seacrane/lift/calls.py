@@ -9,7 +9,7 @@ import numpy as np
 
 from seacrane import _core
 from seacrane.analysis.tanks import Tank
-from seacrane.crane import KnuckleBoomCrane, Payload
+from seacrane.crane import Crane, JointedCrane, Payload, load_crane
 from seacrane.description.scene import coordinate_of
 from seacrane.errors import SceneError
 from seacrane.hydro import HydroDatabase, load_database, shipped_database
@@ -159,7 +159,11 @@ class Caller:
         """Add a crane, with keywords that are not those of its table."""
         given = keywords(table.keys, values) | changes
         file = given.pop("crane", None)
-        scene.add_crane(None if file is None else KnuckleBoomCrane.load(file), **given)
+        crane = None if file is None else load_crane(file)
+        if "coordinates" in given:
+            _require_units(crane, values.get("coordinates", ()))
+            given["coordinates"] = {row["name"]: row["value"] for row in given["coordinates"]}
+        scene.add_crane(crane, **given)
 
     def _vessel(self, scene: Scene, given: Keywords, *, at_rest: bool) -> None:
         database = self._database(given.pop("database"), given.pop("speed", None))
@@ -251,3 +255,15 @@ def _system(given: Keywords) -> WaveSystem:
     if "spreading" in given:
         given["spreading"] = cos_2s(given["spreading"])
     return WaveSystem(spectrum=spectrum, **given)
+
+
+def _require_units(crane: Crane | None, rows: Iterable[Mapping[str, Any]]) -> None:
+    """Refuse metres of an angle, and degrees of a stroke."""
+    if not isinstance(crane, JointedCrane):
+        return  # the call says so
+    kinds = {joint.name: joint.kind for joint in crane.data.joints}
+    for row in rows:
+        kind = kinds.get(crane.data.coordinates.get(str(row["name"]), ""))
+        if kind is not None and ("value_m" in row) != (kind == "prismatic"):
+            right = "value_m" if kind == "prismatic" else "value_deg or value_rad"
+            raise SceneError(f"crane: coordinate {row['name']!r} is of a {kind} joint; give {right}")

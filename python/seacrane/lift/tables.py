@@ -226,8 +226,15 @@ PISTON = (
     Key(name="full", type="number", unit="m2", required=True, text="Area of the full side."),
     Key(name="rod_side", type="number", unit="m2", required=True, text="Area of the rod side."),
 )
+COORDINATE = (
+    Key(name="name", type="text", required=True, text="Its label, such as boom."),
+    Key(name="value", type="number", unit="m or rad", required=True, text="From the pose as drawn."),
+)
 PAYLOAD = keys_of(Payload, more={"mass": {"unit": "kg"}, "size": POINT, "link_length": LENGTH})
-POSE: dict[str, dict[str, Any]] = {"theta": {"unit": "rad"}, "s1": LENGTH, "s2": LENGTH}
+POSE: dict[str, dict[str, Any]] = {
+    "theta": {"unit": "rad"}, "s1": LENGTH, "s2": LENGTH,
+    "coordinates": {"type": "tables", "keys": COORDINATE},
+}  # fmt: skip
 CRANE = keys_of(
     add_crane,
     more=POSE | {"crane": {"type": "file"}, "foot": POINT, "payload": {"type": "table", "keys": PAYLOAD}},
@@ -366,12 +373,14 @@ _ALL = (
             crane_parts.add_roles,
             more={
                 "cylinders": {"type": "names"},
+                "luffs": {"type": "names"},
                 "tip": {"type": "table", "keys": (
                     Key(name="body", type="text", required=True), Key(name="point", required=True, **POINT)
                 )},
                 "capacity": {"type": "array", "unit": "m, kg", "shapes": ((-1, 2),)},
                 "areas": {"type": "tables", "keys": PISTON},
             },
+            without=("ropes",),
         ),
     ),
     Table(

@@ -33,6 +33,7 @@ from seacrane.scene import (
     heavy_line,
     limits,
     lines,
+    luffing,
     position,
     sea,
     table_text,
@@ -112,6 +113,7 @@ class Scene(Description):
 
     add_crane = add_crane
     add_roles = crane_parts.add_roles
+    add_luffing_rope = luffing.add_luffing_rope
     add_mesh = meshes.add_mesh
 
     place_of = places.place_of

@@ -14,7 +14,7 @@ PASSIVE = ("limit", "friction", "soft stop")  # loads that name a joint and do n
 
 
 class FreeCraneWarning(UserWarning):
-    """A crane's slew drive or cylinder has no driver and no actuator: its jibs fall."""
+    """A crane's slew drive, cylinder or luff has no driver and no actuator: its jibs fall."""
 
 
 def warn_of_free_cranes(scene: Description) -> None:
@@ -23,6 +23,12 @@ def warn_of_free_cranes(scene: Description) -> None:
         return
     for roles in scene.roles.values():
         parts = {label: joint for label, joint in roles.cylinders.items() if joint in scene.joints}
+        ropes = {label: rope.name for label, rope in roles.ropes.items()}
+        parts |= {
+            label: joint
+            for label, (joint, _) in roles.luffs.items()
+            if joint in scene.joints and ropes.get(label) not in scene.loads
+        }
         if roles.slew is not None and roles.slew[0] in scene.joints:
             parts = {"slew drive": roles.slew[0]} | parts
         free = [f"{label} (joint {joint!r})" for label, joint in parts.items() if not _held(scene, joint)]

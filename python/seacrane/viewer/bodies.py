@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from seacrane.crane import KnuckleBoomCrane
+from seacrane.crane import Crane
 from seacrane.description import crane_parts
 from seacrane.description.given import USUAL_SIZE, given_vessels, shown_size
 from seacrane.description.loads import lines_of, path_of
@@ -54,7 +54,7 @@ class Look:
 
 
 def looks(
-    scene: Description, *, hulls: Mapping[str, Hull] | None = None, crane: KnuckleBoomCrane | None = None
+    scene: Description, *, hulls: Mapping[str, Hull] | None = None, crane: Crane | None = None
 ) -> dict[str, Look]:
     """The look of every body, by name.
 

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from seacrane.crane import KnuckleBoomCrane
+from seacrane.crane import Crane
 from seacrane.description import crane_parts
 from seacrane.description.compilation import compile_scene
 from seacrane.description.joint_coordinates import start_pose
@@ -123,7 +123,7 @@ def drawing_of(
     *,
     scene: Any = None,
     hulls: Mapping[str, Hull] | None = None,
-    crane: KnuckleBoomCrane | None = None,
+    crane: Crane | None = None,
 ) -> Drawing:
     """The drawing of a result or a scene; arguments and errors as of `view`."""
     described = _scene_of(what, scene)

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from seacrane.crane import KnuckleBoomCrane
+from seacrane.crane import Crane
 from seacrane.errors import SceneError
 from seacrane.files.atomic import atomic_write
 from seacrane.hydro import Hull
@@ -40,7 +40,7 @@ def still(
     size: Sequence[int] = (1200, 700),
     scene: Scene | None = None,
     hulls: Mapping[str, Hull] | None = None,
-    crane: KnuckleBoomCrane | None = None,
+    crane: Crane | None = None,
     overwrite: bool = False,
 ) -> Path:
     """Write a picture of a result at a time, or of a scene at its start, without a browser.
@@ -101,7 +101,7 @@ def video(
     size: Sequence[int] = (960, 540),
     scene: Scene | None = None,
     hulls: Mapping[str, Hull] | None = None,
-    crane: KnuckleBoomCrane | None = None,
+    crane: Crane | None = None,
     overwrite: bool = False,
 ) -> Path:
     """Write a result as a moving picture, without a browser.

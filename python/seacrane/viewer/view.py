@@ -9,7 +9,7 @@ from html import escape
 from pathlib import Path
 from typing import Any
 
-from seacrane.crane import KnuckleBoomCrane
+from seacrane.crane import Crane
 from seacrane.errors import SceneError
 from seacrane.files.atomic import atomic_write
 from seacrane.hydro import Hull
@@ -144,7 +144,7 @@ def view(
     scene: Scene | None = None,
     channels: Sequence[Choice] | None = None,
     hulls: Mapping[str, Hull] | None = None,
-    crane: KnuckleBoomCrane | None = None,
+    crane: Crane | None = None,
     height: int = 640,
 ) -> View:
     """Show a result, or a scene at its start, as an interactive page in three dimensions.
@@ -165,8 +165,8 @@ def view(
     hulls : mapping of str to Hull, optional
         Hulls by the vessel's body. Default: the shipped hull for the shipped database; for other vessels a
         schematic one from mass and inertia, which the caption says.
-    crane : KnuckleBoomCrane, optional
-        Whose members are drawn for bodies with the same mass and inertia; default: the crane that comes with
+    crane : KnuckleBoomCrane or JointedCrane, optional
+        Whose members are drawn for bodies with the same mass and inertia; default: the cranes that come with
         seacrane. Other bodies are drawn as bars between their joints, payloads as boxes.
     height : int
         Of the frame in a notebook, pixels.

@@ -1,0 +1,236 @@
+"""Reads a crane of bodies and joints, or the table beside a URDF file (TOML; see docs/crane.md)."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from seacrane.crane.file_table import FileTable, read_text, root_of
+from seacrane.crane.jointed_check import check
+from seacrane.crane.jointed_data import BodyData, JointData, JointedData, RopeData
+from seacrane.crane.mass_properties import MassProperties, combine_in_space
+from seacrane.crane.link_frames import Frames
+from seacrane.crane.urdf import read_urdf
+from seacrane.description.cylinder_areas import Areas
+from seacrane.errors import FileFormatError
+from seacrane.inputs.shown import shown
+
+Array = NDArray[np.float64]
+JOINTED, URDF = "jointed", "urdf"
+TOTAL = 1e-9  # of the mass, by which the members may miss it
+
+
+def load(path: Path) -> JointedData:
+    """Read a crane's data file of kind "jointed" or "urdf".
+
+    Raises
+    ------
+    FileFormatError
+        The file cannot be read, is malformed, or describes a crane that cannot work.
+    """
+    return parse(read_text(path), source=str(path), folder=path.parent)
+
+
+def parse(text: str, *, source: str = "crane data", folder: Path | None = None) -> JointedData:
+    """Read crane data from TOML text.
+
+    Parameters
+    ----------
+    text : str
+    source : str
+        Name used in messages.
+    folder : Path, optional
+        In which a URDF file is; default: the working directory.
+
+    Raises
+    ------
+    FileFormatError
+        The text is not TOML, a key is missing or unknown, a value is out of range, the masses do not add up,
+        or a joint, role or rope does not fit.
+    """
+    root = root_of(text, source)
+    kind = root.head(default="")
+    if kind == URDF:
+        data = _beside_urdf(root, folder or Path())
+    elif kind == JOINTED:
+        data = _jointed(root)
+    else:
+        raise FileFormatError(f'{source}: kind is {shown(kind)}; write "{JOINTED}" or "{URDF}".')
+    check(source, data)
+    return data
+
+
+def _jointed(root: FileTable) -> JointedData:
+    name, total = root.text("name"), root.number("total_mass")
+    bodies = tuple(_body(table) for table in root.tables("bodies"))
+    mass = math.fsum(body.properties.mass for body in bodies)
+    if abs(mass - total) > TOTAL * total:
+        raise FileFormatError(
+            f"{root.source}: the bodies add up to {mass:g} kg, total_mass is {total:g} kg; correct a mass or "
+            "total_mass."
+        )
+    here = Frames.of_foot([body.name for body in bodies])
+    joints = tuple(_joint(table, here) for table in root.tables("joints"))
+    stands = bodies[0].name if bodies else ""
+    return _with_roles(root, name, stands, bodies, joints, here)
+
+
+def _beside_urdf(root: FileTable, folder: Path) -> JointedData:
+    """Bodies and joints are the URDF's, closing joints and roles those of the table."""
+    name, path = root.text("name"), folder / root.text("urdf")
+    tree = read_urdf(path)
+    return _with_roles(root, name, tree.root, tree.bodies, tree.joints, tree.frames)
+
+
+def _with_roles(
+    root: FileTable,
+    name: str,
+    stands: str,
+    bodies: tuple[BodyData, ...],
+    joints: tuple[JointData, ...],
+    frames: Frames,
+) -> JointedData:
+    closing = tuple(_joint(table, frames) for table in root.tables("closing_joints"))
+    roles = root.table("roles")
+    slew = roles.text("slew") if "slew" in roles.values else None
+    luffs, cylinders = _names(roles, "luffs"), _names(roles, "cylinders")
+    tip = _place(roles.table("tip"), frames)
+    roles.finish()
+    data = JointedData(
+        name=name,
+        root=stands,
+        bodies=bodies,
+        joints=joints,
+        closing_joints=closing,
+        slew=slew,
+        luffs=luffs,
+        cylinders=cylinders,
+        tip=tip,
+        ropes=tuple(_rope(table, frames) for table in root.tables("ropes")),
+        capacity=root.capacity("capacity"),
+        areas=_areas(root, cylinders),
+    )
+    root.finish()
+    return data
+
+
+def _body(table: FileTable) -> BodyData:
+    """By its members, or by mass, centre of mass and inertia."""
+    name = table.text("name")
+    table.where = f"{table.where} ({name})"
+    if "members" in table.values:
+        members = table.members("members", in_space=True)
+        properties = combine_in_space(members)
+    else:
+        members, properties = (), _given_mass(table)
+    table.finish()
+    return BodyData(name=name, properties=properties, members=members)
+
+
+def _given_mass(table: FileTable) -> MassProperties:
+    mass = table.number("mass")
+    center = np.array(table.space_point("center_of_mass"))
+    rows = table.take("inertia")
+    try:
+        inertia = np.array(rows, dtype=float)
+    except (TypeError, ValueError):
+        inertia = np.zeros(0)
+    if inertia.shape != (3, 3) or not np.all(np.isfinite(inertia)):
+        raise FileFormatError(
+            f"{table.source}: {table.label('inertia')} is {shown(rows)}; write three rows of three numbers, "
+            "kg m2, about the centre of mass."
+        )
+    return MassProperties(mass, center, inertia)
+
+
+def _joint(table: FileTable, frames: Frames) -> JointData:
+    name, kind = table.text("name"), table.text("kind")
+    table.where = f"{table.where} ({name})"
+    first, second = table.text("first"), table.text("second")
+    point = frames.point(table, first, table.space_point("point"))
+    axes = {
+        key: frames.axis(table, first, key) if key in table.values else None for key in ("axis", "second_axis")
+    }
+    limits = _range(table)
+    table.finish()
+    return JointData(
+        name=name, kind=kind, first=frames.body(first), second=frames.body(second), point=point, range=limits,
+        **axes,
+    )  # fmt: skip
+
+
+def _range(table: FileTable) -> tuple[float, float] | None:
+    """In rad or m: a hinge may have degrees."""
+    found = [key for key in ("range_m", "range_deg", "range_rad") if key in table.values]
+    if not found:
+        return None
+    if len(found) > 1:
+        raise FileFormatError(f"{table.source}: {table.where} has {' and '.join(found)}; write one of them.")
+    low, high = table.point(found[0])
+    if not low < high:
+        raise FileFormatError(
+            f"{table.source}: {table.label(found[0])} is {low:g} to {high:g}; write the lower end first."
+        )
+    return (math.radians(low), math.radians(high)) if found[0] == "range_deg" else (low, high)
+
+
+def _names(roles: FileTable, key: str) -> dict[str, str]:
+    """Joints by label."""
+    if key not in roles.values:
+        return {}
+    table = roles.table(key)
+    found = {str(label): table.text(label) for label in list(table.values)}
+    table.finish()
+    return found
+
+
+def _place(table: FileTable, frames: Frames) -> tuple[str, Array]:
+    """A body and a point of it at home."""
+    body = table.text("body")
+    point = frames.point(table, body, table.space_point("point"))
+    table.finish()
+    return frames.body(body), point
+
+
+def _rope(table: FileTable, frames: Frames) -> RopeData:
+    name = table.text("name")
+    table.where = f"{table.where} ({name})"
+    falls = table.number("falls")
+    if falls != int(falls) or falls < 1:
+        raise FileFormatError(
+            f"{table.source}: {table.label('falls')} is {falls:g}; write a whole number, 1 or more."
+        )
+    rope = RopeData(
+        name=name,
+        luff=table.text("luff"),
+        falls=int(falls),
+        stiffness=table.number("stiffness"),
+        first=_place(table.table("first"), frames),
+        second=_place(table.table("second"), frames),
+    )
+    table.finish()
+    return rope
+
+
+def _areas(root: FileTable, cylinders: Mapping[str, str]) -> dict[str, Areas]:
+    """Of the pistons, by the labels of cylinders."""
+    found: dict[str, Areas] = {}
+    for table in root.tables("pistons"):
+        label = table.text("cylinder")
+        if label not in cylinders:
+            raise FileFormatError(
+                f"{table.source}: {table.label('cylinder')} is {shown(label)}; the cylinders are "
+                f"{', '.join(map(repr, cylinders)) or 'none'}."
+            )
+        areas = table.areas()
+        if areas is None:
+            raise FileFormatError(
+                f"{table.source}: {table.where} has no areas; write full_area and rod_side_area, m2."
+            )
+        found[label] = areas
+        table.finish()
+    return found

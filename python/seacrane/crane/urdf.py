@@ -1,0 +1,269 @@
+"""Reads the bodies and joints of a URDF file.
+
+Source: the specification of the Unified Robot Description Format, wiki.ros.org/urdf/XML (link, joint).
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from xml.etree.ElementTree import Element, ParseError, fromstring
+
+import numpy as np
+from numpy.typing import NDArray
+
+from seacrane.crane.jointed_data import BodyData, JointData
+from seacrane.crane.link_frames import FOOT_FRAME, Frames, Placed
+from seacrane.crane.mass_properties import MassProperties
+from seacrane.crane.urdf_values import name_of, origin_of, row_of, value_of
+from seacrane.crane.urdf_visuals import meshes_of
+from seacrane.crane.urdf_warning import warn_of_urdf
+from seacrane.errors import FileFormatError
+from seacrane.files.whole_file import read_whole
+from seacrane.inputs.shown import shown
+
+Array = NDArray[np.float64]
+LARGEST_FILE = 2**24  # bytes
+KINDS = {"revolute": "revolute", "continuous": "revolute", "prismatic": "prismatic", "fixed": "weld"}
+MOMENTS = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class UrdfTree:
+    """What a URDF file describes.
+
+    Attributes
+    ----------
+    root : str
+        The link that no joint carries.
+    bodies : tuple of BodyData
+        Links with mass.
+    joints : tuple of JointData
+        From the root outwards.
+    frames : Frames
+        Of all links, at zero of all joints; the root's is that of the crane foot.
+    """
+
+    root: str
+    bodies: tuple[BodyData, ...]
+    joints: tuple[JointData, ...]
+    frames: Frames
+
+
+def read_urdf(path: Path) -> UrdfTree:
+    """Read links and joints; the frame of the root link is that of the crane foot.
+
+    Links without mass on fixed joints are frames of what they are fixed to. Collision shapes, materials,
+    transmissions and extensions are not read.
+
+    Raises
+    ------
+    FileFormatError
+        The file cannot be read, is no URDF, or says something of a link or a joint that cannot be.
+
+    Warns
+    -----
+    UrdfWarning
+        For what is left out of it and would matter.
+    """
+    source = path.name
+    robot = _robot(path)
+    links = {name_of(source, link): link for link in robot.findall("link")}
+    if not links:
+        raise FileFormatError(f"{source}: has no links; give a URDF of a crane.")
+    joints = robot.findall("joint")
+    carried = _carried(source, joints, links)
+    root = _root(source, links, carried)
+    ordered = _outwards(source, root, joints)
+    placed: dict[str, Placed] = {root: FOOT_FRAME}
+    for joint in ordered:
+        parent, child = _ends(joint)
+        placed[child] = placed[parent].inner(*origin_of(source, joint))
+    owner = _owners(source, root, ordered, links)
+    bodies = tuple(
+        BodyData(
+            name=name,
+            properties=_properties(source, link, placed[name]),
+            meshes=tuple(
+                mesh
+                for other, holder in owner.items()
+                if holder == name
+                for mesh in meshes_of(source, path.parent, links[other], placed[other])
+            ),
+        )
+        for name, link in links.items()
+        if _massive(link)
+    )
+    found = tuple(
+        _joint(source, joint, placed, owner) for joint in ordered if owner[_ends(joint)[1]] == _ends(joint)[1]
+    )
+    return UrdfTree(
+        root=root, bodies=bodies, joints=found,
+        frames=Frames(placed, owner),
+    )  # fmt: skip
+
+
+def _robot(path: Path) -> Element:
+    try:
+        text = read_whole(path, LARGEST_FILE, "no URDF file is").decode("utf-8")
+    except (OSError, UnicodeDecodeError) as error:
+        raise FileFormatError(f"URDF file {path} cannot be read ({error}); check the path.") from error
+    if "<!DOCTYPE" in text or "<!ENTITY" in text:
+        raise FileFormatError(f"{path.name}: has a document type of its own; take <!DOCTYPE ...> out.")
+    try:
+        robot = fromstring(text)
+    except (ParseError, RecursionError, ValueError) as error:
+        raise FileFormatError(f"{path.name}: not valid XML: {str(error)[:200]}; correct that line.") from error
+    if robot.tag != "robot":
+        raise FileFormatError(
+            f"{path.name}: begins with <{robot.tag[:40]}>; a URDF begins with <robot> (run xacro on it first)."
+        )
+    return robot
+
+
+def _ends(joint: Element) -> tuple[str, str]:
+    """Names of its parent link and its child link."""
+    parent, child = (joint.find(tag) for tag in ("parent", "child"))
+    return (
+        "" if parent is None else parent.get("link", ""),
+        "" if child is None else child.get("link", ""),
+    )
+
+
+def _carried(source: str, joints: list[Element], links: Mapping[str, Element]) -> dict[str, str]:
+    """Joint that carries each link; FileFormatError for a loop."""
+    found: dict[str, str] = {}
+    for joint in joints:
+        name = name_of(source, joint)
+        for link in _ends(joint):
+            if link not in links:
+                raise FileFormatError(
+                    f"{source}: joint {name!r} names link {shown(link)}; there are {', '.join(links)}."
+                )
+        child = _ends(joint)[1]
+        if child in found:
+            raise FileFormatError(
+                f"{source}: link {child!r} is carried by joints {found[child]!r} and {name!r}: a loop. Take "
+                f"joint {name!r} out, and write it as one of [[closing_joints]] in the table beside the URDF."
+            )
+        found[child] = name
+    return found
+
+
+def _root(source: str, links: Mapping[str, Element], carried: Mapping[str, str]) -> str:
+    roots = [name for name in links if name not in carried]
+    if len(roots) != 1:
+        which = f"links {', '.join(roots)} have no parent" if roots else "every link has a parent: a loop"
+        raise FileFormatError(f"{source}: {which}; one link must stand on the base, and no other.")
+    return roots[0]
+
+
+def _outwards(source: str, root: str, joints: list[Element]) -> list[Element]:
+    there, left, found = {root}, list(joints), []
+    while left:
+        ready = [joint for joint in left if _ends(joint)[0] in there]
+        if not ready:
+            name = name_of(source, left[0])
+            raise FileFormatError(
+                f"{source}: joint {name!r} is in a ring of links that nothing carries; join it to the root."
+            )
+        found += ready
+        there |= {_ends(joint)[1] for joint in ready}
+        left = [joint for joint in left if joint not in ready]
+    return found
+
+
+def _massive(link: Element) -> bool:
+    return link.find("inertial") is not None
+
+
+def _owners(source: str, root: str, joints: list[Element], links: Mapping[str, Element]) -> dict[str, str]:
+    """The body whose part each link is: itself, or what it is fixed to without a mass of its own."""
+    owner = {root: root}
+    for joint in joints:
+        parent, child = _ends(joint)
+        if _massive(links[child]):
+            owner[child] = child
+        elif joint.get("type") == "fixed":
+            owner[child] = owner[parent]
+        else:
+            raise FileFormatError(
+                f"{source}: link {child!r} moves on joint {name_of(source, joint)!r} and has no <inertial>; "
+                "give its mass and inertia."
+            )
+    return owner
+
+
+def _properties(source: str, link: Element, frame: Placed) -> MassProperties:
+    what = f"link {name_of(source, link)!r}"
+    inertial = link.find("inertial")
+    assert inertial is not None
+    inner = frame.inner(*origin_of(source, inertial))
+    mass = value_of(source, what, inertial.find("mass"), "value")
+    if not mass > 0.0:
+        raise FileFormatError(f"{source}: {what} has mass {mass:g} kg; give one above zero.")
+    xx, xy, xz, yy, yz, zz = (value_of(source, what, inertial.find("inertia"), key) for key in MOMENTS)
+    own = np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
+    moments = np.linalg.eigvalsh(own)
+    if not (moments[0] > 0.0 and moments[0] + moments[1] >= moments[2] * (1.0 - 1e-6)):
+        raise FileFormatError(
+            f"{source}: {what} has principal moments of inertia {', '.join(f'{m:g}' for m in moments)} kg m2; "
+            "each is above zero, and none above the sum of the others, about the centre of mass."
+        )
+    return MassProperties(mass, inner.origin, inner.axes @ own @ inner.axes.T)
+
+
+def _joint(
+    source: str, joint: Element, placed: Mapping[str, Placed], owner: Mapping[str, str]
+) -> JointData:
+    name, kind = name_of(source, joint), str(joint.get("type"))
+    what = f"joint {name!r}"
+    if kind not in KINDS:
+        raise FileFormatError(f"{source}: {what} is {shown(kind)}; seacrane reads {', '.join(KINDS)}.")
+    if joint.find("mimic") is not None:
+        raise FileFormatError(
+            f"{source}: {what} mimics another, which seacrane does not read; take <mimic> out, and close the "
+            "mechanism by [[closing_joints]]."
+        )
+    _warn_of_dynamics(source, what, joint)
+    parent, child = _ends(joint)
+    frame = placed[child]
+    axis = None
+    if KINDS[kind] != "weld":
+        given = joint.find("axis")
+        row = np.array([1.0, 0.0, 0.0]) if given is None else row_of(source, what, given, "xyz")
+        length = float(np.linalg.norm(row))
+        if length == 0.0:
+            raise FileFormatError(f"{source}: {what} has an axis of zeros; give a direction.")
+        axis = frame.axes @ (row / length)
+    return JointData(
+        name=name, kind=KINDS[kind], first=owner[parent], second=child, point=frame.origin, axis=axis,
+        range=_range(source, what, joint) if kind in ("revolute", "prismatic") else None,
+    )  # fmt: skip
+
+
+def _range(source: str, what: str, joint: Element) -> tuple[float, float] | None:
+    limit = joint.find("limit")
+    if limit is None:
+        return None
+    low, high = (float(value_of(source, what, limit, key, default=0.0)) for key in ("lower", "upper"))
+    if low == high == 0.0:
+        return None
+    if not low < high:
+        raise FileFormatError(
+            f"{source}: {what} has limits {low:g} to {high:g}; the lower is below the upper."
+        )
+    return low, high
+
+
+def _warn_of_dynamics(source: str, what: str, joint: Element) -> None:
+    dynamics = joint.find("dynamics")
+    if dynamics is None:
+        return
+    losses = [value_of(source, what, dynamics, key, default=0.0) for key in ("damping", "friction")]
+    if any(not math.isclose(loss, 0.0) for loss in losses):
+        warn_of_urdf(
+            f"{source}: {what} has damping or friction, which is not taken over; add it by Scene.add_friction"
+        )

@@ -1,0 +1,100 @@
+"""What the links of a URDF file are drawn by: meshes, boxes, cylinders and spheres."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+from xml.etree.ElementTree import Element
+
+import numpy as np
+from numpy.typing import NDArray
+
+from seacrane.crane.jointed_data import MeshData
+from seacrane.crane.link_frames import Placed
+from seacrane.crane.urdf_values import name_of, origin_of, row_of, value_of
+from seacrane.crane.urdf_warning import warn_of_urdf
+from seacrane.errors import FileFormatError
+from seacrane.inputs.shown import shown
+
+Array = NDArray[np.float64]
+Faces = NDArray[np.int64]
+AROUND = 24  # corners of a circle
+READABLE = (".stl", ".glb", ".gltf")
+
+
+def meshes_of(source: str, folder: Path, link: Element, frame: Placed) -> Iterator[MeshData]:
+    """Of a link, placed in the crane-foot frame at home."""
+    name = name_of(source, link)
+    for i, visual in enumerate(link.findall("visual")):
+        geometry = visual.find("geometry")
+        shape = None if geometry is None else next(iter(geometry), None)
+        if shape is None:
+            continue
+        place = frame.inner(*origin_of(source, visual))
+        label = name if i == 0 else f"{name} {i + 1}"
+        mesh = _mesh(source, folder, label, shape, place)
+        if mesh is not None:
+            yield mesh
+
+
+def _mesh(source: str, folder: Path, name: str, shape: Element, place: Placed) -> MeshData | None:
+    what = f"visual {name!r}"
+    where = {"name": name, "origin": place.origin, "axes": place.axes}
+    match shape.tag:
+        case "mesh":
+            return _file(source, folder, what, shape, where)
+        case "box":
+            vertices, faces = _box(row_of(source, what, shape, "size"))
+        case "cylinder":
+            radius, length = (value_of(source, what, shape, key) for key in ("radius", "length"))
+            vertices, faces = _turned_profile(np.array([[0.0, -0.5], [1.0, -0.5], [1.0, 0.5], [0.0, 0.5]])
+                                              * [radius, length])  # fmt: skip
+        case "sphere":
+            angle = np.linspace(-0.5 * np.pi, 0.5 * np.pi, AROUND // 2 + 1)
+            radius = value_of(source, what, shape, "radius")
+            vertices, faces = _turned_profile(radius * np.column_stack([np.cos(angle), np.sin(angle)]))
+        case _:
+            raise FileFormatError(
+                f"{source}: {what} is a <{shape.tag[:40]}>; write mesh, box, cylinder or sphere."
+            )
+    if not np.all(np.ptp(vertices, axis=0) > 0.0):
+        raise FileFormatError(f"{source}: {what} has no extent; give sizes above zero.")
+    return MeshData(vertices=vertices, faces=faces, **where)
+
+
+def _file(source: str, folder: Path, what: str, shape: Element, where: dict[str, object]) -> MeshData | None:
+    given = shape.get("filename", "")
+    path = folder / given.removeprefix("file://").removeprefix("package://")
+    scale = row_of(source, what, shape, "scale") if shape.get("scale") else np.ones(3)
+    if not (scale[0] == scale[1] == scale[2] and scale[0] > 0.0):
+        raise FileFormatError(f"{source}: {what} has scale {scale.tolist()}; give three equal numbers.")
+    if path.suffix.lower() not in READABLE:
+        warn_of_urdf(
+            f"{source}: {what} is {shown(given)}, which is not drawn; convert it to {', '.join(READABLE)}"
+        )
+        return None
+    return MeshData(file=path, scale=float(scale[0]), **where)  # type: ignore[arg-type]
+
+
+def _box(size: Array) -> tuple[Array, Faces]:
+    corners = 0.5 * size * np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)])
+    quads = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
+    return corners, np.array([face for a, b, c, d in quads for face in ((a, b, c), (a, c, d))])
+
+
+def _turned_profile(profile: Array) -> tuple[Array, Faces]:
+    """A profile of radii and heights, from its lower end on the axis to its upper, turned about z."""
+    angle = 2.0 * np.pi * np.arange(AROUND) / AROUND
+    inner = profile[1:-1]
+    rings = [np.column_stack([r * np.cos(angle), r * np.sin(angle), np.full(AROUND, z)]) for r, z in inner]
+    ends = [[0.0, 0.0, profile[0, 1]], [0.0, 0.0, profile[-1, 1]]]
+    vertices = np.vstack([*rings, ends])
+    low, high, last = len(vertices) - 2, len(vertices) - 1, (len(inner) - 1) * AROUND
+    faces = []
+    for i in range(AROUND):
+        j = (i + 1) % AROUND
+        faces += [(low, j, i), (high, last + i, last + j)]
+        for ring in range(len(inner) - 1):
+            a, b = ring * AROUND, (ring + 1) * AROUND
+            faces += [(a + i, a + j, b + j), (a + i, b + j, b + i)]
+    return vertices, np.array(faces)

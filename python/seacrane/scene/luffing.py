@@ -1,0 +1,123 @@
+"""Luffing ropes as elastic lines on winches."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from seacrane import _core
+from seacrane.description.crane_parts import luffing_ropes, luffs
+from seacrane.description.luffing_rope import LuffingRope, lengthening
+from seacrane.description.scene import GROUND, Description
+from seacrane.errors import SceneError
+from seacrane.inputs.frames import rotation_matrix
+from seacrane.inputs.shown import shown
+from seacrane.scene.lines import add_line, add_winch
+
+Array = NDArray[np.float64]
+
+
+def add_luffing_rope(scene: Description, *, luff: str | None = None, **winch: Any) -> _core.Line:
+    """Let a crane's luffing rope carry its jib, as an elastic line of all its falls on a winch.
+
+    The rope starts with the tension that holds the weights beyond the hinge at rest on an upright base. A
+    driver that holds the hinge still (`add_crane(held=True)`) is taken away. The rope's name is that in the
+    crane's file, such as "luffing rope"; `statics` with coordinates leads the hinge and tells the tension from
+    its moment.
+
+    Parameters
+    ----------
+    luff : str, optional
+        Label of the hinge, with the crane's prefix; default: the only one with a rope.
+    **winch
+        As of `add_winch`, such as ``rate`` in m/s of rope: a luffing hook moves by the rate over the falls.
+
+    Returns
+    -------
+    Line
+
+    Raises
+    ------
+    SceneError
+        For a hinge without a rope, one that a moving driver or an actuator leads, or a rope that would have
+        to push.
+    """
+    label = _which(scene, luff)
+    rope, (joint, coordinate) = luffing_ropes(scene)[label], luffs(scene)[label]
+    what = f"luffing rope {rope.name!r}"
+    for name, driver in list(scene.drivers.items()):
+        if (driver.joint, driver.coordinate) == (joint, coordinate):
+            if driver.curve != _core.Curve.constant(value=0.0):
+                raise SceneError(f"{what}: driver {name!r} leads its hinge; take the driver out first")
+            del scene.drivers[name]
+    led = [name for name, one in scene.actuators.items() if (one.joint, one.coordinate) == (joint, coordinate)]
+    if led:
+        raise SceneError(f"{what}: actuator {led[0]!r} drives its hinge; take one of them out")
+    ends = [rope.first if i % 2 == 0 else rope.second for i in range(rope.falls + 1)]
+    add_line(
+        scene,
+        name=rope.name,
+        bodies=[body for body, _ in ends],
+        points=[point for _, point in ends],
+        stiffness=rope.stiffness,
+        tension_at_start=_tension(scene, what, joint, rope),
+    )
+    return add_winch(scene, line=rope.name, **winch)
+
+
+def _which(scene: Description, luff: str | None) -> str:
+    known = luffing_ropes(scene)
+    label = next(iter(known)) if luff is None and len(known) == 1 else luff
+    if label not in known:
+        which = ", ".join(map(repr, known)) or "none"
+        raise SceneError(f"luffing rope: luff is {shown(luff)}; the hinges with a rope are {which}")
+    return str(label)
+
+
+def _tension(scene: Description, what: str, joint: str, rope: LuffingRope) -> float:
+    """Of each fall, N, that carries the weights beyond the hinge at the described pose: virtual work."""
+    described = scene.joints[joint]
+    hinge = _at(scene, described.first, np.asarray(described.first_frame.point))
+    turn = _turn(scene, described.first)
+    axis = turn @ np.asarray(described.first_frame.axes)[:, 2]
+    up = np.array([0.0, 0.0, 1.0])
+    moment = 0.0
+    for body in _beyond(scene, joint):
+        one = scene.bodies[body]
+        center = one.position + _turn(scene, body) @ np.asarray(one.center_of_mass)
+        moment -= one.mass * scene.gravity * float(up @ np.cross(axis, center - hinge))
+    first, second = (_at(scene, body, np.array(point)) for body, point in (rope.first, rope.second))
+    tension = moment / (rope.falls * lengthening(hinge, axis, first, second))
+    if not tension >= 0.0:
+        raise SceneError(
+            f"{what}: would have to push by {-tension:.4g} N as described: the jib falls backwards; describe "
+            "it lower"
+        )
+    return tension
+
+
+def _beyond(scene: Description, hinge: str) -> Iterator[str]:
+    """Bodies that hang on the second side of a joint."""
+    found, before = {scene.joints[hinge].second}, scene.joints[hinge].first
+    grown = True
+    while grown:
+        grown = False
+        for name, joint in scene.joints.items():
+            ends = {joint.first, joint.second}
+            if name != hinge and ends & found and not ends <= found and before not in ends and GROUND not in ends:
+                found |= ends
+                grown = True
+    yield from found
+
+
+def _turn(scene: Description, body: str) -> Array:
+    return np.eye(3) if body == GROUND else rotation_matrix(scene.bodies[body].quaternion)
+
+
+def _at(scene: Description, body: str, point: Array) -> Array:
+    """A point of a body (its coordinates) as described, m."""
+    where = np.zeros(3) if body == GROUND else np.asarray(scene.bodies[body].position)
+    return np.asarray(where + _turn(scene, body) @ point)
