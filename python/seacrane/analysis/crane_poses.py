@@ -39,7 +39,11 @@ def crane_of(scene: Description, prefix: str | None) -> CraneRoles:
 def places_of(roles: CraneRoles) -> dict[str, Place]:
     """Joint and coordinate of the slew drive, as "slew", and of every luff and cylinder by its label."""
     found = {} if roles.slew is None else {"slew": roles.slew}
-    return found | dict(roles.luffs) | {label: (joint, "displacement") for label, joint in roles.cylinders.items()}
+    return (
+        found
+        | dict(roles.luffs)
+        | {label: (joint, "displacement") for label, joint in roles.cylinders.items()}
+    )
 
 
 def drive_name(place: Place) -> str:

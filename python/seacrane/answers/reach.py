@@ -27,7 +27,9 @@ def luffing(scene: Description, roles: CraneRoles, luff: str | None) -> str:
     label = next(iter(known), None) if luff is None else luff
     if label is None or label not in known:
         which = ", ".join(map(repr, known)) or "none"
-        raise SceneError(f"luff is {luff!r}; name the cylinder or hinge that sets the radius; there are {which}")
+        raise SceneError(
+            f"luff is {luff!r}; name the cylinder or hinge that sets the radius; there are {which}"
+        )
     joint, coordinate = known[label]
     if not any((one.joint, one.coordinate) == (joint, coordinate) for one in scene.ranges.values()):
         raise SceneError(

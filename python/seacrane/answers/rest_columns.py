@@ -62,7 +62,7 @@ class AtRest:
         return float(self.channels["tension"][links.index(link)])
 
     def rope_tension(self, place: tuple[str, str], rope: LuffingRope) -> float:
-        """Of each fall of a rope that carries the moment of a hinge, N; below zero where it would be slack."""
+        """Of each fall of a rope that carries a hinge's moment, N; below zero where it would be slack."""
         joint = self.scene.joints[place[0]]
         hinge, turn = self._placed(joint.first, joint.first_frame.point)
         first, second = (self._placed(*block)[0] for block in (rope.first, rope.second))

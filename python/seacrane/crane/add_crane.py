@@ -138,7 +138,9 @@ def _parts(
     """Of either kind of crane, each by its own coordinates."""
     if isinstance(crane, KnuckleBoomCrane):
         if coordinates is not None:
-            raise SceneError("crane: coordinates are those of other cranes; give a knuckle boom theta, s1, s2")
+            raise SceneError(
+                "crane: coordinates are those of other cranes; give a knuckle boom theta, s1, s2"
+            )
         return crane.parts(foot=foot, **place)
     if not isinstance(crane, JointedCrane):
         raise SceneError(
@@ -167,8 +169,8 @@ def _draw(scene: Description, mesh: MeshData, body: str, prefix: str, parts: Cra
     extent = float(np.ptp(points, axis=0).max())
     if size > FAR * extent > 0.0:
         raise SceneError(
-            f"mesh {added.name!r}: spans {size:.4g} m, and the joints of its crane {extent:.4g} m; it is most "
-            "likely in mm: give it scale 0.001"
+            f"mesh {added.name!r}: spans {size:.4g} m, and the joints of its crane {extent:.4g} m; it is "
+            "most likely in mm: give it scale 0.001"
         )
 
 

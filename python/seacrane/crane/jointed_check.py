@@ -51,9 +51,8 @@ def _check_joint(source: str, joint: JointData) -> None:
         raise FileFormatError(f"{what}: a {joint.kind} joint takes {wanted}; correct its axes.")
     if needs == 2 and abs(float(np.dot(joint.axis, joint.second_axis))) > ALIGNED:  # type: ignore[arg-type]
         raise FileFormatError(f"{what}: axis and second_axis are not perpendicular; turn one of them.")
-    if joint.range is not None:
-        if joint.kind not in ("revolute", "prismatic"):
-            raise FileFormatError(f"{what}: a {joint.kind} joint has no range; leave it out.")
+    if joint.range is not None and joint.kind not in ("revolute", "prismatic"):
+        raise FileFormatError(f"{what}: a {joint.kind} joint has no range; leave it out.")
 
 
 def _check_tree(source: str, data: JointedData) -> None:
@@ -125,8 +124,8 @@ def _check_ropes(source: str, data: JointedData) -> None:
         beyond = _carried(data, data.luffs[rope.luff])
         if rope.first[0] in beyond or rope.second[0] not in beyond:
             raise FileFormatError(
-                f"{what}: runs from {shown(rope.first[0])} to {shown(rope.second[0])}; its first body must be "
-                f"before hinge {data.luffs[rope.luff]!r} and its second beyond it."
+                f"{what}: runs from {shown(rope.first[0])} to {shown(rope.second[0])}; its first body must "
+                f"be before hinge {data.luffs[rope.luff]!r} and its second beyond it."
             )
         if np.linalg.norm(rope.second[1] - rope.first[1]) < CLOSED * extent_of(data):
             raise FileFormatError(f"{what}: has no length at home; move one of its blocks.")

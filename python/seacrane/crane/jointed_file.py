@@ -12,8 +12,8 @@ from numpy.typing import NDArray
 from seacrane.crane.file_table import FileTable, read_text, root_of
 from seacrane.crane.jointed_check import check
 from seacrane.crane.jointed_data import BodyData, JointData, JointedData, RopeData
-from seacrane.crane.mass_properties import MassProperties, combine_in_space
 from seacrane.crane.link_frames import Frames
+from seacrane.crane.mass_properties import MassProperties, combine_in_space
 from seacrane.crane.urdf import read_urdf
 from seacrane.description.cylinder_areas import Areas
 from seacrane.errors import FileFormatError
@@ -153,7 +153,8 @@ def _joint(table: FileTable, frames: Frames) -> JointData:
     first, second = table.text("first"), table.text("second")
     point = frames.point(table, first, table.space_point("point"))
     axes = {
-        key: frames.axis(table, first, key) if key in table.values else None for key in ("axis", "second_axis")
+        key: frames.axis(table, first, key) if key in table.values else None
+        for key in ("axis", "second_axis")
     }
     limits = _range(table)
     table.finish()

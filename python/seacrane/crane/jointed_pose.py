@@ -14,6 +14,7 @@ from seacrane.inputs.checked import number_of
 
 Array = NDArray[np.float64]
 CLOSED = 1e-8  # of the crane's extent: gap of a loop that counts as closed
+POLISHED = 3
 UNITS = {"revolute": "rad", "prismatic": "m"}
 
 
@@ -52,13 +53,12 @@ def pose_of(data: JointedData, coordinates: Mapping[str, float]) -> dict[str, Mo
         return _motions(data, start)
     from scipy.optimize import least_squares
 
-    free = [joint for joint in data.joints if FREEDOMS[joint.kind] and joint.name not in given]
+    looped = _in_loops(data)
+    free = [one for one in data.joints if FREEDOMS[one.kind] and one.name in looped - given.keys()]
     sizes = np.cumsum([FREEDOMS[joint.kind] for joint in free])[:-1]
 
     def filled(values: Array) -> dict[str, Array]:
-        return start | {
-            joint.name: part for joint, part in zip(free, np.split(values, sizes), strict=True)
-        }
+        return start | {joint.name: part for joint, part in zip(free, np.split(values, sizes), strict=True)}
 
     def gaps(values: Array) -> Array:
         moved = _motions(data, filled(values))
@@ -66,14 +66,31 @@ def pose_of(data: JointedData, coordinates: Mapping[str, float]) -> dict[str, Mo
 
     count = sum(FREEDOMS[joint.kind] for joint in free)
     found = least_squares(gaps, np.zeros(count), xtol=1e-15, ftol=1e-15, gtol=1e-15)
-    worst, extent = float(np.abs(found.fun).max()), extent_of(data)
+    values = found.x
+    for _ in range(POLISHED):  # the search ends where its steps are small, Newton's where the gaps are
+        values = values - np.linalg.lstsq(found.jac, gaps(values), rcond=None)[0]
+    worst, extent = float(np.abs(gaps(values)).max()), extent_of(data)
     if worst > CLOSED * extent:
         asked = ", ".join(f"{label} {value:g}" for label, value in coordinates.items()) or "its home pose"
         raise SceneError(
             f"crane {data.name!r}: its loops stay open by {worst:.3g} m with {asked}; give values that its "
             "closing joints allow"
         )
-    return _motions(data, filled(found.x))
+    return _motions(data, filled(values))
+
+
+def _in_loops(data: JointedData) -> set[str]:
+    """Joints of the tree between the bodies of a closing joint."""
+    carrier = {joint.second: joint for joint in data.joints}
+
+    def inwards(body: str) -> set[str]:
+        found = set()
+        while body in carrier:
+            found.add(carrier[body].name)
+            body = carrier[body].first
+        return found
+
+    return {name for one in data.closing_joints for name in inwards(one.first) ^ inwards(one.second)}
 
 
 def extent_of(data: JointedData) -> float:

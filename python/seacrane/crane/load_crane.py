@@ -36,7 +36,9 @@ def load_crane(path: str | Path) -> Crane:
         item.
     """
     if str(path) in shipped_cranes():
-        path = data_file.DEFAULT_PATH if str(path) == data_file.DEFAULT_PATH.stem else SHIPPED / f"{path}.toml"
+        path = (
+            data_file.DEFAULT_PATH if str(path) == data_file.DEFAULT_PATH.stem else SHIPPED / f"{path}.toml"
+        )
     file = Path(path)
     text = read_text(file)
     kind = root_of(text, str(file)).values.get("kind", data_file.KIND)

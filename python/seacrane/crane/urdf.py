@@ -115,10 +115,12 @@ def _robot(path: Path) -> Element:
     try:
         robot = fromstring(text)
     except (ParseError, RecursionError, ValueError) as error:
-        raise FileFormatError(f"{path.name}: not valid XML: {str(error)[:200]}; correct that line.") from error
+        raise FileFormatError(
+            f"{path.name}: not valid XML: {str(error)[:200]}; correct that line."
+        ) from error
     if robot.tag != "robot":
         raise FileFormatError(
-            f"{path.name}: begins with <{robot.tag[:40]}>; a URDF begins with <robot> (run xacro on it first)."
+            f"{path.name}: begins with <{robot.tag[:40]}>; a URDF begins with <robot> (run xacro first)."
         )
     return robot
 
@@ -209,15 +211,13 @@ def _properties(source: str, link: Element, frame: Placed) -> MassProperties:
     moments = np.linalg.eigvalsh(own)
     if not (moments[0] > 0.0 and moments[0] + moments[1] >= moments[2] * (1.0 - 1e-6)):
         raise FileFormatError(
-            f"{source}: {what} has principal moments of inertia {', '.join(f'{m:g}' for m in moments)} kg m2; "
+            f"{source}: {what} has principal moments {', '.join(f'{m:g}' for m in moments)} kg m2; "
             "each is above zero, and none above the sum of the others, about the centre of mass."
         )
     return MassProperties(mass, inner.origin, inner.axes @ own @ inner.axes.T)
 
 
-def _joint(
-    source: str, joint: Element, placed: Mapping[str, Placed], owner: Mapping[str, str]
-) -> JointData:
+def _joint(source: str, joint: Element, placed: Mapping[str, Placed], owner: Mapping[str, str]) -> JointData:
     name, kind = name_of(source, joint), str(joint.get("type"))
     what = f"joint {name!r}"
     if kind not in KINDS:

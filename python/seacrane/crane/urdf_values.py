@@ -56,7 +56,7 @@ def row_of(source: str, what: str, element: Element, key: str) -> Array:
 
 
 def origin_of(source: str, element: Element) -> tuple[Array, Array]:
-    """Axes (columns) and origin (m) of what an element's <origin> places: rotations about fixed axes x, y, z."""
+    """Axes (columns) and origin (m) of an <origin>: rotations about the fixed axes x, y, z."""
     origin = element.find("origin")
     if origin is None:
         return np.eye(3), np.zeros(3)

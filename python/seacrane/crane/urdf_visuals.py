@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 from xml.etree.ElementTree import Element
 
 import numpy as np
@@ -39,7 +40,7 @@ def meshes_of(source: str, folder: Path, link: Element, frame: Placed) -> Iterat
 
 def _mesh(source: str, folder: Path, name: str, shape: Element, place: Placed) -> MeshData | None:
     what = f"visual {name!r}"
-    where = {"name": name, "origin": place.origin, "axes": place.axes}
+    where: dict[str, Any] = {"name": name, "origin": place.origin, "axes": place.axes}
     match shape.tag:
         case "mesh":
             return _file(source, folder, what, shape, where)
@@ -62,7 +63,7 @@ def _mesh(source: str, folder: Path, name: str, shape: Element, place: Placed) -
     return MeshData(vertices=vertices, faces=faces, **where)
 
 
-def _file(source: str, folder: Path, what: str, shape: Element, where: dict[str, object]) -> MeshData | None:
+def _file(source: str, folder: Path, what: str, shape: Element, where: dict[str, Any]) -> MeshData | None:
     given = shape.get("filename", "")
     path = folder / given.removeprefix("file://").removeprefix("package://")
     scale = row_of(source, what, shape, "scale") if shape.get("scale") else np.ones(3)
@@ -73,7 +74,7 @@ def _file(source: str, folder: Path, what: str, shape: Element, where: dict[str,
             f"{source}: {what} is {shown(given)}, which is not drawn; convert it to {', '.join(READABLE)}"
         )
         return None
-    return MeshData(file=path, scale=float(scale[0]), **where)  # type: ignore[arg-type]
+    return MeshData(file=path, scale=float(scale[0]), **where)
 
 
 def _box(size: Array) -> tuple[Array, Faces]:

@@ -25,8 +25,8 @@ def add_luffing_rope(scene: Description, *, luff: str | None = None, **winch: An
 
     The rope starts with the tension that holds the weights beyond the hinge at rest on an upright base. A
     driver that holds the hinge still (`add_crane(held=True)`) is taken away. The rope's name is that in the
-    crane's file, such as "luffing rope"; `statics` with coordinates leads the hinge and tells the tension from
-    its moment.
+    crane's file, such as "luffing rope"; `statics` with coordinates leads the hinge and tells the tension
+    from its moment.
 
     Parameters
     ----------
@@ -53,7 +53,9 @@ def add_luffing_rope(scene: Description, *, luff: str | None = None, **winch: An
             if driver.curve != _core.Curve.constant(value=0.0):
                 raise SceneError(f"{what}: driver {name!r} leads its hinge; take the driver out first")
             del scene.drivers[name]
-    led = [name for name, one in scene.actuators.items() if (one.joint, one.coordinate) == (joint, coordinate)]
+    led = [
+        name for name, one in scene.actuators.items() if (one.joint, one.coordinate) == (joint, coordinate)
+    ]
     if led:
         raise SceneError(f"{what}: actuator {led[0]!r} drives its hinge; take one of them out")
     ends = [rope.first if i % 2 == 0 else rope.second for i in range(rope.falls + 1)]
@@ -107,7 +109,13 @@ def _beyond(scene: Description, hinge: str) -> Iterator[str]:
         grown = False
         for name, joint in scene.joints.items():
             ends = {joint.first, joint.second}
-            if name != hinge and ends & found and not ends <= found and before not in ends and GROUND not in ends:
+            if (
+                name != hinge
+                and ends & found
+                and not ends <= found
+                and before not in ends
+                and GROUND not in ends
+            ):
                 found |= ends
                 grown = True
     yield from found
