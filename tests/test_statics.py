@@ -218,7 +218,7 @@ def test_drivers_of_the_crane_give_way_to_the_pose() -> None:
 @pytest.mark.parametrize(
     ("asked", "words"),
     [
-        ({"radius": 40.0}, r"radius 40 m: cylinder 'main' brings the tip from .* give one between"),
+        ({"radius": 40.0}, r"radius 40 m: 'main' brings the tip from .* give one between"),
         ({"coordinates": {"main": 9.0}}, r"main is 9 m, outside its range of -1 to"),
         ({"coordinates": {"boom": 1.0}}, r"coordinate 'boom' is none of crane ''"),
         ({"radius": 20.0, "coordinates": {"main": 1.0}}, r"'main' is given a stroke and sets the radius"),

@@ -31,7 +31,18 @@ from seacrane.lift.keys import Key, field_keys, fields_of, keys_of
 from seacrane.lift.stage_keys import CHANNEL_UNITS, STAGE
 from seacrane.run.method import FORMULATIONS, Method
 from seacrane.run.outputs import Outputs
-from seacrane.scene import bridles, given_vessel, heave, heavy_line, limits, lines, sea, vessel, wind_current
+from seacrane.scene import (
+    bridles,
+    given_vessel,
+    heave,
+    heavy_line,
+    limits,
+    lines,
+    luffing,
+    sea,
+    vessel,
+    wind_current,
+)
 from seacrane.scene.gusts import gust_curve
 from seacrane.scene.mooring import MooringSpring
 from seacrane.scene.motion_history import MotionHistory
@@ -334,6 +345,10 @@ _ALL = (
     ),
     _call("line", lines.add_line, _core.Line, tension_at_start={"unit": "N"}),
     _call("winch", lines.add_winch, _core.Line),
+    Table(
+        name="luffing_rope", text=_summary(luffing.add_luffing_rope), add=luffing.add_luffing_rope,
+        keys=(*keys_of(luffing.add_luffing_rope), *keys_of(lines.add_winch, _core.Line, without=("line",))),
+    ),
     _call(
         "gas_spring", heave.add_gas_spring, _core.GasSpring, force={"unit": "N"}, stiffness={"unit": "N/m"},
     ),
