@@ -1,7 +1,7 @@
 """A service crane whose bodies and joints are in a URDF file, on a vessel in waves.
 
 Its jib cylinder closes a loop, which URDF cannot say: a table beside the file does.
-Usage: python crane_from_urdf.py [FOLDER FOR A PICTURE AND A PAGE]
+Usage: python crane_from_urdf.py [FOLDER FOR A PICTURE]
 """
 
 import sys
@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
-from seacrane import Curve, Scene, simulate, statics, view
+from seacrane import Curve, Scene, simulate, statics
 from seacrane.crane import Payload, load_crane
 from seacrane.hydro import shipped_database
 from seacrane.plotting.figure import new_figure
@@ -48,4 +48,3 @@ if len(sys.argv) > 1:
     below.set(xlabel="time [s]", ylabel="tension [kN]")
     below.legend()
     figure.savefig(folder / "crane_from_urdf.png", dpi=130)
-    view(result).save(folder / "crane_from_urdf.html", overwrite=True)

@@ -1,6 +1,6 @@
 """A lattice boom luffs in on its rope with a load: tension by hand, at rest and as the winch hauls.
 
-Usage: python lattice_crane.py [FOLDER FOR A PICTURE AND A PAGE]
+Usage: python lattice_crane.py [FOLDER FOR A PICTURE]
 """
 
 import math
@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
-from seacrane import Curve, Scene, simulate, statics, view
+from seacrane import Curve, Scene, simulate, statics
 from seacrane.crane import Payload, load_crane
 from seacrane.plotting.figure import new_figure
 
@@ -56,4 +56,3 @@ if len(sys.argv) > 1:
     below.set(xlabel="time [s]", ylabel="height [m]")
     below.legend()
     figure.savefig(folder / "lattice_crane.png", dpi=130)
-    view(result).save(folder / "lattice_crane.html", overwrite=True)
