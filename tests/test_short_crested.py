@@ -7,6 +7,7 @@ import warnings
 from dataclasses import replace
 from functools import cache
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -56,7 +57,7 @@ def statistics(
 
 
 @pytest.mark.parametrize("kind", [cos_2s, cos_n])
-def test_narrow_spreading_is_a_long_crested_sea(kind: object) -> None:
+def test_narrow_spreading_is_a_long_crested_sea(kind: Any) -> None:
     """The difference falls with the variance of the angle, so as the inverse of the exponent."""
     along = statistics(None).std
     far, near = (statistics(kind(s)).std / along - 1.0 for s in (500.0, 5000.0))
@@ -91,7 +92,7 @@ def axisymmetric() -> HydroDatabase:
     pattern = np.zeros((len(heading), 6))
     pattern[:, 0], pattern[:, 1], pattern[:, 2] = np.cos(heading), np.sin(heading), 1.0
     round_ = np.diag([1.0, 1.0, 1.0, 0.0, 0.0, 0.0])
-    matrices = {}
+    matrices: dict[str, Any] = {}
     for name in ("added_mass", "damping"):
         table = eye * getattr(base, name)
         table[:, 0, 0] = table[:, 1, 1]
@@ -166,7 +167,11 @@ def free(database: HydroDatabase, mooring_period: float | None) -> Scene:
 def test_motions_at_speed_are_those_of_the_databases_equations(speed: float, tmp_path: Path) -> None:
     """`motion_response`, which returns the motions that the files hold, at every heading and frequency."""
     still, moving = ship_at(speed, tmp_path)
-    nothing = {"roll_damping": None, "linear_damping": np.zeros((6, 6)), "quadratic_damping": np.zeros(6)}
+    nothing: dict[str, Any] = {
+        "roll_damping": None,
+        "linear_damping": np.zeros((6, 6)),
+        "quadratic_damping": np.zeros(6),
+    }
     still, moving = replace(still, **nothing), replace(moving, **nothing)
     found = motion_rao(
         free(still, None), database=moving, omega=moving.omega, heading=moving.heading[:, None],
@@ -195,7 +200,7 @@ def test_moments_are_those_of_the_spectrum_of_encounter(heading_deg: float, tmp_
             scene, database=moving, spectrum=sea, heading=heading, body="vessel", memory="database"
         )
     omega = np.linspace(moving.omega[0], moving.omega[-1], 3001)
-    options = {"database": moving, "heading": heading, "body": "vessel", "memory": "database"}
+    options: dict[str, Any] = {"database": moving, "heading": heading, "body": "vessel", "memory": "database"}
     heave = np.abs(motion_rao(scene, omega=omega, **options)[:, 2]) ** 2 * np.asarray(sea.density(omega))
     slowness = 5.0 * np.cos(heading) / moving.g
 
@@ -234,7 +239,7 @@ def test_following_seas_that_are_met_outside_the_table_are_named(tmp_path: Path)
 
 def test_speeds_that_do_not_belong_together_are_refused(tmp_path: Path) -> None:
     still, moving = ship_at(5.0, tmp_path)
-    options = {"spectrum": SEA, "heading": 0.0, "body": "vessel"}
+    options: dict[str, Any] = {"spectrum": SEA, "heading": 0.0, "body": "vessel"}
     with pytest.raises(SceneError, match=r"is of 5 m/s, the memory of the linear model of 0 m/s; "):
         response_statistics(free(still, 60.0), database=moving, **options)
     under_way = linear_model(free(still, 60.0), memory="database", database=moving)

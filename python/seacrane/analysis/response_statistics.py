@@ -243,8 +243,8 @@ def _warn_of_unknown(database: HydroDatabase, share: float) -> None:
         warn_caller(
             f"database {database.name!r}: at {database.speed:g} m/s {share:.0%} of the energy of the waves "
             f"is met outside {database.omega[0]:.3g} to {database.omega[-1]:.3g} rad/s; the matrices there "
-            "are those of the nearest frequency. Near zero, in following seas, surge, sway and yaw are those of "
-            "the scene's springs, and no linear theory holds",
+            "are those of the nearest frequency. Near zero, in following seas, surge, sway and yaw are those "
+            "of the scene's springs, and no linear theory holds",
             EncounterFrequencyWarning,
         )
 
