@@ -17,7 +17,7 @@ from make_database import GM_TRANSVERSE, MASS, ROLL_DAMPING_FRACTION
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from seacrane import Scene, response_statistics
+from seacrane import Scene, linear_model, response_statistics
 from seacrane.hydro import HydroDatabase, hydro_from_hull, shipped_database
 from seacrane.hydro.hull.shipped_hull import shipped_hull
 from seacrane.sea import jonswap
@@ -25,6 +25,7 @@ from seacrane.sea import jonswap
 FREQUENCIES = (0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0, 1.1, 1.2, 1.3, 1.5, 2.0)
 ENTRIES = ((1, 1), (2, 2), (3, 3), (4, 4), (5, 5), (1, 3), (2, 4), (1, 5))
 HEADINGS_DEG = (180, 135, 90)
+PERIODS = (6, 7, 8, 9, 10, 12, 14, 16)  # s
 MOTIONS = ("surge", "sway", "heave", "roll", "pitch", "yaw")
 UNITS = {"A": ("kg", "kg m", "kg m2"), "B": ("kg/s", "kg m/s", "kg m2/s")}
 
@@ -40,6 +41,7 @@ def main() -> None:
     save_bands(panel, strip)
     save_forces(panel, strip)
     save_motions(panel, strip)
+    save_periods(panel, strip)
     for symbol, name in (("A", "added_mass"), ("B", "damping")):
         matrix_figure(symbol, name, panel, strip).savefig(folder / f"strip_panel_{name}.png", dpi=110)
     force_figure(panel, strip).savefig(folder / "strip_panel_excitation.png", dpi=110)
@@ -145,6 +147,33 @@ def save_motions(panel: HydroDatabase, strip: HydroDatabase) -> None:
                 values = (f"{one:.3f} {unit}", f"{other:.3f} {unit}", f"{other / one:.2f}")
                 rows.append([f"{degrees}", MOTIONS[i], *values])
     save("strip-against-panels-motions", ["heading deg", "motion", "panel", "strip", "strip / panel"], rows)
+
+
+def save_periods(panel: HydroDatabase, strip: HydroDatabase) -> None:
+    """Largest difference of a motion in seas of several periods, %, by the largest over the headings."""
+    models = []
+    for database in (panel, strip):
+        scene = Scene(name=database.name)
+        scene.add_vessel(database, memory="convolution")
+        models.append((linear_model(scene, memory="database", database=database), database))
+    rows = []
+    for tp in PERIODS:
+        sea = jonswap(hs=2.0, tp=tp)
+        found = np.array(
+            [
+                [
+                    response_statistics(
+                        linear, database=database, spectrum=sea, heading=np.radians(h), body="vessel"
+                    ).std
+                    for h in (0, 45, 90, 135, 180)
+                ]
+                for linear, database in models
+            ]
+        )
+        off = 100.0 * (np.abs(found[1] - found[0]) / found[0].max(axis=0)).max(axis=0)
+        below = sea.energy(omega_min=panel.omega[0], omega_max=strip.trusted_band[0]) / sea.moment(0)
+        rows.append([f"{tp}", f"{100.0 * below:.0f}", *(f"{value:.0f}" for value in off)])
+    save("strip-motions-by-period", ["Tp s", "below band", *MOTIONS], rows)
 
 
 def matrix_figure(symbol: str, name: str, panel: HydroDatabase, strip: HydroDatabase) -> Figure:

@@ -12,7 +12,14 @@ from typing import Any
 
 import numpy as np
 
-from seacrane.hydro import Hull, HydroDatabase, fit_memory, hydro_from_hull, retardation_functions
+from seacrane.hydro import (
+    Hull,
+    HydroDatabase,
+    OffsetTable,
+    fit_memory,
+    hydro_from_hull,
+    retardation_functions,
+)
 from seacrane.hydro.memory.motion_judge import motion_judge
 from seacrane.inputs.frames import MOTIONS
 
@@ -23,7 +30,7 @@ LIMITS = (0.01, 0.02, 0.05)
 
 
 def databases() -> Iterator[tuple[str, HydroDatabase]]:
-    """Those of ships, and two bodies solved by Capytaine here where it is there."""
+    """Those of ships, and three bodies solved by Capytaine here where it is there."""
     yield from memory_by_motion.databases()
     try:
         import capytaine
@@ -32,10 +39,14 @@ def databases() -> Iterator[tuple[str, HydroDatabase]]:
     logging.getLogger("capytaine").setLevel(logging.ERROR)
     box = capytaine.mesh_parallelepiped(size=(60.0, 20.0, 8.0), resolution=(20, 8, 6))
     ball = capytaine.mesh_sphere(radius=10.0, resolution=(14, 24))
-    for name, mesh, height, highest in (("barge", box, 2.0, 2.0), ("hemisphere", ball, -2.0, 2.4)):
-        hull = Hull.from_mesh(vertices=mesh.vertices, faces=mesh.faces, name=name)
+    bodies = (
+        (_of_mesh(box, "barge"), 2.0, 2.0),
+        (_of_mesh(ball, "hemisphere"), -2.0, 2.4),
+        (wigley_hull(), -2.0, 2.2),
+    )
+    for hull, height, highest in bodies:
         yield (
-            f"{name} (Capytaine)",
+            f"{hull.name} (Capytaine)",
             hydro_from_hull(
                 hull,
                 centre_of_gravity=(0.0, 0.0, height),
@@ -46,6 +57,19 @@ def databases() -> Iterator[tuple[str, HydroDatabase]]:
                 trusted_band=(0.2, 0.9 * highest),
             ),
         )
+
+
+def _of_mesh(mesh: Any, name: str) -> Hull:
+    return Hull.from_mesh(vertices=mesh.vertices, faces=mesh.faces, name=name)
+
+
+def wigley_hull() -> Hull:
+    """y = B / 2 (1 - (2 x / L)^2) (1 - (z / T)^2) of 100 x 10 x 6.25 m [Wigley 1934], 34 x 12 panels."""
+    x, z = np.linspace(-50.0, 50.0, 33), np.linspace(0.0, -6.25, 13)
+    half = 5.0 * (1.0 - (x[:, None] / 50.0) ** 2) * (1.0 - (z / 6.25) ** 2)
+    sections = tuple(np.column_stack([row, z]) for row in half)
+    table = OffsetTable(x=x, sections=sections, name="Wigley hull")
+    return Hull.from_offsets(table).remeshed(stations=34, girth=6)
 
 
 def memory_fits() -> Section:

@@ -33,10 +33,8 @@ from seacrane.accuracy.model_error import model_error as model_error
 from seacrane.accuracy.step_error import StepError as StepError
 from seacrane.accuracy.step_error import step_error as step_error
 from seacrane.analysis.ballast import Ballast as Ballast
-from seacrane.analysis.frequency_domain import ResponseStatistics as ResponseStatistics
 from seacrane.analysis.frequency_domain import SummedResponse as SummedResponse
 from seacrane.analysis.frequency_domain import motion_rao as motion_rao
-from seacrane.analysis.frequency_domain import response_statistics as response_statistics
 from seacrane.analysis.frequency_domain import response_summed as response_summed
 from seacrane.analysis.inverse import Balance as Balance
 from seacrane.analysis.inverse import balance as balance
@@ -51,6 +49,8 @@ from seacrane.analysis.modal_analysis import NaturalModes as NaturalModes
 from seacrane.analysis.modal_analysis import natural_modes as natural_modes
 from seacrane.analysis.quasi_static import feed_forward as feed_forward
 from seacrane.analysis.quasi_static import quasi_static_loads as quasi_static_loads
+from seacrane.analysis.response_statistics import ResponseStatistics as ResponseStatistics
+from seacrane.analysis.response_statistics import response_statistics as response_statistics
 from seacrane.analysis.rest_state import equilibrium as equilibrium
 from seacrane.analysis.tanks import Tank as Tank
 from seacrane.answers.load_chart import LoadChart as LoadChart

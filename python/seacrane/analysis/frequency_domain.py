@@ -1,4 +1,4 @@
-"""Motions of a scene in waves from its linear model: transfer functions, statistics, sums over components."""
+"""Motions of a scene in waves from its linear model: transfer functions, sums over components."""
 
 from __future__ import annotations
 
@@ -10,13 +10,11 @@ from numpy.typing import ArrayLike, NDArray
 
 from seacrane import _core
 from seacrane.analysis.linear_system import LinearModel, linear_model
-from seacrane.analysis.modal_analysis import natural_modes
 from seacrane.description.given import given_vessels
 from seacrane.description.scene import Description
 from seacrane.description.waves import Waves
 from seacrane.errors import SceneError
-from seacrane.hydro.data.below_band import warn_of_waves_below_band
-from seacrane.inputs.caller import warn_caller
+from seacrane.hydro.data.encounter import encounter_frequency_at
 from seacrane.inputs.checked import number_of
 
 if TYPE_CHECKING:
@@ -24,10 +22,6 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
-UNDAMPED = 1e-6  # damping ratio below which the variance of a resonance has no meaning
-BROAD = 0.2  # damping ratio above which the even grid resolves a resonance
-GRID = 1500  # frequencies over the band of the database
-GRID_OF_MODE = 120  # more on either side of each resonance
 
 
 def motion_rao(
@@ -49,7 +43,7 @@ def motion_rao(
     database : HydroDatabase
         Whose wave excitation acts on the vessel.
     omega, heading : array_like, broadcast against each other
-        rad/s; rad, direction of travel from the vessel's x (following) towards its y (port).
+        rad/s, of the waves; rad, direction of travel from the vessel's x (following) towards its y (port).
     body : str
     point : array_like, shape (3,)
         Body coordinates, from the body origin, m.
@@ -57,32 +51,46 @@ def motion_rao(
         At rest; default ``equilibrium(scene)``. Not with a LinearModel.
     memory : str
         "scene" (default), or "database": A and B of `database` by frequency, see `linear_model`. Not with a
-        LinearModel.
+        LinearModel. A database of a forward speed needs "database".
 
     Returns
     -------
     ndarray of complex, shape (..., 6)
         Translation (m/m) and rotation vector (rad/m), inertial axes, time factor exp(+i omega t); the wave
-        has zero phase at the mean position of the vessel's origin.
+        has zero phase at the mean position of the vessel's origin. At forward speed the axes travel with the
+        ship, and the time factor has the frequency of encounter, omega - k U cos(heading).
 
     Raises
     ------
     SceneError
-        As `linear_model`, for frequencies outside the database, or with a ship whose motion is given.
+        As `linear_model`, for frequencies outside the database, with a ship whose motion is given, or where
+        the model's memory is not of the database's speed.
     """
-    linear = _linear(scene, state, memory, database)
+    linear = linear_of(scene, state, memory, database)
+    require_same_speed(linear, database)
     w, b = np.broadcast_arrays(np.asarray(omega, dtype=float), np.asarray(heading, dtype=float))
     force = database.force_at(w.ravel(), b.ravel()).reshape(-1, 6)
-    x = linear.response(omega=w.ravel(), force=force)
+    x = linear.response(omega=encounter_frequency_at(database, w.ravel(), b.ravel()), force=force)
     return np.asarray((x @ linear.output(body=body, point=point).T).reshape(*w.shape, 6))
 
 
-def _linear(
+def require_same_speed(linear: LinearModel, database: HydroDatabase) -> None:
+    """Refuse a database of another forward speed than that of the matrices in a linear model."""
+    speed = linear.speed
+    if speed != database.speed:
+        raise SceneError(
+            f"database {database.name!r}: is of {database.speed:g} m/s, the memory of the linear model of "
+            f"{speed:g} m/s; give memory='database', which takes the matrices of this database"
+        )
+
+
+def linear_of(
     scene: Description | LinearModel,
     state: _core.State | None,
     memory: str = "scene",
     database: HydroDatabase | None = None,
 ) -> LinearModel:
+    """The linear model of a scene, or the one given; arguments as of `motion_rao`."""
     _require_afloat(scene.scene if isinstance(scene, LinearModel) else scene)
     if isinstance(scene, LinearModel):
         if state is not None:
@@ -167,7 +175,12 @@ def response_summed(
     _require_afloat(described)
     if isinstance(scene, Description):
         scene, state = linear_model(scene, state=state, vessel=next(iter(sea.hulls), None)), None
-    linear = _linear(scene, state)
+    linear = linear_of(scene, state)
+    if linear.speed != 0.0:
+        raise SceneError(
+            f"scene {described.name!r}: its linear model is of {linear.speed:g} m/s, but meets the waves of "
+            "the scene at zero speed; use response_statistics(memory='database')"
+        )
     components = sea.components()
     omega, direction = np.array(components.omega), np.array(components.direction)
     x: Complex = np.zeros((omega.size, len(linear.a)), dtype=complex)
@@ -179,147 +192,3 @@ def response_summed(
         x += linear.excited(vessel).response(omega=omega, force=force)
     amplitude = x @ linear.output(body=body, point=point).T
     return SummedResponse(omega=omega, amplitude=amplitude, state_amplitude=x)
-
-
-@dataclass(frozen=True, kw_only=True, eq=False)
-class ResponseStatistics:
-    """Statistics of a linear, Gaussian response in a stationary long-crested sea.
-
-    Every array has the six motions (three translations, m; rotation vector, rad) last.
-
-    Attributes
-    ----------
-    omega : ndarray, shape (k,)
-        Frequencies of the quadrature, rad/s.
-    rao : ndarray of complex, shape (k, 6)
-        Per metre of wave amplitude.
-    spectrum : ndarray, shape (k, 6)
-        |rao|^2 S, one-sided; m2 s/rad and rad2 s/rad.
-    std : ndarray, shape (6,)
-        sqrt(m0).
-    duration : float
-        s, of the extremes.
-    wave_energy_share : float
-        Share of the sea's energy within the band of the database; the rest is left out.
-    moments : ndarray, shape (6, 3)
-        m0, m2, m4.
-    """
-
-    omega: Array
-    rao: Complex
-    spectrum: Array
-    std: Array
-    duration: float
-    wave_energy_share: float
-    moments: Array
-
-    @property
-    def significant_amplitude(self) -> Array:
-        """2 sqrt(m0): mean of the highest third of the amplitudes of a narrow-banded response."""
-        return np.asarray(2.0 * self.std)
-
-    @property
-    def significant_double_amplitude(self) -> Array:
-        """4 sqrt(m0): crest to trough, as Hs of the sea."""
-        return np.asarray(4.0 * self.std)
-
-    @property
-    def mean_period(self) -> Array:
-        """Mean zero-upcrossing period 2 pi sqrt(m0 / m2), s; infinite for what does not move."""
-        m0, m2 = self.moments[:, 0], self.moments[:, 1]
-        moving = m2 > 0.0
-        return np.where(moving, 2.0 * np.pi * np.sqrt(m0 / np.where(moving, m2, 1.0)), np.inf)
-
-    @property
-    def most_probable_largest(self) -> Array:
-        """Most probable largest amplitude in `duration`: sqrt(2 m0 ln N), N = duration / mean period.
-
-        Rayleigh distributed amplitudes (narrow band); zero for less than one cycle.
-        """
-        cycles = np.maximum(self.duration / self.mean_period, 1.0)
-        return np.asarray(self.std * np.sqrt(2.0 * np.log(cycles)))
-
-
-def response_statistics(
-    scene: Description | LinearModel,
-    *,
-    database: HydroDatabase,
-    spectrum: _core.Spectrum,
-    heading: float,
-    body: str,
-    point: ArrayLike = (0.0, 0.0, 0.0),
-    duration: float = 10800.0,
-    state: _core.State | None = None,
-    memory: str = "scene",
-) -> ResponseStatistics:
-    """Response spectrum, significant and most probable largest motion of a point of any body.
-
-    The quadrature covers the band of the database and is refined about every resonance.
-
-    Parameters
-    ----------
-    scene, database, body, point, state, memory
-        As `motion_rao`.
-    spectrum : Spectrum
-    heading : float
-        rad, direction of travel from the vessel's x towards its y.
-    duration : float
-        s.
-
-    Raises
-    ------
-    SceneError
-        For a duration that is not positive, or as `motion_rao`.
-
-    Warns
-    -----
-    UserWarning
-        For a mode in the band without damping: its variance has no finite value.
-    BelowBandWarning
-        More than 10 % of the energy of the waves is below the database's trusted band.
-    """
-    span = number_of("duration", duration)
-    if not (np.isfinite(span) and span > 0.0):
-        raise SceneError(f"duration is {span} s; give a finite positive number")
-    linear = _linear(scene, state, memory, database)
-    low, high = float(database.omega[0]), float(database.omega[-1])
-    if database.trusted_band is not None and database.trusted_band[0] > low:
-        below = spectrum.energy(omega_min=low, omega_max=database.trusted_band[0]) / spectrum.moment(0)
-        warn_of_waves_below_band(database, below, "waves of a spectrum")
-    omega = _frequencies(linear, low, high)
-    rao = motion_rao(linear, database=database, omega=omega, heading=heading, body=body, point=point)
-    density = np.abs(rao) ** 2 * np.asarray(spectrum.density(omega))[:, None]
-    steps = np.diff(omega)
-    weights = 0.5 * (np.append(steps, 0.0) + np.append(0.0, steps))
-    moments = np.stack([(weights * omega**order) @ density for order in (0, 2, 4)], axis=1)
-    return ResponseStatistics(
-        omega=omega,
-        rao=rao,
-        spectrum=density,
-        std=np.sqrt(moments[:, 0]),
-        duration=span,
-        wave_energy_share=spectrum.energy(omega_min=low, omega_max=high) / spectrum.moment(0),
-        moments=moments,
-    )
-
-
-def _frequencies(linear: LinearModel, low: float, high: float) -> Array:
-    """Even over the band; about each resonance geometrically away from a tenth of its half width."""
-    modes = natural_modes(linear)
-    parts = [np.linspace(low, high, GRID)]
-    for i, value in enumerate(modes.eigenvalues):
-        if not low < value.imag < high or modes.damping_ratio[i] > BROAD:
-            continue
-        if modes.damping_ratio[i] < UNDAMPED:
-            warn_caller(
-                f"scene {linear.scene.name!r}: mode {modes.label(i)!r} at {value.imag:.4g} rad/s has a "
-                f"damping ratio of {modes.damping_ratio[i]:.2g}: the variance of its resonance has no "
-                "finite value; add damping",
-                UserWarning,
-            )
-            continue
-        width = abs(value.real)
-        away = np.geomspace(0.1 * width, max(0.5 * value.imag, width), GRID_OF_MODE)
-        parts.append(np.concatenate([value.imag - away, [value.imag], value.imag + away]))
-    omega = np.unique(np.concatenate(parts))
-    return omega[(omega >= low) & (omega <= high)]

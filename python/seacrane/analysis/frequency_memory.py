@@ -29,13 +29,14 @@ class FrequencyMemory:
     """What a vessel's matrices hold by frequency beyond those that the scene has at all frequencies.
 
     The load is ``-(-w^2 added_mass + i w damping + stiffness)`` times the displacement of the vessel's origin
-    and its rotation vector, in axes that follow its yaw. ``matrices`` takes ``omega`` (k,) in rad/s and gives
-    the three, each (k, 6, 6).
+    and its rotation vector, in axes that follow its yaw. ``matrices`` takes ``omega`` (k,) in rad/s, of
+    encounter at the forward speed ``speed`` (m/s), of either sign, and gives the three, each (k, 6, 6).
     """
 
     vessel: str
     body: str
     matrices: Callable[[Array], tuple[Array, Array, Array]]
+    speed: float = 0.0
 
     def impedance(self, omega: Array) -> Complex:
         """``-w^2 added_mass + i w damping + stiffness`` (k, 6, 6)."""
@@ -123,7 +124,8 @@ def _of_database(
 ) -> FrequencyMemory:
     """A, B and the additional matrices of a database less what the scene's vessel has at all frequencies.
 
-    Between the frequencies by cubic splines, beyond them those of the nearest.
+    Between the frequencies by cubic splines, beyond them those of the nearest. At forward speed they are
+    functions of the frequency of encounter, at its size.
     """
     from scipy.interpolate import CubicSpline
 
@@ -132,10 +134,6 @@ def _of_database(
         raise SceneError(
             f"vessel {element.body!r}: has a mass of {scene.bodies[element.body].mass:.6g} kg, database "
             f"{database.name!r} one of {mass:.6g} kg; give the database that the vessel was added from"
-        )
-    if database.speed != 0.0:
-        raise SceneError(
-            f"database {database.name!r}: is of {database.speed:g} m/s; a scene is linearised at zero speed"
         )
     parts = database.additional
     splines = [
@@ -151,7 +149,7 @@ def _of_database(
     inertia, restoring = np.array(element.added_mass) - rest, np.array(element.restoring)
 
     def matrices(omega: Array) -> tuple[Array, Array, Array]:
-        added_mass, damping, stiffness = (spline(np.clip(omega, low, high)) for spline in splines)
+        added_mass, damping, stiffness = (spline(np.clip(np.abs(omega), low, high)) for spline in splines)
         return added_mass - inertia, damping, following_yaw(stiffness) - restoring
 
-    return FrequencyMemory(vessel=name, body=element.body, matrices=matrices)
+    return FrequencyMemory(vessel=name, body=element.body, matrices=matrices, speed=database.speed)

@@ -85,6 +85,11 @@ class LinearModel:
         """Number of memory states."""
         return int(len(self.a) - 2 * self.degrees_of_freedom)
 
+    @property
+    def speed(self) -> float:
+        """Forward speed (m/s) of the matrices in `memories` of the vessel on which the waves act."""
+        return next((each.speed for each in self.memories if each.body == self.vessel), 0.0)
+
     def output(self, *, body: str, point: ArrayLike = (0.0, 0.0, 0.0)) -> Array:
         """C (6, n): translation (m) of a point of a body and rotation vector (rad) of the body from x.
 
@@ -306,7 +311,8 @@ def linear_model(
         and additional matrices of `database` by frequency in place of the vessel's memory, so that nothing
         is fitted.
     database : HydroDatabase, optional
-        The one that the vessel was added from; with ``memory="database"``.
+        The one that the vessel was added from, or the same ship at a forward speed; with
+        ``memory="database"``.
 
     Raises
     ------

@@ -21,7 +21,8 @@ def run(arguments: argparse.Namespace) -> int:
     from seacrane.hydro import load_database
 
     band = None if arguments.band is None else (arguments.band[0], arguments.band[1])
-    database = _with_memory(load_database(arguments.path), kind=arguments.memory, band=band)
+    database = load_database(arguments.path, trusted_band=band)
+    database = _with_memory(database, kind=arguments.memory, asked=band is not None)
     rows: list[dict[str, Any]] = [{name: getattr(row, name) for name in COLUMNS} for row in database.check()]
     print(to_json(rows) if arguments.json else _as_text(rows))
     if arguments.out is not None:
@@ -35,19 +36,11 @@ def run(arguments: argparse.Namespace) -> int:
     return 0
 
 
-def _with_memory(
-    database: HydroDatabase, *, kind: str | None, band: tuple[float, float] | None
-) -> HydroDatabase:
-    """The database with its memory, fitted here where it holds none, or where a kind or a band is asked for.
-
-    The band becomes the trusted one.
-    """
+def _with_memory(database: HydroDatabase, *, kind: str | None, asked: bool) -> HydroDatabase:
+    """The database with its memory, fitted here where it holds none, or where it or its band is asked for."""
     from seacrane.hydro.memory.fit import enough_frequencies, fit_memory
 
-    if band is not None:
-        database = dataclasses.replace(database, trusted_band=band, memory=None)
-    asked = kind is not None or band is not None
-    if not asked and (database.memory is not None or not enough_frequencies(database)):
+    if not asked and kind is None and (database.memory is not None or not enough_frequencies(database)):
         return database
     return dataclasses.replace(database, memory=fit_memory(database=database, kind=kind or "per-pair"))
 

@@ -60,6 +60,7 @@ from seacrane.hydro.readers.reader_warnings import EncounterFrequencyWarning as 
 from seacrane.hydro.readers.reader_warnings import HydrostaticsWarning as HydrostaticsWarning
 from seacrane.hydro.readers.reader_warnings import MissingMotionsWarning as MissingMotionsWarning
 from seacrane.hydro.readers.reader_warnings import PartialSetWarning as PartialSetWarning
+from seacrane.hydro.readers.reader_warnings import RoughDataWarning as RoughDataWarning
 from seacrane.hydro.readers.reader_warnings import SeveralSpeedsWarning as SeveralSpeedsWarning
 from seacrane.hydro.readers.veres import read_veres as read_veres
 from seacrane.hydro.readers.veres_hydrostatics import VeresHydrostatics as VeresHydrostatics

@@ -70,6 +70,18 @@ class Spreading:
         sine = np.sqrt(betaincinv(0.5, half + 0.5, np.abs(side)))
         return np.asarray(np.sign(side) * np.arcsin(sine) / rate)
 
+    def quadrature(self, count: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Angles (count,) in rad and their shares of the energy, which integrate a function of the angle.
+
+        Gauss and Gegenbauer, in the sine of the (half) angle: exact for "cos-2s" and a trigonometric
+        polynomial up to the order ``count``, as an odd part gives nothing.
+        """
+        from scipy.special import roots_gegenbauer
+
+        half, rate = self._turns
+        sine, weights = roots_gegenbauer(count, half)
+        return np.arcsin(sine) / rate, weights / weights.sum()
+
     @property
     def std(self) -> float:
         """Root mean square angle sqrt(2 (1 - E cos(angle))), rad: that of directional buoys."""

@@ -36,6 +36,12 @@ def encounter_frequency(database: HydroData) -> FloatArray:
     return np.asarray(database.omega - database.speed * np.outer(np.cos(database.heading), k))
 
 
+def encounter_frequency_at(database: HydroData, omega: FloatArray, heading: FloatArray) -> FloatArray:
+    """``omega - k U cos(heading)`` in rad/s of any wave frequencies and headings, which broadcast."""
+    k = wavenumber(np.ravel(omega), g=database.g, depth=database.depth).reshape(np.shape(omega))
+    return np.asarray(omega - database.speed * np.cos(heading) * k)
+
+
 def require_zero_speed(database: HydroData) -> None:
     """Raise at forward speed, at which the memory and the equations of the time domain do not hold.
 

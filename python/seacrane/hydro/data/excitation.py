@@ -42,6 +42,15 @@ def force_at(
     return with_limits(database, w, force).reshape(*shape, 6)
 
 
+def force_on_grid(database: HydroData, omega: FloatArray, heading: FloatArray) -> ComplexArray:
+    """Forces (q, k, 6) at headings (q,) times frequencies (k,) within the table, as `force_at` has them."""
+    circle, table = full_circle(database)
+    in_heading = _heading_weights(database, circle, np.asarray(heading, dtype=float))
+    by_heading = np.tensordot(in_heading, table, axes=1)
+    in_frequency = spline_weights(database.omega, np.asarray(omega, dtype=float))
+    return np.asarray(np.einsum("kn,qnd->qkd", in_frequency, by_heading, optimize=True))
+
+
 def full_circle(database: HydroData) -> tuple[FloatArray, ComplexArray]:
     """Headings (k,) within [0, 2 pi), the mirrored ones added, and their forces (k, n, 6); new arrays."""
     if not database.port_starboard_symmetric:

@@ -20,6 +20,7 @@ from seacrane.errors import FileFormatError
 from seacrane.files.netcdf_limits import NETCDF_ERRORS, open_hdf5
 from seacrane.hydro.data.heading_circle import keeps_sides_apart
 from seacrane.hydro.database.database import HydroDatabase
+from seacrane.hydro.readers.band_of_data import with_band_of_data
 from seacrane.hydro.readers.equivalent_box import equivalent_box
 from seacrane.hydro.readers.format import Format, is_file_of, of_one_speed, zero_speed
 from seacrane.hydro.readers.usual_inertia import usual_mass_matrix
@@ -60,13 +61,14 @@ def read_bemio(path: str | PathLike[str], *, mass_matrix: ArrayLike | None = Non
         raise FileFormatError(f"{source}: no such file; give the path of a BEMIO file")
     try:
         with open_hdf5(source) as file:
-            return _convert(source, file, mass_matrix)
+            found = _convert(source, file, mass_matrix)
     except FileFormatError:
         raise
     except NETCDF_ERRORS as error:
         raise FileFormatError(
             f"{source}: cannot be read as a BEMIO file ({str(error)[:200]}); write it again"
         ) from error
+    return with_band_of_data(found)
 
 
 def is_bemio(path: Path) -> bool:

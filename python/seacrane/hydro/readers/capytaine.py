@@ -19,6 +19,7 @@ from seacrane.errors import FileFormatError
 from seacrane.files.netcdf_limits import NETCDF_ERRORS, open_netcdf
 from seacrane.hydro.data.heading_circle import keeps_sides_apart
 from seacrane.hydro.database.database import HydroDatabase
+from seacrane.hydro.readers.band_of_data import with_band_of_data
 from seacrane.hydro.readers.equivalent_box import equivalent_box
 from seacrane.hydro.readers.format import Format, is_file_of, of_one_speed, zero_speed
 from seacrane.hydro.readers.reader_warnings import MissingMotionsWarning
@@ -93,13 +94,14 @@ def read_capytaine(
     try:
         with open_netcdf(source), xarray.open_dataset(source) as opened:
             dataset = opened.load()
-        return _convert(source, _of_depth(source, dataset, depth), mass_matrix, restoring)
+        found = _convert(source, _of_depth(source, dataset, depth), mass_matrix, restoring)
     except FileFormatError:
         raise
     except NETCDF_ERRORS as error:
         raise FileFormatError(
             f"{source}: cannot be read as a Capytaine dataset ({str(error)[:200]}); write it again"
         ) from error
+    return with_band_of_data(found)
 
 
 def _of_depth(path: Path, dataset: xarray.Dataset, depth: float | None) -> xarray.Dataset:

@@ -2,20 +2,30 @@
 
 from __future__ import annotations
 
+import warnings
+from dataclasses import replace
 from os import PathLike
 from pathlib import Path
+
+import numpy as np
 
 from seacrane.errors import FileFormatError
 from seacrane.hydro.data.data_warnings import warn_of_data
 from seacrane.hydro.database.database import HydroDatabase
 from seacrane.hydro.readers import bemio, capytaine, nemoh, orcaflex, seacrane_netcdf, veres, wamit
 from seacrane.hydro.readers.format import Format
+from seacrane.hydro.readers.reader_warnings import RoughDataWarning
 
 FORMATS = tuple(kind.FORMAT for kind in (capytaine, seacrane_netcdf, veres, wamit, orcaflex, bemio, nemoh))
 NAMED = 5  # files in a message
 
 
-def load_database(path: str | PathLike[str], *, speed: float | None = None) -> HydroDatabase:
+def load_database(
+    path: str | PathLike[str],
+    *,
+    speed: float | None = None,
+    trusted_band: tuple[float, float] | None = None,
+) -> HydroDatabase:
     """Read a hydrodynamic database of any supported kind.
 
     NetCDF of seacrane or Capytaine (told apart by content), ShipX/VERES or WAMIT (folder, stem or any file of
@@ -26,20 +36,40 @@ def load_database(path: str | PathLike[str], *, speed: float | None = None) -> H
     path : file, folder or stem.
     speed : forward speed in m/s, for VERES files that hold several (`available_speeds`); by default the one
         nearest to zero.
+    trusted_band : (low, high) in rad/s, in place of what the files say. Files that do not tell their panels
+        are trusted as far as their matrices are smooth (`HydroDatabase.trusted_band`; None: to the end).
 
     Raises
     ------
     FileFormatError : nothing readable at ``path``, or not of that speed; the message names the file, the line
         where there is one, and the supported kinds.
+    ValueError : a ``trusted_band`` that is none, or that holds none of the frequencies.
 
     Warns
     -----
+    RoughDataWarning : matrices that jump, in files that do not tell their panels.
     DampingWarning, HeadingGapWarning, WaterMismatchWarning : what was read will give wrong motions.
     """
     found, source = _format_of(Path(path))
-    database = found.read(source, speed=speed)
+    if trusted_band is None:
+        database = found.read(source, speed=speed)
+    else:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", RoughDataWarning)
+            database = _trusted(found.read(source, speed=speed), trusted_band)
     warn_of_data(database)
     return database
+
+
+def _trusted(database: HydroDatabase, band: tuple[float, float]) -> HydroDatabase:
+    """With the band asked for; a memory fitted over another one is dropped."""
+    low, high = (float(value) for value in band)
+    if not np.any((database.omega >= low) & (database.omega <= high)):
+        raise ValueError(
+            f"database {database.name!r}: trusted_band ({low:.4g}, {high:.4g}) rad/s holds no frequency; it "
+            f"has {database.omega[0]:.4g} to {database.omega[-1]:.4g} rad/s"
+        )
+    return replace(database, trusted_band=(low, high), memory=None)
 
 
 def available_speeds(path: str | PathLike[str]) -> tuple[float, ...]:

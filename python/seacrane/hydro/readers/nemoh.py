@@ -21,6 +21,7 @@ from seacrane.errors import FileFormatError
 from seacrane.files.whole_file import read_whole
 from seacrane.hydro.data.heading_circle import keeps_sides_apart
 from seacrane.hydro.database.database import HydroDatabase
+from seacrane.hydro.readers.band_of_data import with_band_of_data
 from seacrane.hydro.readers.equivalent_box import equivalent_box
 from seacrane.hydro.readers.format import Format, of_one_speed, zero_speed
 from seacrane.hydro.readers.reader_warnings import AssumedDensityWarning
@@ -82,12 +83,13 @@ def read_nemoh(
             AssumedDensityWarning,
         )
     try:
-        return _convert(folder, files, water, mass_matrix)
+        found = _convert(folder, files, water, mass_matrix)
     except FileFormatError:
         raise
     except ValueError as error:
         names = ", ".join(str(file) for file in (*files.values(), control) if file is not None)
         raise FileFormatError(f"{names}: {error}") from error
+    return with_band_of_data(found)
 
 
 @dataclass(frozen=True, eq=False)

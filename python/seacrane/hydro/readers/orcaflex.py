@@ -17,6 +17,7 @@ from numpy.typing import ArrayLike, NDArray
 from seacrane.errors import FileFormatError
 from seacrane.hydro.data.rigid_mass import rigid_mass_matrix
 from seacrane.hydro.database.database import HydroDatabase
+from seacrane.hydro.readers.band_of_data import with_band_of_data
 from seacrane.hydro.readers.equivalent_box import equivalent_box
 from seacrane.hydro.readers.format import Format, is_file_of, of_one_speed, zero_speed
 from seacrane.hydro.readers.mafredo_file import read_mafredo
@@ -112,11 +113,12 @@ def read_orcaflex(
         else:
             kind = read_vessel_type(source, vessel_type=vessel_type, draught=draught)
             found = _orcaflex(source, kind, rho)
-        return _database(source, found, mass_matrix, restoring)
+        database = _database(source, found, mass_matrix, restoring)
     except FileFormatError:
         raise
     except ValueError as error:
         raise FileFormatError(f"{source}: {error}") from error
+    return with_band_of_data(database)
 
 
 def _density(path: Path, given: float | None) -> float:

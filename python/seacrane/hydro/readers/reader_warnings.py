@@ -33,3 +33,7 @@ class HydrostaticsWarning(UserWarning):
 
 class MissingMotionsWarning(UserWarning):
     """The source lacks some of the six motions: nothing of the water acts in them."""
+
+
+class RoughDataWarning(UserWarning):
+    """The matrices of the source jump from a frequency on: its trusted band ends below it."""

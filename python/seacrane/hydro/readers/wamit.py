@@ -8,7 +8,7 @@ rotations 1/L. Phases in ``.out`` are rounded to degrees and not used.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from os import PathLike
 from pathlib import Path
 
@@ -20,6 +20,7 @@ from seacrane.hydro.data.drift import DriftCoefficients
 from seacrane.hydro.data.heading_circle import keeps_sides_apart
 from seacrane.hydro.data.rigid_mass import rigid_mass_matrix
 from seacrane.hydro.database.database import HydroDatabase
+from seacrane.hydro.readers.band_of_data import with_band_of_data
 from seacrane.hydro.readers.equivalent_box import equivalent_box
 from seacrane.hydro.readers.format import Format, of_one_speed, zero_speed
 from seacrane.hydro.readers.reader_warnings import (
@@ -108,11 +109,12 @@ def read_wamit(
     mass = None if mass_matrix is None else np.asarray(mass_matrix, dtype=float)
     given = _Given(volume, float(depth), float(g), float(length_scale), rho, mass)
     try:
-        return _convert(stem, files, given)
+        found = _convert(stem, files, given)
     except FileFormatError:
         raise
     except ValueError as error:
         raise FileFormatError(f"{stem}: {error}") from error
+    return with_band_of_data(found)
 
 
 def find_wamit_stem(path: Path) -> Path:
@@ -157,7 +159,7 @@ class _Given:
     rho: float | None
     mass: FloatArray | None
 
-    def listing(self, stem: Path, radiation: Radiation) -> Listing:
+    def listing(self, stem: Path) -> Listing:
         """In the place of ``.out``."""
         if self.volume is None:
             raise FileFormatError(
@@ -180,9 +182,9 @@ class _Given:
             centre_of_buoyancy=np.zeros(3),
             centre_of_gravity=None,
             body_height=0.0,
-            symmetric=keeps_sides_apart(radiation.added_mass),
+            symmetric=None,
             panels=None,
-            period=radiation.period,
+            period=np.zeros(0),
             last_line=0,
         )
 
@@ -204,11 +206,14 @@ def _convert(stem: Path, files: dict[str, Path | None], given: _Given) -> HydroD
     if files[".cfg"] is not None:
         check_period_output(files[".cfg"])
     radiation = read_radiation(_there(files, ".1"))
-    listing = given.listing(stem, radiation) if files[".out"] is None else read_listing(files[".out"])
+    listing = given.listing(stem) if files[".out"] is None else read_listing(files[".out"])
+    if listing.symmetric is None:
+        listing = replace(listing, symmetric=keeps_sides_apart(radiation.added_mass))
     force = read_waves(_there(files, ".3"))
     motion = None if files[".4"] is None else read_waves(files[".4"])
     control = None if files[".frc"] is None else read_force_control(files[".frc"])
-    _check_periods(listing, radiation.period, _there(files, ".1"))
+    if files[".out"] is not None:
+        _check_periods(listing, radiation.period, _there(files, ".1"))
     period, heading_deg = _common(stem, radiation, force, motion)
     rho = _density(stem, listing, control, given.rho)
     length_scale, g = listing.length_scale, listing.g
@@ -250,7 +255,7 @@ def _convert(stem: Path, files: dict[str, Path | None], given: _Given) -> HydroD
         origin=_origin(listing),
         source=_source(stem, files, listing, haskind),
         trusted_band=_trusted(body, omega),
-        port_starboard_symmetric=listing.symmetric,
+        port_starboard_symmetric=bool(listing.symmetric),
         drift=_drift(files, listing, rho),
     )
 

@@ -39,7 +39,7 @@ class Listing:
     centre_of_buoyancy: FloatArray
     centre_of_gravity: FloatArray | None
     body_height: float
-    symmetric: bool
+    symmetric: bool | None
     panels: int | None
     period: FloatArray
     last_line: int
@@ -113,7 +113,7 @@ def read_listing(path: Path) -> Listing:
         centre_of_buoyancy=np.array(buoyancy),
         centre_of_gravity=None if gravity is None else np.array(gravity),
         body_height=_body_height(path, maybe),
-        symmetric=symmetry is not None and "Y=0" in symmetry.group(0).replace(" ", ""),
+        symmetric=None if symmetry is None else "Y=0" in symmetry.group(0).replace(" ", ""),
         panels=int(panels[0]) if panels and panels[0] >= 1.0 else None,
         period=np.array(periods),
         last_line=len(lines),

@@ -1,0 +1,295 @@
+"""Statistics of a scene's linear motions in a sea: long-crested or short-crested, at rest or at speed."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from seacrane import _core
+from seacrane.analysis.frequency_domain import linear_of, require_same_speed
+from seacrane.analysis.linear_system import LinearModel
+from seacrane.analysis.modal_analysis import natural_modes
+from seacrane.description.scene import Description
+from seacrane.errors import SceneError
+from seacrane.hydro.data.below_band import warn_of_waves_below_band
+from seacrane.hydro.data.encounter import encounter_frequency_at, inside_table
+from seacrane.hydro.data.excitation import force_on_grid
+from seacrane.hydro.readers.reader_warnings import EncounterFrequencyWarning
+from seacrane.inputs.caller import warn_caller
+from seacrane.inputs.checked import number_of
+from seacrane.sea.spreading import Spreading
+
+if TYPE_CHECKING:
+    from seacrane.hydro import HydroDatabase
+
+Array = NDArray[np.float64]
+Complex = NDArray[np.complex128]
+UNDAMPED = 1e-6  # damping ratio below which the variance of a resonance has no meaning
+BROAD = 0.2  # damping ratio above which the even grid resolves a resonance
+GRID = 1500  # frequencies over the band of the database
+GRID_OF_MODE = 120  # more on either side of each resonance
+FINE = 20_001  # frequencies at which the encounter is looked up
+HEADINGS = 48  # of the quadrature over the directions
+MOST_UNKNOWN = 0.1  # of the energy of the waves, met outside the table of a database at speed
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class ResponseStatistics:
+    """Statistics of a linear, Gaussian response in a stationary sea.
+
+    Every array has the six motions (three translations, m; rotation vector, rad) last.
+
+    Attributes
+    ----------
+    omega : ndarray, shape (k,)
+        Frequencies of the quadrature, rad/s; of the waves.
+    rao : ndarray of complex, shape (k, 6)
+        Per metre of wave amplitude, of waves along the main direction.
+    spectrum : ndarray, shape (k, 6)
+        |rao|^2 S, one-sided, integrated over the directions; m2 s/rad and rad2 s/rad. At forward speed too it
+        is a density over the frequency of the waves.
+    std : ndarray, shape (6,)
+        sqrt(m0).
+    duration : float
+        s, of the extremes.
+    wave_energy_share : float
+        Share of the sea's energy within the band of the database; the rest is left out.
+    moments : ndarray, shape (6, 3)
+        m0, m2, m4; at forward speed by the frequency of encounter.
+    headings : ndarray, shape (q,)
+        Directions of the quadrature, rad.
+    heading_share : ndarray, shape (q,)
+        Their shares of the energy of the waves; they sum to one.
+    """
+
+    omega: Array
+    rao: Complex
+    spectrum: Array
+    std: Array
+    duration: float
+    wave_energy_share: float
+    moments: Array
+    headings: Array
+    heading_share: Array
+
+    @property
+    def significant_amplitude(self) -> Array:
+        """2 sqrt(m0): mean of the highest third of the amplitudes of a narrow-banded response."""
+        return np.asarray(2.0 * self.std)
+
+    @property
+    def significant_double_amplitude(self) -> Array:
+        """4 sqrt(m0): crest to trough, as Hs of the sea."""
+        return np.asarray(4.0 * self.std)
+
+    @property
+    def mean_period(self) -> Array:
+        """Mean zero-upcrossing period 2 pi sqrt(m0 / m2), s; infinite for what does not move."""
+        m0, m2 = self.moments[:, 0], self.moments[:, 1]
+        moving = m2 > 0.0
+        return np.where(moving, 2.0 * np.pi * np.sqrt(m0 / np.where(moving, m2, 1.0)), np.inf)
+
+    @property
+    def most_probable_largest(self) -> Array:
+        """Most probable largest amplitude in `duration`: sqrt(2 m0 ln N), N = duration / mean period.
+
+        Rayleigh distributed amplitudes (narrow band); zero for less than one cycle.
+        """
+        cycles = np.maximum(self.duration / self.mean_period, 1.0)
+        return np.asarray(self.std * np.sqrt(2.0 * np.log(cycles)))
+
+
+def response_statistics(
+    scene: Description | LinearModel,
+    *,
+    database: HydroDatabase,
+    spectrum: _core.Spectrum,
+    heading: float,
+    body: str,
+    point: ArrayLike = (0.0, 0.0, 0.0),
+    duration: float = 10800.0,
+    state: _core.State | None = None,
+    memory: str = "scene",
+    spreading: Spreading | None = None,
+) -> ResponseStatistics:
+    """Response spectrum, significant and most probable largest motion of a point of any body.
+
+    The quadrature covers the band of the database and is refined about every resonance. With a database of a
+    forward speed (``memory="database"``) all is integrated over the frequency of the waves, so that nothing
+    is singular where following waves are met at the same frequency.
+
+    Parameters
+    ----------
+    scene, database, body, point, state, memory
+        As `motion_rao`.
+    spectrum : Spectrum
+    heading : float
+        rad, main direction of travel from the vessel's x towards its y.
+    duration : float
+        s, of the extremes.
+    spreading : Spreading, optional
+        Of the energy about `heading`: `cos_2s` or `cos_n`. Default: long-crested.
+
+    Raises
+    ------
+    SceneError
+        For a duration that is not positive, a spreading that is none, or as `motion_rao`.
+
+    Warns
+    -----
+    UserWarning
+        For a mode in the band without damping: its variance has no finite value.
+    BelowBandWarning
+        More than 10 % of the energy of the waves is below the database's trusted band.
+    EncounterFrequencyWarning
+        At forward speed more than 10 % of the energy is met outside the table of the matrices.
+    """
+    span = number_of("duration", duration)
+    if not (np.isfinite(span) and span > 0.0):
+        raise SceneError(f"duration is {span} s; give a finite positive number")
+    if spreading is not None and not isinstance(spreading, Spreading):
+        raise SceneError(f"spreading is {spreading!r}; give cos_2s(...), cos_n(...) or None")
+    linear = linear_of(scene, state, memory, database)
+    require_same_speed(linear, database)
+    low, high = float(database.omega[0]), float(database.omega[-1])
+    if database.trusted_band is not None and database.trusted_band[0] > low:
+        below = spectrum.energy(omega_min=low, omega_max=database.trusted_band[0]) / spectrum.moment(0)
+        warn_of_waves_below_band(database, below, "waves of a spectrum")
+    main, output = float(heading), linear.output(body=body, point=point)
+    headings, shares = np.array([main]), np.ones(1)
+    if spreading is not None:
+        angles, shares = spreading.quadrature(HEADINGS)
+        headings = main + angles
+    along, *parts = _responses(linear, database, np.append(main, headings), output)
+    moments, density, unknown = np.zeros((6, 3)), np.zeros(along.rao.shape), 0.0
+    for share, part in zip(shares, parts, strict=True):
+        each = np.abs(part.rao) ** 2 * np.asarray(spectrum.density(part.omega))[:, None]
+        moments += share * part.moments(each)
+        density += share * part.at(along.omega, each)
+        unknown += share * part.unknown(database, spectrum)
+    _warn_of_unknown(database, unknown)
+    return ResponseStatistics(
+        omega=along.omega,
+        rao=along.rao,
+        spectrum=density,
+        std=np.sqrt(moments[:, 0]),
+        duration=span,
+        wave_energy_share=spectrum.energy(omega_min=low, omega_max=high) / spectrum.moment(0),
+        moments=moments,
+        headings=headings,
+        heading_share=shares,
+    )
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class _Response:
+    """Motions (k, 6) per metre of waves of one direction, by their frequency and that of encounter (k,)."""
+
+    omega: Array
+    encounter: Array
+    rao: Complex
+
+    def moments(self, density: Array) -> Array:
+        """m0, m2, m4 (6, 3) of a density (k, 6) over the frequency of the waves."""
+        weights = _weights(self.omega)
+        return np.stack([(weights * self.encounter**order) @ density for order in (0, 2, 4)], axis=1)
+
+    def at(self, omega: Array, density: Array) -> Array:
+        """The density (k, 6) at other frequencies of the waves."""
+        if omega is self.omega or np.array_equal(omega, self.omega):
+            return density
+        return np.stack([np.interp(omega, self.omega, column) for column in density.T], axis=1)
+
+    def unknown(self, database: HydroDatabase, spectrum: _core.Spectrum) -> float:
+        """Share of the energy of the waves that is met outside the frequencies of the database."""
+        outside = ~inside_table(database.omega, self.encounter)
+        energy = _weights(self.omega) * np.asarray(spectrum.density(self.omega))
+        return float(energy[outside].sum() / spectrum.moment(0))
+
+
+def _weights(omega: Array) -> Array:
+    """Of the trapezoidal rule."""
+    steps = np.diff(omega)
+    return np.asarray(0.5 * (np.append(steps, 0.0) + np.append(0.0, steps)))
+
+
+def _responses(
+    linear: LinearModel, database: HydroDatabase, headings: Array, output: Array
+) -> Iterator[_Response]:
+    """Of each direction; at rest all share their frequencies, and what the ship makes of a load."""
+    if database.speed != 0.0:
+        about = _about_resonances(linear, 0.0, float(np.inf))
+        for heading in headings:
+            omega = _met_frequencies(database, float(heading), about)
+            encounter = encounter_frequency_at(database, omega, heading)
+            force = force_on_grid(database, omega, heading[None])[0]
+            rao = linear.response(omega=encounter, force=force) @ output.T
+            yield _Response(omega=omega, encounter=encounter, rao=rao)
+        return
+    omega = _frequencies(linear, database)
+    unit = np.repeat(np.eye(6), len(omega), axis=0)
+    moved = linear.response(omega=np.tile(omega, 6), force=unit) @ output.T
+    by_load = moved.reshape(6, len(omega), 6)
+    for force in force_on_grid(database, omega, headings):
+        yield _Response(omega=omega, encounter=omega, rao=np.einsum("lkm,kl->km", by_load, force))
+
+
+def _warn_of_unknown(database: HydroDatabase, share: float) -> None:
+    if share > MOST_UNKNOWN:
+        warn_caller(
+            f"database {database.name!r}: at {database.speed:g} m/s {share:.0%} of the energy of the waves "
+            f"is met outside {database.omega[0]:.3g} to {database.omega[-1]:.3g} rad/s; the matrices there "
+            "are those of the nearest frequency. Near zero, in following seas, surge, sway and yaw are those "
+            "of the scene's springs, and no linear theory holds",
+            EncounterFrequencyWarning,
+        )
+
+
+def _frequencies(linear: LinearModel, database: HydroDatabase) -> Array:
+    """Even over the band of the database, and about each resonance."""
+    low, high = float(database.omega[0]), float(database.omega[-1])
+    omega = np.unique(np.concatenate([np.linspace(low, high, GRID), _about_resonances(linear, low, high)]))
+    return omega[(omega >= low) & (omega <= high)]
+
+
+def _met_frequencies(database: HydroDatabase, heading: float, about: Array) -> Array:
+    """Even over the band, and where waves of a direction are met at the frequencies ``about`` resonances.
+
+    In following seas the frequency of encounter rises, turns and falls: a resonance is met up to three times.
+    """
+    low, high = float(database.omega[0]), float(database.omega[-1])
+    fine = np.linspace(low, high, FINE)
+    met = encounter_frequency_at(database, fine, np.array(heading))
+    turn = int(np.argmax(met)) + 1
+    parts = [np.linspace(low, high, GRID)]
+    for branch in (slice(0, turn), slice(turn - 1, None)):
+        rising = np.argsort(met[branch])
+        for wanted in (about, -about):
+            inside = wanted[(wanted > met[branch].min()) & (wanted < met[branch].max())]
+            parts.append(np.interp(inside, met[branch][rising], fine[branch][rising]))
+    return np.unique(np.concatenate(parts))
+
+
+def _about_resonances(linear: LinearModel, low: float, high: float) -> Array:
+    """Frequencies about each resonance, geometrically away from a tenth of its half width."""
+    modes = natural_modes(linear)
+    parts = [np.zeros(0)]
+    for i, value in enumerate(modes.eigenvalues):
+        if not low < value.imag < high or modes.damping_ratio[i] > BROAD:
+            continue
+        if modes.damping_ratio[i] < UNDAMPED:
+            warn_caller(
+                f"scene {linear.scene.name!r}: mode {modes.label(i)!r} at {value.imag:.4g} rad/s has a "
+                f"damping ratio of {modes.damping_ratio[i]:.2g}: the variance of its resonance has no "
+                "finite value; add damping",
+                UserWarning,
+            )
+            continue
+        width = abs(value.real)
+        away = np.geomspace(0.1 * width, max(0.5 * value.imag, width), GRID_OF_MODE)
+        parts.append(np.concatenate([value.imag - away, [value.imag], value.imag + away]))
+    return np.concatenate(parts)

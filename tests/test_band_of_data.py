@@ -1,0 +1,176 @@
+"""The trusted band of files that do not tell their panels: sound and damaged data, real files."""
+
+from __future__ import annotations
+
+import dataclasses
+import logging
+import shutil
+import warnings
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from seacrane.hydro import (
+    DampingWarning,
+    HydroDatabase,
+    RoughDataWarning,
+    load_database,
+    read_capytaine,
+    shipped_database,
+)
+from seacrane.hydro.data.data_warnings import warn_of_data
+from seacrane.hydro.data.roughness import first_rough_value
+
+
+def rough_from(database: HydroDatabase) -> float | None:
+    """Frequency of the first jump, rad/s."""
+    found = first_rough_value(database)
+    return None if found is None else float(database.omega[found[0]])
+
+
+def scales(database: HydroDatabase) -> tuple[np.ndarray, np.ndarray]:
+    """What A and B of each pair vary by, (6, 6)."""
+    a = np.ptp(np.diagonal(database.added_mass, axis1=1, axis2=2), axis=0)
+    b = np.diagonal(database.damping, axis1=1, axis2=2).max(axis=0)
+    return np.sqrt(np.outer(a, a)), np.sqrt(np.outer(b, b))
+
+
+@pytest.fixture
+def uncounted(shared: Path, tmp_path: Path) -> Path:
+    """The tanker's set with a listing that does not count its panels."""
+    for file in (shared / "wamit").glob("tanker.*"):
+        shutil.copyfile(file, tmp_path / file.name)
+    listing = tmp_path / "tanker.out"
+    lines = listing.read_bytes().split(b"\n")
+    listing.write_bytes(b"\n".join(line for line in lines if b"Total panels" not in line))
+    return tmp_path
+
+
+@pytest.mark.parametrize("every", [1, 2, 3, 4, 6])
+def test_sound_data_are_not_cut(every: int) -> None:
+    """The shipped hull has a lid; thinned to steps of 0.3 rad/s its curves are coarse, and still no noise."""
+    assert rough_from(shipped_database().select(every=every)) is None
+
+
+def test_a_sound_ship_of_strip_theory_is_not_cut(shared: Path) -> None:
+    assert rough_from(load_database(shared / "veres" / "supply")) is None
+
+
+@pytest.mark.parametrize("above", [1.3, 1.6, 2.0, 2.4])
+@pytest.mark.parametrize("level", [0.01, 0.03])
+def test_noise_is_found_where_it_begins(above: float, level: float) -> None:
+    base = shipped_database()
+    noise = np.random.default_rng(3).normal(size=(2, len(base.omega), 6, 6))
+    noise = (noise + noise.swapaxes(2, 3)) / np.sqrt(2.0) * (base.omega >= above - 1e-9)[:, None, None]
+    of_a, of_b = (level * part * scale for part, scale in zip(noise, scales(base), strict=True))
+    found = rough_from(
+        dataclasses.replace(base, added_mass=base.added_mass + of_a, damping=base.damping + of_b, memory=None)
+    )
+    assert found is not None
+    assert above - 2.5 * 0.05 < found < above + 2.5 * 0.05
+
+
+SPIKES = [("added_mass", (2, 2)), ("damping", (4, 4)), ("damping", (1, 3))]
+
+
+@pytest.mark.parametrize(("matrix", "entry"), SPIKES)
+def test_a_spike_of_an_irregular_frequency_is_found_and_named(matrix: str, entry: tuple[int, int]) -> None:
+    base = shipped_database()
+    at = int(np.searchsorted(base.omega, 1.8))
+    table = getattr(base, matrix).copy()
+    scale = scales(base)[0 if matrix == "added_mass" else 1]
+    for j, k in {entry, entry[::-1]}:
+        table[at, j, k] += 0.03 * scale[j, k]
+    found = first_rough_value(dataclasses.replace(base, memory=None, **{matrix: table}))
+    assert found is not None
+    assert at - 2 <= found[0] <= at
+    letter = "A" if matrix == "added_mass" else "B"
+    assert found[1] == f"{letter}{entry[0] + 1}{entry[1] + 1}"
+
+
+def test_a_resonance_of_the_fluid_in_long_waves_is_kept() -> None:
+    """A peak of one step, as of a moonpool, at a frequency where panels cannot be the cause."""
+    base = shipped_database()
+    damping = base.damping.copy()
+    damping[int(np.searchsorted(base.omega, 0.8)), 2, 2] *= 1.5
+    assert rough_from(dataclasses.replace(base, damping=damping, memory=None)) is None
+
+
+def test_what_symmetry_forbids_does_not_count() -> None:
+    base = shipped_database()
+    added_mass = base.added_mass.copy()
+    added_mass[::2, 0, 1] += 0.1 * scales(base)[0][0, 1]
+    assert rough_from(dataclasses.replace(base, added_mass=added_mass, memory=None)) is None
+    one_sided = dataclasses.replace(base, added_mass=added_mass, memory=None, port_starboard_symmetric=False)
+    assert rough_from(one_sided) is not None
+
+
+def test_the_tanker_without_its_panels_comes_near_their_band(uncounted: Path, shared: Path) -> None:
+    """Eight panels a wave are 2.47 rad/s; its added mass in heave jumps from there on."""
+    counted = load_database(shared / "wamit").trusted_band
+    assert counted is not None
+    with pytest.warns(
+        RoughDataWarning, match=r"A33 jumps at 2\.7.* band ends at 2\.503 .*load_database"
+    ) as told:
+        found = load_database(uncounted)
+    assert told[0].filename == __file__
+    assert found.trusted_band is not None
+    assert found.trusted_band == pytest.approx(counted, rel=0.02)
+    assert found.port_starboard_symmetric  # which the same line of the listing tells
+
+
+def test_a_band_asked_for_is_taken_without_a_word(uncounted: Path) -> None:
+    with warnings.catch_warnings():
+        warnings.simplefilter("error", RoughDataWarning)
+        found = load_database(uncounted, trusted_band=(0.2, 1.9))
+    assert found.trusted_band == (0.2, 1.9)
+    with pytest.raises(ValueError, match=r"trusted_band \(7, 8\) rad/s holds no frequency; it has 0.0383"):
+        load_database(uncounted, trusted_band=(7.0, 8.0))
+    with pytest.raises(ValueError, match=r"trusted_band \(1\.9, 0\.2\)"):
+        load_database(uncounted, trusted_band=(1.9, 0.2))
+
+
+@cache
+def bare_barge() -> Any:
+    """Capytaine's dataset of a box barge 60 x 20 x 4 m without a lid."""
+    capytaine = pytest.importorskip("capytaine", reason="capytaine absent: pip install .[hydro]")
+    import xarray
+
+    logging.getLogger("capytaine").setLevel(logging.ERROR)
+    mesh = capytaine.mesh_parallelepiped(size=(60.0, 20.0, 8.0), resolution=(16, 6, 4)).immersed_part()
+    dofs = capytaine.rigid_body_dofs(rotation_center=(0.0, 0.0, 0.0))
+    body = capytaine.FloatingBody(mesh=mesh, dofs=dofs, name="barge", center_of_mass=(0.0, 0.0, 2.0))
+    body.inertia_matrix = body.compute_rigid_body_inertia()
+    body.hydrostatic_stiffness = body.compute_hydrostatic_stiffness()
+    wanted = xarray.Dataset(
+        coords={
+            "omega": np.arange(0.8, 2.21, 0.05),
+            "wave_direction": np.radians([0.0, 90.0, 180.0]),
+            "radiating_dof": list(body.dofs),
+            "water_depth": [np.inf],
+        }
+    )
+    return capytaine.BEMSolver().fill_dataset(wanted, body, progress_bar=False)
+
+
+def test_the_first_irregular_frequency_of_a_barge_ends_its_band(tmp_path: Path) -> None:
+    """Panels without a lid fail at the eigenfrequencies of the water inside the box, known in closed form.
+
+    omega^2 = g k coth(k T), k = pi sqrt(1 / L^2 + 1 / B^2) [Faltinsen 1990, Sea Loads, section 4].
+    """
+    capytaine = pytest.importorskip("capytaine", reason="capytaine absent: pip install .[hydro]")
+    capytaine.export_dataset(str(tmp_path / "barge.nc"), bare_barge())
+    with pytest.warns(RoughDataWarning):
+        found = read_capytaine(tmp_path / "barge.nc")
+    k = np.pi * np.hypot(1.0 / 60.0, 1.0 / 20.0)
+    irregular = np.sqrt(9.81 * k / np.tanh(k * 4.0))
+    assert found.trusted_band is not None
+    assert irregular - 4 * 0.05 < found.trusted_band[1] < irregular
+    with pytest.warns(DampingWarning):
+        warn_of_data(dataclasses.replace(found, trusted_band=None))
+    with warnings.catch_warnings():
+        warnings.simplefilter("error", DampingWarning)
+        warn_of_data(found)
