@@ -286,7 +286,7 @@ def response_statistics(
     if database.trusted_band is not None and database.trusted_band[0] > low:
         below = spectrum.energy(omega_min=low, omega_max=database.trusted_band[0]) / spectrum.moment(0)
         warn_of_waves_below_band(database, below, "waves of a spectrum")
-    omega = _frequencies(linear, low, high)
+    omega = quadrature_frequencies(linear, low, high)
     rao = motion_rao(linear, database=database, omega=omega, heading=heading, body=body, point=point)
     density = np.abs(rao) ** 2 * np.asarray(spectrum.density(omega))[:, None]
     steps = np.diff(omega)
@@ -303,8 +303,8 @@ def response_statistics(
     )
 
 
-def _frequencies(linear: LinearModel, low: float, high: float) -> Array:
-    """Even over the band; about each resonance geometrically away from a tenth of its half width."""
+def quadrature_frequencies(linear: LinearModel, low: float, high: float) -> Array:
+    """Even over a band, rad/s; about each resonance geometrically away from a tenth of its half width."""
     modes = natural_modes(linear)
     parts = [np.linspace(low, high, GRID)]
     for i, value in enumerate(modes.eigenvalues):

@@ -182,6 +182,13 @@ class LinearModel:
             motion[at] = self.motion_of(memory.body)
         return load, motion
 
+    def yaw_axes(self) -> Array:
+        """(6, 6) from the axes of wave loads, which follow the vessel's yaw, to inertial ones."""
+        assert self.vessel is not None
+        model = self._terms.model
+        place = list(model.bodies).index(self.vessel)
+        return _yaw_axes(model, np.array(self.state.values), place, paper=model.paper_kinematics)
+
     def motion_of(self, vessel: str) -> Array:
         """C (6, n): motion (m) of a vessel's origin and its rotation vector from x, in its yaw axes."""
         out = np.zeros((6, len(self.a)))

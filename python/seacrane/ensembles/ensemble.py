@@ -11,6 +11,7 @@ from math import ceil
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
+from seacrane import _core
 from seacrane.ensembles.dataset import Table, table_of
 from seacrane.ensembles.gather import gathered
 from seacrane.ensembles.identity import identity_of
@@ -81,6 +82,7 @@ def ensemble(
     method: Method | None = None,
     outputs: Outputs | None = None,
     database: Databases = None,
+    start: _core.State | None = None,
     executor: Executor | None = None,
     store: str | os.PathLike[str] | None = None,
     on_error: Literal["record", "raise"] = "record",
@@ -110,6 +112,8 @@ def ensemble(
         As of `simulate`. Without channels in `outputs`, runs record only what is kept.
     database : HydroDatabase or mapping, optional
         Where words of the sea vary: that with which it was added, by vessel where there are several.
+    start : State, optional
+        Where every member begins, such as ``equilibrium(scene)``; default: the assembled start of its scene.
     executor : concurrent.futures.Executor, optional
         Threads, processes, or ``client.get_executor()`` of dask.distributed; default: one member after
         another, here.
@@ -155,6 +159,7 @@ def ensemble(
         method=how,
         outputs=outputs_for(wanted, recorded),
         keep=wanted,
+        start=_checked_start(start),
     )
     for what in wanted.values():
         if isinstance(what, Kept):
@@ -166,6 +171,12 @@ def ensemble(
     with _store(store, study, members, size) as kept:
         _run(study, members, size, kept, executor, raises=on_error == "raise", progress=progress)
         return _ensemble(members, table_of(members, kept.outcomes()))
+
+
+def _checked_start(start: Any) -> _core.State | None:
+    if start is not None and not isinstance(start, _core.State):
+        raise SceneError(f"start is {shown(start)}; give a seacrane.State, or leave it out")
+    return start
 
 
 def _ensemble(members: Members, table: Table) -> Ensemble:

@@ -6,7 +6,7 @@ import hashlib
 import inspect
 import json
 from collections.abc import Callable
-from dataclasses import asdict
+from dataclasses import asdict, is_dataclass
 from typing import Any
 
 from seacrane.description.file import scene_digest
@@ -23,7 +23,8 @@ def identity_of(study: Study, members: Members, pack: int) -> dict[str, Any]:
     The scenes of the first and the last member stand for what a function uses beyond its own text.
     """
     source = study.source
-    return {
+    begun = {} if study.start is None else {"start": _digest([study.start.time, *study.start.values.tolist()])}
+    return begun | {
         "version": __version__,
         "scene": scene_digest(source) if isinstance(source, Scene) else _function(source),
         "first and last member": [_scene(study, members, place) for place in (0, len(members) - 1)],
@@ -48,7 +49,9 @@ def _scene(study: Study, members: Members, place: int) -> str:
 
 
 def _function(function: Callable[..., Any]) -> str:
-    """Its name and a digest of its text, or of its code where there is no text."""
+    """Its name and a digest of its text, or of its code where there is no text; of a dataclass its entries."""
+    if is_dataclass(function) and not isinstance(function, type):
+        return f"{type(function).__module__}.{type(function).__qualname__} {_text(asdict(function))}"
     name = (
         f"{getattr(function, '__module__', '')}.{getattr(function, '__qualname__', type(function).__name__)}"
     )

@@ -6,6 +6,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
+from seacrane import _core
 from seacrane.ensembles.kept import Kept, made_by
 from seacrane.ensembles.labelled import Labelled
 from seacrane.ensembles.members import Value
@@ -37,6 +38,8 @@ class Study:
         Of every run.
     keep : mapping
         What is kept of each, by name.
+    start : State, optional
+        Where every run begins; default: the assembled start of its scene.
     """
 
     source: Source
@@ -45,6 +48,7 @@ class Study:
     method: Method
     outputs: Outputs
     keep: Keep
+    start: _core.State | None = None
 
     def require_names(self, names: list[str]) -> None:
         """Raise SceneError for a parameter that the scene does not have, or one whose sea cannot vary."""
