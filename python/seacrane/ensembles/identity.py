@@ -23,7 +23,9 @@ def identity_of(study: Study, members: Members, pack: int) -> dict[str, Any]:
     The scenes of the first and the last member stand for what a function uses beyond its own text.
     """
     source = study.source
-    begun = {} if study.start is None else {"start": _digest([study.start.time, *study.start.values.tolist()])}
+    begun = (
+        {} if study.start is None else {"start": _digest([study.start.time, *study.start.values.tolist()])}
+    )
     return begun | {
         "version": __version__,
         "scene": scene_digest(source) if isinstance(source, Scene) else _function(source),
@@ -49,7 +51,7 @@ def _scene(study: Study, members: Members, place: int) -> str:
 
 
 def _function(function: Callable[..., Any]) -> str:
-    """Its name and a digest of its text, or of its code where there is no text; of a dataclass its entries."""
+    """Its name and a digest of its text, or of its code where it has none; of a dataclass its entries."""
     if is_dataclass(function) and not isinstance(function, type):
         return f"{type(function).__module__}.{type(function).__qualname__} {_text(asdict(function))}"
     name = (

@@ -197,9 +197,7 @@ class _Still:
     rest: Array
 
     @classmethod
-    def of(
-        cls, scene: Any, databases: Databases, criteria: tuple[Criterion, ...], time: float
-    ) -> _Still:
+    def of(cls, scene: Any, databases: Databases, criteria: tuple[Criterion, ...], time: float) -> _Still:
         if not isinstance(scene, Scene):
             raise SceneError(f"scene is {shown(scene)}; give a Scene")
         require_same_sea(scene, databases)
@@ -224,9 +222,7 @@ class _Study:
     def by_frequency(self, cells: Cells, *, strict: bool, progress: bool) -> None:
         """Fill cells by the linear model; where there is none, note why."""
         try:
-            linear = LinearSeas(
-                self.still.scene, self.still.state, self._database(), self.asked.criteria
-            )
+            linear = LinearSeas(self.still.scene, self.still.state, self._database(), self.asked.criteria)
         except SceneError as error:
             if strict:
                 raise
@@ -265,9 +261,7 @@ class _Study:
                 cells.take_difference(place, found, self.asked.linear_within)
                 bar(1)
 
-    def by_time(
-        self, cells: Cells, executor: Executor | None, store: Any, progress: bool
-    ) -> dict[int, str]:
+    def by_time(self, cells: Cells, executor: Executor | None, store: Any, progress: bool) -> dict[int, str]:
         """Fill the cells that are wanted by runs; why members failed, by number."""
         storms = Storms(
             scene=self.still.scene, databases=self.databases, start=self.still.state,
@@ -285,7 +279,9 @@ class _Study:
     def _database(self) -> HydroDatabase:
         assert self.still.scene.waves is not None
         one = self.databases
-        found = one if isinstance(one, HydroDatabase) else dict(one or {}).get(self.still.scene.waves.body_of())
+        found = (
+            one if isinstance(one, HydroDatabase) else dict(one or {}).get(self.still.scene.waves.body_of())
+        )
         assert found is not None  # require_same_sea asks for it
         return found
 
@@ -303,7 +299,9 @@ def _criteria(given: Any) -> tuple[Criterion, ...]:
 
 def _seeds(given: Any) -> tuple[int, ...]:
     listed = list(given) if isinstance(given, Sequence) and not isinstance(given, (str, bytes)) else []
-    whole = all(isinstance(one, int | np.integer) and not isinstance(one, bool) and one >= 0 for one in listed)
+    whole = all(
+        isinstance(one, int | np.integer) and not isinstance(one, bool) and one >= 0 for one in listed
+    )
     if len(listed) < FEWEST_SEEDS or not whole or len(set(listed)) < len(listed):
         raise SceneError(
             f"seeds is {shown(given)}; give at least {FEWEST_SEEDS} different whole numbers from 0 on"

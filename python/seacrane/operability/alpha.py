@@ -102,6 +102,6 @@ def alpha_of(given: Any) -> AlphaFactor:
     value = number_of("alpha", given)
     if value != 1.0:
         raise SceneError(
-            f"alpha is {value:g}; give AlphaFactor(values={value:g}, source='...'), which says where it is from"
+            f"alpha is {value:g}; give AlphaFactor(values={value:g}, source='...'), which tells its source"
         )
     return AlphaFactor()

@@ -52,7 +52,12 @@ class Cells:
 
     @classmethod
     def of(
-        cls, criteria: Sequence[Criterion], tp: Sequence[float], directions: Sequence[float], *, largest: float
+        cls,
+        criteria: Sequence[Criterion],
+        tp: Sequence[float],
+        directions: Sequence[float],
+        *,
+        largest: float,
     ) -> Cells:
         """Cells of which nothing is known: runs are wanted for all."""
         shape = (len(tp), len(directions))

@@ -10,6 +10,7 @@ import numpy as np
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import flag_of, name_of, number_of, text_of
 from seacrane.inputs.shown import shown
+from seacrane.result.units import unit_of
 from seacrane.statistics.gaussian import THREE_HOURS
 
 STATISTICS = {
@@ -108,4 +109,5 @@ class Criterion:
         what = "motion" if self.motion else ("largest" if self.minimum is None else "smallest")
         over = "" if self.statistic == "significant" else f" in {self.exposure:g} s"
         sign = "<=" if self.minimum is None else ">="
-        return f"{self.name}: {what}, {STATISTICS[self.statistic]}{over} {sign} {self.bound:g}"
+        unit = unit_of(self.channel, self.where.values())
+        return f"{self.name}: {what}, {STATISTICS[self.statistic]}{over} {sign} {self.bound:g} {unit}"

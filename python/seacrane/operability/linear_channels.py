@@ -104,7 +104,7 @@ def _by_load(model: LinearModel, criteria: Sequence[Criterion]) -> Array:
 def _loaded(model: LinearModel, wrench: Array) -> Scene:
     """The scene held as at the model's time, with one more load (6,) about the vessel's origin."""
     assert model.vessel is not None
-    scene: Scene = held(model.scene, time=model.state.time)  # type: ignore[type-var, assignment]
+    scene: Scene = held(model.scene, time=model.state.time)  # type: ignore[assignment]
     name = "operability"
     while name in scene.force_tables:
         name += "'"

@@ -74,7 +74,7 @@ class LinearSeas:
         for angle in angles:
             force = self._database.force_at(self._omega, angle)
             found += np.abs(np.einsum("kmi,ki->km", self._transfer, force)) ** 2
-        return found / angles.size
+        return np.asarray(found / angles.size)
 
     def _spread(self) -> Array:
         if self._known.spreading is None:

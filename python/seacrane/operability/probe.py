@@ -62,9 +62,7 @@ class Probe:
     def numbers(self) -> Array | str:
         """`NUMBERS` of each criterion's channel, (m, 4), or why the run failed."""
         try:
-            run = Run(
-                self.scene, self.t_end, start=self.start, method=self.method, outputs=self.outputs
-            )
+            run = Run(self.scene, self.t_end, start=self.start, method=self.method, outputs=self.outputs)
             with Interrupts() as interrupts:
                 drive(run, Calls((), run.start.time), interrupts)
             interrupts.take()
@@ -120,7 +118,8 @@ class Prober:
         scene = with_sea(self.scene, self.database, words)
         assert scene.waves is not None
         end = self.start + self.duration
-        times = self.start + np.arange(round(self.duration / self.outputs.dt) + 1) * self.outputs.dt
+        steps = np.arange(round(self.duration / self.outputs.dt) + 1, dtype=float)
+        times: Array = self.start + steps * self.outputs.dt
         state, linear = self.linear.in_waves(scene.waves, self.start, times)
         probe = Probe(
             scene=scene, start=state, t_end=end, criteria=self.criteria, method=self.method,

@@ -165,9 +165,9 @@ class AllowableHs:
 
     def _words(self) -> list[str]:
         """What the table rests on: criteria, domains, alpha factor."""
-        letters = {one.name: letter for one, letter in zip(self.criteria, _letters(), strict=False)}
+        named = {one.name: letter for one, letter in zip(self.criteria, letters(), strict=False)}
         counts = {name: int((self.dataset["domain"] == name).sum()) for name in MARK}
-        lines = [f"{letters[one.name]}: {one.told()}" for one in self.criteria]
+        lines = [f"{named[one.name]}: {one.told()}" for one in self.criteria]
         lines.append(
             f"f: by the linear model ({counts['frequency']} cells), t: by runs ({counts['time']} cells); "
             ">: reached by no criterion"
@@ -192,10 +192,11 @@ class AllowableHs:
         if cell["capped"].item():
             return f">{value:.2f} {mark}"
         names = [one.name for one in self.criteria]
-        return f"{value:.2f} {_letters()[names.index(str(cell['governing'].item()))]}{mark}"
+        return f"{value:.2f} {letters()[names.index(str(cell['governing'].item()))]}{mark}"
 
 
-def _letters() -> list[str]:
+def letters() -> list[str]:
+    """By which criteria are told in tables: A to Z, then A0 and so on."""
     return [chr(ord("A") + i) for i in range(26)] + [f"A{i}" for i in range(1000)]
 
 
