@@ -15,7 +15,6 @@ from seacrane.analysis.rest_state import held
 from seacrane.errors import SceneError
 from seacrane.operability.criterion import Criterion
 from seacrane.operability.levels import curve
-from seacrane.run.advance import finished
 from seacrane.run.outputs import Outputs
 from seacrane.run.run import Run
 from seacrane.scene.scene import Scene
@@ -56,7 +55,7 @@ class LinearChannels:
 
 
 def linear_channels(model: LinearModel, criteria: Sequence[Criterion]) -> LinearChannels:
-    """The channels of criteria, by central differences of what a run records where it begins.
+    """The channels of criteria, by differences of what a run records where it begins.
 
     Raises
     ------
@@ -74,19 +73,16 @@ def linear_channels(model: LinearModel, criteria: Sequence[Criterion]) -> Linear
     sizes = np.full(len(model.a), MOVE)
     pushes = np.abs(model.a[dof : 2 * dof, 2 * dof :]).max(axis=0, initial=0.0)
     sizes[2 * dof :] = PUSH / np.where(pushes > 0.0, pushes, PUSH)
-    first = _Look(held(model.scene, time=model.state.time), criteria)
-    columns = []
+    look = _Look(held(model.scene, time=model.state.time), criteria)
+    rest, columns = look.at(model.state), []
     for i, size in enumerate(sizes):
         step = np.zeros(sizes.size)
         step[i] = size
-        above, below = (first.at(model.full_state(sign * step)) for sign in (1.0, -1.0))
+        above = look.at(model.full_state(step))
+        # States of the fluid add loads in proportion: one side is enough.
+        below = look.at(model.full_state(-step)) if i < 2 * dof else 2.0 * rest - above
         columns.append((above - below) / (2.0 * size))
-    return LinearChannels(
-        model=model,
-        rest=first.at(model.state),
-        c=np.stack(columns, axis=1),
-        d=_by_load(model, criteria),
-    )
+    return LinearChannels(model=model, rest=rest, c=np.stack(columns, axis=1), d=_by_load(model, criteria))
 
 
 def _by_load(model: LinearModel, criteria: Sequence[Criterion]) -> Array:
@@ -125,5 +121,6 @@ class _Look:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")  # of the scene as it would be in a run
             run = Run(self._scene, state.time, start=state, outputs=self._channels, model=self._model)
-            result = finished(run)
+            run.advance(state.time)
+            result = run.result()
         return np.array([curve(result, one.channel, one.where)[0] for one in self._criteria])
