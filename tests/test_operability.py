@@ -132,9 +132,7 @@ def test_loads_on_the_vessel_go_straight_into_accelerations() -> None:
     assert d == pytest.approx(pushed, rel=1e-6, abs=1e-6 * np.abs(pushed).max())
 
 
-def test_both_domains_agree_where_the_scene_is_linear(
-    tested: AllowableHs, database: HydroDatabase
-) -> None:
+def test_both_domains_agree_where_the_scene_is_linear(tested: AllowableHs, database: HydroDatabase) -> None:
     assert np.all(tested.dataset["domain"] == "frequency")
     assert np.nanmax(tested.dataset["difference"]) < 0.05
     cell = allowable_hs(
@@ -154,9 +152,9 @@ def test_a_wire_that_goes_slack_is_left_to_runs(slack: AllowableHs, database: Hy
     assert "line tension" in str(cell["reason"].item())
     assert "differ by" in str(cell["reason"].item())
     assert float(cell["difference"][0]) > slack.dataset.attrs["linear_within"]
-    linear = by_frequency(
-        soft_wire(), slack.criteria, database, tp=8.0, direction_deg=120.0
-    ).dataset["allowable_hs"][0, 0]
+    linear = by_frequency(soft_wire(), slack.criteria, database, tp=8.0, direction_deg=120.0).dataset[
+        "allowable_hs"
+    ][0, 0]
     assert not cell["low"] <= linear <= cell["high"]
 
 
@@ -385,9 +383,7 @@ ASKED: dict[str, Any] = {"criteria": [HEAVE], "tp": 9.0, "direction_deg": 135.0,
         ({"database": None}, "database is None and the sea varies"),
     ],
 )
-def test_what_makes_no_sense_is_refused(
-    given: dict[str, Any], message: str, database: HydroDatabase
-) -> None:
+def test_what_makes_no_sense_is_refused(given: dict[str, Any], message: str, database: HydroDatabase) -> None:
     with pytest.raises(SceneError, match=message):
         allowable_hs(vessel(), **{"database": database, **ASKED, **given})
 

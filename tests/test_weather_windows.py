@@ -343,7 +343,11 @@ def test_availability_by_ranges_tends_to_that_of_the_series(table: AllowableHs) 
     ],
 )
 def test_diagrams_that_make_no_sense_are_refused(given: dict[str, Any], message: str) -> None:
-    usual: dict[str, Any] = {"hs": [0.0, 1.0, 2.0], "tp": [4.0, 8.0, 12.0], "counts": [[1.0, 2.0], [3.0, 4.0]]}
+    usual: dict[str, Any] = {
+        "hs": [0.0, 1.0, 2.0],
+        "tp": [4.0, 8.0, 12.0],
+        "counts": [[1.0, 2.0], [3.0, 4.0]],
+    }
     with pytest.raises(SceneError, match=message):
         ScatterDiagram(**usual | given)
 
