@@ -255,7 +255,7 @@ class LinearModel:
             twist=self.basis @ values[dof : 2 * dof],
         )
         y[terms.memory] += values[2 * dof :]
-        y = terms.evaluator.project(terms.time, y)
+        y = _core.Evaluator(terms.model).project(terms.time, y)  # of its own: threads may share the model
         return _core.State(time=terms.time, values=y, inputs=np.zeros(terms.model.slots))
 
 

@@ -21,7 +21,7 @@ from seacrane.ensembles.members import Members, Over, members_of
 from seacrane.ensembles.other_sea import Databases
 from seacrane.ensembles.outcome import Outcome
 from seacrane.ensembles.store import Folder, Memory, Store, folder_of, study_in
-from seacrane.ensembles.study import Keep, Source, Study, checked_keep, outputs_for
+from seacrane.ensembles.study import Keep, Source, Start, Study, checked_keep, outputs_for
 from seacrane.errors import SceneError, SimulationError
 from seacrane.inputs.checked import number_of
 from seacrane.inputs.shown import shown
@@ -82,7 +82,7 @@ def ensemble(
     method: Method | None = None,
     outputs: Outputs | None = None,
     database: Databases = None,
-    start: _core.State | None = None,
+    start: Start = None,
     executor: Executor | None = None,
     store: str | os.PathLike[str] | None = None,
     on_error: Literal["record", "raise"] = "record",
@@ -112,8 +112,9 @@ def ensemble(
         As of `simulate`. Without channels in `outputs`, runs record only what is kept.
     database : HydroDatabase or mapping, optional
         Where words of the sea vary: that with which it was added, by vessel where there are several.
-    start : State, optional
-        Where every member begins, such as ``equilibrium(scene)``; default: the assembled start of its scene.
+    start : State or callable, optional
+        Where every member begins, such as ``equilibrium(scene)``, or a function of its scene that tells it;
+        default: the assembled start of its scene.
     executor : concurrent.futures.Executor, optional
         Threads, processes, or ``client.get_executor()`` of dask.distributed; default: one member after
         another, here.
@@ -173,10 +174,10 @@ def ensemble(
         return _ensemble(members, table_of(members, kept.outcomes()))
 
 
-def _checked_start(start: Any) -> _core.State | None:
-    if start is not None and not isinstance(start, _core.State):
-        raise SceneError(f"start is {shown(start)}; give a seacrane.State, or leave it out")
-    return start
+def _checked_start(start: Any) -> Start:
+    if start is not None and not isinstance(start, _core.State) and not callable(start):
+        raise SceneError(f"start is {shown(start)}; give a seacrane.State, or a function that returns one")
+    return start  # type: ignore[no-any-return]
 
 
 def _ensemble(members: Members, table: Table) -> Ensemble:

@@ -9,6 +9,8 @@ from collections.abc import Callable
 from dataclasses import asdict, is_dataclass
 from typing import Any
 
+import numpy as np
+
 from seacrane.description.file import scene_digest
 from seacrane.ensembles.kept import Kept
 from seacrane.ensembles.members import Members
@@ -23,9 +25,7 @@ def identity_of(study: Study, members: Members, pack: int) -> dict[str, Any]:
     The scenes of the first and the last member stand for what a function uses beyond its own text.
     """
     source = study.source
-    begun = (
-        {} if study.start is None else {"start": _digest([study.start.time, *study.start.values.tolist()])}
-    )
+    begun = {} if study.start is None else {"start": _start(study, members)}
     return begun | {
         "version": __version__,
         "scene": scene_digest(source) if isinstance(source, Scene) else _function(source),
@@ -41,6 +41,16 @@ def identity_of(study: Study, members: Members, pack: int) -> dict[str, Any]:
             for name, what in study.keep.items()
         },
     }
+
+
+def _start(study: Study, members: Members) -> str:
+    """Of the first member, which stands for what a function makes of the others."""
+    try:
+        state = study.start_of(study.scene(members.values(0)))
+    except Exception as error:  # its failure is recorded when it is run
+        return f"{type(error).__name__}: {error}"
+    assert state is not None
+    return _digest([state.time, *np.asarray(state.values).tolist()])
 
 
 def _scene(study: Study, members: Members, place: int) -> str:

@@ -24,6 +24,7 @@ from seacrane.operability.criterion import Criterion
 from seacrane.operability.levels import FEWEST_SEEDS, curve
 from seacrane.operability.linear_seas import LinearSeas
 from seacrane.operability.probe import Prober, Sea
+from seacrane.operability.steady_start import steady_start
 from seacrane.operability.table import AllowableHs
 from seacrane.operability.time_domain import Cell, Storms
 from seacrane.run.advance import finished
@@ -68,7 +69,7 @@ def allowable_hs(
 ) -> AllowableHs:
     """Find the largest Hs over peak period and direction of the waves that keeps every criterion.
 
-    The scene lies at rest with its references held, in seas of its own spectrum and spreading. Its linear
+    The scene has its references held, and lies in seas of its own spectrum and spreading. Its linear
     model answers first. Where `domain` is "auto", runs in the same waves and from the same state tell in each
     cell whether that is enough; where it is not, runs of all seeds at each `hs` answer.
 
@@ -94,7 +95,8 @@ def allowable_hs(
     seeds : sequence of int
         Of runs, at least 3. The first two are the probes.
     duration, start_up : float
-        Of each run: evaluated, and left out before, s. Maxima of shorter runs than the exposure time are
+        Of each run: evaluated, and left out before, s. Runs begin in the linear steady state, where there is
+        a linear model, and at rest elsewhere. Maxima of shorter runs than the exposure time are
         carried to it by Gumbel's distribution.
     time : float
         At which the references are held, s.
@@ -264,7 +266,8 @@ class _Study:
     def by_time(self, cells: Cells, executor: Executor | None, store: Any, progress: bool) -> dict[int, str]:
         """Fill the cells that are wanted by runs; why members failed, by number."""
         storms = Storms(
-            scene=self.still.scene, databases=self.databases, start=self.still.state,
+            scene=self.still.scene, databases=self.databases, begin=self.still.state.time,
+            start=steady_start(self.still.scene, self.still.state),
             start_up=self.asked.start_up, duration=self.asked.duration, hs=self.asked.hs,
             seeds=self.asked.seeds, criteria=self.asked.criteria, rest=self.still.rest, method=self.method,
             outputs=self.outputs,

@@ -11,9 +11,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from seacrane import _core
 from seacrane.ensembles.ensemble import Ensemble, ensemble
 from seacrane.ensembles.other_sea import Databases
+from seacrane.ensembles.study import Start
 from seacrane.operability.criterion import Criterion
 from seacrane.operability.levels import RecordNumbers, reached, seeds_level
 from seacrane.run.method import Method
@@ -45,8 +45,10 @@ class Storms:
     scene : Scene
         Its references held, with its sea.
     databases : HydroDatabase or mapping
-    start : State
-        At rest.
+    begin : float
+        Time of the state at rest, s.
+    start : State or SteadyStart
+        Where runs begin.
     start_up, duration : float
         Left out, and evaluated, s.
     hs : tuple of float
@@ -61,7 +63,8 @@ class Storms:
 
     scene: Scene
     databases: Databases
-    start: _core.State
+    begin: float
+    start: Start
     start_up: float
     duration: float
     hs: tuple[float, ...]
@@ -86,7 +89,7 @@ class Storms:
             for hs in self.hs
             for seed in self.seeds
         ]
-        after = self.start.time + self.start_up
+        after = self.begin + self.start_up
         keep = {
             f"criterion_{i}": RecordNumbers(channel=one.channel, where=one.where, after=after)
             for i, one in enumerate(self.criteria)
