@@ -29,6 +29,7 @@ from seacrane import (
     linear_model,
     plot_allowable_hs,
     response_statistics,
+    response_summed,
     simulate,
 )
 from seacrane.analysis.rest_state import held
@@ -37,6 +38,7 @@ from seacrane.operability.circle import over_circle
 from seacrane.operability.levels import curve, gaussian_level, record_numbers, seeds_level
 from seacrane.operability.linear_channels import linear_channels
 from seacrane.operability.linear_seas import LinearSeas
+from seacrane.operability.steady_start import SteadyStart, steady_start
 from seacrane.operability.time_domain import first_crossing
 from seacrane.sea import jonswap
 
@@ -144,6 +146,43 @@ def test_both_domains_agree_where_the_scene_is_linear(tested: AllowableHs, datab
     assert cell["governing"] == linear["governing"] == "heave"
     assert cell["low"] < linear["allowable_hs"] < cell["high"]
     assert cell["allowable_hs"] == pytest.approx(float(linear["allowable_hs"]), rel=0.1)
+
+
+def test_runs_begin_without_the_transient_of_a_soft_mooring(database: HydroDatabase) -> None:
+    """From rest a beam sea sets off a sway of minutes, and first waves count as motion."""
+    sway = Criterion(channel="vessel_motion", where={"motion": "sway"}, maximum=0.5, motion=True,
+                     statistic="significant", name="sway")  # fmt: skip
+    asked: dict[str, Any] = {"tp": 9.0, "direction_deg": 90.0, "database": database, "criteria": [sway]}
+    runs = allowable_hs(vessel(), **asked, hs=[1.0, 2.0, 3.0], domain="time", **SHORT | {"start_up": 0.0})
+    linear = allowable_hs(vessel(), **asked, hs=[3.0], domain="frequency")
+    found = runs.dataset.isel(tp=0, direction_deg=0)
+    assert found["low"] < linear.dataset["allowable_hs"].item() < found["high"]
+
+
+def test_a_steady_start_is_that_of_the_linear_model_wherever_it_is_made() -> None:
+    scene = vessel(hs=0.5)
+    start = steady_start(scene, equilibrium(scene))
+    assert isinstance(start, SteadyStart)
+    there, here = pickle.loads(pickle.dumps(start))(scene), start(scene)
+    assert np.array_equal(there.values, here.values)
+    told = response_summed(linear_model(scene), body="vessel")
+    moved, rest = (
+        simulate(scene, t_end=0.0, start=one, channels=["vessel_motion"])["vessel_motion"][0]
+        for one in (here, equilibrium(scene))
+    )
+    assert moved - rest == pytest.approx(told.at(0.0), rel=2e-3, abs=1e-4)
+
+
+def test_a_start_turns_no_body_by_more_than_the_linear_model_may(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("seacrane.operability.steady_start.LARGEST_TURN", 1e-4)
+    scene = vessel(hs=2.0)
+    rest = equilibrium(scene)
+    start = steady_start(scene, rest)
+    assert isinstance(start, SteadyStart)
+    turned = simulate(scene, t_end=0.0, start=start(scene), channels=["vessel_motion"])["vessel_motion"][
+        0, 3:
+    ]
+    assert np.abs(turned).max() == pytest.approx(1e-4, rel=1e-3)
 
 
 def test_a_wire_that_goes_slack_is_left_to_runs(slack: AllowableHs, database: HydroDatabase) -> None:

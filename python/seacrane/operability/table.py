@@ -9,12 +9,14 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from seacrane.description.scene import STANDARD_GRAVITY
 from seacrane.operability.alpha import AlphaFactor
 from seacrane.operability.cells import Cells
 from seacrane.operability.circle import over_circle
 from seacrane.operability.criterion import Criterion
 from seacrane.plotting.html import notebook_table
 from seacrane.plotting.text import text_table
+from seacrane.sea.spectra import steepness_limit
 
 if TYPE_CHECKING:
     import xarray
@@ -40,8 +42,9 @@ class AllowableHs:
         `forecast_hs`, which is alpha times `allowable_hs`; `capped`, where no criterion is reached at the
         largest Hs that was examined and `allowable_hs` is that Hs; `governing`, the criterion that is reached
         first; `domain`, "frequency" or "time", and `reason`. `by_criterion` and `difference` (of run and
-        linear model, over the allowance) have the dimension `criterion` too. `wave_energy_share` is what of
-        the waves lies within the database.
+        linear model, over the allowance) have the dimension `criterion` too. `breaking_hs` is the
+        height above which waves of a period break, and `wave_energy_share` what of them lies within the
+        database.
     failures : mapping of int to str
         Why runs failed, by their number: periods, directions, Hs, seeds fastest, of the cells by runs.
     """
@@ -95,6 +98,11 @@ class AllowableHs:
                     three,
                     cells.difference.copy(),
                     {"units": "1", "long_name": "run against linear model, over the allowance"},
+                ),
+                "breaking_hs": (
+                    "tp",
+                    np.array([breaking_height(tp) for tp in cells.tp]),
+                    metres | {"long_name": "Hs above which waves of that period break (DNV-RP-C205)"},
                 ),
                 "wave_energy_share": ("tp", cells.energy_share.copy(), {"units": "1"}),
             },
@@ -193,6 +201,11 @@ class AllowableHs:
             return f">{value:.2f} {mark}"
         names = [one.name for one in self.criteria]
         return f"{value:.2f} {letters()[names.index(str(cell['governing'].item()))]}{mark}"
+
+
+def breaking_height(tp: float) -> float:
+    """Hs (m) at the steepness 2 pi Hs / (g Tp^2) above which waves break."""
+    return steepness_limit(tp) * STANDARD_GRAVITY * tp**2 / (2.0 * np.pi)
 
 
 def letters() -> list[str]:
