@@ -6,7 +6,8 @@ from pathlib import Path
 import pytest
 from line_scenes import case2_on_a_line
 
-from seacrane import cases, simulate
+from seacrane import allowable_hs, cases, simulate
+from seacrane.hydro import shipped_database
 
 RESULTS = Path(__file__).resolve().parent.parent / "benchmarks" / "results"
 OTHER_MACHINES = 0.1  # of the evaluations: adaptive steps follow rounding, which differs between compilers
@@ -64,3 +65,24 @@ def test_published_costs_of_lines_are_those_of_today():
     for row in snatches:
         assert 0 < int(row["evaluations"]) < 2000
         assert -5.0 < float(row["off the closed form, %"]) < 0.0  # the damping takes of the peak
+
+
+def test_the_published_study_of_operability_is_that_of_today(monkeypatch):
+    """Its linear column, for one cell that a criterion reaches; the runs of a cell take minutes."""
+    monkeypatch.syspath_prepend(str(RESULTS.parent))
+    from measure.operability_storms import CRITERIA, study_scene
+
+    (told,) = [
+        row
+        for row in rows_of("operability-of-case-2.csv")
+        if (row["Tp, s"], row["direction, deg"]) == ("9", "135")
+    ]
+    found = allowable_hs(
+        study_scene(), criteria=CRITERIA, tp=9.0, direction_deg=135.0, hs=[2.5], time=50.0,
+        database=shipped_database(), domain="frequency",
+    )  # fmt: skip
+    assert found.dataset["allowable_hs"].item() == pytest.approx(float(told["linear model, m"]), abs=2e-3)
+
+
+def test_every_storm_of_the_study_was_the_same_by_every_executor():
+    assert {row["identical"] for row in rows_of("operability-storms.csv")} == {"yes"}

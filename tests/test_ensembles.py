@@ -375,3 +375,18 @@ def test_another_database_is_refused(afloat: Scene, database: HydroDatabase) -> 
     other = replace(database, force=1.1 * database.force)
     with pytest.raises(SceneError, match="the waves load vessel 'vessel' otherwise"):
         ensemble(afloat, over={"seed": [1]}, keep=keep, database=other)
+
+
+def test_members_begin_where_they_are_told(tmp_path: Path) -> None:
+    """A state for all, or a function of each scene; a store of another start is refused."""
+    asked: dict[str, Any] = {"over": {"start": [1.0]}, "keep": {"lowest": lowest}, **SWING}
+    half = simulate(pendulum(), **SWING | {"t_end": 1.0})
+    whole = simulate(pendulum(), **SWING)["position"]
+    later = ensemble(pendulum, **asked, start=half.state, store=tmp_path / "later")
+    assert float(later.dataset.lowest[0]) == pytest.approx(whole[10:, 0, 2].min(), rel=1e-6)
+    by_scene = ensemble(pendulum, **asked, start=lambda scene: half.state)
+    assert float(by_scene.dataset.lowest[0]) == float(later.dataset.lowest[0])
+    with pytest.raises(SceneError, match="start"):
+        ensemble(pendulum, **asked, store=tmp_path / "later")
+    with pytest.raises(SceneError, match=r"start is 1\.0; give a seacrane\.State, or a function"):
+        ensemble(pendulum, **asked, start=1.0)  # type: ignore[arg-type]

@@ -36,6 +36,7 @@ FLOORS = """
     accuracy
     simulation
     ensembles
+    operability
     stages
     experiment
     figures viewer

@@ -187,6 +187,13 @@ class LinearModel:
             motion[at] = self.motion_of(memory.body)
         return load, motion
 
+    def yaw_axes(self) -> Array:
+        """(6, 6) from the axes of wave loads, which follow the vessel's yaw, to inertial ones."""
+        assert self.vessel is not None
+        model = self._terms.model
+        place = list(model.bodies).index(self.vessel)
+        return _yaw_axes(model, np.array(self.state.values), place, paper=model.paper_kinematics)
+
     def motion_of(self, vessel: str) -> Array:
         """C (6, n): motion (m) of a vessel's origin and its rotation vector from x, in its yaw axes."""
         out = np.zeros((6, len(self.a)))
@@ -253,7 +260,7 @@ class LinearModel:
             twist=self.basis @ values[dof : 2 * dof],
         )
         y[terms.memory] += values[2 * dof :]
-        y = terms.evaluator.project(terms.time, y)
+        y = _core.Evaluator(terms.model).project(terms.time, y)  # of its own: threads may share the model
         return _core.State(time=terms.time, values=y, inputs=np.zeros(terms.model.slots))
 
 

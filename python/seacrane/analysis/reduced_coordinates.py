@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import partial
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -28,6 +30,9 @@ class Terms:
         self.memory = slice(self.twists.stop, self.twists.stop + model.memory_states)
         self.load_states = slice(self.memory.stop - len(model.load_states), self.memory.stop)
         self.load_scales = np.array([scale for *_, scale in model.load_states])
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return partial(Terms, time=self.time), (self.model,)
 
     def checked(self, values: Array) -> Array:
         """The values, if there are as many finite ones as the model has states."""

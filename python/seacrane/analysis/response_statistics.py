@@ -230,7 +230,7 @@ def _responses(
             rao = linear.response(omega=encounter, force=force) @ output.T
             yield _Response(omega=omega, encounter=encounter, rao=rao)
         return
-    omega = _frequencies(linear, database)
+    omega = quadrature_frequencies(linear, float(database.omega[0]), float(database.omega[-1]))
     unit = np.repeat(np.eye(6), len(omega), axis=0)
     moved = linear.response(omega=np.tile(omega, 6), force=unit) @ output.T
     by_load = moved.reshape(6, len(omega), 6)
@@ -249,9 +249,8 @@ def _warn_of_unknown(database: HydroDatabase, share: float) -> None:
         )
 
 
-def _frequencies(linear: LinearModel, database: HydroDatabase) -> Array:
-    """Even over the band of the database, and about each resonance."""
-    low, high = float(database.omega[0]), float(database.omega[-1])
+def quadrature_frequencies(linear: LinearModel, low: float, high: float) -> Array:
+    """Even over a band, rad/s, and about each resonance."""
     omega = np.unique(np.concatenate([np.linspace(low, high, GRID), _about_resonances(linear, low, high)]))
     return omega[(omega >= low) & (omega <= high)]
 

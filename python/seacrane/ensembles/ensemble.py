@@ -11,6 +11,7 @@ from math import ceil
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
+from seacrane import _core
 from seacrane.ensembles.dataset import Table, table_of
 from seacrane.ensembles.gather import gathered
 from seacrane.ensembles.identity import identity_of
@@ -20,7 +21,7 @@ from seacrane.ensembles.members import Members, Over, members_of
 from seacrane.ensembles.other_sea import Databases
 from seacrane.ensembles.outcome import Outcome
 from seacrane.ensembles.store import Folder, Memory, Store, folder_of, study_in
-from seacrane.ensembles.study import Keep, Source, Study, checked_keep, outputs_for
+from seacrane.ensembles.study import Keep, Source, Start, Study, checked_keep, outputs_for
 from seacrane.errors import SceneError, SimulationError
 from seacrane.inputs.checked import number_of
 from seacrane.inputs.shown import shown
@@ -81,6 +82,7 @@ def ensemble(
     method: Method | None = None,
     outputs: Outputs | None = None,
     database: Databases = None,
+    start: Start = None,
     executor: Executor | None = None,
     store: str | os.PathLike[str] | None = None,
     on_error: Literal["record", "raise"] = "record",
@@ -110,6 +112,9 @@ def ensemble(
         As of `simulate`. Without channels in `outputs`, runs record only what is kept.
     database : HydroDatabase or mapping, optional
         Where words of the sea vary: that with which it was added, by vessel where there are several.
+    start : State or callable, optional
+        Where every member begins, such as ``equilibrium(scene)``, or a function of its scene that tells it;
+        default: the assembled start of its scene.
     executor : concurrent.futures.Executor, optional
         Threads, processes, or ``client.get_executor()`` of dask.distributed; default: one member after
         another, here.
@@ -155,6 +160,7 @@ def ensemble(
         method=how,
         outputs=outputs_for(wanted, recorded),
         keep=wanted,
+        start=_checked_start(start),
     )
     for what in wanted.values():
         if isinstance(what, Kept):
@@ -166,6 +172,12 @@ def ensemble(
     with _store(store, study, members, size) as kept:
         _run(study, members, size, kept, executor, raises=on_error == "raise", progress=progress)
         return _ensemble(members, table_of(members, kept.outcomes()))
+
+
+def _checked_start(start: Any) -> Start:
+    if start is not None and not isinstance(start, _core.State) and not callable(start):
+        raise SceneError(f"start is {shown(start)}; give a seacrane.State, or a function that returns one")
+    return start  # type: ignore[no-any-return]
 
 
 def _ensemble(members: Members, table: Table) -> Ensemble:

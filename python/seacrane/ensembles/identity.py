@@ -6,8 +6,10 @@ import hashlib
 import inspect
 import json
 from collections.abc import Callable
-from dataclasses import asdict
+from dataclasses import asdict, is_dataclass
 from typing import Any
+
+import numpy as np
 
 from seacrane.description.file import scene_digest
 from seacrane.ensembles.kept import Kept
@@ -23,7 +25,8 @@ def identity_of(study: Study, members: Members, pack: int) -> dict[str, Any]:
     The scenes of the first and the last member stand for what a function uses beyond its own text.
     """
     source = study.source
-    return {
+    begun = {} if study.start is None else {"start": _start(study, members)}
+    return begun | {
         "version": __version__,
         "scene": scene_digest(source) if isinstance(source, Scene) else _function(source),
         "first and last member": [_scene(study, members, place) for place in (0, len(members) - 1)],
@@ -40,6 +43,16 @@ def identity_of(study: Study, members: Members, pack: int) -> dict[str, Any]:
     }
 
 
+def _start(study: Study, members: Members) -> str:
+    """Of the first member, which stands for what a function makes of the others."""
+    try:
+        state = study.start_of(study.scene(members.values(0)))
+    except Exception as error:  # its failure is recorded when it is run
+        return f"{type(error).__name__}: {error}"
+    assert state is not None
+    return _digest([state.time, *np.asarray(state.values).tolist()])
+
+
 def _scene(study: Study, members: Members, place: int) -> str:
     try:
         return scene_digest(study.scene(members.values(place)))
@@ -48,7 +61,9 @@ def _scene(study: Study, members: Members, place: int) -> str:
 
 
 def _function(function: Callable[..., Any]) -> str:
-    """Its name and a digest of its text, or of its code where there is no text."""
+    """Its name and a digest of its text, or of its code where it has none; of a dataclass its entries."""
+    if is_dataclass(function) and not isinstance(function, type):
+        return f"{type(function).__module__}.{type(function).__qualname__} {_text(asdict(function))}"
     name = (
         f"{getattr(function, '__module__', '')}.{getattr(function, '__qualname__', type(function).__name__)}"
     )

@@ -63,7 +63,8 @@ class Job:
 
     def _run(self, index: int, values: Mapping[str, Value]) -> Outcome:
         study = self.study
-        run = Run(study.scene(values), study.t_end, method=study.method, outputs=study.outputs)
+        scene = study.scene(values)
+        run = Run(scene, study.t_end, start=study.start_of(scene), method=study.method, outputs=study.outputs)
         with Interrupts() as interrupts:
             drive(run, Calls((), run.start.time), interrupts)
         interrupts.take()  # pressed as the run ended: the members after it are not to be run

@@ -132,13 +132,14 @@ def _require_same(folder: Path, study: Mapping[str, Any]) -> None:
             draft.write_text(json.dumps(whole), encoding="utf-8")
         return
     there = study_in(folder).get("identity", {})
-    other = [key for key, value in study["identity"].items() if there.get(key) != value]
+    here = study["identity"]
+    other = [key for key in {**here, **there} if there.get(key) != here.get(key)]
     if other:
         raise SceneError(
             f"store {str(folder)!r} is of another study: {', '.join(other)} differ; give another folder, or "
-            f"remove this one ({_told(there, study['identity'], other[0])})"
+            f"remove this one ({_told(there, here, other[0])})"
         )
 
 
 def _told(there: Mapping[str, Any], here: Mapping[str, Any], key: str) -> str:
-    return f"{key}: {str(there.get(key))[:80]} there, {str(here[key])[:80]} here"
+    return f"{key}: {str(there.get(key))[:80]} there, {str(here.get(key))[:80]} here"

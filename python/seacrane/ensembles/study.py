@@ -6,6 +6,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
+from seacrane import _core
 from seacrane.ensembles.kept import Kept, made_by
 from seacrane.ensembles.labelled import Labelled
 from seacrane.ensembles.members import Value
@@ -19,6 +20,7 @@ from seacrane.run.outputs import Outputs
 from seacrane.scene.scene import Scene
 
 Source = Scene | Callable[..., Scene]
+Start = _core.State | Callable[[Scene], _core.State] | None
 Keep = Mapping[str, Kept | Callable[[Result], Any]]
 
 
@@ -37,6 +39,8 @@ class Study:
         Of every run.
     keep : mapping
         What is kept of each, by name.
+    start : State or callable, optional
+        Where every run begins, or a function of its scene that tells it; default: its assembled start.
     """
 
     source: Source
@@ -45,6 +49,7 @@ class Study:
     method: Method
     outputs: Outputs
     keep: Keep
+    start: Start = None
 
     def require_names(self, names: list[str]) -> None:
         """Raise SceneError for a parameter that the scene does not have, or one whose sea cannot vary."""
@@ -65,6 +70,10 @@ class Study:
         if not isinstance(made, Scene):
             raise SceneError(f"the function returned {shown(made)}; return a Scene")
         return made
+
+    def start_of(self, scene: Scene) -> _core.State | None:
+        """Where the run of a scene begins; None: its assembled start."""
+        return self.start(scene) if callable(self.start) else self.start
 
     def kept_of(self, result: Result) -> dict[str, Labelled]:
         """What is kept of a result."""

@@ -1,0 +1,339 @@
+"""allowable_hs(): the largest Hs over peak period and direction that keeps every criterion."""
+
+from __future__ import annotations
+
+import contextlib
+import os
+from collections.abc import Callable, Iterator, Sequence
+from concurrent.futures import Executor
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from seacrane.analysis.rest_state import equilibrium, held
+from seacrane.ensembles.other_sea import Databases, require_same_sea
+from seacrane.errors import SceneError
+from seacrane.hydro import HydroDatabase
+from seacrane.inputs.checked import number_of, numbers_of
+from seacrane.inputs.shown import shown
+from seacrane.operability.alpha import AlphaFactor, alpha_of
+from seacrane.operability.cells import Cells
+from seacrane.operability.criterion import Criterion
+from seacrane.operability.levels import FEWEST_SEEDS, curve
+from seacrane.operability.linear_seas import LinearSeas
+from seacrane.operability.probe import Prober, Sea
+from seacrane.operability.steady_start import steady_start
+from seacrane.operability.table import AllowableHs
+from seacrane.operability.time_domain import Cell, Storms
+from seacrane.run.advance import finished
+from seacrane.run.method import Method
+from seacrane.run.outputs import Outputs
+from seacrane.run.run import Run
+from seacrane.run.shorthand import Shorthand, settled
+from seacrane.scene.scene import Scene
+
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
+
+Array = NDArray[np.float64]
+LINEAR_WITHIN = 0.1  # of the allowance
+PROBES = 2  # seeds of each cell that are compared with the linear model
+DT = 0.5  # s between outputs
+HEIGHTS = (0.5, 1.0, 1.5, 2.0, 2.5, 3.0, 4.0)  # m
+DELAY = 2.0  # s before a progress bar shows
+
+
+def allowable_hs(
+    scene: Scene,
+    *,
+    criteria: Sequence[Criterion],
+    tp: Any,
+    direction_deg: Any,
+    hs: Any = HEIGHTS,
+    database: Databases,
+    domain: Literal["auto", "frequency", "time"] = "auto",
+    linear_within: float = LINEAR_WITHIN,
+    seeds: Sequence[int] = tuple(range(1, 11)),
+    duration: float = 1800.0,
+    start_up: float = 300.0,
+    time: float = 0.0,
+    alpha: AlphaFactor | float = 1.0,
+    hours: float = 12.0,
+    executor: Executor | None = None,
+    store: str | os.PathLike[str] | None = None,
+    method: Method | None = None,
+    progress: bool = False,
+    **shorthand: Unpack[Shorthand],
+) -> AllowableHs:
+    """Find the largest Hs over peak period and direction of the waves that keeps every criterion.
+
+    The scene has its references held, and lies in seas of its own spectrum and spreading. Its linear
+    model answers first. Where `domain` is "auto", runs in the same waves and from the same state tell in each
+    cell whether that is enough; where it is not, runs of all seeds at each `hs` answer.
+
+    Parameters
+    ----------
+    scene : Scene
+        With a sea of one wave system, whose height, period and direction are replaced.
+    criteria : sequence of Criterion
+    tp : array_like
+        Peak periods, s, ascending.
+    direction_deg : array_like
+        Directions in which the waves travel, as of `Scene.add_sea`: 0 along x, 180 against it. Ascending.
+    hs : array_like
+        m, ascending: of the runs, and the last one the largest that is examined in either domain.
+    database : HydroDatabase or mapping
+        With which the sea was added, by vessel where there are several.
+    domain : str
+        "auto" (default), "frequency": the linear model is not tested, or "time".
+    linear_within : float
+        "auto" takes the linear model where what its statistic of the record and that of the run differ by is
+        at most this share of the allowance, the distance from the value at rest to the bound; for every
+        criterion and both probes, at the Hs that it finds, or at the last `hs` if that is lower.
+    seeds : sequence of int
+        Of runs, at least 3. The first two are the probes.
+    duration, start_up : float
+        Of each run: evaluated, and left out before, s. Runs begin in the linear steady state, where there is
+        a linear model, and at rest elsewhere. Maxima of shorter runs than the exposure time are
+        carried to it by Gumbel's distribution.
+    time : float
+        At which the references are held, s.
+    alpha : AlphaFactor
+        For the uncertainty of forecasts; default 1. It does not change `allowable_hs`: `forecast_hs` is both
+        together.
+    hours : float
+        Planned period of the operation, for alpha, h.
+    executor, store
+        Of the runs, as of `ensemble`; the probes take the executor too. With a store, runs that were killed
+        are resumed.
+    method : Method, optional
+        Of the runs.
+    progress : bool
+        Show progress of what takes more than two seconds.
+    **shorthand
+        Parts of the method, and `dt_out` (s, default 0.5), as of `simulate`.
+
+    Returns
+    -------
+    AllowableHs
+
+    Raises
+    ------
+    SceneError
+        For values that make no sense, a channel or a sea that the scene does not have, a scene with no rest
+        state, or with domain="frequency" one without a linear model.
+    KeyboardInterrupt
+        On Ctrl-C; runs that came back before are in the store.
+    """
+    asked = _Asked.of(criteria, tp, direction_deg, hs, seeds, duration, start_up, linear_within, domain)
+    factor = alpha_of(alpha)
+    period = _positive("hours", hours)
+    factor.at(1.0, hours=period)
+    how, recorded = settled(method, None, {"dt_out": DT, **shorthand})
+    outputs = Outputs(dt=recorded.dt, channels=tuple(dict.fromkeys(one.channel for one in asked.criteria)))
+    begun = _Still.of(scene, database, asked.criteria, number_of("time", time))
+    study = _Study(asked=asked, still=begun, method=how, outputs=outputs, databases=database)
+    cells = Cells.of(asked.criteria, asked.tp, asked.directions, largest=asked.hs[-1])
+    failures: dict[int, str] = {}
+    if domain != "time":
+        study.by_frequency(cells, strict=domain == "frequency", progress=progress)
+    if domain == "auto" and cells.has_linear:
+        study.test(cells, executor, progress)
+    if cells.wanted:
+        failures = study.by_time(cells, executor, store, progress)
+    return AllowableHs.of(
+        scene.name, cells, factor, period, hs=asked.hs, seeds=asked.seeds, duration=asked.duration,
+        linear_within=asked.linear_within, failures=failures,
+    )  # fmt: skip
+
+
+@dataclass(frozen=True, kw_only=True)
+class _Asked:
+    """What was asked, checked."""
+
+    criteria: tuple[Criterion, ...]
+    tp: tuple[float, ...]
+    directions: tuple[float, ...]
+    hs: tuple[float, ...]
+    seeds: tuple[int, ...]
+    duration: float
+    start_up: float
+    linear_within: float
+
+    @classmethod
+    def of(
+        cls, criteria: Any, tp: Any, directions: Any, hs: Any, seeds: Any, duration: Any, start_up: Any,
+        linear_within: Any, domain: Any,
+    ) -> _Asked:  # fmt: skip
+        if domain not in ("auto", "frequency", "time"):
+            raise SceneError(f"domain is {shown(domain)}; choose 'auto', 'frequency' or 'time'")
+        begin = number_of("start_up", start_up)
+        if not 0.0 <= begin < np.inf:
+            raise SceneError(f"start_up is {begin} s; give zero or a positive time")
+        within = _ascending("direction_deg", directions)
+        if within[-1] - within[0] >= 360.0:
+            raise SceneError(
+                f"direction_deg goes from {within[0]:g} to {within[-1]:g}; name each direction of the circle "
+                "once"
+            )
+        return cls(
+            criteria=_criteria(criteria),
+            tp=_ascending("tp", tp, above_zero=True),
+            directions=within,
+            hs=_ascending("hs", hs, above_zero=True),
+            seeds=_seeds(seeds),
+            duration=_positive("duration", duration),
+            start_up=begin,
+            linear_within=_positive("linear_within", linear_within),
+        )
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class _Still:
+    """The scene with its references held, its sea, its state at rest and the criteria's values there."""
+
+    scene: Scene
+    state: Any
+    rest: Array
+
+    @classmethod
+    def of(cls, scene: Any, databases: Databases, criteria: tuple[Criterion, ...], time: float) -> _Still:
+        if not isinstance(scene, Scene):
+            raise SceneError(f"scene is {shown(scene)}; give a Scene")
+        require_same_sea(scene, databases)
+        state = equilibrium(scene, time=time)
+        calm = held(scene, time=time)
+        run = Run(calm, state.time, start=state, channels=[one.channel for one in criteria])
+        result = finished(run)
+        rest = np.array([curve(result, one.channel, one.where)[0] for one in criteria])
+        return cls(scene=calm.copy(waves=scene.waves), state=state, rest=rest)
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class _Study:
+    """The three steps: linear model, its test, runs."""
+
+    asked: _Asked
+    still: _Still
+    method: Method
+    outputs: Outputs
+    databases: Databases
+
+    def by_frequency(self, cells: Cells, *, strict: bool, progress: bool) -> None:
+        """Fill cells by the linear model; where there is none, note why."""
+        try:
+            linear = LinearSeas(self.still.scene, self.still.state, self._database(), self.asked.criteria)
+        except SceneError as error:
+            if strict:
+                raise
+            cells.refuse(f"no linear model: {error}")
+            return
+        cells.linear = linear
+        cells.energy_share = np.array([linear.energy_share(tp) for tp in self.asked.tp])
+        with _bar("linear model", len(self.asked.directions), progress) as bar:
+            for j, direction in enumerate(self.asked.directions):
+                gains = linear.gains(direction)
+                for i, tp in enumerate(self.asked.tp):
+                    cells.take_linear(i, j, linear.allowable(gains, tp))
+                bar(1)
+
+    def test(self, cells: Cells, executor: Executor | None, progress: bool) -> None:
+        """Compare the linear model with runs, and leave what it does not hold for to the time domain."""
+        assert cells.linear is not None
+        prober = Prober(
+            scene=self.still.scene, database=self._database(), linear=cells.linear,
+            criteria=self.asked.criteria, start=self.still.state.time, duration=self.asked.duration,
+            method=self.method, outputs=self.outputs,
+        )  # fmt: skip
+        places = [place for place in cells.places if cells.allowable[place] > 0.0]
+        seas = [
+            Sea(hs=float(cells.allowable[i, j]), tp=tp, direction_deg=direction, seed=seed)
+            for i, j in places
+            for tp, direction in [(self.asked.tp[i], self.asked.directions[j])]
+            for seed in self.asked.seeds[:PROBES]
+        ]
+        with _bar("test of the linear model", len(seas), progress) as bar:
+            for place, found in zip(
+                (place for place in places for _ in self.asked.seeds[:PROBES]),
+                prober.differences(seas, executor),
+                strict=True,
+            ):
+                cells.take_difference(place, found, self.asked.linear_within)
+                bar(1)
+
+    def by_time(self, cells: Cells, executor: Executor | None, store: Any, progress: bool) -> dict[int, str]:
+        """Fill the cells that are wanted by runs; why members failed, by number."""
+        storms = Storms(
+            scene=self.still.scene, databases=self.databases, begin=self.still.state.time,
+            start=steady_start(self.still.scene, self.still.state),
+            start_up=self.asked.start_up, duration=self.asked.duration, hs=self.asked.hs,
+            seeds=self.asked.seeds, criteria=self.asked.criteria, rest=self.still.rest, method=self.method,
+            outputs=self.outputs,
+        )  # fmt: skip
+        places = cells.wanted
+        of_cells: list[Cell] = [(self.asked.tp[i], self.asked.directions[j]) for i, j in places]
+        found = storms.run(of_cells, executor=executor, store=store, progress=progress)
+        for place, by_time in zip(places, storms.allowable(found, of_cells), strict=True):
+            cells.take_time(place, by_time)
+        return dict(found.failures)
+
+    def _database(self) -> HydroDatabase:
+        assert self.still.scene.waves is not None
+        one = self.databases
+        found = (
+            one if isinstance(one, HydroDatabase) else dict(one or {}).get(self.still.scene.waves.body_of())
+        )
+        assert found is not None  # require_same_sea asks for it
+        return found
+
+
+def _criteria(given: Any) -> tuple[Criterion, ...]:
+    listed = [given] if isinstance(given, Criterion) else list(given) if isinstance(given, Sequence) else []
+    if not listed or not all(isinstance(one, Criterion) for one in listed):
+        raise SceneError(f"criteria is {shown(given)}; give a list of Criterion")
+    names = [one.name for one in listed]
+    for name in names:
+        if names.count(name) > 1:
+            raise SceneError(f"criteria: {name!r} is there twice; give each a name of its own")
+    return tuple(listed)
+
+
+def _seeds(given: Any) -> tuple[int, ...]:
+    listed = list(given) if isinstance(given, Sequence) and not isinstance(given, (str, bytes)) else []
+    whole = all(
+        isinstance(one, int | np.integer) and not isinstance(one, bool) and one >= 0 for one in listed
+    )
+    if len(listed) < FEWEST_SEEDS or not whole or len(set(listed)) < len(listed):
+        raise SceneError(
+            f"seeds is {shown(given)}; give at least {FEWEST_SEEDS} different whole numbers from 0 on"
+        )
+    return tuple(int(one) for one in listed)
+
+
+def _ascending(name: str, given: Any, *, above_zero: bool = False) -> tuple[float, ...]:
+    values = np.atleast_1d(numbers_of(name, given))
+    if values.ndim != 1 or not values.size or not np.all(np.isfinite(values)) or np.any(np.diff(values) <= 0):
+        raise SceneError(f"{name} is {shown(given)}; give ascending finite numbers")
+    if above_zero and values[0] <= 0.0:
+        raise SceneError(f"{name} begins with {values[0]:g}; give numbers above zero")
+    return tuple(values.tolist())
+
+
+def _positive(name: str, given: Any) -> float:
+    value = number_of(name, given)
+    if not 0.0 < value < np.inf:
+        raise SceneError(f"{name} is {value}; give a finite number above zero")
+    return value
+
+
+@contextlib.contextmanager
+def _bar(what: str, total: int, wanted: bool) -> Iterator[Callable[[int], Any]]:
+    if not wanted:
+        yield lambda count: None
+        return
+    from tqdm.auto import tqdm
+
+    with tqdm(total=total, desc=what, delay=DELAY) as bar:
+        yield bar.update

@@ -1,0 +1,125 @@
+"""What is known of each cell of a table of allowable Hs while it is made."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from seacrane.operability.criterion import Criterion
+from seacrane.operability.linear_seas import LinearSeas
+from seacrane.operability.time_domain import ByTime
+
+Array = NDArray[np.float64]
+Place = tuple[int, int]  # number of the peak period, and of the direction
+
+
+@dataclass(kw_only=True, eq=False)
+class Cells:
+    """Cells by peak period and direction, filled step by step.
+
+    Attributes
+    ----------
+    criteria : tuple of Criterion
+    tp, directions : tuple of float
+        s, and degrees.
+    largest : float
+        Hs up to which was looked, m.
+    by_criterion, low, high : ndarray, shape (criteria, periods, directions)
+        Allowable Hs, m, and its 95 % interval; NaN where a cell needed no runs.
+    difference : ndarray, shape (criteria, periods, directions)
+        Between run and linear model, over the allowance; NaN where it was not tested.
+    domain, reason : ndarray of str, shape (periods, directions)
+    energy_share : ndarray, shape (periods,)
+        Of the waves, within the database.
+    linear : LinearSeas or None
+    """
+
+    criteria: tuple[Criterion, ...]
+    tp: tuple[float, ...]
+    directions: tuple[float, ...]
+    largest: float
+    by_criterion: Array
+    low: Array
+    high: Array
+    difference: Array
+    domain: NDArray[np.str_]
+    reason: NDArray[np.object_]
+    energy_share: Array
+    linear: LinearSeas | None = None
+
+    @classmethod
+    def of(
+        cls,
+        criteria: Sequence[Criterion],
+        tp: Sequence[float],
+        directions: Sequence[float],
+        *,
+        largest: float,
+    ) -> Cells:
+        """Cells of which nothing is known: runs are wanted for all."""
+        shape = (len(tp), len(directions))
+        all_of = (len(criteria), *shape)
+        return cls(
+            criteria=tuple(criteria), tp=tuple(tp), directions=tuple(directions), largest=largest,
+            by_criterion=np.full(all_of, np.inf), low=np.full(all_of, np.nan), high=np.full(all_of, np.nan),
+            difference=np.full(all_of, np.nan), domain=np.full(shape, "time", dtype="U9"),
+            reason=np.full(shape, "asked for", dtype=object), energy_share=np.full(len(tp), np.nan),
+        )  # fmt: skip
+
+    @property
+    def places(self) -> list[Place]:
+        """All cells, directions fastest."""
+        return [(i, j) for i in range(len(self.tp)) for j in range(len(self.directions))]
+
+    @property
+    def wanted(self) -> list[Place]:
+        """Cells of the time domain."""
+        return [place for place in self.places if self.domain[place] == "time"]
+
+    @property
+    def has_linear(self) -> bool:
+        """Whether there is a linear model."""
+        return self.linear is not None
+
+    @property
+    def allowable(self) -> Array:
+        """Over all criteria, up to the largest Hs that was examined."""
+        return np.asarray(np.minimum(self.by_criterion.min(axis=0), self.largest))
+
+    def refuse(self, reason: str) -> None:
+        """Leave all cells to the time domain."""
+        self.reason[:] = reason
+
+    def take_linear(self, period: int, direction: int, allowable: Array) -> None:
+        """Fill a cell by its linear model."""
+        self.by_criterion[:, period, direction] = allowable
+        self.domain[period, direction] = "frequency"
+        at_rest = allowable.min() <= 0.0
+        self.reason[period, direction] = "a bound is exceeded at rest" if at_rest else "not tested"
+
+    def take_difference(self, place: Place, found: Array | str, within: float) -> None:
+        """What a probe of a cell brought: the largest of several counts."""
+        if isinstance(found, str):
+            self.domain[place], self.reason[place] = "time", f"a run failed: {found}"
+            return
+        here = self.difference[(slice(None), *place)]
+        self.difference[(slice(None), *place)] = np.fmax(here, found)
+        if self.reason[place].startswith("a run failed"):
+            return
+        worst = int(np.argmax(self.difference[(slice(None), *place)]))
+        share = 100.0 * self.difference[worst, place[0], place[1]]
+        name = self.criteria[worst].name
+        if share > 100.0 * within:
+            self.domain[place] = "time"
+            self.reason[place] = f"{name}: run and linear model differ by {share:.0f} % of the allowance"
+        else:
+            self.reason[place] = f"within {share:.1f} % of the allowance ({name})"
+
+    def take_time(self, place: Place, found: Sequence[ByTime]) -> None:
+        """Fill a cell by its runs."""
+        for i, one in enumerate(found):
+            at = (i, *place)
+            self.by_criterion[at], self.low[at], self.high[at] = one.allowable, one.low, one.high

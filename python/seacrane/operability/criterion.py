@@ -1,0 +1,113 @@
+"""What a lift may reach in a sea: a channel, a statistic of it over an exposure time, and a value."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from seacrane.errors import SceneError
+from seacrane.inputs.checked import flag_of, name_of, number_of, text_of
+from seacrane.inputs.shown import shown
+from seacrane.result.units import unit_of
+from seacrane.statistics.gaussian import THREE_HOURS
+
+STATISTICS = {
+    "significant": "significant",
+    "mpm": "most probable maximum",
+    "mean": "mean maximum",
+    "p90": "P90 maximum",
+}
+
+
+@dataclass(frozen=True, kw_only=True)
+class Criterion:
+    """What a statistic of a channel may reach.
+
+    Attributes
+    ----------
+    channel : str
+        As results name it, such as "hook_load", "clearance" or "tip_velocity".
+    maximum, minimum : float, optional
+        One of both, in the SI unit of the channel (rad for angles).
+    where : mapping of str to str
+        Names along the channel's dimensions, such as ``{"body": "payload", "axis": "z"}``.
+    statistic : str
+        "mpm" (default), "mean" or "p90" of the largest value in the exposure time, or "significant": the mean
+        of the highest third of crests. Of a minimum, the same of the smallest value and of troughs.
+    exposure : float
+        s; default 3 h.
+    motion : bool
+        Whether `maximum` bounds the distance from the value at rest, to either side. Default False: the value
+        itself.
+    name : str
+        Default: the channel and the names.
+
+    Raises
+    ------
+    SceneError
+        For a value that makes no sense. Whether a scene has the channel is known when it is asked.
+    """
+
+    channel: str
+    maximum: float | None = None
+    minimum: float | None = None
+    where: Mapping[str, str] = field(default_factory=dict)
+    statistic: str = "mpm"
+    exposure: float = THREE_HOURS
+    motion: bool = False
+    name: str = ""
+
+    def __post_init__(self) -> None:
+        channel = text_of("criterion: channel", self.channel)
+        if not isinstance(self.where, Mapping):
+            raise SceneError(f"criterion {channel}: where is {shown(self.where)}; give names by dimension")
+        object.__setattr__(self, "where", dict(self.where))
+        usual = " ".join([channel.replace("_", " "), *map(str, self.where.values())])
+        object.__setattr__(self, "name", name_of("criterion", self.name, usual))
+        self._require_bound()
+        if self.statistic not in STATISTICS:
+            raise SceneError(
+                f"criterion {self.name!r}: statistic is {shown(self.statistic)}; choose from "
+                f"{', '.join(STATISTICS)}"
+            )
+        exposure = number_of(f"criterion {self.name!r}: exposure", self.exposure)
+        if not (np.isfinite(exposure) and exposure > 0.0):
+            raise SceneError(f"criterion {self.name!r}: exposure is {exposure} s; give a positive time")
+
+    def _require_bound(self) -> None:
+        if (self.maximum is None) == (self.minimum is None):
+            raise SceneError(f"criterion {self.name!r}: give maximum or minimum, and not both")
+        if not np.isfinite(number_of(f"criterion {self.name!r}: bound", self.bound)):
+            raise SceneError(f"criterion {self.name!r}: bound is {self.bound}; give a finite number")
+        if not flag_of(f"criterion {self.name!r}: motion", self.motion):
+            return
+        if self.maximum is None or not self.maximum > 0.0:
+            raise SceneError(
+                f"criterion {self.name!r}: motion=True bounds a distance; give a maximum above zero"
+            )
+
+    @property
+    def bound(self) -> float:
+        """The maximum, or the minimum."""
+        return float(self.minimum if self.maximum is None else self.maximum)  # type: ignore[arg-type]
+
+    @property
+    def sides(self) -> tuple[float, ...]:
+        """Signs of the channel of which the largest value counts."""
+        if self.motion:
+            return (1.0, -1.0)
+        return (1.0,) if self.minimum is None else (-1.0,)
+
+    def allowance(self, rest: float) -> float:
+        """From the value at rest to the bound, in the unit of the channel; negative beyond it."""
+        return self.bound if self.motion else self.sides[0] * (self.bound - rest)
+
+    def told(self) -> str:
+        """The criterion in words."""
+        what = "motion" if self.motion else ("largest" if self.minimum is None else "smallest")
+        over = "" if self.statistic == "significant" else f" in {self.exposure:g} s"
+        sign = "<=" if self.minimum is None else ">="
+        unit = unit_of(self.channel, self.where.values())
+        return f"{self.name}: {what}, {STATISTICS[self.statistic]}{over} {sign} {self.bound:g} {unit}"

@@ -1,0 +1,159 @@
+"""A criterion's statistic: of a Gaussian response by its moments, of one record, and of several seeds."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from seacrane.errors import SceneError
+from seacrane.operability.criterion import Criterion
+from seacrane.result import Result
+from seacrane.statistics.estimate import CONFIDENCE, Estimate
+from seacrane.statistics.gaussian import gaussian_maximum
+from seacrane.statistics.record import crests
+from seacrane.statistics.seeds import seed_extremes
+
+Array = NDArray[np.float64]
+NUMBERS = ("largest", "smallest", "significant_high", "significant_low")
+FEWEST_SEEDS = 3
+NARROWEST = 1e-6  # bandwidth
+
+
+def gaussian_level(criterion: Criterion, moments: Array) -> float:
+    """The criterion's statistic of a Gaussian response over its standard deviation, from the value at rest.
+
+    Parameters
+    ----------
+    criterion : Criterion
+    moments : ndarray, shape (3,)
+        m0, m1, m2 over frequency in rad/s.
+    """
+    if criterion.statistic == "significant":
+        return 2.0
+    m0, m1, m2 = moments
+    sides = len(criterion.sides)
+    bandwidth = np.sqrt(max(1.0 - m1**2 / (m0 * m2), 0.0))
+    # To either side: twice the crossings, in clumps with Vanmarcke's factor of half the bandwidth.
+    found = gaussian_maximum(
+        std=1.0,
+        rate=sides * float(np.sqrt(m2 / m0)) / (2.0 * np.pi),
+        exposure=criterion.exposure,
+        bandwidth=max(float(bandwidth) / sides, NARROWEST),
+    )
+    return float(getattr(found, criterion.statistic).value)
+
+
+@dataclass(frozen=True, kw_only=True)
+class RecordNumbers:
+    """What is kept of a channel of a run: its `NUMBERS`.
+
+    Attributes
+    ----------
+    channel : str
+    where : mapping of str to str
+        Names along its dimensions.
+    after : float
+        s: earlier outputs are left out.
+    """
+
+    channel: str
+    where: Mapping[str, str] = field(default_factory=dict)
+    after: float = 0.0
+
+    def __call__(self, result: Result) -> Array:
+        """The numbers of a result."""
+        values = curve(result, self.channel, self.where)
+        return record_numbers(values[result.time >= self.after])
+
+
+def curve(result: Result, channel: str, where: Mapping[str, str]) -> Array:
+    """One curve of a result (n,), or a SceneError that lists the names that are missing."""
+    try:
+        values = result.select(channel, **where)
+    except (KeyError, ValueError) as error:
+        raise SceneError(f"criterion: {error.args[0]}") from error
+    left = [dim for dim in result.dims[channel][1:] if dim not in where]
+    several = [dim for dim in left if len(result.coords[dim]) > 1]
+    if several:
+        listed = "; ".join(f"{dim}: one of {', '.join(result.coords[dim])}" for dim in several)
+        raise SceneError(f"criterion: channel {channel!r} holds several curves; give where= {listed}")
+    return np.asarray(values).reshape(len(result.time))
+
+
+def record_numbers(values: Array) -> Array:
+    """`NUMBERS` of a record (n,): crests and troughs by the parabola through their neighbours."""
+    mean = float(values.mean())
+    high, low = crests(values, mean), crests(-values, -mean)
+    return np.array(
+        [
+            max(float(values.max()), mean + high.max(initial=0.0)),
+            min(float(values.min()), mean - low.max(initial=0.0)),
+            mean + _highest_third(high) if high.size else float(values.max()),
+            mean - _highest_third(low) if low.size else float(values.min()),
+        ]
+    )
+
+
+def _highest_third(heights: Array) -> float:
+    return float(np.sort(heights)[-max(1, heights.size // 3) :].mean())
+
+
+def reached(criterion: Criterion, numbers: Array, rest: float) -> Array:
+    """How far records went from the value at rest towards the bound: largest, or significant, by the numbers.
+
+    Parameters
+    ----------
+    criterion : Criterion
+    numbers : ndarray, shape (..., 4)
+        `NUMBERS` of each record.
+    rest : float
+    """
+    first = 2 if criterion.statistic == "significant" else 0
+    sides = [
+        numbers[..., first] - rest if side > 0.0 else rest - numbers[..., first + 1]
+        for side in criterion.sides
+    ]
+    return np.asarray(np.max(sides, axis=0))
+
+
+def seeds_level(criterion: Criterion, values: Array, duration: float) -> Estimate:
+    """The criterion's statistic of several seeds, from the value at rest, with its 95 % interval.
+
+    Parameters
+    ----------
+    criterion : Criterion
+    values : ndarray, shape (n,)
+        `reached` of each, NaN where a seed failed.
+    duration : float
+        Of each record, s.
+
+    Returns
+    -------
+    Estimate
+        Infinite where fewer than three seeds came to their end.
+    """
+    good = values[np.isfinite(values)]
+    if good.size < FEWEST_SEEDS:
+        return Estimate(value=np.inf, low=np.inf, high=np.inf)
+    if criterion.statistic == "significant":
+        return _mean(good)
+    if np.ptp(good) <= 1e-12 * np.abs(good).max():
+        return Estimate(value=float(good[0]), low=float(good[0]), high=float(good[0]))
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # the interval is part of the answer
+        found = seed_extremes(good, duration=duration, exposure=criterion.exposure)
+    estimate: Any = getattr(found.gumbel, criterion.statistic)
+    return Estimate(value=estimate.value, low=estimate.low, high=estimate.high)
+
+
+def _mean(values: Array) -> Estimate:
+    from scipy.stats import t
+
+    half = float(t.ppf((1.0 + CONFIDENCE) / 2.0, values.size - 1) * values.std(ddof=1)) / values.size**0.5
+    mean = float(values.mean())
+    return Estimate(value=mean, low=mean - half, high=mean + half)

@@ -1,0 +1,126 @@
+"""Channels of a scene as its linear model knows them: y = rest + C x + D f, by differences of outputs."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from seacrane import _core
+from seacrane.analysis.linear_system import LinearModel
+from seacrane.analysis.rest_state import held
+from seacrane.errors import SceneError
+from seacrane.operability.criterion import Criterion
+from seacrane.operability.levels import curve
+from seacrane.run.outputs import Outputs
+from seacrane.run.run import Run
+from seacrane.scene.scene import Scene
+
+Array = NDArray[np.float64]
+Complex = NDArray[np.complex128]
+MOVE = 1e-4  # m and rad, m/s and rad/s
+PUSH = 1e-3  # m/s2 and rad/s2, of states of the fluid and of loads on the vessel
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class LinearChannels:
+    """y = rest + c x + d f of small motions x under loads f on the vessel.
+
+    Attributes
+    ----------
+    model : LinearModel
+    rest : ndarray, shape (m,)
+        Values at rest, in the units of the channels.
+    c : ndarray, shape (m, n)
+        Per x of the model.
+    d : ndarray, shape (m, 6)
+        Per load on the vessel (N, N m) about its origin, in axes that follow its yaw.
+    """
+
+    model: LinearModel
+    rest: Array
+    c: Array
+    d: Array
+
+    def transfer(self, omega: Array) -> Complex:
+        """Channels per load on the vessel, (k, m, 6), at frequencies (k,) in rad/s."""
+        out = np.empty((omega.size, self.rest.size, 6), dtype=complex)
+        for i, unit in enumerate(np.eye(6)):
+            x = self.model.response(omega=omega, force=np.broadcast_to(unit, (omega.size, 6)))
+            out[..., i] = x @ self.c.T + self.d[:, i]
+        return out
+
+
+def linear_channels(model: LinearModel, criteria: Sequence[Criterion]) -> LinearChannels:
+    """The channels of criteria, by differences of what a run records where it begins.
+
+    Raises
+    ------
+    SceneError
+        For a channel or a name that the scene does not have, memory by frequency, or a model without vessel.
+    """
+    if model.memories:
+        raise SceneError(
+            f"scene {model.scene.name!r}: its fluid memory is a convolution, which has no states; add the "
+            "vessel with memory='per-pair', or take domain='time'"
+        )
+    if model.vessel is None or not isinstance(model.scene, Scene):
+        raise SceneError(f"scene {model.scene.name!r}: has no vessel on which waves act")
+    dof = model.degrees_of_freedom
+    sizes = np.full(len(model.a), MOVE)
+    pushes = np.abs(model.a[dof : 2 * dof, 2 * dof :]).max(axis=0, initial=0.0)
+    sizes[2 * dof :] = PUSH / np.where(pushes > 0.0, pushes, PUSH)
+    look = _Look(held(model.scene, time=model.state.time), criteria)
+    rest, columns = look.at(model.state), []
+    for i, size in enumerate(sizes):
+        step = np.zeros(sizes.size)
+        step[i] = size
+        above = look.at(model.full_state(step))
+        # States of the fluid add loads in proportion: one side is enough.
+        below = look.at(model.full_state(-step)) if i < 2 * dof else 2.0 * rest - above
+        columns.append((above - below) / (2.0 * size))
+    return LinearChannels(model=model, rest=rest, c=np.stack(columns, axis=1), d=_by_load(model, criteria))
+
+
+def _by_load(model: LinearModel, criteria: Sequence[Criterion]) -> Array:
+    dof, columns = model.degrees_of_freedom, []
+    axes = model.yaw_axes()
+    for i, accelerations in enumerate(np.abs(model.b[dof : 2 * dof]).max(axis=0)):
+        size = PUSH / accelerations
+        pushed = [
+            _Look(_loaded(model, sign * size * axes[:, i]), criteria).at(model.state) for sign in (1.0, -1.0)
+        ]
+        columns.append((pushed[0] - pushed[1]) / (2.0 * size))
+    return np.stack(columns, axis=1)
+
+
+def _loaded(model: LinearModel, wrench: Array) -> Scene:
+    """The scene held as at the model's time, with one more load (6,) about the vessel's origin."""
+    assert model.vessel is not None
+    scene: Scene = held(model.scene, time=model.state.time)  # type: ignore[assignment]
+    name = "operability"
+    while name in scene.force_tables:
+        name += "'"
+    scene.add_force_table(name=name, body=model.vessel, times=[0.0, 1.0], loads=np.array([wrench] * 2))
+    return scene
+
+
+class _Look:
+    """What a scene records at states."""
+
+    def __init__(self, scene: Scene, criteria: Sequence[Criterion]) -> None:
+        self._scene, self._criteria = scene, criteria
+        self._model = scene.compile()
+        self._channels = Outputs(channels=tuple(dict.fromkeys(one.channel for one in criteria)))
+
+    def at(self, state: _core.State) -> Array:
+        """The channels of the criteria (m,)."""
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # of the scene as it would be in a run
+            run = Run(self._scene, state.time, start=state, outputs=self._channels, model=self._model)
+            run.advance(state.time)
+            result = run.result()
+        return np.array([curve(result, one.channel, one.where)[0] for one in self._criteria])

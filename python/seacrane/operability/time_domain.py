@@ -1,0 +1,138 @@
+"""Allowable Hs by runs of several seeds at each of a few Hs, in the cells that ask for it."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping, Sequence
+from concurrent.futures import Executor
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from seacrane.ensembles.ensemble import Ensemble, ensemble
+from seacrane.ensembles.other_sea import Databases
+from seacrane.ensembles.study import Start
+from seacrane.operability.criterion import Criterion
+from seacrane.operability.levels import RecordNumbers, reached, seeds_level
+from seacrane.run.method import Method
+from seacrane.run.outputs import Outputs
+from seacrane.scene.scene import Scene
+
+Array = NDArray[np.float64]
+Cell = tuple[float, float]  # peak period, s, and direction, degrees
+
+
+@dataclass(frozen=True, kw_only=True)
+class ByTime:
+    """Allowable Hs of one criterion in one cell, m, by its estimate and the ends of its 95 % interval.
+
+    `allowable` is infinite where no Hs of the grid reaches the criterion.
+    """
+
+    allowable: float
+    low: float
+    high: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class Storms:
+    """What is run for a cell.
+
+    Attributes
+    ----------
+    scene : Scene
+        Its references held, with its sea.
+    databases : HydroDatabase or mapping
+    begin : float
+        Time of the state at rest, s.
+    start : State or SteadyStart
+        Where runs begin.
+    start_up, duration : float
+        Left out, and evaluated, s.
+    hs : tuple of float
+        m, ascending.
+    seeds : tuple of int
+    criteria : tuple of Criterion
+    rest : ndarray
+        Value of each at rest.
+    method, outputs
+        Of the runs.
+    """
+
+    scene: Scene
+    databases: Databases
+    begin: float
+    start: Start
+    start_up: float
+    duration: float
+    hs: tuple[float, ...]
+    seeds: tuple[int, ...]
+    criteria: tuple[Criterion, ...]
+    rest: Array
+    method: Method
+    outputs: Outputs
+
+    def run(
+        self,
+        cells: Sequence[Cell],
+        *,
+        executor: Executor | None,
+        store: str | os.PathLike[str] | None,
+        progress: bool,
+    ) -> Ensemble:
+        """All storms of the cells, seeds fastest."""
+        over: list[Mapping[str, Any]] = [
+            {"tp": tp, "direction_deg": direction, "hs": hs, "seed": seed}
+            for tp, direction in cells
+            for hs in self.hs
+            for seed in self.seeds
+        ]
+        after = self.begin + self.start_up
+        keep = {
+            f"criterion_{i}": RecordNumbers(channel=one.channel, where=one.where, after=after)
+            for i, one in enumerate(self.criteria)
+        }
+        return ensemble(
+            self.scene, over=over, keep=keep, t_end=after + self.duration, method=self.method,
+            outputs=self.outputs, database=self.databases, start=self.start, executor=executor,
+            store=store, progress=progress,
+        )  # fmt: skip
+
+    def allowable(self, storms: Ensemble, cells: Sequence[Cell]) -> list[list[ByTime]]:
+        """By cell and criterion."""
+        shape = (len(cells), len(self.hs), len(self.seeds))
+        found: list[list[ByTime]] = [[] for _ in cells]
+        for i, (criterion, rest) in enumerate(zip(self.criteria, self.rest, strict=True)):
+            name = f"criterion_{i}"
+            numbers = storms.dataset[name].to_numpy() if name in storms.dataset else np.full((1, 4), np.nan)
+            numbers = np.broadcast_to(numbers, (int(np.prod(shape)), 4)).reshape(*shape, 4)
+            for place, of_cell in enumerate(reached(criterion, numbers, float(rest))):
+                found[place].append(self._crossing(criterion, of_cell, criterion.allowance(float(rest))))
+        return found
+
+    def _crossing(self, criterion: Criterion, values: Array, allowance: float) -> ByTime:
+        levels = [seeds_level(criterion, row, self.duration) for row in values]
+        by = {
+            name: first_crossing(self.hs, [getattr(level, of) for level in levels], allowance)
+            for name, of in (("allowable", "value"), ("low", "high"), ("high", "low"))
+        }
+        return ByTime(**by)
+
+
+def first_crossing(hs: Sequence[float], levels: Sequence[float], allowance: float) -> float:
+    """Lowest Hs (m) at which levels over Hs reach the allowance, linear in between, from zero at Hs 0.
+
+    Infinite where none does. Below a level that is not known the last one before it counts.
+    """
+    if allowance <= 0.0:
+        return 0.0
+    below, before = 0.0, 0.0
+    for height, level in zip(hs, levels, strict=True):
+        if not np.isfinite(level):
+            return below
+        if level >= allowance:
+            return below + (height - below) * (allowance - before) / (level - before)
+        below, before = height, level
+    return float("inf")

@@ -1,0 +1,241 @@
+"""weather_windows(): when a lift of some hours may start, and how long one waits for it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from seacrane.errors import SceneError
+from seacrane.inputs.checked import number_of
+from seacrane.inputs.shown import shown
+from seacrane.operability.alpha import AlphaFactor, alpha_of
+from seacrane.operability.hindcast import WaveHindcast
+from seacrane.operability.table import AllowableHs
+from seacrane.plotting.html import notebook_table
+from seacrane.plotting.text import text_table
+
+if TYPE_CHECKING:
+    import xarray
+
+Array = NDArray[np.float64]
+Flags = NDArray[np.bool_]
+MONTHS = ("Jan", "Feb", "Mar", "Apr", "May", "Jun", "Jul", "Aug", "Sep", "Oct", "Nov", "Dec")
+HEAD = ("", "workable [%]", "may start [%]", "wait mean [h]", "P50 [h]", "P90 [h]")
+LONGEST = 8760.0  # h, of an operation
+ROUNDING = 1e-9  # of a step
+
+
+@dataclass(frozen=True, kw_only=True, eq=False, repr=False)
+class WeatherWindows:
+    """When a lift may start and how long one waits. Made by `weather_windows`; prints as a table.
+
+    Attributes
+    ----------
+    hours : float
+        Of the operation, h: the window that it needs.
+    dataset : xarray.Dataset
+        Over `time`: `hs_limit` (m, alpha included), `workable` (Hs is at most the limit), `may_start` (it is
+        for the hours to come) and `waiting` (h until it may start; NaN where the series ends before). Over
+        `month` (1 to 12) the same as shares in % and waiting times: `workable_percent`, `may_start_percent`,
+        `waiting_mean`, `waiting_p50`, `waiting_p90`. Over `window`: `start` and `length` (h) of every stretch
+        of workable time of at least `hours`.
+    workable_percent, may_start_percent : float
+        Of all the time.
+    waiting_mean, waiting_p50, waiting_p90 : float
+        From a time taken at random, h.
+    unknown_percent, outside_percent, censored_percent : float
+        Of all the time: sea states that are not known, or beyond the table of allowable Hs, both counted as
+        not workable; and times from which no window comes before the series ends, left out of waiting times.
+    alpha_factor, source : str
+    """
+
+    hours: float
+    dataset: xarray.Dataset
+    workable_percent: float
+    may_start_percent: float
+    waiting_mean: float
+    waiting_p50: float
+    waiting_p90: float
+    unknown_percent: float
+    outside_percent: float
+    censored_percent: float
+    alpha_factor: str
+    source: str
+
+    def __repr__(self) -> str:
+        return f"<WeatherWindows of {self.hours:g} h: {self.dataset.sizes['window']}>"
+
+    def __str__(self) -> str:
+        return f"{self._title()}\n{text_table(HEAD, self._rows(), right=range(1, 6))}\n{self._words()}"
+
+    def _repr_html_(self) -> str:
+        return notebook_table(HEAD, self._rows(), caption=f"{self._title()} {self._words()}")
+
+    def _title(self) -> str:
+        count = self.dataset.sizes["window"]
+        return f"Windows of {self.hours:g} h in {self.source}: {count}; {self.alpha_factor}"
+
+    def _words(self) -> str:
+        return (
+            f"{self.unknown_percent:.1f} % not known and {self.outside_percent:.1f} % beyond the table count "
+            f"as not workable; {self.censored_percent:.1f} % wait past the end and are left out."
+        )
+
+    def _rows(self) -> list[list[str]]:
+        names = ("workable_percent", "may_start_percent", "waiting_mean", "waiting_p50", "waiting_p90")
+        rows = [
+            [MONTHS[i], *(_shown(float(self.dataset[name][i])) for name in names)]
+            for i in range(12)
+            if np.isfinite(self.dataset["workable_percent"][i])
+        ]
+        return [*rows, ["all", *(_shown(float(getattr(self, name))) for name in names)]]
+
+
+def weather_windows(
+    hindcast: WaveHindcast,
+    allowable: AllowableHs | float,
+    *,
+    hours: float | None = None,
+    heading_deg: float | None = None,
+    alpha: AlphaFactor | float | None = None,
+) -> WeatherWindows:
+    """Find weather windows of a hindcast, and the time that one waits for them.
+
+    Each sea state stands for the step that begins at its time. An operation may start at a time if that step
+    and all others until its end are workable; a started one is not interrupted.
+
+    Parameters
+    ----------
+    hindcast : WaveHindcast
+    allowable : AllowableHs or float
+        A table, or one Hs (m) for all seas.
+    hours : float, optional
+        Of the operation, contingency included, h; default: those of the table.
+    heading_deg : float, optional
+        Compass heading of the vessel's bow, with a table and directions. Default: the worst direction of the
+        table counts.
+    alpha : AlphaFactor, optional
+        Default: that of the table, or 1.
+
+    Returns
+    -------
+    WeatherWindows
+
+    Raises
+    ------
+    SceneError
+        For values that make no sense.
+    """
+    if not isinstance(hindcast, WaveHindcast):
+        raise SceneError(f"hindcast is {shown(hindcast)}; give a WaveHindcast")
+    table = allowable if isinstance(allowable, AllowableHs) else None
+    period = number_of("hours", (table.hours if table else None) if hours is None else hours)
+    if not 0.0 < period <= LONGEST:
+        raise SceneError(f"hours is {period}; give a positive number up to {LONGEST:g}")
+    factor = (table.alpha if table else AlphaFactor()) if alpha is None else alpha_of(alpha)
+    bare = _limit(hindcast, allowable, heading_deg)
+    limit = bare * factor.at(bare, hours=period)
+    outside = hindcast.known & np.isnan(limit)
+    return _windows(hindcast, limit, period, outside, factor.told(hours=period))
+
+
+def _limit(hindcast: WaveHindcast, allowable: Any, heading_deg: float | None) -> Array:
+    """Allowable Hs of each sea state, m; NaN beyond the table."""
+    if isinstance(allowable, AllowableHs):
+        travel = None if heading_deg is None else hindcast.travel_deg(heading_deg)
+        return allowable.at(hindcast.tp, travel)
+    if heading_deg is not None:
+        raise SceneError(
+            "heading_deg: one Hs for all seas knows no directions; leave it out, or give a table"
+        )
+    height = number_of("allowable", allowable)
+    if not 0.0 <= height < np.inf:
+        raise SceneError(f"allowable is {height} m; give zero or a positive number, or a table")
+    return np.full(hindcast.time.size, height)
+
+
+def _windows(
+    hindcast: WaveHindcast, limit: Array, hours: float, outside: Flags, alpha_factor: str
+) -> WeatherWindows:
+    import xarray
+
+    step = hindcast.step_hours
+    workable = np.nan_to_num(hindcast.hs, nan=np.inf) <= np.nan_to_num(limit, nan=-np.inf)
+    workable &= hindcast.known
+    steps = max(1, int(np.ceil(hours / step - ROUNDING)))
+    may_start = startable(workable, steps)
+    waiting = waiting_steps(may_start) * step
+    first, lengths = stretches(workable)
+    long = lengths >= steps
+    month = hindcast.time.astype("datetime64[M]").astype(int) % 12
+    by_month = np.array([_numbers(workable, may_start, waiting, month == i) for i in range(12)]).T
+    names = ("workable_percent", "may_start_percent", "waiting_mean", "waiting_p50", "waiting_p90")
+    units = ("%", "%", "h", "h", "h")
+    all_of = _numbers(workable, may_start, waiting, np.ones(workable.size, dtype=bool))
+    dataset = xarray.Dataset(
+        {
+            "hs_limit": ("time", limit, {"units": "m", "long_name": f"allowable Hs, {alpha_factor}"}),
+            "workable": ("time", workable),
+            "may_start": ("time", may_start),
+            "waiting": ("time", waiting, {"units": "h"}),
+            "start": ("window", hindcast.time[first[long]]),
+            "length": ("window", lengths[long] * step, {"units": "h"}),
+            **{
+                name: ("month", values, {"units": unit})
+                for name, values, unit in zip(names, by_month, units, strict=True)
+            },
+        },
+        {"time": hindcast.time, "month": np.arange(1, 13)},
+        {"hours": hours, "alpha_factor": alpha_factor, "source": hindcast.source},
+    )
+    return WeatherWindows(
+        hours=hours, dataset=dataset, **dict(zip(names, all_of, strict=True)),
+        unknown_percent=float(100.0 * np.mean(~hindcast.known)),
+        outside_percent=float(100.0 * np.mean(outside)),
+        censored_percent=float(100.0 * np.mean(np.isnan(waiting))),
+        alpha_factor=alpha_factor, source=hindcast.source,
+    )  # fmt: skip
+
+
+def startable(workable: Flags, steps: int) -> Flags:
+    """Where this step and the next ones, so many together, are all workable."""
+    if steps > workable.size:
+        return np.zeros(workable.size, dtype=bool)
+    total = np.concatenate([[0], np.cumsum(workable)])
+    found = np.zeros(workable.size, dtype=bool)
+    found[: workable.size - steps + 1] = total[steps:] - total[:-steps] == steps
+    return found
+
+
+def waiting_steps(may_start: Flags) -> Array:
+    """Steps from each one to the first at which one may start; NaN where there is none."""
+    starts = np.flatnonzero(may_start)
+    next_one = np.searchsorted(starts, np.arange(may_start.size))
+    there = next_one < starts.size
+    found = np.full(may_start.size, np.nan)
+    found[there] = starts[next_one[there]] - np.flatnonzero(there)
+    return found
+
+
+def stretches(workable: Flags) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+    """First step and length of every run of workable ones."""
+    edges = np.diff(np.concatenate([[False], workable, [False]]).astype(int))
+    first = np.flatnonzero(edges == 1)
+    return first, np.flatnonzero(edges == -1) - first
+
+
+def _numbers(workable: Flags, may_start: Flags, waiting: Array, chosen: Flags) -> tuple[float, ...]:
+    """Shares in % and waiting times of chosen steps; NaN without any."""
+    if not chosen.any():
+        return (np.nan,) * 5
+    waits = waiting[chosen & np.isfinite(waiting)]
+    times = [waits.mean(), *np.quantile(waits, (0.5, 0.9))] if waits.size else [np.nan] * 3
+    shares = [100.0 * flags[chosen].mean() for flags in (workable, may_start)]
+    return tuple(float(one) for one in (*shares, *times))
+
+
+def _shown(value: float) -> str:
+    return f"{value:.1f}" if np.isfinite(value) else ""

@@ -1,0 +1,375 @@
+"""Weather windows, waiting times and availability: by brute force, by closed forms, from files."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+import xarray
+from operability_scenes import HEAVE, PITCH, vessel
+
+from seacrane import (
+    AllowableHs,
+    AlphaFactor,
+    FileFormatError,
+    HydroDatabase,
+    ScatterDiagram,
+    SceneError,
+    WaveHindcast,
+    allowable_hs,
+    availability,
+    plot_weather_windows,
+    weather_windows,
+)
+from seacrane.hydro import shipped_database
+
+HOUR = np.timedelta64(1, "h")
+START = np.datetime64("2019-01-01T00:00")
+
+
+@pytest.fixture(scope="module")
+def table() -> AllowableHs:
+    database: HydroDatabase = shipped_database()
+    return allowable_hs(
+        vessel(), criteria=[HEAVE, PITCH], tp=[6.0, 9.0, 14.0], direction_deg=np.arange(0.0, 360.0, 45.0),
+        hs=[4.0], database=database, domain="frequency",
+        alpha=AlphaFactor(values=0.8, source="made up"), hours=6.0,
+    )  # fmt: skip
+
+
+def series(hs: Any, *, step: float = 1.0, **given: Any) -> WaveHindcast:
+    heights = np.asarray(hs, dtype=float)
+    times = START + (np.arange(heights.size) * step * 60.0).astype("timedelta64[m]")
+    return WaveHindcast(**{"time": times, "hs": heights, "tp": np.full(heights.size, 9.0), **given})
+
+
+@dataclass(frozen=True)
+class BruteForce:
+    """The same numbers by looking at every time, one by one, without an array."""
+
+    may_start: list[bool]
+    waiting: list[float]
+    lengths: list[float]
+
+    @classmethod
+    def of(cls, workable: list[bool], *, step: float, hours: float) -> BruteForce:
+        may_start = []
+        for first in range(len(workable)):
+            covered, place = 0.0, first
+            while covered < hours - 1e-9 and place < len(workable) and workable[place]:
+                covered, place = covered + step, place + 1
+            may_start.append(covered >= hours - 1e-9)
+        waiting = []
+        for first in range(len(workable)):
+            place = first
+            while place < len(workable) and not may_start[place]:
+                place += 1
+            waiting.append((place - first) * step if place < len(workable) else float("nan"))
+        lengths, length = [], 0.0
+        for flag in [*workable, False]:
+            if flag:
+                length += step
+            else:
+                lengths += [length] if length >= hours - 1e-9 else []
+                length = 0.0
+        return cls(may_start, waiting, lengths)
+
+
+@pytest.mark.parametrize("hours", [0.5, 1.0, 5.0, 6.5, 24.0, 300.0])
+@pytest.mark.parametrize("step", [0.5, 1.0, 3.0])
+def test_windows_are_those_of_brute_force(hours: float, step: float) -> None:
+    random = np.random.default_rng(int(10 * hours + step))
+    smooth = np.convolve(random.normal(size=900), np.ones(12) / 12.0**0.5, mode="same")
+    hs = np.exp(0.5 * smooth)
+    hs[random.integers(0, 900, 5)] = np.nan
+    found = weather_windows(series(hs, step=step), 1.2, hours=hours)
+    by_hand = BruteForce.of([value <= 1.2 for value in hs.tolist()], step=step, hours=hours)
+    assert found.dataset["may_start"].to_numpy().tolist() == by_hand.may_start
+    assert np.array_equal(found.dataset["waiting"], by_hand.waiting, equal_nan=True)
+    assert found.dataset["length"].to_numpy().tolist() == by_hand.lengths
+    known = [wait for wait in by_hand.waiting if wait == wait]
+    if known:
+        assert found.waiting_mean == pytest.approx(sum(known) / len(known))
+        assert found.waiting_p90 == pytest.approx(np.percentile(known, 90))
+    assert found.unknown_percent == pytest.approx(100.0 * np.isnan(hs).mean())
+    assert found.censored_percent == pytest.approx(100.0 * np.isnan(by_hand.waiting).mean())
+
+
+def test_waiting_is_that_of_alternating_renewal() -> None:
+    """Calm and storm of exponential length, means 30 and 20 h, an operation of 12 h: closed forms.
+
+    From the begin of a calm W0 = E + (1 - p) (storm + W0), where p = exp(-d / calm) is the chance that it
+    lasts and E the part of d that is lost where it does not; in a storm one waits for its rest first.
+    """
+    calm, storm, hours, step = 30.0, 20.0, 12.0, 0.25
+    random = np.random.default_rng(5)
+    lengths = np.stack([random.exponential(calm, 8000), random.exponential(storm, 8000)], axis=1).ravel()
+    ends = np.cumsum(lengths)
+    middles = (np.arange(int(ends[-1] / step)) + 0.5) * step
+    stormy = np.searchsorted(ends, middles) % 2 == 1
+    found = weather_windows(series(np.where(stormy, 3.0, 1.0), step=step), 2.0, hours=hours)
+    lasts = np.exp(-hours / calm)
+    lost = calm * (1.0 - lasts * (1.0 + hours / calm))
+    from_calm = (lost + (1.0 - lasts) * storm) / lasts
+    share = calm / (calm + storm)
+    assert found.workable_percent == pytest.approx(100.0 * share, rel=0.03)
+    assert found.may_start_percent == pytest.approx(100.0 * share * lasts, rel=0.05)
+    assert found.waiting_mean == pytest.approx(from_calm + (1.0 - share) * storm, rel=0.05)
+    later = found.dataset["waiting"].to_numpy()
+    in_storm = later[stormy & np.isfinite(later)]
+    assert in_storm.mean() == pytest.approx(from_calm + storm, rel=0.05)
+
+
+def test_a_short_operation_waits_for_the_rest_of_the_storm() -> None:
+    """Storms of 10 h, calms of 30 h: the mean over a period of 40 h is 10 (10 + 1) / 2 / 40."""
+    hs = np.tile([3.0] * 10 + [1.0] * 30, 20)
+    found = weather_windows(series(hs), 2.0, hours=1.0)
+    assert found.workable_percent == pytest.approx(75.0)
+    assert found.waiting_mean == pytest.approx(sum(range(1, 11)) / 40.0)
+    assert found.waiting_p50 == 0.0
+    assert found.dataset["length"].to_numpy().tolist() == [30.0] * 20
+
+
+def test_months_are_those_of_the_calendar() -> None:
+    times = START + np.arange(365 * 24) * HOUR
+    month = times.astype("datetime64[M]").astype(int) % 12
+    hs = np.where(month == 6, 1.0, 3.0)
+    found = weather_windows(series(hs), 2.0, hours=24.0)
+    workable = found.dataset["workable_percent"]
+    assert workable.sel(month=7) == 100.0 and float(workable.sum()) == 100.0
+    assert found.dataset["waiting_mean"].sel(month=6) == pytest.approx((720.0 + 1.0) / 2.0)
+    assert np.isnan(found.dataset["waiting_mean"].sel(month=8))  # no July comes any more
+    assert "Jul         100.0" in str(found)
+
+
+def test_the_limit_is_that_of_the_table_with_alpha(table: AllowableHs) -> None:
+    hs = np.full(48, 1.0)
+    from_deg = np.linspace(0.0, 350.0, 48)
+    hindcast = series(hs, tp=np.full(48, 9.0), direction_from_deg=from_deg)
+    found = weather_windows(hindcast, table, heading_deg=30.0)
+    travel = (30.0 - from_deg - 180.0) % 360.0
+    assert found.hours == 6.0
+    assert found.dataset["hs_limit"].to_numpy() == pytest.approx(0.8 * table.at(np.full(48, 9.0), travel))
+    assert "alpha factor 0.8 (source: made up)" in str(found)
+    worst = weather_windows(hindcast, table)
+    assert worst.dataset["hs_limit"].to_numpy() == pytest.approx(0.8 * table.at(9.0))
+    certain = weather_windows(hindcast, table, alpha=1.0)
+    assert certain.dataset["hs_limit"].to_numpy() == pytest.approx(worst.dataset["hs_limit"] / 0.8)
+
+
+@pytest.mark.parametrize(
+    ("from_deg", "heading", "travel"),
+    [(0.0, 0.0, 180.0), (90.0, 0.0, 90.0), (180.0, 0.0, 0.0), (270.0, 270.0, 180.0), (0.0, 90.0, 270.0)],
+)
+def test_directions_seen_from_the_vessel(from_deg: float, heading: float, travel: float) -> None:
+    """Waves from the east push a vessel that heads north to port: 90."""
+    assert series([1.0, 1.0], direction_from_deg=[from_deg] * 2).travel_deg(heading)[0] == travel
+
+
+def test_seas_beyond_the_table_are_not_workable_and_told(table: AllowableHs) -> None:
+    hindcast = series(np.full(100, 0.1), tp=np.where(np.arange(100) < 25, 20.0, 9.0))
+    found = weather_windows(hindcast, table, hours=1.0)
+    assert found.outside_percent == 25.0
+    assert found.workable_percent == 75.0
+    assert "25.0 % beyond the table count as not workable" in str(found)
+
+
+def test_missing_times_are_not_known() -> None:
+    times = START + np.array([0, 1, 2, 5, 6]) * HOUR
+    hindcast = WaveHindcast(time=times, hs=[1.0] * 5, tp=[8.0] * 5)
+    assert hindcast.time.size == 7
+    assert hindcast.known.tolist() == [True, True, True, False, False, True, True]
+    assert weather_windows(hindcast, 2.0, hours=3.0).dataset.sizes["window"] == 1
+
+
+def dataset() -> xarray.Dataset:
+    times = (START + np.arange(5) * HOUR).astype("datetime64[ns]")
+    return xarray.Dataset(
+        {
+            "hs": (("time", "site"), [[1.0], [2.0], [np.nan], [1.5], [1.0]]),
+            "tp": (("time", "site"), [[8.0], [9.0], [9.0], [9.0], [8.0]]),
+            "dpm": (("time", "site"), [[10.0]] * 5),
+        },
+        {"time": times, "site": [0]},
+    )
+
+
+def test_a_file_of_wavespectra_is_read(tmp_path: Path) -> None:
+    packed = {name: {"dtype": "int16", "scale_factor": 0.01, "_FillValue": -32768} for name in ("hs", "tp")}
+    dataset().to_netcdf(tmp_path / "site.nc", encoding=packed)
+    hindcast = WaveHindcast.load(tmp_path / "site.nc")
+    assert hindcast.hs == pytest.approx([1.0, 2.0, np.nan, 1.5, 1.0], nan_ok=True)
+    assert hindcast.time[1] - hindcast.time[0] == HOUR
+    assert hindcast.direction_from_deg == pytest.approx([10.0] * 5)
+    assert hindcast.source == "site.nc"
+    assert "5 sea states of 1 h" in repr(hindcast) and "1 not known" in repr(hindcast)
+    era = dataset().rename({"hs": "swh", "tp": "pp1d", "dpm": "mwd"})
+    assert np.array_equal(WaveHindcast.from_xarray(era).tp, hindcast.tp)
+    own = dataset().rename({"hs": "height"})
+    assert np.array_equal(WaveHindcast.from_xarray(own, names={"hs": "height"}).tp, hindcast.tp)
+
+
+def test_a_csv_is_read(tmp_path: Path) -> None:
+    path = tmp_path / "site.csv"
+    path.write_text("time, hs, tp, dpm\n2019-01-01T00:00Z,1.0,8.0,10\n2019-01-01T03:00Z,,9.0,\n\n")
+    hindcast = WaveHindcast.load(path)
+    assert hindcast.step_hours == 3.0
+    assert hindcast.known.tolist() == [True, False]
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("time,hs\n2019-01-01,1\n", "holds time, hs, and no tp; give names="),
+        ("", "holds nothing, and no time"),
+        ("time,hs,tp\n2019-01-01,one,8\n", "line 2: 'one' is not a number"),
+        ("time,hs,tp\nyesterday,1,8\n", "line 2: 'yesterday' is not a date"),
+        ("time,hs,tp\n2019-01-01,1\n2019-01-02,1,8\n2019-01-02,1,8\n", "comes after"),
+    ],
+)
+def test_a_csv_that_makes_no_sense_is_refused(text: str, message: str, tmp_path: Path) -> None:
+    path = tmp_path / "site.csv"
+    path.write_text(text)
+    with pytest.raises((FileFormatError, SceneError), match=message):
+        WaveHindcast.load(path)
+
+
+def test_files_that_are_none_are_refused(tmp_path: Path) -> None:
+    path = tmp_path / "site.nc"
+    path.write_bytes(b"no NetCDF at all")
+    with pytest.raises(FileFormatError, match=r"site\.nc"):
+        WaveHindcast.load(path)
+    with pytest.raises(FileNotFoundError):
+        WaveHindcast.load(tmp_path / "absent.nc")
+    two = xarray.concat([dataset(), dataset().assign_coords(site=[1])], dim="site")
+    two.to_netcdf(path)
+    with pytest.raises(FileFormatError, match=r"hs lies over site \(2\).*select one place"):
+        WaveHindcast.load(path)
+    with pytest.raises(SceneError, match="names has 'height'; choose from time, hs"):
+        WaveHindcast.load(path, names={"height": "hs"})
+
+
+@pytest.mark.parametrize(
+    ("given", "message"),
+    [
+        ({"hs": [1.0, -1.0]}, r"hs is -1 m at 2019-01-01T01:00:00; give 0 to 40 m"),
+        ({"hs": [1.0, 150.0]}, "hs is 150 m"),
+        ({"tp": [1.0, 8000.0]}, "tp is 8000 s"),
+        ({"hs": [1.0]}, "hs has shape"),
+        ({"time": ["2019-01-01", "2018-01-01"]}, "2018-01-01T00:00:00 comes after"),
+        ({"time": ["now", "then"]}, "time is .*give dates"),
+        ({"time": ["2019-01-01"]}, "give two dates or more"),
+    ],
+)
+def test_series_that_make_no_sense_are_refused(given: dict[str, Any], message: str) -> None:
+    usual: dict[str, Any] = {"time": START + np.arange(2) * HOUR, "hs": [1.0, 1.0], "tp": [8.0, 8.0]}
+    with pytest.raises(SceneError, match=message):
+        WaveHindcast(**usual | given)
+
+
+def test_uneven_times_are_refused() -> None:
+    times = START + np.array([0, 60, 150]) * np.timedelta64(1, "m")
+    with pytest.raises(SceneError, match=r"T02:30:00 is no multiple of the step of 3600 seconds"):
+        WaveHindcast(time=times, hs=[1.0] * 3, tp=[8.0] * 3)
+
+
+@pytest.mark.parametrize(
+    ("allowable", "given", "message"),
+    [
+        (1.0, {"hours": 0.0}, "hours is 0.0; give a positive number"),
+        (1.0, {}, "hours is None; give a number"),
+        (-1.0, {"hours": 6.0}, "allowable is -1.0 m"),
+        (1.0, {"hours": 6.0, "heading_deg": 10.0}, "heading_deg: one Hs for all seas"),
+        (1.0, {"hours": 6.0, "alpha": 0.7}, "alpha is 0.7; give AlphaFactor"),
+    ],
+)
+def test_questions_that_make_no_sense_are_refused(
+    allowable: float, given: dict[str, Any], message: str
+) -> None:
+    with pytest.raises(SceneError, match=message):
+        weather_windows(series([1.0] * 9), allowable, **given)
+
+
+def test_a_heading_needs_directions(table: AllowableHs) -> None:
+    with pytest.raises(SceneError, match="has no directions of waves; leave heading_deg out"):
+        weather_windows(series([1.0] * 9), table, heading_deg=0.0)
+
+
+def test_availability_is_the_sum_over_ranges(table: AllowableHs) -> None:
+    """By hand: of every range the part below the limit at its middle period, for the worst direction."""
+    hs, tp = np.array([0.0, 1.0, 2.0, 6.0]), np.array([6.0, 8.0, 10.0, 20.0])
+    counts = np.array([[5.0, 3.0, 2.0], [4.0, 6.0, 1.0], [1.0, 2.0, 3.0]])
+    found = availability(table, ScatterDiagram(hs=hs, tp=tp, counts=counts), forecast=False)
+    total = 0.0
+    for k, period in enumerate((7.0, 9.0, 15.0)):
+        limit = float(table.at(period))
+        for i in range(3):
+            share = (limit - hs[i]) / (hs[i + 1] - hs[i])
+            total += counts[i, k] * min(max(share, 0.0), 1.0) if limit == limit else 0.0
+    assert found.percent == pytest.approx(100.0 * total / counts.sum())
+    assert found.outside_percent == pytest.approx(100.0 * 6.0 / counts.sum())  # 15 s is beyond 14 s
+    assert availability(table, ScatterDiagram(hs=hs, tp=tp, counts=counts)).percent < found.percent
+    assert "without an alpha factor" in str(found) and "22.2 % beyond the table" in str(found)
+
+
+def test_availability_by_ranges_tends_to_that_of_the_series(table: AllowableHs) -> None:
+    random = np.random.default_rng(2)
+    hs = 1.6 * random.weibull(1.5, 20_000)
+    tp = np.clip(6.0 + 2.0 * np.sqrt(hs) + random.random(hs.size), 6.0, 14.0)
+    hindcast = series(hs, tp=tp, direction_from_deg=random.random(hs.size) * 360.0)
+    directions = np.arange(0.0, 360.0, 5.0)
+    scatter = ScatterDiagram.of(
+        hindcast, hs=np.arange(0.0, 16.0, 0.1), tp=np.arange(6.0, 14.1, 0.2), direction_deg=directions,
+        heading_deg=40.0,
+    )  # fmt: skip
+    assert scatter.counts.sum() == hs.size
+    windows = weather_windows(hindcast, table, hours=1.0, heading_deg=40.0)
+    assert availability(table, scatter).percent == pytest.approx(windows.workable_percent, abs=0.5)
+
+
+@pytest.mark.parametrize(
+    ("given", "message"),
+    [
+        ({"counts": [[1.0, 2.0]]}, r"counts have shape \(1, 2\), and the ranges are \(2, 2\)"),
+        ({"counts": [[1.0, -2.0], [0.0, 0.0]]}, r"counts\[0, 1\] is -2.0; give zero or more"),
+        ({"counts": [[1.0, np.nan], [0.0, 0.0]]}, r"counts\[0, 1\] is nan"),
+        ({"counts": [[0.0, 0.0], [0.0, 0.0]]}, "all counts are zero"),
+        ({"hs": [0.0, 2.0, 1.0]}, "hs is .*give ascending bounds"),
+        ({"tp": [-1.0, 2.0, 3.0]}, "tp begins with -1"),
+        ({"direction_deg": [0.0, 90.0]}, "counts have shape"),
+    ],
+)
+def test_diagrams_that_make_no_sense_are_refused(given: dict[str, Any], message: str) -> None:
+    usual: dict[str, Any] = {
+        "hs": [0.0, 1.0, 2.0],
+        "tp": [4.0, 8.0, 12.0],
+        "counts": [[1.0, 2.0], [3.0, 4.0]],
+    }
+    with pytest.raises(SceneError, match=message):
+        ScatterDiagram(**usual | given)
+
+
+def test_ranges_that_miss_seas_are_refused() -> None:
+    with pytest.raises(SceneError, match="hs of the hindcast is 1 to 9, its ranges are 0 to 5"):
+        ScatterDiagram.of(series([1.0, 9.0]), hs=[0.0, 5.0], tp=[4.0, 12.0])
+
+
+def test_the_picture_has_both_shares_and_three_waiting_times() -> None:
+    figure = plot_weather_windows(weather_windows(series(np.tile([1.0, 3.0], 4000)), 2.0, hours=1.0))
+    shares, waits = figure.axes
+    assert len(shares.patches) == 24
+    assert len(waits.lines) == 3
+
+
+def test_other_things_are_refused_by_name(table: AllowableHs) -> None:
+    with pytest.raises(SceneError, match="windows is"):
+        plot_weather_windows(table)  # type: ignore[arg-type]
+    with pytest.raises(SceneError, match="scatter is 1; give a ScatterDiagram"):
+        availability(table, 1)  # type: ignore[arg-type]
+    with pytest.raises(SceneError, match="allowable is 1; give what"):
+        availability(1, ScatterDiagram(hs=[0, 1], tp=[0, 1], counts=[[1]]))  # type: ignore[arg-type]
+    with pytest.raises(SceneError, match="hindcast is 1; give a WaveHindcast"):
+        weather_windows(1, table)  # type: ignore[arg-type]
