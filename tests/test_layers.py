@@ -43,6 +43,7 @@ FLOORS = """
     reporting
     trading
     lift
+    study_files
     cases
     installation
     cli
