@@ -155,6 +155,14 @@ def test_a_design_and_one_cell_are_drawn(study: Path, capsys: pytest.CaptureFixt
     assert "heave-over-bodies.vessel.mass.png" in told
 
 
+def test_a_study_of_failures_is_shown(study: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    study.write_text(STUDY.replace('channel = "position"', 'channel = "posture"'))
+    assert main(["study", str(study), "--out", str(study.parent / "out")]) == 0
+    told = capsys.readouterr().out
+    assert "40 of 40 members run, 40 failed" in told
+    assert "posture" in told
+
+
 @pytest.mark.parametrize("workers", [[], ["--workers", "2"]])
 def test_ctrl_c_keeps_what_came_back_and_the_same_command_goes_on(
     workers: list[str], study: Path, capsys: pytest.CaptureFixture[str]

@@ -79,6 +79,8 @@ from seacrane.ensembles.job import WorkerVersionError as WorkerVersionError
 from seacrane.ensembles.kept import Kept as Kept
 from seacrane.ensembles.latin_hypercube import LatinHypercube as LatinHypercube
 from seacrane.ensembles.linear_control import LinearControl as LinearControl
+from seacrane.ensembles.sensitivity import Sensitivity as Sensitivity
+from seacrane.ensembles.sensitivity import sensitivity as sensitivity
 from seacrane.errors import ChatteringError as ChatteringError
 from seacrane.errors import FileFormatError as FileFormatError
 from seacrane.errors import SceneError as SceneError

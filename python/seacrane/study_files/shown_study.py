@@ -198,6 +198,8 @@ def shown_study(folder: str | os.PathLike[str]) -> ShownStudy:
 def _certainty(file: StudyFile, done: Ensemble) -> Iterator[Certainty]:
     """How narrowly the statistics of `until` are known so far."""
     for target in targets_of(file.until, file.keep) if file.until else ():
+        if target.variable not in done.dataset:
+            continue
         statics = iter(()) if target.static is None else _cells(done.dataset[target.static], done)
         for parameters, values in _cells(done.dataset[target.variable], done):
             static = next(statics, ({}, np.zeros(1)))[1]
