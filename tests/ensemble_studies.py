@@ -7,6 +7,8 @@ import time
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from seacrane import Kept, Result, Scene
 
 SWING: dict[str, Any] = {"t_end": 2.0, "rtol": 1e-6, "dt_out": 0.1}
@@ -61,3 +63,32 @@ def short_or_long(*, start: float) -> Scene:
     scene = pendulum(start=start)
     scene.name = "short" if start < 2.5 else "long"
     return scene
+
+
+def storm(*, seed: int, height: float = 1.0) -> Scene:
+    """A pendulum whose speed at the start is drawn by the seed, so that its largest swing is Gumbel's."""
+    random = np.random.default_rng(seed)
+    scene = Scene(name="storm")
+    push = 0.5 + 0.05 * height * float(random.gumbel())
+    scene.add_body(
+        name="bob", mass=1.0, inertia=(0.1, 0.1, 0.1), position=(0.0, 0.0, -1.0), velocity=(push, 0.0, 0.0)
+    )
+    scene.add_joint(
+        kind="prismatic", name="rail", first="ground", second="bob", point=(0, 0, -1), axis=(1, 0, 0)
+    )
+    return scene
+
+
+def bad_storm(*, seed: int, height: float) -> Scene:
+    if height > 1.0 or seed == 3:
+        raise ValueError("no such storm")
+    return storm(seed=seed, height=height)
+
+
+def storm_that_kills(*, seed: int, mark: str) -> Scene:
+    """The process that describes seed 8 ends at once, as long as the mark is not there."""
+    if seed == 8 and not Path(mark).exists():
+        time.sleep(0.3)  # others come back first
+        Path(mark).touch()
+        os._exit(1)
+    return storm(seed=seed)

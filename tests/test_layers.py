@@ -44,6 +44,7 @@ FLOORS = """
     reporting
     trading
     lift
+    study_files
     cases
     installation
     cli

@@ -72,11 +72,15 @@ from seacrane.description.waves import ByHeading as ByHeading
 from seacrane.description.waves import HullLoads as HullLoads
 from seacrane.description.waves import RepeatingSeaWarning as RepeatingSeaWarning
 from seacrane.description.waves import Waves as Waves
+from seacrane.ensembles.certainty import Certainty as Certainty
 from seacrane.ensembles.ensemble import Ensemble as Ensemble
 from seacrane.ensembles.ensemble import ensemble as ensemble
 from seacrane.ensembles.job import WorkerVersionError as WorkerVersionError
 from seacrane.ensembles.kept import Kept as Kept
 from seacrane.ensembles.latin_hypercube import LatinHypercube as LatinHypercube
+from seacrane.ensembles.linear_control import LinearControl as LinearControl
+from seacrane.ensembles.sensitivity import Sensitivity as Sensitivity
+from seacrane.ensembles.sensitivity import sensitivity as sensitivity
 from seacrane.errors import ChatteringError as ChatteringError
 from seacrane.errors import FileFormatError as FileFormatError
 from seacrane.errors import SceneError as SceneError
@@ -144,6 +148,8 @@ from seacrane.stages.staged_run import StagedRun as StagedRun
 from seacrane.stages.staged_run import simulate_stages as simulate_stages
 from seacrane.stages.to_file import simulate_stages_to_file as simulate_stages_to_file
 from seacrane.stages.until import Until as Until
+from seacrane.statistics.control_variate import ControlledMean as ControlledMean
+from seacrane.statistics.control_variate import controlled_mean as controlled_mean
 from seacrane.statistics.estimate import Estimate as Estimate
 from seacrane.statistics.estimate import Maximum as Maximum
 from seacrane.statistics.figure import plot_extremes as plot_extremes

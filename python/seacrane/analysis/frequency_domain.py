@@ -181,14 +181,22 @@ def response_summed(
             f"scene {described.name!r}: its linear model is of {linear.speed:g} m/s, but meets the waves of "
             "the scene at zero speed; use response_statistics(memory='database')"
         )
+    omega, forces = component_forces(sea)
+    x: Complex = np.zeros((omega.size, len(linear.a)), dtype=complex)
+    for vessel, force in forces.items():
+        x += linear.excited(vessel).response(omega=omega, force=force)
+    amplitude = x @ linear.output(body=body, point=point).T
+    return SummedResponse(omega=omega, amplitude=amplitude, state_amplitude=x)
+
+
+def component_forces(sea: Waves) -> tuple[Array, dict[str, Complex]]:
+    """Frequencies of a sea's components (k,), rad/s, and by vessel their loads (k, 6), N and N m."""
     components = sea.components()
     omega, direction = np.array(components.omega), np.array(components.direction)
-    x: Complex = np.zeros((omega.size, len(linear.a)), dtype=complex)
+    forces: dict[str, Complex] = {}
     for vessel, hull in sea.hulls.items():
         along = np.cos(direction) * hull.position[0] + np.sin(direction) * hull.position[1]
         phase = np.array(components.phase) - np.array(components.wavenumber) * along
         wave = np.array(components.amplitude) * np.exp(1j * phase)
-        force = wave[:, None] * np.asarray(hull.transfer).reshape(-1, 6)
-        x += linear.excited(vessel).response(omega=omega, force=force)
-    amplitude = x @ linear.output(body=body, point=point).T
-    return SummedResponse(omega=omega, amplitude=amplitude, state_amplitude=x)
+        forces[vessel] = wave[:, None] * np.asarray(hull.transfer).reshape(-1, 6)
+    return omega, forces

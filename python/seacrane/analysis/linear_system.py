@@ -155,12 +155,12 @@ class LinearModel:
             raise SceneError(
                 f"omega has shape {w.shape}, force {f.shape}; give (k,) and (k, 6) finite numbers"
             )
-        resolvent = _Resolvent(self, w)
-        x = resolvent.response(f @ self.b.T)
+        resolvent = Resolvent(self)
+        x = resolvent.response(w, f @ self.b.T)
         if not self.memories:
             return x
         load, motion = self._memory_loads()
-        by_load = np.stack([resolvent.response(np.broadcast_to(each, x.shape)) for each in load.T], axis=2)
+        by_load = np.stack([resolvent.response(w, np.broadcast_to(each, x.shape)) for each in load.T], axis=2)
         impedance = self._impedance(w)
         # x = x_0 - by_load Z y of the motions y of the vessels with memory, y = motion x.
         closed = np.eye(len(motion)) + motion @ by_load @ impedance
@@ -264,20 +264,23 @@ class LinearModel:
         return _core.State(time=terms.time, values=y, inputs=np.zeros(terms.model.slots))
 
 
-class _Resolvent:
-    """(i omega - a)^-1 at several frequencies."""
+class Resolvent:
+    """(i omega - a)^-1 at any frequencies, without the memories of the model."""
 
-    def __init__(self, linear: LinearModel, omega: Array) -> None:
+    def __init__(self, linear: LinearModel) -> None:
         from scipy.linalg import matrix_balance, schur
 
         # Memory states may be 1e6 times larger than motions: unbalanced, the triangular form loses motions.
         balanced, (self.scale, _) = matrix_balance(linear.a, permute=False, separate=True)
         self.triangle, self.unitary = schur(balanced, output="complex")
-        self.name, self.omega = linear.scene.name, omega
+        self.name = linear.scene.name
 
-    def response(self, rates: Array | Complex) -> Complex:
-        """x (k, n) under rates of x (k, n); raises SceneError at the frequency of an undamped mode."""
-        w, triangle = self.omega, self.triangle
+    def response(self, omega: Array, rates: Array | Complex) -> Complex:
+        """x (k, n) at frequencies (k,) under rates of x (k, n).
+
+        Raises SceneError at the frequency of an undamped mode.
+        """
+        w, triangle = omega, self.triangle
         load = (rates / self.scale) @ self.unitary.conj()
         x = np.zeros(load.shape, dtype=complex)
         for i in reversed(range(len(triangle))):

@@ -41,7 +41,7 @@ def build_parser() -> argparse.ArgumentParser:
     _add_paper(commands)
     _add_report(commands)
     _add_show(commands)
-
+    _add_study(commands)
     _add_view(commands)
     _add_hydro(commands)
     _add_trade(commands)
@@ -136,14 +136,29 @@ def _add_report(commands: Any) -> None:
 
 
 def _add_show(commands: Any) -> None:
-    text = "print the summary of a result, and draw it: DIR/<name>.png"
+    text = "print what a result or a study says, and draw it"
     show = commands.add_parser("show", help=text, description=text)
-    show.add_argument("result", metavar="RESULT.nc", help="a result that `seacrane run` wrote")
+    show.add_argument(
+        "result", metavar="RESULT.nc|DIR",
+        help="a result that `seacrane run` wrote, or the folder of a study, also while it runs",
+    )  # fmt: skip
     show.add_argument("--start", metavar="S", type=float, help="leave out what comes before, s")
     show.add_argument("--end", metavar="S", type=float, help="leave out what comes after, s")
     show.add_argument("--json", action="store_true", help="print JSON instead of a table")
-    show.add_argument("--out", metavar="DIR", help="draw it into this folder; made if absent")
+    show.add_argument(
+        "--out", metavar="DIR", help="draw it into this folder; made if absent; of a study: default its own"
+    )
     show.add_argument("--overwrite", action="store_true", help="replace an earlier picture")
+
+
+def _add_study(commands: Any) -> None:
+    text = "run a study file: many runs of a lift, and what they tell; a call that was stopped goes on"
+    study = commands.add_parser("study", help=text, description=text)
+    study.add_argument("study", metavar="STUDY.toml", help="a lift, what varies, what is kept; data only")
+    study.add_argument("--out", metavar="DIR", required=True, help="folder of the study; made if absent")
+    study.add_argument("--workers", metavar="N", type=int, help="processes to run in; default: this one")
+    study.add_argument("--dask", metavar="ADDRESS", help="scheduler of a Dask cluster to run on")
+    study.add_argument("--progress", action="store_true", help="a bar with the time left, without a terminal")
 
 
 def _add_view(commands: Any) -> None:
@@ -184,6 +199,7 @@ def _add_trade(commands: Any) -> None:
 def _add_schema(commands: Any) -> None:
     text = "print the JSON Schema of lift files, with which editors complete and check them"
     schema = commands.add_parser("schema", help=text, description=text)
+    schema.add_argument("--study", action="store_true", help="that of study files")
     schema.add_argument("--path", action="store_true", help="print where the installed copy is instead")
 
 

@@ -1,4 +1,4 @@
-"""``seacrane show``: the summary of a result, printed and drawn."""
+"""``seacrane show``: what a result or a study says, printed and drawn."""
 
 from __future__ import annotations
 
@@ -7,10 +7,13 @@ from pathlib import Path
 
 from seacrane.cli.json_text import to_json
 from seacrane.cli.output_folder import output_folder
+from seacrane.errors import SceneError
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Print the summary; with --out, draw its curves."""
+    """Print the summary; with --out, draw its curves. Of a study: tables and figures."""
+    if Path(arguments.result).is_dir():
+        return _study(arguments)
     from seacrane.answers.summary import summary
     from seacrane.answers.summary_figure import plot_summary
     from seacrane.plotting.panel import save_figure
@@ -30,3 +33,28 @@ def run(arguments: argparse.Namespace) -> int:
         if not arguments.json:
             print(f"saved {picture}")
     return 0
+
+
+def _study(arguments: argparse.Namespace) -> int:
+    """Of the folder of a study."""
+    given = {"--start": arguments.start, "--end": arguments.end, "--json": arguments.json or None}
+    named = [name for name, value in given.items() if value is not None]
+    if named:
+        raise SceneError(f"{', '.join(named)} is for a result, and {arguments.result} is a folder of a study")
+    show_study(arguments.result, arguments.out)
+    return 0
+
+
+def show_study(study: str, out: str | None) -> None:
+    """Print the tables of a study, and write them and their figures into a folder, by default its own."""
+    from seacrane.plotting.panel import draw, save_figure, save_table
+    from seacrane.study_files.shown_study import shown_study
+    from seacrane.study_files.study_figures import study_sheets
+
+    shown = shown_study(study)
+    print(shown)
+    folder = output_folder(study if out is None else out)
+    saved = [save_table(one.head(), list(one.rows()), folder / f"{one.name}.csv") for one in shown.tables]
+    saved += [save_figure(draw(sheet), folder / f"{name}.png") for name, sheet in study_sheets(shown)]
+    if saved:
+        print(f"\nsaved {', '.join(path.name for path in saved)} in {folder}")

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -86,7 +86,7 @@ class Table:
         return own | {name: ("member", np.array(values)) for name, values in axes.items()}
 
 
-def table_of(members: Members, outcomes: Iterator[Outcome]) -> Table:
+def table_of(members: Members, outcomes: Iterable[Outcome]) -> Table:
     """All outcomes, which come in the order of the members."""
     table = Table(members)
     for outcome in outcomes:

@@ -6,23 +6,25 @@ import contextlib
 import os
 from collections.abc import Iterator, Mapping
 from concurrent.futures import Executor
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from math import ceil
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
 from seacrane import _core
+from seacrane.ensembles.certainty import Certainty
 from seacrane.ensembles.dataset import Table, table_of
-from seacrane.ensembles.gather import gathered
+from seacrane.ensembles.filling import any_outcome, fill, progress_bar, require_success
+from seacrane.ensembles.growing import BATCH, Growth, grow, growth_of
 from seacrane.ensembles.identity import identity_of
 from seacrane.ensembles.job import Job, Pack
 from seacrane.ensembles.kept import Kept
 from seacrane.ensembles.members import Members, Over, members_of
 from seacrane.ensembles.other_sea import Databases
-from seacrane.ensembles.outcome import Outcome
 from seacrane.ensembles.store import Folder, Memory, Store, folder_of, study_in
 from seacrane.ensembles.study import Keep, Source, Start, Study, checked_keep, outputs_for
-from seacrane.errors import SceneError, SimulationError
+from seacrane.ensembles.targets import targets_of, with_static_parts
+from seacrane.errors import SceneError
 from seacrane.inputs.checked import number_of
 from seacrane.inputs.shown import shown
 from seacrane.run.method import Method
@@ -49,11 +51,14 @@ class Ensemble:
         failed or was not run; `failure` and `validity` are texts.
     failures : mapping of int to str
         Why members failed, by their number in order of the parameters, the last of a grid fastest.
+    certainty : tuple of Certainty
+        Of an ensemble with `until`: the statistics asked for, for every combination of parameters.
     """
 
     members: Members
     dataset: xarray.Dataset
     failures: Mapping[int, str] = field(default_factory=dict)
+    certainty: tuple[Certainty, ...] = ()
 
     def __repr__(self) -> str:
         shape = " x ".join(f"{size} {name}" for name, size in self.members.shape.items())
@@ -70,7 +75,10 @@ class Ensemble:
         data = study_in(path)
         axes = {name: tuple(values) for name, values in data["axes"].items()}
         members = Members(axes=axes, grid=bool(data["grid"]))
-        return _ensemble(members, table_of(members, Folder(path).outcomes()))
+        store = Folder(path)
+        if data.get("seeds_in_pack"):
+            members = _grown_so_far(axes, int(data["seeds_in_pack"]), store)
+        return _ensemble(members, table_of(members, store.outcomes()))
 
 
 def ensemble(
@@ -85,6 +93,7 @@ def ensemble(
     start: Start = None,
     executor: Executor | None = None,
     store: str | os.PathLike[str] | None = None,
+    until: Mapping[str, float] | None = None,
     on_error: Literal["record", "raise"] = "record",
     pack: int | None = None,
     progress: bool = False,
@@ -120,11 +129,17 @@ def ensemble(
         another, here.
     store : path, optional
         A folder for results as they come. A call with the same study goes on where the last one ended.
+    until : mapping of str to float, optional
+        Half widths of 95 % intervals as shares of the dynamic part, such as ``{"hook_load.mpm": 0.02}``:
+        "mpm", "mean" or "p90" of a maximum or minimum that is kept, "mean" of anything else. Seeds are added
+        in whole batches of 20 until every combination of the other parameters is known so narrowly; those in
+        `over`, one after another, are the most that there may be. The dynamic part is what differs from the
+        mean of the channel, which is kept too, as "<name>_mean". The record is the exposure time.
     on_error : str
         "record": a member that fails is recorded, the others go on. "raise": the first failure ends it.
     pack : int, optional
         Members that are run, kept and lost together; default: so many that there are at most 250 packs,
-        but no more than 64.
+        but no more than 64; with `until` two seeds.
     progress : bool
         Show a progress bar with the time left.
     **shorthand
@@ -144,6 +159,11 @@ def ensemble(
         Where a worker has another version of seacrane.
     OSError
         If the store cannot be written; the packs before it are in it.
+
+    Warns
+    -----
+    FewSeedsWarning
+        Where `over` allows fewer seeds than `until` takes.
     """
     if not isinstance(source, Scene) and not callable(source):
         raise SceneError(f"ensemble of {shown(source)}; give a Scene, or a function that returns one")
@@ -153,6 +173,8 @@ def ensemble(
         raise SceneError(f"executor is {shown(executor)}; give a concurrent.futures.Executor")
     how, recorded = settled(method, outputs, shorthand)
     wanted = checked_keep(keep)
+    targets = () if until is None else targets_of(until, wanted)
+    wanted = with_static_parts(wanted, targets)
     study = Study(
         source=source.copy() if isinstance(source, Scene) else source,
         databases=database,
@@ -169,8 +191,15 @@ def ensemble(
     _require_free_names(members, wanted)
     study.require_names(list(members.axes))
     size = _pack_size(pack, len(members))
+    raises = on_error == "raise"
+    if targets:
+        growth = growth_of(members, None if pack is None else size)
+        with _growing_store(store, study, growth) as kept:
+            grown = grow(growth, Job(study), kept, executor, targets, raises=raises, progress=progress)
+        table = table_of(grown.members, grown.outcomes)
+        return replace(_ensemble(grown.members, table), certainty=grown.certainty)
     with _store(store, study, members, size) as kept:
-        _run(study, members, size, kept, executor, raises=on_error == "raise", progress=progress)
+        _run(study, members, size, kept, executor, raises=raises, progress=progress)
         return _ensemble(members, table_of(members, kept.outcomes()))
 
 
@@ -208,6 +237,26 @@ def _store(path: str | os.PathLike[str] | None, study: Study, members: Members, 
         yield folder
 
 
+@contextlib.contextmanager
+def _growing_store(path: str | os.PathLike[str] | None, study: Study, growth: Growth) -> Iterator[Store]:
+    """Of an ensemble with `until`, which neither its half widths nor the most seeds tell from another."""
+    if path is None:
+        yield Memory()
+        return
+    first = growth.members(1)
+    identity = {**identity_of(study, first, growth.size), "seeds in a batch": BATCH}
+    data = {"identity": identity, "grid": True, "axes": dict(first.axes), "seeds_in_pack": growth.size}
+    with folder_of(path, data) as folder:
+        yield folder
+
+
+def _grown_so_far(axes: Mapping[str, tuple[Any, ...]], size: int, store: Store) -> Members:
+    """The members of a store with `until`, whole batches of seeds."""
+    others = {name: values for name, values in axes.items() if name != "seed"}
+    growth = Growth(first=int(axes["seed"][0]), batches=1, others=others, size=size)
+    return growth.members(max(growth.batches_in(store.done()), 1))
+
+
 def _run(
     study: Study,
     members: Members,
@@ -219,43 +268,19 @@ def _run(
     progress: bool,
 ) -> None:
     """Run the packs that are not in the store."""
+    check = require_success(members) if raises else any_outcome
     if raises:
         for outcome in store.outcomes():
-            _require_success(members, outcome)
+            check(outcome)
     there = store.done()
     wanted = [number for number in range(ceil(len(members) / size)) if number not in there]
     packs = ((number, _pack(members, number, size)) for number in wanted)
     count = len(members)
     left = sum(min(size, count - number * size) for number in wanted)
-    with (
-        _bar(count, count - left, progress) as bar,
-        contextlib.closing(gathered(Job(study), packs, executor)) as coming,
-    ):
-        for number, outcomes in coming:
-            store.keep(number, outcomes)
-            bar(len(outcomes))
-            if raises:
-                for outcome in outcomes:
-                    _require_success(members, outcome)
+    with progress_bar(count, count - left, progress) as bar:
+        fill(store, Job(study), packs, executor, done=bar.add, check=check)
 
 
 def _pack(members: Members, number: int, size: int) -> Pack:
     first = number * size
     return tuple((index, members.values(index)) for index in range(first, min(first + size, len(members))))
-
-
-def _require_success(members: Members, outcome: Outcome) -> None:
-    if outcome.failure:
-        told = ", ".join(f"{name}={value!r}" for name, value in members.values(outcome.index).items())
-        raise SimulationError(f"ensemble: member {outcome.index} ({told}) failed: {outcome.failure}")
-
-
-@contextlib.contextmanager
-def _bar(total: int, done: int, wanted: bool) -> Iterator[Any]:
-    if not wanted:
-        yield lambda count: None
-        return
-    from tqdm.auto import tqdm
-
-    with tqdm(total=total, initial=done, unit="member", desc="ensemble") as bar:
-        yield bar.update

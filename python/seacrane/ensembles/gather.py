@@ -11,6 +11,7 @@ from seacrane.ensembles.outcome import Outcome
 from seacrane.errors import SimulationError
 from seacrane.version import __version__
 
+PACKAGE = __name__.partition(".")[0]
 AT_ONCE = 256  # packs on their way: what came back and is not yet kept takes memory
 
 Gathered = tuple[int, list[Outcome]]
@@ -80,6 +81,13 @@ def _taken(future: Future[list[Outcome]], number: int, lost: dict[int, BaseExcep
         outcomes = future.result()
     except WorkerVersionError:
         raise
+    except ModuleNotFoundError as error:
+        if (error.name or "").partition(".")[0] != PACKAGE:
+            lost[number] = error
+            return
+        raise WorkerVersionError(
+            f"a worker has no {PACKAGE} ({error}), and the ensemble is of {__version__}; install it there"
+        ) from error
     except Exception as error:
         lost[number] = error
     else:

@@ -30,6 +30,9 @@ class Store(Protocol):
     def keep(self, pack: int, outcomes: list[Outcome]) -> None:
         """Take a pack."""
 
+    def of(self, pack: int) -> list[Outcome]:
+        """Of one pack that is there."""
+
     def outcomes(self) -> Iterator[Outcome]:
         """Of all packs that are there, in order."""
 
@@ -45,6 +48,9 @@ class Memory:
 
     def keep(self, pack: int, outcomes: list[Outcome]) -> None:
         self._packs[pack] = outcomes
+
+    def of(self, pack: int) -> list[Outcome]:
+        return self._packs[pack]
 
     def outcomes(self) -> Iterator[Outcome]:
         for pack in sorted(self._packs):
@@ -62,6 +68,9 @@ class Folder:
 
     def keep(self, pack: int, outcomes: list[Outcome]) -> None:
         write_pack(self._file(pack), outcomes)
+
+    def of(self, pack: int) -> list[Outcome]:
+        return read_pack(self._file(pack))
 
     def outcomes(self) -> Iterator[Outcome]:
         for pack in sorted(self.done()):

@@ -61,7 +61,7 @@ def entries_of(document: Document, folder: Path) -> tuple[Entry, ...]:
     known = ("format", "version", *TABLES)
     for name in document.data:
         if name not in known:
-            document.fail((name,), f"[{short(name)}] is unknown; {_nearest(name, known[2:])}")
+            document.fail((name,), f"[{short(name)}] is unknown; {nearest(name, known[2:])}")
     return tuple(entry for table in TABLES.values() for entry in _entries(document, table, folder))
 
 
@@ -69,7 +69,7 @@ def _entries(document: Document, table: Table, folder: Path) -> Iterable[Entry]:
     if table.name not in document.data:
         return
     given, path = document.data[table.name], (table.name,)
-    checker = _Checker(document, folder)
+    checker = Checker(document, folder)
     if isinstance(given, Mapping):
         yield Entry(table, checker.table(path, table.keys, given), path)
     elif table.several and isinstance(given, list):
@@ -81,7 +81,9 @@ def _entries(document: Document, table: Table, folder: Path) -> Iterable[Entry]:
 
 
 @dataclass(frozen=True)
-class _Checker:
+class Checker:
+    """Tables of a document, checked key by key; paths of files are taken from a folder."""
+
     document: Document
     folder: Path
 
@@ -96,9 +98,9 @@ class _Checker:
         found: dict[str, Any] = {}
         for spelling, value in given.items():
             if spelling not in spelled:
-                nearest = _nearest(spelling, tuple(spelled))
+                near = nearest(spelling, tuple(spelled))
                 self.document.fail(
-                    (*path, spelling), f"{short(spelling)} is unknown in {titled(path)}; {nearest}"
+                    (*path, spelling), f"{short(spelling)} is unknown in {titled(path)}; {near}"
                 )
             found[spelling] = self._value((*path, spelling), spelled[spelling], value)
         for key in keys:
@@ -194,7 +196,7 @@ def _number(node: Node, key: Key) -> float:
 def _chosen(node: Node, key: Key) -> str:
     text = node.text()
     if key.choices and text not in key.choices:
-        node.fail(_nearest(text, key.choices))
+        node.fail(nearest(text, key.choices))
     return text
 
 
@@ -221,7 +223,8 @@ def _file(node: Node, folder: Path) -> str:
     return text if text in SHIPPED else os.path.normpath(folder.absolute() / text)
 
 
-def _nearest(name: str, known: tuple[str, ...]) -> str:
+def nearest(name: str, known: tuple[str, ...]) -> str:
+    """What a message adds to an unknown name."""
     near = difflib.get_close_matches(name[:LONGEST_NAME], known, n=1, cutoff=0.5)
     return f"nearest: {near[0]}" if near else f"known are {', '.join(known)}"
 

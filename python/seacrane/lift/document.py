@@ -14,13 +14,26 @@ from seacrane.files.looks_like import looks_like
 from seacrane.files.whole_file import read_whole
 from seacrane.lift.lines import Place, lines_of
 
-FORMAT, VERSION = "seacrane lift", 1
+VERSION = 1
 LARGEST_FILE = 512 * 2**10  # bytes; TOML's smallest tables take some 150 times their size when it is parsed
 MOST_PARTS = 8  # of a dotted key: parsing one takes time by the square of them
 _PART = r"""(?:[\w-]+|"[^"\n]*"|'[^'\n]*')"""
 _LONG_KEY = re.compile(rf"(?<![\w-]){_PART}(?:[ \t]*\.[ \t]*{_PART}){{{MOST_PARTS}}}")
 _AT_LINE = re.compile(r"^(.*) \(at line (\d+), column (\d+)\)$", re.DOTALL)
 _AT_END = " (at end of document)"
+
+
+@dataclass(frozen=True)
+class FileKind:
+    """What a file is: in words, by its format, and where that is described."""
+
+    name: str
+    format: str
+    page: str
+
+
+LIFT = FileKind("lift", "seacrane lift", "docs/lift-files.md")
+FORMAT = LIFT.format
 
 
 @dataclass(frozen=True)
@@ -51,35 +64,37 @@ class Document:
         raise FileFormatError(f"{self.place(path)}: {text}")
 
 
-def read_document(path: Path) -> Document:
-    """The document of a lift file.
+def read_document(path: Path, kind: FileKind = LIFT) -> Document:
+    """The document of a lift file, or of another kind in TOML.
 
     Raises
     ------
     FileFormatError
-        With the line, for what is no TOML; and for what is TOML, or something else, but no lift.
+        With the line, for what is no TOML; and for what is TOML, or something else, but not of that kind.
     OSError
         If it cannot be read.
     """
     name = path.name
-    content = read_whole(path, LARGEST_FILE, "no lift file is; name tables by a scene in JSON (Scene.save)")
+    large = f"no {kind.name} file is; name tables by a scene in JSON (Scene.save)"
+    content = read_whole(path, LARGEST_FILE, large)
     try:
         text = _decoded(name, content)
-        data = _parsed(name, text)
+        data = _parsed(name, text, kind)
     except FileFormatError:
         if _is_no_toml(content):
-            raise FileFormatError(f"{name}: is {looks_like(path, content)}, {_NO_LIFT}") from None
+            raise FileFormatError(f"{name}: is {looks_like(path, content)}, {_not_of(kind)}") from None
         raise
-    if data.get("format") != FORMAT:
+    if data.get("format") != kind.format:
         what = f"is {looks_like(path, content)}" if "format" not in data else "names another format"
-        raise FileFormatError(f"{name}: {what}, {_NO_LIFT}")
+        raise FileFormatError(f"{name}: {what}, {_not_of(kind)}")
     try:
         return Document(name, data, lines_of(text))
     except RecursionError as error:
-        raise FileFormatError(f"{name}: is nested too deeply to be a lift file") from error
+        raise FileFormatError(f"{name}: is nested too deeply to be a {kind.name} file") from error
 
 
-_NO_LIFT = f'no lift file, which is TOML with format = "{FORMAT}" at its top (docs/lift-files.md)'
+def _not_of(kind: FileKind) -> str:
+    return f'no {kind.name} file, which is TOML with format = "{kind.format}" at its top ({kind.page})'
 
 
 def _is_no_toml(content: bytes) -> bool:
@@ -96,15 +111,17 @@ def _decoded(name: str, content: bytes) -> str:
         raise FileFormatError(f"{name} line {line}: byte {error.start} is not UTF-8 text") from error
 
 
-def _parsed(name: str, text: str) -> dict[str, Any]:
+def _parsed(name: str, text: str, kind: FileKind) -> dict[str, Any]:
     long = _LONG_KEY.search(text)
     if long:
         line = text.count("\n", 0, long.start()) + 1
-        raise FileFormatError(f"{name} line {line}: a key has more than {MOST_PARTS} parts; no lift has such")
+        raise FileFormatError(
+            f"{name} line {line}: a key has more than {MOST_PARTS} parts; no {kind.name} has such"
+        )
     try:
         return tomllib.loads(text)
     except RecursionError as error:
-        raise FileFormatError(f"{name}: is nested too deeply to be a lift file") from error
+        raise FileFormatError(f"{name}: is nested too deeply to be a {kind.name} file") from error
     except ValueError as error:  # TOMLDecodeError is one, a number of too many digits another
         raise FileFormatError(
             f"{_told(name, text, str(error)[:200])}; truncated or malformed TOML"

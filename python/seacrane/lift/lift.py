@@ -12,7 +12,8 @@ from typing import Any
 
 from seacrane.errors import SceneError
 from seacrane.files.atomic import atomic_write
-from seacrane.lift.build import made, scene_of
+from seacrane.hydro import HydroDatabase
+from seacrane.lift.build import made, scene_and_databases, scene_of
 from seacrane.lift.check import SHIPPED, Entry, entries_of, plain
 from seacrane.lift.document import FORMAT, LARGEST_FILE, VERSION, Document, read_document
 from seacrane.lift.stages import check_stages, stages_of
@@ -95,7 +96,7 @@ class Lift:
         OSError
             If it cannot be read.
         """
-        return _of(read_document(Path(path)), Path(path).absolute().parent)
+        return lift_of(read_document(Path(path)), Path(path).absolute().parent)
 
     @classmethod
     def shipped(cls, name: str) -> Lift:
@@ -121,6 +122,10 @@ class Lift:
         scene = scene_of(self._document, self._entries)
         check_stages(self._document, self._entries, scene, self.stages)
         return scene
+
+    def scene_and_databases(self) -> tuple[Scene, dict[str, HydroDatabase]]:
+        """The scene, built anew, and by vessel the database that its sea loads it by."""
+        return scene_and_databases(self._document, self._entries)
 
     def simulate(self, *, progress: bool = False) -> Result:
         """Simulate the scene with the method, the outputs and the end time of the lift; see `simulate`.
@@ -162,10 +167,11 @@ class Lift:
         return f"<Lift: {', '.join(held) or 'empty'}>"
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return _of, (self._document, self._folder)
+        return lift_of, (self._document, self._folder)
 
 
-def _of(document: Document, folder: Path) -> Lift:
+def lift_of(document: Document, folder: Path) -> Lift:
+    """The lift of a document whose paths of files are taken from a folder. Raises FileFormatError."""
     lift = Lift.__new__(Lift)
     lift._check(document, folder)
     return lift

@@ -16,9 +16,9 @@ Json = dict[str, Any]
 DRAFT = "http://json-schema.org/draft-07/schema#"
 
 
-def schema_path() -> Path:
-    """Where the schema is in the installed package."""
-    return Path(str(files("seacrane") / "data" / "lift.schema.json"))
+def schema_path(name: str = "lift") -> Path:
+    """Where the schema of a kind of file is in the installed package."""
+    return Path(str(files("seacrane") / "data" / f"{name}.schema.json"))
 
 
 def schema_text() -> str:
@@ -40,7 +40,7 @@ def schema() -> Json:
         "required": ["format", "version"],
         "additionalProperties": False,
         "definitions": {
-            **{table.name: _object(table.keys) for table in TABLES.values()},
+            **{table.name: object_of(table.keys) for table in TABLES.values()},
             "curve": _curve([kind for kind in CURVES if kind != "gust"]),
             "curve_of_speed": _curve(list(CURVES)),
         },
@@ -54,7 +54,7 @@ def _table(table: Table) -> Json:
     return {"description": table.text, "anyOf": [one, {"type": "array", "minItems": 1, "items": one}]}
 
 
-def _object(keys: Iterable[Key]) -> Json:
+def object_of(keys: Iterable[Key]) -> Json:
     """A table: every spelling of every key, one spelling of each that is required, and no two of one."""
     keys = tuple(keys)
     if any(key.type == "notes" for key in keys):
@@ -108,9 +108,9 @@ def _kind(key: Key) -> Json:
         case "names":
             return {"type": "object", "additionalProperties": {"type": "string"}}
         case "table":
-            return _object(key.keys)
+            return object_of(key.keys)
         case "tables":
-            return {"type": "array", "items": _object(key.keys)}
+            return {"type": "array", "items": object_of(key.keys)}
         case "curve":
             name = "curve_of_speed" if key.unit == "m/s" else "curve"
             return {"allOf": [{"$ref": f"#/definitions/{name}"}]}
@@ -141,7 +141,7 @@ def _curve(kinds: list[str]) -> Json:
 
 
 def _piece(kind: str, *more: Key) -> Json:
-    piece = _object((*more, *CURVES[kind]))
+    piece = object_of((*more, *CURVES[kind]))
     piece["properties"] = {"kind": {"const": kind}, **piece["properties"]}
     piece["required"] = ["kind", *piece["required"]]
     return piece

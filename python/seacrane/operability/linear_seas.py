@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane import _core
-from seacrane.analysis.response_statistics import quadrature_frequencies
 from seacrane.analysis.linear_system import linear_model
+from seacrane.analysis.response_statistics import quadrature_frequencies
 from seacrane.description.waves import Waves
 from seacrane.errors import SceneError
 from seacrane.hydro import HydroDatabase

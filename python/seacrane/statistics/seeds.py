@@ -229,6 +229,18 @@ def _judge(found: SeedExtremes, share: float | None, number: str) -> None:
         )
 
 
+def gumbel_maximum_of(maxima: Array) -> Maximum:
+    """Statistics of finite maxima that are not all equal, in one record; warns of nothing.
+
+    Parameters
+    ----------
+    maxima : ndarray, shape (k,)
+        At least 3.
+    """
+    location, scale = (float(one) for one in gumbel_fit(np.sort(maxima)))
+    return _gumbel_maximum(maxima.size, location, scale, 1.0, 1.0)
+
+
 def _likelihood_variance(reduced: float) -> float:
     """Variance of location + reduced * scale, times the number of maxima, for scale 1."""
     return 6.0 / np.pi**2 * (np.pi**2 / 6.0 + (1.0 - EULER + reduced) ** 2)

@@ -1,0 +1,62 @@
+"""What the place of a crane and the stiffness of a tugger do to a swing, seed by seed in the same waves.
+
+Usage: python design_study.py [FOLDER FOR A PICTURE]
+"""
+
+import sys
+from pathlib import Path
+
+import numpy as np
+
+from seacrane import Scene, sensitivity
+from seacrane.crane import Payload
+from seacrane.hydro import shipped_database
+
+DATABASE = shipped_database()
+DESIGN = {"foot_x": (33.0, 2.0), "tugger": (10e3, 1e3)}  # value and step: m, N/m
+FAR = 20.0  # m, from the tugger's winch to the load
+
+
+def lift(*, seed: int, foot_x: float, tugger: float) -> Scene:
+    """A load of 20 t over the side; a tugger pulls it aft with 20 kN."""
+    scene = Scene(name="design")
+    scene.add_vessel(DATABASE, memory="passive")
+    scene.add_sea(DATABASE, hs=1.0, tp=9.0, direction_deg=150.0, seed=seed, count=60)
+    payload = Payload(mass=20e3, link_length=8.0)
+    scene.add_crane(foot=(foot_x, 10.0, 10.0), theta=-1.57, s1=1.0, s2=1.5, payload=payload, held=True)
+    x, y, z = scene.bodies["payload"].position
+    scene.add_spring(
+        name="tugger", first="vessel", second="payload", first_point=(x - FAR, y, z), stiffness=tugger,
+        damping=2e3, natural_length=FAR - 20e3 / tugger,
+    )  # fmt: skip
+    scene.add_ballast(heel_deg=0.0)
+    return scene
+
+
+def swing(result):
+    """Largest angle of the link from its mean, to either side of the boom, in the last 100 s, deg."""
+    angle = np.degrees(result["sidelead"][result.time >= 20.0])
+    return abs(angle - angle.mean()).max()
+
+
+found = sensitivity(
+    lift, parameters=DESIGN, seeds=range(1, 13), keep=swing, t_end=120.0, dt_out=0.25, rtol=1e-2,
+    integrator="tsit5", channels=["sidelead"],
+)  # fmt: skip
+print(found)
+
+if len(sys.argv) > 1:
+    import matplotlib.pyplot as plt
+
+    for place, (name, one) in enumerate(found.gradients.items()):
+        step = found.steps[name]
+        plt.errorbar(place, step * one.value, yerr=step * one.half_width, fmt="o", capsize=6)
+    labels = [
+        f"crane {DESIGN['foot_x'][1]:g} m forward",
+        f"tugger {DESIGN['tugger'][1] / 1e3:g} kN/m stiffer",
+    ]
+    plt.xticks(range(len(labels)), labels)
+    plt.xlim(-0.5, len(labels) - 0.5)
+    plt.axhline(0.0, color="0.5")
+    plt.ylabel("change of the mean largest swing [deg]")
+    plt.savefig(Path(sys.argv[1]) / "design_study.png")

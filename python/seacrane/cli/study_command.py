@@ -1,0 +1,108 @@
+"""``seacrane study``: run a study file into a folder, or go on with it."""
+
+from __future__ import annotations
+
+import argparse
+import contextlib
+import signal
+import sys
+from collections.abc import Callable, Iterator, Mapping
+from concurrent.futures import Executor, ProcessPoolExecutor
+from importlib import import_module
+from multiprocessing import active_children, get_context
+from typing import Any
+
+from seacrane.cli.command_line import INTERRUPTED
+from seacrane.ensembles.job import WorkerVersionError
+from seacrane.errors import SceneError
+from seacrane.version import __version__
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Run the members that are not there, and tell what all of them say; 130 after Ctrl-C."""
+    from seacrane.cli.show_command import show_study
+    from seacrane.study_files.study_run import run_study
+
+    progress = arguments.progress or sys.stderr.isatty()
+    with _executor(arguments) as executor:
+        try:
+            run_study(arguments.study, arguments.out, executor=executor, progress=progress)
+        except KeyboardInterrupt:
+            for child in active_children():
+                child.terminate()
+            print(
+                f"seacrane study: interrupted; {arguments.out} keeps the members that came back, and the "
+                "same command goes on",
+                file=sys.stderr,
+            )
+            return INTERRUPTED
+    show_study(arguments.out, None)
+    return 0
+
+
+@contextlib.contextmanager
+def _executor(arguments: argparse.Namespace) -> Iterator[Executor | None]:
+    """Processes, a Dask cluster, or None for this process alone."""
+    if arguments.dask is not None:
+        if arguments.workers is not None:
+            raise SceneError("--workers and --dask are both given; leave one out")
+        with _cluster(arguments.dask) as executor:
+            yield executor
+    elif arguments.workers is None or arguments.workers == 1:
+        yield None
+    elif arguments.workers < 1:
+        raise SceneError(f"--workers is {arguments.workers}; give a number from 1 on")
+    else:
+        with ProcessPoolExecutor(
+            arguments.workers, mp_context=get_context("spawn"), initializer=leave_ctrl_c_to_the_parent
+        ) as pool:
+            yield pool
+
+
+def leave_ctrl_c_to_the_parent() -> None:
+    """What a worker begins with: the terminal sends Ctrl-C to it too."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+
+
+@contextlib.contextmanager
+def _cluster(address: str) -> Iterator[Executor]:
+    try:
+        client = _distributed().Client(address, timeout="10s")
+    except (OSError, ValueError) as error:
+        raise SceneError(f"--dask {address}: no scheduler answers there ({error})") from error
+    with client:
+        _require_seacrane(address, client.run(_version_finder()))
+        yield client.get_executor()
+
+
+def _version_finder() -> Callable[[], str | None]:
+    """A function that Dask sends as code, for a worker may not have the module in which it stands."""
+
+    def version() -> str | None:
+        from importlib import import_module
+
+        try:
+            return str(import_module("seacrane.version").__version__)
+        except ModuleNotFoundError:
+            return None
+
+    return version
+
+
+def _require_seacrane(address: str, versions: Mapping[str, str | None]) -> None:
+    """Refuse workers without this version, which would leave what is sent to them without an answer."""
+    if not versions:
+        raise SceneError(f"--dask {address}: the cluster has no worker; start at least one")
+    for worker, version in versions.items():
+        if version != __version__:
+            has = f"seacrane {version}" if version else "no seacrane"
+            raise WorkerVersionError(
+                f"--dask {address}: worker {worker} has {has}; install {__version__} there"
+            )
+
+
+def _distributed() -> Any:
+    try:
+        return import_module("distributed")
+    except ModuleNotFoundError as error:
+        raise SceneError("--dask takes dask.distributed: pip install 'seacrane[ensemble]'") from error

@@ -1,0 +1,206 @@
+"""An ensemble that grows by batches of seeds until its statistics are known narrowly enough.
+
+Members, packs and batches are numbered before anything runs, and whether a batch is run depends on the
+results of those before it alone: so the ensemble is the same whatever runs it, and whether it was resumed.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from concurrent.futures import Executor
+from dataclasses import dataclass
+
+from seacrane.ensembles.certainty import Certainty, certainty_of
+from seacrane.ensembles.filling import any_outcome, fill, progress_bar, require_success
+from seacrane.ensembles.job import Job, Pack
+from seacrane.ensembles.members import Members, Value
+from seacrane.ensembles.outcome import Outcome
+from seacrane.ensembles.store import Store
+from seacrane.ensembles.targets import Target
+from seacrane.errors import SceneError
+from seacrane.inputs.caller import warn_caller
+from seacrane.statistics.judged import FewSeedsWarning
+
+BATCH = 20  # seeds: fewer would be judged too often, by intervals that scatter too much
+IN_A_PACK = 2  # as a rule, so that one combination of parameters still fills several cores
+
+
+@dataclass(frozen=True, kw_only=True)
+class Growth:
+    """Members by seed and by combination of the other parameters, which is called a cell.
+
+    Attributes
+    ----------
+    first : int
+        Seed.
+    batches : int
+        How many there may be.
+    others : mapping of str to tuple
+        Values of the other parameters, of which all combinations are run.
+    size : int
+        Seeds in a pack.
+    """
+
+    first: int
+    batches: int
+    others: Mapping[str, tuple[Value, ...]]
+    size: int
+
+    @property
+    def cells(self) -> int:
+        """Number of combinations."""
+        return math.prod(len(values) for values in self.others.values())
+
+    def members(self, batches: int) -> Members:
+        """Those of so many batches."""
+        seeds = tuple(range(self.first, self.first + batches * BATCH))
+        return Members(axes={"seed": seeds, **self.others}, grid=True)
+
+    def batches_in(self, packs: Iterable[int]) -> int:
+        """How many batches packs of these numbers belong to."""
+        return max((pack // (self._chunks * self.cells) + 1 for pack in packs), default=0)
+
+    @property
+    def _chunks(self) -> int:
+        return math.ceil(BATCH / self.size)
+
+    def packs(self, batch: int, cell: int) -> list[int]:
+        """Numbers of the packs of a batch of a cell."""
+        first = (batch * self.cells + cell) * self._chunks
+        return list(range(first, first + self._chunks))
+
+    def pack(self, number: int) -> Pack:
+        """The members of a pack."""
+        whole, chunk = divmod(number, self._chunks)
+        batch, cell = divmod(whole, self.cells)
+        begin = batch * BATCH + chunk * self.size
+        places = range(begin, min(begin + self.size, (batch + 1) * BATCH))
+        members = self.members(batch + 1)
+        indices = [place * self.cells + cell for place in places]
+        return tuple((index, members.values(index)) for index in indices)
+
+    def parameters(self, cell: int) -> dict[str, Value]:
+        """What the members of a cell share."""
+        values = self.members(1).values(cell)
+        return {name: value for name, value in values.items() if name != "seed"}
+
+
+def growth_of(members: Members, pack: int | None) -> Growth:
+    """How an ensemble of these members grows; its seeds are those that there may be.
+
+    Raises
+    ------
+    SceneError
+        For members that are no grid over at least 20 seeds one after another.
+    """
+    seeds = members.axes.get("seed", ())
+    if not members.grid or not seeds:
+        raise SceneError(
+            "until adds seeds, and over has none; give those that may be run, as in "
+            "over={'seed': range(1, 1001)}, beside a grid of other parameters"
+        )
+    if not all(isinstance(seed, int) and seed == int(seeds[0]) + place for place, seed in enumerate(seeds)):
+        raise SceneError("until: seed has gaps; give seeds one after another, such as range(1, 1001)")
+    if len(seeds) < BATCH:
+        raise SceneError(
+            f"until: seed has {len(seeds)} values and a batch takes {BATCH}; give as many as may be run"
+        )
+    others = {name: values for name, values in members.axes.items() if name != "seed"}
+    size = min(IN_A_PACK if pack is None else pack, BATCH)
+    return Growth(first=int(seeds[0]), batches=len(seeds) // BATCH, others=others, size=size)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Grown:
+    """What was run: members of the seeds that were needed, their outcomes, and what they tell."""
+
+    members: Members
+    outcomes: tuple[Outcome, ...]
+    certainty: tuple[Certainty, ...]
+
+
+def grow(
+    growth: Growth,
+    job: Job,
+    store: Store,
+    executor: Executor | None,
+    targets: tuple[Target, ...],
+    *,
+    raises: bool,
+    progress: bool,
+) -> Grown:
+    """Add batches of seeds to every cell until its targets are reached, or there are no more.
+
+    Warns
+    -----
+    FewSeedsWarning
+        Where the most seeds did not do.
+    """
+    check = require_success(growth.members(growth.batches)) if raises else any_outcome
+    cells: dict[int, list[Outcome]] = {cell: [] for cell in range(growth.cells)}
+    known: dict[int, list[Certainty]] = {}
+    going, batch = list(cells), 0
+    with progress_bar(BATCH * growth.cells, 0, progress) as bar:
+        while going and batch < growth.batches:
+            _run_batch(growth, batch, going, job, store, executor, bar.add, check)
+            for cell in going:
+                fresh = [one for number in growth.packs(batch, cell) for one in store.of(number)]
+                cells[cell] += fresh
+                told = [certainty_of(target, cells[cell], growth.parameters(cell)) for target in targets]
+                known[cell] = [one for one in told if one.seeds]  # none: all failed, and more would too
+            batch += 1
+            going = [cell for cell in going if not all(one.reached for one in known[cell])]
+            bar.left(_expected(growth, batch, [known[cell] for cell in going]))
+    certainty = tuple(one for cell in sorted(known) for one in known[cell])
+    _warn_of_few(certainty, growth.batches * BATCH)
+    outcomes = sorted((one for several in cells.values() for one in several), key=lambda one: one.index)
+    return Grown(members=growth.members(batch), outcomes=tuple(outcomes), certainty=certainty)
+
+
+def _run_batch(
+    growth: Growth,
+    batch: int,
+    cells: list[int],
+    job: Job,
+    store: Store,
+    executor: Executor | None,
+    advance: Callable[[int], None],
+    check: Callable[[Outcome], None],
+) -> None:
+    there = store.done()
+
+    def wanted() -> Iterator[tuple[int, Pack]]:
+        for cell in cells:
+            for number in growth.packs(batch, cell):
+                if number not in there:
+                    yield number, growth.pack(number)
+
+    for cell in cells:
+        for number in growth.packs(batch, cell):
+            if number in there:
+                outcomes = store.of(number)
+                advance(len(outcomes))
+                for outcome in outcomes:
+                    check(outcome)
+    fill(store, job, wanted(), executor, done=advance, check=check)
+
+
+def _expected(growth: Growth, batch: int, going: list[list[Certainty]]) -> int:
+    """Members that cells which go on will still take, by their half widths so far."""
+    done, more = batch * BATCH, 0
+    for several in going:
+        worst = max(one.half_width / one.asked for one in several)
+        wanted = done * min(worst, 100.0) ** 2
+        more += math.ceil((min(wanted, growth.batches * BATCH) - done) / BATCH) * BATCH
+    return more
+
+
+def _warn_of_few(certainty: tuple[Certainty, ...], most: int) -> None:
+    short = [one for one in certainty if not one.reached]
+    if short:
+        warn_caller(
+            f"{most} seeds are the most that over allows, and {len(short)} of {len(certainty)} statistics "
+            f"are not known as narrowly as until asks: {short[0]}; give more seeds, and the same store",
+            FewSeedsWarning,
+        )

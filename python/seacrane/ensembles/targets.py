@@ -1,0 +1,139 @@
+"""What `until` asks for: how narrowly statistics of what is kept are to be known."""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from seacrane.ensembles.kept import Kept
+from seacrane.ensembles.study import Keep
+from seacrane.errors import SceneError
+from seacrane.inputs.checked import number_of
+from seacrane.inputs.shown import shown
+from seacrane.statistics.estimate import CONFIDENCE, Estimate
+from seacrane.statistics.seeds import ASKED, FEWEST, gumbel_maximum_of
+
+Array = NDArray[np.float64]
+EXTREMES = ("maximum", "minimum")
+WIDENED = 1.05  # of intervals: stopping where one happens to be narrow costs coverage, which this restores
+
+
+@dataclass(frozen=True, kw_only=True)
+class Target:
+    """A statistic over seeds, and how narrowly it is to be known.
+
+    Attributes
+    ----------
+    variable : str
+        Name of what is kept.
+    number : str
+        "mpm", "mean" or "p90" of largest or smallest values, else "mean".
+    half_width : float
+        Of the 95 % interval, as a share of the dynamic part.
+    sign : float
+        1, or -1 for smallest values.
+    gumbel : bool
+        Whether values are extremes; else their mean is asked for.
+    static : str or None
+        What is kept for the static part; None: zero.
+    """
+
+    variable: str
+    number: str
+    half_width: float
+    sign: float = 1.0
+    gumbel: bool = False
+    static: str | None = None
+
+    @property
+    def name(self) -> str:
+        """As `until` has it."""
+        return f"{self.variable}.{self.number}"
+
+    def estimate(self, values: Array) -> Estimate:
+        """The statistic of the values of some seeds, with its interval; infinite for fewer than 3."""
+        if values.size < FEWEST:
+            middle = float(values.mean()) if values.size else float("nan")
+            return Estimate(value=middle, low=-np.inf, high=np.inf)
+        if np.ptp(values) <= 1e-12 * np.abs(values).max():
+            same = float(values[0])
+            return Estimate(value=same, low=same, high=same)
+        found = self._extreme(values) if self.gumbel else _mean(values)
+        return _widened(found)
+
+    def _extreme(self, values: Array) -> Estimate:
+        found: Estimate = getattr(gumbel_maximum_of(self.sign * values), self.number)
+        if self.sign > 0.0:
+            return found
+        return Estimate(value=-found.value, low=-found.high, high=-found.low)
+
+
+def _mean(values: Array) -> Estimate:
+    from scipy.stats import t
+
+    half = t.ppf((1.0 + CONFIDENCE) / 2.0, values.size - 1) * values.std(ddof=1) / values.size**0.5
+    middle = float(values.mean())
+    return Estimate(value=middle, low=middle - float(half), high=middle + float(half))
+
+
+def _widened(found: Estimate) -> Estimate:
+    more = (WIDENED - 1.0) * found.half_width
+    return Estimate(value=found.value, low=found.low - more, high=found.high + more)
+
+
+def targets_of(until: Any, keep: Keep) -> tuple[Target, ...]:
+    """The targets of `until`, or a SceneError that names what is wrong in it."""
+    if not isinstance(until, Mapping) or not until:
+        raise SceneError(f"until is {shown(until)}; give half widths by name, {{'hook_load.mpm': 0.02}}")
+    return tuple(_target(name, share, keep) for name, share in until.items())
+
+
+def _target(name: Any, share: Any, keep: Keep) -> Target:
+    if not isinstance(name, str) or name.count(".") != 1:
+        raise SceneError(f"until: {shown(name)} is no statistic; give '<kept>.<number>', such as 'load.mpm'")
+    variable, number = name.split(".")
+    if variable not in keep:
+        near = difflib.get_close_matches(variable, keep, n=1, cutoff=0.3)
+        raise SceneError(
+            f"until: nothing is kept as {variable!r}"
+            + (f"; nearest: {near[0]!r}" if near else "")
+            + f"; kept are {', '.join(keep)}"
+        )
+    what = keep[variable]
+    numbers = ("mean",) if isinstance(what, Kept) and what.what not in EXTREMES else ASKED
+    if number not in numbers:
+        raise SceneError(f"until: {name}: {number!r} is no number of it; choose from {', '.join(numbers)}")
+    width = number_of(f"until: {name}", share)
+    if not 0.0 < width < 1.0:
+        raise SceneError(f"until: {name} is {width:g}; give a share between 0 and 1, such as 0.02")
+    if not isinstance(what, Kept):
+        return Target(variable=variable, number=number, half_width=width, gumbel=number != "mean")
+    if what.what == "series":
+        raise SceneError(f"until: {variable} is a series; keep its maximum or its mean")
+    if what.what not in EXTREMES:
+        return Target(variable=variable, number=number, half_width=width)
+    return Target(
+        variable=variable, number=number, half_width=width, gumbel=True,
+        sign=-1.0 if what.what == "minimum" else 1.0, static=f"{variable}_mean",
+    )  # fmt: skip
+
+
+def with_static_parts(keep: Keep, targets: tuple[Target, ...]) -> Keep:
+    """Also the means of the channels whose extremes are asked for: their static parts."""
+    out = dict(keep)
+    for target in targets:
+        if target.static is None:
+            continue
+        what = keep[target.variable]
+        assert isinstance(what, Kept)
+        mean = Kept(channel=what.channel, what="mean", at=what.at, after=what.after)
+        if out.setdefault(target.static, mean) != mean:
+            raise SceneError(
+                f"keep: the name {target.static!r} is that of the static part of {target.variable!r}; rename"
+            )
+    return out

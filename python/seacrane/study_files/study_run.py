@@ -1,0 +1,88 @@
+"""Run a study into its folder, or go on with it."""
+
+from __future__ import annotations
+
+import os
+from concurrent.futures import Executor
+from pathlib import Path
+
+from seacrane.ensembles.ensemble import Ensemble, ensemble
+from seacrane.ensembles.other_sea import WORDS
+from seacrane.ensembles.paths import require_paths
+from seacrane.errors import FileFormatError, SceneError
+from seacrane.files.atomic import atomic_write
+from seacrane.files.whole_file import read_whole
+from seacrane.lift.document import LARGEST_FILE
+from seacrane.study_files.study_file import StudyFile
+
+FILE, MEMBERS = "study.toml", "members"
+
+
+def run_study(
+    path: str | os.PathLike[str],
+    folder: str | os.PathLike[str],
+    *,
+    executor: Executor | None = None,
+    progress: bool = False,
+) -> Ensemble:
+    """Run a study file; what is in its folder is not run again.
+
+    Parameters
+    ----------
+    path : path
+        Of the study file.
+    folder : path
+        Made if absent. It will hold a copy of the file, and the members as they come.
+    executor : concurrent.futures.Executor, optional
+    progress : bool
+        Show a bar with the time left.
+
+    Raises
+    ------
+    FileFormatError
+        With the line, for what is wrong in the study or its lift.
+    SceneError
+        If the folder is that of another study, or of something else.
+    SimulationError, WorkerVersionError, OSError
+        As of `ensemble`; what came back before is kept.
+    """
+    study, target = StudyFile.load(path), Path(folder)
+    lift = study.lift()
+    if lift.stages:
+        raise FileFormatError(
+            f"{Path(path).name}: its lift has stages, and a study runs one run: leave them out"
+        )
+    t_end, method, outputs = study.settings(lift)
+    scene, databases = lift.scene_and_databases()
+    for name in study.members.axes:
+        try:
+            require_paths(scene, [name], WORDS)
+        except SceneError as error:
+            study.fail_at(name, str(error))
+    text = read_whole(Path(path), LARGEST_FILE, "no study file is")
+    _claim(target, text)
+    done = ensemble(
+        scene, over=study.over, keep=study.keep, until=study.until, t_end=t_end, method=method,
+        outputs=outputs, database=databases, executor=executor, store=target / MEMBERS, progress=progress,
+    )  # fmt: skip
+    _write(target / FILE, text)
+    return done
+
+
+def _claim(folder: Path, text: bytes) -> None:
+    """Make the folder, or refuse one of something else."""
+    if folder.exists() and not folder.is_dir():
+        raise SceneError(f"{folder} is a file; give the name of a folder")
+    folder.mkdir(parents=True, exist_ok=True)
+    if (folder / FILE).exists():
+        return
+    if any(folder.iterdir()):
+        raise SceneError(f"{folder} holds something else than a study; give another folder")
+    _write(folder / FILE, text)
+
+
+def _write(path: Path, text: bytes) -> None:
+    if path.exists() and path.read_bytes() == text:
+        return
+    with atomic_write(path) as draft:
+        draft.write_bytes(text)

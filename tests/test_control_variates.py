@@ -1,0 +1,162 @@
+"""Control variates: no bias, the gain of theory, the linear response of the waves, off where loose."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from seacrane import (
+    HydroDatabase,
+    Kept,
+    LinearControl,
+    Scene,
+    SceneError,
+    controlled_mean,
+    ensemble,
+    simulate,
+)
+from seacrane.cases import vessel
+from seacrane.crane import Payload
+from seacrane.ensembles.other_sea import with_sea
+from seacrane.hydro import shipped_database
+
+Array = NDArray[np.float64]
+
+
+def pairs(random: np.random.Generator, correlation: float, count: int) -> tuple[Array, Array]:
+    """Values of mean 5 and unit scatter that are not Gaussian, and controls of mean 2 and scatter 3."""
+    shared, own = (random.gumbel(-np.euler_gamma, 1.0, count) * np.sqrt(6.0) / np.pi for _ in range(2))
+    return 5.0 + correlation * shared + np.sqrt(1.0 - correlation**2) * own, 2.0 + 3.0 * shared
+
+
+@pytest.mark.parametrize("correlation", [0.7, 0.89, 0.95])
+def test_the_mean_is_unbiased_and_the_gain_that_of_theory(correlation: float) -> None:
+    """Over 500 ensembles of 40 seeds."""
+    random = np.random.default_rng(4)
+    found = []
+    for _ in range(500):
+        values, controls = pairs(random, correlation, 40)
+        many = pairs(random, correlation, 2000)[1]
+        found.append(controlled_mean(values, controls=controls, many_controls=many))
+    means = np.array([one.estimate.value for one in found])
+    plain = np.array([one.plain.value for one in found])
+    theory = 1.0 / (1.0 - correlation**2 * (1.0 - 40.0 / 2000.0))  # 2000 controls tell their own mean
+    assert abs(means.mean() - 5.0) < 3.5 * means.std() / 500**0.5
+    assert plain.var() / means.var() == pytest.approx(theory, rel=0.2)
+    assert np.median([one.gain for one in found]) == pytest.approx(theory, rel=0.15)
+    inside = np.mean([one.estimate.low < 5.0 < one.estimate.high for one in found])
+    assert 0.92 < inside < 0.98
+
+
+def test_a_loose_control_is_left_out_and_it_says_so() -> None:
+    values, controls = pairs(np.random.default_rng(5), 0.2, 60)
+    found = controlled_mean(values, controls=controls, many_controls=np.tile(controls, 20))
+    assert not found.used
+    assert found.estimate == found.plain
+    assert found.gain == 1.0
+    assert "no control, for its correlation is below 0.5" in str(found)
+    values, controls = pairs(np.random.default_rng(5), 0.95, 60)
+    opposite = controlled_mean(values, controls=-controls, many_controls=-np.tile(controls, 20))
+    assert opposite.used
+    assert opposite.correlation < -0.8
+    assert f"gain {opposite.gain:.2g}" in str(opposite)
+
+
+@pytest.fixture(scope="module")
+def database() -> HydroDatabase:
+    return shipped_database()
+
+
+@pytest.mark.parametrize(("axis", "derivative"), [("z", 0), ("y", 1), ("x", 2)])
+def test_the_control_is_the_run_in_small_waves(axis: str, derivative: int, database: HydroDatabase) -> None:
+    """From rest on, with the transient of the start."""
+    scene = vessel(hs=0.02, memory="passive", mooring_period=None)
+    control = LinearControl(
+        scene, database=database, body="vessel", axis=axis, t_end=40.0, after=3.0, derivative=derivative
+    )
+    channel = ("position", "velocity", "acceleration")[derivative]
+    run = simulate(with_sea(scene, database, {"seed": 5}), 40.0, rtol=1e-7, dt_out=0.1, channels=[channel])
+    late = run.time >= 3.0
+    motion = run.select(channel, body="vessel", axis=axis)
+    moved = motion[late] - (motion[0] if derivative == 0 else 0.0)
+    assert np.allclose(control.times, run.time[late])
+    assert np.abs(control.series(5) - moved).max() < 0.01 * moved.std()
+    largest, smallest = (control.extremes([5], what=what)[0] for what in ("maximum", "minimum"))
+    assert (largest, smallest) == (control.series(5).max(), control.series(5).min())
+
+
+def lifted() -> Scene:
+    """A load held by a crane over the side."""
+    scene = Scene(name="over the side")
+    scene.add_vessel(shipped_database(), memory="passive")
+    scene.add_sea(shipped_database(), hs=1.0, tp=8.0, direction_deg=150.0)
+    scene.add_crane(
+        foot=(33.0, 10.0, 10.0), theta=-1.0, s1=1.0, s2=1.5, held=True,
+        payload=Payload(mass=2e4, link_length=8.0),
+    )  # fmt: skip
+    scene.add_ballast(heel_deg=0.0)
+    return scene
+
+
+def test_a_swing_of_a_crane_load_is_known_better(database: HydroDatabase) -> None:
+    """With 20 seeds and the control as well as with three times as many."""
+    scene = lifted()
+    at: dict[str, Any] = {"body": "payload", "axis": "y"}
+    swing = Kept(channel="position", what="maximum", at=at, after=10.0)
+    runs = ensemble(
+        scene, over={"seed": range(1, 21)}, keep={"swing": swing}, database=database, t_end=60.0,
+        rtol=1e-2, dt_out=0.5,
+    )  # fmt: skip
+    control = LinearControl(scene, database=database, **at, t_end=60.0, after=10.0, dt=0.5)
+    found = controlled_mean(
+        runs.dataset.swing,
+        controls=control.extremes(range(1, 21)),
+        many_controls=control.extremes(range(1001, 1201)),
+    )
+    assert found.used
+    assert found.correlation > 0.9
+    assert found.gain > 3.0
+    assert found.estimate.low < found.plain.high
+    assert found.plain.low < found.estimate.high
+
+
+@pytest.mark.parametrize(
+    ("given", "message"),
+    [
+        ({"values": np.arange(9.0)}, r"values of shape \(9,\): give one list of at least 10"),
+        ({"controls": np.arange(11.0)}, "controls: are 11 for 12 values"),
+        ({"many_controls": np.arange(12.0)}, "many_controls: are 12 for 12 values; give more"),
+        ({"values": [np.nan] * 12}, "values: not all are finite"),
+        ({"controls": [1.0] * 12}, "controls: all are 1; were the seeds different"),
+    ],
+)
+def test_bad_numbers_are_named(given: dict[str, Any], message: str) -> None:
+    usual: dict[str, Any] = {"values": np.arange(12.0), "controls": np.arange(12.0)}
+    with pytest.raises(SceneError, match=message):
+        controlled_mean(**{**usual, "many_controls": np.arange(50.0), **given})
+
+
+@pytest.mark.parametrize(
+    ("given", "message"),
+    [
+        ({"axis": "w"}, "axis is 'w'; choose from x, y, z, roll, pitch, yaw"),
+        ({"derivative": 3}, "derivative is 3"),
+        ({"words": {"seed": 3}}, "'seed' is no word of the sea beside its seed"),
+        ({"after": 50.0}, "t_end is 40 s, after 50 s"),
+        ({"body": "vesel"}, "body 'vesel' does not exist"),
+        ({"scene": Scene(name="dry")}, "scene 'dry' has no sea"),
+    ],
+)
+def test_a_control_that_makes_no_sense(given: dict[str, Any], message: str, database: HydroDatabase) -> None:
+    usual: dict[str, Any] = {"scene": vessel(memory="none"), "body": "vessel", "axis": "z", "t_end": 40.0}
+    asked = {**usual, **given}
+    with pytest.raises(SceneError, match=message):
+        LinearControl(asked.pop("scene"), database=database, **asked)
+
+
+def test_a_convolution_is_refused(database: HydroDatabase) -> None:
+    with pytest.raises(SceneError, match="is a convolution"):
+        LinearControl(vessel(memory="convolution"), database=database, body="vessel", axis="z", t_end=10.0)

@@ -1,0 +1,383 @@
+"""Study files: read with line numbers, run, killed, resumed, refused and shown."""
+
+from __future__ import annotations
+
+import contextlib
+import json
+import os
+import re
+import resource
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Iterator
+from concurrent.futures import Executor, Future
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from seacrane import Ensemble, FileFormatError, Kept, Lift, SceneError, WorkerVersionError, ensemble
+from seacrane.cli.command_line import main
+from seacrane.hydro import shipped_database
+from seacrane.lift.schema import schema_path
+from seacrane.study_files.schema import study_schema, study_schema_text
+from seacrane.study_files.shown_study import shown_study
+from seacrane.study_files.study_file import StudyFile
+from seacrane.study_files.study_run import MEMBERS, run_study
+
+LIFT = """format = "seacrane lift"
+version = 1
+
+[vessel]
+database = "hull_115"
+memory = "none"
+
+[sea]
+seed = 7
+hs_m = 1.5
+tp_s = 8
+count = 20
+"""
+STUDY = """format = "seacrane study"
+version = 1
+lift = "ship.toml"
+
+[over]
+seed = { first = 1, count = 40 }
+hs = [1, 2.0]
+
+[[keep]]
+name = "heave"
+channel = "position"
+what = "maximum"
+at = { body = "vessel", axis = "z" }
+after_s = 2
+
+[[keep]]
+name = "deepest"
+channel = "position"
+what = "minimum"
+at = { body = "vessel", axis = "z" }
+after_s = 2
+
+[until]
+heave.mpm = 0.25
+
+[run]
+t_end_s = 8
+
+[method]
+tolerance = 1e-2
+"""
+
+
+@pytest.fixture
+def study(tmp_path: Path) -> Path:
+    (tmp_path / "ship.toml").write_text(LIFT)
+    (tmp_path / "heave.toml").write_text(STUDY)
+    return tmp_path / "heave.toml"
+
+
+@pytest.fixture(scope="module")
+def ran(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The folder of the study, run once."""
+    folder = tmp_path_factory.mktemp("ran")
+    (folder / "ship.toml").write_text(LIFT)
+    (folder / "heave.toml").write_text(STUDY)
+    run_study(folder / "heave.toml", folder / "out")
+    return folder / "out"
+
+
+def test_it_is_the_ensemble_of_the_same_words(ran: Path) -> None:
+    there = Ensemble.load(ran / MEMBERS)
+    place: dict[str, Any] = {"channel": "position", "at": {"body": "vessel", "axis": "z"}, "after": 2.0}
+    lift = Lift.load(ran.parent / "ship.toml")
+    same = ensemble(
+        lift.scene(),
+        over={"seed": range(1, 41), "hs": [1, 2.0]},
+        keep={"heave": Kept(what="maximum", **place), "deepest": Kept(what="minimum", **place)},
+        until={"heave.mpm": 0.25},
+        database=shipped_database(),
+        t_end=8.0,
+        rtol=1e-2,
+    )
+    assert there.dataset.identical(same.dataset)
+    assert shown_study(ran).certainty == same.certainty
+
+
+def test_tables_hold_what_the_members_say(ran: Path) -> None:
+    data = Ensemble.load(ran / MEMBERS).dataset
+    heave, deepest = shown_study(ran).tables
+    for cell in heave.cells:
+        values = data.heave.sel(cell.parameters).dropna("seed").to_numpy()
+        assert cell.values.tolist() == values.tolist()
+        value, low, high = cell.numbers("mpm")
+        assert low < value < high < values.max() + 1.0
+    value, low, high = deepest.cells[0].numbers("p90")
+    assert low < value < high
+    assert value < deepest.cells[0].mean
+    assert len(heave.head()) == len(next(iter(heave.rows())))
+
+
+def test_show_prints_tables_and_draws(ran: Path, capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+    assert main(["show", str(ran), "--out", str(tmp_path)]) == 0
+    told = capsys.readouterr().out
+    assert "members run, 0 failed" in told
+    assert "Maximum in 6 s by Gumbel's distribution" in told
+    assert "heave.mpm (hs=2.0)" in told
+    assert {path.name for path in tmp_path.iterdir()} == {
+        "heave.csv", "deepest.csv", "heave-over-hs.png", "deepest-over-hs.png",
+    }  # fmt: skip
+    head, first, *_ = (tmp_path / "heave.csv").read_text().splitlines()
+    assert head.startswith("hs,seeds,mean [m],scatter [m],most probable [m]")
+    assert float(first.split(",")[2]) == pytest.approx(shown_study(ran).tables[0].cells[0].mean)
+    assert main(["show", str(ran), "--json"]) == 1
+    assert "--json is for a result" in capsys.readouterr().err
+
+
+def test_a_design_and_one_cell_are_drawn(study: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    text = STUDY.replace("hs = [1, 2.0]\n", "").replace("heave.mpm = 0.25", "heave.mpm = 0.9")
+    text += "[statistics]\nexposure_s = 60\n"
+    study.write_text(text)
+    assert main(["study", str(study), "--out", str(study.parent / "one")]) == 0
+    told = capsys.readouterr().out
+    assert "heave-gumbel.png" in told
+    assert "Maximum in 60 s" in told
+    over = text[text.index("[over]") : text.index("[[keep]]")]
+    design = "[design]\ncount = 6\nranges = { hs = [1, 2], bodies.vessel.mass = [1e7, 1.1e7] }\n\n"
+    study.write_text(text.replace(over, design).replace("[until]\nheave.mpm = 0.9\n", ""))
+    assert main(["study", str(study), "--out", str(study.parent / "design")]) == 0
+    told = capsys.readouterr().out
+    assert "6 of 6 members run" in told
+    assert "heave-over-bodies.vessel.mass.png" in told
+
+
+def test_a_study_of_failures_is_shown(study: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    study.write_text(STUDY.replace('channel = "position"', 'channel = "posture"'))
+    assert main(["study", str(study), "--out", str(study.parent / "out")]) == 0
+    told = capsys.readouterr().out
+    assert "40 of 40 members run, 40 failed" in told
+    assert "posture" in told
+
+
+@pytest.mark.parametrize("workers", [[], ["--workers", "2"]])
+def test_ctrl_c_keeps_what_came_back_and_the_same_command_goes_on(
+    workers: list[str], study: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    study.write_text(STUDY.replace("count = 40", "count = 2000").replace("0.25", "0.004"))
+    out = study.parent / "out"
+    command = ["study", str(study), "--out", str(out), *workers]
+    child = subprocess.Popen(
+        [sys.executable, "-m", "seacrane", *command], stderr=subprocess.PIPE, stdout=subprocess.PIPE
+    )
+    until = time.monotonic() + 60.0
+    while len(list((out / MEMBERS).glob("pack_*.nc"))) < 3 and time.monotonic() < until:
+        time.sleep(0.01)
+    child.send_signal(signal.SIGINT)
+    _, told = child.communicate(timeout=60)
+    assert child.returncode == 130, told
+    assert b"interrupted" in told
+    kept = {path: path.stat().st_mtime_ns for path in (out / MEMBERS).glob("pack_*.nc")}
+    assert len(kept) >= 3
+    assert main(["show", str(out)]) == 0
+    assert "members run, 0 failed" in capsys.readouterr().out
+    study.write_text(STUDY)
+    assert main(["study", *command[1:4]]) == 0
+    assert all(path.stat().st_mtime_ns == at for path, at in kept.items())
+    capsys.readouterr()
+
+
+def test_a_killed_study_goes_on_to_the_same(study: Path, ran: Path) -> None:
+    out = study.parent / "out"
+    child = subprocess.Popen([sys.executable, "-m", "seacrane", "study", str(study), "--out", str(out)])
+    until = time.monotonic() + 60.0
+    while len(list((out / MEMBERS).glob("pack_*.nc"))) < 2 and time.monotonic() < until:
+        time.sleep(0.01)
+    child.kill()
+    child.wait()
+    run_study(study, out)
+    assert Ensemble.load(out / MEMBERS).dataset.identical(Ensemble.load(ran / MEMBERS).dataset)
+
+
+def test_a_full_disk_is_named_and_loses_nothing(study: Path, ran: Path) -> None:
+    out = study.parent / "out"
+    number = os.fork()
+    if not number:
+        resource.setrlimit(resource.RLIMIT_FSIZE, (5000, 5000))
+        try:
+            run_study(study, out)
+        except OSError as error:
+            os._exit(4 if "pack_0000000.nc" in str(error) and "free in" in str(error) else 5)
+        os._exit(6)
+    assert os.waitstatus_to_exitcode(os.waitpid(number, 0)[1]) == 4
+    run_study(study, out)
+    assert Ensemble.load(out / MEMBERS).dataset.identical(Ensemble.load(ran / MEMBERS).dataset)
+
+
+def test_the_folder_of_another_study_is_refused(
+    study: Path, ran: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    before = (ran / "study.toml").read_bytes()
+    study.write_text(STUDY.replace("t_end_s = 8", "t_end_s = 9"))
+    assert main(["study", str(study), "--out", str(ran)]) == 1
+    assert "is of another study: t_end differ" in capsys.readouterr().err
+    assert (ran / "study.toml").read_bytes() == before
+    (study.parent / "other").mkdir()
+    (study.parent / "other" / "letter.txt").touch()
+    with pytest.raises(SceneError, match="holds something else than a study"):
+        run_study(study, study.parent / "other")
+    with pytest.raises(SceneError, match="is a file; give the name of a folder"):
+        run_study(study, study)
+    assert main(["show", str(study.parent / "other")]) == 1
+    assert "is no folder of a study" in capsys.readouterr().err
+
+
+def test_a_lift_inside_the_file(study: Path, ran: Path) -> None:
+    tables = (
+        LIFT.split("version = 1\n")[1].replace("[vessel]", "[lift.vessel]").replace("[sea]", "[lift.sea]")
+    )
+    study.write_text(STUDY.replace('lift = "ship.toml"\n', "") + tables)
+    again = run_study(study, ran)
+    assert again.dataset.identical(Ensemble.load(ran / MEMBERS).dataset)
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "message"),
+    [
+        ("seacrane study", "seacrane studio", "names another format, no study file"),
+        ("version = 1", "version = 2", "heave.toml line 2: version is 2"),
+        ('lift = "ship.toml"', "", "a study has a lift"),
+        ("ship.toml", "shop.toml", r"heave.toml line 3: lift is 'shop.toml': there is no file .*shop.toml"),
+        ("[over]", "[ovr]", r"line 5: ovr is unknown in a study; nearest: over"),
+        ("hs =", "hss =", "line 7: over: scene 'scene' has no parameter 'hss'; nearest: 'hs'"),
+        ("hs =", "bodies.vessel.mas =", "line 7: .* has no parameter .*; nearest: 'bodies.vessel.mass'"),
+        ("hs = [1, 2.0]", "hs = 2", "line 7: hs is 2; give a list"),
+        ("hs = [1, 2.0]", "hs = [1, 1]", "line 5: over: hs has 1 twice"),
+        ("count = 40", "count = 1000000000", "1000000000 seed x 2 hs are 2000000000 members"),
+        ("[1, 2.0]", "{ first = 1, last = 2, count = 1000000000 }", "are 40000000000 members"),
+        ("count = 40", "cont = 40", "line 6: cont is unknown in .*; nearest: count"),
+        ("count = 40", "count = 0", "line 6: count is 0"),
+        ('what = "maximum"', 'what = "biggest"', "line 12: what in .* is 'biggest'"),
+        ("after_s", "after", "line 14: after is unknown in .*; nearest: after_s"),
+        ('name = "deepest"', 'name = "heave"', "line 17: .* 'heave' is there twice"),
+        ('name = "deepest"', 'name = "member"', "keep: the name 'member' is taken"),
+        ("heave.mpm = 0.25", "heave.p95 = 0.25", "line 24: until: heave.p95: 'p95' is no number of it"),
+        ("heave.mpm = 0.25", "heeve.mpm = 0.25", "line 24: until: nothing is kept as 'heeve'"),
+        ("heave.mpm = 0.25", "", r"line 23: \[until\] is empty"),
+        ("t_end_s", "t_end", "line 27: t_end is unknown in .*; nearest: t_end_s"),
+        ("[over]", "[design]\ncount = 3\n[over]", "a study has either"),
+    ],
+)
+def test_bad_input_is_named_with_its_line(old: str, new: str, message: str, study: Path) -> None:
+    assert old in STUDY
+    study.write_text(STUDY.replace(old, new, 1))
+    with pytest.raises((FileFormatError, SceneError), match=message):
+        run_study(study, study.parent / "out")
+    assert not (study.parent / "out").exists()
+
+
+def test_mistakes_of_the_lift_have_its_lines(study: Path) -> None:
+    (study.parent / "ship.toml").write_text(LIFT.replace("hs_m", "hs"))
+    with pytest.raises(FileFormatError, match=r"ship\.toml line 10: hs is unknown"):
+        run_study(study, study.parent / "out")
+
+
+@pytest.fixture
+def cluster(tmp_path: Path) -> Iterator[Any]:
+    """Makes a cluster of one worker process, with what the worker reads before it begins."""
+    distributed = pytest.importorskip(
+        "distributed", reason="needs the extra ensemble: pip install 'seacrane[ensemble]'"
+    )
+    with contextlib.ExitStack() as stack:
+
+        def made(preload: str) -> str:
+            (tmp_path / "preload.py").write_text(preload)
+            there = distributed.LocalCluster(
+                n_workers=1, threads_per_worker=1, dashboard_address=None,
+                preload=[str(tmp_path / "preload.py")],
+            )  # fmt: skip
+            return str(stack.enter_context(there).scheduler_address)
+
+        yield made
+
+
+def test_a_cluster_gives_the_same(cluster: Any, study: Path, ran: Path) -> None:
+    out = study.parent / "out"
+    assert main(["study", str(study), "--out", str(out), "--dask", cluster("")]) == 0
+    assert Ensemble.load(out / MEMBERS).dataset.identical(Ensemble.load(ran / MEMBERS).dataset)
+
+
+BLOCKED = """
+import sys
+class Block:
+    def find_spec(self, name, path=None, target=None):
+        if name.partition(".")[0] == "seacrane":
+            raise ModuleNotFoundError(f"No module named {name!r}", name=name)
+sys.meta_path.insert(0, Block())
+"""
+
+
+def test_a_worker_without_seacrane_is_named(
+    cluster: Any, study: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["study", str(study), "--out", str(study.parent / "out"), "--dask", cluster(BLOCKED)]) == 1
+    told = capsys.readouterr().err
+    assert re.search(r"worker tcp://\S+ has no seacrane; install ", told)
+    assert not (study.parent / "out").exists()
+
+
+def test_an_address_where_nothing_answers(study: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    pytest.importorskip("distributed", reason="needs the extra ensemble")
+    address = "tcp://127.0.0.1:9"
+    assert main(["study", str(study), "--out", str(study.parent / "out"), "--dask", address]) == 1
+    assert f"--dask {address}: no scheduler answers" in capsys.readouterr().err
+
+
+class Elsewhere(Executor):
+    """Workers to which the package is unknown."""
+
+    def submit(self, *_: Any, **__: Any) -> Future[Any]:  # type: ignore[override]
+        failed: Future[Any] = Future()
+        failed.set_exception(ModuleNotFoundError("No module named 'seacrane'", name="seacrane"))
+        return failed
+
+
+def test_an_executor_without_seacrane_is_named(study: Path) -> None:
+    with pytest.raises(WorkerVersionError, match=r"a worker has no seacrane .* install it there"):
+        run_study(study, study.parent / "out", executor=Elsewhere())
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        (["--workers", "0"], "--workers is 0"),
+        (["--workers", "2", "--dask", "tcp://127.0.0.1:9"], "leave one out"),
+    ],
+)
+def test_options_that_make_no_sense(
+    options: list[str], message: str, study: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["study", str(study), "--out", str(study.parent / "out"), *options]) == 1
+    assert message in capsys.readouterr().err
+
+
+def test_the_schema_is_current_and_knows_the_study() -> None:
+    assert schema_path("study").read_text(encoding="utf-8") == study_schema_text()
+    jsonschema = pytest.importorskip("jsonschema", reason="needs the package 'jsonschema'")
+    tomllib = pytest.importorskip("tomllib", reason="needs Python 3.11")
+    jsonschema.Draft7Validator.check_schema(study_schema())
+    check = jsonschema.Draft7Validator(json.loads(study_schema_text()))
+    assert not list(check.iter_errors(tomllib.loads(STUDY)))
+    for old, new in (("[over]", "[ovr]"), ("after_s", "after"), ("count = 40", "cont = 40"), ("0.25", "2")):
+        assert list(check.iter_errors(tomllib.loads(STUDY.replace(old, new, 1)))), old
+
+
+def test_a_file_is_read_without_its_lift(study: Path) -> None:
+    (study.parent / "ship.toml").unlink()
+    read = StudyFile.load(study)
+    assert len(read.members) == 80
+    assert read.until == {"heave.mpm": 0.25}
+    assert np.array_equal(list(read.over["seed"]), np.arange(1, 41))

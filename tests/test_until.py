@@ -1,0 +1,171 @@
+"""Ensembles that grow by seeds until a statistic is known: where they stop, and that nothing changes it."""
+
+from __future__ import annotations
+
+import warnings
+from concurrent.futures import Executor, ProcessPoolExecutor, ThreadPoolExecutor
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from ensemble_studies import bad_storm, lowest, storm, storm_that_kills
+
+from seacrane import (
+    Ensemble,
+    FewSeedsWarning,
+    Kept,
+    SceneError,
+    SimulationError,
+    ensemble,
+    seed_extremes,
+)
+from seacrane.ensembles.growing import BATCH
+from seacrane.ensembles.targets import WIDENED, Target
+
+RUN: dict[str, Any] = {"t_end": 1.0, "rtol": 1e-3, "dt_out": 0.5}
+REACH = Kept(channel="position", what="maximum", at={"body": "bob", "axis": "x"})
+KEEP = {"reach": REACH}
+OVER = {"height": [0.4, 1.0], "seed": range(1, 401)}
+UNTIL = {"reach.mpm": 0.06}
+
+
+@pytest.fixture(scope="module")
+def grown() -> Ensemble:
+    return ensemble(storm, over=OVER, keep=KEEP, until=UNTIL, **RUN)
+
+
+def test_every_cell_stops_where_it_is_narrow_enough(grown: Ensemble) -> None:
+    calm, rough = grown.certainty
+    assert (calm.parameters, rough.parameters) == ({"height": 0.4}, {"height": 1.0})
+    assert calm.seeds < rough.seeds == grown.dataset.sizes["seed"]
+    for one in (calm, rough):
+        assert one.seeds % BATCH == 0
+        assert one.half_width <= one.asked == 0.06
+        values = grown.dataset.reach.sel(one.parameters).to_numpy()
+        assert np.isfinite(values).sum() == one.seeds
+        found = seed_extremes(values[: one.seeds], duration=1.0).gumbel.mpm
+        assert one.estimate.value == found.value
+        assert one.estimate.half_width == pytest.approx(WIDENED * found.half_width)
+        assert one.static == pytest.approx(grown.dataset.reach_mean.sel(one.parameters).mean())
+    values = grown.dataset.reach.sel(height=1.0).to_numpy()[: rough.seeds - BATCH]
+    before = seed_extremes(values, duration=1.0).gumbel.mpm
+    assert WIDENED * before.half_width / (before.value - 0.5 * values.mean()) > 0.06
+    assert set(grown.dataset.failure.sel(height=0.4).to_numpy()[calm.seeds :]) == {"not run"}
+
+
+@pytest.mark.parametrize(("pool", "pack"), [(ThreadPoolExecutor, 3), (ProcessPoolExecutor, None)])
+def test_it_is_the_same_to_the_bit(
+    pool: type[Executor], pack: int | None, grown: Ensemble, tmp_path: Path
+) -> None:
+    store = tmp_path / "store"
+    with pool(2) as executor:  # type: ignore[call-arg]
+        there = ensemble(
+            storm, over=OVER, keep=KEEP, until=UNTIL, executor=executor, pack=pack, store=store, **RUN
+        )
+    assert there.dataset.identical(grown.dataset)
+    assert there.certainty == grown.certainty
+    assert Ensemble.load(store).dataset.identical(grown.dataset)
+    for path in sorted(store.glob("pack_*"))[3::2]:
+        path.unlink()
+    again = ensemble(storm, over=OVER, keep=KEEP, until=UNTIL, pack=pack, store=store, **RUN)
+    assert again.dataset.identical(grown.dataset)
+    assert again.certainty == grown.certainty
+
+
+def test_a_narrower_interval_goes_on_from_the_same_store(grown: Ensemble, tmp_path: Path) -> None:
+    store = tmp_path / "store"
+    few = {**OVER, "seed": range(1, 50)}
+    with pytest.warns(FewSeedsWarning, match="40 seeds are the most that over allows, and 1 of 2 statistics"):
+        ensemble(storm, over=few, keep=KEEP, until=UNTIL, store=store, **RUN)
+    kept = {path.name: path.stat().st_mtime_ns for path in store.glob("pack_*")}
+    more = ensemble(storm, over=OVER, keep=KEEP, until=UNTIL, store=store, **RUN)
+    assert more.dataset.identical(grown.dataset)
+    assert all((store / name).stat().st_mtime_ns == time for name, time in kept.items())
+    wider = ensemble(storm, over=OVER, keep=KEEP, until={"reach.mpm": 0.5}, store=store, **RUN)
+    assert [one.seeds for one in wider.certainty] == [BATCH, BATCH]
+    assert wider.dataset.sizes["seed"] == BATCH
+
+
+def test_a_lost_worker_loses_members_in_flight_alone(tmp_path: Path) -> None:
+    over = {"seed": range(1, 41), "mark": [str(tmp_path / "mark")]}
+    given: dict[str, Any] = {"over": over, "keep": KEEP, "until": {"reach.mean": 0.2}, **RUN}
+    store = tmp_path / "store"
+    with ProcessPoolExecutor(2) as executor, pytest.raises(SimulationError, match="lost with its worker"):
+        ensemble(storm_that_kills, executor=executor, store=store, **given)
+    before = {path.name for path in store.glob("pack_*")}
+    assert 0 < len(before) < BATCH // 2
+    with ProcessPoolExecutor(2) as executor:
+        resumed = ensemble(storm_that_kills, executor=executor, store=store, **given)
+    assert resumed.certainty == ensemble(storm_that_kills, **given).certainty
+
+
+def test_failures_do_not_count(tmp_path: Path) -> None:
+    over = {"seed": range(1, 101), "height": [1.0, 2.0]}
+    there = ensemble(bad_storm, over=over, keep=KEEP, until={"reach.mean": 0.2}, **RUN)
+    (one,) = there.certainty  # of the other, every member of the first batch failed
+    assert one.seeds == BATCH - 1
+    assert there.dataset.sizes["seed"] == BATCH
+    with pytest.raises(SimulationError, match=r"member 4 \(seed=3, height=1.0\) failed"):
+        ensemble(bad_storm, over=over, keep=KEEP, until={"reach.mean": 0.2}, on_error="raise", **RUN)
+
+
+def test_smallest_values_are_those_of_the_channel_with_its_sign_changed() -> None:
+    values = np.random.default_rng(3).gumbel(5.0, 1.0, 40)
+    given: dict[str, Any] = {"variable": "x", "half_width": 0.1, "gumbel": True}
+    for number in ("mpm", "mean", "p90"):
+        up = Target(number=number, **given).estimate(values)
+        down = Target(number=number, sign=-1.0, **given).estimate(-values)
+        assert (down.value, down.low, down.high) == (-up.value, -up.high, -up.low)
+
+
+def test_values_without_scatter_are_known() -> None:
+    one = Target(variable="x", number="mpm", half_width=0.1, gumbel=True).estimate(np.full(20, 3.0))
+    assert (one.value, one.half_width) == (3.0, 0.0)
+
+
+@pytest.mark.parametrize("number", ["mpm", "mean"])
+def test_intervals_cover_after_stopping(number: str) -> None:
+    """Sequential stopping undercovers; widened intervals hold the truth in 95 % of 400 ensembles."""
+    target = Target(variable="x", number=number, half_width=0.04, gumbel=True)
+    random, scale = np.random.default_rng(5), 0.12
+    truth = 1.0 + (scale * np.euler_gamma if number == "mean" else 0.0)
+    inside = 0
+    for _ in range(400):
+        maxima = random.gumbel(1.0, scale, 400)
+        for count in range(BATCH, 401, BATCH):
+            found = target.estimate(maxima[:count])
+            if found.half_width <= 0.04 * found.value:
+                break
+        inside += found.low <= truth <= found.high
+    assert 0.925 <= inside / 400 <= 0.985
+
+
+@pytest.mark.parametrize(
+    ("given", "message"),
+    [
+        ({"until": {}}, "until is {}"),
+        ({"until": {"reach": 0.02}}, "'reach' is no statistic; give '<kept>.<number>'"),
+        ({"until": {"reech.mpm": 0.02}}, "nothing is kept as 'reech'; nearest: 'reach'"),
+        ({"until": {"reach.p99": 0.02}}, "'p99' is no number of it; choose from mpm, mean, p90"),
+        ({"until": {"drift.mpm": 0.02}}, "choose from mean"),
+        ({"until": {"reach.mpm": 2}}, "reach.mpm is 2; give a share"),
+        ({"until": {"track.mean": 0.1}}, "track is a series"),
+        ({"until": {"all.mpm": 0.1}}, "all is several numbers; keep one of them: give at with body= one of"),
+        ({"over": {"height": [1.0]}}, "until adds seeds, and over has none"),
+        ({"over": [{"seed": 1}]}, "until adds seeds, and over has none"),
+        ({"over": {"seed": range(1, 60, 2)}}, "seed has gaps"),
+        ({"over": {"seed": range(1, 11)}}, "seed has 10 values and a batch takes 20"),
+        ({"keep": {"reach": REACH, "reach_mean": lowest}}, "'reach_mean' is that of the static part"),
+    ],
+)
+def test_bad_input_is_named(given: dict[str, Any], message: str) -> None:
+    keep = {
+        "reach": REACH,
+        "drift": Kept(channel="position", what="mean", at={"body": "bob", "axis": "x"}),
+        "track": Kept(channel="position", at={"body": "bob", "axis": "x"}),
+        "all": Kept(channel="position", what="maximum"),
+    }
+    usual: dict[str, Any] = {"over": {"seed": range(1, 41)}, "keep": keep, "until": UNTIL, **RUN}
+    with pytest.raises(SceneError, match=message), warnings.catch_warnings():
+        ensemble(storm, **{**usual, **given})
