@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from copy import copy
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -10,10 +11,11 @@ from numpy.typing import NDArray
 
 from seacrane import _core
 from seacrane._core import integrator
-from seacrane.description.compilation import compiled
+from seacrane.description.compilation import compiled, compiled_in_sea
 from seacrane.description.loads import lines_of
 from seacrane.description.references import check_references
 from seacrane.description.stretch import QUASI_STATIC, automatic, with_stretch
+from seacrane.description.waves import Waves
 from seacrane.errors import SceneError, SeacraneError, SimulationError
 from seacrane.files.state_parts import with_present_inputs
 from seacrane.inputs.checked import number_of
@@ -42,7 +44,7 @@ from seacrane.run.method import Method
 from seacrane.run.output_times import output_times
 from seacrane.run.outputs import Outputs
 from seacrane.run.shorthand import Shorthand, settled
-from seacrane.run.stats import settings_of, stats_of
+from seacrane.run.stats import lasting_stats, settings_of, stats_of
 from seacrane.scene.scene import Scene
 from seacrane.validity.plausible import warn_of_description
 from seacrane.validity.range import Finding, as_text, findings
@@ -119,14 +121,53 @@ class Run:
         self.settings = settings_of(self.scene, self.t_end, self.method, self.outputs)
         require_limited_channels(self.scene, self.model)
         require_names(self.scene, self.outputs.channels or ())
-        self.core = _simulation(self, capacity)
+        self._prepare()
+        self._require_plain_stats()
+
+    def in_sea(self, waves: Waves, *, capacity: int | None = None) -> Run:
+        """A run of the same scene in another sea, by the same method, with the same outputs.
+
+        It is the run that ``Run(scene.copy(waves=waves), ...)`` makes, to the bit, at a small part of its
+        cost: what does not depend on the sea is neither checked nor compiled again.
+
+        Parameters
+        ----------
+        waves : Waves
+            On the same vessels, at the same kind of position.
+        capacity : int, optional
+            As of `Run`.
+
+        Raises
+        ------
+        SceneError
+            For a sea on other vessels, or a scene without a sea.
+        """
+        if self.scene.waves is None:
+            raise SceneError(f"scene {self.scene.name!r}: has no sea to be replaced; make a run of its own")
+        given = self._given.copy(waves=waves)
+        if self.rungs:  # which depend on the sea
+            return Run(
+                given, self.t_end, method=self.method, outputs=self.outputs, start=self._given_start,
+                outputs_from=self.first, capacity=capacity,
+            )  # fmt: skip
+        out = copy(self)
+        out.scene = given if self.scene is self._given else self.scene.copy(waves=waves)
+        out._given, out._capacity = given, capacity
+        out.model = compiled_in_sea(out.scene, self.model)
+        out.start = out._started()
+        out.settings = settings_of(out.scene, out.t_end, out.method, out.outputs)
+        out._prepare()
+        return out
+
+    def _prepare(self) -> None:
+        """What changes while it runs."""
+        self.core = _simulation(self, self._capacity)
         if self.scene.waves is not None:
             self.scene.waves.warn_of_repeats(self.t_end - self.start.time)
         self.interrupted = False
         self.steered = steered(self.scene, self.model, self.start.inputs)
         self.slow: list[Finding] = []  # what made the run slow, or a mode of it grow, known at its end
         self.slack: list[Finding] = []  # what made it begin anew
-        self._require_plain_stats()
 
     def _chosen_rungs(self, model: _core.Model | None) -> Mapping[str, LineRung]:
         if model is not None:
@@ -141,14 +182,17 @@ class Run:
         stretches = {name: rung.stretch for name, rung in self.rungs.items()}
         scene = with_stretch(self._given, stretches)
         self.scene, self.model, self.formulation = stepped(scene, model, self.method)
-        start = self._given_start
-        if start is not None:
-            start = with_present_inputs(start, self.model)
-        if start is None:
-            start = _core.initial_state(self.model)
-        elif self._differs_by_rungs(start):
-            start = carried(start, compiled(self._given, merge=True), self.model)
-        self.start = start
+        self.start = self._started()
+        self._lasting = lasting_stats(self.scene, self.model, self.formulation, self.method)
+
+    def _started(self) -> _core.State:
+        """The state at the start."""
+        if self._given_start is None:
+            return _core.initial_state(self.model)
+        start = with_present_inputs(self._given_start, self.model)
+        if self._differs_by_rungs(start):
+            return carried(start, compiled(self._given, merge=True), self.model)
+        return start
 
     def _differs_by_rungs(self, start: _core.State) -> bool:
         """Whether a state holds what the model has but for what the rungs of lines add."""
@@ -269,7 +313,7 @@ class Run:
         """Version, settings and counters so far: `Result.stats`."""
         told = {"line_rungs": as_told(self.rungs)} if self.rungs else {}
         return told | stats_of(
-            self.scene, self.model, self.formulation, self.method, self.settings, self.core, self.start.time
+            self._lasting, self.scene.waves, self.settings, self.core, self.start.time
         )
 
     def result(self) -> Result:
