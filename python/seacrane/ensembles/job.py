@@ -9,12 +9,12 @@ from typing import Any
 
 from seacrane.ensembles.members import Value
 from seacrane.ensembles.outcome import Outcome
+from seacrane.ensembles.prepared import Prepared
 from seacrane.ensembles.study import Study
 from seacrane.errors import SeacraneError
 from seacrane.run.advance import drive
 from seacrane.run.controller_calls import Calls
 from seacrane.run.interrupts import Interrupts
-from seacrane.run.run import Run
 from seacrane.version import __version__
 
 Pack = tuple[tuple[int, Mapping[str, Value]], ...]
@@ -29,6 +29,7 @@ class Job:
 
     def __init__(self, study: Study) -> None:
         self.study = study
+        self._prepared = Prepared(study)
 
     @cached_property
     def _data(self) -> bytes:
@@ -62,8 +63,7 @@ class Job:
             return Outcome(index=index, failure=f"{type(error).__name__}: {error}")
 
     def _run(self, index: int, values: Mapping[str, Value]) -> Outcome:
-        study = self.study
-        run = Run(study.scene(values), study.t_end, method=study.method, outputs=study.outputs)
+        run = self._prepared.run(values)
         with Interrupts() as interrupts:
             drive(run, Calls((), run.start.time), interrupts)
         interrupts.take()  # pressed as the run ended: the members after it are not to be run
@@ -71,7 +71,7 @@ class Job:
             raise KeyboardInterrupt
         result = run.result()
         return Outcome(
-            index=index, kept=study.kept_of(result), validity=str(result.stats.get("validity", ""))
+            index=index, kept=self.study.kept_of(result), validity=str(result.stats.get("validity", ""))
         )
 
 
