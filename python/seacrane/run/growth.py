@@ -11,14 +11,14 @@ from numpy.polynomial import Polynomial
 from numpy.typing import NDArray
 
 from seacrane import _core
-from seacrane.analysis.linearise import LARGEST, jacobian
+from seacrane.analysis.linearise import LARGEST
+from seacrane.run.modes import Modes, Oscillations
 from seacrane.run.stiffness import fewest_steps
 from seacrane.validity.range import Finding
 
 HOUR = 3600.0  # s
 FEWEST_STEPS = 2000  # fewer are no matter
 LEAST_GROWTH = np.log(3.0)  # of the amplitude over the run
-MOST_DAMPING = 0.05  # ratio: what is damped more, waves and drives keep in bounds
 LOOSE = 1e-3  # rtol from which on step control lets a mode ring as much as matters
 LEAST_SEEN = 0.1  # frequency times step: below, growth is rounding
 LONGER = 1.15  # steps that step control tries now and then, over their mean
@@ -49,11 +49,7 @@ class _Growth:
 
 
 def growing(
-    model: _core.Model,
-    bodies: list[str],
-    states: list[_core.State],
-    stats: Mapping[str, Any],
-    undamped: Collection[str] = (),
+    modes: Modes, stats: Mapping[str, Any], *, undamped: Collection[str] = (), near: float = 1.0
 ) -> list[Finding]:
     """The mode that a method feeds, looked for only where there are many steps.
 
@@ -63,28 +59,28 @@ def growing(
 
     Parameters
     ----------
-    model : Model
-    bodies : list of str
-        Their names, in the order of the model.
-    states : list of State
-        Where to look, with speeds of zero; the mode counts that grows most.
+    modes : Modes
+        At rest in the poses of the states; the mode counts that grows most.
     stats : mapping
         Of the run: `Result.stats`.
     undamped : collection of str
         Bodies whose damping the linear model lacks, whose modes are not judged.
+    near : float
+        Share of the limits, and of what damps the modes, from which on it is told.
     """
     integrator, steps = str(stats["integrator"]), int(stats["steps"])
     polynomial = _core.stability_polynomial(integrator)
-    if not polynomial or steps < fewest_steps(model.states, FEWEST_STEPS) or model.states > LARGEST:
+    states = modes.model.states
+    if not polynomial or steps < fewest_steps(states, FEWEST_STEPS) or states > LARGEST:
         return []
     duration = float(stats["simulated_s"])
     step, tolerance = duration / steps, float(stats["settings"]["rtol"])
-    judged = [_modes(model, bodies, state, Polynomial(polynomial), step, undamped) for state in states]
+    judged = [_judged(at, Polynomial(polynomial), step, near, undamped) for at in modes.oscillations]
     every = [one for found in judged for one in found]
     adapts = _core.integrator(integrator).setting == "rtol"
     fix = FIX.format(setting="rtol" if adapts else "dt")
     worst = max(every, key=lambda one: one.rate, default=None)
-    if worst is not None and worst.rate * duration >= LEAST_GROWTH:
+    if worst is not None and worst.rate * duration >= near * LEAST_GROWTH:
         text = (
             f"run: {integrator} makes an oscillation of body {worst.body!r} grow by a factor of "
             f"{np.exp(min(worst.rate * HOUR, 99.0)):.3g} an hour: {worst.words}, which its steps of "
@@ -102,28 +98,12 @@ def growing(
     return []
 
 
-def _modes(
-    model: _core.Model,
-    bodies: list[str],
-    state: _core.State,
-    polynomial: Polynomial,
-    step: float,
-    undamped: Collection[str],
+def _judged(
+    at: Oscillations, polynomial: Polynomial, step: float, near: float, undamped: Collection[str]
 ) -> list[_Growth]:
-    """Oscillations with little damping, at rest in a pose, under a method with this stability polynomial."""
-    first = (6 if model.euler_angles else 7) * len(bodies)
-    speeds = slice(first, first + 6 * len(bodies))
-    values = np.array(state.values)
-    values[speeds] = 0.0
-    matrix = jacobian(model, state=values, time=state.time)
-    if not bodies or not np.all(np.isfinite(matrix)):
-        return []
-    modes, shapes = np.linalg.eig(matrix)
-    little = (modes.imag > 0.0) & (np.abs(modes.real) < MOST_DAMPING * np.abs(modes))
-    modes, shapes = modes[little], shapes[:, little]
-    scale = np.array(model.scale)
-    sizes = (np.abs(shapes) / scale[np.isfinite(scale), None])[speeds]
-    own = np.minimum(modes.real, 0.0)
+    """What steps of a method with this stability polynomial make of them."""
+    modes = at.values
+    own = near * np.minimum(modes.real, 0.0)
     fed, longer = added(polynomial, modes, step), added(polynomial, modes, LONGER * step)
     found = [
         _Growth(
@@ -131,7 +111,7 @@ def _modes(
             rings=bool(fed[i] > 0.0 and longer[i] + own[i] > 0.0 and abs(modes[i]) * step > LEAST_SEEN),
             frequency=float(modes[i].imag),
             damping_ratio=float(-modes[i].real / np.abs(modes[i])),
-            body=bodies[int(sizes[:, i].argmax()) // 6],
+            body=at.bodies[i],
         )
         for i in range(modes.size)
     ]

@@ -41,6 +41,7 @@ from seacrane.run.line_rungs import (
     line_rungs,
 )
 from seacrane.run.method import Method
+from seacrane.run.modes import Modes
 from seacrane.run.output_times import output_times
 from seacrane.run.outputs import Outputs
 from seacrane.run.shorthand import Shorthand, settled
@@ -87,6 +88,8 @@ class Run:
         As given, or their defaults.
     settings : dict
         Method and outputs by the words of `simulate`, as results record them.
+    start_modes : Modes or None
+        At the start that runs made by `in_sea` have in common; None for a run by itself.
     rungs : mapping of str to LineRung
         What lines with stretch="auto" are in this run, and why.
     core : Simulation
@@ -121,6 +124,8 @@ class Run:
         self.settings = settings_of(self.scene, self.t_end, self.method, self.outputs)
         require_limited_channels(self.scene, self.model)
         require_names(self.scene, self.outputs.channels or ())
+        self._own_modes = Modes(self.model, list(self.scene.bodies), [self.start])
+        self.start_modes: Modes | None = None
         self._prepare()
         self._require_plain_stats()
 
@@ -128,7 +133,8 @@ class Run:
         """A run of the same scene in another sea, by the same method, with the same outputs.
 
         It is the run that ``Run(scene.copy(waves=waves), ...)`` makes, to the bit, at a small part of its
-        cost: what does not depend on the sea is neither checked nor compiled again.
+        cost: what does not depend on the sea is neither checked nor compiled again, and modes that make a
+        run slow, or grow, are first looked for at the common start.
 
         Parameters
         ----------
@@ -156,6 +162,7 @@ class Run:
         out.model = compiled_in_sea(out.scene, self.model)
         out.start = out._started()
         out.settings = settings_of(out.scene, out.t_end, out.method, out.outputs)
+        out.start_modes = self.start_modes or self._own_modes
         out._prepare()
         return out
 
