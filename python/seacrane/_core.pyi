@@ -2027,6 +2027,10 @@ class Model:
         """
         How many numbers one output of these channels holds.
         """
+    def in_sea(self, wave_loads: collections.abc.Sequence[WaveLoads]) -> Model:
+        """
+        The model of the same scene with other wave loads on the same vessels, as compiling it again gives. Raises SceneError.
+        """
     def pose_index(self, body: typing.SupportsInt | typing.SupportsIndex) -> int:
         ...
     def twist_index(self, body: typing.SupportsInt | typing.SupportsIndex) -> int:
@@ -2825,3 +2829,7 @@ def torsethaugen(*, hs: typing.SupportsFloat | typing.SupportsIndex, tp: typing.
     quadrature instead of the fitted factor A_gamma.
     """
 LOAD_KINDS: dict = {'heave compensator': HeaveCompensator, 'actuator': Actuator, 'point force': PointForce, 'spring': Spring, 'force table': ForceTable, 'function force': FunctionForce, 'flow force': FlowForce, 'friction': Friction, 'soft stop': SoftStop, 'line': Line, 'gas spring': GasSpring, 'pendulum damping': PendulumDamping, 'span drag': SpanDrag, 'limit': Limit}
+def weighted_sums(weights: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], values: typing.Annotated[numpy.typing.ArrayLike, numpy.complex128]) -> numpy.typing.NDArray[numpy.complex128]:
+    """
+    Complex sums (q, d) of weights (q, n) times values (n, d), or (q, n, d), term by term in their order. Raises ValueError for other shapes.
+    """

@@ -7,6 +7,7 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from seacrane import _core
 from seacrane.errors import SceneError
 from seacrane.hydro.data.heading_circle import LARGEST_HEADING_GAP, PORT_STARBOARD, both_sides, largest_gap
 from seacrane.hydro.data.hydro_data import HydroData
@@ -37,16 +38,16 @@ def force_at(
             "outside='limits'"
         )
     in_frequency = spline_weights(database.omega, np.clip(w, database.omega[0], database.omega[-1]))
-    force = np.einsum("qn,qnd->qd", in_frequency, _by_heading(database, b))
+    force = _core.weighted_sums(in_frequency, _by_heading(database, b))
     return with_limits(database, w, force).reshape(*shape, 6)
 
 
 def _by_heading(database: HydroData, heading: FloatArray) -> ComplexArray:
-    """Forces (q, n, 6) at headings (q,) and the database's frequencies (n,)."""
+    """Forces (q, n, 6) at headings (q,) and the database's frequencies (n,); (n, 6) where all are equal."""
     if heading.size and np.all(heading == heading[0]):  # long-crested seas, one seed after another
         one = _of_equal_headings(database, float(heading[0]), heading.size)
         if one is not None:
-            return np.broadcast_to(one, (heading.size, *one.shape)).copy()
+            return one
     return _interpolated_in_heading(database, heading)
 
 
