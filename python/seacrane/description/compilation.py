@@ -62,6 +62,8 @@ def compile_scene(scene: Description, *, merge: bool = True) -> _core.Model:
 def compiled_in_sea(scene: Description, model: _core.Model) -> _core.Model:
     """The model of a scene, from that of the same scene in another sea: nothing but the sea is compiled.
 
+    The scene belongs to the model from now on: it is not to be changed.
+
     Raises
     ------
     SceneError
@@ -70,7 +72,7 @@ def compiled_in_sea(scene: Description, model: _core.Model) -> _core.Model:
     assert scene.waves is not None
     _, merge = model.compiled_from
     out = model.in_sea(compiled_waves(scene.waves, prune=merge))
-    out.compiled_from = (scene.copy(), merge)
+    out.compiled_from = (scene, merge)
     return out
 
 

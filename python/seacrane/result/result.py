@@ -241,16 +241,19 @@ class Result(Mapping[str, Array]):
             given twice, or a missing stat.
         """
         checked_time = _checked_time(time)
-        names = {dim: _checked_names(dim, given) for dim, given in coords.items()} | dict(FIXED)
         gaps = interrupted or "stages" in stats  # where elements come and go
-        channels = {}
-        for name, values in arrays.items():
+        for name in arrays:
             if name not in CHANNELS:
                 raise ValueError(f"channel {name!r} is unknown; choose from {', '.join(CHANNELS)}")
-            dims = CHANNELS[name].dims_of(np.ndim(values))
+        all_dims = {name: CHANNELS[name].dims_of(np.ndim(values)) for name, values in arrays.items()}
+        used = dict.fromkeys(dim for dims in all_dims.values() for dim in dims[1:])
+        given = {dim: _checked_names(dim, coords[dim]) for dim in used if dim in coords}
+        names = given | dict(FIXED)
+        channels = {}
+        for name, values in arrays.items():
+            dims = all_dims[name]
             shape = (checked_time.size, *(len(names.get(dim, ())) for dim in dims[1:]))
             channels[name] = _checked_array(name, values, shape, gaps)
-        used = dict.fromkeys(dim for dims in _dims(channels).values() for dim in dims[1:])
         return cls(
             time=checked_time,
             channels=channels,

@@ -16,6 +16,7 @@ from seacrane.run.modes import Modes, Oscillations
 from seacrane.run.stiffness import fewest_steps
 from seacrane.validity.range import Finding
 
+Array = NDArray[np.float64]
 HOUR = 3600.0  # s
 FEWEST_STEPS = 2000  # fewer are no matter
 LEAST_GROWTH = np.log(3.0)  # of the amplitude over the run
@@ -34,18 +35,16 @@ class GrowingModeWarning(UserWarning):
 
 @dataclass(frozen=True, kw_only=True)
 class _Growth:
-    """What steps make of a mode's amplitude: rates in 1/s, at the mean step and at longer ones."""
+    """What steps make of the amplitudes of oscillations: rates in 1/s, and whether longer steps feed them."""
 
-    rate: float
-    rings: bool
-    frequency: float
-    damping_ratio: float
-    body: str
+    at: Oscillations
+    rates: Array
+    rings: NDArray[np.bool_]
 
-    @property
-    def words(self) -> str:
-        damping = abs(max(self.damping_ratio, 0.0))
-        return f"a mode of {self.frequency:.4g} rad/s with {damping:.2g} of critical damping"
+    def words(self, one: int) -> str:
+        value = self.at.values[one]
+        damping = abs(max(float(-value.real / np.abs(value)), 0.0))
+        return f"a mode of {float(value.imag):.4g} rad/s with {damping:.2g} of critical damping"
 
 
 def growing(
@@ -76,23 +75,24 @@ def growing(
     duration = float(stats["simulated_s"])
     step, tolerance = duration / steps, float(stats["settings"]["rtol"])
     judged = [_judged(at, Polynomial(polynomial), step, near, undamped) for at in modes.oscillations]
-    every = [one for found in judged for one in found]
     adapts = _core.integrator(integrator).setting == "rtol"
     fix = FIX.format(setting="rtol" if adapts else "dt")
-    worst = max(every, key=lambda one: one.rate, default=None)
-    if worst is not None and worst.rate * duration >= near * LEAST_GROWTH:
+    worst = max((one for one in judged if one.rates.size), key=lambda one: one.rates.max(), default=None)
+    if worst is not None and worst.rates.max() * duration >= near * LEAST_GROWTH:
+        one = int(worst.rates.argmax())
         text = (
-            f"run: {integrator} makes an oscillation of body {worst.body!r} grow by a factor of "
-            f"{np.exp(min(worst.rate * HOUR, 99.0)):.3g} an hour: {worst.words}, which its steps of "
-            f"{step:.3g} s on average outweigh. {fix}"
+            f"run: {integrator} makes an oscillation of body {worst.at.bodies[one]!r} grow by a factor of "
+            f"{np.exp(min(float(worst.rates[one]) * HOUR, 99.0)):.3g} an hour: {worst.words(one)}, which its "
+            f"steps of {step:.3g} s on average outweigh. {fix}"
         )
         return [(GrowingModeWarning, text)]
-    ringing = next((one for one in every if one.rings), None)
+    ringing = next((one for one in judged if one.rings.any()), None)
     if ringing is not None and adapts and tolerance >= LOOSE:
+        one = int(ringing.rings.argmax())
         text = (
-            f"run: {integrator} at rtol {tolerance:g} keeps an oscillation of body {ringing.body!r} ringing: "
-            f"{ringing.words}, which grows with steps a little longer than those of {step:.3g} s on average, "
-            f"until it comes to the tolerance. {fix}"
+            f"run: {integrator} at rtol {tolerance:g} keeps an oscillation of body {ringing.at.bodies[one]!r} "
+            f"ringing: {ringing.words(one)}, which grows with steps a little longer than those of {step:.3g} s "
+            f"on average, until it comes to the tolerance. {fix}"
         )
         return [(GrowingModeWarning, text)]
     return []
@@ -100,25 +100,18 @@ def growing(
 
 def _judged(
     at: Oscillations, polynomial: Polynomial, step: float, near: float, undamped: Collection[str]
-) -> list[_Growth]:
+) -> _Growth:
     """What steps of a method with this stability polynomial make of them."""
     modes = at.values
     own = near * np.minimum(modes.real, 0.0)
-    fed, longer = added(polynomial, modes, step), added(polynomial, modes, LONGER * step)
-    found = [
-        _Growth(
-            rate=float(fed[i] + own[i]),
-            rings=bool(fed[i] > 0.0 and longer[i] + own[i] > 0.0 and abs(modes[i]) * step > LEAST_SEEN),
-            frequency=float(modes[i].imag),
-            damping_ratio=float(-modes[i].real / np.abs(modes[i])),
-            body=at.bodies[i],
-        )
-        for i in range(modes.size)
-    ]
-    return [one for one in found if one.body not in undamped]
+    fed = added(polynomial, modes, step)
+    judged = np.array([body not in undamped for body in at.bodies], dtype=bool)
+    rings = (fed > 0.0) & (np.abs(modes) * step > LEAST_SEEN) & judged
+    rings[rings] = added(polynomial, modes[rings], LONGER * step) + own[rings] > 0.0
+    return _Growth(at=at, rates=np.where(judged, fed + own, -np.inf), rings=rings)
 
 
-def added(polynomial: Polynomial, modes: NDArray[np.complex128], step: float) -> NDArray[np.float64]:
+def added(polynomial: Polynomial, modes: NDArray[np.complex128], step: float) -> Array:
     """Rates (1/s) by which steps change amplitudes beyond what the modes do by themselves."""
     z = step * modes
     return np.asarray(np.log(np.abs(polynomial(z))) - z.real) / step

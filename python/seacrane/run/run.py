@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from copy import copy
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -126,6 +127,7 @@ class Run:
         require_names(self.scene, self.outputs.channels or ())
         self._own_modes = Modes(self.model, list(self.scene.bodies), [self.start])
         self.start_modes: Modes | None = None
+        self._lasting = _Lasting.of(self)
         self._prepare()
         self._require_plain_stats()
 
@@ -168,11 +170,11 @@ class Run:
 
     def _prepare(self) -> None:
         """What changes while it runs."""
-        self.core = _simulation(self, self._capacity)
+        self.core = _simulation(self, self._lasting, self._capacity)
         if self.scene.waves is not None:
             self.scene.waves.warn_of_repeats(self.t_end - self.start.time)
         self.interrupted = False
-        self.steered = steered(self.scene, self.model, self.start.inputs)
+        self.steered = set(self._lasting.steered)
         self.slow: list[Finding] = []  # what made the run slow, or a mode of it grow, known at its end
         self.slack: list[Finding] = []  # what made it begin anew
 
@@ -190,7 +192,6 @@ class Run:
         scene = with_stretch(self._given, stretches)
         self.scene, self.model, self.formulation = stepped(scene, model, self.method)
         self.start = self._started()
-        self._lasting = lasting_stats(self.scene, self.model, self.formulation, self.method)
 
     def _started(self) -> _core.State:
         """The state at the start."""
@@ -215,7 +216,8 @@ class Run:
         """From the start, with elastic lines in the place of those whose stretch is automatic."""
         self.rungs = begun_anew(self.rungs, reason)
         self._step(None)
-        self.core = _simulation(self, self._capacity)
+        self._lasting = _Lasting.of(self)
+        self.core = _simulation(self, self._lasting, self._capacity)
 
     def __repr__(self) -> str:
         method = f"{self.formulation}, {self.method.integrator}"
@@ -319,9 +321,8 @@ class Run:
     def stats(self) -> dict[str, Any]:
         """Version, settings and counters so far: `Result.stats`."""
         told = {"line_rungs": as_told(self.rungs)} if self.rungs else {}
-        return told | stats_of(
-            self._lasting, self.scene.waves, self.settings, self.core, self.start.time
-        )
+        waves = self.scene.waves
+        return told | stats_of(self._lasting.stats, waves, self.settings, self.core, self.start.time)
 
     def result(self) -> Result:
         """What has been recorded so far, with what is out of range in its stats."""
@@ -345,7 +346,7 @@ class Run:
             result = Result.from_arrays(
                 time=arrays["time"],
                 arrays=channels,
-                coords={**self.model.axes, **derived_coords(scene)},
+                coords=self._lasting.coords,
                 events=self.events(),
                 stats=stats,
                 interrupted=self.interrupted,
@@ -368,19 +369,52 @@ def _checked_state(given: Any) -> _core.State | None:
     return given
 
 
-def _simulation(run: Run, capacity: int | None) -> _core.Simulation:
+@dataclass(frozen=True, kw_only=True)
+class _Lasting:
+    """What holds for a run from its start to its end, and for those of the same scene in other seas.
+
+    Attributes
+    ----------
+    channels : set of str
+        Of the core, that are recorded.
+    values : int
+        Numbers in one output of them.
+    coords : mapping
+        Names along the dimensions of channels.
+    steered : frozenset of str
+        Actuators whose inputs are not zero at the start.
+    stats : mapping
+        Of `lasting_stats`.
+    """
+
+    channels: set[str]
+    values: int
+    coords: Mapping[str, list[str]]
+    steered: frozenset[str]
+    stats: Mapping[str, Any]
+
+    @classmethod
+    def of(cls, run: Run) -> _Lasting:
+        scene, model, asked = run.scene, run.model, run.outputs.channels
+        if asked is None:
+            asked = (*model.channel_names(), *(state.channel for state in scene.limit_states.values()))
+        channels = core_channels(list(asked), model.channel_names(defaults_only=False))
+        return cls(
+            channels=channels,
+            values=model.channel_values(channels),
+            coords={**model.axes, **derived_coords(scene)},
+            steered=frozenset(steered(scene, model, run.start.inputs)),
+            stats=lasting_stats(scene, model, run.formulation, run.method),
+        )
+
+
+def _simulation(run: Run, lasting: _Lasting, capacity: int | None) -> _core.Simulation:
     """The run in the core."""
-    model, method, outputs = run.model, run.method, run.outputs
-    usual = [*model.channel_names(), *(state.channel for state in run.scene.limit_states.values())]
-    asked = usual if outputs.channels is None else list(outputs.channels)
-    channels = core_channels(asked, model.channel_names(defaults_only=False))
-    times = output_times(
-        run.start.time, run.t_end, outputs.dt, first=run.first,
-        values=model.channel_values(channels) if capacity is None else 0,
-    )  # fmt: skip
+    method, values = run.method, lasting.values if capacity is None else 0
+    times = output_times(run.start.time, run.t_end, run.outputs.dt, first=run.first, values=values)
     options = _core.RunOptions(
         formulation=run.formulation, integrator=method.integrator, scaled_tolerance=method.used_tolerance,
         fixed_step=method.step, max_step=method.max_step, spectral_radius=method.spectral_radius,
-        energy_limit=method.energy_limit, output_times=times, channels=channels, capacity=capacity,
+        energy_limit=method.energy_limit, output_times=times, channels=lasting.channels, capacity=capacity,
     )  # fmt: skip
-    return _core.Simulation(model=model, start=run.start, options=options)
+    return _core.Simulation(model=run.model, start=run.start, options=options)
