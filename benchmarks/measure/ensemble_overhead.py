@@ -1,4 +1,4 @@
-"""What a member of an ensemble costs beside its stepping loop, in the worker that runs it and in the caller."""
+"""What a member of an ensemble costs beside its stepping loop, in its worker and in the caller."""
 
 from __future__ import annotations
 
@@ -86,12 +86,12 @@ def overhead(*, members: int = 12, t_end: float = 10_800.0) -> Section:
     return Section(
         title="Ensemble overhead",
         text=(
-            f"CPU time in ms of one member beside its stepping loop: case 2, {t_end:g} s, default method at rtol "
-            "1e-2, payload every second, another seed for each. In the worker: sea, start, result, what is "
-            "kept, and the executor's part there; median, without the first member of each worker, which "
+            f"CPU time in ms of one member beside its stepping loop: case 2, {t_end:g} s, default method at "
+            "rtol 1e-2, payload every second, another seed for each. In the worker: sea, start, result, what "
+            "is kept, and the executor's part there; median, without the first member of each worker, which "
             "compiles. In the caller: sending and gathering, without what an ensemble takes once. Dask is a "
             f"local cluster, its scheduler in the caller. Load of the machine: {os.getloadavg()[0]:.1f} on "
-            f"{os.cpu_count()} cores."
+            f"{os.cpu_count()} cores; what others do to caches and clocks is in these times."
         ),
         head=["executor", "in the worker, ms", "in the caller, ms", "the loop itself, ms"],
         rows=[_row(kind, members, t_end) for kind in kinds],

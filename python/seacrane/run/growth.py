@@ -80,19 +80,20 @@ def growing(
     worst = max((one for one in judged if one.rates.size), key=lambda one: one.rates.max(), default=None)
     if worst is not None and worst.rates.max() * duration >= near * LEAST_GROWTH:
         one = int(worst.rates.argmax())
+        factor = np.exp(min(float(worst.rates[one]) * HOUR, 99.0))
         text = (
             f"run: {integrator} makes an oscillation of body {worst.at.bodies[one]!r} grow by a factor of "
-            f"{np.exp(min(float(worst.rates[one]) * HOUR, 99.0)):.3g} an hour: {worst.words(one)}, which its "
-            f"steps of {step:.3g} s on average outweigh. {fix}"
+            f"{factor:.3g} an hour: {worst.words(one)}, which its steps of {step:.3g} s on average outweigh. "
+            f"{fix}"
         )
         return [(GrowingModeWarning, text)]
     ringing = next((one for one in judged if one.rings.any()), None)
     if ringing is not None and adapts and tolerance >= LOOSE:
         one = int(ringing.rings.argmax())
         text = (
-            f"run: {integrator} at rtol {tolerance:g} keeps an oscillation of body {ringing.at.bodies[one]!r} "
-            f"ringing: {ringing.words(one)}, which grows with steps a little longer than those of {step:.3g} s "
-            f"on average, until it comes to the tolerance. {fix}"
+            f"run: {integrator} at rtol {tolerance:g} keeps an oscillation of body "
+            f"{ringing.at.bodies[one]!r} ringing: {ringing.words(one)}, which grows with steps a little "
+            f"longer than those of {step:.3g} s on average, until it comes to the tolerance. {fix}"
         )
         return [(GrowingModeWarning, text)]
     return []

@@ -50,7 +50,8 @@ class Modes:
     @cached_property
     def fastest(self) -> Fastest:
         """Of all states; zero where it is not finite."""
-        return max((self._fastest(state) for state in self._states), key=lambda one: (one.mode, one.body, one.time))
+        found = [self._fastest(state) for state in self._states]
+        return max(found, key=lambda one: (one.mode, one.body, one.time))
 
     @cached_property
     def oscillations(self) -> tuple[Oscillations, ...]:
