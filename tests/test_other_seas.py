@@ -17,7 +17,7 @@ from seacrane.ensembles.other_sea import with_sea
 from seacrane.ensembles.paths import with_values
 from seacrane.hydro import DriftCoefficients, HydroDatabase, shipped_database
 from seacrane.hydro.data import excitation
-from seacrane.sea import SeaState, WaveSystem, cos_2s, jonswap
+from seacrane.sea import MeasuredWaves, SeaState, WaveSystem, cos_2s, jonswap, torsethaugen
 
 PATH = {"track": Kept(channel="position", at={"body": "vessel"})}
 
@@ -135,6 +135,42 @@ def test_members_are_what_simulate_gives_in_their_sea(word: str, database: Hydro
         assert np.array_equal(there.dataset.track.sel({word: value}), alone.select("position", body="vessel"))
 
 
+def test_the_seed_of_a_wind_sea_and_swell_varies(database: HydroDatabase) -> None:
+    given: dict[str, Any] = {"t_end": 3.0, "rtol": 1e-3}
+    scene = wind_sea_and_swell(database, 1)
+    there = ensemble(scene, over={"seed": [1, 2]}, keep=PATH, database=database, **given)
+    for seed in (1, 2):
+        alone = simulate(wind_sea_and_swell(database, seed), **given).select("position", body="vessel")
+        assert np.array_equal(there.dataset.track.sel(seed=seed), alone)
+    with pytest.raises(SceneError, match="is a SeaState, of which the seed can vary, and not hs, tp"):
+        ensemble(scene, over={"hs": [1.0], "tp": [8.0]}, keep=PATH, database=database, **given)
+
+
+@pytest.mark.parametrize(
+    ("system", "message"),
+    [
+        (
+            WaveSystem(spectrum=torsethaugen(hs=2.0, tp=9.0), direction_deg=0.0),
+            "'waves' of the sea is a Torse",
+        ),
+        (
+            MeasuredWaves(time=np.arange(20.0), elevation=np.sin(np.arange(20.0)), direction_deg=0.0),
+            "'measured' of the sea is a record",
+        ),
+        (
+            WaveSystem(spectrum=jonswap(hs=2.0, tp=9.0), direction_deg=0.0, omega_max=1.5, count=20),
+            "is not the one that its record describes",
+        ),
+    ],
+)
+def test_a_sea_that_cannot_be_made_again_is_refused(
+    system: WaveSystem | MeasuredWaves, message: str, database: HydroDatabase
+) -> None:
+    scene = cases.vessel(database=database, sea=SeaState(systems=[system]))
+    with pytest.raises(SceneError, match=message):
+        ensemble(scene, over={"seed": [1, 2]}, keep=PATH, database=database)
+
+
 def counted(monkeypatch: pytest.MonkeyPatch) -> list[str]:
     """Names of what is compiled from now on."""
     names: list[str] = []
@@ -231,9 +267,20 @@ def test_a_growing_mode_is_told_of_in_every_sea(database: HydroDatabase) -> None
 def test_forces_of_one_heading_are_those_of_any_headings(
     heading: float, count: int, database: HydroDatabase
 ) -> None:
-    omega = np.linspace(0.2, 2.5, count)
-    quick = database.force_at(omega, heading, outside="limits")
-    full = excitation._interpolated_in_heading(database, np.full(count, heading))
-    assert np.array_equal(excitation._by_heading(database, np.full(count, heading)), full)
-    one_by_one = [database.force_at(one, heading, outside="limits") for one in omega]
-    assert np.allclose(quick, one_by_one, rtol=1e-12, atol=1e-9 * np.abs(quick).max())
+    one = excitation._by_heading(database, np.full(count, heading))
+    every = excitation._interpolated_in_heading(database, np.full(count, heading))
+    assert np.array_equal(np.broadcast_to(one, every.shape), every)
+    weights = np.random.default_rng(count).normal(size=(count, every.shape[1]))
+    sums = _core.weighted_sums(weights, every)
+    assert np.array_equal(_core.weighted_sums(weights, one), sums)
+    expected = np.einsum("qn,qnd->qd", weights, every)
+    assert np.allclose(sums, expected, rtol=0.0, atol=1e-13 * np.abs(every).max() * np.abs(weights).sum())
+
+
+@pytest.mark.parametrize(
+    "shapes", [((2, 3), (2, 4, 6)), ((2, 3), (4, 6)), ((2, 3), (3, 3, 6)), ((3,), (3, 6))]
+)
+def test_sums_of_other_shapes_are_refused(shapes: tuple[tuple[int, ...], tuple[int, ...]]) -> None:
+    weights, values = (np.zeros(shape) for shape in shapes)
+    with pytest.raises(ValueError, match=r"give weights \(q, n\) and values"):
+        _core.weighted_sums(weights, values)

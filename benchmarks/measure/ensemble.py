@@ -42,9 +42,9 @@ def one_member(*, repeats: int) -> Section:
         title="One member of an ensemble",
         text=(
             "CPU time in ms of the parts of one member: case 2, 100 s, default method at rtol 1e-2, payload "
-            "every second. A function describes the whole lift, and its run is prepared: checked and compiled. "
-            "Of a scene only the sea is made again and compiled. To end is to look for what is out of range "
-            f"and to make the result. Best of {repeats}."
+            "every second. A function describes the whole lift, and its run is checked and compiled. Of a "
+            "scene only the sea is made again and compiled. To end is to look for what is out of range and "
+            f"to make the result. Best of {repeats}."
         ),
         head=["part", "ms"],
         rows=[

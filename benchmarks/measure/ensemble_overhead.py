@@ -25,12 +25,12 @@ _here = threading.local()  # loop: CPU time of loops since `before`, s
 
 
 def by_thread(_: Result) -> list[float]:
-    """Of a member whose process runs other members beside it: ms beside the loop, and in it."""
+    """Of a member whose process does other things beside it: ms beside the loop, and in it."""
     return _lap(time.thread_time())
 
 
 def by_process(_: Result) -> list[float]:
-    """Of a member that its process runs alone: with what the executor's own threads take."""
+    """Of a member that its process runs alone: with what other threads of the executor take."""
     return _lap(time.process_time())
 
 
@@ -82,7 +82,7 @@ def overhead(*, members: int = 12, t_end: float = 10_800.0) -> Section:
         ),
     ]  # fmt: skip
     if _has_dask():
-        kinds.append(_Kind(name="dask", opened=_dask, clock=by_process, caller=time.process_time))
+        kinds.append(_Kind(name="dask", opened=_dask, clock=by_thread, caller=time.process_time))
     return Section(
         title="Ensemble overhead",
         text=(
@@ -90,7 +90,8 @@ def overhead(*, members: int = 12, t_end: float = 10_800.0) -> Section:
             "rtol 1e-2, payload every second, another seed for each. In the worker: sea, start, result, what "
             "is kept, and the executor's part there; median, without the first member of each worker, which "
             "compiles. In the caller: sending and gathering, without what an ensemble takes once. Dask is a "
-            f"local cluster, its scheduler in the caller. Load of the machine: {os.getloadavg()[0]:.1f} on "
+            "local cluster, its scheduler in the caller, with what it does there all the time; what its "
+            f"workers do beside their task is left out. Load of the machine: {os.getloadavg()[0]:.1f} on "
             f"{os.cpu_count()} cores; what others do to caches and clocks is in these times."
         ),
         head=["executor", "in the worker, ms", "in the caller, ms", "the loop itself, ms"],

@@ -52,8 +52,9 @@ class Study:
         if not isinstance(self.source, Scene):
             return
         require_paths(self.source, names, WORDS)
-        if any(name in WORDS for name in names):
-            require_same_sea(self.source, self.databases)
+        words = [name for name in names if name in WORDS]
+        if words:
+            require_same_sea(self.source, self.databases, words)
 
     def parts(self, values: Values) -> tuple[Values, Values]:
         """Of the values of a member, words of the sea and the others."""
