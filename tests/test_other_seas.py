@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Callable
+from concurrent.futures import Executor, ProcessPoolExecutor, ThreadPoolExecutor
 from dataclasses import replace
 from typing import Any
 
@@ -204,6 +205,18 @@ def test_a_scene_is_compiled_once_for_all_its_seas(
     heavier = with_sea(with_values(scene, {path: masses[1]}), database, {"seed": 2})
     alone = simulate(heavier, **given).select("position", body="vessel")
     assert np.array_equal(there.dataset.track.sel({path: masses[1], "seed": 2}), alone)
+
+
+@pytest.mark.parametrize("pool", [ThreadPoolExecutor, ProcessPoolExecutor])
+def test_seas_are_the_same_whoever_runs_them(pool: type[Executor], database: HydroDatabase) -> None:
+    scene = cases.vessel(database=database, spreading=3.0)
+    mass = float(scene.bodies["vessel"].mass)
+    over = {"bodies.vessel.mass": [mass, 1.01 * mass], "seed": range(4), "hs": [1.0, 2.0]}
+    given: dict[str, Any] = {"over": over, "keep": PATH, "database": database, "t_end": 1.0, "rtol": 1e-3}
+    with pool(2) as executor:  # type: ignore[call-arg]
+        there = ensemble(scene, executor=executor, pack=3, **given)
+    assert there.failures == {}
+    assert there.dataset.identical(ensemble(scene, **given).dataset)
 
 
 def test_a_member_that_cannot_be_prepared_is_a_failure_of_its_own(database: HydroDatabase) -> None:
