@@ -36,16 +36,16 @@ class Prepared:
         assert waves is not None
         return first.in_sea(waves)
 
-    def _begun(self, scene: Scene, capacity: int | None = None) -> Run:
+    def _begun(self, scene: Scene) -> Run:
         study = self._study
-        return Run(scene, study.t_end, method=study.method, outputs=study.outputs, capacity=capacity)
+        return Run(scene, study.t_end, method=study.method, outputs=study.outputs)
 
     def _first(self, others: Values) -> Run:
         """The run of the scene's own sea that those of other seas are made from; it is not stepped."""
         key = tuple(others.values())
         with self._lock:
             if key not in self._held:
-                self._held[key] = self._begun(self._study.scene(others), capacity=1)
+                self._held[key] = self._begun(self._study.scene(others))
             self._held.move_to_end(key)
             if len(self._held) > MOST_HELD:
                 self._held.popitem(last=False)

@@ -64,7 +64,7 @@ def _checked_array(name: str, values: Any, shape: tuple[int, ...], gaps: bool) -
     array = np.asarray(values, dtype=np.float64)
     if array.shape != shape:
         raise ValueError(f"channel {name!r} has shape {array.shape}; its dimensions ask for {shape}")
-    if not gaps and not np.isfinite(array).all():
+    if not gaps and not _is_finite(array):
         first = int(np.argwhere(~np.isfinite(array.reshape(len(array), -1)).all(axis=1))[0, 0])
         raise ValueError(
             f"channel {name!r} is not finite at output {first} of a finished run; "
@@ -72,6 +72,13 @@ def _checked_array(name: str, values: Any, shape: tuple[int, ...], gaps: bool) -
         )
     array.setflags(write=False)
     return array
+
+
+def _is_finite(array: Array) -> bool:
+    """A finite sum has finite terms; one that is not may be too large."""
+    with np.errstate(over="ignore", invalid="ignore"):
+        whole = array.sum()
+    return bool(np.isfinite(whole) or np.isfinite(array).all())
 
 
 def _checked_time(values: Any) -> Array:

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.polynomial import Polynomial
 from numpy.typing import NDArray
 
 from seacrane import _core
@@ -74,7 +73,7 @@ def growing(
         return []
     duration = float(stats["simulated_s"])
     step, tolerance = duration / steps, float(stats["settings"]["rtol"])
-    judged = [_judged(at, Polynomial(polynomial), step, near, undamped) for at in modes.oscillations]
+    judged = [_judged(at, polynomial, step, near, undamped) for at in modes.oscillations]
     adapts = _core.integrator(integrator).setting == "rtol"
     fix = FIX.format(setting="rtol" if adapts else "dt")
     worst = max((one for one in judged if one.rates.size), key=lambda one: one.rates.max(), default=None)
@@ -100,7 +99,7 @@ def growing(
 
 
 def _judged(
-    at: Oscillations, polynomial: Polynomial, step: float, near: float, undamped: Collection[str]
+    at: Oscillations, polynomial: Sequence[float], step: float, near: float, undamped: Collection[str]
 ) -> _Growth:
     """What steps of a method with this stability polynomial make of them."""
     modes = at.values
@@ -112,7 +111,10 @@ def _judged(
     return _Growth(at=at, rates=np.where(judged, fed + own, -np.inf), rings=rings)
 
 
-def added(polynomial: Polynomial, modes: NDArray[np.complex128], step: float) -> Array:
+def added(polynomial: Sequence[float], modes: NDArray[np.complex128], step: float) -> Array:
     """Rates (1/s) by which steps change amplitudes beyond what the modes do by themselves."""
     z = step * modes
-    return np.asarray(np.log(np.abs(polynomial(z))) - z.real) / step
+    factor = np.zeros_like(z)
+    for coefficient in reversed(polynomial):
+        factor = factor * z + coefficient
+    return np.asarray(np.log(np.abs(factor)) - z.real) / step

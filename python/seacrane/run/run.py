@@ -131,7 +131,7 @@ class Run:
         self._prepare()
         self._require_plain_stats()
 
-    def in_sea(self, waves: Waves, *, capacity: int | None = None) -> Run:
+    def in_sea(self, waves: Waves) -> Run:
         """A run of the same scene in another sea, by the same method, with the same outputs.
 
         It is the run that ``Run(scene.copy(waves=waves), ...)`` makes, to the bit, at a small part of its
@@ -142,8 +142,6 @@ class Run:
         ----------
         waves : Waves
             On the same vessels, at the same kind of position.
-        capacity : int, optional
-            As of `Run`.
 
         Raises
         ------
@@ -156,11 +154,11 @@ class Run:
         if self.rungs:  # which depend on the sea
             return Run(
                 given, self.t_end, method=self.method, outputs=self.outputs, start=self._given_start,
-                outputs_from=self.first, capacity=capacity,
+                outputs_from=self.first, capacity=self._capacity,
             )  # fmt: skip
         out = copy(self)
         out.scene = given if self.scene is self._given else self.scene.copy(waves=waves)
-        out._given, out._capacity = given, capacity
+        out._given = given
         out.model = compiled_in_sea(out.scene, self.model)
         out.start = out._started()
         out.settings = settings_of(out.scene, out.t_end, out.method, out.outputs)
@@ -170,13 +168,16 @@ class Run:
 
     def _prepare(self) -> None:
         """What changes while it runs."""
-        self.core = _simulation(self, self._lasting, self._capacity)
+        self.core = self._simulation()
         if self.scene.waves is not None:
             self.scene.waves.warn_of_repeats(self.t_end - self.start.time)
         self.interrupted = False
         self.steered = set(self._lasting.steered)
         self.slow: list[Finding] = []  # what made the run slow, or a mode of it grow, known at its end
         self.slack: list[Finding] = []  # what made it begin anew
+
+    def _simulation(self) -> _core.Simulation:
+        return _core.Simulation(model=self.model, start=self.start, options=self._lasting.options)
 
     def _chosen_rungs(self, model: _core.Model | None) -> Mapping[str, LineRung]:
         if model is not None:
@@ -217,7 +218,7 @@ class Run:
         self.rungs = begun_anew(self.rungs, reason)
         self._step(None)
         self._lasting = _Lasting.of(self)
-        self.core = _simulation(self, self._lasting, self._capacity)
+        self.core = self._simulation()
 
     def __repr__(self) -> str:
         method = f"{self.formulation}, {self.method.integrator}"
@@ -281,7 +282,10 @@ class Run:
 
     def wanted(self, arrays: Mapping[str, Array]) -> dict[str, Array]:
         """As `named`, those that the outputs ask for."""
-        asked, named = self.outputs.channels, self.named(arrays)
+        asked = self.outputs.channels
+        if asked is not None and not DERIVED.keys() & set(asked):
+            return {name: values for name, values in arrays.items() if name in asked}
+        named = self.named(arrays)
         if asked is not None:
             return {name: values for name, values in named.items() if name in set(asked)}
         limited = {state.channel for state in self.scene.limit_states.values()}
@@ -375,10 +379,8 @@ class _Lasting:
 
     Attributes
     ----------
-    channels : set of str
-        Of the core, that are recorded.
-    values : int
-        Numbers in one output of them.
+    options : RunOptions
+        Of the core.
     coords : mapping
         Names along the dimensions of channels.
     steered : frozenset of str
@@ -387,34 +389,34 @@ class _Lasting:
         Of `lasting_stats`.
     """
 
-    channels: set[str]
-    values: int
+    options: _core.RunOptions
     coords: Mapping[str, list[str]]
     steered: frozenset[str]
     stats: Mapping[str, Any]
 
     @classmethod
     def of(cls, run: Run) -> _Lasting:
-        scene, model, asked = run.scene, run.model, run.outputs.channels
-        if asked is None:
-            asked = (*model.channel_names(), *(state.channel for state in scene.limit_states.values()))
-        channels = core_channels(list(asked), model.channel_names(defaults_only=False))
+        scene, model = run.scene, run.model
         return cls(
-            channels=channels,
-            values=model.channel_values(channels),
+            options=_options(run),
             coords={**model.axes, **derived_coords(scene)},
             steered=frozenset(steered(scene, model, run.start.inputs)),
             stats=lasting_stats(scene, model, run.formulation, run.method),
         )
 
 
-def _simulation(run: Run, lasting: _Lasting, capacity: int | None) -> _core.Simulation:
-    """The run in the core."""
-    method, values = run.method, lasting.values if capacity is None else 0
-    times = output_times(run.start.time, run.t_end, run.outputs.dt, first=run.first, values=values)
-    options = _core.RunOptions(
+def _options(run: Run) -> _core.RunOptions:
+    """How the core steps a run, and what it records."""
+    model, method, outputs, capacity = run.model, run.method, run.outputs, run._capacity
+    usual = [*model.channel_names(), *(state.channel for state in run.scene.limit_states.values())]
+    asked = usual if outputs.channels is None else list(outputs.channels)
+    channels = core_channels(asked, model.channel_names(defaults_only=False))
+    times = output_times(
+        run.start.time, run.t_end, outputs.dt, first=run.first,
+        values=model.channel_values(channels) if capacity is None else 0,
+    )  # fmt: skip
+    return _core.RunOptions(
         formulation=run.formulation, integrator=method.integrator, scaled_tolerance=method.used_tolerance,
         fixed_step=method.step, max_step=method.max_step, spectral_radius=method.spectral_radius,
-        energy_limit=method.energy_limit, output_times=times, channels=lasting.channels, capacity=capacity,
+        energy_limit=method.energy_limit, output_times=times, channels=channels, capacity=capacity,
     )  # fmt: skip
-    return _core.Simulation(model=run.model, start=run.start, options=options)
