@@ -21,6 +21,7 @@ from .section import Section
 HOW: dict[str, Any] = {"rtol": 1e-2, "dt_out": 1.0, "channels": ["position"]}
 TRACK = Kept(channel="position", at={"body": "payload"}, step=1.0)
 WORKERS = 2
+PACK = 4  # as of a thousand members
 _here = threading.local()  # loop: CPU time of loops since `before`, s
 
 
@@ -68,7 +69,7 @@ class _Kind:
     caller: Callable[[], float] | None  # none: the caller is the worker
 
 
-def overhead(*, members: int = 12, t_end: float = 10_800.0) -> Section:
+def overhead(*, members: int = 16, t_end: float = 10_800.0) -> Section:
     """CPU time of a member of case 2 beside its loop, by executor."""
     kinds = [
         _Kind(name="none", opened=nullcontext, clock=by_process, caller=None),
@@ -88,11 +89,12 @@ def overhead(*, members: int = 12, t_end: float = 10_800.0) -> Section:
         text=(
             f"CPU time in ms of one member beside its stepping loop: case 2, {t_end:g} s, default method at "
             "rtol 1e-2, payload every second, another seed for each. In the worker: sea, start, result, what "
-            "is kept, and the executor's part there; median, without the first member of each worker, which "
-            "compiles. In the caller: sending and gathering, without what an ensemble takes once. Dask is a "
-            "local cluster, its scheduler in the caller, with what it does there all the time; what its "
-            f"workers do beside their task is left out. Load of the machine: {os.getloadavg()[0]:.1f} on "
-            f"{os.cpu_count()} cores; what others do to caches and clocks is in these times."
+            f"is kept, and the executor's part there; median of packs of {PACK}, without the first of each "
+            "worker, which compiles. In the caller: sending and gathering, without what an ensemble takes "
+            "once. Dask is a local cluster, its scheduler in the caller, with what it does there all the "
+            "time; what its workers do beside their task is left out. Load of the machine: "
+            f"{os.getloadavg()[0]:.1f} on {os.cpu_count()} cores; what others do to caches and clocks is in "
+            "these times."
         ),
         head=["executor", "in the worker, ms", "in the caller, ms", "the loop itself, ms"],
         rows=[_row(kind, members, t_end) for kind in kinds],
@@ -102,16 +104,17 @@ def overhead(*, members: int = 12, t_end: float = 10_800.0) -> Section:
 def _row(kind: _Kind, members: int, t_end: float) -> list[Any]:
     scene, database = cases.case2(), shipped_database()
     taken: list[float] = []
-    counts = (2 * WORKERS, 2 * WORKERS + members)
+    counts = (2 * WORKERS * PACK, 2 * WORKERS * PACK + members)
     with kind.opened() as executor:
         for count in counts:
             start = kind.caller() if kind.caller else 0.0
             there = ensemble(
                 scene, over={"seed": range(count)}, keep={"track": TRACK, "lap": kind.clock}, t_end=t_end,
-                database=database, executor=executor, pack=1, **HOW,
+                database=database, executor=executor, pack=PACK, **HOW,
             )  # fmt: skip
             taken.append(kind.caller() - start if kind.caller else 0.0)
-    beside, loop = np.nanmedian(there.dataset.lap.to_numpy(), axis=0)
+    packs = there.dataset.lap.to_numpy().reshape(-1, PACK, 2).mean(axis=1)
+    beside, loop = np.nanmedian(packs, axis=0)
     caller = 1e3 * (taken[1] - taken[0]) / members if kind.caller else None
     return [kind.name, float(beside), caller, float(loop)]
 

@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
-
-import numpy as np
-from numpy.typing import NDArray
 
 from seacrane import _core
 from seacrane.analysis.linearise import LARGEST
@@ -15,12 +13,12 @@ from seacrane.run.modes import Modes, Oscillations
 from seacrane.run.stiffness import fewest_steps
 from seacrane.validity.range import Finding
 
-Array = NDArray[np.float64]
 HOUR = 3600.0  # s
 FEWEST_STEPS = 2000  # fewer are no matter
-LEAST_GROWTH = np.log(3.0)  # of the amplitude over the run
+LEAST_GROWTH = math.log(3.0)  # of the amplitude over the run
 LOOSE = 1e-3  # rtol from which on step control lets a mode ring as much as matters
 LEAST_SEEN = 0.1  # frequency times step: below, growth is rounding
+TINY = 1e-300  # in place of a factor of zero
 LONGER = 1.15  # steps that step control tries now and then, over their mean
 FIX = (
     "energy_balance hardly shows it, standard deviations do. Give a smaller {setting}, take another "
@@ -37,13 +35,17 @@ class _Growth:
     """What steps make of the amplitudes of oscillations: rates in 1/s, and whether longer steps feed them."""
 
     at: Oscillations
-    rates: Array
-    rings: NDArray[np.bool_]
+    rates: list[float]
+    rings: list[bool]
+
+    @property
+    def fastest(self) -> float:
+        return max(self.rates, default=-math.inf)
 
     def words(self, one: int) -> str:
-        value = self.at.values[one]
-        damping = abs(max(float(-value.real / np.abs(value)), 0.0))
-        return f"a mode of {float(value.imag):.4g} rad/s with {damping:.2g} of critical damping"
+        value = complex(self.at.values[one])
+        damping = abs(max(-value.real / abs(value), 0.0))
+        return f"a mode of {value.imag:.4g} rad/s with {damping:.2g} of critical damping"
 
 
 def growing(
@@ -76,19 +78,19 @@ def growing(
     judged = [_judged(at, polynomial, step, near, undamped) for at in modes.oscillations]
     adapts = _core.integrator(integrator).setting == "rtol"
     fix = FIX.format(setting="rtol" if adapts else "dt")
-    worst = max((one for one in judged if one.rates.size), key=lambda one: one.rates.max(), default=None)
-    if worst is not None and worst.rates.max() * duration >= near * LEAST_GROWTH:
-        one = int(worst.rates.argmax())
-        factor = np.exp(min(float(worst.rates[one]) * HOUR, 99.0))
+    worst = max(judged, key=lambda one: one.fastest)
+    if worst.fastest * duration >= near * LEAST_GROWTH:
+        one = worst.rates.index(worst.fastest)
+        factor = math.exp(min(worst.fastest * HOUR, 99.0))
         text = (
             f"run: {integrator} makes an oscillation of body {worst.at.bodies[one]!r} grow by a factor of "
             f"{factor:.3g} an hour: {worst.words(one)}, which its steps of {step:.3g} s on average outweigh. "
             f"{fix}"
         )
         return [(GrowingModeWarning, text)]
-    ringing = next((one for one in judged if one.rings.any()), None)
+    ringing = next((one for one in judged if any(one.rings)), None)
     if ringing is not None and adapts and tolerance >= LOOSE:
-        one = int(ringing.rings.argmax())
+        one = ringing.rings.index(True)
         text = (
             f"run: {integrator} at rtol {tolerance:g} keeps an oscillation of body "
             f"{ringing.at.bodies[one]!r} ringing: {ringing.words(one)}, which grows with steps a little "
@@ -102,19 +104,19 @@ def _judged(
     at: Oscillations, polynomial: Sequence[float], step: float, near: float, undamped: Collection[str]
 ) -> _Growth:
     """What steps of a method with this stability polynomial make of them."""
-    modes = at.values
-    own = near * np.minimum(modes.real, 0.0)
-    fed = added(polynomial, modes, step)
-    judged = np.array([body not in undamped for body in at.bodies], dtype=bool)
-    rings = (fed > 0.0) & (np.abs(modes) * step > LEAST_SEEN) & judged
-    rings[rings] = added(polynomial, modes[rings], LONGER * step) + own[rings] > 0.0
-    return _Growth(at=at, rates=np.where(judged, fed + own, -np.inf), rings=rings)
+    rates, rings = [], []
+    for mode, body in zip(at.values.tolist(), at.bodies, strict=True):
+        own, judged = near * min(mode.real, 0.0), body not in undamped
+        fed = added(polynomial, mode, step)
+        longer = added(polynomial, mode, LONGER * step) if judged and fed > 0.0 else -math.inf
+        rates.append(fed + own if judged else -math.inf)
+        rings.append(longer + own > 0.0 and abs(mode) * step > LEAST_SEEN)
+    return _Growth(at=at, rates=rates, rings=rings)
 
 
-def added(polynomial: Sequence[float], modes: NDArray[np.complex128], step: float) -> Array:
-    """Rates (1/s) by which steps change amplitudes beyond what the modes do by themselves."""
-    z = step * modes
-    factor = np.zeros_like(z)
+def added(polynomial: Sequence[float], mode: complex, step: float) -> float:
+    """Rate (1/s) by which steps change an amplitude beyond what the mode does by itself."""
+    z, factor = step * mode, 0j
     for coefficient in reversed(polynomial):
         factor = factor * z + coefficient
-    return np.asarray(np.log(np.abs(factor)) - z.real) / step
+    return (math.log(abs(factor) or TINY) - z.real) / step
