@@ -17,6 +17,7 @@ import facts
 from measure import (
     crane,
     ensemble,
+    ensemble_overhead,
     evaluation,
     events,
     footprint,
@@ -99,6 +100,7 @@ def sections(folder: Path, *, repeats: int, quick: bool) -> Iterator[Section]:
     yield memory_models.trade()
     yield seas.seas(repeats=min(repeats, 3))
     yield ensemble.one_member(repeats=repeats)
+    yield ensemble_overhead.overhead(members=4 if quick else 16, t_end=100.0 if quick else 10_800.0)
     yield ensemble.workers(repeats=min(repeats, 3), t_end=100.0 if quick else 1000.0)
     yield strip_cost.strip_cost(repeats=min(repeats, 3))
     yield rival.rival(repeats=repeats, t_end=5.0 if quick else 100.0)

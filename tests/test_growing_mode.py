@@ -11,7 +11,7 @@ import pytest
 from numpy.polynomial import Polynomial
 
 from seacrane import GrowingModeWarning, Scene, _core, simulate, spline_curve
-from seacrane.run import growth
+from seacrane.run import modes
 
 MODE, STEP = 2.2, 0.5  # rad/s, s
 AMPLITUDE = 1e-6  # m
@@ -72,7 +72,7 @@ def test_what_does_not_grow_is_not_told(damping_ratio: float, integrator: str, s
 
 
 def test_a_short_run_pays_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(growth, "jacobian", None)
+    monkeypatch.setattr(modes, "jacobian", None)
     run(swinging(), t_end=900.0)
 
 

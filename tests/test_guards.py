@@ -30,7 +30,7 @@ from seacrane.analysis import linearise
 from seacrane.cases import vessel
 from seacrane.reporting import report
 from seacrane.reporting.paper import Study, study_report
-from seacrane.run import stiffness
+from seacrane.run import modes
 from seacrane.run.output_times import OutputMemoryError
 from seacrane.validity.hull_range import MeanHeadingWarning
 from seacrane.validity.range import (
@@ -165,7 +165,7 @@ def test_a_run_that_is_not_slow_looks_for_no_mode(
     mode: float, integrator: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(linearise, "jacobian", None)
-    monkeypatch.setattr(stiffness, "jacobian", None)
+    monkeypatch.setattr(modes, "jacobian", None)
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         result = simulate(held(mode), t_end=20.0, integrator=integrator, channels=["position"])

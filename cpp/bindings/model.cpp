@@ -4,6 +4,7 @@
 
 #include "bindings.hpp"
 #include "seacrane/compile/compile.hpp"
+#include "seacrane/compile/in_sea.hpp"
 #include "seacrane/dynamics/constraints.hpp"
 #include "seacrane/dynamics/energy.hpp"
 #include "seacrane/dynamics/recursive/body_tree.hpp"
@@ -408,7 +409,16 @@ void bind_model(py::module_& m) {
       .def(
           "channel_values",
           [](const Model& m, const std::set<std::string>& names) { return Recording(m, names, 0).width(); },
-          py::arg("names"), "How many numbers one output of these channels holds.");
+          py::arg("names"), "How many numbers one output of these channels holds.")
+      .def(
+          "in_sea",
+          [](const Model& m, const std::vector<WaveLoadDescription>& loads) {
+            return std::const_pointer_cast<Model>(in_sea(m, loads));
+          },
+          py::arg("wave_loads"),
+          "The model of the same scene with other wave loads on the same vessels, as compiling it again "
+          "gives. "
+          "Raises SceneError.");
   m.def("compile", &compile_scene, py::kw_only(), py::arg("name"), py::arg("gravity"), py::arg("orientation"),
         py::arg("baumgarte"), py::arg("length_scale"), py::arg("bodies"), py::arg("joints"),
         py::arg("drivers"), py::arg("loads"), py::arg("vessels"), py::arg("wave_loads"),

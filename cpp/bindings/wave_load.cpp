@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "sea_arrays.hpp"
+#include "seacrane/math/weighted_sums.hpp"
 #include "seacrane/model/description.hpp"
 
 using namespace seacrane;
@@ -316,6 +317,24 @@ void bind_wave_loads(py::module_& m) {
       .def_property_readonly("name", [](const W& w) { return w.name; });
 }
 
+Complexes weighted_sums(const Doubles& weights, const Complexes& values) {
+  const bool shared = values.ndim() == 2;
+  const py::ssize_t first = shared ? 0 : 1;
+  if (weights.ndim() != 2 || values.ndim() != first + 2 || values.shape(first) != weights.shape(1) ||
+      (!shared && values.shape(0) != weights.shape(0))) {
+    throw py::value_error("weighted sums: give weights (q, n) and values (n, d) or (q, n, d)");
+  }
+  const py::ssize_t width = values.shape(first + 1);
+  Complexes out({weights.shape(0), width});
+  const WeightedSums sums{static_cast<std::size_t>(weights.shape(0)),
+                          static_cast<std::size_t>(weights.shape(1)), 2 * static_cast<std::size_t>(width),
+                          shared};
+  // A complex number lies in memory as its real and imaginary part.
+  sums.evaluate(weights.data(), reinterpret_cast<const double*>(values.data()),
+                reinterpret_cast<double*>(out.mutable_data()));
+  return out;
+}
+
 }  // namespace
 
 void bind_wave_load(py::module_& m) {
@@ -324,4 +343,7 @@ void bind_wave_load(py::module_& m) {
   bind_drift(m);
   bind_positioned(m);
   bind_wave_loads(m);
+  m.def("weighted_sums", &weighted_sums, py::arg("weights"), py::arg("values"),
+        "Complex sums (q, d) of weights (q, n) times values (n, d), or (q, n, d), term by term in their "
+        "order. Raises ValueError for other shapes.");
 }

@@ -8,6 +8,7 @@
 #include <map>
 
 #include "seacrane/compile/assembly.hpp"
+#include "seacrane/compile/fast_motions.hpp"
 #include "seacrane/compile/find_kinks.hpp"
 #include "seacrane/dynamics/merged_bodies.hpp"
 #include "seacrane/elements/joints/joint_kinds.hpp"
@@ -439,15 +440,6 @@ std::vector<Kink> kinks_when_open(const Model& model, ClosedSet closed) {
   const std::shared_ptr<Model> open = described_model(model.description, model.limits, 0, scene);
   open->initial_state = model.initial_state;
   return find_kinks(*open);
-}
-
-void start_fast_motions(Model& model) {
-  std::vector<double>& y = model.initial_state;
-  for (const Vessel& vessel : model.vessels) {
-    if (!vessel.fast) continue;
-    const double* twist = &y[idx(model.layout.twist(vessel.body))];
-    vessel.fast->start({twist[0], twist[1], twist[5]}, &y[idx(vessel.memory_offset + vessel.fluid_states())]);
-  }
 }
 
 /// Refuses a start beyond a bound.

@@ -59,6 +59,23 @@ def compile_scene(scene: Description, *, merge: bool = True) -> _core.Model:
     return model
 
 
+def compiled_in_sea(scene: Description, model: _core.Model) -> _core.Model:
+    """The model of a scene, from that of the same scene in another sea: nothing but the sea is compiled.
+
+    The scene belongs to the model from now on: it is not to be changed.
+
+    Raises
+    ------
+    SceneError
+        For a sea on other vessels than the model's, or loads at another kind of position.
+    """
+    assert scene.waves is not None
+    _, merge = model.compiled_from
+    out = model.in_sea(compiled_waves(scene.waves, prune=merge))
+    out.compiled_from = (scene, merge)
+    return out
+
+
 def compiled(scene: Description, merge: bool) -> _core.Model:
     """The model of a scene: how a pickled model comes back."""
     with warnings.catch_warnings():

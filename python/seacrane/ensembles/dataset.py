@@ -23,22 +23,27 @@ class Table:
         self.failures: dict[int, str] = {}
         self._validity = np.full(count, "", dtype=object)
         self._done = np.zeros(count, dtype=bool)
+        self._texts: dict[str, str] = {}
         self._first: dict[str, Labelled] = {}
         self._arrays: dict[str, Any] = {}
 
     def add(self, outcome: Outcome) -> None:
         """Take one; what lies otherwise than that of the first member that did not fail is a failure."""
         self._done[outcome.index] = True
-        self._validity[outcome.index] = outcome.validity
+        self._validity[outcome.index] = self._shared(outcome.validity)
         failure = outcome.failure or self._unlike(outcome)
         if failure:
-            self.failures[outcome.index] = failure
+            self.failures[outcome.index] = self._shared(failure)
             return
         for name, kept in outcome.kept.items():
             if name not in self._arrays:
                 self._first[name] = kept
                 self._arrays[name] = np.full((len(self._members), *kept.values.shape), np.nan)
             self._arrays[name][outcome.index] = kept.values
+
+    def _shared(self, text: str) -> str:
+        """The text itself, as often as it comes one object."""
+        return self._texts.setdefault(text, text)
 
     def _unlike(self, outcome: Outcome) -> str:
         for name, kept in outcome.kept.items():
@@ -71,10 +76,10 @@ class Table:
             coords |= {own[dim]: (own[dim], along) for dim, along in first.coords.items()}
         variables["failure"] = (
             over,
-            texts.astype(str).reshape(lengths),
+            texts.reshape(lengths),
             {"long_name": "why a member failed"},
         )
-        remarks = self._validity.astype(str).reshape(lengths)
+        remarks = self._validity.reshape(lengths)
         variables["validity"] = (over, remarks, {"long_name": "what was out of range in a member"})
         return xarray.Dataset(variables, coords)
 

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import pickle
-from collections.abc import Mapping
-from functools import cached_property, lru_cache
-from typing import Any
+from collections.abc import Callable, Mapping
+from functools import cached_property, lru_cache, partial
+from typing import Any, TypeVar
 
 from seacrane.ensembles.members import Value
 from seacrane.ensembles.outcome import Outcome
+from seacrane.ensembles.prepared import Prepared
 from seacrane.ensembles.study import Study
 from seacrane.errors import SeacraneError
 from seacrane.run.advance import drive
@@ -17,6 +18,8 @@ from seacrane.run.interrupts import Interrupts
 from seacrane.run.run import Run
 from seacrane.version import __version__
 
+TOGETHER = 4  # members of a pack whose runs are in memory at a time
+Some = TypeVar("Some")
 Pack = tuple[tuple[int, Mapping[str, Value]], ...]
 
 
@@ -29,6 +32,7 @@ class Job:
 
     def __init__(self, study: Study) -> None:
         self.study = study
+        self._prepared = Prepared(study)
 
     @cached_property
     def _data(self) -> bytes:
@@ -51,29 +55,45 @@ class Job:
             raise WorkerVersionError(
                 f"a worker has seacrane {__version__}, and the ensemble is of {version}; install the same"
             )
-        return [self._outcome(index, values) for index, values in pack]
+        chunks = (pack[first : first + TOGETHER] for first in range(0, len(pack), TOGETHER))
+        return [outcome for chunk in chunks for outcome in self._together(chunk)]
 
-    def _outcome(self, index: int, values: Mapping[str, Value]) -> Outcome:
-        try:
-            return self._run(index, values)
-        except MemoryError:
-            raise
-        except Exception as error:
-            return Outcome(index=index, failure=f"{type(error).__name__}: {error}")
+    def _together(self, members: Pack) -> list[Outcome]:
+        """Prepared, then stepped, then ended: what each of them needs is then in the processor's caches."""
+        runs: list[Run | str] = [_tried(partial(self._prepared.run, values)) for _, values in members]
+        runs = [run if isinstance(run, str) else _tried(partial(_stepped, run)) for run in runs]
+        return [self._outcome(index, run) for (index, _), run in zip(members, runs, strict=True)]
 
-    def _run(self, index: int, values: Mapping[str, Value]) -> Outcome:
-        study = self.study
-        scene = study.scene(values)
-        run = Run(scene, study.t_end, start=study.start_of(scene), method=study.method, outputs=study.outputs)
-        with Interrupts() as interrupts:
-            drive(run, Calls((), run.start.time), interrupts)
-        interrupts.take()  # pressed as the run ended: the members after it are not to be run
-        if run.interrupted:
-            raise KeyboardInterrupt
+    def _outcome(self, index: int, run: Run | str) -> Outcome:
+        """Of a run at its end, or of why there is none."""
+        made = run if isinstance(run, str) else _tried(partial(self._ended, index, run))
+        return Outcome(index=index, failure=made) if isinstance(made, str) else made
+
+    def _ended(self, index: int, run: Run) -> Outcome:
         result = run.result()
         return Outcome(
-            index=index, kept=study.kept_of(result), validity=str(result.stats.get("validity", ""))
+            index=index, kept=self.study.kept_of(result), validity=str(result.stats.get("validity", ""))
         )
+
+
+def _stepped(run: Run) -> Run:
+    """The run at its end. Raises KeyboardInterrupt where Ctrl-C stopped it."""
+    with Interrupts() as interrupts:
+        drive(run, Calls((), run.start.time), interrupts)
+    interrupts.take()  # pressed as the run ended: the members after it are not to be run
+    if run.interrupted:
+        raise KeyboardInterrupt
+    return run
+
+
+def _tried(work: Callable[[], Some]) -> Some | str:
+    """What it returns, or in words why it failed."""
+    try:
+        return work()
+    except MemoryError:
+        raise
+    except Exception as error:
+        return f"{type(error).__name__}: {error}"
 
 
 @lru_cache(maxsize=4)

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from typing import Any
 
 import numpy as np
 
 from seacrane.description.waves import HullLoads, Waves
+from seacrane.ensembles.sea_state import sea_state_of
 from seacrane.errors import SceneError
 from seacrane.hydro import HydroDatabase
 from seacrane.inputs.frames import heading_of
@@ -29,24 +30,39 @@ def with_sea(scene: Scene, databases: Databases, given: Mapping[str, Any]) -> Sc
     """A copy of the scene in another sea, all else of which is as it was; repeats are not looked for."""
     assert scene.waves is not None
     old = scene.waves
-    settings = _settings(scene)
-    if "gamma" not in given and settings["spectrum"] != "jonswap":
-        settings.pop("gamma")
-    new = realised_sea(None, {**settings, **given}, old.depth, look_for_repeats=False)
-    out = scene.copy(waves=new)
+    out = scene.copy(waves=_realised(scene, given))
     for body, hull in old.hulls.items():
         _put(out, _database_of(databases, body), body, hull, old)
     return out
 
 
-def require_same_sea(scene: Scene, databases: Databases) -> None:
-    """Raise SceneError unless the sea of the scene, made again from its words, is the one that is there."""
+def _realised(scene: Scene, given: Mapping[str, Any]) -> Waves:
+    """The sea of the scene with other words, no vessel in it yet."""
+    assert scene.waves is not None
+    record, depth = scene.waves.provenance.sea, scene.waves.depth
+    if record is not None:
+        sea = sea_state_of(record, given.get("seed", record["seed"]))
+        return realised_sea(sea, {}, depth, look_for_repeats=False)
+    settings = _settings(scene)
+    if "gamma" not in given and settings["spectrum"] != "jonswap":
+        settings.pop("gamma")
+    return realised_sea(None, {**settings, **given}, depth, look_for_repeats=False)
+
+
+def require_same_sea(scene: Scene, databases: Databases, words: Collection[str]) -> None:
+    """Raise SceneError unless the sea of the scene has these words, and is what is made again from them."""
     if scene.waves is None:
         raise SceneError(f"over: scene {scene.name!r} has no sea; add one, or vary something else")
     if not scene.waves.hulls:
         raise SceneError(
             f"over: the sea of scene {scene.name!r} loads no floating vessel; give a function "
             "that makes the scene"
+        )
+    others = [word for word in words if word != "seed"]
+    if scene.waves.provenance.sea is not None and others:
+        raise SceneError(
+            f"over: the sea of scene {scene.name!r} is a SeaState, of which the seed can vary, and not "
+            f"{', '.join(others)}; give a function that makes the scene"
         )
     made = with_sea(scene, databases, {}).waves
     assert made is not None

@@ -22,6 +22,7 @@ from seacrane.scene.scene import Scene
 Source = Scene | Callable[..., Scene]
 Start = _core.State | Callable[[Scene], _core.State] | None
 Keep = Mapping[str, Kept | Callable[[Result], Any]]
+Values = Mapping[str, Value]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -56,16 +57,21 @@ class Study:
         if not isinstance(self.source, Scene):
             return
         require_paths(self.source, names, WORDS)
-        if any(name in WORDS for name in names):
-            require_same_sea(self.source, self.databases)
+        words = [name for name in names if name in WORDS]
+        if words:
+            require_same_sea(self.source, self.databases, words)
 
-    def scene(self, values: Mapping[str, Value]) -> Scene:
+    def parts(self, values: Values) -> tuple[Values, Values]:
+        """Of the values of a member, words of the sea and the others."""
+        sea = {name: value for name, value in values.items() if name in WORDS}
+        return sea, {name: value for name, value in values.items() if name not in WORDS}
+
+    def scene(self, values: Values) -> Scene:
         """The scene of a member."""
         if isinstance(self.source, Scene):
-            words = {name: value for name, value in values.items() if name in WORDS}
-            paths = {name: value for name, value in values.items() if name not in WORDS}
-            made = with_values(self.source, paths)
-            return with_sea(made, self.databases, words) if words else made
+            sea, others = self.parts(values)
+            made = with_values(self.source, others)
+            return self.in_sea(made, sea) if sea else made
         made = self.source(**values)
         if not isinstance(made, Scene):
             raise SceneError(f"the function returned {shown(made)}; return a Scene")
@@ -74,6 +80,10 @@ class Study:
     def start_of(self, scene: Scene) -> _core.State | None:
         """Where the run of a scene begins; None: its assembled start."""
         return self.start(scene) if callable(self.start) else self.start
+
+    def in_sea(self, scene: Scene, words: Values) -> Scene:
+        """A copy of a scene in another sea."""
+        return with_sea(scene, self.databases, words)
 
     def kept_of(self, result: Result) -> dict[str, Labelled]:
         """What is kept of a result."""

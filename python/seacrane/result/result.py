@@ -64,7 +64,7 @@ def _checked_array(name: str, values: Any, shape: tuple[int, ...], gaps: bool) -
     array = np.asarray(values, dtype=np.float64)
     if array.shape != shape:
         raise ValueError(f"channel {name!r} has shape {array.shape}; its dimensions ask for {shape}")
-    if not gaps and not np.isfinite(array).all():
+    if not gaps and not _is_finite(array):
         first = int(np.argwhere(~np.isfinite(array.reshape(len(array), -1)).all(axis=1))[0, 0])
         raise ValueError(
             f"channel {name!r} is not finite at output {first} of a finished run; "
@@ -72,6 +72,13 @@ def _checked_array(name: str, values: Any, shape: tuple[int, ...], gaps: bool) -
         )
     array.setflags(write=False)
     return array
+
+
+def _is_finite(array: Array) -> bool:
+    """A finite sum has finite terms; one that is not may be too large."""
+    with np.errstate(over="ignore", invalid="ignore"):
+        whole = array.sum()
+    return bool(np.isfinite(whole) or np.isfinite(array).all())
 
 
 def _checked_time(values: Any) -> Array:
@@ -241,16 +248,19 @@ class Result(Mapping[str, Array]):
             given twice, or a missing stat.
         """
         checked_time = _checked_time(time)
-        names = {dim: _checked_names(dim, given) for dim, given in coords.items()} | dict(FIXED)
         gaps = interrupted or "stages" in stats  # where elements come and go
-        channels = {}
-        for name, values in arrays.items():
+        for name in arrays:
             if name not in CHANNELS:
                 raise ValueError(f"channel {name!r} is unknown; choose from {', '.join(CHANNELS)}")
-            dims = CHANNELS[name].dims_of(np.ndim(values))
+        all_dims = {name: CHANNELS[name].dims_of(np.ndim(values)) for name, values in arrays.items()}
+        used = dict.fromkeys(dim for dims in all_dims.values() for dim in dims[1:])
+        given = {dim: _checked_names(dim, coords[dim]) for dim in used if dim in coords}
+        names = given | dict(FIXED)
+        channels = {}
+        for name, values in arrays.items():
+            dims = all_dims[name]
             shape = (checked_time.size, *(len(names.get(dim, ())) for dim in dims[1:]))
             channels[name] = _checked_array(name, values, shape, gaps)
-        used = dict.fromkeys(dim for dims in _dims(channels).values() for dim in dims[1:])
         return cls(
             time=checked_time,
             channels=channels,

@@ -10,12 +10,11 @@ from seacrane.analysis.linearise import fastest_mode
 from seacrane.errors import SimulationError
 from seacrane.result.result import Result
 from seacrane.run.controller_calls import Calls
-from seacrane.run.growth import growing
 from seacrane.run.interrupts import Interrupts
 from seacrane.run.run import Run
 from seacrane.run.sampled_controller import SampledController
+from seacrane.run.slow import slow_findings
 from seacrane.run.step_advice import step_advice
-from seacrane.run.stiffness import stiffness
 from seacrane.validity.range import warn_of
 
 Look = Callable[[float], None]
@@ -68,14 +67,7 @@ def drive(
         _advise(run, error)
         raise
     if not run.interrupted:
-        last = run.last_state()
-        states = [run.start] if last is None else [run.start, last]
-        bodies, stats = list(run.scene.bodies), run.stats()
-        remembering = (
-            [vessel.body for vessel in run.scene.vessels.values()] if stats["history_samples"] else []
-        )
-        run.slow = stiffness(run.model, bodies, run.scene.loads, states, stats)
-        run.slow += growing(run.model, bodies, states, stats, remembering)
+        run.slow = slow_findings(run)
 
 
 @contextlib.contextmanager

@@ -2,25 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping
+import math
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-import numpy as np
-from numpy.polynomial import Polynomial
-from numpy.typing import NDArray
-
 from seacrane import _core
-from seacrane.analysis.linearise import LARGEST, jacobian
+from seacrane.analysis.linearise import LARGEST
+from seacrane.run.modes import Modes, Oscillations
 from seacrane.run.stiffness import fewest_steps
 from seacrane.validity.range import Finding
 
 HOUR = 3600.0  # s
 FEWEST_STEPS = 2000  # fewer are no matter
-LEAST_GROWTH = np.log(3.0)  # of the amplitude over the run
-MOST_DAMPING = 0.05  # ratio: what is damped more, waves and drives keep in bounds
+LEAST_GROWTH = math.log(3.0)  # of the amplitude over the run
 LOOSE = 1e-3  # rtol from which on step control lets a mode ring as much as matters
 LEAST_SEEN = 0.1  # frequency times step: below, growth is rounding
+TINY = 1e-300  # in place of a factor of zero
 LONGER = 1.15  # steps that step control tries now and then, over their mean
 FIX = (
     "energy_balance hardly shows it, standard deviations do. Give a smaller {setting}, take another "
@@ -34,26 +32,24 @@ class GrowingModeWarning(UserWarning):
 
 @dataclass(frozen=True, kw_only=True)
 class _Growth:
-    """What steps make of a mode's amplitude: rates in 1/s, at the mean step and at longer ones."""
+    """What steps make of the amplitudes of oscillations: rates in 1/s, and whether longer steps feed them."""
 
-    rate: float
-    rings: bool
-    frequency: float
-    damping_ratio: float
-    body: str
+    at: Oscillations
+    rates: list[float]
+    rings: list[bool]
 
     @property
-    def words(self) -> str:
-        damping = abs(max(self.damping_ratio, 0.0))
-        return f"a mode of {self.frequency:.4g} rad/s with {damping:.2g} of critical damping"
+    def fastest(self) -> float:
+        return max(self.rates, default=-math.inf)
+
+    def words(self, one: int) -> str:
+        value = complex(self.at.values[one])
+        damping = abs(max(-value.real / abs(value), 0.0))
+        return f"a mode of {value.imag:.4g} rad/s with {damping:.2g} of critical damping"
 
 
 def growing(
-    model: _core.Model,
-    bodies: list[str],
-    states: list[_core.State],
-    stats: Mapping[str, Any],
-    undamped: Collection[str] = (),
+    modes: Modes, stats: Mapping[str, Any], *, undamped: Collection[str] = (), near: float = 1.0
 ) -> list[Finding]:
     """The mode that a method feeds, looked for only where there are many steps.
 
@@ -63,82 +59,64 @@ def growing(
 
     Parameters
     ----------
-    model : Model
-    bodies : list of str
-        Their names, in the order of the model.
-    states : list of State
-        Where to look, with speeds of zero; the mode counts that grows most.
+    modes : Modes
+        At rest in the poses of the states; the mode counts that grows most.
     stats : mapping
         Of the run: `Result.stats`.
     undamped : collection of str
         Bodies whose damping the linear model lacks, whose modes are not judged.
+    near : float
+        Share of the limits, and of what damps the modes, from which on it is told.
     """
     integrator, steps = str(stats["integrator"]), int(stats["steps"])
     polynomial = _core.stability_polynomial(integrator)
-    if not polynomial or steps < fewest_steps(model.states, FEWEST_STEPS) or model.states > LARGEST:
+    states = modes.model.states
+    if not polynomial or steps < fewest_steps(states, FEWEST_STEPS) or states > LARGEST:
         return []
     duration = float(stats["simulated_s"])
     step, tolerance = duration / steps, float(stats["settings"]["rtol"])
-    judged = [_modes(model, bodies, state, Polynomial(polynomial), step, undamped) for state in states]
-    every = [one for found in judged for one in found]
+    judged = [_judged(at, polynomial, step, near, undamped) for at in modes.oscillations]
     adapts = _core.integrator(integrator).setting == "rtol"
     fix = FIX.format(setting="rtol" if adapts else "dt")
-    worst = max(every, key=lambda one: one.rate, default=None)
-    if worst is not None and worst.rate * duration >= LEAST_GROWTH:
+    worst = max(judged, key=lambda one: one.fastest)
+    if worst.fastest * duration >= near * LEAST_GROWTH:
+        one = worst.rates.index(worst.fastest)
+        factor = math.exp(min(worst.fastest * HOUR, 99.0))
         text = (
-            f"run: {integrator} makes an oscillation of body {worst.body!r} grow by a factor of "
-            f"{np.exp(min(worst.rate * HOUR, 99.0)):.3g} an hour: {worst.words}, which its steps of "
-            f"{step:.3g} s on average outweigh. {fix}"
+            f"run: {integrator} makes an oscillation of body {worst.at.bodies[one]!r} grow by a factor of "
+            f"{factor:.3g} an hour: {worst.words(one)}, which its steps of {step:.3g} s on average outweigh. "
+            f"{fix}"
         )
         return [(GrowingModeWarning, text)]
-    ringing = next((one for one in every if one.rings), None)
+    ringing = next((one for one in judged if any(one.rings)), None)
     if ringing is not None and adapts and tolerance >= LOOSE:
+        one = ringing.rings.index(True)
         text = (
-            f"run: {integrator} at rtol {tolerance:g} keeps an oscillation of body {ringing.body!r} ringing: "
-            f"{ringing.words}, which grows with steps a little longer than those of {step:.3g} s on average, "
-            f"until it comes to the tolerance. {fix}"
+            f"run: {integrator} at rtol {tolerance:g} keeps an oscillation of body "
+            f"{ringing.at.bodies[one]!r} ringing: {ringing.words(one)}, which grows with steps a little "
+            f"longer than those of {step:.3g} s on average, until it comes to the tolerance. {fix}"
         )
         return [(GrowingModeWarning, text)]
     return []
 
 
-def _modes(
-    model: _core.Model,
-    bodies: list[str],
-    state: _core.State,
-    polynomial: Polynomial,
-    step: float,
-    undamped: Collection[str],
-) -> list[_Growth]:
-    """Oscillations with little damping, at rest in a pose, under a method with this stability polynomial."""
-    first = (6 if model.euler_angles else 7) * len(bodies)
-    speeds = slice(first, first + 6 * len(bodies))
-    values = np.array(state.values)
-    values[speeds] = 0.0
-    matrix = jacobian(model, state=values, time=state.time)
-    if not bodies or not np.all(np.isfinite(matrix)):
-        return []
-    modes, shapes = np.linalg.eig(matrix)
-    little = (modes.imag > 0.0) & (np.abs(modes.real) < MOST_DAMPING * np.abs(modes))
-    modes, shapes = modes[little], shapes[:, little]
-    scale = np.array(model.scale)
-    sizes = (np.abs(shapes) / scale[np.isfinite(scale), None])[speeds]
-    own = np.minimum(modes.real, 0.0)
-    fed, longer = added(polynomial, modes, step), added(polynomial, modes, LONGER * step)
-    found = [
-        _Growth(
-            rate=float(fed[i] + own[i]),
-            rings=bool(fed[i] > 0.0 and longer[i] + own[i] > 0.0 and abs(modes[i]) * step > LEAST_SEEN),
-            frequency=float(modes[i].imag),
-            damping_ratio=float(-modes[i].real / np.abs(modes[i])),
-            body=bodies[int(sizes[:, i].argmax()) // 6],
-        )
-        for i in range(modes.size)
-    ]
-    return [one for one in found if one.body not in undamped]
+def _judged(
+    at: Oscillations, polynomial: Sequence[float], step: float, near: float, undamped: Collection[str]
+) -> _Growth:
+    """What steps of a method with this stability polynomial make of them."""
+    rates, rings = [], []
+    for mode, body in zip(at.values.tolist(), at.bodies, strict=True):
+        own, judged = near * min(mode.real, 0.0), body not in undamped
+        fed = added(polynomial, mode, step)
+        longer = added(polynomial, mode, LONGER * step) if judged and fed > 0.0 else -math.inf
+        rates.append(fed + own if judged else -math.inf)
+        rings.append(longer + own > 0.0 and abs(mode) * step > LEAST_SEEN)
+    return _Growth(at=at, rates=rates, rings=rings)
 
 
-def added(polynomial: Polynomial, modes: NDArray[np.complex128], step: float) -> NDArray[np.float64]:
-    """Rates (1/s) by which steps change amplitudes beyond what the modes do by themselves."""
-    z = step * modes
-    return np.asarray(np.log(np.abs(polynomial(z))) - z.real) / step
+def added(polynomial: Sequence[float], mode: complex, step: float) -> float:
+    """Rate (1/s) by which steps change an amplitude beyond what the mode does by itself."""
+    z, factor = step * mode, 0j
+    for coefficient in reversed(polynomial):
+        factor = factor * z + coefficient
+    return (math.log(abs(factor) or TINY) - z.real) / step

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from copy import copy
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -10,10 +12,11 @@ from numpy.typing import NDArray
 
 from seacrane import _core
 from seacrane._core import integrator
-from seacrane.description.compilation import compiled
+from seacrane.description.compilation import compiled, compiled_in_sea
 from seacrane.description.loads import lines_of
 from seacrane.description.references import check_references
 from seacrane.description.stretch import QUASI_STATIC, automatic, with_stretch
+from seacrane.description.waves import Waves
 from seacrane.errors import SceneError, SeacraneError, SimulationError
 from seacrane.files.state_parts import with_present_inputs
 from seacrane.inputs.checked import number_of
@@ -39,10 +42,11 @@ from seacrane.run.line_rungs import (
     line_rungs,
 )
 from seacrane.run.method import Method
+from seacrane.run.modes import Modes
 from seacrane.run.output_times import output_times
 from seacrane.run.outputs import Outputs
 from seacrane.run.shorthand import Shorthand, settled
-from seacrane.run.stats import settings_of, stats_of
+from seacrane.run.stats import lasting_stats, settings_of, stats_of
 from seacrane.scene.scene import Scene
 from seacrane.validity.plausible import warn_of_description
 from seacrane.validity.range import Finding, as_text, findings
@@ -85,6 +89,8 @@ class Run:
         As given, or their defaults.
     settings : dict
         Method and outputs by the words of `simulate`, as results record them.
+    start_modes : Modes or None
+        At the start that runs made by `in_sea` have in common; None for a run by itself.
     rungs : mapping of str to LineRung
         What lines with stretch="auto" are in this run, and why.
     core : Simulation
@@ -119,14 +125,59 @@ class Run:
         self.settings = settings_of(self.scene, self.t_end, self.method, self.outputs)
         require_limited_channels(self.scene, self.model)
         require_names(self.scene, self.outputs.channels or ())
-        self.core = _simulation(self, capacity)
+        self._own_modes = Modes(self.model, list(self.scene.bodies), [self.start])
+        self.start_modes: Modes | None = None
+        self._lasting = _Lasting.of(self)
+        self._prepare()
+        self._require_plain_stats()
+
+    def in_sea(self, waves: Waves) -> Run:
+        """A run of the same scene in another sea, by the same method, with the same outputs.
+
+        It is the run that ``Run(scene.copy(waves=waves), ...)`` makes, to the bit, at a small part of its
+        cost: what does not depend on the sea is neither checked nor compiled again, and modes that make a
+        run slow, or grow, are first looked for at the common start.
+
+        Parameters
+        ----------
+        waves : Waves
+            On the same vessels, at the same kind of position.
+
+        Raises
+        ------
+        SceneError
+            For a sea on other vessels, or a scene without a sea.
+        """
+        if self.scene.waves is None:
+            raise SceneError(f"scene {self.scene.name!r}: has no sea to be replaced; make a run of its own")
+        given = self._given.copy(waves=waves)
+        if self.rungs:  # which depend on the sea
+            return Run(
+                given, self.t_end, method=self.method, outputs=self.outputs, start=self._given_start,
+                outputs_from=self.first, capacity=self._capacity,
+            )  # fmt: skip
+        out = copy(self)
+        out.scene = given if self.scene is self._given else self.scene.copy(waves=waves)
+        out._given = given
+        out.model = compiled_in_sea(out.scene, self.model)
+        out.start = out._started()
+        out.settings = settings_of(out.scene, out.t_end, out.method, out.outputs)
+        out.start_modes = self.start_modes or self._own_modes
+        out._prepare()
+        return out
+
+    def _prepare(self) -> None:
+        """What changes while it runs."""
+        self.core = self._simulation()
         if self.scene.waves is not None:
             self.scene.waves.warn_of_repeats(self.t_end - self.start.time)
         self.interrupted = False
-        self.steered = steered(self.scene, self.model, self.start.inputs)
+        self.steered = set(self._lasting.steered)
         self.slow: list[Finding] = []  # what made the run slow, or a mode of it grow, known at its end
         self.slack: list[Finding] = []  # what made it begin anew
-        self._require_plain_stats()
+
+    def _simulation(self) -> _core.Simulation:
+        return _core.Simulation(model=self.model, start=self.start, options=self._lasting.options)
 
     def _chosen_rungs(self, model: _core.Model | None) -> Mapping[str, LineRung]:
         if model is not None:
@@ -141,14 +192,16 @@ class Run:
         stretches = {name: rung.stretch for name, rung in self.rungs.items()}
         scene = with_stretch(self._given, stretches)
         self.scene, self.model, self.formulation = stepped(scene, model, self.method)
-        start = self._given_start
-        if start is not None:
-            start = with_present_inputs(start, self.model)
-        if start is None:
-            start = _core.initial_state(self.model)
-        elif self._differs_by_rungs(start):
-            start = carried(start, compiled(self._given, merge=True), self.model)
-        self.start = start
+        self.start = self._started()
+
+    def _started(self) -> _core.State:
+        """The state at the start."""
+        if self._given_start is None:
+            return _core.initial_state(self.model)
+        start = with_present_inputs(self._given_start, self.model)
+        if self._differs_by_rungs(start):
+            return carried(start, compiled(self._given, merge=True), self.model)
+        return start
 
     def _differs_by_rungs(self, start: _core.State) -> bool:
         """Whether a state holds what the model has but for what the rungs of lines add."""
@@ -164,7 +217,8 @@ class Run:
         """From the start, with elastic lines in the place of those whose stretch is automatic."""
         self.rungs = begun_anew(self.rungs, reason)
         self._step(None)
-        self.core = _simulation(self, self._capacity)
+        self._lasting = _Lasting.of(self)
+        self.core = self._simulation()
 
     def __repr__(self) -> str:
         method = f"{self.formulation}, {self.method.integrator}"
@@ -228,7 +282,10 @@ class Run:
 
     def wanted(self, arrays: Mapping[str, Array]) -> dict[str, Array]:
         """As `named`, those that the outputs ask for."""
-        asked, named = self.outputs.channels, self.named(arrays)
+        asked = self.outputs.channels
+        if asked is not None and not DERIVED.keys() & set(asked):
+            return {name: values for name, values in arrays.items() if name in asked}
+        named = self.named(arrays)
         if asked is not None:
             return {name: values for name, values in named.items() if name in set(asked)}
         limited = {state.channel for state in self.scene.limit_states.values()}
@@ -268,9 +325,8 @@ class Run:
     def stats(self) -> dict[str, Any]:
         """Version, settings and counters so far: `Result.stats`."""
         told = {"line_rungs": as_told(self.rungs)} if self.rungs else {}
-        return told | stats_of(
-            self.scene, self.model, self.formulation, self.method, self.settings, self.core, self.start.time
-        )
+        waves = self.scene.waves
+        return told | stats_of(self._lasting.stats, waves, self.settings, self.core, self.start.time)
 
     def result(self) -> Result:
         """What has been recorded so far, with what is out of range in its stats."""
@@ -294,7 +350,7 @@ class Run:
             result = Result.from_arrays(
                 time=arrays["time"],
                 arrays=channels,
-                coords={**self.model.axes, **derived_coords(scene)},
+                coords=self._lasting.coords,
                 events=self.events(),
                 stats=stats,
                 interrupted=self.interrupted,
@@ -317,9 +373,41 @@ def _checked_state(given: Any) -> _core.State | None:
     return given
 
 
-def _simulation(run: Run, capacity: int | None) -> _core.Simulation:
-    """The run in the core."""
-    model, method, outputs = run.model, run.method, run.outputs
+@dataclass(frozen=True, kw_only=True)
+class _Lasting:
+    """What holds for a run from its start to its end, and for those of the same scene in other seas.
+
+    Attributes
+    ----------
+    options : RunOptions
+        Of the core.
+    coords : mapping
+        Names along the dimensions of channels.
+    steered : frozenset of str
+        Actuators whose inputs are not zero at the start.
+    stats : mapping
+        Of `lasting_stats`.
+    """
+
+    options: _core.RunOptions
+    coords: Mapping[str, list[str]]
+    steered: frozenset[str]
+    stats: Mapping[str, Any]
+
+    @classmethod
+    def of(cls, run: Run) -> _Lasting:
+        scene, model = run.scene, run.model
+        return cls(
+            options=_options(run),
+            coords={**model.axes, **derived_coords(scene)},
+            steered=frozenset(steered(scene, model, run.start.inputs)),
+            stats=lasting_stats(scene, model, run.formulation, run.method),
+        )
+
+
+def _options(run: Run) -> _core.RunOptions:
+    """How the core steps a run, and what it records."""
+    model, method, outputs, capacity = run.model, run.method, run.outputs, run._capacity
     usual = [*model.channel_names(), *(state.channel for state in run.scene.limit_states.values())]
     asked = usual if outputs.channels is None else list(outputs.channels)
     channels = core_channels(asked, model.channel_names(defaults_only=False))
@@ -327,9 +415,8 @@ def _simulation(run: Run, capacity: int | None) -> _core.Simulation:
         run.start.time, run.t_end, outputs.dt, first=run.first,
         values=model.channel_values(channels) if capacity is None else 0,
     )  # fmt: skip
-    options = _core.RunOptions(
+    return _core.RunOptions(
         formulation=run.formulation, integrator=method.integrator, scaled_tolerance=method.used_tolerance,
         fixed_step=method.step, max_step=method.max_step, spectral_radius=method.spectral_radius,
         energy_limit=method.energy_limit, output_times=times, channels=channels, capacity=capacity,
     )  # fmt: skip
-    return _core.Simulation(model=model, start=run.start, options=options)

@@ -12,6 +12,7 @@ from seacrane.description.limit_states import limit_states_to_data
 from seacrane.description.line_weights import line_weights
 from seacrane.description.origin import origin_settings
 from seacrane.description.outline import bounds_of, outline_of
+from seacrane.description.waves import Waves
 from seacrane.files.plain_data import plain_notes
 from seacrane.run.channel_names import hanging_bodies, hanging_weights
 from seacrane.run.method import Method
@@ -41,16 +42,8 @@ def settings_of(scene: Scene, t_end: float, method: Method, outputs: Outputs) ->
     }
 
 
-def stats_of(
-    scene: Scene,
-    model: _core.Model,
-    formulation: str,
-    method: Method,
-    settings: Mapping[str, Any],
-    core: _core.Simulation,
-    start: float,
-) -> dict[str, Any]:
-    """`Result.stats` of a run so far; `start` is its start time, s."""
+def lasting_stats(scene: Scene, model: _core.Model, formulation: str, method: Method) -> dict[str, Any]:
+    """What `Result.stats` say of a run before it begins, whatever its sea; what is missing stands as None."""
     recursive = formulation == "recursive"
     cranes = [roles_to_data(roles) for roles in scene.roles.values()]
     bounds, weights, on_lines = bounds_of(scene), hanging_weights(scene), line_weights(scene)
@@ -66,8 +59,8 @@ def stats_of(
         "bounds": json.dumps(bounds) if bounds else None,
         "formulation": formulation,
         "integrator": method.integrator,
-        "settings": settings,
-        "simulated_s": core.time - start,
+        "settings": None,
+        "simulated_s": None,
         "coordinates": model.coordinates,
         "constraints": model.constraints,
         "degrees_of_freedom": model.degrees_of_freedom,
@@ -75,6 +68,21 @@ def stats_of(
         "compiled_constraints": model.tree["loop_rows"] if recursive else model.merge["constraints"],
         "memory_states": model.memory_states,
         "history_samples": model.history_samples,
+    }
+
+
+def stats_of(
+    lasting: Mapping[str, Any],
+    waves: Waves | None,
+    settings: Mapping[str, Any],
+    core: _core.Simulation,
+    start: float,
+) -> dict[str, Any]:
+    """`Result.stats` of a run so far, from its lasting ones; `start` is its start time, s."""
+    return {
+        **lasting,
+        "settings": settings,
+        "simulated_s": core.time - start,
         **core.statistics(),
-        **({} if scene.waves is None else scene.waves.provenance.stats()),
+        **({} if waves is None else waves.provenance.stats()),
     }

@@ -5,12 +5,10 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-import numpy as np
-
-from seacrane import _core
 from seacrane._core import integrator as integrator_of
-from seacrane.analysis.linearise import LARGEST, jacobian
+from seacrane.analysis.linearise import LARGEST
 from seacrane.description.loads import lines_of, whole_of
+from seacrane.run.modes import Modes
 from seacrane.validity.range import Finding
 
 MANY_STEPS = 10_000  # fewer are no matter
@@ -30,34 +28,31 @@ def fewest_steps(states: int, least: int = MANY_STEPS) -> int:
 
 
 def stiffness(
-    model: _core.Model,
-    bodies: list[str],
-    loads: Mapping[str, Any],
-    states: list[_core.State],
-    stats: Mapping[str, Any],
+    loads: Mapping[str, Any], modes: Modes, stats: Mapping[str, Any], *, near: float = 1.0
 ) -> list[Finding]:
     """The mode that sets the steps of a slow run, looked for only where there are many steps.
 
     Parameters
     ----------
-    model : Model
-    bodies : list of str
-        Their names, in the order of the model.
     loads : mapping
         Of the scene, by name.
-    states : list of State
-        Where to look; the fastest mode of them counts.
+    modes : Modes
+        The fastest of them counts.
     stats : mapping
         Of the run: `Result.stats`.
+    near : float
+        Share of the limits from which on it is told.
     """
     integrator, steps = str(stats["integrator"]), int(stats["steps"])
     method = integrator_of(integrator)
     adjusts = method.setting == "rtol" and not method.uses_jacobian
-    if not adjusts or steps < fewest_steps(model.states) or model.states > LARGEST:
+    states = modes.model.states
+    if not adjusts or steps < fewest_steps(states) or states > LARGEST:
         return []
     step = float(stats["simulated_s"]) / steps
-    mode, body, at = max((*_fastest(model, bodies, state), state.time) for state in states)
-    if mode * step < NEAR_THE_LIMIT or mode * float(stats["settings"]["dt_out"]) < UNSEEN:
+    mode, body, at = modes.fastest.mode, modes.fastest.body, modes.fastest.time
+    shown = mode * float(stats["settings"]["dt_out"]) < near * UNSEEN
+    if mode * step < near * NEAR_THE_LIMIT or shown:
         return []
     return [
         (
@@ -86,18 +81,3 @@ def _taut_lines(loads: Mapping[str, Any], body: str, mode: float) -> str:
         "stretch='quasi-static': with an explicit method it then costs what a soft line does. For motion of "
         f"omega rad/s the tension errs by less than (omega / {mode:.4g})^2 of what omega makes of it"
     )
-
-
-def _fastest(model: _core.Model, bodies: list[str], state: _core.State) -> tuple[float, str]:
-    """Largest |eigenvalue| (1/s) and the body with the largest speed in it; zero where it is not finite."""
-    values = np.array(state.values)
-    matrix = jacobian(model, state=values, time=state.time)
-    if not np.all(np.isfinite(matrix)):
-        return 0.0, ""
-    eigenvalues, vectors = np.linalg.eig(matrix)
-    worst = int(np.abs(eigenvalues).argmax())
-    scale = np.array(model.scale)
-    size = np.abs(vectors[:, worst]) / scale[np.isfinite(scale)]
-    first = (6 if model.euler_angles else 7) * len(bodies)
-    twists = size[first : first + 6 * len(bodies)]
-    return float(np.abs(eigenvalues[worst])), bodies[int(twists.argmax()) // 6] if bodies else ""

@@ -26,13 +26,13 @@ def current_findings(scene: Description, time: Array, channels: Mapping[str, Arr
     if waves is None or not time.size:
         return []
     found: list[Finding] = []
-    peak = Peak.of(waves)
     for name, load in scene.loads.items():
         in_water = isinstance(load, _core.FlowForce) and load.density > LIGHTEST_WATER
         if not in_water or load.body not in waves.hulls:
             continue
         speed = float(np.abs(load.speed.evaluate(time)[:, 0]).max())
         flow = speed * np.array([[np.cos(load.direction), np.sin(load.direction)]])
+        peak = Peak.of(waves)
         shift = float(peak.phase(flow)[0]) / peak.omega
         if shift > LARGEST_SHIFT:
             found.append((CurrentInWavesWarning, _told(name, load.body, speed, shift)))

@@ -67,19 +67,20 @@ def hull_findings(scene: Description, time: Array, channels: Mapping[str, Array]
     """What is out of range of wave loads and moorings, vessel by vessel."""
     found: list[Finding] = []
     waves = scene.waves
-    peak = None if waves is None else Peak.of(waves)
+    peak: Peak | None = None
     given = given_vessels(scene)
     for vessel, motion in motions(scene, channels):
         if vessel.body in given:
             found += _unmoved(vessel.name, given[vessel.body], waves, vessel.body)
             continue
         found += _moored(vessel, time, motion)
-        if waves is None or peak is None:
+        if waves is None:
             continue
         if vessel.body not in waves.hulls:
             found.append((NoWaveLoadsWarning, _unloaded(vessel.name, waves)))
             continue
         hull = waves.hulls[vessel.body]
+        peak = peak or Peak.of(waves)
         if hull.force_by_heading is None:
             found += _posed(scene.bodies[vessel.body], vessel.name, hull, peak, time, motion)
         found += _under_way(peak, vessel.name, time, motion)

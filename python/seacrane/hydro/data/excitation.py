@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
+
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from seacrane import _core
 from seacrane.errors import SceneError
 from seacrane.hydro.data.heading_circle import LARGEST_HEADING_GAP, PORT_STARBOARD, both_sides, largest_gap
 from seacrane.hydro.data.hydro_data import HydroData
@@ -35,10 +38,7 @@ def force_at(
             "outside='limits'"
         )
     in_frequency = spline_weights(database.omega, np.clip(w, database.omega[0], database.omega[-1]))
-    circle, table = full_circle(database)
-    in_heading = _heading_weights(database, circle, b)
-    by_heading = (in_heading @ table.reshape(len(circle), -1)).reshape(len(b), len(database.omega), 6)
-    force = np.einsum("qn,qnd->qd", in_frequency, by_heading)
+    force = _core.weighted_sums(in_frequency, _by_heading(database, b))
     return with_limits(database, w, force).reshape(*shape, 6)
 
 
@@ -49,6 +49,34 @@ def force_on_grid(database: HydroData, omega: FloatArray, heading: FloatArray) -
     by_heading = np.tensordot(in_heading, table, axes=1)
     in_frequency = spline_weights(database.omega, np.asarray(omega, dtype=float))
     return np.asarray(np.einsum("kn,qnd->qkd", in_frequency, by_heading, optimize=True))
+
+def _by_heading(database: HydroData, heading: FloatArray) -> ComplexArray:
+    """Forces (q, n, 6) at headings (q,) and the database's frequencies (n,); (n, 6) where all are equal."""
+    if heading.size and np.all(heading == heading[0]):  # long-crested seas, one seed after another
+        one = _of_equal_headings(database, float(heading[0]), heading.size)
+        if one is not None:
+            return one
+    return _interpolated_in_heading(database, heading)
+
+
+@lru_cache(maxsize=64)
+def _of_equal_headings(database: HydroData, heading: float, count: int) -> ComplexArray | None:
+    """What so many equal headings have in common to the last bit; None where a product rounds by row."""
+    every = _interpolated_in_heading(database, np.full(count, heading))
+    return every[0].copy() if np.array_equal(every, np.broadcast_to(every[0], every.shape)) else None
+
+
+def _interpolated_in_heading(database: HydroData, heading: FloatArray) -> ComplexArray:
+    circle, table = _held_circle(database)
+    in_heading = _heading_weights(database, circle, heading)
+    return np.asarray(
+        (in_heading @ table.reshape(len(circle), -1)).reshape(len(heading), len(database.omega), 6)
+    )
+
+
+@lru_cache(maxsize=8)
+def _held_circle(database: HydroData) -> tuple[FloatArray, ComplexArray]:
+    return full_circle(database)
 
 
 def full_circle(database: HydroData) -> tuple[FloatArray, ComplexArray]:

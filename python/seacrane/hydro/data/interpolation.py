@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -24,13 +26,13 @@ def spline_weights(knots: FloatArray, query: FloatArray, *, period: float | None
     if period is not None:
         x = np.concatenate([knots[-1:] - period, knots, knots[:1] + period])
         where = knots[0] + np.mod(query - knots[0], period)
-        curvature = _periodic_curvature(knots, period)
+        curvature = _curvature(np.asarray(knots, float).tobytes(), period)
         n = len(knots)
         wrap = np.concatenate([[n - 1], np.arange(n), [0]])
         return _evaluate(x, where, np.eye(n)[wrap], curvature[wrap])
     if len(knots) < 4:
         return _polynomial_weights(knots, query)
-    return _evaluate(knots, query, np.eye(len(knots)), _not_a_knot_curvature(knots))
+    return _evaluate(knots, query, np.eye(len(knots)), _curvature(np.asarray(knots, float).tobytes(), None))
 
 
 def _evaluate(x: FloatArray, query: FloatArray, value: FloatArray, curvature: FloatArray) -> FloatArray:
@@ -43,6 +45,15 @@ def _evaluate(x: FloatArray, query: FloatArray, value: FloatArray, curvature: Fl
     bend_right = (right**3 - right) * h**2 / 6.0
     linear = left[:, None] * value[i] + right[:, None] * value[i + 1]
     return np.asarray(linear + bend_left[:, None] * curvature[i] + bend_right[:, None] * curvature[i + 1])
+
+
+@lru_cache(maxsize=16)
+def _curvature(knots: bytes, period: float | None) -> FloatArray:
+    """Matrix (n, n) from values to second derivatives; one sea after another asks for those of a database."""
+    x = np.frombuffer(knots)
+    out = _not_a_knot_curvature(x) if period is None else _periodic_curvature(x, period)
+    out.setflags(write=False)
+    return out
 
 
 def _not_a_knot_curvature(x: FloatArray) -> FloatArray:

@@ -1,0 +1,299 @@
+"""Members that differ in their sea alone: described and compiled once, and still what each is by itself."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Callable
+from concurrent.futures import Executor, ProcessPoolExecutor, ThreadPoolExecutor
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import pytest
+
+from seacrane import FlowCoefficients, Kept, Run, Scene, SceneError, _core, cases, ensemble, simulate
+from seacrane.description.waves import Waves
+from seacrane.ensembles import prepared
+from seacrane.ensembles.other_sea import with_sea
+from seacrane.ensembles.paths import with_values
+from seacrane.hydro import DriftCoefficients, HydroDatabase, shipped_database
+from seacrane.hydro.data import excitation
+from seacrane.sea import MeasuredWaves, SeaState, WaveSystem, cos_2s, jonswap, torsethaugen
+
+PATH = {"track": Kept(channel="position", at={"body": "vessel"})}
+
+
+@pytest.fixture(scope="module")
+def database() -> HydroDatabase:
+    omega, heading = np.array([0.3, 0.9, 2.0]), np.linspace(0.0, np.pi, 13)
+    values = np.zeros((13, 3, 6))
+    values[..., 0], values[..., 1] = (turn(heading)[:, None] * omega for turn in (np.cos, np.sin))
+    drift = DriftCoefficients(heading=heading, omega=omega, coefficient=1e4 * values)
+    return replace(shipped_database(), drift=drift)
+
+
+def wind_sea_and_swell(database: HydroDatabase, seed: int) -> Scene:
+    systems = [
+        WaveSystem(spectrum=jonswap(hs=1.5, tp=6.0), direction_deg=120.0, spreading=cos_2s(6.0), count=60),
+        WaveSystem(spectrum=jonswap(hs=1.0, tp=13.0), direction_deg=40.0, count=40, name="swell"),
+    ]
+    return cases.vessel(database=database, sea=SeaState(systems=systems, seed=seed))
+
+
+def slowly(database: HydroDatabase, seed: int) -> Scene:
+    """A hull with way, whose slow position has another cut-off in each sea."""
+    scene = cases.vessel(database=database, seed=seed, tp=6.0 + seed, phase="slow", drift=True, count=20)
+    scene.replace("vessel", kind="body", velocity=(0.5, 0.1, 0.0))
+    return scene
+
+
+def in_a_current(database: HydroDatabase, seed: int) -> Scene:
+    scene = cases.vessel(database=database, seed=seed, evaluation="exact", count=20)
+    angle = np.radians([0.0, 90.0, 180.0])
+    rows = FlowCoefficients(angle=angle, x=[0.1, 0.0, -0.1], y=[0.0, 0.6, 0.0], yaw=[0.0, 0.05, 0.0])
+    scene.add_current(
+        coefficients=rows, speed=0.8, direction_deg=20, frontal_area=200, lateral_area=700, length=100,
+        body="vessel",
+    )  # fmt: skip
+    return scene
+
+
+def on_a_wire(database: HydroDatabase, seed: int) -> Scene:
+    """Events take the model of other sets of limits."""
+    scene = cases.vessel(database=database, seed=seed, hs=4.0)
+    scene.add_body(
+        name="load", mass=1e4, inertia=(1e4, 1e4, 1e4), position=(0.0, 25.0, 10.0), velocity=(0.0, 0.0, 3.0)
+    )
+    scene.add_joint(
+        kind="distance", name="wire", first="vessel", second="load", point=(0.0, 25.0, 20.0),
+        second_point=(0.0, 25.0, 10.0),
+    )  # fmt: skip
+    scene.add_wire(joint="wire")
+    return scene
+
+
+SCENES: dict[str, tuple[Callable[[HydroDatabase, int], Scene], dict[str, Any]]] = {
+    "crane with actuators": (lambda database, seed: cases.case2(database=database, seed=seed), {}),
+    "crane, redundant, stabilised": (
+        lambda database, seed: cases.case1(database=database, seed=seed),
+        {"formulation": "redundant", "integrator": "cvode-adams", "t_end": 1.0},
+    ),
+    "wind sea and swell": (wind_sea_and_swell, {}),
+    "slow position": (slowly, {}),
+    "current": (in_a_current, {"integrator": "rk4", "dt": 0.05}),
+    "wire": (on_a_wire, {}),
+    "paper": (
+        lambda database, seed: cases.vessel(database=database, kinematics="paper", seed=seed),
+        {},
+    ),
+    "convolution": (
+        lambda database, seed: cases.vessel(database=database, memory="convolution", seed=seed),
+        {},
+    ),
+}
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_a_run_in_another_sea_is_that_of_the_scene_in_it(name: str, database: HydroDatabase) -> None:
+    made, settings = SCENES[name]
+    given = {"t_end": 5.0, "dt_out": 0.5, "rtol": 1e-4} | settings
+    if "dt" in given:
+        given.pop("rtol")
+    first, other = made(database, 1), made(database, 2)
+    assert other.waves is not None
+    alone, again = Run(other, **given), Run(first, **given).in_sea(other.waves)
+    for run in (alone, again):
+        run.advance(given["t_end"])
+    expected, result = alone.result(), again.result()
+    assert list(expected) == list(result)
+    for channel, values in expected.items():
+        assert np.array_equal(values, result[channel]), channel
+    told = {key: value for key, value in expected.stats.items() if key != "wall_s"}
+    assert {key: value for key, value in result.stats.items() if key != "wall_s"} == told
+    assert np.array_equal(np.array(alone.state.values), np.array(again.state.values))
+    assert expected.events == result.events
+    assert bool(result.events) == (name == "wire")
+    assert result.scene is not None
+    assert result.scene.waves is other.waves
+
+
+WORDS: dict[str, list[Any]] = {
+    "seed": [3, 4],
+    "hs": [0.8, 2.4],
+    "tp": [7.0, 11.0],
+    "direction_deg": [60.0, 170.0],
+    "gamma": [1.0, 5.0],
+}
+
+
+@pytest.mark.parametrize("word", WORDS)
+def test_members_are_what_simulate_gives_in_their_sea(word: str, database: HydroDatabase) -> None:
+    scene = cases.case2(database=database, spreading=4.0 if word == "seed" else None)
+    given: dict[str, Any] = {"t_end": 3.0, "rtol": 1e-3, "channels": ["position"]}
+    there = ensemble(scene, over={word: WORDS[word]}, keep=PATH, database=database, **given)
+    for value in WORDS[word]:
+        alone = simulate(with_sea(scene, database, {word: value}), **given)
+        assert np.array_equal(there.dataset.track.sel({word: value}), alone.select("position", body="vessel"))
+
+
+def test_the_seed_of_a_wind_sea_and_swell_varies(database: HydroDatabase) -> None:
+    given: dict[str, Any] = {"t_end": 3.0, "rtol": 1e-3}
+    scene = wind_sea_and_swell(database, 1)
+    there = ensemble(scene, over={"seed": [1, 2]}, keep=PATH, database=database, **given)
+    for seed in (1, 2):
+        alone = simulate(wind_sea_and_swell(database, seed), **given).select("position", body="vessel")
+        assert np.array_equal(there.dataset.track.sel(seed=seed), alone)
+    with pytest.raises(SceneError, match="is a SeaState, of which the seed can vary, and not hs, tp"):
+        ensemble(scene, over={"hs": [1.0], "tp": [8.0]}, keep=PATH, database=database, **given)
+
+
+@pytest.mark.parametrize(
+    ("system", "message"),
+    [
+        (
+            WaveSystem(spectrum=torsethaugen(hs=2.0, tp=9.0), direction_deg=0.0),
+            "'waves' of the sea is a Torse",
+        ),
+        (
+            MeasuredWaves(time=np.arange(20.0), elevation=np.sin(np.arange(20.0)), direction_deg=0.0),
+            "'measured' of the sea is a record",
+        ),
+        (
+            WaveSystem(spectrum=jonswap(hs=2.0, tp=9.0), direction_deg=0.0, omega_max=1.5, count=20),
+            "is not the one that its record describes",
+        ),
+    ],
+)
+def test_a_sea_that_cannot_be_made_again_is_refused(
+    system: WaveSystem | MeasuredWaves, message: str, database: HydroDatabase
+) -> None:
+    scene = cases.vessel(database=database, sea=SeaState(systems=[system]))
+    with pytest.raises(SceneError, match=message):
+        ensemble(scene, over={"seed": [1, 2]}, keep=PATH, database=database)
+
+
+def counted(monkeypatch: pytest.MonkeyPatch) -> list[str]:
+    """Names of what is compiled from now on."""
+    names: list[str] = []
+    compile_scene = _core.compile
+
+    def counting(**given: Any) -> _core.Model:
+        names.append(given["name"])
+        return compile_scene(**given)
+
+    monkeypatch.setattr(_core, "compile", counting)
+    return names
+
+
+def test_a_scene_is_compiled_once_for_all_its_seas(
+    database: HydroDatabase, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    scene = cases.vessel(database=database)
+    path, given = "bodies.vessel.mass", {"t_end": 1.0, "rtol": 1e-3}
+    masses = [float(scene.bodies["vessel"].mass) * share for share in (1.0, 1.01)]
+    over = {path: masses, "seed": range(4)}
+    compiled = counted(monkeypatch)
+    there = ensemble(scene, over=over, keep=PATH, database=database, **given)
+    assert len(compiled) == len(masses)
+    monkeypatch.setattr(prepared, "MOST_HELD", 1)
+    turned = ensemble(
+        scene, over={"seed": range(4), path: masses}, keep=PATH, database=database, pack=3, **given
+    )
+    assert len(compiled) == len(masses) + 8  # none is held for as long as the next sea
+    assert there.failures == turned.failures == {}
+    assert np.array_equal(there.dataset.track, turned.dataset.track.transpose(*there.dataset.track.dims))
+    heavier = with_sea(with_values(scene, {path: masses[1]}), database, {"seed": 2})
+    alone = simulate(heavier, **given).select("position", body="vessel")
+    assert np.array_equal(there.dataset.track.sel({path: masses[1], "seed": 2}), alone)
+
+
+@pytest.mark.parametrize("pool", [ThreadPoolExecutor, ProcessPoolExecutor])
+def test_seas_are_the_same_whoever_runs_them(pool: type[Executor], database: HydroDatabase) -> None:
+    scene = cases.vessel(database=database, spreading=3.0)
+    mass = float(scene.bodies["vessel"].mass)
+    over = {"bodies.vessel.mass": [mass, 1.01 * mass], "seed": range(4), "hs": [1.0, 2.0]}
+    given: dict[str, Any] = {"over": over, "keep": PATH, "database": database, "t_end": 1.0, "rtol": 1e-3}
+    with pool(2) as executor:  # type: ignore[call-arg]
+        there = ensemble(scene, executor=executor, pack=3, **given)
+    assert there.failures == {}
+    assert there.dataset.identical(ensemble(scene, **given).dataset)
+
+
+def test_a_member_that_cannot_be_prepared_is_a_failure_of_its_own(database: HydroDatabase) -> None:
+    over = [{"bodies.vessel.mass": mass, "seed": 1} for mass in (-1.0, 2e7)]
+    there = ensemble(cases.vessel(database=database), over=over, keep=PATH, database=database, t_end=1.0)
+    assert list(there.failures) == [0]
+    assert "mass" in there.failures[0]
+
+
+def test_a_run_in_no_sea_or_a_sea_on_others_is_refused(database: HydroDatabase) -> None:
+    scene = cases.vessel(database=database)
+    waves = scene.waves
+    assert waves is not None
+    calm = Run(cases.vessel(database=database, hs=0.0), 1.0)
+    with pytest.raises(SceneError, match="has no sea to be replaced"):
+        calm.in_sea(waves)
+    run = Run(scene, 1.0)
+    with pytest.raises(SceneError, match="loads other vessels than it was compiled with"):
+        run.in_sea(replace(waves, hulls={}))
+    scene.use_actual_position(database)
+    assert scene.waves is not None
+    with pytest.raises(SceneError, match="another kind of position"):
+        run.in_sea(scene.waves)
+
+
+def longer_than_its_period(database: HydroDatabase) -> tuple[Run, Waves]:
+    sea = SeaState(
+        systems=[WaveSystem(spectrum=jonswap(hs=1.0, tp=8.0), direction_deg=90.0, count=8)],
+        placement="uniform",
+    )
+    scene = cases.vessel(database=database, sea=sea, evaluation="fft")
+    assert scene.waves is not None
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        return Run(scene, 100.0), scene.waves
+
+
+def test_a_sea_that_repeats_is_told_again(database: HydroDatabase) -> None:
+    run, waves = longer_than_its_period(database)
+    with pytest.warns(UserWarning, match="repeat after"):
+        run.in_sea(waves)
+
+
+def test_a_growing_mode_is_told_of_in_every_sea(database: HydroDatabase) -> None:
+    scene = cases.vessel(database=database, count=10)
+    scene.add_body(name="box", mass=1.0, inertia=(1, 1, 1), velocity=(1e-6, 0, 0))
+    scene.add_joint(kind="prismatic", name="rail", first="ground", second="box", axis=(1, 0, 0))
+    scene.add_actuator(name="hold", joint="rail", stiffness=2.2**2)
+    given: dict[str, Any] = {"t_end": 4500.0, "dt_out": 5.0, "rtol": 1e-2, "max_step": 0.5}
+    given |= {"integrator": "tsit5", "channels": ["position"]}
+    there = ensemble(scene, over={"seed": [5]}, keep=PATH, database=database, **given)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        alone = simulate(with_sea(scene, database, {"seed": 5}), **given)
+    assert "makes an oscillation of body 'box' grow" in str(alone.stats["validity"])
+    assert there.dataset.validity.sel(seed=5).item() == alone.stats["validity"]
+
+
+@pytest.mark.parametrize("count", [1, 2, 7, 200, 311])
+@pytest.mark.parametrize("heading", [0.0, 0.3, -2.5])
+def test_forces_of_one_heading_are_those_of_any_headings(
+    heading: float, count: int, database: HydroDatabase
+) -> None:
+    one = excitation._by_heading(database, np.full(count, heading))
+    every = excitation._interpolated_in_heading(database, np.full(count, heading))
+    assert np.array_equal(np.broadcast_to(one, every.shape), every)
+    weights = np.random.default_rng(count).normal(size=(count, every.shape[1]))
+    sums = _core.weighted_sums(weights, every)
+    assert np.array_equal(_core.weighted_sums(weights, one), sums)
+    expected = np.einsum("qn,qnd->qd", weights, every)
+    assert np.allclose(sums, expected, rtol=0.0, atol=1e-13 * np.abs(every).max() * np.abs(weights).sum())
+
+
+@pytest.mark.parametrize(
+    "shapes", [((2, 3), (2, 4, 6)), ((2, 3), (4, 6)), ((2, 3), (3, 3, 6)), ((3,), (3, 6))]
+)
+def test_sums_of_other_shapes_are_refused(shapes: tuple[tuple[int, ...], tuple[int, ...]]) -> None:
+    weights, values = (np.zeros(shape) for shape in shapes)
+    with pytest.raises(ValueError, match=r"give weights \(q, n\) and values"):
+        _core.weighted_sums(weights, values)
