@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
+from seacrane.crane.add_hydraulics import CYLINDERS, add_hydraulics, hydraulics_of
 from seacrane.crane.builder import FOOT, KnuckleBoomCrane, Vector
 from seacrane.crane.payload import Payload
 from seacrane.crane.records import BodyRecord, JointRecord
@@ -25,7 +27,6 @@ from seacrane.inputs.shown import shown
 
 Array = npt.NDArray[np.float64]
 SLEW = "A"
-CYLINDERS = {"main": "main_cylinder", "knuckle": "knuckle_cylinder"}
 TIP_BODY = "knuckle_jib"
 PAYLOAD = "payload"
 POINTS = ("point", "second_point")
@@ -44,6 +45,7 @@ def add_crane(
     payload: Payload | None = None,
     damping: bool = True,
     held: bool = False,
+    hydraulics: Mapping[str, Mapping[str, Any]] | None = None,
     prefix: str = "",
 ) -> CraneRoles:
     """Add a crane, and a payload hanging at rest; its strokes keep the data file's range.
@@ -63,6 +65,11 @@ def add_crane(
         Whether the payload has its small damping: of its swing, and drag in the air. False: neither.
     held : bool
         Whether drivers hold slew angle and strokes where they are described. False: drives are to be added.
+        Hydraulic cylinders hold their strokes themselves.
+    hydraulics : mapping of str to mapping, optional
+        By "main" and "knuckle", the entries of `add_hydraulic_cylinder` beside its geometry: that cylinder is
+        hydraulic, named as its joint, and holds the crane and its payload at the start. Areas default to the
+        data file's, or to those of its barrel and rod. Default: what the data file says; it may say nothing.
     prefix : str
         Begins the names of all bodies and joints of this crane and the labels of its channels, such as
         "aft "; a scene's cranes need different ones.
@@ -94,6 +101,7 @@ def add_crane(
     damped, is_held = flag_of("crane: damping", damping), flag_of("crane: held", held)
     if payload is not None:
         records.append(crane.payload_body(payload, **place))
+    oil = hydraulics_of(crane, hydraulics)
     names = {"": base} | {body.name: prefix + body.name for body in records}
     frame = _Frame(scene, base)
     for body in records:
@@ -103,10 +111,15 @@ def add_crane(
     for name, stroke in zip(CYLINDERS.values(), (s1, s2), strict=True):
         longest = getattr(crane.data, name).stroke
         add_range(scene, joint=prefix + name, minimum=-stroke, maximum=longest - stroke)
+    force = crane.static_cylinder_forces(
+        s1=s1, s2=s2, payload_mass=0.0 if payload is None else payload.mass, gravity=scene.gravity
+    )
+    add_hydraulics(scene, crane, oil, force=dict(zip(CYLINDERS, force.tolist(), strict=True)), prefix=prefix)
     tip = frame.in_body(prefix + TIP_BODY, _tip(crane, place))
     if payload is not None and damped:
         _damp(scene, payload, tip, names[PAYLOAD])
-    for joint in (SLEW, *CYLINDERS.values()) if is_held else ():
+    driven = (SLEW, *(name for label, name in CYLINDERS.items() if label not in oil))
+    for joint in driven if is_held else ():
         add_driver(scene, joint=prefix + joint, curve=0.0)
     return add_roles(
         scene,

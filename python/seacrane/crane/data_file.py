@@ -7,8 +7,10 @@ import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
+from types import MappingProxyType
 from typing import Any
 
+from seacrane import _core
 from seacrane.crane.mass_properties import Box, Member, Point, Tube
 from seacrane.description.capacity import Capacity, capacity_of
 from seacrane.description.cylinder_areas import Areas, areas_of
@@ -23,6 +25,10 @@ LARGEST_FILE = 2**20  # bytes
 LONGEST_TEXT = 200
 SMALLEST = 1e-9  # m, kg
 THINNEST = 1e-6  # of a section
+GEOMETRY = {"full_area", "rod_side_area", "retracted_length", "stroke"}
+HYDRAULIC_KEYS = {
+    field.name for field in _core.HydraulicCylinder.FIELDS if field.type in ("number", "flag")
+} - GEOMETRY
 APART = 1e-6  # m: pivots nearer than that are one
 
 
@@ -30,7 +36,8 @@ APART = 1e-6  # m: pivots nearer than that are one
 class CylinderData:
     """A hydraulic cylinder: length between its pivots at stroke 0 and largest stroke, m; its members.
 
-    Areas of the piston's full side and rod side, m2, where the file has them.
+    Areas of the piston's full side and rod side, m2, and entries of `add_hydraulic_cylinder`, where the file has
+    them.
     """
 
     retracted_length: float
@@ -38,6 +45,7 @@ class CylinderData:
     barrel: tuple[Member, ...]
     rod: tuple[Member, ...]
     areas: Areas | None = None
+    hydraulics: Mapping[str, float] | None = None
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -166,6 +174,17 @@ class _Table:
         except SceneError as error:
             raise FileFormatError(f"{error}.") from error
 
+    def hydraulics(self) -> Mapping[str, float] | None:
+        """Entries of a hydraulic cylinder, SI units, in a table of its own."""
+        if "hydraulics" not in self.values:
+            return None
+        table, found = self.table("hydraulics"), {}
+        for key in HYDRAULIC_KEYS & set(table.values):
+            value = table.take(key)
+            found[key] = value if isinstance(value, bool) else _number(self.source, table.label(key), value)
+        table.finish()
+        return MappingProxyType(found)
+
     def members(self, key: str) -> tuple[Member, ...]:
         value = self.take(key)
         if not isinstance(value, list) or not value:
@@ -244,6 +263,7 @@ def _cylinder(table: _Table) -> CylinderData:
         barrel=table.members("barrel"),
         rod=table.members("rod"),
         areas=table.areas(),
+        hydraulics=table.hydraulics(),
     )
     table.finish()
     return data

@@ -11,6 +11,7 @@ from seacrane import _core
 from seacrane.analysis.ballast import add_ballast
 from seacrane.analysis.tanks import Tank
 from seacrane.crane.add_crane import add_crane
+from seacrane.crane.add_hydraulics import CYLINDERS
 from seacrane.crane.payload import Payload
 from seacrane.description import (
     bodies,
@@ -31,7 +32,18 @@ from seacrane.lift.keys import Key, field_keys, fields_of, keys_of
 from seacrane.lift.stage_keys import CHANNEL_UNITS, STAGE
 from seacrane.run.method import FORMULATIONS, Method
 from seacrane.run.outputs import Outputs
-from seacrane.scene import bridles, given_vessel, heave, heavy_line, limits, lines, sea, vessel, wind_current
+from seacrane.scene import (
+    bridles,
+    given_vessel,
+    heave,
+    heavy_line,
+    hydraulics,
+    limits,
+    lines,
+    sea,
+    vessel,
+    wind_current,
+)
 from seacrane.scene.gusts import gust_curve
 from seacrane.scene.mooring import MooringSpring
 from seacrane.scene.motion_history import MotionHistory
@@ -228,9 +240,23 @@ PISTON = (
 )
 PAYLOAD = keys_of(Payload, more={"mass": {"unit": "kg"}, "size": POINT, "link_length": LENGTH})
 POSE: dict[str, dict[str, Any]] = {"theta": {"unit": "rad"}, "s1": LENGTH, "s2": LENGTH}
+OIL = tuple(
+    replace(key, required=False)
+    for key in fields_of(
+        _core.HydraulicCylinder,
+        without=("name", "first", "second", "first_point", "second_point", "retracted_length", "stroke"),
+    )
+)
+HYDRAULICS = tuple(Key(name=label, type="table", keys=OIL) for label in CYLINDERS)
 CRANE = keys_of(
     add_crane,
-    more=POSE | {"crane": {"type": "file"}, "foot": POINT, "payload": {"type": "table", "keys": PAYLOAD}},
+    more=POSE
+    | {
+        "crane": {"type": "file"},
+        "foot": POINT,
+        "payload": {"type": "table", "keys": PAYLOAD},
+        "hydraulics": {"type": "table", "keys": HYDRAULICS},
+    },
 )
 TUNED_AT = tuple(key for key in CRANE if key.name in (*POSE, "payload"))
 TIMES = (
@@ -330,6 +356,7 @@ _ALL = (
     _call(
         "gas_spring", heave.add_gas_spring, _core.GasSpring, force={"unit": "N"}, stiffness={"unit": "N/m"},
     ),
+    _call("hydraulic_cylinder", hydraulics.add_hydraulic_cylinder, _core.HydraulicCylinder),
     _call(
         "bridle", bridles.add_bridle, _core.Line,
         hook_point=POINT, stiffnesses=ROW | {"unit": "N"}, lengths=ROW | {"unit": "m"},
