@@ -6,11 +6,12 @@ from typing import Any
 
 import numpy as np
 import pytest
-from hydraulic_scenes import FULL, G, HOLDING, MASS, RING, SET, START, STROKE, lifted, own_solution, raised
+from hydraulic_scenes import FULL, HOLDING, MASS, RING, SET, START, STROKE, lifted, own_solution, raised
 from multibody_runs import record
 from numpy.testing import assert_allclose
+from scipy.integrate import simpson
 
-from seacrane import Scene, SceneError, natural_modes, simulate
+from seacrane import Run, Scene, SceneError, natural_modes
 
 LEAKS = {"internal_leakage": 2e-13, "external_leakage": 1e-13, "overlap": 0.05}
 
@@ -58,7 +59,7 @@ def test_the_complete_parameter_set_follows_an_independent_stiff_solver(
     ram = scene.loads["ram"]
     out = record(scene, 1.8, dt_out=0.02, rtol=1e-9, formulation=formulation)
     s, v, p1, p2, u = own_solution(out["time"], (ram.pressure, ram.pressure_rod), **more)
-    assert np.ptp(s) > 0.05
+    assert np.ptp(s) > 0.02
     assert_allclose(out["hydraulic_stroke"][:, 0], s, atol=1e-6 * STROKE)
     assert_allclose(out["velocity"][:, 0, 2], v, atol=1e-6)
     assert_allclose(out["hydraulic_pressure"][:, 0, 0], p1, atol=1e-6 * SET["pump_pressure"])
@@ -97,21 +98,22 @@ def test_energy_closes_with_every_part() -> None:
 
 def test_oil_is_neither_lost_nor_made() -> None:
     """Flows in and out are what both chambers take, by their strokes and pressures."""
-    scene = lifted(**LEAKS)
-    out = record(scene, 1.6, dt_out=0.002, rtol=1e-10)
+    out = record(lifted(), 1.6, dt_out=0.002, rtol=1e-10)
+    through, returned = out["hydraulic_pump_flow"][:, 0], out["hydraulic_tank_flow"][:, 0]
+    ports = out["hydraulic_flow"][:, 0]
+    assert_allclose(through - returned, np.sum(ports, axis=1), atol=1e-15 * np.max(np.abs(ports)))
     p = out["hydraulic_pressure"][:, 0]
     s = out["hydraulic_stroke"][:, 0]
     k = 1.0 / SET["oil_modulus"] + 1.0 / SET["cylinder_modulus"]
     d = 1.0 / SET["hose_modulus"] - 1.0 / SET["cylinder_modulus"]
-    content = np.zeros_like(s)
-    for swept, hose, pressure in (
-        (FULL * s, SET["hose_volume"], p[:, 0]),
-        (RING * (STROKE - s), SET["hose_volume_rod"], p[:, 1]),
+    for side, swept, hose in (
+        (0, FULL * s, SET["hose_volume"]),
+        (1, RING * (STROKE - s), SET["hose_volume_rod"]),
     ):
-        content += swept * np.exp(k * pressure) + hose * (k + d) * np.expm1(k * pressure) / k
-    assert np.ptp(content) > 1e-6
-    spent = out["hydraulic_pump_flow"][:, 0] - out["hydraulic_tank_flow"][:, 0]
-    assert_allclose(content[-1] - content[0], np.trapezoid(spent, out["time"]), atol=2e-3 * np.ptp(content))
+        density = np.exp(k * p[:, side])
+        content = swept * density + hose * (k + d) * (density - 1.0) / k
+        taken_in = simpson(density * ports[:, side], x=out["time"])
+        assert content[-1] - content[0] == pytest.approx(taken_in, abs=1e-6 * np.ptp(content))
 
 
 def test_a_stiffer_oil_comes_to_the_ideal_cylinder() -> None:
@@ -128,24 +130,26 @@ def test_a_stiffer_oil_comes_to_the_ideal_cylinder() -> None:
     supply = SET["pump_pressure"] * FULL - SET["tank_pressure"] * RING - HOLDING
     expected = c * np.sqrt(supply / (FULL**3 + RING**3))
     assert speed == pytest.approx(expected, rel=2e-3)
-    assert G > 0.0
 
 
-def test_a_run_goes_on_bit_for_bit() -> None:
+@pytest.mark.parametrize("integrator", ["dopri5", "rosenbrock"])
+def test_a_run_goes_on_bit_for_bit(integrator: str) -> None:
     scene = lifted(**EVERYTHING)
-    whole = simulate(scene, 1.6, dt_out=0.1)
-    half = simulate(scene, 0.8, dt_out=0.1)
-    rest = simulate(scene, 1.6, dt_out=0.1, start=half.state)
-    assert np.array_equal(whole["load_state"][-1], rest["load_state"][-1])
+    whole = Run(scene, t_end=1.7, dt_out=0.1, rtol=1e-6, integrator=integrator)
+    whole.advance(0.83)
+    later = Run(scene, t_end=1.7, dt_out=0.1, rtol=1e-6, integrator=integrator, start=whole.core.state)
+    for going in (whole, later):
+        going.advance(1.7)
+    assert np.array_equal(whole.core.state.values, later.core.state.values)
 
 
 @pytest.mark.parametrize(
     ("wrong", "message"),
     [
-        ({"pressure": -1e5, "pressure_rod": 1e5}, "pressure is -1e\\+05; it must be positive"),
+        ({"pressure": -1e5, "pressure_rod": 1e5}, "pressure is -100000; it must be positive"),
         ({"pump_pressure": 0.0}, "has a spool and no pump; give pump_pressure"),
         ({"rod_side_area": 2 * FULL}, "rod_side_area is .* more than the full side's"),
-        ({"full_area": 50.3, "rod_side_area": 40.6}, "full_area is 50.3.* a piston .* m wide"),
+        ({"full_area": 50.3, "rod_side_area": 40.6, "hose_volume": 2.0, "hose_volume_rod": 2.0}, "full_area is 50.3.* a piston .* m wide"),
         ({"relief_pressure": 1e6, "relief_flow": 1e-3}, "relief_pressure is .* below the holding pressure"),
         ({"hose_volume": 0.0}, "hose_volume is 0 m3, and at an end of the stroke no oil is left"),
         ({"stroke": 0.2}, "1.35 m apart as described, and it is 1.05 to 1.25 m long"),
@@ -157,7 +161,6 @@ def test_a_run_goes_on_bit_for_bit() -> None:
         ({"tank_pressure": 8e6}, "pump_pressure is 7.6e\\+06 Pa, not above the tank's"),
         ({"command": 0.5, "rated_flow": 0.0, "pump_pressure": 0.0}, "has a command and no spool"),
     ],
-    ids=lambda value: "-".join(value) if isinstance(value, dict) else "",
 )
 def test_bad_input_is_named(wrong: dict[str, Any], message: str) -> None:
     with pytest.raises(SceneError, match=f"hydraulic cylinder 'ram': .*{message}"):
