@@ -9,6 +9,7 @@ import numpy as np
 from seacrane import _core
 from seacrane.analysis.inverse import locked
 from seacrane.description.compilation import compile_scene
+from seacrane.description.drives import add_driver
 from seacrane.description.hydraulic_cylinders import hydraulic_cylinders, what_of
 from seacrane.description.joints import add_joint
 from seacrane.description.scene import Description
@@ -22,8 +23,8 @@ AT_REST = 1e-6  # m/s2 or rad/s2
 def holding_force(scene: Description, given: dict[str, Any]) -> float:
     """Force (N, positive pushes) between two points that holds the scene at rest as described.
 
-    A rod of fixed length takes the cylinder's place, and that of each other cylinder; vessels and actuated
-    coordinates are held, and waves left out.
+    A rod of fixed length takes the cylinder's place, and that of each other cylinder; vessels, actuated
+    coordinates and the drives of cranes are held, and waves left out.
 
     Parameters
     ----------
@@ -42,7 +43,8 @@ def holding_force(scene: Description, given: dict[str, Any]) -> float:
     held.loads = {name: load for name, load in held.loads.items() if name not in others}
     own = _tie(held, given)
     for other in others.values():
-        _tie(held, {key: getattr(other, key) for key in ENDS} | {"name": other.name})
+        _tie(held, ends_of(other))
+    _hold_cranes(held, {frozenset((one["first"], one["second"])) for one in (given, *map(ends_of, others.values()))})
     model = compile_scene(held)
     evaluator = _core.Evaluator(model)
     state = np.array(model.initial_state)
@@ -64,6 +66,23 @@ def holding_force(scene: Description, given: dict[str, Any]) -> float:
 
 
 ENDS = ("first", "second", "first_point", "second_point")
+
+
+def ends_of(cylinder: _core.HydraulicCylinder) -> dict[str, Any]:
+    """Name, bodies and points of a cylinder."""
+    return {key: getattr(cylinder, key) for key in ("name", *ENDS)}
+
+
+def _hold_cranes(scene: Description, tied: set[frozenset[str]]) -> None:
+    """Drivers for what nothing holds of the drives of cranes; `tied`: bodies that cylinders join."""
+    driven = {driver.joint for driver in scene.drivers.values()}
+    for roles in scene.roles.values():
+        for name in (*([roles.slew[0]] if roles.slew else []), *roles.cylinders.values()):
+            if name not in scene.joints or name in driven:
+                continue
+            joint = scene.joints[name]
+            if frozenset((joint.first, joint.second)) not in tied:
+                add_driver(scene, joint=name, curve=0.0)
 
 
 def _tie(scene: Description, given: dict[str, Any]) -> str:
