@@ -7,8 +7,9 @@ from typing import Any
 import numpy as np
 
 from seacrane import _core
+from seacrane.description.drives import add_actuator
 from seacrane.description.forces import add_load
-from seacrane.description.scene import GROUND, Description
+from seacrane.description.scene import GROUND, Description, Some
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import number_of, text_of
 from seacrane.inputs.frames import rotation_matrix
@@ -20,6 +21,24 @@ BACK_PRESSURE = 0.1  # of the pump's, in the chamber that carries nothing
 def hydraulic_cylinders(scene: Description) -> dict[str, _core.HydraulicCylinder]:
     """Those of a scene, by name."""
     return {name: load for name, load in scene.loads.items() if isinstance(load, _core.HydraulicCylinder)}
+
+
+def slide_of(scene: Description, cylinder: _core.HydraulicCylinder) -> str | None:
+    """The prismatic joint along which a cylinder pushes: that of the bodies that it joins."""
+    ends = cylinder.first, cylinder.second
+    slides = (one for one in scene.joints.values() if one.kind == "prismatic")
+    return next((joint.name for joint in slides if (joint.first, joint.second) == ends), None)
+
+
+def with_ideal_cylinders(scene: Some) -> Some:
+    """The scene with an actuator of the same name in place of each cylinder that has a joint to act on."""
+    found = hydraulic_cylinders(scene)
+    slides = {name: slide for name, one in found.items() if (slide := slide_of(scene, one)) is not None}
+    out = scene.copy(loads={name: load for name, load in scene.loads.items() if name not in slides})
+    out.actuators = dict(scene.actuators)
+    for name, slide in slides.items():
+        add_actuator(out, name=name, joint=slide)
+    return out
 
 
 def what_of(given: dict[str, Any]) -> str:

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from seacrane.description.crane_parts import cylinders, hooks, piston_areas, slews, tips
 from seacrane.description.cylinder_areas import pressure
-from seacrane.description.hydraulic_cylinders import hydraulic_cylinders
+from seacrane.description.hydraulic_cylinders import hydraulic_cylinders, slide_of
 from seacrane.errors import SceneError
 from seacrane.result.channels import CHANNELS, DERIVED, FIXED
 from seacrane.run.clearances import clearances
@@ -203,12 +203,8 @@ def _drive_load(scene: Description, arrays: Mapping[str, Array], wanted: tuple[s
 
 def _pushed(scene: Description) -> list[tuple[str, str] | None]:
     """The joint coordinates along which hydraulic cylinders push: those of the bodies that they join."""
-    slides = {
-        (joint.first, joint.second): (name, "displacement")
-        for name, joint in scene.joints.items()
-        if joint.kind == "prismatic"
-    }
-    return [slides.get((one.first, one.second)) for one in hydraulic_cylinders(scene).values()]
+    slides = [slide_of(scene, one) for one in hydraulic_cylinders(scene).values()]
+    return [None if slide is None else (slide, "displacement") for slide in slides]
 
 
 def _turned(angles: Array | None) -> Array | None:
