@@ -60,7 +60,7 @@ std::vector<Channel> hydraulic_channels() {
        .write = write_hydraulics<put_each<&Hydraulics::pressure>>},
       {.name = "hydraulic_spool",
        .axes = {&hydraulic_cylinder},
-       .unit = "",
+       .unit = "1",
        .text = "position of its spool; 1: pump to the full side, wide open",
        .write = write_hydraulics<put_one<&Hydraulics::spool>>},
       {.name = "hydraulic_flow",
