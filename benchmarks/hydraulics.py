@@ -1,7 +1,7 @@
-"""Measures what hydraulic cylinders cost: ``python benchmarks/hydraulics.py [--publish]`` (a part of ``run.py``).
+"""Measures what hydraulic cylinders cost: ``python benchmarks/hydraulics.py [--publish]``.
 
-Prints the table and writes it to ``out/bench/results``; with ``--publish`` to ``benchmarks/results``, from
-which ``benchmarks/documents.py`` fills docs/hydraulics.md.
+A part of ``run.py``. Prints the table and writes it to ``out/bench/results``; with ``--publish`` to
+``benchmarks/results``, from which ``benchmarks/documents.py`` fills docs/hydraulics.md.
 """
 
 from __future__ import annotations

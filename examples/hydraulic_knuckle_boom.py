@@ -1,4 +1,4 @@
-"""A hose of the main cylinder bursts under a load: how fast it comes down, and what a load-holding valve does.
+"""A hose of the main cylinder bursts under a load: how fast it comes down, what a load-holding valve does.
 
 Usage: python hydraulic_knuckle_boom.py [FOLDER FOR A PICTURE]
 """
@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from seacrane import Curve, Scene, simulate
-from seacrane.crane import KnuckleBoomCrane, Payload
+from seacrane.crane import Payload
 
 BURST, END = 20.0, 40.0  # s
 HOLE, DISCHARGE, DENSITY = np.pi / 4.0 * 0.02**2, 0.6, 870.0  # m2: 20 mm; -, kg/m3
@@ -51,15 +51,17 @@ for name, result in runs.items():
     orifice = DISCHARGE * HOLE / area * np.mean(np.sqrt(2.0 * (pressure[late] - 1e5) / DENSITY))
     fallen = height[time < BURST][-1] - height[-1]
     rate = f"{1e3 * orifice:11.2f} mm/s" if "holding" not in name else f"{'closed':>15}"
-    print(f"{name:28} {np.mean(pressure[late]) / 1e5:6.1f} bar {1e3 * speed:7.2f} mm/s {rate} {fallen:9.3f} m")
+    print(
+        f"{name:28} {np.mean(pressure[late]) / 1e5:6.1f} bar {1e3 * speed:7.2f} mm/s {rate} {fallen:9.3f} m"
+    )
 
 lifting = next(iter(runs.values()))
 flow = lifting["hydraulic_pump_flow"].sum(axis=1)
 power = (OIL["pump_pressure"] - 1e5) * flow
 before = time < BURST
 print(
-    f"pump over the lift: at most {6e4 * flow[before].max():.0f} l/min and {power[before].max() / 1e3:.0f} kW, "
-    f"{np.trapezoid(power[before], time[before]) / 1e6:.2f} MJ in all"
+    f"pump over the lift: at most {6e4 * flow[before].max():.0f} l/min and "
+    f"{power[before].max() / 1e3:.0f} kW, {np.trapezoid(power[before], time[before]) / 1e6:.2f} MJ in all"
 )
 
 if len(sys.argv) > 1:
@@ -72,7 +74,9 @@ if len(sys.argv) > 1:
         pressure = result.select("hydraulic_pressure", **cylinder, chamber="full")
         axes[1].plot(time, pressure / 1e5, label=name)
         axes[2].plot(time, 6e4 * result.select("hydraulic_spill", **cylinder), label=name)
-    for axis, label in zip(axes, ("stroke [m]", "pressure, full side [bar]", "lost oil [l/min]"), strict=True):
+    for axis, label in zip(
+        axes, ("stroke [m]", "pressure, full side [bar]", "lost oil [l/min]"), strict=True
+    ):
         axis.axvline(BURST, color="0.6", linestyle=":")
         axis.set_ylabel(label)
     axes[0].legend()

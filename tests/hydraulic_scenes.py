@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -46,7 +47,9 @@ def raised(*, mass: float = MASS, above: bool = True, velocity: float = 0.0, **s
     scene.add_body(
         name="load", mass=mass, inertia=(10.0, 10.0, 10.0), position=place, velocity=(0, 0, velocity)
     )
-    scene.add_joint(kind="prismatic", name="guide", first="ground", second="load", point=(0, 0, 0), axis=(0, 0, 1))
+    scene.add_joint(
+        kind="prismatic", name="guide", first="ground", second="load", point=(0, 0, 0), axis=(0, 0, 1)
+    )
     scene.add_hydraulic_cylinder(name="ram", first="ground", second="load", **SET | settings)
     return scene
 
@@ -108,7 +111,7 @@ def own_solution(times: Array, pressures: tuple[float, float], **more: Any) -> A
 
     found, x = [], np.array([START, 0.0, *pressures, 0.0])
     corners = [0.0, 0.1, 0.3, 0.8, 0.9, 1.2, 1.4, float(times[-1])]
-    for begin, end in zip(corners, corners[1:], strict=False):
+    for begin, end in pairwise(corners):
         inside = times[(times >= begin) & (times < end)]
         part = solve_ivp(
             rates, (begin, end), x, method="Radau", t_eval=[*inside, end], rtol=1e-10,

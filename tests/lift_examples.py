@@ -475,8 +475,8 @@ def every_table() -> Scene:
         damping=100, minimum=1, maximum=7,
     )  # fmt: skip
     scene.add_hydraulic_cylinder(
-        name="ram", first="box", second="bob", full_area=0.05, rod_side_area=0.03, retracted_length=0.1, stroke=20,
-        pressure=2e6, pressure_rod=1e6, pump_pressure=2e7, rated_flow=0.01, pump_check=True,
+        name="ram", first="box", second="bob", full_area=0.05, rod_side_area=0.03, retracted_length=0.1,
+        stroke=20, pressure=2e6, pressure_rod=1e6, pump_pressure=2e7, rated_flow=0.01, pump_check=True,
         reference=Curve.quintic(start_time=0, end_time=5, start=3, end=4), gain=2, rupture_time=9,
         rupture_area=1e-5,
     )  # fmt: skip

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from hydraulic_scenes import FULL, G, HOLDING, MASS, RETRACTED, RING, SET, START, STROKE, raised
+from hydraulic_scenes import FULL, HOLDING, MASS, RETRACTED, RING, SET, START, STROKE, G, raised
 from multibody_runs import record
 from scipy.optimize import brentq
 
@@ -37,7 +37,12 @@ def test_a_burst_hose_lowers_the_load_as_fast_as_the_orifice_lets_oil_out() -> N
 
     speed = brentq(left, 1e-6, 0.1)
     assert -out["velocity"][-1, 0, 2] == pytest.approx(speed, rel=1e-5)
-    plain = 0.6 * BURST["rupture_area"] * np.sqrt(2.0 * (HOLDING / FULL - AIR * (1.0 - RING / FULL)) / 870.0) / FULL
+    plain = (
+        0.6
+        * BURST["rupture_area"]
+        * np.sqrt(2.0 * (HOLDING / FULL - AIR * (1.0 - RING / FULL)) / 870.0)
+        / FULL
+    )
     assert speed == pytest.approx(plain, rel=1e-2)
     spilled = out["hydraulic_spill"][:, 0]
     assert np.all(spilled[out["time"] < 0.2] == 0.0)
@@ -59,7 +64,9 @@ def test_a_load_holding_valve_holds_when_the_hose_bursts() -> None:
 def test_a_load_holding_valve_lowers_by_its_pilot() -> None:
     """At rest it is closed; the pump on the rod side opens it, and the load goes down steadily."""
     down = Curve.quintic(start_time=0.1, end_time=0.3, start=0.0, end=-0.5)
-    out = record(raised(command=down, pilot_ratio=3.0, counterbalance_range=4e7, **HOLDING_VALVE), 3.0, rtol=1e-8)
+    out = record(
+        raised(command=down, pilot_ratio=3.0, counterbalance_range=4e7, **HOLDING_VALVE), 3.0, rtol=1e-8
+    )
     v, (p, rod) = -out["velocity"][-1, 0, 2], out["hydraulic_pressure"][-1, 0]
     y = min(max((p + 3.0 * rod - 5e6) / 4e7, 0.0), 1.0)
     edge, valve = 0.5 * conductance(SET["rated_flow"]), conductance(8e-4) * y * y * (3.0 - 2.0 * y)
@@ -101,8 +108,13 @@ def test_an_accumulator_makes_the_cylinder_soft() -> None:
     ram = scene.loads["ram"]
     volume = gas["accumulator_volume"] * (gas["accumulator_pressure"] / ram.pressure) ** (1.0 / 1.3)
     compliance = []
-    for swept, hose in ((FULL * START, SET["hose_volume"]), (RING * (STROKE - START), SET["hose_volume_rod"])):
-        oil = (swept + hose) / SET["oil_modulus"] + swept / SET["cylinder_modulus"] + hose / SET["hose_modulus"]
+    for swept, hose in (
+        (FULL * START, SET["hose_volume"]),
+        (RING * (STROKE - START), SET["hose_volume_rod"]),
+    ):
+        oil = (
+            (swept + hose) / SET["oil_modulus"] + swept / SET["cylinder_modulus"] + hose / SET["hose_modulus"]
+        )
         compliance.append(oil)
     soft = FULL**2 / (compliance[0] + volume / (1.3 * ram.pressure)) + RING**2 / compliance[1]
     modes = natural_modes(scene)
@@ -142,7 +154,9 @@ def test_a_valve_that_shuts_in_a_millisecond_leaves_the_load_swinging_on_its_oil
             (FULL, FULL * s, SET["hose_volume"]), (RING, RING * (STROKE - s), SET["hose_volume_rod"])
         ):  # fmt: skip
             k += area**2 / (
-                (swept + hose) / SET["oil_modulus"] + swept / SET["cylinder_modulus"] + hose / SET["hose_modulus"]
+                (swept + hose) / SET["oil_modulus"]
+                + swept / SET["cylinder_modulus"]
+                + hose / SET["hose_modulus"]
             )
         push = out["hydraulic_force"][~before, 0]
         assert np.max(np.abs(push - MASS * G)) == pytest.approx(v * np.sqrt(k * MASS), rel=0.05)

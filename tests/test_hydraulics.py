@@ -24,9 +24,7 @@ def moduli(stroke: float) -> tuple[float, float]:
         (RING, RING * (STROKE - stroke), SET["hose_volume_rod"]),
     ):
         compliance = (
-            (swept + hose) / SET["oil_modulus"]
-            + swept / SET["cylinder_modulus"]
-            + hose / SET["hose_modulus"]
+            (swept + hose) / SET["oil_modulus"] + swept / SET["cylinder_modulus"] + hose / SET["hose_modulus"]
         )
         out.append(area**2 / compliance)
     return out[0], out[1]
@@ -91,7 +89,9 @@ def test_energy_closes_with_every_part() -> None:
     assert np.max(np.abs(out["energy_balance"])) < 1e-6 * out["absolute_work"][-1]
     power = out["hydraulic_power"][:, 0]
     assert np.max(power[:, 0]) > 0.0
-    for part, name in enumerate(("valve", "relief", "makeup", "leakage", "accumulator", "rupture", "friction")):
+    for part, name in enumerate(
+        ("valve", "relief", "makeup", "leakage", "accumulator", "rupture", "friction")
+    ):
         assert np.max(power[:, 2 + part]) < 1e-3 * np.max(np.abs(power)), name
     assert np.min(power[:, 2 + 5]) < 0.0
 
@@ -149,7 +149,10 @@ def test_a_run_goes_on_bit_for_bit(integrator: str) -> None:
         ({"pressure": -1e5, "pressure_rod": 1e5}, "pressure is -100000; it must be positive"),
         ({"pump_pressure": 0.0}, "has a spool and no pump; give pump_pressure"),
         ({"rod_side_area": 2 * FULL}, "rod_side_area is .* more than the full side's"),
-        ({"full_area": 50.3, "rod_side_area": 40.6, "hose_volume": 2.0, "hose_volume_rod": 2.0}, "full_area is 50.3.* a piston .* m wide"),
+        (
+            {"full_area": 50.3, "rod_side_area": 40.6, "hose_volume": 2.0, "hose_volume_rod": 2.0},
+            "full_area is 50.3.* a piston .* m wide",
+        ),
         ({"relief_pressure": 1e6, "relief_flow": 1e-3}, "relief_pressure is .* below the holding pressure"),
         ({"hose_volume": 0.0}, "hose_volume is 0 m3, and at an end of the stroke no oil is left"),
         ({"stroke": 0.2}, "1.35 m apart as described, and it is 1.05 to 1.25 m long"),
@@ -170,5 +173,5 @@ def test_bad_input_is_named(wrong: dict[str, Any], message: str) -> None:
 def test_a_scene_off_its_rest_names_the_body() -> None:
     scene = Scene(name="falls")
     scene.add_body(name="load", mass=1.0, inertia=(1, 1, 1), position=(1.2, 0, 0))
-    with pytest.raises(SceneError, match="'ram'.*body 'load' accelerates by 9.81"):
+    with pytest.raises(SceneError, match=r"'ram'.*body 'load' accelerates by 9.81"):
         scene.add_hydraulic_cylinder(name="ram", first="ground", second="load", **SET)

@@ -69,8 +69,9 @@ def hydraulic_cost(*, repeats: int) -> Section:
     return Section(
         title="Hydraulic cylinders",
         text=(
-            f"{T_END:g} s of case 2, its main and knuckle cylinder on oil with two chambers and a spool each, and an "
-            "accumulator each for six pressures. Errors are those of the payload's place against the same scene "
+            f"{T_END:g} s of case 2, its main and knuckle cylinder on oil with two chambers and a spool "
+            "each, and an accumulator each for six pressures. Errors are those of the payload's place against the "
+            "same scene "
             f"solved tightly (`{TIGHT.integrator}`, {TIGHT.tolerance:g}); CPU times are those of the loop."
         ),
         head=[

@@ -18,6 +18,7 @@ from seacrane.inputs.checked import number_of
 from seacrane.inputs.frames import rotation_matrix
 
 AT_REST = 1e-6  # m/s2 or rad/s2
+ENDS = ("first", "second", "first_point", "second_point")
 
 
 def holding_force(scene: Description, given: dict[str, Any]) -> float:
@@ -44,7 +45,9 @@ def holding_force(scene: Description, given: dict[str, Any]) -> float:
     own = _tie(held, given)
     for other in others.values():
         _tie(held, ends_of(other))
-    _hold_cranes(held, {frozenset((one["first"], one["second"])) for one in (given, *map(ends_of, others.values()))})
+    _hold_cranes(
+        held, {frozenset((one["first"], one["second"])) for one in (given, *map(ends_of, others.values()))}
+    )
     model = compile_scene(held)
     evaluator = _core.Evaluator(model)
     state = np.array(model.initial_state)
@@ -53,8 +56,8 @@ def holding_force(scene: Description, given: dict[str, Any]) -> float:
         worst = int(np.argmax(acceleration))
         raise SceneError(
             f"{what_of(given)}: its holding force is not known, as body {model.bodies[worst // 6]!r} "
-            f"accelerates by {acceleration[worst]:.3g} (m/s2 or rad/s2) with all cylinders held; describe the "
-            "scene at rest, or give pressure and pressure_rod"
+            f"accelerates by {acceleration[worst]:.3g} (m/s2 or rad/s2) with all cylinders held; describe "
+            "the scene at rest, or give pressure and pressure_rod"
         )
     run = _core.Simulation(
         model=model,
@@ -63,9 +66,6 @@ def holding_force(scene: Description, given: dict[str, Any]) -> float:
     )
     ties = [name for name, joint in held.joints.items() if joint.kind == "distance"]
     return -float(run.channels()["tension"][0][ties.index(own)])
-
-
-ENDS = ("first", "second", "first_point", "second_point")
 
 
 def ends_of(cylinder: _core.HydraulicCylinder) -> dict[str, Any]:

@@ -25,7 +25,9 @@ def hydraulics_of(crane: KnuckleBoomCrane, given: Hydraulics | None) -> Hydrauli
         of_file = {label: _data(crane, label).hydraulics for label in CYLINDERS}
         return {label: entries for label, entries in of_file.items() if entries is not None}
     if not isinstance(given, Mapping) or not all(isinstance(one, Mapping) for one in given.values()):
-        raise SceneError(f"crane: hydraulics are {shown(given)}; give {{'main': {{...}}, 'knuckle': {{...}}}}")
+        raise SceneError(
+            f"crane: hydraulics are {shown(given)}; give {{'main': {{...}}, 'knuckle': {{...}}}}"
+        )
     for label in given:
         if label not in CYLINDERS:
             raise SceneError(
@@ -36,7 +38,12 @@ def hydraulics_of(crane: KnuckleBoomCrane, given: Hydraulics | None) -> Hydrauli
 
 
 def add_hydraulics(
-    scene: Description, crane: KnuckleBoomCrane, hydraulics: Hydraulics, *, force: Mapping[str, float], prefix: str
+    scene: Description,
+    crane: KnuckleBoomCrane,
+    hydraulics: Hydraulics,
+    *,
+    force: Mapping[str, float],
+    prefix: str,
 ) -> None:
     """Add hydraulic cylinders between barrels and rods that hold forces (N, positive push) by label."""
     for label, entries in hydraulics.items():
@@ -73,8 +80,8 @@ def _areas(label: str, data: CylinderData, entries: Mapping[str, Any]) -> Areas:
         return entries["full_area"], entries["rod_side_area"]
     if not barrel or not rod or not 0.0 < max(rod) < min(barrel):
         raise SceneError(
-            f"crane: the areas of the {label} cylinder are not known, as its rod and barrel are no tubes that fit; "
-            "give full_area and rod_side_area, m2"
+            f"crane: the areas of the {label} cylinder are not known, as its rod and barrel are no tubes "
+            "that fit; give full_area and rod_side_area, m2"
         )
     full = math.pi / 4.0 * min(barrel) ** 2
     return full, full - math.pi / 4.0 * max(rod) ** 2

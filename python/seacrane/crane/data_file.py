@@ -36,8 +36,8 @@ APART = 1e-6  # m: pivots nearer than that are one
 class CylinderData:
     """A hydraulic cylinder: length between its pivots at stroke 0 and largest stroke, m; its members.
 
-    Areas of the piston's full side and rod side, m2, and entries of `add_hydraulic_cylinder`, where the file has
-    them.
+    Areas of the piston's full side and rod side, m2, and entries of `add_hydraulic_cylinder`, where the file
+    has them.
     """
 
     retracted_length: float

@@ -16,6 +16,8 @@ from seacrane.inputs.frames import rotation_matrix
 
 HOSE = 0.05  # of the swept volume, where no hose volume is given
 BACK_PRESSURE = 0.1  # of the pump's, in the chamber that carries nothing
+ATMOSPHERE = 1e5  # Pa
+NEAR = 1e-6  # m
 
 
 def hydraulic_cylinders(scene: Description) -> dict[str, _core.HydraulicCylinder]:
@@ -69,7 +71,9 @@ def place_cylinder(
     standing = _stroke(scene, what, settings)
     settings.setdefault("reference", standing)
     for volume, area in (("hose_volume", "full_area"), ("hose_volume_rod", "rod_side_area")):
-        swept = number_of(f"{what}: {area}", settings[area]) * number_of(f"{what}: stroke", settings["stroke"])
+        swept = number_of(f"{what}: {area}", settings[area]) * number_of(
+            f"{what}: stroke", settings["stroke"]
+        )
         settings.setdefault(volume, HOSE * swept)
     if force is not None:
         for side, value in _pressures(what, force, settings).items():
@@ -95,13 +99,10 @@ def _stroke(scene: Description, what: str, settings: dict[str, Any]) -> float:
     longest = shortest + number_of(f"{what}: stroke", settings["stroke"])
     if not shortest - NEAR <= length <= longest + NEAR:
         raise SceneError(
-            f"{what}: its points are {length:.6g} m apart as described, and it is {shortest:g} to {longest:g} m "
-            "long; correct retracted_length, stroke or the points"
+            f"{what}: its points are {length:.6g} m apart as described, and it is {shortest:g} to "
+            f"{longest:g} m long; correct retracted_length, stroke or the points"
         )
     return min(max(length - shortest, 0.0), longest - shortest)
-
-
-NEAR = 1e-6  # m
 
 
 def _pressures(what: str, force: float, settings: dict[str, Any]) -> dict[str, float]:
@@ -119,6 +120,3 @@ def _pressures(what: str, force: float, settings: dict[str, Any]) -> dict[str, f
     if "pressure_rod" in settings or at_full >= back:
         return {"pressure": at_full, "pressure_rod": at_rod}
     return {"pressure": back, "pressure_rod": (back * full - force) / ring}
-
-
-ATMOSPHERE = 1e5  # Pa

@@ -193,7 +193,9 @@ def _drive_load(scene: Description, arrays: Mapping[str, Array], wanted: tuple[s
     loads = [
         arrays[channel][:, i]
         for channel, places in (
-            ("actuator_force", actuators), ("driver_force", drivers), ("hydraulic_force", _pushed(scene))
+            ("actuator_force", actuators),
+            ("driver_force", drivers),
+            ("hydraulic_force", _pushed(scene)),
         )
         for i, place in enumerate(places)
         if place == wanted and channel in arrays
