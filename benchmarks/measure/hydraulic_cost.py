@@ -23,7 +23,7 @@ OIL: dict[str, Any] = {
     "viscous_friction": 2e6,
 }  # fmt: skip
 GAS = {"accumulator_volume": 0.05, "accumulator_pressure": 2e6, "accumulator_flow": 0.004}
-LAGS = (0.05, 1.0 / (2.0 * math.pi * 35.0))  # s: a crane's pilot-operated valve, a small servo valve
+LAGS = (0.05, 1.0 / (2.0 * math.pi * 35.0), 0.0)  # s: a pilot-operated valve, a small servo valve, none
 TIGHT = Method(integrator="dopri5", tolerance=1e-7)
 IDEAL = Method(integrator="dopri5", tolerance=1e-2)
 METHODS = (
@@ -70,8 +70,8 @@ def hydraulic_cost(*, repeats: int) -> Section:
         title="Hydraulic cylinders",
         text=(
             f"{T_END:g} s of case 2, its main and knuckle cylinder on oil with two chambers and a spool "
-            "each, and an accumulator each for six pressures. Errors are those of the payload's place against the "
-            "same scene "
+            "each, and an accumulator each for six pressures. Errors are those of the payload's place "
+            "against the same scene with a spool of that lag "
             f"solved tightly (`{TIGHT.integrator}`, {TIGHT.tolerance:g}); CPU times are those of the loop."
         ),
         head=[

@@ -114,7 +114,7 @@ def add_hydraulic_cylinder(
     overlap : float
         Share of the spool's travel before an edge opens.
     spool_lag : float
-        s, of the spool behind its command.
+        s, of the spool behind its command; 0: it follows at once, and is no state.
     pump_check : bool
         Whether a check valve keeps oil from the pump.
     makeup_flow : float

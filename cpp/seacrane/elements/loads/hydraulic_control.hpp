@@ -64,14 +64,17 @@ struct HydraulicControl {
     return open + T(gain) * missing + T(rate_gain) * (T(ref.rate + in.slots[slot + 2]) + follows.rate(in));
   }
 
-  /// Jumps of a force whose second derivative is `share` times what is asked for.
-  std::vector<LoadKinks> kinks(double share) const {
+  /// Jumps of a force whose derivative of an order, 1 or 2, is `share` times what is asked for.
+  std::vector<LoadKinks> kinks(double share, int order) const {
     std::vector<LoadKinks> all;
     const auto add = [&](const Curve& curve, double value, double rate) {
       LoadKinks& out = all.emplace_back();
       for (const CurveKink& kink : curve.kinks()) {
         out.push_back({kink.time, Eigen::Matrix<double, 1, 4>::Zero()});
-        out.back().jump(0, 3) = share * (value * kink.jump(0) + rate * kink.jump(1));
+        for (int p = order + 1; p <= 3; ++p) {
+          const std::size_t derivative = idx(p - order - 1);
+          out.back().jump(0, p) = share * (value * kink.jump(derivative) + rate * kink.jump(derivative + 1));
+        }
       }
     };
     add(command, 1.0, 0.0);

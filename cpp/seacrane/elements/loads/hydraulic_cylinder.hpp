@@ -85,8 +85,8 @@ struct HydraulicCylinderDescription : HydraulicOilDescription,
 ///   F = p0 A0 - p1 A1 - (viscous s' + friction tanh(s' / speed)) + stops,
 ///
 /// side 0 being the full and 1 the rod side, whose swept volumes are A0 s and A1 (stroke - s). States: p0,
-/// p1, the spool u with u' = (asked - u) / lag, and the gas volume of an accumulator. All pressures are
-/// absolute.
+/// p1, the spool u with u' = (asked - u) / lag unless it has no lag, and the gas volume of an accumulator.
+/// All pressures are absolute.
 ///
 /// A hole of area a passes discharge a sqrt(2 / density) times the orifice's flow, out of the side. Behind a
 /// load-holding valve the hose is at the atmosphere then, and the hole in series with that valve.
@@ -114,7 +114,8 @@ struct HydraulicCylinder {
   double hole = 0.0;
   std::size_t bursting = 0;
   StateRange states;
-  double quickness = 0.0, bursting_jump = 0.0;  // N/s3 for a spool that is asked for; N/s
+  int gas = -1;                                 // its volume among the states; none: no accumulator
+  double quickness = 0.0, bursting_jump = 0.0;  // N/s3, or N/s2 without a lag, for a spool; N/s
 
   static void check(const Description& d, const Check& c, SceneNames& names) {
     names.body(c, d.first, true);
@@ -240,7 +241,7 @@ struct HydraulicCylinder {
   }
 
   std::vector<LoadKinks> kinks() const {
-    std::vector<LoadKinks> out = control.kinks(quickness);
+    std::vector<LoadKinks> out = control.kinks(quickness, spool_lag > 0.0 ? 2 : 1);
     LoadKinks& opening = out.emplace_back();
     for (const CurveKink& kink : burst.kinks()) {
       opening.push_back({kink.time, Eigen::Matrix<double, 1, 4>::Zero()});
@@ -311,8 +312,8 @@ struct HydraulicCylinder {
     T* rates = out.state_rates + states.first;
     rates[0] = m.pressure_rate[0];
     rates[1] = m.pressure_rate[1];
-    rates[2] = (clamped(m.asked, T(-1), T(1)) - in.states[states.first + 2]) / T(spool_lag);
-    if (gas_volume > 0.0) rates[3] = m.from_gas;
+    if (spool_lag > 0.0) rates[2] = (clamped(m.asked, T(-1), T(1)) - m.spool) / T(spool_lag);
+    if (gas_volume > 0.0) out.state_rates[gas] = m.from_gas;
   }
 
   /// Of oil, ends of the stroke and gas.
@@ -324,7 +325,7 @@ struct HydraulicCylinder {
       sum += oil.energy(m.pressure[side], m.swept[side], hose_volume[side]);
     }
     if (gas_volume == 0.0) return sum;
-    const double ratio = gas_volume / in.states[states.first + 3];
+    const double ratio = gas_volume / in.states[gas];
     const double work = gas_exponent == 1.0
                             ? std::log(ratio)
                             : std::expm1((gas_exponent - 1.0) * std::log(ratio)) / (gas_exponent - 1.0);
@@ -432,13 +433,16 @@ struct HydraulicCylinder {
   void add_states(const Description& d, Context& context) {
     const double most = std::max({d.pump_pressure, d.pressure, d.pressure_rod});
     const double scale = kPressureScale * context.length_scale();
-    states = {context.state({name + ".pressure", "Pa", d.pressure, scale * most}), 3};
+    states = {context.state({name + ".pressure", "Pa", d.pressure, scale * most}), 2};
     context.state({name + ".pressure_rod", "Pa", d.pressure_rod, scale * most});
-    context.state({name + ".spool", "", clamped(d.command.at(0.0).value, -1.0, 1.0), scale});
+    if (spool_lag > 0.0) {
+      context.state({name + ".spool", "", clamped(d.command.at(0.0).value, -1.0, 1.0), scale});
+      ++states.count;
+    }
     if (gas_volume == 0.0) return;
     const double start = gas_volume * std::pow(gas_pressure / d.pressure, 1.0 / gas_exponent);
-    context.state({name + ".gas_volume", "m3", start, context.length_scale() * area[0]});
-    states.count = 4;
+    gas = context.state({name + ".gas_volume", "m3", start, context.length_scale() * area[0]});
+    ++states.count;
   }
 
   /// What a jump of the spool's command, and the hole's opening, do to the force at mid-stroke.
@@ -446,7 +450,8 @@ struct HydraulicCylinder {
     for (std::size_t side = 0; side < 2; ++side) {
       const double p = side == 0 ? d.pressure : d.pressure_rod;
       const double gives = oil.compliance(p, 0.5 * longest * area[side], hose_volume[side]);
-      quickness += area[side] / gives * valve.edge[side] * std::sqrt(valve.pump) / spool_lag;
+      quickness +=
+          area[side] / gives * valve.edge[side] * std::sqrt(valve.pump) / (spool_lag > 0.0 ? spool_lag : 1.0);
       if (side == bursting) bursting_jump = area[side] / gives * hole * valve.through(p);
     }
   }
@@ -465,8 +470,8 @@ struct HydraulicCylinder {
     m.rate = m.along.dot(kb.velocity + cross<T>(kb.angular_velocity, m.lever_second) - ka.velocity -
                          cross<T>(ka.angular_velocity, m.lever_first));
     m.stroke = length - T(retracted);
-    m.spool = in.states[states.first + 2];
     m.asked = control.asked(in, m.stroke);
+    m.spool = spool_lag > 0.0 ? in.states[states.first + 2] : clamped(m.asked, T(-1), T(1));
     m.swept = {T(area[0]) * m.stroke, T(area[1]) * (T(longest) - m.stroke)};
     for (std::size_t side = 0; side < 2; ++side) {
       m.pressure[side] = in.states[states.first + static_cast<int>(side)];
@@ -521,7 +526,7 @@ struct HydraulicCylinder {
   /// Between the accumulator and the full side; an empty one gives none.
   template <class T>
   void charge(const LoadInput<T>& in, const T& h, Motion<T>& m) const {
-    const T volume = in.states[states.first + 3];
+    const T volume = in.states[gas];
     const T least(kLeastGas * gas_volume), bounded = select(volume > least, volume, least);
     const T p = T(gas_pressure) * power(T(T(gas_volume) / bounded), gas_exponent);
     const T q = T(gas_conductance) * valve.through(T(p - m.pressure[0]));
@@ -549,7 +554,7 @@ struct HydraulicCylinder {
     }
     out[4] = m.stroke;
     out[5] = longest - m.stroke;
-    if (gas_volume > 0.0) out[6] = gas_volume - in.states[states.first + 3];
+    if (gas_volume > 0.0) out[6] = gas_volume - in.states[gas];
     if (valve.edge[0] == 0.0) return out;
     double* rest = out.data() + kBounds.size() + 2;
     rest[0] = m.spool - valve.overlap;
