@@ -23,6 +23,7 @@ from measure import (
     footprint,
     formulations,
     hours,
+    hydraulic_cost,
     integrators,
     line_methods,
     linear,
@@ -84,6 +85,7 @@ def sections(folder: Path, *, repeats: int, quick: bool) -> Iterator[Section]:
     yield integrators.table(rows, truth, repeats=tried)
     yield events.slack_wire()
     yield stiff_lines.stiff_lines(repeats=tried)
+    yield hydraulic_cost.hydraulic_cost(repeats=tried)
     yield line_methods.line_methods()
     yield snatch_cost.snatch_cost()
     yield w_method.w_method()

@@ -247,6 +247,24 @@ damping_N_s_per_m = 100
 minimum_m = 1
 maximum_m = 7
 
+[[hydraulic_cylinder]]
+name = "ram"
+first = "box"
+second = "bob"
+full_area_m2 = 0.05
+rod_side_area_m2 = 0.03
+retracted_length_m = 0.1
+stroke_m = 20
+pressure_Pa = 2e6
+pressure_rod_Pa = 1e6
+pump_pressure_Pa = 2e7
+rated_flow_m3_per_s = 0.01
+pump_check = true
+reference_m = { kind = "quintic", start_time_s = 0, end_time_s = 5, start = 3, end = 4 }
+gain_per_m = 2
+rupture_time_s = 9
+rupture_area_m2 = 1e-5
+
 [[force_table]]
 name = "gust"
 body = "box"
@@ -455,6 +473,12 @@ def every_table() -> Scene:
     scene.add_gas_spring(
         name="phc", first="box", second="bob", area=0.05, force=2e4, stiffness=3e3, length=4, exponent=1.3,
         damping=100, minimum=1, maximum=7,
+    )  # fmt: skip
+    scene.add_hydraulic_cylinder(
+        name="ram", first="box", second="bob", full_area=0.05, rod_side_area=0.03, retracted_length=0.1,
+        stroke=20, pressure=2e6, pressure_rod=1e6, pump_pressure=2e7, rated_flow=0.01, pump_check=True,
+        reference=Curve.quintic(start_time=0, end_time=5, start=3, end=4), gain=2, rupture_time=9,
+        rupture_area=1e-5,
     )  # fmt: skip
     scene.add_bridle(
         name="sling", hook="ground", load="box", hook_point=(0, 0, 9), stiffnesses=[1e6],

@@ -29,6 +29,11 @@ def all_kinds() -> Scene:
     scene.add_gas_spring(
         name="passive", first="hull", second="arm", area=0.1, pressure=1e5, volume=3.0, length=0.7
     )
+    scene.add_hydraulic_cylinder(
+        name="ram", first="hull", second="arm", full_area=0.1, rod_side_area=0.07, retracted_length=0.5,
+        stroke=9.0, pressure=1e6 / 3.0, pressure_rod=1e5, pump_pressure=1e7, rated_flow=0.1,
+        command=0.1, gain=1.0 / 3.0,
+    )  # fmt: skip
     scene.add_heave_compensation(name="active", body="hull", lag=1.0 / 3.0, maximum_rate=0.7)
     scene.add_point(name="corner", body="hull", point=(1.0, 2.0, 1.0 / 3.0))
     scene.add_clearance(name="gap", points="corner", center=(1.0, 2.0, 1.0 / 3.0), size=(3.0, 0.0, 1.0))

@@ -15,6 +15,7 @@ from seacrane._core import Frame as Frame
 from seacrane._core import Friction as Friction
 from seacrane._core import GasSpring as GasSpring
 from seacrane._core import HeaveCompensator as HeaveCompensator
+from seacrane._core import HydraulicCylinder as HydraulicCylinder
 from seacrane._core import Limit as Limit
 from seacrane._core import Line as Line
 from seacrane._core import Model as Model

@@ -6,7 +6,7 @@ import collections.abc
 import numpy
 import numpy.typing
 import typing
-__all__: list[str] = ['Actuator', 'Body', 'Channel', 'Curve', 'DriftLoad', 'DriftTable', 'Driver', 'Evaluator', 'ExactWaveLoad', 'Field', 'FlowForce', 'ForceTable', 'Frame', 'Friction', 'FunctionForce', 'GasSpring', 'HeaveCompensator', 'Integrator', 'Joint', 'JointKind', 'LOAD_KINDS', 'Limit', 'Line', 'Model', 'PendulumDamping', 'Point', 'PointForce', 'PositionedWaveLoad', 'RecordHistory', 'RepeatPeriod', 'RetardationFunctions', 'RunOptions', 'Simulation', 'SoftStop', 'SpanDrag', 'Spectrum', 'Spring', 'State', 'StateSpaceBlock', 'StepHistory', 'TwistHistory', 'VesselHydrodynamics', 'WaveComponents', 'WaveKinematics', 'WaveLoads', 'WaveTable', 'axes', 'channels', 'compile', 'dnv_gamma', 'initial_state', 'integrator', 'integrator_names', 'integrators', 'joint_kinds', 'jonswap', 'ochi_hubble', 'philox_uniform', 'pierson_moskowitz', 'realise_waves', 'section_radiation', 'stability_polynomial', 'strip_theory', 'tabulated_density', 'torsethaugen', 'weighted_sums']
+__all__: list[str] = ['Actuator', 'Body', 'Channel', 'Curve', 'DriftLoad', 'DriftTable', 'Driver', 'Evaluator', 'ExactWaveLoad', 'Field', 'FlowForce', 'ForceTable', 'Frame', 'Friction', 'FunctionForce', 'GasSpring', 'HeaveCompensator', 'HydraulicCylinder', 'Integrator', 'Joint', 'JointKind', 'LOAD_KINDS', 'Limit', 'Line', 'Model', 'PendulumDamping', 'Point', 'PointForce', 'PositionedWaveLoad', 'RecordHistory', 'RepeatPeriod', 'RetardationFunctions', 'RunOptions', 'Simulation', 'SoftStop', 'SpanDrag', 'Spectrum', 'Spring', 'State', 'StateSpaceBlock', 'StepHistory', 'TwistHistory', 'VesselHydrodynamics', 'WaveComponents', 'WaveKinematics', 'WaveLoads', 'WaveTable', 'axes', 'channels', 'compile', 'dnv_gamma', 'initial_state', 'integrator', 'integrator_names', 'integrators', 'joint_kinds', 'jonswap', 'ochi_hubble', 'philox_uniform', 'pierson_moskowitz', 'realise_waves', 'section_radiation', 'stability_polynomial', 'strip_theory', 'tabulated_density', 'torsethaugen']
 class Curve:
     """
     A reference as a function of time: pieces of quintic polynomials plus one cosine each.
@@ -1810,6 +1810,310 @@ class SpanDrag:
         """
         m, coordinates of the second body
         """
+class HydraulicCylinder:
+    """
+    A hydraulic cylinder between two body-fixed points, with the pressures of its chambers and its valves; see Scene.add_hydraulic_cylinder. Immutable.
+    """
+    FIELDS: typing.ClassVar[tuple]
+    @staticmethod
+    def example() -> HydraulicCylinder:
+        """
+        One for checks, on bodies 'first', 'second' and 'third'.
+        """
+    def __copy__(self) -> HydraulicCylinder:
+        ...
+    def __deepcopy__(self, memo: dict) -> HydraulicCylinder:
+        ...
+    def __eq__(self, arg0: typing.Any) -> typing.Any:
+        ...
+    def __getstate__(self) -> dict:
+        ...
+    def __hash__(self) -> int:
+        ...
+    def __init__(self, *, name: str, first: str, second: str, first_point: numpy.typing.ArrayLike = ..., second_point: numpy.typing.ArrayLike = ..., full_area: typing.SupportsFloat, rod_side_area: typing.SupportsFloat, retracted_length: typing.SupportsFloat, stroke: typing.SupportsFloat, pressure: typing.SupportsFloat, pressure_rod: typing.SupportsFloat, hose_volume: typing.SupportsFloat, hose_volume_rod: typing.SupportsFloat, oil_modulus: typing.SupportsFloat = ..., hose_modulus: typing.SupportsFloat = ..., cylinder_modulus: typing.SupportsFloat = ..., air: typing.SupportsFloat = ..., vapour_pressure: typing.SupportsFloat = ..., pump_pressure: typing.SupportsFloat = ..., tank_pressure: typing.SupportsFloat = ..., rated_flow: typing.SupportsFloat = ..., rated_flow_rod: typing.SupportsFloat = ..., rated_drop: typing.SupportsFloat = ..., laminar_drop: typing.SupportsFloat = ..., overlap: typing.SupportsFloat = ..., spool_lag: typing.SupportsFloat = ..., pump_check: bool = ..., makeup_flow: typing.SupportsFloat = ..., relief_pressure: typing.SupportsFloat = ..., relief_pressure_rod: typing.SupportsFloat = ..., relief_flow: typing.SupportsFloat = ..., relief_override: typing.SupportsFloat = ..., counterbalance_pressure: typing.SupportsFloat = ..., counterbalance_pressure_rod: typing.SupportsFloat = ..., counterbalance_flow: typing.SupportsFloat = ..., counterbalance_range: typing.SupportsFloat = ..., pilot_ratio: typing.SupportsFloat = ..., command: Curve | typing.SupportsFloat = ..., reference: Curve | typing.SupportsFloat = ..., gain: typing.SupportsFloat = ..., rate_gain: typing.SupportsFloat = ..., internal_leakage: typing.SupportsFloat = ..., external_leakage: typing.SupportsFloat = ..., viscous_friction: typing.SupportsFloat = ..., friction: typing.SupportsFloat = ..., friction_speed: typing.SupportsFloat = ..., stop_stiffness: typing.SupportsFloat = ..., accumulator_volume: typing.SupportsFloat = ..., accumulator_pressure: typing.SupportsFloat = ..., accumulator_flow: typing.SupportsFloat = ..., accumulator_exponent: typing.SupportsFloat = ..., rupture_time: typing.SupportsFloat = ..., rupture_area: typing.SupportsFloat = ..., rod_side_ruptures: bool = ..., discharge_coefficient: typing.SupportsFloat = ..., oil_density: typing.SupportsFloat = ...) -> None:
+        ...
+    def __repr__(self) -> str:
+        ...
+    def __setstate__(self, arg0: dict) -> None:
+        ...
+    @property
+    def accumulator_exponent(self) -> float:
+        """
+        of its gas: p V^exponent stays
+        """
+    @property
+    def accumulator_flow(self) -> float:
+        """
+        m3/s, through its throttle at `rated_drop`
+        """
+    @property
+    def accumulator_pressure(self) -> float:
+        """
+        Pa, of its gas without oil
+        """
+    @property
+    def accumulator_volume(self) -> float:
+        """
+        m3, of gas, without oil, in an accumulator on the full side; 0: none
+        """
+    @property
+    def air(self) -> float:
+        """
+        share of the volume that is free air at 1e5 Pa
+        """
+    @property
+    def command(self) -> Curve:
+        """
+        of the spool, -1 (retracts) to 1 (extends)
+        """
+    @property
+    def counterbalance_flow(self) -> float:
+        """
+        m3/s, of a load-holding valve, open, at `rated_drop`
+        """
+    @property
+    def counterbalance_pressure(self) -> float:
+        """
+        Pa, at which the full side's load-holding valve opens without pilot; 0: none
+        """
+    @property
+    def counterbalance_pressure_rod(self) -> float:
+        """
+        Pa, the rod side's; 0: none
+        """
+    @property
+    def counterbalance_range(self) -> float:
+        """
+        Pa, from its opening to fully open
+        """
+    @property
+    def cylinder_modulus(self) -> float:
+        """
+        Pa, of the barrel, likewise
+        """
+    @property
+    def discharge_coefficient(self) -> float:
+        """
+        of the hole
+        """
+    @property
+    def external_leakage(self) -> float:
+        """
+        m3/s/Pa, from each side to the tank
+        """
+    @property
+    def first(self) -> str:
+        """
+        body
+        """
+    @property
+    def first_point(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
+        """
+        m, coordinates of the first body
+        """
+    @property
+    def friction(self) -> float:
+        """
+        N, of the seals, dry
+        """
+    @property
+    def friction_speed(self) -> float:
+        """
+        m/s, about which dry friction changes its sign
+        """
+    @property
+    def full_area(self) -> float:
+        """
+        m2, of the piston, full side
+        """
+    @property
+    def gain(self) -> float:
+        """
+        1/m, spool over the stroke that is missing; 0: open loop
+        """
+    @property
+    def hose_modulus(self) -> float:
+        """
+        Pa, of the hoses, by their volume
+        """
+    @property
+    def hose_volume(self) -> float:
+        """
+        m3, of the full side: hose and what the stroke leaves
+        """
+    @property
+    def hose_volume_rod(self) -> float:
+        """
+        m3, of the rod side, likewise
+        """
+    @property
+    def internal_leakage(self) -> float:
+        """
+        m3/s/Pa, past the piston
+        """
+    @property
+    def laminar_drop(self) -> float:
+        """
+        Pa, about which flow turns from linear to square root
+        """
+    @property
+    def makeup_flow(self) -> float:
+        """
+        m3/s, of the check valves from the tank at `rated_drop`; 0: none
+        """
+    @property
+    def name(self) -> str:
+        ...
+    @property
+    def oil_density(self) -> float:
+        """
+        kg/m3, that leaves through the hole
+        """
+    @property
+    def oil_modulus(self) -> float:
+        """
+        Pa, bulk modulus of the oil without air
+        """
+    @property
+    def overlap(self) -> float:
+        """
+        share of the spool's travel before an edge opens
+        """
+    @property
+    def pilot_ratio(self) -> float:
+        """
+        of the other side's pressure in its opening
+        """
+    @property
+    def pressure(self) -> float:
+        """
+        Pa, of the full side at the start, absolute
+        """
+    @property
+    def pressure_rod(self) -> float:
+        """
+        Pa, of the rod side, likewise
+        """
+    @property
+    def pump_check(self) -> bool:
+        """
+        whether a check valve keeps oil from the pump
+        """
+    @property
+    def pump_pressure(self) -> float:
+        """
+        Pa, of the supply, absolute; 0: no pump
+        """
+    @property
+    def rate_gain(self) -> float:
+        """
+        s/m, spool over the rate of the reference
+        """
+    @property
+    def rated_drop(self) -> float:
+        """
+        Pa, at which flows are rated
+        """
+    @property
+    def rated_flow(self) -> float:
+        """
+        m3/s, of the valve's edges to the full side, open, at `rated_drop`; 0: no valve
+        """
+    @property
+    def rated_flow_rod(self) -> float:
+        """
+        m3/s, of those to the rod side; 0: the same
+        """
+    @property
+    def reference(self) -> Curve:
+        """
+        m, stroke that the spool is to follow
+        """
+    @property
+    def relief_flow(self) -> float:
+        """
+        m3/s, of a relief valve at `relief_override`
+        """
+    @property
+    def relief_override(self) -> float:
+        """
+        Pa, above the opening
+        """
+    @property
+    def relief_pressure(self) -> float:
+        """
+        Pa, at which the full side's relief valve opens; 0: none
+        """
+    @property
+    def relief_pressure_rod(self) -> float:
+        """
+        Pa, the rod side's; 0: none
+        """
+    @property
+    def retracted_length(self) -> float:
+        """
+        m, between the points at stroke 0
+        """
+    @property
+    def rod_side_area(self) -> float:
+        """
+        m2, of the piston less the rod
+        """
+    @property
+    def rod_side_ruptures(self) -> bool:
+        """
+        in place of the full side
+        """
+    @property
+    def rupture_area(self) -> float:
+        """
+        m2, of the hole
+        """
+    @property
+    def rupture_time(self) -> float:
+        """
+        s, at which a hose bursts; at 1e7 none does
+        """
+    @property
+    def second(self) -> str:
+        """
+        body
+        """
+    @property
+    def second_point(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
+        """
+        m, coordinates of the second body
+        """
+    @property
+    def spool_lag(self) -> float:
+        """
+        s, of the spool behind its command, first order
+        """
+    @property
+    def stop_stiffness(self) -> float:
+        """
+        N/m, of the ends of the stroke
+        """
+    @property
+    def stroke(self) -> float:
+        """
+        m, largest
+        """
+    @property
+    def tank_pressure(self) -> float:
+        """
+        Pa, absolute
+        """
+    @property
+    def vapour_pressure(self) -> float:
+        """
+        Pa, below it the oil boils: an event
+        """
+    @property
+    def viscous_friction(self) -> float:
+        """
+        N s/m, of the seals
+        """
 class Limit:
     """
     What a joint does one way only; see Scene.add_wire, add_end_stop and add_seat. Immutable.
@@ -2828,8 +3132,4 @@ def torsethaugen(*, hs: typing.SupportsFloat | typing.SupportsIndex, tp: typing.
     K. Torsethaugen and S. Haver, ISOPE 2004; DNV-RP-C205 appendix A. Norwegian waters, fetch 370 km. Normalised by
     quadrature instead of the fitted factor A_gamma.
     """
-def weighted_sums(weights: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], values: typing.Annotated[numpy.typing.ArrayLike, numpy.complex128]) -> numpy.typing.NDArray[numpy.complex128]:
-    """
-    Complex sums (q, d) of weights (q, n) times values (n, d), or (q, n, d), term by term in their order. Raises ValueError for other shapes.
-    """
-LOAD_KINDS: dict = {'heave compensator': HeaveCompensator, 'actuator': Actuator, 'point force': PointForce, 'spring': Spring, 'force table': ForceTable, 'function force': FunctionForce, 'flow force': FlowForce, 'friction': Friction, 'soft stop': SoftStop, 'line': Line, 'gas spring': GasSpring, 'pendulum damping': PendulumDamping, 'span drag': SpanDrag, 'limit': Limit}
+LOAD_KINDS: dict = {'heave compensator': HeaveCompensator, 'actuator': Actuator, 'point force': PointForce, 'spring': Spring, 'force table': ForceTable, 'function force': FunctionForce, 'flow force': FlowForce, 'friction': Friction, 'soft stop': SoftStop, 'line': Line, 'gas spring': GasSpring, 'pendulum damping': PendulumDamping, 'span drag': SpanDrag, 'hydraulic cylinder': HydraulicCylinder, 'limit': Limit}

@@ -60,7 +60,7 @@ class Balance:
         return next(iter(self.vessel_wrenches.values()), None)
 
 
-def _locked(scene: Some, *, hold_vessels: bool = True) -> Some:
+def locked(scene: Some, *, hold_vessels: bool = True) -> Some:
     """The scene with its actuators replaced by drivers at rest, vessels held, without waves."""
     out = driven(scene, references={name: _core.Curve.constant(value=0.0) for name in scene.actuators})
     out = out.copy(waves=None, springs=dict(scene.springs))
@@ -124,7 +124,7 @@ def balance(scene: Description) -> Balance:
     SceneError
         If a body would accelerate although everything driven is held (it is described off its rest pose).
     """
-    held = _locked(scene)
+    held = locked(scene)
     model = compile_scene(held)
     state = np.array(model.initial_state)
     terms = _core.Evaluator(model).terms(0.0, state)
@@ -293,7 +293,7 @@ def reflected_inertia(scene: Description) -> dict[str, float]:
             curve = _core.Curve.pieces(
                 starts=[0.0], coefficients=[[0.0, 0.0, 0.5 * acceleration, 0.0, 0.0, 0.0]]
             )
-            held = _locked(scene.copy())
+            held = locked(scene.copy())
             held.drivers.pop(_driver_name(name))
             actuator = scene.actuators[name]
             place: Any = {"joint": actuator.joint, "coordinate": actuator.coordinate}

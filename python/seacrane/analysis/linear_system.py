@@ -382,14 +382,17 @@ def _along(model: _core.Model, values: Array, vessel: str, basis: Array) -> Arra
 
 
 def _state_matrix(coordinates: ReducedCoordinates, poses: Array) -> tuple[Array, Array]:
-    """A, and the directions of no stiffness, in which the columns of A are exactly zero."""
+    """A, and the directions on which neither forces nor rates of states depend: zero columns of A."""
     bodies, dof, basis = coordinates.terms.bodies, coordinates.size, coordinates.basis
     memory = coordinates.terms.model.memory_states
 
     def reduced(columns: Array) -> Array:
         return np.concatenate([basis.T @ columns[: 6 * bodies], columns[6 * bodies :]])
 
-    _, size, vt = np.linalg.svd(basis.T @ poses[: 6 * bodies])
+    scale = np.array(coordinates.terms.model.scale)[coordinates.terms.memory]
+    columns = reduced(poses)
+    columns[dof:] /= scale[:, None]
+    _, size, vt = np.linalg.svd(columns)
     held_in, neutral = vt[size > NEUTRAL].T, vt[size <= NEUTRAL].T
     a = np.zeros((2 * dof + memory, 2 * dof + memory))
     a[:dof, dof : 2 * dof] = np.eye(dof)

@@ -189,7 +189,10 @@ def _modes(linear: LinearModel) -> NaturalModes:
     real = values.real[np.abs(values.imag) <= 1e-7 * np.maximum(np.abs(values), 1.0)]
     order = oscillating[np.argsort(np.abs(values[oscillating]))]
     vectors = (free @ right[:, order]).T.astype(complex)
-    motion = vectors[:, : linear.degrees_of_freedom] @ linear.basis.T
+    dof = linear.degrees_of_freedom
+    along = linear.neutral @ linear.neutral.T
+    vectors[:, :dof] += vectors[:, dof : 2 * dof] @ along / values[order, None]
+    motion = vectors[:, :dof] @ linear.basis.T
     largest = motion[np.arange(len(order)), np.argmax(np.abs(motion), axis=1)]
     motion, vectors = motion / largest[:, None], vectors / largest[:, None]
     energy = np.real(motion.conj() * (motion @ linear.mass.T))

@@ -9,6 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from seacrane import _core
+from seacrane.crane.add_hydraulics import CYLINDERS, Hydraulics, add_hydraulics, hydraulics_of
 from seacrane.crane.builder import FOOT, KnuckleBoomCrane, Vector
 from seacrane.crane.jointed import JointedCrane
 from seacrane.crane.jointed_data import MeshData, RopeData
@@ -50,6 +51,7 @@ def add_crane(
     payload: Payload | None = None,
     damping: bool = True,
     held: bool = False,
+    hydraulics: Mapping[str, Mapping[str, Any]] | None = None,
     prefix: str = "",
 ) -> CraneRoles:
     """Add a crane, and a payload hanging at rest; its coordinates keep the data file's ranges.
@@ -72,6 +74,12 @@ def add_crane(
         Whether the payload has its small damping: of its swing, and drag in the air. False: neither.
     held : bool
         Whether drivers hold slew, luffs and strokes where they are described. False: drives are to be added.
+        Hydraulic cylinders hold their strokes themselves.
+    hydraulics : mapping of str to mapping, optional
+        Of a knuckle boom, by "main" and "knuckle", the entries of `add_hydraulic_cylinder` beside its
+        geometry: that cylinder is hydraulic, named as its joint, and holds the crane and its payload at the
+        start. Areas default to the data file's, or to those of its barrel and rod. Default: what the data
+        file says; it may say nothing.
     prefix : str
         Begins the names of all bodies and joints of this crane and the labels of its channels, such as
         "aft "; a scene's cranes need different ones.
@@ -102,6 +110,7 @@ def add_crane(
     if payload is not None:
         bodies.append(payload.under(parts.tip[1]))
         joints.append(payload.link(parts.tip[1], parts.tip[0]))
+    oil = _oil(crane, hydraulics)
     names = {"": base} | {body.name: prefix + body.name for body in bodies}
     frame = _Frame(scene, base)
     for body in bodies:
@@ -113,10 +122,17 @@ def add_crane(
     for body_name, meshes in parts.meshes.items():
         for mesh in meshes:
             _draw(scene, mesh, names[body_name], prefix, parts)
+    if isinstance(crane, KnuckleBoomCrane):
+        force = crane.static_cylinder_forces(
+            s1=s1, s2=s2, payload_mass=0.0 if payload is None else payload.mass, gravity=scene.gravity
+        )
+        by_label = dict(zip(CYLINDERS, force.tolist(), strict=True))
+        add_hydraulics(scene, crane, oil, force=by_label, prefix=prefix)
     tip = frame.in_body(prefix + parts.tip[0], parts.tip[1])
     if payload is not None and damped:
         _damp(scene, payload, tip, names[PAYLOAD])
-    for joint in parts.drives if is_held else ():
+    led = [joint for joint in parts.drives if joint not in {parts.cylinders[label] for label in oil}]
+    for joint in led if is_held else ():
         add_driver(scene, joint=prefix + joint, curve=0.0)
     return add_roles(
         scene,
@@ -155,6 +171,17 @@ def _parts(
     if not isinstance(coordinates, Mapping | None):
         raise SceneError(f"crane: coordinates are {shown(coordinates)}; give {{label: rad or m}}")
     return crane.parts(foot=foot, coordinates=coordinates)
+
+
+def _oil(crane: KnuckleBoomCrane | JointedCrane, hydraulics: Hydraulics | None) -> Hydraulics:
+    if isinstance(crane, KnuckleBoomCrane):
+        return hydraulics_of(crane, hydraulics)
+    if hydraulics is not None:
+        raise SceneError(
+            f"crane {crane.data.name!r}: hydraulics are those of a knuckle boom; put oil between a barrel "
+            "and a rod by add_hydraulic_cylinder"
+        )
+    return {}
 
 
 def _draw(scene: Description, mesh: MeshData, body: str, prefix: str, parts: CraneParts) -> None:

@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
+from types import MappingProxyType
 
-from seacrane.crane.file_table import FileTable, read_text, root_of
+from seacrane import _core
+from seacrane.crane.file_table import FileTable, number_at, read_text, root_of
 from seacrane.crane.mass_properties import Member, Point
 from seacrane.description.capacity import Capacity
 from seacrane.description.cylinder_areas import Areas
@@ -15,6 +18,10 @@ from seacrane.inputs.shown import shown
 
 DEFAULT_PATH = Path(__file__).resolve().parent.parent / "data" / "knuckle_boom_250t.toml"
 KIND = "knuckle-boom"
+GEOMETRY = {"full_area", "rod_side_area", "retracted_length", "stroke"}
+HYDRAULIC_KEYS = {
+    field.name for field in _core.HydraulicCylinder.FIELDS if field.type in ("number", "flag")
+} - GEOMETRY
 APART = 1e-6  # m: pivots nearer than that are one
 
 
@@ -22,7 +29,8 @@ APART = 1e-6  # m: pivots nearer than that are one
 class CylinderData:
     """A hydraulic cylinder: length between its pivots at stroke 0 and largest stroke, m; its members.
 
-    Areas of the piston's full side and rod side, m2, where the file has them.
+    Areas of the piston's full side and rod side, m2, and entries of `add_hydraulic_cylinder`, where the file
+    has them.
     """
 
     retracted_length: float
@@ -30,6 +38,7 @@ class CylinderData:
     barrel: tuple[Member, ...]
     rod: tuple[Member, ...]
     areas: Areas | None = None
+    hydraulics: Mapping[str, float] | None = None
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -87,6 +96,18 @@ class CraneData:
         }
 
 
+def _hydraulics(table: FileTable) -> Mapping[str, float] | None:
+    """Entries of a hydraulic cylinder, SI units, in a table of its own."""
+    if "hydraulics" not in table.values:
+        return None
+    inner, found = table.table("hydraulics"), {}
+    for key in HYDRAULIC_KEYS & set(inner.values):
+        value = inner.take(key)
+        found[key] = value if isinstance(value, bool) else number_at(table.source, inner.label(key), value)
+    inner.finish()
+    return MappingProxyType(found)
+
+
 def _cylinder(table: FileTable) -> CylinderData:
     data = CylinderData(
         retracted_length=table.number("retracted_length"),
@@ -94,6 +115,7 @@ def _cylinder(table: FileTable) -> CylinderData:
         barrel=table.members("barrel"),
         rod=table.members("rod"),
         areas=table.areas(),
+        hydraulics=_hydraulics(table),
     )
     table.finish()
     return data

@@ -11,6 +11,7 @@ from seacrane import _core
 from seacrane.analysis.ballast import add_ballast
 from seacrane.analysis.tanks import Tank
 from seacrane.crane.add_crane import add_crane
+from seacrane.crane.builder import CYLINDERS
 from seacrane.crane.payload import Payload
 from seacrane.description import (
     bodies,
@@ -36,6 +37,7 @@ from seacrane.scene import (
     given_vessel,
     heave,
     heavy_line,
+    hydraulics,
     limits,
     lines,
     luffing,
@@ -246,9 +248,23 @@ POSE: dict[str, dict[str, Any]] = {
     "theta": {"unit": "rad"}, "s1": LENGTH, "s2": LENGTH,
     "coordinates": {"type": "tables", "keys": COORDINATE},
 }  # fmt: skip
+OIL = tuple(
+    replace(key, required=False)
+    for key in fields_of(
+        _core.HydraulicCylinder,
+        without=("name", "first", "second", "first_point", "second_point", "retracted_length", "stroke"),
+    )
+)
+HYDRAULICS = tuple(Key(name=label, type="table", keys=OIL) for label in CYLINDERS)
 CRANE = keys_of(
     add_crane,
-    more=POSE | {"crane": {"type": "file"}, "foot": POINT, "payload": {"type": "table", "keys": PAYLOAD}},
+    more=POSE
+    | {
+        "crane": {"type": "file"},
+        "foot": POINT,
+        "payload": {"type": "table", "keys": PAYLOAD},
+        "hydraulics": {"type": "table", "keys": HYDRAULICS},
+    },
 )
 TUNED_AT = tuple(key for key in CRANE if key.name in (*POSE, "payload"))
 TIMES = (
@@ -352,6 +368,7 @@ _ALL = (
     _call(
         "gas_spring", heave.add_gas_spring, _core.GasSpring, force={"unit": "N"}, stiffness={"unit": "N/m"},
     ),
+    _call("hydraulic_cylinder", hydraulics.add_hydraulic_cylinder, _core.HydraulicCylinder),
     _call(
         "bridle", bridles.add_bridle, _core.Line,
         hook_point=POINT, stiffnesses=ROW | {"unit": "N"}, lengths=ROW | {"unit": "m"},

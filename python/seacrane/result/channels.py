@@ -71,7 +71,7 @@ def _derived(
     )  # fmt: skip
 
 
-_DRIVE = "actuator_force driver_force"
+_DRIVE = "actuator_force driver_force hydraulic_force"
 _POSE = "position quaternion"
 _MOTION = "position quaternion velocity angular_velocity"
 

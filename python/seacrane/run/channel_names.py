@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from seacrane.description.crane_parts import cylinders, hooks, piston_areas, slews, tips
 from seacrane.description.cylinder_areas import pressure
+from seacrane.description.hydraulic_cylinders import hydraulic_cylinders, slide_of
 from seacrane.errors import SceneError
 from seacrane.result.channels import CHANNELS, DERIVED, FIXED
 from seacrane.run.clearances import clearances
@@ -191,11 +192,21 @@ def _drive_load(scene: Description, arrays: Mapping[str, Array], wanted: tuple[s
     drivers = [(driver.joint, driver.coordinate) for driver in scene.drivers.values()]
     loads = [
         arrays[channel][:, i]
-        for channel, places in (("actuator_force", actuators), ("driver_force", drivers))
+        for channel, places in (
+            ("actuator_force", actuators),
+            ("driver_force", drivers),
+            ("hydraulic_force", _pushed(scene)),
+        )
         for i, place in enumerate(places)
         if place == wanted and channel in arrays
     ]
     return sum(loads[1:], loads[0].copy()) if loads else None
+
+
+def _pushed(scene: Description) -> list[tuple[str, str] | None]:
+    """The joint coordinates along which hydraulic cylinders push: those of the bodies that they join."""
+    slides = [slide_of(scene, one) for one in hydraulic_cylinders(scene).values()]
+    return [None if slide is None else (slide, "displacement") for slide in slides]
 
 
 def _turned(angles: Array | None) -> Array | None:

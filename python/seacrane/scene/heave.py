@@ -9,6 +9,7 @@ import numpy as np
 from seacrane import _core
 from seacrane.analysis.tip_motion import falls_of, tip_rate
 from seacrane.description.forces import add_load
+from seacrane.description.hydraulic_cylinders import hydraulic_cylinders, with_ideal_cylinders
 from seacrane.description.loads import lines_of
 from seacrane.description.scene import Description
 from seacrane.errors import SceneError
@@ -57,7 +58,7 @@ def add_heave_compensation(
     winch : str, optional
         The line whose winch follows.
     actuator : str, optional
-        The actuator that follows, in place of a winch.
+        The actuator or the hydraulic cylinder that follows, in place of a winch.
     ratio : float, optional
         Of what follows to the stroke. Default: of a winch the rope for each metre of the load, such as 2 on
         two falls; of an actuator its coordinate for each metre that the crane's tip goes down, in the
@@ -116,14 +117,14 @@ def _ratio(scene: Description, what: str, winch: str | None, actuator: str | Non
             raise SceneError(f"{what}: there is no winch {winch!r}; add the line and its winch first")
         ratio = falls_of(scene, line, direction)
     elif actuator is not None:
-        if actuator not in scene.actuators:
+        if actuator not in scene.actuators and actuator not in hydraulic_cylinders(scene):
             raise SceneError(f"{what}: there is no actuator {actuator!r}; add it first")
         if len(scene.roles) != 1 or (tip := next(iter(scene.roles.values())).tip) is None:
             raise SceneError(
                 f"{what}: its ratio is not known, as the scene has no one crane with a tip; give ratio, the "
                 "coordinate for each metre that the load goes down, or tell the tip by add_roles"
             )
-        rate = tip_rate(scene, actuator, *tip, direction)
+        rate = tip_rate(with_ideal_cylinders(scene), actuator, *tip, direction)
         ratio = -1.0 / rate if abs(rate) > LEAST_RATIO else 0.0
     else:
         return 1.0

@@ -31,6 +31,7 @@ from seacrane.scene import (
     given_vessel,
     heave,
     heavy_line,
+    hydraulics,
     limits,
     lines,
     luffing,
@@ -100,6 +101,7 @@ class Scene(Description):
     add_friction = limits.add_friction
     add_heave_compensation = heave.add_heave_compensation
     add_gas_spring = heave.add_gas_spring
+    add_hydraulic_cylinder = hydraulics.add_hydraulic_cylinder
 
     add_vessel = vessel.add_vessel
     add_given_vessel = given_vessel.add_given_vessel

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from seacrane.description.hydraulic_cylinders import hydraulic_cylinders
 from seacrane.description.loads import LOAD_KINDS, named, springs_of
 from seacrane.inputs.caller import warn_caller
 
@@ -43,7 +44,8 @@ def warn_of_free_cranes(scene: Description) -> None:
 
 
 def _held(scene: Description, joint: str) -> bool:
-    """By a driver, an actuator or another load on the joint, or a spring between its two bodies."""
+    """By a driver, an actuator or another load on the joint, or a spring or hydraulic cylinder between its
+    two bodies."""
     passive = tuple(LOAD_KINDS[kind] for kind in PASSIVE)
     ends = {scene.joints[joint].first, scene.joints[joint].second}
     springs = springs_of(scene.springs, scene.loads)
@@ -51,4 +53,5 @@ def _held(scene: Description, joint: str) -> bool:
         any(driver.joint == joint for driver in scene.drivers.values())
         or any(joint in named(one, "joint") for one in scene.all_loads() if not isinstance(one, passive))
         or any({spring.first, spring.second} == ends for _, spring in springs)
+        or any({one.first, one.second} == ends for one in hydraulic_cylinders(scene).values())
     )

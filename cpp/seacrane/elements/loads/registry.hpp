@@ -10,6 +10,7 @@
 #include "seacrane/elements/loads/function_force.hpp"
 #include "seacrane/elements/loads/gas_spring.hpp"
 #include "seacrane/elements/loads/heave_compensator.hpp"
+#include "seacrane/elements/loads/hydraulic_cylinder.hpp"
 #include "seacrane/elements/loads/line.hpp"
 #include "seacrane/elements/loads/pendulum_damping.hpp"
 #include "seacrane/elements/loads/point_force.hpp"
@@ -21,8 +22,9 @@ namespace seacrane {
 
 /// The one list of loads that a scene describes: a new one is its own file and an entry here. What others
 /// follow comes before them.
-using LoadTypes = std::tuple<HeaveCompensator, Actuator, PointForce, SpringDamper, ForceTable, FunctionForce,
-                             FlowForce, Friction, SoftStop, Line, GasSpring, PendulumDamping, SpanDrag>;
+using LoadTypes =
+    std::tuple<HeaveCompensator, Actuator, PointForce, SpringDamper, ForceTable, FunctionForce, FlowForce,
+               Friction, SoftStop, Line, GasSpring, PendulumDamping, SpanDrag, HydraulicCylinder>;
 
 /// Calls f.template operator()<Load>() for every type of load.
 template <class F>

@@ -11,6 +11,7 @@ std::vector<Channel> vessel_channels();
 std::vector<Channel> joint_channels();
 std::vector<Channel> load_channels();
 std::vector<Channel> heave_channels();
+std::vector<Channel> hydraulic_channels();
 std::vector<Channel> sheave_channels();
 std::vector<Channel> sea_channels();
 std::vector<Channel> limit_channels();
@@ -21,9 +22,9 @@ std::vector<Channel> accuracy_channels();
 const std::vector<Channel>& all_channels() {
   static const std::vector<Channel> all = [] {
     std::vector<Channel> out;
-    for (const auto& channels :
-         {body_channels, vessel_channels, joint_channels, load_channels, heave_channels, sheave_channels,
-          sea_channels, limit_channels, point_channels, load_force_channels, accuracy_channels}) {
+    for (const auto& channels : {body_channels, vessel_channels, joint_channels, load_channels,
+                                 heave_channels, hydraulic_channels, sheave_channels, sea_channels,
+                                 limit_channels, point_channels, load_force_channels, accuracy_channels}) {
       for (Channel& channel : channels()) out.push_back(std::move(channel));
     }
     return out;

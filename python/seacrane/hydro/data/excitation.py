@@ -50,6 +50,7 @@ def force_on_grid(database: HydroData, omega: FloatArray, heading: FloatArray) -
     in_frequency = spline_weights(database.omega, np.asarray(omega, dtype=float))
     return np.asarray(np.einsum("kn,qnd->qkd", in_frequency, by_heading, optimize=True))
 
+
 def _by_heading(database: HydroData, heading: FloatArray) -> ComplexArray:
     """Forces (q, n, 6) at headings (q,) and the database's frequencies (n,); (n, 6) where all are equal."""
     if heading.size and np.all(heading == heading[0]):  # long-crested seas, one seed after another

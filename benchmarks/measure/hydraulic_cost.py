@@ -1,0 +1,121 @@
+"""What hydraulic cylinders cost: case 2 on oil over case 2 on ideal actuators."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from seacrane import Scene, cases
+from seacrane.crane import KnuckleBoomCrane
+from seacrane.experiment.case import Case
+from seacrane.experiment.measure import timed
+from seacrane.run.method import Method
+
+from .section import Section
+
+Array = NDArray[np.float64]
+T_END, DT_OUT = 100.0, 0.2  # s
+OIL: dict[str, Any] = {
+    "pump_pressure": 32e6, "rated_flow": 0.05, "rated_drop": 1e6, "gain": 0.8, "rate_gain": 2.0,
+    "viscous_friction": 2e6,
+}  # fmt: skip
+GAS = {"accumulator_volume": 0.05, "accumulator_pressure": 2e6, "accumulator_flow": 0.004}
+LAGS = (0.05, 1.0 / (2.0 * math.pi * 35.0), 0.0)  # s: a pilot-operated valve, a small servo valve, none
+TIGHT = Method(integrator="dopri5", tolerance=1e-7)
+IDEAL = Method(integrator="dopri5", tolerance=1e-2)
+METHODS = (
+    Method(integrator="dopri5", tolerance=1e-2),
+    Method(integrator="dopri5", tolerance=1e-3),
+    Method(integrator="bs32", tolerance=1e-2),
+    Method(integrator="tsit5", tolerance=1e-3),
+    Method(integrator="cvode-bdf", tolerance=1e-4),
+)
+
+
+def hydraulic_case2(*, spool_lag: float, gas: bool) -> Scene:
+    """Case 2 with both cylinders on oil; with accumulators it has six pressures."""
+    scene, data = cases.case2(), KnuckleBoomCrane.load().data
+    references = {name: scene.actuators[name].reference for name in ("main", "knuckle")}
+    for name in references:
+        scene.remove(name)
+    for name, reference in references.items():
+        cylinder = getattr(data, f"{name}_cylinder")
+        full = math.pi / 4.0 * cylinder.barrel[0].inner_diameter ** 2
+        scene.add_hydraulic_cylinder(
+            name=name, first=f"{name}_barrel", second=f"{name}_rod", full_area=full,
+            rod_side_area=full - math.pi / 4.0 * cylinder.rod[0].outer_diameter ** 2,
+            retracted_length=cylinder.retracted_length, stroke=cylinder.stroke, reference=reference,
+            spool_lag=spool_lag, **OIL | (GAS if gas else {}),
+        )  # fmt: skip
+    return scene
+
+
+def hydraulic_cost(*, repeats: int) -> Section:
+    """Cost and error of methods on both kinds of spool."""
+    rows: list[list[Any]] = []
+    ideal, first = _run(cases.case2(), IDEAL, repeats)
+    _row(rows, "ideal actuators", "", IDEAL, ideal, first, first, _path(cases.case2()))
+    for lag in LAGS:
+        for gas in (True, False):
+            scene = hydraulic_case2(spool_lag=lag, gas=gas)
+            truth = _path(scene)
+            for method in METHODS:
+                path, cost = _run(scene, method, repeats)
+                pressures = f"{6 if gas else 4} pressures, 2 spools"
+                _row(rows, pressures, f"{1e3 * lag:.1f}", method, path, cost, first, truth)
+    return Section(
+        title="Hydraulic cylinders",
+        text=(
+            f"{T_END:g} s of case 2, its main and knuckle cylinder on oil with two chambers and a spool "
+            "each, and an accumulator each for six pressures. Errors are those of the payload's place "
+            "against the same scene with a spool of that lag "
+            f"solved tightly (`{TIGHT.integrator}`, {TIGHT.tolerance:g}); CPU times are those of the loop."
+        ),
+        head=[
+            "cylinders",
+            "spool lag, ms",
+            "method",
+            "evaluations",
+            "over ideal",
+            "CPU, ms",
+            "CPU over ideal",
+            "times real time",
+            "payload error, mm",
+        ],
+        rows=rows,
+    )
+
+
+def _row(
+    rows: list[list[Any]], cylinders: str, lag: str, method: Method, path: Array,
+    cost: tuple[int, float], first: tuple[int, float], truth: Array,
+) -> None:  # fmt: skip
+    rows.append(
+        [
+            cylinders,
+            lag,
+            f"{method.integrator} {method.tolerance:g}",
+            cost[0],
+            cost[0] / first[0],
+            1e3 * cost[1],
+            cost[1] / first[1],
+            T_END / cost[1],
+            1e3 * float(np.linalg.norm(path - truth, axis=1).max()),
+        ]
+    )
+
+
+def _run(scene: Scene, method: Method, repeats: int) -> tuple[Array, tuple[int, float]]:
+    case = Case(scene=scene, t_end=T_END, dt_out=DT_OUT)
+    done = timed(case, method, ["position"], repeats=repeats)
+    if done.stopped is not None:
+        raise done.stopped
+    place = done.run.core.channels()["position"][:, list(scene.bodies).index("payload")]
+    return place, (int(done.run.core.statistics()["evaluations"]), float(done.cpu_s))
+
+
+def _path(scene: Scene) -> Array:
+    return _run(scene, TIGHT, 1)[0]

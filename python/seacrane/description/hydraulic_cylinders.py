@@ -1,0 +1,122 @@
+"""Hydraulic cylinders: what a description leaves out is filled in from where and how they stand."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from seacrane import _core
+from seacrane.description.drives import add_actuator
+from seacrane.description.forces import add_load
+from seacrane.description.scene import GROUND, Description, Some
+from seacrane.errors import SceneError
+from seacrane.inputs.checked import number_of, text_of
+from seacrane.inputs.frames import rotation_matrix
+
+HOSE = 0.05  # of the swept volume, where no hose volume is given
+BACK_PRESSURE = 0.1  # of the pump's, in the chamber that carries nothing
+ATMOSPHERE = 1e5  # Pa
+NEAR = 1e-6  # m
+
+
+def hydraulic_cylinders(scene: Description) -> dict[str, _core.HydraulicCylinder]:
+    """Those of a scene, by name."""
+    return {name: load for name, load in scene.loads.items() if isinstance(load, _core.HydraulicCylinder)}
+
+
+def slide_of(scene: Description, cylinder: _core.HydraulicCylinder) -> str | None:
+    """The prismatic joint along which a cylinder pushes: that of the bodies that it joins."""
+    ends = cylinder.first, cylinder.second
+    slides = (one for one in scene.joints.values() if one.kind == "prismatic")
+    return next((joint.name for joint in slides if (joint.first, joint.second) == ends), None)
+
+
+def with_ideal_cylinders(scene: Some) -> Some:
+    """The scene with an actuator of the same name in place of each cylinder that has a joint to act on."""
+    found = hydraulic_cylinders(scene)
+    slides = {name: slide for name, one in found.items() if (slide := slide_of(scene, one)) is not None}
+    out = scene.copy(loads={name: load for name, load in scene.loads.items() if name not in slides})
+    out.actuators = dict(scene.actuators)
+    for name, slide in slides.items():
+        add_actuator(out, name=name, joint=slide)
+    return out
+
+
+def what_of(given: dict[str, Any]) -> str:
+    """How messages name a cylinder."""
+    return f"hydraulic cylinder {text_of('hydraulic cylinder: name', given['name'])!r}"
+
+
+def place_cylinder(
+    scene: Description, given: dict[str, Any], force: float | None = None
+) -> _core.HydraulicCylinder:
+    """Add a cylinder; volumes, reference and pressures that are None or absent are filled in.
+
+    Parameters
+    ----------
+    scene : Scene
+    given : dict
+        Entries of the cylinder.
+    force : float, optional
+        N, that it holds; with it the pressures may be left out.
+
+    Raises
+    ------
+    SceneError
+        If the points are not within the stroke, or pressures are missing.
+    """
+    settings = {key: value for key, value in given.items() if value is not None}
+    what = what_of(given)
+    standing = _stroke(scene, what, settings)
+    settings.setdefault("reference", standing)
+    for volume, area in (("hose_volume", "full_area"), ("hose_volume_rod", "rod_side_area")):
+        swept = number_of(f"{what}: {area}", settings[area]) * number_of(
+            f"{what}: stroke", settings["stroke"]
+        )
+        settings.setdefault(volume, HOSE * swept)
+    if force is not None:
+        for side, value in _pressures(what, force, settings).items():
+            settings.setdefault(side, value)
+    added: _core.HydraulicCylinder = add_load(scene, _core.HydraulicCylinder(**settings))
+    return added
+
+
+def _stroke(scene: Description, what: str, settings: dict[str, Any]) -> float:
+    """At which the cylinder stands as described, m."""
+    places = []
+    for end in ("first", "second"):
+        body, point = settings[end], np.asarray(settings.get(f"{end}_point", (0.0, 0.0, 0.0)), dtype=float)
+        if body == GROUND:
+            places.append(point)
+            continue
+        if body not in scene.bodies:
+            raise SceneError(f"{what}: there is no body {body!r}; add it first")
+        described = scene.bodies[body]
+        places.append(np.asarray(described.position) + rotation_matrix(described.quaternion) @ point)
+    length = float(np.linalg.norm(places[1] - places[0]))
+    shortest = number_of(f"{what}: retracted_length", settings["retracted_length"])
+    longest = shortest + number_of(f"{what}: stroke", settings["stroke"])
+    if not shortest - NEAR <= length <= longest + NEAR:
+        raise SceneError(
+            f"{what}: its points are {length:.6g} m apart as described, and it is {shortest:g} to "
+            f"{longest:g} m long; correct retracted_length, stroke or the points"
+        )
+    return min(max(length - shortest, 0.0), longest - shortest)
+
+
+def _pressures(what: str, force: float, settings: dict[str, Any]) -> dict[str, float]:
+    """Of both chambers, Pa, that hold a force: the one that carries nothing has the back pressure."""
+    full, ring = (number_of(f"{what}: {area}", settings[area]) for area in ("full_area", "rod_side_area"))
+    if not (full > 0.0 and ring > 0.0):
+        raise SceneError(f"{what}: areas are {full:g} and {ring:g} m2; make both positive")
+    tank = number_of(f"{what}: tank_pressure", settings.get("tank_pressure", ATMOSPHERE))
+    back = max(tank, BACK_PRESSURE * number_of(f"{what}: pump_pressure", settings.get("pump_pressure", 0.0)))
+    if "pressure" in settings:
+        given = number_of(f"{what}: pressure", settings["pressure"])
+        return {"pressure_rod": (given * full - force) / ring}
+    at_rod = number_of(f"{what}: pressure_rod", settings.get("pressure_rod", back))
+    at_full = (force + at_rod * ring) / full
+    if "pressure_rod" in settings or at_full >= back:
+        return {"pressure": at_full, "pressure_rod": at_rod}
+    return {"pressure": back, "pressure_rod": (back * full - force) / ring}

@@ -1,0 +1,177 @@
+"""Hydraulic cylinders against closed forms, an independent stiff solver, volume and energy balances."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+from hydraulic_scenes import FULL, HOLDING, MASS, RING, SET, START, STROKE, lifted, own_solution, raised
+from multibody_runs import record
+from numpy.testing import assert_allclose
+from scipy.integrate import simpson
+
+from seacrane import Run, Scene, SceneError, natural_modes
+
+LEAKS = {"internal_leakage": 2e-13, "external_leakage": 1e-13, "overlap": 0.05}
+
+
+def moduli(stroke: float) -> tuple[float, float]:
+    """Stiffness of each chamber over its area squared, Pa/m3, closed."""
+    out = []
+    for area, swept, hose in (
+        (FULL, FULL * stroke, SET["hose_volume"]),
+        (RING, RING * (STROKE - stroke), SET["hose_volume_rod"]),
+    ):
+        compliance = (
+            (swept + hose) / SET["oil_modulus"] + swept / SET["cylinder_modulus"] + hose / SET["hose_modulus"]
+        )
+        out.append(area**2 / compliance)
+    return out[0], out[1]
+
+
+def test_pressures_at_the_start_hold_the_load() -> None:
+    up, down = raised().loads["ram"], raised(above=False).loads["ram"]
+    assert up.pressure * FULL - up.pressure_rod * RING == pytest.approx(HOLDING, rel=1e-12)
+    assert down.pressure * FULL - down.pressure_rod * RING == pytest.approx(-HOLDING, rel=1e-12)
+    assert min(up.pressure_rod, down.pressure) == pytest.approx(0.1 * SET["pump_pressure"])
+    out = record(raised(), 0.5, rtol=1e-9)
+    assert np.ptp(out["hydraulic_stroke"]) < 1e-9
+    assert out["hydraulic_stroke"][0, 0] == pytest.approx(START, abs=1e-12)
+
+
+@pytest.mark.parametrize("stroke", [0.1, 0.3, 0.5])
+def test_the_hydraulic_frequency_is_that_of_both_closed_chambers(stroke: float) -> None:
+    scene = raised(viscous_friction=0.0, retracted_length=1.35 - stroke)
+    modes = natural_modes(scene)
+    expected = 2.0 * np.pi / np.sqrt(sum(moduli(stroke)) / MASS)
+    assert np.min(np.abs(modes.natural_period / expected - 1.0)) < 1e-6
+
+
+@pytest.mark.parametrize("more", [{}, LEAKS], ids=["as given", "with leakage and overlap"])
+@pytest.mark.parametrize("formulation", ["redundant", "recursive"])
+def test_the_complete_parameter_set_follows_an_independent_stiff_solver(
+    more: dict[str, Any], formulation: str
+) -> None:
+    scene = lifted(**more)
+    ram = scene.loads["ram"]
+    out = record(scene, 1.8, dt_out=0.02, rtol=1e-9, formulation=formulation)
+    s, v, p1, p2, u = own_solution(out["time"], (ram.pressure, ram.pressure_rod), **more)
+    assert np.ptp(s) > 0.02
+    assert_allclose(out["hydraulic_stroke"][:, 0], s, atol=1e-6 * STROKE)
+    assert_allclose(out["velocity"][:, 0, 2], v, atol=1e-6)
+    assert_allclose(out["hydraulic_pressure"][:, 0, 0], p1, atol=1e-6 * SET["pump_pressure"])
+    assert_allclose(out["hydraulic_pressure"][:, 0, 1], p2, atol=1e-6 * SET["pump_pressure"])
+    assert_allclose(out["hydraulic_spool"][:, 0], u, atol=1e-6)
+    assert np.max(np.abs(out["energy_balance"])) < 1e-6 * out["absolute_work"][-1]
+
+
+EVERYTHING: dict[str, Any] = LEAKS | {
+    "air": 0.005,
+    "friction": 300.0,
+    "relief_pressure": 3.1e6,
+    "relief_pressure_rod": 4e6,
+    "relief_flow": 5e-4,
+    "counterbalance_pressure": 6e6,
+    "counterbalance_flow": 8e-4,
+    "makeup_flow": 4e-4,
+    "pump_check": True,
+    "accumulator_volume": 1e-3,
+    "accumulator_pressure": 1.5e6,
+    "accumulator_flow": 2e-4,
+    "rupture_time": 1.5,
+    "rupture_area": 3e-6,
+}
+
+
+def test_energy_closes_with_every_part() -> None:
+    out = record(lifted(**EVERYTHING), 2.0, dt_out=0.01, rtol=1e-8)
+    assert np.max(np.abs(out["energy_balance"])) < 1e-6 * out["absolute_work"][-1]
+    power = out["hydraulic_power"][:, 0]
+    assert np.max(power[:, 0]) > 0.0
+    for part, name in enumerate(
+        ("valve", "relief", "makeup", "leakage", "accumulator", "rupture", "friction")
+    ):
+        assert np.max(power[:, 2 + part]) < 1e-3 * np.max(np.abs(power)), name
+    assert np.min(power[:, 2 + 5]) < 0.0
+
+
+def test_oil_is_neither_lost_nor_made() -> None:
+    """Flows in and out are what both chambers take, by their strokes and pressures."""
+    out = record(lifted(), 1.6, dt_out=0.002, rtol=1e-10)
+    through, returned = out["hydraulic_pump_flow"][:, 0], out["hydraulic_tank_flow"][:, 0]
+    ports = out["hydraulic_flow"][:, 0]
+    assert_allclose(through - returned, np.sum(ports, axis=1), atol=1e-15 * np.max(np.abs(ports)))
+    p = out["hydraulic_pressure"][:, 0]
+    s = out["hydraulic_stroke"][:, 0]
+    k = 1.0 / SET["oil_modulus"] + 1.0 / SET["cylinder_modulus"]
+    d = 1.0 / SET["hose_modulus"] - 1.0 / SET["cylinder_modulus"]
+    for side, swept, hose in (
+        (0, FULL * s, SET["hose_volume"]),
+        (1, RING * (STROKE - s), SET["hose_volume_rod"]),
+    ):
+        density = np.exp(k * p[:, side])
+        content = swept * density + hose * (k + d) * (density - 1.0) / k
+        taken_in = simpson(density * ports[:, side], x=out["time"])
+        assert content[-1] - content[0] == pytest.approx(taken_in, abs=1e-6 * np.ptp(content))
+
+
+def test_a_stiffer_oil_comes_to_the_ideal_cylinder() -> None:
+    """Which moves by the flows over the areas: s' = C u sqrt(...) of both edges in series."""
+    errors = []
+    for stiffer in (1.0, 10.0, 100.0):
+        bulk = {key: stiffer * SET[key] for key in ("oil_modulus", "hose_modulus", "cylinder_modulus")}
+        out = record(lifted(viscous_friction=0.0, **bulk), 0.8, rtol=1e-8, dt_out=0.8)
+        errors.append(float(out["hydraulic_stroke"][-1, 0]))
+    assert abs(errors[2] - errors[1]) < 0.2 * abs(errors[1] - errors[0])
+    speed = record(lifted(viscous_friction=0.0), 0.8, rtol=1e-8, dt_out=0.4)["velocity"][-1, 0, 2]
+    c = 0.6 * SET["rated_flow"] / np.sqrt(SET["rated_drop"])
+    # p0 FULL - p1 RING = weight; c sqrt(pump - p0) = FULL v; c sqrt(p1 - tank) = RING v
+    supply = SET["pump_pressure"] * FULL - SET["tank_pressure"] * RING - HOLDING
+    expected = c * np.sqrt(supply / (FULL**3 + RING**3))
+    assert speed == pytest.approx(expected, rel=2e-3)
+
+
+@pytest.mark.parametrize("integrator", ["dopri5", "rosenbrock"])
+def test_a_run_goes_on_bit_for_bit(integrator: str) -> None:
+    scene = lifted(**EVERYTHING)
+    whole = Run(scene, t_end=1.7, dt_out=0.1, rtol=1e-6, integrator=integrator)
+    whole.advance(0.83)
+    later = Run(scene, t_end=1.7, dt_out=0.1, rtol=1e-6, integrator=integrator, start=whole.core.state)
+    for going in (whole, later):
+        going.advance(1.7)
+    assert np.array_equal(whole.core.state.values, later.core.state.values)
+
+
+@pytest.mark.parametrize(
+    ("wrong", "message"),
+    [
+        ({"pressure": -1e5, "pressure_rod": 1e5}, "pressure is -100000; it must be positive"),
+        ({"pump_pressure": 0.0}, "has a spool and no pump; give pump_pressure"),
+        ({"rod_side_area": 2 * FULL}, "rod_side_area is .* more than the full side's"),
+        (
+            {"full_area": 50.3, "rod_side_area": 40.6, "hose_volume": 2.0, "hose_volume_rod": 2.0},
+            "full_area is 50.3.* a piston .* m wide",
+        ),
+        ({"relief_pressure": 1e6, "relief_flow": 1e-3}, "relief_pressure is .* below the holding pressure"),
+        ({"hose_volume": 0.0}, "hose_volume is 0 m3, and at an end of the stroke no oil is left"),
+        ({"stroke": 0.2}, "1.35 m apart as described, and it is 1.05 to 1.25 m long"),
+        ({"rupture_area": 1e-4}, "rupture_time is 1e\\+07 s and rupture_area 0.0001 m2; give both"),
+        ({"relief_pressure": 1e7}, "has relief_pressure without relief_flow"),
+        ({"accumulator_volume": 0.1}, "accumulator_pressure is 0 and accumulator_volume is 0.1"),
+        ({"air": 0.5}, "air is 0.5; give a share of the volume"),
+        ({"spool_lag": -0.1}, "spool_lag is -0.1"),
+        ({"tank_pressure": 8e6}, "pump_pressure is 7.6e\\+06 Pa, not above the tank's"),
+        ({"command": 0.5, "rated_flow": 0.0, "pump_pressure": 0.0}, "has a command and no spool"),
+    ],
+)
+def test_bad_input_is_named(wrong: dict[str, Any], message: str) -> None:
+    with pytest.raises(SceneError, match=f"hydraulic cylinder 'ram': .*{message}"):
+        raised(**wrong).compile()
+
+
+def test_a_scene_off_its_rest_names_the_body() -> None:
+    scene = Scene(name="falls")
+    scene.add_body(name="load", mass=1.0, inertia=(1, 1, 1), position=(1.2, 0, 0))
+    with pytest.raises(SceneError, match=r"'ram'.*body 'load' accelerates by 9.81"):
+        scene.add_hydraulic_cylinder(name="ram", first="ground", second="load", **SET)
