@@ -38,7 +38,7 @@ def fit_memory(
     band: tuple[float, float] | None = None,
     r2: float = 0.99,
     infinite_frequency: Literal["estimated", "known"] = "estimated",
-    kind: str = "per-pair",
+    kind: str = "by-motion",
     limit: float = LIMIT,
 ) -> MemoryModel:
     """Identify the fluid memory of ``database``.
