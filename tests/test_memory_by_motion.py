@@ -111,7 +111,7 @@ def test_what_stops_a_fit_is_named(shared: Path) -> None:
     assert not model.motion.reached
     assert model.motion.error.worst < model.motion.floor < 0.06
     with pytest.warns(
-        MemoryFitWarning, match=r"errs by 0\.0\d+ of roll in a sea, at best, where 0.01 .*Kramers"
+        MemoryFitWarning, match=r"errs by 0\.0\d+ of roll in a sea, at best, and its limit is 0.01 .*Kramers"
     ):
         vessel_parameters(database, memory=model)
 

@@ -1,4 +1,4 @@
-"""Fit the default fluid memory of the shipped hull, and write it into the package: `python tools/ship_memory.py`.
+"""Fit the default memory of the shipped hull, and write it into the package: `python tools/ship_memory.py`.
 
 Run it after the hull's data or a fit changed: the model that is there is then no longer found.
 """

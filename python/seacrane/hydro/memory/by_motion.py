@@ -90,13 +90,19 @@ def fit_by_motion(
 def felt_pairs(
     database: HydroData, judge: MotionJudge, limit: float
 ) -> tuple[Pairs, tuple[tuple[int, int], ...]]:
-    """Pairs (j <= k) to fit, and those left out: forbidden by symmetry, or felt by no motion.
+    """Pairs (j <= k) to fit, and those left out: forbidden by symmetry, undamped, or felt by no motion.
 
-    A panel code's noise in a pair that the hull's shape makes zero is such a pair.
+    A panel code's noise in a pair that the hull's shape makes zero is such a pair. A motion that radiates
+    nothing has no memory.
     """
     added_mass, damping = (0.5 * (x + x.swapaxes(1, 2)) for x in (database.added_mass, database.damping))
     pairs = [(min(pair), max(pair)) for pair in memory_entries(added_mass, damping, database.omega)]
-    forbidden = [pair for pair in pairs if database.port_starboard_symmetric and sum(pair) % 2]
+    radiates = np.diagonal(damping, axis1=1, axis2=2).max(axis=0) > 0.0
+    forbidden = [
+        (j, k)
+        for j, k in pairs
+        if (database.port_starboard_symmetric and (j + k) % 2) or not (radiates[j] and radiates[k])
+    ]
     others = [pair for pair in pairs if pair not in forbidden and pair[0] != pair[1]]
     felt = {pair: judge.error(_without(judge, [pair])).worst for pair in others}
     faint = sorted((pair for pair in others if felt[pair] < UNFELT * limit), key=lambda pair: felt[pair])

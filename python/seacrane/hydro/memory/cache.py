@@ -32,7 +32,7 @@ from seacrane.hydro.data.memory_model import (
     Passivity,
 )
 
-VERSION = 1  # raised with every change of a fit
+VERSION = 2  # raised with every change of a fit
 VARIABLE, OFF = "SEACRANE_CACHE", "off"
 MOST_BYTES = 10_000_000
 USED = (
