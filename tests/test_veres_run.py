@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from test_vessel import complex_amplitude, impedance, regular_wave
 
 from seacrane import Scene, cases, load_database, simulate
-from seacrane.hydro import HydroDatabase, InfiniteFrequencyWarning, vessel_parameters
+from seacrane.hydro import HydroDatabase, InfiniteFrequencyWarning, fit_memory, vessel_parameters
 from seacrane.hydro.data.hydro_data import RollDamping
 from seacrane.hydro.data.motion import motion_response
 
@@ -23,7 +23,11 @@ POINTS = [(5, 10), (5, 20), (7, 26), (13, 14), (16, 29)]  # heading and frequenc
 
 @pytest.fixture(scope="module")
 def supply(shared: Path) -> HydroDatabase:
-    return load_database(shared / "veres" / "supply")
+    """With its memory per pair, as `cases` take it."""
+    database = load_database(shared / "veres" / "supply")
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", InfiniteFrequencyWarning)
+        return replace(database, memory=fit_memory(database=database, kind="per-pair"))
 
 
 def at_file_damping(database: HydroDatabase, heading: int, frequency: int) -> HydroDatabase:
