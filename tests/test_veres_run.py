@@ -98,7 +98,7 @@ def test_roll_without_the_tanks_would_be_wrong(supply: HydroDatabase) -> None:
     index = int(np.argmax(np.abs(supply.motion_rao[5, :, 3]))) if supply.motion_rao is not None else 0
     database = at_file_damping(supply, 5, index)
     with_tanks = np.abs(fitted_rao(database)[5, index, 3])
-    bare = replace(database, additional=())
+    bare = replace(database, additional=(), memory=None)
     scene = cases.vessel(database=bare, hs=0.0, mooring_period=None)
     without = np.abs(simulated_rao(bare, scene, 5, index)[3])
     assert abs(without - with_tanks) > 0.2 * with_tanks

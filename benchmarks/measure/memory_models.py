@@ -42,7 +42,7 @@ def fits() -> Section:
             f"{row.slowest_decay:.2f}",
             f"{row.fastest_pole:.2f}",
         ]
-        for row in fit_memory(database=shipped_database()).rows
+        for row in fit_memory(database=shipped_database(), kind="per-pair").rows
     ]
     return Section(
         title="Fits of the shipped hull",

@@ -1,4 +1,4 @@
-"""`fit_memory`: radiation memory (and that of roll tanks) of a database, by motion, per entry or per group."""
+"""`fit_memory`: memory of radiation and roll tanks of a database, by motion, per entry or per group."""
 
 from __future__ import annotations
 

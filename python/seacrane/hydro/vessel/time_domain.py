@@ -117,8 +117,8 @@ def _warn_of_motions(name: str, fit: MotionFit) -> None:
     )
     warn_caller(
         f"database {name!r}: the memory errs by {what}, at best, and its limit is {fit.limit:g} "
-        f"({PEAK_ALLOWANCE * fit.limit:g} at a peak): {fit.obstacle}. Narrow the database's trusted_band, give "
-        f"it a memory of a larger limit, by fit_memory(limit=...){nearer}",
+        f"({PEAK_ALLOWANCE * fit.limit:g} at a peak): {fit.obstacle}. Narrow the database's trusted_band, "
+        f"give it a memory of a larger limit, by fit_memory(limit=...){nearer}",
         MemoryFitWarning,
     )
 
