@@ -20,8 +20,8 @@ def memory_speed(*, repeats: int) -> Section:
     return Section(
         title="Kinds of fluid memory over a run",
         text=(
-            f"{T_END:g} s with defaults, best of {repeats} runs of each kind in turns; CPU time of the loop, and "
-            "its ratio over that per pair."
+            f"{T_END:g} s with defaults, best of {repeats} runs of each kind in turns; CPU time of the loop, "
+            "and its ratio over that per pair."
         ),
         head=["scene", "memory", "states", "one evaluation, ns", "evaluations", "run, ms", "ratio"],
         rows=rows,
