@@ -39,8 +39,8 @@ def hours() -> Section:
         text=(
             "The scene of `examples/jobs/three_hours.py`, its memory per pair: 50 t below the crane in head "
             "waves, with the small damping of loads and without. Standard deviation of the hook load, kN, "
-            f"hour by hour from {SETTLED:g} s on. Growth is what `GrowingModeWarning` tells of a mode's amplitude, "
-            "each hour; nothing where it does not warn, or warns of ringing alone."
+            f"hour by hour from {SETTLED:g} s on. Growth is what `GrowingModeWarning` tells of a mode's "
+            "amplitude, each hour; nothing where it does not warn, or warns of ringing alone."
         ),
         head=["integrator", "rtol or dt", "damping", "steps", "mean step, s",
               *(f"hour {i + 1}, kN" for i in range(HOURS)), "energy error over work", "growth an hour"],
