@@ -127,6 +127,13 @@ def test_the_databases_band_is_that_of_the_fit() -> None:
     assert fit_memory(database=narrow, limit=0.2).band == (0.45, 0.9)
 
 
+def test_without_a_band_the_whole_table_is_kept_to_the_limit() -> None:
+    """As of a panel code that states none: 0.1 to 3.1 rad/s."""
+    model = fit_memory(database=hull(trusted_band=None))
+    assert model.band == (0.1, 3.1)
+    assert model.motion is not None and model.motion.reached
+
+
 # Poor data
 
 

@@ -33,8 +33,8 @@ Pairs = list[tuple[int, int]]
 
 SHARE = 0.8  # of the limit that the radiation of one group may take
 UNFELT = 0.1  # of the limit: pairs that together change no motion by more are left out
-MOST_MASSES = 6  # beyond one per motion
-PATIENCE = 2  # orders in a row without gain, after which more masses are not tried
+MOST_MASSES = 6  # beyond one per motion; a group of many motions may have two for each
+PATIENCE = 3  # orders in a row without gain, after which more masses are not tried
 GAIN = 0.05  # of the error
 BEYOND_BAND = 1.3  # times its upper end: data further up are not looked at
 MOST_INERTIA = 0.1  # of the vessel's, that an additional cause may add or take at once
@@ -170,7 +170,7 @@ class _Group:
         best: tuple[float, Oscillators] | None = None
         model: Oscillators | None = None
         idle = 0
-        for _ in range(MOST_MASSES + 1):
+        for _ in range(max(MOST_MASSES, 2 * len(self.group)) + 1):
             model = fit_to_motions(self.data, model)
             error = self._error(model).of(self.group)
             idle = 0 if best is None or error < (1.0 - GAIN) * best[0] else idle + 1
