@@ -32,6 +32,7 @@ from measure import (
     memory_fits,
     memory_kinds,
     memory_models,
+    memory_speed,
     pages,
     paper_form,
     rival,
@@ -78,6 +79,7 @@ def sections(folder: Path, *, repeats: int, quick: bool) -> Iterator[Section]:
     yield scaling.loop_rows(repeats=repeats)
     yield memory_cost.memory_cost(repeats=repeats)
     yield memory_kinds.memory_kinds(repeats=repeats)
+    yield memory_speed.memory_speed(repeats=repeats)
     yield wave_loads.wave_loads(repeats=repeats)
     tried = 1 if quick else min(repeats, 3)
     rows, truth = integrators.work_precision(repeats=tried)

@@ -32,7 +32,7 @@ for motion, name in ((2, "heave"), (3, "roll"), (4, "pitch")):
 # Strip theory radiates too much in waves longer than the barge: for a decision take method="capytaine" above.
 warnings.simplefilter("ignore", BelowBandWarning)
 scene = Scene(name="barge")
-scene.add_vessel(database, memory="passive")
+scene.add_vessel(database)
 print("\nHs 2 m, Tp 8 s: significant double amplitudes")
 for degrees in (180.0, 135.0, 90.0):
     found = response_statistics(

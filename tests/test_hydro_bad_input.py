@@ -60,7 +60,7 @@ def test_good_data_are_silent(shared: Path) -> None:
         scene = Scene(name="afloat")
         scene.add_vessel(shipped_database())
         tanker = load_database(shared / "wamit")
-        for kind in ("per-pair", "passive"):
+        for kind in ("by-motion", "per-pair", "passive"):
             model = fit_memory(database=tanker, kind=kind)
             vessel_parameters(
                 dataclasses.replace(tanker, linear_damping=np.diag([0, 0, 0, 1e8, 0, 0])), memory=model
@@ -75,14 +75,14 @@ def test_infinite_frequency_added_mass_that_is_not_there() -> None:
     with pytest.warns(
         InfiniteFrequencyWarning, match=r"up to 3.1 rad/s.*a wrong mass in every acceleration"
     ) as told:
-        fit_memory(database=database, r2=0.9)
+        fit_memory(database=database, kind="per-pair", r2=0.9)
     assert told[0].filename == __file__
     with pytest.raises(
         ValueError, match="no infinite-frequency added mass; pass infinite_frequency='estimated'"
     ):
         fit_memory(database=database, infinite_frequency="known")
     with silence():
-        fit_memory(database=hull(), r2=0.9)
+        fit_memory(database=hull(), kind="per-pair", r2=0.9)
 
 
 # --- damping

@@ -41,9 +41,9 @@ def known_system(**changes: object) -> IdentificationData:
 
 @pytest.fixture(scope="module")
 def supply(shared: Path) -> HydroDatabase:
-    """The supply vessel with its fitted memory."""
+    """The supply vessel with its memory fitted per pair."""
     database = load_database(shared / "veres" / "supply")
-    return dataclasses.replace(database, memory=fit_memory(database=database))
+    return dataclasses.replace(database, memory=fit_memory(database=database, kind="per-pair"))
 
 
 def memory_of(database: HydroDatabase) -> MemoryModel:
@@ -186,14 +186,14 @@ def test_estimated_infinite_added_mass_is_close_to_the_computed_one() -> None:
 
 def test_known_infinite_added_mass_is_used_when_asked() -> None:
     database = shipped_database()
-    model = fit_memory(database=database, r2=0.97, infinite_frequency="known")
+    model = fit_memory(database=database, kind="per-pair", r2=0.97, infinite_frequency="known")
     assert database.infinite_frequency_added_mass is not None
     assert np.diag(model.added_mass) == pytest.approx(np.diag(database.infinite_frequency_added_mass))
 
 
 def test_refit_gives_the_shipped_model() -> None:
     database = shipped_database()
-    shipped, again = memory_of(database), fit_memory(database=database)
+    shipped, again = memory_of(database), fit_memory(database=database, kind="per-pair")
     assert [(row.output, row.input, row.order) for row in again.rows] == [
         (row.output, row.input, row.order) for row in shipped.rows
     ]

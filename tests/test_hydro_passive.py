@@ -139,7 +139,7 @@ def test_every_pair_follows_the_data_with_fewer_states(ship: tuple[HydroDatabase
     inside = (database.omega >= model.band[0] - 1e-9) & (database.omega <= model.band[1] + 1e-9)
     added_mass, damping = model.frequency_response(database.omega)
     entries = [(row.output, row.input) for row in model.rows if row.cause == RADIATION]
-    per_pair = fit_memory(database=database)
+    per_pair = fit_memory(database=database, kind="per-pair")
     wanted = {(row.output, row.input) for row in per_pair.rows if row.cause == RADIATION}
     assert set(entries) == wanted
     for j, k in [*entries, *((k, j) for j, k in entries)]:
@@ -278,7 +278,9 @@ def test_other_ways_to_fail_are_named(hull: MemoryModel, where: str, reason: str
 def test_causes_without_blocks_are_named(hull: MemoryModel) -> None:
     with pytest.raises(ValueError, match="no block of cause 'tanks'; it has: radiation"):
         passivity_certificate(hull, cause="tanks")
-    with pytest.raises(ValueError, match="kind 'elephant' is unknown; choose per-pair or passive"):
+    with pytest.raises(
+        ValueError, match="kind 'elephant' is unknown; choose by-motion or per-pair or passive"
+    ):
         fit_memory(database=shipped_database(), kind="elephant")
 
 
@@ -375,7 +377,7 @@ def test_saved_and_loaded_without_loss(hull: MemoryModel, tmp_path: Path) -> Non
     scene.add_vessel(own, memory="passive")
     again.add_vessel(own, memory="per-pair")
     assert scene.compile().memory_states == hull.states
-    assert again.compile().memory_states == fit_memory(database=own).states
+    assert again.compile().memory_states == fit_memory(database=own, kind="per-pair").states
 
 
 @pytest.mark.parametrize("case", [vessel, case1], ids=["vessel", "case1"])
@@ -405,11 +407,16 @@ def test_the_command_line_takes_it(tmp_path: Path) -> None:
 
 def test_trade_table_is_measured_and_documented(repository: Path) -> None:
     """The rows of R2 = 0.95 and 0.99 against the documented table, and against each other."""
-    rows = memory_trade(shipped_database(), targets=(0.95, 0.99))
-    assert {row.kind for row in rows} == {"per-pair", "passive", "convolution"}
-    assert all(row.passive == (row.kind == "passive") and row.reached for row in rows)
+    rows = memory_trade(shipped_database(), targets=(0.95, 0.99), limits=(0.05, 0.01))
+    assert {row.kind for row in rows} == {"by-motion", "per-pair", "passive", "convolution"}
+    assert all(row.passive == (row.kind in ("passive", "by-motion")) and row.reached for row in rows)
+    by_motion = [row for row in rows if row.kind == "by-motion"]
+    assert [row.limit for row in by_motion] == [0.05, 0.01]
+    assert by_motion[0].states < by_motion[1].states
+    assert by_motion[0].error_motion > by_motion[1].error_motion
     fine = {row.kind: row for row in rows if row.r2 == 0.99}
     coarse = {row.kind: row for row in rows if row.r2 == 0.95}
+    assert set(fine) == {"per-pair", "passive"} and all(row.limit is None for row in fine.values())
     for kind in fine:
         assert coarse[kind].states < fine[kind].states
         assert coarse[kind].error_kernel > fine[kind].error_kernel

@@ -30,7 +30,7 @@ CRANE = RigidPart(mass=390e3, position=np.array([-33.0, 10.0, 18.0]), inertia=np
 def supply(shared: Path) -> HydroDatabase:
     """The supply vessel with its memory."""
     database = load_database(shared / "veres" / "supply")
-    return dataclasses.replace(database, memory=fit_memory(database=database))
+    return dataclasses.replace(database, memory=fit_memory(database=database, kind="per-pair"))
 
 
 def test_the_shipped_vessel() -> None:

@@ -52,6 +52,12 @@ def test_a_run_to_an_accuracy_tells_it_beside_its_own_error() -> None:
     assert wide.stats["model_error_roll"] == pytest.approx(expected, rel=0.02)
 
 
+def test_a_memory_by_motion_is_to_be_fitted_closer() -> None:
+    scene = cases.vessel(memory="by-motion", **SEA)
+    with pytest.warns(ModelErrorWarning, match=r"a memory by-motion of a smaller limit, or memory='convol"):
+        simulate(scene, t_end=5.0, dt_out=0.5, accuracy={"roll": 1e-7})
+
+
 def test_nothing_is_told_where_nothing_is_known() -> None:
     """A convolution fits nothing, and calm water moves nothing."""
     for scene in (cases.vessel(memory="convolution", **SEA), cases.vessel(hs=0.0)):

@@ -194,8 +194,8 @@ def test_chosen_methods_are_measured_and_one_that_does_not_exist_is_a_row_with_i
 def test_memory_orders_are_named_by_their_states_and_come_closer(case2: Scene) -> None:
     database = shipped_database()
     names = [v.memory for v in rungs.variants(case2, database, quick=False) if v.memory.startswith("passive")]
-    assert names == [f"passive r2={r2:g}" for r2 in rungs.LEVELS]
-    scenes = [rungs.with_memory(case2, "passive", database, r2=r2) for r2 in (0.9, 0.99)]
+    assert names == [f"passive r2={r2:g}" for r2 in rungs.R2_LEVELS.all]
+    scenes = [rungs.with_memory(case2, "passive", database, level=r2) for r2 in (0.9, 0.99)]
     assert [rungs.full_memory_name(s, "passive r2=0.9") for s in scenes] == ["passive:12", "passive:20"]
     assert [s.compile().memory_states for s in scenes] == [12, 20]
 

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from test_vessel import complex_amplitude, impedance, regular_wave
 
 from seacrane import Scene, cases, load_database, simulate
-from seacrane.hydro import HydroDatabase, InfiniteFrequencyWarning, vessel_parameters
+from seacrane.hydro import HydroDatabase, InfiniteFrequencyWarning, fit_memory, vessel_parameters
 from seacrane.hydro.data.hydro_data import RollDamping
 from seacrane.hydro.data.motion import motion_response
 
@@ -23,7 +23,11 @@ POINTS = [(5, 10), (5, 20), (7, 26), (13, 14), (16, 29)]  # heading and frequenc
 
 @pytest.fixture(scope="module")
 def supply(shared: Path) -> HydroDatabase:
-    return load_database(shared / "veres" / "supply")
+    """With its memory per pair, as `cases` take it."""
+    database = load_database(shared / "veres" / "supply")
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", InfiniteFrequencyWarning)
+        return replace(database, memory=fit_memory(database=database, kind="per-pair"))
 
 
 def at_file_damping(database: HydroDatabase, heading: int, frequency: int) -> HydroDatabase:
@@ -94,7 +98,7 @@ def test_roll_without_the_tanks_would_be_wrong(supply: HydroDatabase) -> None:
     index = int(np.argmax(np.abs(supply.motion_rao[5, :, 3]))) if supply.motion_rao is not None else 0
     database = at_file_damping(supply, 5, index)
     with_tanks = np.abs(fitted_rao(database)[5, index, 3])
-    bare = replace(database, additional=())
+    bare = replace(database, additional=(), memory=None)
     scene = cases.vessel(database=bare, hs=0.0, mooring_period=None)
     without = np.abs(simulated_rao(bare, scene, 5, index)[3])
     assert abs(without - with_tanks) > 0.2 * with_tanks

@@ -23,10 +23,12 @@ Complex = NDArray[np.complex128]
 G = 9.80665
 
 
-def moored(database: HydroDatabase, *, period: float | None = 60.0, damping: float = 0.5) -> Scene:
+def moored(
+    database: HydroDatabase, *, period: float | None = 60.0, damping: float = 0.5, memory: str = "per-pair"
+) -> Scene:
     """Vessel alone in calm water; short, well damped station keeping lets transients die soon."""
     scene = Scene(name="vessel alone")
-    scene.add_vessel(database, mooring_period=period, mooring_damping=damping)
+    scene.add_vessel(database, mooring_period=period, mooring_damping=damping, memory=memory)
     return scene
 
 

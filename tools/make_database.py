@@ -54,7 +54,7 @@ def main() -> None:
         name="hull_115",
     )
     database = replace(database, source=source_of(database))
-    database = replace(database, memory=fit_memory(database=database, band=TRUSTED_BAND))
+    database = replace(database, memory=fit_memory(database=database, band=TRUSTED_BAND, kind="per-pair"))
     database.save(arguments.out)
     for row in database.check():
         print(f"{row.check:40s} {row.value:12.4g} {row.verdict}")

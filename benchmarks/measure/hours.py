@@ -37,10 +37,10 @@ def hours() -> Section:
     return Section(
         title="Hook load of three hours",
         text=(
-            "The scene of `examples/jobs/three_hours.py`: 50 t below the crane in head waves, with the small "
-            f"damping of loads and without. Standard deviation of the hook load, kN, hour by hour from "
-            f"{SETTLED:g} s on. Growth is what `GrowingModeWarning` tells of a mode's amplitude, each hour; "
-            "nothing where it does not warn, or warns of ringing alone."
+            "The scene of `examples/jobs/three_hours.py`, its memory per pair: 50 t below the crane in head "
+            "waves, with the small damping of loads and without. Standard deviation of the hook load, kN, "
+            f"hour by hour from {SETTLED:g} s on. Growth is what `GrowingModeWarning` tells of a mode's "
+            "amplitude, each hour; nothing where it does not warn, or warns of ringing alone."
         ),
         head=["integrator", "rtol or dt", "damping", "steps", "mean step, s",
               *(f"hour {i + 1}, kN" for i in range(HOURS)), "energy error over work", "growth an hour"],
@@ -50,7 +50,7 @@ def hours() -> Section:
 
 def _scene(*, damping: bool) -> Scene:
     scene, ship = Scene(name="three hours"), shipped_database()
-    scene.add_vessel(ship)
+    scene.add_vessel(ship, memory="per-pair")
     scene.add_crane(
         theta=-np.pi / 2, s1=1.0, s2=2.0, payload=Payload(mass=50e3, link_length=25.0), held=True,
         damping=damping,

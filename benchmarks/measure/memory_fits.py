@@ -20,6 +20,7 @@ from seacrane.hydro import (
     hydro_from_hull,
     retardation_functions,
 )
+from seacrane.hydro.memory.by_motion import fit_by_motion
 from seacrane.hydro.memory.motion_judge import motion_judge
 from seacrane.inputs.frames import MOTIONS
 
@@ -93,13 +94,13 @@ def memory_fits() -> Section:
 
 
 def _rows(name: str, database: HydroDatabase) -> list[list[Any]]:
-    ends = (float(database.omega[0]), float(database.omega[-1]))
-    judge = motion_judge(database, database.trusted_band or ends)
-    kinds: list[tuple[str, Any]] = [("per-pair", lambda: fit_memory(database=database))]
+    band = database.trusted_band or (float(database.omega[0]), float(database.omega[-1]))
+    judge = motion_judge(database, band)
+    kinds: list[tuple[str, Any]] = [("per-pair", lambda: fit_memory(database=database, kind="per-pair"))]
     for limit in LIMITS:
         label = f"by-motion, {100.0 * limit:g} %"
         kinds.append(
-            (label, lambda limit=limit: fit_memory(database=database, kind="by-motion", limit=limit))
+            (label, lambda limit=limit: fit_by_motion(database=database, band=band, known=None, limit=limit))
         )
     kinds.append(("convolution", lambda: retardation_functions(database=database)))
     rows = []

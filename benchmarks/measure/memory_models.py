@@ -42,7 +42,7 @@ def fits() -> Section:
             f"{row.slowest_decay:.2f}",
             f"{row.fastest_pole:.2f}",
         ]
-        for row in fit_memory(database=shipped_database()).rows
+        for row in fit_memory(database=shipped_database(), kind="per-pair").rows
     ]
     return Section(
         title="Fits of the shipped hull",
@@ -53,7 +53,7 @@ def fits() -> Section:
 
 
 def trade() -> Section:
-    """States and errors of both kinds of fitted model."""
+    """States and errors of every kind of fitted model."""
     rows: list[list[Any]] = [
         [
             row.kind,
@@ -61,13 +61,13 @@ def trade() -> Section:
             *(f"{error:.3f}" for error in (row.error_kernel, row.error_added_mass, row.error_damping)),
             f"{row.error_motion:.3f} ({row.worst_motion})",
             f"{row.margin:+.3f}",
-            f"{row.r2:g}",
+            f"R2 {row.r2:g}" if row.limit is None else f"limit {row.limit:g}",
         ]
-        for row in memory_trade(shipped_database(), kinds=("per-pair", "passive"))
+        for row in memory_trade(shipped_database(), kinds=("by-motion", "per-pair", "passive"))
     ]
     return Section(
         title="Memory models of the shipped hull",
-        text="`memory_trade(database)`: worst errors within the trusted band, by kind and R2 asked for.",
+        text="`memory_trade(database)`: worst errors within the trusted band, by kind and by what was asked.",
         head=[
             "kind",
             "states",
@@ -76,7 +76,7 @@ def trade() -> Section:
             "error of B",
             "error of motion",
             "margin",
-            "R2 asked",
+            "asked",
         ],
         rows=rows,
     )

@@ -26,7 +26,7 @@ def wave_loads(*, repeats: int, counts: tuple[int, ...] = COUNTS) -> Section:
     """One evaluation with waves less one without, by number of components and kind of evaluation."""
     database = shipped_database()
     calm = Scene(name="calm")
-    calm.add_vessel(database)
+    calm.add_vessel(database, memory="per-pair")
     rows = [_row(calm, database, count, repeats) for count in counts]
     slopes = [exponent(list(counts), [row[k] for row in rows], LARGE) for k in range(1, 5)]
     return Section(

@@ -112,12 +112,14 @@ def model_errors(scene: Scene, times: Array, limits: Mapping[str, float]) -> dic
         found = {name: _largest(scene, carried, name) for name in wanted}
     except SceneError:
         return {}
+    kinds = {known.memory for known in scene.provenance.values()}
+    closer = "by-motion of a smaller limit" if "by-motion" in kinds else "by-motion"
     for name, error in found.items():
         if error > limits[name]:
             warn_caller(
                 f"accuracy: {name} of {limits[name]:g} was asked, and the fit of the vessel's fluid memory "
-                f"leaves an error of {error:.2g} by itself; add the vessel with memory='by-motion' or "
-                "'convolution', or ask for less",
+                f"leaves an error of {error:.2g} by itself; give the vessel a memory {closer}, or "
+                "memory='convolution', or ask for less",
                 ModelErrorWarning,
             )
     return found

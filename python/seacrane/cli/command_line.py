@@ -84,8 +84,8 @@ def _add_run(commands: Any) -> None:
     case = run.add_argument_group("the built-in cases", "these choose the vessel and the sea of a named case")
     case.add_argument(
         "--memory",
-        choices=("per-pair", "passive", "by-motion", "convolution", "none"),
-        help="fluid memory of the vessel",
+        choices=("by-motion", "per-pair", "passive", "convolution", "none"),
+        help="fluid memory of the vessel; default per-pair, which is the paper's",
     )
     case.add_argument("--hs", metavar="M", type=float, help="significant wave height, m")
     case.add_argument("--tp", metavar="S", type=float, help="peak period, s")
@@ -178,7 +178,9 @@ def _add_hydro(commands: Any) -> None:
     hydro = commands.add_parser("hydro", help=text, description=text)
     hydro.add_argument("path", metavar="PATH", help=PATH_HELP)
     hydro.add_argument(
-        "--memory", choices=("per-pair", "passive", "by-motion"), help="kind of the memory that is fitted"
+        "--memory",
+        choices=("by-motion", "per-pair", "passive"),
+        help="kind of the memory that is fitted; default by-motion, where the file holds none",
     )
     hydro.add_argument(
         "--band", nargs=2, type=float, metavar=("LOW", "HIGH"), help="rad/s that the memory is fitted over"

@@ -42,7 +42,8 @@ def _with_memory(database: HydroDatabase, *, kind: str | None, asked: bool) -> H
 
     if not asked and kind is None and (database.memory is not None or not enough_frequencies(database)):
         return database
-    return dataclasses.replace(database, memory=fit_memory(database=database, kind=kind or "per-pair"))
+    model = fit_memory(database=database) if kind is None else fit_memory(database=database, kind=kind)
+    return dataclasses.replace(database, memory=model)
 
 
 def _as_text(rows: list[dict[str, Any]]) -> str:

@@ -25,7 +25,7 @@ from seacrane.scene.vessel_memory import core_memory, memory_of, remember
 
 MOORING_PERIOD = 200.0  # s, of surge, sway and yaw (PAPER, "station keeping")
 MOORING_DAMPING = 0.1  # of critical
-MEMORY = ("per-pair", "passive", "by-motion", "convolution", "none")
+MEMORY = ("by-motion", "per-pair", "passive", "convolution", "none")
 
 
 @overload
@@ -36,7 +36,7 @@ def add_vessel(
     name: str = "vessel",
     position: Any = (0.0, 0.0, 0.0),
     heading_deg: float = 0.0,
-    memory: str = "per-pair",
+    memory: str = "by-motion",
     kinematics: str = "yaw_following",
     mooring: Any = None,
     mooring_period: float | None = MOORING_PERIOD,
@@ -76,11 +76,12 @@ def add_vessel(
     heading_deg : float
         With a database. At the start, deg from +x towards +y; default 0.
     memory : str, or list of StateSpaceBlock, or RetardationFunctions
-        With a database, "per-pair" (default): fluid memory as one state-space model per pair of motions, eqs
-        (28)-(31). "passive": one model per group of coupled motions, proven passive and with fewer states.
-        "by-motion": of that form, the smallest that leaves the motions within 1 % of the database's own.
-        "convolution": the reference, without a fit: the database's retardation functions convolved with the
-        history of the motion, see `seacrane.hydro.retardation_functions`; the steps land on its samples.
+        With a database, "by-motion" (default): fluid memory as one passive state-space model per group of
+        coupled motions, the smallest that leaves the motions within 1 % of the database's own. "per-pair":
+        the paper's, one model per pair of motions, eqs (28)-(31), judged by R2. "passive": of the form of
+        "by-motion", judged by R2. "convolution": the reference, without a fit: the database's retardation
+        functions convolved with the history of the motion, see `seacrane.hydro.retardation_functions`; the
+        steps land on its samples.
         "none": without radiation damping, as the paper does for comparison. The database's own fitted memory
         is used where it is of the kind asked for; else one is fitted here, once for each database. Without a
         database: the models themselves.
@@ -138,7 +139,7 @@ def _from_database(
     name: str,
     position: Any = (0.0, 0.0, 0.0),
     heading_deg: float = 0.0,
-    memory: str = "per-pair",
+    memory: str = "by-motion",
     kinematics: str = "yaw_following",
     mooring: Any = None,
     mooring_period: float | None = MOORING_PERIOD,

@@ -31,10 +31,21 @@ FULL, LOCKED, PRESCRIBED, WEIGHT, LINEAR = (
 )  # fmt: skip
 SHARES = (0.5, 0.25)  # of the wave components, the strongest
 BOUND = 1e-4  # of a coarse wave table
-FITTED = ("per-pair", "passive")
-LEVELS = (0.9, 0.95, 0.99, 0.999)  # R2 asked of the fit: each costs states
-USUAL_LEVEL = 0.99  # of a vessel's own memory
-QUICK_LEVELS = (0.9, USUAL_LEVEL)
+
+
+@dataclass(frozen=True, kw_only=True)
+class _Levels:
+    """What fits of a kind are asked for, each level for more states; a vessel's own memory has the usual."""
+
+    asked: str
+    all: tuple[float, ...]
+    quick: tuple[float, ...]
+    usual: float
+
+
+R2_LEVELS = _Levels(asked="r2", all=(0.9, 0.95, 0.99, 0.999), quick=(0.9, 0.99), usual=0.99)
+LIMIT_LEVELS = _Levels(asked="limit", all=(0.05, 0.02, 0.01), quick=(0.05, 0.01), usual=0.01)
+FITTED = {"by-motion": LIMIT_LEVELS, "per-pair": R2_LEVELS, "passive": R2_LEVELS}
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -83,7 +94,7 @@ def variants(scene: Scene, database: HydroDatabase | None, *, quick: bool) -> It
 def _memory_variants(
     scene: Scene, database: HydroDatabase | None, *, quick: bool
 ) -> Iterator[tuple[str, Callable[[], Scene]]]:
-    """None, convolution, and fits of each kind at several R2."""
+    """None, convolution, and fits of each kind at several R2 or limits."""
     memory = memory_name(scene)
     if len(scene.vessels) != 1 or given_vessels(scene):
         return
@@ -91,35 +102,38 @@ def _memory_variants(
         if kind == memory or (kind != "none" and (quick or database is None)):
             continue
         yield kind, partial(with_memory, scene, kind, database)
-    for kind in FITTED if database is not None else ():
-        for r2 in QUICK_LEVELS if quick else LEVELS:
-            if kind != memory or r2 != USUAL_LEVEL:
-                yield f"{kind} r2={r2:g}", partial(with_memory, scene, kind, database, r2=r2)
+    for kind, levels in FITTED.items() if database is not None else ():
+        for level in levels.quick if quick else levels.all:
+            if kind != memory or level != levels.usual:
+                fit = partial(with_memory, scene, kind, database, level=level)
+                yield f"{kind} {levels.asked}={level:g}", fit
 
 
 def full_memory_name(scene: Scene, name: str) -> str:
-    """A fitted memory's name with its number of states for its R2: "passive:20"."""
-    kind, _, level = name.partition(" r2=")
-    if not level:
+    """A fitted memory's name with its number of states for its R2 or limit: "passive:20"."""
+    kind, _, level = name.partition(" ")
+    if "=" not in level:
         return name
     (vessel,) = scene.vessels.values()
     blocks = cast("list[_core.StateSpaceBlock]", vessel.memory)
     return f"{kind}:{sum(block.a.shape[0] for block in blocks)}"
 
 
-def with_memory(scene: Scene, kind: str, database: HydroDatabase | None, *, r2: float | None = None) -> Scene:
+def with_memory(
+    scene: Scene, kind: str, database: HydroDatabase | None, *, level: float | None = None
+) -> Scene:
     """The scene with another fluid memory of its one vessel; the added mass is that of the memory's fit.
 
     Parameters
     ----------
-    r2 : float, optional
-        Asked of a fit; default: the database's own memory where it has one of that kind.
+    level : float, optional
+        R2 or limit asked of a fit; default: the database's own memory where it has one of that kind.
     """
     (vessel,) = scene.vessels.values()
     changes: dict[str, Any] = {"memory": []}
     if database is not None:
-        if r2 is not None:
-            database = replace(database, memory=_fit(database, kind, r2))
+        if level is not None:
+            database = replace(database, memory=_fit(database, kind, level))
         fresh = Scene(name="memory", gravity=scene.gravity)
         fresh.add_vessel(database, name=vessel.body, memory=kind, kinematics=vessel.kinematics)
         (fitted,) = fresh.vessels.values()
@@ -132,8 +146,10 @@ def with_memory(scene: Scene, kind: str, database: HydroDatabase | None, *, r2: 
 
 
 @lru_cache(maxsize=16)
-def _fit(database: HydroDatabase, kind: str, r2: float) -> MemoryModel:
-    return fit_memory(database=database, kind=kind, r2=r2)
+def _fit(database: HydroDatabase, kind: str, level: float) -> MemoryModel:
+    if FITTED[kind].asked == "limit":
+        return fit_memory(database=database, kind=kind, limit=level)
+    return fit_memory(database=database, kind=kind, r2=level)
 
 
 def _wave_variants(scene: Scene, *, quick: bool) -> Iterator[tuple[str, Callable[[], Scene]]]:

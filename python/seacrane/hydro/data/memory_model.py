@@ -141,7 +141,8 @@ class MotionFit:
     error : MotionError
         Reached.
     floor : `MotionError.worst` of the database's own convolution, into which nothing is fitted.
-    left_out : pairs (j, k), counted from 0, whose memory no motion feels or symmetry forbids.
+    left_out : pairs (j, k), counted from 0, whose memory no motion feels, symmetry forbids, or of a motion
+        without damping.
     """
 
     limit: float

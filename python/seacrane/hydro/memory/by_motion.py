@@ -33,8 +33,8 @@ Pairs = list[tuple[int, int]]
 
 SHARE = 0.8  # of the limit that the radiation of one group may take
 UNFELT = 0.1  # of the limit: pairs that together change no motion by more are left out
-MOST_MASSES = 6  # beyond one per motion
-PATIENCE = 2  # orders in a row without gain, after which more masses are not tried
+MOST_MASSES = 6  # beyond one per motion; a group of many motions may have two for each
+PATIENCE = 3  # orders in a row without gain, after which more masses are not tried
 GAIN = 0.05  # of the error
 BEYOND_BAND = 1.3  # times its upper end: data further up are not looked at
 MOST_INERTIA = 0.1  # of the vessel's, that an additional cause may add or take at once
@@ -90,13 +90,19 @@ def fit_by_motion(
 def felt_pairs(
     database: HydroData, judge: MotionJudge, limit: float
 ) -> tuple[Pairs, tuple[tuple[int, int], ...]]:
-    """Pairs (j <= k) to fit, and those left out: forbidden by symmetry, or felt by no motion.
+    """Pairs (j <= k) to fit, and those left out: forbidden by symmetry, undamped, or felt by no motion.
 
-    A panel code's noise in a pair that the hull's shape makes zero is such a pair.
+    A panel code's noise in a pair that the hull's shape makes zero is such a pair. A motion that radiates
+    nothing has no memory.
     """
     added_mass, damping = (0.5 * (x + x.swapaxes(1, 2)) for x in (database.added_mass, database.damping))
     pairs = [(min(pair), max(pair)) for pair in memory_entries(added_mass, damping, database.omega)]
-    forbidden = [pair for pair in pairs if database.port_starboard_symmetric and sum(pair) % 2]
+    radiates = np.diagonal(damping, axis1=1, axis2=2).max(axis=0) > 0.0
+    forbidden = [
+        (j, k)
+        for j, k in pairs
+        if (database.port_starboard_symmetric and (j + k) % 2) or not (radiates[j] and radiates[k])
+    ]
     others = [pair for pair in pairs if pair not in forbidden and pair[0] != pair[1]]
     felt = {pair: judge.error(_without(judge, [pair])).worst for pair in others}
     faint = sorted((pair for pair in others if felt[pair] < UNFELT * limit), key=lambda pair: felt[pair])
@@ -164,7 +170,7 @@ class _Group:
         best: tuple[float, Oscillators] | None = None
         model: Oscillators | None = None
         idle = 0
-        for _ in range(MOST_MASSES + 1):
+        for _ in range(max(MOST_MASSES, 2 * len(self.group)) + 1):
             model = fit_to_motions(self.data, model)
             error = self._error(model).of(self.group)
             idle = 0 if best is None or error < (1.0 - GAIN) * best[0] else idle + 1

@@ -1,9 +1,10 @@
-"""Fitted memory models that were made before: of this process, and in a folder on disk.
+"""Fitted memory models that were made before: of this process, of the package, and in a folder on disk.
 
 A model is known by a digest of all that its fit looks at: the database's numbers, the settings of the fit,
-and the version of the fit. The folder is ``~/.cache/seacrane/memory`` (``$XDG_CACHE_HOME/seacrane/memory``
-where that is set). ``SEACRANE_CACHE`` names another one, and ``SEACRANE_CACHE=off`` keeps nothing on disk.
-Files are written atomically, and one that cannot be read is made anew.
+and the version of the fit. The package holds that of the shipped hull. The folder is
+``~/.cache/seacrane/memory`` (``$XDG_CACHE_HOME/seacrane/memory`` where that is set). ``SEACRANE_CACHE``
+names another one, and ``SEACRANE_CACHE=off`` keeps nothing on disk. Files are written atomically, and one
+that cannot be read is made anew.
 """
 
 from __future__ import annotations
@@ -14,6 +15,7 @@ import os
 import zipfile
 import zlib
 from dataclasses import asdict, dataclass, fields
+from importlib.resources import files
 from pathlib import Path
 from typing import Any
 
@@ -30,7 +32,7 @@ from seacrane.hydro.data.memory_model import (
     Passivity,
 )
 
-VERSION = 1  # raised with every change of a fit
+VERSION = 2  # raised with every change of a fit
 VARIABLE, OFF = "SEACRANE_CACHE", "off"
 MOST_BYTES = 10_000_000
 USED = (
@@ -75,19 +77,25 @@ def cache_folder() -> Path | None:
         return None
 
 
+def shipped_folder() -> Path:
+    """Models that come with the package; `tools/ship_memory.py` writes them."""
+    return Path(str(files("seacrane") / "data" / "memory"))
+
+
 def kept_fit(database: HydroData, settings: FitSettings) -> MemoryModel | None:
     """The model that this fit gave before, or None."""
     name = digest(database, settings)
     if name in _of_process:
         return _of_process[name]
-    folder = cache_folder()
-    if folder is None:
-        return None
-    try:
-        model = _read(folder / f"{name}.npz")
-    except (OSError, ValueError, KeyError, TypeError, EOFError, zipfile.BadZipFile, zlib.error):
-        return None
-    return _of_process.setdefault(name, model)
+    for folder in (shipped_folder(), cache_folder()):
+        if folder is None:
+            continue
+        try:
+            model = _read(folder / f"{name}.npz")
+        except (OSError, ValueError, KeyError, TypeError, EOFError, zipfile.BadZipFile, zlib.error):
+            continue
+        return _of_process.setdefault(name, model)
+    return None
 
 
 def keep_fit(database: HydroData, settings: FitSettings, model: MemoryModel) -> None:

@@ -80,7 +80,7 @@ def require_passive(model: MemoryModel) -> PassivityCertificate:
     if not certificate.passive:
         raise PassivityError(
             f"the radiation memory is not passive: {certificate.reason}. It can feed energy into a motion; "
-            "use fit_memory(kind='passive')"
+            "use fit_memory(kind='by-motion')"
         )
     return certificate
 

@@ -1,4 +1,4 @@
-"""`fit_memory`: radiation memory (and that of roll tanks) of a database, per entry or per group."""
+"""`fit_memory`: memory of radiation and roll tanks of a database, by motion, per entry or per group."""
 
 from __future__ import annotations
 
@@ -24,8 +24,10 @@ from seacrane.inputs.caller import warn_caller
 FloatArray = NDArray[np.float64]
 
 ORDERS = range(2, 9)
-KINDS = ("per-pair", "passive", "by-motion")
+BY_MOTION = "by-motion"
+KINDS = (BY_MOTION, "per-pair", "passive")
 LIMIT = 0.01  # of the motions
+R2 = 0.99
 
 
 class InfiniteFrequencyWarning(UserWarning):
@@ -36,29 +38,30 @@ def fit_memory(
     *,
     database: HydroData,
     band: tuple[float, float] | None = None,
-    r2: float = 0.99,
+    r2: float | None = None,
     infinite_frequency: Literal["estimated", "known"] = "estimated",
-    kind: str = "per-pair",
-    limit: float = LIMIT,
+    kind: str = BY_MOTION,
+    limit: float | None = None,
 ) -> MemoryModel:
     """Identify the fluid memory of ``database``.
 
     Parameters
     ----------
     database : added mass and damping, made symmetric here.
-    band : (low, high) in rad/s over which R2 is judged; default: the database's trusted band, else all of it.
-    r2 : coefficient of determination that added mass *and* damping of every entry shall reach; the lowest
-        order that reaches it is taken. An entry that does not reach it at any order keeps its best model, and
-        its row says ``accepted=False``.
+    band : (low, high) in rad/s over which the fit is judged; default: the database's trusted band, else all
+        of it.
+    r2 : of kinds "per-pair" and "passive": coefficient of determination that added mass *and* damping of
+        every entry shall reach, 0.99 by default; the lowest order that reaches it is taken. An entry that
+        does not reach it at any order keeps its best model, and its row says ``accepted=False``.
     infinite_frequency : whether each entry's infinite-frequency added mass is estimated with its model, or
         taken from the database. A panel code's value carries the error of its mesh at wavelengths the mesh
         cannot resolve, and forcing it on the model costs states and puts poles beyond the data.
-    kind : "per-pair", one single-input model per entry of the matrices; "passive", one model with common
-        poles per group of coupled motions that cannot deliver energy (`passivity_certificate` proves it); or
-        "by-motion", of the passive form, as small as `limit` allows.
-    limit : of kind "by-motion", which does not ask for an R2: by how much the memory may change the standard
-        deviation of any motion in seas of Tp 5 to 18 s from any stored heading, against the database's own
-        matrices; a fifth of what it may change the peaks of heave, roll and pitch. What was reached is
+    kind : "by-motion" (default), one model with common poles per group of coupled motions that cannot deliver
+        energy (`passivity_certificate` proves it), as small as `limit` allows; "passive", the same form, as
+        large as `r2` asks; or "per-pair", the paper's, one single-input model per entry of the matrices.
+    limit : of kind "by-motion", 0.01 by default: by how much the memory may change the standard deviation of
+        any motion in seas of Tp 5 to 18 s from any stored heading, against the database's own matrices; a
+        fifth of what it may change the peaks of heave, roll and pitch. What was reached is
         `MemoryModel.motion`.
 
     Returns
@@ -72,9 +75,9 @@ def fit_memory(
 
     Raises
     ------
-    ValueError : a band that holds fewer than eight frequencies, an ``r2`` or ``limit`` outside (0, 1),
-        another ``kind``,
-        a known infinite-frequency added mass asked for and not there, or a database of a forward speed.
+    ValueError : a band that holds fewer than eight frequencies, an ``r2`` or ``limit`` outside (0, 1) or of
+        another kind, another ``kind``, a known infinite-frequency added mass asked for and not there, or a
+        database of a forward speed.
 
     Notes
     -----
@@ -84,11 +87,7 @@ def fit_memory(
     always of the per-pair kind.
     """
     require_zero_speed(database)
-    if kind not in KINDS:
-        raise ValueError(f"memory kind {kind!r} is unknown; choose {' or '.join(KINDS)}")
-    for name, value in (("r2", r2), ("limit", limit)):
-        if not 0.0 < value < 1.0:
-            raise ValueError(f"{name} is {value}; give a number between 0 and 1")
+    target = _target(kind, r2=r2, limit=limit)
     low, high = band or database.trusted_band or (float(database.omega[0]), float(database.omega[-1]))
     trusted = (database.omega >= low - 1e-9) & (database.omega <= high + 1e-9)
     if trusted.sum() < FEWEST_FREQUENCIES:
@@ -112,18 +111,37 @@ def fit_memory(
     settings = FitSettings(
         kind=kind,
         band=(float(low), float(high)),
-        target=limit if kind == "by-motion" else r2,
+        target=target,
         known=infinite_frequency == "known",
     )
     model = kept_fit(database, settings)
     if model is None:
         symmetric = None if known is None else 0.5 * (known + known.T)
-        if kind == "by-motion":
-            model = fit_by_motion(database=database, band=settings.band, known=symmetric, limit=limit)
+        if kind == BY_MOTION:
+            model = fit_by_motion(database=database, band=settings.band, known=symmetric, limit=target)
         else:
-            model = _fit_to_data(database, known, settings.band, trusted, r2, kind)
+            model = _fit_to_data(database, known, settings.band, trusted, target, kind)
         keep_fit(database, settings, model)
     return model
+
+
+def _target(kind: str, *, r2: float | None, limit: float | None) -> float:
+    """The R2, or the limit of a fit by motion."""
+    if kind not in KINDS:
+        raise ValueError(f"memory kind {kind!r} is unknown; choose {' or '.join(KINDS)}")
+    if kind == BY_MOTION and r2 is not None:
+        raise ValueError(
+            f"r2 is {r2}, and memory by motion is asked for a limit; give limit, or kind='per-pair'"
+        )
+    if kind != BY_MOTION and limit is not None:
+        raise ValueError(
+            f"limit is {limit}, and memory of kind {kind!r} is asked for an R2; give r2, or kind='by-motion'"
+        )
+    usual = LIMIT if kind == BY_MOTION else R2
+    for name, value in (("r2", r2), ("limit", limit)):
+        if value is not None and not 0.0 < value < 1.0:
+            raise ValueError(f"{name} is {value}; give a number between 0 and 1")
+    return next((value for value in (r2, limit) if value is not None), usual)
 
 
 def _fit_to_data(

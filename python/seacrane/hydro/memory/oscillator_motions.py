@@ -81,7 +81,7 @@ class MotionProblem(Problem):
     def __init__(self, data: MotionData, masses: int) -> None:
         super().__init__(data.group, masses)
         w = data.group.omega[:, None]
-        self.lever = data.lever
+        self.weigh = self._weights(data.lever)
         self.target = data.group.damping[:, self.j, self.k] + 1j * w * (
             data.group.added_mass[:, self.j, self.k]
             - (
@@ -96,23 +96,28 @@ class MotionProblem(Problem):
         self.unit = np.linalg.qr(columns)[0]
         self.columns = columns
 
+    def _weights(self, lever: ComplexArray) -> FloatArray:
+        """Weights (n, 2 p, 2 p) of the kernel's real and imaginary parts: of the motions, and of the data."""
+        n, p = len(lever), len(self.j)
+        out = np.zeros((n, 4 * p, 2 * p))
+        out[:, :p, :p], out[:, :p, p:] = lever.real, -lever.imag
+        out[:, p : 2 * p, :p], out[:, p : 2 * p, p:] = lever.imag, lever.real
+        pair = np.arange(p)
+        out[:, 2 * p + pair, pair] = DATA_WEIGHT * self.weight_b
+        out[:, 3 * p + pair, p + pair] = DATA_WEIGHT * self.weight_a / self.data.omega[:, None]
+        return np.asarray(np.linalg.qr(out)[1])
+
     def _rows(self, kernel: ComplexArray) -> FloatArray:
-        """Weighted motions and data of a kernel (n, p, ...), one row each."""
-        moved = np.einsum("nqp,np...->nq...", self.lever, kernel)
-        shape = (-1, *kernel.shape[2:])
-        one = (slice(None), slice(None), *[None] * (kernel.ndim - 2))
-        w = self.data.omega[(slice(None), *[None] * (kernel.ndim - 1))]
-        parts = (
-            moved.real,
-            moved.imag,
-            DATA_WEIGHT * kernel.real * self.weight_b[one],
-            DATA_WEIGHT * kernel.imag / w * self.weight_a[one],
-        )
-        return np.concatenate([part.reshape(shape) for part in parts])
+        """Weighted motions and data of a kernel (n, p, ...), two rows for each pair and frequency."""
+        parts = np.concatenate([kernel.real, kernel.imag], axis=1)
+        weighted = self.weigh @ parts.reshape(*parts.shape[:2], -1)
+        return np.asarray(weighted.reshape(-1, *kernel.shape[2:]))
 
     def _left(self, rows: FloatArray) -> FloatArray:
-        """What the best infinite-frequency added mass leaves."""
-        return rows if self.known else rows - self.unit @ (self.unit.T @ rows)
+        """What the best infinite-frequency added mass leaves; in place, the rows are large."""
+        if not self.known:
+            rows -= self.unit @ (self.unit.T @ rows)
+        return rows
 
     def misfit(self, parameters: FloatArray) -> FloatArray:
         """Rows of the model less the data, and the dampers' sizes."""

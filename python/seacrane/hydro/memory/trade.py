@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 from seacrane.hydro.data.hydro_data import HydroData
 from seacrane.hydro.data.memory_model import RADIATION, MemoryModel
 from seacrane.hydro.memory.certificate import passivity_certificate
-from seacrane.hydro.memory.fit import fit_memory
+from seacrane.hydro.memory.fit import BY_MOTION, fit_memory
+from seacrane.hydro.memory.fit import KINDS as FITTED
 from seacrane.hydro.memory.joint_passivity import scaled_damping
 from seacrane.hydro.memory.motion_errors import memory_motion_errors
 from seacrane.hydro.memory.retardation import RetardationModel, retardation_functions
@@ -19,11 +20,11 @@ from seacrane.inputs.frames import MOTIONS
 
 FloatArray = NDArray[np.float64]
 
-FITTED = ("per-pair", "passive")
 KINDS = (*FITTED, "convolution")
 POINTS_PER_STEP = 2  # of the convolution's quadrature
 FREQUENCIES = 4001
 TARGETS = (0.9, 0.95, 0.98, 0.99, 0.995)
+LIMITS = (0.05, 0.02, 0.01)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -32,9 +33,11 @@ class MemoryTradeRow:
 
     Attributes
     ----------
-    kind : "per-pair", "passive" or "convolution".
-    r2 : the R2 asked for, the largest of those that gave this same model; of a convolution, which is not
-        fitted, that of its worst pair. reached : whether every pair has it.
+    kind : "by-motion", "per-pair", "passive" or "convolution".
+    r2 : the R2 asked for, the largest of those that gave this same model; of a memory by motion and of a
+        convolution, which are not asked for one, that of its worst pair.
+    limit : of a memory by motion, what was asked for, the smallest of those that gave this model; else None.
+    reached : whether every pair has the R2, or the motions the limit.
     states : of the radiation blocks. additional_states : of other causes (roll tanks).
     history_samples : points in time at which a convolution keeps the motion, all causes together.
     error_kernel : largest over the pairs of the root mean square of the retardation function's misfit
@@ -49,6 +52,7 @@ class MemoryTradeRow:
 
     kind: str
     r2: float
+    limit: float | None
     reached: bool
     states: int
     additional_states: int
@@ -63,9 +67,15 @@ class MemoryTradeRow:
 
 
 def memory_trade(
-    database: HydroData, *, targets: Sequence[float] = TARGETS, kinds: Sequence[str] = KINDS
+    database: HydroData,
+    *,
+    targets: Sequence[float] = TARGETS,
+    kinds: Sequence[str] = KINDS,
+    limits: Sequence[float] = LIMITS,
 ) -> list[MemoryTradeRow]:
-    """Fit every kind to every R2 in ``targets`` and measure the models; equal models appear once.
+    """Fit every kind to every R2 in ``targets``, or limit in ``limits``, and measure the models.
+
+    Equal models appear once.
 
     Returns
     -------
@@ -81,12 +91,24 @@ def memory_trade(
             rows.append(_convolution_row(database))
             continue
         seen: dict[tuple[float, ...], MemoryTradeRow] = {}
-        for r2 in sorted(targets):
-            row = trade_row(database, fit_memory(database=database, r2=r2, kind=kind), kind=kind)
+        for model in _fits(database, kind, targets, limits):
+            row = trade_row(database, model, kind=kind)
             same = (row.states, row.additional_states, round(row.error_kernel, 9), round(row.error_motion, 9))
             seen[same] = row if row.reached else seen.get(same, row)
         rows += sorted(seen.values(), key=lambda row: row.states)
     return rows
+
+
+def _fits(
+    database: HydroData, kind: str, targets: Sequence[float], limits: Sequence[float]
+) -> Iterator[MemoryModel]:
+    """Models of one kind, the most is asked of the last."""
+    if kind == BY_MOTION:
+        for limit in sorted(limits, reverse=True):
+            yield fit_memory(database=database, kind=kind, limit=limit)
+        return
+    for r2 in sorted(targets):
+        yield fit_memory(database=database, kind=kind, r2=r2)
 
 
 def trade_row(database: HydroData, model: MemoryModel, *, kind: str) -> MemoryTradeRow:
@@ -98,6 +120,7 @@ def trade_row(database: HydroData, model: MemoryModel, *, kind: str) -> MemoryTr
     return MemoryTradeRow(
         kind=kind,
         r2=model.r2,
+        limit=None if model.motion is None else model.motion.limit,
         reached=all(row.accepted for row in radiation),
         states=states,
         additional_states=model.states - states,
@@ -122,6 +145,7 @@ def _convolution_row(database: HydroData) -> MemoryTradeRow:
     return MemoryTradeRow(
         kind="convolution",
         r2=1.0 - max(added_mass, damping) ** 2,
+        limit=None,
         reached=True,
         states=0,
         additional_states=0,

@@ -41,7 +41,7 @@ def warn_of_lost_passivity(database: HydroData, vessel: VesselParameters) -> Non
         warn_caller(
             f"database {database.name!r}: the memory model is not passive: its damping falls to "
             f"{100.0 * minimum:.3g} % of the largest at {at:.3g} rad/s{grows}. A motion can gain energy from "
-            "still water; use fit_memory(kind='passive')",
+            "still water; use fit_memory(kind='by-motion')",
             NonPassiveMemoryWarning,
         )
 

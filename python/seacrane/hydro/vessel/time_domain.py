@@ -112,10 +112,13 @@ def _warn_of_motions(name: str, fit: MotionFit) -> None:
     what = f"{error.seas[seas]:.2g} of {MOTIONS[seas]} in a sea"
     if error.peaks[peaks] / PEAK_ALLOWANCE > error.seas[seas]:
         what = f"{error.peaks[peaks]:.2g} of {MOTIONS[peaks]} at its peak"
+    nearer = (
+        f", or take memory='convolution', which errs by {fit.floor:.2g}" if fit.floor < error.worst else ""
+    )
     warn_caller(
-        f"database {name!r}: the memory errs by {what}, at best, where {fit.limit:g} was asked "
-        f"({PEAK_ALLOWANCE * fit.limit:g} at a peak): {fit.obstacle}. Ask for a larger limit, a narrower "
-        "band, or memory='convolution' where that is nearer",
+        f"database {name!r}: the memory errs by {what}, at best, and its limit is {fit.limit:g} "
+        f"({PEAK_ALLOWANCE * fit.limit:g} at a peak): {fit.obstacle}. Narrow the database's trusted_band, "
+        f"give it a memory of a larger limit, by fit_memory(limit=...){nearer}",
         MemoryFitWarning,
     )
 
