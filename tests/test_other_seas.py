@@ -80,6 +80,12 @@ SCENES: dict[str, tuple[Callable[[HydroDatabase, int], Scene], dict[str, Any]]] 
     ),
     "wind sea and swell": (wind_sea_and_swell, {}),
     "slow position": (slowly, {}),
+    "crane at a slow position": (
+        lambda database, seed: cases.case2(
+            database=database, seed=seed, tp=6.0 + seed, phase="slow", spreading=3.0, count=20
+        ),
+        {"t_end": 2.0},
+    ),
     "current": (in_a_current, {"integrator": "rk4", "dt": 0.05}),
     "wire": (on_a_wire, {}),
     "paper": (

@@ -115,7 +115,7 @@ def _row(kind: _Kind, members: int, t_end: float) -> list[Any]:
             taken.append(kind.caller() - start if kind.caller else 0.0)
     packs = there.dataset.lap.to_numpy().reshape(-1, PACK, 2).mean(axis=1)
     beside, loop = np.nanmedian(packs, axis=0)
-    caller = 1e3 * (taken[1] - taken[0]) / members if kind.caller else None
+    caller = 1e3 * max(taken[1] - taken[0], 0.0) / members if kind.caller else None
     return [kind.name, float(beside), caller, float(loop)]
 
 
