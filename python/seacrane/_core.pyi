@@ -6,7 +6,7 @@ import collections.abc
 import numpy
 import numpy.typing
 import typing
-__all__: list[str] = ['Actuator', 'Body', 'Channel', 'Curve', 'DriftLoad', 'DriftTable', 'Driver', 'Evaluator', 'ExactWaveLoad', 'Field', 'FlowForce', 'ForceTable', 'Frame', 'Friction', 'FunctionForce', 'GasSpring', 'HeaveCompensator', 'HydraulicCylinder', 'Integrator', 'Joint', 'JointKind', 'LOAD_KINDS', 'Limit', 'Line', 'Model', 'PendulumDamping', 'Point', 'PointForce', 'PositionedWaveLoad', 'RecordHistory', 'RepeatPeriod', 'RetardationFunctions', 'RunOptions', 'Simulation', 'SoftStop', 'SpanDrag', 'Spectrum', 'Spring', 'State', 'StateSpaceBlock', 'StepHistory', 'TwistHistory', 'VesselHydrodynamics', 'WaveComponents', 'WaveKinematics', 'WaveLoads', 'WaveTable', 'axes', 'channels', 'compile', 'dnv_gamma', 'initial_state', 'integrator', 'integrator_names', 'integrators', 'joint_kinds', 'jonswap', 'ochi_hubble', 'philox_uniform', 'pierson_moskowitz', 'realise_waves', 'section_radiation', 'stability_polynomial', 'strip_theory', 'tabulated_density', 'torsethaugen']
+__all__: list[str] = ['Actuator', 'Body', 'Channel', 'Curve', 'DriftLoad', 'DriftTable', 'Driver', 'Evaluator', 'ExactWaveLoad', 'Field', 'FlowForce', 'ForceTable', 'Frame', 'Friction', 'FunctionForce', 'GasSpring', 'HeaveCompensator', 'HydraulicCylinder', 'Integrator', 'Joint', 'JointKind', 'LOAD_KINDS', 'Limit', 'Line', 'Model', 'PendulumDamping', 'Point', 'PointForce', 'PositionedWaveLoad', 'RecordHistory', 'RepeatPeriod', 'RetardationFunctions', 'RunOptions', 'Simulation', 'SoftStop', 'SpanDrag', 'Spectrum', 'Spring', 'State', 'StateSpaceBlock', 'StepHistory', 'TwistHistory', 'VesselHydrodynamics', 'WaveComponents', 'WaveKinematics', 'WaveLoads', 'WaveTable', 'axes', 'channels', 'compile', 'dnv_gamma', 'initial_state', 'integrator', 'integrator_names', 'integrators', 'joint_kinds', 'jonswap', 'ochi_hubble', 'philox_uniform', 'pierson_moskowitz', 'realise_waves', 'section_radiation', 'stability_polynomial', 'strip_theory', 'tabulated_density', 'torsethaugen', 'weighted_sums']
 class Curve:
     """
     A reference as a function of time: pieces of quintic polynomials plus one cosine each.
@@ -2087,7 +2087,7 @@ class HydraulicCylinder:
     @property
     def spool_lag(self) -> float:
         """
-        s, of the spool behind its command, first order
+        s, of the spool behind its command, first order; 0: none
         """
     @property
     def stop_stiffness(self) -> float:
@@ -3131,5 +3131,9 @@ def torsethaugen(*, hs: typing.SupportsFloat | typing.SupportsIndex, tp: typing.
     -----
     K. Torsethaugen and S. Haver, ISOPE 2004; DNV-RP-C205 appendix A. Norwegian waters, fetch 370 km. Normalised by
     quadrature instead of the fitted factor A_gamma.
+    """
+def weighted_sums(weights: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], values: typing.Annotated[numpy.typing.ArrayLike, numpy.complex128]) -> numpy.typing.NDArray[numpy.complex128]:
+    """
+    Complex sums (q, d) of weights (q, n) times values (n, d), or (q, n, d), term by term in their order. Raises ValueError for other shapes.
     """
 LOAD_KINDS: dict = {'heave compensator': HeaveCompensator, 'actuator': Actuator, 'point force': PointForce, 'spring': Spring, 'force table': ForceTable, 'function force': FunctionForce, 'flow force': FlowForce, 'friction': Friction, 'soft stop': SoftStop, 'line': Line, 'gas spring': GasSpring, 'pendulum damping': PendulumDamping, 'span drag': SpanDrag, 'hydraulic cylinder': HydraulicCylinder, 'limit': Limit}
