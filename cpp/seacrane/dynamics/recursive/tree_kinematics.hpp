@@ -18,7 +18,8 @@ class TreeKinematics {
       : tree_(tree),
         column_(idx(tree.columns), Twist<T>::zero()),
         reach_(idx(bodies), Vec3<T>::Zero()),
-        bias_(idx(bodies), Twist<T>::zero()) {}
+        bias_(idx(bodies), Twist<T>::zero()),
+        stroke_(tree.struts.size()) {}
 
   /// Poses and twists of all bodies from positions q and speeds u; `bodies` ends with the ground.
   void place(const T* q, const T* u, BodyKinematics<T>* bodies) {
@@ -52,6 +53,11 @@ class TreeKinematics {
   /// From the parent's state point to the body's, at the last place().
   const Vec3<T>& reach(int body) const { return reach_[idx(body)]; }
   const Twist<T>& bias(int body) const { return bias_[idx(body)]; }
+  /// Of a strut, and its derivative in the hinge angle, at the last place().
+  struct Stroke {
+    T value, slope;
+  };
+  const Stroke& stroke(int strut) const { return stroke_[idx(strut)]; }
 
  private:
   void place_floating(const Cluster& c, const T* q, const T* u, BodyKinematics<T>& k) {
@@ -81,13 +87,16 @@ class TreeKinematics {
       const Strut& s = tree_.struts[idx(c.first_strut + i)];
       const Vec3d on_arm = s.arm_point - c.joint.child_point;
       const Vec3<T> arm = hinge.rotation * on_arm.cast<T>();
+      const Vec3<T> lower = parent.rotation * s.base_point.cast<T>();
       const StrutMotionOf<T> m =
-          move_strut<T>(s, parent.rotation, hinge.rotation, hinge.reach, hinge.turn[0], arm);
+          s.slender ? move_slender_strut<T>(s, lower, hinge.reach, hinge.turn[0], arm)
+                    : move_strut<T>(s, parent.rotation, hinge.rotation, hinge.reach, hinge.turn[0], arm);
+      stroke_[idx(c.first_strut + i)] = {m.stroke, m.stroke_rate};
       BranchMotionOf<T> part;
       part.turn[0] = m.turn;
       part.turn_bias = rate * rate * m.turn_bend;
       part.rotation = m.rotation * s.lower_axes.transpose().cast<T>();
-      part.reach = parent.rotation * s.base_point.cast<T>();
+      part.reach = lower;
       part.slide[0] = Vec3<T>::Zero();
       const Vec3<T> lower_lever = part.rotation * -s.lower_end.cast<T>();
       place_member<1>(c.members[idx(1 + 2 * i)], parent, part, lower_lever, &rate, bodies[s.lower]);
@@ -133,6 +142,7 @@ class TreeKinematics {
   std::vector<Twist<T>> column_;  // by Member::column
   std::vector<Vec3<T>> reach_;
   std::vector<Twist<T>> bias_;
+  std::vector<Stroke> stroke_;
 };
 
 }  // namespace seacrane
