@@ -71,6 +71,7 @@ class Terms {
   Vec6d wrench(int body) const {
     return (Vec6d() << wrench_[idx(body)].force, wrench_[idx(body)].moment).finished();
   }
+  const BodyLoad<double>& applied(int body) const { return wrench_[idx(body)]; }
   const WaveForces& waves(std::size_t load) const { return waves_[load]; }
   /// For two that evaluate the same wave loads in one run, at about the same times.
   void share_wave_knots(const Terms& other);

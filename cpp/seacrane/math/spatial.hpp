@@ -14,36 +14,35 @@ class Twist {
  public:
   Twist() = default;  // not set, as Eigen's vectors
   template <class Expression>
-  explicit Twist(const Eigen::MatrixBase<Expression>& v) : v_(v) {}
-  Twist(const Vec3<T>& linear, const Vec3<T>& angular) {
-    v_.template head<3>() = linear;
-    v_.template tail<3>() = angular;
-  }
-  static Twist zero() { return Twist(Vec6<T>::Zero()); }
-  static Twist unit(int i) { return Twist(Vec6<T>::Unit(i)); }
+  explicit Twist(const Eigen::MatrixBase<Expression>& v) : Twist(Vec6<T>(v)) {}
+  explicit Twist(const Vec6<T>& v) : linear_(v[0], v[1], v[2]), angular_(v[3], v[4], v[5]) {}
+  Twist(const Vec3<T>& linear, const Vec3<T>& angular) : linear_(linear), angular_(angular) {}
+  static Twist zero() { return Twist(Vec3<T>::Zero(), Vec3<T>::Zero()); }
+  static Twist unit(int i) { return Twist(Vec6<T>(Vec6<T>::Unit(i))); }
 
-  auto linear() { return v_.template head<3>(); }
-  auto linear() const { return v_.template head<3>(); }
-  auto angular() { return v_.template tail<3>(); }
-  auto angular() const { return v_.template tail<3>(); }
-  const Vec6<T>& vector() const { return v_; }
+  Vec3<T>& linear() { return linear_; }
+  const Vec3<T>& linear() const { return linear_; }
+  Vec3<T>& angular() { return angular_; }
+  const Vec3<T>& angular() const { return angular_; }
+  Vec6<T> vector() const {
+    return {linear_[0], linear_[1], linear_[2], angular_[0], angular_[1], angular_[2]};
+  }
 
   /// Of the point `reach` away: v + omega x reach. Of accelerations without the centripetal part.
-  Twist shifted_to(const Vec3<T>& reach) const {
-    Twist out = *this;
-    const Vec3<T> turning = angular();
-    out.linear() += cross<T>(turning, reach);
-    return out;
-  }
+  Twist shifted_to(const Vec3<T>& reach) const { return {linear_ + cross<T>(angular_, reach), angular_}; }
 
   Twist& operator+=(const Twist& b) {
-    v_ += b.v_;
+    linear_ += b.linear_;
+    angular_ += b.angular_;
     return *this;
   }
-  friend Twist operator*(const T& a, const Twist& b) { return Twist(a * b.v_); }
+  friend Twist operator-(const Twist& a, const Twist& b) {
+    return {a.linear_ - b.linear_, a.angular_ - b.angular_};
+  }
+  friend Twist operator*(const T& a, const Twist& b) { return {a * b.linear_, a * b.angular_}; }
 
  private:
-  Vec6<T> v_;
+  Vec3<T> linear_, angular_;
 };
 
 /// Force, and moment about the point.
@@ -52,51 +51,45 @@ class Wrench {
  public:
   Wrench() = default;  // not set
   template <class Expression>
-  explicit Wrench(const Eigen::MatrixBase<Expression>& w) : w_(w) {}
-  Wrench(const Vec3<T>& force, const Vec3<T>& moment) {
-    w_.template head<3>() = force;
-    w_.template tail<3>() = moment;
-  }
-  static Wrench zero() { return Wrench(Vec6<T>::Zero()); }
+  explicit Wrench(const Eigen::MatrixBase<Expression>& w) : Wrench(Vec6<T>(w)) {}
+  explicit Wrench(const Vec6<T>& w) : force_(w[0], w[1], w[2]), moment_(w[3], w[4], w[5]) {}
+  Wrench(const Vec3<T>& force, const Vec3<T>& moment) : force_(force), moment_(moment) {}
+  static Wrench zero() { return Wrench(Vec3<T>::Zero(), Vec3<T>::Zero()); }
 
-  auto force() const { return w_.template head<3>(); }
-  auto moment() { return w_.template tail<3>(); }
-  auto moment() const { return w_.template tail<3>(); }
-  const Vec6<T>& vector() const { return w_; }
+  const Vec3<T>& force() const { return force_; }
+  Vec3<T>& moment() { return moment_; }
+  const Vec3<T>& moment() const { return moment_; }
+  Vec6<T> vector() const { return {force_[0], force_[1], force_[2], moment_[0], moment_[1], moment_[2]}; }
 
   /// Of a wrench about the end of `reach`, about its start: the moment grows by reach x force.
-  Wrench shifted_from(const Vec3<T>& reach) const {
-    Wrench out = *this;
-    const Vec3<T> f = force();
-    out.moment() += cross<T>(reach, f);
-    return out;
-  }
+  Wrench shifted_from(const Vec3<T>& reach) const { return {force_, moment_ + cross<T>(reach, force_)}; }
   /// *this += w.shifted_from(reach).
   void add_shifted_from(const Vec3<T>& reach, const Wrench& w) {
-    w_ += w.w_;
-    const Vec3<T> f = w.force();
-    moment() += cross<T>(reach, f);
+    force_ += w.force_;
+    moment_ += w.moment_ + cross<T>(reach, w.force_);
   }
 
-  Wrench operator-() const { return Wrench(-w_); }
+  Wrench operator-() const { return {-force_, -moment_}; }
   Wrench& operator+=(const Wrench& b) {
-    w_ += b.w_;
+    force_ += b.force_;
+    moment_ += b.moment_;
     return *this;
   }
   Wrench& operator-=(const Wrench& b) {
-    w_ -= b.w_;
+    force_ -= b.force_;
+    moment_ -= b.moment_;
     return *this;
   }
-  friend Wrench operator*(const T& a, const Wrench& b) { return Wrench(a * b.w_); }
+  friend Wrench operator*(const T& a, const Wrench& b) { return {a * b.force_, a * b.moment_}; }
 
  private:
-  Vec6<T> w_;
+  Vec3<T> force_, moment_;
 };
 
 /// Power, or a wrench along a direction of motion.
 template <class T>
 T dot(const Twist<T>& v, const Wrench<T>& w) {
-  return v.vector().dot(w.vector());
+  return dot<T>(v.linear(), w.force()) + dot<T>(v.angular(), w.moment());
 }
 
 /// Inertia of a rigid body about its centre of mass, or of what is as plain: wrench = inertia * acceleration.
@@ -106,7 +99,7 @@ struct CompactInertia {
   Symmetric3<T> turning;
 
   friend Wrench<T> operator*(const CompactInertia& inertia, const Twist<T>& a) {
-    return {inertia.mass * a.linear(), inertia.turning * Vec3<T>(a.angular())};
+    return {inertia.mass * a.linear(), inertia.turning * a.angular()};
   }
 };
 
@@ -133,8 +126,16 @@ class SpatialInertia {
   static SpatialInertia zero() { return SpatialInertia(Mat6<T>(Mat6<T>::Zero())); }
 
   Mat6<T> matrix() const {
+    const Mat3<T> moving = moving_.full(), turning = turning_.full();
     Mat6<T> out;
-    out << moving_.full(), coupling_, coupling_.transpose(), turning_.full();
+    for (int j = 0; j < 3; ++j) {
+      for (int i = 0; i < 3; ++i) {
+        out(i, j) = moving(i, j);
+        out(3 + i, j) = coupling_(j, i);
+        out(i, 3 + j) = coupling_(i, j);
+        out(3 + i, 3 + j) = turning(i, j);
+      }
+    }
     return out;
   }
 
@@ -178,9 +179,10 @@ class SpatialInertia {
   }
 
   friend Wrench<T> operator*(const SpatialInertia& inertia, const Twist<T>& a) {
-    const Vec3<T> linear = a.linear(), angular = a.angular();
-    const Vec3<T> force = inertia.moving_ * linear + inertia.coupling_ * angular;
-    const Vec3<T> moment = inertia.coupling_.transpose() * linear + inertia.turning_ * angular;
+    const Vec3<T>&v = a.linear(), &w = a.angular();
+    const Mat3<T>& h = inertia.coupling_;
+    const Vec3<T> force = inertia.moving_ * v + times<T>(h, w);
+    const Vec3<T> moment = inertia.turning_ * w + times_transposed<T>(h, v);
     return {force, moment};
   }
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "seacrane/math/types.hpp"
+#include "seacrane/math/products.hpp"
 
 namespace seacrane {
 

@@ -296,7 +296,7 @@ Twist<T> ArticulatedTree<T>::response(std::size_t i, const Wrench<T>& wrench) co
 template <class T>
 void ArticulatedTree<T>::solve(const Vec6<T>* load, bool moving, Vec6<T>* acceleration, T* u_rate,
                                const T* torque) {
-  for (int b = 0; b < ground_; ++b) force_[idx(b)] = Wrench<T>(-load[b]);
+  for (int b = 0; b < ground_; ++b) force_[idx(b)] = -Wrench<T>(load[b]);
   force_[idx(ground_)] = Wrench<T>::zero();
   for (std::size_t i = clusters().size(); i-- > 0;) {
     const Cluster& c = clusters()[i];
@@ -382,10 +382,9 @@ void ArticulatedTree<T>::spread_held(std::size_t i, bool moving, Vec6<T>* accele
   if (moving) carried += kinematics_.bias(c.body);
   const Twist<T> yield(torque_[i]);
   const T force = held.stiffness * (dot(carried, held.on_child) + dot(yield, held.on_child));
-  const Vec6<T> out = force * held.response.vector() - yield.vector();
-  acceleration[c.body] = out;
-  Branch::template speed_rates<T>(c.joint, kinematics_.columns(c.members[0]),
-                                  Twist<T>(out - carried.vector()), u_rate + c.u);
+  const Twist<T> out = force * held.response - yield;
+  acceleration[c.body] = out.vector();
+  Branch::template speed_rates<T>(c.joint, kinematics_.columns(c.members[0]), out - carried, u_rate + c.u);
 }
 
 extern template class ArticulatedTree<double>;

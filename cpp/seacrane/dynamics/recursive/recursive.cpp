@@ -84,21 +84,22 @@ void RecursiveSystem::evaluate_inertia() {
   for (int b = 0; b < model_.body_count(); ++b) {
     const BodyModel& body = model_.bodies[idx(b)];
     const BodyKinematics<double>& k = terms_->bodies()[idx(b)];
-    bias_[idx(b)] = body.vessel < 0 ? compact_terms(b)
-                                    : vessel_terms(body, model_.vessels[idx(body.vessel)], k,
-                                                   terms_->frames()[idx(body.vessel)], mass_[idx(b)]);
+    if (body.vessel < 0) {
+      evaluate_compact(b);
+    } else {
+      bias_[idx(b)] = vessel_terms(body, model_.vessels[idx(body.vessel)], k,
+                                   terms_->frames()[idx(body.vessel)], mass_[idx(b)]);
+    }
   }
 }
 
-/// Inertia about the state point, the part of a mass matrix that turns with the body; returns velocity terms
-/// b, eq (5).
-Vec6d RecursiveSystem::compact_terms(int body) {
+/// Inertia about the state point, the part of a mass matrix that turns with the body, and the velocity terms
+/// b of moments, eq (5).
+void RecursiveSystem::evaluate_compact(int body) {
   const BodyKinematics<double>& k = terms_->bodies()[idx(body)];
   const Symmetric3<double> inertia = turning_[idx(body)].at<double>(k.rotation);
   mass_[idx(body)].bottomRightCorner<3, 3>() = inertia.full();
-  Vec6d bias;
-  bias << Vec3d::Zero(), cross<double>(k.angular_velocity, inertia * k.angular_velocity);
-  return bias;
+  bias_[idx(body)].tail<3>() = cross<double>(k.angular_velocity, inertia * k.angular_velocity);
 }
 
 void RecursiveSystem::factor(double t) {
@@ -139,7 +140,13 @@ void RecursiveSystem::evaluate_wrenches(double t, const double* y, double* ydot,
 
 /// Under the wrenches of the terms and the torques of the actuators.
 void RecursiveSystem::solve_acceleration(double* u_rate) {
-  for (int b = 0; b < model_.body_count(); ++b) load_[idx(b)] = terms_->wrench(b) - bias_[idx(b)];
+  for (int b = 0; b < model_.body_count(); ++b) {
+    const BodyLoad<double>& applied = terms_->applied(b);
+    for (int i = 0; i < 3; ++i) {
+      load_[idx(b)][i] = applied.force[i] - bias_[idx(b)][i];
+      load_[idx(b)][3 + i] = applied.moment[i] - bias_[idx(b)][3 + i];
+    }
+  }
   articulated_.solve(load_.data(), true, acceleration_.data(), u_rate, torque_.data());
   if (loops_.rows() == 0) return;
   loops_.acceleration_residual(blocks_.data(), acceleration_.data(), residual_);

@@ -64,7 +64,7 @@ class RecursiveSystem final : public Formulation, public PositionMap {
   void evaluate(double t, const double* y, double* ydot, bool actuators_on_tree);
   void evaluate_wrenches(double t, const double* y, double* ydot, bool actuators_on_tree);
   void evaluate_inertia();
-  Vec6d compact_terms(int body);
+  void evaluate_compact(int body);
   void factor(double t);
   void solve_acceleration(double* u_rate);
   void add_inertial_tensions(double t, const double* memory, double* u_rate);

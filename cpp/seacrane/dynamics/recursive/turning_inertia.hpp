@@ -14,10 +14,9 @@ class TurningInertia {
   template <class T>
   Symmetric3<T> at(const Mat3<T>& rotation) const {
     if (!has_axis_) {
-      const Mat3<T> turned = rotation * inertia_.cast<T>();
-      return Symmetric3<T>::turned(turned, rotation);
+      return Symmetric3<T>::turned(times<T>(rotation, inertia_), rotation);
     }
-    const Vec3<T> axis = rotation * axis_.cast<T>();
+    const Vec3<T> axis = times<T>(rotation, axis_);
     Symmetric3<T> out = Symmetric3<T>::outer(T(excess_) * axis, axis);
     out += Symmetric3<T>::diagonal(T(across_));
     return out;
