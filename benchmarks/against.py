@@ -3,8 +3,8 @@
     python benchmarks/against.py --other /path/to/older/package --label 0.1.0 [--publish]
 
 `--other` is what PYTHONPATH has to be for `import seacrane` to find the older one. Each turn measures one of
-the two in a process of its own, in CPU time of its thread; the best of all turns counts, so that other work on
-the machine matters least. Prints the table; with `--publish` it is written to `benchmarks/results`.
+the two in a process of its own, in CPU time of its thread. The best of all turns counts, so that other work
+on the machine matters least. Prints the table; with `--publish` it is written to `benchmarks/results`.
 """
 
 from __future__ import annotations

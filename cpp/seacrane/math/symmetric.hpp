@@ -30,8 +30,16 @@ struct Symmetric3 {
 
   Mat3<T> full() const {
     Mat3<T> out;
-    out << xx, yx, zx, yx, yy, zy, zx, zy, zz;
+    write(out);
     return out;
+  }
+  /// To a square block, entry by entry.
+  template <class Block>
+  void write(Block&& to) const {
+    to(0, 0) = xx, to(1, 1) = yy, to(2, 2) = zz;
+    to(1, 0) = to(0, 1) = yx;
+    to(2, 0) = to(0, 2) = zx;
+    to(2, 1) = to(1, 2) = zy;
   }
 
   Symmetric3& operator+=(const Symmetric3& b) {

@@ -98,7 +98,7 @@ void RecursiveSystem::evaluate_inertia() {
 void RecursiveSystem::evaluate_compact(int body) {
   const BodyKinematics<double>& k = terms_->bodies()[idx(body)];
   const Symmetric3<double> inertia = turning_[idx(body)].at<double>(k.rotation);
-  mass_[idx(body)].bottomRightCorner<3, 3>() = inertia.full();
+  inertia.write(mass_[idx(body)].bottomRightCorner<3, 3>());
   bias_[idx(body)].tail<3>() = cross<double>(k.angular_velocity, inertia * k.angular_velocity);
 }
 
