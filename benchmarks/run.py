@@ -71,6 +71,7 @@ def sections(folder: Path, *, repeats: int, quick: bool) -> Iterator[Section]:
     yield speed.speed(repeats=repeats)
     yield evaluation.whole(repeats=repeats)
     yield evaluation.parts(repeats=repeats)
+    yield evaluation.parts(repeats=repeats, formulation="recursive")
     yield formulations.formulations(repeats=repeats)
     yield formulations.throughput(repeats=repeats)
     yield storm.storm(repeats=min(repeats, 3))

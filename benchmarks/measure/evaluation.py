@@ -28,15 +28,15 @@ def whole(*, repeats: int) -> Section:
     )
 
 
-def parts(*, repeats: int) -> Section:
+def parts(*, repeats: int, formulation: str = "redundant") -> Section:
     """Case 2 by part, quickest of several for each."""
     model = SCENES["case2"]().compile()
-    evaluator, state = Evaluator(model), np.array(model.initial_state)
+    evaluator, state = Evaluator(model, formulation), np.array(model.initial_state)
     measured = [evaluator.time_parts(0.0, state, COUNT) for _ in range(TIMES * repeats)]
     quickest = {name: min(m[name] for m in measured) for name in measured[0]}
     total = quickest["whole evaluation"]
     return Section(
-        title="One evaluation of case 2 by part",
+        title="One evaluation of case 2 by part" + (", recursive" if formulation == "recursive" else ""),
         text=(
             "`Evaluator.time_parts`, each part repeated alone; wall time, best of "
             f"{TIMES * repeats} times {COUNT:,}."

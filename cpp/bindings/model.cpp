@@ -241,10 +241,7 @@ class Evaluator {
       throw std::invalid_argument("time_parts: count is " + std::to_string(count) + "; give at least 1");
     }
     py::dict out;
-    MaximalSystem system(model_->merged ? model_->merged : model_);
-    for (const auto& [name, ns] : seacrane::time_parts(system, t, bodies_.merged(y.data()), count)) {
-      out[name.c_str()] = ns;
-    }
+    for (const auto& [name, ns] : measured_parts(t, y, count)) out[name.c_str()] = ns;
     return out;
   }
 
@@ -255,6 +252,15 @@ class Evaluator {
                                   std::to_string(model_->layout.size));
     }
     return y.size();
+  }
+  std::vector<std::pair<std::string, double>> measured_parts(double t, const Array& y, long count) {
+    if (auto* const recursive = dynamic_cast<RecursiveSystem*>(&stepped())) {
+      std::vector<double> state(recursive->size());
+      bodies_.read(t, y.data(), state.data());
+      return recursive->time_parts(t, state.data(), count);
+    }
+    MaximalSystem system(model_->merged ? model_->merged : model_);
+    return seacrane::time_parts(system, t, bodies_.merged(y.data()), count);
   }
   bool steps_recursive() { return std::string(stepped().name()) == "recursive"; }
   Formulation& stepped() { return bodies_.formulation(); }

@@ -63,7 +63,10 @@ class Compiler {
         {"x", CoordinateKind::x},         {"y", CoordinateKind::y},
         {"z", CoordinateKind::z},         {"roll", CoordinateKind::roll},
         {"pitch", CoordinateKind::pitch}, {"yaw", CoordinateKind::yaw}};
-    return {joint_data(*joint_.at(d.joint)), kinds.at(d.coordinate)};
+    CoordinateData out{joint_data(*joint_.at(d.joint)), kinds.at(d.coordinate)};
+    const auto element = element_.find(d.joint);
+    out.joint.element = element == element_.end() ? -1 : element->second;
+    return out;
   }
 
   JointData joint_data(const JointDescription& d) const {
@@ -190,7 +193,7 @@ class Compiler {
       joint_[d.name] = &d;
       if (within_one_body(d)) continue;
       JointData j = joint_data(d);
-      j.element = static_cast<int>(model_.elements.size());
+      j.element = element_[d.name] = static_cast<int>(model_.elements.size());
       ElementModel e;
       e.name = d.name;
       e.kind = d.kind;
@@ -334,6 +337,7 @@ class Compiler {
       // At rest on the still water: a hull described above or below it starts there, and heaves.
       v.mean_position = {start.position.x(), start.position.y(), 0.0};
       v.mean_yaw = roll_pitch_yaw<double>(rotation_from_quaternion<double>(start.quaternion))[2];
+      v.mean_axes = rotation_about_z<double>(std::cos(v.mean_yaw), std::sin(v.mean_yaw));
       model_.paper_kinematics = d.kinematics == VesselKinematics::paper;
       if (model_.paper_kinematics && std::fabs(v.mean_yaw) > 1e-9) {
         throw SceneError("vessel '" + d.name +
@@ -422,6 +426,7 @@ class Compiler {
   Model model_;
   std::map<std::string, int> index_;  // of described bodies
   std::map<std::string, const JointDescription*> joint_;
+  std::map<std::string, int> element_;  // of described joints that hold something
 };
 
 /// A scene with every body by itself and, of its limits, the rows of a set.

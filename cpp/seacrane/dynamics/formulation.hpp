@@ -22,6 +22,10 @@ class Formulation : public System {
   virtual std::vector<double> scale() const = 0;
   virtual void read_bodies(double t, const double* bodies, double* y) = 0;
   virtual void write_bodies(double t, const double* y, double* bodies) = 0;
+  /// Sets the kinematics of its terms to those of a state.
+  virtual void place_bodies(double t, const double* y) = 0;
+  /// Whether no state leaves a joint open, or a driver behind, by more than rounding.
+  virtual bool closes_joints() const = 0;
   /// Accelerations of the bodies' state points at the last derivative(), in the order of the model.
   virtual const std::vector<Vec6d>& accelerations() const = 0;
   /// What `load` alone adds to these accelerations: M^-1 load of the bodies as they are joined, through the

@@ -37,6 +37,8 @@ class MaximalSystem final : public Formulation {
   std::vector<double> scale() const override { return model_.scale; }
   void read_bodies(double t, const double* bodies, double* y) override;
   void write_bodies(double t, const double* y, double* bodies) override;
+  void place_bodies(double t, const double* y) override { terms_->read(t, y); }
+  bool closes_joints() const override { return false; }
   const std::vector<Vec6d>& accelerations() const override { return acceleration_; }
   void load_response(const std::vector<Vec6d>& load, std::vector<Vec6d>& acceleration) override;
   double condition() const override { return solver_.condition(); }

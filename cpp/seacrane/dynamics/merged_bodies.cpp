@@ -73,6 +73,13 @@ void MergedBodies::spread(const double* y, double* bodies) const {
   copy_rest(merged_, y, full_, bodies);
 }
 
+void MergedBodies::spread_kinematics(const BodyKinematics<double>* merged,
+                                     BodyKinematics<double>* described) const {
+  for (int b = 0; b < full_.body_count(); ++b) {
+    described[b] = carried(full_, merged_, b, merged[merged_.merge.places[idx(b)].body]);
+  }
+}
+
 void MergedBodies::spread_accelerations(const Terms& terms, const std::vector<Vec6d>& merged,
                                         std::vector<Vec6d>& described) const {
   for (int b = 0; b < full_.body_count(); ++b) {

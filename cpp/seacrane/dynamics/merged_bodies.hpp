@@ -16,6 +16,8 @@ class MergedBodies {
   void merge(const double* bodies, double* y) const;
   /// And back.
   void spread(const double* y, double* bodies) const;
+  /// Kinematics of the described bodies from those of the merged ones, grounds last.
+  void spread_kinematics(const BodyKinematics<double>* merged, BodyKinematics<double>* described) const;
   /// Accelerations of the described bodies from those of the merged ones, whose kinematics `terms` holds.
   void spread_accelerations(const Terms& terms, const std::vector<Vec6d>& merged,
                             std::vector<Vec6d>& described) const;

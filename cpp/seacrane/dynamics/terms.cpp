@@ -127,7 +127,16 @@ void Terms::apply_waves(double t, const double* memory, LoadSum<double>& sum) {
   }
 }
 
+void Terms::share_wave_knots(const Terms& other) {
+  for (std::size_t i = 0; i < waves_.size(); ++i) waves_[i].share_knots(other.waves_[i]);
+}
+
 void Terms::evaluate_wrenches(double t, const double* memory, double* memory_rate) {
+  evaluate_wrenches(t, memory, memory_rate, *model_->loads);
+}
+
+void Terms::evaluate_wrenches(double t, const double* memory, double* memory_rate,
+                              const CompiledLoads& loads) {
   const Model& m = *model_;
   for (auto& w : wrench_) w = BodyLoad<double>();
   inertial_.setZero();
@@ -135,7 +144,7 @@ void Terms::evaluate_wrenches(double t, const double* memory, double* memory_rat
   LoadSum<double> sum{wrench_.data(), memory_rate + first_load_state_};
   for (const auto& load : m.gravity) load.apply<double>(input, sum);
   for_each_load_type([&]<class Load>() {
-    for (const Load& load : std::get<std::vector<Load>>(*m.loads)) load.template apply<double>(input, sum);
+    for (const Load& load : std::get<std::vector<Load>>(loads)) load.template apply<double>(input, sum);
   });
   apply_hydrodynamics(input, memory, memory_rate, sum);
   apply_waves(t, memory, sum);

@@ -53,6 +53,8 @@ class Terms {
   /// Wrenches on the bodies, without velocity terms, and their power; `memory` and its rates: the memory part
   /// of a state, from the fluid's states to those of loads.
   void evaluate_wrenches(double t, const double* memory, double* memory_rate);
+  /// The same with these loads in place of all that the model has.
+  void evaluate_wrenches(double t, const double* memory, double* memory_rate, const CompiledLoads& loads);
   /// All of it at (t, y); of ydot the memory part.
   void evaluate(double t, const double* y, double* ydot);
 
@@ -69,7 +71,10 @@ class Terms {
   Vec6d wrench(int body) const {
     return (Vec6d() << wrench_[idx(body)].force, wrench_[idx(body)].moment).finished();
   }
+  const BodyLoad<double>& applied(int body) const { return wrench_[idx(body)]; }
   const WaveForces& waves(std::size_t load) const { return waves_[load]; }
+  /// For two that evaluate the same wave loads in one run, at about the same times.
+  void share_wave_knots(const Terms& other);
   /// x, y and yaw of the vessel where its wave loads are taken; `memory`: the memory part of a state.
   Vec3d wave_pose(const WaveLoad& wave, const double* memory) const;
   /// What loads look at; `memory`: the memory part of a state.
@@ -79,6 +84,10 @@ class Terms {
   /// Of the loads without potential, drivers included.
   const Power& power() const { return power_; }
   void add_driver_power(double power) { power_.add(power); }
+  void add_power(const Power& power) {
+    power_.sum += power.sum;
+    power_.absolute += power.absolute;
+  }
   /// Tensions that have been solved for with the accelerations, what each newton of them takes from a winch,
   /// and what they put on the bodies.
   void add_inertial(const VecXd& tension, const VecXd& winding, const std::vector<Vec6d>& load);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <string>
 #include <utility>
 #include <vector>
@@ -8,7 +9,27 @@
 
 namespace seacrane {
 
-/// Nanoseconds per evaluation by part, each repeated `count` times at (t, y).
+/// Mean wall time of parts of an evaluation, ns, each called `count` times in turn.
+class PartTimes {
+ public:
+  explicit PartTimes(long count) : count_(count) {}
+
+  /// Of part(i), i from 0.
+  template <class Part>
+  void measure(const char* name, Part&& part) {
+    const auto start = std::chrono::steady_clock::now();
+    for (long i = 0; i < count_; ++i) part(i);
+    const std::chrono::duration<double, std::nano> elapsed = std::chrono::steady_clock::now() - start;
+    values_.emplace_back(name, elapsed.count() / static_cast<double>(count_));
+  }
+  const std::vector<std::pair<std::string, double>>& values() const { return values_; }
+
+ private:
+  long count_;
+  std::vector<std::pair<std::string, double>> values_;
+};
+
+/// Of an evaluation in maximal coordinates at (t, y); time advances by 1 ms a call where it counts.
 std::vector<std::pair<std::string, double>> time_parts(MaximalSystem& system, double t, const double* y,
                                                        long count);
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <memory>
+
 #include "seacrane/math/types.hpp"
 #include "seacrane/model/description.hpp"
 
@@ -10,6 +12,9 @@ namespace seacrane {
 class WaveForces {
  public:
   explicit WaveForces(const WaveLoadDescription& sources);
+
+  /// Makes the knots of their tables once for both, where these are the same.
+  void share_knots(const WaveForces& other);
 
   /// `pose`: x, y (m) and yaw (rad) of the vessel.
   void evaluate(double t, const Vec3d& pose);
@@ -22,8 +27,8 @@ class WaveForces {
 
  private:
   const WaveLoadDescription* sources_;  // of the model, which outlives every run
-  WaveTableBlock block_;
-  DriftTableBlock drift_block_;
+  std::shared_ptr<WaveTableBlock> block_;
+  std::shared_ptr<DriftTableBlock> drift_block_;
   Vec6d force_ = Vec6d::Zero(), drift_ = Vec6d::Zero();
   double elevation_ = 0.0;
 };

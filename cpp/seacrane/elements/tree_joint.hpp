@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "seacrane/elements/joint_rows.hpp"
+#include "seacrane/math/products.hpp"
 #include "seacrane/math/rotation.hpp"
 
 /// Joints as branches of a tree: the child's motion over its parent in the joint's own coordinates. Joint
@@ -37,7 +38,7 @@ namespace branch {
 /// Joint axes of the parent, and of the child, in inertial axes.
 template <class T>
 Mat3<T> parent_axes(const TreeJoint& j, const BodyKinematics<T>& parent) {
-  return parent.rotation * j.parent_axes.cast<T>();
+  return times<T>(parent.rotation, j.parent_axes);
 }
 inline Mat3d child_axes(const TreeJoint& j, const BodyKinematics<double>& child) {
   return child.rotation * j.child_axes;
@@ -45,7 +46,7 @@ inline Mat3d child_axes(const TreeJoint& j, const BodyKinematics<double>& child)
 
 template <class T>
 Vec3<T> parent_lever(const TreeJoint& j, const BodyKinematics<T>& parent) {
-  return parent.rotation * j.parent_point.cast<T>();
+  return times<T>(parent.rotation, j.parent_point);
 }
 
 /// From the parent's joint point to the child's, and the relative rate of the two in the parent's frame.

@@ -48,8 +48,9 @@ Memory::Memory(const std::vector<StateSpaceBlock>& blocks) {
     all.bottomLeftCorner(block.outputs, block.states) = s.c;
     all.bottomRightCorner(block.outputs, block.inputs) = s.d;
     for (Eigen::Index first = 0; first < all.rows(); first += tile) {
+      const int rows = height(static_cast<int>(all.rows() - first));
       for (Eigen::Index j = 0; j < all.cols(); ++j) {
-        for (Eigen::Index i = first; i < first + tile; ++i) {
+        for (Eigen::Index i = first; i < first + rows; ++i) {
           coefficients_.push_back(i < all.rows() ? all(i, j) : 0.0);
         }
       }

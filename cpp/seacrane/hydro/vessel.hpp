@@ -90,6 +90,7 @@ struct Vessel {
   Vec3d mooring_stiffness, mooring_damping;  // surge, sway, yaw
   Vec3d mean_position;
   double mean_yaw = 0.0;
+  Mat3d mean_axes = Mat3d::Identity();  // of the mean heading
   std::variant<Memory, Convolution> memory;
   std::optional<FastMotion> fast;  // where wave loads are those of the slow pose
   int memory_offset = 0;           // in the state vector
@@ -111,8 +112,7 @@ struct Vessel {
   /// Displacement (surge, sway, heave) from the mean position, in axes of the mean heading.
   template <class T>
   Vec3<T> displacement(const BodyKinematics<T>& k) const {
-    const Mat3<T> mean = rotation_about_z<T>(T(std::cos(mean_yaw)), T(std::sin(mean_yaw)));
-    return mean.transpose() * (k.position - mean_position.cast<T>());
+    return mean_axes.transpose().cast<T>() * (k.position - mean_position.cast<T>());
   }
 
   template <class T>
@@ -174,7 +174,7 @@ struct Vessel {
     const T yaw_spring = T(mooring_stiffness[2]) * angles[2];
     const Vec3<T> moment = f.rotation * f.moment_of(load[1], load[2], yaw_spring);
     // Springs and dampers of surge and sway act along the axes of the mean heading.
-    const Mat3<T> mean = rotation_about_z<T>(T(std::cos(mean_yaw)), T(std::sin(mean_yaw)));
+    const Mat3<T> mean = mean_axes.cast<T>();
     const Vec3<T> rate = mean.transpose() * k.velocity;
     const Vec3<T> spring(-T(mooring_stiffness[0]) * shift[0], -T(mooring_stiffness[1]) * shift[1], -load[0]);
     const Vec3<T> damper(-T(mooring_damping[0]) * rate[0], -T(mooring_damping[1]) * rate[1], T(0));

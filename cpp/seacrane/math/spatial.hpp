@@ -1,6 +1,6 @@
 #pragma once
 
-#include "seacrane/math/types.hpp"
+#include "seacrane/math/symmetric.hpp"
 
 /// Spatial vectors of a rigid body [R. Featherstone, Rigid Body Dynamics Algorithms, 2008, chapter 2], linear
 /// part first, in inertial axes about a point of the body. A vector `reach` leads from one point to another:
@@ -14,36 +14,35 @@ class Twist {
  public:
   Twist() = default;  // not set, as Eigen's vectors
   template <class Expression>
-  explicit Twist(const Eigen::MatrixBase<Expression>& v) : v_(v) {}
-  Twist(const Vec3<T>& linear, const Vec3<T>& angular) {
-    v_.template head<3>() = linear;
-    v_.template tail<3>() = angular;
-  }
-  static Twist zero() { return Twist(Vec6<T>::Zero()); }
-  static Twist unit(int i) { return Twist(Vec6<T>::Unit(i)); }
+  explicit Twist(const Eigen::MatrixBase<Expression>& v) : Twist(Vec6<T>(v)) {}
+  explicit Twist(const Vec6<T>& v) : linear_(v[0], v[1], v[2]), angular_(v[3], v[4], v[5]) {}
+  Twist(const Vec3<T>& linear, const Vec3<T>& angular) : linear_(linear), angular_(angular) {}
+  static Twist zero() { return Twist(Vec3<T>::Zero(), Vec3<T>::Zero()); }
+  static Twist unit(int i) { return Twist(Vec6<T>(Vec6<T>::Unit(i))); }
 
-  auto linear() { return v_.template head<3>(); }
-  auto linear() const { return v_.template head<3>(); }
-  auto angular() { return v_.template tail<3>(); }
-  auto angular() const { return v_.template tail<3>(); }
-  const Vec6<T>& vector() const { return v_; }
+  Vec3<T>& linear() { return linear_; }
+  const Vec3<T>& linear() const { return linear_; }
+  Vec3<T>& angular() { return angular_; }
+  const Vec3<T>& angular() const { return angular_; }
+  Vec6<T> vector() const {
+    return {linear_[0], linear_[1], linear_[2], angular_[0], angular_[1], angular_[2]};
+  }
 
   /// Of the point `reach` away: v + omega x reach. Of accelerations without the centripetal part.
-  Twist shifted_to(const Vec3<T>& reach) const {
-    Twist out = *this;
-    const Vec3<T> turning = angular();
-    out.linear() += cross<T>(turning, reach);
-    return out;
-  }
+  Twist shifted_to(const Vec3<T>& reach) const { return {linear_ + cross<T>(angular_, reach), angular_}; }
 
   Twist& operator+=(const Twist& b) {
-    v_ += b.v_;
+    linear_ += b.linear_;
+    angular_ += b.angular_;
     return *this;
   }
-  friend Twist operator*(const T& a, const Twist& b) { return Twist(a * b.v_); }
+  friend Twist operator-(const Twist& a, const Twist& b) {
+    return {a.linear_ - b.linear_, a.angular_ - b.angular_};
+  }
+  friend Twist operator*(const T& a, const Twist& b) { return {a * b.linear_, a * b.angular_}; }
 
  private:
-  Vec6<T> v_;
+  Vec3<T> linear_, angular_;
 };
 
 /// Force, and moment about the point.
@@ -52,89 +51,144 @@ class Wrench {
  public:
   Wrench() = default;  // not set
   template <class Expression>
-  explicit Wrench(const Eigen::MatrixBase<Expression>& w) : w_(w) {}
-  static Wrench zero() { return Wrench(Vec6<T>::Zero()); }
+  explicit Wrench(const Eigen::MatrixBase<Expression>& w) : Wrench(Vec6<T>(w)) {}
+  explicit Wrench(const Vec6<T>& w) : force_(w[0], w[1], w[2]), moment_(w[3], w[4], w[5]) {}
+  Wrench(const Vec3<T>& force, const Vec3<T>& moment) : force_(force), moment_(moment) {}
+  static Wrench zero() { return Wrench(Vec3<T>::Zero(), Vec3<T>::Zero()); }
 
-  auto force() const { return w_.template head<3>(); }
-  auto moment() { return w_.template tail<3>(); }
-  auto moment() const { return w_.template tail<3>(); }
-  const Vec6<T>& vector() const { return w_; }
+  const Vec3<T>& force() const { return force_; }
+  Vec3<T>& moment() { return moment_; }
+  const Vec3<T>& moment() const { return moment_; }
+  Vec6<T> vector() const { return {force_[0], force_[1], force_[2], moment_[0], moment_[1], moment_[2]}; }
 
   /// Of a wrench about the end of `reach`, about its start: the moment grows by reach x force.
-  Wrench shifted_from(const Vec3<T>& reach) const {
-    Wrench out = *this;
-    const Vec3<T> f = force();
-    out.moment() += cross<T>(reach, f);
-    return out;
-  }
+  Wrench shifted_from(const Vec3<T>& reach) const { return {force_, moment_ + cross<T>(reach, force_)}; }
   /// *this += w.shifted_from(reach).
   void add_shifted_from(const Vec3<T>& reach, const Wrench& w) {
-    w_ += w.w_;
-    const Vec3<T> f = w.force();
-    moment() += cross<T>(reach, f);
+    force_ += w.force_;
+    moment_ += w.moment_ + cross<T>(reach, w.force_);
   }
 
-  Wrench operator-() const { return Wrench(-w_); }
+  Wrench operator-() const { return {-force_, -moment_}; }
   Wrench& operator+=(const Wrench& b) {
-    w_ += b.w_;
+    force_ += b.force_;
+    moment_ += b.moment_;
     return *this;
   }
   Wrench& operator-=(const Wrench& b) {
-    w_ -= b.w_;
+    force_ -= b.force_;
+    moment_ -= b.moment_;
     return *this;
   }
-  friend Wrench operator*(const T& a, const Wrench& b) { return Wrench(a * b.w_); }
+  friend Wrench operator*(const T& a, const Wrench& b) { return {a * b.force_, a * b.moment_}; }
 
  private:
-  Vec6<T> w_;
+  Vec3<T> force_, moment_;
 };
 
 /// Power, or a wrench along a direction of motion.
 template <class T>
 T dot(const Twist<T>& v, const Wrench<T>& w) {
-  return v.vector().dot(w.vector());
+  return dot<T>(v.linear(), w.force()) + dot<T>(v.angular(), w.moment());
 }
 
-/// Symmetric: wrench = inertia * acceleration.
+/// Inertia of a rigid body about its centre of mass, or of what is as plain: wrench = inertia * acceleration.
+template <class T>
+struct CompactInertia {
+  T mass;
+  Symmetric3<T> turning;
+
+  friend Wrench<T> operator*(const CompactInertia& inertia, const Twist<T>& a) {
+    return {inertia.mass * a.linear(), inertia.turning * a.angular()};
+  }
+};
+
+/// Symmetric, in blocks of forces and moments: wrench = inertia * acceleration.
 template <class T>
 class SpatialInertia {
  public:
   SpatialInertia() = default;  // not set
-  explicit SpatialInertia(const Mat6<T>& m) : m_(m) {}
-  SpatialInertia& operator=(const Mat6<T>& m) {  // in place, without a temporary
-    m_ = m;
+  /// Of a matrix of which only the lower triangle is read.
+  explicit SpatialInertia(const Mat6<T>& m) { *this = m; }
+  explicit SpatialInertia(const CompactInertia<T>& inertia) { *this = inertia; }
+  SpatialInertia& operator=(const Mat6<T>& m) {
+    moving_ = Symmetric3<T>::lower(m.template topLeftCorner<3, 3>());
+    coupling_ = m.template bottomLeftCorner<3, 3>().transpose();
+    turning_ = Symmetric3<T>::lower(m.template bottomRightCorner<3, 3>());
     return *this;
   }
-  static SpatialInertia zero() { return SpatialInertia(Mat6<T>::Zero()); }
+  SpatialInertia& operator=(const CompactInertia<T>& inertia) {
+    moving_ = Symmetric3<T>::diagonal(inertia.mass);
+    coupling_.setZero();
+    turning_ = inertia.turning;
+    return *this;
+  }
+  static SpatialInertia zero() { return SpatialInertia(Mat6<T>(Mat6<T>::Zero())); }
 
-  const Mat6<T>& matrix() const { return m_; }
+  Mat6<T> matrix() const {
+    const Mat3<T> moving = moving_.full(), turning = turning_.full();
+    Mat6<T> out;
+    for (int j = 0; j < 3; ++j) {
+      for (int i = 0; i < 3; ++i) {
+        out(i, j) = moving(i, j);
+        out(3 + i, j) = coupling_(j, i);
+        out(i, 3 + j) = coupling_(i, j);
+        out(3 + i, 3 + j) = turning(i, j);
+      }
+    }
+    return out;
+  }
 
   /// *this += X^T I X, the inertia I about the end of `reach` seen from its start: X = [1, -reach x; 0, 1].
   void add_shifted_from(const Vec3<T>& reach, const SpatialInertia& inertia) {
-    const Mat6<T>& i = inertia.m_;
-    Eigen::Matrix<T, 6, 3> right;  // of I X
-    right.col(0) = i.col(3) - reach[2] * i.col(1) + reach[1] * i.col(2);
-    right.col(1) = i.col(4) - reach[0] * i.col(2) + reach[2] * i.col(0);
-    right.col(2) = i.col(5) - reach[1] * i.col(0) + reach[0] * i.col(1);
-    m_.template topLeftCorner<3, 3>() += i.template topLeftCorner<3, 3>();
-    m_.template bottomLeftCorner<3, 3>() += right.template topRows<3>().transpose();
-    for (int j = 0; j < 3; ++j) {
-      const Vec3<T> force = right.col(j).template head<3>();
-      m_.col(3 + j) += right.col(j);
-      m_.col(3 + j).template tail<3>() += cross<T>(reach, force);
-    }
+    const Mat3<T>& h = inertia.coupling_;
+    const Mat3<T> moving = inertia.moving_.full();
+    Mat3<T> k;  // coupling about the start: H - M (reach x)
+    k.col(0) = h.col(0) - reach[2] * moving.col(1) + reach[1] * moving.col(2);
+    k.col(1) = h.col(1) - reach[0] * moving.col(2) + reach[2] * moving.col(0);
+    k.col(2) = h.col(2) - reach[1] * moving.col(0) + reach[0] * moving.col(1);
+    // (reach x) K + ((reach x) H)^T
+    const auto crossed = [&](const Mat3<T>& m, int i, int j) {
+      const int next = (i + 1) % 3, last = (i + 2) % 3;
+      return reach[next] * m(last, j) - reach[last] * m(next, j);
+    };
+    const auto gained = [&](int i, int j) { return crossed(k, i, j) + crossed(h, j, i); };
+    moving_ += inertia.moving_;
+    coupling_ += k;
+    turning_ += inertia.turning_;
+    turning_ +=
+        Symmetric3<T>{gained(0, 0), gained(1, 0), gained(1, 1), gained(2, 0), gained(2, 1), gained(2, 2)};
   }
-  /// *this -= a b^T.
+  void add_shifted_from(const Vec3<T>& reach, const CompactInertia<T>& inertia) {
+    const T& m = inertia.mass;
+    const Vec3<T> moment = m * reach;
+    moving_ += Symmetric3<T>::diagonal(m);
+    coupling_(0, 1) += moment[2], coupling_(1, 0) -= moment[2];
+    coupling_(1, 2) += moment[0], coupling_(2, 1) -= moment[0];
+    coupling_(2, 0) += moment[1], coupling_(0, 2) -= moment[1];
+    turning_ += inertia.turning;
+    turning_ += Symmetric3<T>::diagonal(moment.dot(reach));
+    turning_ -= Symmetric3<T>::outer(moment, reach);
+  }
+  /// *this -= a b^T, or a sum of such products of which only the whole is symmetric.
   void subtract_outer(const Wrench<T>& a, const Wrench<T>& b) {
-    for (int j = 0; j < 6; ++j) m_.col(j) -= b.vector()[j] * a.vector();
+    const Vec3<T> a_force = a.force(), a_moment = a.moment(), b_force = b.force(), b_moment = b.moment();
+    moving_ -= Symmetric3<T>::outer(a_force, b_force);
+    for (int j = 0; j < 3; ++j) coupling_.col(j) -= b_moment[j] * a_force;
+    turning_ -= Symmetric3<T>::outer(a_moment, b_moment);
   }
 
   friend Wrench<T> operator*(const SpatialInertia& inertia, const Twist<T>& a) {
-    return Wrench<T>(inertia.m_ * a.vector());
+    const Vec3<T>&v = a.linear(), &w = a.angular();
+    const Mat3<T>& h = inertia.coupling_;
+    const Vec3<T> force = inertia.moving_ * v + times<T>(h, w);
+    const Vec3<T> moment = inertia.turning_ * w + times_transposed<T>(h, v);
+    return {force, moment};
   }
 
  private:
-  Mat6<T> m_;
+  Symmetric3<T> moving_, turning_;
+  Mat3<T> coupling_;  // forces for turning
 };
 
 }  // namespace seacrane

@@ -4,26 +4,55 @@
 
 namespace seacrane {
 
-/// Inverse of a small symmetric positive definite matrix, of which only the lower triangle is read, by
-/// a = L D L^T: L^-T D^-1 L^-1. Loops of constant length, which the compiler unrolls; a general solver spends
-/// several times as much on finding out how small the matrix is.
+/// A small symmetric positive definite matrix, of which only the lower triangle is read, as L D L^T. Loops of
+/// constant length, which the compiler unrolls; a general solver spends several times as much on finding out
+/// how small the matrix is.
+template <int n, class T>
+struct SpdFactor {
+  using Square = Eigen::Matrix<T, n, n>;
+  using Vector = Eigen::Matrix<T, n, 1>;
+
+  Square l;  // below the diagonal L
+  T over_pivot[n];
+
+  SpdFactor() = default;  // not set
+  explicit SpdFactor(const Square& a) : l(a) {
+#pragma GCC unroll 6
+    for (int j = 0; j < n; ++j) {
+      over_pivot[j] = T(1) / l(j, j);
+#pragma GCC unroll 6
+      for (int k = j + 1; k < n; ++k) {
+        const T factor = l(k, j) * over_pivot[j];
+#pragma GCC unroll 6
+        for (int i = k; i < n; ++i) l(i, k) -= factor * l(i, j);
+      }
+#pragma GCC unroll 6
+      for (int i = j + 1; i < n; ++i) l(i, j) *= over_pivot[j];
+    }
+  }
+
+  Vector solve(Vector x) const {
+#pragma GCC unroll 6
+    for (int j = 0; j < n; ++j) {
+#pragma GCC unroll 6
+      for (int i = j + 1; i < n; ++i) x[i] -= l(i, j) * x[j];
+    }
+#pragma GCC unroll 6
+    for (int j = n - 1; j >= 0; --j) {
+      x[j] *= over_pivot[j];
+#pragma GCC unroll 6
+      for (int i = j + 1; i < n; ++i) x[j] -= l(i, j) * x[i];
+    }
+    return x;
+  }
+};
+
+/// Inverse of such a matrix: L^-T D^-1 L^-1.
 template <int n, class T>
 Eigen::Matrix<T, n, n> spd_inverse(const Eigen::Matrix<T, n, n>& a) {
   using Square = Eigen::Matrix<T, n, n>;
-  Square l = a;  // below the diagonal L
-  T over_pivot[n];
-#pragma GCC unroll 6
-  for (int j = 0; j < n; ++j) {
-    over_pivot[j] = T(1) / l(j, j);
-#pragma GCC unroll 6
-    for (int k = j + 1; k < n; ++k) {
-      const T factor = l(k, j) * over_pivot[j];
-#pragma GCC unroll 6
-      for (int i = k; i < n; ++i) l(i, k) -= factor * l(i, j);
-    }
-#pragma GCC unroll 6
-    for (int i = j + 1; i < n; ++i) l(i, j) *= over_pivot[j];
-  }
+  const SpdFactor<n, T> factor(a);
+  const Square& l = factor.l;
   Square w;  // below the diagonal L^-1
 #pragma GCC unroll 6
   for (int j = 0; j < n; ++j) {
@@ -40,9 +69,9 @@ Eigen::Matrix<T, n, n> spd_inverse(const Eigen::Matrix<T, n, n>& a) {
   for (int j = 0; j < n; ++j) {
 #pragma GCC unroll 6
     for (int i = j; i < n; ++i) {
-      T sum = i == j ? over_pivot[i] : over_pivot[i] * w(i, j);
+      T sum = i == j ? factor.over_pivot[i] : factor.over_pivot[i] * w(i, j);
 #pragma GCC unroll 6
-      for (int k = i + 1; k < n; ++k) sum += w(k, i) * over_pivot[k] * w(k, j);
+      for (int k = i + 1; k < n; ++k) sum += w(k, i) * factor.over_pivot[k] * w(k, j);
       out(i, j) = sum;
       out(j, i) = sum;
     }

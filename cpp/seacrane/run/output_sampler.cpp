@@ -71,14 +71,22 @@ void OutputSampler::take_residual(Stepper& at) {
   largest_residual_ = std::max(largest_residual_, at.stepped.take_residual_before_projection());
 }
 
-/// Projects state_, writes bodies_, and returns the largest residual before projection since the last output.
+/// Projects state_, and returns the largest residual before projection since the last output.
 double OutputSampler::project(Stepper& at, double t) {
   at.stepped.project(t, state_.data(), false);
-  at.write_bodies(t, state_.data(), bodies_.data());
   return std::max(largest_residual_, at.stepped.take_residual_before_projection());
 }
 
+/// The described system at state_, as far as the channels need it. Where kinematics are enough, bodies_ gets
+/// no poses.
 ConstraintResidual OutputSampler::evaluate(Stepper& at, double t, const Needs& needs) {
+  if (at.stepped.closes_joints() && !(needs.residual || needs.loads || needs.energy || needs.solution)) {
+    at.bodies.place(t, state_.data());
+    const auto memory = bodies_.begin() + model_.layout.memory;
+    std::copy(state_.end() - (bodies_.end() - memory), state_.end(), memory);
+    return {0.0, 0.0};
+  }
+  at.write_bodies(t, state_.data(), bodies_.data());
   if (needs.solution) {
     at.system.derivative(t, bodies_.data(), rate_.data());
     // The tree factors no constraints of its own joints.

@@ -16,6 +16,7 @@ Recording::Recording(const Model& model, const std::set<std::string>& names, std
     for (const std::size_t n : recorded.shape) recorded.size *= n;
     width += recorded.size;
     channels_.push_back(recorded);
+    needs_.residual |= channel->needs.residual;
     needs_.loads |= channel->needs.loads;
     needs_.energy |= channel->needs.energy;
     needs_.solution |= channel->needs.solution;

@@ -18,6 +18,7 @@ SteppedBodies::SteppedBodies(const std::string& formulation, std::shared_ptr<con
   }
   if (full.merged) {
     terms_ = std::make_shared<Terms>(full.merged);
+    terms_->share_wave_knots(described_.terms());
     map_.emplace(full, *full.merged);
     merged_.assign(idx(full.merged->layout.size), 0.0);
     acceleration_.assign(idx(full.body_count()) + 1, Vec6d::Zero());
@@ -52,6 +53,12 @@ void SteppedBodies::write(double t, const double* y, double* bodies) {
   if (!map_) return stepped_->write_bodies(t, y, bodies);
   stepped_->write_bodies(t, y, merged_.data());
   map_->spread(merged_.data(), bodies);
+}
+
+void SteppedBodies::place(double t, const double* y) {
+  stepped_->place_bodies(t, y);
+  if (map_) map_->spread_kinematics(terms_->bodies().data(), described_.terms().kinematics());
+  described_.terms().follow_yaw();
 }
 
 const std::vector<Vec6d>& SteppedBodies::accelerations() {

@@ -34,6 +34,8 @@ class SteppedBodies {
   /// A state of the described bodies to the one that is stepped, and back.
   void read(double t, const double* bodies, double* y);
   void write(double t, const double* y, double* bodies);
+  /// Kinematics of the described bodies at a state that is stepped, in their terms.
+  void place(double t, const double* y);
   /// The state of the bodies that are stepped, merged ones as one; valid until the next call.
   const double* merged(const double* bodies);
   /// Accelerations of the described bodies' state points at the last derivative().

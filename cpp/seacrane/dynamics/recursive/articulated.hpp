@@ -10,19 +10,25 @@ namespace seacrane {
 
 /// Forward dynamics of a tree of clusters by articulated-body inertias [R. Featherstone, Rigid Body Dynamics
 /// Algorithms, 2008, chapter 7], with all quantities in inertial axes about the bodies' state points, and
-/// several bodies that share the speeds of one cluster. Cost linear in the bodies; nothing is allocated after
-/// construction. On any scalar: a dual number differentiates. Scratch of one run.
+/// several bodies that share the speeds of one cluster. Inertias are symmetric in blocks; bodies that carry
+/// nothing stay a mass and a 3 x 3. A joint that holds one direction is eliminated by the force along it.
+/// Cost linear in the bodies; nothing is allocated after construction. On any scalar: a dual number
+/// differentiates. Scratch of one run.
 template <class T>
 class ArticulatedTree {
  public:
   ArticulatedTree(const BodyTree& tree, int bodies)
       : kinematics_(tree, bodies),
         ground_(bodies),
+        leaf_(leaves_of(tree, bodies)),
         at_parent_(idx(tree.speeds), Wrench<T>::zero()),
         inertia_(idx(bodies) + 1, SpatialInertia<T>::zero()),
+        compact_(idx(bodies), {T(0), Symmetric3<T>::zero()}),
         force_(idx(bodies) + 1, Wrench<T>::zero()),
         inverse_(tree.clusters.size(), Mat6<T>::Zero()),
-        torque_(tree.clusters.size(), Vec6<T>::Zero()) {}
+        free_(tree.clusters.size()),
+        torque_(tree.clusters.size(), Vec6<T>::Zero()),
+        held_(tree.clusters.size()) {}
 
   /// See TreeKinematics.
   void place(const T* q, const T* u, BodyKinematics<T>* bodies) { kinematics_.place(q, u, bodies); }
@@ -30,15 +36,17 @@ class ArticulatedTree {
   /// Positions and speeds of given poses and twists; what leaves the joints open is dropped.
   void read(const BodyKinematics<T>* bodies, T* q, T* u) const;
 
-  /// Articulated inertias for the bodies' mass matrices (about state points), at the last place().
+  /// Articulated inertias for the bodies' mass matrices (about state points), at the last place(). Of a
+  /// member that is a leaf only the mass and the inertia are read.
   void factor(const Mat6<T>* mass);
   /// Largest factor by which inertias cancelled in the last factor(mass), like S_ii / d_i in maximal
   /// coordinates, times that of the joints' own inertias: digits that joints between light and heavy bodies
   /// cost. Allocates; for reports.
   T condition(const Mat6<T>* mass) const;
   /// Accelerations of the bodies (ground last) and of the speeds under `load`, wrench less M-independent
-  /// velocity terms. Without `moving` velocities count as zero: the response to an impulse.
-  void solve(const Vec6<T>* load, bool moving, Vec6<T>* acceleration, T* u_rate);
+  /// velocity terms, and `torque` on every speed (null: none; of joints with a direction held, none).
+  /// Without `moving` velocities count as zero: the response to an impulse.
+  void solve(const Vec6<T>* load, bool moving, Vec6<T>* acceleration, T* u_rate, const T* torque = nullptr);
 
  private:
   template <int n>
@@ -46,22 +54,58 @@ class ArticulatedTree {
   template <int n>
   using Mat = Eigen::Matrix<T, n, n>;
 
+  /// What a joint holds of its child: the force h along one direction (`on_child`, `on_parent` per unit of
+  /// it), and the child's acceleration for it alone, I^-1 h.
+  struct Held {
+    Wrench<T> on_child, on_parent;
+    Twist<T> response;
+    T stiffness;  // 1 / (h^T I^-1 h)
+  };
+
+  static std::vector<char> leaves_of(const BodyTree& tree, int bodies);
+
   template <int speeds>
   void factor_cluster(std::size_t i);
   template <int speeds>
-  void gather(std::size_t i, bool moving);
+  void gather(std::size_t i, bool moving, const T* torque);
   template <int speeds>
   void spread(std::size_t i, bool moving, Vec6<T>* acceleration, T* u_rate) const;
+  template <class Branch>
+  void factor_held(std::size_t i);
+  void gather_held(std::size_t i, bool moving);
+  template <class Branch>
+  void spread_held(std::size_t i, bool moving, Vec6<T>* acceleration, T* u_rate) const;
+
+  /// Calls f(inertia) with what a body's articulated inertia is kept as.
+  template <class F>
+  void with_inertia(int body, F&& f) const {
+    if (leaf_[idx(body)]) {
+      f(compact_[idx(body)]);
+    } else {
+      f(inertia_[idx(body)]);
+    }
+  }
+  SpatialInertia<T> inertia(int body) const {
+    SpatialInertia<T> out;
+    with_inertia(body, [&](const auto& kept) { out = kept; });
+    return out;
+  }
+  /// Acceleration of a held child under a wrench alone.
+  Twist<T> response(std::size_t i, const Wrench<T>& wrench) const;
 
   const std::vector<Cluster>& clusters() const { return kinematics_.tree().clusters; }
 
   TreeKinematics<T> kinematics_;
   int ground_;
+  std::vector<char> leaf_;                  // by body: compact, and carries nothing
   std::vector<Wrench<T>> at_parent_;        // sum over the members of X^T I S, per speed
   std::vector<SpatialInertia<T>> inertia_;  // articulated
+  std::vector<CompactInertia<T>> compact_;  // of leaves
   std::vector<Wrench<T>> force_;            // articulated, minus the load
-  std::vector<Mat6<T>> inverse_;            // (S^T I S)^-1 per cluster
-  std::vector<Vec6<T>> torque_;             // -S^T p per cluster
+  std::vector<Mat6<T>> inverse_;            // (S^T I S)^-1 per cluster; of a leaf that is held, of its 3 x 3
+  std::vector<SpdFactor<6, T>> free_;       // of I, of clusters that float or are held
+  std::vector<Vec6<T>> torque_;             // (S^T I S)^-1 (-S^T p) per cluster; of one that is held, I^-1 p
+  std::vector<Held> held_;                  // per cluster
 };
 
 /// Calls f.template operator()<n>() for the number of speeds of a cluster: kMostSpeeds for a body that
@@ -86,6 +130,35 @@ void with_speeds(const Cluster& c, F&& f) {
   }
 }
 
+/// A joint type whose branch tells the one direction that it holds.
+template <class Branch>
+concept HoldsOneDirection = requires {
+  Branch::holds_one_direction;
+};
+
+/// Calls f.template operator()<Branch>() for a cluster whose joint holds one direction; whether it is one.
+template <class F>
+bool with_held(const Cluster& c, F&& f) {
+  if (c.speeds != kMostSpeeds - 1) return false;
+  bool found = false;
+  with_joint_type(c.kind, [&]<class Type>() {
+    if constexpr (HoldsOneDirection<typename Type::Branch>) {
+      f.template operator()<typename Type::Branch>();
+      found = true;
+    }
+  });
+  return found;
+}
+
+template <class T>
+std::vector<char> ArticulatedTree<T>::leaves_of(const BodyTree& tree, int bodies) {
+  std::vector<char> out(idx(bodies), 0);
+  for (const Cluster& c : tree.clusters) {
+    for (const Member& m : c.members) out[idx(m.body)] = m.leaf;
+  }
+  return out;
+}
+
 template <class T>
 void ArticulatedTree<T>::read(const BodyKinematics<T>* bodies, T* q, T* u) const {
   for (const Cluster& c : clusters()) {
@@ -104,9 +177,17 @@ void ArticulatedTree<T>::read(const BodyKinematics<T>* bodies, T* q, T* u) const
 
 template <class T>
 void ArticulatedTree<T>::factor(const Mat6<T>* mass) {
-  for (int b = 0; b < ground_; ++b) inertia_[idx(b)] = mass[b];
+  for (int b = 0; b < ground_; ++b) {
+    if (leaf_[idx(b)]) {
+      compact_[idx(b)] = {mass[b](0, 0), Symmetric3<T>::lower(mass[b].template bottomRightCorner<3, 3>())};
+    } else {
+      inertia_[idx(b)] = mass[b];
+    }
+  }
   for (std::size_t i = clusters().size(); i-- > 0;) {
-    with_speeds(clusters()[i], [&]<int n>() { factor_cluster<n>(i); });
+    const Cluster& c = clusters()[i];
+    if (with_held(c, [&]<class Branch>() { factor_held<Branch>(i); })) continue;
+    with_speeds(c, [&]<int n>() { factor_cluster<n>(i); });
   }
 }
 
@@ -117,25 +198,30 @@ T ArticulatedTree<T>::condition(const Mat6<T>* mass) const {
   for (int b = 0; b < ground_; ++b) gross[idx(b)] = SpatialInertia<T>(mass[b]);
   std::vector<T> pivots(gross.size(), T(1));  // largest of a parent's joints
   T worst = T(1);
-  for (std::size_t i = 0; i < clusters().size(); ++i) {
-    const Cluster& c = clusters()[i];
+  for (const Cluster& c : clusters()) {
     if (c.kind == Cluster::floating) continue;
     T& pivot = pivots[idx(c.parent)];
-    for (int k = 0; k < c.speeds; ++k) {
-      T own = T(0);
+    with_speeds(c, [&]<int n>() {
+      Mat<n> gram = Mat<n>::Zero();
       for (const Member& m : c.members) {
-        const Twist<T>& column = kinematics_.columns(m)[k];
-        own += dot(column, inertia_[idx(m.body)] * column);
+        const SpatialInertia<T> own = inertia(m.body);
+        const Twist<T>* const column = kinematics_.columns(m);
+        for (int k = 0; k < n; ++k) {
+          for (int l = k; l < n; ++l) gram(l, k) += dot(column[l], own * column[k]);
+        }
       }
-      pivot = std::max<T>(pivot, own * inverse_[i](k, k));
-    }
+      if constexpr (n > 0) {
+        const Mat<n> inverse = spd_inverse<n>(gram);
+        for (int k = 0; k < n; ++k) pivot = std::max<T>(pivot, gram(k, k) * inverse(k, k));
+      }
+    });
     worst = std::max(worst, pivot);
     for (const Member& m : c.members) {
-      gross[idx(c.parent)].add_shifted_from(kinematics_.reach(m.body), inertia_[idx(m.body)]);
+      gross[idx(c.parent)].add_shifted_from(kinematics_.reach(m.body), inertia(m.body));
     }
   }
   for (int b = 0; b < ground_; ++b) {
-    const Mat6<T> inverse = spd_inverse(inertia_[idx(b)].matrix());
+    const Mat6<T> inverse = spd_inverse(inertia(b).matrix());
     const T cancelled = gross[idx(b)].matrix().diagonal().cwiseProduct(inverse.diagonal()).maxCoeff();
     worst = std::max<T>(worst, pivots[idx(b)] * cancelled);
   }
@@ -147,27 +233,31 @@ template <int n>
 void ArticulatedTree<T>::factor_cluster(std::size_t i) {
   const Cluster& c = clusters()[i];
   if constexpr (n == 6) {
-    inverse_[i] = spd_inverse(inertia_[idx(c.body)].matrix());
+    free_[i] = SpdFactor<6, T>(inertia(c.body).matrix());
     return;
   }
   Mat<n> gram = Mat<n>::Zero();
-  for (int k = 0; k < n; ++k) at_parent_[idx(c.u + k)] = Wrench<T>::zero();
+  Wrench<T>* const at_parent = at_parent_.data() + c.u;
+  for (int k = 0; k < n; ++k) at_parent[k] = Wrench<T>::zero();
   for (const Member& m : c.members) {
-    const SpatialInertia<T>& inertia = inertia_[idx(m.body)];
     const Twist<T>* const column = kinematics_.columns(m);
-    for (int k = 0; k < n; ++k) {
-      const Wrench<T> weighted = inertia * column[k];
-      for (int l = k; l < n; ++l) gram(l, k) += dot(column[l], weighted);
-      at_parent_[idx(c.u + k)].add_shifted_from(kinematics_.reach(m.body), weighted);
-    }
+    with_inertia(m.body, [&](const auto& inertia) {
+      for (int k = 0; k < n; ++k) {
+        const Wrench<T> weighted = inertia * column[k];
+        for (int l = k; l < n; ++l) gram(l, k) += dot(column[l], weighted);
+        at_parent[k].add_shifted_from(kinematics_.reach(m.body), weighted);
+      }
+    });
   }
   Mat<n> inverse;
   if constexpr (n > 0) inverse = spd_inverse<n>(gram);
   inverse_[i].template topLeftCorner<n, n>() = inverse;
   if (c.parent == ground_) return;
   SpatialInertia<T>& to = inertia_[idx(c.parent)];
-  for (const Member& m : c.members) to.add_shifted_from(kinematics_.reach(m.body), inertia_[idx(m.body)]);
-  const Wrench<T>* const at_parent = at_parent_.data() + c.u;
+  for (const Member& m : c.members) {
+    with_inertia(m.body,
+                 [&](const auto& inertia) { to.add_shifted_from(kinematics_.reach(m.body), inertia); });
+  }
   for (int k = 0; k < n; ++k) {
     Wrench<T> row = inverse(0, k) * at_parent[0];
     for (int l = 1; l < n; ++l) row += inverse(l, k) * at_parent[l];
@@ -175,38 +265,89 @@ void ArticulatedTree<T>::factor_cluster(std::size_t i) {
   }
 }
 
+/// The child yields to its parent in all directions but one: seen from there its inertia is of rank one.
 template <class T>
-void ArticulatedTree<T>::solve(const Vec6<T>* load, bool moving, Vec6<T>* acceleration, T* u_rate) {
-  for (int b = 0; b < ground_; ++b) force_[idx(b)] = Wrench<T>(-load[b]);
+template <class Branch>
+void ArticulatedTree<T>::factor_held(std::size_t i) {
+  const Cluster& c = clusters()[i];
+  if (leaf_[idx(c.body)]) {
+    inverse_[i].template topLeftCorner<3, 3>() = spd_inverse<3>(compact_[idx(c.body)].turning.full());
+  } else {
+    free_[i] = SpdFactor<6, T>(inertia_[idx(c.body)].matrix());
+  }
+  Held& held = held_[i];
+  held.on_child = Branch::template held<T>(c.joint, kinematics_.columns(c.members[0]));
+  held.on_parent = held.on_child.shifted_from(kinematics_.reach(c.body));
+  held.response = response(i, held.on_child);
+  held.stiffness = T(1) / dot(held.response, held.on_child);
+  if (c.parent == ground_) return;
+  inertia_[idx(c.parent)].subtract_outer(held.on_parent, -(held.stiffness * held.on_parent));
+}
+
+template <class T>
+Twist<T> ArticulatedTree<T>::response(std::size_t i, const Wrench<T>& wrench) const {
+  const int body = clusters()[i].body;
+  if (!leaf_[idx(body)]) return Twist<T>(free_[i].solve(wrench.vector()));
+  const Vec3<T> linear = wrench.force() / compact_[idx(body)].mass;
+  const Vec3<T> angular = inverse_[i].template topLeftCorner<3, 3>() * wrench.moment();
+  return {linear, angular};
+}
+
+template <class T>
+void ArticulatedTree<T>::solve(const Vec6<T>* load, bool moving, Vec6<T>* acceleration, T* u_rate,
+                               const T* torque) {
+  for (int b = 0; b < ground_; ++b) force_[idx(b)] = -Wrench<T>(load[b]);
+  force_[idx(ground_)] = Wrench<T>::zero();
   for (std::size_t i = clusters().size(); i-- > 0;) {
-    with_speeds(clusters()[i], [&]<int n>() { gather<n>(i, moving); });
+    const Cluster& c = clusters()[i];
+    if (with_held(c, [&]<class Branch>() { gather_held(i, moving); })) continue;
+    with_speeds(c, [&]<int n>() { gather<n>(i, moving, torque); });
   }
   acceleration[ground_].setZero();
   for (std::size_t i = 0; i < clusters().size(); ++i) {
-    with_speeds(clusters()[i], [&]<int n>() { spread<n>(i, moving, acceleration, u_rate); });
+    const Cluster& c = clusters()[i];
+    if (with_held(c, [&]<class Branch>() { spread_held<Branch>(i, moving, acceleration, u_rate); })) continue;
+    with_speeds(c, [&]<int n>() { spread<n>(i, moving, acceleration, u_rate); });
   }
 }
 
 template <class T>
 template <int n>
-void ArticulatedTree<T>::gather(std::size_t i, bool moving) {
+void ArticulatedTree<T>::gather(std::size_t i, bool moving, const T* torque) {
   const Cluster& c = clusters()[i];
   if constexpr (n == 6) {
-    torque_[i] = -force_[idx(c.body)].vector();
+    Vec6<T> sum = -force_[idx(c.body)].vector();
+    if (torque) sum += Eigen::Map<const Vec6<T>>(torque + c.u);
+    torque_[i] = free_[i].solve(sum);
     return;
   }
-  Vec<n> torque = Vec<n>::Zero();
-  for (const Member& m : c.members) {
-    Wrench<T>& force = force_[idx(m.body)];
-    if (moving) force += inertia_[idx(m.body)] * kinematics_.bias(m.body);
-    const Twist<T>* const column = kinematics_.columns(m);
-    for (int k = 0; k < n; ++k) torque[k] -= dot(column[k], force);
-  }
-  torque_[i].template head<n>() = inverse_[i].template topLeftCorner<n, n>() * torque;
-  if (c.parent == ground_) return;
+  Vec<n> sum = Vec<n>::Zero();
+  if (torque) sum = Eigen::Map<const Vec<n>>(torque + c.u);
   Wrench<T>& to = force_[idx(c.parent)];
-  for (const Member& m : c.members) to.add_shifted_from(kinematics_.reach(m.body), force_[idx(m.body)]);
-  for (int k = 0; k < n; ++k) to += torque_[i][k] * at_parent_[idx(c.u + k)];
+  for (const Member& m : c.members) {
+    Wrench<T> force = force_[idx(m.body)];
+    if (moving) {
+      with_inertia(m.body, [&](const auto& inertia) { force += inertia * kinematics_.bias(m.body); });
+    }
+    const Twist<T>* const column = kinematics_.columns(m);
+    for (int k = 0; k < n; ++k) sum[k] -= dot(column[k], force);
+    to.add_shifted_from(kinematics_.reach(m.body), force);
+  }
+  const Vec<n> rate = inverse_[i].template topLeftCorner<n, n>() * sum;
+  torque_[i].template head<n>() = rate;
+  for (int k = 0; k < n; ++k) to += rate[k] * at_parent_[idx(c.u + k)];
+}
+
+template <class T>
+void ArticulatedTree<T>::gather_held(std::size_t i, bool moving) {
+  const Cluster& c = clusters()[i];
+  const Held& held = held_[i];
+  const Wrench<T>& force = force_[idx(c.body)];
+  const Twist<T> yield = response(i, force);
+  torque_[i] = yield.vector();
+  T along = dot(yield, held.on_child);
+  if (moving) along += dot(kinematics_.bias(c.body), held.on_child);
+  force_[idx(c.parent)] += (held.stiffness * along) * held.on_parent;
 }
 
 template <class T>
@@ -214,9 +355,8 @@ template <int n>
 void ArticulatedTree<T>::spread(std::size_t i, bool moving, Vec6<T>* acceleration, T* u_rate) const {
   const Cluster& c = clusters()[i];
   if constexpr (n == 6) {
-    const Vec6<T> rate = inverse_[i] * torque_[i];
-    acceleration[c.body] = rate;
-    for (int k = 0; k < 6; ++k) u_rate[c.u + k] = rate[k];
+    acceleration[c.body] = torque_[i];
+    for (int k = 0; k < 6; ++k) u_rate[c.u + k] = torque_[i][k];
     return;
   }
   const Twist<T> parent(acceleration[c.parent]);
@@ -231,6 +371,20 @@ void ArticulatedTree<T>::spread(std::size_t i, bool moving, Vec6<T>* acceleratio
     for (int k = 0; k < n; ++k) a += rate[k] * column[k];
     acceleration[m.body] = a.vector();
   }
+}
+
+template <class T>
+template <class Branch>
+void ArticulatedTree<T>::spread_held(std::size_t i, bool moving, Vec6<T>* acceleration, T* u_rate) const {
+  const Cluster& c = clusters()[i];
+  const Held& held = held_[i];
+  Twist<T> carried = Twist<T>(acceleration[c.parent]).shifted_to(kinematics_.reach(c.body));
+  if (moving) carried += kinematics_.bias(c.body);
+  const Twist<T> yield(torque_[i]);
+  const T force = held.stiffness * (dot(carried, held.on_child) + dot(yield, held.on_child));
+  const Twist<T> out = force * held.response - yield;
+  acceleration[c.body] = out.vector();
+  Branch::template speed_rates<T>(c.joint, kinematics_.columns(c.members[0]), out - carried, u_rate + c.u);
 }
 
 extern template class ArticulatedTree<double>;

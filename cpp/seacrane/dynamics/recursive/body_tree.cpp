@@ -23,6 +23,9 @@ struct Edge {
 /// Share of a strut's length within which a point counts as on its line, and the like of directions.
 constexpr double kOnLine = 1e-6;
 
+/// Share of lengths within which a strut counts as slender: what rounding leaves.
+constexpr double kRounding = 1e-13;
+
 /// How well the universal joint holds the strut's spin: zero where the strut lies in the plane of both axes.
 double spin_hold(const Strut& s, const BodyKinematics<double>& base, const BodyKinematics<double>& arm) {
   const Vec3d d = arm.position + arm.rotation * s.arm_point - base.position - base.rotation * s.base_point;
@@ -32,6 +35,31 @@ double spin_hold(const Strut& s, const BodyKinematics<double>& base, const BodyK
   const double lean =
       ((s.universal_at_base ? base : arm).rotation * s.fixed_axis).dot(d) / std::sqrt(squared);
   return 1.0 - tilt * tilt - lean * lean;
+}
+
+/// Whether the strut turns about the hinge's axis alone, see Strut.
+bool is_slender(const Strut& s, const TreeJoint& hinge) {
+  const Vec3d base = s.base_point - hinge.parent_point, arm = s.arm_point - hinge.child_point;
+  const Vec3d on_parent = hinge.parent_axes.col(2), on_child = hinge.child_axes.col(2);
+  const Vec3d& axis = s.universal_at_base ? on_parent : on_child;
+  const double length = std::max(base.norm(), arm.norm());
+  return std::abs(base.dot(on_parent) - arm.dot(on_child)) <= kRounding * length &&
+         s.offset.head<2>().norm() <= kRounding * length && std::abs(s.strut_axis[2]) <= kRounding &&
+         s.fixed_axis.cross(axis).norm() <= kRounding;
+}
+
+/// Turns the frame of a slender strut to its line and the hinge's axis.
+void make_slender(Strut& s, const TreeJoint& hinge) {
+  const Vec3d& axis = s.universal_at_base ? hinge.parent_axes.col(2) : hinge.child_axes.col(2);
+  const Vec3d line(0.0, 0.0, s.extension_sign);
+  Mat3d frame;
+  frame.col(0) = line;
+  frame.col(2) = -s.side * s.fixed_axis.dot(axis) * line.cross(s.strut_axis).normalized();
+  frame.col(1) = frame.col(2).cross(line);
+  frame.col(2) = line.cross(frame.col(1)).normalized();
+  s.lower_axes *= frame;
+  s.upper_axes *= frame;
+  s.slender = true;
 }
 
 template <class Type>
@@ -60,6 +88,7 @@ class TreeBuilder {
     while (!span()) {
     }
     number();
+    find_leaves();
     return std::move(tree_);
   }
 
@@ -254,7 +283,10 @@ class TreeBuilder {
   }
 
   void add_strut(const Pattern& p, Cluster& cluster) {
-    const Strut s = make_strut(p, cluster.parent, cluster.body);
+    Strut s = make_strut(p, cluster.parent, cluster.body);
+    s.element = edges_[p.slide].joint.element;
+    s.slides_up = edges_[p.slide].joint.first == s.lower;
+    if (is_slender(s, cluster.joint)) make_slender(s, cluster.joint);
     tree_.struts.push_back(s);
     ++cluster.struts;
     cluster.members.push_back({s.lower, 0});
@@ -293,6 +325,14 @@ class TreeBuilder {
       if (model_.elements[e].rows == 0 || branches.count(element)) continue;
       tree_.loops.push_back(element);
       tree_.loop_rows += model_.elements[e].rows;
+    }
+  }
+
+  void find_leaves() {
+    std::set<int> parents;
+    for (const Cluster& c : tree_.clusters) parents.insert(c.parent);
+    for (Cluster& c : tree_.clusters) {
+      for (Member& m : c.members) m.leaf = model_.bodies[idx(m.body)].vessel < 0 && !parents.count(m.body);
     }
   }
 

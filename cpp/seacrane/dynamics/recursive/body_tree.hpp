@@ -12,7 +12,8 @@ namespace seacrane {
 /// A body moved by a cluster's own speeds.
 struct Member {
   int body = -1;
-  int column = 0;  // first of its columns, one per speed
+  int column = 0;     // first of its columns, one per speed
+  bool leaf = false;  // compact, and carries no cluster: a mass and an inertia about its centre of mass
 };
 
 /// Bodies that move together over one parent: one body of a tree joint, with the struts across a hinge, or

@@ -31,18 +31,6 @@ Vec3d turning_of(const Vec4d& q, const Vec4d& rate) {
   return 2.0 / q.squaredNorm() * (q[0] * v_rate - rate[0] * v - v_rate.cross(v));
 }
 
-/// Inertia about the state point, the part of a mass matrix that turns with the body, and velocity terms b,
-/// eq (5).
-inline Vec6d compact_terms(const BodyModel& body, const BodyKinematics<double>& k, Mat6d& mass) {
-  const Mat3d turned = k.rotation * body.inertia;
-  Mat3d inertia;
-  inertia.noalias() = turned * k.rotation.transpose();
-  mass.bottomRightCorner<3, 3>() = inertia;
-  Vec6d bias;
-  bias << Vec3d::Zero(), k.angular_velocity.cross(inertia * k.angular_velocity);
-  return bias;
-}
-
 }  // namespace
 
 RecursiveSystem::RecursiveSystem(std::shared_ptr<Terms> terms)
@@ -52,6 +40,8 @@ RecursiveSystem::RecursiveSystem(std::shared_ptr<Terms> terms)
       articulated_(tree_, model_.body_count()),
       loops_(model_, tree_),
       tensions_(model_),
+      actuators_(model_, tree_),
+      torque_(idx(tree_.speeds), 0.0),
       residual_(VecXd::Zero(loops_.rows())),
       loop_bias_(VecXd::Zero(loops_.rows())) {
   if (model_.paper_kinematics) {
@@ -67,6 +57,7 @@ RecursiveSystem::RecursiveSystem(std::shared_ptr<Terms> terms)
   const auto bodies = idx(model_.body_count());
   mass_.assign(bodies, Mat6d::Zero());
   for (std::size_t b = 0; b < bodies; ++b) mass_[b].diagonal().head<3>().setConstant(model_.bodies[b].mass);
+  for (const BodyModel& body : model_.bodies) turning_.emplace_back(body.inertia);
   for (auto* vectors : {&bias_, &load_, &acceleration_, &twist_}) vectors->assign(bodies + 1, Vec6d::Zero());
   scratch_.assign(bodies + 1, BodyKinematics<double>::ground());
   blocks_.resize(model_.elements.size());
@@ -93,10 +84,22 @@ void RecursiveSystem::evaluate_inertia() {
   for (int b = 0; b < model_.body_count(); ++b) {
     const BodyModel& body = model_.bodies[idx(b)];
     const BodyKinematics<double>& k = terms_->bodies()[idx(b)];
-    bias_[idx(b)] = body.vessel < 0 ? compact_terms(body, k, mass_[idx(b)])
-                                    : vessel_terms(body, model_.vessels[idx(body.vessel)], k,
-                                                   terms_->frames()[idx(body.vessel)], mass_[idx(b)]);
+    if (body.vessel < 0) {
+      evaluate_compact(b);
+    } else {
+      bias_[idx(b)] = vessel_terms(body, model_.vessels[idx(body.vessel)], k,
+                                   terms_->frames()[idx(body.vessel)], mass_[idx(b)]);
+    }
   }
+}
+
+/// Inertia about the state point, the part of a mass matrix that turns with the body, and the velocity terms
+/// b of moments, eq (5).
+void RecursiveSystem::evaluate_compact(int body) {
+  const BodyKinematics<double>& k = terms_->bodies()[idx(body)];
+  const Symmetric3<double> inertia = turning_[idx(body)].at<double>(k.rotation);
+  inertia.write(mass_[idx(body)].bottomRightCorner<3, 3>());
+  bias_[idx(body)].tail<3>() = cross<double>(k.angular_velocity, inertia * k.angular_velocity);
 }
 
 void RecursiveSystem::factor(double t) {
@@ -107,11 +110,13 @@ void RecursiveSystem::factor(double t) {
   loops_.factor(blocks_.data(), mass_.data(), terms_->bodies().data(), articulated_);
 }
 
-void RecursiveSystem::derivative(double t, const double* y, double* ydot) {
+void RecursiveSystem::derivative(double t, const double* y, double* ydot) { evaluate(t, y, ydot, true); }
+
+void RecursiveSystem::evaluate(double t, const double* y, double* ydot, bool actuators_on_tree) {
   place(y);
   terms_->follow_yaw();
   factor(t);
-  terms_->evaluate_wrenches(t, y + layout_.memory, ydot + layout_.memory);
+  evaluate_wrenches(t, y, ydot, actuators_on_tree);
   solve_acceleration(ydot + layout_.speeds);
   if (tensions_.any()) add_inertial_tensions(t, y + layout_.memory, ydot + layout_.speeds);
   if (loops_.rows() > 0) loops_.add_driver_power(blocks_.data(), loops_.multipliers(), *terms_);
@@ -120,14 +125,33 @@ void RecursiveSystem::derivative(double t, const double* y, double* ydot) {
   ydot[layout_.work + 1] = terms_->power().absolute;
 }
 
-/// Under the wrenches of the terms.
+/// And the actuators' torques: on the speeds, or all of them as wrenches on the bodies, which the Jacobian
+/// needs.
+void RecursiveSystem::evaluate_wrenches(double t, const double* y, double* ydot, bool actuators_on_tree) {
+  const double* const memory = y + layout_.memory;
+  std::ranges::fill(torque_, 0.0);
+  if (!actuators_on_tree) return terms_->evaluate_wrenches(t, memory, ydot + layout_.memory);
+  terms_->evaluate_wrenches(t, memory, ydot + layout_.memory, actuators_.others());
+  LoadSum<double> sum{nullptr};
+  actuators_.apply<double>(terms_->load_input(t, memory), articulated_.kinematics(), y, y + layout_.speeds,
+                           torque_.data(), sum);
+  terms_->add_power({sum.power, sum.absolute_power});
+}
+
+/// Under the wrenches of the terms and the torques of the actuators.
 void RecursiveSystem::solve_acceleration(double* u_rate) {
-  for (int b = 0; b < model_.body_count(); ++b) load_[idx(b)] = terms_->wrench(b) - bias_[idx(b)];
-  articulated_.solve(load_.data(), true, acceleration_.data(), u_rate);
+  for (int b = 0; b < model_.body_count(); ++b) {
+    const BodyLoad<double>& applied = terms_->applied(b);
+    for (int i = 0; i < 3; ++i) {
+      load_[idx(b)][i] = applied.force[i] - bias_[idx(b)][i];
+      load_[idx(b)][3 + i] = applied.moment[i] - bias_[idx(b)][3 + i];
+    }
+  }
+  articulated_.solve(load_.data(), true, acceleration_.data(), u_rate, torque_.data());
   if (loops_.rows() == 0) return;
   loops_.acceleration_residual(blocks_.data(), acceleration_.data(), residual_);
   loops_.add_load(blocks_.data(), loops_.solve(residual_), load_.data());
-  articulated_.solve(load_.data(), true, acceleration_.data(), u_rate);
+  articulated_.solve(load_.data(), true, acceleration_.data(), u_rate, torque_.data());
 }
 
 void RecursiveSystem::add_inertial_tensions(double t, const double* memory, double* u_rate) {
@@ -151,7 +175,7 @@ bool RecursiveSystem::jacobian(double t, const double* y, double* out) {
     jacobian_.emplace(model_, tree_);
     jacobian_rate_.resize(size());
   }
-  derivative(t, y, jacobian_rate_.data());
+  evaluate(t, y, jacobian_rate_.data(), false);
   if (!loops_.regular()) return false;
   jacobian_->evaluate({*terms_, articulated_, loops_, tensions_, mass_.data(), load_.data(),
                        acceleration_.data(), blocks_.data()},

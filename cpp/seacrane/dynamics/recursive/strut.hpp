@@ -12,7 +12,9 @@ namespace seacrane {
 /// A telescopic strut between the two bodies of a hinge: lower and upper part on one slide, a universal
 /// joint at one end and a spherical joint at the other. The hinge angle gives its motion in closed form (a
 /// triangle of the two ends and the hinge), so the loop needs no constraint. End points `lower`, `upper`;
-/// the strut's frame is that of its slide.
+/// the strut's frame is that of its slide. A slender strut has its ends on one line, which swings in a plane
+/// across the hinge's axis, and a universal joint fixed along that axis: it turns about the axis alone, and
+/// the x axis of its frame lies along the line, its z axis along the hinge's.
 struct Strut {
   int lower = -1, upper = -1;    // bodies; the lower one is held by the hinge's parent
   Vec3d base_point, arm_point;   // ends, on the hinge's parent and child, from their state points
@@ -23,6 +25,9 @@ struct Strut {
   Vec3d fixed_axis;                         // of the universal joint, in the hinge's parent or child
   Vec3d strut_axis;                         // of the universal joint, in the strut frame
   double extension_sign = 1.0, side = 1.0;  // branches of the triangle
+  bool slender = false;
+  int element = -1;       // the slide
+  bool slides_up = true;  // its first body is the lower one
   std::string name;
 };
 
@@ -32,6 +37,7 @@ struct StrutMotionOf {
   Mat3<T> rotation;                 // strut frame to inertial
   Vec3<T> end, end_rate, end_bend;  // upper end from the parent's state point; derivatives in the hinge angle
   Vec3<T> turn, turn_bend;          // angular velocity per unit rate, and its derivative in the hinge angle
+  T stroke, stroke_rate;            // of the slide; derivative in the hinge angle
 };
 using StrutMotion = StrutMotionOf<double>;
 
@@ -90,6 +96,8 @@ StrutMotionOf<T> move_strut(const Strut& s, const Mat3<T>& base, const Mat3<T>& 
     return Vec3<T>(across_part - (remainder + across_part.dot(c)) / gauge * u);
   };
   const T stroke = out.end_rate.dot(d) / projected;
+  out.stroke = along - T(s.offset[2]);
+  out.stroke_rate = stroke;
   out.turn = turn_of(out.end_rate - stroke * z, b.dot(a_rate));
   const Vec3<T> z_rate = cross<T>(out.turn, z), b_rate = cross<T>(out.turn, b);
   const Vec3<T> force = out.end_bend - cross<T>(out.turn, out.end_rate) - stroke * z_rate;
@@ -97,6 +105,27 @@ StrutMotionOf<T> move_strut(const Strut& s, const Mat3<T>& base, const Mat3<T>& 
   const Vec3<T> c_rate = cross<T>(b_rate, a) + cross<T>(b, a_rate);
   const Vec3<T> a_bend = s.universal_at_base ? Vec3<T>::Zero() : Vec3<T>(cross<T>(axis, a_rate));
   out.turn_bend = turn_of(force - bend * z, out.turn.dot(c_rate) + b_rate.dot(a_rate) + b.dot(a_bend));
+  return out;
+}
+
+/// The same of a slender strut; `lower`: parent's state point to the lower end.
+template <class T>
+StrutMotionOf<T> move_slender_strut(const Strut& s, const Vec3<T>& lower, const Vec3<T>& hinge_lever,
+                                    const Vec3<T>& axis, const Vec3<T>& arm) {
+  using std::sqrt;
+  StrutMotionOf<T> out;
+  out.end = hinge_lever + arm;
+  out.end_rate = cross<T>(axis, arm);
+  out.end_bend = cross<T>(axis, out.end_rate);
+  const Vec3<T> d = out.end - lower;
+  const T length = sqrt(d.dot(d)), over_length = T(1) / length;
+  const Vec3<T> along = over_length * d, across = cross<T>(axis, along);
+  const T stretch = along.dot(out.end_rate), turn = over_length * across.dot(out.end_rate);
+  out.turn = turn * axis;
+  out.turn_bend = (over_length * (across.dot(out.end_bend) - T(2) * turn * stretch)) * axis;
+  out.rotation << along, across, axis;
+  out.stroke = T(s.extension_sign) * length - T(s.offset[2]);
+  out.stroke_rate = T(s.extension_sign) * stretch;
   return out;
 }
 

@@ -18,7 +18,8 @@ class TreeKinematics {
       : tree_(tree),
         column_(idx(tree.columns), Twist<T>::zero()),
         reach_(idx(bodies), Vec3<T>::Zero()),
-        bias_(idx(bodies), Twist<T>::zero()) {}
+        bias_(idx(bodies), Twist<T>::zero()),
+        stroke_(tree.struts.size()) {}
 
   /// Poses and twists of all bodies from positions q and speeds u; `bodies` ends with the ground.
   void place(const T* q, const T* u, BodyKinematics<T>* bodies) {
@@ -52,6 +53,11 @@ class TreeKinematics {
   /// From the parent's state point to the body's, at the last place().
   const Vec3<T>& reach(int body) const { return reach_[idx(body)]; }
   const Twist<T>& bias(int body) const { return bias_[idx(body)]; }
+  /// Of a strut, and its derivative in the hinge angle, at the last place().
+  struct Stroke {
+    T value, slope;
+  };
+  const Stroke& stroke(int strut) const { return stroke_[idx(strut)]; }
 
  private:
   void place_floating(const Cluster& c, const T* q, const T* u, BodyKinematics<T>& k) {
@@ -67,7 +73,8 @@ class TreeKinematics {
     BranchMotionOf<T> motion;
     with_joint_type(c.kind, [&]<class Type>() {
       Type::Branch::move(c.joint, parent, q, u, motion);
-      const Vec3<T> lever = motion.rotation * -c.joint.child_point.template cast<T>();
+      const Vec3d inwards = -c.joint.child_point;
+      const Vec3<T> lever = times<T>(motion.rotation, inwards);
       place_member<Type::Branch::speeds>(c.members[0], parent, motion, lever, u, bodies[c.body]);
     });
     if (c.struts > 0) place_struts(c, motion, u[0], bodies);
@@ -80,22 +87,26 @@ class TreeKinematics {
     for (int i = 0; i < c.struts; ++i) {
       const Strut& s = tree_.struts[idx(c.first_strut + i)];
       const Vec3d on_arm = s.arm_point - c.joint.child_point;
-      const Vec3<T> arm = hinge.rotation * on_arm.cast<T>();
+      const Vec3<T> arm = times<T>(hinge.rotation, on_arm);
+      const Vec3<T> lower = times<T>(parent.rotation, s.base_point);
       const StrutMotionOf<T> m =
-          move_strut<T>(s, parent.rotation, hinge.rotation, hinge.reach, hinge.turn[0], arm);
+          s.slender ? move_slender_strut<T>(s, lower, hinge.reach, hinge.turn[0], arm)
+                    : move_strut<T>(s, parent.rotation, hinge.rotation, hinge.reach, hinge.turn[0], arm);
+      stroke_[idx(c.first_strut + i)] = {m.stroke, m.stroke_rate};
       BranchMotionOf<T> part;
       part.turn[0] = m.turn;
       part.turn_bias = rate * rate * m.turn_bend;
-      part.rotation = m.rotation * s.lower_axes.transpose().cast<T>();
-      part.reach = parent.rotation * s.base_point.cast<T>();
+      part.rotation = times_transpose<T>(m.rotation, s.lower_axes);
+      part.reach = lower;
       part.slide[0] = Vec3<T>::Zero();
-      const Vec3<T> lower_lever = part.rotation * -s.lower_end.cast<T>();
+      const Vec3d to_lower = -s.lower_end, to_upper = -s.upper_end;
+      const Vec3<T> lower_lever = times<T>(part.rotation, to_lower);
       place_member<1>(c.members[idx(1 + 2 * i)], parent, part, lower_lever, &rate, bodies[s.lower]);
-      part.rotation = m.rotation * s.upper_axes.transpose().cast<T>();
+      part.rotation = times_transpose<T>(m.rotation, s.upper_axes);
       part.reach = m.end;
       part.slide[0] = m.end_rate;
       part.slide_bias = rate * rate * m.end_bend;
-      const Vec3<T> upper_lever = part.rotation * -s.upper_end.cast<T>();
+      const Vec3<T> upper_lever = times<T>(part.rotation, to_upper);
       place_member<1>(c.members[idx(2 + 2 * i)], parent, part, upper_lever, &rate, bodies[s.upper]);
     }
   }
@@ -133,6 +144,7 @@ class TreeKinematics {
   std::vector<Twist<T>> column_;  // by Member::column
   std::vector<Vec3<T>> reach_;
   std::vector<Twist<T>> bias_;
+  std::vector<Stroke> stroke_;
 };
 
 }  // namespace seacrane

@@ -57,6 +57,28 @@ struct Distance : JointDefaults {
       branch::turn<T>(q, parent.angular_velocity + u[0] * link.col(0) + u[1] * link.col(1), q_rate);
       branch::turn<T>(q + 4, parent.angular_velocity + branch::vector(u + 2), q_rate + 4);
     }
+
+    // The link holds the distance alone. Its columns, by place(): two slides across it by its length, three
+    // turns of the child about the joint point.
+    static constexpr bool holds_one_direction = true;
+
+    /// Wrench about the child's state point per unit of the link's force, away from the parent.
+    template <class T>
+    static Wrench<T> held(const TreeJoint& j, const Twist<T>* column) {
+      const double length = parameters_of<Parameters>(j.parameters).length;
+      const Vec3<T> y = column[0].linear(), x = column[1].linear();
+      const Vec3<T> along = T(1.0 / (length * length)) * cross<T>(y, x);
+      return {along, cross<T>(along, lever(column))};
+    }
+    /// Rates of the speeds for the child's acceleration beyond what its parent carries it with.
+    template <class T>
+    static void speed_rates(const TreeJoint& j, const Twist<T>* column, const Twist<T>& own, T* u_rate) {
+      const double length = parameters_of<Parameters>(j.parameters).length;
+      const Vec3<T> turning = own.angular();
+      const Vec3<T> slide = T(1.0 / (length * length)) * (own.linear() - cross<T>(turning, lever(column)));
+      for (int k = 0; k < 2; ++k) u_rate[k] = column[k].linear().dot(slide);
+      for (int k = 0; k < 3; ++k) u_rate[2 + k] = turning[k];
+    }
     static void read(const TreeJoint& j, const BodyKinematics<double>& parent,
                      const BodyKinematics<double>& child, double* q, double* u) {
       const branch::Gap gap(j, parent, child);
@@ -72,6 +94,13 @@ struct Distance : JointDefaults {
       u[0] = -link.col(1).dot(gap.rate) / length;
       u[1] = link.col(0).dot(gap.rate) / length;
       view<3>(u + 2) = gap.turning;
+    }
+
+   private:
+    /// From the child's joint point to its state point.
+    template <class T>
+    static Vec3<T> lever(const Twist<T>* column) {
+      return {-column[3].linear()[2], column[2].linear()[2], column[3].linear()[0]};
     }
   };
 };

@@ -33,7 +33,7 @@ struct Prismatic : JointDefaults {
     static void move(const TreeJoint& j, const BodyKinematics<T>& parent, const T* q, const T* /*u*/,
                      BranchMotionOf<T>& out) {
       const Mat3<T> a = branch::parent_axes(j, parent);
-      out.rotation = a * j.child_axes.transpose().cast<T>();
+      out.rotation = times_transpose<T>(a, j.child_axes);
       out.reach = branch::parent_lever(j, parent) + q[0] * a.col(2);
       out.slide[0] = a.col(2);
       out.turn[0] = Vec3<T>::Zero();

@@ -30,7 +30,7 @@ struct Revolute : JointDefaults {
     static void move(const TreeJoint& j, const BodyKinematics<T>& parent, const T* q, const T* /*u*/,
                      BranchMotionOf<T>& out) {
       const Mat3<T> a = branch::parent_axes(j, parent);
-      out.rotation = branch::turn_about_z<T>(a, q[0]) * j.child_axes.transpose().cast<T>();
+      out.rotation = times_transpose<T>(branch::turn_about_z<T>(a, q[0]), j.child_axes);
       out.reach = branch::parent_lever(j, parent);
       out.slide[0] = Vec3<T>::Zero();
       out.turn[0] = a.col(2);

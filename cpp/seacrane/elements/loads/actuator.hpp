@@ -76,16 +76,21 @@ struct Actuator {
     wrenches[b] += row.db;
   }
 
+  /// Along the coordinate, at its value and rate.
   template <class T>
-  T force(const LoadInput<T>& in, const CoordinateRow<T>& row) const {
-    const auto& ka = in.bodies[coordinate.joint.first];
-    const auto& kb = in.bodies[coordinate.joint.second];
+  T force(const LoadInput<T>& in, const T& value, const T& rate) const {
     const CurveValue ref = reference.at(in.time, in.curve_limit);
-    const T error = T(ref.value + in.slots[slot + 1]) + follows.stroke(in) - row.value;
+    const T error = T(ref.value + in.slots[slot + 1]) + follows.stroke(in) - value;
     const T wrapped = is_angular(coordinate.kind) ? wrap_angle<T>(error) : error;
     return T(feed_forward.at(in.time, in.curve_limit).value + in.slots[slot]) + T(stiffness) * wrapped +
-           T(damping) *
-               (T(ref.rate + in.slots[slot + 2]) + follows.rate(in) - coordinate_rate<T>(row, ka, kb));
+           T(damping) * (T(ref.rate + in.slots[slot + 2]) + follows.rate(in) - rate);
+  }
+
+  template <class T>
+  T force(const LoadInput<T>& in) const {
+    const BodyKinematics<T>&a = in.bodies[coordinate.joint.first], &b = in.bodies[coordinate.joint.second];
+    const CoordinateRow<T> row = evaluate_coordinate<T>(coordinate, a, b);
+    return force(in, row.value, coordinate_rate<T>(row, a, b));
   }
 
   std::array<int, 3> bodies() const {
@@ -98,12 +103,13 @@ struct Actuator {
   void apply(const LoadInput<T>& in, LoadSum<T>& out) const {
     const int a = coordinate.joint.first, b = coordinate.joint.second;
     const CoordinateRow<T> row = evaluate_coordinate<T>(coordinate, in.bodies[a], in.bodies[b]);
-    const T f = force(in, row);
+    const T rate = coordinate_rate<T>(row, in.bodies[a], in.bodies[b]);
+    const T f = force(in, row.value, rate);
     out.wrench[a].force += row.da.template head<3>() * f;
     out.wrench[a].moment += row.da.template tail<3>() * f;
     out.wrench[b].force += row.db.template head<3>() * f;
     out.wrench[b].moment += row.db.template tail<3>() * f;
-    out.add_power(f * coordinate_rate<T>(row, in.bodies[a], in.bodies[b]));
+    out.add_power(f * rate);
   }
 };
 

@@ -12,8 +12,13 @@ struct Gravity {
 
   template <class T>
   void apply(const LoadInput<T>& in, LoadSum<T>& out) const {
+    const Vec3<T> force(T(0), T(0), T(-weight));
+    if (center_of_mass.isZero(0.0)) {
+      out.wrench[body].force += force;
+      return;
+    }
     const Vec3<T> lever = in.bodies[body].rotation * center_of_mass.cast<T>();
-    out.wrench[body].add(Vec3<T>(T(0), T(0), T(-weight)), lever);
+    out.wrench[body].add(force, lever);
   }
 
   double potential(const LoadInput<double>& in) const {

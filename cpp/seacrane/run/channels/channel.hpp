@@ -25,8 +25,9 @@ struct Axis {
 
 std::vector<std::string> labels_of(const Axis& axis, const Model& model);
 
-/// What a channel needs at an output, beside the kinematics and the rows of the constraints.
+/// What a channel needs at an output, beside the kinematics.
 struct Needs {
+  bool residual = false;  // of the constraints, beyond that they are closed
   bool loads = false;
   bool energy = false;
   bool solution = false;  // accelerations and multipliers

@@ -19,13 +19,8 @@ void write_coordinate_rate(const Output& o, double* out) {
 }
 
 void write_actuator_force(const Output& o, double* out) {
-  const auto& bodies = o.terms.bodies();
   const LoadInput<double> input = o.terms.load_input(o.time, o.state + o.terms.model().layout.memory);
-  for (const Actuator& a : o.system.model().actuators()) {
-    const JointData& j = a.coordinate.joint;
-    *out++ = a.force<double>(
-        input, evaluate_coordinate<double>(a.coordinate, bodies[idx(j.first)], bodies[idx(j.second)]));
-  }
+  for (const Actuator& a : o.system.model().actuators()) *out++ = a.force<double>(input);
 }
 
 /// Of the drivers described: stops that hold are drivers of the compiled model too.
