@@ -9,8 +9,8 @@ import numpy as np
 import numpy.typing as npt
 
 from seacrane import _core
-from seacrane.crane.add_hydraulics import CYLINDERS, Hydraulics, add_hydraulics, hydraulics_of
-from seacrane.crane.builder import FOOT, KnuckleBoomCrane, Vector
+from seacrane.crane.add_hydraulics import Hydraulics, add_hydraulics, hydraulics_of
+from seacrane.crane.builder import CYLINDERS, FOOT, KnuckleBoomCrane, Vector
 from seacrane.crane.jointed import JointedCrane
 from seacrane.crane.jointed_data import MeshData, RopeData
 from seacrane.crane.parts import CraneParts

@@ -81,7 +81,7 @@ class LinearControl:
         for word in self._words:
             if word not in WORDS or word == "seed":
                 raise SceneError(f"control: {word!r} is no word of the sea beside its seed")
-        require_same_sea(scene, database)
+        require_same_sea(scene, database, ("seed", *self._words))
         assert scene.waves is not None
         self._scene, self._databases = scene.copy(), database
         linear = linear_model(scene, state=state, vessel=next(iter(scene.waves.hulls)))

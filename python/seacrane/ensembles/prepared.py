@@ -29,8 +29,8 @@ class Prepared:
         """Of the member with these values, at its start. Raises what describing or compiling it raises."""
         study = self._study
         sea, others = study.parts(values)
-        alone = not sea or study.start is not None or not isinstance(study.source, Scene)
-        if alone or given_vessels(study.source):
+        source = study.source
+        if not sea or study.start is not None or not isinstance(source, Scene) or given_vessels(source):
             return self._begun(study.scene(values))
         first = self._first(others)
         waves = study.in_sea(first.scene, sea).waves

@@ -202,7 +202,7 @@ class _Still:
     def of(cls, scene: Any, databases: Databases, criteria: tuple[Criterion, ...], time: float) -> _Still:
         if not isinstance(scene, Scene):
             raise SceneError(f"scene is {shown(scene)}; give a Scene")
-        require_same_sea(scene, databases)
+        require_same_sea(scene, databases, ("hs", "tp", "direction_deg"))
         state = equilibrium(scene, time=time)
         calm = held(scene, time=time)
         run = Run(calm, state.time, start=state, channels=[one.channel for one in criteria])
