@@ -302,6 +302,7 @@ BUILT = {
     ),
     "control of nothing": (ARM[: ARM.index("[command]")], "[control]", "has no [[command]] to control"),
     "a speed of the shipped hull": (HEAD + VESSEL + "speed_m_per_s = 3\n", "speed_m_per_s", "zero speed"),
+    "a depth of the shipped hull": (HEAD + VESSEL + "depth_m = 30\n", "depth_m", "of deep water"),
     "a payload of nothing": (
         HEAD + '[crane]\nbase = "ground"\n[crane.payload]\nlink_length_m = 5\nmass_kg = 0\n', "mass_kg",
         "payload: mass is 0.0",
