@@ -128,9 +128,11 @@ def test_a_band_asked_for_is_taken_without_a_word(uncounted: Path) -> None:
         warnings.simplefilter("error", RoughDataWarning)
         found = load_database(uncounted, trusted_band=(0.2, 1.9))
     assert found.trusted_band == (0.2, 1.9)
-    with pytest.raises(ValueError, match=r"trusted_band \(7, 8\) rad/s holds no frequency; it has 0.0383"):
+    with pytest.raises(
+        ValueError, match=r"band 7 to 8 rad/s holds no frequency; .*trusted_band within 0\.0383"
+    ):
         load_database(uncounted, trusted_band=(7.0, 8.0))
-    with pytest.raises(ValueError, match=r"trusted_band \(1\.9, 0\.2\)"):
+    with pytest.raises(ValueError, match=r"band 1\.9 to 0\.2 rad/s holds no"):
         load_database(uncounted, trusted_band=(1.9, 0.2))
 
 

@@ -84,8 +84,8 @@ def _trusted(database: HydroDatabase, band: tuple[float, float]) -> HydroDatabas
     low, high = (float(value) for value in band)
     if not np.any((database.omega >= low) & (database.omega <= high)):
         raise ValueError(
-            f"database {database.name!r}: trusted_band ({low:.4g}, {high:.4g}) rad/s holds no frequency; it "
-            f"has {database.omega[0]:.4g} to {database.omega[-1]:.4g} rad/s"
+            f"database {database.name!r}: the band {low:.4g} to {high:.4g} rad/s holds no frequency; give a "
+            f"trusted_band within {database.omega[0]:.4g} to {database.omega[-1]:.4g} rad/s"
         )
     return replace(database, trusted_band=(low, high), memory=None)
 
