@@ -35,6 +35,7 @@ from compared import (  # noqa: E402
     orders,
     real_ships,
     reeving,
+    roll_and_mooring,
     sea,
 )
 from compared.row import HEAD, Row  # noqa: E402
@@ -59,6 +60,8 @@ COMPARISONS = (
     hull.hydrostatics,
     hull.sections,
     files.database,
+    roll_and_mooring.roll_damping,
+    roll_and_mooring.moorings,
     files.wires,
     events.bouncing_ball,
     reeving.closed_forms,
@@ -83,7 +86,8 @@ def rows() -> Iterable[tuple[str, ...]]:
             yield checked(row).cells
     shared = os.environ.get("SEACRANE_SHARED")
     if shared:
-        yield from (checked(row).cells for row in real_ships.closures(Path(shared)))
+        for of_ships in (real_ships.closures, roll_and_mooring.far_fields):
+            yield from (checked(row).cells for row in of_ships(Path(shared)))
         return
     old = files.records(RESULTS / "validation.csv")
     names = tuple(real_ships.FILES)

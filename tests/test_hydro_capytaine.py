@@ -11,8 +11,9 @@ import numpy as np
 import pytest
 import xarray
 
+from seacrane import Scene
 from seacrane.cli import main
-from seacrane.errors import FileFormatError
+from seacrane.errors import FileFormatError, SceneError
 from seacrane.hydro import (
     HydroDatabase,
     MissingMotionsWarning,
@@ -22,6 +23,7 @@ from seacrane.hydro import (
     shipped_database,
 )
 from seacrane.hydro.data.relations import damping_from_forces
+from seacrane.sea import SeaState, WaveSystem, jonswap
 from seacrane.sea.dispersion import wavenumber
 
 ORDER = [4, 1, 5, 0, 3, 2]  # Capytaine's users may name their degrees of freedom in any order
@@ -148,8 +150,8 @@ def test_finite_depth_wavenumber(tmp_path: Path) -> None:
     assert shipped_database().g * k * np.tanh(20.0 * k) == pytest.approx(omega[0] ** 2, rel=1e-9)
 
 
-def test_one_of_several_depths(tmp_path: Path) -> None:
-    """Added mass of each is its own; the file asks which."""
+def two_depths() -> xarray.Dataset:
+    """20 m, with half as much added mass again, and deep water."""
     deep = layout()
     shallow = deep.assign_coords(water_depth=20.0)
     shallow["added_mass"] = 1.5 * deep["added_mass"]
@@ -158,7 +160,13 @@ def test_one_of_several_depths(tmp_path: Path) -> None:
     )
     for name in ("inertia_matrix", "hydrostatic_stiffness"):
         both[name] = deep[name]
-    with pytest.raises(FileFormatError, match=r"holds water depths 20, inf m; choose one by read_capytaine"):
+    return both
+
+
+def test_one_of_several_depths(tmp_path: Path) -> None:
+    """Added mass of each is its own; the file asks which."""
+    both = two_depths()
+    with pytest.raises(FileFormatError, match=r"holds water depths 20, inf m; choose one by load_database"):
         read(both, tmp_path)
     with pytest.raises(FileFormatError, match="holds water depths 20, inf m, not 30 m"):
         read(both, tmp_path, depth=30.0)
@@ -166,7 +174,32 @@ def test_one_of_several_depths(tmp_path: Path) -> None:
     assert read(both, tmp_path, depth=20.0).added_mass == pytest.approx(1.5 * base, rel=1e-12)
     assert read(both, tmp_path, depth=20.0).depth == 20.0
     assert read(both, tmp_path, depth=np.inf).added_mass == pytest.approx(base, rel=1e-12)
-    assert read(deep, tmp_path, depth=np.inf).depth == np.inf
+    assert read(layout(), tmp_path, depth=np.inf).depth == np.inf
+
+
+def test_the_depth_chosen_is_that_of_the_sea(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """A sea by height and period takes it; one that has a depth has to fit."""
+    file = tmp_path / "hull.nc"
+    two_depths().to_netcdf(file, engine="netcdf4")
+    found = load_database(file, depth=20.0, speed=0.0)
+    assert found.depth == 20.0
+    scene = Scene()
+    scene.add_vessel(shipped_database(), memory="convolution")
+    scene.add_sea(found, hs=1.0, tp=9.0)
+    assert scene.waves is not None and scene.waves.depth == 20.0
+    scene.waves = None
+    deep = SeaState(systems=[WaveSystem(spectrum=jonswap(hs=1.0, tp=9.0), direction_deg=0.0)])
+    with pytest.raises(SceneError, match=r"inf m deep, .* are for 20 m, .*SeaState\(depth=20\)"):
+        scene.add_sea(found, sea=deep)
+    shipped_database().save(tmp_path / "deep.nc")
+    with pytest.raises(FileFormatError, match="is of a depth of inf m, not of 20 m"):
+        load_database(tmp_path / "deep.nc", depth=20.0)
+    with pytest.raises(FileFormatError, match="of 0 m/s, not of speed 3 m/s"):
+        load_database(file, depth=20.0, speed=3.0)
+    assert main(["hydro", str(file), "--depth", "20", "--json"]) == 0
+    assert "natural_period_heave_s" in capsys.readouterr().out
+    assert main(["hydro", str(file)]) != 0
+    assert "holds water depths 20, inf m" in capsys.readouterr().err
 
 
 def test_parameters_of_one_value_and_dofs_with_a_body(tmp_path: Path) -> None:

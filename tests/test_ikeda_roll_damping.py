@@ -23,6 +23,12 @@ CALL: dict[str, Any] = {
     "amplitude_deg": 10.0, "omega": 0.6 / np.sqrt(50.0 / 2.0 / 9.81), "axis_height": 2.5,
     "bilge_keel_length": 60.0, "bilge_keel_breadth": 1.25,
 }  # fmt: skip
+OF_AUTHORS = 0.010156148773301035 - 0.0034935358308644145 - 1.4879808625735649e-5
+S175: dict[str, float] = {
+    "length": 175.0, "draught": 9.5, "speed": 1.0, "og": -0.02,
+    "slope": 2.0 * np.pi * 9.5 / 175.0 + 0.1 * (4.1 * 25.4 / 175.0 - 0.045),
+}  # fmt: skip
+LIFT_OF_S175 = 4595742.29
 UNIT = 1025.0 * 0.65 * 300.0 * 50.0**3 * 12.5 * np.sqrt(2.0 * 9.81 / 50.0)  # rho V B^2 sqrt(2 g / B)
 
 
@@ -34,29 +40,33 @@ def test_slow_and_small_the_friction_is_that_of_an_oscillating_plate() -> None:
     assert found / plate == pytest.approx(0.787 * np.sqrt(2.0), rel=2e-3)
 
 
+PLATE: dict[str, float] = {
+    "radius": 9.0, "surface": 9000.0, "amplitude": 0.2, "omega": 0.4, "rho": 1025.0, "viscosity": 1.19e-6,
+}  # fmt: skip
+
+
+def himeno(
+    *, radius: float, surface: float, amplitude: float, omega: float, rho: float, viscosity: float
+) -> float:
+    """Friction, N m s/rad."""
+    turbulent = 1.0 + 0.00814 * (radius**2 * amplitude**2 * omega / viscosity) ** 0.386
+    return float(0.787 * rho * surface * radius**2 * np.sqrt(omega * viscosity) * turbulent)
+
+
 def test_friction_in_the_form_of_himeno() -> None:
     """0.787 rho S r^2 sqrt(w nu) (1 + 0.00814 (r^2 phi^2 w / nu)^0.386): rounded, the same."""
-    radius, surface, amplitude, omega, nu = 9.0, 9000.0, 0.2, 0.4, 1.19e-6
-    found = friction(
-        radius=radius, surface=surface, amplitude=amplitude, omega=omega, rho=1025.0, viscosity=nu
-    )
-    turbulent = 1.0 + 0.00814 * (radius**2 * amplitude**2 * omega / nu) ** 0.386
-    himeno = 0.787 * 1025.0 * surface * radius**2 * np.sqrt(omega * nu) * turbulent
-    assert found == pytest.approx(himeno, rel=2e-3)
+    assert friction(**PLATE) == pytest.approx(himeno(**PLATE), rel=2e-3)
 
 
 def test_the_authors_program_has_this_sum() -> None:
     """Total of Kawahara, Maekawa and Ikeda's program, less its waves and its friction, which is laminar."""
     found = ikeda_roll_damping(SHIP, **CALL)
-    rest = 0.010156148773301035 - 0.0034935358308644145 - 1.4879808625735649e-5
-    assert (found.eddy + found.bilge_keels) / UNIT == pytest.approx(rest, rel=1e-10)
+    assert (found.eddy + found.bilge_keels) / UNIT == pytest.approx(OF_AUTHORS, rel=1e-10)
 
 
 def test_lift_and_friction_of_a_container_ship_at_speed() -> None:
     """S175 of another program, which takes kappa = 0.1 in steps after Himeno: 1 m/s, period 20 s."""
-    slope = 2.0 * np.pi * 9.5 / 175.0 + 0.1 * (4.1 * 25.4 / 175.0 - 0.045)
-    found = lift(length=175.0, draught=9.5, speed=1.0, og=-0.02, slope=slope, rho=1025.0)
-    assert found == pytest.approx(4595742.29, rel=1e-6)
+    assert lift(**S175, rho=1025.0) == pytest.approx(LIFT_OF_S175, rel=1e-6)
     assert friction_at_speed(1.0, 2.0 * np.pi / 20.0, 175.0) == pytest.approx(753901.66 / 701580.94, rel=1e-7)
 
 
@@ -90,15 +100,21 @@ def direct_bilge_keels(
     return float((normal + on_hull) * frequency / (cm * bd**3))
 
 
-@pytest.mark.parametrize("breadth", [0.02, 0.03])
-@pytest.mark.parametrize("degrees", [5.0, 10.0, 15.0])
-def test_the_simple_bilge_keels_follow_ikedas_own(breadth: float, degrees: float) -> None:
-    """Of one section all along, Cb = Cm is outside the fit; a full ship at its end is within 30 %."""
+def both_bilge_keels(breadth: float, degrees: float) -> tuple[float, float]:
+    """Of one section all along: by the simple formulas and by Ikeda's own equations."""
     swing: dict[str, float] = {"amplitude": float(np.radians(degrees)), "frequency": 0.5}
     cb, cm, bd, og = 0.8, 0.98, 3.0, -0.2
     radius = np.sqrt((1.0 - cm) * bd / (1.0 - 0.25 * np.pi) / 2.0)
     simple = bilge_keels(cb=cb, cm=cm, bd=bd, og=og, breadth=breadth, length=0.3, **swing)
     direct = 0.3 * direct_bilge_keels(cm=cm, bd=bd, og=og, breadth=breadth, radius=radius, **swing) * cm / cb
+    return simple, direct
+
+
+@pytest.mark.parametrize("breadth", [0.02, 0.03])
+@pytest.mark.parametrize("degrees", [5.0, 10.0, 15.0])
+def test_the_simple_bilge_keels_follow_ikedas_own(breadth: float, degrees: float) -> None:
+    """Of one section all along, Cb = Cm is outside the fit; a full ship at its end is within 30 %."""
+    simple, direct = both_bilge_keels(breadth, degrees)
     assert simple == pytest.approx(direct, rel=0.3)
 
 
@@ -186,12 +202,16 @@ def crests(roll: Array) -> Array:
     return np.asarray(top + (after - before) ** 2 / (8.0 * (2.0 * top - before - after)))
 
 
-def test_equivalent_linear_damping_makes_its_logarithmic_decrement() -> None:
-    damping = 1e8
+def decrements(damping: float) -> tuple[list[float], float]:
+    """Of each half period of a free decay, and in closed form."""
     _, roll, inertia, stiffness = rolling(damping, 0.0)
     ratio = damping / (2.0 * np.sqrt(inertia * stiffness))
-    decrement = np.pi * ratio / np.sqrt(1.0 - ratio**2)  # per half period
-    measured = [np.log(one / two) for one, two in pairwise(crests(roll))]
+    closed = float(np.pi * ratio / np.sqrt(1.0 - ratio**2))
+    return [float(np.log(one / two)) for one, two in pairwise(crests(roll))], closed
+
+
+def test_equivalent_linear_damping_makes_its_logarithmic_decrement() -> None:
+    measured, decrement = decrements(1e8)
     assert measured == pytest.approx([decrement] * len(measured), rel=2e-3)
 
 

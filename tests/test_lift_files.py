@@ -7,6 +7,7 @@ import json
 import pickle
 import re
 import tomllib
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -29,7 +30,7 @@ from seacrane import (
 )
 from seacrane.crane.data_file import DEFAULT_PATH
 from seacrane.description.file import scene_digest
-from seacrane.hydro import shipped_database
+from seacrane.hydro import HydroDatabase, shipped_database
 from seacrane.lift.control import times_of
 from seacrane.lift.keys import Key, suffix
 from seacrane.lift.lift import LIFTS
@@ -46,6 +47,22 @@ PAGE = ROOT / "docs" / "lift-files.md"
 def lift_of(text: str, folder: Path, name: str = "my_lift.toml") -> Lift:
     (folder / name).write_text(text, encoding="utf-8")
     return Lift.load(folder / name)
+
+
+def test_a_depth_chooses_among_those_of_a_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """And the sea is as deep."""
+
+    def load(file: str, *, speed: float | None, depth: float | None) -> HydroDatabase:
+        assert (Path(file).name, speed) == ("hull.nc", None)
+        assert depth is not None
+        return replace(shipped_database(), depth=depth)
+
+    monkeypatch.setattr("seacrane.lift.calls.load_database", load)
+    (tmp_path / "hull.nc").touch()
+    vessel = '[vessel]\ndatabase = "hull.nc"\nmemory = "none"\ndepth_m = 40\n'
+    scene = lift_of(HEAD + vessel + "[sea]\nhs_m = 1\ntp_s = 9\n", tmp_path).scene()
+    assert scene.waves is not None
+    assert scene.waves.depth == 40.0
 
 
 def example() -> str:
@@ -303,6 +320,7 @@ BUILT = {
     ),
     "control of nothing": (ARM[: ARM.index("[command]")], "[control]", "has no [[command]] to control"),
     "a speed of the shipped hull": (HEAD + VESSEL + "speed_m_per_s = 3\n", "speed_m_per_s", "zero speed"),
+    "a depth of the shipped hull": (HEAD + VESSEL + "depth_m = 30\n", "depth_m", "of deep water"),
     "a payload of nothing": (
         HEAD + '[crane]\nbase = "ground"\n[crane.payload]\nlink_length_m = 5\nmass_kg = 0\n', "mass_kg",
         "payload: mass is 0.0",

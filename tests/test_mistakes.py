@@ -25,7 +25,8 @@ from seacrane import (
     simulate,
 )
 from seacrane.crane import Payload
-from seacrane.hydro import shipped_database
+from seacrane.hydro import HydroDatabase, ikeda_roll_damping, shipped_database
+from seacrane.hydro.hull.shipped_hull import shipped_hull
 from seacrane.scene.wind_current import FlowCoefficients
 from seacrane.sea import jonswap
 
@@ -259,6 +260,31 @@ def hours_at_a_loose_tolerance() -> None:
     simulate(scene, t_end=3 * 3600.0, dt_out=1.0, integrator="tsit5", rtol=1e-2, max_step=0.5)
 
 
+def a_roll_amplitude_in_radians() -> None:
+    ikeda_roll_damping(shipped_hull(), amplitude_deg=np.radians(8.0), omega=0.5, axis_height=2.0)
+
+
+def bilge_keels_in_millimetres() -> None:
+    ikeda_roll_damping(
+        shipped_hull(), amplitude_deg=8.0, omega=0.5, axis_height=2.0, bilge_keel_length=35.0,
+        bilge_keel_breadth=400.0,
+    )  # fmt: skip
+
+
+def moored() -> HydroDatabase:
+    """The shipped hull as a file of a moored ship would hold it."""
+    database = shipped_database()
+    return replace(database, restoring=database.restoring + np.diag([2e5, 3e5, 0.0, 0.0, 0.0, 1e9]))
+
+
+def a_mooring_beside_the_file_s() -> None:
+    Scene(name="moored").add_vessel(moored(), mooring=np.diag([2e5, 3e5, 0.0, 0.0, 0.0, 1e9]))
+
+
+def a_file_that_holds_its_mooring() -> None:
+    Scene(name="moored").add_vessel(moored())
+
+
 def forces_as_text() -> None:
     lift(ballast=False).add_point_force(name="pull", body="payload", force=["1e3", "0", "0"])
 
@@ -284,6 +310,9 @@ SCRIPTS: dict[str, list[Callable[[], None]]] = {
     "a mode far faster than the outputs": [a_stop_of_steel],
     "a crane that nothing holds": [a_crane_without_drives],
     "a loose tolerance for hours": [hours_at_a_loose_tolerance],
+    "a roll amplitude in radians": [a_roll_amplitude_in_radians],
+    "bilge keels in millimetres": [bilge_keels_in_millimetres],
+    "a mooring counted twice": [a_mooring_beside_the_file_s, a_file_that_holds_its_mooring],
     "texts for numbers": [forces_as_text],
 }
 

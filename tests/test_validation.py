@@ -78,6 +78,8 @@ SAMPLE = {
     "sea.spectrum": {},
     "sea.drift": {},
     "hull.hydrostatics": {},
+    "roll_and_mooring.roll_damping": {},
+    "roll_and_mooring.moorings": {},
     "events.bouncing_ball": {},
     "reeving.closed_forms": {},
     "reeving.exudyn": {},

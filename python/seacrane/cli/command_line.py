@@ -185,6 +185,7 @@ def _add_hydro(commands: Any) -> None:
     hydro.add_argument(
         "--band", nargs=2, type=float, metavar=("LOW", "HIGH"), help="rad/s that the memory is fitted over"
     )
+    hydro.add_argument("--depth", type=float, metavar="M", help="water depth, of a file that holds several")
     hydro.add_argument("--json", action="store_true", help="print JSON instead of a table")
     hydro.add_argument("--out", metavar="DIR", help="also plot the database into this folder; made if absent")
     hydro.add_argument("--overwrite", action="store_true", help="replace earlier plots in that folder")

@@ -21,7 +21,7 @@ def run(arguments: argparse.Namespace) -> int:
     from seacrane.hydro import load_database
 
     band = None if arguments.band is None else (arguments.band[0], arguments.band[1])
-    database = load_database(arguments.path, trusted_band=band)
+    database = load_database(arguments.path, depth=arguments.depth, trusted_band=band)
     database = _with_memory(database, kind=arguments.memory, asked=band is not None)
     rows: list[dict[str, Any]] = [{name: getattr(row, name) for name in COLUMNS} for row in database.check()]
     print(to_json(rows) if arguments.json else _as_text(rows))

@@ -9,6 +9,7 @@ from seacrane.inputs.checked import number_of
 
 TURN = 2.0 * np.pi
 ROUND = np.radians(5.0)  # angles in a script are multiples of it
+WHOLE = np.radians(1.0)  # and amplitudes of this
 EXACT = 1e-9
 COMPASS = 270.0  # deg: from here on a direction is rather a bearing; ours would be -90 to 0
 LIGHTEST = 5.0  # kg/m3 of a payload's box; polystyrene has 10
@@ -44,12 +45,7 @@ def angle_of(what: str, value: float) -> float:
 def direction_of(what: str, value: float) -> float:
     """A direction in degrees; warns where it looks like radians, or like a compass bearing."""
     degrees = number_of(what, value)
-    if 0.0 < abs(degrees) <= TURN and abs(degrees / ROUND - round(degrees / ROUND)) < EXACT:
-        warn_caller(
-            f"{what} is {degrees:.6g} deg, which is {np.degrees(degrees):.6g} deg in radians; names that end "
-            f"in _deg take degrees: give {np.degrees(degrees):.6g}",
-            AngleUnitWarning,
-        )
+    _warn_of_radians(what, degrees, ROUND)
     if COMPASS <= degrees < 360.0:
         warn_caller(
             f"{what} is {degrees:.6g} deg: where it goes to, from +x (forward) towards +y (port), which is "
@@ -58,6 +54,23 @@ def direction_of(what: str, value: float) -> float:
             CompassDirectionWarning,
         )
     return degrees
+
+
+def swing_of(what: str, value: float) -> float:
+    """An amplitude in degrees; warns where it is a whole degree when read in radians."""
+    degrees = number_of(what, value)
+    _warn_of_radians(what, degrees, WHOLE)
+    return degrees
+
+
+def _warn_of_radians(what: str, degrees: float, step: float) -> None:
+    """Warn of degrees that are a multiple of ``step`` (rad) when read in radians."""
+    if 0.0 < abs(degrees) <= TURN and abs(degrees / step - round(degrees / step)) < EXACT:
+        warn_caller(
+            f"{what} is {degrees:.6g} deg, which is {np.degrees(degrees):.6g} deg in radians; names that end "
+            f"in _deg take degrees: give {np.degrees(degrees):.6g}",
+            AngleUnitWarning,
+        )
 
 
 def warn_of_air(lowest: float, crest: float) -> None:

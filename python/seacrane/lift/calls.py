@@ -124,7 +124,7 @@ class Caller:
     """Makes the calls of one scene; what is read from other files is read once."""
 
     def __init__(self) -> None:
-        self.read: dict[tuple[str, float | None], HydroDatabase] = {}
+        self.read: dict[tuple[str, float | None, float | None], HydroDatabase] = {}
         self.afloat: dict[str, HydroDatabase | MotionRaos | None] = {}  # what [sea] moves or loads each by
 
     def call(self, scene: Scene, table: Table, values: Mapping[str, Any], *, at_rest: bool = False) -> None:
@@ -166,7 +166,7 @@ class Caller:
         scene.add_crane(crane, **given)
 
     def _vessel(self, scene: Scene, given: Keywords, *, at_rest: bool) -> None:
-        database = self._database(given.pop("database"), given.pop("speed", None))
+        database = self._database(given.pop("database"), given.pop("speed", None), given.pop("depth", None))
         if given.get("mooring_period") == float("inf"):
             given["mooring_period"] = None
         if "mooring_springs" in given:
@@ -184,21 +184,24 @@ class Caller:
             raise SceneError(f"given_vessel: has {' and '.join(found) or 'no motion'}; give one of {MOTIONS}")
         motion = given.pop(found[0])
         if found[0] == "database":
-            motion = self._database(motion, None)
+            motion = self._database(motion)
         scene.add_given_vessel("rest" if at_rest else motion, **given)
         moved = motion if isinstance(motion, HydroDatabase | MotionRaos) else None
         self.afloat[given.get("name", "vessel")] = moved
 
-    def _database(self, file: str, speed: float | None) -> HydroDatabase:
+    def _database(self, file: str, speed: float | None = None, depth: float | None = None) -> HydroDatabase:
         """Read once."""
         if file in SHIPPED and speed is not None:
             raise SceneError(
                 f"vessel: speed is {speed:g} m/s, and {file} holds zero speed alone; leave it out"
             )
-        if (file, speed) not in self.read:
+        if file in SHIPPED and depth is not None and np.isfinite(depth):
+            raise SceneError(f"vessel: depth is {depth:g} m, and {file} is of deep water; leave it out")
+        key = (file, speed, depth)
+        if key not in self.read:
             shipped = file in SHIPPED
-            self.read[file, speed] = shipped_database() if shipped else load_database(file, speed=speed)
-        return self.read[file, speed]
+            self.read[key] = shipped_database() if shipped else load_database(file, speed=speed, depth=depth)
+        return self.read[key]
 
     def _sea(self, scene: Scene, given: Keywords) -> None:
         vessel = given.get("vessel", "vessel")

@@ -107,6 +107,9 @@ def _summary(call: Any) -> str:
     return " ".join((call.__doc__ or "").split("\n\n")[0].split())
 
 
+READING: dict[str, Any] = {"speed": {"unit": "m/s"}, "depth": {"unit": "m"}}  # of a vessel's database
+
+
 def _vessel_keys() -> tuple[Key, ...]:
     """Of `add_vessel` with a database, and of reading that."""
     mooring = "Natural period of soft station keeping in surge, sway and yaw; default 200 s; inf: no mooring."
@@ -129,7 +132,7 @@ def _vessel_keys() -> tuple[Key, ...]:
         MooringSpring, more={"point": POINT, "direction_deg": {"unit": "deg"}, "stiffness": {"unit": "N/m"}}
     )
     springs = Key(name="mooring_springs", type="tables", keys=spring, text="Mooring by horizontal springs.")
-    return (*keys, springs, *keys_of(load_database, more={"speed": {"unit": "m/s"}}, only=("speed",)))
+    return (*keys, springs, *keys_of(load_database, more=READING, only=tuple(READING)))
 
 
 def _given_vessel_keys() -> tuple[Key, ...]:

@@ -31,6 +31,7 @@ SYMMETRY_LIMIT = 0.03
 DAMPING_LIMIT = -0.01
 FORCE_DAMPING_LIMIT = 0.1
 GROWTH_LIMIT = 1e-9
+NOISE = 1e-3
 KRAMERS_KRONIG_LIMIT = 0.05
 PASSIVITY_LIMIT = 0.0
 
@@ -116,11 +117,18 @@ def _closure_rows(database: HydroData) -> list[CheckRow]:
         encounter = np.abs(encounter_frequency(database))
         inside = inside & inside_table(database.omega, encounter) & in_trusted_band(database, encounter)
     given = np.where(inside[:, :, None], database.motion_rao, 0.0)
-    largest = np.abs(given).max(axis=(0, 1))
+    largest = np.maximum(np.abs(given).max(axis=(0, 1)), _least_motions(database, given))
     error = np.where(inside[:, :, None], np.abs(solved - given), 0.0).max(axis=(0, 1))
     errors = np.where(largest > 0.0, error / np.where(largest > 0.0, largest, 1.0), 0.0)
     limits = database.motion_rao_limit.tolist()
     return [_at_most(f"motion_rao_{name}", errors[i], limits[i]) for i, name in enumerate(MOTIONS)]
+
+
+def _least_motions(database: HydroData, given: ComplexArray) -> FloatArray:
+    """Motions (6,) that move the hull's ends by a thousandth of the largest: below them is noise."""
+    half = 0.5 * np.array([database.breadth, database.length, database.length])
+    lever = np.concatenate([np.ones(3), half])
+    return np.asarray(NOISE * (np.abs(given).max(axis=(0, 1)) * lever).max() / lever)
 
 
 def _long(database: HydroData) -> NDArray[np.bool_]:

@@ -18,6 +18,7 @@ from seacrane.hydro.hull.ikeda_components import (
     lift_slope,
 )
 from seacrane.inputs.checked import number_of
+from seacrane.inputs.plausible import swing_of
 
 STATIONS = 41
 HARMONIC = 8.0 / (3.0 * np.pi)  # of v |v| over a period
@@ -138,6 +139,11 @@ def ikeda_roll_damping(
     -------
     IkedaDamping
 
+    Warns
+    -----
+    AngleUnitWarning
+        An amplitude that looks like radians.
+
     Raises
     ------
     SceneError
@@ -151,6 +157,7 @@ def ikeda_roll_damping(
         positive={"amplitude_deg": amplitude_deg, "omega": omega, "rho": rho, "g": g, "viscosity": viscosity},
         not_negative={"bilge_keel_length": keels[0], "bilge_keel_breadth": keels[1], "speed": speed},
     )
+    swing_of("roll damping: amplitude_deg", amplitude_deg)
     _require_range(ship, amplitude_deg, omega * np.sqrt(ship.breadth / 2.0 / g), -axis_height, keels)
 
     def at(degrees: float) -> dict[str, float]:

@@ -114,7 +114,7 @@ def _of_depth(path: Path, dataset: xarray.Dataset, depth: float | None) -> xarra
     if depth is None:
         if len(there) > 1:
             raise FileFormatError(
-                f"{path}: holds water depths {listed} m; choose one by read_capytaine(path, depth=...)"
+                f"{path}: holds water depths {listed} m; choose one by load_database(path, depth=...)"
             )
         return dataset
     found = np.flatnonzero(np.isclose(there, depth, rtol=SAME_DEPTH, atol=0.0))
@@ -380,4 +380,5 @@ FORMAT = Format(
     can_open=_can_open,
     read=of_one_speed(read_capytaine),
     speeds=zero_speed,
+    at_depth=lambda path, depth: read_capytaine(path, depth=depth),
 )

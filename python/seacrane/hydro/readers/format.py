@@ -30,6 +30,7 @@ class Format:
     can_open : whether a path is a file, stem or folder of this kind; opens no more than it needs to tell.
     read : the database of a speed, or a FileFormatError.
     speeds : forward speeds in m/s, rising, that ``read`` takes.
+    at_depth : the database of a water depth in m, of files that may hold several; None: they hold one.
     """
 
     name: str
@@ -37,6 +38,7 @@ class Format:
     can_open: Callable[[Path], bool]
     read: ReadAtSpeed
     speeds: Callable[[Path], tuple[float, ...]]
+    at_depth: Callable[[Path, float], HydroDatabase] | None = None
 
 
 def of_one_speed(read: Callable[[Path], HydroDatabase]) -> ReadAtSpeed:

@@ -13,17 +13,19 @@ from seacrane.errors import FileFormatError
 from seacrane.hydro.data.data_warnings import warn_of_data
 from seacrane.hydro.database.database import HydroDatabase
 from seacrane.hydro.readers import bemio, capytaine, nemoh, orcaflex, seacrane_netcdf, veres, wamit
-from seacrane.hydro.readers.format import Format
+from seacrane.hydro.readers.format import Format, of_one_speed
 from seacrane.hydro.readers.reader_warnings import RoughDataWarning
 
 FORMATS = tuple(kind.FORMAT for kind in (capytaine, seacrane_netcdf, veres, wamit, orcaflex, bemio, nemoh))
 NAMED = 5  # files in a message
+SAME_DEPTH = 1e-6
 
 
 def load_database(
     path: str | PathLike[str],
     *,
     speed: float | None = None,
+    depth: float | None = None,
     trusted_band: tuple[float, float] | None = None,
 ) -> HydroDatabase:
     """Read a hydrodynamic database of any supported kind.
@@ -36,13 +38,14 @@ def load_database(
     path : file, folder or stem.
     speed : forward speed in m/s, for VERES files that hold several (`available_speeds`); by default the one
         nearest to zero.
+    depth : m (inf: deep), for Capytaine's files that hold several; any other file has to be of it.
     trusted_band : (low, high) in rad/s, in place of what the files say. Files that do not tell their panels
         are trusted as far as their matrices are smooth (`HydroDatabase.trusted_band`; None: to the end).
 
     Raises
     ------
-    FileFormatError : nothing readable at ``path``, or not of that speed; the message names the file, the line
-        where there is one, and the supported kinds.
+    FileFormatError : nothing readable at ``path``, or not of that speed or depth; the message names the file,
+        the line where there is one, and the supported kinds.
     ValueError : a ``trusted_band`` that is none, or that holds none of the frequencies.
 
     Warns
@@ -52,12 +55,27 @@ def load_database(
     """
     found, source = _format_of(Path(path))
     if trusted_band is None:
-        database = found.read(source, speed=speed)
+        database = _read(found, source, speed, depth)
     else:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", RoughDataWarning)
-            database = _trusted(found.read(source, speed=speed), trusted_band)
+            database = _trusted(_read(found, source, speed, depth), trusted_band)
     warn_of_data(database)
+    return database
+
+
+def _read(found: Format, path: Path, speed: float | None, depth: float | None) -> HydroDatabase:
+    """Of a speed and a depth, where they are asked for."""
+    if depth is None or found.at_depth is None:
+        database = found.read(path, speed=speed)
+    else:
+        read = found.at_depth
+        database = of_one_speed(lambda file: read(file, depth))(path, speed=speed)
+    if depth is not None and not np.isclose(database.depth, depth, rtol=SAME_DEPTH, atol=0.0):
+        raise FileFormatError(
+            f"{path}: is of a depth of {database.depth:g} m, not of {depth:g} m; leave depth out, or compute "
+            "a database of that depth"
+        )
     return database
 
 
@@ -66,8 +84,8 @@ def _trusted(database: HydroDatabase, band: tuple[float, float]) -> HydroDatabas
     low, high = (float(value) for value in band)
     if not np.any((database.omega >= low) & (database.omega <= high)):
         raise ValueError(
-            f"database {database.name!r}: trusted_band ({low:.4g}, {high:.4g}) rad/s holds no frequency; it "
-            f"has {database.omega[0]:.4g} to {database.omega[-1]:.4g} rad/s"
+            f"database {database.name!r}: the band {low:.4g} to {high:.4g} rad/s holds no frequency; give a "
+            f"trusted_band within {database.omega[0]:.4g} to {database.omega[-1]:.4g} rad/s"
         )
     return replace(database, trusted_band=(low, high), memory=None)
 
