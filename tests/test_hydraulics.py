@@ -132,6 +132,19 @@ def test_a_stiffer_oil_comes_to_the_ideal_cylinder() -> None:
     assert speed == pytest.approx(expected, rel=2e-3)
 
 
+def test_a_spool_without_lag_is_the_limit_of_a_quick_one() -> None:
+    """And the states after it stand where they belong."""
+    gas = {"accumulator_volume": 1e-3, "accumulator_pressure": 1.5e6, "accumulator_flow": 2e-4}
+    strokes = []
+    for lag in (2e-3, 1e-3, 0.0):
+        out = record(lifted(spool_lag=lag, **gas), 1.0, rtol=1e-9, dt_out=0.05)
+        strokes.append(out["hydraulic_stroke"][:, 0])
+        assert np.max(np.abs(out["energy_balance"])) < 1e-6 * out["absolute_work"][-1]
+        assert out["load_state"].shape[1] == (4 if lag else 3)
+    assert_allclose(2.0 * strokes[1] - strokes[0], strokes[2], atol=2e-6)
+    assert np.max(np.abs(strokes[1] - strokes[2])) > 2e-5
+
+
 @pytest.mark.parametrize("integrator", ["dopri5", "rosenbrock"])
 def test_a_run_goes_on_bit_for_bit(integrator: str) -> None:
     scene = lifted(**EVERYTHING)
