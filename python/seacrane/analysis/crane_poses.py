@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from seacrane import _core
 from seacrane.analysis.inverse import driven
 from seacrane.description.drives import add_driver
+from seacrane.description.hydraulic_cylinders import with_ideal_cylinders
 from seacrane.description.joint_coordinates import ANGLES
 from seacrane.description.roles import CraneRoles
 from seacrane.description.scene import Description, Some
@@ -57,7 +58,7 @@ def posed(scene: Some, places: Mapping[str, Place], path: Mapping[str, _core.Cur
     path : mapping of str to Curve
         Some of them from their described value 0 on; the others are held.
     """
-    out = driven(scene).copy(waves=None)
+    out = driven(with_ideal_cylinders(scene)).copy(waves=None)
     still = _core.Curve.constant(value=0.0)
     for name, driver in list(out.drivers.items()):
         if (driver.joint, driver.coordinate) in places.values():
