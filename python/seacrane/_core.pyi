@@ -2087,7 +2087,7 @@ class HydraulicCylinder:
     @property
     def spool_lag(self) -> float:
         """
-        s, of the spool behind its command, first order
+        s, of the spool behind its command, first order; 0: none
         """
     @property
     def stop_stiffness(self) -> float:
