@@ -40,8 +40,7 @@ def holding_force(scene: Description, given: dict[str, Any]) -> float:
         If the scene is not at rest as described.
     """
     others = hydraulic_cylinders(scene)
-    held = locked(scene).copy(waves=None)
-    held.loads = {name: load for name, load in held.loads.items() if name not in others}
+    held = locked(scene.copy(loads={name: load for name, load in scene.loads.items() if name not in others}))
     own = _tie(held, given)
     for other in others.values():
         _tie(held, ends_of(other))

@@ -16,6 +16,7 @@ from seacrane import _core
 from seacrane.description.compilation import compile_scene
 from seacrane.description.drives import add_driver
 from seacrane.description.given import given_vessels
+from seacrane.description.hydraulic_cylinders import with_ideal_cylinders
 from seacrane.description.joints import add_joint
 from seacrane.description.loads import without_compensation
 from seacrane.description.scene import GROUND, Description, Some
@@ -61,8 +62,9 @@ class Balance:
 
 
 def locked(scene: Some, *, hold_vessels: bool = True) -> Some:
-    """The scene with its actuators replaced by drivers at rest, vessels held, without waves."""
-    out = driven(scene, references={name: _core.Curve.constant(value=0.0) for name in scene.actuators})
+    """The scene with actuators and hydraulic cylinders replaced by drivers at rest, vessels held, calm."""
+    ideal = with_ideal_cylinders(scene)
+    out = driven(ideal, references={name: _core.Curve.constant(value=0.0) for name in ideal.actuators})
     out = out.copy(waves=None, springs=dict(scene.springs))
     if hold_vessels:
         for vessel in _afloat(scene):
