@@ -471,6 +471,24 @@ def test_an_operation_longer_than_the_table_of_alpha_is_refused() -> None:
         alpha.at(1.0, hours=80.0)
 
 
+def test_progress_is_shown_of_every_step(
+    database: HydroDatabase, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    asked: dict[str, Any] = ASKED | {
+        "duration": 60.0,
+        "start_up": 0.0,
+        "seeds": [1, 2, 3],
+        "database": database,
+    }
+    allowable_hs(vessel(), **asked, domain="time")
+    assert not capsys.readouterr().err
+    monkeypatch.setattr("seacrane.operability.allowable.DELAY", 0.0)
+    allowable_hs(vessel(), **asked, linear_within=1e-9, progress=True)
+    said = capsys.readouterr().err
+    for step in ("linear model", "test of the linear model", "ensemble"):
+        assert f"{step}: 100%" in said
+
+
 def test_nothing_is_warned_of(database: HydroDatabase) -> None:
     with warnings.catch_warnings():
         warnings.simplefilter("error")
