@@ -106,8 +106,12 @@ class Criterion:
 
     def told(self) -> str:
         """The criterion in words."""
-        what = "motion" if self.motion else ("largest" if self.minimum is None else "smallest")
+        what, asked = "value", STATISTICS[self.statistic]
+        if self.motion:
+            what = "motion to either side"
+        if self.minimum is not None:
+            asked = asked.replace("maximum", "minimum")
         over = "" if self.statistic == "significant" else f" in {self.exposure:g} s"
         sign = "<=" if self.minimum is None else ">="
         unit = unit_of(self.channel, self.where.values())
-        return f"{self.name}: {what}, {STATISTICS[self.statistic]}{over} {sign} {self.bound:g} {unit}"
+        return f"{self.name}: {what}, {asked}{over} {sign} {self.bound:g} {unit}"
