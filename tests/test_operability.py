@@ -427,7 +427,7 @@ ASKED: dict[str, Any] = {"criteria": [HEAVE], "tp": 9.0, "direction_deg": 135.0,
     [
         ({"criteria": []}, "criteria is .*give a list of Criterion"),
         ({"criteria": [HEAVE, HEAVE]}, "'heave' is there twice"),
-        ({"criteria": [replace(HEAVE, channel="heave_of_all")]}, "heave_of_all"),
+        ({"criteria": [replace(HEAVE, channel="hook_load", where={})]}, "hook_load"),
         ({"criteria": [replace(HEAVE, where={"motion": "hieve"})]}, "no motion 'hieve'.*choose from surge"),
         ({"criteria": [replace(HEAVE, where={})]}, "holds several curves; give where= motion: one of surge"),
         ({"tp": [9.0, 8.0]}, "tp is .*give ascending"),
@@ -463,6 +463,8 @@ def test_a_scene_without_a_sea_is_refused(database: HydroDatabase) -> None:
 @pytest.mark.parametrize(
     ("given", "message"),
     [
+        ({"channel": "hook_lod"}, "channel 'hook_lod' does not exist; did you mean 'hook_load'"),
+        ({"channel": "weather"}, "channel 'weather' does not exist; docs/channels.md lists them"),
         ({"maximum": None}, "give maximum or minimum, and not both"),
         ({"minimum": 0.0}, "give maximum or minimum, and not both"),
         ({"maximum": np.inf}, "bound is inf; give a finite number"),
