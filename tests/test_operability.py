@@ -35,7 +35,7 @@ from seacrane import (
 from seacrane.analysis.rest_state import held
 from seacrane.hydro import shipped_database
 from seacrane.operability.circle import over_circle
-from seacrane.operability.levels import curve, gaussian_level, record_numbers, seeds_level
+from seacrane.operability.levels import curve, gaussian_level, reached, record_numbers, seeds_level
 from seacrane.operability.linear_channels import linear_channels
 from seacrane.operability.linear_seas import LinearSeas
 from seacrane.operability.steady_start import SteadyStart, steady_start
@@ -209,7 +209,7 @@ def test_a_table_tells_what_it_rests_on(tested: AllowableHs, slack: AllowableHs)
     text = str(tested)
     assert "f: by the linear model (4 cells), t: by runs (0 cells)" in text
     assert "alpha factor 1 (source: none" in text
-    assert "A: heave: motion, most probable maximum in 900 s <= 0.8 m" in text
+    assert "A: heave: motion to either side, most probable maximum in 900 s <= 0.8 m" in text
     assert ">3.00 f" in text and "Af" in text
     assert "At" in str(slack) or ">" in str(slack)
     assert "<table" in tested._repr_html_()
@@ -379,6 +379,29 @@ def test_the_gaussian_level_of_either_side_is_that_of_many_records() -> None:
     assert gaussian_level(PITCH, moments) == 2.0
 
 
+def test_a_minimum_is_a_maximum_upside_down(database: HydroDatabase) -> None:
+    """The least tension of a taut wire, the closed form for Gaussian troughs."""
+    least = Criterion(channel="line_tension", minimum=0.7 * WEIGHT, exposure=900.0, name="least")
+    most = replace(least, minimum=None, maximum=1.3 * WEIGHT, name="most")
+    found = by_frequency(soft_wire(), [least, most], database, tp=8.0, direction_deg=120.0)
+    low, high = found.dataset["by_criterion"].to_numpy().ravel()
+    assert low == pytest.approx(high, rel=0.01)  # the ship trims under the load: rest is not quite the weight
+    assert "least: value, most probable minimum in 900 s >=" in least.told()
+
+
+def test_how_far_a_record_went() -> None:
+    """From rest at 3: up, down, and to the farther side, by extremes and by significant values."""
+    numbers = np.array([[5.0, 2.0, 4.5, 2.5], [4.0, 0.0, 3.5, 1.0]])
+    upper = Criterion(channel="line_tension", maximum=6.0)
+    lower = Criterion(channel="line_tension", minimum=1.0)
+    either = Criterion(channel="line_tension", maximum=2.0, motion=True)
+    assert reached(upper, numbers, 3.0).tolist() == [2.0, 1.0]
+    assert reached(lower, numbers, 3.0).tolist() == [1.0, 3.0]
+    assert reached(either, numbers, 3.0).tolist() == [2.0, 3.0]
+    assert reached(replace(either, statistic="significant"), numbers, 3.0).tolist() == [1.5, 2.0]
+    assert [one.allowance(3.0) for one in (upper, lower, either)] == [3.0, 2.0, 2.0]
+
+
 def test_numbers_of_a_record() -> None:
     times = np.arange(0.0, 100.0, 0.1)
     largest, smallest, high, low = record_numbers(3.0 + 2.0 * np.sin(times))
@@ -404,7 +427,7 @@ ASKED: dict[str, Any] = {"criteria": [HEAVE], "tp": 9.0, "direction_deg": 135.0,
     [
         ({"criteria": []}, "criteria is .*give a list of Criterion"),
         ({"criteria": [HEAVE, HEAVE]}, "'heave' is there twice"),
-        ({"criteria": [replace(HEAVE, channel="heave_of_all")]}, "heave_of_all"),
+        ({"criteria": [replace(HEAVE, channel="hook_load", where={})]}, "hook_load"),
         ({"criteria": [replace(HEAVE, where={"motion": "hieve"})]}, "no motion 'hieve'.*choose from surge"),
         ({"criteria": [replace(HEAVE, where={})]}, "holds several curves; give where= motion: one of surge"),
         ({"tp": [9.0, 8.0]}, "tp is .*give ascending"),
@@ -414,6 +437,10 @@ ASKED: dict[str, Any] = {"criteria": [HEAVE], "tp": 9.0, "direction_deg": 135.0,
         ({"seeds": [1, 2]}, "seeds is .*at least 3 different"),
         ({"seeds": [1, 2, 2]}, "seeds is .*at least 3 different"),
         ({"duration": 0.0}, "duration is 0.0; give a finite number above zero"),
+        ({"duration": 80.0}, "duration is 80 s; give at least 10 of the longest peak period, 90 s"),
+        ({"channels": ["position"]}, "channels: runs record those of the criteria"),
+        ({"integrator": "euler"}, "euler"),
+        ({"dt_out": -1.0}, "dt_out.*-1"),
         ({"start_up": -1.0}, "start_up is -1.0 s"),
         ({"linear_within": 0.0}, "linear_within is 0.0"),
         ({"domain": "both"}, "domain is 'both'; choose"),
@@ -436,6 +463,8 @@ def test_a_scene_without_a_sea_is_refused(database: HydroDatabase) -> None:
 @pytest.mark.parametrize(
     ("given", "message"),
     [
+        ({"channel": "hook_lod"}, "channel 'hook_lod' does not exist; did you mean 'hook_load'"),
+        ({"channel": "weather"}, "channel 'weather' does not exist; docs/channels.md lists them"),
         ({"maximum": None}, "give maximum or minimum, and not both"),
         ({"minimum": 0.0}, "give maximum or minimum, and not both"),
         ({"maximum": np.inf}, "bound is inf; give a finite number"),
@@ -469,6 +498,24 @@ def test_an_operation_longer_than_the_table_of_alpha_is_refused() -> None:
     alpha = AlphaFactor(values=[[0.6]], hours=[72], hs=[1.0], source="a standard")
     with pytest.raises(SceneError, match="the operation takes 80 h, the table ends at 72 h"):
         alpha.at(1.0, hours=80.0)
+
+
+def test_progress_is_shown_of_every_step(
+    database: HydroDatabase, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    asked: dict[str, Any] = ASKED | {
+        "duration": 100.0,
+        "start_up": 0.0,
+        "seeds": [1, 2, 3],
+        "database": database,
+    }
+    allowable_hs(vessel(), **asked, domain="time")
+    assert not capsys.readouterr().err
+    monkeypatch.setattr("seacrane.operability.allowable.DELAY", 0.0)
+    allowable_hs(vessel(), **asked, linear_within=1e-9, progress=True)
+    said = capsys.readouterr().err
+    for step in ("linear model", "test of the linear model", "ensemble"):
+        assert f"{step}: 100%" in said
 
 
 def test_nothing_is_warned_of(database: HydroDatabase) -> None:

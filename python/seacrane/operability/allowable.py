@@ -42,6 +42,7 @@ LINEAR_WITHIN = 0.1  # of the allowance
 PROBES = 2  # seeds of each cell that are compared with the linear model
 DT = 0.5  # s between outputs
 HEIGHTS = (0.5, 1.0, 1.5, 2.0, 2.5, 3.0, 4.0)  # m
+FEWEST_PERIODS = 10.0  # that a record holds
 DELAY = 2.0  # s before a progress bar shows
 
 
@@ -131,10 +132,12 @@ def allowable_hs(
     factor = alpha_of(alpha)
     period = _positive("hours", hours)
     factor.at(1.0, hours=period)
+    if "channels" in shorthand:
+        raise SceneError("channels: runs record those of the criteria; leave channels out")
     how, recorded = settled(method, None, {"dt_out": DT, **shorthand})
     outputs = Outputs(dt=recorded.dt, channels=tuple(dict.fromkeys(one.channel for one in asked.criteria)))
-    begun = _Still.of(scene, database, asked.criteria, number_of("time", time))
-    study = _Study(asked=asked, still=begun, method=how, outputs=outputs, databases=database)
+    still = _Still.of(scene, database, asked.criteria, number_of("time", time), how, outputs)
+    study = _Study(asked=asked, still=still, method=how, outputs=outputs, databases=database)
     cells = Cells.of(asked.criteria, asked.tp, asked.directions, largest=asked.hs[-1])
     failures: dict[int, str] = {}
     if domain != "time":
@@ -178,13 +181,19 @@ class _Asked:
                 f"direction_deg goes from {within[0]:g} to {within[-1]:g}; name each direction of the circle "
                 "once"
             )
+        periods, span = _ascending("tp", tp, above_zero=True), _positive("duration", duration)
+        if span < FEWEST_PERIODS * periods[-1]:
+            raise SceneError(
+                f"duration is {span:g} s; give at least {FEWEST_PERIODS:g} of the longest peak period, "
+                f"{FEWEST_PERIODS * periods[-1]:g} s"
+            )
         return cls(
             criteria=_criteria(criteria),
-            tp=_ascending("tp", tp, above_zero=True),
+            tp=periods,
             directions=within,
             hs=_ascending("hs", hs, above_zero=True),
             seeds=_seeds(seeds),
-            duration=_positive("duration", duration),
+            duration=span,
             start_up=begin,
             linear_within=_positive("linear_within", linear_within),
         )
@@ -199,14 +208,21 @@ class _Still:
     rest: Array
 
     @classmethod
-    def of(cls, scene: Any, databases: Databases, criteria: tuple[Criterion, ...], time: float) -> _Still:
+    def of(
+        cls, scene: Any, databases: Databases, criteria: tuple[Criterion, ...], time: float, method: Method,
+        outputs: Outputs,
+    ) -> _Still:  # fmt: skip
         if not isinstance(scene, Scene):
             raise SceneError(f"scene is {shown(scene)}; give a Scene")
+        if scene.waves is None:
+            raise SceneError(
+                f"scene {scene.name!r} has no sea; add one of any height, whose height, period and direction "
+                "are then replaced"
+            )
         require_same_sea(scene, databases, ("hs", "tp", "direction_deg"))
         state = equilibrium(scene, time=time)
         calm = held(scene, time=time)
-        run = Run(calm, state.time, start=state, channels=[one.channel for one in criteria])
-        result = finished(run)
+        result = finished(Run(calm, state.time, start=state, method=method, outputs=outputs))
         rest = np.array([curve(result, one.channel, one.where)[0] for one in criteria])
         return cls(scene=calm.copy(waves=scene.waves), state=state, rest=rest)
 

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from difflib import get_close_matches
 
 import numpy as np
 
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import flag_of, name_of, number_of, text_of
 from seacrane.inputs.shown import shown
+from seacrane.result.channels import CHANNELS
 from seacrane.result.units import unit_of
 from seacrane.statistics.gaussian import THREE_HOURS
 
@@ -47,7 +49,7 @@ class Criterion:
     Raises
     ------
     SceneError
-        For a value that makes no sense. Whether a scene has the channel is known when it is asked.
+        For a value that makes no sense, or an unknown channel. Whether a scene has it is known when asked.
     """
 
     channel: str
@@ -61,6 +63,12 @@ class Criterion:
 
     def __post_init__(self) -> None:
         channel = text_of("criterion: channel", self.channel)
+        if channel not in CHANNELS:
+            near = get_close_matches(channel, CHANNELS, n=1)
+            raise SceneError(
+                f"criterion: channel {channel!r} does not exist; "
+                + (f"did you mean {near[0]!r}?" if near else "docs/channels.md lists them")
+            )
         if not isinstance(self.where, Mapping):
             raise SceneError(f"criterion {channel}: where is {shown(self.where)}; give names by dimension")
         object.__setattr__(self, "where", dict(self.where))
@@ -106,8 +114,12 @@ class Criterion:
 
     def told(self) -> str:
         """The criterion in words."""
-        what = "motion" if self.motion else ("largest" if self.minimum is None else "smallest")
+        what, asked = "value", STATISTICS[self.statistic]
+        if self.motion:
+            what = "motion to either side"
+        if self.minimum is not None:
+            asked = asked.replace("maximum", "minimum")
         over = "" if self.statistic == "significant" else f" in {self.exposure:g} s"
         sign = "<=" if self.minimum is None else ">="
         unit = unit_of(self.channel, self.where.values())
-        return f"{self.name}: {what}, {STATISTICS[self.statistic]}{over} {sign} {self.bound:g} {unit}"
+        return f"{self.name}: {what}, {asked}{over} {sign} {self.bound:g} {unit}"

@@ -19,7 +19,6 @@ from seacrane.statistics.record import crests
 from seacrane.statistics.seeds import seed_extremes
 
 Array = NDArray[np.float64]
-NUMBERS = ("largest", "smallest", "significant_high", "significant_low")
 FEWEST_SEEDS = 3
 NARROWEST = 1e-6  # bandwidth
 
@@ -50,7 +49,7 @@ def gaussian_level(criterion: Criterion, moments: Array) -> float:
 
 @dataclass(frozen=True, kw_only=True)
 class RecordNumbers:
-    """What is kept of a channel of a run: its `NUMBERS`.
+    """What is kept of a channel of a run: its largest, smallest, significant high and significant low value.
 
     Attributes
     ----------
@@ -86,7 +85,10 @@ def curve(result: Result, channel: str, where: Mapping[str, str]) -> Array:
 
 
 def record_numbers(values: Array) -> Array:
-    """`NUMBERS` of a record (n,): crests and troughs by the parabola through their neighbours."""
+    """Largest, smallest, significant high and low value of a record (n,).
+
+    Crests and troughs are those of the parabola through their neighbours.
+    """
     mean = float(values.mean())
     high, low = crests(values, mean), crests(-values, -mean)
     return np.array(
@@ -110,7 +112,7 @@ def reached(criterion: Criterion, numbers: Array, rest: float) -> Array:
     ----------
     criterion : Criterion
     numbers : ndarray, shape (..., 4)
-        `NUMBERS` of each record.
+        `record_numbers` of each record.
     rest : float
     """
     first = 2 if criterion.statistic == "significant" else 0

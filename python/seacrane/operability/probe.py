@@ -60,7 +60,7 @@ class Probe:
     outputs: Outputs
 
     def numbers(self) -> Array | str:
-        """`NUMBERS` of each criterion's channel, (m, 4), or why the run failed."""
+        """`record_numbers` of each criterion's channel, (m, 4), or why the run failed."""
         try:
             run = Run(self.scene, self.t_end, start=self.start, method=self.method, outputs=self.outputs)
             with Interrupts() as interrupts:
