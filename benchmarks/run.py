@@ -23,6 +23,7 @@ from measure import (
     formulations,
     hours,
     integrators,
+    lanes,
     line_methods,
     linear,
     memory_by_motion,
@@ -99,6 +100,7 @@ def sections(folder: Path, *, repeats: int, quick: bool) -> Iterator[Section]:
     yield memory_models.trade()
     yield seas.seas(repeats=min(repeats, 3))
     yield ensemble.one_member(repeats=repeats)
+    yield lanes.lanes(repeats=repeats)
     yield ensemble.workers(repeats=min(repeats, 3), t_end=100.0 if quick else 1000.0)
     yield strip_cost.strip_cost(repeats=min(repeats, 3))
     yield rival.rival(repeats=repeats, t_end=5.0 if quick else 100.0)

@@ -24,6 +24,7 @@ from seacrane.ensembles.study import Keep, Source, Study, checked_keep, outputs_
 from seacrane.errors import SceneError, SimulationError
 from seacrane.inputs.checked import number_of
 from seacrane.inputs.shown import shown
+from seacrane.run.lanes import lanes_of
 from seacrane.run.method import Method
 from seacrane.run.outputs import Outputs
 from seacrane.run.shorthand import Shorthand, settled
@@ -85,13 +86,14 @@ def ensemble(
     store: str | os.PathLike[str] | None = None,
     on_error: Literal["record", "raise"] = "record",
     pack: int | None = None,
+    lanes: int | None = None,
     progress: bool = False,
     **shorthand: Unpack[Shorthand],
 ) -> Ensemble:
     """Run a lift for many seeds, seas or parameters, and keep of each run what is asked for.
 
     The results are the same to the bit whatever the executor, its workers, the packs and their order, and
-    whether the ensemble was killed and resumed.
+    whether the ensemble was killed and resumed; and within the tolerance whatever the processor and `lanes`.
 
     Parameters
     ----------
@@ -118,8 +120,12 @@ def ensemble(
     on_error : str
         "record": a member that fails is recorded, the others go on. "raise": the first failure ends it.
     pack : int, optional
-        Members that are run, kept and lost together; default: so many that there are at most 250 packs,
-        but no more than 64.
+        Members that are run, kept and lost together, a multiple of `lanes`; default: so many that there are
+        at most 250 packs, but no more than 64.
+    lanes : int, optional
+        Members that are stepped side by side, by their numbers, where they differ in their seas alone: 4, 8
+        (AVX-512), or 1 for each by itself. Default: 4 where the processor has AVX2 and `pack` is no other
+        multiple. What cannot be stepped so is run by itself; a result's stats say why by "kept_apart".
     progress : bool
         Show a progress bar with the time left.
     **shorthand
@@ -155,6 +161,7 @@ def ensemble(
         method=how,
         outputs=outputs_for(wanted, recorded),
         keep=wanted,
+        lanes=_lanes(lanes, pack),
     )
     for what in wanted.values():
         if isinstance(what, Kept):
@@ -162,7 +169,7 @@ def ensemble(
     members = members_of(over)
     _require_free_names(members, wanted)
     study.require_names(list(members.axes))
-    size = _pack_size(pack, len(members))
+    size = _pack_size(pack, len(members), study.lanes)
     with _store(store, study, members, size) as kept:
         _run(study, members, size, kept, executor, raises=on_error == "raise", progress=progress)
         return _ensemble(members, table_of(members, kept.outcomes()))
@@ -178,11 +185,20 @@ def _require_free_names(members: Members, keep: Keep) -> None:
             raise SceneError(f"over: the name {name!r} is taken by what is kept; rename one of them")
 
 
-def _pack_size(pack: int | None, count: int) -> int:
+def _lanes(lanes: int | None, pack: int | None) -> int:
+    asked = lanes_of(lanes)
+    if lanes is None and isinstance(pack, int) and pack % asked:
+        return 1
+    return asked
+
+
+def _pack_size(pack: int | None, count: int, lanes: int) -> int:
     if pack is None:
-        return min(LARGEST_PACK, ceil(count / MOST_PACKS))
+        return lanes * ceil(min(LARGEST_PACK, ceil(count / MOST_PACKS)) / lanes)
     if not isinstance(pack, int) or isinstance(pack, bool) or pack < 1:
         raise SceneError(f"pack is {shown(pack)}; give a whole number from 1 on")
+    if pack % lanes:
+        raise SceneError(f"pack is {pack} and lanes is {lanes}; give a pack that is a multiple of lanes")
     return pack
 
 

@@ -37,6 +37,8 @@ class Study:
         Of every run.
     keep : mapping
         What is kept of each, by name.
+    lanes : int
+        Runs that are stepped side by side, by the number of the member; 1: none.
     """
 
     source: Source
@@ -45,6 +47,7 @@ class Study:
     method: Method
     outputs: Outputs
     keep: Keep
+    lanes: int = 1
 
     def require_names(self, names: list[str]) -> None:
         """Raise SceneError for a parameter that the scene does not have, or one whose sea cannot vary."""

@@ -126,6 +126,7 @@ class Run:
         self.steered = steered(self.scene, self.model, self.start.inputs)
         self.slow: list[Finding] = []  # what made the run slow, or a mode of it grow, known at its end
         self.slack: list[Finding] = []  # what made it begin anew
+        self.lanes: dict[str, Any] = {}  # how it was stepped beside others, where that was asked for
         self._require_plain_stats()
 
     def _chosen_rungs(self, model: _core.Model | None) -> Mapping[str, LineRung]:
@@ -268,9 +269,10 @@ class Run:
     def stats(self) -> dict[str, Any]:
         """Version, settings and counters so far: `Result.stats`."""
         told = {"line_rungs": as_told(self.rungs)} if self.rungs else {}
-        return told | stats_of(
+        counted = stats_of(
             self.scene, self.model, self.formulation, self.method, self.settings, self.core, self.start.time
         )
+        return told | counted | self.lanes
 
     def result(self) -> Result:
         """What has been recorded so far, with what is out of range in its stats."""
