@@ -86,9 +86,15 @@ bool SideBySide::advance(double t_end, const std::function<bool(double)>& keep_g
   }
   count_time(asked);
   for (std::size_t lane = 0; lane < runs_.size(); ++lane) hand_over(lane);
-  counted_ = integrator_->counters();
+  counted_ = counters();
   wall_seconds_ = 0.0;
   return going;
+}
+
+Counters SideBySide::counters() const {
+  Counters out = integrator_->counters();
+  out += before_;
+  return out;
 }
 
 void SideBySide::count_time(std::chrono::steady_clock::time_point since) {
@@ -109,13 +115,17 @@ void SideBySide::step(double t_end) {
   if (integrator_->time() >= smooth_until) reset();
 }
 
-/// The lane that took the largest part in a failure is left, or all where it is not known.
+/// The lane that took the largest part in a failure is left, or all where it is not known or was left before.
+/// The others choose their steps anew: that of the failure has collapsed.
 void SideBySide::drop(const IntegrationError& error) {
-  const bool known = error.component() < states_ * lanes_;
+  const std::size_t worst = error.component() % lanes_;
+  const bool known = error.component() < states_ * lanes_ && worst < runs_.size() && !has_left(worst);
   for (std::size_t lane = 0; lane < runs_.size(); ++lane) {
-    if (!known || error.component() % lanes_ == lane) leave(lane);
+    if (!known || lane == worst) leave(lane);
   }
-  reset();
+  before_ += integrator_->counters();
+  std::copy_n(integrator_->state(), all_.size(), all_.data());
+  integrator_->init(integrator_->time(), all_.data());
 }
 
 void SideBySide::leave(std::size_t lane) {
@@ -126,7 +136,7 @@ void SideBySide::leave(std::size_t lane) {
   system_->freeze(lane);
 }
 
-/// Drops the derivative's past: the next step is on the other side of a kink, or without a lane.
+/// Drops the derivative's past: the next step is on the other side of a kink.
 void SideBySide::reset() {
   std::copy_n(integrator_->state(), all_.size(), all_.data());
   integrator_->reset(integrator_->time(), all_.data());
@@ -166,7 +176,7 @@ void SideBySide::take_lane(const double* all, std::size_t lane, double* y) const
 void SideBySide::hand_over(std::size_t lane) {
   if (has_left(lane)) return;
   take_lane(integrator_->state(), lane, one_.data());
-  Counters taken = integrator_->counters();
+  Counters taken = counters();
   taken -= counted_;
   runs_[lane]->go_on_from(integrator_->time(), one_.data(), taken,
                           wall_seconds_ / static_cast<double>(runs_.size()));

@@ -45,6 +45,7 @@ class SideBySide {
   const std::vector<double>& state_at(double t);
   void take_lane(const double* all, std::size_t lane, double* y) const;
   void hand_over(std::size_t lane);
+  Counters counters() const;
   void count_time(std::chrono::steady_clock::time_point since);
 
   std::vector<Simulation*> runs_;  // by lane
@@ -55,7 +56,7 @@ class SideBySide {
   std::unique_ptr<Integrator> integrator_;
   KinkStops kinks_;
   StallWatch stall_;
-  Counters counted_;  // handed over so far
+  Counters before_, counted_;  // of steps before the last beginning; handed over so far
   double wall_seconds_ = 0.0;
   std::vector<Instant> instants_;  // outputs in the last step
   std::size_t known_ = 0;          // of these
