@@ -6,6 +6,7 @@ import shutil
 import subprocess
 from concurrent.futures import ThreadPoolExecutor
 from functools import cache
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -45,13 +46,13 @@ def differences(scene: Scene, lanes: int, rounds: int, spread: float = 0.1) -> f
     evaluator = _core.LaneEvaluator(module_of(lanes), models)
     start, rng = evaluator.start(), np.random.default_rng(1)
     tree = models[0].tree
-    edges = np.cumsum([0, tree["positions"], tree["speeds"]]).tolist() + [start.shape[1]]
+    edges = [*np.cumsum([0, tree["positions"], tree["speeds"]]).tolist(), start.shape[1]]
     worst = 0.0
     for moment in range(rounds):
         state = start + spread * rng.normal(size=start.shape)
         one_by_one = evaluator.scalar_derivative(0.37 * moment, state)
         off = np.abs(evaluator.derivative(0.37 * moment, state) - one_by_one)
-        for begin, end in zip(edges, edges[1:], strict=False):
+        for begin, end in pairwise(edges):
             if end > begin:
                 size = np.abs(one_by_one[:, begin:end]).max(axis=1, keepdims=True)
                 worst = max(worst, float((off[:, begin:end] / (size + 1e-300)).max()))
@@ -84,7 +85,10 @@ def test_loads_that_take_packs_are_those_of_each_lane() -> None:
     scene.add_point_force(name="push", body="weight", point=(0.1, 0, 0), force=(1.0, 2.0, 3.0))
     scene.add_pendulum_damping(name="damping", first="bob", second="weight", ratio=0.2)
     scene.add_force_table(
-        name="gust", body="weight", times=[0.0, 5.0], loads=[(1.0, 0.0, 0.0, 0.0, 0.0, 0.0), (0.0, 4.0, 1.0, 0.5, 0.0, 0.2)]
+        name="gust",
+        body="weight",
+        times=[0.0, 5.0],
+        loads=[(1.0, 0.0, 0.0, 0.0, 0.0, 0.0), (0.0, 4.0, 1.0, 0.5, 0.0, 0.2)],
     )
     assert differences(scene, 4, 20) < 1e-13
 
@@ -97,7 +101,8 @@ def stats(result: Result) -> list[float]:
 @pytest.mark.parametrize("lanes", LANES)
 def test_members_are_those_of_the_scalar_engine_within_the_tolerance(lanes: int) -> None:
     study: dict[str, Any] = {
-        "over": {"seed": range(1, 6)}, "database": shipped_database(), "keep": {"track": TRACK, "stats": stats},
+        "over": {"seed": range(1, 6)}, "database": shipped_database(),
+        "keep": {"track": TRACK, "stats": stats},
         "t_end": 20.0, "dt_out": 1.0, "channels": ("position",),
     }  # fmt: skip
     fine = ensemble(case("case2"), rtol=1e-8, lanes=1, **study).dataset
@@ -125,7 +130,14 @@ def test_a_member_does_not_depend_on_what_runs_it() -> None:
 @needs_lanes
 def test_outputs_of_every_kind_are_those_of_a_single_run() -> None:
     scene = case("case2")
-    names = ("position", "acceleration", "vessel_motion", "reaction_force", "actuator_force", "wave_elevation")
+    names = (
+        "position",
+        "acceleration",
+        "vessel_motion",
+        "reaction_force",
+        "actuator_force",
+        "wave_elevation",
+    )
     keep = {name: Kept(channel=name) for name in names if name in scene.compile().channel_names()}
     made = ensemble(
         scene, over={"seed": [1, 2]}, database=shipped_database(), keep=keep, t_end=5.0, rtol=1e-9, lanes=4
@@ -192,7 +204,9 @@ def spun(speed: float) -> Run:
     """A flywheel, whose angle packs no longer turn into sines from 1.6e6 rad on."""
     scene = Scene(name="flywheel")
     scene.add_body(name="wheel", mass=1.0, inertia=(1.0, 2.0, 1.0))
-    scene.add_joint(kind="revolute", name="axle", first="ground", second="wheel", point=(0, 0, 0), axis=(0, 1, 0))
+    scene.add_joint(
+        kind="revolute", name="axle", first="ground", second="wheel", point=(0, 0, 0), axis=(0, 1, 0)
+    )
     model = scene.compile()
     values = model.initial_state
     values[model.twist_index(0) + 4] = speed
@@ -252,6 +266,15 @@ def test_a_lane_module_shows_nothing_but_its_entry(lanes: int) -> None:
 def test_bad_input_is_named(given: dict[str, Any], told: str) -> None:
     with pytest.raises(SceneError, match=told):
         ensemble(pendulum, over={"start": [1.0]}, keep={"z": Kept(channel="position")}, **given)
+
+
+@needs_lanes
+def test_lanes_are_the_default_where_a_sea_varies() -> None:
+    keep = {"lanes": why}
+    study: dict[str, Any] = {"database": shipped_database(), "keep": keep, "t_end": 0.5, "rtol": 1e-2}
+    assert (ensemble(case("vessel"), over={"seed": [1, 2]}, **study).dataset.lanes == 4).all()
+    assert (ensemble(case("vessel"), over={"seed": [1, 2]}, pack=2, **study).dataset.lanes == 1).all()
+    assert (ensemble(case("vessel"), over={"gravity": [9.8, 9.81]}, **study).dataset.lanes == 1).all()
 
 
 def test_a_processor_without_lanes_runs_one_by_one(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -37,11 +37,17 @@ def lanes(*, repeats: int) -> Section:
     return Section(
         title="Runs side by side",
         text=(
-            f"Case 2 in {SEEDS} seas, CPU time of one thread: one evaluation for a lane, and the loop of {END:g} s "
-            "with tsit5 at rtol 1e-2 and the payload every second, for a run, by the number of lanes. The error "
-            f"is the largest of the payload over all seas. Best of {repeats}."
+            f"Case 2 in {SEEDS} seas, CPU time of one thread: one evaluation for a lane, and the loop of "
+            f"{END:g} s with tsit5 at rtol 1e-2 and positions every second, for a run, by lanes. The error is "
+            f"the largest of the payload over all seas. Best of {repeats}."
         ),
-        head=["lanes", "one evaluation, ns a lane", "loop, ms a run", "simulated s per s", "payload error, m"],
+        head=[
+            "lanes",
+            "one evaluation, ns a lane",
+            "loop, ms a run",
+            "simulated s per s",
+            "payload error, m",
+        ],
         rows=rows,
     )
 

@@ -14,7 +14,8 @@
 /// 20 ms, between two steps.
 class SharedSimulation {
  public:
-  SharedSimulation(std::shared_ptr<const seacrane::Model> model, const seacrane::State& start, seacrane::RunOptions options)
+  SharedSimulation(std::shared_ptr<const seacrane::Model> model, const seacrane::State& start,
+                   seacrane::RunOptions options)
       : simulation_(std::move(model), start, std::move(options)) {}
 
   bool advance(double t_end, const py::object& progress) {

@@ -1,6 +1,6 @@
-#include "seacrane/lanes/packed_system.hpp"
-
 #include <pybind11/pybind11.h>
+
+#include "seacrane/lanes/packed_system.hpp"
 
 // One module for each kind of processor: SEACRANE_LANES numbers to a register, SEACRANE_INSTRUCTIONS as
 // __builtin_cpu_supports() calls them, SEACRANE_LANE_MODULE its name.

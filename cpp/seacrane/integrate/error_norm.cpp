@@ -21,9 +21,7 @@ std::vector<double> spread(const std::vector<double>& absolute, std::size_t size
 }  // namespace
 
 ErrorNorm::ErrorNorm(const Tolerances& tolerances, std::size_t size)
-    : relative_(tolerances.relative),
-      absolute_(spread(tolerances.absolute, size)),
-      lanes_(tolerances.lanes) {
+    : relative_(tolerances.relative), absolute_(spread(tolerances.absolute, size)), lanes_(tolerances.lanes) {
   if (!(lanes_ == 1 || lanes_ == 4 || lanes_ == 8) || size % lanes_ != 0) {
     throw std::invalid_argument("lanes is " + std::to_string(lanes_) + "; give 1, 4 or 8");
   }
@@ -68,8 +66,7 @@ double ErrorNorm::norm(const double* vector, const double* y) const {
 }
 
 double ErrorNorm::over_tolerances(const double* y) const {
-  return root_mean_square(
-      [&](std::size_t i) { return y[i] / (absolute_[i] + relative_ * std::abs(y[i])); });
+  return root_mean_square([&](std::size_t i) { return y[i] / (absolute_[i] + relative_ * std::abs(y[i])); });
 }
 
 double ErrorNorm::distance(const double* a, const double* b) const {

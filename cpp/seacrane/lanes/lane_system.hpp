@@ -37,8 +37,8 @@ struct LaneModule {
 
 /// Sizes that tell of another compiler, or of another alignment.
 constexpr std::array<std::size_t, 6> layout_of_models() {
-  return {sizeof(Model), sizeof(Vessel), sizeof(BodyModel), sizeof(WaveLoadDescription), alignof(Model),
-          alignof(Mat6d)};
+  return {sizeof(Model),  sizeof(Vessel), sizeof(BodyModel), sizeof(WaveLoadDescription),
+          alignof(Model), alignof(Mat6d)};
 }
 
 /// Why a model cannot be stepped in lanes; empty: it can.

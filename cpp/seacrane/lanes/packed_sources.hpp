@@ -13,8 +13,8 @@
 
 namespace seacrane {
 
-/// Value, first and second derivative in time of L sources, a lane for each: evaluated one by one, or, of wave
-/// loads, which a table asks for often, side by side.
+/// Value, first and second derivative in time of L sources, a lane for each: evaluated one by one, or, of
+/// wave loads, which a table asks for often, side by side.
 template <int L, class Source>
 class PackedSources {
  public:

@@ -20,8 +20,8 @@ struct VectorsOf {
   typedef std::uint64_t Unsigned __attribute__((vector_size(8 * L)));
 };
 
-/// What a comparison of packs gives, lane by lane. It does not convert to bool: a branch on it would be that of
-/// one lane, so templates use select().
+/// What a comparison of packs gives, lane by lane. It does not convert to bool: a branch on it would be that
+/// of one lane, so templates use select().
 template <int L>
 struct Mask {
   typename VectorsOf<L>::Bits bits;  // all or none of each lane
@@ -71,8 +71,8 @@ struct Pack {
   friend Mask<L> operator>=(const Pack& a, const Pack& b) { return {a.v >= b.v}; }
 
   friend Pack select(const Mask<L>& condition, const Pack& yes, const Pack& no) {
-    const Bits chosen = (std::bit_cast<Bits>(yes.v) & condition.bits) |
-                        (std::bit_cast<Bits>(no.v) & ~condition.bits);
+    const Bits chosen =
+        (std::bit_cast<Bits>(yes.v) & condition.bits) | (std::bit_cast<Bits>(no.v) & ~condition.bits);
     return Pack(std::bit_cast<Vector>(chosen));
   }
   friend Pack abs(const Pack& a) {
@@ -102,12 +102,17 @@ struct Pack {
     const Pack t = shorter / select(origin, Pack(1.0), longer);
     const Mask<L> large = t > Pack(0.66);
     const Pack w = select(large, (t - 1.0) / (t + 1.0), t), z = w * w;
-    const Pack p = (((-8.750608600031904122785e-1 * z - 1.615753718733365076637e1) * z -
-                     7.500855792314704667340e1) * z - 1.228866684490136173410e2) * z -
-                   6.485021904942025371773e1;
-    const Pack q = ((((z + 2.485846490142306297962e1) * z + 1.650270098316988542046e2) * z +
-                     4.328810604912902668951e2) * z + 4.853903996359136964868e2) * z +
-                   1.945506571482613964425e2;
+    const Pack p =
+        (((-8.750608600031904122785e-1 * z - 1.615753718733365076637e1) * z - 7.500855792314704667340e1) * z -
+         1.228866684490136173410e2) *
+            z -
+        6.485021904942025371773e1;
+    const Pack q =
+        ((((z + 2.485846490142306297962e1) * z + 1.650270098316988542046e2) * z + 4.328810604912902668951e2) *
+             z +
+         4.853903996359136964868e2) *
+            z +
+        1.945506571482613964425e2;
     const Pack rest = w * z * (p / q);
     Pack angle = select(large, 0.25 * pi + (w + (rest + 0.5 * more_pi_2)), w + rest);
     angle = select(steep, (0.5 * pi - angle) + more_pi_2, angle);

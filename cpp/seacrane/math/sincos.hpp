@@ -11,7 +11,8 @@ inline constexpr double sincos_limit = 1.6e6;
 /// Sine and cosine of one |x| <= sincos_limit without branches, so that a loop over it becomes SIMD code.
 /// x - q pi/2 with pi/2 in parts of 33, 33 and 53 bits (Cody and Waite), Taylor polynomials on [-pi/4, pi/4]
 /// whose first omitted terms are (pi/4)^17/17! = 5e-17 and (pi/4)^18/18! = 2e-18, quadrant by bit selection.
-/// Absolute error below 3e-16. `Bits` are unsigned integers of the size of T: one double, or a vector of them.
+/// Absolute error below 3e-16. `Bits` are unsigned integers of the size of T: one double, or a vector of
+/// them.
 template <class T, class Bits>
 void sincos_lane(const T& x, T& sine, T& cosine) {
   constexpr double round_to_integer = 0x1.8p52;

@@ -102,8 +102,7 @@ void SideBySide::count_time(std::chrono::steady_clock::time_point since) {
 }
 
 void SideBySide::step(double t_end) {
-  const double smooth_until =
-      kinks_.next(runs_.front()->model()->kinks, *integrator_, integrator_->time());
+  const double smooth_until = kinks_.next(runs_.front()->model()->kinks, *integrator_, integrator_->time());
   system_->set_curve_limit(smooth_until);
   try {
     integrator_->step(std::min(smooth_until, t_end));
@@ -146,9 +145,8 @@ void SideBySide::record(double smooth_until) {
   known_ = 0;
   for (std::size_t lane = 0; lane < runs_.size(); ++lane) {
     if (has_left(lane)) continue;
-    runs_[lane]->record_beside(integrator_->time(), smooth_until, [&](double t, double* y) {
-      take_lane(state_at(t).data(), lane, y);
-    });
+    runs_[lane]->record_beside(integrator_->time(), smooth_until,
+                               [&](double t, double* y) { take_lane(state_at(t).data(), lane, y); });
   }
 }
 

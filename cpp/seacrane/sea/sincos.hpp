@@ -25,7 +25,8 @@ inline void sincos_each(const double* angle, std::size_t count, double largest, 
 inline void sincos_of(const double* omega, std::size_t count, double largest_omega, double t, double* sine,
                       double* cosine) {
   if (largest_omega * std::fabs(t) <= sincos_limit) {
-    for (std::size_t i = 0; i < count; ++i) sincos_lane<double, std::uint64_t>(omega[i] * t, sine[i], cosine[i]);
+    for (std::size_t i = 0; i < count; ++i)
+      sincos_lane<double, std::uint64_t>(omega[i] * t, sine[i], cosine[i]);
   } else {
     for (std::size_t i = 0; i < count; ++i) {
       sine[i] = std::sin(omega[i] * t);

@@ -17,7 +17,7 @@ from seacrane.ensembles.identity import identity_of
 from seacrane.ensembles.job import Job, Pack
 from seacrane.ensembles.kept import Kept
 from seacrane.ensembles.members import Members, Over, members_of
-from seacrane.ensembles.other_sea import Databases
+from seacrane.ensembles.other_sea import WORDS, Databases
 from seacrane.ensembles.outcome import Outcome
 from seacrane.ensembles.store import Folder, Memory, Store, folder_of, study_in
 from seacrane.ensembles.study import Keep, Source, Study, checked_keep, outputs_for
@@ -124,8 +124,9 @@ def ensemble(
         at most 250 packs, but no more than 64.
     lanes : int, optional
         Members that are stepped side by side, by their numbers, where they differ in their seas alone: 4, 8
-        (AVX-512), or 1 for each by itself. Default: 4 where the processor has AVX2 and `pack` is no other
-        multiple. What cannot be stepped so is run by itself; a result's stats say why by "kept_apart".
+        (AVX-512), or 1 for each by itself. Default: 4 where a word of the sea varies, the processor has AVX2
+        and `pack` is a multiple of it. What cannot be stepped so is run by itself; a result's stats say why
+        by "kept_apart".
     progress : bool
         Show a progress bar with the time left.
     **shorthand
@@ -153,7 +154,7 @@ def ensemble(
     if executor is not None and not isinstance(executor, Executor):
         raise SceneError(f"executor is {shown(executor)}; give a concurrent.futures.Executor")
     how, recorded = settled(method, outputs, shorthand)
-    wanted = checked_keep(keep)
+    wanted, members = checked_keep(keep), members_of(over)
     study = Study(
         source=source.copy() if isinstance(source, Scene) else source,
         databases=database,
@@ -161,12 +162,11 @@ def ensemble(
         method=how,
         outputs=outputs_for(wanted, recorded),
         keep=wanted,
-        lanes=_lanes(lanes, pack),
+        lanes=_lanes(lanes, pack, members),
     )
     for what in wanted.values():
         if isinstance(what, Kept):
             what.require_times(study.t_end, recorded.dt)
-    members = members_of(over)
     _require_free_names(members, wanted)
     study.require_names(list(members.axes))
     size = _pack_size(pack, len(members), study.lanes)
@@ -185,11 +185,12 @@ def _require_free_names(members: Members, keep: Keep) -> None:
             raise SceneError(f"over: the name {name!r} is taken by what is kept; rename one of them")
 
 
-def _lanes(lanes: int | None, pack: int | None) -> int:
+def _lanes(lanes: int | None, pack: int | None, members: Members) -> int:
     asked = lanes_of(lanes)
-    if lanes is None and isinstance(pack, int) and pack % asked:
-        return 1
-    return asked
+    if lanes is not None:
+        return asked
+    of_one_lift = any(name in WORDS for name in members.axes)
+    return asked if of_one_lift and not (isinstance(pack, int) and pack % asked) else 1
 
 
 def _pack_size(pack: int | None, count: int, lanes: int) -> int:

@@ -72,11 +72,13 @@ StrutMotionOf<T> move_strut(const Strut& s, const Mat3<T>& base, const Mat3<T>& 
   const Vec3<T> across_u = a - a.dot(u) * u;
   const T lean = across_u.norm();
   const T leaning = -tilt * a.dot(u) / (rho * lean);
-  const T cosine = valid_where(leaning * leaning < T(kLargestCosine * kLargestCosine), leaning, [&](const auto&) {
-    throw std::domain_error("cylinder '" + s.name +
-                            "': it has turned into the axis of its universal joint, where its own turn is "
-                            "not determined");
-  });
+  const T cosine =
+      valid_where(leaning * leaning < T(kLargestCosine * kLargestCosine), leaning, [&](const auto&) {
+        throw std::domain_error(
+            "cylinder '" + s.name +
+            "': it has turned into the axis of its universal joint, where its own turn is "
+            "not determined");
+      });
   const Vec3<T> n1 = across_u / lean;
   const Vec3<T> w = cosine * n1 + T(s.side) * sqrt(T(1) - cosine * cosine) * cross<T>(u, n1);
   Mat3<T> from, to;
