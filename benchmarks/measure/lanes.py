@@ -38,7 +38,7 @@ def lanes(*, repeats: int) -> Section:
         title="Runs side by side",
         text=(
             f"Case 2 in {SEEDS} seas, CPU time of one thread: one evaluation for a lane, and the loop of "
-            f"{END:g} s with tsit5 at rtol 1e-2 and positions every second, for a run, by lanes. The error is "
+            f"{END:g} s with tsit5 at rtol 1e-2 and positions every second, for a run. The error is "
             f"the largest of the payload over all seas. Best of {repeats}."
         ),
         head=[
