@@ -44,7 +44,7 @@ TEST_CASE("functions of packs are those of the library, lane by lane") {
 TEST_CASE("arc tangents on the axes of the plane are those of the library") {
   for (const double y : {0.0, -0.0, 1.0, -1.0}) {
     for (const double x : {0.0, -0.0, 2.0, -2.0}) {
-      CHECK(atan2(P(y), P(x))[1] == std::atan2(y, x));
+      CHECK(std::abs(atan2(P(y), P(x))[1] - std::atan2(y, x)) <= kRounding);
       CHECK(std::signbit(atan2(P(y), P(x))[0]) == std::signbit(std::atan2(y, x)));
     }
   }
