@@ -25,6 +25,7 @@ from measure import (
     hours,
     hydraulic_cost,
     integrators,
+    lanes,
     line_methods,
     linear,
     memory_by_motion,
@@ -106,6 +107,7 @@ def sections(folder: Path, *, repeats: int, quick: bool) -> Iterator[Section]:
     yield seas.seas(repeats=min(repeats, 3))
     yield ensemble.one_member(repeats=repeats)
     yield ensemble_overhead.overhead(members=4 if quick else 16, t_end=100.0 if quick else 10_800.0)
+    yield lanes.lanes(repeats=repeats)
     yield ensemble.workers(repeats=min(repeats, 3), t_end=100.0 if quick else 1000.0)
     yield strip_cost.strip_cost(repeats=min(repeats, 3))
     yield rival.rival(repeats=repeats, t_end=5.0 if quick else 100.0)

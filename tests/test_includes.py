@@ -22,7 +22,8 @@ BELOW: dict[str, set[str]] = {
     "model": {"math", "elements", "sea", "hydro"},
     "dynamics": {"math", "elements", "sea", "hydro", "model", "integrate"},
     "compile": {"math", "elements", "sea", "hydro", "model", "integrate", "dynamics"},
-    "run": {"math", "elements", "sea", "hydro", "model", "integrate", "dynamics", "compile"},
+    "lanes": {"math", "elements", "sea", "hydro", "model", "integrate", "dynamics"},
+    "run": {"math", "elements", "sea", "hydro", "model", "integrate", "dynamics", "compile", "lanes"},
 }
 
 

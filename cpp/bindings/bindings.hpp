@@ -18,6 +18,7 @@ void bind_curve(py::module_& m);
 void bind_elements(py::module_& m);
 void bind_integrators(py::module_& m);
 void bind_sea(py::module_& m);
+void bind_lanes(py::module_& m);
 void bind_model(py::module_& m);
 void bind_simulation(py::module_& m);
 void bind_strip(py::module_& m);

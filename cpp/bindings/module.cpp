@@ -54,6 +54,7 @@ PYBIND11_MODULE(_core, m) {
   bind_integrators(m);
   bind_channels(m);
   bind_simulation(m);
+  bind_lanes(m);
   bind_strip(m);
   bind_repr(m);
   bind_copies();

@@ -1,11 +1,8 @@
-#include "seacrane/run/simulation.hpp"
-
 #include <algorithm>
 
 #include "bindings.hpp"
 #include "seacrane/elements/check.hpp"
-#include "turns.hpp"
-#include "vector_state.hpp"
+#include "shared_simulation.hpp"
 
 using namespace seacrane;
 using Array = py::array_t<double, py::array::c_style | py::array::forcecast>;
@@ -15,19 +12,6 @@ namespace {
 Array to_array(const std::vector<double>& v) { return Array(static_cast<py::ssize_t>(v.size()), v.data()); }
 
 std::vector<double> to_values(const Array& a) { return {a.data(), a.data() + a.size()}; }
-
-/// Asks Python for Ctrl-C and reports progress; called every 20 ms of wall time. What another signal's
-/// handler raises is passed on.
-bool ask_python(double time, const py::object& progress) {
-  py::gil_scoped_acquire acquire;
-  if (PyErr_CheckSignals() != 0) {
-    if (PyErr_ExceptionMatches(PyExc_KeyboardInterrupt) == 0) throw py::error_already_set();
-    PyErr_Clear();
-    return false;
-  }
-  if (!progress.is_none()) progress(time);
-  return true;
-}
 
 py::dict channels(const Recording& r, std::size_t most) {
   const auto rows = static_cast<py::ssize_t>(std::min(r.count(), most));
@@ -92,60 +76,6 @@ py::list events(const Simulation& s) {
   for (const auto& row : rows) out.append(row.second);
   return out;
 }
-
-/// A simulation that threads may share: one at a time is inside. A run in progress lets the others in every
-/// 20 ms, between two steps.
-class SharedSimulation {
- public:
-  SharedSimulation(std::shared_ptr<const Model> model, const State& start, RunOptions options)
-      : simulation_(std::move(model), start, std::move(options)) {}
-
-  bool advance(double t_end, const py::object& progress) {
-    const Turn turn(turns_);
-    if (advancing_) {
-      throw std::domain_error(
-          "run: is advanced already, by another thread or by whom it calls; give each thread a run of its "
-          "own");
-    }
-    const Advancing mark(advancing_);
-    const WithoutGil released;
-    clear_vector_state();
-    return simulation_.advance(t_end, [&](double time) {
-      if (WithoutGil::should_return()) return false;
-      const Turns::Pause pause(turns_);
-      return ask_python(time, progress);
-    });
-  }
-
-  template <class Function>
-  auto alone(const Function& function) {
-    const Turn turn(turns_);
-    return function(simulation_);
-  }
-
-  void enter() { turns_.take(); }
-  void leave() { turns_.give(); }
-
- private:
-  struct Turn {
-    explicit Turn(Turns& all) : turns(all) { turns.take(); }
-    ~Turn() { turns.give(); }
-    Turn(const Turn&) = delete;
-    Turn& operator=(const Turn&) = delete;
-    Turns& turns;
-  };
-  struct Advancing {
-    explicit Advancing(bool& mark) : flag(mark) { flag = true; }
-    ~Advancing() { flag = false; }
-    Advancing(const Advancing&) = delete;
-    Advancing& operator=(const Advancing&) = delete;
-    bool& flag;
-  };
-
-  Turns turns_;
-  bool advancing_ = false;
-  Simulation simulation_;
-};
 
 /// A function of the simulation as a method that waits for its turn.
 template <class Function>
@@ -265,6 +195,19 @@ void bind_record(py::module_& m) {
 }
 
 }  // namespace
+
+/// Asks Python for Ctrl-C and reports progress; called every 20 ms of wall time. What another signal's
+/// handler raises is passed on.
+bool SharedSimulation::ask_python(double time, const py::object& progress) {
+  py::gil_scoped_acquire acquire;
+  if (PyErr_CheckSignals() != 0) {
+    if (PyErr_ExceptionMatches(PyExc_KeyboardInterrupt) == 0) throw py::error_already_set();
+    PyErr_Clear();
+    return false;
+  }
+  if (!progress.is_none()) progress(time);
+  return true;
+}
 
 void bind_simulation(py::module_& m) {
   bind_history(m);

@@ -5,6 +5,7 @@ from __future__ import annotations
 import collections.abc
 import numpy
 import numpy.typing
+import types
 import typing
 __all__: list[str] = ['Actuator', 'Body', 'Channel', 'Curve', 'DriftLoad', 'DriftTable', 'Driver', 'Evaluator', 'ExactWaveLoad', 'Field', 'FlowForce', 'ForceTable', 'Frame', 'Friction', 'FunctionForce', 'GasSpring', 'HeaveCompensator', 'HydraulicCylinder', 'Integrator', 'Joint', 'JointKind', 'LOAD_KINDS', 'Limit', 'Line', 'Model', 'PendulumDamping', 'Point', 'PointForce', 'PositionedWaveLoad', 'RecordHistory', 'RepeatPeriod', 'RetardationFunctions', 'RunOptions', 'Simulation', 'SoftStop', 'SpanDrag', 'Spectrum', 'Spring', 'State', 'StateSpaceBlock', 'StepHistory', 'TwistHistory', 'VesselHydrodynamics', 'WaveComponents', 'WaveKinematics', 'WaveLoads', 'WaveTable', 'axes', 'channels', 'compile', 'dnv_gamma', 'initial_state', 'integrator', 'integrator_names', 'integrators', 'joint_kinds', 'jonswap', 'ochi_hubble', 'philox_uniform', 'pierson_moskowitz', 'realise_waves', 'section_radiation', 'stability_polynomial', 'strip_theory', 'tabulated_density', 'torsethaugen', 'weighted_sums']
 class Curve:
@@ -2878,6 +2879,34 @@ class Simulation:
     @property
     def time(self) -> float:
         ...
+class LaneEvaluator:
+    """
+    Evaluates models that differ in their seas at single states (lanes, n), in coordinates of the tree.
+    """
+    def __init__(self, module: types.ModuleType, models: collections.abc.Sequence[Model]) -> None:
+        ...
+    def __repr__(self) -> str:
+        ...
+    def derivative(self, t: typing.SupportsFloat | typing.SupportsIndex, y: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, n]"]) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]:
+        """
+        dy/dt, in lanes.
+        """
+    def repeat(self, t: typing.SupportsFloat | typing.SupportsIndex, y: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, n]"], count: typing.SupportsInt | typing.SupportsIndex, dt: typing.SupportsFloat | typing.SupportsIndex = 0.0) -> None:
+        """
+        Evaluates in lanes `count` times, advancing t by dt; for timing.
+        """
+    def scalar_derivative(self, t: typing.SupportsFloat | typing.SupportsIndex, y: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, n]"]) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]:
+        """
+        dy/dt, one by one.
+        """
+    def start(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]:
+        """
+        The described starts.
+        """
+def advance_side_by_side(runs: collections.abc.Sequence[Simulation], module: types.ModuleType, t_end: typing.SupportsFloat | typing.SupportsIndex, progress: typing.Any = None) -> bool:
+    """
+    Steps runs, whose models differ in their seas alone, to t_end (s) in the lanes of a module, as far as each goes there; False as of Simulation.advance.
+    """
 def axes() -> dict[str, list[str]]:
     """
     The names along each dimension of channels but time; none: those of a scene, `Model.axes`.
@@ -2893,6 +2922,10 @@ def compile(*, name: str, gravity: typing.SupportsFloat | typing.SupportsIndex, 
 def dnv_gamma(*, hs: typing.SupportsFloat | typing.SupportsIndex, tp: typing.SupportsFloat | typing.SupportsIndex) -> float:
     """
     Peak enhancement by DNV-RP-C205 (3.5.5): 5 for tp / sqrt(hs) <= 3.6, 1 from 5 on, between them exp(5.75 - 1.15 tp / sqrt(hs)); m and s.
+    """
+def has_instructions(name: str) -> bool:
+    """
+    Whether this processor has the instructions that a lane module is compiled for.
     """
 def initial_state(model: Model) -> State:
     ...
@@ -2933,6 +2966,14 @@ def jonswap(*, hs: typing.SupportsFloat | typing.SupportsIndex, tp: typing.Suppo
     Notes
     -----
     Hasselmann et al., Deutsche Hydrographische Zeitschrift A8 (12), 1973. Normalised by quadrature.
+    """
+def kept_apart(runs: collections.abc.Sequence[Simulation]) -> str:
+    """
+    Why runs cannot be stepped side by side; empty: they can.
+    """
+def lanes_of(module: types.ModuleType) -> int:
+    """
+    How many runs a lane module steps side by side.
     """
 def ochi_hubble(*, hs: typing.Annotated[collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(2)"], tp: typing.Annotated[collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(2)"], shape: typing.Annotated[collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(2)"]) -> Spectrum:
     """

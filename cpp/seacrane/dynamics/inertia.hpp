@@ -28,21 +28,24 @@ inline Vec6d compact_inertia(const BodyModel& body, const BodyKinematics<double>
 
 /// Rigid-body mass matrix about the state point, eq (12), in inertial axes; `inertia` about the centre of
 /// mass, body axes.
-inline Mat6d rigid_mass_matrix(const BodyModel& body, const Mat3d& rotation, const Mat3d& inertia) {
-  const Vec3d c = rotation * body.center_of_mass;
-  const Mat3d s = skew<double>(c);
-  Mat6d m;
-  m.topLeftCorner<3, 3>() = body.mass * Mat3d::Identity();
-  m.topRightCorner<3, 3>() = -body.mass * s;
-  m.bottomLeftCorner<3, 3>() = body.mass * s;
-  m.bottomRightCorner<3, 3>() = (rotation * inertia) * rotation.transpose();
-  m.bottomRightCorner<3, 3>() += (body.mass * c) * -c.transpose();  // -m s s = m (c.c - c c^T)
-  m.diagonal().tail<3>().array() += body.mass * c.squaredNorm();
+template <class T>
+Mat6<T> rigid_mass_matrix(const BodyModel& body, const Mat3<T>& rotation, const Mat3d& inertia) {
+  const T mass(body.mass);
+  const Vec3<T> c = rotation * body.center_of_mass.cast<T>();
+  const Mat3<T> s = skew<T>(c);
+  Mat6<T> m;
+  m.template topLeftCorner<3, 3>() = mass * Mat3<T>::Identity();
+  m.template topRightCorner<3, 3>() = -mass * s;
+  m.template bottomLeftCorner<3, 3>() = mass * s;
+  m.template bottomRightCorner<3, 3>() = (rotation * inertia.cast<T>()) * rotation.transpose();
+  m.template bottomRightCorner<3, 3>() += (mass * c) * -c.transpose();  // -m s s = m (c.c - c c^T)
+  m.diagonal().template tail<3>().array() += mass * c.squaredNorm();
   return m;
 }
 
-inline Mat6d rigid_mass_matrix(const BodyModel& body, const Mat3d& rotation) {
-  return rigid_mass_matrix(body, rotation, body.inertia);
+template <class T>
+Mat6<T> rigid_mass_matrix(const BodyModel& body, const Mat3<T>& rotation) {
+  return rigid_mass_matrix<T>(body, rotation, body.inertia);
 }
 
 /// The same with the body's shape, for a mass of one.
@@ -51,17 +54,32 @@ inline Mat6d shape_mass_matrix(const BodyModel& body, const Mat3d& rotation) {
 }
 
 /// Vessel: rigid body about the reference point plus added mass in the yaw-following frame. Returns b.
-inline Vec6d vessel_terms(const BodyModel& body, const Vessel& vessel, const BodyKinematics<double>& k,
-                          const YawFrame<double>& frame, Mat6d& mass) {
-  const Mat6d rigid = rigid_mass_matrix(body, k.rotation);
+template <class T>
+Vec6<T> vessel_terms(const BodyModel& body, const Vessel& vessel, const BodyKinematics<T>& k,
+                     const YawFrame<T>& frame, Mat6<T>& mass) {
+  const Mat6<T> rigid = rigid_mass_matrix<T>(body, k.rotation);
   mass = rigid + frame.to_inertial(vessel.added_mass);
-  const Vec3d& w = k.angular_velocity;
-  const Vec3d c = k.rotation * body.center_of_mass;
-  const Vec3d angular = rigid.bottomRightCorner<3, 3>() * w;
-  Vec6d bias;
-  bias.head<3>() = body.mass * w.cross(w.cross(c));
-  bias.tail<3>() = w.cross(angular);
+  const Vec3<T>& w = k.angular_velocity;
+  const Vec3<T> c = k.rotation * body.center_of_mass.cast<T>();
+  const Vec3<T> angular = rigid.template bottomRightCorner<3, 3>() * w;
+  Vec6<T> bias;
+  bias.template head<3>() = T(body.mass) * cross<T>(w, cross<T>(w, c));
+  bias.template tail<3>() = cross<T>(w, angular);
   return bias + vessel.added_mass_bias(frame);
+}
+
+/// Compact body, of whose mass matrix about the state point only the part that turns with the body is
+/// written. Returns b, eq (5).
+template <class T>
+Vec6<T> compact_terms(const BodyModel& body, const BodyKinematics<T>& k, Mat6<T>& mass) {
+  const Mat3<T> turned = k.rotation * body.inertia.cast<T>();
+  Mat3<T> inertia;
+  inertia.noalias() = turned * k.rotation.transpose();
+  mass.template bottomRightCorner<3, 3>() = inertia;
+  const Vec3<T> momentum = inertia * k.angular_velocity;
+  Vec6<T> bias;
+  bias << Vec3<T>::Zero(), cross<T>(k.angular_velocity, momentum);
+  return bias;
 }
 
 inline Vec6d vessel_inertia(const BodyModel& body, const Vessel& vessel, const BodyKinematics<double>& k,

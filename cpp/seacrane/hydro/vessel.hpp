@@ -9,6 +9,7 @@
 #include "seacrane/hydro/fast_motion.hpp"
 #include "seacrane/hydro/memory.hpp"
 #include "seacrane/math/rotation.hpp"
+#include "seacrane/math/select.hpp"
 
 namespace seacrane {
 
@@ -158,7 +159,7 @@ struct Vessel {
     Vec6<T> quadratic;
     for (int i = 0; i < 6; ++i) {
       const T u = f.twist[i];
-      quadratic[i] = T(quadratic_damping[i]) * (u < T(0) ? -u : u) * u;
+      quadratic[i] = T(quadratic_damping[i]) * select(u < T(0), T(-u), u) * u;
     }
     const Vec6<T> sum = linear + quadratic;
     const Vec6<T> load = -sum;

@@ -108,6 +108,13 @@ class EmbeddedPair final : public AdaptiveStep {
     extra_known_ = true;
   }
 
+  double combined(double h, double sum, double low) const {
+    if (two_estimates && sum > 0.0) {
+      // [Hairer, Norsett, Wanner I, II.10.17]
+      return h * std::sqrt(norm_.inverse_count()) * sum / std::sqrt(sum + 0.01 * low);
+    }
+    return h * std::sqrt(sum * norm_.inverse_count());
+  }
   bool try_step(double h, double t_end) override;
   double error(double h) const override;
   std::size_t dominant_component(double h) const override;
@@ -136,20 +143,22 @@ double EmbeddedPair<Tableau>::error(double h) const {
   const auto tolerance = [&](std::size_t i) {
     return norm_.tolerance(i, std::max(std::abs(state_[i]), std::abs(end_state_[i])));
   };
-  double sum = 0.0, low = 0.0;
-  for (std::size_t i = 0; i < size(); ++i) {
-    const double ratio = LinearCombination<Error, stages + 1>::slope(k, i) / tolerance(i);
-    sum += ratio * ratio;
-    if constexpr (two_estimates) {
-      const double low_ratio = LinearCombination<LowOrderError, stages + 1>::slope(k, i) / tolerance(i);
-      low += low_ratio * low_ratio;
+  return norm_.largest([&]<std::size_t lanes>() {
+    std::array<double, lanes> sum{}, low{};
+    for (std::size_t i = 0; i < size(); i += lanes) {
+      for (std::size_t j = 0; j < lanes; ++j) {
+        const double ratio = LinearCombination<Error, stages + 1>::slope(k, i + j) / tolerance(i + j);
+        sum[j] += ratio * ratio;
+        if constexpr (two_estimates) {
+          const double low_ratio =
+              LinearCombination<LowOrderError, stages + 1>::slope(k, i + j) / tolerance(i + j);
+          low[j] += low_ratio * low_ratio;
+        }
+      }
     }
-  }
-  if (two_estimates && sum > 0.0) {
-    // [Hairer, Norsett, Wanner I, II.10.17]
-    return h * std::sqrt(norm_.inverse_count()) * sum / std::sqrt(sum + 0.01 * low);
-  }
-  return h * std::sqrt(sum * norm_.inverse_count());
+    for (std::size_t j = 0; j < lanes; ++j) sum[j] = combined(h, sum[j], low[j]);
+    return sum;
+  });
 }
 
 template <class Tableau>

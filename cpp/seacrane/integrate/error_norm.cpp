@@ -21,7 +21,10 @@ std::vector<double> spread(const std::vector<double>& absolute, std::size_t size
 }  // namespace
 
 ErrorNorm::ErrorNorm(const Tolerances& tolerances, std::size_t size)
-    : relative_(tolerances.relative), absolute_(spread(tolerances.absolute, size)) {
+    : relative_(tolerances.relative), absolute_(spread(tolerances.absolute, size)), lanes_(tolerances.lanes) {
+  if (!(lanes_ == 1 || lanes_ == 4 || lanes_ == 8) || size % lanes_ != 0) {
+    throw std::invalid_argument("lanes is " + std::to_string(lanes_) + "; give 1, 4 or 8");
+  }
   if (!(relative_ >= 0.0 && relative_ < 1.0)) {
     throw std::invalid_argument("relative_tolerance is " + std::to_string(relative_) +
                                 "; give a value from 0 to below 1");
@@ -38,35 +41,36 @@ ErrorNorm::ErrorNorm(const Tolerances& tolerances, std::size_t size)
   if (included == 0) {
     throw std::invalid_argument("absolute_tolerance leaves every state component out of the error norm");
   }
-  inverse_count_ = 1.0 / static_cast<double>(included);
+  inverse_count_ = static_cast<double>(lanes_) / static_cast<double>(included);
   weight_scale_ = std::sqrt(static_cast<double>(size) * inverse_count_);
 }
 
-double ErrorNorm::norm(const double* vector, const double* y) const {
-  double sum = 0.0;
-  for (std::size_t i = 0; i < absolute_.size(); ++i) {
-    const double ratio = vector[i] / tolerance(i, std::abs(y[i]));
-    sum += ratio * ratio;
-  }
+/// Of the ratios of all components.
+template <class Ratio>
+double ErrorNorm::root_mean_square(const Ratio& ratio) const {
+  const double sum = largest([&]<std::size_t lanes>() {
+    std::array<double, lanes> sums{};
+    for (std::size_t i = 0; i < absolute_.size(); i += lanes) {
+      for (std::size_t j = 0; j < lanes; ++j) {
+        const double one = ratio(i + j);
+        sums[j] += one * one;
+      }
+    }
+    return sums;
+  });
   return std::sqrt(sum * inverse_count_);
+}
+
+double ErrorNorm::norm(const double* vector, const double* y) const {
+  return root_mean_square([&](std::size_t i) { return vector[i] / tolerance(i, std::abs(y[i])); });
 }
 
 double ErrorNorm::over_tolerances(const double* y) const {
-  double sum = 0.0;
-  for (std::size_t i = 0; i < absolute_.size(); ++i) {
-    const double ratio = y[i] / (absolute_[i] + relative_ * std::abs(y[i]));
-    sum += ratio * ratio;
-  }
-  return std::sqrt(sum * inverse_count_);
+  return root_mean_square([&](std::size_t i) { return y[i] / (absolute_[i] + relative_ * std::abs(y[i])); });
 }
 
 double ErrorNorm::distance(const double* a, const double* b) const {
-  double sum = 0.0;
-  for (std::size_t i = 0; i < absolute_.size(); ++i) {
-    const double ratio = (a[i] - b[i]) / tolerance(i, std::abs(a[i]));
-    sum += ratio * ratio;
-  }
-  return std::sqrt(sum * inverse_count_);
+  return root_mean_square([&](std::size_t i) { return (a[i] - b[i]) / tolerance(i, std::abs(a[i])); });
 }
 
 void ErrorNorm::weights(const double* y, double* w) const {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -15,9 +16,12 @@ struct Tolerances {
   /// One value per component, or a single one for all. Infinity takes a component (a quadrature of
   /// work, say) out of the error norm.
   std::vector<double> absolute;
+  /// Systems side by side, component i of lane j number i x lanes + j: 1, 4 or 8.
+  std::size_t lanes = 1;
 };
 
-/// Root mean square of an error over the included components, each divided by its tolerance.
+/// Root mean square of an error over the included components, each divided by its tolerance; of lanes that of
+/// the lane where it is largest.
 class ErrorNorm {
  public:
   /// Throws std::invalid_argument on a wrong count or a value that is not a tolerance.
@@ -31,8 +35,21 @@ class ErrorNorm {
     const double asked = absolute_[i] + relative_ * size;
     return std::max(asked, std::min(rounding * size, most_eased * asked));
   }
-  /// 1 / (number of components in the norm).
+  /// 1 / (number of components in the norm), those of one lane.
   double inverse_count() const { return inverse_count_; }
+
+  /// The largest of an array with a number for each lane, f.template operator()<lanes>(); NaN where one is.
+  template <class F>
+  double largest(F&& f) const {
+    switch (lanes_) {
+      case 4:
+        return largest_of(f.template operator()<4>());
+      case 8:
+        return largest_of(f.template operator()<8>());
+      default:
+        return f.template operator()<1>()[0];
+    }
+  }
 
   /// Norm of `vector` at the state y.
   double norm(const double* vector, const double* y) const;
@@ -51,8 +68,21 @@ class ErrorNorm {
   /// Tolerances further below rounding are no oversight: steps collapse, and say so.
   static constexpr double most_eased = 1e4;
 
+  template <std::size_t lanes>
+  static double largest_of(const std::array<double, lanes>& values) {
+    double out = 0.0;
+    for (const double value : values) {
+      if (std::isnan(value)) return value;
+      out = std::max(out, value);
+    }
+    return out;
+  }
+  template <class Ratio>
+  double root_mean_square(const Ratio& ratio) const;
+
   double relative_;
   std::vector<double> absolute_;
+  std::size_t lanes_;
   double inverse_count_;
   double weight_scale_;
 };

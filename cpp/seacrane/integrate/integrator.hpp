@@ -25,6 +25,28 @@ struct Counters {
   long newton_iterations = 0;
   long projections = 0;
   long restarts = 0;
+
+  Counters& operator+=(const Counters& other) {
+    steps += other.steps;
+    rejected_steps += other.rejected_steps;
+    evaluations += other.evaluations;
+    jacobians += other.jacobians;
+    newton_iterations += other.newton_iterations;
+    projections += other.projections;
+    restarts += other.restarts;
+    return *this;
+  }
+
+  Counters& operator-=(const Counters& other) {
+    steps -= other.steps;
+    rejected_steps -= other.rejected_steps;
+    evaluations -= other.evaluations;
+    jacobians -= other.jacobians;
+    newton_iterations -= other.newton_iterations;
+    projections -= other.projections;
+    restarts -= other.restarts;
+    return *this;
+  }
 };
 
 struct IntegratorOptions {
@@ -42,7 +64,10 @@ struct IntegratorOptions {
   /// Without one the method takes its own; the other methods have none to choose.
   std::optional<double> spectral_radius;
 
-  Tolerances tolerances() const { return {relative_tolerance, absolute_tolerance}; }
+  /// Systems side by side, see Tolerances; of explicit pairs.
+  std::size_t lanes = 1;
+
+  Tolerances tolerances() const { return {relative_tolerance, absolute_tolerance, lanes}; }
 };
 
 /// A quantity whose change of sign is an event.

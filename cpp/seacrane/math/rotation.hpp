@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "seacrane/math/select.hpp"
 #include "seacrane/math/types.hpp"
 
 /// Orientation: R takes body components to inertial components; angular velocities are in inertial axes.
@@ -106,7 +107,7 @@ Vec3<T> euler_xyz_rate(const Vec3<T>& phi, const Vec3<T>& omega) {
 template <class T>
 Vec3<T> roll_pitch_yaw(const Mat3<T>& r) {
   using std::asin, std::atan2;
-  const T s = r(2, 0) > T(1) ? T(1) : (r(2, 0) < T(-1) ? T(-1) : r(2, 0));
+  const T s = clamped(r(2, 0), T(-1), T(1));
   return {atan2(r(2, 1), r(2, 2)), asin(-s), atan2(r(1, 0), r(0, 0))};
 }
 

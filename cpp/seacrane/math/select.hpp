@@ -9,6 +9,13 @@ const T& select(bool condition, const T& yes, const T& no) {
   return condition ? yes : no;
 }
 
+/// A value where a formula holds for it; elsewhere `fail`, called with the value, throws.
+template <class T, class Fail>
+const T& valid_where(bool holds, const T& value, Fail&& fail) {
+  if (!holds) fail(value);
+  return value;
+}
+
 template <class T>
 T clamped(const T& value, const T& low, const T& high) {
   return select(value < low, low, select(value > high, high, value));

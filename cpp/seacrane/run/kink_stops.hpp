@@ -1,8 +1,10 @@
 #pragma once
 
 #include <cstddef>
+#include <vector>
 
-#include "seacrane/run/stepper.hpp"
+#include "seacrane/integrate/integrator.hpp"
+#include "seacrane/model/kinks.hpp"
 
 namespace seacrane {
 
@@ -14,7 +16,7 @@ class KinkStops {
   /// Time of the next kink that matters to a step of the present length; infinity where there is none near.
   /// Those beyond the step are left to the steps that come near them: an integrator must know of a stop a
   /// little beyond its step, no further.
-  double next(const Stepper& at, double now);
+  double next(const std::vector<Kink>& kinks, const Integrator& integrator, double now);
 
  private:
   double scaled_tolerance_;

@@ -131,15 +131,20 @@ void OutputSampler::write(Stepper& at, double t, double residual_before, double 
 }
 
 void OutputSampler::record_until(Stepper& at, double t, double impact_loss) {
-  const Integrator& integrator = *at.integrator;
+  record_until(at, t, impact_loss, [&at](double now, double* y) {
+    if (now >= at.integrator->time()) {
+      std::copy_n(at.integrator->state(), at.stepped.size(), y);
+    } else {
+      at.integrator->interpolate(now, y);
+    }
+  });
+}
+
+void OutputSampler::record_until(Stepper& at, double t, double impact_loss, const StateAt& state_at) {
   state_.resize(at.stepped.size());
   while (next_ < times_.size() && times_[next_] <= t) {
     const double now = times_[next_++];
-    if (now >= integrator.time()) {
-      std::copy_n(integrator.state(), state_.size(), state_.data());
-    } else {
-      at.integrator->interpolate(now, state_.data());
-    }
+    state_at(now, state_.data());
     last_time_ = now;
     last_residual_ = project(at, now);
     largest_residual_ = 0.0;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <limits>
 #include <vector>
 
@@ -30,6 +31,10 @@ class OutputSampler {
 
   /// Records the outputs due until t. `impact_loss`: so far, J.
   void record_until(Stepper& at, double t, double impact_loss);
+  /// Writes what is stepped at a time.
+  using StateAt = std::function<void(double t, double* y)>;
+  /// The same with states from elsewhere.
+  void record_until(Stepper& at, double t, double impact_loss, const StateAt& state_at);
   /// One row of all channels of the scene, at the present time.
   Recording snapshot(Stepper& at, double impact_loss);
   /// Takes the largest residual that projection has found since it was asked last.

@@ -155,7 +155,7 @@ void Simulation::watch_limits(bool goes_on) {
 
 /// Time of the next kink at which steps end: curves show their limit from the left until there.
 double Simulation::end_of_smooth_stretch(double now) {
-  const double end = kinks_.next(stepper(), now);
+  const double end = kinks_.next(stepper().model->kinks, integrator(), now);
   set_curve_limit(stepper(), end);
   return end;
 }
@@ -255,9 +255,23 @@ State Simulation::state() {
   return out;
 }
 
+void Simulation::record_beside(double t, double curve_limit, const OutputSampler::StateAt& state_at) {
+  set_curve_limit(stepper(), curve_limit);
+  outputs_.record_until(stepper(), t, energy_lost(), state_at);
+}
+
+void Simulation::go_on_from(double t, const double* y, const Counters& taken, double wall_seconds) {
+  beside_ += taken;
+  wall_seconds_ += wall_seconds;
+  if (t == time()) return;
+  state_.assign(y, y + stepper().stepped.size());
+  integrator().reset(t, state_.data());
+}
+
 RunStatistics Simulation::statistics() const {
   RunStatistics out;
   out.counters = steppers_.counters();
+  out.counters += beside_;
   out.dense_solves = steppers_.dense_solves();
   out.wall_seconds = wall_seconds_;
   out.energy_lost = energy_lost();

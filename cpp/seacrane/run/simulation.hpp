@@ -60,6 +60,20 @@ class Simulation {
   const std::vector<LimitReached>& limits_reached() const;
   const std::string& limit_name(int limit) const { return model_->limits[idx(limit)].name; }
 
+  // For runs that are stepped side by side, see SideBySide.
+  const std::shared_ptr<const Model>& model() const { return model_; }
+  const RunOptions& options() const { return options_; }
+  const std::vector<double>& inputs() const { return inputs_.slots(); }
+  IntegratorOptions step_options() const { return integrator_options(stepper().stepped, options_); }
+  /// Whether loads have kinks in the state, where its own steps would end.
+  bool has_switches() const { return switches_ != nullptr; }
+  /// At time(), as it is stepped.
+  const double* stepped_state() const { return integrator().state(); }
+  /// Records the outputs due until t, at states that were stepped elsewhere; `curve_limit`: see Curve::at.
+  void record_beside(double t, double curve_limit, const OutputSampler::StateAt& state_at);
+  /// Takes over what was stepped elsewhere until t.
+  void go_on_from(double t, const double* y, const Counters& taken, double wall_seconds);
+
  private:
   Stepper& stepper() const { return steppers_.current(); }
   Integrator& integrator() const { return *stepper().integrator; }
@@ -94,6 +108,7 @@ class Simulation {
   double event_time_ = 0.0;                                     // with bodies_, of the last event
   std::vector<double> bodies_, state_;                          // of the described bodies, of what is stepped
   double wall_seconds_ = 0.0;
+  Counters beside_;  // of steps that were taken elsewhere
 };
 
 }  // namespace seacrane

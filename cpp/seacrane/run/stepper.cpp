@@ -14,6 +14,14 @@ namespace {
 
 constexpr double kLargestTolerance = 0.1;  // beyond, an error estimate of one step means nothing
 
+/// Where limits leave nothing to move, the recursive form has no coordinates.
+std::string formulation_of(const Model& model, const RunOptions& run) {
+  const bool rigid = !model.limits.empty() && build_tree(model.stepped()).speeds == 0;
+  return rigid ? "redundant" : run.formulation;
+}
+
+}  // namespace
+
 IntegratorOptions integrator_options(const Formulation& stepped, const RunOptions& run) {
   if (!(run.scaled_tolerance > 0.0) || !(run.scaled_tolerance <= kLargestTolerance)) {
     throw std::invalid_argument("rtol is " + to_text(run.scaled_tolerance) +
@@ -29,14 +37,6 @@ IntegratorOptions integrator_options(const Formulation& stepped, const RunOption
   out.spectral_radius = run.spectral_radius;
   return out;
 }
-
-/// Where limits leave nothing to move, the recursive form has no coordinates.
-std::string formulation_of(const Model& model, const RunOptions& run) {
-  const bool rigid = !model.limits.empty() && build_tree(model.stepped()).speeds == 0;
-  return rigid ? "redundant" : run.formulation;
-}
-
-}  // namespace
 
 Stepper::Stepper(std::shared_ptr<const Model> of, const RunOptions& options)
     : model(std::move(of)),

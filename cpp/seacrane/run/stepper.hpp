@@ -36,4 +36,7 @@ struct Stepper {
   const std::shared_ptr<const Model>& stepped_model() const { return model->merged ? model->merged : model; }
 };
 
+/// What the integrator of a run is made with.
+IntegratorOptions integrator_options(const Formulation& stepped, const RunOptions& run);
+
 }  // namespace seacrane

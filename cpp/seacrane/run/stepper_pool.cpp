@@ -9,16 +9,6 @@
 namespace seacrane {
 namespace {
 
-void add(const Counters& more, Counters& sum) {
-  sum.steps += more.steps;
-  sum.rejected_steps += more.rejected_steps;
-  sum.evaluations += more.evaluations;
-  sum.jacobians += more.jacobians;
-  sum.newton_iterations += more.newton_iterations;
-  sum.projections += more.projections;
-  sum.restarts += more.restarts;
-}
-
 /// The set that holds at the start is the assembled model itself, wherever a run began: its rank is known.
 std::shared_ptr<const Model> model_of(const std::shared_ptr<const Model>& model, ClosedSet closed) {
   return closed == model->closed ? model : compile_set(*model, closed);
@@ -57,7 +47,7 @@ void StepperPool::step_from(Stepper& next, double t, const double* bodies) {
     next.integrator->reset(t, state_.data());
     return;
   }
-  if (next.started) add(next.integrator->counters(), counters_before_);
+  if (next.started) counters_before_ += next.integrator->counters();
   next.integrator->init(t, state_.data());
   next.started = true;
 }
@@ -65,7 +55,7 @@ void StepperPool::step_from(Stepper& next, double t, const double* bodies) {
 Counters StepperPool::counters() const {
   Counters out = counters_before_;
   for (const auto& stepper : steppers_) {
-    if (stepper->started) add(stepper->integrator->counters(), out);
+    if (stepper->started) out += stepper->integrator->counters();
   }
   return out;
 }

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <complex>
 #include <cstddef>
 #include <vector>
 
@@ -37,6 +38,11 @@ class ExactWaveLoad {
   void evaluate(double t, double* value, double* rate, double* acceleration) const;
 
   const WaveComponents& waves() const { return waves_; }
+  /// a X exp(i phase) of a component at the mean position, of a channel.
+  std::complex<double> coefficient(std::size_t component, std::size_t channel) const {
+    const Coefficients& c = coefficients_[component];
+    return {c.real[channel / 2][channel % 2], c.imaginary[channel / 2][channel % 2]};
+  }
   /// sum_i |a_i X_ij| omega_i^order per channel: no |d^order F_j / dt^order| ever exceeds it.
   WaveChannels magnitude(int order) const;
 

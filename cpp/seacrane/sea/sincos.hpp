@@ -1,55 +1,18 @@
 #pragma once
 
-#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 
+#include "seacrane/math/sincos.hpp"
+
 namespace seacrane::sea {
-
-/// Largest |x| of sincos_lane: quadrant numbers below 2^20 keep every product of the reduction exact.
-inline constexpr double sincos_limit = 1.6e6;
-
-/// Sine and cosine of one |x| <= sincos_limit without branches, so that a loop over it becomes SIMD code.
-/// x - q pi/2 with pi/2 in parts of 33, 33 and 53 bits (Cody and Waite), Taylor polynomials on [-pi/4, pi/4]
-/// whose first omitted terms are (pi/4)^17/17! = 5e-17 and (pi/4)^18/18! = 2e-18, quadrant by bit selection.
-/// Absolute error below 3e-16.
-inline void sincos_lane(double x, double& sine, double& cosine) {
-  constexpr double round_to_integer = 0x1.8p52;
-  constexpr double two_over_pi = 0x1.45f306dc9c883p-1;
-  constexpr double part1 = 0x1.921fb544p0, part2 = 0x1.0b4611a6p-34, part3 = 0x1.3198a2e037073p-69;
-  const double shifted = x * two_over_pi + round_to_integer;
-  const double q = shifted - round_to_integer;
-  const double r = ((x - q * part1) - q * part2) - q * part3;
-  const double z = r * r;
-  const double s =
-      r + r * z *
-              (-1.0 / 6.0 +
-               z * (1.0 / 120.0 +
-                    z * (-1.0 / 5040.0 + z * (1.0 / 362880.0 +
-                                              z * (-1.0 / 39916800.0 + z * (1.0 / 6227020800.0 -
-                                                                            z * (1.0 / 1307674368000.0)))))));
-  const double c =
-      1.0 - 0.5 * z +
-      z * z *
-          (1.0 / 24.0 +
-           z * (-1.0 / 720.0 +
-                z * (1.0 / 40320.0 +
-                     z * (-1.0 / 3628800.0 + z * (1.0 / 479001600.0 + z * (-1.0 / 87178291200.0 +
-                                                                           z * (1.0 / 20922789888000.0)))))));
-  const auto quadrant = std::bit_cast<std::uint64_t>(shifted);  // its two lowest bits
-  const auto s_bits = std::bit_cast<std::uint64_t>(s), c_bits = std::bit_cast<std::uint64_t>(c);
-  const std::uint64_t swap = (s_bits ^ c_bits) & (0u - (quadrant & 1u));
-  const std::uint64_t sine_sign = (quadrant & 2u) << 62, cosine_sign = ((quadrant + 1u) & 2u) << 62;
-  sine = std::bit_cast<double>((s_bits ^ swap) ^ sine_sign);
-  cosine = std::bit_cast<double>((c_bits ^ swap) ^ cosine_sign);
-}
 
 /// sine[i], cosine[i] of angle[i], none of them above `largest` in size.
 inline void sincos_each(const double* angle, std::size_t count, double largest, double* sine,
                         double* cosine) {
   if (largest <= sincos_limit) {
-    for (std::size_t i = 0; i < count; ++i) sincos_lane(angle[i], sine[i], cosine[i]);
+    for (std::size_t i = 0; i < count; ++i) sincos_lane<double, std::uint64_t>(angle[i], sine[i], cosine[i]);
   } else {
     for (std::size_t i = 0; i < count; ++i) {
       sine[i] = std::sin(angle[i]);
@@ -62,7 +25,8 @@ inline void sincos_each(const double* angle, std::size_t count, double largest, 
 inline void sincos_of(const double* omega, std::size_t count, double largest_omega, double t, double* sine,
                       double* cosine) {
   if (largest_omega * std::fabs(t) <= sincos_limit) {
-    for (std::size_t i = 0; i < count; ++i) sincos_lane(omega[i] * t, sine[i], cosine[i]);
+    for (std::size_t i = 0; i < count; ++i)
+      sincos_lane<double, std::uint64_t>(omega[i] * t, sine[i], cosine[i]);
   } else {
     for (std::size_t i = 0; i < count; ++i) {
       sine[i] = std::sin(omega[i] * t);

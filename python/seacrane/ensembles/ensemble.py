@@ -20,13 +20,14 @@ from seacrane.ensembles.identity import identity_of
 from seacrane.ensembles.job import Job, Pack
 from seacrane.ensembles.kept import Kept
 from seacrane.ensembles.members import Members, Over, members_of
-from seacrane.ensembles.other_sea import Databases
+from seacrane.ensembles.other_sea import WORDS, Databases
 from seacrane.ensembles.store import Folder, Memory, Store, folder_of, study_in
 from seacrane.ensembles.study import Keep, Source, Start, Study, checked_keep, outputs_for
 from seacrane.ensembles.targets import targets_of, with_static_parts
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import number_of
 from seacrane.inputs.shown import shown
+from seacrane.run.lanes import lanes_of
 from seacrane.run.method import Method
 from seacrane.run.outputs import Outputs
 from seacrane.run.shorthand import Shorthand, settled
@@ -96,13 +97,14 @@ def ensemble(
     until: Mapping[str, float] | None = None,
     on_error: Literal["record", "raise"] = "record",
     pack: int | None = None,
+    lanes: int | None = None,
     progress: bool = False,
     **shorthand: Unpack[Shorthand],
 ) -> Ensemble:
     """Run a lift for many seeds, seas or parameters, and keep of each run what is asked for.
 
     The results are the same to the bit whatever the executor, its workers, the packs and their order, and
-    whether the ensemble was killed and resumed.
+    whether the ensemble was killed and resumed; and within the tolerance whatever the processor and `lanes`.
 
     Parameters
     ----------
@@ -138,8 +140,13 @@ def ensemble(
     on_error : str
         "record": a member that fails is recorded, the others go on. "raise": the first failure ends it.
     pack : int, optional
-        Members that are run, kept and lost together; default: so many that there are at most 250 packs,
-        but no more than 64; with `until` two seeds.
+        Members that are run, kept and lost together, a multiple of `lanes`; default: so many that there are
+        at most 250 packs, but no more than 64; with `until` two seeds, or as many as there are lanes.
+    lanes : int, optional
+        Members that are stepped side by side, by their numbers, where they differ in their seas alone: 4, 8
+        (AVX-512), or 1 for each by itself. Default: 4 where a word of the sea varies, the processor has AVX2
+        and `pack` is a multiple of it. What cannot be stepped so is run by itself; a result's stats say why
+        by "kept_apart".
     progress : bool
         Show a progress bar with the time left.
     **shorthand
@@ -172,7 +179,7 @@ def ensemble(
     if executor is not None and not isinstance(executor, Executor):
         raise SceneError(f"executor is {shown(executor)}; give a concurrent.futures.Executor")
     how, recorded = settled(method, outputs, shorthand)
-    wanted = checked_keep(keep)
+    wanted, members = checked_keep(keep), members_of(over)
     targets = () if until is None else targets_of(until, wanted)
     wanted = with_static_parts(wanted, targets)
     study = Study(
@@ -183,14 +190,14 @@ def ensemble(
         outputs=outputs_for(wanted, recorded),
         keep=wanted,
         start=_checked_start(start),
+        lanes=_lanes(lanes, pack, members),
     )
     for what in wanted.values():
         if isinstance(what, Kept):
             what.require_times(study.t_end, recorded.dt)
-    members = members_of(over)
     _require_free_names(members, wanted)
     study.require_names(list(members.axes))
-    size = _pack_size(pack, len(members))
+    size = _pack_size(pack, len(members), study.lanes)
     raises = on_error == "raise"
     if targets:
         growth = growth_of(members, None if pack is None else size)
@@ -219,11 +226,21 @@ def _require_free_names(members: Members, keep: Keep) -> None:
             raise SceneError(f"over: the name {name!r} is taken by what is kept; rename one of them")
 
 
-def _pack_size(pack: int | None, count: int) -> int:
+def _lanes(lanes: int | None, pack: int | None, members: Members) -> int:
+    asked = lanes_of(lanes)
+    if lanes is not None:
+        return asked
+    of_one_lift = any(name in WORDS for name in members.axes)
+    return asked if of_one_lift and not (isinstance(pack, int) and pack % asked) else 1
+
+
+def _pack_size(pack: int | None, count: int, lanes: int) -> int:
     if pack is None:
-        return min(LARGEST_PACK, ceil(count / MOST_PACKS))
+        return lanes * ceil(min(LARGEST_PACK, ceil(count / MOST_PACKS)) / lanes)
     if not isinstance(pack, int) or isinstance(pack, bool) or pack < 1:
         raise SceneError(f"pack is {shown(pack)}; give a whole number from 1 on")
+    if pack % lanes:
+        raise SceneError(f"pack is {pack} and lanes is {lanes}; give a pack that is a multiple of lanes")
     return pack
 
 

@@ -33,6 +33,7 @@ def identity_of(study: Study, members: Members, pack: int) -> dict[str, Any]:
         "over": _digest([members.grid, *members.axes.items()]),
         "members": len(members),
         "members in a pack": pack,
+        "lanes": study.lanes,
         "t_end": study.t_end,
         "method": _text(asdict(study.method)),
         "outputs": _text(asdict(study.outputs)),

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import pickle
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from functools import cached_property, lru_cache, partial
 from typing import Any, TypeVar
 
@@ -15,6 +15,7 @@ from seacrane.errors import SeacraneError
 from seacrane.run.advance import drive
 from seacrane.run.controller_calls import Calls
 from seacrane.run.interrupts import Interrupts
+from seacrane.run.lanes import advance_side_by_side
 from seacrane.run.run import Run
 from seacrane.version import __version__
 
@@ -55,14 +56,40 @@ class Job:
             raise WorkerVersionError(
                 f"a worker has seacrane {__version__}, and the ensemble is of {version}; install the same"
             )
-        chunks = (pack[first : first + TOGETHER] for first in range(0, len(pack), TOGETHER))
-        return [outcome for chunk in chunks for outcome in self._together(chunk)]
+        return [outcome for members in self._groups(pack) for outcome in self._together(members)]
+
+    def _groups(self, pack: Pack) -> list[Pack]:
+        """Members that are stepped side by side, by their numbers; without lanes, a few at a time."""
+        lanes = self.study.lanes
+        if lanes == 1:
+            return [pack[first : first + TOGETHER] for first in range(0, len(pack), TOGETHER)]
+        beside: dict[int, list[tuple[int, Mapping[str, Value]]]] = {}
+        for index, values in pack:
+            beside.setdefault(index // lanes, []).append((index, values))
+        return [tuple(members) for members in beside.values()]
 
     def _together(self, members: Pack) -> list[Outcome]:
         """Prepared, then stepped, then ended: what each of them needs is then in the processor's caches."""
-        runs: list[Run | str] = [_tried(partial(self._prepared.run, values)) for _, values in members]
+        runs = self._begun(members)
+        if self.study.lanes > 1 and not self._advanced([run for run in runs if isinstance(run, Run)]):
+            runs = self._begun(members)
         runs = [run if isinstance(run, str) else _tried(partial(_stepped, run)) for run in runs]
         return [self._outcome(index, run) for (index, _), run in zip(members, runs, strict=True)]
+
+    def _begun(self, members: Pack) -> list[Run | str]:
+        return [_tried(partial(self._prepared.run, values)) for _, values in members]
+
+    def _advanced(self, runs: Sequence[Run]) -> bool:
+        """Advance runs side by side; False where that failed, and left them nowhere."""
+        with Interrupts() as interrupts:
+            try:
+                reached = advance_side_by_side(runs, self.study.lanes, lambda _: interrupts.take())
+            except (MemoryError, SeacraneError, ValueError):
+                return False
+        interrupts.take()
+        if not reached:
+            raise KeyboardInterrupt
+        return True
 
     def _outcome(self, index: int, run: Run | str) -> Outcome:
         """Of a run at its end, or of why there is none."""

@@ -42,6 +42,8 @@ class Study:
         What is kept of each, by name.
     start : State or callable, optional
         Where every run begins, or a function of its scene that tells it; default: its assembled start.
+    lanes : int
+        Runs that are stepped side by side, by the number of the member; 1: none.
     """
 
     source: Source
@@ -51,6 +53,7 @@ class Study:
     outputs: Outputs
     keep: Keep
     start: Start = None
+    lanes: int = 1
 
     def require_names(self, names: list[str]) -> None:
         """Raise SceneError for a parameter that the scene does not have, or one whose sea cannot vary."""

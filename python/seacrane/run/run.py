@@ -175,6 +175,7 @@ class Run:
         self.steered = set(self._lasting.steered)
         self.slow: list[Finding] = []  # what made the run slow, or a mode of it grow, known at its end
         self.slack: list[Finding] = []  # what made it begin anew
+        self.lanes: dict[str, Any] = {}  # how it was stepped beside others, where that was asked for
 
     def _simulation(self) -> _core.Simulation:
         return _core.Simulation(model=self.model, start=self.start, options=self._lasting.options)
@@ -326,7 +327,8 @@ class Run:
         """Version, settings and counters so far: `Result.stats`."""
         told = {"line_rungs": as_told(self.rungs)} if self.rungs else {}
         waves = self.scene.waves
-        return told | stats_of(self._lasting.stats, waves, self.settings, self.core, self.start.time)
+        counted = stats_of(self._lasting.stats, waves, self.settings, self.core, self.start.time)
+        return told | counted | self.lanes
 
     def result(self) -> Result:
         """What has been recorded so far, with what is out of range in its stats."""

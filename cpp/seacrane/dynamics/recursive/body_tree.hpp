@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -55,6 +56,28 @@ void with_joint_type(std::size_t kind, F&& f) {
       if (i == kind) f.template operator()<Type>();
     }
   });
+}
+
+/// Calls f(place in the positions) for every quaternion.
+template <class F>
+void for_each_quaternion(const BodyTree& tree, F&& f) {
+  for (const Cluster& c : tree.clusters) {
+    const int first = c.kind == Cluster::floating ? 3 : 0;
+    for (int i = first; i + 4 <= c.positions; i += 4) f(c.q + i);
+  }
+}
+
+/// Departure of |q|^2 from one at which a quaternion is normalised: its length drifts by truncation only,
+/// and rotations do not depend on it.
+inline constexpr double kQuaternionDrift = 1e-3;
+
+/// Normalises four numbers beyond that; whether it did.
+template <class Quaternion>
+bool normalise_drifted(Quaternion&& q) {
+  const double squared = q.squaredNorm();
+  if (std::abs(squared - 1.0) <= kQuaternionDrift) return false;
+  q /= std::sqrt(squared);
+  return true;
 }
 
 }  // namespace seacrane

@@ -13,18 +13,6 @@
 namespace seacrane {
 namespace {
 
-/// Departure of |q|^2 from one at which a quaternion is normalised: its length drifts by truncation only,
-/// and rotations do not depend on it.
-constexpr double kQuaternionDrift = 1e-3;
-
-bool normalise(double* quaternion, double drift) {
-  auto q = view<4>(quaternion);
-  const double squared = q.squaredNorm();
-  if (std::abs(squared - 1.0) <= drift) return false;
-  q /= std::sqrt(squared);
-  return true;
-}
-
 /// Angular velocity, inertial axes, of a quaternion and its rate: the vector part of 2 q' q^-1.
 Vec3d turning_of(const Vec4d& q, const Vec4d& rate) {
   const Vec3d v = q.tail<3>(), v_rate = rate.tail<3>();
@@ -183,19 +171,11 @@ bool RecursiveSystem::jacobian(double t, const double* y, double* out) {
   return true;
 }
 
-template <class F>
-void RecursiveSystem::for_each_quaternion(F&& f) const {
-  for (const Cluster& c : tree_.clusters) {
-    const int first = c.kind == Cluster::floating ? 3 : 0;
-    for (int i = first; i + 4 <= c.positions; i += 4) f(c.q + i);
-  }
-}
-
 void RecursiveSystem::move(double h, double* y) {
   place(y);
   articulated_.kinematics().position_rates(y, y + layout_.speeds, terms_->bodies().data(),
                                            position_rate_.data());
-  for_each_quaternion([&](int at) {
+  for_each_quaternion(tree_, [&](int at) {
     const Vec4d q = view<4>(y + at);
     const Vec4d turned = rotate_quaternion(h * turning_of(q, view<4>(&position_rate_[idx(at)])), q);
     view<4>(&position_rate_[idx(at)]) = (turned - q) / h;
@@ -220,15 +200,9 @@ void RecursiveSystem::twists_here() {
   }
 }
 
-/// Those whose squared length is off one by more than `drift`; whether there was one.
-bool RecursiveSystem::normalise_quaternions(double* y, double drift) const {
-  bool changed = false;
-  for_each_quaternion([&](int at) { changed |= normalise(y + at, drift); });
-  return changed;
-}
-
 bool RecursiveSystem::project(double t, double* y, bool evaluated_here) {
-  const bool normalised = normalise_quaternions(y, kQuaternionDrift);
+  bool normalised = false;
+  for_each_quaternion(tree_, [&](int at) { normalised |= normalise_drifted(view<4>(y + at)); });
   if (loops_.rows() == 0) return normalised;
   if (!evaluated_here || normalised) {
     place(y);

@@ -70,9 +70,6 @@ class RecursiveSystem final : public Formulation, public PositionMap {
   void add_inertial_tensions(double t, const double* memory, double* u_rate);
   void move_positions(double* y, const Vec6d* velocities);
   void twists_here();
-  template <class F>
-  void for_each_quaternion(F&& f) const;
-  bool normalise_quaternions(double* y, double drift) const;
 
   std::shared_ptr<Terms> terms_;
   const Model& model_;

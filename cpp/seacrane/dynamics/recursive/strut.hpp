@@ -6,6 +6,7 @@
 
 #include "seacrane/elements/tree_joint.hpp"
 #include "seacrane/math/dual.hpp"
+#include "seacrane/math/select.hpp"
 
 namespace seacrane {
 
@@ -41,6 +42,8 @@ struct StrutMotionOf {
 };
 using StrutMotion = StrutMotionOf<double>;
 
+inline constexpr double kLargestCosine = 1.0 - 1e-9;  // of the angle to the axis of its universal joint
+
 /// `hinge_lever`: parent's state point to the hinge; `axis`: of the hinge; `arm`: hinge to upper end; all
 /// inertial axes.
 template <class T>
@@ -54,31 +57,34 @@ StrutMotionOf<T> move_strut(const Strut& s, const Mat3<T>& base, const Mat3<T>& 
   out.end_rate = cross<T>(axis, arm);
   out.end_bend = cross<T>(axis, out.end_rate);
   const Vec3<T> d = out.end - lower;
-  const T squared = d.squaredNorm(), across = s.offset.head<2>().squaredNorm();
-  if (!(squared > across)) {
+  const T distance2 = d.squaredNorm(), across = s.offset.head<2>().squaredNorm();
+  const T squared = valid_where(distance2 > across, distance2, [&](const auto& value) {
     throw std::domain_error("cylinder '" + s.name + "': its ends are " +
-                            std::to_string(std::sqrt(value_of(squared))) +
+                            std::to_string(std::sqrt(value_of(value))) +
                             " m apart, nearer than the parts allow");
-  }
+  });
   const T length = sqrt(squared), along = T(s.extension_sign) * sqrt(squared - across);
 
   // Directions r (end to end) and m (across, towards the universal axis) in the strut frame, d and w likewise
   // in inertial axes: the strut frame turns the first pair into the second.
   const Vec3<T> r = Vec3<T>(T(s.offset[0]), T(s.offset[1]), along) / length;
   const T tilt = strut_axis.dot(r);
-  const Vec3<T> m = (strut_axis - tilt * r).normalized();
+  const Vec3<T> across_r = strut_axis - tilt * r;
+  const Vec3<T> m = across_r / across_r.norm();
   const T rho = sqrt(T(1) - tilt * tilt);
   const Vec3<T> u = d / length;
   const Vec3<T> a = s.universal_at_base ? Vec3<T>(base * s.fixed_axis.cast<T>())
                                         : Vec3<T>(arm_rotation * s.fixed_axis.cast<T>());
   const Vec3<T> across_u = a - a.dot(u) * u;
   const T lean = across_u.norm();
-  const T cosine = -tilt * a.dot(u) / (rho * lean);
-  if (!(std::abs(value_of(cosine)) < 1.0 - 1e-9)) {
-    throw std::domain_error("cylinder '" + s.name +
-                            "': it has turned into the axis of its universal joint, where its own turn is "
-                            "not determined");
-  }
+  const T leaning = -tilt * a.dot(u) / (rho * lean);
+  const T cosine =
+      valid_where(leaning * leaning < T(kLargestCosine * kLargestCosine), leaning, [&](const auto&) {
+        throw std::domain_error(
+            "cylinder '" + s.name +
+            "': it has turned into the axis of its universal joint, where its own turn is "
+            "not determined");
+      });
   const Vec3<T> n1 = across_u / lean;
   const Vec3<T> w = cosine * n1 + T(s.side) * sqrt(T(1) - cosine * cosine) * cross<T>(u, n1);
   Mat3<T> from, to;

@@ -30,6 +30,7 @@ struct ForceTableDescription {
 /// A wrench tabulated over time (linear between the times, held outside) at a body-fixed point.
 struct ForceTable {
   static constexpr const char* kind = "force table";
+  static constexpr bool packs = true;
   using Description = ForceTableDescription;
 
   int body = 0;

@@ -7,6 +7,7 @@
 
 #include "seacrane/elements/kinematics.hpp"
 #include "seacrane/math/curve.hpp"
+#include "seacrane/math/select.hpp"
 
 namespace seacrane {
 
@@ -31,6 +32,12 @@ struct LoadState {
 /// The states of a load: a load that has some has a member `states` of this type.
 struct StateRange {
   int first = 0, count = 0;
+};
+
+/// Whether apply() takes packs: it compares values by select() alone, and says so by `packs`.
+template <class Load>
+concept TakesPacks = requires {
+  requires Load::packs;
 };
 
 template <class Load>
@@ -95,7 +102,7 @@ struct LoadSum {
 
   void add_power(const T& p) {
     power += p;
-    absolute_power += p < T(0) ? -p : p;
+    absolute_power += select(p < T(0), T(-p), p);
   }
 };
 

@@ -7,6 +7,7 @@
 
 #include "seacrane/elements/field.hpp"
 #include "seacrane/elements/loads/load.hpp"
+#include "seacrane/math/select.hpp"
 
 namespace seacrane {
 
@@ -40,6 +41,7 @@ struct PendulumDampingDescription {
 /// below a fixed point has that ratio of critical damping, whatever its mass and length are.
 struct PendulumDamping {
   static constexpr const char* kind = "pendulum damping";
+  static constexpr bool packs = true;
   using Description = PendulumDampingDescription;
 
   int first = 0, second = 0;
@@ -89,12 +91,13 @@ struct PendulumDamping {
     const Vec3<T> lever_b = kb.rotation * second_point.cast<T>();
     const Vec3<T> from_a = kb.position + lever_b - ka.position;  // to the second point
     const Vec3<T> d = from_a - ka.rotation * first_point.cast<T>();
-    const T square = d.dot(d);
-    if (!(square > T(0))) return;  // coincident points: no direction
+    const T square = d.dot(d), none = T(0);
     const Vec3<T> d_rate = kb.velocity + cross<T>(kb.angular_velocity, lever_b) - ka.velocity -
                            cross<T>(ka.angular_velocity, from_a);
-    const Vec3<T> across = d_rate - d * (d.dot(d_rate) / square);
-    const Vec3<T> drag = across * (T(-factor) / sqrt(sqrt(square)));
+    const auto apart = square > none;  // coincident points have no direction
+    const T divisor = select(apart, square, T(1));
+    const Vec3<T> across = d_rate - d * (d.dot(d_rate) / divisor);
+    const Vec3<T> drag = across * select(apart, T(T(-factor) / sqrt(sqrt(divisor))), none);
     out.wrench[second].add(drag, lever_b);
     const Vec3<T> back = -drag;
     out.wrench[first].add(back, from_a);

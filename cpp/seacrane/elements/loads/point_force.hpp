@@ -26,6 +26,7 @@ struct PointForceDescription {
 /// A force at a body-fixed point, constant in inertial or in body axes; three slots add to it.
 struct PointForce {
   static constexpr const char* kind = "point force";
+  static constexpr bool packs = true;
   using Description = PointForceDescription;
 
   int body = 0;

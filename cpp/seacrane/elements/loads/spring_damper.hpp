@@ -7,6 +7,7 @@
 
 #include "seacrane/elements/field.hpp"
 #include "seacrane/elements/loads/load.hpp"
+#include "seacrane/math/select.hpp"
 
 namespace seacrane {
 
@@ -37,6 +38,7 @@ struct SpringDescription {
 /// (linear between its points, held outside), plus damping times the rate of length.
 struct SpringDamper {
   static constexpr const char* kind = "spring";
+  static constexpr bool packs = true;
   using Description = SpringDescription;
 
   int first = 0, second = 0;
@@ -95,13 +97,14 @@ struct SpringDamper {
     const Vec3<T> lever_a = ka.rotation * first_point.cast<T>(),
                   lever_b = kb.rotation * second_point.cast<T>();
     const Vec3<T> d = kb.position + lever_b - ka.position - lever_a;
-    const T length = sqrt(d.dot(d));
-    if (!(length > T(0))) return;  // coincident points: no direction
+    const T square = d.dot(d);
+    const auto apart = square > T(0);  // coincident points have no direction
+    const T length = sqrt(select(apart, square, T(1)));
     const Vec3<T> n = d / length;
     const Vec3<T> d_rate = kb.velocity + cross<T>(kb.angular_velocity, lever_b) - ka.velocity -
                            cross<T>(ka.angular_velocity, lever_a);
     const T rate = n.dot(d_rate), viscous = T(damping) * rate;
-    const Vec3<T> pull = n * (elastic(length) + viscous);
+    const Vec3<T> pull = n * select(apart, T(elastic(length) + viscous), T(0));
     out.wrench[first].add(pull, lever_a);
     const Vec3<T> back = -pull;
     out.wrench[second].add(back, lever_b);
@@ -111,11 +114,13 @@ struct SpringDamper {
   template <class T>
   T elastic(const T& length) const {
     if (lengths.empty()) return T(stiffness) * (length - T(natural_length));
-    if (length <= lengths.front()) return T(forces.front());
-    if (length >= lengths.back()) return T(forces.back());
-    const auto i = segment(length);
-    const double slope = (forces[i + 1] - forces[i]) / (lengths[i + 1] - lengths[i]);
-    return T(forces[i]) + T(slope) * (length - T(lengths[i]));
+    T out = T(forces.front());
+    for (std::size_t i = 0; i + 1 < lengths.size(); ++i) {
+      const double slope = (forces[i + 1] - forces[i]) / (lengths[i + 1] - lengths[i]);
+      const T here = T(forces[i]) + T(slope) * (length - T(lengths[i]));
+      out = select(length >= T(lengths[i]), here, out);
+    }
+    return select(length < T(lengths.back()), out, T(forces.back()));
   }
 
   bool has_sides() const { return !lengths.empty(); }
@@ -142,12 +147,6 @@ struct SpringDamper {
   double length(const LoadInput<double>& in) const {
     const auto &ka = in.bodies[first], &kb = in.bodies[second];
     return (kb.position + kb.rotation * second_point - ka.position - ka.rotation * first_point).norm();
-  }
-
-  template <class T>
-  std::size_t segment(const T& length) const {
-    const auto next = std::upper_bound(lengths.begin(), lengths.end(), length);
-    return static_cast<std::size_t>(next - lengths.begin()) - 1;
   }
 };
 

@@ -1,0 +1,37 @@
+# Modules that step several runs side by side, one for each kind of processor; the package chooses when it is
+# imported. Each is a library of its own: inline functions have one name, whatever they are compiled for, and a linker
+# keeps one of them. Its copy of the core stays within it, and its code runs only where the processor has what both
+# were compiled for. The alignment is that of the core, whose models it reads.
+string(TOLOWER "${CMAKE_SYSTEM_PROCESSOR}" seacrane_processor)
+if(seacrane_processor MATCHES "x86_64|amd64" AND NOT MSVC AND NOT SEACRANE_NATIVE)
+  set(seacrane_lanes_here ON)
+else()
+  set(seacrane_lanes_here OFF)
+endif()
+option(SEACRANE_LANES "Build the modules that step runs side by side" ${seacrane_lanes_here})
+
+function(seacrane_lanes instructions lanes)
+  if(NOT SEACRANE_LANES)
+    return()
+  endif()
+  set(module _lanes_${instructions})
+  pybind11_add_module(${module} MODULE NO_EXTRAS "${CMAKE_CURRENT_SOURCE_DIR}/lanes/lanes.cpp")
+  target_compile_definitions(${module} PRIVATE
+    SEACRANE_LANES=${lanes} SEACRANE_INSTRUCTIONS="${instructions}" SEACRANE_LANE_MODULE=${module}
+    EIGEN_MAX_ALIGN_BYTES=16)
+  target_compile_options(${module} PRIVATE ${ARGN} $<$<CXX_COMPILER_ID:Clang,AppleClang>:-ffp-contract=fast>)
+  target_link_libraries(${module} PRIVATE seacrane seacrane_warnings)
+  seacrane_hide_names(${module})
+  add_dependencies(seacrane_modules ${module})
+  install(TARGETS ${module} LIBRARY DESTINATION seacrane COMPONENT python)
+endfunction()
+
+# Symbols of a module, those of the static SUNDIALS too, must not meet others in the same Python process.
+function(seacrane_hide_names target)
+  if(APPLE OR MSVC)
+    return()
+  endif()
+  set(map "${CMAKE_CURRENT_SOURCE_DIR}/bindings/shown_names.map")
+  target_link_options(${target} PRIVATE "-Wl,--version-script=${map}" $<$<CONFIG:Release>:-s>)
+  set_property(TARGET ${target} APPEND PROPERTY LINK_DEPENDS "${map}")
+endfunction()

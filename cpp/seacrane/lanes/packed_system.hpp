@@ -1,0 +1,176 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "seacrane/dynamics/inertia.hpp"
+#include "seacrane/dynamics/recursive/articulated.hpp"
+#include "seacrane/elements/loads/registry.hpp"
+#include "seacrane/lanes/lane_system.hpp"
+#include "seacrane/lanes/packed_table.hpp"
+#include "seacrane/math/pack.hpp"
+
+namespace seacrane {
+
+/// The recursive formulation on packs: the templates of the scalar one, without what
+/// kept_out_of_lanes() refuses.
+template <int L>
+class PackedSystem final : public LaneSystem {
+ public:
+  using T = Pack<L>;
+
+  /// One model for each of L lanes.
+  explicit PackedSystem(const LaneModels& models)
+      : model_(models.front()->merged ? models.front()->merged : models.front()),
+        tree_(build_tree(*model_)),
+        articulated_(tree_, model_->body_count()),
+        speeds_(tree_.positions),
+        memory_(speeds_ + tree_.speeds),
+        loads_(memory_ + model_->layout.loads - model_->layout.memory),
+        work_(memory_ + model_->layout.work - model_->layout.memory),
+        slots_(idx(model_->slot_count), 0.0) {
+    const auto bodies = idx(model_->body_count());
+    state_.assign(idx(work_ + 2), T(0.0));
+    rate_ = state_;
+    bodies_.assign(bodies + 1, BodyKinematics<T>::ground());
+    frames_.assign(model_->vessels.size(), YawFrame<T>(BodyKinematics<T>::ground()));
+    mass_.assign(bodies, Mat6<T>::Zero());
+    for (std::size_t b = 0; b < bodies; ++b) {
+      mass_[b].diagonal().template head<3>().setConstant(T(model_->bodies[b].mass));
+    }
+    for (auto* vectors : {&bias_, &load_, &acceleration_}) vectors->assign(bodies + 1, Vec6<T>::Zero());
+    wrench_.resize(bodies + 1);
+    for (std::size_t w = 0; w < model_->wave_loads.size(); ++w) waves_.push_back(waves_of(models, w));
+  }
+
+  std::size_t size() const override { return L * state_.size(); }
+  bool has_projection() const override { return true; }
+  bool jacobian(double /*t*/, const double* /*y*/, double* /*out*/) override { return false; }
+  void set_curve_limit(double time) override { curve_limit_ = time; }
+  void set_inputs(const std::vector<double>& slots) override { slots_ = slots; }
+  void freeze(std::size_t lane) override { frozen_.push_back(lane); }
+
+  void derivative(double t, const double* y, double* ydot) override {
+    for (std::size_t i = 0; i < state_.size(); ++i) state_[i] = T::load(y + L * i);
+    const T *const q = state_.data(), *const u = q + speeds_;
+    articulated_.place(q, u, bodies_.data());
+    for (std::size_t v = 0; v < frames_.size(); ++v) {
+      frames_[v] = YawFrame<T>(bodies_[idx(model_->vessels[v].body)]);
+    }
+    evaluate_inertia();
+    articulated_.factor(mass_.data());
+    LoadSum<T> sum{wrench_.data(), rate_.data() + loads_};
+    evaluate_loads(t, sum);
+    for (std::size_t b = 0; b < mass_.size(); ++b) {
+      load_[b] << wrench_[b].force, wrench_[b].moment;
+      load_[b] -= bias_[b];
+    }
+    articulated_.solve(load_.data(), true, acceleration_.data(), rate_.data() + speeds_);
+    articulated_.kinematics().position_rates(q, u, bodies_.data(), rate_.data());
+    rate_[idx(work_)] = sum.power;
+    rate_[idx(work_) + 1] = sum.absolute_power;
+    for (std::size_t i = 0; i < rate_.size(); ++i) rate_[i].store(ydot + L * i);
+    for (const std::size_t lane : frozen_) {
+      for (std::size_t i = 0; i < rate_.size(); ++i) ydot[L * i + lane] = 0.0;
+    }
+  }
+
+  /// Lane by lane, as in the scalar form.
+  bool project(double /*t*/, double* y, bool /*evaluated_here*/) override {
+    bool changed = false;
+    for_each_quaternion(tree_, [&](int at) {
+      for (std::size_t lane = 0; lane < L; ++lane) {
+        using Strided = Eigen::Map<Vec4d, 0, Eigen::InnerStride<L>>;
+        changed |= normalise_drifted(Strided(y + L * idx(at) + lane));
+      }
+    });
+    return changed;
+  }
+
+ private:
+  struct Waves {
+    int body, vessel;
+    PackedTable<L, ExactWaveLoad> force;
+    std::optional<PackedTable<L, DriftLoad>> drift;
+  };
+
+  static Waves waves_of(const LaneModels& models, std::size_t load) {
+    std::array<std::shared_ptr<const WaveTable>, L> force;
+    std::array<std::shared_ptr<const DriftTable>, L> drift;
+    for (std::size_t lane = 0; lane < L; ++lane) {
+      const WaveLoadDescription& sources = models[lane]->stepped().wave_loads[load].sources;
+      force[lane] = sources.table;
+      drift[lane] = sources.drift_table;
+    }
+    const WaveLoad& wave = models.front()->stepped().wave_loads[load];
+    Waves out{wave.body, wave.vessel, PackedTable<L, ExactWaveLoad>(force), std::nullopt};
+    if (drift.front()) out.drift.emplace(drift);
+    return out;
+  }
+
+  void evaluate_inertia() {
+    for (std::size_t b = 0; b < mass_.size(); ++b) {
+      const BodyModel& body = model_->bodies[b];
+      bias_[b] = body.vessel < 0 ? compact_terms<T>(body, bodies_[b], mass_[b])
+                                 : vessel_terms<T>(body, model_->vessels[idx(body.vessel)], bodies_[b],
+                                                   frames_[idx(body.vessel)], mass_[b]);
+    }
+  }
+
+  void evaluate_loads(double t, LoadSum<T>& sum) {
+    for (auto& w : wrench_) w = BodyLoad<T>();
+    const T* const states = state_.data() + loads_;
+    const LoadInput<T> input{t, curve_limit_, bodies_.data(), slots_.data(), states};
+    for (const Gravity& load : model_->gravity) load.apply<T>(input, sum);
+    for_each_load_type([&]<class Load>() {
+      if constexpr (TakesPacks<Load>) {
+        for (const Load& load : std::get<std::vector<Load>>(*model_->loads)) {
+          load.template apply<T>(input, sum);
+        }
+      }
+    });
+    for (std::size_t v = 0; v < frames_.size(); ++v) {
+      const Vessel& vessel = model_->vessels[v];
+      const auto own = idx(memory_ + vessel.memory_offset - model_->layout.memory);
+      vessel.apply<T>(input, frames_[v], state_.data() + own, rate_.data() + own, sum);
+    }
+    for (Waves& waves : waves_) apply(waves, t, sum);
+  }
+
+  void apply(Waves& waves, double t, LoadSum<T>& sum) {
+    T channels[wave_channels], drift[DriftLoad::channels];
+    waves.force.evaluate(t, channels);
+    Vec6<T> force;
+    for (int i = 0; i < 6; ++i) force[i] = channels[i];
+    if (waves.drift) {
+      waves.drift->evaluate(t, drift);
+      for (int i = 0; i < 6; ++i) force[i] += drift[i];
+    }
+    const YawFrame<T>& frame = frames_[idx(waves.vessel)];
+    const Vec6<T> inertial = frame.to_inertial(force);
+    wrench_[idx(waves.body)].force += inertial.template head<3>();
+    wrench_[idx(waves.body)].moment += inertial.template tail<3>();
+    sum.add_power(force.dot(frame.twist));
+  }
+
+  std::shared_ptr<const Model> model_;
+  BodyTree tree_;
+  ArticulatedTree<T> articulated_;
+  int speeds_, memory_, loads_, work_;  // where they begin in the state of a lane
+  std::vector<double> slots_;
+  double curve_limit_ = std::numeric_limits<double>::infinity();
+  std::vector<std::size_t> frozen_;
+  std::vector<T> state_, rate_;
+  std::vector<BodyKinematics<T>> bodies_;
+  std::vector<YawFrame<T>> frames_;
+  std::vector<Mat6<T>> mass_;
+  std::vector<Vec6<T>> bias_, load_, acceleration_;
+  std::vector<BodyLoad<T>> wrench_;
+  std::vector<Waves> waves_;
+};
+
+}  // namespace seacrane

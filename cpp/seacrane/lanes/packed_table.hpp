@@ -1,0 +1,82 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "seacrane/lanes/packed_sources.hpp"
+#include "seacrane/math/pack.hpp"
+#include "seacrane/sea/knot_table.hpp"
+
+namespace seacrane {
+
+/// The tables of L sources side by side: one grid, that of the table with the smallest step, so that the
+/// interpolation has one set of weights and keeps the bound of every table. A knot depends on its number
+/// alone.
+template <int L, class Source>
+class PackedTable {
+ public:
+  static constexpr std::size_t channels = Source::channels;
+  using Table = KnotTable<Source>;
+
+  explicit PackedTable(const std::array<std::shared_ptr<const Table>, L>& tables)
+      : sources_(sources_of(tables)), step_(tables.front()->step()) {
+    for (const auto& table : tables) step_ = std::min(step_, table->step());
+    inverse_step_ = 1.0 / step_;
+  }
+
+  /// Writes one value for each channel.
+  void evaluate(double t, Pack<L>* out) {
+    const double place = std::floor(t * inverse_step_);
+    const auto number = static_cast<std::int64_t>(place);
+    const HermiteWeights w((t - place * step_) * inverse_step_);
+    std::fill_n(out, channels, Pack<L>(0.0));
+    for (int k = 0; k < 4; ++k) {
+      const Knot& knot = this->knot(number + k - 1);
+      for (std::size_t j = 0; j < channels; ++j) {
+        out[j] +=
+            w.value[k] * knot.value[j] + w.rate[k] * knot.rate[j] + w.acceleration[k] * knot.acceleration[j];
+      }
+    }
+  }
+
+ private:
+  static constexpr std::size_t slots = 16;  // a power of two
+  struct Knot {
+    std::int64_t number = TableKnot::empty;
+    Pack<L> value[channels], rate[channels], acceleration[channels];  // scaled by 1, step, step^2
+  };
+
+  const Knot& knot(std::int64_t number) {
+    Knot& k = knots_[static_cast<std::size_t>(number) & (slots - 1)];
+    if (k.number != number) [[unlikely]] {
+      compute(number, k);
+    }
+    return k;
+  }
+
+  static auto sources_of(const std::array<std::shared_ptr<const Table>, L>& tables) {
+    typename PackedSources<L, Source>::Loads out;
+    for (std::size_t i = 0; i < L; ++i) out[i] = tables[i]->exact();
+    return PackedSources<L, Source>(out);
+  }
+
+  void compute(std::int64_t number, Knot& k) const {
+    k.number = number;
+    sources_.evaluate(static_cast<double>(number) * step_, k.value, k.rate, k.acceleration);
+    for (std::size_t j = 0; j < channels; ++j) {
+      k.rate[j] *= step_;
+      k.acceleration[j] *= step_ * step_;
+    }
+  }
+
+  PackedSources<L, Source> sources_;
+  double step_, inverse_step_ = 1.0;
+  std::array<Knot, slots> knots_;
+};
+
+}  // namespace seacrane

@@ -1,0 +1,183 @@
+#include "seacrane/run/side_by_side.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <utility>
+
+#include "seacrane/integrate/registry.hpp"
+
+namespace seacrane {
+namespace {
+
+using Stopwatch = std::chrono::steady_clock;
+constexpr std::chrono::milliseconds kAskBeside{20};
+
+LaneModels lane_models(const std::vector<Simulation*>& runs, std::size_t lanes) {
+  LaneModels out;
+  for (const Simulation* run : runs) out.push_back(run->model());
+  out.resize(lanes, out.front());
+  return out;
+}
+
+IntegratorOptions lane_options(const Simulation& run, std::size_t lanes) {
+  IntegratorOptions out = run.step_options();
+  std::vector<double> tolerance;
+  for (const double one : out.absolute_tolerance) tolerance.insert(tolerance.end(), lanes, one);
+  out.absolute_tolerance = std::move(tolerance);
+  out.lanes = lanes;
+  return out;
+}
+
+bool is_explicit_pair(const std::string& integrator) {
+  const IntegratorProperties method = integrator_of(integrator);
+  return std::string(method.kind).starts_with("explicit pair") && method.is_adaptive();
+}
+
+std::string kept_apart(const Simulation& run) {
+  if (run.options().formulation != "recursive") return "its formulation is not the recursive one";
+  if (!is_explicit_pair(run.options().integrator)) return "its integrator is no explicit pair";
+  if (run.options().energy_limit) return "its energy is watched";
+  if (run.has_switches()) return "its loads have kinks where it moves";
+  return kept_out_of_lanes(*run.model());
+}
+
+}  // namespace
+
+std::string kept_apart(const std::vector<Simulation*>& runs) {
+  const Simulation& first = *runs.front();
+  for (const Simulation* run : runs) {
+    const std::string why = kept_apart(*run);
+    if (!why.empty()) return why;
+    if (run->time() != first.time()) return "the runs begin at different times";
+    if (run->inputs() != first.inputs()) return "the runs have different inputs";
+    if (run->state_size() != first.state_size()) return "the runs have different states";
+  }
+  return "";
+}
+
+SideBySide::SideBySide(std::vector<Simulation*> runs, const LaneModule& module)
+    : runs_(std::move(runs)),
+      gone_(runs_.size(), false),
+      lanes_(module.lanes),
+      states_(static_cast<std::size_t>(runs_.front()->state_size())),
+      system_(module.make(lane_models(runs_, lanes_))),
+      integrator_(make_integrator({*system_}, lane_options(*runs_.front(), lanes_))),
+      kinks_(runs_.front()->options().scaled_tolerance),
+      all_(states_ * lanes_),
+      one_(states_) {
+  system_->set_inputs(runs_.front()->inputs());
+  for (std::size_t lane = 0; lane < lanes_; ++lane) {
+    const Simulation& run = *runs_[lane < runs_.size() ? lane : 0];
+    for (std::size_t i = 0; i < states_; ++i) all_[lanes_ * i + lane] = run.stepped_state()[i];
+    if (lane >= runs_.size()) system_->freeze(lane);
+  }
+  integrator_->init(runs_.front()->time(), all_.data());
+}
+
+bool SideBySide::advance(double t_end, const std::function<bool(double)>& keep_going) {
+  auto asked = Stopwatch::now();
+  bool going = true;
+  while (going && left_ < runs_.size() && integrator_->time() < t_end) {
+    step(t_end);
+    if (Stopwatch::now() - asked <= kAskBeside) continue;
+    count_time(asked);
+    going = keep_going(integrator_->time());
+    asked = Stopwatch::now();
+  }
+  count_time(asked);
+  for (std::size_t lane = 0; lane < runs_.size(); ++lane) hand_over(lane);
+  counted_ = counters();
+  wall_seconds_ = 0.0;
+  return going;
+}
+
+Counters SideBySide::counters() const {
+  Counters out = integrator_->counters();
+  out += before_;
+  return out;
+}
+
+void SideBySide::count_time(std::chrono::steady_clock::time_point since) {
+  wall_seconds_ += std::chrono::duration<double>(Stopwatch::now() - since).count();
+}
+
+void SideBySide::step(double t_end) {
+  const double smooth_until = kinks_.next(runs_.front()->model()->kinks, *integrator_, integrator_->time());
+  system_->set_curve_limit(smooth_until);
+  try {
+    integrator_->step(std::min(smooth_until, t_end));
+    stall_.step(integrator_->time());
+  } catch (const IntegrationError& error) {
+    return drop(error);
+  }
+  record(smooth_until);
+  if (integrator_->time() >= smooth_until) reset();
+}
+
+/// The lane that took the largest part in a failure is left, or all where it is not known or was left before.
+/// The others choose their steps anew: that of the failure has collapsed.
+void SideBySide::drop(const IntegrationError& error) {
+  const std::size_t worst = error.component() % lanes_;
+  const bool known = error.component() < states_ * lanes_ && worst < runs_.size() && !has_left(worst);
+  for (std::size_t lane = 0; lane < runs_.size(); ++lane) {
+    if (!known || lane == worst) leave(lane);
+  }
+  before_ += integrator_->counters();
+  std::copy_n(integrator_->state(), all_.size(), all_.data());
+  integrator_->init(integrator_->time(), all_.data());
+}
+
+void SideBySide::leave(std::size_t lane) {
+  if (has_left(lane)) return;
+  hand_over(lane);
+  gone_[lane] = true;
+  ++left_;
+  system_->freeze(lane);
+}
+
+/// Drops the derivative's past: the next step is on the other side of a kink.
+void SideBySide::reset() {
+  std::copy_n(integrator_->state(), all_.size(), all_.data());
+  integrator_->reset(integrator_->time(), all_.data());
+}
+
+void SideBySide::record(double smooth_until) {
+  known_ = 0;
+  for (std::size_t lane = 0; lane < runs_.size(); ++lane) {
+    if (has_left(lane)) continue;
+    runs_[lane]->record_beside(integrator_->time(), smooth_until,
+                               [&](double t, double* y) { take_lane(state_at(t).data(), lane, y); });
+  }
+}
+
+/// Of all lanes in the last step; the same outputs of other lanes find it made.
+const std::vector<double>& SideBySide::state_at(double t) {
+  for (std::size_t i = 0; i < known_; ++i) {
+    if (instants_[i].time == t) return instants_[i].state;
+  }
+  if (known_ == instants_.size()) instants_.push_back({t, std::vector<double>(all_.size())});
+  Instant& out = instants_[known_++];
+  out.time = t;
+  if (t >= integrator_->time()) {
+    std::copy_n(integrator_->state(), all_.size(), out.state.data());
+  } else {
+    integrator_->interpolate(t, out.state.data());
+  }
+  return out.state;
+}
+
+void SideBySide::take_lane(const double* all, std::size_t lane, double* y) const {
+  for (std::size_t i = 0; i < states_; ++i) y[i] = all[lanes_ * i + lane];
+}
+
+/// To a run that has not left: its state, its share of the time, and the steps, which are those of all.
+void SideBySide::hand_over(std::size_t lane) {
+  if (has_left(lane)) return;
+  take_lane(integrator_->state(), lane, one_.data());
+  Counters taken = counters();
+  taken -= counted_;
+  runs_[lane]->go_on_from(integrator_->time(), one_.data(), taken,
+                          wall_seconds_ / static_cast<double>(runs_.size()));
+}
+
+}  // namespace seacrane

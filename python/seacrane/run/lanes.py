@@ -1,0 +1,96 @@
+"""Runs of one lift in different seas, stepped side by side in the lanes of vector registers."""
+
+from __future__ import annotations
+
+import importlib
+from collections.abc import Callable, Mapping, Sequence
+from functools import cache
+from types import ModuleType
+
+from seacrane import _core
+from seacrane.description.scene import ELEMENTS
+from seacrane.errors import SceneError
+from seacrane.inputs.shown import shown
+from seacrane.run.run import Run
+from seacrane.scene.scene import Scene
+
+INSTRUCTIONS: Mapping[int, str] = {4: "avx2", 8: "avx512"}
+"""What a processor must have for so many lanes."""
+USUAL = 4  # alike on most machines
+
+
+@cache
+def module_of(lanes: int) -> ModuleType | None:
+    """The module for so many lanes; None where the processor or the build has none."""
+    name = INSTRUCTIONS[lanes]
+    if not _core.has_instructions(name):
+        return None
+    try:
+        return importlib.import_module(f"seacrane._lanes_{name}")
+    except ModuleNotFoundError:
+        return None
+
+
+def lanes_of(given: int | None) -> int:
+    """How many lanes a call asks for; None: the usual number, or 1 where there are none.
+
+    Raises
+    ------
+    SceneError
+        For another number than 1 and those that lanes exist for.
+    """
+    if given is None:
+        return 1 if module_of(USUAL) is None else USUAL
+    if isinstance(given, bool) or given not in (1, *INSTRUCTIONS):
+        raise SceneError(f"lanes is {shown(given)}; give 1, 4 or 8, or None for what this processor has")
+    return given
+
+
+def advance_side_by_side(runs: Sequence[Run], lanes: int, look: Callable[[float], None]) -> bool:
+    """Step runs that begin together as far as they go side by side, and note in each what came of it.
+
+    Parameters
+    ----------
+    runs : sequence of Run
+        No more than `lanes`, with one method and one end time.
+    lanes : int
+    look : callable
+        Called with the time now and then.
+
+    Returns
+    -------
+    bool
+        False when Ctrl-C stopped them.
+    """
+    module = module_of(lanes)
+    why = _kept_apart(runs, module)
+    for run in runs:
+        run.lanes = {"lanes": 1, "kept_apart": why} if why else {"lanes": lanes}
+    if why or module is None:
+        return True
+    return _core.advance_side_by_side([run.core for run in runs], module, runs[0].t_end, look)
+
+
+def _kept_apart(runs: Sequence[Run], module: ModuleType | None) -> str:
+    """Why runs are not stepped side by side; empty: they can be."""
+    if module is None:
+        return "this processor, or this build, has no lanes"
+    if len(runs) < 2:
+        return "there is no other run beside it"
+    for run in runs[1:]:
+        other = _difference(runs[0].scene, run.scene)
+        if other:
+            return f"the lifts differ in more than their seas: in {other}"
+    return _core.kept_apart([run.core for run in runs])
+
+
+def _difference(one: Scene, other: Scene) -> str:
+    """What two scenes differ in beside their seas; empty: nothing that is stepped."""
+    for name in ("gravity", "orientation", "baumgarte", "length_scale"):
+        if getattr(one, name) != getattr(other, name):
+            return name
+    for name in ELEMENTS:
+        if list(getattr(one, name).items()) != list(getattr(other, name).items()):
+            return name.replace("_", " ")
+    hulls = [[] if scene.waves is None else list(scene.waves.hulls) for scene in (one, other)]
+    return "" if hulls[0] == hulls[1] else "the vessels that waves load"

@@ -1,0 +1,283 @@
+"""Runs side by side in vector lanes: the scalar engine's numbers, and its help where lanes do not go."""
+
+from __future__ import annotations
+
+import shutil
+import subprocess
+from concurrent.futures import ThreadPoolExecutor
+from functools import cache
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+import pytest
+from ensemble_studies import pendulum
+from numpy.typing import NDArray
+from random_scenes import KINDS, Shape, build
+
+from seacrane import Kept, Result, Run, Scene, SceneError, _core, cases, ensemble, simulate
+from seacrane.ensembles.other_sea import with_sea
+from seacrane.hydro import shipped_database
+from seacrane.run.lanes import INSTRUCTIONS, advance_side_by_side, lanes_of, module_of
+
+Array = NDArray[np.float64]
+LANES = [lanes for lanes in INSTRUCTIONS if module_of(lanes) is not None]
+needs_lanes = pytest.mark.skipif(4 not in LANES, reason="no lanes on this processor, or in this build")
+TRACK = Kept(channel="position", at={"body": "payload"}, step=2.0)
+STORM: dict[str, Any] = {"t_end": 20.0, "rtol": 1e-2, "dt_out": 1.0}
+
+
+@cache
+def case(name: str) -> Scene:
+    return getattr(cases, name)(seed=1, hs=2.0)
+
+
+def seas(scene: Scene, count: int) -> list[Scene]:
+    """The scene in other seas; one without a sea as often as it is."""
+    if scene.waves is None:
+        return [scene] * count
+    return [with_sea(scene, shipped_database(), {"seed": seed}) for seed in range(1, count + 1)]
+
+
+def differences(scene: Scene, lanes: int, rounds: int, spread: float = 0.1) -> float:
+    """Largest difference of rates at random states, over the largest of positions, speeds and the rest."""
+    scenes = seas(scene, lanes)
+    models = [one.compile() for one in scenes]
+    evaluator = _core.LaneEvaluator(module_of(lanes), models)
+    start, rng = evaluator.start(), np.random.default_rng(1)
+    tree = models[0].tree
+    edges = [*np.cumsum([0, tree["positions"], tree["speeds"]]).tolist(), start.shape[1]]
+    worst = 0.0
+    for moment in range(rounds):
+        state = start + spread * rng.normal(size=start.shape)
+        one_by_one = evaluator.scalar_derivative(0.37 * moment, state)
+        off = np.abs(evaluator.derivative(0.37 * moment, state) - one_by_one)
+        for begin, end in pairwise(edges):
+            if end > begin:
+                size = np.abs(one_by_one[:, begin:end]).max(axis=1, keepdims=True)
+                worst = max(worst, float((off[:, begin:end] / (size + 1e-300)).max()))
+    return worst
+
+
+@needs_lanes
+@pytest.mark.parametrize("lanes", LANES)
+@pytest.mark.parametrize("name", ["vessel", "case1", "case2", "case3"])
+def test_an_evaluation_is_that_of_each_lane(name: str, lanes: int) -> None:
+    assert differences(case(name), lanes, 20) < 1e-12
+
+
+@needs_lanes
+@pytest.mark.parametrize("kind", KINDS)
+def test_every_branch_of_the_tree_takes_packs(kind: str) -> None:
+    kinds = (kind, "revolute", kind)
+    swapped = (False, True, False)
+    shape = Shape(seed=3, parents=(-1, 0, 1), kinds=kinds, swapped=swapped, base="vessel", decades=2.0)
+    assert differences(build(shape), 4, 10, 0.02) < 1e-11
+
+
+@needs_lanes
+def test_loads_that_take_packs_are_those_of_each_lane() -> None:
+    scene = pendulum()
+    scene.add_body(name="weight", mass=3.0, inertia=(0.1, 0.2, 0.1), position=(2.0, 0.5, -1.0))
+    scene.add_spring(
+        name="spring", first="bob", second="weight", stiffness=30.0, damping=2.0, natural_length=1.0
+    )
+    scene.add_point_force(name="push", body="weight", point=(0.1, 0, 0), force=(1.0, 2.0, 3.0))
+    scene.add_pendulum_damping(name="damping", first="bob", second="weight", ratio=0.2)
+    scene.add_force_table(
+        name="gust",
+        body="weight",
+        times=[0.0, 5.0],
+        loads=[(1.0, 0.0, 0.0, 0.0, 0.0, 0.0), (0.0, 4.0, 1.0, 0.5, 0.0, 0.2)],
+    )
+    assert differences(scene, 4, 20) < 1e-13
+
+
+def stats(result: Result) -> list[float]:
+    return [float(result.stats.get("lanes", 1)), float(result.stats["steps"]), float(result.time[-1])]
+
+
+@needs_lanes
+@pytest.mark.parametrize("lanes", LANES)
+def test_members_are_those_of_the_scalar_engine_within_the_tolerance(lanes: int) -> None:
+    study: dict[str, Any] = {
+        "over": {"seed": range(1, 6)}, "database": shipped_database(),
+        "keep": {"track": TRACK, "stats": stats},
+        "t_end": 20.0, "dt_out": 1.0, "channels": ("position",),
+    }  # fmt: skip
+    fine = ensemble(case("case2"), rtol=1e-8, lanes=1, **study).dataset
+    for rtol, bound in ((1e-2, 2e-2), (1e-5, 2e-5)):
+        side_by_side = ensemble(case("case2"), rtol=rtol, lanes=lanes, **study).dataset
+        assert np.abs(side_by_side.track - fine.track).max() < bound
+        beside = 4 if lanes == 4 else 5
+        assert (side_by_side.stats[:beside, 0] == lanes).all()  # the fifth of four has nobody beside it
+        assert (side_by_side.stats[beside:, 0] == 1).all()
+        assert (side_by_side.stats[:, 2] == 20.0).all()
+
+
+@needs_lanes
+def test_a_member_does_not_depend_on_what_runs_it() -> None:
+    study: dict[str, Any] = {
+        "over": {"seed": range(1, 9)}, "database": shipped_database(), "keep": {"track": TRACK}, "lanes": 4,
+        **STORM,
+    }  # fmt: skip
+    alone = ensemble(case("case2"), pack=8, **study).dataset.track
+    with ThreadPoolExecutor(2) as threads:
+        threaded = ensemble(case("case2"), pack=4, executor=threads, **study).dataset.track
+    assert np.array_equal(alone, threaded)
+
+
+@needs_lanes
+def test_outputs_of_every_kind_are_those_of_a_single_run() -> None:
+    scene = case("case2")
+    names = (
+        "position",
+        "acceleration",
+        "vessel_motion",
+        "reaction_force",
+        "actuator_force",
+        "wave_elevation",
+    )
+    keep = {name: Kept(channel=name) for name in names if name in scene.compile().channel_names()}
+    made = ensemble(
+        scene, over={"seed": [1, 2]}, database=shipped_database(), keep=keep, t_end=5.0, rtol=1e-9, lanes=4
+    ).dataset
+    for seed in (1, 2):
+        result = simulate(with_sea(scene, shipped_database(), {"seed": seed}), t_end=5.0, rtol=1e-9)
+        for name in keep:
+            scale = np.abs(result[name]).max()
+            assert np.abs(made[name].sel(seed=seed) - result[name]).max() < 1e-6 * scale, name
+
+
+def why(result: Result) -> float:
+    """Nothing is kept of texts: the reason is looked for where the run is judged."""
+    REASONS.append(str(result.stats.get("kept_apart", "")))
+    return float(result.stats.get("lanes", 1))
+
+
+REASONS: list[str] = []
+
+
+def reason(source: Any, over: Any, **given: Any) -> str:
+    """Why the first members of an ensemble did not go side by side."""
+    REASONS.clear()
+    lanes = ensemble(source, over=over, keep={"lanes": why}, lanes=4, **{"t_end": 0.2, "rtol": 1e-3, **given})
+    assert not lanes.failures and (lanes.dataset.lanes == 1).all()
+    return REASONS[0]
+
+
+def stopped(*, start: float) -> Scene:
+    scene = pendulum(start=start)
+    scene.add_soft_stop(joint="pin", minimum=-1.0, maximum=1.0, stiffness=10.0)
+    return scene
+
+
+@needs_lanes
+@pytest.mark.parametrize(
+    ("given", "told"),
+    [
+        ({"source": pendulum, "over": {"start": [1.0, 2.0]}}, "differ in more than their seas: in bodies"),
+        ({"source": pendulum, "over": {"start": [1.0]}}, "no other run beside it"),
+        ({"source": pendulum, "over": [{"start": 1.0}] * 2, "integrator": "rk4"}, "no explicit pair"),
+        ({"source": pendulum, "over": [{"start": 1.0}] * 2, "formulation": "redundant"}, "recursive one"),
+        ({"source": pendulum, "over": [{"start": 1.0}] * 2, "energy_limit": 1.0}, "energy is watched"),
+        ({"source": stopped, "over": [{"start": 1.0}] * 2}, "kinks where it moves"),
+    ],
+)
+def test_what_lanes_cannot_do_is_run_by_itself_and_says_why(given: dict[str, Any], told: str) -> None:
+    assert told in reason(**given)
+
+
+@needs_lanes
+def test_runs_of_one_lift_without_a_sea_are_alike() -> None:
+    made = ensemble(
+        pendulum, over=[{"start": 1.0}] * 3, keep={"z": Kept(channel="position"), "lanes": why}, lanes=4,
+        t_end=2.0, rtol=1e-6,
+    ).dataset  # fmt: skip
+    assert (made.lanes == 4).all()
+    one = simulate(pendulum(start=1.0), t_end=2.0, rtol=1e-6)
+    assert np.abs(made.z - one["position"]).max() < 1e-6
+    assert np.array_equal(made.z[0], made.z[2])
+
+
+def spun(speed: float) -> Run:
+    """A flywheel, whose angle packs no longer turn into sines from 1.6e6 rad on."""
+    scene = Scene(name="flywheel")
+    scene.add_body(name="wheel", mass=1.0, inertia=(1.0, 2.0, 1.0))
+    scene.add_joint(
+        kind="revolute", name="axle", first="ground", second="wheel", point=(0, 0, 0), axis=(0, 1, 0)
+    )
+    model = scene.compile()
+    values = model.initial_state
+    values[model.twist_index(0) + 4] = speed
+    start = _core.State(time=0.0, values=values, inputs=[])
+    return Run(scene, 4.0, start=start, rtol=1e-6, integrator="tsit5", formulation="recursive", dt_out=1.0)
+
+
+@needs_lanes
+def test_a_lane_that_fails_leaves_the_others_alone() -> None:
+    speeds = [1.0, 2.0, 1e6, 3.0]
+    runs = [spun(speed) for speed in speeds]
+    assert advance_side_by_side(runs, 4, lambda _: None)
+    assert [run.core.time for run in runs[:2]] == [4.0, 4.0] and runs[3].core.time == 4.0
+    assert 1.0 < runs[2].core.time < 1.7
+    assert runs[2].advance(4.0)  # its own engine goes on from there
+    for speed, run in zip(speeds, runs, strict=True):
+        result = run.result()
+        assert np.allclose(result["angular_velocity"][:, 0, 1], speed, rtol=1e-9)
+        assert result.time.tolist() == [0.0, 1.0, 2.0, 3.0, 4.0]
+        turned = np.arctan2(-result["quaternion"][:, 0, 2], result["quaternion"][:, 0, 0])
+        assert np.abs(np.sin(turned + 0.5 * speed * result.time)).max() < 1e-6 * speed
+
+
+@needs_lanes
+def test_lanes_leave_the_scalar_engine_as_it_was() -> None:
+    """Code for another processor in one process must not take the place of the core's: see docs/design.md."""
+    scene = case("vessel")
+    before = simulate(scene, t_end=5.0, rtol=1e-6)["position"]
+    differences(scene, 4, 1)
+    assert np.array_equal(before, simulate(scene, t_end=5.0, rtol=1e-6)["position"])
+
+
+@needs_lanes
+@pytest.mark.parametrize("lanes", LANES)
+def test_a_lane_module_shows_nothing_but_its_entry(lanes: int) -> None:
+    module = module_of(lanes)
+    assert module is not None and module.__file__ is not None
+    if shutil.which("readelf") is None:
+        pytest.skip("needs readelf")
+    told = subprocess.run(
+        ["readelf", "--dyn-syms", "--wide", module.__file__], check=True, capture_output=True, text=True
+    ).stdout
+    table = [line.split() for line in told.splitlines()]
+    symbols = [row for row in table if len(row) >= 8 and row[0].rstrip(":").isdigit()]
+    assert [row[7] for row in symbols if row[6] != "UND"] == [f"PyInit__lanes_{INSTRUCTIONS[lanes]}"]
+    assert not [row[7] for row in symbols if "seacrane" in row[7] or "Eigen" in row[7]]
+
+
+@pytest.mark.parametrize(
+    ("given", "told"),
+    [
+        ({"lanes": 3}, "lanes is 3; give 1, 4 or 8"),
+        ({"lanes": True}, "lanes is True"),
+        ({"lanes": 4, "pack": 6}, "pack is 6 and lanes is 4; give a pack that is a multiple of lanes"),
+    ],
+)
+def test_bad_input_is_named(given: dict[str, Any], told: str) -> None:
+    with pytest.raises(SceneError, match=told):
+        ensemble(pendulum, over={"start": [1.0]}, keep={"z": Kept(channel="position")}, **given)
+
+
+@needs_lanes
+def test_lanes_are_the_default_where_a_sea_varies() -> None:
+    keep = {"lanes": why}
+    study: dict[str, Any] = {"database": shipped_database(), "keep": keep, "t_end": 0.5, "rtol": 1e-2}
+    assert (ensemble(case("vessel"), over={"seed": [1, 2]}, **study).dataset.lanes == 4).all()
+    assert (ensemble(case("vessel"), over={"seed": [1, 2]}, pack=2, **study).dataset.lanes == 1).all()
+    assert (ensemble(case("vessel"), over={"gravity": [9.8, 9.81]}, **study).dataset.lanes == 1).all()
+
+
+def test_a_processor_without_lanes_runs_one_by_one(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("seacrane.run.lanes.module_of", lambda lanes: None)
+    assert lanes_of(None) == 1
+    assert "no lanes" in reason(pendulum, [{"start": 1.0}] * 2)
