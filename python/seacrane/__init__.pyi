@@ -73,6 +73,8 @@ from seacrane.description.waves import HullLoads as HullLoads
 from seacrane.description.waves import RepeatingSeaWarning as RepeatingSeaWarning
 from seacrane.description.waves import Waves as Waves
 from seacrane.ensembles.certainty import Certainty as Certainty
+from seacrane.ensembles.chosen_accuracy import AccuracyNotHeldWarning as AccuracyNotHeldWarning
+from seacrane.ensembles.chosen_accuracy import EnsembleAccuracy as EnsembleAccuracy
 from seacrane.ensembles.ensemble import Ensemble as Ensemble
 from seacrane.ensembles.ensemble import ensemble as ensemble
 from seacrane.ensembles.job import WorkerVersionError as WorkerVersionError
