@@ -54,7 +54,7 @@ def test_a_sea_is_as_cheap() -> None:
     given: dict[str, Any] = {"over": {"seed": range(1, 26)}, "database": shipped_database()}
     roll = {"roll": Kept(channel="vessel_motion", what="maximum", at={"motion": "roll"})}
     told = ensemble(
-        vessel(hs=1.0, memory="passive"), keep=roll, accuracy={"roll": 1e-4}, t_end=20.0, dt_out=0.5, **given
+        vessel(hs=1.0, memory="passive"), keep=roll, accuracy={"roll": 1e-3}, t_end=20.0, dt_out=0.5, **given
     ).accuracy
     assert told is not None
     assert (len(told.probes), len(told.checks)) == (1, 1)
