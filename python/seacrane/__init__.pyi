@@ -80,6 +80,7 @@ from seacrane.ensembles.ensemble import ensemble as ensemble
 from seacrane.ensembles.job import WorkerVersionError as WorkerVersionError
 from seacrane.ensembles.kept import Kept as Kept
 from seacrane.ensembles.latin_hypercube import LatinHypercube as LatinHypercube
+from seacrane.ensembles.linear_control import HookLoadControl as HookLoadControl
 from seacrane.ensembles.linear_control import LinearControl as LinearControl
 from seacrane.ensembles.sensitivity import Sensitivity as Sensitivity
 from seacrane.ensembles.sensitivity import sensitivity as sensitivity
