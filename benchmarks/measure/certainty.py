@@ -31,7 +31,7 @@ GROWING = (
     ("mpm", 0.05, 0.02), ("mpm", 0.07, 0.02), ("mpm", 0.15, 0.02), ("mpm", 0.15, 0.05), ("mpm", 0.3, 0.05),
     ("mean", 0.07, 0.02), ("p90", 0.07, 0.02),
 )  # fmt: skip
-SEEDS, CONTROLS, T_END, START = 60, 2000, 300.0, 30.0
+SEEDS, CONTROLS, T_END, START = 60, 5000, 300.0, 30.0
 HEIGHTS = (0.5, 1.5, 3.0)
 CONTROLLED: tuple[tuple[str, str, dict[str, str], str, dict[str, Any] | None], ...] = (
     ("swing", "position", {"body": "payload", "axis": "y"}, "motion", {"axis": "y"}),
