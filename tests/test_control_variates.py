@@ -9,6 +9,7 @@ import pytest
 from numpy.typing import NDArray
 
 from seacrane import (
+    HookLoadControl,
     HydroDatabase,
     Kept,
     LinearControl,
@@ -123,6 +124,22 @@ def test_a_swing_of_a_crane_load_is_known_better(database: HydroDatabase) -> Non
     assert found.plain.low < found.estimate.high
 
 
+def test_a_hook_load_follows_the_square_of_the_swing(database: HydroDatabase) -> None:
+    """Which the linear motions tell to second order: in small waves the run itself, in others nearly."""
+    scene = lifted()
+    given: dict[str, Any] = {"database": database, "t_end": 40.0, "after": 5.0, "dt": 0.25}
+    for hs, known in ((0.05, 0.02), (1.0, 0.3)):
+        control = HookLoadControl(scene, words={"hs": hs}, **given)
+        sea = with_sea(scene, database, {"seed": 2, "hs": hs})
+        run = simulate(sea, 40.0, rtol=1e-5, dt_out=0.25, channels=["hook_load"])
+        load = run["hook_load"][run.time >= 5.0 - 1e-9, 0]
+        assert np.allclose(control.times, run.time[run.time >= 5.0 - 1e-9])
+        assert (control.series(2) - load).std() < known * load.std()
+    acceleration = LinearControl(scene, body="payload", axis="z", derivative=2, words={"hs": 1.0}, **given)
+    plain = 2e4 * (scene.gravity + acceleration.series(2))
+    assert (control.series(2) - load).std() < 0.5 * (plain - load).std()
+
+
 @pytest.mark.parametrize(
     ("given", "message"),
     [
@@ -155,6 +172,13 @@ def test_a_control_that_makes_no_sense(given: dict[str, Any], message: str, data
     asked = {**usual, **given}
     with pytest.raises(SceneError, match=message):
         LinearControl(asked.pop("scene"), database=database, **asked)
+
+
+def test_a_link_that_is_none_is_named(database: HydroDatabase) -> None:
+    with pytest.raises(SceneError, match="link is None; no load hangs from a link"):
+        HookLoadControl(vessel(memory="none"), database=database, t_end=10.0)
+    with pytest.raises(SceneError, match="link is 'lnk'; choose from link"):
+        HookLoadControl(lifted(), database=database, t_end=10.0, link="lnk")
 
 
 def test_a_convolution_is_refused(database: HydroDatabase) -> None:

@@ -260,6 +260,7 @@ def test_a_lift_inside_the_file(study: Path, ran: Path) -> None:
         ("[1, 2.0]", "{ first = 1, last = 2, count = 1000000000 }", "are 40000000000 members"),
         ("count = 40", "cont = 40", "line 6: cont is unknown in .*; nearest: count"),
         ("count = 40", "count = 0", "line 6: count is 0"),
+        ("count = 40", "count = 10", "line 23: until: seed has 10 values and a batch takes 20"),
         ('what = "maximum"', 'what = "biggest"', "line 12: what in .* is 'biggest'"),
         ("after_s", "after", "line 14: after is unknown in .*; nearest: after_s"),
         ('name = "deepest"', 'name = "heave"', "line 17: .* 'heave' is there twice"),

@@ -74,11 +74,14 @@ from seacrane.description.waves import HullLoads as HullLoads
 from seacrane.description.waves import RepeatingSeaWarning as RepeatingSeaWarning
 from seacrane.description.waves import Waves as Waves
 from seacrane.ensembles.certainty import Certainty as Certainty
+from seacrane.ensembles.chosen_accuracy import AccuracyNotHeldWarning as AccuracyNotHeldWarning
+from seacrane.ensembles.chosen_accuracy import EnsembleAccuracy as EnsembleAccuracy
 from seacrane.ensembles.ensemble import Ensemble as Ensemble
 from seacrane.ensembles.ensemble import ensemble as ensemble
 from seacrane.ensembles.job import WorkerVersionError as WorkerVersionError
 from seacrane.ensembles.kept import Kept as Kept
 from seacrane.ensembles.latin_hypercube import LatinHypercube as LatinHypercube
+from seacrane.ensembles.linear_control import HookLoadControl as HookLoadControl
 from seacrane.ensembles.linear_control import LinearControl as LinearControl
 from seacrane.ensembles.sensitivity import Sensitivity as Sensitivity
 from seacrane.ensembles.sensitivity import sensitivity as sensitivity

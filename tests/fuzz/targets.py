@@ -27,6 +27,7 @@ from seacrane.files.state import load_state
 from seacrane.hydro import Hull, HydroDatabase
 from seacrane.hydro.readers import bemio, capytaine, nemoh, orcaflex, veres, wamit
 from seacrane.result import Result
+from seacrane.study_files.study_file import StudyFile
 
 CORPUS = Path(__file__).parent / "corpus"
 LONGEST_MESSAGE = 2000  # characters: what a file holds may not flood the screen
@@ -180,6 +181,12 @@ def _lift(path: Path) -> Any:
             scene.compile()
 
 
+def _study(path: Path) -> Any:
+    """A study that is read has its members; its lift is another file, or tables that are read alike."""
+    study = StudyFile.load(path)
+    return [len(study.members), *(study.until or {}).values()]
+
+
 def _measured(path: Path) -> Any:
     """The arguments of `MeasuredWaves` as JSON; what is no such object is refused here."""
     try:
@@ -268,6 +275,7 @@ _ALL = [
     Target("gltf-bytes", "gltf", "box.glb", _gltf, ("files/gltf.py",), None),
     Target("scene", "scene", "scene.json", _scene, _SCENE, mutate_json),
     Target("lift", "lift", "lift.toml", _lift, _LIFT),
+    Target("study", "study", "study.toml", _study, ("study_files/study_file.py",)),
     Target("crane", "crane", "crane.toml", _crane, ("crane/data_file.py",)),
     Target(
         "measured", "measured", "record.json", _measured, ("sea/measured.py",), mutate_json,

@@ -113,8 +113,57 @@ def run_to_accuracy(
         For an accuracy that is no positive number, an unknown quantity, a setting that is chosen here, or a
         limit that cannot be reached.
     """
-    _refuse_what_is_chosen(method, shorthand, controllers)
+    refuse_what_is_chosen(method, shorthand, controllers)
     kept, outputs = settled(method, outputs, shorthand)
+    case = _case_of(scene, t_end, accuracy, outputs=outputs, start=start, progress=progress)
+    result = _converged(case, kept)
+    asked = outputs.channels
+    if asked is None:
+        return result
+    return replace(result, channels={name: result.channels[name] for name in asked})
+
+
+def error_of(
+    scene: Scene, t_end: float, accuracy: Mapping[str, Any], *, method: Method, outputs: Outputs
+) -> tuple[dict[str, float], int, int]:
+    """Estimated errors of a run by a method that `run_to_accuracy` chose for another scene.
+
+    Returns
+    -------
+    errors : dict of str to float
+        By quantity of `accuracy`, in its unit.
+    run, other : int
+        Evaluations of the run, and of the cheap one that tells its error.
+
+    Raises
+    ------
+    SceneError
+        As of `run_to_accuracy`.
+    KeyboardInterrupt
+        Where Ctrl-C stopped a run.
+    """
+    case = _case_of(scene, t_end, accuracy, outputs=outputs, start=None, progress=False)
+    done = [_run(case, _cheap(method)), _run(case, method)]
+    if any(one.result.interrupted for one in done):
+        raise KeyboardInterrupt
+    other, run = (int(one.result.stats["evaluations"]) for one in done)
+    return _errors(case, done)[0], run, other
+
+
+def _cheap(method: Method) -> Method:
+    """What tells the error of a method."""
+    return probe_of(method) if method.used_tolerance > ROUNDING else _looser(method)
+
+
+def _case_of(
+    scene: Scene,
+    t_end: float,
+    accuracy: Mapping[str, Any],
+    *,
+    outputs: Outputs,
+    start: _core.State | None,
+    progress: bool,
+) -> _Case:
     if not isinstance(accuracy, Mapping):
         raise SceneError(f"accuracy is {accuracy!r}; give a mapping such as {{'payload_position': 0.01}}")
     model = scene.compile()
@@ -129,13 +178,10 @@ def run_to_accuracy(
         one = Run(changed, t_end, method=chosen, outputs=recorded, start=start, model=compiled)
         return finished(one, progress=progress)
 
-    result = _converged(_Case(scene=scene, quantities=measured, limits=limits, run=run), kept)
-    if asked is None:
-        return result
-    return replace(result, channels={name: result.channels[name] for name in asked})
+    return _Case(scene=scene, quantities=measured, limits=limits, run=run)
 
 
-def _refuse_what_is_chosen(
+def refuse_what_is_chosen(
     method: Method | None, shorthand: Mapping[str, Any], controllers: Sequence[SampledController]
 ) -> None:
     """SceneError for an integrator, a tolerance or a step beside an accuracy, and for controllers."""
@@ -159,7 +205,7 @@ def _converged(case: _Case, kept: Method) -> Result:
     """Runs until the estimate of the last one meets the limits; `kept` holds what is not chosen here."""
     first = first_method(case.scene, case.quantities, case.limits)
     method = _with_setting(kept, first)
-    done = [_run(case, probe_of(method) if method.used_tolerance > ROUNDING else _looser(method))]
+    done = [_run(case, _cheap(method))]
     while not done[-1].result.interrupted:
         done.append(_run(case, method))
         if done[-1].result.interrupted:

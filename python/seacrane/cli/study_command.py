@@ -7,9 +7,8 @@ import contextlib
 import signal
 import sys
 from collections.abc import Callable, Iterator, Mapping
-from concurrent.futures import Executor, ProcessPoolExecutor
+from concurrent.futures import Executor
 from importlib import import_module
-from multiprocessing import active_children, get_context
 from typing import Any
 
 from seacrane.cli.command_line import INTERRUPTED
@@ -28,8 +27,7 @@ def run(arguments: argparse.Namespace) -> int:
         try:
             run_study(arguments.study, arguments.out, executor=executor, progress=progress)
         except KeyboardInterrupt:
-            for child in active_children():
-                child.terminate()
+            _end_workers()
             print(
                 f"seacrane study: interrupted; {arguments.out} keeps the members that came back, and the "
                 "same command goes on",
@@ -53,10 +51,21 @@ def _executor(arguments: argparse.Namespace) -> Iterator[Executor | None]:
     elif arguments.workers < 1:
         raise SceneError(f"--workers is {arguments.workers}; give a number from 1 on")
     else:
+        from concurrent.futures import ProcessPoolExecutor
+        from multiprocessing import get_context
+
         with ProcessPoolExecutor(
             arguments.workers, mp_context=get_context("spawn"), initializer=leave_ctrl_c_to_the_parent
         ) as pool:
             yield pool
+
+
+def _end_workers() -> None:
+    """End the processes of the pool, with the members in flight."""
+    from multiprocessing import active_children
+
+    for child in active_children():
+        child.terminate()
 
 
 def leave_ctrl_c_to_the_parent() -> None:

@@ -12,7 +12,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
 from seacrane import _core
+from seacrane.accuracy.choice import refuse_what_is_chosen
 from seacrane.ensembles.certainty import Certainty
+from seacrane.ensembles.chosen_accuracy import EnsembleAccuracy, checked, probed, tightest
 from seacrane.ensembles.dataset import Table, table_of
 from seacrane.ensembles.filling import any_outcome, fill, progress_bar, require_success
 from seacrane.ensembles.growing import BATCH, Growth, grow, growth_of
@@ -54,12 +56,15 @@ class Ensemble:
         Why members failed, by their number in order of the parameters, the last of a grid fastest.
     certainty : tuple of Certainty
         Of an ensemble with `until`: the statistics asked for, for every combination of parameters.
+    accuracy : EnsembleAccuracy or None
+        Of an ensemble with `accuracy`: the method that was chosen, and the errors that were found.
     """
 
     members: Members
     dataset: xarray.Dataset
     failures: Mapping[int, str] = field(default_factory=dict)
     certainty: tuple[Certainty, ...] = ()
+    accuracy: EnsembleAccuracy | None = None
 
     def __repr__(self) -> str:
         shape = " x ".join(f"{size} {name}" for name, size in self.members.shape.items())
@@ -95,6 +100,7 @@ def ensemble(
     executor: Executor | None = None,
     store: str | os.PathLike[str] | None = None,
     until: Mapping[str, float] | None = None,
+    accuracy: Mapping[str, float] | None = None,
     on_error: Literal["record", "raise"] = "record",
     pack: int | None = None,
     lanes: int | None = None,
@@ -137,6 +143,9 @@ def ensemble(
         in whole batches of 20 until every combination of the other parameters is known so narrowly; those in
         `over`, one after another, are the most that there may be. The dynamic part is what differs from the
         mean of the channel, which is kept too, as "<name>_mean". The record is the exposure time.
+    accuracy : mapping of str to float, optional
+        Largest error by quantity, as of `simulate`: integrator and tolerance are chosen by a few members as
+        probes, for all, and checked on others at random. Leave integrator, rtol and dt out.
     on_error : str
         "record": a member that fails is recorded, the others go on. "raise": the first failure ends it.
     pack : int, optional
@@ -171,6 +180,8 @@ def ensemble(
     -----
     FewSeedsWarning
         Where `over` allows fewer seeds than `until` takes.
+    AccuracyNotHeldWarning
+        Where a member that was checked has a larger error than `accuracy` allows.
     """
     if not isinstance(source, Scene) and not callable(source):
         raise SceneError(f"ensemble of {shown(source)}; give a Scene, or a function that returns one")
@@ -199,15 +210,26 @@ def ensemble(
     study.require_names(list(members.axes))
     size = _pack_size(pack, len(members), study.lanes)
     raises = on_error == "raise"
+    probes = {}
+    if accuracy is not None:
+        refuse_what_is_chosen(method, shorthand, ())
+        probes = probed(study, members, accuracy, executor)
+        study = replace(study, method=tightest(probes))
     if targets:
-        growth = growth_of(members, None if pack is None else size)
+        beside = study.lanes if study.lanes > 1 else None
+        growth = growth_of(members, beside if pack is None else size)
         with _growing_store(store, study, growth) as kept:
             grown = grow(growth, Job(study), kept, executor, targets, raises=raises, progress=progress)
         table = table_of(grown.members, grown.outcomes)
-        return replace(_ensemble(grown.members, table), certainty=grown.certainty)
-    with _store(store, study, members, size) as kept:
-        _run(study, members, size, kept, executor, raises=raises, progress=progress)
-        return _ensemble(members, table_of(members, kept.outcomes()))
+        done = replace(_ensemble(grown.members, table), certainty=grown.certainty)
+    else:
+        with _store(store, study, members, size) as kept:
+            _run(study, members, size, kept, executor, raises=raises, progress=progress)
+            done = _ensemble(members, table_of(members, kept.outcomes()))
+    if accuracy is None:
+        return done
+    ran = [int(place) for place in (done.dataset.failure.to_numpy().ravel() == "").nonzero()[0]]
+    return replace(done, accuracy=checked(study, done.members, accuracy, probes, ran, executor))
 
 
 def _checked_start(start: Any) -> Start:

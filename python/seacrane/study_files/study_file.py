@@ -10,6 +10,7 @@ from typing import Any, NoReturn
 
 import numpy as np
 
+from seacrane.ensembles.growing import growth_of
 from seacrane.ensembles.kept import Kept
 from seacrane.ensembles.latin_hypercube import LatinHypercube
 from seacrane.ensembles.members import MOST_MEMBERS, Members, members_of
@@ -65,9 +66,9 @@ class StudyFile:
         _require_tables(document)
         reader = _Reader(document, Checker(document, folder))
         over = reader.over()
-        keep = reader.keep()
+        members, keep = reader.members(over), reader.keep()
         return cls(
-            members=reader.members(over), keep=keep, until=reader.until(keep), exposure=reader.exposure(),
+            members=members, keep=keep, until=reader.until(keep, members), exposure=reader.exposure(),
             _over=over, _document=document, _folder=folder,
         )  # fmt: skip
 
@@ -196,7 +197,7 @@ class _Reader:
                 self.document.fail(path, f"[[keep]] {place + 1}: {error}")
         return found
 
-    def until(self, keep: Mapping[str, Kept]) -> dict[str, float] | None:
+    def until(self, keep: Mapping[str, Kept], members: Members) -> dict[str, float] | None:
         """Half widths by statistic."""
         if "until" not in self.document.data:
             return None
@@ -209,6 +210,10 @@ class _Reader:
                 self.document.fail(path, str(error))
         if not found:
             self.document.fail(("until",), "[until] is empty; name a statistic, or leave it out")
+        try:
+            growth_of(members, None)
+        except SceneError as error:
+            self.document.fail(("until",), str(error))
         return found
 
     def exposure(self) -> float | None:

@@ -1,0 +1,153 @@
+"""Motions of the linearised scene in the very waves of a seed, from rest."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from seacrane import _core
+from seacrane.analysis.frequency_domain import component_forces
+from seacrane.analysis.linear_system import LinearModel, Resolvent, linear_model
+from seacrane.ensembles.members import Value
+from seacrane.ensembles.other_sea import WORDS, Databases, require_same_sea, with_sea
+from seacrane.errors import SceneError
+from seacrane.inputs.checked import number_of
+from seacrane.inputs.shown import shown
+from seacrane.scene.scene import Scene
+
+Array = NDArray[np.float64]
+Complex = NDArray[np.complex128]
+AXES = ("x", "y", "z", "roll", "pitch", "yaw")
+MOST_TIMES = 10**6
+
+
+@dataclass(frozen=True, kw_only=True)
+class Motion:
+    """One coordinate of a point, or its speed (derivative 1) or acceleration (2).
+
+    Attributes
+    ----------
+    body, axis : str
+    point : array_like or None
+        Body coordinates, m; None: the centre of mass.
+    derivative : int
+    """
+
+    body: str
+    axis: str
+    point: ArrayLike | None = None
+    derivative: int = 0
+
+    def row(self, linear: LinearModel) -> Array:
+        """Of the states of a linear model."""
+        place = self.point
+        if place is None:
+            known = linear.scene.bodies
+            place = known[self.body].center_of_mass if self.body in known else (0.0, 0.0, 0.0)
+        return np.asarray(linear.output(body=self.body, point=place)[AXES.index(self.axis)])
+
+    def require(self) -> None:
+        """Raise SceneError for an axis or a derivative that is none."""
+        if self.axis not in AXES:
+            raise SceneError(f"control: axis is {shown(self.axis)}; choose from {', '.join(AXES)}")
+        if self.derivative not in (0, 1, 2):
+            raise SceneError(f"control: derivative is {shown(self.derivative)}; give 0, 1 or 2")
+
+
+class LinearMotions:
+    """Several motions at even times, in the sea of any seed: what the constructors of controls share.
+
+    Raises
+    ------
+    SceneError
+        For a scene without a sea of one wave system, a value that makes no sense, or a vessel whose memory is
+        a convolution.
+    """
+
+    def __init__(
+        self,
+        scene: Scene,
+        motions: Sequence[Motion],
+        *,
+        database: Databases,
+        t_end: float,
+        after: float,
+        dt: float,
+        words: Mapping[str, Value] | None,
+        state: _core.State | None,
+    ) -> None:
+        for motion in motions:
+            motion.require()
+        self._words = dict(words or {})
+        for word in self._words:
+            if word not in WORDS or word == "seed":
+                raise SceneError(f"control: {word!r} is no word of the sea beside its seed")
+        require_same_sea(scene, database, ("seed", *self._words))
+        assert scene.waves is not None
+        self._scene, self._databases = scene.copy(), database
+        linear = linear_model(scene, state=state, vessel=next(iter(scene.waves.hulls)))
+        if linear.memories:
+            raise SceneError(
+                "control: the memory of a vessel is a convolution, whose start from rest the linear model "
+                "does not know; take a fitted one, such as memory='by-motion'"
+            )
+        self.times = _times(t_end, after, dt)
+        self._by_vessel = {vessel: linear.excited(vessel).b for vessel in scene.waves.hulls}
+        self._resolvent = Resolvent(linear)
+        self._rows = np.array([motion.row(linear) for motion in motions])
+        self._orders = [motion.derivative for motion in motions]
+        self._decays = _decays(linear.a, self._rows, self._orders, self.times)
+
+    def series(self, seed: int) -> Array:
+        """All motions in the sea of a seed, shape (motions, times)."""
+        sea = with_sea(self._scene, self._databases, {**self._words, "seed": int(seed)}).waves
+        assert sea is not None
+        omega, forces = component_forces(sea)
+        rates: Complex = np.zeros((omega.size, self._rows.shape[1]), dtype=complex)
+        for vessel, force in forces.items():
+            rates += force @ self._by_vessel[vessel].T
+        x = self._resolvent.response(omega, rates)
+        orders = (1j * omega) ** np.array(self._orders)[:, None]
+        steady = _sums_of(omega, (self._rows @ x.T) * orders, self.times)
+        return np.asarray(steady - self._decays @ x.sum(axis=0).real)
+
+
+def _times(t_end: Any, after: Any, dt: Any) -> Array:
+    end, begin, step = (
+        number_of(f"control: {n}", v) for n, v in (("t_end", t_end), ("after", after), ("dt", dt))
+    )
+    if not (0.0 <= begin < end and 0.0 < step <= end - begin and end / step < MOST_TIMES):
+        raise SceneError(
+            f"control: t_end is {end:g} s, after {begin:g} s, dt {step:g} s; give outputs between after and "
+            f"t_end, at most {MOST_TIMES}"
+        )
+    times = step * np.arange(round(end / step) + 1)
+    return np.asarray(times[times >= begin - 1e-9 * step])
+
+
+def _decays(a: Array, rows: Array, orders: Sequence[int], times: Array) -> Array:
+    """What is left at each time of motions per state at the start, shape (motions, times, states)."""
+    from scipy.linalg import expm
+
+    first, step = expm(a * times[0]), expm(a * (times[1] - times[0]))
+    now = np.array([row @ np.linalg.matrix_power(a, n) for row, n in zip(rows, orders, strict=True)]) @ first
+    out = np.empty((len(rows), times.size, len(a)))
+    for place in range(times.size):
+        out[:, place] = now
+        now = now @ step
+    return out
+
+
+def _sums_of(omega: Array, amplitudes: Complex, times: Array) -> Array:
+    """Sums of Re amplitude exp(i omega t) at even times: by blocks, which take few exponentials."""
+    inside = int(np.ceil(np.sqrt(times.size)))
+    step = times[1] - times[0]
+    blocks = times[0] + step * inside * np.arange(int(np.ceil(times.size / inside)))
+    first = amplitudes[:, None, :] * np.exp(1j * np.outer(blocks, omega))
+    then = np.exp(1j * np.outer(omega, step * np.arange(inside)))
+    sums = first.real @ then.real - first.imag @ then.imag
+    return np.asarray(sums.reshape(len(amplitudes), -1)[:, : times.size])
