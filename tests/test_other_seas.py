@@ -136,18 +136,19 @@ WORDS: dict[str, list[Any]] = {
 def test_members_are_what_simulate_gives_in_their_sea(word: str, database: HydroDatabase) -> None:
     scene = cases.case2(database=database, spreading=4.0 if word == "seed" else None)
     given: dict[str, Any] = {"t_end": 3.0, "rtol": 1e-3, "channels": ["position"]}
-    there = ensemble(scene, over={word: WORDS[word]}, keep=PATH, database=database, **given)
+    there = ensemble(scene, over={word: WORDS[word]}, lanes=1, keep=PATH, database=database, **given)
     for value in WORDS[word]:
-        alone = simulate(with_sea(scene, database, {word: value}), **given)
+        alone = simulate(with_sea(scene, database, {word: value}), **given, channels=["position"])
         assert np.array_equal(there.dataset.track.sel({word: value}), alone.select("position", body="vessel"))
 
 
 def test_the_seed_of_a_wind_sea_and_swell_varies(database: HydroDatabase) -> None:
     given: dict[str, Any] = {"t_end": 3.0, "rtol": 1e-3}
     scene = wind_sea_and_swell(database, 1)
-    there = ensemble(scene, over={"seed": [1, 2]}, keep=PATH, database=database, **given)
+    there = ensemble(scene, over={"seed": [1, 2]}, lanes=1, keep=PATH, database=database, **given)
     for seed in (1, 2):
-        alone = simulate(wind_sea_and_swell(database, seed), **given).select("position", body="vessel")
+        ran = simulate(wind_sea_and_swell(database, seed), **given, channels=["position"])
+        alone = ran.select("position", body="vessel")
         assert np.array_equal(there.dataset.track.sel(seed=seed), alone)
     with pytest.raises(SceneError, match="is a SeaState, of which the seed can vary, and not hs, tp"):
         ensemble(scene, over={"hs": [1.0], "tp": [8.0]}, keep=PATH, database=database, **given)
@@ -199,17 +200,17 @@ def test_a_scene_is_compiled_once_for_all_its_seas(
     masses = [float(scene.bodies["vessel"].mass) * share for share in (1.0, 1.01)]
     over = {path: masses, "seed": range(4)}
     compiled = counted(monkeypatch)
-    there = ensemble(scene, over=over, keep=PATH, database=database, **given)
+    there = ensemble(scene, over=over, lanes=1, keep=PATH, database=database, **given)
     assert len(compiled) == len(masses)
     monkeypatch.setattr(prepared, "MOST_HELD", 1)
     turned = ensemble(
-        scene, over={"seed": range(4), path: masses}, keep=PATH, database=database, pack=3, **given
+        scene, over={"seed": range(4), path: masses}, lanes=1, keep=PATH, database=database, pack=3, **given
     )
     assert len(compiled) == len(masses) + 8  # none is held for as long as the next sea
     assert there.failures == turned.failures == {}
     assert np.array_equal(there.dataset.track, turned.dataset.track.transpose(*there.dataset.track.dims))
     heavier = with_sea(with_values(scene, {path: masses[1]}), database, {"seed": 2})
-    alone = simulate(heavier, **given).select("position", body="vessel")
+    alone = simulate(heavier, **given, channels=["position"]).select("position", body="vessel")
     assert np.array_equal(there.dataset.track.sel({path: masses[1], "seed": 2}), alone)
 
 
@@ -218,7 +219,14 @@ def test_seas_are_the_same_whoever_runs_them(pool: type[Executor], database: Hyd
     scene = cases.vessel(database=database, spreading=3.0)
     mass = float(scene.bodies["vessel"].mass)
     over = {"bodies.vessel.mass": [mass, 1.01 * mass], "seed": range(4), "hs": [1.0, 2.0]}
-    given: dict[str, Any] = {"over": over, "keep": PATH, "database": database, "t_end": 1.0, "rtol": 1e-3}
+    given: dict[str, Any] = {
+        "over": over,
+        "keep": PATH,
+        "database": database,
+        "lanes": 1,
+        "t_end": 1.0,
+        "rtol": 1e-3,
+    }
     with pool(2) as executor:  # type: ignore[call-arg]
         there = ensemble(scene, executor=executor, pack=3, **given)
     assert there.failures == {}

@@ -17,7 +17,9 @@ from fuzz.limits import bounded
 from fuzz.mutate import mutate_json, mutate_text
 from fuzz.netcdf_spec import build
 from seacrane import Lift, Scene, sea
-from seacrane.crane import KnuckleBoomCrane
+from seacrane.crane import JointedCrane, KnuckleBoomCrane
+from seacrane.crane.jointed_file import load as load_jointed
+from seacrane.crane.urdf import read_urdf
 from seacrane.errors import FileFormatError, SceneError, SimulationError
 from seacrane.files.gltf import read_gltf
 from seacrane.files.hdf5_structure import Structure
@@ -172,6 +174,19 @@ def _crane(path: Path) -> Any:
     return list(crane.mass_properties.values())
 
 
+def _jointed(path: Path) -> Any:
+    """A crane of bodies and joints that is read gives its parts, or a pose that is refused by name."""
+    crane = JointedCrane(load_jointed(path))
+    with contextlib.suppress(SceneError):
+        crane.parts(foot=(0.0, 0.0, 0.0))
+    return list(crane.mass_properties.values())
+
+
+def _urdf(path: Path) -> Any:
+    """A URDF file that is read gives bodies with mass and inertia."""
+    return [body.properties for body in read_urdf(path).bodies]
+
+
 def _lift(path: Path) -> Any:
     """A lift that loads has to build and to compile, or to be refused by name; without what takes long."""
     lift = Lift.load(path)
@@ -182,8 +197,9 @@ def _lift(path: Path) -> Any:
 
 
 def _study(path: Path) -> Any:
-    """A study that is read has its members; its lift is another file, or tables that are read alike."""
+    """A study that is read has its members and its lift, which may be another file."""
     study = StudyFile.load(path)
+    study.settings(study.lift())
     return [len(study.members), *(study.until or {}).values()]
 
 
@@ -260,6 +276,8 @@ def _netcdf_targets(name: str, file: str, read: Callable[[Path], Any], module: s
     ]
 
 
+_JOINTED = ("crane/jointed_file.py", "crane/jointed_check.py", "crane/link_frames.py")
+_URDF = ("crane/urdf.py", "crane/urdf_values.py", "crane/urdf_visuals.py")
 _ALL = [
     *_set_targets("veres", "re7 re8 re1 re2 hyd", _veres, _VERES),
     *_set_targets("wamit", "1 3 4 hst frc out cfg", _wamit, _WAMIT),
@@ -277,6 +295,8 @@ _ALL = [
     Target("lift", "lift", "lift.toml", _lift, _LIFT),
     Target("study", "study", "study.toml", _study, ("study_files/study_file.py",)),
     Target("crane", "crane", "crane.toml", _crane, ("crane/data_file.py",)),
+    Target("jointed", "jointed", "crane.toml", _jointed, _JOINTED),
+    Target("urdf", "urdf", "crane.urdf", _urdf, _URDF),
     Target(
         "measured", "measured", "record.json", _measured, ("sea/measured.py",), mutate_json,
         refusals=(SceneError,),

@@ -58,8 +58,8 @@ ClosedSet closed_limits(const Model& model, const State& state);
 StepHistory save_steps(Stepper& at, const std::string& integrator);
 
 /// Gives the integrator the state `start` and what it kept, and returns whether it continues from there as if
-/// it had not stopped: the history is that of this formulation and integrator, and of exactly these values,
-/// inputs and scene.
+/// it had not stopped: the history is that of this formulation and integrator, and of these values, inputs
+/// and scene, but for rounding.
 bool load_steps(Stepper& at, const std::string& integrator, const State& start);
 
 }  // namespace seacrane

@@ -21,6 +21,7 @@ from seacrane.statistics.seeds import ASKED, FEWEST, gumbel_maximum_of
 Array = NDArray[np.float64]
 EXTREMES = ("maximum", "minimum")
 WIDENED = 1.05  # of intervals: stopping where one happens to be narrow costs coverage, which this restores
+LONGEST = 80  # characters of a name in a message
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -100,17 +101,20 @@ def _target(name: Any, share: Any, keep: Keep) -> Target:
     if variable not in keep:
         near = difflib.get_close_matches(variable, keep, n=1, cutoff=0.3)
         raise SceneError(
-            f"until: nothing is kept as {variable!r}"
+            f"until: nothing is kept as {shown(variable)}"
             + (f"; nearest: {near[0]!r}" if near else "")
             + f"; kept are {', '.join(keep)}"
         )
     what = keep[variable]
+    label = name if len(name) <= LONGEST else f"{name[:LONGEST]}..."
     numbers = ("mean",) if isinstance(what, Kept) and what.what not in EXTREMES else ASKED
     if number not in numbers:
-        raise SceneError(f"until: {name}: {number!r} is no number of it; choose from {', '.join(numbers)}")
-    width = number_of(f"until: {name}", share)
+        raise SceneError(
+            f"until: {label}: {shown(number)} is no number of it; choose from {', '.join(numbers)}"
+        )
+    width = number_of(f"until: {label}", share)
     if not 0.0 < width < 1.0:
-        raise SceneError(f"until: {name} is {width:g}; give a share between 0 and 1, such as 0.02")
+        raise SceneError(f"until: {label} is {width:g}; give a share between 0 and 1, such as 0.02")
     if not isinstance(what, Kept):
         return Target(variable=variable, number=number, half_width=width, gumbel=number != "mean")
     if what.what == "series":
