@@ -138,7 +138,7 @@ def test_members_are_what_simulate_gives_in_their_sea(word: str, database: Hydro
     given: dict[str, Any] = {"t_end": 3.0, "rtol": 1e-3, "channels": ["position"]}
     there = ensemble(scene, over={word: WORDS[word]}, lanes=1, keep=PATH, database=database, **given)
     for value in WORDS[word]:
-        alone = simulate(with_sea(scene, database, {word: value}), **given, channels=["position"])
+        alone = simulate(with_sea(scene, database, {word: value}), **given)
         assert np.array_equal(there.dataset.track.sel({word: value}), alone.select("position", body="vessel"))
 
 

@@ -27,7 +27,7 @@ def run(arguments: argparse.Namespace) -> int:
         try:
             run_study(arguments.study, arguments.out, executor=executor, progress=progress)
         except KeyboardInterrupt:
-            _end_workers()
+            _end_workers(executor)
             print(
                 f"seacrane study: interrupted; {arguments.out} keeps the members that came back, and the "
                 "same command goes on",
@@ -60,12 +60,20 @@ def _executor(arguments: argparse.Namespace) -> Iterator[Executor | None]:
             yield pool
 
 
-def _end_workers() -> None:
-    """End the processes of the pool, with the members in flight."""
+def _end_workers(executor: Executor | None) -> None:
+    """End the processes of the pool, with the members in flight.
+
+    Nobody then reads what the pool still writes to them, and a full pipe would keep it from ending: its end
+    for reading is closed, as CPython does itself where a pool breaks (python/cpython issue 94777).
+    """
     from multiprocessing import active_children
 
+    if executor is not None:
+        executor.shutdown(wait=False, cancel_futures=True)
     for child in active_children():
         child.terminate()
+    with contextlib.suppress(AttributeError, OSError):
+        executor._call_queue._reader.close()  # type: ignore[union-attr]
 
 
 def leave_ctrl_c_to_the_parent() -> None:
