@@ -63,17 +63,24 @@ def _executor(arguments: argparse.Namespace) -> Iterator[Executor | None]:
 def _end_workers(executor: Executor | None) -> None:
     """End the processes of the pool, with the members in flight.
 
-    Nobody then reads what the pool still writes to them, and a full pipe would keep it from ending: its end
-    for reading is closed, as CPython does itself where a pool breaks (python/cpython issue 94777).
+    Nobody then reads what the pool still writes to them, nor ends what one of them was writing, and the pool
+    would wait for both: their ends of the two pipes are closed, as CPython does itself with one of them where
+    a pool breaks (python/cpython issue 94777).
     """
     from multiprocessing import active_children
 
+    queues = [getattr(executor, name, None) for name in ("_call_queue", "_result_queue")]
     if executor is not None:
         executor.shutdown(wait=False, cancel_futures=True)
     for child in active_children():
         child.terminate()
-    with contextlib.suppress(AttributeError, OSError):
-        executor._call_queue._reader.close()  # type: ignore[union-attr]
+        child.join()
+    for end in (
+        getattr(queue, side, None) for queue, side in zip(queues, ("_reader", "_writer"), strict=True)
+    ):
+        if end is not None:
+            with contextlib.suppress(OSError):
+                end.close()
 
 
 def leave_ctrl_c_to_the_parent() -> None:
