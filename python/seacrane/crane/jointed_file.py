@@ -137,7 +137,7 @@ def _given_mass(table: FileTable) -> MassProperties:
     rows = table.take("inertia")
     try:
         inertia = np.array(rows, dtype=float)
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         inertia = np.zeros(0)
     if inertia.shape != (3, 3) or not np.all(np.isfinite(inertia)):
         raise FileFormatError(
