@@ -245,7 +245,7 @@ def test_a_lane_module_shows_nothing_but_its_entry(lanes: int) -> None:
     module = module_of(lanes)
     assert module is not None and module.__file__ is not None
     if shutil.which("readelf") is None:
-        pytest.skip("needs readelf")
+        pytest.skip("readelf, which lists a module's symbols, is missing: install binutils")
     told = subprocess.run(
         ["readelf", "--dyn-syms", "--wide", module.__file__], check=True, capture_output=True, text=True
     ).stdout

@@ -11,6 +11,7 @@ import signal
 import subprocess
 import sys
 import time
+import tomllib
 from collections.abc import Iterator
 from concurrent.futures import Executor, Future
 from pathlib import Path
@@ -368,7 +369,6 @@ def test_options_that_make_no_sense(
 def test_the_schema_is_current_and_knows_the_study() -> None:
     assert schema_path("study").read_text(encoding="utf-8") == study_schema_text()
     jsonschema = pytest.importorskip("jsonschema", reason="needs the package 'jsonschema'")
-    tomllib = pytest.importorskip("tomllib", reason="needs Python 3.11")
     jsonschema.Draft7Validator.check_schema(study_schema())
     check = jsonschema.Draft7Validator(json.loads(study_schema_text()))
     assert not list(check.iter_errors(tomllib.loads(STUDY)))
