@@ -10,6 +10,8 @@ else()
 endif()
 option(SEACRANE_LANES "Build the modules that step runs side by side" ${seacrane_lanes_here})
 
+include(CheckCXXCompilerFlag)
+
 function(seacrane_lanes instructions lanes)
   if(NOT SEACRANE_LANES)
     return()
@@ -19,7 +21,14 @@ function(seacrane_lanes instructions lanes)
   target_compile_definitions(${module} PRIVATE
     SEACRANE_LANES=${lanes} SEACRANE_INSTRUCTIONS="${instructions}" SEACRANE_LANE_MODULE=${module}
     EIGEN_MAX_ALIGN_BYTES=16)
-  target_compile_options(${module} PRIVATE ${ARGN} $<$<CXX_COMPILER_ID:Clang,AppleClang>:-ffp-contract=fast>)
+  # Packs live in structures, which are to be inlined, and copied in whole registers: a register that is read
+  # after its halves were written waits for both.
+  math(EXPR bits "64 * ${lanes}")
+  check_cxx_compiler_flag("-mmove-max=${bits}" seacrane_moves_${bits})
+  target_compile_definitions(${module} PRIVATE "EIGEN_STRONG_INLINE=__attribute__((always_inline)) inline")
+  target_compile_options(${module} PRIVATE ${ARGN}
+    $<$<BOOL:${seacrane_moves_${bits}}>:-mmove-max=${bits};-mstore-max=${bits}>
+    $<$<CXX_COMPILER_ID:Clang,AppleClang>:-ffp-contract=fast>)
   target_link_libraries(${module} PRIVATE seacrane seacrane_warnings)
   seacrane_hide_names(${module})
   add_dependencies(seacrane_modules ${module})

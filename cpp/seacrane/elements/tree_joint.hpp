@@ -71,10 +71,13 @@ inline double turned(const Mat3d& a, const Mat3d& b) {
 /// Axes a turned about their z axis.
 template <class T>
 Mat3<T> turn_about_z(const Mat3<T>& a, const T& angle) {
-  using std::cos, std::sin;
-  const T c = cos(angle), s = sin(angle);
+  const auto [c, s] = cos_sin(angle);
   Mat3<T> out;
-  out << c * a.col(0) + s * a.col(1), c * a.col(1) - s * a.col(0), a.col(2);
+  for (int i = 0; i < 3; ++i) {
+    out(i, 0) = c * a(i, 0) + s * a(i, 1);
+    out(i, 1) = c * a(i, 1) - s * a(i, 0);
+    out(i, 2) = a(i, 2);
+  }
   return out;
 }
 

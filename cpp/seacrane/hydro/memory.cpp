@@ -42,22 +42,22 @@ Memory::Memory(const std::vector<StateSpaceBlock>& blocks) {
     block.outputs = static_cast<int>(s.outputs.size());
     for (std::size_t i = 0; i < s.inputs.size(); ++i) block.input[i] = s.inputs[i];
     for (std::size_t i = 0; i < s.outputs.size(); ++i) block.output[i] = s.outputs[i];
-    MatXd all(block.states + block.outputs, block.states + block.inputs);
-    all.topLeftCorner(block.states, block.states) = s.a;
-    all.topRightCorner(block.states, block.inputs) = s.b;
-    all.bottomLeftCorner(block.outputs, block.states) = s.c;
-    all.bottomRightCorner(block.outputs, block.inputs) = s.d;
-    for (Eigen::Index first = 0; first < all.rows(); first += tile) {
-      const int rows = height(static_cast<int>(all.rows() - first));
-      for (Eigen::Index j = 0; j < all.cols(); ++j) {
-        for (Eigen::Index i = first; i < first + rows; ++i) {
-          coefficients_.push_back(i < all.rows() ? all(i, j) : 0.0);
-        }
-      }
-    }
+    put_in_tiles(s.a, s.b);
+    put_in_tiles(s.c, s.d);
     blocks_.push_back(block);
     states_ += block.states;
   }
+}
+
+/// The matrix (left, right).
+void Memory::put_in_tiles(const MatXd& left, const MatXd& right) {
+  MatXd all(left.rows(), left.cols() + right.cols());
+  all << left, right;
+  in_tiles(static_cast<int>(all.rows()), [&]<int rows>(int first) {
+    for (Eigen::Index j = 0; j < all.cols(); ++j) {
+      for (int i = 0; i < rows; ++i) coefficients_.push_back(all(first + i, j));
+    }
+  });
 }
 
 }  // namespace seacrane

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 #include "seacrane/math/types.hpp"
@@ -28,19 +30,14 @@ class Memory {
   void evaluate(const Vec6<T>& u, const T* x, T* x_rate, Vec6<T>& mu) const {
     const double* m = coefficients_.data();
     for (const Block& block : blocks_) {
-      const int rows = block.states + block.outputs;
-      for (int first = 0; first < rows; first += tile) {
-        switch (height(rows - first)) {
-          case 2:
-            m = add_tile<2, T>(block, m, first, u, x, x_rate, mu);
-            break;
-          case 4:
-            m = add_tile<4, T>(block, m, first, u, x, x_rate, mu);
-            break;
-          default:
-            m = add_tile<tile, T>(block, m, first, u, x, x_rate, mu);
-        }
-      }
+      in_tiles(block.states, [&]<int rows>(int first) {
+        const auto sum = next_rows<rows, T>(block, m, u, x);
+        std::copy_n(sum.data(), rows, x_rate + first);
+      });
+      in_tiles(block.outputs, [&]<int rows>(int first) {
+        const auto sum = next_rows<rows, T>(block, m, u, x);
+        for (int i = 0; i < rows; ++i) mu[block.output[first + i]] += sum[idx(i)];
+      });
       x += block.states;
       x_rate += block.states;
     }
@@ -48,32 +45,53 @@ class Memory {
 
  private:
   static constexpr int tile = 6;  // rows summed side by side, at most
-  /// Of the tile that takes the next of so many rows: pairs of them.
-  static constexpr int height(int rows) { return rows > 4 ? tile : (rows > 2 ? 4 : 2); }
+  /// Calls f.template operator()<count>(first) for rows in tiles.
+  template <class F>
+  static void in_tiles(int rows, F&& f) {
+    int first = 0;
+    for (; rows - first > tile; first += tile) f.template operator()<tile>(first);
+    switch (rows - first) {
+      case 0:
+        return;
+      case 1:
+        return f.template operator()<1>(first);
+      case 2:
+        return f.template operator()<2>(first);
+      case 3:
+        return f.template operator()<3>(first);
+      case 4:
+        return f.template operator()<4>(first);
+      case 5:
+        return f.template operator()<5>(first);
+      default:
+        return f.template operator()<tile>(first);
+    }
+  }
   struct Block {
     int states, inputs, outputs;
     int input[6], output[6];
   };
 
-  /// Rows `first` ... of a block; returns the coefficients of the tile after it.
+  void put_in_tiles(const MatXd& left, const MatXd& right);
+
+  /// The next rows of a block times (x, u); moves on to the coefficients after them.
   template <int rows, class T>
-  static const double* add_tile(const Block& block, const double* m, int first, const Vec6<T>& u, const T* x,
-                                T* x_rate, Vec6<T>& mu) {
-    using Column = Eigen::Matrix<T, rows, 1>;
-    Column sum = Column::Zero();
-    for (int j = 0; j < block.states; ++j, m += rows) sum += x[j] * view<rows>(m).template cast<T>();
-    for (int j = 0; j < block.inputs; ++j, m += rows) {
-      sum += u[block.input[j]] * view<rows>(m).template cast<T>();
-    }
-    const int here = std::min(rows, block.states + block.outputs - first),
-              to_states = std::clamp(block.states - first, 0, here);
-    for (int i = 0; i < to_states; ++i) x_rate[first + i] = sum[i];
-    for (int i = to_states; i < here; ++i) mu[block.output[first + i - block.states]] += sum[i];
-    return m;
+  static std::array<T, idx(rows)> next_rows(const Block& block, const double*& m, const Vec6<T>& u, const T* x) {
+    return [&]<std::size_t... i>(std::index_sequence<i...>) {
+      std::array<T, idx(rows)> sum = {(static_cast<void>(i), T(0))...};
+      for (const T* const end = x + block.states; x != end; ++x, m += rows) ((sum[i] += *x * T(m[i])), ...);
+      int j = 0;  // most blocks have one input
+      do {
+        const T& motion = u[block.input[j]];
+        ((sum[i] += motion * T(m[i])), ...);
+        m += rows;
+      } while (++j < block.inputs);
+      return sum;
+    }(std::make_index_sequence<static_cast<std::size_t>(rows)>{});
   }
 
   std::vector<Block> blocks_;
-  std::vector<double> coefficients_;  // (A B; C D) per block, in tiles of rows, by columns, padded with zeros
+  std::vector<double> coefficients_;  // (A B), then (C D) per block, in tiles of rows, by columns
   int states_ = 0;
 };
 

@@ -21,16 +21,17 @@ struct YawFrame {
   Vec6<T> twist;     // in the yaw frame
 
   explicit YawFrame(const BodyKinematics<T>& k) {
-    using std::cos, std::sin, std::sqrt;
-    const Vec3<T> angles = roll_pitch_yaw<T>(k.rotation);
-    roll = angles[0];
-    pitch = angles[1];
-    yaw = angles[2];
-    cos_pitch = cos(pitch);
-    tan_pitch = sin(pitch) / cos_pitch;
-    rotation = rotation_about_z<T>(cos(yaw), sin(yaw));
-    twist.template head<3>() = rotation.transpose() * k.velocity;
-    twist.template tail<3>() = rotation.transpose() * k.angular_velocity;
+    using std::atan2, std::sqrt;
+    const Mat3<T>& r = k.rotation;
+    cos_pitch = sqrt(r(0, 0) * r(0, 0) + r(1, 0) * r(1, 0));
+    const T over = T(1) / cos_pitch;
+    tan_pitch = -(over * r(2, 0));
+    rotation = rotation_about_z<T>(over * r(0, 0), over * r(1, 0));
+    roll = atan2(r(2, 1), r(2, 2));
+    pitch = atan2(-r(2, 0), cos_pitch);
+    yaw = atan2(r(1, 0), r(0, 0));
+    const Vec3<T> linear = in_frame(k.velocity), angular = in_frame(k.angular_velocity);
+    twist << linear, angular;
     yaw_rate = twist[5] + tan_pitch * twist[3];
   }
 
@@ -43,9 +44,13 @@ struct YawFrame {
 
   /// Rate of the twist's components in the yaw frame, from the accelerations in inertial axes.
   Vec6<T> twist_rate(const Vec6<T>& acceleration) const {
+    const Vec3<T> linear = in_frame(acceleration.template head<3>()),
+                  angular = in_frame(acceleration.template tail<3>());
     Vec6<T> out = turning();
-    out.template head<3>() += rotation.transpose() * acceleration.template head<3>();
-    out.template tail<3>() += rotation.transpose() * acceleration.template tail<3>();
+    for (int i = 0; i < 3; ++i) {
+      out[i] += linear[i];
+      out[3 + i] += angular[i];
+    }
     return out;
   }
 
@@ -68,10 +73,14 @@ struct YawFrame {
   }
 
   Vec6<T> to_inertial(const Vec6<T>& w) const {
-    Vec6<T> out;
-    out.template head<3>() = rotation * w.template head<3>();
-    out.template tail<3>() = rotation * w.template tail<3>();
-    return out;
+    const T cosine = rotation(0, 0), sine = rotation(1, 0);
+    return {cosine * w[0] - sine * w[1], sine * w[0] + cosine * w[1], w[2],
+            cosine * w[3] - sine * w[4], sine * w[3] + cosine * w[4], w[5]};
+  }
+  /// Components in the yaw frame of a vector in inertial axes.
+  Vec3<T> in_frame(const Vec3<T>& v) const {
+    const T cosine = rotation(0, 0), sine = rotation(1, 0);
+    return {cosine * v[0] + sine * v[1], cosine * v[1] - sine * v[0], v[2]};
   }
 
   /// Moment whose power is -(roll_load roll' + pitch_load pitch' + yaw_load yaw'): exact gradient of a

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstring>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -9,6 +10,8 @@
 
 #include "seacrane/dynamics/inertia.hpp"
 #include "seacrane/dynamics/recursive/articulated.hpp"
+#include "seacrane/dynamics/recursive/tree_actuators.hpp"
+#include "seacrane/dynamics/recursive/turning_inertia.hpp"
 #include "seacrane/elements/loads/registry.hpp"
 #include "seacrane/lanes/lane_system.hpp"
 #include "seacrane/lanes/packed_table.hpp"
@@ -28,6 +31,8 @@ class PackedSystem final : public LaneSystem {
       : model_(models.front()->merged ? models.front()->merged : models.front()),
         tree_(build_tree(*model_)),
         articulated_(tree_, model_->body_count()),
+        actuators_(*model_, tree_),
+        torque_(idx(tree_.speeds), T(0.0)),
         speeds_(tree_.positions),
         memory_(speeds_ + tree_.speeds),
         loads_(memory_ + model_->layout.loads - model_->layout.memory),
@@ -38,11 +43,7 @@ class PackedSystem final : public LaneSystem {
     rate_ = state_;
     bodies_.assign(bodies + 1, BodyKinematics<T>::ground());
     frames_.assign(model_->vessels.size(), YawFrame<T>(BodyKinematics<T>::ground()));
-    mass_.assign(bodies, Mat6<T>::Zero());
-    for (std::size_t b = 0; b < bodies; ++b) {
-      mass_[b].diagonal().template head<3>().setConstant(T(model_->bodies[b].mass));
-    }
-    for (auto* vectors : {&bias_, &load_, &acceleration_}) vectors->assign(bodies + 1, Vec6<T>::Zero());
+    for (const BodyModel& body : model_->bodies) turning_.emplace_back(body.inertia);
     wrench_.resize(bodies + 1);
     for (std::size_t w = 0; w < model_->wave_loads.size(); ++w) waves_.push_back(waves_of(models, w));
   }
@@ -55,25 +56,24 @@ class PackedSystem final : public LaneSystem {
   void freeze(std::size_t lane) override { frozen_.push_back(lane); }
 
   void derivative(double t, const double* y, double* ydot) override {
-    for (std::size_t i = 0; i < state_.size(); ++i) state_[i] = T::load(y + L * i);
+    std::memcpy(state_.data(), y, size() * sizeof(double));
     const T *const q = state_.data(), *const u = q + speeds_;
     articulated_.place(q, u, bodies_.data());
     for (std::size_t v = 0; v < frames_.size(); ++v) {
       frames_[v] = YawFrame<T>(bodies_[idx(model_->vessels[v].body)]);
     }
     evaluate_inertia();
-    articulated_.factor(mass_.data());
+    articulated_.factor();
     LoadSum<T> sum{wrench_.data(), rate_.data() + loads_};
     evaluate_loads(t, sum);
-    for (std::size_t b = 0; b < mass_.size(); ++b) {
-      load_[b] << wrench_[b].force, wrench_[b].moment;
-      load_[b] -= bias_[b];
+    for (int b = 0; b < model_->body_count(); ++b) {
+      articulated_.set_load(b, {wrench_[idx(b)].force, wrench_[idx(b)].moment});
     }
-    articulated_.solve(load_.data(), true, acceleration_.data(), rate_.data() + speeds_);
+    articulated_.solve(true, rate_.data() + speeds_, torque_.data());
     articulated_.kinematics().position_rates(q, u, bodies_.data(), rate_.data());
     rate_[idx(work_)] = sum.power;
     rate_[idx(work_) + 1] = sum.absolute_power;
-    for (std::size_t i = 0; i < rate_.size(); ++i) rate_[i].store(ydot + L * i);
+    std::memcpy(ydot, rate_.data(), size() * sizeof(double));
     for (const std::size_t lane : frozen_) {
       for (std::size_t i = 0; i < rate_.size(); ++i) ydot[L * i + lane] = 0.0;
     }
@@ -112,27 +112,42 @@ class PackedSystem final : public LaneSystem {
     return out;
   }
 
+  /// And the velocity terms, from which the wrenches begin.
   void evaluate_inertia() {
-    for (std::size_t b = 0; b < mass_.size(); ++b) {
-      const BodyModel& body = model_->bodies[b];
-      bias_[b] = body.vessel < 0 ? compact_terms<T>(body, bodies_[b], mass_[b])
-                                 : vessel_terms<T>(body, model_->vessels[idx(body.vessel)], bodies_[b],
-                                                   frames_[idx(body.vessel)], mass_[b]);
+    for (int b = 0; b < model_->body_count(); ++b) {
+      const BodyModel& body = model_->bodies[idx(b)];
+      const BodyKinematics<T>& k = bodies_[idx(b)];
+      BodyLoad<T>& begin = wrench_[idx(b)];
+      if (body.vessel < 0) {
+        const CompactInertia<T> inertia{T(body.mass), turning_[idx(b)].template at<T>(k.rotation)};
+        articulated_.set_inertia(b, inertia);
+        begin.force = Vec3<T>(T(0.0), T(0.0), T(0.0));
+        begin.moment = cross<T>(inertia.turning * k.angular_velocity, k.angular_velocity);
+      } else {
+        Mat6<T> mass;
+        const Vec6<T> bias =
+            vessel_terms<T>(body, model_->vessels[idx(body.vessel)], k, frames_[idx(body.vessel)], mass);
+        articulated_.set_inertia(b, mass);
+        begin.force = -bias.template head<3>();
+        begin.moment = -bias.template tail<3>();
+      }
     }
   }
 
   void evaluate_loads(double t, LoadSum<T>& sum) {
-    for (auto& w : wrench_) w = BodyLoad<T>();
     const T* const states = state_.data() + loads_;
     const LoadInput<T> input{t, curve_limit_, bodies_.data(), slots_.data(), states};
     for (const Gravity& load : model_->gravity) load.apply<T>(input, sum);
     for_each_load_type([&]<class Load>() {
       if constexpr (TakesPacks<Load>) {
-        for (const Load& load : std::get<std::vector<Load>>(*model_->loads)) {
+        for (const Load& load : std::get<std::vector<Load>>(actuators_.others())) {
           load.template apply<T>(input, sum);
         }
       }
     });
+    std::fill(torque_.begin(), torque_.end(), T(0.0));
+    actuators_.apply<T>(input, articulated_.kinematics(), state_.data(), state_.data() + speeds_,
+                        torque_.data(), sum);
     for (std::size_t v = 0; v < frames_.size(); ++v) {
       const Vessel& vessel = model_->vessels[v];
       const auto own = idx(memory_ + vessel.memory_offset - model_->layout.memory);
@@ -142,7 +157,7 @@ class PackedSystem final : public LaneSystem {
   }
 
   void apply(Waves& waves, double t, LoadSum<T>& sum) {
-    T channels[wave_channels], drift[DriftLoad::channels];
+    T channels[PackedTable<L, ExactWaveLoad>::channels], drift[DriftLoad::channels];
     waves.force.evaluate(t, channels);
     Vec6<T> force;
     for (int i = 0; i < 6; ++i) force[i] = channels[i];
@@ -160,6 +175,8 @@ class PackedSystem final : public LaneSystem {
   std::shared_ptr<const Model> model_;
   BodyTree tree_;
   ArticulatedTree<T> articulated_;
+  TreeActuators actuators_;
+  std::vector<T> torque_;
   int speeds_, memory_, loads_, work_;  // where they begin in the state of a lane
   std::vector<double> slots_;
   double curve_limit_ = std::numeric_limits<double>::infinity();
@@ -167,8 +184,7 @@ class PackedSystem final : public LaneSystem {
   std::vector<T> state_, rate_;
   std::vector<BodyKinematics<T>> bodies_;
   std::vector<YawFrame<T>> frames_;
-  std::vector<Mat6<T>> mass_;
-  std::vector<Vec6<T>> bias_, load_, acceleration_;
+  std::vector<TurningInertia> turning_;
   std::vector<BodyLoad<T>> wrench_;
   std::vector<Waves> waves_;
 };

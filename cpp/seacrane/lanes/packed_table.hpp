@@ -20,14 +20,11 @@ namespace seacrane {
 template <int L, class Source>
 class PackedTable {
  public:
-  static constexpr std::size_t channels = Source::channels;
+  static constexpr std::size_t channels = PackedSources<L, Source>::channels;
   using Table = KnotTable<Source>;
 
   explicit PackedTable(const std::array<std::shared_ptr<const Table>, L>& tables)
-      : sources_(sources_of(tables)), step_(tables.front()->step()) {
-    for (const auto& table : tables) step_ = std::min(step_, table->step());
-    inverse_step_ = 1.0 / step_;
-  }
+      : step_(smallest_step(tables)), inverse_step_(1.0 / step_), sources_(loads_of(tables), step_) {}
 
   /// Writes one value for each channel.
   void evaluate(double t, Pack<L>* out) {
@@ -59,23 +56,28 @@ class PackedTable {
     return k;
   }
 
-  static auto sources_of(const std::array<std::shared_ptr<const Table>, L>& tables) {
+  static double smallest_step(const std::array<std::shared_ptr<const Table>, L>& tables) {
+    double step = tables.front()->step();
+    for (const auto& table : tables) step = std::min(step, table->step());
+    return step;
+  }
+  static auto loads_of(const std::array<std::shared_ptr<const Table>, L>& tables) {
     typename PackedSources<L, Source>::Loads out;
     for (std::size_t i = 0; i < L; ++i) out[i] = tables[i]->exact();
-    return PackedSources<L, Source>(out);
+    return out;
   }
 
-  void compute(std::int64_t number, Knot& k) const {
+  void compute(std::int64_t number, Knot& k) {
     k.number = number;
-    sources_.evaluate(static_cast<double>(number) * step_, k.value, k.rate, k.acceleration);
+    sources_.evaluate(number, k.value, k.rate, k.acceleration);
     for (std::size_t j = 0; j < channels; ++j) {
       k.rate[j] *= step_;
       k.acceleration[j] *= step_ * step_;
     }
   }
 
+  double step_, inverse_step_;
   PackedSources<L, Source> sources_;
-  double step_, inverse_step_ = 1.0;
   std::array<Knot, slots> knots_;
 };
 

@@ -86,6 +86,10 @@ Curve::Curve(std::vector<Piece> pieces) : pieces_(std::move(pieces)) {
                                   std::to_string(p.start) + " s, not after the piece before it");
     }
   }
+  const Piece& only = pieces_.front();
+  is_constant_ = pieces_.size() == 1 && only.amplitude == 0.0 &&
+                 std::all_of(only.coefficients.begin() + 1, only.coefficients.end(),
+                             [](double c) { return c == 0.0; });
 }
 
 Curve Curve::constant(double value) {
@@ -153,7 +157,7 @@ Curve Curve::then(double time, const Curve& next) const {
   return Curve(std::move(out));
 }
 
-CurveValue Curve::at(double t, double before) const {
+CurveValue Curve::piece_at(double t, double before) const {
   auto next = std::upper_bound(pieces_.begin(), pieces_.end(), t,
                                [](double time, const Piece& p) { return time < p.start; });
   while (next != pieces_.begin() && (next - 1)->start >= before) --next;

@@ -30,7 +30,7 @@ class Curve {
     double amplitude = 0.0, omega = 0.0, phase = 0.0;
   };
 
-  Curve() : pieces_(1) {}
+  Curve() : pieces_(1), is_constant_(true) {}
   explicit Curve(std::vector<Piece> pieces);
 
   static Curve constant(double value);
@@ -44,7 +44,10 @@ class Curve {
 
   /// Pieces that start at or after `before` are not used yet: a step that ends at a breakpoint sees
   /// the limit from the left in all its stages.
-  CurveValue at(double t, double before = std::numeric_limits<double>::infinity()) const;
+  CurveValue at(double t, double before = std::numeric_limits<double>::infinity()) const {
+    if (is_constant_) return {pieces_.front().coefficients[0], 0.0, 0.0};
+    return piece_at(t, before);
+  }
   const std::vector<Piece>& pieces() const { return pieces_; }
   /// Starts of pieces where the value or one of its first three derivatives jumps.
   std::vector<CurveKink> kinks() const;
@@ -52,7 +55,10 @@ class Curve {
   std::vector<double> breakpoints(int derivatives = 2) const;
 
  private:
+  CurveValue piece_at(double t, double before) const;
+
   std::vector<Piece> pieces_;
+  bool is_constant_ = false;
 };
 
 }  // namespace seacrane

@@ -8,6 +8,7 @@
 #include <limits>
 #include <numbers>
 
+#include "seacrane/math/select.hpp"
 #include "seacrane/math/sincos.hpp"
 
 namespace seacrane {
@@ -88,8 +89,15 @@ struct Pack {
     return each(a, [](double x) { return std::floor(x); });
   }
   /// NaN beyond sincos_limit, where the reduction is not exact.
-  friend Pack sin(const Pack& a) { return turned(a).sine; }
-  friend Pack cos(const Pack& a) { return turned(a).cosine; }
+  friend CosSin<Pack> cos_sin(const Pack& a) {
+    CosSin<Pack> out;
+    sincos_lane<Vector, typename VectorsOf<L>::Unsigned>(a.v, out.sine.v, out.cosine.v);
+    const Mask<L> known = abs(a) <= Pack(sincos_limit);
+    const Pack none(std::numeric_limits<double>::quiet_NaN());
+    return {select(known, out.cosine, none), select(known, out.sine, none)};
+  }
+  friend Pack sin(const Pack& a) { return cos_sin(a).sine; }
+  friend Pack cos(const Pack& a) { return cos_sin(a).cosine; }
 
   /// Arc tangents of a ratio t in [0, 1]: t = tan(u) with u in [0, pi/4] is halved once, to |w| <= tan(pi/8),
   /// and the rational function of Cephes (S. Moshier, atan.c; error 2e-16) takes the rest.
@@ -125,16 +133,6 @@ struct Pack {
  private:
   static constexpr double more_pi_2 = 6.123233995736765886130e-17;  // pi / 2 less its double
 
-  struct Turned {
-    Pack sine, cosine;
-  };
-  static Turned turned(const Pack& a) {
-    Turned out;
-    sincos_lane<Vector, typename VectorsOf<L>::Unsigned>(a.v, out.sine.v, out.cosine.v);
-    const Mask<L> known = abs(a) <= Pack(sincos_limit);
-    const Pack none(std::numeric_limits<double>::quiet_NaN());
-    return {select(known, out.sine, none), select(known, out.cosine, none)};
-  }
   static Mask<L> negative(const Pack& a) { return {std::bit_cast<Bits>(a.v) < 0}; }
   template <class F>
   static Pack each(const Pack& a, F&& f) {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cmath>
+
 namespace seacrane {
 
 /// One of two values, both of which have been computed: what templates on the scalar use in place of a branch
@@ -19,6 +21,17 @@ const T& valid_where(bool holds, const T& value, Fail&& fail) {
 template <class T>
 T clamped(const T& value, const T& low, const T& high) {
   return select(value < low, low, select(value > high, high, value));
+}
+
+/// Cosine and sine of one angle.
+template <class T>
+struct CosSin {
+  T cosine, sine;
+};
+template <class T>
+CosSin<T> cos_sin(const T& angle) {
+  using std::cos, std::sin;
+  return {cos(angle), sin(angle)};
 }
 
 }  // namespace seacrane

@@ -60,27 +60,71 @@ ExactWaveLoad::ExactWaveLoad(WaveComponents waves, const Eigen::Ref<const Eigen:
 }
 
 template <std::size_t orders>
+void ExactWaveLoad::add(std::size_t first, std::size_t count, const double* cosine, const double* sine,
+                        Sums<orders>& sums) const {
+  for (std::size_t i = 0; i < count; ++i) {
+    const Coefficients& c = coefficients_[first + i];
+    const double omega = waves_.omega()[first + i];
+    double re = cosine[i], im = -sine[i];
+    for (std::size_t k = 0; k < orders; ++k) {
+      for (std::size_t p = 0; p < packs; ++p) sums[k][p] += c.real[p] * re + c.imaginary[p] * im;
+      // d/dt of (cos, -sin) is omega (-sin, -cos).
+      const double turned = -omega * re;
+      re = omega * im;
+      im = turned;
+    }
+  }
+}
+
+template <std::size_t orders>
 void ExactWaveLoad::sum(double t, double (&out)[orders][lanes]) const {
   constexpr std::size_t chunk = 64;  // sines and cosines held on the stack
   double sine[chunk], cosine[chunk];
-  Pack sums[orders][packs] = {};
+  Sums<orders> sums = {};
   for (std::size_t first = 0; first < coefficients_.size(); first += chunk) {
     const std::size_t count = std::min(chunk, coefficients_.size() - first);
-    const double* omega = waves_.omega().data() + first;
-    sea::sincos_of(omega, count, largest_omega_, t, sine, cosine);
-    for (std::size_t i = 0; i < count; ++i) {
-      const Coefficients& c = coefficients_[first + i];
-      double re = cosine[i], im = -sine[i];
-      for (std::size_t k = 0; k < orders; ++k) {
-        for (std::size_t p = 0; p < packs; ++p) sums[k][p] += c.real[p] * re + c.imaginary[p] * im;
-        // d/dt of (cos, -sin) is omega (-sin, -cos).
-        const double turned = -omega[i] * re;
-        re = omega[i] * im;
-        im = turned;
-      }
-    }
+    sea::sincos_of(waves_.omega().data() + first, count, largest_omega_, t, sine, cosine);
+    add<orders>(first, count, cosine, sine, sums);
   }
   for (std::size_t k = 0; k < orders; ++k) std::memcpy(out[k], sums[k], sizeof(sums[k]));
+}
+
+ExactWaveLoad::KnotPhases::KnotPhases(const ExactWaveLoad& load, double step)
+    : omega_(load.waves_.omega()),
+      turn_cosine_(omega_.size()),
+      turn_sine_(omega_.size()),
+      cosine_(omega_.size()),
+      sine_(omega_.size()),
+      largest_omega_(load.largest_omega_),
+      step_(step) {
+  sea::sincos_of(omega_.data(), omega_.size(), largest_omega_, step, turn_sine_.data(), turn_cosine_.data());
+}
+
+void ExactWaveLoad::KnotPhases::move_to(std::int64_t number) {
+  const std::int64_t begin = number - ((number % restart) + restart) % restart;
+  if (!(begin <= number_ && number_ <= number)) {
+    sea::sincos_of(omega_.data(), omega_.size(), largest_omega_, static_cast<double>(begin) * step_,
+                   sine_.data(), cosine_.data());
+    number_ = begin;
+  }
+  for (; number_ < number; ++number_) {
+    for (std::size_t i = 0; i < omega_.size(); ++i) {
+      const double cosine = cosine_[i], sine = sine_[i];
+      cosine_[i] = cosine * turn_cosine_[i] - sine * turn_sine_[i];
+      sine_[i] = sine * turn_cosine_[i] + cosine * turn_sine_[i];
+    }
+  }
+}
+
+void ExactWaveLoad::evaluate(const KnotPhases& phases, double* value, double* rate,
+                             double* acceleration) const {
+  Sums<3> sums = {};
+  add<3>(0, coefficients_.size(), phases.cosine_.data(), phases.sine_.data(), sums);
+  double out[3][lanes];
+  std::memcpy(out, sums, sizeof(sums));
+  std::copy_n(out[0], wave_channels, value);
+  std::copy_n(out[1], wave_channels, rate);
+  std::copy_n(out[2], wave_channels, acceleration);
 }
 
 void ExactWaveLoad::evaluate(double t, double* out) const {

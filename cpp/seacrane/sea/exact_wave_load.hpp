@@ -4,6 +4,8 @@
 #include <array>
 #include <complex>
 #include <cstddef>
+#include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "seacrane/sea/wave_components.hpp"
@@ -37,6 +39,23 @@ class ExactWaveLoad {
   /// Value, first and second derivative in time, seven each.
   void evaluate(double t, double* value, double* rate, double* acceleration) const;
 
+  /// exp(-i omega k step) of the components at knot k of a table. Turned on from knot to knot, from sines and
+  /// cosines every `restart` knots, so that they depend on the number of the knot alone. Scratch of one run.
+  class KnotPhases {
+   public:
+    static constexpr std::int64_t restart = 64;
+    KnotPhases(const ExactWaveLoad& load, double step);
+    void move_to(std::int64_t number);
+
+   private:
+    friend class ExactWaveLoad;
+    std::vector<double> omega_, turn_cosine_, turn_sine_, cosine_, sine_;
+    double largest_omega_, step_;
+    std::int64_t number_ = std::numeric_limits<std::int64_t>::min();
+  };
+  /// The same at the knot that the phases are moved to.
+  void evaluate(const KnotPhases& phases, double* value, double* rate, double* acceleration) const;
+
   const WaveComponents& waves() const { return waves_; }
   /// a X exp(i phase) of a component at the mean position, of a channel.
   std::complex<double> coefficient(std::size_t component, std::size_t channel) const {
@@ -54,6 +73,12 @@ class ExactWaveLoad {
   struct Coefficients {
     Pack real[packs], imaginary[packs];
   };
+  template <std::size_t orders>
+  using Sums = Pack[orders][packs];
+  /// Adds the components from `first` on, with cosine and sine of each omega t.
+  template <std::size_t orders>
+  void add(std::size_t first, std::size_t count, const double* cosine, const double* sine,
+           Sums<orders>& sums) const;
   template <std::size_t orders>
   void sum(double t, double (&out)[orders][lanes]) const;
 

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 #include <vector>
@@ -45,6 +46,22 @@ struct HermiteWeights {
 template <class Source>
 class KnotTable;
 
+/// What a block keeps to get from knot to knot, of a source whose phases turn on: Source::KnotPhases.
+template <class Source>
+struct KnotPhasesOf {
+  KnotPhasesOf() = default;
+  KnotPhasesOf(const Source&, double /*step*/) {}
+  static constexpr bool any = false;
+};
+template <class Source>
+  requires requires { typename Source::KnotPhases; }
+struct KnotPhasesOf<Source> {
+  std::optional<typename Source::KnotPhases> phases;
+  KnotPhasesOf() = default;
+  KnotPhasesOf(const Source& source, double step) : phases(std::in_place, source, step) {}
+  static constexpr bool any = true;
+};
+
 /// Scratch of one run for one table: the last used knots, each in the slot its number gives, replaced when
 /// time moves on. A fixed size for any duration; backward jumps only cost the knots that must be made again.
 template <class Source>
@@ -58,6 +75,7 @@ class KnotBlock {
   friend class KnotTable<Source>;
   std::vector<TableKnot> knots_;
   std::shared_ptr<const Source> source_;  // whose knots these are; kept alive, so never mistaken
+  KnotPhasesOf<Source> phases_;
   double step_ = 0.0;
   std::int64_t computed_ = 0;
 };
@@ -110,7 +128,10 @@ class KnotTable {
 
   KnotBlock<Source> make_block() const {
     KnotBlock<Source> block;
-    if (stored_.empty()) block.knots_.resize(slots);
+    if (stored_.empty()) {
+      block.knots_.resize(slots);
+      block.phases_ = KnotPhasesOf<Source>(*source_, step_);
+    }
     block.source_ = source_;
     block.step_ = step_;
     return block;
@@ -176,6 +197,21 @@ class KnotTable {
   TableKnot computed(std::int64_t number) const {
     TableKnot k;
     source_->evaluate(static_cast<double>(number) * step_, k.value, k.rate, k.acceleration);
+    return scaled(k, number);
+  }
+
+  TableKnot computed(std::int64_t number, KnotBlock<Source>& block) const {
+    if constexpr (KnotPhasesOf<Source>::any) {
+      TableKnot k;
+      block.phases_.phases->move_to(number);
+      source_->evaluate(*block.phases_.phases, k.value, k.rate, k.acceleration);
+      return scaled(k, number);
+    } else {
+      return computed(number);
+    }
+  }
+
+  TableKnot scaled(TableKnot k, std::int64_t number) const {
     for (std::size_t j = 0; j < channels; ++j) {
       k.rate[j] *= step_;
       k.acceleration[j] *= step_ * step_;
@@ -192,7 +228,7 @@ class KnotTable {
     }
     TableKnot& k = block.knots_[static_cast<std::size_t>(number) & (slots - 1)];
     if (k.number != number) [[unlikely]] {
-      k = computed(number);
+      k = computed(number, block);
       ++block.computed_;
     }
     return k;

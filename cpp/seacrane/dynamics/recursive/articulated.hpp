@@ -28,7 +28,8 @@ class ArticulatedTree {
         inverse_(tree.clusters.size(), Mat6<T>::Zero()),
         free_(tree.clusters.size()),
         torque_(tree.clusters.size(), Vec6<T>::Zero()),
-        held_(tree.clusters.size()) {}
+        held_(tree.clusters.size()),
+        acceleration_(idx(bodies) + 1, Twist<T>::zero()) {}
 
   /// See TreeKinematics.
   void place(const T* q, const T* u, BodyKinematics<T>* bodies) { kinematics_.place(q, u, bodies); }
@@ -36,17 +37,47 @@ class ArticulatedTree {
   /// Positions and speeds of given poses and twists; what leaves the joints open is dropped.
   void read(const BodyKinematics<T>* bodies, T* q, T* u) const;
 
-  /// Articulated inertias for the bodies' mass matrices (about state points), at the last place(). Of a
-  /// member that is a leaf only the mass and the inertia are read.
-  void factor(const Mat6<T>* mass);
+  /// Inertia of a body about its state point, for the next factor(); of a mass matrix of a leaf only the mass
+  /// and the inertia are read.
+  void set_inertia(int body, const CompactInertia<T>& inertia) {
+    if (leaf_[idx(body)]) {
+      compact_[idx(body)] = inertia;
+    } else {
+      inertia_[idx(body)] = inertia;
+    }
+  }
+  void set_inertia(int body, const Mat6<T>& mass) {
+    if (leaf_[idx(body)]) {
+      compact_[idx(body)] = {mass(0, 0), Symmetric3<T>::lower(mass.template bottomRightCorner<3, 3>())};
+    } else {
+      inertia_[idx(body)] = mass;
+    }
+  }
+  /// Articulated inertias for those of all bodies, at the last place(). They are used up: set them again.
+  void factor();
+  /// The same for the bodies' mass matrices.
+  void factor(const Mat6<T>* mass) {
+    for (int b = 0; b < ground_; ++b) set_inertia(b, mass[b]);
+    factor();
+  }
   /// Largest factor by which inertias cancelled in the last factor(mass), like S_ii / d_i in maximal
   /// coordinates, times that of the joints' own inertias: digits that joints between light and heavy bodies
   /// cost. Allocates; for reports.
   T condition(const Mat6<T>* mass) const;
-  /// Accelerations of the bodies (ground last) and of the speeds under `load`, wrench less M-independent
-  /// velocity terms, and `torque` on every speed (null: none; of joints with a direction held, none).
-  /// Without `moving` velocities count as zero: the response to an impulse.
-  void solve(const Vec6<T>* load, bool moving, Vec6<T>* acceleration, T* u_rate, const T* torque = nullptr);
+  /// What acts on a body in the next solve(): its wrench less M-independent velocity terms.
+  void set_load(int body, const Wrench<T>& load) { force_[idx(body)] = -load; }
+  /// Accelerations of the bodies and of the speeds under the loads of all bodies, and `torque` on every speed
+  /// (null: none; of joints with a direction held, none). Without `moving` velocities count as zero: the
+  /// response to an impulse. Loads are used up: set them again.
+  void solve(bool moving, T* u_rate, const T* torque = nullptr);
+  /// At the last solve(); of the ground too.
+  const Twist<T>& acceleration(int body) const { return acceleration_[idx(body)]; }
+  /// The same for the bodies' loads; accelerations of the bodies, ground last.
+  void solve(const Vec6<T>* load, bool moving, Vec6<T>* acceleration, T* u_rate, const T* torque = nullptr) {
+    for (int b = 0; b < ground_; ++b) set_load(b, Wrench<T>(load[b]));
+    solve(moving, u_rate, torque);
+    for (int b = 0; b <= ground_; ++b) acceleration[b] = acceleration_[idx(b)].vector();
+  }
 
  private:
   template <int n>
@@ -69,12 +100,12 @@ class ArticulatedTree {
   template <int speeds>
   void gather(std::size_t i, bool moving, const T* torque);
   template <int speeds>
-  void spread(std::size_t i, bool moving, Vec6<T>* acceleration, T* u_rate) const;
+  void spread(std::size_t i, bool moving, T* u_rate);
   template <class Branch>
   void factor_held(std::size_t i);
   void gather_held(std::size_t i, bool moving);
   template <class Branch>
-  void spread_held(std::size_t i, bool moving, Vec6<T>* acceleration, T* u_rate) const;
+  void spread_held(std::size_t i, bool moving, T* u_rate);
 
   /// Calls f(inertia) with what a body's articulated inertia is kept as.
   template <class F>
@@ -106,6 +137,7 @@ class ArticulatedTree {
   std::vector<SpdFactor<6, T>> free_;       // of I, of clusters that float or are held
   std::vector<Vec6<T>> torque_;             // (S^T I S)^-1 (-S^T p) per cluster; of one that is held, I^-1 p
   std::vector<Held> held_;                  // per cluster
+  std::vector<Twist<T>> acceleration_;
 };
 
 /// Calls f.template operator()<n>() for the number of speeds of a cluster: kMostSpeeds for a body that
@@ -176,14 +208,7 @@ void ArticulatedTree<T>::read(const BodyKinematics<T>* bodies, T* q, T* u) const
 }
 
 template <class T>
-void ArticulatedTree<T>::factor(const Mat6<T>* mass) {
-  for (int b = 0; b < ground_; ++b) {
-    if (leaf_[idx(b)]) {
-      compact_[idx(b)] = {mass[b](0, 0), Symmetric3<T>::lower(mass[b].template bottomRightCorner<3, 3>())};
-    } else {
-      inertia_[idx(b)] = mass[b];
-    }
-  }
+void ArticulatedTree<T>::factor() {
   for (std::size_t i = clusters().size(); i-- > 0;) {
     const Cluster& c = clusters()[i];
     if (with_held(c, [&]<class Branch>() { factor_held<Branch>(i); })) continue;
@@ -294,20 +319,18 @@ Twist<T> ArticulatedTree<T>::response(std::size_t i, const Wrench<T>& wrench) co
 }
 
 template <class T>
-void ArticulatedTree<T>::solve(const Vec6<T>* load, bool moving, Vec6<T>* acceleration, T* u_rate,
-                               const T* torque) {
-  for (int b = 0; b < ground_; ++b) force_[idx(b)] = -Wrench<T>(load[b]);
+void ArticulatedTree<T>::solve(bool moving, T* u_rate, const T* torque) {
   force_[idx(ground_)] = Wrench<T>::zero();
   for (std::size_t i = clusters().size(); i-- > 0;) {
     const Cluster& c = clusters()[i];
     if (with_held(c, [&]<class Branch>() { gather_held(i, moving); })) continue;
     with_speeds(c, [&]<int n>() { gather<n>(i, moving, torque); });
   }
-  acceleration[ground_].setZero();
+  acceleration_[idx(ground_)] = Twist<T>::zero();
   for (std::size_t i = 0; i < clusters().size(); ++i) {
     const Cluster& c = clusters()[i];
-    if (with_held(c, [&]<class Branch>() { spread_held<Branch>(i, moving, acceleration, u_rate); })) continue;
-    with_speeds(c, [&]<int n>() { spread<n>(i, moving, acceleration, u_rate); });
+    if (with_held(c, [&]<class Branch>() { spread_held<Branch>(i, moving, u_rate); })) continue;
+    with_speeds(c, [&]<int n>() { spread<n>(i, moving, u_rate); });
   }
 }
 
@@ -321,8 +344,8 @@ void ArticulatedTree<T>::gather(std::size_t i, bool moving, const T* torque) {
     torque_[i] = free_[i].solve(sum);
     return;
   }
-  Vec<n> sum = Vec<n>::Zero();
-  if (torque) sum = Eigen::Map<const Vec<n>>(torque + c.u);
+  T sum[n + 1];  // one more than none
+  for (int k = 0; k < n; ++k) sum[k] = torque ? torque[c.u + k] : T(0);
   Wrench<T>& to = force_[idx(c.parent)];
   for (const Member& m : c.members) {
     Wrench<T> force = force_[idx(m.body)];
@@ -333,9 +356,12 @@ void ArticulatedTree<T>::gather(std::size_t i, bool moving, const T* torque) {
     for (int k = 0; k < n; ++k) sum[k] -= dot(column[k], force);
     to.add_shifted_from(kinematics_.reach(m.body), force);
   }
-  const Vec<n> rate = inverse_[i].template topLeftCorner<n, n>() * sum;
-  torque_[i].template head<n>() = rate;
-  for (int k = 0; k < n; ++k) to += rate[k] * at_parent_[idx(c.u + k)];
+  for (int k = 0; k < n; ++k) {
+    T rate = inverse_[i](k, 0) * sum[0];
+    for (int l = 1; l < n; ++l) rate += inverse_[i](k, l) * sum[l];
+    torque_[i][k] = rate;
+    to += rate * at_parent_[idx(c.u + k)];
+  }
 }
 
 template <class T>
@@ -352,38 +378,42 @@ void ArticulatedTree<T>::gather_held(std::size_t i, bool moving) {
 
 template <class T>
 template <int n>
-void ArticulatedTree<T>::spread(std::size_t i, bool moving, Vec6<T>* acceleration, T* u_rate) const {
+void ArticulatedTree<T>::spread(std::size_t i, bool moving, T* u_rate) {
   const Cluster& c = clusters()[i];
   if constexpr (n == 6) {
-    acceleration[c.body] = torque_[i];
+    acceleration_[idx(c.body)] = Twist<T>(torque_[i]);
     for (int k = 0; k < 6; ++k) u_rate[c.u + k] = torque_[i][k];
     return;
   }
-  const Twist<T> parent(acceleration[c.parent]);
-  Vec<n> carried;
-  for (int k = 0; k < n; ++k) carried[k] = dot(parent, at_parent_[idx(c.u + k)]);
-  const Vec<n> rate = torque_[i].template head<n>() - inverse_[i].template topLeftCorner<n, n>() * carried;
-  for (int k = 0; k < n; ++k) u_rate[c.u + k] = rate[k];
+  const Twist<T>& parent = acceleration_[idx(c.parent)];
+  const Wrench<T>* const at_parent = at_parent_.data() + c.u;
+  T carried[n + 1], rate[n + 1];  // one more than none
+  for (int k = 0; k < n; ++k) carried[k] = dot(parent, at_parent[k]);
+  for (int k = 0; k < n; ++k) {
+    rate[k] = torque_[i][k];
+    for (int l = 0; l < n; ++l) rate[k] -= inverse_[i](k, l) * carried[l];
+    u_rate[c.u + k] = rate[k];
+  }
   for (const Member& m : c.members) {
     Twist<T> a = parent.shifted_to(kinematics_.reach(m.body));
     if (moving) a += kinematics_.bias(m.body);
     const Twist<T>* const column = kinematics_.columns(m);
     for (int k = 0; k < n; ++k) a += rate[k] * column[k];
-    acceleration[m.body] = a.vector();
+    acceleration_[idx(m.body)] = a;
   }
 }
 
 template <class T>
 template <class Branch>
-void ArticulatedTree<T>::spread_held(std::size_t i, bool moving, Vec6<T>* acceleration, T* u_rate) const {
+void ArticulatedTree<T>::spread_held(std::size_t i, bool moving, T* u_rate) {
   const Cluster& c = clusters()[i];
   const Held& held = held_[i];
-  Twist<T> carried = Twist<T>(acceleration[c.parent]).shifted_to(kinematics_.reach(c.body));
+  Twist<T> carried = acceleration_[idx(c.parent)].shifted_to(kinematics_.reach(c.body));
   if (moving) carried += kinematics_.bias(c.body);
   const Twist<T> yield(torque_[i]);
   const T force = held.stiffness * (dot(carried, held.on_child) + dot(yield, held.on_child));
-  const Twist<T> out = force * held.response - yield;
-  acceleration[c.body] = out.vector();
+  Twist<T>& out = acceleration_[idx(c.body)];
+  out = force * held.response - yield;
   Branch::template speed_rates<T>(c.joint, kinematics_.columns(c.members[0]), out - carried, u_rate + c.u);
 }
 

@@ -77,6 +77,7 @@ void RecursiveSystem::evaluate_inertia() {
     } else {
       bias_[idx(b)] = vessel_terms(body, model_.vessels[idx(body.vessel)], k,
                                    terms_->frames()[idx(body.vessel)], mass_[idx(b)]);
+      articulated_.set_inertia(b, mass_[idx(b)]);
     }
   }
 }
@@ -86,13 +87,14 @@ void RecursiveSystem::evaluate_inertia() {
 void RecursiveSystem::evaluate_compact(int body) {
   const BodyKinematics<double>& k = terms_->bodies()[idx(body)];
   const Symmetric3<double> inertia = turning_[idx(body)].at<double>(k.rotation);
+  articulated_.set_inertia(body, CompactInertia<double>{model_.bodies[idx(body)].mass, inertia});
   inertia.write(mass_[idx(body)].bottomRightCorner<3, 3>());
   bias_[idx(body)].tail<3>() = cross<double>(k.angular_velocity, inertia * k.angular_velocity);
 }
 
 void RecursiveSystem::factor(double t) {
   evaluate_inertia();
-  articulated_.factor(mass_.data());
+  articulated_.factor();
   if (loops_.rows() == 0) return;
   evaluate_constraints(model_, t, terms_->curve_limit(), terms_->bodies().data(), blocks_.data());
   loops_.factor(blocks_.data(), mass_.data(), terms_->bodies().data(), articulated_);
