@@ -121,7 +121,8 @@ class Dopri5Stiff final : public AdaptiveStep {
   // Const to the caller: the error, and the bump of dense output, made on the first look into a step.
   mutable std::vector<double> estimate_, bump_, filtered_;
   mutable bool bump_known_ = false;
-  std::vector<std::size_t> own_;  // by numbers: the component that it is, or size()
+  std::vector<std::size_t> own_;      // by numbers: the component that it is, or size()
+  std::vector<std::size_t> touched_;  // components that the numbers depend on, or act on
   std::array<std::unique_ptr<DenseLu>, last + 1> lu_;
   int age_ = steps_per_linearisation;
   double factored_step_ = 0.0;
@@ -147,6 +148,7 @@ Dopri5Stiff::Dopri5Stiff(const Problem& problem, const IntegratorOptions& option
       filtered_(rank_) {
   if (rank_ == 0) return;
   own_.assign(rank_, size());
+  touched_.reserve(size());
   for (std::size_t row = 1; row <= last; ++row) lu_[row] = std::make_unique<DenseLu>(rank_);
 }
 
@@ -169,6 +171,12 @@ bool Dopri5Stiff::prepare(double h) {
 }
 
 void Dopri5Stiff::couple() {
+  touched_.clear();
+  for (std::size_t i = 0; i < size(); ++i) {
+    bool any = false;
+    for (std::size_t j = 0; j < rank_; ++j) any |= in_[j * size() + i] != 0.0 || out_[j * size() + i] != 0.0;
+    if (any) touched_.push_back(i);
+  }
   for (std::size_t j = 0; j < rank_; ++j) {
     read(out_.data() + j * size(), coupling_.data() + j * rank_);
     const double* const in = in_.data() + j * size();
@@ -197,13 +205,9 @@ bool Dopri5Stiff::factor(double h) {
 void Dopri5Stiff::read(const double* change, double* z) const {
   for (std::size_t j = 0; j < rank_; ++j) {
     const double* const in = in_.data() + j * size();
-    double sum[4] = {0.0, 0.0, 0.0, 0.0};
-    std::size_t i = 0;
-    for (; i + 4 <= size(); i += 4) {
-      for (std::size_t lane = 0; lane < 4; ++lane) sum[lane] += in[i + lane] * change[i + lane];
-    }
-    for (; i < size(); ++i) sum[0] += in[i] * change[i];
-    z[j] = (sum[0] + sum[1]) + (sum[2] + sum[3]);
+    double sum = 0.0;
+    for (const std::size_t i : touched_) sum += in[i] * change[i];
+    z[j] = sum;
   }
 }
 
@@ -211,13 +215,13 @@ void Dopri5Stiff::read(const double* change, double* z) const {
 void Dopri5Stiff::add_out(const double* z, double* y) const {
   for (std::size_t j = 0; j < rank_; ++j) {
     const double* const out = out_.data() + j * size();
-    for (std::size_t i = 0; i < size(); ++i) y[i] += z[j] * out[i];
+    for (const std::size_t i : touched_) y[i] += z[j] * out[i];
   }
 }
 
 /// What the implicit part changes of a stage that the explicit pair has made.
 void Dopri5Stiff::correct(std::size_t row, double h, double* y) {
-  for (std::size_t i = 0; i < size(); ++i) change_[i] = y[i] - state_[i];
+  for (const std::size_t i : touched_) change_[i] = y[i] - state_[i];
   double* const z = z_.data() + row * rank_;
   read(change_.data(), z);
   std::fill(weight_.begin(), weight_.end(), 0.0);
