@@ -29,8 +29,8 @@ IDEAL = Method(integrator="dopri5", tolerance=1e-2)
 METHODS = (
     Method(integrator="dopri5", tolerance=1e-2),
     Method(integrator="dopri5", tolerance=1e-3),
-    Method(integrator="dopri5-stiff", tolerance=1e-2),
     Method(integrator="dopri5-stiff", tolerance=3e-3),
+    Method(integrator="dopri5-stiff", tolerance=1e-3),
     Method(integrator="bs32", tolerance=1e-2),
     Method(integrator="tsit5", tolerance=1e-3),
     Method(integrator="cvode-bdf", tolerance=1e-4),
