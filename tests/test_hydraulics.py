@@ -144,7 +144,7 @@ def test_a_spool_without_lag_is_the_limit_of_a_quick_one() -> None:
     assert np.max(np.abs(strokes[1] - strokes[2])) > 2e-5
 
 
-@pytest.mark.parametrize("integrator", ["dopri5", "rosenbrock"])
+@pytest.mark.parametrize("integrator", ["dopri5", "dopri5-stiff", "rosenbrock"])
 def test_a_run_goes_on_bit_for_bit(integrator: str) -> None:
     scene = lifted(**EVERYTHING)
     whole = Run(scene, t_end=1.7, dt_out=0.1, rtol=1e-6, integrator=integrator)

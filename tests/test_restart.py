@@ -29,6 +29,7 @@ ONE_STEP: dict[str, dict[str, float]] = {
     "rk4": {"dt": 0.01},
     "semi-implicit-euler": {"dt": 1e-3},
     "rosenbrock": {"rtol": 1e-5},
+    "dopri5-stiff": {"rtol": 1e-7},
 }
 
 

@@ -87,7 +87,8 @@ TEST_CASE("the run loop allocates nothing after its start: steps, outputs and th
   for (const SceneDescription& scene : scenes()) {
     for (const std::string integrator :
          {"dopri5", "rk4", "dop853", "semi-implicit-euler", "rosenbrock", "generalized-alpha",
-          "recursive dopri5", "recursive rk4", "recursive semi-implicit-euler", "recursive rosenbrock"}) {
+          "recursive dopri5", "recursive rk4", "recursive semi-implicit-euler", "recursive rosenbrock",
+          "dopri5-stiff", "recursive dopri5-stiff"}) {
       CAPTURE(integrator);
       const auto model = compile(scene);
       RunOptions options;

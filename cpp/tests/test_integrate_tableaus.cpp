@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <complex>
 #include <iterator>
 
 #include "rooted_trees.hpp"
 #include "seacrane/integrate/tableaus/carpenter_kennedy.hpp"
+#include "seacrane/integrate/tableaus/dormand_prince54.hpp"
+#include "seacrane/integrate/tableaus/dormand_prince54_implicit.hpp"
 #include "seacrane/integrate/tableaus/pairs.hpp"
 #include "seacrane/integrate/tableaus/rang_angermann34.hpp"
 
@@ -147,6 +150,62 @@ TEST_CASE("the low-storage method has order 4 as a Runge-Kutta method") {
   const StageWeights weights(trees, a);
   CHECK(defect(trees, weights, u, exact) * std::numeric_limits<long double>::epsilon() < 1e-17L);
   CHECK(step_defect<T>(a, 5) > 1e6L);
+}
+
+TEST_CASE(
+    "the implicit companion of Dormand and Prince couples with the pair up to order 4, for any matrix") {
+  // A node of the linear part has one branch. Weights and matrices are those of the part that a node is of.
+  constexpr std::size_t n = 7;
+  using Weights = std::array<double, n>;
+  std::array<std::array<double, n>, n> a[2] = {};  // explicit, implicit
+  Weights c{}, row_sum{};
+  for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t j = 0; j <= i; ++j) {
+      if (j < n - 1) a[0][i][j] = static_cast<double>(DormandPrince54::a[i][j]);
+      a[1][i][j] = DormandPrince54Implicit::a[i][j];
+      c[i] += a[0][i][j];
+      row_sum[i] += a[1][i][j];
+    }
+    CHECK(std::abs(row_sum[i] - c[i]) < 1e-14);
+  }
+  const auto through = [&](int part, const Weights& x) {
+    Weights out{};
+    for (std::size_t i = 0; i < n; ++i) {
+      for (std::size_t j = 0; j <= i; ++j) out[i] += a[part][i][j] * x[j];
+    }
+    return out;
+  };
+  const auto sum = [&](int part, const Weights& x) {
+    double out = 0.0;
+    for (std::size_t j = 0; j < n; ++j) out += a[part][n - 1][j] * x[j];
+    return out;
+  };
+  const auto times_c = [&](Weights x) {
+    for (std::size_t i = 0; i < n; ++i) x[i] *= c[i];
+    return x;
+  };
+  const Weights square = times_c(c);
+  for (const int i : {0, 1}) {
+    CHECK(std::abs(sum(i, c) - 1.0 / 2.0) < 1e-14);
+    CHECK(std::abs(sum(0, times_c(through(i, c))) - 1.0 / 8.0) < 1e-14);
+    CHECK(std::abs(sum(i, through(0, square)) - 1.0 / 12.0) < 1e-14);
+    for (const int j : {0, 1}) {
+      CHECK(std::abs(sum(i, through(j, c)) - 1.0 / 6.0) < 1e-14);
+      for (const int k : {0, 1}) {
+        CHECK(std::abs(sum(i, through(j, through(k, c))) - 1.0 / 24.0) < 1e-14);
+      }
+    }
+  }
+  // A-stable with the exact matrix, but for little: the last stage on the imaginary axis.
+  for (double y = 1e-2; y < 1e5; y *= 1.2) {
+    std::array<std::complex<double>, n> stage{};
+    for (std::size_t i = 0; i < n; ++i) {
+      std::complex<double> right = 1.0;
+      for (std::size_t j = 0; j < i; ++j) right += std::complex<double>(0.0, y) * a[1][i][j] * stage[j];
+      stage[i] = right / (1.0 - std::complex<double>(0.0, y) * a[1][i][i]);
+    }
+    CHECK(std::abs(stage[n - 1]) < 1.0 + 1e-3);
+  }
 }
 
 TEST_CASE("the Rosenbrock method has order 3 for any matrix in the place of the Jacobian") {

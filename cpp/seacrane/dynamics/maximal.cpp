@@ -19,7 +19,7 @@ MaximalSystem::MaximalSystem(std::shared_ptr<Terms> terms)
       solver_(*terms_),
       positions_(model_),
       tensions_(model_) {
-  for (auto* vectors : {&acceleration_, &correction_}) {
+  for (auto* vectors : {&acceleration_, &correction_, &direction_}) {
     vectors->assign(idx(model_.body_count()) + 1, Vec6d::Zero());
   }
   for (auto* values : {&lambda_, &gamma_, &residual_, &no_right_, &response_multipliers_}) {
@@ -209,6 +209,15 @@ void sample_histories(Terms& terms, double t, const double* y) {
 
 void MaximalSystem::load_response(const std::vector<Vec6d>& load, std::vector<Vec6d>& acceleration) {
   solver_.solve(load, no_right_, acceleration, response_multipliers_);
+}
+
+void MaximalSystem::load_direction(const std::vector<Vec6d>& load, double* power, double* rates) {
+  for (double* const out : {power, rates}) std::fill_n(out, size(), 0.0);
+  load_response(load, direction_);
+  for (int b = 0; b < model_.body_count(); ++b) {
+    view<6>(power + model_.layout.twist(b)) = load[idx(b)];
+    view<6>(rates + model_.layout.twist(b)) = direction_[idx(b)];
+  }
 }
 
 }  // namespace seacrane

@@ -41,6 +41,7 @@ class MaximalSystem final : public Formulation {
   bool closes_joints() const override { return false; }
   const std::vector<Vec6d>& accelerations() const override { return acceleration_; }
   void load_response(const std::vector<Vec6d>& load, std::vector<Vec6d>& acceleration) override;
+  void load_direction(const std::vector<Vec6d>& load, double* power, double* rates) override;
   double condition() const override { return solver_.condition(); }
   Dependence take_dependence() override { return solver_.take_dependence(); }
   double take_residual_before_projection() override;
@@ -74,7 +75,7 @@ class MaximalSystem final : public Formulation {
   ConstraintSolver solver_;
   PoseMap positions_;
   InertialTensions tensions_;
-  std::vector<Vec6d> acceleration_, correction_;
+  std::vector<Vec6d> acceleration_, correction_, direction_;
   std::vector<double> lambda_, gamma_, residual_;
   std::vector<double> no_right_, response_multipliers_;  // of load_response()
   MatXd inertial_multipliers_;                           // for 1 N of each inertial tension

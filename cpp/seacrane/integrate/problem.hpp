@@ -2,6 +2,7 @@
 
 #include "seacrane/integrate/position_map.hpp"
 #include "seacrane/integrate/residual_system.hpp"
+#include "seacrane/integrate/stiff_part.hpp"
 #include "seacrane/integrate/system.hpp"
 
 namespace seacrane {
@@ -12,6 +13,7 @@ struct Problem {
   System& system;
   PositionMap* positions = nullptr;
   ResidualSystem* residual = nullptr;
+  StiffPart* stiff = nullptr;
 };
 
 }  // namespace seacrane

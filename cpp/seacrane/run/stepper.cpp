@@ -43,7 +43,8 @@ Stepper::Stepper(std::shared_ptr<const Model> of, const RunOptions& options)
       bodies(formulation_of(*model, options), model),
       system(bodies.described()),
       stepped(bodies.formulation()),
-      loads(bodies.terms()) {
+      loads(bodies.terms()),
+      stiff(stepped) {
   const bool inertial = model->inertial_tensions > 0;
   if (options.formulation == "redundant" && !inertial) residual.emplace(*bodies.maximal());
   if (inertial && integrator_of(options.integrator).residual_form) {
@@ -51,7 +52,7 @@ Stepper::Stepper(std::shared_ptr<const Model> of, const RunOptions& options)
                                 "\" has no accelerations for lines with stretch 'quasi-static'; choose "
                                 "another one, or stretch 'elastic'");
   }
-  integrator = make_integrator({stepped, &stepped.positions(), residual ? &*residual : nullptr},
+  integrator = make_integrator({stepped, &stepped.positions(), residual ? &*residual : nullptr, &stiff},
                                integrator_options(stepped, options));
 }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "seacrane/dynamics/gear_gupta_leimkuhler.hpp"
+#include "seacrane/dynamics/stiff_loads.hpp"
 #include "seacrane/integrate/registry.hpp"
 #include "seacrane/run/stepped_bodies.hpp"
 
@@ -25,6 +26,7 @@ struct Stepper {
   Formulation& stepped;
   Terms& loads;                                 // that are stepped
   std::optional<GearGuptaLeimkuhler> residual;  // of what is stepped in maximal coordinates, where asked for
+  StiffLoads stiff;
   std::unique_ptr<Integrator> integrator;
   bool started = false;  // the integrator has been given a state
 

@@ -40,7 +40,13 @@ bool Switches::any(const Model& model) {
   return found;
 }
 
+/// What loads look at; of a tree without loops from its own kinematics.
 LoadInput<double> Switches::read(Stepper& at, double t, const double* y) {
+  if (at.stepped.closes_joints()) {
+    const StateLayout& layout = at.model->layout;
+    at.bodies.place(t, y);
+    return at.system.terms().load_input(t, y + at.stepped.size() - idx(layout.size - layout.memory));
+  }
   bodies_.resize(at.system.size());
   at.write_bodies(t, y, bodies_.data());
   Terms& terms = at.system.terms();

@@ -12,9 +12,17 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
-from seacrane.accuracy.expected import TIGHTEST, expected_error, method_for, probe_of, unit_error
+from seacrane.accuracy.expected import (
+    STIFF,
+    TIGHTEST,
+    expected_error,
+    method_for,
+    probe_of,
+    unit_error,
+)
 from seacrane.accuracy.model_error import model_errors
 from seacrane.accuracy.quantities import Quantity, compare, limits_of, quantities_of
+from seacrane.description.loads import any_stiff
 from seacrane.errors import SceneError
 from seacrane.run.advance import finished
 from seacrane.run.method import Method
@@ -236,7 +244,7 @@ def _looser(method: Method) -> Method:
 def _tighter(method: Method, factor: float) -> Method:
     """A method whose error is smaller by that factor at least."""
     error = expected_error(method)
-    found = _with_setting(method, method_for(error / factor))
+    found = _with_setting(method, method_for(error / factor, stiff=method.integrator == STIFF))
     if expected_error(found) > 0.6 * error:
         found = replace(method, tolerance=method.used_tolerance / math.sqrt(STEP))
     return replace(found, tolerance=max(found.used_tolerance, TIGHTEST))
@@ -245,7 +253,7 @@ def _tighter(method: Method, factor: float) -> Method:
 def first_method(scene: Scene, quantities: Mapping[str, Quantity], limits: Mapping[str, float]) -> Method:
     """What met such limits in measured trades."""
     smallest = min(limit / unit_error(scene, quantities[name]) for name, limit in limits.items())
-    return method_for(smallest / (SAFETY * PESSIMISM))
+    return method_for(smallest / (SAFETY * PESSIMISM), stiff=any_stiff(scene.loads))
 
 
 def _errors(case: _Case, done: Sequence[_Done]) -> tuple[dict[str, float], bool]:

@@ -17,8 +17,11 @@ if TYPE_CHECKING:
     from seacrane.accuracy.quantities import Quantity
     from seacrane.scene.scene import Scene
 
-ERROR = {"bs32": (14.0, 0.89), "tsit5": (8.0, 1.1), "verner76": (0.8, 1.065)}  # factor, power
+# Factor and power; of `dopri5-stiff` on hydraulic cranes.
+ERROR = {"bs32": (14.0, 0.89), "tsit5": (8.0, 1.1), "verner76": (0.8, 1.065), "dopri5-stiff": (4.0, 0.75)}
 LOWER = {"tsit5": "bs32", "verner76": "tsit5"}  # what a probe of each method is run with
+STIFF = "dopri5-stiff"
+PROBED = 10.0  # tolerance of its probe over its own
 LOOSEST, TIGHTEST = 1e-2, 1e-12  # from 1e-2 on stability sets the steps: a looser tolerance saves nothing
 HIGH = 1e-5  # expected error, over the scale, below which the method of order 7 is the cheaper one
 SCALE = {"m": 0.05, "m/s": 0.15, "rad": 2e-4, "rad/s": 2e-4}
@@ -31,9 +34,11 @@ def expected_error(method: Method) -> float:
     return factor * math.pow(method.used_tolerance, power)
 
 
-def method_for(error: float) -> Method:
-    """The cheapest method with that expected error, on half decades of the tolerance."""
-    name = "tsit5" if error >= HIGH else "verner76"
+def method_for(error: float, *, stiff: bool = False) -> Method:
+    """The cheapest method with that expected error, on half decades of the tolerance; `stiff`: of a scene
+    with loads that would bind the steps of explicit methods."""
+    low = STIFF if stiff else "tsit5"
+    name = low if error >= HIGH else "verner76"
     factor, power = ERROR[name]
     decades = math.log10(max(error, 1e-300) / factor) / power
     tolerance = float(f"{10.0 ** (math.floor(2.0 * decades) / 2.0):.6g}")
@@ -41,7 +46,10 @@ def method_for(error: float) -> Method:
 
 
 def probe_of(method: Method) -> Method:
-    """A cheap run that tells the error of a method: one of lower order, at the loosest tolerance."""
+    """A cheap run that tells the error of a method: one of lower order, at the loosest tolerance; of a method
+    whose steps stiff loads do not bind, itself at a looser one."""
+    if method.integrator == STIFF:
+        return replace(method, tolerance=PROBED * method.used_tolerance)
     return replace(method, integrator=LOWER[method.integrator], tolerance=LOOSEST)
 
 

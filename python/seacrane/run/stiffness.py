@@ -7,7 +7,7 @@ from typing import Any
 
 from seacrane._core import integrator as integrator_of
 from seacrane.analysis.linearise import LARGEST
-from seacrane.description.loads import lines_of, whole_of
+from seacrane.description.loads import any_stiff, lines_of, whole_of
 from seacrane.run.modes import Modes
 from seacrane.validity.range import Finding
 
@@ -60,10 +60,16 @@ def stiffness(
             f"run: {integrator} took {steps} steps of {step:.2g} s on average, about the longest with which "
             f"it is stable: the fastest mode, {mode:.4g} per s at t = {at:.6g} s, moves body {body!r} most, "
             "far faster than the outputs show. Soften the gain, spring or stop that holds that body, or take "
-            "integrator='rosenbrock' or 'cvode-bdf', whose steps it does not limit"
+            f"integrator={_instead(loads, integrator)}, whose steps it does not limit"
             + _taut_lines(loads, body, mode),
         )
     ]
+
+
+def _instead(loads: Mapping[str, Any], integrator: str) -> str:
+    """What takes longer steps."""
+    stiff = any_stiff(loads) and integrator != "dopri5-stiff"
+    return "'dopri5-stiff', 'rosenbrock' or 'cvode-bdf'" if stiff else "'rosenbrock' or 'cvode-bdf'"
 
 
 def _taut_lines(loads: Mapping[str, Any], body: str, mode: float) -> str:

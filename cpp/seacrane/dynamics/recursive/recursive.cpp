@@ -46,7 +46,10 @@ RecursiveSystem::RecursiveSystem(std::shared_ptr<Terms> terms)
   mass_.assign(bodies, Mat6d::Zero());
   for (std::size_t b = 0; b < bodies; ++b) mass_[b].diagonal().head<3>().setConstant(model_.bodies[b].mass);
   for (const BodyModel& body : model_.bodies) turning_.emplace_back(body.inertia);
-  for (auto* vectors : {&bias_, &load_, &acceleration_, &twist_}) vectors->assign(bodies + 1, Vec6d::Zero());
+  for (auto* vectors : {&bias_, &load_, &acceleration_, &twist_, &direction_}) {
+    vectors->assign(bodies + 1, Vec6d::Zero());
+  }
+  along_.assign(bodies + 1, Wrench<double>::zero());
   scratch_.assign(bodies + 1, BodyKinematics<double>::ground());
   blocks_.resize(model_.elements.size());
   speed_rate_.assign(idx(tree_.speeds), 0.0);
@@ -302,6 +305,21 @@ void RecursiveSystem::load_response(const std::vector<Vec6d>& load, std::vector<
   std::ranges::copy(load, load_.begin());
   loops_.add_load(blocks_.data(), loops_.solve(residual_), load_.data());
   articulated_.solve(load_.data(), false, acceleration.data(), speed_rate_.data());
+}
+
+void RecursiveSystem::load_direction(const std::vector<Vec6d>& load, double* power, double* rates) {
+  for (double* const out : {power, rates}) std::fill_n(out, size(), 0.0);
+  load_response(load, direction_);
+  std::ranges::copy(speed_rate_, rates + layout_.speeds);
+  for (std::size_t b = 0; b < load.size(); ++b) along_[b] = Wrench<double>(load[b]);
+  const TreeKinematics<double>& tree = articulated_.kinematics();
+  for (auto c = tree_.clusters.rbegin(); c != tree_.clusters.rend(); ++c) {
+    for (const Member& m : c->members) {
+      const Wrench<double>& f = along_[idx(m.body)];
+      for (int k = 0; k < c->speeds; ++k) power[layout_.speeds + c->u + k] += dot(tree.columns(m)[k], f);
+      if (c->kind != Cluster::floating) along_[idx(c->parent)].add_shifted_from(tree.reach(m.body), f);
+    }
+  }
 }
 
 }  // namespace seacrane

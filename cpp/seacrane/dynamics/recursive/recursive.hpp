@@ -42,6 +42,7 @@ class RecursiveSystem final : public Formulation, public PositionMap {
   bool closes_joints() const override { return loops_.rows() == 0; }
   const std::vector<Vec6d>& accelerations() const override { return acceleration_; }
   void load_response(const std::vector<Vec6d>& load, std::vector<Vec6d>& acceleration) override;
+  void load_direction(const std::vector<Vec6d>& load, double* power, double* rates) override;
   Terms& terms() override { return *terms_; }
   double take_residual_before_projection() override;
   std::string describe(std::size_t component) const override;
@@ -81,7 +82,8 @@ class RecursiveSystem final : public Formulation, public PositionMap {
   std::vector<TurningInertia> turning_;  // by body
   Layout layout_;
   std::vector<Mat6d> mass_;
-  std::vector<Vec6d> bias_, load_, acceleration_, twist_;
+  std::vector<Vec6d> bias_, load_, acceleration_, twist_, direction_;
+  std::vector<Wrench<double>> along_;
   std::vector<BodyKinematics<double>> scratch_;
   std::vector<RowBlock<double>> blocks_;
   std::vector<double> torque_;  // of actuators, on the speeds

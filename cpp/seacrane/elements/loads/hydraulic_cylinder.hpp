@@ -15,6 +15,7 @@
 #include "seacrane/elements/loads/hydraulic_oil.hpp"
 #include "seacrane/elements/loads/hydraulic_valve.hpp"
 #include "seacrane/elements/loads/load.hpp"
+#include "seacrane/math/dual.hpp"
 #include "seacrane/math/power.hpp"
 #include "seacrane/math/select.hpp"
 
@@ -277,28 +278,8 @@ struct HydraulicCylinder {
 
   template <class T>
   Motion<T> motion(const LoadInput<T>& in) const {
-    using std::tanh;
     Motion<T> m = place(in);
-    m.power.fill(T(0));
-    m.pumped = m.returned = m.spilled = m.from_gas = T(0);
-    const std::array<T, 2> h = {oil.enthalpy(m.pressure[0]), oil.enthalpy(m.pressure[1])};
-    for (std::size_t side = 0; side < 2; ++side) flow(in.time, in.curve_limit, side, h, m);
-    const T past = T(internal_leakage) * (m.pressure[0] - m.pressure[1]);
-    m.net[0] -= past;
-    m.net[1] += past;
-    m.power[leakage] -= past * (h[0] - h[1]);
-    if (gas_volume > 0.0) charge(in, h[0], m);
-    m.power[pump] = T(valve.pump - valve.tank) * m.pumped;
-    m.power[tank] = T(valve.tank) * (m.pumped - m.returned);
-    const T drag = T(viscous) * m.rate + T(friction) * tanh(T(m.rate / T(friction_speed)));
-    m.power[seals] = -drag * m.rate;
-    for (std::size_t side = 0; side < 2; ++side) {
-      const T swept_rate = T(side == 0 ? area[0] : -area[1]) * m.rate;
-      m.pressure_rate[side] =
-          (m.net[side] - swept_rate) / oil.compliance(m.pressure[side], m.swept[side], hose_volume[side]);
-    }
-    m.force =
-        T(area[0]) * m.pressure[0] - T(area[1]) * m.pressure[1] - drag - T(stop_stiffness) * beyond(m.stroke);
+    act(in.time, in.curve_limit, gas_volume > 0.0 ? in.states[gas] : T(0), m);
     return m;
   }
 
@@ -312,8 +293,34 @@ struct HydraulicCylinder {
     T* rates = out.state_rates + states.first;
     rates[0] = m.pressure_rate[0];
     rates[1] = m.pressure_rate[1];
-    if (spool_lag > 0.0) rates[2] = (clamped(m.asked, T(-1), T(1)) - m.spool) / T(spool_lag);
+    if (spool_lag > 0.0) rates[2] = spool_rate(m);
     if (gas_volume > 0.0) out.state_rates[gas] = m.from_gas;
+  }
+
+  /// All of them: pressures, the spool where it has a lag, and the gas of an accumulator.
+  StateRange stiff_states() const { return states; }
+  StiffSlopes stiff_slopes(const LoadInput<double>& in) const {
+    using S = Dual<5>;
+    const Motion<double> here = place(in);
+    Motion<S> m;
+    m.stroke = here.stroke;
+    m.asked = here.asked;
+    m.rate = S::variable(here.rate, 0);
+    for (std::size_t side = 0; side < 2; ++side) {
+      m.swept[side] = here.swept[side];
+      m.pressure[side] = S::variable(here.pressure[side], 1 + static_cast<int>(side));
+    }
+    m.spool = spool_lag > 0.0 ? S::variable(here.spool, 3) : S(here.spool);
+    const int last = states.count;
+    act(in.time, in.curve_limit, gas_volume > 0.0 ? S::variable(in.states[gas], last) : S(), m);
+    std::array<S, 5> rows = {m.force, m.pressure_rate[0], m.pressure_rate[1]};
+    if (spool_lag > 0.0) rows[3] = spool_rate(m);
+    if (gas_volume > 0.0) rows[idx(last)] = m.from_gas;
+    StiffSlopes out(last + 1, last + 1);
+    for (int i = 0; i <= last; ++i) {
+      for (int j = 0; j <= last; ++j) out(i, j) = rows[idx(i)].slope[idx(j)];
+    }
+    return out;
   }
 
   /// Of oil, ends of the stroke and gas.
@@ -479,6 +486,37 @@ struct HydraulicCylinder {
     return m;
   }
 
+  /// Flows, powers, force and rates of the pressures for a place, a motion, pressures and a spool.
+  template <class T>
+  void act(double time, double limit, const T& gas_now, Motion<T>& m) const {
+    using std::tanh;
+    m.power.fill(T(0));
+    m.pumped = m.returned = m.spilled = m.from_gas = T(0);
+    const std::array<T, 2> h = {oil.enthalpy(m.pressure[0]), oil.enthalpy(m.pressure[1])};
+    for (std::size_t side = 0; side < 2; ++side) flow(time, limit, side, h, m);
+    const T past = T(internal_leakage) * (m.pressure[0] - m.pressure[1]);
+    m.net[0] -= past;
+    m.net[1] += past;
+    m.power[leakage] -= past * (h[0] - h[1]);
+    if (gas_volume > 0.0) charge(gas_now, h[0], m);
+    m.power[pump] = T(valve.pump - valve.tank) * m.pumped;
+    m.power[tank] = T(valve.tank) * (m.pumped - m.returned);
+    T drag = T(viscous) * m.rate;
+    if (friction > 0.0) drag += T(friction) * tanh(T(m.rate / T(friction_speed)));
+    m.power[seals] = -drag * m.rate;
+    for (std::size_t side = 0; side < 2; ++side) {
+      const T swept_rate = T(side == 0 ? area[0] : -area[1]) * m.rate;
+      m.pressure_rate[side] =
+          (m.net[side] - swept_rate) / oil.compliance(m.pressure[side], m.swept[side], hose_volume[side]);
+    }
+    m.force =
+        T(area[0]) * m.pressure[0] - T(area[1]) * m.pressure[1] - drag - T(stop_stiffness) * beyond(m.stroke);
+  }
+  template <class T>
+  T spool_rate(const Motion<T>& m) const {
+    return (clamped(m.asked, T(-1), T(1)) - m.spool) / T(spool_lag);
+  }
+
   /// Of a side but for what passes the piston.
   template <class T>
   void flow(double time, double limit, std::size_t side, const std::array<T, 2>& h, Motion<T>& m) const {
@@ -525,8 +563,7 @@ struct HydraulicCylinder {
 
   /// Between the accumulator and the full side; an empty one gives none.
   template <class T>
-  void charge(const LoadInput<T>& in, const T& h, Motion<T>& m) const {
-    const T volume = in.states[gas];
+  void charge(const T& volume, const T& h, Motion<T>& m) const {
     const T least(kLeastGas * gas_volume), bounded = select(volume > least, volume, least);
     const T p = T(gas_pressure) * power(T(T(gas_volume) / bounded), gas_exponent);
     const T q = T(gas_conductance) * valve.through(T(p - m.pressure[0]));

@@ -173,12 +173,14 @@ struct HydraulicValve {
   /// Out of the side through its relief valve.
   template <class T>
   T relieved(std::size_t side, const T& pressure) const {
+    if (relief_pressure[side] == 0.0) return T(0);
     const T over = pressure - T(relief_pressure[side]);
-    return select(relief_pressure[side] > 0.0 && over > T(0), T(T(relief_slope) * over), T(0));
+    return select(over > T(0), T(T(relief_slope) * over), T(0));
   }
   /// From the tank through the check valves.
   template <class T>
   T made_up(const T& pressure) const {
+    if (makeup == 0.0) return T(0);
     const T drop = T(tank) - pressure;
     return select(drop > T(0), T(T(makeup) * through(drop)), T(0));
   }

@@ -45,6 +45,19 @@ concept HasStates = requires(const Load& load) {
   { load.states } -> std::convertible_to<StateRange>;
 };
 
+/// How the force of a load along its direction, row 0, and the rates of its stiff states, the other rows,
+/// change with its rate along that direction, column 0, and with those states.
+using StiffSlopes = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 6, 6>;
+
+/// A load that acts along one direction, add_unit(0, ...), and some of whose states, one after another and
+/// five at most, are stiff: stiff_states(), and stiff_slopes(input) in them.
+template <class Load>
+concept StiffLoad = requires(const Load& load, const LoadInput<double>& in, Vec6d* wrenches) {
+  { load.stiff_states() } -> std::convertible_to<StateRange>;
+  { load.stiff_slopes(in) } -> std::convertible_to<StiffSlopes>;
+  load.add_unit(0, in, wrenches);
+};
+
 /// Whether a load looks at some of the states from `first` to before `last`: its own, or those of what it
 /// follows, which a load that follows something tells by followed().
 template <class Load>
