@@ -54,7 +54,7 @@ class Ensemble:
     ----------
     dataset : xarray.Dataset
         A variable for everything kept, over the parameters of a grid or over `member`, NaN where a member
-        failed or was not run; `failure` and `validity` are texts.
+        failed or was not run; `failure`, `validity` and `kept_apart` are texts.
     failures : mapping of int to str
         Why members failed, by their number in order of the parameters, the last of a grid fastest.
     certainty : tuple of Certainty
@@ -160,8 +160,8 @@ def ensemble(
     lanes : int, optional
         Members that are stepped side by side, by their numbers, where they differ in their seas alone: 4, 8
         (AVX-512), or 1 for each by itself. Default: 4 where a word of the sea varies, the processor has AVX2
-        and `pack` is a multiple of it. What cannot be stepped so is run by itself; a result's stats say why
-        by "kept_apart".
+        and `pack` is a multiple of it. What cannot be stepped so is run by itself; `kept_apart` of the
+        dataset, and of a result's stats, says why.
     progress : bool
         Show a progress bar with the time left.
     **shorthand

@@ -14,6 +14,7 @@ NOT_RUN = "not run"  # as a failure
 TEXTS: Mapping[str, str] = {
     "failure": "why a member failed",
     "validity": "what was out of range in a member",
+    "kept_apart": "why a member was not stepped beside others",
 }
 """Of every member, beside what it kept."""
 RESERVED = ("member", "time", *TEXTS)
