@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import os
 import resource
 import signal
@@ -148,6 +149,31 @@ def test_it_grows_until_it_is_enough(tmp_path: Path) -> None:
     assert narrow.dataset.identical(plain.dataset)
     assert Ensemble.load(store).dataset.identical(plain.dataset)
     assert ensemble(**PUSHED, until={"far.mpm": 0.3}, store=store).dataset.identical(wide.dataset)
+
+
+@pytest.mark.parametrize("call", range(1, 7))
+def test_a_kill_at_any_moment_is_mended(call: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Ended before one write of attributes or of the metadata of all after another."""
+    given = PUSHED | {"over": {"seed": range(1, 41)}, "until": {"far.mpm": 0.1}, "pack": 20, "lanes": 1}
+    plain = ensemble(**given)
+    assert plain.dataset.sizes["seed"] == 40
+    calls: list[int] = []
+    with monkeypatch.context() as patched:
+        for owner, name in ((zarr, "consolidate_metadata"), (zarr.core.attributes.Attributes, "__setitem__")):
+            real = getattr(owner, name)
+
+            def dies(*given: Any, real: Any = real) -> Any:
+                calls.append(0)
+                if len(calls) == call:
+                    raise KeyboardInterrupt
+                return real(*given)
+
+            patched.setattr(owner, name, dies)
+        with contextlib.suppress(KeyboardInterrupt):
+            ensemble(**given, store=tmp_path / "a.zarr")
+    again = ensemble(**given, store=tmp_path / "a.zarr")
+    assert again.dataset.identical(plain.dataset)
+    assert Ensemble.load(tmp_path / "a.zarr").dataset.identical(plain.dataset)
 
 
 def test_a_full_disk_is_named_and_loses_nothing(tmp_path: Path) -> None:

@@ -35,7 +35,8 @@ Block = tuple[tuple[int | slice, ...], slice]
 class ZarrStore:
     """A Zarr group with a variable for everything kept; one process writes.
 
-    A pack is there once its file in the group of the study is, which is written after its members.
+    A pack is there once its file in the group of the study is, which is written after its members; the
+    attributes of that group are, after the arrays that they tell of. What a kill left between is made again.
 
     Parameters
     ----------
@@ -182,9 +183,9 @@ class ZarrStore:
                 array.resize((*over.values(), *array.shape[len(over) :]))
         for name, (dim, values) in axes_of(members).items():
             _along(group, name, dim, values)
+        self._zarr.consolidate_metadata(group.store)
         self._room = study.attrs["members"] = len(members)
         self._arrays.clear()
-        self._zarr.consolidate_metadata(group.store)
 
     def _make_arrays(self, outcomes: Sequence[Outcome]) -> None:
         """What is kept, as the first member has it that did not fail."""
@@ -208,9 +209,9 @@ class ZarrStore:
             )  # fmt: skip
             for dim, values in kept[name].coords.items():
                 _along(group, own[dim], own[dim], values)
+        self._zarr.consolidate_metadata(group.store)
         group[IN_ZARR].attrs["dims"] = {name: list(one.dims) for name, one in kept.items()}
         self._first = dict(kept)
-        self._zarr.consolidate_metadata(group.store)
 
 
 @contextlib.contextmanager
