@@ -151,10 +151,11 @@ def test_it_grows_until_it_is_enough(tmp_path: Path) -> None:
     assert ensemble(**PUSHED, until={"far.mpm": 0.3}, store=store).dataset.identical(wide.dataset)
 
 
+@pytest.mark.filterwarnings("ignore::seacrane.FewSeedsWarning")
 @pytest.mark.parametrize("call", range(1, 7))
 def test_a_kill_at_any_moment_is_mended(call: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Ended before one write of attributes or of the metadata of all after another."""
-    given = PUSHED | {"over": {"seed": range(1, 41)}, "until": {"far.mpm": 0.1}, "pack": 20, "lanes": 1}
+    given = PUSHED | {"over": {"seed": range(1, 41)}, "until": {"far.mpm": 0.02}, "pack": 20, "lanes": 1}
     plain = ensemble(**given)
     assert plain.dataset.sizes["seed"] == 40
     calls: list[int] = []
