@@ -35,14 +35,14 @@ from seacrane.hydro import shipped_database
 Array = NDArray[np.float64]
 HERE = Path(__file__).resolve().parent
 LEVEL = 0.01  # m
-SHARE = 0.75  # of the members that have to be within it: the paths of others are chaotic over such times
+SHARE = 0.5  # of the members that have to be within it: errors of others grow too far
 BAUMGARTE = 10.0  # 1/s, of Pinocchio's loops
 TRACK = Kept(channel="position", at={"body": "payload"}, step=DT_OUT)
 SEACRANE = [
     (method, rtol) for method in ("tsit5", "verner65", "dop853") for rtol in (1e-2, 3e-3, 1e-3, 3e-4, 1e-4)
 ]
 PINOCCHIO = SEACRANE
-MUJOCO = [(step, factor * step) for step in (0.1, 0.05, 0.025, 0.0125) for factor in (1.0, 0.5)]
+MUJOCO = [(step, factor * step) for step in (0.05, 0.025, 0.0125, 0.005) for factor in (1.0, 0.5)]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -132,6 +132,7 @@ def batches(drivers: Path, python: str, *, members: int = 64, threads: int = 2, 
     (truth,) = seacrane_batches(scene, seeds, threads, 1, 1, [("verner76", 1e-9)])
     busy = os.getloadavg()[0]
     quickest: dict[str, tuple[Batch, Array]] = {}
+    tried: list[str] = []
     sources: list[Callable[[], Iterator[Batch]]] = [
         lambda: seacrane_batches(tabled, seeds, threads, repeats, 4, SEACRANE),
         lambda: seacrane_batches(tabled, seeds, threads, repeats, 1, SEACRANE),
@@ -139,6 +140,7 @@ def batches(drivers: Path, python: str, *, members: int = 64, threads: int = 2, 
     ]
     for source in sources:
         for one in source():
+            tried.append(one.engine)
             errors = np.linalg.norm(one.tracks - truth.tracks, axis=-1).max(axis=1)
             errors = np.where(np.isfinite(errors), errors, np.inf)
             good = float(np.quantile(errors, SHARE)) <= LEVEL
@@ -147,21 +149,24 @@ def batches(drivers: Path, python: str, *, members: int = 64, threads: int = 2, 
             if good and (one.engine not in quickest or one.cpu < quickest[one.engine][0].cpu):
                 quickest[one.engine] = one, errors
     best = min(one.cpu for one, _ in quickest.values())
-    rows = [
+    rows: list[list[Any]] = [
         [
             name, one.setting, 1e3 * one.cpu / members, one.cpu / best, members * T_END / one.wall,
             float(np.quantile(errors, SHARE)), float(errors.max()),
         ]
         for name, (one, errors) in quickest.items()
     ]  # fmt: skip
+    rows += [
+        [name, "no setting reaches it", *[None] * 5] for name in dict.fromkeys(tried) if name not in quickest
+    ]
     return Section(
         title="Batches against peers",
         text=(
             f"{members} members of the system above that differ in the phases of their waves, {T_END:g} s, "
             f"payload every second, on {threads} threads. For each engine the quickest of its settings with "
-            f"three members in four within {LEVEL:g} m of seacrane's verner76 at rtol 1e-9; the paths of "
-            "others are chaotic over such times, in every engine. CPU time of all threads, for a member; "
-            "simulated seconds a second by the wall.\n\n"
+            f"half the members within {LEVEL:g} m of seacrane's verner76 at rtol 1e-9; in some of the "
+            "others any error grows to metres within this time, in every engine, as the worst ones tell. CPU "
+            "time of all threads, for a member; simulated seconds a second by the wall.\n\n"
             "- seacrane: the whole call of `ensemble` from Python: seas, starts, steps, results. Its waves "
             "come from a table with a bound of 1e-9, as always; those of the peers and of the reference are "
             "sums of cosines.\n"
@@ -174,7 +179,7 @@ def batches(drivers: Path, python: str, *, members: int = 64, threads: int = 2, 
         ),
         head=[
             "engine", "setting", "CPU, ms a member", "over the quickest", "simulated s per s",
-            "payload error of three in four, m", "worst, m",
+            "payload error of the middle member, m", "worst, m",
         ],
         rows=rows,
         folder="benchmarks/peers/results",
