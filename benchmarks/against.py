@@ -2,9 +2,10 @@
 
     python benchmarks/against.py --other /path/to/older/package --label 0.1.0 [--publish]
 
-`--other` is what PYTHONPATH has to be for `import seacrane` to find the older one. Each turn measures one of
-the two in a process of its own, in CPU time of its thread. The best of all turns counts, so that other work
-on the machine matters least. Prints the table; with `--publish` it is written to `benchmarks/results`.
+`--other` is what PYTHONPATH has to be for `import seacrane` to find the older one, its compiled module
+included. Each turn measures one of the two in a process of its own, in CPU time of its thread. The best of
+all turns counts, so that other work on the machine matters least. Prints the table; with `--publish` it is
+written to `benchmarks/results`.
 """
 
 from __future__ import annotations
@@ -14,6 +15,8 @@ import json
 import os
 import subprocess
 import sys
+import time
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -22,44 +25,74 @@ CASES = ("case1", "case2", "case3")
 QUICK = {"integrator": "tsit5", "rtol": 1e-2, "formulation": "recursive"}
 TIGHT = {"integrator": "dopri5", "rtol": 1e-6, "formulation": "recursive"}
 T_END = 100.0  # s
+DENSE = 0.02  # s between outputs, to see what one costs
+EVALUATIONS, STEP = 2_000, 25e-3  # s, between evaluations, as on average in a run of case 2
 
 
 def measured() -> dict[str, float]:
-    """Of the package that is found here: ns of evaluations, ms of runs of case 2, us of an output."""
-    from measure.timing import evaluation_ns, timed_run
+    """Of the package that is found here: ns of evaluations, ms of runs of case 2, us of an output.
 
+    It calls what every version has: `cases`, `Scene.compile`, `Evaluator` and `Run`.
+    """
     from seacrane import cases
 
     out: dict[str, float] = {}
     for name in CASES:
         model = getattr(cases, name)().compile()
         for formulation in ("recursive", "redundant"):
-            key = f"one evaluation of {name}, {formulation}, ns"
-            out[key] = evaluation_ns(model, repeats=8, count=2_000, formulation=formulation)
+            out[f"one evaluation of {name}, {formulation}, ns"] = _evaluation_ns(model, formulation)
     scene = cases.case2()
     model = scene.compile()
-
-    def run(dt_out: float, channels: list[str] | None, settings: dict[str, Any]) -> float:
-        done = timed_run(
-            scene, model=model, repeats=3, t_end=T_END, dt_out=dt_out, channels=channels, **settings
-        )
-        return 1e3 * done.cpu
-
-    out["100 s of case 2, tsit5 1e-2, `position` every 1 s, ms"] = run(1.0, ["position"], QUICK)
-    out["100 s of case 2, dopri5 1e-6, all channels every 0.1 s, ms"] = run(0.1, None, TIGHT)
-    few, many = (run(dt, ["position"], QUICK) for dt in (T_END, 0.02))
-    out["one output of `position`, us"] = 1e3 * (many - few) / (T_END / 0.02 - 1)
+    out["100 s of case 2, tsit5 1e-2, `position` every 1 s, ms"] = _run_ms(
+        scene, model, dt_out=1.0, channels=["position"], **QUICK
+    )
+    out["100 s of case 2, dopri5 1e-6, all channels every 0.1 s, ms"] = _run_ms(
+        scene, model, dt_out=0.1, **TIGHT
+    )
+    few, many = (_run_ms(scene, model, dt_out=dt, channels=["position"], **QUICK) for dt in (T_END, DENSE))
+    out["one output of `position`, us"] = 1e3 * (many - few) / (T_END / DENSE - 1)
     return out
 
 
+def _evaluation_ns(model: Any, formulation: str) -> float:
+    from seacrane import Evaluator
+
+    evaluator, state = Evaluator(model, formulation), model.initial_state
+    evaluator.repeat(0.0, state, EVALUATIONS // 10, STEP)
+    return 1e9 * _best_s(lambda: evaluator.repeat(0.0, state, EVALUATIONS, STEP), 8) / EVALUATIONS
+
+
+def _run_ms(scene: Any, model: Any, **settings: Any) -> float:
+    """Of the loop."""
+    from seacrane import Run
+
+    runs = [Run(scene, t_end=T_END, model=model, **settings) for _ in range(3)]
+    return 1e3 * _best_s(lambda: runs.pop().advance(T_END), len(runs))
+
+
+def _best_s(function: Callable[[], object], repeats: int) -> float:
+    """Shortest CPU time of the thread."""
+    times = []
+    for _ in range(repeats):
+        start = time.thread_time()
+        function()
+        times.append(time.thread_time() - start)
+    return min(times)
+
+
 def turn(package: str) -> dict[str, float]:
-    """One measurement of a package in a process of its own."""
-    path = os.pathsep.join([package, str(HERE)])
-    env = os.environ | {"PYTHONPATH": path, "OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"}
+    """One measurement of a package in a process of its own; ends this one where that fails."""
+    found = os.pathsep.join(str(Path(one).resolve()) for one in package.split(os.pathsep))
+    env = os.environ | {"PYTHONPATH": found, "OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"}
     done = subprocess.run(
-        [sys.executable, __file__, "--measure"], env=env, capture_output=True, text=True, check=True
+        [sys.executable, __file__, "--measure"], env=env, capture_output=True, text=True, check=False
     )
-    return dict(json.loads(done.stdout))
+    if done.returncode:
+        sys.exit(f"measuring with PYTHONPATH={found} failed:\n{done.stderr}")
+    told = json.loads(done.stdout)
+    if not any(Path(told["package"]).is_relative_to(one) for one in found.split(os.pathsep)):
+        sys.exit(f"PYTHONPATH={found} has no seacrane: {told['package']} was found in its place")
+    return dict(told["measured"])
 
 
 def main() -> int:
@@ -72,7 +105,9 @@ def main() -> int:
     parser.add_argument("--publish", action="store_true", help="write into benchmarks/results")
     options = parser.parse_args()
     if options.measure:
-        print(json.dumps(measured()))
+        import seacrane
+
+        print(json.dumps({"package": seacrane.__file__, "measured": measured()}))
         return 0
     if options.other is None:
         parser.error("give --other, the PYTHONPATH of the older package")

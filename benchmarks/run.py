@@ -45,6 +45,7 @@ from measure import (
     stiff_lines,
     storm,
     strip_cost,
+    two_cores,
     w_method,
     wave_loads,
 )
@@ -107,6 +108,9 @@ def sections(folder: Path, *, repeats: int, quick: bool) -> Iterator[Section]:
     yield seas.seas(repeats=min(repeats, 3))
     yield ensemble.one_member(repeats=repeats)
     yield ensemble_overhead.overhead(members=4 if quick else 16, t_end=100.0 if quick else 10_800.0)
+    yield two_cores.two_cores(
+        members=8 if quick else 64, t_end=100.0 if quick else 10_800.0, repeats=1 if quick else 3
+    )
     yield lanes.lanes(repeats=repeats)
     yield ensemble.workers(repeats=min(repeats, 3), t_end=100.0 if quick else 1000.0)
     yield strip_cost.strip_cost(repeats=min(repeats, 3))

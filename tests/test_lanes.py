@@ -7,6 +7,7 @@ import subprocess
 from concurrent.futures import ThreadPoolExecutor
 from functools import cache
 from itertools import pairwise
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -15,7 +16,7 @@ from ensemble_studies import pendulum
 from numpy.typing import NDArray
 from random_scenes import KINDS, Shape, build
 
-from seacrane import Kept, Result, Run, Scene, SceneError, _core, cases, ensemble, simulate
+from seacrane import Ensemble, Kept, Result, Run, Scene, SceneError, _core, cases, ensemble, simulate
 from seacrane.ensembles.other_sea import with_sea
 from seacrane.hydro import shipped_database
 from seacrane.run.lanes import INSTRUCTIONS, advance_side_by_side, lanes_of, module_of
@@ -189,6 +190,31 @@ def test_what_lanes_cannot_do_is_run_by_itself_and_says_why(given: dict[str, Any
 
 
 @needs_lanes
+@pytest.mark.parametrize("store", ["packs", "group.zarr"])
+def test_the_dataset_says_who_was_by_itself_and_why(store: str, tmp_path: Path) -> None:
+    if store.endswith(".zarr"):
+        pytest.importorskip("zarr", reason="Zarr is not installed: pip install 'seacrane[zarr]'")
+    made = ensemble(
+        pendulum, over=[{"start": 1.0}] * 5, keep={"z": Kept(channel="position")}, lanes=4, t_end=0.2,
+        store=tmp_path / store,
+    )  # fmt: skip
+    told = ["", "", "", "", "there is no other run beside it"]
+    assert made.dataset.kept_apart.to_numpy().tolist() == told
+    assert Ensemble.load(tmp_path / store).dataset.kept_apart.to_numpy().tolist() == told
+
+
+@needs_lanes
+def test_lanes_that_fail_altogether_are_told(monkeypatch: pytest.MonkeyPatch) -> None:
+    def fails(*_: Any) -> bool:
+        raise ValueError("no such luck")
+
+    monkeypatch.setattr("seacrane.run.lanes._core.advance_side_by_side", fails)
+    assert reason(pendulum, [{"start": 1.0}] * 2) == (
+        "stepping it beside others failed: ValueError: no such luck"
+    )
+
+
+@needs_lanes
 def test_runs_of_one_lift_without_a_sea_are_alike() -> None:
     made = ensemble(
         pendulum, over=[{"start": 1.0}] * 3, keep={"z": Kept(channel="position"), "lanes": why}, lanes=4,
@@ -220,7 +246,11 @@ def test_a_lane_that_fails_leaves_the_others_alone() -> None:
     runs = [spun(speed) for speed in speeds]
     assert advance_side_by_side(runs, 4, lambda _: None)
     assert [run.core.time for run in runs[:2]] == [4.0, 4.0] and runs[3].core.time == 4.0
-    assert 1.0 < runs[2].core.time < 1.7
+    left = runs[2].core.time
+    assert 1.0 < left < 1.7
+    assert [run.stats().get("kept_apart", "") for run in runs] == [
+        "", "", f"from t = {left:.6g} s on: its step beside the others failed", ""
+    ]  # fmt: skip
     assert runs[2].advance(4.0)  # its own engine goes on from there
     for speed, run in zip(speeds, runs, strict=True):
         result = run.result()

@@ -63,14 +63,20 @@ def test_it_is_the_same_to_the_bit(
         there = ensemble(
             storm, over=OVER, keep=KEEP, until=UNTIL, executor=executor, pack=pack, store=store, **RUN
         )
-    assert there.dataset.identical(grown.dataset)
+    usual = numbers(grown)
+    assert numbers(there).identical(usual)
     assert there.certainty == grown.certainty
-    assert Ensemble.load(store).dataset.identical(grown.dataset)
+    assert numbers(Ensemble.load(store)).identical(usual)
     for path in sorted(store.glob("pack_*"))[3::2]:
         path.unlink()
     again = ensemble(storm, over=OVER, keep=KEEP, until=UNTIL, pack=pack, store=store, **RUN)
-    assert again.dataset.identical(grown.dataset)
+    assert numbers(again).identical(usual)
     assert again.certainty == grown.certainty
+
+
+def numbers(found: Ensemble) -> Any:
+    """The dataset, but for why members were not stepped beside others: packs of 3 have no lanes."""
+    return found.dataset.drop_vars("kept_apart")
 
 
 def test_a_narrower_interval_goes_on_from_the_same_store(grown: Ensemble, tmp_path: Path) -> None:

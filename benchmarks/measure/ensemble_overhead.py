@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 
-from seacrane import Kept, Result, Run, cases, ensemble
+from seacrane import Kept, Result, Run, _core, cases, ensemble
 from seacrane.hydro import shipped_database
 
 from .section import Section
@@ -44,19 +44,22 @@ def _lap(now: float) -> list[float]:
 
 
 def _watch_loops() -> None:
-    advance = Run.advance
-    if hasattr(advance, "watched"):
+    if hasattr(Run.advance, "watched"):
         return
+    Run.advance = _watched(Run.advance)  # type: ignore[method-assign]
+    _core.advance_side_by_side = _watched(_core.advance_side_by_side)
 
-    def watched(run: Run, *given: Any) -> bool:
+
+def _watched(advance: Callable[..., bool]) -> Callable[..., bool]:
+    def watched(*given: Any) -> bool:
         start = time.thread_time()
         try:
-            return advance(run, *given)
+            return advance(*given)
         finally:
             _here.loop = getattr(_here, "loop", 0.0) + time.thread_time() - start
 
     watched.watched = True  # type: ignore[attr-defined]
-    Run.advance = watched  # type: ignore[method-assign]
+    return watched
 
 
 @dataclass(frozen=True, kw_only=True)

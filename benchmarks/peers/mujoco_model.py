@@ -63,7 +63,13 @@ class _Writer:
 X, Y, Z = [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]
 
 
-def mjcf(data: Mapping[str, Array]) -> str:
+IN_A_BATCH = (
+    '<custom><numeric name="member" size="1"/></custom>'
+    '<sensor><framepos objtype="body" objname="payload"/></sensor>'
+)
+
+
+def mjcf(data: Mapping[str, Array], more: str = "") -> str:
     """The model; step, integrator and stiffness of the loops are set by the driver."""
     w = _Writer(data)
     w.open("vessel", np.zeros(3), "vessel", "tower")
@@ -98,5 +104,6 @@ def mjcf(data: Mapping[str, Array]) -> str:
     return (
         f'<mujoco><compiler angle="radian" autolimits="false"/><option gravity="{gravity}" solver="Newton" '
         'tolerance="1e-14" iterations="20" jacobian="dense"><flag contact="disable"/></option>'
-        f"<worldbody>{''.join(w.lines)}</worldbody><equality>{anchors}</equality></mujoco>"
+        f"<worldbody>{''.join(w.lines)}</worldbody><equality>{anchors}</equality>"
+        f"{more}</mujoco>"
     )

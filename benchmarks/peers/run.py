@@ -14,6 +14,7 @@ import sys
 from pathlib import Path
 
 import numpy as np
+from batches import batches
 from engines import Point, Reference, numpy_points, own_run, peer_points, seacrane_points
 from measure.machine import machine
 from measure.section import Section
@@ -184,7 +185,8 @@ def main() -> int:
     points, uncertainty = measure(drivers, options.peers, options.repeats)
     figure(points, folder / PICTURE)
     picture = f"![Payload error over CPU time, per engine]({PICTURE})\n"
-    sections = (ratios(points), table(points, uncertainty))
+    together = batches(drivers, options.peers, repeats=min(options.repeats, 3))
+    sections = (ratios(points), together, table(points, uncertainty))
     for section in sections:
         section.save(folder / "results")
     parts = [head, picture, *(section.markdown() + "\n" for section in sections)]

@@ -209,6 +209,12 @@ def refuse_what_is_chosen(
         )
 
 
+def without_what_is_chosen(method: Method) -> Method:
+    """The method with the defaults of what an accuracy chooses."""
+    usual = Method()
+    return replace(method, **{name: getattr(usual, name) for name in CHOSEN.values()})
+
+
 def _converged(case: _Case, kept: Method) -> Result:
     """Runs until the estimate of the last one meets the limits; `kept` holds what is not chosen here."""
     first = first_method(case.scene, case.quantities, case.limits)

@@ -25,7 +25,7 @@ def run(arguments: argparse.Namespace) -> int:
     progress = arguments.progress or sys.stderr.isatty()
     with _executor(arguments) as executor:
         try:
-            run_study(arguments.study, arguments.out, executor=executor, progress=progress)
+            done = run_study(arguments.study, arguments.out, executor=executor, progress=progress)
         except KeyboardInterrupt:
             _end_workers(executor)
             print(
@@ -34,6 +34,8 @@ def run(arguments: argparse.Namespace) -> int:
                 file=sys.stderr,
             )
             return INTERRUPTED
+    if done.accuracy is not None:
+        print(done.accuracy)
     show_study(arguments.out, None)
     return 0
 

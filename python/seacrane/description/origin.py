@@ -31,10 +31,15 @@ def origin_settings(scene: Description) -> dict[str, Any]:
             found.setdefault("wave_phase", {})[body] = "slow" if hull.cutoff else "actual"
         if hull.drift is not None:
             found.setdefault("drift", {})[body] = "newman"
-    out = {key: _one(by_body) for key, by_body in found.items()}
-    if scene.waves is not None:
-        out |= {**scene.waves.provenance.settings(), "waves_relative_bound": scene.waves.relative_bound}
-    told = {key: value for key, value in out.items() if value is not None}
+    told = {key: one for key, by_body in found.items() if (one := _one(by_body)) is not None}
+    return dict(plain_data(f"scene {scene.name!r}: provenance", told)) | sea_settings(scene)
+
+
+def sea_settings(scene: Description) -> dict[str, Any]:
+    """Of its sea alone; raises as `origin_settings`."""
+    if scene.waves is None:
+        return {}
+    told = {**scene.waves.provenance.settings(), "waves_relative_bound": scene.waves.relative_bound}
     return dict(plain_data(f"scene {scene.name!r}: provenance", told))
 
 

@@ -135,7 +135,12 @@ class Description:
         **changes
             Fields that differ, such as ``name=`` or ``gravity=``.
         """
-        return replace(self, **changes)
+        if not changes.keys() <= self.__dict__.keys():
+            return replace(self, **changes)  # which names what is no field
+        out = object.__new__(type(self))
+        out.__dict__.update(self.__dict__ | changes)
+        out.__post_init__()
+        return out
 
     def all_loads(self) -> list[Any]:
         """Loads of all kinds."""

@@ -50,6 +50,13 @@ class EnsembleAccuracy:
     checks: Mapping[int, Errors]
     cost: float
 
+    def __str__(self) -> str:
+        worst = max((self.excess(errors) for errors in self.checks.values()), default=0.0)
+        told = (
+            f"; largest error of {len(self.checks)} checked: {worst:.2g} of its limit" if self.checks else ""
+        )
+        return f"by accuracy: {self.method.integrator} {self.method.setting}{told}"
+
     @property
     def held(self) -> bool:
         """Whether every member that was checked is within the limits."""

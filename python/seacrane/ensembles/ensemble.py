@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import os
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from concurrent.futures import Executor
 from dataclasses import dataclass, field, replace
 from math import ceil
@@ -15,7 +15,7 @@ from seacrane import _core
 from seacrane.accuracy.choice import refuse_what_is_chosen
 from seacrane.ensembles.certainty import Certainty
 from seacrane.ensembles.chosen_accuracy import EnsembleAccuracy, checked, probed, tightest
-from seacrane.ensembles.dataset import Table, table_of
+from seacrane.ensembles.dataset import table_of
 from seacrane.ensembles.filling import any_outcome, fill, progress_bar, require_success
 from seacrane.ensembles.growing import BATCH, Growth, grow, growth_of
 from seacrane.ensembles.identity import identity_of
@@ -23,9 +23,12 @@ from seacrane.ensembles.job import Job, Pack
 from seacrane.ensembles.kept import Kept
 from seacrane.ensembles.members import Members, Over, members_of
 from seacrane.ensembles.other_sea import WORDS, Databases
-from seacrane.ensembles.store import Folder, Memory, Store, folder_of, study_in
+from seacrane.ensembles.store import Folder, Memory, Store
 from seacrane.ensembles.study import Keep, Source, Start, Study, checked_keep, outputs_for
+from seacrane.ensembles.study_folder import claimed, is_zarr, study_in
 from seacrane.ensembles.targets import targets_of, with_static_parts
+from seacrane.ensembles.variables import NOT_RUN, RESERVED
+from seacrane.ensembles.zarr_store import ZarrStore
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import number_of
 from seacrane.inputs.shown import shown
@@ -51,7 +54,7 @@ class Ensemble:
     ----------
     dataset : xarray.Dataset
         A variable for everything kept, over the parameters of a grid or over `member`, NaN where a member
-        failed or was not run; `failure` and `validity` are texts.
+        failed or was not run; `failure`, `validity` and `kept_apart` are texts.
     failures : mapping of int to str
         Why members failed, by their number in order of the parameters, the last of a grid fastest.
     certainty : tuple of Certainty
@@ -81,10 +84,12 @@ class Ensemble:
         data = study_in(path)
         axes = {name: tuple(values) for name, values in data["axes"].items()}
         members = Members(axes=axes, grid=bool(data["grid"]))
-        store = Folder(path)
-        if data.get("seeds_in_pack"):
-            members = _grown_so_far(axes, int(data["seeds_in_pack"]), store)
-        return _ensemble(members, table_of(members, store.outcomes()))
+        if not data.get("seeds_in_pack"):
+            return _ensemble(members, _store_at(path, lambda _: members).dataset(members))
+        growth = _growth_in(axes, int(data["seeds_in_pack"]))
+        store = _store_at(path, growth.holding)
+        members = growth.members(max(growth.batches_in(store.done()), 1))
+        return _ensemble(members, store.dataset(members))
 
 
 def ensemble(
@@ -136,7 +141,8 @@ def ensemble(
         Threads, processes, or ``client.get_executor()`` of dask.distributed; default: one member after
         another, here.
     store : path, optional
-        A folder for results as they come. A call with the same study goes on where the last one ended.
+        A folder for results as they come: NetCDF, or with the suffix .zarr a Zarr group, from which the
+        dataset is read as it is asked for. A call with the same study goes on where the last one ended.
     until : mapping of str to float, optional
         Half widths of 95 % intervals as shares of the dynamic part, such as ``{"hook_load.mpm": 0.02}``:
         "mpm", "mean" or "p90" of a maximum or minimum that is kept, "mean" of anything else. Seeds are added
@@ -154,8 +160,8 @@ def ensemble(
     lanes : int, optional
         Members that are stepped side by side, by their numbers, where they differ in their seas alone: 4, 8
         (AVX-512), or 1 for each by itself. Default: 4 where a word of the sea varies, the processor has AVX2
-        and `pack` is a multiple of it. What cannot be stepped so is run by itself; a result's stats say why
-        by "kept_apart".
+        and `pack` is a multiple of it. What cannot be stepped so is run by itself; `kept_apart` of the
+        dataset, and of a result's stats, says why.
     progress : bool
         Show a progress bar with the time left.
     **shorthand
@@ -220,12 +226,12 @@ def ensemble(
         growth = growth_of(members, beside if pack is None else size)
         with _growing_store(store, study, growth) as kept:
             grown = grow(growth, Job(study), kept, executor, targets, raises=raises, progress=progress)
-        table = table_of(grown.members, grown.outcomes)
-        done = replace(_ensemble(grown.members, table), certainty=grown.certainty)
+        dataset = table_of(grown.members, grown.outcomes).dataset()
+        done = replace(_ensemble(grown.members, dataset), certainty=grown.certainty)
     else:
         with _store(store, study, members, size) as kept:
             _run(study, members, size, kept, executor, raises=raises, progress=progress)
-            done = _ensemble(members, table_of(members, kept.outcomes()))
+            done = _ensemble(members, kept.dataset(members))
     if accuracy is None:
         return done
     ran = [int(place) for place in (done.dataset.failure.to_numpy().ravel() == "").nonzero()[0]]
@@ -238,13 +244,15 @@ def _checked_start(start: Any) -> Start:
     return start  # type: ignore[no-any-return]
 
 
-def _ensemble(members: Members, table: Table) -> Ensemble:
-    return Ensemble(members=members, dataset=table.dataset(), failures=dict(table.failures))
+def _ensemble(members: Members, dataset: xarray.Dataset) -> Ensemble:
+    told = dataset.failure.to_numpy().ravel()
+    failures = {index: str(text) for index, text in enumerate(told) if text and text != NOT_RUN}
+    return Ensemble(members=members, dataset=dataset, failures=failures)
 
 
 def _require_free_names(members: Members, keep: Keep) -> None:
     for name in members.axes:
-        if name in keep or name in ("member", "time", "failure", "validity"):
+        if name in keep or name in RESERVED:
             raise SceneError(f"over: the name {name!r} is taken by what is kept; rename one of them")
 
 
@@ -272,8 +280,8 @@ def _store(path: str | os.PathLike[str] | None, study: Study, members: Members, 
         yield Memory()
         return
     data = {"identity": identity_of(study, members, size), "grid": members.grid, "axes": dict(members.axes)}
-    with folder_of(path, data) as folder:
-        yield folder
+    with claimed(path, data) as folder:
+        yield _store_at(folder, lambda _: members)
 
 
 @contextlib.contextmanager
@@ -285,15 +293,19 @@ def _growing_store(path: str | os.PathLike[str] | None, study: Study, growth: Gr
     first = growth.members(1)
     identity = {**identity_of(study, first, growth.size), "seeds in a batch": BATCH}
     data = {"identity": identity, "grid": True, "axes": dict(first.axes), "seeds_in_pack": growth.size}
-    with folder_of(path, data) as folder:
-        yield folder
+    with claimed(path, data) as folder:
+        yield _store_at(folder, growth.holding)
 
 
-def _grown_so_far(axes: Mapping[str, tuple[Any, ...]], size: int, store: Store) -> Members:
-    """The members of a store with `until`, whole batches of seeds."""
+def _store_at(folder: Path, holding: Callable[[int], Members]) -> Store:
+    """That of a folder's name, for the members that there are once one of a number is there."""
+    return ZarrStore(folder, holding) if is_zarr(folder) else Folder(folder)
+
+
+def _growth_in(axes: Mapping[str, tuple[Any, ...]], size: int) -> Growth:
+    """Of a store with `until`, by the members of its first batch."""
     others = {name: values for name, values in axes.items() if name != "seed"}
-    growth = Growth(first=int(axes["seed"][0]), batches=1, others=others, size=size)
-    return growth.members(max(growth.batches_in(store.done()), 1))
+    return Growth(first=int(axes["seed"][0]), batches=1, others=others, size=size)
 
 
 def _run(

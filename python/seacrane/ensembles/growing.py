@@ -57,6 +57,10 @@ class Growth:
         seeds = tuple(range(self.first, self.first + batches * BATCH))
         return Members(axes={"seed": seeds, **self.others}, grid=True)
 
+    def holding(self, index: int) -> Members:
+        """Those of whole batches up to that of a member."""
+        return self.members(index // (BATCH * self.cells) + 1)
+
     def batches_in(self, packs: Iterable[int]) -> int:
         """How many batches packs of these numbers belong to."""
         return max((pack // (self._chunks * self.cells) + 1 for pack in packs), default=0)

@@ -15,7 +15,7 @@ from seacrane.errors import SeacraneError
 from seacrane.run.advance import drive
 from seacrane.run.controller_calls import Calls
 from seacrane.run.interrupts import Interrupts
-from seacrane.run.lanes import advance_side_by_side
+from seacrane.run.lanes import advance_side_by_side, note_apart
 from seacrane.run.run import Run
 from seacrane.version import __version__
 
@@ -71,25 +71,28 @@ class Job:
     def _together(self, members: Pack) -> list[Outcome]:
         """Prepared, then stepped, then ended: what each of them needs is then in the processor's caches."""
         runs = self._begun(members)
-        if self.study.lanes > 1 and not self._advanced([run for run in runs if isinstance(run, Run)]):
-            runs = self._begun(members)
+        if self.study.lanes > 1:
+            failed = self._beside([run for run in runs if isinstance(run, Run)])
+            if failed:
+                runs = self._begun(members)
+                note_apart([run for run in runs if isinstance(run, Run)], failed)
         runs = [run if isinstance(run, str) else _tried(partial(_stepped, run)) for run in runs]
         return [self._outcome(index, run) for (index, _), run in zip(members, runs, strict=True)]
 
     def _begun(self, members: Pack) -> list[Run | str]:
         return [_tried(partial(self._prepared.run, values)) for _, values in members]
 
-    def _advanced(self, runs: Sequence[Run]) -> bool:
-        """Advance runs side by side; False where that failed, and left them nowhere."""
+    def _beside(self, runs: Sequence[Run]) -> str:
+        """Advance runs side by side; why that failed and left them nowhere, or nothing."""
         with Interrupts() as interrupts:
             try:
                 reached = advance_side_by_side(runs, self.study.lanes, lambda _: interrupts.take())
-            except (MemoryError, SeacraneError, ValueError):
-                return False
+            except (MemoryError, SeacraneError, ValueError) as error:
+                return f"stepping it beside others failed: {type(error).__name__}: {error}"
         interrupts.take()
         if not reached:
             raise KeyboardInterrupt
-        return True
+        return ""
 
     def _outcome(self, index: int, run: Run | str) -> Outcome:
         """Of a run at its end, or of why there is none."""
@@ -98,9 +101,8 @@ class Job:
 
     def _ended(self, index: int, run: Run) -> Outcome:
         result = run.result()
-        return Outcome(
-            index=index, kept=self.study.kept_of(result), validity=str(result.stats.get("validity", ""))
-        )
+        told = {name: str(result.stats.get(name, "")) for name in ("validity", "kept_apart")}
+        return Outcome(index=index, kept=self.study.kept_of(result), **told)
 
 
 def _stepped(run: Run) -> Run:

@@ -21,9 +21,12 @@ class Outcome:
         Why it failed; empty where it did not.
     validity : str
         What was out of range in its run, as of a result's stats.
+    kept_apart : str
+        Why it was stepped by itself where others were to be stepped beside it; empty where it was not.
     """
 
     index: int
     kept: Mapping[str, Labelled] = field(default_factory=dict)
     failure: str = ""
     validity: str = ""
+    kept_apart: str = ""

@@ -11,6 +11,7 @@ import numpy as np
 
 from seacrane.ensembles.labelled import Labelled
 from seacrane.ensembles.outcome import Outcome
+from seacrane.ensembles.variables import TEXTS
 from seacrane.errors import FileFormatError
 from seacrane.files.atomic import atomic_write
 from seacrane.files.netcdf_limits import NETCDF_ERRORS
@@ -33,7 +34,7 @@ def write_pack(path: Path, outcomes: list[Outcome]) -> None:
             with netCDF4.Dataset(draft, "w") as file:
                 file.createDimension("member", len(outcomes))
                 file.createVariable("member", "i8", ("member",))[:] = [one.index for one in outcomes]
-                for name in ("failure", "validity"):
+                for name in TEXTS:
                     texts = np.array([getattr(one, name) for one in outcomes], dtype=object)
                     file.createVariable(name, str, ("member",))[:] = texts
                 for number, alike in enumerate(_alike(outcomes)):
@@ -52,10 +53,10 @@ def read_pack(path: Path) -> list[Outcome]:
             kept: dict[int, dict[str, Labelled]] = {}
             for group in file.groups.values():
                 kept.update(_read_group(group))
-            rows = zip(*(file[name][:].tolist() for name in ("member", "failure", "validity")), strict=True)
+            rows = zip(*(file[name][:].tolist() for name in ("member", *TEXTS)), strict=True)
             return [
-                Outcome(index=index, kept=kept.get(index, {}), failure=failure, validity=validity)
-                for index, failure, validity in rows
+                Outcome(index=index, kept=kept.get(index, {}), **dict(zip(TEXTS, texts, strict=True)))
+                for index, *texts in rows
             ]
     except NETCDF_ERRORS as error:
         raise FileFormatError(

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import difflib
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from typing import Any
 
 from seacrane.description.scene import ELEMENTS, KINDS
@@ -14,9 +14,11 @@ from seacrane.scene.scene import Scene
 SETTINGS = ("gravity", "baumgarte", "length_scale")
 
 
-def require_paths(scene: Scene, names: list[str], words: tuple[str, ...]) -> None:
-    """Raise SceneError for a name that is neither a path into the scene nor one of the sea's words."""
-    known = [*words, *SETTINGS, *_paths(scene)]
+def require_paths(
+    scene: Scene, names: list[str], words: tuple[str, ...], others: Collection[str] = ()
+) -> None:
+    """Raise SceneError for a name that is no path into the scene, no word of its sea and none of others."""
+    known = [*words, *SETTINGS, *_paths(scene), *others]
     for name in names:
         if name not in known:
             near = difflib.get_close_matches(name, known, n=1, cutoff=0.3)

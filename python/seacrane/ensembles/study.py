@@ -12,6 +12,7 @@ from seacrane.ensembles.labelled import Labelled
 from seacrane.ensembles.members import Value
 from seacrane.ensembles.other_sea import WORDS, Databases, require_same_sea, with_sea
 from seacrane.ensembles.paths import require_paths, with_values
+from seacrane.ensembles.variables import RESERVED
 from seacrane.errors import SceneError
 from seacrane.inputs.shown import shown
 from seacrane.result import Result
@@ -116,6 +117,3 @@ def outputs_for(keep: Keep, outputs: Outputs) -> Outputs:
         return outputs
     channels = dict.fromkeys(what.channel for what in keep.values() if isinstance(what, Kept))
     return Outputs(dt=outputs.dt, channels=tuple(channels))
-
-
-RESERVED = ("member", "time", "failure", "validity")

@@ -105,6 +105,9 @@ def checked_stats(stats: Mapping[str, Any]) -> dict[str, Stat]:
     for name, value in stats.items():
         if value is None:
             continue
+        if type(value) is str or type(value) is int:
+            plain[name] = value
+            continue
         if name == "settings" and isinstance(value, Mapping):
             value = json.dumps(dict(value), sort_keys=True, allow_nan=False)
         if isinstance(value, np.generic):

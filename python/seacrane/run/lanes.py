@@ -64,11 +64,22 @@ def advance_side_by_side(runs: Sequence[Run], lanes: int, look: Callable[[float]
     """
     module = module_of(lanes)
     why = _kept_apart(runs, module)
-    for run in runs:
-        run.lanes = {"lanes": 1, "kept_apart": why} if why else {"lanes": lanes}
     if why or module is None:
+        note_apart(runs, why)
         return True
-    return _core.advance_side_by_side([run.core for run in runs], module, runs[0].t_end, look)
+    for run in runs:
+        run.lanes = {"lanes": lanes}
+    reached = _core.advance_side_by_side([run.core for run in runs], module, runs[0].t_end, look)
+    for run in runs:
+        if reached and run.core.time < run.t_end:
+            run.lanes["kept_apart"] = f"from t = {run.core.time:.6g} s on: its step beside the others failed"
+    return reached
+
+
+def note_apart(runs: Sequence[Run], why: str) -> None:
+    """In the stats of runs: that they are stepped by themselves."""
+    for run in runs:
+        run.lanes = {"lanes": 1, "kept_apart": why}
 
 
 def _kept_apart(runs: Sequence[Run], module: ModuleType | None) -> str:

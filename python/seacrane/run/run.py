@@ -46,7 +46,7 @@ from seacrane.run.modes import Modes
 from seacrane.run.output_times import output_times
 from seacrane.run.outputs import Outputs
 from seacrane.run.shorthand import Shorthand, settled
-from seacrane.run.stats import lasting_stats, settings_of, stats_of
+from seacrane.run.stats import lasting_stats, settings_in_sea, settings_of, stats_of
 from seacrane.scene.scene import Scene
 from seacrane.validity.plausible import warn_of_description
 from seacrane.validity.range import Finding, as_text, findings
@@ -161,7 +161,7 @@ class Run:
         out._given = given
         out.model = compiled_in_sea(out.scene, self.model)
         out.start = out._started()
-        out.settings = settings_of(out.scene, out.t_end, out.method, out.outputs)
+        out.settings = settings_in_sea(self.settings, out.scene)
         out.start_modes = self.start_modes or self._own_modes
         out._prepare()
         return out

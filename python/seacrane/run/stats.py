@@ -10,8 +10,9 @@ from seacrane import _core
 from seacrane.description.file_origin import roles_to_data
 from seacrane.description.limit_states import limit_states_to_data
 from seacrane.description.line_weights import line_weights
-from seacrane.description.origin import origin_settings
+from seacrane.description.origin import origin_settings, sea_settings
 from seacrane.description.outline import bounds_of, outline_of
+from seacrane.description.provenance import SEA_SETTINGS
 from seacrane.description.waves import Waves
 from seacrane.files.plain_data import plain_notes
 from seacrane.run.channel_names import hanging_bodies, hanging_weights
@@ -40,6 +41,12 @@ def settings_of(scene: Scene, t_end: float, method: Method, outputs: Outputs) ->
         **origin_settings(scene),
         **({"notes": notes} if notes else {}),
     }
+
+
+def settings_in_sea(settings: Mapping[str, Any], scene: Scene) -> dict[str, Any]:
+    """The settings of a run in another sea, on the same vessels, from those in the first one."""
+    others = {word: value for word, value in settings.items() if word not in SEA_SETTINGS}
+    return others | sea_settings(scene)
 
 
 def lasting_stats(scene: Scene, model: _core.Model, formulation: str, method: Method) -> dict[str, Any]:

@@ -29,6 +29,7 @@ TEXTS = {
     "over": "Values by parameter, of which all combinations are run: lists, or first, last and count.",
     "design": "So many members spread evenly over the ranges of all parameters, in place of over.",
     "keep": "What each run leaves.",
+    "accuracy": "Largest errors by quantity; integrator and tolerance are chosen for all members by them.",
     "until": "Half widths of 95 % intervals as shares of the dynamic part; seeds are added until then.",
     "statistics": "How results are told.",
 }

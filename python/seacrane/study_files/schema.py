@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 from typing import Any
 
-from seacrane.lift.document import VERSION
+from seacrane.lift.document import MOST_PARTS, VERSION
 from seacrane.lift.schema import DRAFT, object_of, schema
 from seacrane.study_files.keys import DESIGN, FROM_LIFTS, KEEP, RANGE, STATISTICS, STUDY, TEXTS
 
@@ -32,6 +32,7 @@ def study_schema() -> Json:
         "over": _named("values"),
         "design": design,
         "keep": {"type": "array", "minItems": 1, "items": object_of(KEEP)},
+        "accuracy": _named("error"),
         "until": _named("share"),
         "statistics": object_of(STATISTICS),
     }
@@ -51,6 +52,7 @@ def study_schema() -> Json:
             **{name: lift["definitions"][name] for name in FROM_LIFTS},
             "values": {"anyOf": [{"type": "array", "minItems": 1, "items": VALUE}, object_of(RANGE)]},
             "limits": LIMITS,
+            "error": {"type": "number", "exclusiveMinimum": 0},
             "share": SHARE,
         },
     }
@@ -60,7 +62,7 @@ def _named(kind: str) -> Json:
     """Values by name, whose parts may be tables in tables."""
     one = {"$ref": f"#/definitions/{kind}"}
     inside: Json = {"type": "object", "minProperties": 1, "additionalProperties": one}
-    for _ in range(2):
+    for _ in range(MOST_PARTS - 2):
         inside = {
             "type": "object", "minProperties": 1, "additionalProperties": {"anyOf": [one, inside]},
         }  # fmt: skip

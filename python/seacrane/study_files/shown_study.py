@@ -18,7 +18,7 @@ from seacrane.ensembles.certainty import Certainty
 from seacrane.ensembles.ensemble import Ensemble
 from seacrane.ensembles.kept import Kept
 from seacrane.ensembles.members import Value
-from seacrane.ensembles.store import study_in
+from seacrane.ensembles.study_folder import study_in
 from seacrane.ensembles.targets import EXTREMES, targets_of
 from seacrane.errors import SceneError
 from seacrane.plotting.text import text_table

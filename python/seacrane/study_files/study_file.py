@@ -10,6 +10,8 @@ from typing import Any, NoReturn
 
 import numpy as np
 
+from seacrane.accuracy.choice import refuse_what_is_chosen, without_what_is_chosen
+from seacrane.accuracy.quantities import limits_of, quantities_of
 from seacrane.ensembles.growing import growth_of
 from seacrane.ensembles.kept import Kept
 from seacrane.ensembles.latin_hypercube import LatinHypercube
@@ -26,6 +28,7 @@ from seacrane.lift.lift import LIFTS, Lift, lift_of
 from seacrane.lift.lines import Place
 from seacrane.run.method import Method
 from seacrane.run.outputs import Outputs
+from seacrane.scene.scene import Scene
 from seacrane.study_files.keys import DESIGN, FROM_LIFTS, KEEP, RANGE, STATISTICS, STUDY, TEXTS
 
 
@@ -40,12 +43,15 @@ class StudyFile:
     until : mapping of str to float, or None
     exposure : float or None
         Of largest values, s; None: the length of a run.
+    accuracy : mapping of str to float, or None
+        Largest error by quantity.
     """
 
     members: Members
     keep: Mapping[str, Kept]
     until: Mapping[str, float] | None
     exposure: float | None
+    accuracy: Mapping[str, Any] | None
     _over: Any
     _document: Document
     _folder: Path
@@ -69,7 +75,7 @@ class StudyFile:
         members, keep = reader.members(over), reader.keep()
         return cls(
             members=members, keep=keep, until=reader.until(keep, members), exposure=reader.exposure(),
-            _over=over, _document=document, _folder=folder,
+            accuracy=reader.accuracy(), _over=over, _document=document, _folder=folder,
         )  # fmt: skip
 
     @property
@@ -95,9 +101,27 @@ class StudyFile:
         own = lift_of(document, self._folder)
         return (
             own.t_end if "run" in tables else lift.t_end,
-            own.method if "method" in tables else lift.method,
+            self._method(own if "method" in tables else lift, own),
             own.outputs if "outputs" in tables else lift.outputs,
         )
+
+    def _method(self, chosen: Lift, own: Lift) -> Method:
+        """With [accuracy] it says nothing of what that chooses; what the lift says of it is left out."""
+        if self.accuracy is None:
+            return chosen.method
+        try:
+            refuse_what_is_chosen(own.method, {}, ())
+        except SceneError as error:
+            self._document.fail(("method",), str(error))
+        return without_what_is_chosen(chosen.method)
+
+    def require_accuracy(self, scene: Scene) -> None:
+        """Raise FileFormatError for a quantity that the scene does not offer, or a limit that is none."""
+        for name, limit in (self.accuracy or {}).items():
+            try:
+                limits_of(quantities_of(scene, scene.compile(), [name]), {name: limit})
+            except SceneError as error:
+                self._document.fail(("accuracy", name), str(error))
 
     def fail_at(self, name: str, text: str) -> NoReturn:
         """Raise a FileFormatError about what varies."""
@@ -215,6 +239,15 @@ class _Reader:
         except SceneError as error:
             self.document.fail(("until",), str(error))
         return found
+
+    def accuracy(self) -> dict[str, Any] | None:
+        """Largest error by quantity, as it is written."""
+        if "accuracy" not in self.document.data:
+            return None
+        given = self._table("accuracy")
+        if not given:
+            self.document.fail(("accuracy",), "[accuracy] is empty; name a quantity, or leave it out")
+        return dict(given)
 
     def exposure(self) -> float | None:
         """s."""

@@ -7,12 +7,15 @@ from concurrent.futures import Executor
 from pathlib import Path
 
 from seacrane.ensembles.ensemble import Ensemble, ensemble
-from seacrane.ensembles.other_sea import WORDS
+from seacrane.ensembles.other_sea import WORDS, Databases, require_same_sea
 from seacrane.ensembles.paths import require_paths
+from seacrane.ensembles.study import Source
 from seacrane.errors import FileFormatError, SceneError
 from seacrane.files.atomic import atomic_write
 from seacrane.files.whole_file import read_whole
 from seacrane.lift.document import LARGEST_FILE
+from seacrane.lift.lift import Lift
+from seacrane.study_files.lift_keys import KeyPlace, LiftScenes, keys_in, with_keys
 from seacrane.study_files.study_file import StudyFile
 
 FILE, MEMBERS = "study.toml", "members"
@@ -53,20 +56,41 @@ def run_study(
             f"{Path(path).name}: its lift has stages, and a study runs one run: leave them out"
         )
     t_end, method, outputs = study.settings(lift)
-    scene, databases = lift.scene_and_databases()
-    for name in study.members.axes:
-        try:
-            require_paths(scene, [name], WORDS)
-        except SceneError as error:
-            study.fail_at(name, str(error))
+    source, databases = _source(study, lift)
     text = read_whole(Path(path), LARGEST_FILE, "no study file is")
     _claim(target, text)
     done = ensemble(
-        scene, over=study.over, keep=study.keep, until=study.until, t_end=t_end, method=method,
-        outputs=outputs, database=databases, executor=executor, store=target / MEMBERS, progress=progress,
+        source, over=study.over, keep=study.keep, until=study.until, accuracy=study.accuracy, t_end=t_end,
+        method=method, outputs=outputs, database=databases, executor=executor, store=target / MEMBERS,
+        progress=progress,
     )  # fmt: skip
     _write(target / FILE, text)
     return done
+
+
+def _source(study: StudyFile, lift: Lift) -> tuple[Source, Databases]:
+    """The scene of the lift and its databases, or what makes scenes where keys of the lift vary."""
+    scene, databases = lift.scene_and_databases()
+    study.require_accuracy(scene)
+    tables, axes = lift.tables, study.members.axes
+    keys = keys_in(tables)
+    for name, values in axes.items():
+        try:
+            require_paths(scene, [name], WORDS, keys)
+            for value in (values[0], values[-1]) if name in keys else ():
+                Lift(with_keys(tables, keys, {name: value}))
+        except (FileFormatError, SceneError) as error:
+            study.fail_at(name, str(error))
+    varied: dict[str, KeyPlace] = {name: keys[name] for name in axes if name in keys}
+    if not varied:
+        return scene, databases
+    words = [name for name in axes if name in WORDS]
+    if words:
+        try:
+            require_same_sea(scene, databases, words)
+        except SceneError as error:
+            study.fail_at(words[0], str(error))
+    return LiftScenes(tables, varied), None
 
 
 def _claim(folder: Path, text: bytes) -> None:

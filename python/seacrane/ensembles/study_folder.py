@@ -1,0 +1,110 @@
+"""The folder of one study: what it says that it is, and one writer at a time."""
+
+from __future__ import annotations
+
+import contextlib
+import json
+import os
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from typing import Any
+
+from seacrane.errors import FileFormatError, SceneError
+from seacrane.files.atomic import atomic_write
+from seacrane.files.sole_writer import claim, opened
+from seacrane.files.whole_file import read_whole
+
+STUDY, LOCK = "study.json", "writer.lock"
+ZARR = ".zarr"
+IN_ZARR = "seacrane-study"  # a group of its own: a root holds arrays and groups alone
+FORMAT = "seacrane-ensemble"
+LARGEST_STUDY = 256 * 2**20  # bytes; a million members of a few parameters
+
+
+def is_zarr(folder: Path) -> bool:
+    """Whether a store of this name is a Zarr group."""
+    return folder.suffix == ZARR
+
+
+def records_of(folder: Path) -> Path:
+    """Where a store holds what it is, and what of it is done."""
+    return folder / IN_ZARR if is_zarr(folder) else folder
+
+
+@contextlib.contextmanager
+def claimed(path: str | os.PathLike[str], study: Mapping[str, Any]) -> Iterator[Path]:
+    """The folder of a study, made where it is not there, for one writer at a time.
+
+    Parameters
+    ----------
+    path : path
+        Its parent must exist.
+    study : mapping
+        Plain data: "identity", and what is needed to read the folder later.
+
+    Raises
+    ------
+    SceneError
+        If the folder holds another study, or something else.
+    FileExistsError
+        If another process writes it.
+    """
+    folder = Path(path)
+    records = records_of(folder)
+    if not folder.parent.is_dir():
+        raise SceneError(f"store {str(folder)!r}: there is no folder {folder.parent}; create it first")
+    if folder.exists() and not folder.is_dir():
+        raise SceneError(f"store {str(folder)!r} is a file; give the name of a folder")
+    if not (records / STUDY).exists() and _holds_files(folder):
+        raise SceneError(f"store {str(folder)!r} holds something else than an ensemble; give another folder")
+    records.mkdir(parents=True, exist_ok=True)
+    lock = opened(records / LOCK)
+    try:
+        if not claim(lock):
+            raise FileExistsError(
+                f"store {str(folder)!r}: another process is writing it; wait, or give another"
+            )
+        _require_same(folder, study)
+        yield folder
+    finally:
+        os.close(lock)
+
+
+def study_in(folder: Path) -> dict[str, Any]:
+    """What a folder says that it is. Raises FileFormatError."""
+    path = records_of(folder) / STUDY
+    if not path.is_file():
+        raise FileFormatError(f"{folder}: is no ensemble, it has no {STUDY}")
+    try:
+        data = json.loads(read_whole(path, LARGEST_STUDY, "it is no study of ours"))
+    except ValueError as error:
+        raise FileFormatError(f"{path}: is no JSON: {error}") from error
+    if not isinstance(data, dict) or data.get("format") != FORMAT:
+        raise FileFormatError(f'{path}: is no study, it has no "format": "{FORMAT}"')
+    return data
+
+
+def _holds_files(folder: Path) -> bool:
+    return any(one.is_file() and one.name != LOCK for one in folder.rglob("*"))
+
+
+def _require_same(folder: Path, study: Mapping[str, Any]) -> None:
+    """Write what the folder is, or refuse a folder of another study."""
+    whole = {"format": FORMAT, **study}
+    path = records_of(folder) / STUDY
+    if not path.exists():
+        with atomic_write(path) as draft:
+            draft.write_text(json.dumps(whole), encoding="utf-8")
+        return
+    there = study_in(folder).get("identity", {})
+    here = study["identity"]
+    other = [key for key in {**here, **there} if there.get(key) != here.get(key)]
+    if other:
+        raise SceneError(
+            f"store {str(folder)!r} is of another study: {', '.join(other)} differ; give another folder, or "
+            f"remove this one ({_told(there, here, other[0])})"
+        )
+
+
+def _told(there: Mapping[str, Any], here: Mapping[str, Any], key: str) -> str:
+    return f"{key}: {str(there.get(key))[:80]} there, {str(here.get(key))[:80]} here"

@@ -1,0 +1,277 @@
+"""A Zarr group that is filled member by member: every variable has a chunk for each of them."""
+
+from __future__ import annotations
+
+import contextlib
+import json
+import warnings
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from importlib import import_module
+from itertools import pairwise
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from seacrane.ensembles.dataset import failure_of, table_of
+from seacrane.ensembles.labelled import Labelled
+from seacrane.ensembles.members import Members
+from seacrane.ensembles.outcome import Outcome
+from seacrane.ensembles.study_folder import IN_ZARR, records_of
+from seacrane.ensembles.variables import NOT_RUN, TEXTS, axes_of, own_dims
+from seacrane.errors import FileFormatError, SceneError
+from seacrane.files.atomic import atomic_write, space_left
+from seacrane.files.whole_file import read_whole
+
+if TYPE_CHECKING:
+    import xarray
+
+LARGEST_MARK = 2**24  # bytes
+DAMAGED = (KeyError, OSError, RuntimeError, TypeError, ValueError)  # what reading a damaged group raises
+
+Block = tuple[tuple[int | slice, ...], slice]
+
+
+class ZarrStore:
+    """A Zarr group with a variable for everything kept; one process writes.
+
+    A pack is there once its file in the group of the study is, which is written after its members; the
+    attributes of that group are, after the arrays that they tell of. What a kill left between is made again.
+
+    Parameters
+    ----------
+    path : Path
+    holding : callable
+        The members that there are room for, once one of this number is to be kept.
+
+    Raises
+    ------
+    SceneError
+        Where Zarr is not installed.
+    """
+
+    def __init__(self, path: Path, holding: Callable[[int], Members]) -> None:
+        try:
+            self._zarr: Any = import_module("zarr")
+        except ImportError as error:
+            raise SceneError(
+                f"store {str(path)!r} takes Zarr: pip install 'seacrane[zarr]'; or give a name without .zarr"
+            ) from error
+        self.path, self._holding = path, holding
+        self._room = 0
+        self._first: dict[str, Labelled] = {}
+        self._arrays: dict[str, Any] = {}
+
+    def done(self) -> set[int]:
+        marks = records_of(self.path).glob("pack_*.json")
+        return {int(path.stem.removeprefix("pack_")) for path in marks}
+
+    def keep(self, pack: int, outcomes: list[Outcome]) -> None:
+        indices = [one.index for one in outcomes]
+        try:
+            with _without_remarks():
+                self._write(indices, outcomes)
+        except OSError as error:
+            raise OSError(f"could not write {self.path}: {error}{space_left(self.path)}") from error
+        with atomic_write(self._mark(pack)) as draft:
+            draft.write_text(json.dumps(indices), encoding="utf-8")
+
+    def of(self, pack: int) -> list[Outcome]:
+        try:
+            indices = json.loads(read_whole(self._mark(pack), LARGEST_MARK, "no pack is"))
+            return self._read(indices)
+        except DAMAGED as error:
+            raise FileFormatError(f"{self.path}: pack {pack} is damaged: {str(error)[:200]}") from error
+
+    def outcomes(self) -> Iterator[Outcome]:
+        for pack in sorted(self.done()):
+            yield from self.of(pack)
+
+    def dataset(self, members: Members) -> xarray.Dataset:
+        """What is there, read as it is asked for."""
+        if not self._room_there():
+            return table_of(members, ()).dataset()
+        import xarray
+
+        with _without_remarks():
+            found: xarray.Dataset = xarray.open_zarr(self.path, chunks=None, decode_cf=False)
+        dim, length = next(iter(members.shape.items()))
+        found = found.set_coords([name for name in members.axes if name in found])
+        return found.isel({dim: slice(length)})
+
+    def _mark(self, pack: int) -> Path:
+        return records_of(self.path) / f"pack_{pack:07d}.json"
+
+    def _write(self, indices: Sequence[int], outcomes: Sequence[Outcome]) -> None:
+        self._make_room(max(indices))
+        self._make_arrays(outcomes)
+        failures = [failure_of(one, self._first) for one in outcomes]
+        blocks = list(_blocks(indices, self._shape))
+        for name, first in self._first.items():
+            values = np.full((len(outcomes), *first.values.shape), np.nan)
+            for place, one in enumerate(outcomes):
+                if not failures[place]:
+                    values[place] = one.kept[name].values
+            _put(self._array(name), values, blocks)
+        for name in TEXTS:
+            told = failures if name == "failure" else [getattr(one, name) for one in outcomes]
+            _put(self._array(name), np.array(told, dtype=np.dtypes.StringDType()), blocks)
+
+    def _read(self, indices: Sequence[int]) -> list[Outcome]:
+        self._room = self._room or self._room_there()
+        self._first = self._first or _first_in(self._opened())
+        blocks = list(_blocks(indices, self._shape))
+        texts = {name: _taken(self._array(name), blocks) for name in TEXTS}
+        arrays = {name: _taken(self._array(name), blocks) for name in self._first}
+        return [
+            Outcome(
+                index=index,
+                kept={} if texts["failure"][place] else self._kept(arrays, place),
+                **{name: str(told[place]) for name, told in texts.items()},
+            )
+            for place, index in enumerate(indices)
+        ]
+
+    def _kept(self, arrays: Mapping[str, Any], place: int) -> dict[str, Labelled]:
+        return {
+            name: Labelled(
+                values=np.asarray(arrays[name][place], dtype=float),
+                dims=first.dims,
+                coords=first.coords,
+                attributes=first.attributes,
+            )
+            for name, first in self._first.items()
+        }
+
+    def _opened(self) -> Any:
+        return self._zarr.open_group(self.path, mode="r+", use_consolidated=False)
+
+    def _array(self, name: str) -> Any:
+        if name not in self._arrays:
+            self._arrays[name] = self._opened()[name]
+        return self._arrays[name]
+
+    @property
+    def _shape(self) -> tuple[int, ...]:
+        return tuple(self._holding(self._room - 1).shape.values())
+
+    def _room_there(self) -> int:
+        """Members that every variable has room for."""
+        if not (records_of(self.path) / "zarr.json").is_file():
+            return 0
+        return int(self._opened()[IN_ZARR].attrs.get("members", 0))
+
+    def _make_room(self, index: int) -> None:
+        """For members up to this one at least; what has room for some is made longer."""
+        self._room = self._room or self._room_there()
+        if index < self._room:
+            return
+        members = self._holding(index)
+        _require_plain_names(members)
+        over = members.shape
+        group = self._zarr.open_group(self.path, mode="a", use_consolidated=False)
+        study = group.require_group(IN_ZARR)
+        if not self._room:
+            for name, text in TEXTS.items():
+                group.create_array(
+                    name, shape=tuple(over.values()), chunks=(1,) * len(over), dtype=str,
+                    fill_value=NOT_RUN if name == "failure" else "", dimension_names=tuple(over),
+                    attributes={"long_name": text}, overwrite=True,
+                )  # fmt: skip
+        for _, array in group.arrays():
+            if array.metadata.dimension_names[: len(over)] == tuple(over):
+                array.resize((*over.values(), *array.shape[len(over) :]))
+        for name, (dim, values) in axes_of(members).items():
+            _along(group, name, dim, values)
+        self._zarr.consolidate_metadata(group.store)
+        self._room = study.attrs["members"] = len(members)
+        self._arrays.clear()
+
+    def _make_arrays(self, outcomes: Sequence[Outcome]) -> None:
+        """What is kept, as the first member has it that did not fail."""
+        if self._first:
+            return
+        group = self._opened()
+        if "dims" in group[IN_ZARR].attrs:
+            self._first = _first_in(group)
+            return
+        kept = next((one.kept for one in outcomes if not one.failure), None)
+        if kept is None:
+            return
+        over = self._holding(self._room - 1).shape
+        for name, own in own_dims(kept).items():
+            shape = kept[name].values.shape
+            chunks = (*(1 for _ in over), *(max(length, 1) for length in shape))
+            group.create_array(
+                name, shape=(*over.values(), *shape), chunks=chunks, dtype="f8",
+                fill_value=np.nan, dimension_names=(*over, *own.values()),
+                attributes=dict(kept[name].attributes), overwrite=True,
+            )  # fmt: skip
+            for dim, values in kept[name].coords.items():
+                _along(group, own[dim], own[dim], values)
+        self._zarr.consolidate_metadata(group.store)
+        group[IN_ZARR].attrs["dims"] = {name: list(one.dims) for name, one in kept.items()}
+        self._first = dict(kept)
+
+
+@contextlib.contextmanager
+def _without_remarks() -> Iterator[None]:
+    """Zarr's, that texts and consolidated metadata are younger than its third format."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        yield
+
+
+def _require_plain_names(members: Members) -> None:
+    for name in members.axes:
+        if "/" in name:
+            raise SceneError(
+                f"over: {name!r} names no variable of Zarr; rename the element, or give a store without .zarr"
+            )
+
+
+def _along(group: Any, name: str, dim: str, values: Any) -> None:
+    """Values along a dimension."""
+    texts = values.dtype.kind in "UO"
+    array = group.create_array(
+        name, shape=values.shape, chunks=(max(values.size, 1),), dtype=str if texts else values.dtype,
+        dimension_names=(dim,), overwrite=True,
+    )  # fmt: skip
+    array[:] = values.astype(np.dtypes.StringDType()) if texts else values
+
+
+def _blocks(indices: Sequence[int], shape: tuple[int, ...]) -> Iterator[Block]:
+    """Members next to each other along the last axis, and their places among the indices."""
+    at = np.stack(np.unravel_index(indices, shape), axis=1)
+    apart = np.any(np.diff(at, axis=0) != [*[0] * (len(shape) - 1), 1], axis=1)
+    ends = [0, *(np.flatnonzero(apart) + 1).tolist(), len(indices)]
+    for begin, end in pairwise(ends):
+        first = at[begin].tolist()
+        yield (*first[:-1], slice(first[-1], first[-1] + end - begin)), slice(begin, end)
+
+
+def _put(array: Any, values: Any, blocks: Sequence[Block]) -> None:
+    for where, places in blocks:
+        array[where] = values[places]
+
+
+def _taken(array: Any, blocks: Sequence[Block]) -> Any:
+    return np.concatenate([array[where] for where, _ in blocks])
+
+
+def _first_in(group: Any) -> dict[str, Labelled]:
+    """How arrays lie, with values of no meaning."""
+    found: dict[str, Labelled] = {}
+    for name, dims in group[IN_ZARR].attrs.get("dims", {}).items():
+        array = group[name]
+        shape = array.shape[array.ndim - len(dims) :]
+        names = array.metadata.dimension_names[array.ndim - len(dims) :]
+        coords = {
+            dim: np.array(group[own][:].tolist())
+            for dim, own in zip(dims, names, strict=True)
+            if own in group
+        }
+        found[name] = Labelled(
+            values=np.zeros(shape), dims=tuple(dims), coords=coords, attributes=array.attrs.asdict()
+        )
+    return found

@@ -1,0 +1,190 @@
+"""Studies whose lift varies in its keys, and studies with an accuracy."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from seacrane import Ensemble, FileFormatError, Lift, SceneError, simulate
+from seacrane.cli.command_line import main
+from seacrane.lift.lift import LIFTS
+from seacrane.study_files.lift_keys import KeyPlace, keys_in, with_keys
+from seacrane.study_files.study_file import StudyFile
+from seacrane.study_files.study_run import MEMBERS, run_study
+
+BALANCED = """format = "seacrane lift"
+version = 1
+
+[vessel]
+database = "hull_115"
+memory = "none"
+
+[sea]
+seed = 7
+hs_m = 1.5
+tp_s = 8
+count = 20
+
+[crane]
+foot_m = [33, 10, 10]
+payload = { mass_kg = 20e3, size_m = [4, 4, 3], link_length_m = 8 }
+held = true
+
+[balance]
+body = "vessel"
+
+[method]
+integrator = "dopri5"
+tolerance = 1e-3
+"""
+STUDY = """format = "seacrane study"
+version = 1
+lift = "held.toml"
+
+[over]
+crane.payload.mass_kg = [20e3, 100e3]
+seed = [7, 8]
+
+[[keep]]
+name = "heave"
+channel = "position"
+at = { body = "vessel", axis = "z" }
+what = "mean"
+
+[run]
+t_end_s = 2
+"""
+SWING = """format = "seacrane study"
+version = 1
+
+[lift.body]
+name = "bob"
+mass_kg = 2
+inertia_kg_m2 = [0.1, 0.1, 0.1]
+position_m = [1, 0, 0]
+
+[lift.joint]
+kind = "revolute"
+name = "pin"
+first = "ground"
+second = "bob"
+point_m = [0, 0, 0]
+axis = [0, 1, 0]
+
+[lift.method]
+integrator = "rk4"
+step_s = 0.1
+
+[over]
+body.position_m.1 = [1, 1.5]
+
+[accuracy]
+position = 1e-3
+
+[[keep]]
+name = "lowest"
+channel = "position"
+at = { body = "bob", axis = "z" }
+what = "minimum"
+
+[run]
+t_end_s = 2
+"""
+
+
+@pytest.fixture
+def study(tmp_path: Path) -> Path:
+    (tmp_path / "held.toml").write_text(BALANCED)
+    (tmp_path / "masses.toml").write_text(STUDY)
+    return tmp_path / "masses.toml"
+
+
+def test_what_is_derived_from_a_key_follows_it(study: Path) -> None:
+    found = run_study(study, study.parent / "out")
+    assert not found.failures
+    assert dict(found.dataset.sizes) == {"crane.payload.mass_kg": 2, "seed": 2}
+    for mass in (20e3, 100e3):
+        tables = Lift.load(study.parent / "held.toml").tables
+        tables["crane"]["payload"]["mass_kg"] = mass
+        lift = Lift(tables)
+        result = simulate(lift.scene(), 2.0, method=lift.method)
+        expected = result.select("position", body="vessel", axis="z").mean()
+        one = found.dataset.heave.sel({"crane.payload.mass_kg": mass, "seed": 7})
+        assert float(one) == pytest.approx(expected, abs=1e-4)
+    assert not np.array_equal(found.dataset.heave.sel(seed=7), found.dataset.heave.sel(seed=8))
+    assert run_study(study, study.parent / "out").dataset.identical(found.dataset)
+    (study.parent / "held.toml").write_text(
+        BALANCED.replace("mass_kg = 20e3, size_m = [4", "mass_kg = 20e3, size_m = [5")
+    )
+    with pytest.raises(SceneError, match="is of another study"):
+        run_study(study, study.parent / "out")
+
+
+@pytest.mark.parametrize("name", LIFTS)
+def test_every_key_of_a_lift_has_its_place(name: str) -> None:
+    """Put back where it was found, each leaves the lift as it is."""
+    lift = Lift.shipped(name)
+    places = keys_in(lift.tables)
+    assert len(places) > 10
+    for path, place in places.items():
+        value: Any = lift.tables
+        for part in place.place:
+            value = value.get(part) if isinstance(part, str) else value[part]
+        if value is not None:
+            assert with_keys(lift.tables, places, {path: value}) == lift.tables
+            assert path.rsplit(".")[0] == place.place[0]
+
+
+def test_paths_go_by_names_numbers_and_units() -> None:
+    tables = {
+        "crane": {"foot_m": [1.0, 2.0, 3.0], "theta_deg": 3.0},
+        "actuator": [{"joint": "a"}, {"joint": "b", "stiffness_N_per_m": 5.0}],
+        "command": {"name": "slew", "joint": "A", "reference_deg": {"kind": "constant", "value": 1.0}},
+        "sea": {"systems": [{"name": "swell", "hs_m": 1.0}]},
+        "method": {"tolerance": 1e-3},
+    }
+    places = keys_in(tables)
+    assert places["crane.foot_m.2"] == KeyPlace(("crane", "foot_m", 1))
+    assert places["actuator.2.stiffness_N_per_m"].place == ("actuator", 1, "stiffness_N_per_m")
+    assert places["sea.systems.swell.hs_m"].place == ("sea", "systems", 0, "hs_m")
+    assert "command.reference_deg" not in places  # a curve
+    assert not [path for path in places if path.startswith("method")]
+    radians = with_keys(tables, places, {"crane.theta_rad": 0.1, "crane.foot_m.2": 9.0})
+    assert radians["crane"] == {"foot_m": [1.0, 9.0, 3.0], "theta_rad": 0.1}
+    assert tables["crane"] == {"foot_m": [1.0, 2.0, 3.0], "theta_deg": 3.0}
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "message"),
+    [
+        ("payload.mass_kg", "payload.mas_kg", "line 6: .*nearest: 'crane.payload.mass_kg'"),
+        ("payload.mass_kg", "payload.mass_t", "line 6: .*nearest: 'crane.payload.mass_kg'"),
+        ("20e3, 100e3", "'heavy', 100e3", "line 6: .*mass_kg in .* is 'heavy'"),
+        ("crane.payload.mass_kg = [20e3, 100e3]", "method.step_s = [1e-3, 1e-4]", "line 6: .* no parameter"),
+        ("[run]", "[accuracy]\nheve = 0.1\n[run]", "line 16: quantity 'heve' is unknown"),
+        ("[run]", "[accuracy]\nroll = -0.1\n[run]", "line 16: accuracy: roll is -0.1"),
+        ("[run]", "[accuracy]\n[run]", r"line 15: \[accuracy\] is empty"),
+        ("[run]", "[method]\ntolerance = 1e-4\n[accuracy]\nroll = 1e-3\n[run]", "line 15: accuracy chooses"),
+    ],
+)  # fmt: skip
+def test_bad_input_is_named_with_its_line(old: str, new: str, message: str, study: Path) -> None:
+    study.write_text(STUDY.replace(old, new, 1))
+    with pytest.raises((FileFormatError, SceneError), match=f"masses.toml {message}"):
+        run_study(study, study.parent / "out")
+    assert not (study.parent / "out").exists()
+
+
+def test_an_accuracy_chooses_the_method(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    path = tmp_path / "swing.toml"
+    path.write_text(SWING)
+    assert main(["study", str(path), "--out", str(tmp_path / "out")]) == 0
+    assert "by accuracy: " in capsys.readouterr().out
+    found = Ensemble.load(tmp_path / "out" / MEMBERS).dataset.lowest
+    for start in (1.0, 1.5):
+        lift = StudyFile.load(path).lift()
+        scene = Lift(with_keys(lift.tables, keys_in(lift.tables), {"body.position_m.1": start})).scene()
+        fine = simulate(scene, 2.0, rtol=1e-10)["position"][:, 0, 2].min()
+        assert float(found.sel({"body.position_m.1": start})) == pytest.approx(fine, abs=1e-3)
