@@ -105,6 +105,21 @@ def _stroke(scene: Description, what: str, settings: dict[str, Any]) -> float:
     return min(max(length - shortest, 0.0), longest - shortest)
 
 
+def holding_pressures(cylinder: _core.HydraulicCylinder, force: float) -> tuple[float, float]:
+    """Of the full side and of the rod side, Pa, by which a cylinder holds another force (N).
+
+    The rod side keeps the pressure that it is described with, unless the full side's would fall below the
+    tank's.
+    """
+    keys = ("full_area", "rod_side_area", "tank_pressure", "pump_pressure")
+    settings = {key: getattr(cylinder, key) for key in keys}
+    full = (force + cylinder.pressure_rod * cylinder.rod_side_area) / cylinder.full_area
+    if full >= cylinder.tank_pressure:
+        return full, cylinder.pressure_rod
+    found = _pressures(f"hydraulic cylinder {cylinder.name!r}", force, settings)
+    return found["pressure"], found["pressure_rod"]
+
+
 def _pressures(what: str, force: float, settings: dict[str, Any]) -> dict[str, float]:
     """Of both chambers, Pa, that hold a force: the one that carries nothing has the back pressure."""
     full, ring = (number_of(f"{what}: {area}", settings[area]) for area in ("full_area", "rod_side_area"))
