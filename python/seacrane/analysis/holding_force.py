@@ -1,4 +1,4 @@
-"""The force that a hydraulic cylinder holds, by the statics of the scene as it is described."""
+"""The forces that hydraulic cylinders hold, by the statics of the scene as it is described."""
 
 from __future__ import annotations
 
@@ -36,13 +36,20 @@ def holding_force(scene: Description, given: dict[str, Any]) -> float:
     SceneError
         If the scene is not at rest as described.
     """
-    others = hydraulic_cylinders(scene)
+    return _forces(scene, what_of(given), [given])[given["name"]]
+
+
+def holding_forces(scene: Description) -> dict[str, float]:
+    """Likewise of the hydraulic cylinders that a scene has, by name."""
+    return _forces(scene, f"scene {scene.name!r}", [])
+
+
+def _forces(scene: Description, what: str, more: list[dict[str, Any]]) -> dict[str, float]:
+    cylinders = [*more, *map(ends_of, hydraulic_cylinders(scene).values())]
     held = locked(without_cylinders(scene))
-    for one in (given, *map(ends_of, others.values())):
+    for one in cylinders:
         add_rod(held, one)
-    _hold_cranes(
-        held, {frozenset((one["first"], one["second"])) for one in (given, *map(ends_of, others.values()))}
-    )
+    _hold_cranes(held, {frozenset((one["first"], one["second"])) for one in cylinders})
     model = compile_scene(held)
     evaluator = _core.Evaluator(model)
     state = np.array(model.initial_state)
@@ -50,12 +57,12 @@ def holding_force(scene: Description, given: dict[str, Any]) -> float:
     if np.max(acceleration, initial=0.0) > AT_REST:
         worst = int(np.argmax(acceleration))
         raise SceneError(
-            f"{what_of(given)}: its holding force is not known, as body {model.bodies[worst // 6]!r} "
+            f"{what}: its holding force is not known, as body {model.bodies[worst // 6]!r} "
             f"accelerates by {acceleration[worst]:.3g} (m/s2 or rad/s2) with all cylinders held; describe "
             "the scene at rest, or give pressure and pressure_rod"
         )
     start = _core.State(time=0.0, values=state, inputs=np.zeros(model.slots))
-    return rod_forces(held, model, start)[given["name"]]
+    return rod_forces(held, model, start)
 
 
 def _hold_cranes(scene: Description, tied: set[frozenset[str]]) -> None:
