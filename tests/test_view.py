@@ -14,6 +14,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from hydraulic_scenes import BORE, RETRACTED, ROD, START, raised
 from view_scenes import HTML_NAME, alone, angle_between, case2, pair
 
 from seacrane import Result, Scene, SceneError, View, cases, simulate, view
@@ -23,6 +24,7 @@ from seacrane.hydro import Hull, ParametricHull, shipped_database
 from seacrane.hydro.hull.shipped_hull import GIRTH, LINES, STATIONS, VOLUME, shipped_hull
 from seacrane.inputs.frames import quaternion_of, rotation_matrix
 from seacrane.viewer.bodies import looks
+from seacrane.viewer.drawing import drawing_of
 from seacrane.viewer.hull_shapes import schematic_size
 from seacrane.viewer.motion import LARGEST_ERROR, STEPS, motion_of, quaternion_rate
 from seacrane.viewer.packing import Blob
@@ -251,6 +253,25 @@ def test_only_wires_go_slack() -> None:
     link, tugger = wires_of(scene, list(scene.bodies))
     assert (link["kind"], link["length"]) == ("wire", 8.0)
     assert (tugger["kind"], tugger["length"]) == ("spring", 5.0)
+
+
+def test_a_cylinder_between_two_points_has_a_barrel_and_a_rod() -> None:
+    """Of the piston's size; one whose barrel and rod are bodies is drawn by them."""
+    scene = raised(command=0.5)
+    drawn = drawing_of(simulate(scene, 1.0, dt_out=0.25))
+    rod, barrel = drawn.wires
+    assert (rod["kind"], barrel["kind"], rod["element"]) == ("rod", "barrel", "ram")
+    assert (rod["radius"], barrel["radius"]) == pytest.approx((0.5 * ROD, 0.5 * 1.15 * BORE))
+    for number in range(len(drawn.motion.times)):
+        pose = drawn.motion.position[number : number + 1], drawn.motion.quaternion[number : number + 1]
+        top = float(pose[0][0, 0, 2])
+        assert [end[0, 2] for end in drawn.ends_of(rod, *pose)] == pytest.approx([0.0, top])
+        assert [end[0, 2] for end in drawn.ends_of(barrel, *pose)] == pytest.approx([0.0, RETRACTED])
+    assert top > RETRACTED + START
+    oil = {"main": {"pump_pressure": 32e6, "rated_flow": 0.05}}
+    crane = Scene(name="crane")
+    crane.add_crane(base="ground", held=True, hydraulics=oil)
+    assert wires_of(crane, list(crane.bodies)) == []
 
 
 def test_forces_are_those_of_the_run() -> None:

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from seacrane.crane import Crane
 from seacrane.description import crane_parts
 from seacrane.description.given import USUAL_SIZE, given_vessels, shown_size
+from seacrane.description.hydraulic_cylinders import hydraulic_cylinders
 from seacrane.description.loads import lines_of, path_of
 from seacrane.description.scene import Description
 from seacrane.errors import SceneError
@@ -168,7 +169,7 @@ def _generic(scene: Description, name: str, role: str, extent: float) -> Look:
 
 
 def body_points(scene: Description, name: str) -> list[Array]:
-    """Where joints, springs and cranes take hold of a body, in its coordinates, m."""
+    """Where joints, springs, cylinders and cranes take hold of a body, in its coordinates, m."""
     points = []
     for joint in scene.joints.values():
         points += [joint.first_frame.point] if joint.first == name else []
@@ -178,6 +179,9 @@ def body_points(scene: Description, name: str) -> list[Array]:
         points += [spring.second_point] if spring.second == name else []
     for line in lines_of(scene.loads).values():
         points += [point for body, point in path_of(line) if body == name]
+    for cylinder in hydraulic_cylinders(scene).values():
+        points += [cylinder.first_point] if cylinder.first == name else []
+        points += [cylinder.second_point] if cylinder.second == name else []
     points += [np.array(point) for body, point in crane_parts.tips(scene).values() if body == name]
     return [np.asarray(point, dtype=float).reshape(3) for point in points]
 
