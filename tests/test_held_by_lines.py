@@ -20,7 +20,9 @@ OIL: dict[str, Any] = {
 }  # fmt: skip
 
 
-def hung(scene: Scene, tip: tuple[str, Any], *, below: float = 12.0, drum: tuple[str, Any] | None = None) -> None:
+def hung(
+    scene: Scene, tip: tuple[str, Any], *, below: float = 12.0, drum: tuple[str, Any] | None = None
+) -> None:
     """A load at rest on a hoist from the tip; with a drum its rope runs on to there."""
     place = scene.place_of(body=tip[0], point=tip[1])
     inertia = (LOAD, LOAD, LOAD)
@@ -104,7 +106,9 @@ def test_pressures_hold_a_load_that_hangs_on_a_winch() -> None:
 def test_pressures_that_hold_are_refused_where_nothing_is_known() -> None:
     scene = knuckle()
     scene.add_body(name="load", mass=LOAD, inertia=(LOAD, LOAD, LOAD), position=(0, 0, 50))
-    with pytest.raises(SceneError, match=r"its holding force is not known, as body 'load' accelerates by 9.81"):
+    with pytest.raises(
+        SceneError, match=r"its holding force is not known, as body 'load' accelerates by 9.81"
+    ):
         scene.hold_pressures()
     with pytest.raises(SceneError, match="has no hydraulic cylinder whose pressures would hold it"):
         lattice().hold_pressures()

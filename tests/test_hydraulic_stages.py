@@ -1,4 +1,4 @@
-"""Stages that move hydraulic cylinders and let their hoses burst: as one run, in lift files, what is refused."""
+"""Stages that move hydraulic cylinders and let their hoses burst: as one run, in files, what is refused."""
 
 from __future__ import annotations
 
@@ -104,7 +104,7 @@ def test_a_stage_alone_starts_on_oil_that_holds_its_load() -> None:
 @pytest.mark.parametrize(
     ("settings", "commands", "message"),
     [
-        ({}, {"ram.reference": Move(by=0.1, over=1.0)}, "'ram.reference', which is not there; there are ram.co"),
+        ({}, {"ram.reference": Move(by=0.1, over=1.0)}, "which is not there; there are ram.command"),
         ({"rated_flow": 0.0, "pump_pressure": 0.0}, {"ram.command": 0.1}, "there are ram.rupture"),
         (FOLLOWS, {"ram.reference": 0.4}, "give Move"),
         ({}, {"ram.rupture": 0.0}, "'ram.rupture' is 0 m2; give the area of the hole, above zero"),
@@ -122,7 +122,7 @@ def test_commands_that_cannot_be_are_told(
 def test_a_hose_bursts_once() -> None:
     burst = {"ram.rupture": HOLE}
     stages = [Stage(name=name, duration=1.0, commands=burst) for name in ("one", "two")]
-    with pytest.raises(SceneError, match="stage 'two': commands 'ram.rupture', and that hose bursts in stage"):
+    with pytest.raises(SceneError, match=r"stage 'two': commands 'ram.rupture', and that hose bursts"):
         simulate_stages(raised(), stages)
 
 
@@ -175,5 +175,7 @@ def test_a_lift_file_commands_oil(tmp_path: Path) -> None:
     assert ("ram.rupture", 1.0) in [(event.name, event.time) for event in result.events]
     assert result["hydraulic_spill"][-1, 0] > 0.0
     path.write_text(FILE.replace("by_m = 0.05", "by_deg = 5"), encoding="utf-8")
-    with pytest.raises(FileFormatError, match=r"by_deg is given of 'ram.reference', which is in m; give by_m"):
+    with pytest.raises(
+        FileFormatError, match=r"by_deg is given of 'ram.reference', which is in m; give by_m"
+    ):
         Lift.load(path).scene()

@@ -1,4 +1,4 @@
-"""Rest states on hydraulic cylinders: rods of the strokes that are asked for, and the pressures of their forces."""
+"""Rest states on hydraulic cylinders: rods of the strokes asked for, and the pressures of their forces."""
 
 from __future__ import annotations
 
@@ -106,15 +106,15 @@ def _rest_stroke(one: _core.HydraulicCylinder, time: float, stands: float) -> fl
     if one.gain == 0.0:
         if abs(command) > one.overlap:
             raise SceneError(
-                f"{what}: is not at rest at t = {time:g} s, with its spool at {command:g} and no gain; give it a "
-                "gain, or a command that ends at 0"
+                f"{what}: is not at rest at t = {time:g} s, with its spool at {command:g} and no gain; "
+                "give it a gain, or a command that ends at 0"
             )
         return stands
     stroke = reference + command / one.gain
     if not 0.0 <= stroke <= one.stroke:
         raise SceneError(
-            f"{what}: is asked for a stroke of {stroke:.6g} m at t = {time:g} s, and it has 0 to {one.stroke:g} m; "
-            "correct its reference"
+            f"{what}: is asked for a stroke of {stroke:.6g} m at t = {time:g} s, and it has 0 to "
+            f"{one.stroke:g} m; correct its reference"
         )
     return stroke
 

@@ -70,8 +70,9 @@ def equilibrium(scene: Description, *, state: _core.State | None = None, time: f
     """State at rest of the scene with its references held at one time, without waves.
 
     Newton's method on the accelerations in minimal coordinates, and on the rates of the states that loads
-    have. Hydraulic cylinders stand where their spools are shut, with the pressures that hold. Where nothing fixes a position (a vessel without mooring, a payload about its link) or a state (the
-    length of a line on a winch), it stays where it is.
+    have. Hydraulic cylinders stand where their spools are shut, with the pressures that hold. Where nothing
+    fixes a position (a vessel without mooring, a payload about its link) or a state (the length of a line on
+    a winch), it stays where it is.
 
     Parameters
     ----------

@@ -38,7 +38,9 @@ def add_rod(scene: Description, given: Mapping[str, Any], length: float | None =
         body = scene.bodies.get(given[end])
         turn = np.eye(3) if body is None else rotation_matrix(body.quaternion)
         places[end] = turn @ point + (0.0 if body is None else np.asarray(body.position))
-    apart = number_of(f"hydraulic cylinder {given['name']!r}", np.linalg.norm(places["second"] - places["first"]))
+    apart = number_of(
+        f"hydraulic cylinder {given['name']!r}", np.linalg.norm(places["second"] - places["first"])
+    )
     add_joint(
         scene, kind="distance", name=_rod(given["name"]), first=given["first"], second=given["second"],
         point=places["first"], second_point=places["second"], length=apart if length is None else length,

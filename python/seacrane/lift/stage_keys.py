@@ -28,7 +28,12 @@ _COMMANDS = (
     Key(name="to", type="number", unit=COMMAND_UNITS, text="Where a move ends."),
     Key(name="by", type="number", unit=COMMAND_UNITS, text="How far it goes."),
     Key(name="over", type="number", unit="s", text="How long it takes."),
-    Key(name="value", type="number", unit=COMMAND_UNITS, text="A rate, force or share, reached within 1 s; the area of a hole."),
+    Key(
+        name="value",
+        type="number",
+        unit=COMMAND_UNITS,
+        text="A rate, force or share, reached within 1 s; the area of a hole.",
+    ),
     Key(name="curve", type="curve", unit=COMMAND_UNITS, text="On the stage's clock, 0 where it begins."),
 )
 STAGE = keys_of(

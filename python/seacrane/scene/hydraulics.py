@@ -178,7 +178,7 @@ def _held(scene: Description, given: dict[str, Any]) -> float:
 
 
 def hold_pressures(scene: Description) -> dict[str, _core.HydraulicCylinder]:
-    """Let all hydraulic cylinders start with the pressures that hold the scene at rest as it is now described.
+    """Let hydraulic cylinders start with the pressures that hold the scene at rest as it is now described.
 
     A cylinder begins with the pressures that hold what was there when it was added. Call this once the rest
     is there: a payload that hangs on an elastic line or a winch, or bodies that were added later. The rod

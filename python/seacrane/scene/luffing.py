@@ -28,9 +28,9 @@ def add_luffing_rope(scene: Description, *, luff: str | None = None, **winch: An
     """Let a crane's luffing rope carry its jib, as an elastic line of all its falls on a winch.
 
     The rope starts with the tension that holds the weights beyond the hinge, and the pull of the lines that
-    are there, at rest on an upright base: add the hoist before it. A driver that holds the hinge still (`add_crane(held=True)`) is taken away. The rope's name is that in the
-    crane's file, such as "luffing rope"; `statics` with coordinates leads the hinge and tells the tension
-    from its moment.
+    are there, at rest on an upright base: add the hoist before it. A driver that holds the hinge still
+    (`add_crane(held=True)`) is taken away. The rope's name is that in the crane's file, such as "luffing
+    rope"; `statics` with coordinates leads the hinge and tells the tension from its moment.
 
     Parameters
     ----------
@@ -123,7 +123,9 @@ def _moment_of_lines(scene: Description, beyond: set[str], hinge: Array, axis: A
 
         def pose(body: str) -> Pose:
             origin, rotation = poses(body)
-            return (hinge + turn @ (origin - hinge), turn @ rotation) if body in beyond else (origin, rotation)
+            return (
+                (hinge + turn @ (origin - hinge), turn @ rotation) if body in beyond else (origin, rotation)
+            )
 
         return laid(lines[name], pose).length
 

@@ -1,4 +1,4 @@
-"""What a stage commands: curves of winches, lines, cylinders, actuators and drivers, changed from a time on."""
+"""What a stage commands: curves of winches, lines, cylinders, actuators, drivers, changed from a time on."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Links, wires, springs, elastic lines and cylinders: between points of bodies, slack ones with their length."""
+"""Links, wires, springs, lines and cylinders between points of bodies, slack ones with their length."""
 
 from __future__ import annotations
 
@@ -26,8 +26,8 @@ def wires_of(scene: Description, bodies: Sequence[str]) -> list[dict[str, Any]]:
     Of each: name, the element that it is of, kind ("link", "wire", "spring", "barrel" or "rod"; a span is a
     link), both ends as the body's number (-1: the ground) and a point relative to its centre of mass, the
     length (m) below which it hangs slack, 0 if it never does, the radius (m) that it has, 0 for that of all
-    lines, and how far it goes (m), 0 for all the way. Arcs over sheaves are short links without a name. Where a line
-    meets a sheave is as in the pose that the scene describes.
+    lines, and how far it goes (m), 0 for all the way. Arcs over sheaves are short links without a name.
+    Where a line meets a sheave is as in the pose that the scene describes.
     """
     limits = {limit.joint for limit in scene.loads.values() if getattr(limit, "kind", None) == "wire"}
     found = []
