@@ -18,7 +18,7 @@ from hydraulic_scenes import BORE, RETRACTED, ROD, START, raised
 from view_scenes import HTML_NAME, alone, angle_between, case2, pair
 
 from seacrane import Result, Scene, SceneError, View, cases, simulate, view
-from seacrane.crane import BODIES, KnuckleBoomCrane
+from seacrane.crane import BODIES, KnuckleBoomCrane, load_crane
 from seacrane.crane.geometry import plane_axes
 from seacrane.hydro import Hull, ParametricHull, shipped_database
 from seacrane.hydro.hull.shipped_hull import GIRTH, LINES, STATIONS, VOLUME, shipped_hull
@@ -463,3 +463,14 @@ def test_the_shipped_hull_is_that_of_the_shipped_database() -> None:
     assert heave == pytest.approx(statics.waterplane_area, rel=1e-12)
     assert database.mass_matrix[0, 0] == pytest.approx(database.rho * statics.volume, rel=1e-12)
     assert LINES.scaled_to_volume(VOLUME, stations=STATIONS, girth=GIRTH) == LINES
+
+
+def test_a_luffing_rope_is_drawn_whether_it_is_a_line_or_not() -> None:
+    scene = Scene(name="lattice")
+    scene.add_crane(load_crane("lattice_boom_100t"), base="ground", coordinates={"boom": 0.7}, held=True)
+    (led,) = wires_of(scene, list(scene.bodies))
+    assert (led["name"], led["kind"]) == ("luffing rope", "link")
+    scene.add_luffing_rope()
+    falls = wires_of(scene, list(scene.bodies))
+    assert len(falls) == 12 and {one["element"] for one in falls} == {"luffing rope"}
+    assert led["from"] == falls[0]["from"] and led["to"] == falls[0]["to"]

@@ -18,7 +18,7 @@ from seacrane.errors import SceneError
 from seacrane.hydro import Hull
 from seacrane.hydro.hull.shipped_hull import VOLUME, shipped_hull
 from seacrane.inputs.shown import shown
-from seacrane.viewer.crane_shapes import crane_shapes
+from seacrane.viewer.crane_shapes import COLOURS, crane_shapes
 from seacrane.viewer.hull_shapes import box_hull, hull_shape, schematic_hull
 from seacrane.viewer.shapes import BoxShape, HullShape, MeshShape, Shape, distinct, equivalent_box, framework
 
@@ -71,9 +71,10 @@ def looks(
     found: dict[str, Look] = {}
     extent = _extent(scene)
     meshed = {mesh.body for mesh in scene.meshes.values()}
+    of_cranes = crane_parts.crane_bodies(scene) if meshed else set()
     for name in scene.bodies:
         if name in meshed and name not in given:
-            role = "payload" if name in hanging else "crane" if name in members else "body"
+            role = "payload" if name in hanging else "crane" if name in of_cranes else "body"
             found[name] = _by_meshes(scene, name, "vessel" if name in floating else role)
         elif name in floating:
             found[name] = _vessel(scene, name, given.get(name))
@@ -139,9 +140,15 @@ def _by_meshes(scene: Description, name: str, role: str) -> Look:
             shapes.append(
                 HullShape(vertices=points, faces=mesh.faces, waterline=-float(centre[2]))
                 if role == "vessel"
-                else MeshShape(vertices=points, faces=mesh.faces)
+                else MeshShape(vertices=points, faces=mesh.faces, colour=_part(scene, name, role))
             )
     return Look(role=role, shapes=shapes)
+
+
+def _part(scene: Description, name: str, role: str) -> str:
+    """What a body of a crane is called without the crane's prefix, as far as that has a colour."""
+    names = [name.removeprefix(prefix) for prefix in scene.roles] if role == "crane" else []
+    return next((COLOURS[one] for one in names if one in COLOURS), "")
 
 
 def _is_shipped(scene: Description, name: str) -> bool:

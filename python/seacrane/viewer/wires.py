@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from seacrane import _core
+from seacrane.description.crane_parts import luffing_ropes
 from seacrane.description.hydraulic_cylinders import hydraulic_cylinders, slide_of
 from seacrane.description.line_path import Array, described_poses, laid
 from seacrane.description.loads import lines_of, springs_of
@@ -26,8 +27,9 @@ def wires_of(scene: Description, bodies: Sequence[str]) -> list[dict[str, Any]]:
     Of each: name, the element that it is of, kind ("link", "wire", "spring", "barrel" or "rod"; a span is a
     link), both ends as the body's number (-1: the ground) and a point relative to its centre of mass, the
     length (m) below which it hangs slack, 0 if it never does, the radius (m) that it has, 0 for that of all
-    lines, and how far it goes (m), 0 for all the way. Arcs over sheaves are short links without a name.
-    Where a line meets a sheave is as in the pose that the scene describes.
+    lines, and how far it goes (m), 0 for all the way. A luffing rope whose hinge is led by the moment is a
+    link. Arcs over sheaves are short links without a name. Where a line meets a sheave is as in the pose that
+    the scene describes.
     """
     limits = {limit.joint for limit in scene.loads.values() if getattr(limit, "kind", None) == "wire"}
     found = []
@@ -57,6 +59,13 @@ def wires_of(scene: Description, bodies: Sequence[str]) -> list[dict[str, Any]]:
         )
     for name, line in lines_of(scene.loads).items():
         found += _over(scene, bodies, name, line)
+    for rope in luffing_ropes(scene).values():
+        if rope.name not in scene.loads:  # else it is a line
+            ends = (end_of(scene, bodies, body, point) for body, point in (rope.first, rope.second))
+            found.append(
+                {"name": rope.name, "element": rope.name, "kind": "link", "length": 0.0}
+                | dict(zip(("from", "to"), ends, strict=True))
+            )
     of_cranes = {slide for roles in scene.roles.values() for slide in roles.cylinders.values()}
     for name, cylinder in hydraulic_cylinders(scene).items():
         if slide_of(scene, cylinder) not in of_cranes:  # else its barrel and its rod are bodies
