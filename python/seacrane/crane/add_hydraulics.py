@@ -74,8 +74,8 @@ def add_hydraulics(
                 label, crane.data.areas.get(label), crane.member_of(first), crane.member_of(second), entries
             )
             name, ends = crane.data.cylinders[label], ends_of(crane, label)
-            given = {"name": prefix + name, "first": prefix + first, "second": prefix + second}
-            place_cylinder(scene, given | ends | areas | dict(entries), force)
+            names = {"name": prefix + name, "first": prefix + first, "second": prefix + second}
+            place_cylinder(scene, names | ends | areas | dict(entries), force)
         return
     forces = crane.static_cylinder_forces(
         s1=pose["s1"], s2=pose["s2"], payload_mass=payload_mass, gravity=scene.gravity
@@ -83,7 +83,7 @@ def add_hydraulics(
     by_label = dict(zip(CYLINDERS, forces.tolist(), strict=True))
     for label, entries in hydraulics.items():
         data = _data(crane, label)
-        given = {
+        given: dict[str, Any] = {
             "name": prefix + CYLINDERS[label],
             "first": f"{prefix}{label}_barrel",
             "second": f"{prefix}{label}_rod",

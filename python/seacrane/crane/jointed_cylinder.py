@@ -30,21 +30,20 @@ def ends_of(crane: JointedCrane, label: str) -> dict[str, Any]:
     SceneError
         For a cylinder without such pins, or without a range.
     """
-    slide = _slide(crane, label)
+    slide, axis = _slide(crane, label)
     what = f"crane {crane.data.name!r}: cylinder {label!r}"
     if slide.range is None:
         raise SceneError(f"{what}: has no range, which its stroke would be; give its joint a range_m")
-    assert slide.axis is not None
-    pins = []
+    pins, extent = [], extent_of(crane.data)
     for body, outward in ((slide.first, -1.0), (slide.second, 1.0)):
-        on_axis = [at for at in _pins(crane, body, slide) if _is_on_axis(crane, slide, at)]
+        on_axis = [at for at in _pins(crane, body, slide) if _off(slide, axis, at) < ON_AXIS * extent]
         if not on_axis:
             raise SceneError(
                 f"{what}: where it takes hold is not known, as no other joint of {body!r} is on its axis; "
                 "add it by add_hydraulic_cylinder with its points"
             )
-        pins.append(max(on_axis, key=lambda at: outward * float((at - slide.point) @ slide.axis)))
-    length = float((pins[1] - pins[0]) @ slide.axis)
+        pins.append(max(on_axis, key=lambda at: outward * float((at - slide.point) @ axis)))
+    length = float((pins[1] - pins[0]) @ axis)
     low, high = slide.range
     if not length + low > 0.0:
         raise SceneError(
@@ -85,16 +84,19 @@ def _strokes(crane: JointedCrane, coordinates: Mapping[str, float]) -> dict[str,
     moved = pose_of(crane.data, coordinates)
     found = {}
     for label in crane.data.cylinders:
-        slide = _slide(crane, label)
+        slide, axis = _slide(crane, label)
         first, second = moved[slide.first], moved[slide.second]
         shift = first.rotation.T @ (second.point(slide.point) - first.point(slide.point))
-        found[label] = float(shift @ slide.axis)
+        found[label] = float(shift @ axis)
     return found
 
 
-def _slide(crane: JointedCrane, label: str) -> JointData:
+def _slide(crane: JointedCrane, label: str) -> tuple[JointData, Array]:
+    """The joint of a cylinder, and its axis."""
     name = crane.data.cylinders[label]
-    return next(joint for joint in crane.data.joints if joint.name == name)
+    slide = next(joint for joint in crane.data.joints if joint.name == name)
+    assert slide.axis is not None
+    return slide, slide.axis
 
 
 def _pins(crane: JointedCrane, body: str, slide: JointData) -> list[Array]:
@@ -103,6 +105,6 @@ def _pins(crane: JointedCrane, body: str, slide: JointData) -> list[Array]:
     return [one.point for one in joints if body in (one.first, one.second) and one.name != slide.name]
 
 
-def _is_on_axis(crane: JointedCrane, slide: JointData, at: Array) -> bool:
-    off = np.linalg.norm(np.cross(slide.axis, at - slide.point))
-    return float(off) < ON_AXIS * extent_of(crane.data)
+def _off(slide: JointData, axis: Array, at: Array) -> float:
+    """Distance of a point from the axis, m."""
+    return float(np.linalg.norm(np.cross(axis, at - slide.point)))

@@ -61,10 +61,16 @@ def wires_of(scene: Description, bodies: Sequence[str]) -> list[dict[str, Any]]:
         found += _over(scene, bodies, name, line)
     for rope in luffing_ropes(scene).values():
         if rope.name not in scene.loads:  # else it is a line
-            ends = (end_of(scene, bodies, body, point) for body, point in (rope.first, rope.second))
+            start, stop = (end_of(scene, bodies, *block) for block in (rope.first, rope.second))
             found.append(
-                {"name": rope.name, "element": rope.name, "kind": "link", "length": 0.0}
-                | dict(zip(("from", "to"), ends, strict=True))
+                {
+                    "name": rope.name,
+                    "element": rope.name,
+                    "kind": "link",
+                    "from": start,
+                    "to": stop,
+                    "length": 0.0,
+                }
             )
     of_cranes = {slide for roles in scene.roles.values() for slide in roles.cylinders.values()}
     for name, cylinder in hydraulic_cylinders(scene).items():
