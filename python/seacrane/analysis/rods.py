@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from seacrane import _core
 from seacrane.description.hydraulic_cylinders import hydraulic_cylinders
 from seacrane.description.joints import add_joint
+from seacrane.description.loads import without_compensation
 from seacrane.description.scene import Description, Some
 from seacrane.inputs.checked import number_of
 from seacrane.inputs.frames import rotation_matrix
@@ -25,9 +26,10 @@ def ends_of(cylinder: _core.HydraulicCylinder) -> dict[str, Any]:
 
 
 def without_cylinders(scene: Some) -> Some:
-    """The scene without its hydraulic cylinders."""
+    """The scene without its hydraulic cylinders, and without the compensators that they follow."""
     there = hydraulic_cylinders(scene)
-    return scene.copy(loads={name: load for name, load in scene.loads.items() if name not in there})
+    loads = without_compensation(scene.loads)
+    return scene.copy(loads={name: load for name, load in loads.items() if name not in there})
 
 
 def add_rod(scene: Description, given: Mapping[str, Any], length: float | None = None) -> None:
