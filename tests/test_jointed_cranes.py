@@ -162,6 +162,34 @@ def test_both_are_drawn_by_their_members(lattice: JointedCrane) -> None:
     assert {name: len(parts) for name, parts in shapes.items()} == {"pedestal": 1, "house": 6, "boom": 44}
 
 
+def test_a_load_chart_of_a_frame_that_does_not_slew_is_refused_by_name(a_frame: JointedCrane) -> None:
+    scene = fixed(a_frame, Payload(size=(2.0, 2.0, 2.0)))
+    with pytest.raises(SceneError, match=r"crane '' has no slew drive, from whose axis radii are counted"):
+        seacrane.load_chart(scene, radii=[5.0], limits={"cylinder force tilt": 500.0})
+
+
+def test_a_study_varies_the_boom_of_a_crane(lattice: JointedCrane) -> None:
+    """A heavier boom takes more tension, by its weight's lever arm over that of the falls."""
+    scene = fixed(lattice, Payload(mass=20e3, size=(2.0, 2.0, 2.0)), boom=1.0)
+    masses = [20e3, 30e3]
+    told = []
+    for mass in masses:
+        scene.replace("boom", mass=mass)
+        told.append(float(seacrane.statics(scene, coordinates={"boom": 0.0})["luff moment boom"]))
+    center = lattice.mass_properties["boom"].center_of_mass
+    arm = math.hypot(center[0], center[2]) * math.cos(1.0 + math.atan2(center[2], -center[0]))
+    assert told[1] - told[0] == pytest.approx(1e-3 * G * (masses[1] - masses[0]) * arm, rel=1e-6)
+    study = seacrane.ensemble(
+        scene, over={"bodies.boom.mass": masses}, keep={"moment": _largest_moment}, t_end=0.2, dt_out=0.1
+    )
+    moments = np.asarray(study.dataset["moment"])
+    assert moments[1] - moments[0] == pytest.approx(1e3 * (told[1] - told[0]), rel=1e-6)
+
+
+def _largest_moment(result: seacrane.Result) -> float:
+    return float(np.abs(result.select("driver_force", driver="boom hinge.angle")).max())
+
+
 def test_radius_is_found_by_luffing(lattice: JointedCrane) -> None:
     scene = fixed(lattice, Payload(size=(2.0, 2.0, 2.0)), boom=1.0)
     told = seacrane.statics(scene, radius=[20.0, 40.0], slew=[0.0, 0.3])
