@@ -167,8 +167,8 @@ def load_chart(
         )
     if roles.slew is None:
         raise SceneError(
-            f"load chart: crane {roles.prefix!r} has no slew drive, from whose axis radii are counted; tell it "
-            "by add_roles, or vary the load in statics(coordinates=...)"
+            f"load chart: crane {roles.prefix!r} has no slew drive, from whose axis radii are counted; tell "
+            "it by add_roles, or vary the load in statics(coordinates=...)"
         )
     axes = {"slew": values_of("load chart: slews", slews), "radius": values_of("load chart: radii", radii)}
     for angle in axes["slew"]:
