@@ -153,7 +153,7 @@ retracted_length_m = 1.05
 stroke_m = 0.6
 pump_pressure_Pa = 7.6e6
 rated_flow_m3_per_s = 4e-4
-gain_per_m = 20
+gain_per_m = 5
 
 [[stage]]
 name = "up"

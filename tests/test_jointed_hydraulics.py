@@ -15,7 +15,7 @@ from seacrane.errors import FileFormatError
 from seacrane.hydro import shipped_database
 
 OIL: dict[str, Any] = {
-    "pump_pressure": 25e6, "rated_flow": 0.01, "rated_drop": 1e6, "gain": 1.0, "spool_lag": 0.03,
+    "pump_pressure": 25e6, "rated_flow": 0.01, "rated_drop": 1e6, "gain": 0.4, "spool_lag": 0.03,
     "viscous_friction": 5e5,
 }  # fmt: skip
 LOAD = Payload(mass=15e3, size=(2.0, 2.0, 2.0), link_length=3.0)
@@ -27,7 +27,7 @@ def a_frame(*, base: str = "ground", tilt: float = 0.5, **oil: Any) -> Scene:
         scene.add_vessel(shipped_database())
     scene.add_crane(
         load_crane("a_frame_40t"), base=base, foot=(-50.0, 0.0, 10.0), coordinates={"tilt": tilt},
-        payload=LOAD, held=True, damping=False, hydraulics={"tilt": OIL | oil},
+        payload=LOAD, held=True, hydraulics={"tilt": OIL | oil},
     )  # fmt: skip
     return scene
 
@@ -60,7 +60,7 @@ def test_a_stage_swings_the_frame_out_over_the_stern() -> None:
         for formulation in ("recursive", "redundant")
     )
     for result in (one, two):
-        assert np.ptp(result["hydraulic_stroke"]) == pytest.approx(1.0, abs=0.01)
+        assert np.ptp(result["hydraulic_stroke"]) == pytest.approx(1.0, abs=0.05)
         assert np.max(np.abs(result["energy_balance"])) < 1e-6 * result["absolute_work"][-1]
     np.testing.assert_allclose(one["hydraulic_stroke"], two["hydraulic_stroke"], atol=1e-6)
 

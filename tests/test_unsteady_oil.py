@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import warnings
 from typing import Any
 
@@ -9,7 +10,8 @@ import numpy as np
 import pytest
 from hydraulic_scenes import FULL, HOLDING, MASS, RING, SET, START, raised
 
-from seacrane import Scene, UnsteadyOilWarning, simulate
+from seacrane import Curve, Scene, UnsteadyOilWarning, simulate
+from seacrane.crane import Payload, load_crane
 from seacrane.hydro import shipped_database
 
 SETTINGS: dict[str, Any] = {"viscous_friction": 2e3, "spool_lag": 1e-3, "reference": START + 0.005}
@@ -55,4 +57,27 @@ def test_a_vessel_that_drifts_is_no_fault_of_the_valve() -> None:
     oil = {"pump_pressure": 32e6, "rated_flow": 0.06, "rated_drop": 1e6, "spool_lag": 0.02, "gain": 0.3}
     scene.add_crane(held=True, s1=2.0, s2=3.0, hydraulics={"main": oil | {"viscous_friction": 2e6}})
     scene.add_ballast()
-    simulate(scene, 0.5)  # warnings are errors
+    with warnings.catch_warnings():
+        warnings.simplefilter("error", UnsteadyOilWarning)
+        simulate(scene, 0.5)
+
+
+def test_a_pendulum_that_a_valve_feeds_grows_as_told() -> None:
+    """An A-frame's load: its swing grows by the told share of critical damping, 250 s apart."""
+    scene = Scene(name="A-frame")
+    oil = {"pump_pressure": 25e6, "rated_flow": 0.01, "rated_drop": 1e6, "gain": 2.0, "spool_lag": 0.03}
+    scene.add_crane(
+        load_crane("a_frame_40t"), base="ground", coordinates={"tilt": 0.5}, held=True, damping=False,
+        payload=Payload(mass=15e3, size=(2.0, 2.0, 2.0), link_length=3.0),
+        hydraulics={"tilt": oil | {"viscous_friction": 5e5}},
+    )  # fmt: skip
+    stands = float(scene.loads["cylinder"].reference.evaluate([0.0])[0, 0])
+    pushed = Curve.quintic(start_time=0.0, end_time=1.0, start=stands, end=stands + 0.02)
+    scene.replace("cylinder", kind="load", reference=pushed)
+    with pytest.warns(UnsteadyOilWarning) as caught:
+        result = simulate(scene, 300.0, dt_out=0.1, rtol=1e-6)
+    told = str(caught[0].message)
+    omega, share = (float(re.findall(pattern, told)[0]) for pattern in (r"mode of (\S+)", r"by (\S+) %"))
+    swing = result.select("position", body="payload", axis="x")
+    early, late = (float(np.std(swing[np.abs(result.time - at) < 25.0])) for at in (25.0, 275.0))
+    assert late / early == pytest.approx(np.exp(0.01 * share * omega * 250.0), rel=0.15)
