@@ -83,8 +83,9 @@ EVERYTHING: dict[str, Any] = LEAKS | {
 }
 
 
-def test_energy_closes_with_every_part() -> None:
-    out = record(lifted(**EVERYTHING), 2.0, dt_out=0.01, rtol=1e-8)
+@pytest.mark.parametrize("formulation", ["recursive", "redundant"])
+def test_energy_closes_with_every_part(formulation: str) -> None:
+    out = record(lifted(**EVERYTHING), 2.0, dt_out=0.01, rtol=1e-8, formulation=formulation)
     assert np.max(np.abs(out["energy_balance"])) < 1e-6 * out["absolute_work"][-1]
     power = out["hydraulic_power"][:, 0]
     assert np.max(power[:, 0]) > 0.0
@@ -174,6 +175,12 @@ def test_a_run_goes_on_bit_for_bit(integrator: str) -> None:
         ({"air": 0.5}, "air is 0.5; give a share of the volume"),
         ({"spool_lag": -0.1}, "spool_lag is -0.1"),
         ({"tank_pressure": 8e6}, "pump_pressure is 7.6e\\+06 Pa, not above the tank's"),
+        ({"rated_flow": 24.0}, r"rated_flow is 24 m3/s, which moves the piston by .* 24 l/min are 0.0004"),
+        ({"hose_volume": 31.4}, r"hose_volume is 31.4 m3, and the piston sweeps .* 31.4 l are 0.0314"),
+        (
+            {"pressure": 1e6},
+            r"pressure is 1e\+06 Pa, which cannot hold the 9807 N .* than 1.951e\+06 Pa",
+        ),
         ({"command": 0.5, "rated_flow": 0.0, "pump_pressure": 0.0}, "has a command and no spool"),
     ],
 )

@@ -11,6 +11,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from hydraulic_scenes import raised
 
 import seacrane
 from seacrane import (
@@ -260,6 +261,10 @@ def hours_at_a_loose_tolerance() -> None:
     simulate(scene, t_end=3 * 3600.0, dt_out=1.0, integrator="tsit5", rtol=1e-2, max_step=0.5)
 
 
+def a_gain_beyond_what_oil_bears() -> None:
+    simulate(raised(gain=80.0, viscous_friction=2e3, spool_lag=1e-3), 0.1)
+
+
 def a_roll_amplitude_in_radians() -> None:
     ikeda_roll_damping(shipped_hull(), amplitude_deg=np.radians(8.0), omega=0.5, axis_height=2.0)
 
@@ -310,6 +315,7 @@ SCRIPTS: dict[str, list[Callable[[], None]]] = {
     "a mode far faster than the outputs": [a_stop_of_steel],
     "a crane that nothing holds": [a_crane_without_drives],
     "a loose tolerance for hours": [hours_at_a_loose_tolerance],
+    "a hydraulic cylinder that swings by itself": [a_gain_beyond_what_oil_bears],
     "a roll amplitude in radians": [a_roll_amplitude_in_radians],
     "bilge keels in millimetres": [bilge_keels_in_millimetres],
     "a mooring counted twice": [a_mooring_beside_the_file_s, a_file_that_holds_its_mooring],

@@ -14,6 +14,7 @@ from seacrane import Curve, Scene, SceneError, simulate
 from seacrane.crane import JointedCrane, Payload, UrdfWarning, load_crane
 from seacrane.crane.load_crane import SHIPPED
 from seacrane.errors import FileFormatError
+from seacrane.viewer.bodies import looks
 
 URDF = (SHIPPED / "service_arm_5t.urdf").read_text(encoding="utf-8")
 BESIDE = (SHIPPED / "service_arm_5t.toml").read_text(encoding="utf-8")
@@ -179,3 +180,17 @@ def test_a_missing_urdf_is_named(tmp_path: Path) -> None:
     path.write_text(BESIDE, encoding="utf-8")
     with pytest.raises(FileFormatError, match=r"URDF file .*service_arm_5t.urdf cannot be read"):
         load_crane(path)
+
+
+def test_a_urdf_crane_is_drawn_as_a_crane() -> None:
+    """Its barrel and rod as those of others; what carries it and what hangs on it are no part of it."""
+    scene = Scene(name="arm")
+    scene.add_body(name="barge", mass=1e5, inertia=(1e6, 1e6, 1e6))
+    load = Payload(mass=1e3, size=(1.0, 1.0, 1.0))
+    scene.add_crane(arm(), base="barge", foot=(0, 0, 0), payload=load, held=True, prefix="aft ")
+    drawn = looks(scene)
+    roles = {name: look.role for name, look in drawn.items()}
+    assert (roles.pop("barge"), roles.pop("aft payload")) == ("body", "payload")
+    assert set(roles.values()) == {"crane"} and len(roles) == 7
+    parts = {name: {shape.colour for shape in drawn[name].shapes} for name in roles}
+    assert (parts["aft barrel"], parts["aft rod"], parts["aft jib"]) == ({"barrel"}, {"rod"}, {""})

@@ -14,15 +14,17 @@ from typing import Any
 
 import numpy as np
 import pytest
+from hydraulic_scenes import BORE, RETRACTED, ROD, START, raised
 from view_scenes import HTML_NAME, alone, angle_between, case2, pair
 
 from seacrane import Result, Scene, SceneError, View, cases, simulate, view
-from seacrane.crane import BODIES, KnuckleBoomCrane
+from seacrane.crane import BODIES, KnuckleBoomCrane, load_crane
 from seacrane.crane.geometry import plane_axes
 from seacrane.hydro import Hull, ParametricHull, shipped_database
 from seacrane.hydro.hull.shipped_hull import GIRTH, LINES, STATIONS, VOLUME, shipped_hull
 from seacrane.inputs.frames import quaternion_of, rotation_matrix
 from seacrane.viewer.bodies import looks
+from seacrane.viewer.drawing import drawing_of
 from seacrane.viewer.hull_shapes import schematic_size
 from seacrane.viewer.motion import LARGEST_ERROR, STEPS, motion_of, quaternion_rate
 from seacrane.viewer.packing import Blob
@@ -253,6 +255,25 @@ def test_only_wires_go_slack() -> None:
     assert (tugger["kind"], tugger["length"]) == ("spring", 5.0)
 
 
+def test_a_cylinder_between_two_points_has_a_barrel_and_a_rod() -> None:
+    """Of the piston's size; one whose barrel and rod are bodies is drawn by them."""
+    scene = raised(command=0.5)
+    drawn = drawing_of(simulate(scene, 1.0, dt_out=0.25))
+    rod, barrel = drawn.wires
+    assert (rod["kind"], barrel["kind"], rod["element"]) == ("rod", "barrel", "ram")
+    assert (rod["radius"], barrel["radius"]) == pytest.approx((0.5 * ROD, 0.5 * 1.15 * BORE))
+    for number in range(len(drawn.motion.times)):
+        pose = drawn.motion.position[number : number + 1], drawn.motion.quaternion[number : number + 1]
+        top = float(pose[0][0, 0, 2])
+        assert [end[0, 2] for end in drawn.ends_of(rod, *pose)] == pytest.approx([0.0, top])
+        assert [end[0, 2] for end in drawn.ends_of(barrel, *pose)] == pytest.approx([0.0, RETRACTED])
+    assert top > RETRACTED + START
+    oil = {"main": {"pump_pressure": 32e6, "rated_flow": 0.05}}
+    crane = Scene(name="crane")
+    crane.add_crane(base="ground", held=True, hydraulics=oil)
+    assert wires_of(crane, list(crane.bodies)) == []
+
+
 def test_forces_are_those_of_the_run() -> None:
     page = Page(view(case2()).html)
     arrows = {(arrow["group"], arrow["name"]): arrow for arrow in page.data["arrows"]}
@@ -442,3 +463,14 @@ def test_the_shipped_hull_is_that_of_the_shipped_database() -> None:
     assert heave == pytest.approx(statics.waterplane_area, rel=1e-12)
     assert database.mass_matrix[0, 0] == pytest.approx(database.rho * statics.volume, rel=1e-12)
     assert LINES.scaled_to_volume(VOLUME, stations=STATIONS, girth=GIRTH) == LINES
+
+
+def test_a_luffing_rope_is_drawn_whether_it_is_a_line_or_not() -> None:
+    scene = Scene(name="lattice")
+    scene.add_crane(load_crane("lattice_boom_100t"), base="ground", coordinates={"boom": 0.7}, held=True)
+    (led,) = wires_of(scene, list(scene.bodies))
+    assert (led["name"], led["kind"]) == ("luffing rope", "link")
+    scene.add_luffing_rope()
+    falls = wires_of(scene, list(scene.bodies))
+    assert len(falls) == 12 and {one["element"] for one in falls} == {"luffing rope"}
+    assert led["from"] == falls[0]["from"] and led["to"] == falls[0]["to"]

@@ -132,6 +132,7 @@ from seacrane.run.sampled_controller import SampledController as SampledControll
 from seacrane.run.stiffness import StiffWarning as StiffWarning
 from seacrane.run.to_file import StreamedResult as StreamedResult
 from seacrane.run.to_file import simulate_to_file as simulate_to_file
+from seacrane.run.unsteady_oil import UnsteadyOilWarning as UnsteadyOilWarning
 from seacrane.scene.given_motion import OutsideRaosWarning as OutsideRaosWarning
 from seacrane.scene.gusts import gust_curve as gust_curve
 from seacrane.scene.mooring import MooringSpring as MooringSpring

@@ -5,6 +5,7 @@ from __future__ import annotations
 from stability_atlas import (
     crane_axes,
     duration_axes,
+    hydraulic_axes,
     line_axes,
     mechanism_axes,
     switching_axes,
@@ -14,6 +15,14 @@ from stability_atlas.axis import Axis
 
 AXES: dict[str, Axis] = {
     axis.name: axis
-    for group in (crane_axes, vessel_axes, mechanism_axes, switching_axes, line_axes, duration_axes)
+    for group in (
+        crane_axes,
+        vessel_axes,
+        mechanism_axes,
+        switching_axes,
+        line_axes,
+        hydraulic_axes,
+        duration_axes,
+    )
     for axis in group.AXES
 }

@@ -10,8 +10,10 @@ from numpy.typing import NDArray
 
 from seacrane import _core
 from seacrane.analysis.reduced_coordinates import NEUTRAL, ReducedCoordinates, Terms
+from seacrane.analysis.rest_on_oil import rest_on_oil
 from seacrane.analysis.taut_lines import tautened
 from seacrane.description.compilation import compile_scene
+from seacrane.description.hydraulic_cylinders import hydraulic_cylinders
 from seacrane.description.loads import lines_of
 from seacrane.description.scene import Description, Some
 from seacrane.errors import SceneError
@@ -68,8 +70,9 @@ def equilibrium(scene: Description, *, state: _core.State | None = None, time: f
     """State at rest of the scene with its references held at one time, without waves.
 
     Newton's method on the accelerations in minimal coordinates, and on the rates of the states that loads
-    have. Where nothing fixes a position (a vessel without mooring, a payload about its link) or a state (the
-    length of a line on a winch), it stays where it is.
+    have. Hydraulic cylinders stand where their spools are shut, with the pressures that hold. Where nothing
+    fixes a position (a vessel without mooring, a payload about its link) or a state (the length of a line on
+    a winch), it stays where it is.
 
     Parameters
     ----------
@@ -136,6 +139,8 @@ def _rest(scene: Description, time: float, values: Array | None) -> _core.State:
     still = held(scene, time=time)
     model = compile_scene(still)
     y = np.array(model.initial_state) if values is None else Terms(model, time=time).checked(values)
+    if hydraulic_cylinders(scene):
+        return rest_on_oil(still, time, y, _rest)
     taut = tautened(still, y) if lines_of(scene.loads) else None
     if taut is not None:
         lengths = y[_load_states(model)]

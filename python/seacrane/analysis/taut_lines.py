@@ -27,7 +27,7 @@ def tautened(scene: Some, values: Array) -> tuple[Some, Array] | None:
     out, state, found = scene.copy(), np.array(values), False
     for name, line in lines_of(scene.loads).items():
         length = state[places[f"{name}.length"]] if line.winch else line.length.evaluate([0.0])[0, 0]
-        path = laid(line, lambda body: _pose(scene, model, body, values)).length
+        path = laid(line, lambda body: pose_of(scene, model, body, values)).length
         if not (1.0 - LARGEST_SLACK) * length <= path <= (1.0 + STRAIN) * length:
             continue
         found = True
@@ -38,7 +38,7 @@ def tautened(scene: Some, values: Array) -> tuple[Some, Array] | None:
     return (out, state) if found else None
 
 
-def _pose(scene: Description, model: _core.Model, body: str, values: Array) -> Pose:
+def pose_of(scene: Description, model: _core.Model, body: str, values: Array) -> Pose:
     """Of a body's origin; the state holds the centre of mass, of a vessel its origin."""
     if body not in scene.bodies:
         return np.zeros(3), np.eye(3)

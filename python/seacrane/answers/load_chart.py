@@ -165,6 +165,11 @@ def load_chart(
             f"load chart: crane {roles.prefix!r} has no load, which would be varied; give add_crane a "
             "payload, or add_roles a link"
         )
+    if roles.slew is None:
+        raise SceneError(
+            f"load chart: crane {roles.prefix!r} has no slew drive, from whose axis radii are counted; tell "
+            "it by add_roles, or vary the load in statics(coordinates=...)"
+        )
     axes = {"slew": values_of("load chart: slews", slews), "radius": values_of("load chart: radii", radii)}
     for angle in axes["slew"]:
         angle_of("load chart: slews", float(angle))

@@ -9,8 +9,8 @@ import numpy as np
 import numpy.typing as npt
 
 from seacrane import _core
-from seacrane.crane.add_hydraulics import Hydraulics, add_hydraulics, hydraulics_of
-from seacrane.crane.builder import CYLINDERS, FOOT, KnuckleBoomCrane, Vector
+from seacrane.crane.add_hydraulics import add_hydraulics, hydraulics_of
+from seacrane.crane.builder import FOOT, KnuckleBoomCrane, Vector
 from seacrane.crane.jointed import JointedCrane
 from seacrane.crane.jointed_data import MeshData, RopeData
 from seacrane.crane.parts import CraneParts
@@ -76,10 +76,10 @@ def add_crane(
         Whether drivers hold slew, luffs and strokes where they are described. False: drives are to be added.
         Hydraulic cylinders hold their strokes themselves.
     hydraulics : mapping of str to mapping, optional
-        Of a knuckle boom, by "main" and "knuckle", the entries of `add_hydraulic_cylinder` beside its
-        geometry: that cylinder is hydraulic, named as its joint, and holds the crane and its payload at the
-        start. Areas default to the data file's, or to those of its barrel and rod. Default: what the data
-        file says; it may say nothing.
+        By the labels of cylinders, "main" and "knuckle" of a knuckle boom, the entries of
+        `add_hydraulic_cylinder` beside its geometry: that cylinder is hydraulic, named as its joint, and
+        holds the crane and its payload at the start. Areas default to the data file's, or to those of its
+        barrel and rod. Default: what the data file says; it may say nothing.
     prefix : str
         Begins the names of all bodies and joints of this crane and the labels of its channels, such as
         "aft "; a scene's cranes need different ones.
@@ -110,7 +110,7 @@ def add_crane(
     if payload is not None:
         bodies.append(payload.under(parts.tip[1]))
         joints.append(payload.link(parts.tip[1], parts.tip[0]))
-    oil = _oil(crane, hydraulics)
+    oil = hydraulics_of(crane, hydraulics)
     names = {"": base} | {body.name: prefix + body.name for body in bodies}
     frame = _Frame(scene, base)
     for body in bodies:
@@ -122,12 +122,9 @@ def add_crane(
     for body_name, meshes in parts.meshes.items():
         for mesh in meshes:
             _draw(scene, mesh, names[body_name], prefix, parts)
-    if isinstance(crane, KnuckleBoomCrane):
-        force = crane.static_cylinder_forces(
-            s1=s1, s2=s2, payload_mass=0.0 if payload is None else payload.mass, gravity=scene.gravity
-        )
-        by_label = dict(zip(CYLINDERS, force.tolist(), strict=True))
-        add_hydraulics(scene, crane, oil, force=by_label, prefix=prefix)
+    pose = {"s1": s1, "s2": s2} if isinstance(crane, KnuckleBoomCrane) else dict(coordinates or {})
+    load = 0.0 if payload is None else payload.mass
+    add_hydraulics(scene, crane, oil, pose=pose, payload_mass=load, prefix=prefix)
     tip = frame.in_body(prefix + parts.tip[0], parts.tip[1])
     if payload is not None and damped:
         _damp(scene, payload, tip, names[PAYLOAD])
@@ -171,17 +168,6 @@ def _parts(
     if not isinstance(coordinates, Mapping | None):
         raise SceneError(f"crane: coordinates are {shown(coordinates)}; give {{label: rad or m}}")
     return crane.parts(foot=foot, coordinates=coordinates)
-
-
-def _oil(crane: KnuckleBoomCrane | JointedCrane, hydraulics: Hydraulics | None) -> Hydraulics:
-    if isinstance(crane, KnuckleBoomCrane):
-        return hydraulics_of(crane, hydraulics)
-    if hydraulics is not None:
-        raise SceneError(
-            f"crane {crane.data.name!r}: hydraulics are those of a knuckle boom; put oil between a barrel "
-            "and a rod by add_hydraulic_cylinder"
-        )
-    return {}
 
 
 def _draw(scene: Description, mesh: MeshData, body: str, prefix: str, parts: CraneParts) -> None:

@@ -1,14 +1,16 @@
-"""Hydraulic cylinders of a knuckle-boom crane, in place of those that drives move as they like."""
+"""Hydraulic cylinders of a crane, in place of those that drives move as they like."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from typing import Any
 
 from seacrane.crane.builder import CYLINDERS, KnuckleBoomCrane
 from seacrane.crane.data_file import CylinderData
-from seacrane.crane.mass_properties import Tube
+from seacrane.crane.jointed import JointedCrane
+from seacrane.crane.jointed_cylinder import ends_of, static_force
+from seacrane.crane.mass_properties import Member, Tube
 from seacrane.description.cylinder_areas import Areas
 from seacrane.description.hydraulic_cylinders import place_cylinder
 from seacrane.description.scene import Description
@@ -18,50 +20,78 @@ from seacrane.inputs.shown import shown
 Hydraulics = Mapping[str, Mapping[str, Any]]
 
 
-def hydraulics_of(crane: KnuckleBoomCrane, given: Hydraulics | None) -> Hydraulics:
+def hydraulics_of(crane: KnuckleBoomCrane | JointedCrane, given: Hydraulics | None) -> Hydraulics:
     """Entries of the hydraulic cylinders by label: those given, else those of the data file."""
     if given is None:
-        of_file = {label: _data(crane, label).hydraulics for label in CYLINDERS}
-        return {label: entries for label, entries in of_file.items() if entries is not None}
+        return _of_file(crane)
+    labels = CYLINDERS if isinstance(crane, KnuckleBoomCrane) else crane.data.cylinders
     if not isinstance(given, Mapping) or not all(isinstance(one, Mapping) for one in given.values()):
-        raise SceneError(
-            f"crane: hydraulics are {shown(given)}; give {{'main': {{...}}, 'knuckle': {{...}}}}"
-        )
+        example = ", ".join(f"{label!r}: {{...}}" for label in labels)
+        raise SceneError(f"crane: hydraulics are {shown(given)}; give {{{example}}}")
     for label in given:
-        if label not in CYLINDERS:
+        if label not in labels:
             raise SceneError(
                 f"crane: hydraulics are given of cylinder {label!r}; the cylinders are "
-                f"{', '.join(map(repr, CYLINDERS))}"
+                f"{', '.join(map(repr, labels)) or 'none'}"
             )
     return given
 
 
+def _of_file(crane: KnuckleBoomCrane | JointedCrane) -> Hydraulics:
+    if isinstance(crane, JointedCrane):
+        return crane.data.hydraulics
+    of_file = {label: _data(crane, label).hydraulics for label in CYLINDERS}
+    return {label: entries for label, entries in of_file.items() if entries is not None}
+
+
 def add_hydraulics(
     scene: Description,
-    crane: KnuckleBoomCrane,
+    crane: KnuckleBoomCrane | JointedCrane,
     hydraulics: Hydraulics,
     *,
-    force: Mapping[str, float],
+    pose: Mapping[str, float],
+    payload_mass: float,
     prefix: str,
 ) -> None:
-    """Add hydraulic cylinders between barrels and rods that hold forces (N, positive push) by label."""
+    """Add hydraulic cylinders between barrels and rods, with pressures that hold the crane and a payload.
+
+    Parameters
+    ----------
+    pose : mapping of str to float
+        "s1" and "s2" of a knuckle boom, coordinates of another crane.
+    payload_mass : float
+        kg.
+    """
+    if not hydraulics:
+        return
+    if isinstance(crane, JointedCrane):
+        for label, entries in hydraulics.items():
+            force = static_force(
+                crane, label, coordinates=pose, payload_mass=payload_mass, gravity=scene.gravity
+            )
+            first, second = crane.slide(label)
+            areas = _areas(
+                label, crane.data.areas.get(label), crane.member_of(first), crane.member_of(second), entries
+            )
+            name, ends = crane.data.cylinders[label], ends_of(crane, label)
+            names = {"name": prefix + name, "first": prefix + first, "second": prefix + second}
+            place_cylinder(scene, names | ends | areas | dict(entries), force)
+        return
+    forces = crane.static_cylinder_forces(
+        s1=pose["s1"], s2=pose["s2"], payload_mass=payload_mass, gravity=scene.gravity
+    )
+    by_label = dict(zip(CYLINDERS, forces.tolist(), strict=True))
     for label, entries in hydraulics.items():
         data = _data(crane, label)
-        full, ring = _areas(label, data, entries)
-        place_cylinder(
-            scene,
-            {
-                "name": prefix + CYLINDERS[label],
-                "first": f"{prefix}{label}_barrel",
-                "second": f"{prefix}{label}_rod",
-                "full_area": full,
-                "rod_side_area": ring,
-                "retracted_length": data.retracted_length,
-                "stroke": data.stroke,
-            }
-            | dict(entries),
-            force[label],
-        )
+        given: dict[str, Any] = {
+            "name": prefix + CYLINDERS[label],
+            "first": f"{prefix}{label}_barrel",
+            "second": f"{prefix}{label}_rod",
+            "retracted_length": data.retracted_length,
+            "stroke": data.stroke,
+        }
+        areas = _areas(label, data.areas, data.barrel, data.rod, entries)
+        place_cylinder(scene, given | areas | dict(entries), by_label[label])
 
 
 def _data(crane: KnuckleBoomCrane, label: str) -> CylinderData:
@@ -69,18 +99,24 @@ def _data(crane: KnuckleBoomCrane, label: str) -> CylinderData:
     return data
 
 
-def _areas(label: str, data: CylinderData, entries: Mapping[str, Any]) -> Areas:
+def _areas(
+    label: str,
+    areas: Areas | None,
+    barrel: Iterable[Member],
+    rod: Iterable[Member],
+    entries: Mapping[str, Any],
+) -> dict[str, Any]:
     """Those of the data file, or of the bore and the rod of its members."""
-    if data.areas is not None:
-        return data.areas
-    barrel = [part.inner_diameter for part in data.barrel if isinstance(part, Tube)]
-    rod = [part.outer_diameter for part in data.rod if isinstance(part, Tube)]
+    if areas is not None:
+        return {"full_area": areas[0], "rod_side_area": areas[1]}
     if "full_area" in entries and "rod_side_area" in entries:
-        return entries["full_area"], entries["rod_side_area"]
-    if not barrel or not rod or not 0.0 < max(rod) < min(barrel):
+        return {}
+    bores = [part.inner_diameter for part in barrel if isinstance(part, Tube)]
+    rods = [part.outer_diameter for part in rod if isinstance(part, Tube)]
+    if not bores or not rods or not 0.0 < max(rods) < min(bores):
         raise SceneError(
             f"crane: the areas of the {label} cylinder are not known, as its rod and barrel are no tubes "
             "that fit; give full_area and rod_side_area, m2"
         )
-    full = math.pi / 4.0 * min(barrel) ** 2
-    return full, full - math.pi / 4.0 * max(rod) ** 2
+    full = math.pi / 4.0 * min(bores) ** 2
+    return {"full_area": full, "rod_side_area": full - math.pi / 4.0 * max(rods) ** 2}

@@ -96,7 +96,7 @@ class CraneData:
         }
 
 
-def _hydraulics(table: FileTable) -> Mapping[str, float] | None:
+def hydraulics_of(table: FileTable) -> Mapping[str, float] | None:
     """Entries of a hydraulic cylinder, SI units, in a table of its own."""
     if "hydraulics" not in table.values:
         return None
@@ -115,7 +115,7 @@ def _cylinder(table: FileTable) -> CylinderData:
         barrel=table.members("barrel"),
         rod=table.members("rod"),
         areas=table.areas(),
-        hydraulics=_hydraulics(table),
+        hydraulics=hydraulics_of(table),
     )
     table.finish()
     return data

@@ -116,6 +116,19 @@ class JointedCrane:
             if body.members
         }
 
+    def slide(self, label: str) -> tuple[str, str]:
+        """Barrel and rod of a cylinder, by its label."""
+        name = self.data.cylinders[label]
+        return next((joint.first, joint.second) for joint in self.data.joints if joint.name == name)
+
+    def member_of(self, body: str) -> tuple[Member, ...]:
+        """Members of a body, as drawn; none of one that is not drawn by members."""
+        return next((one.members for one in self.data.bodies if one.name == body), ())
+
+    def in_body(self, body: str, point: Array) -> Array:
+        """A point of the home pose in the coordinates of a body, m."""
+        return np.asarray(point - self._origin(body))
+
     def _origin(self, body: str) -> Array:
         """Of a body's frame at home, m."""
         carried = [joint.point for joint in self.data.joints if joint.second == body]

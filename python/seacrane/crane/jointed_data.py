@@ -137,6 +137,8 @@ class JointedData:
     ropes : tuple of RopeData
     capacity, areas
         As of `CraneRoles`.
+    hydraulics : mapping of str to mapping
+        Entries of `add_hydraulic_cylinder` by the labels of cylinders that the file says are hydraulic.
     """
 
     name: str
@@ -151,6 +153,7 @@ class JointedData:
     ropes: tuple[RopeData, ...] = ()
     capacity: Capacity = ()
     areas: Mapping[str, Areas] = field(default_factory=dict)
+    hydraulics: Mapping[str, Mapping[str, float]] = field(default_factory=dict)
 
     @property
     def coordinates(self) -> dict[str, str]:

@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from seacrane.crane.data_file import hydraulics_of
 from seacrane.crane.file_table import FileTable, read_text, root_of
 from seacrane.crane.jointed_check import check
 from seacrane.crane.jointed_data import BodyData, JointData, JointedData, RopeData
@@ -100,6 +101,7 @@ def _with_roles(
     luffs, cylinders = _names(roles, "luffs"), _names(roles, "cylinders")
     tip = _place(roles.table("tip"), frames)
     roles.finish()
+    areas, oil = _pistons(root, cylinders)
     data = JointedData(
         name=name,
         root=stands,
@@ -112,7 +114,8 @@ def _with_roles(
         tip=tip,
         ropes=tuple(_rope(table, frames) for table in root.tables("ropes")),
         capacity=root.capacity("capacity"),
-        areas=_areas(root, cylinders),
+        areas=areas,
+        hydraulics=oil,
     )
     root.finish()
     return data
@@ -217,9 +220,12 @@ def _rope(table: FileTable, frames: Frames) -> RopeData:
     return rope
 
 
-def _areas(root: FileTable, cylinders: Mapping[str, str]) -> dict[str, Areas]:
-    """Of the pistons, by the labels of cylinders."""
-    found: dict[str, Areas] = {}
+def _pistons(
+    root: FileTable, cylinders: Mapping[str, str]
+) -> tuple[dict[str, Areas], dict[str, Mapping[str, float]]]:
+    """Areas of the pistons and entries of their oil, by the labels of cylinders."""
+    areas: dict[str, Areas] = {}
+    oil: dict[str, Mapping[str, float]] = {}
     for table in root.tables("pistons"):
         label = table.text("cylinder")
         if label not in cylinders:
@@ -227,11 +233,12 @@ def _areas(root: FileTable, cylinders: Mapping[str, str]) -> dict[str, Areas]:
                 f"{table.source}: {table.label('cylinder')} is {shown(label)}; the cylinders are "
                 f"{', '.join(map(repr, cylinders)) or 'none'}."
             )
-        areas = table.areas()
-        if areas is None:
+        pair, entries = table.areas(), hydraulics_of(table)
+        if pair is None and entries is None:
             raise FileFormatError(
                 f"{table.source}: {table.where} has no areas; write full_area and rod_side_area, m2."
             )
-        found[label] = areas
+        areas |= {} if pair is None else {label: pair}
+        oil |= {} if entries is None else {label: entries}
         table.finish()
-    return found
+    return areas, oil

@@ -209,3 +209,17 @@ def tips(scene: Description) -> dict[str, tuple[str, Vector]]:
     """Body and point in its coordinates (m) of every tip, by label."""
     found = {f"{roles.prefix}tip": roles.tip for roles in scene.roles.values() if roles.tip}
     return {label: tip for label, tip in found.items() if tip[0] in scene.bodies}
+
+
+def crane_bodies(scene: Description) -> set[str]:
+    """Bodies of the scene's cranes: what joints connect with their tips, without bases and payloads."""
+    apart = {GROUND, *payloads(scene).values(), *(vessel.body for vessel in scene.vessels.values())}
+    decks = {f"{prefix}deck" for prefix in scene.roles} & scene.joints.keys()
+    apart |= {scene.joints[deck].first for deck in decks}
+    found = {body for body, _ in tips(scene).values()} - apart
+    while True:
+        ends = [{joint.first, joint.second} for joint in scene.joints.values()]
+        more = {body for pair in ends if pair & found for body in pair} - apart - found
+        if not more:
+            return found
+        found |= more

@@ -18,6 +18,8 @@ HOSE = 0.05  # of the swept volume, where no hose volume is given
 BACK_PRESSURE = 0.1  # of the pump's, in the chamber that carries nothing
 ATMOSPHERE = 1e5  # Pa
 NEAR = 1e-6  # m
+FASTEST = 100.0  # m/s, of a piston: a flow that moves it faster is in other units
+LARGEST_HOSE = 100.0  # times the swept volume, likewise
 
 
 def hydraulic_cylinders(scene: Description) -> dict[str, _core.HydraulicCylinder]:
@@ -75,11 +77,31 @@ def place_cylinder(
             f"{what}: stroke", settings["stroke"]
         )
         settings.setdefault(volume, HOSE * swept)
+    _check_units(what, settings)
     if force is not None:
         for side, value in _pressures(what, force, settings).items():
             settings.setdefault(side, value)
     added: _core.HydraulicCylinder = add_load(scene, _core.HydraulicCylinder(**settings))
     return added
+
+
+def _check_units(what: str, settings: dict[str, Any]) -> None:
+    """SceneError for flows and volumes that are most likely in l/min and l."""
+    full, stroke = (number_of(f"{what}: {key}", settings[key]) for key in ("full_area", "stroke"))
+    for key in ("rated_flow", "rated_flow_rod"):
+        flow = number_of(f"{what}: {key}", settings.get(key, 0.0))
+        if flow > FASTEST * full > 0.0:
+            raise SceneError(
+                f"{what}: {key} is {flow:g} m3/s, which moves the piston by {flow / full:.3g} m/s; give "
+                f"m3/s: {flow:g} l/min are {flow / 6e4:.3g}"
+            )
+    for key in ("hose_volume", "hose_volume_rod"):
+        volume = number_of(f"{what}: {key}", settings[key])
+        if volume > LARGEST_HOSE * full * stroke > 0.0:
+            raise SceneError(
+                f"{what}: {key} is {volume:g} m3, and the piston sweeps {full * stroke:.3g} m3; give m3: "
+                f"{volume:g} l are {1e-3 * volume:.3g}"
+            )
 
 
 def _stroke(scene: Description, what: str, settings: dict[str, Any]) -> float:
@@ -105,6 +127,21 @@ def _stroke(scene: Description, what: str, settings: dict[str, Any]) -> float:
     return min(max(length - shortest, 0.0), longest - shortest)
 
 
+def holding_pressures(cylinder: _core.HydraulicCylinder, force: float) -> tuple[float, float]:
+    """Of the full side and of the rod side, Pa, by which a cylinder holds another force (N).
+
+    The rod side keeps the pressure that it is described with, unless the full side's would fall below the
+    tank's.
+    """
+    keys = ("full_area", "rod_side_area", "tank_pressure", "pump_pressure")
+    settings = {key: getattr(cylinder, key) for key in keys}
+    full = (force + cylinder.pressure_rod * cylinder.rod_side_area) / cylinder.full_area
+    if full >= cylinder.tank_pressure:
+        return full, cylinder.pressure_rod
+    found = _pressures(f"hydraulic cylinder {cylinder.name!r}", force, settings)
+    return found["pressure"], found["pressure_rod"]
+
+
 def _pressures(what: str, force: float, settings: dict[str, Any]) -> dict[str, float]:
     """Of both chambers, Pa, that hold a force: the one that carries nothing has the back pressure."""
     full, ring = (number_of(f"{what}: {area}", settings[area]) for area in ("full_area", "rod_side_area"))
@@ -114,6 +151,11 @@ def _pressures(what: str, force: float, settings: dict[str, Any]) -> dict[str, f
     back = max(tank, BACK_PRESSURE * number_of(f"{what}: pump_pressure", settings.get("pump_pressure", 0.0)))
     if "pressure" in settings:
         given = number_of(f"{what}: pressure", settings["pressure"])
+        if given > 0.0 and not given * full > force:
+            raise SceneError(
+                f"{what}: pressure is {given:g} Pa, which cannot hold the {force:.4g} N that it carries; "
+                f"give more than {force / full:.4g} Pa, or leave it out"
+            )
         return {"pressure_rod": (given * full - force) / ring}
     at_rod = number_of(f"{what}: pressure_rod", settings.get("pressure_rod", back))
     at_full = (force + at_rod * ring) / full

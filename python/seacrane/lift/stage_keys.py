@@ -8,7 +8,7 @@ from seacrane.result.units import units_of
 from seacrane.stages.stage import Stage
 
 CHANNEL_UNITS = EITHER.join(dict.fromkeys(unit for name in CHANNELS for unit in units_of(name)))
-COMMAND_UNITS = EITHER.join(("m", "rad", "m/s", "N", "N m"))
+COMMAND_UNITS = EITHER.join(("m", "rad", "m/s", "N", "N m", "1", "m2"))
 WAITS = {
     "tension": "Line whose tension ends the stage.",
     "length": "Line whose unstretched length ends it.",
@@ -28,7 +28,12 @@ _COMMANDS = (
     Key(name="to", type="number", unit=COMMAND_UNITS, text="Where a move ends."),
     Key(name="by", type="number", unit=COMMAND_UNITS, text="How far it goes."),
     Key(name="over", type="number", unit="s", text="How long it takes."),
-    Key(name="value", type="number", unit=COMMAND_UNITS, text="A rate or force, reached within 1 s."),
+    Key(
+        name="value",
+        type="number",
+        unit=COMMAND_UNITS,
+        text="A rate, force or share, reached within 1 s; the area of a hole.",
+    ),
     Key(name="curve", type="curve", unit=COMMAND_UNITS, text="On the stage's clock, 0 where it begins."),
 )
 STAGE = keys_of(

@@ -16,7 +16,7 @@ from seacrane.lift.document import Document
 from seacrane.lift.keys import DEGREES, EITHER, Key, into_si
 from seacrane.lift.stage_keys import STAGE, WAITS
 from seacrane.scene.scene import Scene
-from seacrane.stages.commands import Command, targets
+from seacrane.stages.commands import HOLE, Command, targets
 from seacrane.stages.move import Move
 from seacrane.stages.plan import checked_stages
 from seacrane.stages.stage import Stage
@@ -24,6 +24,9 @@ from seacrane.stages.until import Condition, Until
 
 LIMITED = {"tension": "line_tension", "length": "line_unstretched_length"}
 WAYS = ("to", "by", "value", "curve")
+OF_LOADS = {
+    "rate": "m/s", "tension": "N", "brake": "1", "length": "m", "command": "1", "reference": "m", HOLE: "m2",
+}  # fmt: skip
 
 
 def stages_of(document: Document, entries: Iterable[Entry]) -> tuple[Stage, ...]:
@@ -163,7 +166,7 @@ def _of_commands(table: Mapping[str, Any]) -> list[tuple[str, str, Key]]:
 def _unit(scene: Scene, name: str) -> str:
     target = targets(scene)[name]
     if target.kind == "load":
-        return "m/s" if target.attribute == "rate" else "m"
+        return OF_LOADS[target.attribute]
     table = scene.actuators if target.kind == "actuator" else scene.drivers
     element = table[target.element]
     angular = coordinate_of(scene, target.kind, element.joint, element.coordinate) in ANGLES

@@ -372,6 +372,10 @@ _ALL = (
         "gas_spring", heave.add_gas_spring, _core.GasSpring, force={"unit": "N"}, stiffness={"unit": "N/m"},
     ),
     _call("hydraulic_cylinder", hydraulics.add_hydraulic_cylinder, _core.HydraulicCylinder),
+    Table(
+        name="hold_pressures", several=False, text=_summary(hydraulics.hold_pressures), keys=(),
+        add=hydraulics.hold_pressures,
+    ),
     _call(
         "bridle", bridles.add_bridle, _core.Line,
         hook_point=POINT, stiffnesses=ROW | {"unit": "N"}, lengths=ROW | {"unit": "m"},

@@ -33,8 +33,9 @@ class Event:
     kind : str
         "contact": holds from now on (a wire is taut); "rebound": was hit and left at once; "release": holds
         no more (a wire is slack, a seat is lifted off, a stage released a connection); "stage": a stage
-        began; "connection": a stage connected an element; "limit": a winch, a compensator or a gas spring
-        reached one of its bounds, which the name ends with, such as ".stroke".
+        began; "connection": a stage connected an element; "limit": a winch, a compensator, a gas spring
+        or a hydraulic cylinder reached one of its bounds, which the name ends with, such as ".stroke", or its
+        hose burst (".rupture").
     speed : float
         Rate of approach just before, m/s or rad/s; 0 for a release, a stage or a limit.
     impulse : float

@@ -45,6 +45,7 @@ from seacrane.run.method import Method
 from seacrane.run.modes import Modes
 from seacrane.run.output_times import output_times
 from seacrane.run.outputs import Outputs
+from seacrane.run.ruptures import ruptures
 from seacrane.run.shorthand import Shorthand, settled
 from seacrane.run.stats import lasting_stats, settings_in_sea, settings_of, stats_of
 from seacrane.scene.scene import Scene
@@ -317,11 +318,13 @@ class Run:
         self._begin_anew("inputs are set during the run, and their jumps may make it ring")
 
     def events(self) -> list[Event]:
-        """What limits did so far."""
-        return [
+        """What limits did so far, and which hoses burst."""
+        met = [
             Event(time=time, name=name, kind=kind, speed=speed, impulse=impulse, energy_lost=lost)
             for time, name, kind, speed, impulse, lost in self.core.events()
         ]
+        burst = ruptures(self.scene, self.start.time, self.core.time)
+        return sorted([*met, *burst], key=lambda event: event.time)
 
     def stats(self) -> dict[str, Any]:
         """Version, settings and counters so far: `Result.stats`."""

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 from seacrane.run.growth import growing
 from seacrane.run.modes import Modes
 from seacrane.run.stiffness import stiffness
+from seacrane.run.unsteady_oil import unsteady_oil
 from seacrane.validity.range import Finding
 
 if TYPE_CHECKING:
@@ -25,7 +26,8 @@ def slow_findings(run: Run) -> list[Finding]:
         return []
     last = run.last_state()
     states = [run.start] if last is None else [run.start, last]
-    return _found(run, Modes(run.model, list(run.scene.bodies), states))
+    found = _found(run, Modes(run.model, list(run.scene.bodies), states))
+    return found + unsteady_oil(run.scene, run.model, run.start)
 
 
 def _found(run: Run, modes: Modes, near: float = 1.0) -> list[Finding]:

@@ -5,8 +5,9 @@ from __future__ import annotations
 from typing import Any
 
 from seacrane import _core
-from seacrane.analysis.holding_force import holding_force
-from seacrane.description.hydraulic_cylinders import place_cylinder
+from seacrane.analysis.holding_force import holding_force, holding_forces
+from seacrane.description.edit import replace_element
+from seacrane.description.hydraulic_cylinders import holding_pressures, hydraulic_cylinders, place_cylinder
 from seacrane.description.scene import Description
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import text_of
@@ -95,7 +96,7 @@ def add_hydraulic_cylinder(
     pressure, pressure_rod : float, optional
         Pa, of the full side and of the rod side at the start. Default: those that hold the scene at rest as
         described; the chamber that carries nothing has a tenth of the pump's pressure. Add the cylinder after
-        what it carries.
+        what it carries, or see `hold_pressures`.
     hose_volume, hose_volume_rod : float, optional
         m3, of oil beside the swept volume. Default: 5 % of the swept volume.
     oil_modulus, hose_modulus, cylinder_modulus : float
@@ -174,3 +175,31 @@ def _held(scene: Description, given: dict[str, Any]) -> float:
                 f"hydraulic cylinder {given['name']!r}: there is no body {given[end]!r}; add it first"
             )
     return holding_force(scene, given)
+
+
+def hold_pressures(scene: Description) -> dict[str, _core.HydraulicCylinder]:
+    """Let hydraulic cylinders start with the pressures that hold the scene at rest as it is now described.
+
+    A cylinder begins with the pressures that hold what was there when it was added. Call this once the rest
+    is there: a payload that hangs on an elastic line or a winch, or bodies that were added later. The rod
+    sides keep their pressures, unless the full side's would fall below the tank's.
+
+    Returns
+    -------
+    dict of str to HydraulicCylinder
+        Those of the scene, by name.
+
+    Raises
+    ------
+    SceneError
+        If the scene has no hydraulic cylinder, or is not at rest as described.
+    """
+    cylinders = hydraulic_cylinders(scene)
+    if not cylinders:
+        raise SceneError(
+            f"scene {scene.name!r}: has no hydraulic cylinder whose pressures would hold it; add one first"
+        )
+    for name, force in holding_forces(scene).items():
+        full, rod = holding_pressures(cylinders[name], force)
+        replace_element(scene, name, kind="load", pressure=full, pressure_rod=rod)
+    return hydraulic_cylinders(scene)

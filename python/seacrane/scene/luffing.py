@@ -9,7 +9,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane import _core
+from seacrane.description.compilation import compile_scene
 from seacrane.description.crane_parts import luffing_ropes, luffs
+from seacrane.description.line_path import Pose, described_poses, laid
+from seacrane.description.loads import lines_of
 from seacrane.description.luffing_rope import LuffingRope, lengthening
 from seacrane.description.scene import GROUND, Description
 from seacrane.errors import SceneError
@@ -18,15 +21,16 @@ from seacrane.inputs.shown import shown
 from seacrane.scene.lines import add_line, add_winch
 
 Array = NDArray[np.float64]
+SMALL = 1e-5  # rad, over which lengths are differenced
 
 
 def add_luffing_rope(scene: Description, *, luff: str | None = None, **winch: Any) -> _core.Line:
     """Let a crane's luffing rope carry its jib, as an elastic line of all its falls on a winch.
 
-    The rope starts with the tension that holds the weights beyond the hinge at rest on an upright base. A
-    driver that holds the hinge still (`add_crane(held=True)`) is taken away. The rope's name is that in the
-    crane's file, such as "luffing rope"; `statics` with coordinates leads the hinge and tells the tension
-    from its moment.
+    The rope starts with the tension that holds the weights beyond the hinge, and the pull of the lines that
+    are there, at rest on an upright base: add the hoist before it. A driver that holds the hinge still
+    (`add_crane(held=True)`) is taken away. The rope's name is that in the crane's file, such as "luffing
+    rope"; `statics` with coordinates leads the hinge and tells the tension from its moment.
 
     Parameters
     ----------
@@ -80,14 +84,18 @@ def _which(scene: Description, luff: str | None) -> str:
 
 
 def _tension(scene: Description, what: str, joint: str, rope: LuffingRope) -> float:
-    """Of each fall, N, that carries the weights beyond the hinge at the described pose: virtual work."""
+    """Of each fall, N, that carries what is beyond the hinge at the described pose: virtual work.
+
+    That is the weights of the bodies there, and the pull of the lines that run to others.
+    """
     described = scene.joints[joint]
     hinge = _at(scene, described.first, np.asarray(described.first_frame.point))
     turn = _turn(scene, described.first)
     axis = turn @ np.asarray(described.first_frame.axes)[:, 2]
     up = np.array([0.0, 0.0, 1.0])
-    moment = 0.0
-    for body in _beyond(scene, joint):
+    beyond = set(_beyond(scene, joint))
+    moment = _moment_of_lines(scene, beyond, hinge, axis)
+    for body in sorted(beyond):
         one = scene.bodies[body]
         center = one.position + _turn(scene, body) @ np.asarray(one.center_of_mass)
         moment -= one.mass * scene.gravity * float(up @ np.cross(axis, center - hinge))
@@ -99,6 +107,41 @@ def _tension(scene: Description, what: str, joint: str, rope: LuffingRope) -> fl
             "it lower"
         )
     return tension
+
+
+def _moment_of_lines(scene: Description, beyond: set[str], hinge: Array, axis: Array) -> float:
+    """About the hinge, N m, of the lines between bodies beyond it and others, as described: -T dl/dangle."""
+    lines = lines_of(scene.loads)
+    ends = {name: {*line.bodies} for name, line in lines.items()}
+    pulling = [name for name, bodies in ends.items() if bodies & beyond and bodies - beyond]
+    if not pulling:
+        return 0.0
+    tensions, poses = _tensions(scene), described_poses(scene)
+
+    def length(name: str, angle: float) -> float:
+        turn = rotation_matrix([np.cos(0.5 * angle), *(np.sin(0.5 * angle) * axis)])
+
+        def pose(body: str) -> Pose:
+            origin, rotation = poses(body)
+            return (
+                (hinge + turn @ (origin - hinge), turn @ rotation) if body in beyond else (origin, rotation)
+            )
+
+        return laid(lines[name], pose).length
+
+    slopes = {name: (length(name, SMALL) - length(name, -SMALL)) / (2.0 * SMALL) for name in pulling}
+    return -float(sum(tensions[name] * slope for name, slope in slopes.items()))
+
+
+def _tensions(scene: Description) -> dict[str, float]:
+    """Of all lines as described, N."""
+    model = compile_scene(scene)
+    run = _core.Simulation(
+        model=model,
+        start=_core.initial_state(model),
+        options=_core.RunOptions(integrator="rk4", output_times=[0.0], channels={"line_tension"}),
+    )
+    return dict(zip(lines_of(scene.loads), run.channels()["line_tension"][0].tolist(), strict=True))
 
 
 def _beyond(scene: Description, hinge: str) -> Iterator[str]:

@@ -102,6 +102,7 @@ class Scene(Description):
     add_heave_compensation = heave.add_heave_compensation
     add_gas_spring = heave.add_gas_spring
     add_hydraulic_cylinder = hydraulics.add_hydraulic_cylinder
+    hold_pressures = hydraulics.hold_pressures
 
     add_vessel = vessel.add_vessel
     add_given_vessel = given_vessel.add_given_vessel

@@ -1,4 +1,4 @@
-"""What a stage commands: curves of winches, lines, actuators and drivers, changed from a time on."""
+"""What a stage commands: curves of winches, lines, cylinders, actuators, drivers, changed from a time on."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ import numpy as np
 
 from seacrane import _core
 from seacrane.description.edit import replace_element
+from seacrane.description.hydraulic_cylinders import hydraulic_cylinders
 from seacrane.description.loads import lines_of
 from seacrane.description.scene import Some
 from seacrane.errors import SceneError
@@ -19,6 +20,7 @@ from seacrane.stages.move import Move
 
 RATE_TIME = 1.0  # s, in which a rate, a force or a brake that is commanded by a number is reached
 JUMP = 1e-6  # m or rad, of a commanded place
+HOLE = "rupture_area"  # of a hose that a stage lets burst: no curve, it opens at once
 
 Command = Move | _core.Curve | float
 
@@ -43,6 +45,13 @@ def targets(scene: Scene) -> dict[str, Target]:
             found[f"{name}.tension"] = Target("load", name, "tension", False)
         if line.brake_capacity > 0.0:
             found[f"{name}.brake"] = Target("load", name, "brake", False)
+    for name, cylinder in hydraulic_cylinders(scene).items():
+        if cylinder.rated_flow > 0.0:
+            found[f"{name}.command"] = Target("load", name, "command", False)
+        if cylinder.gain > 0.0:
+            found[f"{name}.reference"] = Target("load", name, "reference", True)
+        if cylinder.rupture_area == 0.0:
+            found[f"{name}.rupture"] = Target("load", name, HOLE, False)
     for name in scene.actuators:
         found[f"{name}.reference"] = Target("actuator", name, "reference", True)
         found[f"{name}.force"] = Target("actuator", name, "feed_forward", False)
@@ -56,10 +65,14 @@ def check_command(what: str, name: str, value: object, known: Mapping[str, Targe
             f"{what} commands {name!r}, which is not there; there are {', '.join(known) or 'none'}"
         )
     if isinstance(value, (Move, _core.Curve)):
+        if known[name].attribute == HOLE:
+            raise SceneError(f"{what}: command {name!r} is {shown(value)}; a hose bursts at once: give m2")
         return
     number = number_of(f"{what}: command {name!r}", value)
     if not np.isfinite(number):
         raise SceneError(f"{what}: command {name!r} is {number}; give a finite number")
+    if known[name].attribute == HOLE and not number > 0.0:
+        raise SceneError(f"{what}: command {name!r} is {number:g} m2; give the area of the hole, above zero")
     if known[name].place:
         raise SceneError(
             f"{what}: command {name!r} is {shown(value)}, a place to go to in no stated time; give "
@@ -79,6 +92,10 @@ def commanded(scene: Some, what: str, commands: Mapping[str, Command], time: flo
     known = targets(out)  # type: ignore[arg-type]
     for name, value in commands.items():
         target = known[name]
+        if target.attribute == HOLE:
+            burst = {"rupture_time": time, HOLE: float(value)}  # type: ignore[arg-type]
+            replace_element(out, target.element, kind=target.kind, **burst)
+            continue
         old = present(out, target)
         if isinstance(value, _core.Curve):
             new = old.then(time=time, curve=_begun(value, time))

@@ -11,7 +11,7 @@ from seacrane.description.loads import lines_of
 from seacrane.errors import SceneError
 from seacrane.inputs.shown import shown
 from seacrane.scene.scene import Scene
-from seacrane.stages.commands import Command, check_command, commanded, targets
+from seacrane.stages.commands import HOLE, Command, check_command, commanded, targets
 from seacrane.stages.connections import table_of, without
 from seacrane.stages.move import Move
 from seacrane.stages.reach import check_bounds, check_limits
@@ -42,11 +42,18 @@ def checked_stages(scene: Scene, given: Any) -> tuple[Stage, ...]:
             raise SceneError(f"{stage.title}: the name is used twice; names of stages must differ")
         seen.add(stage.name)
     absent = waiting(stages)
+    burst: dict[str, str] = {}
     for stage in stages:
         _change(scene, stage, absent)
         there = without(scene, absent)
+        known = targets(there)
         for name, value in stage.commands.items():
-            check_command(stage.title, name, value, targets(there))
+            check_command(stage.title, name, value, known)
+            if known[name].attribute == HOLE and burst.setdefault(name, stage.name) != stage.name:
+                raise SceneError(
+                    f"{stage.title}: commands {name!r}, and that hose bursts in stage {burst[name]!r}; leave "
+                    "one of them out"
+                )
         check_limits(stage, there)
         check_bounds(stage, there)
         _check_names(stage, there)

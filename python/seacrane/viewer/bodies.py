@@ -11,13 +11,14 @@ from numpy.typing import NDArray
 from seacrane.crane import Crane
 from seacrane.description import crane_parts
 from seacrane.description.given import USUAL_SIZE, given_vessels, shown_size
+from seacrane.description.hydraulic_cylinders import hydraulic_cylinders
 from seacrane.description.loads import lines_of, path_of
 from seacrane.description.scene import Description
 from seacrane.errors import SceneError
 from seacrane.hydro import Hull
 from seacrane.hydro.hull.shipped_hull import VOLUME, shipped_hull
 from seacrane.inputs.shown import shown
-from seacrane.viewer.crane_shapes import crane_shapes
+from seacrane.viewer.crane_shapes import COLOURS, crane_shapes
 from seacrane.viewer.hull_shapes import box_hull, hull_shape, schematic_hull
 from seacrane.viewer.shapes import BoxShape, HullShape, MeshShape, Shape, distinct, equivalent_box, framework
 
@@ -70,9 +71,10 @@ def looks(
     found: dict[str, Look] = {}
     extent = _extent(scene)
     meshed = {mesh.body for mesh in scene.meshes.values()}
+    of_cranes = crane_parts.crane_bodies(scene) if meshed else set()
     for name in scene.bodies:
         if name in meshed and name not in given:
-            role = "payload" if name in hanging else "crane" if name in members else "body"
+            role = "payload" if name in hanging else "crane" if name in of_cranes else "body"
             found[name] = _by_meshes(scene, name, "vessel" if name in floating else role)
         elif name in floating:
             found[name] = _vessel(scene, name, given.get(name))
@@ -138,9 +140,15 @@ def _by_meshes(scene: Description, name: str, role: str) -> Look:
             shapes.append(
                 HullShape(vertices=points, faces=mesh.faces, waterline=-float(centre[2]))
                 if role == "vessel"
-                else MeshShape(vertices=points, faces=mesh.faces)
+                else MeshShape(vertices=points, faces=mesh.faces, colour=_part(scene, name, role))
             )
     return Look(role=role, shapes=shapes)
+
+
+def _part(scene: Description, name: str, role: str) -> str:
+    """What a body of a crane is called without the crane's prefix, as far as that has a colour."""
+    names = [name.removeprefix(prefix) for prefix in scene.roles] if role == "crane" else []
+    return next((COLOURS[one] for one in names if one in COLOURS), "")
 
 
 def _is_shipped(scene: Description, name: str) -> bool:
@@ -168,7 +176,7 @@ def _generic(scene: Description, name: str, role: str, extent: float) -> Look:
 
 
 def body_points(scene: Description, name: str) -> list[Array]:
-    """Where joints, springs and cranes take hold of a body, in its coordinates, m."""
+    """Where joints, springs, cylinders and cranes take hold of a body, in its coordinates, m."""
     points = []
     for joint in scene.joints.values():
         points += [joint.first_frame.point] if joint.first == name else []
@@ -178,6 +186,9 @@ def body_points(scene: Description, name: str) -> list[Array]:
         points += [spring.second_point] if spring.second == name else []
     for line in lines_of(scene.loads).values():
         points += [point for body, point in path_of(line) if body == name]
+    for cylinder in hydraulic_cylinders(scene).values():
+        points += [cylinder.first_point] if cylinder.first == name else []
+        points += [cylinder.second_point] if cylinder.second == name else []
     points += [np.array(point) for body, point in crane_parts.tips(scene).values() if body == name]
     return [np.asarray(point, dtype=float).reshape(3) for point in points]
 

@@ -79,8 +79,8 @@ class Drawing:
 
     @cached_property
     def box(self) -> Array:
-        """(2, 3): lowest and highest coordinates that bodies and wheels reach, m: at the start, midway, and
-        at the end."""
+        """(2, 3): lowest and highest coordinates that bodies, wheels and cylinders reach, m: at the start,
+        midway, and at the end."""
         times = self.motion.start + np.array([0.0, 0.5, 1.0]) * (self.motion.end - self.motion.start)
         position, quaternion = self.motion.at(np.minimum(times, self.motion.end))
         reached = []
@@ -91,6 +91,8 @@ class Drawing:
         for wheel in self.wheels:
             centres = self.place(wheel.at, position, quaternion)
             reached += [centres - wheel.reach, centres + wheel.reach]
+        for wire in self.wires:
+            reached += self.ends_of(wire, position, quaternion) if wire["radius"] else ()
         every = np.concatenate(reached)
         return np.array([every.min(axis=0), every.max(axis=0)])
 
@@ -108,6 +110,18 @@ class Drawing:
     def wire_radius(self) -> float:
         """At which wires are drawn, m: thick enough to be seen."""
         return 0.002 * self.radius
+
+    def radius_of(self, wire: Mapping[str, Any]) -> float:
+        """Of a wire as drawn, m."""
+        return max(self.wire_radius, float(wire["radius"]))
+
+    def ends_of(self, wire: Mapping[str, Any], position: Array, quaternion: Array) -> tuple[Array, Array]:
+        """Where a wire begins and ends at poses, as `place`; one of limited reach ends there."""
+        start, end = (self.place(wire[key], position, quaternion) for key in ("from", "to"))
+        if not wire["reach"]:
+            return start, end
+        away = np.maximum(np.linalg.norm(end - start, axis=1), wire["reach"])[:, None]
+        return start, start + wire["reach"] / away * (end - start)
 
     def place(self, end: list[float], position: Array, quaternion: Array) -> Array:
         """Where the end of a wire is at poses (frames, bodies, 3 or 4): (frames, 3), m."""

@@ -103,11 +103,9 @@ class _Model:
         """Every wire as a bar of one metre along z, which is moved, turned and stretched."""
         drawing, motion = self.drawing, self.motion
         for wire in drawing.wires:
-            vertices, faces = tube(np.zeros(3), np.array([0.0, 0.0, 1.0]), drawing.wire_radius, 8)
+            vertices, faces = tube(np.zeros(3), np.array([0.0, 0.0, 1.0]), drawing.radius_of(wire), 8)
             bar = Surface(vertices=vertices, faces=faces, colour=WIRES[wire["kind"]])
-            start, end = (
-                drawing.place(wire[key], motion.position, motion.quaternion) for key in ("from", "to")
-            )
+            start, end = drawing.ends_of(wire, motion.position, motion.quaternion)
             length = np.maximum(np.linalg.norm(end - start, axis=1), SMALLEST)
             turn = _from_z((end - start) / length[:, None])
             there = np.where(drawing.absent(wire, motion.times), SMALLEST, 1.0)

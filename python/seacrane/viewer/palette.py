@@ -15,7 +15,13 @@ BODIES = {
 }
 PLAIN = ("#7c6aa6", "#3f8f8a", "#b0793a", "#5578a8", "#8a8f3c", "#a65a7c")  # bodies of no other kind, in turn
 HULL = {"above": "#2f5f86", "deck": "#93a58e", "below": "#8c3b32"}
-WIRES = {"link": "#1b1f24", "wire": "#1b1f24", "spring": "#6a4fa0"}
+WIRES = {
+    "link": "#1b1f24",
+    "wire": "#1b1f24",
+    "spring": "#6a4fa0",
+    "barrel": BODIES["barrel"],
+    "rod": BODIES["rod"],
+}
 SLACK = "#e0701a"
 TRACKS = {"tip": "#ffffff", "payload": "#ffe14d"}
 SKY = "#dfeaf2"

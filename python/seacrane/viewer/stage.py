@@ -120,10 +120,10 @@ class Stage:
         for wire in self.drawing.wires:
             if self.drawing.absent(wire, np.asarray(time)):
                 continue
-            start, end = (self.drawing.place(wire[key], position, quaternion)[0] for key in ("from", "to"))
+            start, end = (place[0] for place in self.drawing.ends_of(wire, position, quaternion))
             points, slack = wire_line(start, end, wire["length"])
             colour = SLACK if slack else WIRES[wire["kind"]]
-            actor = self._line(points, colour, self.drawing.wire_radius)
+            actor = self._line(points, colour, self.drawing.radius_of(wire))
             self.wires += [] if actor is None else [actor]
 
     def _tracks(self) -> None:

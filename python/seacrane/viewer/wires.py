@@ -1,4 +1,4 @@
-"""Links, wires, springs and elastic lines: lines between points of bodies, slack ones with their length."""
+"""Links, wires, springs, lines and cylinders between points of bodies, slack ones with their length."""
 
 from __future__ import annotations
 
@@ -9,21 +9,27 @@ from typing import Any
 import numpy as np
 
 from seacrane import _core
+from seacrane.description.crane_parts import luffing_ropes
+from seacrane.description.hydraulic_cylinders import hydraulic_cylinders, slide_of
 from seacrane.description.line_path import Array, described_poses, laid
 from seacrane.description.loads import lines_of, springs_of
 from seacrane.description.scene import Description
 from seacrane.viewer.shapes import plain
 
 GROUND = -1
+WALL = 1.15  # outer over inner radius of a barrel
+THINNEST_ROD = 0.4  # of the piston, where both sides have one area
 
 
 def wires_of(scene: Description, bodies: Sequence[str]) -> list[dict[str, Any]]:
-    """Distance joints, springs and the spans of elastic lines for the page.
+    """Distance joints, springs, the spans of elastic lines, and hydraulic cylinders for the page.
 
-    Of each: name, the element that it is of, kind ("link", "wire" or "spring"; a span is a link), both ends
-    as the body's number (-1: the ground) and a point relative to its centre of mass, and the length (m) below
-    which it hangs slack; 0 if it never does. Arcs over sheaves are short links without a name. Where a line
-    meets a sheave is as in the pose that the scene describes.
+    Of each: name, the element that it is of, kind ("link", "wire", "spring", "barrel" or "rod"; a span is a
+    link), both ends as the body's number (-1: the ground) and a point relative to its centre of mass, the
+    length (m) below which it hangs slack, 0 if it never does, the radius (m) that it has, 0 for that of all
+    lines, and how far it goes (m), 0 for all the way. A luffing rope whose hinge is led by the moment is a
+    link. Arcs over sheaves are short links without a name. Where a line meets a sheave is as in the pose that
+    the scene describes.
     """
     limits = {limit.joint for limit in scene.loads.values() if getattr(limit, "kind", None) == "wire"}
     found = []
@@ -53,7 +59,42 @@ def wires_of(scene: Description, bodies: Sequence[str]) -> list[dict[str, Any]]:
         )
     for name, line in lines_of(scene.loads).items():
         found += _over(scene, bodies, name, line)
-    return found
+    for rope in luffing_ropes(scene).values():
+        if rope.name not in scene.loads:  # else it is a line
+            start, stop = (end_of(scene, bodies, *block) for block in (rope.first, rope.second))
+            found.append(
+                {
+                    "name": rope.name,
+                    "element": rope.name,
+                    "kind": "link",
+                    "from": start,
+                    "to": stop,
+                    "length": 0.0,
+                }
+            )
+    of_cranes = {slide for roles in scene.roles.values() for slide in roles.cylinders.values()}
+    for name, cylinder in hydraulic_cylinders(scene).items():
+        if slide_of(scene, cylinder) not in of_cranes:  # else its barrel and its rod are bodies
+            found += _cylinder(scene, bodies, name, cylinder)
+    return [{"radius": 0.0, "reach": 0.0} | one for one in found]
+
+
+def _cylinder(
+    scene: Description, bodies: Sequence[str], name: str, one: _core.HydraulicCylinder
+) -> list[dict[str, Any]]:
+    """A rod from point to point, and about it the barrel, as long as the cylinder is retracted."""
+    piston = np.sqrt(one.full_area / np.pi)
+    rod = max(np.sqrt((one.full_area - one.rod_side_area) / np.pi), THINNEST_ROD * piston)
+    ends = {
+        "element": name,
+        "from": end_of(scene, bodies, one.first, one.first_point),
+        "to": end_of(scene, bodies, one.second, one.second_point),
+        "length": 0.0,
+    }
+    return [
+        ends | {"name": name, "kind": "rod", "radius": float(rod)},
+        ends | {"name": "", "kind": "barrel", "radius": float(WALL * piston), "reach": one.retracted_length},
+    ]
 
 
 def _over(scene: Description, bodies: Sequence[str], name: str, line: _core.Line) -> list[dict[str, Any]]:

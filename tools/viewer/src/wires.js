@@ -1,14 +1,15 @@
-// Links, wires and springs. A slack wire is drawn with its own length, hanging to one side of its chord; one that a
+// Links, wires, springs and cylinders. A slack wire is drawn with its own length, hanging to one side of its chord; one that a
 // stage of the lift has not is hidden.
-import { BufferAttribute, BufferGeometry, CatmullRomCurve3, Line, LineBasicMaterial, Mesh, MeshLambertMaterial, TubeGeometry, Vector3 } from 'three';
+import { BufferAttribute, BufferGeometry, CatmullRomCurve3, CylinderGeometry, Line, LineBasicMaterial, Mesh, MeshLambertMaterial, TubeGeometry, Vector3 } from 'three';
 
 const POINTS = 33;
 const SLACK = 1e-3; // of the length
+const UP = new Vector3(0, 1, 0); // along which a bar is made
 
 export class Wire {
   constructor(wire, thickness) {
     Object.assign(this, wire);
-    this.thickness = thickness;
+    this.thickness = Math.max(thickness, wire.radius);
     this.mesh = new Mesh(new BufferGeometry(), new MeshLambertMaterial({ color: wire.colours[0] }));
     this.mesh.frustumCulled = false;
     this.slack = false;
@@ -21,12 +22,19 @@ export class Wire {
   show(motion, t) {
     this.mesh.visible = this.there(t);
     const [from, to] = [motion.point(this.from, t), motion.point(this.to, t)];
+    if (this.reach > 0) to.lerpVectors(from, to, Math.min(1, this.reach / from.distanceTo(to)));
     const chord = from.distanceTo(to);
     this.slack = this.mesh.visible && this.length > 0 && chord < this.length * (1 - SLACK);
     const points = this.slack ? hanging(from, to, this.length) : [from, to];
     this.middle = this.slack ? points[POINTS >> 1] : from.clone().lerp(to, 0.5);
     this.mesh.material.color.set(this.colours[this.slack ? 1 : 0]);
     this.mesh.geometry.dispose();
+    if (this.radius > 0) {
+      this.mesh.geometry = new CylinderGeometry(this.thickness, this.thickness, chord, 16);
+      this.mesh.position.copy(this.middle);
+      this.mesh.quaternion.setFromUnitVectors(UP, to.clone().sub(from).normalize());
+      return;
+    }
     const curve = new CatmullRomCurve3(points);
     this.mesh.geometry = new TubeGeometry(curve, this.slack ? 48 : 1, this.thickness, 6, false);
   }
