@@ -76,7 +76,8 @@ class Memory {
 
   /// The next rows of a block times (x, u); moves on to the coefficients after them.
   template <int rows, class T>
-  static std::array<T, idx(rows)> next_rows(const Block& block, const double*& m, const Vec6<T>& u, const T* x) {
+  static std::array<T, idx(rows)> next_rows(const Block& block, const double*& m, const Vec6<T>& u,
+                                            const T* x) {
     return [&]<std::size_t... i>(std::index_sequence<i...>) {
       std::array<T, idx(rows)> sum = {(static_cast<void>(i), T(0))...};
       for (const T* const end = x + block.states; x != end; ++x, m += rows) ((sum[i] += *x * T(m[i])), ...);
@@ -87,7 +88,8 @@ class Memory {
         m += rows;
       } while (++j < block.inputs);
       return sum;
-    }(std::make_index_sequence<static_cast<std::size_t>(rows)>{});
+    }
+    (std::make_index_sequence<static_cast<std::size_t>(rows)>{});
   }
 
   std::vector<Block> blocks_;

@@ -15,8 +15,8 @@
 
 namespace seacrane {
 
-/// Value, first and second derivative in time of L sources, a lane for each, at the knots of a table: evaluated
-/// one by one, or, of wave loads, which a table asks for often, side by side.
+/// Value, first and second derivative in time of L sources, a lane for each, at the knots of a table:
+/// evaluated one by one, or, of wave loads, which a table asks for often, side by side.
 template <int L, class Source>
 class PackedSources {
  public:
@@ -76,7 +76,7 @@ class PackedSources<L, ExactWaveLoad> {
   static constexpr std::int64_t restart = 64;
   static constexpr std::size_t chunk = 32;  // phases held on the stack
   struct Phase {
-    Pack<L> re, im;  // of exp(-i angle)
+    Pack<L> re, im;     // of exp(-i angle)
     Phase() = default;  // not set
     explicit Phase(const Pack<L>& angle) {
       const auto [cosine, sine] = cos_sin(angle);

@@ -87,9 +87,9 @@ Curve::Curve(std::vector<Piece> pieces) : pieces_(std::move(pieces)) {
     }
   }
   const Piece& only = pieces_.front();
-  is_constant_ = pieces_.size() == 1 && only.amplitude == 0.0 &&
-                 std::all_of(only.coefficients.begin() + 1, only.coefficients.end(),
-                             [](double c) { return c == 0.0; });
+  is_constant_ =
+      pieces_.size() == 1 && only.amplitude == 0.0 &&
+      std::all_of(only.coefficients.begin() + 1, only.coefficients.end(), [](double c) { return c == 0.0; });
 }
 
 Curve Curve::constant(double value) {

@@ -54,7 +54,7 @@ struct KnotPhasesOf {
   static constexpr bool any = false;
 };
 template <class Source>
-  requires requires { typename Source::KnotPhases; }
+requires requires { typename Source::KnotPhases; }
 struct KnotPhasesOf<Source> {
   std::optional<typename Source::KnotPhases> phases;
   KnotPhasesOf() = default;
