@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import shutil
 import subprocess
+from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from functools import cache
 from itertools import pairwise
@@ -40,7 +41,9 @@ def seas(scene: Scene, count: int) -> list[Scene]:
     return [with_sea(scene, shipped_database(), {"seed": seed}) for seed in range(1, count + 1)]
 
 
-def differences(scene: Scene, lanes: int, rounds: int, spread: float = 0.1) -> float:
+def differences(
+    scene: Scene, lanes: int, rounds: int, spread: float = 0.1, at: Callable[[int], float] = (0.37).__mul__
+) -> float:
     """Largest difference of rates at random states, over the largest of positions, speeds and the rest."""
     scenes = seas(scene, lanes)
     models = [one.compile() for one in scenes]
@@ -51,8 +54,8 @@ def differences(scene: Scene, lanes: int, rounds: int, spread: float = 0.1) -> f
     worst = 0.0
     for moment in range(rounds):
         state = start + spread * rng.normal(size=start.shape)
-        one_by_one = evaluator.scalar_derivative(0.37 * moment, state)
-        off = np.abs(evaluator.derivative(0.37 * moment, state) - one_by_one)
+        one_by_one = evaluator.scalar_derivative(at(moment), state)
+        off = np.abs(evaluator.derivative(at(moment), state) - one_by_one)
         for begin, end in pairwise(edges):
             if end > begin:
                 size = np.abs(one_by_one[:, begin:end]).max(axis=1, keepdims=True)
@@ -65,6 +68,13 @@ def differences(scene: Scene, lanes: int, rounds: int, spread: float = 0.1) -> f
 @pytest.mark.parametrize("name", ["vessel", "case1", "case2", "case3"])
 def test_an_evaluation_is_that_of_each_lane(name: str, lanes: int) -> None:
     assert differences(case(name), lanes, 20) < 1e-12
+
+
+@needs_lanes
+@pytest.mark.parametrize("lanes", LANES)
+def test_waves_are_those_of_each_lane_forth_and_back_over_minutes(lanes: int) -> None:
+    forth_and_back = [31.7 * ((7 * moment) % 20) for moment in range(20)]
+    assert differences(case("case2"), lanes, 20, at=forth_and_back.__getitem__) < 1e-11
 
 
 @needs_lanes

@@ -68,20 +68,6 @@ Vec6<T> vessel_terms(const BodyModel& body, const Vessel& vessel, const BodyKine
   return bias + vessel.added_mass_bias(frame);
 }
 
-/// Compact body, of whose mass matrix about the state point only the part that turns with the body is
-/// written. Returns b, eq (5).
-template <class T>
-Vec6<T> compact_terms(const BodyModel& body, const BodyKinematics<T>& k, Mat6<T>& mass) {
-  const Mat3<T> turned = k.rotation * body.inertia.cast<T>();
-  Mat3<T> inertia;
-  inertia.noalias() = turned * k.rotation.transpose();
-  mass.template bottomRightCorner<3, 3>() = inertia;
-  const Vec3<T> momentum = inertia * k.angular_velocity;
-  Vec6<T> bias;
-  bias << Vec3<T>::Zero(), cross<T>(k.angular_velocity, momentum);
-  return bias;
-}
-
 inline Vec6d vessel_inertia(const BodyModel& body, const Vessel& vessel, const BodyKinematics<double>& k,
                             const YawFrame<double>& frame, BodyInertia& out) {
   out.full = true;
