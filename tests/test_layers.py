@@ -85,6 +85,22 @@ def test_imports_go_down(package: Path, arrows: list[Import]) -> None:
     assert not wrong
 
 
+def test_the_table_of_rooms_in_the_design_is_the_order_of_imports(
+    repository: Path, arrows: list[Import]
+) -> None:
+    text = (repository / "docs" / "design.md").read_text(encoding="utf-8")
+    table = text.split("| rooms, from the top |", 1)[1].split("\n\n", 1)[0].splitlines()[2:]
+    row = {name: at for at, line in enumerate(table) for name in re.findall(r"`(\w+)`", line.split("|")[1])}
+    outer = {line.split(".")[0] for line in FLOORS.split()} - {"lazy", "__main__"}
+    assert set(row) == outer
+    up = [
+        f"{arrow.source} imports {arrow.target}"
+        for arrow in arrows
+        if (above := row.get(arrow.source.split(".")[0], 0)) > row.get(arrow.target.split(".")[0], above)
+    ]
+    assert not up
+
+
 def test_no_circle_of_modules(arrows: list[Import]) -> None:
     """Imports for types alone, and those within a room, count too."""
     graph: dict[str, set[str]] = defaultdict(set)
