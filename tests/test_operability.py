@@ -35,7 +35,7 @@ from seacrane import (
 from seacrane.analysis.rest_state import held
 from seacrane.hydro import shipped_database
 from seacrane.operability.circle import over_circle
-from seacrane.operability.levels import curve, gaussian_level, reached, record_numbers, seeds_level
+from seacrane.operability.levels import gaussian_level, reached, record_numbers, seeds_level
 from seacrane.operability.linear_channels import linear_channels
 from seacrane.operability.linear_seas import LinearSeas
 from seacrane.operability.steady_start import SteadyStart, steady_start
@@ -118,7 +118,7 @@ def _difference_of_run_and_model(
     run = simulate(
         still, t_end=100.0, start=start, dt_out=0.5, rtol=1e-9, channels=[one.channel for one in criteria]
     )
-    found = np.stack([curve(run, one.channel, one.where) for one in criteria], axis=1)
+    found = np.stack([run.curve(one.channel, **one.where) for one in criteria], axis=1)
     return list(np.std(found - told, axis=0) / np.std(told, axis=0))
 
 
@@ -428,8 +428,8 @@ ASKED: dict[str, Any] = {"criteria": [HEAVE], "tp": 9.0, "direction_deg": 135.0,
         ({"criteria": []}, "criteria is .*give a list of Criterion"),
         ({"criteria": [HEAVE, HEAVE]}, "'heave' is there twice"),
         ({"criteria": [replace(HEAVE, channel="hook_load", where={})]}, "hook_load"),
-        ({"criteria": [replace(HEAVE, where={"motion": "hieve"})]}, "no motion 'hieve'.*choose from surge"),
-        ({"criteria": [replace(HEAVE, where={})]}, "holds several curves; give where= motion: one of surge"),
+        ({"criteria": [replace(HEAVE, channel="position[lod, z]", where={})]}, "no body 'lod'.*choose from"),
+        ({"criteria": [replace(HEAVE, where={})]}, "holds several curves; give motion: one of surge"),
         ({"tp": [9.0, 8.0]}, "tp is .*give ascending"),
         ({"tp": -1.0}, "tp begins with -1; give numbers above zero"),
         ({"direction_deg": [0.0, 360.0]}, "direction_deg goes from 0 to 360; name each"),

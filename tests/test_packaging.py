@@ -64,7 +64,7 @@ def test_command_line_entry_point() -> None:
 def test_run_time_requirements_exclude_solvers_and_development_tools() -> None:
     always = [line for line in metadata.requires("seacrane") or [] if "extra ==" not in line]
     names = {re.split(r"[^A-Za-z0-9_-]", line)[0] for line in always}
-    assert names == {"numpy", "scipy", "xarray", "netCDF4", "h5py", "matplotlib", "tqdm"}
+    assert names == {"numpy", "scipy", "pandas", "xarray", "netCDF4", "h5py", "matplotlib", "tqdm"}
 
 
 def test_make_builds_on_every_core(repository: Path) -> None:

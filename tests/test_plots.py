@@ -185,7 +185,7 @@ def test_the_scene_is_drawn_from_what_its_run_notes(tmp_path: Any) -> None:
 
 REFUSED = {
     "no channel": (lambda r: plot_history(r), "channels: none is named; this result holds position"),
-    "an unknown channel": (lambda r: plot_history(r, "heave"), "channel 'heave' is not in this result"),
+    "an unknown channel": (lambda r: plot_history(r, "lift"), "channel 'lift' is not in this result"),
     "an unknown name": (lambda r: plot_history(r, "position", body="pay"), "no body 'pay' in this result"),
     "a dimension of none": (lambda r: plot_history(r, "stroke", body="king"), "has this dimension"),
     "an unknown body": (lambda r: plot_track(r, "pay"), "body 'pay' is not in this result; it holds vessel"),

@@ -252,8 +252,8 @@ def test_select_picks_by_name(run: dict[str, Any]) -> None:
         result.select("position", body="payloat")
     with pytest.raises(ValueError, match="not 'joint'"):
         result.select("position", joint="A")
-    with pytest.raises(KeyError, match="no channel 'heave'"):
-        result.select("heave")
+    with pytest.raises(KeyError, match="no channel 'lift'"):
+        result.select("lift")
 
 
 @pytest.mark.parametrize("backend", ["own reader", "xarray"])

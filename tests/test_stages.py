@@ -423,7 +423,7 @@ def test_stages_that_do_not_fit_the_scene_are_told(given: dict[str, Any], messag
 @pytest.mark.parametrize(
     ("channel", "given", "message"),
     [
-        ("depth", {"above": 1.0}, "channel 'depth' is unknown"),
+        ("depth", {"above": 1.0}, "channel 'depth' does not exist"),
         (
             "position",
             {"above": 1.0, "below": 2.0, "body": "load", "axis": "z"},
@@ -434,7 +434,7 @@ def test_stages_that_do_not_fit_the_scene_are_told(given: dict[str, Any], messag
         (
             "absolute_work",
             {"above": 2.0, "line": "hoist"},
-            "line is 'hoist', and its dimensions are none but time",
+            "absolute_work has no dimension 'line'; its dimensions are none but time",
         ),
         ("line_tension", {"above": np.nan, "line": "hoist"}, "is to pass nan, which it never does"),
     ],

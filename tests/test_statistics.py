@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 import seacrane as sc
 from seacrane import Result, SceneError
 from seacrane.description.waves import RepeatingSeaWarning
-from seacrane.result.result import ALWAYS_STATED
+from seacrane.result.checked_parts import ALWAYS_STATED
 from seacrane.statistics.figure import extremes_sheet
 from seacrane.statistics.gumbel import anderson_darling, gumbel_fit, standard_fits
 from seacrane.statistics.judged import start_differs

@@ -24,7 +24,7 @@ from seacrane.ensembles.kept import Kept
 from seacrane.ensembles.members import Members, Over, members_of
 from seacrane.ensembles.other_sea import WORDS, Databases
 from seacrane.ensembles.store import Folder, Memory, Store
-from seacrane.ensembles.study import Keep, Source, Start, Study, checked_keep, outputs_for
+from seacrane.ensembles.study import Asked, Keep, Source, Start, Study, checked_keep, outputs_for
 from seacrane.ensembles.study_folder import claimed, is_zarr, study_in
 from seacrane.ensembles.targets import targets_of, with_static_parts
 from seacrane.ensembles.variables import NOT_RUN, RESERVED
@@ -96,7 +96,7 @@ def ensemble(
     source: Source,
     *,
     over: Over,
-    keep: Keep,
+    keep: Asked,
     t_end: float = 100.0,
     method: Method | None = None,
     outputs: Outputs | None = None,
@@ -127,7 +127,8 @@ def ensemble(
         scene, names are paths such as "bodies.payload.mass", or words of its sea: "seed", "hs", "tp",
         "direction_deg" and "gamma". Up to a million members.
     keep : mapping
-        By name: a `Kept`, or a function of a `Result` that returns numbers.
+        By name: a `Kept` or its short text, such as "hook_load.max", or a function of a `Result` that returns
+        numbers.
     t_end : float
         End time, s.
     method, outputs : Method, Outputs, optional

@@ -14,6 +14,7 @@ from seacrane.inputs.checked import number_of, text_of
 from seacrane.inputs.shown import shown
 from seacrane.result import Result
 from seacrane.result.channels import attributes
+from seacrane.result.pick import Pick, pick_of
 
 NUMBERS: Mapping[str, Callable[..., Any]] = {
     "mean": np.mean,
@@ -21,6 +22,7 @@ NUMBERS: Mapping[str, Callable[..., Any]] = {
     "maximum": np.max,
     "minimum": np.min,
 }
+SHORT: Mapping[str, str] = {"max": "maximum", "min": "minimum", "std": "standard_deviation"}
 TEXTS = {
     "mean": "mean",
     "standard_deviation": "standard deviation",
@@ -33,9 +35,13 @@ TEXTS = {
 class Kept:
     """One channel of a run, or a number for it.
 
+    Where something is kept by name, a short text says the same: ``"hook_load.max"``, ``"roll.std"``,
+    ``"position[load, z, after=60].min"``.
+
     Attributes
     ----------
     channel : str
+        Its name, or a selector with names in brackets, as of `Result.select`.
     what : str
         "series" (default): values over time. "mean", "standard_deviation", "maximum", "minimum": of its
         output times, each with the same weight.
@@ -60,7 +66,8 @@ class Kept:
     step: float | None = None
 
     def __post_init__(self) -> None:
-        text_of("kept: channel", self.channel)
+        if isinstance(self.channel, Pick) or "[" in text_of("kept: channel", self.channel):
+            self._take(pick_of("kept: channel", self.channel))
         if self.what not in ("series", *NUMBERS):
             raise SceneError(f"kept {self.channel}: what is {self.what!r}; choose 'series', {_listed()}")
         if not isinstance(self.at, Mapping):
@@ -73,6 +80,33 @@ class Kept:
             raise SceneError(f"kept {self.channel}: step is for a series; leave it out of {self.what!r}")
         if not number_of(f"kept {self.channel}: step", self.step) > 0.0:
             raise SceneError(f"kept {self.channel}: step is {self.step}; give a positive number of s")
+
+    @classmethod
+    def of_text(cls, text: str) -> Kept:
+        """What a short text keeps: a selector, then a point and a number; without these the series.
+
+        Raises
+        ------
+        SceneError
+            For a text that is none, and as `Kept`.
+        """
+        selector, _, last = text_of("kept", text).rpartition(".")
+        what = SHORT.get(last, last)
+        if what not in ("series", *NUMBERS) or not selector:
+            selector, what = text, "series"
+        pick = pick_of(f"kept {shown(text)}", selector)
+        kept: Any = what
+        return cls(channel=pick.channel, what=kept, at=pick.names, after=pick.after or 0.0)
+
+    def _take(self, pick: Pick) -> None:
+        """The names and the time of a selector, beside which neither `at` nor `after` says the same."""
+        if not isinstance(self.at, Mapping) or self.at.keys() & pick.names.keys():
+            raise SceneError(f"kept {pick}: at is {shown(self.at)}; give each name once")
+        if pick.after is not None and self.after:
+            raise SceneError(f"kept {pick}: after is given twice; leave one out")
+        object.__setattr__(self, "channel", pick.channel)
+        object.__setattr__(self, "at", {**pick.names, **self.at})
+        object.__setattr__(self, "after", self.after if pick.after is None else pick.after)
 
     def require_times(self, t_end: float, interval: float) -> None:
         """Raise SceneError where a run to `t_end` (s) with outputs at an interval (s) has none of it."""

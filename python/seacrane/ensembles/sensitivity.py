@@ -75,7 +75,7 @@ def sensitivity(
     *,
     parameters: Mapping[str, tuple[float, float]],
     seeds: Iterable[int],
-    keep: Kept | Callable[[Result], float],
+    keep: Kept | str | Callable[[Result], float],
     number: str = "mean",
     **given: Any,
 ) -> Sensitivity:
@@ -93,8 +93,8 @@ def sensitivity(
         difference goes with the square of the step.
     seeds : iterable of int
         At least 10.
-    keep : Kept or callable
-        One number of each run, such as the largest value of a channel.
+    keep : Kept, str or callable
+        One number of each run, such as the largest value of a channel, "hook_load.max".
     number : str
         "mean" (default) of it over the seeds; "mpm" or "p90" of largest values by Gumbel's distribution.
     **given

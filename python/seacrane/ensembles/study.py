@@ -23,6 +23,7 @@ from seacrane.scene.scene import Scene
 Source = Scene | Callable[..., Scene]
 Start = _core.State | Callable[[Scene], _core.State] | None
 Keep = Mapping[str, Kept | Callable[[Result], Any]]
+Asked = Mapping[str, Kept | str | Callable[[Result], Any]]  # of which `checked_keep` makes the other
 Values = Mapping[str, Value]
 
 
@@ -100,15 +101,22 @@ class Study:
 def checked_keep(keep: Any) -> Keep:
     """The mapping, or a SceneError that names what is wrong in it."""
     if not isinstance(keep, Mapping) or not keep:
-        raise SceneError(f"keep is {shown(keep)}; give what to keep by name, such as {{'tilt': Kept(...)}}")
+        raise SceneError(
+            f"keep is {shown(keep)}; give what to keep by name, such as {{'hook': 'hook_load.max'}}"
+        )
+    found: dict[str, Kept | Callable[[Result], Any]] = {}
     for name, what in keep.items():
         if not isinstance(name, str) or not name.isidentifier():
             raise SceneError(f"keep: {shown(name)} is no name; give letters, digits and underscores")
         if name in RESERVED:
             raise SceneError(f"keep: the name {name!r} is taken; choose another")
-        if not (isinstance(what, Kept) or callable(what)):
-            raise SceneError(f"keep: {name} is {shown(what)}; give a Kept, or a function of a Result")
-    return dict(keep)
+        if not (isinstance(what, Kept | str) or callable(what)):
+            raise SceneError(
+                f"keep: {name} is {shown(what)}; give a text such as 'hook_load.max', a Kept, or a function "
+                "of a Result"
+            )
+        found[name] = Kept.of_text(what) if isinstance(what, str) else what
+    return found
 
 
 def outputs_for(keep: Keep, outputs: Outputs) -> Outputs:

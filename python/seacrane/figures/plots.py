@@ -16,6 +16,7 @@ from seacrane.inputs.frames import AXES_NOTE, MOTIONS
 from seacrane.plotting.figure import new_figure
 from seacrane.plotting.panel import COLOURS, MOST_NAMED, Line, Panel, Sheet, draw, plain, write_note
 from seacrane.result import Result
+from seacrane.result.pick import pick_of
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -47,21 +48,18 @@ def _wanted(result: Result, channels: Sequence[str], names: dict[str, str]) -> d
     """
     if not channels:
         raise SceneError(f"channels: none is named; this result holds {', '.join(result.channels)}")
-    for channel in channels:
-        if channel not in result.channels:
-            raise SceneError(f"channel {channel!r} is not in this result; it holds {', '.join(result)}")
+    picks = [pick_of("plot", channel, held=result.channels) for channel in channels]
     for dim in names:
-        if not any(dim in result.dims[channel] for channel in channels):
+        if not any(dim in result.dims[pick.channel] for pick in picks):
             raise SceneError(f"{dim}={names[dim]!r}: none of {', '.join(channels)} has this dimension")
+    found: dict[str, list[Trace]] = {}
     try:
-        return {
-            channel: traces(
-                result, channel, **{d: name for d, name in names.items() if d in result.dims[channel]}
-            )
-            for channel in channels
-        }
-    except ValueError as error:
+        for pick in picks:
+            own = {dim: name for dim, name in names.items() if dim in result.dims[pick.channel]}
+            found.setdefault(pick.channel, []).extend(traces(result, pick.channel, **own, **pick.names))
+    except (TypeError, ValueError) as error:
         raise SceneError(str(error)) from error
+    return found
 
 
 def plot_history(result: Result, *channels: str, **names: str) -> Figure:
@@ -71,7 +69,7 @@ def plot_history(result: Result, *channels: str, **names: str) -> Figure:
     ----------
     result : Result
     *channels : str
-        Names as in `Result.channels`.
+        Names as in `Result.channels`, or selectors as of `Result.select`: "roll", "position[load, z]".
     **names : str
         Pick one along a dimension, such as ``body="payload"`` or ``motion="roll"``.
 
@@ -84,7 +82,8 @@ def plot_history(result: Result, *channels: str, **names: str) -> Figure:
     SceneError
         For a channel or name that the result does not hold.
     """
-    return draw(history_sheet(result, *channels, **names), note=axes_note(result, channels))
+    sheet = history_sheet(result, *channels, **names)
+    return draw(sheet, note=axes_note(result, [pick_of("plot", one).channel for one in channels]))
 
 
 def history_sheet(result: Result, *channels: str, **names: str) -> Sheet:

@@ -21,7 +21,7 @@ from seacrane.inputs.shown import shown
 from seacrane.operability.alpha import AlphaFactor, alpha_of
 from seacrane.operability.cells import Cells
 from seacrane.operability.criterion import Criterion
-from seacrane.operability.levels import FEWEST_SEEDS, curve
+from seacrane.operability.levels import FEWEST_SEEDS
 from seacrane.operability.linear_seas import LinearSeas
 from seacrane.operability.probe import Prober, Sea
 from seacrane.operability.steady_start import steady_start
@@ -223,7 +223,7 @@ class _Still:
         state = equilibrium(scene, time=time)
         calm = held(scene, time=time)
         result = finished(Run(calm, state.time, start=state, method=method, outputs=outputs))
-        rest = np.array([curve(result, one.channel, one.where)[0] for one in criteria])
+        rest = np.array([result.curve(one.channel, **one.where)[0] for one in criteria])
         return cls(scene=calm.copy(waves=scene.waves), state=state, rest=rest)
 
 

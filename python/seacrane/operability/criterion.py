@@ -4,14 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from difflib import get_close_matches
 
 import numpy as np
 
 from seacrane.errors import SceneError
-from seacrane.inputs.checked import flag_of, name_of, number_of, text_of
+from seacrane.inputs.checked import flag_of, name_of, number_of
 from seacrane.inputs.shown import shown
-from seacrane.result.channels import CHANNELS
+from seacrane.result.pick import pick_of
 from seacrane.result.units import unit_of
 from seacrane.statistics.gaussian import THREE_HOURS
 
@@ -30,7 +29,8 @@ class Criterion:
     Attributes
     ----------
     channel : str
-        As results name it, such as "hook_load", "clearance" or "tip_velocity".
+        As results name it, such as "hook_load", or a selector with names in brackets, as of `Result.select`:
+        "position[payload, z]".
     maximum, minimum : float, optional
         One of both, in the SI unit of the channel (rad for angles).
     where : mapping of str to str
@@ -62,16 +62,14 @@ class Criterion:
     name: str = ""
 
     def __post_init__(self) -> None:
-        channel = text_of("criterion: channel", self.channel)
-        if channel not in CHANNELS:
-            near = get_close_matches(channel, CHANNELS, n=1)
-            raise SceneError(
-                f"criterion: channel {channel!r} does not exist; "
-                + (f"did you mean {near[0]!r}?" if near else "docs/channels.md lists them")
-            )
         if not isinstance(self.where, Mapping):
-            raise SceneError(f"criterion {channel}: where is {shown(self.where)}; give names by dimension")
-        object.__setattr__(self, "where", dict(self.where))
+            raise SceneError(f"criterion: where is {shown(self.where)}; give names by dimension")
+        pick = pick_of("criterion", self.channel, self.where)
+        if pick.after is not None:
+            raise SceneError(f"criterion {pick}: after is not a criterion's; what asks for it says start_up")
+        channel = pick.channel
+        object.__setattr__(self, "channel", channel)
+        object.__setattr__(self, "where", dict(pick.names))
         usual = " ".join([channel.replace("_", " "), *map(str, self.where.values())])
         object.__setattr__(self, "name", name_of("criterion", self.name, usual))
         self._require_bound()

@@ -10,7 +10,6 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from seacrane.errors import SceneError
 from seacrane.operability.criterion import Criterion
 from seacrane.result import Result
 from seacrane.statistics.estimate import CONFIDENCE, Estimate
@@ -66,22 +65,8 @@ class RecordNumbers:
 
     def __call__(self, result: Result) -> Array:
         """The numbers of a result."""
-        values = curve(result, self.channel, self.where)
+        values = result.curve(self.channel, **self.where)
         return record_numbers(values[result.time >= self.after])
-
-
-def curve(result: Result, channel: str, where: Mapping[str, str]) -> Array:
-    """One curve of a result (n,), or a SceneError that lists the names that are missing."""
-    try:
-        values = result.select(channel, **where)
-    except (KeyError, ValueError) as error:
-        raise SceneError(f"criterion: {error.args[0]}") from error
-    left = [dim for dim in result.dims[channel][1:] if dim not in where]
-    several = [dim for dim in left if len(result.coords[dim]) > 1]
-    if several:
-        listed = "; ".join(f"{dim}: one of {', '.join(result.coords[dim])}" for dim in several)
-        raise SceneError(f"criterion: channel {channel!r} holds several curves; give where= {listed}")
-    return np.asarray(values).reshape(len(result.time))
 
 
 def record_numbers(values: Array) -> Array:

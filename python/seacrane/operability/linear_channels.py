@@ -14,7 +14,6 @@ from seacrane.analysis.linear_system import LinearModel
 from seacrane.analysis.rest_state import held
 from seacrane.errors import SceneError
 from seacrane.operability.criterion import Criterion
-from seacrane.operability.levels import curve
 from seacrane.run.outputs import Outputs
 from seacrane.run.run import Run
 from seacrane.scene.scene import Scene
@@ -123,4 +122,4 @@ class _Look:
             run = Run(self._scene, state.time, start=state, outputs=self._channels, model=self._model)
             run.advance(state.time)
             result = run.result()
-        return np.array([curve(result, one.channel, one.where)[0] for one in self._criteria])
+        return np.array([result.curve(one.channel, **one.where)[0] for one in self._criteria])

@@ -14,7 +14,7 @@ from seacrane.ensembles.other_sea import with_sea
 from seacrane.errors import SeacraneError
 from seacrane.hydro import HydroDatabase
 from seacrane.operability.criterion import Criterion
-from seacrane.operability.levels import curve, reached, record_numbers
+from seacrane.operability.levels import reached, record_numbers
 from seacrane.operability.linear_seas import LinearSeas
 from seacrane.run.advance import drive
 from seacrane.run.controller_calls import Calls
@@ -69,7 +69,7 @@ class Probe:
             if run.interrupted:
                 raise KeyboardInterrupt
             result = run.result()
-            return np.array([record_numbers(curve(result, one.channel, one.where)) for one in self.criteria])
+            return np.array([record_numbers(result.curve(one.channel, **one.where)) for one in self.criteria])
         except (SeacraneError, ArithmeticError, ValueError) as error:
             return f"{type(error).__name__}: {error}"
 

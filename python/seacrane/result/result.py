@@ -2,10 +2,7 @@
 
 from __future__ import annotations
 
-import json
-import math
 import os
-from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -15,114 +12,32 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from seacrane.errors import FileFormatError, SeacraneError
+from seacrane.errors import FileFormatError, SceneError, SeacraneError
 from seacrane.files.atomic import atomic_write
 from seacrane.files.netcdf_limits import NETCDF_ERRORS
 from seacrane.files.state import state_to_bytes
-from seacrane.result.channels import CHANNELS, FIXED, attributes
+from seacrane.result.channels import CHANNELS, FIXED, MOTIONS, attributes
+from seacrane.result.checked_parts import Stat, checked_array, checked_names, checked_stats, checked_time
+from seacrane.result.dataframe import dataframe_of
 from seacrane.result.events import TEXTS as EVENT_TEXTS
 from seacrane.result.events import Event, checked_events, event_arrays
 from seacrane.result.kept_scene import NOT_KEPT, KeptScene
 from seacrane.result.netcdf import Contents, read_arrays, write_netcdf
 from seacrane.result.partial_file import is_partial, partial_path, read_partial
+from seacrane.result.pick import Pick, pick_of
 from seacrane.result.stages import StageSpan, spans_of
 from seacrane.result.table import as_html
 from seacrane.result.utilisation import Utilisation, utilisation_of
 
 if TYPE_CHECKING:
+    import pandas
     import xarray
 
     from seacrane._core import State
     from seacrane.scene.scene import Scene
 
 Array = NDArray[np.float64]
-Stat = str | int | float
 LARGEST_RESULT = 4 * 2**30  # bytes
-
-ALWAYS_STATED = [
-    "seacrane_version",
-    "scene",
-    "formulation",
-    "integrator",
-    "settings",
-    "simulated_s",
-    "wall_s",
-    "evaluations",
-    "steps",
-    "rejected_steps",
-    "states",
-    "coordinates",
-    "constraints",
-    "degrees_of_freedom",
-    "compiled_coordinates",
-    "compiled_constraints",
-]
-
-
-def _checked_array(name: str, values: Any, shape: tuple[int, ...], gaps: bool) -> Array:
-    """The values as a read-only float64 array of the stated shape; `gaps`: some may be no numbers."""
-    array = np.asarray(values, dtype=np.float64)
-    if array.shape != shape:
-        raise ValueError(f"channel {name!r} has shape {array.shape}; its dimensions ask for {shape}")
-    if not gaps and not _is_finite(array):
-        first = int(np.argwhere(~np.isfinite(array.reshape(len(array), -1)).all(axis=1))[0, 0])
-        raise ValueError(
-            f"channel {name!r} is not finite at output {first} of a finished run; "
-            "leave out a channel that is not defined for the scene"
-        )
-    array.setflags(write=False)
-    return array
-
-
-def _is_finite(array: Array) -> bool:
-    """A finite sum has finite terms; one that is not may be too large."""
-    with np.errstate(over="ignore", invalid="ignore"):
-        whole = array.sum()
-    return bool(np.isfinite(whole) or np.isfinite(array).all())
-
-
-def _checked_time(values: Any) -> Array:
-    time = np.asarray(values, dtype=np.float64)
-    if time.ndim != 1 or not time.size:
-        raise ValueError(f"time has shape {time.shape}; a result needs a vector of at least one output time")
-    if not np.isfinite(time).all() or np.any(np.diff(time) <= 0):
-        raise ValueError("time must be finite and strictly increasing")
-    time.setflags(write=False)
-    return time
-
-
-def _checked_names(dim: str, names: Sequence[str]) -> tuple[str, ...]:
-    names = tuple(str(name) for name in names)
-    if len(set(names)) != len(names):
-        twice = sorted(name for name, count in Counter(names).items() if count > 1)
-        raise ValueError(f"{dim} names must differ; given more than once: {', '.join(twice)}")
-    return names
-
-
-def checked_stats(stats: Mapping[str, Any]) -> dict[str, Stat]:
-    """Plain strings, integers and floats; what is None is left out; `settings` may be a mapping."""
-    plain: dict[str, Stat] = {}
-    for name, value in stats.items():
-        if value is None:
-            continue
-        if type(value) is str or type(value) is int:
-            plain[name] = value
-            continue
-        if name == "settings" and isinstance(value, Mapping):
-            value = json.dumps(dict(value), sort_keys=True, allow_nan=False)
-        if isinstance(value, np.generic):
-            value = value.item()
-        if isinstance(value, bool):
-            value = int(value)
-        if not isinstance(value, (str, int, float)):
-            raise ValueError(f"stat {name!r} is a {type(value).__name__}; give a string or a number")
-        if isinstance(value, float) and math.isnan(value):
-            raise ValueError(f"stat {name!r} is not a number; leave out what is not defined")
-        plain[name] = value
-    missing = [name for name in ALWAYS_STATED if name not in plain]
-    if missing:
-        raise ValueError(f"stats lack {', '.join(missing)}; every result states them")
-    return plain
 
 
 def _dims(channels: Mapping[str, Array]) -> dict[str, tuple[str, ...]]:
@@ -250,22 +165,22 @@ class Result(Mapping[str, Array]):
             For an unknown channel, a wrong shape, a value that is not finite in a finished run, names
             given twice, or a missing stat.
         """
-        checked_time = _checked_time(time)
+        times = checked_time(time)
         gaps = interrupted or "stages" in stats  # where elements come and go
         for name in arrays:
             if name not in CHANNELS:
                 raise ValueError(f"channel {name!r} is unknown; choose from {', '.join(CHANNELS)}")
         all_dims = {name: CHANNELS[name].dims_of(np.ndim(values)) for name, values in arrays.items()}
         used = dict.fromkeys(dim for dims in all_dims.values() for dim in dims[1:])
-        given = {dim: _checked_names(dim, coords[dim]) for dim in used if dim in coords}
+        given = {dim: checked_names(dim, coords[dim]) for dim in used if dim in coords}
         names = given | dict(FIXED)
         channels = {}
         for name, values in arrays.items():
             dims = all_dims[name]
-            shape = (checked_time.size, *(len(names.get(dim, ())) for dim in dims[1:]))
-            channels[name] = _checked_array(name, values, shape, gaps)
+            shape = (times.size, *(len(names.get(dim, ())) for dim in dims[1:]))
+            channels[name] = checked_array(name, values, shape, gaps)
         return cls(
-            time=checked_time,
+            time=times,
             channels=channels,
             coords={dim: names[dim] for dim in used},
             stats=checked_stats(stats),
@@ -314,13 +229,13 @@ class Result(Mapping[str, Array]):
         known = ", ".join(span.name for span in self.stages) or "none"
         raise ValueError(f"no stage {name!r} in this result; choose from {known}")
 
-    def select(self, channel: str, /, **names: str) -> Array:
+    def select(self, channel: str | Pick, /, **names: str) -> Array:
         """A channel at named coordinates, as a read-only view.
 
         Parameters
         ----------
-        channel : str
-            Channel name.
+        channel : str or Pick
+            Channel name, or a short text with names in brackets, such as ``"position[load, z]"`` or "roll".
         **names : str
             One name per dimension to pick, for instance ``body="payload", axis="z"``.
 
@@ -334,8 +249,14 @@ class Result(Mapping[str, Array]):
         KeyError
             If the channel was not recorded.
         ValueError
-            For a dimension the channel has not, or a name it does not hold.
+            For a dimension the channel has not, or a name it does not hold; for a text that says from when
+            on, which is for `to_dataframe`.
         """
+        if isinstance(channel, Pick) or channel not in self.channels:
+            pick = self._picked(channel, names)
+            if pick.after is not None:
+                raise SceneError(f"select {channel!s}: a view has all outputs; index it by time")
+            channel, names = pick.channel, dict(pick.names)
         array = self[channel]
         dims = self.dims[channel]
         for dim in names:
@@ -350,6 +271,79 @@ class Result(Mapping[str, Array]):
             index[dims.index(dim)] = self.coords[dim].index(name)
         picked: Array = array[tuple(index)]
         return picked
+
+    def curve(self, channel: str | Pick, /, **names: str) -> Array:
+        """One curve, shape (n,): as `select`, where dimensions with a single name need none.
+
+        Raises
+        ------
+        SceneError
+            If the channel was not recorded, for names that are not there, or where several curves are left.
+        """
+        try:
+            pick = self._picked(channel, names)
+            values = self.select(pick.channel, **pick.names)
+        except (KeyError, ValueError) as error:
+            raise SceneError(str(error.args[0])) from error
+        left = [dim for dim in self.dims[pick.channel][1:] if dim not in pick.names]
+        several = {dim: self.coords[dim] for dim in left if len(self.coords[dim]) > 1}
+        if several:
+            listed = "; ".join(f"{dim}: one of {', '.join(known)}" for dim, known in several.items())
+            raise SceneError(f"channel {pick.channel!r} holds several curves; give {listed}")
+        return values.reshape(self.time.size)
+
+    def _picked(self, channel: str | Pick, names: Mapping[str, str]) -> Pick:
+        """A selector as a value; KeyError for a plain name that is no channel."""
+        if isinstance(channel, str) and "[" not in channel and channel not in MOTIONS:
+            self[channel]
+        return pick_of("select", channel, names)
+
+    def to_dataframe(self, *channels: str | Pick) -> pandas.DataFrame:
+        """Curves as columns of a table, by time (s); SI units and radians.
+
+        Parameters
+        ----------
+        *channels : str or Pick
+            As `select` takes them, such as "hook_load" or ``"position[load, z]"``; a channel without all its
+            names gives a column for each of its curves, named so that `select` finds it. Default: all.
+
+        Returns
+        -------
+        pandas.DataFrame
+            `attrs["units"]` holds the unit of each column.
+
+        Raises
+        ------
+        KeyError, ValueError
+            As `select`; ValueError too where selectors begin at different times.
+        """
+        picks = [self._picked(channel, {}) for channel in channels or self.channels]
+        arrays = [(pick, self.select(pick.channel, **pick.names)) for pick in picks]
+        return dataframe_of(self.time, arrays, self.dims, self.coords)
+
+    def to_csv(self, path: str | os.PathLike[str], *channels: str | Pick) -> Path:
+        """Write curves as comma-separated values: a line for each output, time first; SI units and radians.
+
+        Parameters
+        ----------
+        path : path
+            Its folder must exist. An older file of that name is replaced, complete or not at all.
+        *channels : str or Pick
+            As of `to_dataframe`.
+
+        Returns
+        -------
+        Path
+            The file written.
+
+        Raises
+        ------
+        KeyError, ValueError, OSError
+        """
+        table = self.to_dataframe(*channels)
+        with atomic_write(Path(path)) as draft:
+            table.to_csv(draft)
+        return Path(path)
 
     @property
     def utilisation(self) -> Utilisation:

@@ -21,8 +21,9 @@ from seacrane.errors import SceneError, SeacraneError, SimulationError
 from seacrane.files.state_parts import with_present_inputs
 from seacrane.inputs.checked import number_of
 from seacrane.result.channels import DERIVED
+from seacrane.result.checked_parts import checked_stats
 from seacrane.result.events import Event
-from seacrane.result.result import Result, checked_stats
+from seacrane.result.result import Result
 from seacrane.run.carried_state import carried
 from seacrane.run.channel_names import (
     core_channels,

@@ -16,8 +16,9 @@ from seacrane.description.file import scene_digest
 from seacrane.errors import FileFormatError, SceneError
 from seacrane.files.state import state_from_bytes, state_to_bytes
 from seacrane.inputs.checked import number_of
+from seacrane.result.checked_parts import checked_stats
 from seacrane.result.kept_scene import NOT_KEPT, KeptScene
-from seacrane.result.result import Result, checked_stats
+from seacrane.result.result import Result
 from seacrane.result.stream import DIGEST, Left, ResultFile, difference, rows_of_piece
 from seacrane.run.advance import drive
 from seacrane.run.controller_calls import Calls

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import name_of, number_of
 from seacrane.result.channels import CHANNELS, FIXED
+from seacrane.result.pick import pick_of
 from seacrane.run.channel_names import derived_coords
 from seacrane.run.run import Run
 
@@ -97,22 +98,6 @@ class Contact:
 Condition = Level | Contact
 
 
-def _check_names(channel: str, names: Mapping[str, str]) -> None:
-    """Raise SceneError for names along dimensions that a channel has not, or none along one that it has."""
-    kind = CHANNELS[channel]
-    for dim in kind.dims[1:]:
-        if dim not in names:
-            raise SceneError(f"until {channel}: says not which {dim}; give {dim}=...")
-    for dim, name in names.items():
-        if dim not in kind.dims_of_several[1:]:
-            has = ", ".join(kind.dims_of_several[1:]) or "none but time"
-            raise SceneError(
-                f"until {channel}: {dim} is {name!r}, and its dimensions are {has}; leave it out"
-            )
-        if dim in FIXED and name not in FIXED[dim]:
-            raise SceneError(f"until {channel}: {dim} is {name!r}; choose from {', '.join(FIXED[dim])}")
-
-
 def names_along(run: Run) -> dict[str, tuple[str, ...]]:
     """Names along every dimension of the channels of a run but time."""
     known = {**run.model.axes, **derived_coords(run.scene), **FIXED}
@@ -144,9 +129,13 @@ class Until:
         ------
         SceneError
         """
-        if channel not in CHANNELS:
-            raise SceneError(f"until: channel {channel!r} is unknown; choose from {', '.join(CHANNELS)}")
-        _check_names(channel, names)
+        pick = pick_of("until", channel, names)
+        if pick.after is not None:
+            raise SceneError(f"until {pick}: a stage begins at its own time; leave after out")
+        channel, names = pick.channel, dict(pick.names)
+        missing = [dim for dim in CHANNELS[channel].dims[1:] if dim not in names]
+        if missing:
+            raise SceneError(f"until {channel}: says not which {missing[0]}; give {missing[0]}=...")
         if (above is None) == (below is None):
             raise SceneError(f"until {channel}: above is {above} and below is {below}; give one of them")
         value = number_of(f"until {channel}", below if above is None else above)

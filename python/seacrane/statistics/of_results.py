@@ -12,6 +12,7 @@ from seacrane.errors import SceneError
 from seacrane.inputs.checked import flag_of, number_of
 from seacrane.inputs.described import described
 from seacrane.result import Result
+from seacrane.result.pick import pick_of
 from seacrane.result.units import unit_of
 from seacrane.statistics.gaussian import THREE_HOURS
 from seacrane.statistics.judged import warn_of_repeat, warn_of_start
@@ -44,7 +45,7 @@ def extremes(
         Of one run: by its up-crossings and its peaks over a threshold. Of the same lift with several seeds:
         by the distribution of their maxima.
     channel : str
-        As in `Result.channels`, with outputs at even times.
+        With outputs at even times; a selector with names in brackets does as well, "position[load, z]".
     exposure : float
         s; default 3 h.
     start : float
@@ -77,6 +78,10 @@ def extremes(
     sign = -1.0 if flag_of("smallest", smallest) else 1.0
     begin = number_of("start", start)
     results = [result] if isinstance(result, Result) else _several(result)
+    pick = pick_of("extremes", channel, names, held=results[0].channels)
+    if pick.after is not None:
+        raise SceneError(f"extremes {pick}: say from when on by start=")
+    channel, names = pick.channel, dict(pick.names)
     records = [_record(one, channel, begin, sign, names) for one in results]
     words = {"name": _name(channel, names, sign), "unit": unit_of(channel, names.values())}
     if isinstance(result, Result):
@@ -123,16 +128,7 @@ def _record(
     result: Result, channel: str, start: float, sign: float, names: dict[str, str]
 ) -> tuple[Array, float]:
     """One curve from `start` on, and the time between two of its values, s."""
-    if channel not in result.channels:
-        raise SceneError(f"channel {channel!r} is not in this result; it holds {', '.join(result)}")
-    try:
-        curve = result.select(channel, **names)
-    except ValueError as error:
-        raise SceneError(str(error)) from error
-    if curve.ndim != 1:
-        missing = [dim for dim in result.dims[channel][1:] if dim not in names]
-        listed = "; ".join(f"{dim}= one of {', '.join(result.coords[dim])}" for dim in missing)
-        raise SceneError(f"channel {channel!r} holds several curves: give {listed}")
+    curve = result.curve(channel, **names)
     late = result.time >= start
     time, values = result.time[late], sign * curve[late]
     if time.size < FEWEST_VALUES:
