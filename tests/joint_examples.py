@@ -23,6 +23,7 @@ def own_arguments(
 
 
 def own_numbers(kind: str) -> dict[str, float]:
-    """The kind's own parameters but for lengths between its points."""
-    numbers = KINDS[kind].example(1).parameters
-    return {field.name: numbers[field.name] for field in KINDS[kind].parameters if field.role != "distance"}
+    """What the kind cannot do without, but for lengths between its points: a joint of frames that agree is
+    closed then."""
+    numbers, own = KINDS[kind].example(1).parameters, KINDS[kind].parameters
+    return {field.name: numbers[field.name] for field in own if field.required and field.role != "distance"}

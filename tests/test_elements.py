@@ -63,6 +63,13 @@ def test_a_joint_is_saved_reported_and_stepped_in_both_formulations(kind: str, t
     assert reloaded(scene, tmp_path) == scene and pickle.loads(pickle.dumps(joint)) == joint
     assert dict(scene.report()["elements"])[f"{kind} joints"] == ["joint (first to second)"]
     assert all(getattr(joint, name) == value for name, value in joint.parameters.items())
+    bare = _core.Joint(**entries(joint))
+    for field in KINDS[kind].parameters:
+        if field.required:
+            with pytest.raises(AttributeError, match=f"joint 'joint' is {kind} and has no '{field.name}'"):
+                getattr(bare, field.name)
+        else:
+            assert getattr(bare, field.name) == field.default
     if not KINDS[kind].branch:
         return
     one, two = (record(scene, 0.5, rtol=1e-10, formulation=name) for name in ("redundant", "recursive"))

@@ -6,6 +6,7 @@ import shutil
 import subprocess
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
+from dataclasses import replace
 from functools import cache
 from itertools import pairwise
 from pathlib import Path
@@ -19,13 +20,14 @@ from random_scenes import KINDS, Shape, build
 
 from seacrane import Ensemble, Kept, Result, Run, Scene, SceneError, _core, cases, ensemble, simulate
 from seacrane.ensembles.other_sea import with_sea
-from seacrane.hydro import shipped_database
+from seacrane.hydro import DriftCoefficients, shipped_database
 from seacrane.run.lanes import INSTRUCTIONS, advance_side_by_side, lanes_of, module_of
 
 Array = NDArray[np.float64]
 LANES = [lanes for lanes in INSTRUCTIONS if module_of(lanes) is not None]
 needs_lanes = pytest.mark.skipif(4 not in LANES, reason="no lanes on this processor, or in this build")
 TRACK = Kept(channel="position", at={"body": "payload"}, step=2.0)
+MORE = "the lifts differ in more than their seas: in"
 STORM: dict[str, Any] = {"t_end": 20.0, "rtol": 1e-2, "dt_out": 1.0}
 
 
@@ -187,9 +189,12 @@ def stopped(*, start: float) -> Scene:
 @pytest.mark.parametrize(
     ("given", "told"),
     [
-        ({"source": pendulum, "over": {"start": [1.0, 2.0]}}, "differ in more than their seas: in bodies"),
+        ({"source": pendulum, "over": {"start": [1.0, 2.0]}}, "their seas: in body 'bob' (position)"),
+        ({"source": pendulum, "over": {"mass": [1.0, 2.0]}}, "their seas: in body 'bob' (mass)"),
         ({"source": pendulum, "over": {"start": [1.0]}}, "no other run beside it"),
         ({"source": pendulum, "over": [{"start": 1.0}] * 2, "integrator": "rk4"}, "no explicit pair"),
+        ({"source": pendulum, "over": [{"start": 1.0}] * 2, "integrator": "rosenbrock"}, "no explicit"),
+        ({"source": pendulum, "over": [{"start": 1.0}] * 2, "integrator": "dopri5-stiff"}, "no explicit"),
         ({"source": pendulum, "over": [{"start": 1.0}] * 2, "formulation": "redundant"}, "recursive one"),
         ({"source": pendulum, "over": [{"start": 1.0}] * 2, "energy_limit": 1.0}, "energy is watched"),
         ({"source": stopped, "over": [{"start": 1.0}] * 2}, "kinks where it moves"),
@@ -197,6 +202,68 @@ def stopped(*, start: float) -> Scene:
 )
 def test_what_lanes_cannot_do_is_run_by_itself_and_says_why(given: dict[str, Any], told: str) -> None:
     assert told in reason(**given)
+
+
+def drifting(*, seed: int, drift: bool, memory: str = "per-pair") -> Scene:
+    hull = shipped_database()
+    mean = np.tile([-2e4, 3e4, 0.0, 0.0, 0.0, 1e5], (len(hull.heading), len(hull.omega), 1))
+    drifts = DriftCoefficients(heading=hull.heading, omega=hull.omega, coefficient=mean)
+    hull = replace(hull, drift=drifts)
+    return cases.vessel(database=hull, hs=2.0, tp=8.0, seed=seed, count=40, drift=drift, memory=memory)
+
+
+@needs_lanes
+@pytest.mark.parametrize("drift", [[False, True], [True, False], [True, True]])
+def test_slow_drift_is_that_of_each_member(drift: list[bool]) -> None:
+    """In lanes where all have it; else kept apart, whichever is first."""
+    study: dict[str, Any] = {
+        "over": {"seed": [1, 2], "drift": drift}, "t_end": 20.0,
+        "keep": {"sway": Kept(channel="vessel_motion", what="mean", at={"motion": "sway"})},
+    }  # fmt: skip
+    alone, beside = (ensemble(drifting, lanes=lanes, **study).dataset for lanes in (1, 4))
+    assert np.abs(alone.sway - beside.sway).max() < 1e-5
+    if all(drift):
+        assert (beside.kept_apart == "").all()
+    else:
+        assert (beside.kept_apart == f"{MORE} the slow drift of 'vessel'").all()
+        assert np.abs(alone.sway.sel(drift=True) - alone.sway.sel(drift=False)).min() > 0.01
+
+
+@needs_lanes
+@pytest.mark.parametrize("seed", ["first", "last"])
+def test_groups_are_made_by_number_and_right_whatever_varies_fastest(seed: str) -> None:
+    axes = {"seed": [1, 2, 3, 4], "bodies.vessel.mass": [1.0e7, 1.3e7]}
+    over = dict(reversed(axes.items())) if seed == "last" else axes
+    source, heave = case("vessel"), {"heave": Kept(channel="position", at={"axis": "z"}, step=1.0)}
+    study: dict[str, Any] = {
+        "over": over, "keep": heave, "t_end": 4.0, "rtol": 1e-8, "database": shipped_database(),
+    }  # fmt: skip
+    alone, beside = (ensemble(source, lanes=lanes, **study).dataset for lanes in (1, 4))
+    assert np.abs(alone.heave - beside.heave).max() < 1e-6
+    assert (beside.kept_apart == ("" if seed == "last" else f"{MORE} body 'vessel' (mass)")).all()
+
+
+@needs_lanes
+@pytest.mark.parametrize(
+    ("other", "told"),
+    [
+        ({"rtol": 1e-5}, "different methods"),
+        ({"max_step": 0.01}, "different methods"),
+        ({"t_end": 2.0}, "end at different times"),
+        ({"integrator": "tsit5"}, "different methods"),
+    ],
+)
+def test_what_the_first_of_the_runs_decides_is_the_same_in_all(other: dict[str, Any], told: str) -> None:
+    given: dict[str, Any] = {"t_end": 1.0, "rtol": 1e-6, "formulation": "recursive"}
+    scene = pendulum()
+    runs = [Run(scene, **given), Run(scene, **given | other)]
+    assert advance_side_by_side(runs, 4, lambda _: None)
+    assert [run.core.time for run in runs] == [0.0, 0.0]
+    assert all(told in run.lanes["kept_apart"] for run in runs)
+    with pytest.raises(ValueError, match=f"cannot be stepped side by side: {MORE} body 'bob'"):
+        _core.advance_side_by_side(
+            [Run(pendulum(mass=mass), **given).core for mass in (1.0, 2.0)], module_of(4), 1.0
+        )
 
 
 @needs_lanes

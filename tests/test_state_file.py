@@ -5,6 +5,7 @@ from __future__ import annotations
 import hashlib
 import json
 import os
+import pickle
 import subprocess
 import sys
 from pathlib import Path
@@ -296,3 +297,22 @@ def test_an_older_file_stays_when_a_state_cannot_be_written(
         state.save(saved)
     assert saved.read_bytes() == before
     assert list(saved.parent.iterdir()) == [saved]
+
+
+@pytest.mark.parametrize("kink", [None, 0.75])
+def test_the_kink_at_which_a_step_is_to_end_is_kept(kink: float | None, tmp_path: Path) -> None:
+    run = begin(("crank", "dopri5", "recursive"))
+    run.advance(STOP)
+    state, steps = run.state, run.state.steps
+    left = State(
+        time=state.time, values=state.values, inputs=state.inputs, record=state.record, parts=state.parts,
+        steps=_core.StepHistory(
+            formulation=steps.formulation, integrator=steps.integrator, values=steps.values, rate=steps.rate,
+            kink=kink,
+        ),
+    )  # fmt: skip
+    left.save(tmp_path / "run.state")
+    header = json.loads((tmp_path / "run.state").read_bytes().split(b"\n")[1])
+    assert ("kink" in dict(header["arrays"])) == (kink is not None)  # versions before it read the others
+    assert State.load(tmp_path / "run.state") == left
+    assert pickle.loads(pickle.dumps(left)) == left and left.steps.kink == kink

@@ -50,7 +50,7 @@ void bind_copies() {
   by_arguments<RetardationFunctions>({"step", "kernel"});
   by_arguments<StateSpaceBlock>({"inputs", "outputs", "a", "b", "c", "d", "state_scale"});
   by_arguments<TwistHistory>({"start", "intervals", "recent", "quadrature"});
-  by_arguments<StepHistory>({"formulation", "integrator", "values", "rate"});
+  by_arguments<StepHistory>({"formulation", "integrator", "values", "rate", "kink"});
   by_arguments<RecordHistory>({"start_energy", "start_work", "residual", "impact_loss", "quaternions"});
   by_arguments<State>({"time", "values", "inputs", "histories", "steps", "closed", "record", "parts"});
   copy_models();

@@ -78,9 +78,14 @@ void bind_joint(py::module_& m) {
           [](const JointDescription& d, const std::string& name) {
             const auto found = d.parameters.find(name);
             if (found != d.parameters.end()) return found->second;
+            if (const JointKind* const kind = find_joint_kind(d.kind)) {
+              for (const JointKind::Parameter& p : kind->parameters) {
+                if (p.name == name && !p.required) return p.usual;
+              }
+            }
             throw py::attribute_error("joint '" + d.name + "' is " + d.kind + " and has no '" + name + "'");
           },
-          py::arg("name"), "A parameter by its name.");
+          py::arg("name"), "A parameter by its name, or its default.");
 }
 
 void bind_loads(py::module_& m) {

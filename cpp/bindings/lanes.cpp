@@ -3,6 +3,7 @@
 
 #include "bindings.hpp"
 #include "seacrane/dynamics/recursive/recursive.hpp"
+#include "seacrane/model/difference.hpp"
 #include "seacrane/run/side_by_side.hpp"
 #include "shared_simulation.hpp"
 
@@ -80,6 +81,8 @@ class LaneEvaluator {
     for (const auto& model : all) {
       const std::string why = kept_out_of_lanes(*model);
       if (!why.empty()) throw std::invalid_argument("LaneEvaluator: not in lanes: " + why);
+      const std::string other = difference(*all.front(), *model);
+      if (!other.empty()) throw std::invalid_argument("LaneEvaluator: the models differ in " + other);
       scalar_.push_back(std::make_unique<SteppedBodies>("recursive", model));
     }
     system_ = offered_by(module).make(all);

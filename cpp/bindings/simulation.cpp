@@ -125,17 +125,22 @@ void bind_steps(py::module_& m) {
       "What an integrator keeps from step to step, in the coordinates of a formulation, and the rate of the "
       "state: a run with the same settings continues bit for bit (methods of SUNDIALS restart). Another "
       "formulation, integrator or scene, or other values or inputs, start from the values alone.")
-      .def(py::init(
-               [](std::string formulation, std::string integrator, const Array& values, const Array& rate) {
-                 return S{std::move(formulation), std::move(integrator), to_values(values), to_values(rate)};
-               }),
-           py::kw_only(), py::arg("formulation"), py::arg("integrator"), py::arg("values"), py::arg("rate"))
+      .def(
+          py::init([](std::string formulation, std::string integrator, const Array& values, const Array& rate,
+                      std::optional<double> kink) {
+            return S{std::move(formulation), std::move(integrator), to_values(values), to_values(rate), kink};
+          }),
+          py::kw_only(), py::arg("formulation"), py::arg("integrator"), py::arg("values"), py::arg("rate"),
+          py::arg("kink") = py::none())
       .def_property_readonly("formulation", [](const S& s) { return s.formulation; })
       .def_property_readonly("integrator", [](const S& s) { return s.integrator; })
       .def_property_readonly(
           "values", [](const S& s) { return to_array(s.values); }, "copy")
       .def_property_readonly(
-          "rate", [](const S& s) { return to_array(s.rate); }, "copy");
+          "rate", [](const S& s) { return to_array(s.rate); }, "copy")
+      .def_property_readonly(
+          "kink", [](const S& s) { return s.kink; },
+          "Where a step that is taken again is to end, at a kink of a load in the state, s; None: nowhere.");
 }
 
 void bind_options(py::module_& m) {
@@ -158,7 +163,8 @@ void bind_options(py::module_& m) {
                                energy_limit,
                                to_values(output_times),
                                capacity,
-                               std::move(channels)};
+                               std::move(channels),
+                               RunOptions{}.ask_every};
            }),
            py::kw_only(), py::arg("formulation") = "redundant", py::arg("integrator"),
            py::arg("scaled_tolerance") = RunOptions{}.scaled_tolerance, py::arg("fixed_step") = py::none(),

@@ -651,7 +651,7 @@ class Joint:
         ...
     def __getattr__(self, name: str) -> float:
         """
-        A parameter by its name.
+        A parameter by its name, or its default.
         """
     def __getstate__(self) -> dict:
         ...
@@ -2667,7 +2667,7 @@ class StepHistory:
         ...
     def __hash__(self) -> int:
         ...
-    def __init__(self, *, formulation: str, integrator: str, values: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], rate: typing.Annotated[numpy.typing.ArrayLike, numpy.float64]) -> None:
+    def __init__(self, *, formulation: str, integrator: str, values: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], rate: typing.Annotated[numpy.typing.ArrayLike, numpy.float64], kink: typing.SupportsFloat | None = None) -> None:
         ...
     def __repr__(self) -> str:
         ...
@@ -2679,6 +2679,11 @@ class StepHistory:
     @property
     def integrator(self) -> str:
         ...
+    @property
+    def kink(self) -> float | None:
+        """
+        Where a step that is taken again is to end, at a kink of a load in the state, s; None: nowhere.
+        """
     @property
     def rate(self) -> numpy.typing.NDArray[numpy.float64]:
         """

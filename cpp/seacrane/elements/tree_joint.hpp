@@ -11,12 +11,14 @@
 /// types that have a `Branch` can be branches; all others, and what closes loops, stay constraint rows.
 namespace seacrane {
 
-/// Fixed data of a branch: points from the state points, axes in the bodies.
+/// Fixed data of a branch: points from the state points, axes in the bodies. Either body of a joint may be
+/// the parent: a joint whose two bodies are not alike asks for the direction.
 struct TreeJoint {
   int parent = -1, child = -1;
   Vec3d parent_point = Vec3d::Zero(), child_point = Vec3d::Zero();
   Mat3d parent_axes = Mat3d::Identity(), child_axes = Mat3d::Identity();
   ParameterValues parameters{};
+  bool reversed = false;  // the parent is the joint's second body
 };
 
 inline constexpr int kMostSpeeds = 6;

@@ -118,10 +118,14 @@ void AdaptiveStep::step(double t_limit) {
 /// zero, and the step ends far behind the stop. Only the slope there tells, out of all proportion to the
 /// slope at the start and to how far the step went.
 bool AdaptiveStep::has_leapt(double h) {
-  const double seen = h * norm_.norm(start_derivative_.data(), state_.data()) +
-                      norm_.distance(end_state_.data(), state_.data());
-  const double end = h * norm_.norm(end_derivative_.data(), end_state_.data());
-  return end > 1.0 && end > leap * seen;
+  const ErrorNorm::Lanes start = norm_.norms(start_derivative_.data(), state_.data()),
+                         way = norm_.distances(end_state_.data(), state_.data()),
+                         end = norm_.norms(end_derivative_.data(), end_state_.data());
+  for (std::size_t lane = 0; lane < norm_.lanes(); ++lane) {
+    const double seen = h * start[lane] + way[lane], slope = h * end[lane];
+    if (slope > 1.0 && slope > leap * seen) return true;
+  }
+  return false;
 }
 
 void AdaptiveStep::after_success(double h, double error, bool cut_before, bool truncated) {

@@ -25,6 +25,7 @@ class EmbeddedPair final : public AdaptiveStep {
                                                    .order = Tableau::order,
                                                    .error_order = Tableau::error_order,
                                                    .dense_order = Tableau::dense_order,
+                                                   .lanes = true,
                                                    .purpose = Tableau::purpose};
   static std::vector<double> stability_polynomial() { return polynomial_of(Tableau::a, stages); }
 

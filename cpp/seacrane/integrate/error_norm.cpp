@@ -45,24 +45,41 @@ ErrorNorm::ErrorNorm(const Tolerances& tolerances, std::size_t size)
   weight_scale_ = std::sqrt(static_cast<double>(size) * inverse_count_);
 }
 
-/// Of the ratios of all components.
+/// Of the squared ratios of all components, by lane.
+template <std::size_t lanes, class Ratio>
+std::array<double, lanes> ErrorNorm::sums(const Ratio& ratio) const {
+  std::array<double, lanes> out{};
+  for (std::size_t i = 0; i < absolute_.size(); i += lanes) {
+    for (std::size_t j = 0; j < lanes; ++j) {
+      const double one = ratio(i + j);
+      out[j] += one * one;
+    }
+  }
+  return out;
+}
+
 template <class Ratio>
 double ErrorNorm::root_mean_square(const Ratio& ratio) const {
-  const double sum = largest([&]<std::size_t lanes>() {
-    std::array<double, lanes> sums{};
-    for (std::size_t i = 0; i < absolute_.size(); i += lanes) {
-      for (std::size_t j = 0; j < lanes; ++j) {
-        const double one = ratio(i + j);
-        sums[j] += one * one;
-      }
-    }
-    return sums;
+  return std::sqrt(largest([&]<std::size_t lanes>() { return sums<lanes>(ratio); }) * inverse_count_);
+}
+
+template <class Ratio>
+ErrorNorm::Lanes ErrorNorm::root_mean_squares(const Ratio& ratio) const {
+  Lanes out{};
+  largest([&]<std::size_t lanes>() {
+    const std::array<double, lanes> found = sums<lanes>(ratio);
+    for (std::size_t j = 0; j < lanes; ++j) out[j] = std::sqrt(found[j] * inverse_count_);
+    return found;
   });
-  return std::sqrt(sum * inverse_count_);
+  return out;
 }
 
 double ErrorNorm::norm(const double* vector, const double* y) const {
   return root_mean_square([&](std::size_t i) { return vector[i] / tolerance(i, std::abs(y[i])); });
+}
+
+ErrorNorm::Lanes ErrorNorm::norms(const double* vector, const double* y) const {
+  return root_mean_squares([&](std::size_t i) { return vector[i] / tolerance(i, std::abs(y[i])); });
 }
 
 double ErrorNorm::over_tolerances(const double* y) const {
@@ -71,6 +88,10 @@ double ErrorNorm::over_tolerances(const double* y) const {
 
 double ErrorNorm::distance(const double* a, const double* b) const {
   return root_mean_square([&](std::size_t i) { return (a[i] - b[i]) / tolerance(i, std::abs(a[i])); });
+}
+
+ErrorNorm::Lanes ErrorNorm::distances(const double* a, const double* b) const {
+  return root_mean_squares([&](std::size_t i) { return (a[i] - b[i]) / tolerance(i, std::abs(a[i])); });
 }
 
 void ErrorNorm::weights(const double* y, double* w) const {

@@ -27,7 +27,11 @@ class ErrorNorm {
   /// Throws std::invalid_argument on a wrong count or a value that is not a tolerance.
   ErrorNorm(const Tolerances& tolerances, std::size_t size);
 
+  /// A number for each lane, and none beyond.
+  using Lanes = std::array<double, 8>;
+
   std::size_t size() const { return absolute_.size(); }
+  std::size_t lanes() const { return lanes_; }
   double relative() const { return relative_; }
   const double* absolute() const { return absolute_.data(); }
   /// What an error of component i is measured against, where its magnitude is `size`.
@@ -53,10 +57,14 @@ class ErrorNorm {
 
   /// Norm of `vector` at the state y.
   double norm(const double* vector, const double* y) const;
+  /// The same of each lane.
+  Lanes norms(const double* vector, const double* y) const;
   /// Norm of y over the tolerances alone, without regard to rounding.
   double over_tolerances(const double* y) const;
   /// Norm of a - b at the state a.
   double distance(const double* a, const double* b) const;
+  /// The same of each lane.
+  Lanes distances(const double* a, const double* b) const;
   /// Reciprocal tolerances w, scaled so that sqrt(mean over all components of (w e)^2) is norm(e).
   void weights(const double* y, double* w) const;
   /// A size that changes of component i can be expected to have: for difference quotients.
@@ -77,8 +85,12 @@ class ErrorNorm {
     }
     return out;
   }
+  template <std::size_t lanes, class Ratio>
+  std::array<double, lanes> sums(const Ratio& ratio) const;
   template <class Ratio>
   double root_mean_square(const Ratio& ratio) const;
+  template <class Ratio>
+  Lanes root_mean_squares(const Ratio& ratio) const;
 
   double relative_;
   std::vector<double> absolute_;

@@ -64,7 +64,7 @@ struct IntegratorOptions {
   /// Without one the method takes its own; the other methods have none to choose.
   std::optional<double> spectral_radius;
 
-  /// Systems side by side, see Tolerances; of explicit pairs.
+  /// Systems side by side, see Tolerances; of methods that have `lanes`.
   std::size_t lanes = 1;
 
   Tolerances tolerances() const { return {relative_tolerance, absolute_tolerance, lanes}; }

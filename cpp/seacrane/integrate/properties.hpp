@@ -33,6 +33,8 @@ struct IntegratorProperties {
   bool restarts = false;
   /// Has a spectral radius to choose.
   bool has_spectral_radius = false;
+  /// Steps systems side by side: an error is that of the lane where it is largest, see Tolerances.
+  bool lanes = false;
   /// How it keeps joints closed, in words.
   const char* joints = "projection";
   /// What it is there for, in words.

@@ -13,6 +13,7 @@ struct StepHistory {
   std::string formulation, integrator;  // empty: none
   std::vector<double> values;           // Integrator::save()
   std::vector<double> rate;             // of the state stepped: tells whether the scene is the same
+  std::optional<double> kink;           // s: where a step that is taken again is to end; none: nowhere
 };
 
 /// What recording keeps from output to output.
@@ -58,8 +59,8 @@ ClosedSet closed_limits(const Model& model, const State& state);
 StepHistory save_steps(Stepper& at, const std::string& integrator);
 
 /// Gives the integrator the state `start` and what it kept, and returns whether it continues from there as if
-/// it had not stopped: the history is that of this formulation and integrator, and of these values, inputs
-/// and scene, but for rounding.
+/// it had not stopped: the history is that of this formulation and integrator, and, to the bit, of these
+/// values, inputs and scene.
 bool load_steps(Stepper& at, const std::string& integrator, const State& start);
 
 }  // namespace seacrane

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <optional>
 #include <set>
@@ -21,6 +22,7 @@ struct RunOptions {
   std::vector<double> output_times;       // increasing; those before the start are left out
   std::optional<std::size_t> capacity;    // outputs to take memory for; none: all
   std::set<std::string> channels;
+  std::chrono::milliseconds ask_every{20};  // of wall time: how often advance() asks whether to go on
 };
 
 }  // namespace seacrane

@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <chrono>
+#include <stdexcept>
+#include <string>
 #include <utility>
 
 #include "seacrane/integrate/registry.hpp"
+#include "seacrane/model/difference.hpp"
 
 namespace seacrane {
 namespace {
@@ -28,35 +31,55 @@ IntegratorOptions lane_options(const Simulation& run, std::size_t lanes) {
   return out;
 }
 
-bool is_explicit_pair(const std::string& integrator) {
-  const IntegratorProperties method = integrator_of(integrator);
-  return std::string(method.kind).starts_with("explicit pair") && method.is_adaptive();
-}
-
 std::string kept_apart(const Simulation& run) {
   if (run.options().formulation != "recursive") return "its formulation is not the recursive one";
-  if (!is_explicit_pair(run.options().integrator)) return "its integrator is no explicit pair";
+  if (!integrator_of(run.options().integrator).lanes) return "its integrator is no explicit pair";
   if (run.options().energy_limit) return "its energy is watched";
   if (run.has_switches()) return "its loads have kinks where it moves";
   return kept_out_of_lanes(*run.model());
 }
 
+bool by_one_method(const Simulation& one, const Simulation& other) {
+  const RunOptions &a = one.options(), &b = other.options();
+  return a.integrator == b.integrator && a.scaled_tolerance == b.scaled_tolerance &&
+         a.max_step == b.max_step &&
+         one.step_options().absolute_tolerance == other.step_options().absolute_tolerance;
+}
+
+std::string kept_apart(const Simulation& first, const Simulation& run) {
+  const std::string other = difference(*first.model(), *run.model());
+  if (!other.empty()) return "the lifts differ in more than their seas: in " + other;
+  if (!by_one_method(first, run)) return "the runs have different methods";
+  if (run.time() != first.time()) return "the runs begin at different times";
+  if (run.inputs() != first.inputs()) return "the runs have different inputs";
+  if (run.state_size() != first.state_size()) return "the runs have different states";
+  return "";
+}
+
+std::vector<Simulation*> side_by_side(std::vector<Simulation*> runs, std::size_t lanes) {
+  const std::string why = kept_apart(runs);
+  if (!why.empty()) throw std::invalid_argument("runs cannot be stepped side by side: " + why);
+  if (runs.size() > lanes) {
+    throw std::invalid_argument("runs: there are " + std::to_string(runs.size()) + " for " +
+                                std::to_string(lanes) + " lanes; give no more than that");
+  }
+  return runs;
+}
+
 }  // namespace
 
 std::string kept_apart(const std::vector<Simulation*>& runs) {
-  const Simulation& first = *runs.front();
   for (const Simulation* run : runs) {
-    const std::string why = kept_apart(*run);
-    if (!why.empty()) return why;
-    if (run->time() != first.time()) return "the runs begin at different times";
-    if (run->inputs() != first.inputs()) return "the runs have different inputs";
-    if (run->state_size() != first.state_size()) return "the runs have different states";
+    const std::string alone = kept_apart(*run);
+    if (!alone.empty()) return alone;
+    const std::string beside = kept_apart(*runs.front(), *run);
+    if (!beside.empty()) return beside;
   }
   return "";
 }
 
 SideBySide::SideBySide(std::vector<Simulation*> runs, const LaneModule& module)
-    : runs_(std::move(runs)),
+    : runs_(side_by_side(std::move(runs), module.lanes)),
       gone_(runs_.size(), false),
       lanes_(module.lanes),
       states_(static_cast<std::size_t>(runs_.front()->state_size())),

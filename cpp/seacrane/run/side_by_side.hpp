@@ -12,8 +12,8 @@
 
 namespace seacrane {
 
-/// Why runs cannot be stepped side by side; empty: they can. That their models differ in their seas alone is
-/// for the caller to know.
+/// Why runs cannot be stepped side by side; empty: they can. All that is taken from the first of them is
+/// compared: what their models hold beside the values of their waves, method, time and inputs.
 std::string kept_apart(const std::vector<Simulation*>& runs);
 
 /// Steps runs of one model in different seas side by side, in lanes, with steps that they share: an error is
@@ -21,8 +21,8 @@ std::string kept_apart(const std::vector<Simulation*>& runs);
 /// where it was, and goes on by itself, which tells why.
 class SideBySide {
  public:
-  /// As many runs as the module has lanes, or fewer; kept_apart() has nothing against them, and they outlive
-  /// this.
+  /// As many runs as the module has lanes, or fewer, which outlive this. Throws std::invalid_argument for
+  /// runs that kept_apart() has something against.
   SideBySide(std::vector<Simulation*> runs, const LaneModule& module);
   SideBySide(const SideBySide&) = delete;
   SideBySide& operator=(const SideBySide&) = delete;

@@ -13,7 +13,6 @@ namespace seacrane {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-constexpr std::chrono::milliseconds kAskInterval{20};
 constexpr double kLargestTurn = 3.14159265358979323846;  // rad in one step: no method resolves more
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
@@ -68,6 +67,7 @@ void Simulation::begin_steps(const State& start) {
     }
     stepper().started = true;
     watch_limits(true);
+    if (switches_ && start.steps.kink && *start.steps.kink > start.time) switch_at_ = *start.steps.kink;
     return;
   }
   const ClosedSet closed = stepper().model->closed;
@@ -216,10 +216,10 @@ bool Simulation::advance(double t_end, const std::function<bool(double)>& keep_g
     const double stop = std::min(end_of_smooth_stretch(time()), switch_at_);
     step(std::min({stop, stepper().system.terms().histories().next_sample(), t_end}));
     const double now = time();
-    if (retake_to_switch()) continue;
+    if (retake_to_switch()) continue;  // asked after its step: a State does not hold the sides passed
     if (!is_adaptive()) check_turning();
     if (!carry_out_event()) finish_step(now, stop);
-    if (Clock::now() - asked > kAskInterval) {
+    if (Clock::now() - asked >= options_.ask_every) {
       wall_seconds_ += seconds_since(asked);
       going = !keep_going || keep_going(time());
       asked = Clock::now();
@@ -249,6 +249,7 @@ State Simulation::state() {
   out.inputs = inputs_.slots();
   out.histories = stepper().system.terms().histories().save();
   out.steps = save_steps(stepper(), options_.integrator);
+  if (switch_at_ < kNever) out.steps.kink = switch_at_;
   out.closed = names_of(model_->limits, stepper().model->closed);
   out.record = outputs_.history(time(), energy_lost());
   out.parts = state_parts(*model_);

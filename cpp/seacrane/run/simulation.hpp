@@ -35,7 +35,7 @@ class Simulation {
   Simulation(const Simulation&) = delete;
   Simulation& operator=(const Simulation&) = delete;
 
-  /// Steps to t_end. `keep_going` is asked every 20 ms of wall time; false stops the run after the step
+  /// Steps to t_end. `keep_going` is asked every RunOptions::ask_every; false stops the run after the step
   /// at hand. Returns whether t_end was reached and nothing asked for a stop.
   bool advance(double t_end, const std::function<bool(double time)>& keep_going);
 

@@ -30,6 +30,7 @@ LARGEST_FILE = 2**30  # bytes: a million states take less
 LARGEST_HEADER = 2**22  # bytes
 _RECORD = ("start_energy", "start_work", "residual", "impact_loss")
 _ARRAYS = ("time", "values", "inputs", "steps", "rate", "record", "quaternions")
+_KINK = "kink"  # an array of states that have one
 
 
 class Compilable(Protocol):
@@ -73,6 +74,8 @@ def state_to_bytes(state: _core.State) -> bytes:
         "record": [] if record is None else [getattr(record, name) for name in _RECORD],
         "quaternions": [] if record is None else record.quaternions,
     }
+    if steps.kink is not None:
+        arrays[_KINK] = [steps.kink]
     for i, history in enumerate(state.histories):
         arrays |= {
             f"history {i} start": [history.start],
@@ -180,7 +183,7 @@ def _state(header: dict[str, Any], arrays: dict[str, Array]) -> _core.State:
     intervals, parts = header["intervals"], header["parts"]
     expected = {*_ARRAYS, *(f"history {i} {key}" for i in range(len(intervals))
                             for key in ("start", "recent", "quadrature"))}  # fmt: skip
-    if set(arrays) != expected:
+    if set(arrays) - {_KINK} != expected:
         raise ValueError(f"has arrays {shown(list(arrays))}")
     if not all(type(n) is int and 0 <= n < 2**62 for n in intervals):
         raise ValueError(f"intervals are {shown(intervals)}")
@@ -207,6 +210,7 @@ def _state(header: dict[str, Any], arrays: dict[str, Array]) -> _core.State:
         steps=_core.StepHistory(
             formulation=header["formulation"], integrator=header["integrator"],
             values=arrays["steps"], rate=arrays["rate"],
+            kink=_one(arrays[_KINK]) if _KINK in arrays else None,
         ),
         closed=closed,
         record=record,

@@ -8,11 +8,9 @@ from functools import cache
 from types import ModuleType
 
 from seacrane import _core
-from seacrane.description.scene import ELEMENTS
 from seacrane.errors import SceneError
 from seacrane.inputs.shown import shown
 from seacrane.run.run import Run
-from seacrane.scene.scene import Scene
 
 INSTRUCTIONS: Mapping[int, str] = {4: "avx2", 8: "avx512"}
 """What a processor must have for so many lanes."""
@@ -88,20 +86,6 @@ def _kept_apart(runs: Sequence[Run], module: ModuleType | None) -> str:
         return "this processor, or this build, has no lanes"
     if len(runs) < 2:
         return "there is no other run beside it"
-    for run in runs[1:]:
-        other = _difference(runs[0].scene, run.scene)
-        if other:
-            return f"the lifts differ in more than their seas: in {other}"
+    if any(run.t_end != runs[0].t_end for run in runs):
+        return "the runs end at different times"
     return _core.kept_apart([run.core for run in runs])
-
-
-def _difference(one: Scene, other: Scene) -> str:
-    """What two scenes differ in beside their seas; empty: nothing that is stepped."""
-    for name in ("gravity", "orientation", "baumgarte", "length_scale"):
-        if getattr(one, name) != getattr(other, name):
-            return name
-    for name in ELEMENTS:
-        if list(getattr(one, name).items()) != list(getattr(other, name).items()):
-            return name.replace("_", " ")
-    hulls = [[] if scene.waves is None else list(scene.waves.hulls) for scene in (one, other)]
-    return "" if hulls[0] == hulls[1] else "the vessels that waves load"

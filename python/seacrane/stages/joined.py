@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from seacrane import _core
 from seacrane.result.channels import CHANNELS, NAMED
 from seacrane.result.events import Event
 from seacrane.result.result import Result
@@ -38,6 +39,8 @@ class Piece:
         All names along each dimension, also of channels that are not recorded.
     start, end : dict of str to array
         Values of `COUNTED_ON` and of angles that count turns.
+    reached : dict of str to array
+        Values of `COUNTED_ON` before these changes, counted from the first start.
     lost : float
         J, in connections made and released just before it.
     before : list of Event
@@ -48,12 +51,36 @@ class Piece:
     names: Mapping[str, tuple[str, ...]]
     start: Mapping[str, Array]
     end: Mapping[str, Array]
+    reached: Mapping[str, Any]
     lost: float = 0.0
     before: list[Event] = field(default_factory=list)
 
+    @property
+    def added(self) -> dict[str, Any]:
+        """What to add to `COUNTED_ON` so that they count from the first start."""
+        out = {name: self.reached[name] - self.start.get(name, 0.0) for name in COUNTED_ON}
+        return out | {"impact_loss": out["impact_loss"] + self.lost}
+
+    def counting_on(self) -> _core.State | None:
+        """The state at its end, which counts from the first start: a run from there goes on with it."""
+        state = self.result.state
+        record = None if state is None else state.record
+        if state is None or record is None:
+            return state
+        added = self.added
+        record = _core.RecordHistory(
+            start_energy=record.start_energy - float(added["energy_balance"]), start_work=record.start_work,
+            residual=record.residual, quaternions=record.quaternions,
+            impact_loss=float(self.end.get("impact_loss", 0.0) + added["impact_loss"]),
+        )  # fmt: skip
+        return _core.State(
+            time=state.time, values=state.values, inputs=state.inputs, histories=state.histories,
+            steps=state.steps, closed=state.closed, record=record, parts=state.parts,
+        )  # fmt: skip
+
 
 def counters(run: Run) -> dict[str, Array]:
-    """Values at the present instant of what each run counts from its own start."""
+    """Values at the present instant of what each run counts from where its record begins."""
     wanted = {name for name in run.model.channel_names() if name in COUNTED_ON}
     now = run.measure()
     return {name: now[name] for name in now if name in wanted or CHANNELS[name].turns}
@@ -82,12 +109,11 @@ def joined(
         ]
         array = np.concatenate([part[keep] for part, keep in zip(parts, kept, strict=True)])
         arrays[channel] = _squeezed(channel, array)
-    last = pieces[-1].result
     events = [event for piece in pieces for event in (*piece.before, *piece.result.events)]
     return Result.from_arrays(
         time=np.concatenate([piece.result.time[keep] for piece, keep in zip(pieces, kept, strict=True)]),
         arrays=arrays, coords=names, events=[*events, *after], stats=_stats(pieces, spans),
-        interrupted=interrupted, state=last.state, scene=scene.copy(notes={}),
+        interrupted=interrupted, state=pieces[-1].counting_on(), scene=scene.copy(notes={}),
     )  # fmt: skip
 
 
@@ -96,8 +122,7 @@ def _offsets(pieces: Sequence[Piece]) -> list[dict[str, Any]]:
     out: list[dict[str, Any]] = []
     before: Mapping[str, Any] = pieces[0].start
     for piece in pieces:
-        added = {name: before.get(name, 0.0) - piece.start.get(name, 0.0) for name in COUNTED_ON}
-        added["impact_loss"] = added["impact_loss"] + piece.lost
+        added = piece.added
         for name in (name for name in piece.start if CHANNELS[name].turns and name in before):
             added[name] = 2.0 * np.pi * np.round((before[name] - piece.start[name]) / (2.0 * np.pi))
         before = {**piece.end, **{name: piece.end.get(name, 0.0) + more for name, more in added.items()}}

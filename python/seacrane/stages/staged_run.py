@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import warnings
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
@@ -27,7 +28,7 @@ from seacrane.scene.scene import Scene
 from seacrane.stages.carry import compiled_there, lifted_seats, redescribed
 from seacrane.stages.commands import commanded
 from seacrane.stages.connections import without
-from seacrane.stages.joined import Piece, counters, joined
+from seacrane.stages.joined import COUNTED_ON, Piece, counters, joined
 from seacrane.stages.locate import Course, to_its_end
 from seacrane.stages.plan import checked_stages, planned_scene, waiting
 from seacrane.stages.reach import check_lengths, check_limits
@@ -104,6 +105,7 @@ class StagedRun:
         if not isinstance(start, _core.State):
             raise SceneError(f"start is {start!r}; give a seacrane.State")
         self._state = start
+        self._reached = self._counted()
         self._first = start.time if outputs_from is None else number_of("outputs_from", outputs_from)
         self._calls = Calls(checked_controllers(controllers), self._first, start=start.time, kept=self._kept)
         self._pieces: list[Piece] = []
@@ -183,6 +185,17 @@ class StagedRun:
             self._open[0].interrupted = True
             self._done(self._open[0])
         return self.result() if self._pieces else None
+
+    def _counted(self) -> dict[str, Any]:
+        """Energy balance and losses at the present state, from the start that its record tells of."""
+        record = self._state.record
+        if record is None:
+            return dict.fromkeys(COUNTED_ON, 0.0)
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # the stage's own run tells them
+            now = counters(self._still(self._scene, self._model, self._state))
+        known = {"energy_balance": 0.0, "impact_loss": record.impact_loss}
+        return {name: now.get(name, value) for name, value in known.items()}
 
     # Connections, one after the other.
 
@@ -285,12 +298,13 @@ class StagedRun:
         result, found = run.judged_result()
         end = counters(run)
         lost = sum(e.energy_lost for e in self._changes)
-        self._pieces.append(
-            Piece(result, names_along(run), self._open[1], end, float(lost), self._changes)
-        )  # fmt: skip
+        piece = Piece(result, names_along(run), self._open[1], end, self._reached, float(lost), self._changes)
+        self._pieces.append(piece)
         self._changes, self._open = [], None
         self._found += [one for one in found if one not in self._found]
-        self._state = result.state if result.state is not None else self._state
+        state = piece.counting_on()
+        if state is not None:
+            self._state, self._reached = state, self._counted()
 
 
 def _loads(scene: Scene) -> set[str]:

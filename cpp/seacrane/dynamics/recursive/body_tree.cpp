@@ -227,7 +227,8 @@ class TreeBuilder {
             forward ? j.second_point : j.first_point,
             forward ? j.first_axes : j.second_axes,
             forward ? j.second_axes : j.first_axes,
-            j.parameters};
+            j.parameters,
+            !forward};
   }
 
   void add(std::size_t e) {

@@ -1,0 +1,152 @@
+"""Any edit of a state is taken, however small beside what else the state holds."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from seacrane import Curve, Run, Scene, State, StateSpaceBlock
+
+pytestmark = pytest.mark.filterwarnings("ignore::UserWarning")
+Array = NDArray[np.float64]
+STOP, END = 3.0, 3.2
+SETTINGS: list[dict[str, Any]] = [
+    {"formulation": "recursive"},
+    {"formulation": "redundant"},
+    {"integrator": "tsit5", "rtol": 1e-5},
+    {"integrator": "dopri5-stiff"},
+    {"integrator": "rosenbrock", "rtol": 1e-4},
+    {"integrator": "rk4", "dt": 2e-3},
+]
+
+
+def hauled(*, mass: float = 1e6, speed: float = -1.0, seed: int = 1) -> Scene:
+    """A load that a winch hauls up, much work, beside a hull with fluid memory and a motor."""
+    rng = np.random.default_rng(seed)
+    scene = Scene(name="hauled")
+    scene.add_body(
+        name="load", mass=mass, inertia=(mass,) * 3, position=(0.3, 0.0, -100.0),
+        angular_velocity=0.01 * rng.normal(size=3),
+    )  # fmt: skip
+    scene.add_line(
+        name="hoist", bodies=["ground", "load"], points=[(0, 0, 0), (0, 0, 0.5)], stiffness=1e3 * mass,
+        length=99.4,
+    )  # fmt: skip
+    rate = Curve.quintic(start_time=0.0, end_time=1.0, start=0.0, end=speed)
+    scene.add_winch(line="hoist", rate=rate, lag=0.2)
+    scene.add_body(name="hull", mass=100.0, inertia=(50.0,) * 3, velocity=(0.0, 0.0, 0.5))
+    scene.add_vessel(
+        body="hull", added_mass=20.0 * np.eye(6), linear_damping=5.0 * np.eye(6),
+        restoring=np.diag([0.0, 0.0, 900.0, 700.0, 700.0, 0.0]), mooring_stiffness=np.full(3, 10.0),
+        memory=[StateSpaceBlock(inputs=[2], outputs=[2], a=[[0.0, 1.0], [-4.0, -1.5]],
+                                b=[[1.0], [0.5]], c=[[30.0, 60.0]], d=[[0.0]])],
+    )  # fmt: skip
+    scene.add_body(name="wheel", mass=2.0, inertia=(1.0, 2.0, 3.0), position=(9.0, 0.0, 0.0))
+    scene.add_joint(kind="revolute", name="axle", first="ground", second="wheel", axis=(0, 1, 0))
+    scene.add_actuator(joint="axle", stiffness=3.0, damping=0.1, reference=0.5)
+    return scene
+
+
+def begun(scene: Scene, start: State, **settings: Any) -> Run:
+    return Run(scene, END, start=start, dt_out=0.05, **settings)
+
+
+def edited(state: State, *, values: Array | None = None, inputs: Array | None = None, **more: Any) -> State:
+    given = {
+        "time": state.time, "histories": state.histories, "steps": state.steps, "closed": state.closed,
+        "record": state.record, "parts": state.parts,
+        "values": state.values if values is None else values,
+        "inputs": state.inputs if inputs is None else inputs,
+    }  # fmt: skip
+    return State(**given | more)
+
+
+def free(scene: Scene) -> list[int]:
+    """Places in the state that nothing puts elsewhere: those of the load and of the hull but for quaternions,
+    fluid memory, states of loads, work."""
+    model = scene.compile()
+    names = model.bodies
+    out = list(range(model.twist_index(len(names)), model.states))
+    for body in (names.index("load"), names.index("hull")):
+        out += [*range(model.pose_index(body), model.pose_index(body) + 3)]
+        out += [*range(model.twist_index(body), model.twist_index(body) + 6)]
+    return out
+
+
+def wrong(seed: int) -> list[str]:
+    """What is wrong with edits of the state of a random run."""
+    rng = np.random.default_rng(seed)
+    scene = hauled(mass=10.0 ** rng.uniform(3, 7), speed=float(rng.uniform(-2, 2)), seed=seed)
+    settings = SETTINGS[seed % len(SETTINGS)]
+    run = Run(scene, END, dt_out=0.05, **settings)
+    run.advance(STOP)
+    state, out = run.state, []
+    for place in rng.choice(free(scene), 4, replace=False):
+        was = state.values[place]
+        by = 4.0 * np.spacing(was) if rng.random() < 0.3 else 10.0 ** rng.uniform(-13, -1) * (abs(was) + 1e-3)
+        values = np.array(state.values)
+        values[place] = was + by
+        if values[place] == was:
+            continue
+        going = begun(scene, edited(state, values=values), **settings)
+        if not np.array_equal(going.core.state.values, values):
+            off = going.core.state.values[place] - values[place]
+            out.append(f"place {place} of {values.size}: {was} edited by {by}, begins {off} beside it")
+        afresh = begun(scene, edited(state, values=values, steps=type(state.steps)(
+            formulation="", integrator="", values=[], rate=[])), **settings)  # fmt: skip
+        for one in (going, afresh):
+            one.advance(END)
+        if not np.array_equal(going.core.state.values, afresh.core.state.values):
+            out.append(f"place {place}: edited by {by}, goes on by a derivative of before")
+    return out
+
+
+def test_random_edits_of_random_states_are_taken() -> None:
+    assert {seed: told for seed in range(20) if (told := wrong(seed))} == {}
+
+
+@pytest.mark.nightly
+def test_many_random_edits_of_random_states_are_taken() -> None:
+    assert {seed: told for seed in range(1000, 1600) if (told := wrong(seed))} == {}
+
+
+@pytest.mark.parametrize("longer", [0.02, 1e-6, -1e-9, 1e-13])
+def test_a_line_is_as_long_as_it_was_edited_to_be_after_much_work(longer: float) -> None:
+    scene = hauled()
+    run = Run(scene, END, rtol=1e-7)
+    run.advance(STOP)
+    assert abs(run.state.values[-2]) > 1e6  # J
+    length = run.state.load_states["hoist.length"] + longer
+    going = Run(scene, END, start=run.state.with_load_states({"hoist.length": length}), rtol=1e-7)
+    assert going.core.state.load_states["hoist.length"] == length
+
+
+@pytest.mark.parametrize("settings", SETTINGS)
+def test_a_state_that_was_edited_to_what_it_is_goes_on_bit_for_bit(settings: dict[str, Any]) -> None:
+    scene = hauled()
+    run = Run(scene, END, **settings)
+    run.advance(STOP)
+    state = run.state
+    later = Run(scene, END, start=state.with_load_states(state.load_states), **settings)
+    for one in (run, later):
+        one.advance(END)
+    assert np.array_equal(one.core.state.values, run.core.state.values)
+
+
+@pytest.mark.parametrize("by", [1e-3, 1e-9, 1e-15])
+def test_an_edited_input_is_felt_at_once(by: float) -> None:
+    scene = hauled()
+    run = Run(scene, END, rtol=1e-7)
+    run.advance(STOP)
+    inputs = np.array(run.state.inputs)
+    inputs[next(slot for name, slot, _ in run.model.inputs if name == "axle.force")] += by
+    going = begun(scene, edited(run.state, inputs=inputs), rtol=1e-7)
+    none = type(run.state.steps)(formulation="", integrator="", values=[], rate=[])
+    afresh = begun(scene, edited(run.state, inputs=inputs, steps=none), rtol=1e-7)
+    for one in (going, afresh):
+        assert np.array_equal(one.core.state.inputs, inputs)
+        one.advance(END)
+    assert np.array_equal(going.core.state.values, afresh.core.state.values)

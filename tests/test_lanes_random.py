@@ -1,0 +1,164 @@
+"""Random lifts in lanes: as alone, or kept apart with a reason, whatever they differ in."""
+
+from __future__ import annotations
+
+import dataclasses
+import warnings
+from collections import Counter
+from collections.abc import Callable
+from functools import cache
+from typing import Any
+
+import numpy as np
+import pytest
+from limit_scenes import limited
+from random_scenes import KINDS, Shape, build
+
+from seacrane import Result, Run, Scene, SceneError, cases
+from seacrane.ensembles.other_sea import with_sea
+from seacrane.ensembles.paths import _paths, with_values
+from seacrane.hydro import DriftCoefficients, HydroDatabase, shipped_database
+from seacrane.run.lanes import advance_side_by_side, module_of
+
+pytestmark = [
+    pytest.mark.skipif(module_of(4) is None, reason="no lanes on this processor, or in this build"),
+    pytest.mark.filterwarnings("ignore::UserWarning"),
+]
+T_END = 3.0
+METHODS: list[dict[str, Any]] = [
+    *({"rtol": 1e-9, "integrator": name} for name in ("dopri5", "tsit5", "dop853", "dopri5-stiff")),
+    {"rtol": 1e-9, "integrator": "dopri5", "max_step": 0.05},
+    {"integrator": "rk4", "dt": 0.01},
+]
+# The scene of seed and start is made with one of these, and the members differ in up to two more.
+MEMORIES = ("per-pair", "per-pair", "by-motion", "convolution")
+
+
+@cache
+def drifting() -> HydroDatabase:
+    """The shipped hull, with mean drift forces."""
+    hull = shipped_database()
+    mean = np.tile([-2e4, 3e4, 0.0, 0.0, 0.0, 1e5], (len(hull.heading), len(hull.omega), 1))
+    drift = DriftCoefficients(heading=hull.heading, omega=hull.omega, coefficient=mean)
+    return dataclasses.replace(hull, drift=drift)
+
+
+def afloat(rng: np.random.Generator) -> Callable[[], Scene]:
+    """A ship, with its crane and load or without, made anew at each call."""
+    name = str(rng.choice(["vessel", "vessel", "case2"]))
+    given: dict[str, Any] = {
+        "memory": str(rng.choice(MEMORIES)), "drift": bool(rng.integers(2)), "hs": float(rng.uniform(1, 4)),
+        "count": 30,
+    }  # fmt: skip
+
+    def make() -> Scene:
+        other = dict(given)
+        if rng.random() < 0.3:
+            other["drift"] = not given["drift"]
+        if rng.random() < 0.15:
+            other["memory"] = str(rng.choice(MEMORIES))
+        scene: Scene = getattr(cases, name)(database=drifting(), seed=int(rng.integers(1, 9)), **other)
+        if rng.random() < 0.5:
+            words = {"hs": float(rng.uniform(1, 4)), "direction_deg": float(rng.uniform(0, 360))}
+            scene = with_sea(scene, drifting(), words)
+        return scene
+
+    return make
+
+
+def tree(rng: np.random.Generator) -> Callable[[], Scene]:
+    """Bodies in a tree of joints, with springs and actuators."""
+    count = int(rng.integers(1, 5))
+    shape = Shape(
+        seed=int(rng.integers(2**32)), parents=tuple(int(rng.integers(-1, i)) for i in range(count)),
+        kinds=tuple(str(kind) for kind in rng.choice(KINDS, count)),
+        swapped=tuple(bool(one) for one in rng.integers(2, size=count)), decades=2.0,
+        base=str(rng.choice(["ground", "floating", "vessel"])),
+    )  # fmt: skip
+    return lambda: build(shape)
+
+
+def with_limits(rng: np.random.Generator) -> Callable[[], Scene]:
+    seed = int(rng.integers(100))
+    return lambda: limited(seed)[0]
+
+
+def one_number_off(scene: Scene, rng: np.random.Generator) -> Scene:
+    """One number of the description is another; itself where that is no scene."""
+    path = str(rng.choice(_paths(scene)))
+    table, rest = path.split(".", 1)
+    name, attribute = rest.rsplit(".", 1)
+    was = getattr(getattr(scene, table)[name], attribute)
+    if isinstance(was, bool | str) or not isinstance(was, float | np.ndarray):
+        return scene
+    now = np.array(was, dtype=float)
+    if not now.size:
+        return scene
+    now.flat[int(rng.integers(now.size))] += 1e-3 * max(1.0, float(np.abs(now).max()))
+    try:
+        out = with_values(scene, {path: now if isinstance(was, np.ndarray) else float(now)})
+        out.compile()
+    except SceneError:
+        return scene
+    return out
+
+
+def members(rng: np.random.Generator) -> list[Scene]:
+    make = [afloat, afloat, tree, with_limits][int(rng.integers(4))](rng)
+    scenes = [make() for _ in range(int(rng.integers(2, 5)))]
+    return [one_number_off(scene, rng) if rng.random() < 0.2 else scene for scene in scenes]
+
+
+def off(result: Result, alone: Result) -> float:
+    """Of the states of two runs, and of a channel that holds nothing else: the largest difference."""
+    assert result.state is not None and alone.state is not None
+    places = max(float(np.abs(result[name] - alone[name]).max()) for name in ("position", "quaternion"))
+    return places if np.array_equal(result.time, alone.time) else np.inf
+
+
+def told_of(seed: int) -> tuple[str, str]:
+    """How the runs of a seed went, and what was wrong with it."""
+    rng = np.random.default_rng(seed)
+    scenes, method = members(rng), METHODS[int(rng.integers(len(METHODS)))]
+    settings = {"dt_out": 0.25, "channels": ["position", "quaternion"], "formulation": "recursive", **method}
+    try:
+        runs, alone = [[Run(scene, T_END, **settings) for scene in scenes] for _ in range(2)]
+        for run in alone:
+            run.advance(T_END)
+    except Exception as error:  # alone as well
+        return f"no run: {type(error).__name__}", ""
+    assert advance_side_by_side(runs, 4, lambda _: None)
+    lanes, why = runs[0].lanes["lanes"], str(runs[0].lanes.get("kept_apart", ""))
+    if lanes == 1 and not why:
+        return "apart", "no reason is told"
+    for run in runs:
+        run.advance(T_END)
+    apart = [off(run.result(), one.result()) for run, one in zip(runs, alone, strict=True)]
+    bound = 1e-6 if lanes > 1 else 0.0
+    wrong = "" if max(apart) <= bound else f"{method}: {apart} from alone, in {lanes} lanes, {why}"
+    return "in lanes" if lanes > 1 else "apart", wrong
+
+
+def judged(seeds: range) -> tuple[Counter[str], dict[int, str]]:
+    how, wrong = Counter[str](), {}
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        for seed in seeds:
+            went, bad = told_of(seed)
+            how[went] += 1
+            if bad:
+                wrong[seed] = bad
+    return how, wrong
+
+
+def test_random_members_in_lanes_are_as_alone_or_kept_apart() -> None:
+    how, wrong = judged(range(20))
+    assert wrong == {}
+    assert how["in lanes"] >= 3 and how["apart"] >= 3, how
+
+
+@pytest.mark.nightly
+def test_many_random_members_in_lanes_are_as_alone_or_kept_apart() -> None:
+    how, wrong = judged(range(1000, 1400))
+    assert wrong == {}
+    assert how["in lanes"] >= 60 and how["apart"] >= 60, how
