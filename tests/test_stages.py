@@ -258,8 +258,10 @@ def test_a_stage_runs_again_from_its_start_to_the_bit(
         assert np.array_equal(again.state.values, whole.state.values)
         rest = again.result()
         assert rest.stages == whole.stages[place:]
-        position = whole["position"][whole.stage(name)]
-        assert np.array_equal(rest["position"][rest.stage(name)][-len(position) + 1 :], position[1:])
+        for channel in ("position", "energy_balance", "impact_loss"):
+            if channel in whole:
+                there = whole[channel][whole.stage(name)]
+                assert np.array_equal(rest[channel][rest.stage(name)][-len(there) + 1 :], there[1:]), channel
 
 
 def test_a_stage_alone_starts_from_its_static_state() -> None:

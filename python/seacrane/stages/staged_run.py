@@ -304,7 +304,8 @@ class StagedRun:
         self._found += [one for one in found if one not in self._found]
         state = piece.counting_on()
         if state is not None:
-            self._state, self._reached = state, self._counted()
+            self._state = state
+            self._reached = self._counted()
 
 
 def _loads(scene: Scene) -> set[str]:
