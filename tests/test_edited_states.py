@@ -92,9 +92,12 @@ def wrong(seed: int) -> list[str]:
         if values[place] == was:
             continue
         going = begun(scene, edited(state, values=values), **settings)
-        if not np.array_equal(going.core.state.values, values):
-            off = going.core.state.values[place] - values[place]
+        begins = np.array(going.core.state.values)
+        if begins[place] != values[place]:
+            off = begins[place] - values[place]
             out.append(f"place {place} of {values.size}: {was} edited by {by}, begins {off} beside it")
+        if not np.allclose(begins, values, rtol=1e-13, atol=1e-13):  # from poses to coordinates and back
+            out.append(f"place {place} of {values.size}: edited by {by}, and others begin elsewhere")
         afresh = begun(scene, edited(state, values=values, steps=type(state.steps)(
             formulation="", integrator="", values=[], rate=[])), **settings)  # fmt: skip
         for one in (going, afresh):

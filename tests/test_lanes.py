@@ -213,11 +213,11 @@ def drifting(*, seed: int, drift: bool, memory: str = "per-pair") -> Scene:
 
 
 @needs_lanes
-@pytest.mark.parametrize("drift", [[False, True], [True, False], [True, True]])
+@pytest.mark.parametrize("drift", [[False, True], [True, False], [True]])
 def test_slow_drift_is_that_of_each_member(drift: list[bool]) -> None:
     """In lanes where all have it; else kept apart, whichever is first."""
     study: dict[str, Any] = {
-        "over": {"seed": [1, 2], "drift": drift}, "t_end": 20.0,
+        "over": {"seed": [1, 2], "drift": drift}, "t_end": 20.0, "rtol": 1e-8,
         "keep": {"sway": Kept(channel="vessel_motion", what="mean", at={"motion": "sway"})},
     }  # fmt: skip
     alone, beside = (ensemble(drifting, lanes=lanes, **study).dataset for lanes in (1, 4))
