@@ -56,7 +56,14 @@ def at_rest_of(scene: Scene) -> float:
 def balance_at_rest() -> float:
     scene = submerged()
     scene.remove("wire")
-    scene.add_joint(kind="distance", name="rod", first="ground", second="load", point=(0, 0, 0))
+    scene.add_joint(
+        kind="distance",
+        name="rod",
+        first="ground",
+        second="load",
+        point=(0, 0, 0),
+        second_point=(0, 0, -DEPTH),
+    )
     return balance(scene).weight
 
 

@@ -105,6 +105,8 @@ def _drive(scene: Description, joint: str, motions: Mapping[str, _core.Curve]) -
 
 def _multipliers(model: _core.Model, names: Sequence[str], *, time: float, state: Array) -> Array:
     """Loads of drivers at one state."""
+    if not names:
+        return np.zeros(0)
     run = _core.Simulation(
         model=model,
         start=_core.State(time=time, values=state, inputs=np.zeros(model.slots)),

@@ -12,8 +12,7 @@ from numpy.typing import NDArray
 
 from seacrane import _core
 from seacrane.description.joint_coordinates import ANGLES
-from seacrane.description.line_weights import hooked_body
-from seacrane.description.loads import lines_of
+from seacrane.description.line_weights import line_weights
 from seacrane.inputs.frames import rotation_matrix
 
 if TYPE_CHECKING:
@@ -22,6 +21,7 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 FAST_WATER = 5.0  # m/s
 FASTEST_SLIDE, FASTEST_TURN = 50.0, 30.0  # m/s, rad/s: of what a driver moves
+LEAST_ADDED_MASS = 5e-3  # over the mass of what floats
 WATER = 500.0  # kg/m3: fluids that are heavier
 
 
@@ -73,7 +73,7 @@ class _Around:
     """What elements are compared with: the scene as described."""
 
     def __init__(self, scene: Description, times: Array) -> None:
-        self.scene, self.times = scene, times
+        self.scene, self.times, self.hung = scene, times, line_weights(scene)
 
     def place(self, body: str, point: Any) -> Array:
         point = np.asarray(point, dtype=float)
@@ -95,108 +95,109 @@ class _Around:
     def weight(self, *bodies: str) -> float:
         return self.mass(*bodies) * abs(self.scene.gravity)
 
+    def as_weight(self, field: str, force: float, unit: str) -> Proportion:
+        """A force over the weight of all bodies."""
+        heaviest = sum(body.mass for body in self.scene.bodies.values()) * abs(self.scene.gravity)
+        makes = "{:.3g} times the weight of all bodies"
+        return Proportion(field, makes, _over(force, heaviest), 0.0, 100.0, unit)
+
     def largest(self, curve: _core.Curve) -> float:
         return float(np.abs(curve.evaluate(self.times)[:, 0]).max())
 
 
 def _line(around: _Around, line: _core.Line) -> Iterator[Proportion]:
-    hooked = hooked_body(line)
-    mass, weight = around.mass(hooked), around.weight(hooked)
-    falls = sum((a == hooked) != (b == hooked) for a, b in zip(line.bodies, line.bodies[1:], strict=False))
-    alone = sum(hooked in other.bodies for other in lines_of(around.scene.loads).values()) == 1
+    """What it carries counts where nothing else does: a tugger's ship says nothing of the tugger."""
+    weight, falls = around.hung.get(line.name, (0.0, 1))
+    mass = _over(weight, abs(around.scene.gravity))
     places = np.array([around.place(*end) for end in zip(line.bodies, line.points, strict=True)])
     path = float(np.linalg.norm(np.diff(places, axis=0), axis=1).sum())
     start = float(line.length.evaluate(around.times[:1])[0, 0])
-    hangs = alone and hooked in around.scene.bodies and around.scene.bodies[hooked].gravity
     if len(line.tensions):
-        if hangs:
-            share = line.tensions[-1] * falls / weight if weight else 0.0
-            yield Proportion("tensions", "{:.3g} times the weight on it", share, 1e-2, 500.0, "N")
+        share = _over(line.tensions[-1] * falls, weight)
+        yield Proportion("tensions", "{:.3g} times the weight on it", share, 1e-2, 500.0, "N")
     else:
-        at_start = path / start - 1.0 if start > 0.0 else 0.0
-        at_rest = weight / falls / line.stiffness if hangs and falls and math.isfinite(weight) else 0.0
-        strain = max(at_start, at_rest)
+        strain = max(_over(path, start) - 1.0, _over(weight, falls * line.stiffness), 0.0)
         yield Proportion("stiffness", "a strain of {:.3g} at rest", strain, 0.0, 0.5, "N")
-    if math.isfinite(mass):
-        share = line.mass / mass
-        yield Proportion("mass", "{:.3g} times the mass on the line", share, 1.0 / 300.0, 300.0, "kg")
+    share = _over(line.mass, mass)
+    yield Proportion("mass", "{:.3g} times the mass on the line", share, 1.0 / 300.0, 300.0, "kg")
     if not line.winch:
         return
     held = around.largest(line.tension)
-    yield Proportion("tension", "a strain of {:.3g}", held / line.stiffness, 1e-5, 0.5, "N")
-    yield Proportion(
-        "tension_gain", "{:.3g} m/s per tension held", line.tension_gain * held, 1e-2, 100.0, "m/s/N"
-    )
-    if held > 0.0:
-        yield Proportion("dead_band", "{:.3g} of the tension held", line.dead_band / held, 1e-4, 2.0, "N")
-    if line.drum_radius > 0.0 and math.isfinite(mass):
-        share = line.drum_inertia / line.drum_radius**2 / mass
-        yield Proportion("drum_inertia", "{:.3g} times the mass on the line", share, 1e-3, 100.0, "kg m2")
+    yield Proportion("tension", "a strain of {:.3g}", _over(held, line.stiffness), 1e-5, 0.5, "N")
+    speed = line.tension_gain * held
+    yield Proportion("tension_gain", "{:.3g} m/s by the tension held", speed, 1e-2, 100.0, "m/s/N")
+    share = _over(line.dead_band, held)
+    yield Proportion("dead_band", "{:.3g} of the tension held", share, 1e-4, 2.0, "N")
+    share = _over(line.drum_inertia, line.drum_radius**2 * mass)
+    yield Proportion("drum_inertia", "{:.3g} times the mass on the line", share, 1e-3, 100.0, "kg m2")
 
 
 def _gas_spring(around: _Around, gas: _core.GasSpring) -> Iterator[Proportion]:
-    distance, weight, mass = around.distance(gas), around.weight(gas.first, gas.second), 0.0
-    yield Proportion("volume", "{:.3g} m of stroke", gas.volume / gas.area, 0.02, 200.0, "m3")
-    if distance > 0.0:
-        yield Proportion("length", "{:.3g} times the distance", gas.length / distance, 0.05, 20.0, "m")
+    distance, weight = around.distance(gas), around.weight(gas.first, gas.second)
+    yield Proportion("volume", "{:.3g} m of stroke", _over(gas.volume, gas.area), 0.02, 200.0, "m3")
+    yield Proportion("length", "{:.3g} times the distance", _over(gas.length, distance), 0.05, 20.0, "m")
     for key in ("minimum", "maximum"):
         bound = getattr(gas, key)
         if bound < 1e7:
-            yield Proportion(key, "{:.3g} times the length", bound / gas.length, 0.02, 50.0, "m")
-    if gas.stop_stiffness > 0.0 and math.isfinite(weight):
-        given = weight / gas.stop_stiffness / gas.length
-        yield Proportion("stop_stiffness", "it give by {:.3g} of the length", given, 0.0, 1.0, "N/m")
+            yield Proportion(key, "{:.3g} times the length", _over(bound, gas.length), 0.02, 50.0, "m")
+    given = _over(weight, gas.stop_stiffness * gas.length)
+    yield Proportion("stop_stiffness", "it give by {:.3g} of the length", given, 0.0, 1.0, "N/m")
     mass = around.mass(gas.first, gas.second)
-    if math.isfinite(mass):
-        stiffness = gas.exponent * gas.pressure * gas.area**2 / gas.volume
-        yield _damped("damping", gas.damping, stiffness, mass, "N s/m")
-        yield _damped("quadratic_damping", gas.quadratic_damping, stiffness, mass, "N s2/m2")
+    stiffness = _over(gas.exponent * gas.pressure * gas.area**2, gas.volume)
+    yield _damped("damping", gas.damping, stiffness, mass, "N s/m")
+    yield _damped("quadratic_damping", gas.quadratic_damping, stiffness, mass, "N s2/m2")
+
+
+def _over(value: float, other: float) -> float:
+    """The ratio; 0, which is never told, where there is nothing to compare with."""
+    return value / other if other != 0.0 and math.isfinite(other) and math.isfinite(value) else 0.0
 
 
 def _damped(field: str, damping: float, stiffness: float, mass: float, unit: str) -> Proportion:
     """Over critical; quadratic damping at 1 m/s."""
     critical = 2.0 * math.sqrt(max(stiffness, 0.0) * mass)
-    ratio = damping / critical if critical > 0.0 else 0.0
+    ratio = _over(damping, critical)
     return Proportion(field, "{:.3g} of critical damping", ratio, 0.0, 30.0, unit)
 
 
 def _hydraulic(around: _Around, oil: _core.HydraulicCylinder) -> Iterator[Proportion]:
     areas = {"": oil.full_area, "_rod": oil.rod_side_area}
-    yield Proportion("rod_side_area", "{:.3g} of the full area", areas["_rod"] / areas[""], 0.02, 1.0, "m2")
+    yield Proportion(
+        "rod_side_area", "{:.3g} of the full area", _over(areas["_rod"], areas[""]), 0.02, 1.0, "m2"
+    )
     for side, area in areas.items():
-        hose = getattr(oil, f"hose_volume{side}") / (area * oil.stroke)
+        hose = _over(getattr(oil, f"hose_volume{side}"), area * oil.stroke)
         yield Proportion(f"hose_volume{side}", "{:.3g} times the swept volume", hose, 1e-3, 30.0, "m3")
         pressure = getattr(oil, f"pressure{side}")
         yield Proportion(f"pressure{side}", "{:.3g} Pa, absolute", pressure, 5e4, 2e8, "Pa")
     for key in ("rated_flow", "rated_flow_rod", "makeup_flow", "relief_flow", "counterbalance_flow",
                 "accumulator_flow"):  # fmt: skip
-        speed = getattr(oil, key) / areas[""]
+        speed = _over(getattr(oil, key), areas[""])
         yield Proportion(key, "{:.3g} m/s of the piston", speed, 1e-3, 30.0, "m3/s")
-    gas = oil.accumulator_volume / (areas[""] * oil.stroke)
+    gas = _over(oil.accumulator_volume, areas[""] * oil.stroke)
     yield Proportion("accumulator_volume", "{:.3g} times the swept volume", gas, 5e-3, 100.0, "m3")
-    hole = oil.rupture_area / areas[""]
+    hole = _over(oil.rupture_area, areas[""])
     yield Proportion("rupture_area", "{:.3g} times the piston's area", hole, 1e-4, 1.0, "m2")
     highest = max(oil.pump_pressure, oil.pressure, oil.pressure_rod)
     force = highest * areas[""]
     for key in ("internal_leakage", "external_leakage"):
-        speed = getattr(oil, key) * highest / areas[""]
+        speed = _over(getattr(oil, key) * highest, areas[""])
         yield Proportion(key, "{:.3g} m/s of the piston", speed, 0.0, 0.1, "m3/s/Pa")
-    yield Proportion("friction", "{:.3g} of the cylinder's force", oil.friction / force, 0.0, 1.0, "N")
-    drag = oil.viscous_friction / force
+    yield Proportion("friction", "{:.3g} of the cylinder's force", _over(oil.friction, force), 0.0, 1.0, "N")
+    drag = _over(oil.viscous_friction, force)
     yield Proportion("viscous_friction", "{:.3g} of its force at 1 m/s", drag, 0.0, 3.0, "N s/m")
-    given = force / oil.stop_stiffness / oil.stroke if oil.stop_stiffness > 0.0 else 0.0
+    given = _over(force, oil.stop_stiffness * oil.stroke)
     yield Proportion("stop_stiffness", "the ends give by {:.3g} of the stroke", given, 0.0, 0.1, "N/m")
     if oil.gain > 0.0:
-        share = around.largest(oil.reference) / oil.stroke
+        share = _over(around.largest(oil.reference), oil.stroke)
         yield Proportion("reference", "{:.3g} of the stroke", share, 0.0, 1.5, "m")
 
 
 def _flow(around: _Around, flow: _core.FlowForce) -> Iterator[Proportion]:
-    height = flow.lateral_area / flow.length
+    height = _over(flow.lateral_area, flow.length)
     yield Proportion("lateral_area", "a height of {:.3g} m", height, 0.05, 200.0, "m2")
-    if flow.lateral_area > 0.0:
-        share = flow.frontal_area / flow.lateral_area
-        yield Proportion("frontal_area", "{:.3g} of the lateral area", share, 5e-3, 50.0, "m2")
+    share = _over(flow.frontal_area, flow.lateral_area)
+    yield Proportion("frontal_area", "{:.3g} of the lateral area", share, 5e-3, 50.0, "m2")
     yield from _fluid(flow.density, around.largest(flow.speed), "speed")
 
 
@@ -207,16 +208,14 @@ def _fluid(density: float, speed: float, field: str) -> Iterator[Proportion]:
 
 def _span(around: _Around, span: _core.SpanDrag) -> Iterator[Proportion]:
     distance = around.distance(span)
-    if distance > 0.0:
-        yield Proportion("length", "{:.3g} times the span", span.length / distance, 0.05, 20.0, "m")
+    yield Proportion("length", "{:.3g} times the span", _over(span.length, distance), 0.05, 20.0, "m")
     yield from _fluid(span.density, float(np.linalg.norm(span.flow)), "flow")
 
 
 def _pendulum(around: _Around, swing: _core.PendulumDamping) -> Iterator[Proportion]:
     mass = around.mass(swing.second)
-    if math.isfinite(mass):
-        share = swing.mass / mass
-        yield Proportion("mass", "{:.3g} times the mass that swings", share, 1.0 / 300.0, 300.0, "kg")
+    share = _over(swing.mass, mass)
+    yield Proportion("mass", "{:.3g} times the mass that swings", share, 1.0 / 300.0, 300.0, "kg")
 
 
 def _spring(around: _Around, spring: _core.Spring) -> Iterator[Proportion]:
@@ -225,28 +224,24 @@ def _spring(around: _Around, spring: _core.Spring) -> Iterator[Proportion]:
     if distance > 0.0 and distance < 1e5:
         longest = float(np.max(spring.lengths)) if len(spring.lengths) else spring.natural_length
         field = "lengths" if len(spring.lengths) else "natural_length"
-        yield Proportion(field, "{:.3g} times the distance", longest / distance, 1.0 / 30.0, 30.0, "m")
-    if not math.isfinite(weight) or weight == 0.0:
-        return
+        yield Proportion(field, "{:.3g} times the distance", _over(longest, distance), 1.0 / 30.0, 30.0, "m")
     if len(spring.forces):
-        share = float(np.abs(spring.forces).max()) / weight
+        share = _over(float(np.abs(spring.forces).max()), weight)
         yield Proportion("forces", "{:.3g} times the lighter body's weight", share, 1e-2, 300.0, "N")
     yield _damped("damping", spring.damping, spring.stiffness, mass, "N s/m")
 
 
 def _pushed(around: _Around, force: _core.PointForce) -> Iterator[Proportion]:
-    """What a force does to all that its body could carry."""
-    heaviest = sum(body.mass for body in around.scene.bodies.values()) * abs(around.scene.gravity)
-    if heaviest > 0.0:
-        share = float(np.linalg.norm(force.force)) / heaviest
-        yield Proportion("force", "{:.3g} times the weight of all bodies", share, 0.0, 100.0, "N")
+    yield around.as_weight("force", float(np.linalg.norm(force.force)), "N")
 
 
 def _tabled(around: _Around, table: _core.ForceTable) -> Iterator[Proportion]:
-    heaviest = sum(body.mass for body in around.scene.bodies.values()) * abs(around.scene.gravity)
-    if heaviest > 0.0:
-        share = float(np.abs(np.asarray(table.wrenches)[:, :3]).max()) / heaviest
-        yield Proportion("wrenches", "{:.3g} times the weight of all bodies", share, 0.0, 100.0, "N, N m")
+    yield around.as_weight("wrenches", float(np.abs(np.asarray(table.wrenches)[:, :3]).max()), "N, N m")
+
+
+def _actuator(around: _Around, actuator: _core.Actuator) -> Iterator[Proportion]:
+    if actuator.coordinate not in ANGLES:
+        yield around.as_weight("feed_forward", around.largest(actuator.feed_forward), "N or N m")
 
 
 def _driver(around: _Around, driver: _core.Driver) -> Iterator[Proportion]:
@@ -262,19 +257,13 @@ def _vessel(around: _Around, vessel: _core.VesselHydrodynamics) -> Iterator[Prop
     added, restoring = np.diag(vessel.added_mass), np.diag(vessel.restoring)
     heavy = np.array([body.mass] * 3 + list(np.diag(body.inertia)))
     own = float(np.max(added[:3])) / body.mass
-    yield Proportion("added_mass", "{:.3g} times the body's mass", own, 0.0, 50.0, "kg, kg m, kg m2")
+    least = LEAST_ADDED_MASS if vessel.floats else 0.0
+    yield Proportion("added_mass", "{:.3g} times the body's mass", own, least, 50.0, "kg, kg m, kg m2")
     spun = float(np.max(added[3:] / heavy[3:]))
     yield Proportion("added_mass", "{:.3g} times its inertia", spun, 0.0, 100.0, "kg, kg m, kg m2")
-    if vessel.floats:
-        least = float(np.max(added)) / body.mass
-        yield Proportion(
-            "added_mass", "{:.3g} times the body's mass", least, 5e-3, math.inf, "kg, kg m, kg m2"
-        )
-        for at, name in ((2, "heave"), (3, "roll"), (4, "pitch")):
-            period = _period(heavy[at] + added[at], restoring[at])
-            yield Proportion(
-                "restoring", f"a period of {name} of {{:.3g}} s", period, 0.7, 150.0, "N/m, N, N m"
-            )
+    for at, name in ((2, "heave"), (3, "roll"), (4, "pitch")):
+        period, makes = _period(heavy[at] + added[at], restoring[at]), f"a period of {name} of {{:.3g}} s"
+        yield Proportion("restoring", makes, period, 0.7, 150.0, "N/m, N, N m")
     moored = np.diag([*vessel.mooring_stiffness])
     for i, at in enumerate((0, 1, 5)):
         period = _period(heavy[at] + added[at], moored[i, i])
@@ -298,6 +287,7 @@ _OF_LOADS: Mapping[type, tuple[str, Callable[..., Iterator[Proportion]]]] = {
     _core.SpanDrag: ("span drag", _span),
     _core.PendulumDamping: ("pendulum damping", _pendulum),
     _core.Spring: ("spring", _spring),
+    _core.Actuator: ("actuator", _actuator),
     _core.PointForce: ("point force", _pushed),
     _core.ForceTable: ("force table", _tabled),
 }
