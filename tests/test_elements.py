@@ -151,6 +151,7 @@ def every_load() -> Scene:
         told |= {key: names.get(value, value) for key, value in told.items() if isinstance(value, str)}
         scene.add_load(kind=kind, **told | {"name": f"a {kind}"})
     scene.add_point(name="corner", body="hull", point=(1.0, 2.0, 3.0))
+    scene.replace("water", kind="vessel", floats=False)
     scene.add_load(kind="limit", limit="stop", name="end", joint="pin", coordinate="angle", minimum=-1.0)
     return scene
 

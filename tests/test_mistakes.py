@@ -9,6 +9,7 @@ from dataclasses import replace
 from functools import lru_cache
 from pathlib import Path
 
+import mistaken_units
 import numpy as np
 import pytest
 from hydraulic_scenes import raised
@@ -320,7 +321,9 @@ SCRIPTS: dict[str, list[Callable[[], None]]] = {
     "bilge keels in millimetres": [bilge_keels_in_millimetres],
     "a mooring counted twice": [a_mooring_beside_the_file_s, a_file_that_holds_its_mooring],
     "texts for numbers": [forces_as_text],
+    **mistaken_units.SCRIPTS,
 }
+FILES = {__file__, mistaken_units.__file__}
 
 
 def test_the_page_and_these_scripts_hold_the_same_mistakes() -> None:
@@ -351,7 +354,7 @@ def test_a_mistake_is_answered_by_name_at_the_user_s_line(script: Callable[[], N
     mistake = next(m for m, scripts in SCRIPTS.items() if script in scripts)
     names, files = answer(script)
     assert names & set(ROWS[mistake])
-    assert files <= {__file__}
+    assert files <= FILES
 
 
 @pytest.mark.parametrize("mistake", SCRIPTS)

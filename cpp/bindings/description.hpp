@@ -186,6 +186,7 @@ struct FieldRow {
   py::tuple shape;
   bool required;
   py::object usual;
+  double least = 0.0, most = 0.0;
 };
 
 template <class D>
@@ -199,7 +200,7 @@ py::tuple field_rows() {
     using V = ValueOf<D, decltype(f)>;
     out.append(FieldRow{f.name, TypeOf<V>::name, text_of(f.role), f.unit, f.text,
                         py::tuple(py::cast(TypeOf<V>::shape())), f.required,
-                        f.required ? py::object(py::none()) : py::cast(seen(f.of(usual)))});
+                        f.required ? py::object(py::none()) : py::cast(seen(f.of(usual))), f.least, f.most});
   });
   return py::tuple(out);
 }

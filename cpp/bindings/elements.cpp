@@ -21,7 +21,9 @@ void bind_fields(py::module_& m) {
       .def_readonly("text", &FieldRow::text)
       .def_readonly("shape", &FieldRow::shape, "of an array; -1: any length")
       .def_readonly("required", &FieldRow::required)
-      .def_readonly("default", &FieldRow::usual, "where it is not required");
+      .def_readonly("default", &FieldRow::usual, "where it is not required")
+      .def_readonly("least", &FieldRow::least, "usual magnitude of what is not zero; 0: no bound")
+      .def_readonly("most", &FieldRow::most, "likewise");
 }
 
 /// The joint types, and what they say of themselves.

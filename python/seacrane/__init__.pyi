@@ -99,10 +99,12 @@ from seacrane.figures.plots import plot_track as plot_track
 from seacrane.figures.pose import plot_scene as plot_scene
 from seacrane.hydro import HydroDatabase as HydroDatabase
 from seacrane.hydro import load_database as load_database
+from seacrane.hydro.data.long_waves import RaoPhaseWarning as RaoPhaseWarning
 from seacrane.inputs.plausible import AngleUnitWarning as AngleUnitWarning
 from seacrane.inputs.plausible import CompassDirectionWarning as CompassDirectionWarning
 from seacrane.inputs.plausible import DepthSignWarning as DepthSignWarning
 from seacrane.inputs.plausible import MassUnitWarning as MassUnitWarning
+from seacrane.inputs.plausible import UnitWarning as UnitWarning
 from seacrane.lift.lift import Lift as Lift
 from seacrane.operability.allowable import allowable_hs as allowable_hs
 from seacrane.operability.alpha import AlphaFactor as AlphaFactor
@@ -130,6 +132,7 @@ from seacrane.run.outputs import Outputs as Outputs
 from seacrane.run.run import Run as Run
 from seacrane.run.sampled_controller import SampledController as SampledController
 from seacrane.run.stiffness import StiffWarning as StiffWarning
+from seacrane.run.through_seats import ThroughSeatWarning as ThroughSeatWarning
 from seacrane.run.to_file import StreamedResult as StreamedResult
 from seacrane.run.to_file import simulate_to_file as simulate_to_file
 from seacrane.run.unsteady_oil import UnsteadyOilWarning as UnsteadyOilWarning
@@ -139,6 +142,7 @@ from seacrane.scene.mooring import MooringSpring as MooringSpring
 from seacrane.scene.mooring import OwnMooringWarning as OwnMooringWarning
 from seacrane.scene.mooring import mooring_matrix as mooring_matrix
 from seacrane.scene.motion_history import MotionHistory as MotionHistory
+from seacrane.scene.motion_history import NoisyMotionWarning as NoisyMotionWarning
 from seacrane.scene.motion_raos import MotionRaos as MotionRaos
 from seacrane.scene.scene import Scene as Scene
 from seacrane.scene.sea import WavesWithoutLoadWarning as WavesWithoutLoadWarning

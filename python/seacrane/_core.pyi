@@ -517,6 +517,16 @@ class Field:
         where it is not required
         """
     @property
+    def least(self) -> float:
+        """
+        usual magnitude of what is not zero; 0: no bound
+        """
+    @property
+    def most(self) -> float:
+        """
+        likewise
+        """
+    @property
     def name(self) -> str:
         ...
     @property
@@ -2260,7 +2270,7 @@ class VesselHydrodynamics:
         ...
     def __hash__(self) -> int:
         ...
-    def __init__(self, *, name: str, body: str, added_mass: numpy.typing.ArrayLike = ..., linear_damping: numpy.typing.ArrayLike = ..., quadratic_damping: numpy.typing.ArrayLike = ..., restoring: numpy.typing.ArrayLike = ..., mooring_stiffness: numpy.typing.ArrayLike = ..., mooring_damping: numpy.typing.ArrayLike = ..., memory: typing.Any = ..., kinematics: str = ...) -> None:
+    def __init__(self, *, name: str, body: str, added_mass: numpy.typing.ArrayLike = ..., linear_damping: numpy.typing.ArrayLike = ..., quadratic_damping: numpy.typing.ArrayLike = ..., restoring: numpy.typing.ArrayLike = ..., mooring_stiffness: numpy.typing.ArrayLike = ..., mooring_damping: numpy.typing.ArrayLike = ..., memory: typing.Any = ..., kinematics: str = ..., floats: bool = ...) -> None:
         ...
     def __repr__(self) -> str:
         ...
@@ -2275,6 +2285,11 @@ class VesselHydrodynamics:
     def body(self) -> str:
         """
         body
+        """
+    @property
+    def floats(self) -> bool:
+        """
+        whether `restoring` holds weight and buoyancy; else it weighs
         """
     @property
     def kinematics(self) -> str:

@@ -174,13 +174,14 @@ class Compiler {
     return body;
   }
 
-  /// One weight for all that a body carries. The vessel's restoring matrix carries its own weight and
-  /// buoyancy.
+  /// One weight for all that a body carries. The restoring matrix of a vessel that floats carries its own
+  /// weight and buoyancy.
   void weigh(int b, const BodyModel& body) {
+    const bool floats = body.vessel >= 0 && scene_.vessels[idx(body.vessel)].floats;
     double mass = 0.0;
     Vec3d moment = Vec3d::Zero();
     for_each_carried(b, [&](const BodyDescription& d, const Placement& p) {
-      if (!d.gravity || (body.vessel >= 0 && d.name == body.name)) return;
+      if (!d.gravity || (floats && d.name == body.name)) return;
       mass += d.mass;
       moment += d.mass * (p.point(d.center_of_mass) - body.state_point);
     });

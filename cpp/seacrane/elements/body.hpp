@@ -24,14 +24,15 @@ struct BodyDescription {
       "frame, quaternion (w, x, y, z) body to inertial.";
   static constexpr auto fields() {
     using D = BodyDescription;
-    return std::tuple(required("mass", &D::mass, "kg", ""),
-                      required("inertia", &D::inertia, "kg m2", "about the centre of mass, body axes"),
-                      optional("center_of_mass", &D::center_of_mass, "m", "body axes"),
-                      optional("position", &D::position, "m", "of the body origin, inertial frame"),
-                      optional("quaternion", &D::quaternion, "", "w, x, y, z: body to inertial"),
-                      optional("velocity", &D::velocity, "m/s", "of the body origin, inertial frame"),
-                      optional("angular_velocity", &D::angular_velocity, "rad/s", "inertial frame"),
-                      optional("gravity", &D::gravity, "", "whether weight acts on it"));
+    return std::tuple(
+        required("mass", &D::mass, "kg", ""),
+        required("inertia", &D::inertia, "kg m2", "about the centre of mass, body axes"),
+        optional("center_of_mass", &D::center_of_mass, "m", "body axes").usually(0.0, 500.0),
+        optional("position", &D::position, "m", "of the body origin, inertial frame").usually(0.0, 2e4),
+        optional("quaternion", &D::quaternion, "", "w, x, y, z: body to inertial"),
+        optional("velocity", &D::velocity, "m/s", "of the body origin, inertial frame").usually(0.0, 100.0),
+        optional("angular_velocity", &D::angular_velocity, "rad/s", "inertial frame").usually(0.0, 100.0),
+        optional("gravity", &D::gravity, "", "whether weight acts on it"));
   }
 };
 

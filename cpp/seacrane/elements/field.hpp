@@ -27,6 +27,7 @@ struct Field {
   bool required = false;  // else it defaults to what a default description holds
   Role role = Role::value;
   Bound bound = Bound::none;
+  double least = 0.0, most = 0.0;  // usual magnitudes of what is not zero; 0: of no bound
 
   template <class Description>
   constexpr decltype(auto) of(Description& d) const {
@@ -40,6 +41,13 @@ struct Field {
   constexpr Field must_be(Bound b) const {
     Field out = *this;
     out.bound = b;
+    return out;
+  }
+  /// Magnitudes beyond these are rather a slip in the unit: told, not refused.
+  constexpr Field usually(double from, double to) const {
+    Field out = *this;
+    out.least = from;
+    out.most = to;
     return out;
   }
 };

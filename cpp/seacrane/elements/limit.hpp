@@ -27,10 +27,11 @@ struct LimitDescription {
     return std::tuple_cat(
         std::tuple(required("kind", &D::kind, "", "wire, stop or seat")), on_coordinate<D>(false),
         std::tuple(
-            optional("minimum", &D::minimum, "m or rad", "at -1e7 there is none"),
-            optional("maximum", &D::maximum, "m or rad", "at 1e7 there is none"),
+            optional("minimum", &D::minimum, "m or rad", "at -1e7 there is none").usually(0.0, 500.0),
+            optional("maximum", &D::maximum, "m or rad", "at 1e7 there is none").usually(0.0, 500.0),
             optional("restitution", &D::restitution, "", "0 to 1"),
-            optional("sticking_speed", &D::sticking_speed, "m/s or rad/s", "slower impacts do not rebound")));
+            optional("sticking_speed", &D::sticking_speed, "m/s or rad/s", "slower impacts do not rebound")
+                .usually(1e-6, 0.5)));
   }
 };
 

@@ -40,6 +40,7 @@ struct VesselDescription {
   Vec3d mooring_damping = Vec3d::Zero();
   std::variant<std::vector<StateSpaceBlock>, RetardationFunctions> memory;
   VesselKinematics kinematics = VesselKinematics::yaw_following;
+  bool floats = true;  // `restoring` carries the body's weight; else it weighs as any other
 
   static constexpr const char* type = "VesselHydrodynamics";
   static constexpr const char* text =
@@ -54,7 +55,8 @@ struct VesselDescription {
         optional("mooring_stiffness", &D::mooring_stiffness, "N/m, N m/rad", "of surge, sway, yaw"),
         optional("mooring_damping", &D::mooring_damping, "N s/m, N m s/rad", "of surge, sway, yaw"),
         optional("memory", &D::memory, "", "blocks of states, or retardation functions"),
-        optional("kinematics", &D::kinematics, "", "yaw_following, or paper: eqs (17)-(31)"));
+        optional("kinematics", &D::kinematics, "", "yaw_following, or paper: eqs (17)-(31)"),
+        optional("floats", &D::floats, "", "whether `restoring` holds weight and buoyancy; else it weighs"));
   }
 };
 

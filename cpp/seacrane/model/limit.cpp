@@ -5,6 +5,7 @@
 #include <map>
 #include <numbers>
 
+#include "seacrane/elements/joint_rows.hpp"
 #include "seacrane/elements/joints/distance.hpp"
 #include "seacrane/elements/joints/weld.hpp"
 #include "seacrane/math/rotation.hpp"
@@ -76,6 +77,13 @@ Point described_point(const SceneDescription& scene, const std::string& body, co
   return {frame.point, Vec3d::Zero()};
 }
 
+/// Half the diagonal of the box that has a body's mass and inertia.
+double half_diagonal(const SceneDescription& scene, const std::string& body) {
+  const auto found = std::find_if(scene.bodies.begin(), scene.bodies.end(),
+                                  [&](const BodyDescription& b) { return b.name == body; });
+  return found == scene.bodies.end() ? 0.0 : std::sqrt(1.5 * found->inertia.trace() / found->mass);
+}
+
 bool stretched(const SceneDescription& scene, const JointDescription& joint) {
   const Point a = described_point(scene, joint.first, joint.first_frame),
               b = described_point(scene, joint.second, joint.second_frame);
@@ -120,6 +128,12 @@ CoordinateRow<double> evaluate_limit(const Limit& limit, const BodyKinematics<do
   RowBlock<double> block;
   rows::distance<double>(JointGeometry<double>(joint, ka, kb), limit.bound, block, 0);
   return {block.phi[0], block.d[0].row(0).transpose(), block.d[1].row(0).transpose(), block.gamma[0]};
+}
+
+Vec3d offset_of_seat(const Limit& limit, const BodyKinematics<double>* bodies) {
+  const JointData& joint = limit.coordinate.joint;
+  const JointGeometry<double> g(joint, bodies[joint.first], bodies[joint.second]);
+  return g.a.transpose() * g.d;
 }
 
 void check_limits(const SceneDescription& scene, const SceneNames& names) {
@@ -171,6 +185,8 @@ std::vector<Limit> list_limits(const SceneDescription& scene) {
     limit.sticking_speed = d.sticking_speed;
     if (d.kind != "stop") {
       limit.kind = d.kind == "wire" ? LimitKind::wire : LimitKind::seat;
+      const JointDescription& joint = scene.joints[idx(limit.joint)];
+      if (limit.kind == LimitKind::seat) limit.reach = half_diagonal(scene, joint.second);
       if (limit.kind == LimitKind::wire) limit.bound = length_of(scene.joints[idx(limit.joint)]);
       limit.side = -1.0;
       out.push_back(limit);

@@ -28,7 +28,8 @@ struct Limit {
   double bound = 0.0;               // of the coordinate, or the length of a wire
   double side = 1.0;                // 1: the coordinate stays above the bound
   double restitution = 0.0, sticking_speed = 0.0;
-  int element = -1;  // where it holds: its element in the model of that set
+  double reach = 0.0;  // m, of a seat: half the diagonal of a box with the second body's inertia
+  int element = -1;    // where it holds: its element in the model of that set
 };
 
 /// Names of the limits that hold, and the set of those named. Throws std::invalid_argument for a name that
@@ -38,6 +39,9 @@ ClosedSet set_of(const std::vector<Limit>& limits, const std::vector<std::string
 
 /// Distance from the bound, its row of D, its rate: as a driver at the bound would have them.
 CoordinateRow<double> evaluate_limit(const Limit& limit, const BodyKinematics<double>* bodies);
+
+/// Of a seat: the second body's point from the first's, along the axes of the joint there.
+Vec3d offset_of_seat(const Limit& limit, const BodyKinematics<double>* bodies);
 
 /// Checks the limits of a scene whose joints, drivers and names have been checked.
 void check_limits(const SceneDescription& scene, const SceneNames& names);

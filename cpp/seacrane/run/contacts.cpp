@@ -15,7 +15,8 @@ namespace {
 
 constexpr double kMisfit = 1e-3;  // m or rad: of a state that is none of the scene
 constexpr double kFallSpeed =
-    1e-3;  // of the sticking_speed: an overlap that grows slower is one of the method
+    1e-3;                          // of the sticking_speed: an overlap that grows slower is one of the method
+constexpr double kThrough = 1e-3;  // m below a seat's plane: no rounding, and no wear of a step
 constexpr double kSingularPitch = 0.05;  // cos(pitch) below which roll and yaw tell too little
 constexpr double kLikelyDip = 0.25;      // of the smaller end: an estimated minimum below it is looked at
 
@@ -57,6 +58,8 @@ const char* to_text(EventKind kind) {
       return "contact";
     case EventKind::rebound:
       return "rebound";
+    case EventKind::through:
+      return "through";
     default:
       return "release";
   }
@@ -70,6 +73,8 @@ Contacts::Contacts(const Model& model, SetStepper stepper)
       bodies_(idx(model.layout.size)),
       rate_(idx(model.layout.size)),
       middle_(model.limits.size()),
+      above_seat_(model.limits.size(), Vec3d::Zero()),
+      below_(model.limits.size(), 0),
       axis_before_(model.limits.size(), Vec3d::UnitX()),
       axis_after_(model.limits.size(), Vec3d::UnitX()) {}
 
@@ -136,6 +141,8 @@ void Contacts::watch(Stepper& at, double t, const double* bodies) {
                    slack(limit, at)};
     } else if (limit.kind != LimitKind::seat) {
       after_[i] = gap(limit, at.system.terms());
+    } else {
+      above_seat_[i] = offset_of_seat(limit, at.system.terms().bodies().data());
     }
   }
   read_axes(at);
@@ -154,8 +161,30 @@ void Contacts::read_axes(const Stepper& at) {
 
 void Contacts::start(Stepper& at, double t, const double* bodies) {
   watch(at, t, bodies);
+  look_below_seats(at, t, false);
   axis_before_ = axis_after_;
   check_poles(t);
+}
+
+/// Notes what has gone below the plane of the seat that it left, within reach of it; seats have no contact
+/// that would stop it. What is below where a run starts was told of before, or never lay there.
+void Contacts::look_below_seats(Stepper& at, double t, bool stepped) {
+  for (std::size_t i = 0; i < below_.size(); ++i) {
+    const Limit& limit = at.model->limits[i];
+    if (limit.kind != LimitKind::seat || limit.element >= 0) continue;
+    const bool below = above_seat_[i].z() < -kThrough, was = below_[i] != 0;
+    below_[i] = below ? 1 : 0;
+    if (!below || was || !watching_ || above_seat_[i].head<2>().norm() > limit.reach) continue;
+    const auto height = [&](double time, const double* y) {
+      if (time >= t) return above_seat_[i].z() + kThrough;
+      at.write_bodies(time, y, bodies_.data());
+      at.system.terms().read(time, bodies_.data());
+      return offset_of_seat(limit, at.system.terms().bodies().data()).z() + kThrough;
+    };
+    const double when = stepped ? at.integrator->locate(height).value_or(t) : t;
+    events_.push_back({when, static_cast<int>(i), EventKind::through});
+  }
+  watching_ = true;
 }
 
 /// Within 3 deg of pitch 90 deg, at the end of the step or on the way there.
@@ -236,6 +265,8 @@ std::optional<double> Contacts::find(Stepper& at) {
     at.write_bodies(*first, probe_.data(), bodies_.data());
     at.system.terms().read(*first, bodies_.data());
     read_axes(at);
+  } else {
+    look_below_seats(at, end, true);
   }
   check_poles(first.value_or(end));
   return first;

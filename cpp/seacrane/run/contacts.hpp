@@ -10,7 +10,7 @@
 
 namespace seacrane {
 
-enum class EventKind { contact, rebound, release };
+enum class EventKind { contact, rebound, release, through };
 const char* to_text(EventKind kind);
 
 /// Events without end in no time.
@@ -19,7 +19,7 @@ class ChatteringError : public std::domain_error {
   using std::domain_error::domain_error;
 };
 
-/// A limit that began or ceased to hold.
+/// A limit that began or ceased to hold, or a seat that what left it goes through.
 struct Event {
   double time = 0.0;
   int limit = 0;
@@ -99,6 +99,7 @@ class Contacts {
   static double slack(const Limit& limit, const Stepper& at);
   void watch(Stepper& at, double t, const double* bodies);
   void read_axes(const Stepper& at);
+  void look_below_seats(Stepper& at, double t, bool stepped);
   void check_poles(double t) const;
   void look_inside(Stepper& at);
   Dip dip(Stepper& at, std::size_t limit) const;
@@ -135,7 +136,10 @@ class Contacts {
   std::size_t stalled_ = 0;              // passes in a row that took no time
   std::vector<Watched> before_, after_;  // by limit, at both ends of the last step
   std::vector<double> state_, probe_, bodies_, rate_;
-  std::vector<double> middle_;                   // forces of closed limits in the middle of the step
+  std::vector<double> middle_;     // forces of closed limits in the middle of the step
+  std::vector<Vec3d> above_seat_;  // by limit: what left this seat, from its point
+  std::vector<char> below_;        // by limit: what left this seat is under its plane
+  bool watching_ = false;
   std::vector<Vec3d> axis_before_, axis_after_;  // the second body's x axis in the first's frame, likewise
 };
 

@@ -11,6 +11,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from seacrane.description.crane_parts import hooks
+from seacrane.description.given import floating_bodies
 from seacrane.run.method import Method
 
 if TYPE_CHECKING:
@@ -60,6 +61,6 @@ def unit_error(scene: Scene, quantity: Quantity) -> float:
     if quantity.name == "hook_tension":
         mass = max(scene.bodies[scene.joints[link].second].mass for link in hooks(scene).values())
     else:
-        floating = {vessel.body for vessel in scene.vessels.values()}
+        floating = floating_bodies(scene)
         mass = sum(body.mass for body in scene.bodies.values() if body.name not in floating)
     return max(FORCE_SCALE * mass * abs(scene.gravity), 1.0)

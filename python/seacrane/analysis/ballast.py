@@ -125,7 +125,7 @@ def _vessel(scene: Description, body: str | None) -> _core.VesselHydrodynamics:
         raise SceneError(
             f"ballast: the motion of {body or 'vessel'!r} is given: it needs no ballast, leave it out"
         )
-    floating = {vessel.body: vessel for vessel in scene.vessels.values()}
+    floating = {vessel.body: vessel for vessel in scene.vessels.values() if vessel.floats}
     known = ", ".join(map(repr, floating)) or "none"
     if body is None and len(floating) != 1:
         raise SceneError(f"ballast: the vessels are {known}; name one as body")

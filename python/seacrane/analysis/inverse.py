@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from seacrane import _core
 from seacrane.description.compilation import compile_scene
 from seacrane.description.drives import add_driver
-from seacrane.description.given import given_vessels
+from seacrane.description.given import floating_bodies, given_vessels
 from seacrane.description.hydraulic_cylinders import with_ideal_cylinders
 from seacrane.description.joints import add_joint
 from seacrane.description.loads import without_compensation
@@ -73,9 +73,9 @@ def locked(scene: Some, *, hold_vessels: bool = True) -> Some:
 
 
 def _afloat(scene: Description) -> list[_core.VesselHydrodynamics]:
-    """Vessels that nothing holds yet: those whose motion is not given."""
+    """Vessels that float and that nothing holds yet: those whose motion is not given."""
     given = given_vessels(scene)
-    return [vessel for vessel in scene.vessels.values() if vessel.body not in given]
+    return [vessel for vessel in scene.vessels.values() if vessel.floats and vessel.body not in given]
 
 
 def _hold(scene: Description, body: str, motions: Mapping[str, _core.Curve]) -> None:
@@ -105,6 +105,8 @@ def _drive(scene: Description, joint: str, motions: Mapping[str, _core.Curve]) -
 
 def _multipliers(model: _core.Model, names: Sequence[str], *, time: float, state: Array) -> Array:
     """Loads of drivers at one state."""
+    if not names:
+        return np.zeros(0)
     run = _core.Simulation(
         model=model,
         start=_core.State(time=time, values=state, inputs=np.zeros(model.slots)),
@@ -138,7 +140,7 @@ def balance(scene: Description) -> Balance:
             "driven coordinates held; describe it at its rest pose"
         )
     wrenches = {}
-    for vessel in scene.vessels.values():
+    for vessel in (one for one in scene.vessels.values() if one.floats):
         names = [f"{vessel.body}.motion.{motion}" for motion in SIX]
         wrenches[vessel.body] = _multipliers(model, names, time=0.0, state=state)
     actuated = list(scene.actuators)
@@ -165,7 +167,7 @@ def drive_loads(model: _core.Model, names: Sequence[str], state: _core.State) ->
 
 def weight_of(scene: Description) -> tuple[float, Array]:
     """Of all bodies that have weight but vessels, N; and their centre of mass, inertial frame, m."""
-    floating = {vessel.body for vessel in scene.vessels.values()}
+    floating = floating_bodies(scene)
     masses, centers = [], []
     for body in scene.bodies.values():
         if body.gravity and body.name not in floating:

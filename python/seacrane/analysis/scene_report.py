@@ -11,7 +11,7 @@ from seacrane.analysis.linearise import fastest_mode
 from seacrane.description.assembled import moves
 from seacrane.description.compilation import compile_scene
 from seacrane.description.crane_parts import cylinders, hooks, payloads, slews
-from seacrane.description.given import given_vessels
+from seacrane.description.given import floating_bodies, given_vessels
 from seacrane.description.loads import kind_of, named
 from seacrane.description.scene import Description
 
@@ -162,7 +162,7 @@ def _assembly(scene: Description, model: _core.Model) -> Rows:
 
 def _left_out(scene: Description, model: _core.Model) -> Rows:
     """What the scene does not have, and so neither stores nor steps."""
-    floating = {vessel.body for vessel in scene.vessels.values()}
+    floating = floating_bodies(scene)
     weightless = [n for n, body in scene.bodies.items() if not body.gravity or n in floating]
     absent = {
         "joints": scene.joints,
@@ -179,7 +179,7 @@ def _left_out(scene: Description, model: _core.Model) -> Rows:
         ("joints that constrain nothing", [name for name, _, count, _ in model.elements if count == 0])
     )
     given = given_vessels(scene)
-    afloat = {name: vessel for name, vessel in scene.vessels.items() if vessel.body not in given}
+    afloat = {n: vessel for n, vessel in scene.vessels.items() if vessel.floats and vessel.body not in given}
     no_memory = [name for name, vessel in afloat.items() if not vessel.memory]
     rows.append(("vessels without memory", no_memory))
     undamped = [name for name, v in afloat.items() if v.linear_damping[3, 3] + v.quadratic_damping[3] == 0.0]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from seacrane.analysis.inverse import Balance, balance
 from seacrane.description.forces import add_point_force
-from seacrane.description.given import given_vessels
+from seacrane.description.given import floating_bodies, given_vessels
 from seacrane.description.scene import Description
 from seacrane.errors import SceneError
 from seacrane.inputs.frames import rotation_matrix
@@ -34,7 +34,7 @@ def balance_by_force(scene: Description, *, body: str = "vessel", name: str = "b
     """
     if body in given_vessels(scene):
         raise SceneError(f"balance: the motion of {body!r} is given: it needs no ballast, leave it out")
-    floating = [vessel.body for vessel in scene.vessels.values()]
+    floating = sorted(floating_bodies(scene))
     if floating != [body]:
         raise SceneError(
             f"balance: body is {body!r}, and the vessels are {', '.join(map(repr, floating)) or 'none'}; "

@@ -13,6 +13,7 @@ import numpy as np
 
 from seacrane.description.capacity import capacity_of
 from seacrane.description.cylinder_areas import Areas, areas_by_label
+from seacrane.description.given import floating_bodies
 from seacrane.description.luffing_rope import LuffingRope
 from seacrane.description.roles import CraneRoles, Vector
 from seacrane.description.scene import GROUND, Description, coordinate_of
@@ -213,7 +214,7 @@ def tips(scene: Description) -> dict[str, tuple[str, Vector]]:
 
 def crane_bodies(scene: Description) -> set[str]:
     """Bodies of the scene's cranes: what joints connect with their tips, without bases and payloads."""
-    apart = {GROUND, *payloads(scene).values(), *(vessel.body for vessel in scene.vessels.values())}
+    apart = {GROUND, *payloads(scene).values(), *floating_bodies(scene)}
     decks = {f"{prefix}deck" for prefix in scene.roles} & scene.joints.keys()
     apart |= {scene.joints[deck].first for deck in decks}
     found = {body for body, _ in tips(scene).values()} - apart

@@ -1,4 +1,4 @@
-"""Which vessels of a scene have a motion that is given: nothing acts back on them."""
+"""Which vessels of a scene float, and which have a motion that is given: nothing acts back on those."""
 
 from __future__ import annotations
 
@@ -10,6 +10,11 @@ USUAL_SIZE = (100.0, 20.0, 5.0)  # m, of a ship whose size nobody gave
 
 if TYPE_CHECKING:
     from seacrane.description.scene import Description
+
+
+def floating_bodies(scene: Description) -> set[str]:
+    """Bodies whose weight their restoring carries; others with hydrodynamics weigh as any body."""
+    return {vessel.body for vessel in scene.vessels.values() if vessel.floats}
 
 
 def given_vessels(scene: Description) -> dict[str, str]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
+from seacrane.description.given import floating_bodies
 from seacrane.description.loads import lines_of
 
 if TYPE_CHECKING:
@@ -20,7 +21,7 @@ def line_weights(scene: Description) -> dict[str, tuple[float, int]]:
     seats = {load.joint for load in scene.loads.values() if getattr(load, "kind", None) == "seat"}
     joints = [one for name, one in scene.joints.items() if name not in seats and one.kind != "free"]
     carried = {body for one in joints for body in (one.first, one.second)}
-    carried |= {vessel.body for vessel in scene.vessels.values()}
+    carried |= floating_bodies(scene)
     carried |= {body for spring in scene.springs.values() for body in (spring.first, spring.second)}
     hung = {name: hooked_body(line) for name, line in lines.items()}
     on_lines = [body for line in lines.values() for body in set(line.bodies)]

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane import _core
-from seacrane.description.given import given_vessels, shown_size
+from seacrane.description.given import floating_bodies, given_vessels, shown_size
 from seacrane.description.loads import lines_of, path_of, springs_of
 from seacrane.description.range import Range
 from seacrane.description.scene import GROUND, Description
@@ -30,7 +30,7 @@ def outline_of(scene: Description) -> dict[str, Any]:
         gyration, or those of a given ship, m, and its origin from the centre of mass. "links": bodies and
         points of both ends, ground points in inertial axes.
     """
-    ships = {vessel.body for vessel in scene.vessels.values()}
+    ships = floating_bodies(scene)
     bodies = {name: _about(body, ship=name in ships) for name, body in scene.bodies.items()}
     for name in given_vessels(scene):
         bodies[name]["ship"] |= dict(zip(("length", "breadth"), shown_size(scene, name), strict=False))

@@ -116,6 +116,9 @@ class Description:
         for key, kind in KINDS.items():  # a table belongs to one scene
             setattr(self, key, Table(kind, getattr(self, key)))
         self.notes = deepcopy(dict(self.notes))
+        self.warned: dict[str, None] = dict(
+            self.__dict__.get("warned", ())
+        )  # messages, while it was described
 
     def __repr__(self) -> str:
         held = [

@@ -21,6 +21,7 @@ Panels = list[tuple[str, list[Trace]]]
 STYLES = ("-", "--", ":")
 EVENTS = {
     "contact": "contact: taut, or pressed", "rebound": "rebound", "release": "release: slack, or off",
+    "through": "through the seat that it left",
     "stage": "stage begins", "connection": "connection",
     "limit": "bound reached",
 }  # fmt: skip

@@ -8,6 +8,7 @@ from seacrane.hydro.data.data_warnings import WaterMismatchWarning as WaterMisma
 from seacrane.hydro.data.drift import DriftCoefficients as DriftCoefficients
 from seacrane.hydro.data.hydro_data import AdditionalMatrices as AdditionalMatrices
 from seacrane.hydro.data.hydro_data import RollDamping as RollDamping
+from seacrane.hydro.data.long_waves import RaoPhaseWarning as RaoPhaseWarning
 from seacrane.hydro.data.memory_model import FitRow as FitRow
 from seacrane.hydro.data.memory_model import MemoryBlock as MemoryBlock
 from seacrane.hydro.data.memory_model import MemoryModel as MemoryModel

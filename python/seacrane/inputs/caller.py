@@ -4,13 +4,42 @@ from __future__ import annotations
 
 import inspect
 import warnings
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from contextvars import ContextVar
+from functools import wraps
+from typing import Any
 
 PACKAGE = __name__.partition(".")[0]
+_LISTENING: ContextVar[tuple[dict[str, None], ...]] = ContextVar("listening", default=())
 
 
 def warn_caller(message: str, category: type[Warning]) -> None:
     """Warn at the nearest line outside this package; Python then repeats it once per line, not per call."""
+    for told in _LISTENING.get():
+        told[message] = None
     level, frame = 1, inspect.currentframe()
     while frame is not None and frame.f_globals.get("__name__", "").partition(".")[0] == PACKAGE:
         level, frame = level + 1, frame.f_back
     warnings.warn(message, category, stacklevel=level)
+
+
+@contextmanager
+def keeping(told: dict[str, None]) -> Iterator[None]:
+    """Keep the messages of all warnings given inside, in their order, whether Python shows them or not."""
+    before = _LISTENING.set((*_LISTENING.get(), told))
+    try:
+        yield
+    finally:
+        _LISTENING.reset(before)
+
+
+def heard(method: Callable[..., Any]) -> Callable[..., Any]:
+    """The method of an object with a dict `warned`, which keeps what the method warns of."""
+
+    @wraps(method)
+    def listened(self: Any, /, *args: Any, **given: Any) -> Any:
+        with keeping(self.warned):
+            return method(self, *args, **given)
+
+    return listened

@@ -27,6 +27,10 @@ class MassUnitWarning(UserWarning):
     """A mass looks like tonnes where kilograms are due."""
 
 
+class UnitWarning(UserWarning):
+    """A value is far beyond what its kind usually has: a slip in its unit, by a factor of 1000 or so."""
+
+
 class DepthSignWarning(UserWarning):
     """All points asked for are above any wave: depths were given where z, upwards, is due."""
 

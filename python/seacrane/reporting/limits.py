@@ -48,10 +48,13 @@ def _contact(result: Result, bound: Mapping[str, Any]) -> Judged:
     mine = [event for event in result.events if event.name == name]
     count = sum(event.kind in ("release", "rebound") for event in mine)
     starts_open = _force_at_start(result, name) == 0.0
+    fallen = sum(event.kind == "through" for event in mine)
     words = f"{opened} {_often(count)}" if count else f"{opened} at the start" if starts_open else closed
     hardest = max((abs(event.impulse) for event in mine), default=0.0)
     if hardest > 0.0:
         words += f", hardest snatch {hardest:.3g} N s"
+    if fallen:
+        words += f", then through it {_often(fallen)}"
     return Judged(
         name=name, kind=str(bound["kind"]), bound="pulls only" if wire else "presses only",
         reached=_forces(result, name), held=not count and not starts_open, words=words,

@@ -76,8 +76,9 @@ def energy_balanced(result: Result) -> bool | None:
 
 
 def findings_of(result: Result) -> list[str]:
-    """What the run was warned of, one message each."""
-    return str(result.stats.get("validity", "")).splitlines()
+    """What its description and the run were warned of, one message each."""
+    told = [str(result.stats.get(key, "")).splitlines() for key in ("described", "validity")]
+    return list(dict.fromkeys(line for lines in told for line in lines))
 
 
 def stated_traces(result: Result) -> list[Trace]:

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-KINDS = ("contact", "rebound", "release", "stage", "connection", "limit")
+KINDS = ("contact", "rebound", "release", "through", "stage", "connection", "limit")
 PREFIX = "event_"
 NUMBERS: Mapping[str, tuple[str, str]] = {
     "time": ("s", "when it happened"),
@@ -32,7 +32,8 @@ class Event:
         The limit's, the connection's or the stage's; ".minimum" or ".maximum" is added where a stop has both.
     kind : str
         "contact": holds from now on (a wire is taut); "rebound": was hit and left at once; "release": holds
-        no more (a wire is slack, a seat is lifted off, a stage released a connection); "stage": a stage
+        no more (a wire is slack, a seat is lifted off, a stage released a connection); "through": what has
+        left a seat went below its plane again, unhindered; "stage": a stage
         began; "connection": a stage connected an element; "limit": a winch, a compensator, a gas spring
         or a hydraulic cylinder reached one of its bounds, which the name ends with, such as ".stroke", or its
         hose burst (".rupture").

@@ -329,9 +329,10 @@ class ResultFile:
         for name in ("simulated_s", *COUNTERS):
             if name in self._before and name in stats:
                 out[name] = stats[name] + self._before[name]
-        lines = [*self._before.get("validity", "").splitlines(), *stats.get("validity", "").splitlines()]
-        if lines:
-            out["validity"] = "\n".join(dict.fromkeys(lines))
+        for key in ("described", "validity"):
+            lines = [*self._before.get(key, "").splitlines(), *stats.get(key, "").splitlines()]
+            if lines:
+                out[key] = "\n".join(dict.fromkeys(lines))
         if "events" in stats:
             out["events"] = events
         return out

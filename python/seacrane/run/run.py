@@ -19,6 +19,7 @@ from seacrane.description.stretch import QUASI_STATIC, automatic, with_stretch
 from seacrane.description.waves import Waves
 from seacrane.errors import SceneError, SeacraneError, SimulationError
 from seacrane.files.state_parts import with_present_inputs
+from seacrane.inputs.caller import keeping
 from seacrane.inputs.checked import number_of
 from seacrane.result.channels import DERIVED
 from seacrane.result.checked_parts import checked_stats
@@ -49,6 +50,7 @@ from seacrane.run.outputs import Outputs
 from seacrane.run.ruptures import ruptures
 from seacrane.run.shorthand import Shorthand, settled
 from seacrane.run.stats import lasting_stats, settings_in_sea, settings_of, stats_of
+from seacrane.run.through_seats import fallen_through
 from seacrane.scene.scene import Scene
 from seacrane.validity.plausible import warn_of_description
 from seacrane.validity.range import Finding, as_text, findings
@@ -122,8 +124,10 @@ class Run:
         self._step(model)
         self.first = self.start.time if outputs_from is None else number_of("outputs_from", outputs_from)
         begin, end, described = self.start.time, self.t_end, start is None
-        check_references(self.scene, self.model, start=begin, end=end, described=described)
-        warn_of_description(self.scene, start=begin, end=end, described=described)
+        self._warned = dict(self.scene.warned)
+        with keeping(self._warned):
+            check_references(self.scene, self.model, start=begin, end=end, described=described)
+            warn_of_description(self.scene, start=begin, end=end, described=described)
         self.settings = settings_of(self.scene, self.t_end, self.method, self.outputs)
         require_limited_channels(self.scene, self.model)
         require_names(self.scene, self.outputs.channels or ())
@@ -328,11 +332,12 @@ class Run:
         return sorted([*met, *burst], key=lambda event: event.time)
 
     def stats(self) -> dict[str, Any]:
-        """Version, settings and counters so far: `Result.stats`."""
+        """Version, settings, counters so far, and warnings of the description: `Result.stats`."""
         told = {"line_rungs": as_told(self.rungs)} if self.rungs else {}
         waves = self.scene.waves
         counted = stats_of(self._lasting.stats, waves, self.settings, self.core, self.start.time)
-        return told | counted | self.lanes
+        warned = {"described": "\n".join(self._warned)} if self._warned else {}
+        return told | counted | warned | self.lanes
 
     def result(self) -> Result:
         """What has been recorded so far, with what is out of range in its stats."""
@@ -350,14 +355,16 @@ class Run:
             arrays = self.core.channels() if most is None else self.core.channels(most)
             channels, stats = self.wanted(arrays), self.stats()
             scene = self.scene
+            met = self.events()
             found = findings(scene, arrays["time"], channels, stats, self.steered) + self.slow + self.slack
+            found += fallen_through(scene, met)
             if found:
                 stats["validity"] = as_text(found)
             result = Result.from_arrays(
                 time=arrays["time"],
                 arrays=channels,
                 coords=self._lasting.coords,
-                events=self.events(),
+                events=met,
                 stats=stats,
                 interrupted=self.interrupted,
                 state=self.last_state() if most is None else None,

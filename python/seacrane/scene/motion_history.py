@@ -15,13 +15,22 @@ from seacrane.errors import SceneError
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.checked import rows_of, vector_of
 from seacrane.inputs.frames import MOTIONS
-from seacrane.inputs.plausible import AngleUnitWarning
+from seacrane.inputs.plausible import AngleUnitWarning, UnitWarning
 
 Array = NDArray[np.float64]
 FEWEST = 6
 BETWEEN = 8  # places looked at between two samples
 LARGEST_SWING, SMALLEST_SWING = 0.5, 0.01  # beyond the samples, of their range; and m or rad
 LARGEST_ANGLE = 0.6  # rad: a ship that rolls or pitches beyond is rather one in degrees
+LARGEST_HEAVE = 30.0  # m: a ship that heaves beyond is rather one in centimetres
+FASTEST = 2.0 * np.pi / 1.5  # rad/s: ships do not move faster
+LARGEST_NOISE = 0.3  # m/s2 and, at an arm of 30 m, rad/s2: rms of what is faster
+LEAST_SHARE = 0.1  # of the acceleration's energy, of what is faster
+ARM = 30.0  # m
+
+
+class NoisyMotionWarning(UserWarning):
+    """A measured motion holds accelerations that no ship has: noise, or a time in another unit."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -44,6 +53,10 @@ class MotionHistory:
     -----
     AngleUnitWarning
         A roll or pitch beyond 0.6 rad (34 deg), which looks like degrees.
+    UnitWarning
+        A heave beyond 30 m, which looks like centimetres or millimetres.
+    NoisyMotionWarning
+        Accelerations of periods below 1.5 s that lines and cylinders would feel: noise of the measurement.
     """
 
     time: Any
@@ -75,6 +88,8 @@ class MotionHistory:
             array.setflags(write=False)
             object.__setattr__(self, key, array)
         self._warn_of_degrees()
+        self._warn_of_heave()
+        self._warn_of_noise()
 
     def _warn_of_degrees(self) -> None:
         largest = np.abs(self.motion[:, 3:5]).max(axis=0)
@@ -85,6 +100,41 @@ class MotionHistory:
                 f"{np.degrees(largest[worst]):.4g} deg; angles are radians: if these are degrees, give "
                 "numpy.radians of roll, pitch and yaw",
                 AngleUnitWarning,
+            )
+
+    def _warn_of_heave(self) -> None:
+        largest = float(np.abs(self.motion[:, 2]).max())
+        if largest > LARGEST_HEAVE:
+            warn_caller(
+                f"motion history: heave reaches {largest:.4g} m, and no ship heaves by more than "
+                f"{LARGEST_HEAVE:g} m; surge, sway and heave are metres from rest: cm or mm for m, or a "
+                "height above another place?",
+                UnitWarning,
+            )
+
+    def _warn_of_noise(self) -> None:
+        """Loads follow the acceleration, in which noise of millimetres weighs as much as a ship's motion."""
+        step = float(np.median(np.diff(self.time)))
+        even = np.arange(self.time[0], self.time[-1], step)
+        omega = 2.0 * np.pi * np.fft.rfftfreq(even.size, step)
+        window = np.hanning(even.size)[:, None]
+        motion = np.stack([np.interp(even, self.time, column) for column in self.motion.T], axis=1)
+        trend = np.linspace(0.0, 1.0, even.size)[:, None]
+        motion = motion - motion[:1] - trend * (motion[-1:] - motion[:1])
+        spectrum = np.abs(np.fft.rfft(motion * window, axis=0)) ** 2 * omega[:, None] ** 4
+        energy = 2.0 * spectrum / (even.size * np.square(window).sum())
+        fast = energy[omega > FASTEST].sum(axis=0)
+        rms = np.sqrt(fast) * [1.0, 1.0, 1.0, ARM, ARM, ARM]
+        noisy = (rms > LARGEST_NOISE) & (fast > LEAST_SHARE * energy.sum(axis=0))
+        if noisy.any():
+            worst = int(np.argmax(np.where(noisy, rms, 0.0)))
+            unit = "m/s2" if worst < 3 else "rad/s2"
+            warn_caller(
+                f"motion history: {MOTIONS[worst]} is shaken by {np.sqrt(fast[worst]):.3g} {unit} (rms) at "
+                "periods below 1.5 s, which no ship has: noise of the measurement, which lines and cylinders "
+                "feel as loads, or a time in another unit. Filter the record below 0.5 Hz, or smooth it, "
+                "before it is given",
+                NoisyMotionWarning,
             )
 
     def curves(self, ramp: float) -> tuple[_core.Curve, ...]:

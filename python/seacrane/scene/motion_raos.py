@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from seacrane.errors import SceneError
 from seacrane.hydro.data.heading_circle import LARGEST_HEADING_GAP, PORT_STARBOARD, both_sides, largest_gap
 from seacrane.hydro.data.interpolation import spline_weights
+from seacrane.hydro.data.long_waves import warn_of_phases
 from seacrane.inputs.checked import flag_of, number_of, numbers_of, text_of, vector_of
 from seacrane.sea.dispersion import wavenumber
 
@@ -50,6 +51,11 @@ class MotionRaos:
     SceneError
         For another shape, a value that is not finite, frequencies or headings out of order, headings in
         degrees, or rotations in degrees: a pitch in the longest wave of more than six times its slope.
+
+    Warns
+    -----
+    RaoPhaseWarning
+        A hull that follows the longest wave by its amplitudes, and is out of phase with it.
     """
 
     omega: Any
@@ -75,6 +81,9 @@ class MotionRaos:
             array.setflags(write=False)
             object.__setattr__(self, key, array)
         self._refuse_degrees(what)
+        warn_of_phases(
+            what, float(self.omega[0]), self.heading, self.values[:, 0], depth=self.depth, g=self.g
+        )
 
     def _refuse_degrees(self, what: str) -> None:
         slope = float(wavenumber(self.omega[:1], g=self.g, depth=self.depth)[0])

@@ -11,7 +11,9 @@ from seacrane import _core
 from seacrane.description.provenance import SeaProvenance
 from seacrane.description.waves import Waves
 from seacrane.errors import SceneError
+from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.checked import number_of
+from seacrane.inputs.plausible import UnitWarning
 from seacrane.sea import SeaState, Spreading, WaveSystem, cos_2s, jonswap
 
 DEFAULTS: dict[str, Any] = {
@@ -24,6 +26,7 @@ DEFAULTS: dict[str, Any] = {
     "seed": 1,
     "count": 200,
 }
+USUAL_PERIODS = (0.5, 40.0)  # s, of peaks, those of wave basins included
 SPECTRA = ("jonswap", "pierson-moskowitz", "torsethaugen")
 
 
@@ -83,6 +86,7 @@ def _one_system(
     depth: float,
 ) -> tuple[SeaState, SeaProvenance]:
     """The sea of plain arguments, and what it was made from."""
+    _warn_of_period(number_of("sea: tp", tp))
     density = spectrum_named(spectrum, number_of("sea: hs", hs), number_of("sea: tp", tp), gamma)
     if spreading is not None and not isinstance(spreading, Spreading):
         spreading = cos_2s(spreading)
@@ -96,6 +100,15 @@ def _one_system(
         spreading=None if spreading is None else {"kind": spreading.kind, "exponent": spreading.exponent},
     )
     return SeaState(systems=[system], seed=seed, depth=depth), made_from
+
+
+def _warn_of_period(tp: float) -> None:
+    least, most = USUAL_PERIODS
+    if tp > 0.0 and not least <= tp <= most:
+        warn_caller(
+            f"sea: tp is {tp:.6g} s, and seas have {least:g} to {most:g} s: a slip in its unit? Give it in s",
+            UnitWarning,
+        )
 
 
 def spectrum_named(name: str, hs: float, tp: float, gamma: float | Literal["dnv"]) -> _core.Spectrum:

@@ -25,6 +25,7 @@ from seacrane.description import (
     recorded,
 )
 from seacrane.description.scene import Description
+from seacrane.inputs.caller import heard
 from seacrane.scene import (
     bridles,
     drift,
@@ -151,3 +152,8 @@ class Scene(Description):
     def load(cls, path: str | os.PathLike[str]) -> Scene:
         """Read a scene that `save` wrote; runs no code. Raises FileFormatError."""
         return file.load_scene(path, cls())
+
+
+for _name, _method in list(vars(Scene).items()):
+    if _name.startswith(("add_", "use_", "hold_")):
+        setattr(Scene, _name, heard(_method))

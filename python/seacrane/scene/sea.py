@@ -15,6 +15,7 @@ from seacrane.errors import SceneError
 from seacrane.hydro import HydroDatabase
 from seacrane.hydro.data.below_band import warn_of_waves_below_band
 from seacrane.hydro.data.beyond_band import without_load
+from seacrane.hydro.data.long_waves import warn_of_long_waves
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.checked import flag_of, shaped_of
 from seacrane.inputs.frames import heading_of
@@ -30,6 +31,7 @@ from seacrane.scene.wave_force import force_of_components
 from seacrane.sea import SeaState, Spreading
 
 MOST_WITHOUT_LOAD = 0.02  # of the variance of a load
+MOST_COMPONENTS = 50_000  # whose loads take some seconds to make; 30 hours do not repeat with as many
 
 
 class WavesWithoutLoadWarning(UserWarning):
@@ -116,6 +118,8 @@ def add_sea(
         More than 2 % of the energy of the waves is outside the frequencies of a table of RAOs.
     WavesWithoutLoadWarning
         More than 2 % of the variance of a load is that of waves above the database's frequencies.
+    RaoPhaseWarning
+        A hull that follows the database's longest wave by its amplitudes, and is out of phase with it.
     BelowBandWarning
         More than 10 % of the energy of the waves is below the database's trusted band.
     """
@@ -130,6 +134,7 @@ def add_sea(
     if sea is None and given.get("hs") == 0.0:
         scene.waves = None
         return
+    _require_vessel(scene, vessel)
     waves = _evaluated(
         _sea_of(scene, database, vessel, sea, given), relative_bound=relative_bound, evaluation=evaluation
     )
@@ -146,6 +151,7 @@ def add_sea(
         scene.waves = put_into_sea(scene, database, waves, vessel=vessel, place=place, heading=heading)
         return
     assert isinstance(database, HydroDatabase)
+    warn_of_long_waves(database)
     transfer = force_of_components(database, waves.omega, waves.direction - heading)
     hull = HullLoads(transfer=transfer, position=place, heading=heading)
     provenance = _with_shares(waves, database, vessel, hull)
@@ -170,6 +176,7 @@ def _sea_of(
     if there is not None and sea is None and not given:
         return there
     depth = float("inf") if database is None else database.depth
+    _require_few(sea, given)
     asked = realised_sea(sea, given, depth if there is None else there.depth)
     if there is None:
         return asked
@@ -181,6 +188,23 @@ def _sea_of(
             "systems into one SeaState, or set scene.waves = None before a new sea"
         )
     return there
+
+
+def _require_few(sea: SeaState | None, given: dict[str, Any]) -> None:
+    """Refuse more components than loads are made of in some seconds, which nothing would stop."""
+    counts = [one.count for one in sea.systems] if isinstance(sea, SeaState) else [given.get("count", 1)]
+    count = sum(one for one in counts if isinstance(one, int | np.integer))
+    if count > MOST_COMPONENTS:
+        raise SceneError(
+            f"sea: count is {count:,}, components whose loads would take minutes to make; give at most "
+            f"{MOST_COMPONENTS:,}: with 5,000 three hours do not repeat"
+        )
+
+
+def _require_vessel(scene: Description, vessel: str) -> None:
+    if vessel not in scene.bodies:
+        known = ", ".join(repr(one.body) for one in scene.vessels.values()) or "none"
+        raise SceneError(f"sea: there is no vessel {vessel!r}, the scene has {known}; call add_vessel first")
 
 
 def _require_source(vessel: str, motion: str | None, database: Any) -> None:
@@ -213,10 +237,7 @@ def _pose(
     scene: Description, vessel: str, position: Any, heading_deg: float | None
 ) -> tuple[tuple[float, float], float]:
     """Where a vessel's loads are taken: (x, y) and heading, as its body starts where they are not given."""
-    body = scene.bodies.get(vessel)
-    if body is None:
-        known = ", ".join(repr(v.body) for v in scene.vessels.values()) or "none"
-        raise SceneError(f"sea: there is no vessel {vessel!r}, the scene has {known}; call add_vessel first")
+    body = scene.bodies[vessel]
     x, y = body.position[:2] if position is None else shaped_of("sea: position", position, (2,))
     heading = heading_of(body.quaternion)
     if heading_deg is not None:

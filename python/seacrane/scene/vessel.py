@@ -99,6 +99,9 @@ def add_vessel(
         Its damping as a fraction of critical; default 0.1. Without a database: (3,), N s/m and N m s/rad.
     added_mass, linear_damping, quadratic_damping, restoring, mooring_stiffness
         Without a database: see `seacrane.VesselHydrodynamics`.
+    floats : bool
+        Without a database: whether the restoring carries the body's weight, as that of a ship does; else it
+        weighs as any body, and its buoyancy is a point force of yours. Default: whether heave is restored.
 
     Returns
     -------
@@ -122,7 +125,7 @@ def add_vessel(
     if database is None:
         if body is None:
             raise SceneError("vessel: give a database, or the body whose hydrodynamics the matrices are")
-        return add_hydrodynamics(scene, body=body, name=name, **hydrodynamics)
+        return add_hydrodynamics(scene, body=body, name=name, **_buoyant(hydrodynamics))
     if not isinstance(database, HydroDatabase):
         raise SceneError(
             f"vessel: database is {shown(database)}; give a HydroDatabase, as load_database reads"
@@ -130,6 +133,13 @@ def add_vessel(
     if body is not None:
         raise SceneError(f"vessel: body {body!r} is given beside a database, which brings its own; use name=")
     return _from_database(scene, database, name="vessel" if name is None else name, **hydrodynamics)
+
+
+def _buoyant(hydrodynamics: dict[str, Any]) -> dict[str, Any]:
+    """With `floats`: what nothing brings back in heave does not float, it only has water about it."""
+    restoring = np.asarray(hydrodynamics.get("restoring", 0.0))
+    held = restoring.shape == (6, 6) and bool(restoring[2, 2] > 0.0)
+    return {"floats": held} | hydrodynamics
 
 
 def _from_database(

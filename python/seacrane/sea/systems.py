@@ -14,12 +14,14 @@ from seacrane import _core
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import number_of, text_of
 from seacrane.inputs.plausible import direction_of
+from seacrane.inputs.shown import shown
 from seacrane.sea.measured import MeasuredWaves
 from seacrane.sea.spectra import warn_if_breaking
 from seacrane.sea.spreading import Spreading
 
 Array = NDArray[np.float64]
 GOLDEN = 0.5 * (np.sqrt(5.0) - 1.0)
+MOST_COMPONENTS = 1_000_000
 DIRECTION_STREAM = 2  # of the three Philox streams of each system
 
 
@@ -69,6 +71,12 @@ class WaveSystem:
             raise SceneError(f"{what}: spreading is {self.spreading!r}; give cos_2s(...), cos_n(...) or None")
         if not np.isfinite(direction_of(f"{what}: direction_deg", self.direction_deg)):
             raise SceneError(f"{what}: direction_deg is {self.direction_deg}; give a finite angle in deg")
+        if not (type(self.count) is int or isinstance(self.count, np.integer)) or not (
+            1 <= self.count <= MOST_COMPONENTS
+        ):
+            raise SceneError(
+                f"{what}: count is {shown(self.count)}; give a whole number from 1 to {MOST_COMPONENTS:,}"
+            )
         warn_if_breaking(what, self.spectrum, stacklevel=3)
 
     def waves(self, *, seed: int, system: int, depth: float, placement: str) -> _core.WaveComponents:

@@ -30,7 +30,7 @@ def redescribed(scene: Some, measured: Mapping[str, Array], state: _core.State) 
         Channels of the present instant.
     """
     out = scene.copy()
-    floating = {vessel.body: None for vessel in scene.vessels.values()}
+    floating = {vessel.body: None for vessel in scene.vessels.values() if vessel.floats}
     now = {name: _Placed(body, measured, at) for at, (name, body) in enumerate(scene.bodies.items())}
     way = _Way(None, None)
     for ship in list(floating)[:1]:

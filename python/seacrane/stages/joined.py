@@ -187,9 +187,10 @@ def _stats(pieces: Sequence[Piece], spans: Sequence[StageSpan]) -> dict[str, Any
         key: sum(float(one.get(key, 0)) for one in every) for key in SUMS if any(key in one for one in every)
     }
     out |= {key: int(out[key]) for key in SUMS if key in out and key not in ("simulated_s", "wall_s")}
-    told = dict.fromkeys(line for one in every for line in str(one.get("validity", "")).splitlines())
-    if told:
-        out["validity"] = "\n".join(told)
+    for key in ("described", "validity"):
+        told = dict.fromkeys(line for one in every for line in str(one.get(key, "")).splitlines())
+        if told:
+            out[key] = "\n".join(told)
     for key in WEIGHTS:
         known: dict[str, Any] = {}
         for one in every:

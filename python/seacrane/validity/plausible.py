@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane import _core
+from seacrane.description.given import floating_bodies
 from seacrane.description.joint_coordinates import ANGLES
 from seacrane.description.loads import kind_of, named
 from seacrane.description.references import references
@@ -18,6 +19,7 @@ from seacrane.inputs.frames import rotation_matrix
 from seacrane.inputs.plausible import CompassDirectionWarning, MassUnitWarning, angle_of
 from seacrane.validity.holding import warn_of_free_cranes
 from seacrane.validity.lifting import warn_of_loads_in_hulls
+from seacrane.validity.units import warn_of_units
 
 if TYPE_CHECKING:
     from seacrane.description.scene import Description
@@ -52,6 +54,7 @@ def warn_of_description(scene: Description, *, start: float, end: float, describ
     _warn_of_angles(scene, start, end)
     _warn_of_winds(scene)
     _warn_of_masses(scene)
+    warn_of_units(scene, start, end)
     if described:
         warn_of_free_cranes(scene)
         _warn_of_ballast(scene)
@@ -102,7 +105,8 @@ def _warn_of_masses(scene: Description) -> None:
                 f"{radius:.4g} m; give both in kg and kg m2: tonnes for kg?",
                 MassUnitWarning,
             )
-    hulls = [scene.bodies[v.body].mass for v in scene.vessels.values() if v.body in scene.bodies]
+    floating = floating_bodies(scene)
+    hulls = [body.mass for name, body in scene.bodies.items() if name in floating]
     links = {name: joint for name, joint in scene.joints.items() if joint.kind == "distance"}
     if not hulls or not links:
         return
@@ -122,7 +126,7 @@ def _warn_of_ballast(scene: Description) -> None:
     """Weights on a vessel against forces on it, by its restoring; other loads than these are not judged."""
     if any(kind_of(load) not in JUDGED_LOADS for load in scene.all_loads()):
         return
-    for vessel in scene.vessels.values():
+    for vessel in (one for one in scene.vessels.values() if one.floats):
         hull = scene.bodies[vessel.body]
         carried = _carried(scene, vessel.body)
         weights = [scene.bodies[name] for name in carried - {vessel.body} if scene.bodies[name].gravity]
@@ -169,6 +173,6 @@ def _carried(scene: Description, vessel: str) -> set[str]:
         new = set(neighbours.get(open_.pop(), ())) - found
         found |= new
         open_ += new
-    floating = {v.body for v in scene.vessels.values()}
+    floating = floating_bodies(scene)
     alone = found <= set(scene.bodies) and found & floating == {vessel}
     return found if alone else set()

@@ -94,6 +94,7 @@ def _heel(scene: Description, time: Array, channels: Channels) -> list[Finding]:
             "the load, add roll damping, or take motions beyond as an alarm only",
         )
         for vessel, motion in motions(scene, channels)
+        if vessel.floats
         for name in ("roll", "pitch")
         for angle, at in [_worst(time, motion[:, MOTIONS.index(name)])]
         if angle > LARGEST_HEEL

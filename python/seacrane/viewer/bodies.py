@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from seacrane.crane import Crane
 from seacrane.description import crane_parts
-from seacrane.description.given import USUAL_SIZE, given_vessels, shown_size
+from seacrane.description.given import USUAL_SIZE, floating_bodies, given_vessels, shown_size
 from seacrane.description.hydraulic_cylinders import hydraulic_cylinders
 from seacrane.description.loads import lines_of, path_of
 from seacrane.description.scene import Description
@@ -64,7 +64,7 @@ def looks(
     SceneError
         For a hull that is none, or of a body that is no vessel.
     """
-    floating = {vessel.body for vessel in scene.vessels.values()}
+    floating = floating_bodies(scene)
     given = _checked_hulls(hulls or {}, floating)
     members = crane_shapes(scene, crane)
     hanging = {*crane_parts.payloads(scene).values(), *_on_lines(scene, floating | members.keys())}

@@ -25,12 +25,14 @@ struct DrumDescription {
     using D = DrumDescription;
     return std::tuple(
         optional("drum_inertia", &D::drum_inertia, "kg m2", "of drum, gear and motor at the drum; 0: none"),
-        optional("drum_radius", &D::drum_radius, "m", "at which the rope runs"),
+        optional("drum_radius", &D::drum_radius, "m", "at which the rope runs").usually(0.01, 10.0),
         optional("maximum_tension", &D::maximum_tension, "N", "of the motor, at the rope; 0: no motor"),
         optional("maximum_power", &D::maximum_power, "W", "that the motor gives"),
-        optional("brake", &D::brake, "", "share of its capacity that is applied, 0 (open) to 1"),
+        optional("brake", &D::brake, "", "share of its capacity that is applied, 0 (open) to 1")
+            .usually(0.0, 1.0),
         optional("brake_capacity", &D::brake_capacity, "N", "of the brake, at the rope; 0: no brake"),
-        optional("brake_give", &D::brake_give, "m", "of rope, before the brake bears its capacity"));
+        optional("brake_give", &D::brake_give, "m", "of rope, before the brake bears its capacity")
+            .usually(1e-5, 0.5));
   }
 };
 

@@ -32,14 +32,16 @@ struct FlowForceDescription {
       "where the relative flow goes, from the bow towards port, by periodic cubic splines.";
   static constexpr auto fields() {
     using D = FlowForceDescription;
-    return std::tuple(on_body("body", &D::body),
-                      optional("point", &D::point, "m", "where the load acts, body coordinates"),
-                      required("density", &D::density, "kg/m3", ""), required("speed", &D::speed, "m/s", ""),
-                      required("direction", &D::direction, "rad", "where the flow goes, from +x towards +y"),
-                      required("frontal_area", &D::frontal_area, "m2", ""),
-                      required("lateral_area", &D::lateral_area, "m2", ""),
-                      required("length", &D::length, "m", ""), required("angles", &D::angles, "rad", ""),
-                      required("coefficients", &D::coefficients, "", "C_x, C_y, C_n at the angles"));
+    return std::tuple(
+        on_body("body", &D::body), optional("point", &D::point, "m", "where the load acts, body coordinates"),
+        required("density", &D::density, "kg/m3", "").usually(0.5, 1500.0),
+        required("speed", &D::speed, "m/s", "").usually(0.0, 100.0),
+        required("direction", &D::direction, "rad", "where the flow goes, from +x towards +y"),
+        required("frontal_area", &D::frontal_area, "m2", "").usually(0.0, 1e5),
+        required("lateral_area", &D::lateral_area, "m2", "").usually(0.0, 1e5),
+        required("length", &D::length, "m", "").usually(0.2, 600.0),
+        required("angles", &D::angles, "rad", ""),
+        required("coefficients", &D::coefficients, "", "C_x, C_y, C_n at the angles").usually(0.0, 20.0));
   }
 };
 

@@ -30,8 +30,9 @@ struct FrictionDescription {
       "Dry friction on a joint coordinate: -load tanh(rate / speed); see Scene.add_friction.";
   static constexpr auto fields() {
     using D = FrictionDescription;
-    return std::tuple_cat(on_coordinate<D>(), std::tuple(required("load", &D::load, "N or N m", ""),
-                                                         required("speed", &D::speed, "m/s or rad/s", "")));
+    return std::tuple_cat(on_coordinate<D>(),
+                          std::tuple(required("load", &D::load, "N or N m", ""),
+                                     required("speed", &D::speed, "m/s or rad/s", "").usually(1e-6, 1.0)));
   }
 };
 

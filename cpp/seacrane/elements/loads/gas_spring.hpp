@@ -30,16 +30,17 @@ struct GasSpringDescription {
         on_body("first", &D::first), on_body("second", &D::second),
         optional("first_point", &D::first_point, "m", "coordinates of the first body"),
         optional("second_point", &D::second_point, "m", "coordinates of the second body"),
-        required("area", &D::area, "m2", "of the piston"),
-        required("pressure", &D::pressure, "Pa", "of the gas at `length`"),
+        required("area", &D::area, "m2", "of the piston").usually(1e-4, 10.0),
+        required("pressure", &D::pressure, "Pa", "of the gas at `length`").usually(1e4, 2e8),
         required("volume", &D::volume, "m3", "of the gas at `length`"),
-        required("length", &D::length, "m", "at which pressure and volume are given"),
-        optional("exponent", &D::exponent, "", "of the gas: p V^exponent stays"),
+        required("length", &D::length, "m", "at which pressure and volume are given").usually(0.01, 500.0),
+        optional("exponent", &D::exponent, "", "of the gas: p V^exponent stays").usually(0.9, 3.0),
         optional("pushes", &D::pushes, "", "shortening compresses the gas, in place of lengthening"),
         optional("damping", &D::damping, "N s/m", "of the oil, times the rate of length"),
         optional("quadratic_damping", &D::quadratic_damping, "N s2/m2", "times the rate times its magnitude"),
-        optional("minimum", &D::minimum, "m", "length at which an end stop is met; 0: none"),
-        optional("maximum", &D::maximum, "m", "likewise; at 1e7 there is none"),
+        optional("minimum", &D::minimum, "m", "length at which an end stop is met; 0: none")
+            .usually(1e-3, 500.0),
+        optional("maximum", &D::maximum, "m", "likewise; at 1e7 there is none").usually(0.01, 500.0),
         optional("stop_stiffness", &D::stop_stiffness, "N/m", "of the end stops"));
   }
 };

@@ -32,18 +32,23 @@ struct HeaveCompensatorDescription {
         optional("winch", &D::winch, "", "line whose winch follows"),
         optional("actuator", &D::actuator, "", "actuator that follows, in place of a winch"),
         optional("ratio", &D::ratio, "", "of what follows to the stroke: m/m, or rad/m"),
-        optional("gain", &D::gain, "", "of the stroke to the motion"),
-        optional("high_pass", &D::high_pass, "Hz", "corner of the filter; 0: none"),
-        optional("lag", &D::lag, "s", "of the measured motion"),
+        optional("gain", &D::gain, "", "of the stroke to the motion").usually(0.01, 10.0),
+        optional("high_pass", &D::high_pass, "Hz", "corner of the filter; 0: none").usually(1e-4, 2.0),
+        optional("lag", &D::lag, "s", "of the measured motion").usually(1e-3, 20.0),
         optional("lag_order", &D::lag_order, "", "1, or 2: nearer to a pure delay"),
         optional("actuator_frequency", &D::actuator_frequency, "Hz",
-                 "natural frequency of the drive, second order; 0: none"),
-        optional("actuator_damping", &D::actuator_damping, "", "of critical damping of the drive"),
-        optional("maximum_rate", &D::maximum_rate, "m/s", "of the stroke; at 1e7 there is none"),
+                 "natural frequency of the drive, second order; 0: none")
+            .usually(0.02, 200.0),
+        optional("actuator_damping", &D::actuator_damping, "", "of critical damping of the drive")
+            .usually(0.03, 10.0),
+        optional("maximum_rate", &D::maximum_rate, "m/s", "of the stroke; at 1e7 there is none")
+            .usually(0.01, 50.0),
         optional("maximum_stroke", &D::maximum_stroke, "m",
-                 "of the stroke in both directions; at 1e7 there is none"),
+                 "of the stroke in both directions; at 1e7 there is none")
+            .usually(0.01, 100.0),
         optional("settling", &D::settling, "s",
-                 "in which the stroke returns to the motion after a bound, and brakes before its own"));
+                 "in which the stroke returns to the motion after a bound, and brakes before its own")
+            .usually(2e-3, 20.0));
   }
 };
 

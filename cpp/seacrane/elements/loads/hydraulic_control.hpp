@@ -19,10 +19,12 @@ struct HydraulicControlDescription {
   static constexpr auto fields() {
     using D = HydraulicControlDescription;
     return std::tuple(
-        optional("command", &D::command, "", "of the spool, -1 (retracts) to 1 (extends)"),
+        optional("command", &D::command, "", "of the spool, -1 (retracts) to 1 (extends)").usually(0.0, 1.0),
         optional("reference", &D::reference, "m", "stroke that the spool is to follow"),
-        optional("gain", &D::gain, "1/m", "spool over the stroke that is missing; 0: open loop"),
-        optional("rate_gain", &D::rate_gain, "s/m", "spool over the rate of the reference"));
+        optional("gain", &D::gain, "1/m", "spool over the stroke that is missing; 0: open loop")
+            .usually(0.05, 1e3),
+        optional("rate_gain", &D::rate_gain, "s/m", "spool over the rate of the reference")
+            .usually(0.02, 1e3));
   }
 };
 

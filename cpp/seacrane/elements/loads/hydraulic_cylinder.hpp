@@ -45,39 +45,49 @@ struct HydraulicCylinderDescription : HydraulicOilDescription,
   static constexpr auto fields() {
     using D = HydraulicCylinderDescription;
     return std::tuple_cat(
-        std::tuple(on_body("first", &D::first), on_body("second", &D::second),
-                   optional("first_point", &D::first_point, "m", "coordinates of the first body"),
-                   optional("second_point", &D::second_point, "m", "coordinates of the second body"),
-                   required("full_area", &D::full_area, "m2", "of the piston, full side"),
-                   required("rod_side_area", &D::rod_side_area, "m2", "of the piston less the rod"),
-                   required("retracted_length", &D::retracted_length, "m", "between the points at stroke 0"),
-                   required("stroke", &D::stroke, "m", "largest"),
-                   required("pressure", &D::pressure, "Pa", "of the full side at the start, absolute"),
-                   required("pressure_rod", &D::pressure_rod, "Pa", "of the rod side, likewise"),
-                   required("hose_volume", &D::hose_volume, "m3",
-                            "of the full side: hose and what the stroke leaves"),
-                   required("hose_volume_rod", &D::hose_volume_rod, "m3", "of the rod side, likewise")),
+        std::tuple(
+            on_body("first", &D::first), on_body("second", &D::second),
+            optional("first_point", &D::first_point, "m", "coordinates of the first body"),
+            optional("second_point", &D::second_point, "m", "coordinates of the second body"),
+            required("full_area", &D::full_area, "m2", "of the piston, full side").usually(1e-4, 3.0),
+            required("rod_side_area", &D::rod_side_area, "m2", "of the piston less the rod")
+                .usually(1e-4, 3.0),
+            required("retracted_length", &D::retracted_length, "m", "between the points at stroke 0")
+                .usually(0.02, 100.0),
+            required("stroke", &D::stroke, "m", "largest").usually(0.01, 100.0),
+            required("pressure", &D::pressure, "Pa", "of the full side at the start, absolute")
+                .usually(0.0, 2e8),
+            required("pressure_rod", &D::pressure_rod, "Pa", "of the rod side, likewise").usually(0.0, 2e8),
+            required("hose_volume", &D::hose_volume, "m3",
+                     "of the full side: hose and what the stroke leaves"),
+            required("hose_volume_rod", &D::hose_volume_rod, "m3", "of the rod side, likewise")),
         HydraulicOilDescription::fields(), HydraulicValveDescription::fields(),
         HydraulicControlDescription::fields(),
         std::tuple(
-            optional("internal_leakage", &D::internal_leakage, "m3/s/Pa", "past the piston"),
-            optional("external_leakage", &D::external_leakage, "m3/s/Pa", "from each side to the tank"),
+            optional("internal_leakage", &D::internal_leakage, "m3/s/Pa", "past the piston")
+                .usually(0.0, 1e-9),
+            optional("external_leakage", &D::external_leakage, "m3/s/Pa", "from each side to the tank")
+                .usually(0.0, 1e-9),
             optional("viscous_friction", &D::viscous_friction, "N s/m", "of the seals"),
             optional("friction", &D::friction, "N", "of the seals, dry"),
-            optional("friction_speed", &D::friction_speed, "m/s",
-                     "about which dry friction changes its sign"),
+            optional("friction_speed", &D::friction_speed, "m/s", "about which dry friction changes its sign")
+                .usually(1e-4, 1.0),
             optional("stop_stiffness", &D::stop_stiffness, "N/m", "of the ends of the stroke"),
             optional("accumulator_volume", &D::accumulator_volume, "m3",
                      "of gas, without oil, in an accumulator on the full side; 0: none"),
-            optional("accumulator_pressure", &D::accumulator_pressure, "Pa", "of its gas without oil"),
+            optional("accumulator_pressure", &D::accumulator_pressure, "Pa", "of its gas without oil")
+                .usually(9e4, 2e8),
             optional("accumulator_flow", &D::accumulator_flow, "m3/s",
                      "through its throttle at `rated_drop`"),
-            optional("accumulator_exponent", &D::accumulator_exponent, "", "of its gas: p V^exponent stays"),
+            optional("accumulator_exponent", &D::accumulator_exponent, "", "of its gas: p V^exponent stays")
+                .usually(0.9, 3.0),
             optional("rupture_time", &D::rupture_time, "s", "at which a hose bursts; at 1e7 none does"),
             optional("rupture_area", &D::rupture_area, "m2", "of the hole"),
             optional("rod_side_ruptures", &D::rod_side_ruptures, "", "in place of the full side"),
-            optional("discharge_coefficient", &D::discharge_coefficient, "", "of the hole"),
-            optional("oil_density", &D::oil_density, "kg/m3", "that leaves through the hole")));
+            optional("discharge_coefficient", &D::discharge_coefficient, "", "of the hole")
+                .usually(0.05, 1.5),
+            optional("oil_density", &D::oil_density, "kg/m3", "that leaves through the hole")
+                .usually(300.0, 3000.0)));
   }
 };
 

@@ -22,11 +22,13 @@ struct HydraulicOilDescription {
   static constexpr auto fields() {
     using D = HydraulicOilDescription;
     return std::tuple(
-        optional("oil_modulus", &D::oil_modulus, "Pa", "bulk modulus of the oil without air"),
-        optional("hose_modulus", &D::hose_modulus, "Pa", "of the hoses, by their volume"),
-        optional("cylinder_modulus", &D::cylinder_modulus, "Pa", "of the barrel, likewise"),
-        optional("air", &D::air, "", "share of the volume that is free air at 1e5 Pa"),
-        optional("vapour_pressure", &D::vapour_pressure, "Pa", "below it the oil boils: an event"));
+        optional("oil_modulus", &D::oil_modulus, "Pa", "bulk modulus of the oil without air")
+            .usually(1e8, 1e11),
+        optional("hose_modulus", &D::hose_modulus, "Pa", "of the hoses, by their volume").usually(5e6, 0.0),
+        optional("cylinder_modulus", &D::cylinder_modulus, "Pa", "of the barrel, likewise").usually(1e9, 0.0),
+        optional("air", &D::air, "", "share of the volume that is free air at 1e5 Pa").usually(0.0, 0.5),
+        optional("vapour_pressure", &D::vapour_pressure, "Pa", "below it the oil boils: an event")
+            .usually(0.0, 1e5));
   }
 };
 

@@ -25,31 +25,41 @@ struct HydraulicValveDescription {
   static constexpr auto fields() {
     using D = HydraulicValveDescription;
     return std::tuple(
-        optional("pump_pressure", &D::pump_pressure, "Pa", "of the supply, absolute; 0: no pump"),
-        optional("tank_pressure", &D::tank_pressure, "Pa", "absolute"),
+        optional("pump_pressure", &D::pump_pressure, "Pa", "of the supply, absolute; 0: no pump")
+            .usually(3e5, 2e8),
+        optional("tank_pressure", &D::tank_pressure, "Pa", "absolute").usually(1e4, 5e6),
         optional("rated_flow", &D::rated_flow, "m3/s",
                  "of the valve's edges to the full side, open, at `rated_drop`; 0: no valve"),
         optional("rated_flow_rod", &D::rated_flow_rod, "m3/s", "of those to the rod side; 0: the same"),
-        optional("rated_drop", &D::rated_drop, "Pa", "at which flows are rated"),
-        optional("laminar_drop", &D::laminar_drop, "Pa", "about which flow turns from linear to square root"),
-        optional("overlap", &D::overlap, "", "share of the spool's travel before an edge opens"),
-        optional("spool_lag", &D::spool_lag, "s", "of the spool behind its command, first order; 0: none"),
+        optional("rated_drop", &D::rated_drop, "Pa", "at which flows are rated").usually(1e4, 1e8),
+        optional("laminar_drop", &D::laminar_drop, "Pa", "about which flow turns from linear to square root")
+            .usually(1e3, 1e7),
+        optional("overlap", &D::overlap, "", "share of the spool's travel before an edge opens")
+            .usually(0.0, 0.5),
+        optional("spool_lag", &D::spool_lag, "s", "of the spool behind its command, first order; 0: none")
+            .usually(1e-4, 1.0),
         optional("pump_check", &D::pump_check, "", "whether a check valve keeps oil from the pump"),
         optional("makeup_flow", &D::makeup_flow, "m3/s",
                  "of the check valves from the tank at `rated_drop`; 0: none"),
         optional("relief_pressure", &D::relief_pressure, "Pa",
-                 "at which the full side's relief valve opens; 0: none"),
-        optional("relief_pressure_rod", &D::relief_pressure_rod, "Pa", "the rod side's; 0: none"),
+                 "at which the full side's relief valve opens; 0: none")
+            .usually(3e5, 2e8),
+        optional("relief_pressure_rod", &D::relief_pressure_rod, "Pa", "the rod side's; 0: none")
+            .usually(3e5, 2e8),
         optional("relief_flow", &D::relief_flow, "m3/s", "of a relief valve at `relief_override`"),
-        optional("relief_override", &D::relief_override, "Pa", "above the opening"),
+        optional("relief_override", &D::relief_override, "Pa", "above the opening").usually(5e3, 1e8),
         optional("counterbalance_pressure", &D::counterbalance_pressure, "Pa",
-                 "at which the full side's load-holding valve opens without pilot; 0: none"),
+                 "at which the full side's load-holding valve opens without pilot; 0: none")
+            .usually(3e5, 2e8),
         optional("counterbalance_pressure_rod", &D::counterbalance_pressure_rod, "Pa",
-                 "the rod side's; 0: none"),
+                 "the rod side's; 0: none")
+            .usually(3e5, 2e8),
         optional("counterbalance_flow", &D::counterbalance_flow, "m3/s",
                  "of a load-holding valve, open, at `rated_drop`"),
-        optional("counterbalance_range", &D::counterbalance_range, "Pa", "from its opening to fully open"),
-        optional("pilot_ratio", &D::pilot_ratio, "", "of the other side's pressure in its opening"));
+        optional("counterbalance_range", &D::counterbalance_range, "Pa", "from its opening to fully open")
+            .usually(1e4, 1e8),
+        optional("pilot_ratio", &D::pilot_ratio, "", "of the other side's pressure in its opening")
+            .usually(0.1, 50.0));
   }
 };
 

@@ -42,14 +42,17 @@ struct LineDescription : WinchDescription {
     const auto own = std::tuple(
         on_body("bodies", &D::bodies, "bodies of the points, in the order of the path"),
         required("points", &D::points, "m", "coordinates of these bodies"),
-        required("stiffness", &D::stiffness, "N", "EA: tension over strain"),
+        required("stiffness", &D::stiffness, "N", "EA: tension over strain").usually(0.0, 2e10),
         required("length", &D::length, "m", "unstretched; with a winch, at the start"),
-        optional("damping_ratio", &D::damping_ratio, "", "of critical damping of `mass` on the line"),
+        optional("damping_ratio", &D::damping_ratio, "", "of critical damping of `mass` on the line")
+            .usually(1e-4, 1.0),
         optional("mass", &D::mass, "kg", "that moves with the line's end; 0: that of the path's last body"),
         optional("stretch", &D::stretch, "", "'elastic', or 'quasi-static': then it follows the tension"),
-        optional("settling", &D::settling, "s", "in which a quasi-static stretch follows"));
-    const auto table = std::tuple(optional("strains", &D::strains, "", "from 0, of a table in place of EA"),
-                                  optional("tensions", &D::tensions, "N", "at these strains, from 0"));
+        optional("settling", &D::settling, "s", "in which a quasi-static stretch follows")
+            .usually(1e-3, 10.0));
+    const auto table = std::tuple(
+        optional("strains", &D::strains, "", "from 0, of a table in place of EA").usually(0.0, 3.0),
+        optional("tensions", &D::tensions, "N", "at these strains, from 0"));
     return std::tuple_cat(own, WinchDescription::fields(), sheave_fields<D>(), table);
   }
 };

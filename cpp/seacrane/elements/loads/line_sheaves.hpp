@@ -125,13 +125,15 @@ constexpr auto sheave_fields() {
   constexpr auto frictions = [](auto& d) -> auto& { return d.sheaves.frictions; };
   constexpr auto slip_speed = [](auto& d) -> auto& { return d.sheaves.slip_speed; };
   return std::tuple(
-      optional("radii", radii, "m", "of sheaves at the points; 0: a point"),
+      optional("radii", radii, "m", "of sheaves at the points; 0: a point").usually(5e-3, 10.0),
       optional("axes", axes, "",
                "of the sheaves, body coordinates; the line runs about them by the right hand"),
-      optional("turns", turns, "", "whole turns on each besides"),
-      optional("efficiencies", efficiencies, "", "of each: the smaller tension over the larger"),
-      optional("frictions", frictions, "", "coefficients of friction on each"),
-      optional("slip_speed", slip_speed, "m/s", "at which sheaves have 76 % of their friction"));
+      optional("turns", turns, "", "whole turns on each besides").usually(0.0, 20.0),
+      optional("efficiencies", efficiencies, "", "of each: the smaller tension over the larger")
+          .usually(0.3, 1.0),
+      optional("frictions", frictions, "", "coefficients of friction on each").usually(1e-3, 3.0),
+      optional("slip_speed", slip_speed, "m/s", "at which sheaves have 76 % of their friction")
+          .usually(5e-5, 2.0));
 }
 
 }  // namespace seacrane

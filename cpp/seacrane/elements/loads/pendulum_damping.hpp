@@ -26,7 +26,7 @@ struct PendulumDampingDescription {
         on_body("first", &D::first), on_body("second", &D::second),
         optional("first_point", &D::first_point, "m", "on the first body: where the wire hangs"),
         optional("second_point", &D::second_point, "m", "on the second body: what swings"),
-        required("ratio", &D::ratio, "", "of critical damping of the swing"),
+        required("ratio", &D::ratio, "", "of critical damping of the swing").usually(5e-5, 2.0),
         optional("mass", &D::mass, "kg", "that swings; 0: that of the second body"));
   }
 };

@@ -20,11 +20,12 @@ struct SoftStopDescription {
       "never a pull; see Scene.add_soft_stop.";
   static constexpr auto fields() {
     using D = SoftStopDescription;
-    return std::tuple_cat(on_coordinate<D>(),
-                          std::tuple(optional("minimum", &D::minimum, "m or rad", "at -1e7 there is none"),
-                                     optional("maximum", &D::maximum, "m or rad", "at 1e7 there is none"),
-                                     required("stiffness", &D::stiffness, "N/m or N m/rad", ""),
-                                     optional("damping", &D::damping, "s/m or s/rad", "")));
+    return std::tuple_cat(
+        on_coordinate<D>(),
+        std::tuple(optional("minimum", &D::minimum, "m or rad", "at -1e7 there is none").usually(0.0, 500.0),
+                   optional("maximum", &D::maximum, "m or rad", "at 1e7 there is none").usually(0.0, 500.0),
+                   required("stiffness", &D::stiffness, "N/m or N m/rad", ""),
+                   optional("damping", &D::damping, "s/m or s/rad", "").usually(0.0, 100.0)));
   }
 };
 

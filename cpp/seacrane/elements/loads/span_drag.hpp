@@ -21,14 +21,15 @@ struct SpanDragDescription {
       "Drag across a straight span of wire between two points, in air or water that flows steadily.";
   static constexpr auto fields() {
     using D = SpanDragDescription;
-    return std::tuple(on_body("first", &D::first), on_body("second", &D::second),
-                      optional("first_point", &D::first_point, "m", "coordinates of the first body"),
-                      optional("second_point", &D::second_point, "m", "coordinates of the second body"),
-                      required("density", &D::density, "kg/m3", "of the fluid"),
-                      required("diameter", &D::diameter, "m", ""),
-                      required("length", &D::length, "m", "of wire in the span"),
-                      required("coefficient", &D::coefficient, "", "drag coefficient across the wire"),
-                      optional("flow", &D::flow, "m/s", "velocity of the fluid, inertial axes"));
+    return std::tuple(
+        on_body("first", &D::first), on_body("second", &D::second),
+        optional("first_point", &D::first_point, "m", "coordinates of the first body"),
+        optional("second_point", &D::second_point, "m", "coordinates of the second body"),
+        required("density", &D::density, "kg/m3", "of the fluid").usually(0.5, 1500.0),
+        required("diameter", &D::diameter, "m", "").usually(5e-4, 3.0),
+        required("length", &D::length, "m", "of wire in the span").usually(0.0, 1e4),
+        required("coefficient", &D::coefficient, "", "drag coefficient across the wire").usually(0.05, 20.0),
+        optional("flow", &D::flow, "m/s", "velocity of the fluid, inertial axes").usually(0.0, 100.0));
   }
 };
 

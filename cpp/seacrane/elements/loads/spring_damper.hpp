@@ -28,8 +28,9 @@ struct SpringDescription {
                       optional("second_point", &D::second_point, "m", "coordinates of the second body"),
                       optional("stiffness", &D::stiffness, "N/m", ""),
                       optional("damping", &D::damping, "N s/m", ""),
-                      optional("natural_length", &D::natural_length, "m", ""),
-                      optional("lengths", &D::lengths, "m", "of a table of tension, in place of stiffness"),
+                      optional("natural_length", &D::natural_length, "m", "").usually(0.0, 5000.0),
+                      optional("lengths", &D::lengths, "m", "of a table of tension, in place of stiffness")
+                          .usually(0.0, 5000.0),
                       optional("forces", &D::forces, "N", "tension at the lengths"));
   }
 };

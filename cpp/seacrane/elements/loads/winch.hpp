@@ -29,11 +29,14 @@ struct WinchDescription : ConstantTensionDescription, DrumDescription {
     return std::tuple_cat(
         std::tuple(
             optional("winch", &D::winch, "", "whether the length is a state that `rate` drives"),
-            optional("rate", &D::rate, "m/s", "commanded, positive: pays out"),
-            optional("maximum_rate", &D::maximum_rate, "m/s", "of the winch; at 1e7 there is none"),
-            optional("maximum_acceleration", &D::maximum_acceleration, "m/s2", "likewise; needs a lag"),
-            optional("lag", &D::lag, "s", "of the winch's rate behind the command"),
-            optional("minimum_length", &D::minimum_length, "m", "at which hauling in stops")),
+            optional("rate", &D::rate, "m/s", "commanded, positive: pays out").usually(0.0, 20.0),
+            optional("maximum_rate", &D::maximum_rate, "m/s", "of the winch; at 1e7 there is none")
+                .usually(1e-3, 50.0),
+            optional("maximum_acceleration", &D::maximum_acceleration, "m/s2", "likewise; needs a lag")
+                .usually(1e-4, 50.0),
+            optional("lag", &D::lag, "s", "of the winch's rate behind the command").usually(1e-3, 30.0),
+            optional("minimum_length", &D::minimum_length, "m", "at which hauling in stops")
+                .usually(0.0, 50.0)),
         ConstantTensionDescription::fields(), DrumDescription::fields());
   }
 };

@@ -11,6 +11,7 @@ import numpy as np
 
 from seacrane.errors import FileFormatError
 from seacrane.hydro.data.data_warnings import warn_of_data
+from seacrane.hydro.data.long_waves import warn_of_long_waves
 from seacrane.hydro.database.database import HydroDatabase
 from seacrane.hydro.readers import bemio, capytaine, nemoh, orcaflex, seacrane_netcdf, veres, wamit
 from seacrane.hydro.readers.format import Format, of_one_speed
@@ -61,6 +62,7 @@ def load_database(
             warnings.simplefilter("ignore", RoughDataWarning)
             database = _trusted(_read(found, source, speed, depth), trusted_band)
     warn_of_data(database)
+    warn_of_long_waves(database)
     return database
 
 

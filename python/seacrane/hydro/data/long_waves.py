@@ -1,0 +1,95 @@
+"""What motions are in waves far longer than a hull, which follows them: whatever it is, that is known."""
+
+from __future__ import annotations
+
+from weakref import WeakKeyDictionary
+
+import numpy as np
+from numpy.typing import NDArray
+
+from seacrane.hydro.data.hydro_data import HydroData
+from seacrane.hydro.data.motion import motion_response
+from seacrane.inputs.caller import warn_caller
+from seacrane.inputs.frames import MOTIONS
+from seacrane.sea.dispersion import wavenumber
+
+FloatArray = NDArray[np.float64]
+ComplexArray = NDArray[np.complex128]
+
+FOLLOWS = (0.5, 1.6)  # of the limit's amplitude: a hull that follows the wave
+LARGEST_PHASE = np.radians(60.0)  # from the limit's
+ALONG = 0.5  # least cosine of a heading in which pitch is judged
+_SLIPS: WeakKeyDictionary[HydroData, list[str]] = WeakKeyDictionary()  # each database is judged once
+
+
+class RaoPhaseWarning(UserWarning):
+    """Motions in the longest wave do not have the phase that every hull has there."""
+
+
+def _limits(
+    omega: float, heading: FloatArray, *, depth: float, g: float
+) -> tuple[ComplexArray, NDArray[np.bool_]]:
+    """Heave and pitch (m, 2) of a hull that follows the wave, and which are judged (m, 2)."""
+    slope = float(wavenumber(np.array([omega]), g=g, depth=depth)[0])
+    along = np.cos(heading)
+    limit = np.stack([np.ones(along.size, dtype=complex), 1j * slope * along], axis=1)
+    judged = np.stack([np.ones(along.size, dtype=bool), np.abs(along) >= ALONG], axis=1)
+    return limit, judged
+
+
+def warn_of_phases(
+    what: str, omega: float, heading: FloatArray, motions: ComplexArray, *, depth: float, g: float
+) -> None:
+    """Warn where motions (m, 6) in a wave that the hull follows lead or lag it."""
+    said = phase_slip(omega, heading, motions, depth=depth, g=g)
+    if said:
+        warn_caller(f"{what}: {said}", RaoPhaseWarning)
+
+
+def phase_slip(omega: float, heading: FloatArray, motions: ComplexArray, *, depth: float, g: float) -> str:
+    """What is wrong with the phases of motions (m, 6) in a wave; empty: nothing that can be told.
+
+    A hull follows a wave where both amplitudes are those of the limit; in shorter waves nothing is told.
+    """
+    limit, judged = _limits(omega, heading, depth=depth, g=g)
+    found = motions[:, [2, 4]]
+    ratio = np.divide(found, limit, out=np.ones_like(found), where=judged)
+    mirrored = np.divide(np.conj(found), limit, out=np.ones_like(found), where=judged)
+    follows = np.all((np.abs(ratio) >= FOLLOWS[0]) & (np.abs(ratio) <= FOLLOWS[1]), axis=1)
+    off = np.where(follows[:, None], np.abs(np.angle(ratio)), 0.0)
+    at, motion = np.unravel_index(int(off.argmax()), off.shape)
+    if off[at, motion] <= LARGEST_PHASE:
+        return ""
+    turned = np.all(np.abs(np.angle(mirrored[follows])) <= LARGEST_PHASE)
+    guess = (
+        "their signs are those of lags: give the complex conjugate" if turned
+        else "phases in degrees take numpy.radians; else their origin or an axis is another one"
+    )  # fmt: skip
+    towards, angle = np.degrees(heading[at]), np.degrees(off[at, motion])
+    return (
+        f"{MOTIONS[(2, 4)[int(motion)]]} at {omega:.4g} rad/s, in waves to {towards:.4g} deg, is {angle:.3g} "
+        "deg out of phase with a hull that follows the wave, as it does by its amplitudes: "
+        f"{guess}. See docs/conventions.md"
+    )
+
+
+def warn_of_long_waves(database: HydroData) -> None:
+    """Of a database at zero speed, in its longest wave: motions as given, and as its wave loads make them."""
+    if database not in _SLIPS:
+        _SLIPS[database] = _slips(database)
+    for said in _SLIPS[database]:
+        warn_caller(f"database {database.name!r}: {said}", RaoPhaseWarning)
+
+
+def _slips(database: HydroData) -> list[str]:
+    if database.speed != 0.0:
+        return []
+    given = {"": database.motion_rao, "by its wave loads, ": motion_response(database)}
+    slips = {
+        source: phase_slip(
+            float(database.omega[0]), database.heading, motions[:, 0], depth=database.depth, g=database.g
+        )
+        for source, motions in given.items()
+        if motions is not None
+    }
+    return [source + said for source, said in slips.items() if said]

@@ -1,0 +1,293 @@
+"""Values that do not fit others of a scene: strains, speeds, volumes, periods that no machine has."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from seacrane import _core
+from seacrane.description.joint_coordinates import ANGLES
+from seacrane.description.line_weights import line_weights
+from seacrane.inputs.frames import rotation_matrix
+
+if TYPE_CHECKING:
+    from seacrane.description.scene import Description
+
+Array = NDArray[np.float64]
+FAST_WATER = 5.0  # m/s
+FASTEST_SLIDE, FASTEST_TURN = 50.0, 30.0  # m/s, rad/s: of what a driver moves
+LEAST_ADDED_MASS = 5e-3  # over the mass of what floats
+WATER = 500.0  # kg/m3: fluids that are heavier
+
+
+@dataclass(frozen=True)
+class Proportion:
+    """What a value makes with others: its usual range, and how to say it."""
+
+    field: str
+    makes: str  # "a strain of {:.3g}"
+    value: float
+    least: float
+    most: float
+    unit: str
+
+    @property
+    def beyond(self) -> bool:
+        return self.value != 0.0 and not self.least <= abs(self.value) <= self.most
+
+    def text(self, given: Any) -> str:
+        usual = f"{self.least:.3g} to {self.most:.3g}" if self.least else f"at most {self.most:.3g}"
+        shown = f" of {given:.6g} {self.unit}" if isinstance(given, float) else ""
+        return (
+            f"{self.field}{shown} makes {self.makes.format(self.value)}, and usual is {usual}: a slip in the "
+            f"unit, of it or of what it is compared with? It is in {self.unit}"
+        )
+
+
+def disproportions(scene: Description, times: Array) -> Iterator[str]:
+    """One message for each value that does not fit; `times` (n,) s of the run."""
+    around = _Around(scene, times)
+    for kind, element, look in _looks(scene):
+        for one in look(around, element):
+            if one.beyond:
+                yield f"{kind} {element.name!r}: {one.text(getattr(element, one.field, None))}"
+
+
+def _looks(scene: Description) -> Iterator[tuple[str, Any, Callable[..., Iterator[Proportion]]]]:
+    for vessel in scene.vessels.values():
+        yield "vessel", vessel, _vessel
+    for driver in scene.drivers.values():
+        yield "driver", driver, _driver
+    for element in scene.all_loads():
+        if type(element) in _OF_LOADS:
+            kind, look = _OF_LOADS[type(element)]
+            yield kind, element, look
+
+
+class _Around:
+    """What elements are compared with: the scene as described."""
+
+    def __init__(self, scene: Description, times: Array) -> None:
+        self.scene, self.times, self.hung = scene, times, line_weights(scene)
+
+    def place(self, body: str, point: Any) -> Array:
+        point = np.asarray(point, dtype=float)
+        if body not in self.scene.bodies:
+            return np.asarray(point)
+        there = self.scene.bodies[body]
+        return np.asarray(there.position + rotation_matrix(there.quaternion) @ point)
+
+    def distance(self, element: Any) -> float:
+        """Between the two points of an element, m."""
+        ends = (element.first, element.first_point), (element.second, element.second_point)
+        return float(np.linalg.norm(self.place(*ends[1]) - self.place(*ends[0])))
+
+    def mass(self, *bodies: str) -> float:
+        """The smallest of these bodies', kg; infinite of the ground."""
+        there = [self.scene.bodies[body].mass for body in bodies if body in self.scene.bodies]
+        return min(there, default=math.inf)
+
+    def weight(self, *bodies: str) -> float:
+        return self.mass(*bodies) * abs(self.scene.gravity)
+
+    def as_weight(self, field: str, force: float, unit: str) -> Proportion:
+        """A force over the weight of all bodies."""
+        heaviest = sum(body.mass for body in self.scene.bodies.values()) * abs(self.scene.gravity)
+        makes = "{:.3g} times the weight of all bodies"
+        return Proportion(field, makes, _over(force, heaviest), 0.0, 100.0, unit)
+
+    def largest(self, curve: _core.Curve) -> float:
+        return float(np.abs(curve.evaluate(self.times)[:, 0]).max())
+
+
+def _line(around: _Around, line: _core.Line) -> Iterator[Proportion]:
+    """What it carries counts where nothing else does: a tugger's ship says nothing of the tugger."""
+    weight, falls = around.hung.get(line.name, (0.0, 1))
+    mass = _over(weight, abs(around.scene.gravity))
+    places = np.array([around.place(*end) for end in zip(line.bodies, line.points, strict=True)])
+    path = float(np.linalg.norm(np.diff(places, axis=0), axis=1).sum())
+    start = float(line.length.evaluate(around.times[:1])[0, 0])
+    if len(line.tensions):
+        share = _over(line.tensions[-1] * falls, weight)
+        yield Proportion("tensions", "{:.3g} times the weight on it", share, 1e-2, 500.0, "N")
+    else:
+        strain = max(_over(path, start) - 1.0, _over(weight, falls * line.stiffness), 0.0)
+        yield Proportion("stiffness", "a strain of {:.3g} at rest", strain, 0.0, 0.5, "N")
+    share = _over(line.mass, mass)
+    yield Proportion("mass", "{:.3g} times the mass on the line", share, 1.0 / 300.0, 300.0, "kg")
+    if not line.winch:
+        return
+    held = around.largest(line.tension)
+    yield Proportion("tension", "a strain of {:.3g}", _over(held, line.stiffness), 1e-5, 0.5, "N")
+    speed = line.tension_gain * held
+    yield Proportion("tension_gain", "{:.3g} m/s by the tension held", speed, 1e-2, 100.0, "m/s/N")
+    share = _over(line.dead_band, held)
+    yield Proportion("dead_band", "{:.3g} of the tension held", share, 1e-4, 2.0, "N")
+    share = _over(line.drum_inertia, line.drum_radius**2 * mass)
+    yield Proportion("drum_inertia", "{:.3g} times the mass on the line", share, 1e-3, 100.0, "kg m2")
+
+
+def _gas_spring(around: _Around, gas: _core.GasSpring) -> Iterator[Proportion]:
+    distance, weight = around.distance(gas), around.weight(gas.first, gas.second)
+    yield Proportion("volume", "{:.3g} m of stroke", _over(gas.volume, gas.area), 0.02, 200.0, "m3")
+    yield Proportion("length", "{:.3g} times the distance", _over(gas.length, distance), 0.05, 20.0, "m")
+    for key in ("minimum", "maximum"):
+        bound = getattr(gas, key)
+        if bound < 1e7:
+            yield Proportion(key, "{:.3g} times the length", _over(bound, gas.length), 0.02, 50.0, "m")
+    given = _over(weight, gas.stop_stiffness * gas.length)
+    yield Proportion("stop_stiffness", "it give by {:.3g} of the length", given, 0.0, 1.0, "N/m")
+    mass = around.mass(gas.first, gas.second)
+    stiffness = _over(gas.exponent * gas.pressure * gas.area**2, gas.volume)
+    yield _damped("damping", gas.damping, stiffness, mass, "N s/m")
+    yield _damped("quadratic_damping", gas.quadratic_damping, stiffness, mass, "N s2/m2")
+
+
+def _over(value: float, other: float) -> float:
+    """The ratio; 0, which is never told, where there is nothing to compare with."""
+    return value / other if other != 0.0 and math.isfinite(other) and math.isfinite(value) else 0.0
+
+
+def _damped(field: str, damping: float, stiffness: float, mass: float, unit: str) -> Proportion:
+    """Over critical; quadratic damping at 1 m/s."""
+    critical = 2.0 * math.sqrt(max(stiffness, 0.0) * mass)
+    ratio = _over(damping, critical)
+    return Proportion(field, "{:.3g} of critical damping", ratio, 0.0, 30.0, unit)
+
+
+def _hydraulic(around: _Around, oil: _core.HydraulicCylinder) -> Iterator[Proportion]:
+    areas = {"": oil.full_area, "_rod": oil.rod_side_area}
+    yield Proportion(
+        "rod_side_area", "{:.3g} of the full area", _over(areas["_rod"], areas[""]), 0.02, 1.0, "m2"
+    )
+    for side, area in areas.items():
+        hose = _over(getattr(oil, f"hose_volume{side}"), area * oil.stroke)
+        yield Proportion(f"hose_volume{side}", "{:.3g} times the swept volume", hose, 1e-3, 30.0, "m3")
+        pressure = getattr(oil, f"pressure{side}")
+        yield Proportion(f"pressure{side}", "{:.3g} Pa, absolute", pressure, 5e4, 2e8, "Pa")
+    for key in ("rated_flow", "rated_flow_rod", "makeup_flow", "relief_flow", "counterbalance_flow",
+                "accumulator_flow"):  # fmt: skip
+        speed = _over(getattr(oil, key), areas[""])
+        yield Proportion(key, "{:.3g} m/s of the piston", speed, 1e-3, 30.0, "m3/s")
+    gas = _over(oil.accumulator_volume, areas[""] * oil.stroke)
+    yield Proportion("accumulator_volume", "{:.3g} times the swept volume", gas, 5e-3, 100.0, "m3")
+    hole = _over(oil.rupture_area, areas[""])
+    yield Proportion("rupture_area", "{:.3g} times the piston's area", hole, 1e-4, 1.0, "m2")
+    highest = max(oil.pump_pressure, oil.pressure, oil.pressure_rod)
+    force = highest * areas[""]
+    for key in ("internal_leakage", "external_leakage"):
+        speed = _over(getattr(oil, key) * highest, areas[""])
+        yield Proportion(key, "{:.3g} m/s of the piston", speed, 0.0, 0.1, "m3/s/Pa")
+    yield Proportion("friction", "{:.3g} of the cylinder's force", _over(oil.friction, force), 0.0, 1.0, "N")
+    drag = _over(oil.viscous_friction, force)
+    yield Proportion("viscous_friction", "{:.3g} of its force at 1 m/s", drag, 0.0, 3.0, "N s/m")
+    given = _over(force, oil.stop_stiffness * oil.stroke)
+    yield Proportion("stop_stiffness", "the ends give by {:.3g} of the stroke", given, 0.0, 0.1, "N/m")
+    if oil.gain > 0.0:
+        share = _over(around.largest(oil.reference), oil.stroke)
+        yield Proportion("reference", "{:.3g} of the stroke", share, 0.0, 1.5, "m")
+
+
+def _flow(around: _Around, flow: _core.FlowForce) -> Iterator[Proportion]:
+    height = _over(flow.lateral_area, flow.length)
+    yield Proportion("lateral_area", "a height of {:.3g} m", height, 0.05, 200.0, "m2")
+    share = _over(flow.frontal_area, flow.lateral_area)
+    yield Proportion("frontal_area", "{:.3g} of the lateral area", share, 5e-3, 50.0, "m2")
+    yield from _fluid(flow.density, around.largest(flow.speed), "speed")
+
+
+def _fluid(density: float, speed: float, field: str) -> Iterator[Proportion]:
+    if density > WATER:
+        yield Proportion(field, "water at {:.3g} m/s", speed, 0.0, FAST_WATER, "m/s")
+
+
+def _span(around: _Around, span: _core.SpanDrag) -> Iterator[Proportion]:
+    distance = around.distance(span)
+    yield Proportion("length", "{:.3g} times the span", _over(span.length, distance), 0.05, 20.0, "m")
+    yield from _fluid(span.density, float(np.linalg.norm(span.flow)), "flow")
+
+
+def _pendulum(around: _Around, swing: _core.PendulumDamping) -> Iterator[Proportion]:
+    mass = around.mass(swing.second)
+    share = _over(swing.mass, mass)
+    yield Proportion("mass", "{:.3g} times the mass that swings", share, 1.0 / 300.0, 300.0, "kg")
+
+
+def _spring(around: _Around, spring: _core.Spring) -> Iterator[Proportion]:
+    distance, mass = around.distance(spring), around.mass(spring.first, spring.second)
+    weight = around.weight(spring.first, spring.second)
+    if distance > 0.0 and distance < 1e5:
+        longest = float(np.max(spring.lengths)) if len(spring.lengths) else spring.natural_length
+        field = "lengths" if len(spring.lengths) else "natural_length"
+        yield Proportion(field, "{:.3g} times the distance", _over(longest, distance), 1.0 / 30.0, 30.0, "m")
+    if len(spring.forces):
+        share = _over(float(np.abs(spring.forces).max()), weight)
+        yield Proportion("forces", "{:.3g} times the lighter body's weight", share, 1e-2, 300.0, "N")
+    yield _damped("damping", spring.damping, spring.stiffness, mass, "N s/m")
+
+
+def _pushed(around: _Around, force: _core.PointForce) -> Iterator[Proportion]:
+    yield around.as_weight("force", float(np.linalg.norm(force.force)), "N")
+
+
+def _tabled(around: _Around, table: _core.ForceTable) -> Iterator[Proportion]:
+    yield around.as_weight("wrenches", float(np.abs(np.asarray(table.wrenches)[:, :3]).max()), "N, N m")
+
+
+def _actuator(around: _Around, actuator: _core.Actuator) -> Iterator[Proportion]:
+    if actuator.coordinate not in ANGLES:
+        yield around.as_weight("feed_forward", around.largest(actuator.feed_forward), "N or N m")
+
+
+def _driver(around: _Around, driver: _core.Driver) -> Iterator[Proportion]:
+    rate = float(np.abs(driver.curve.evaluate(around.times)[:, 1]).max())
+    if driver.coordinate in ANGLES:
+        yield Proportion("curve", "{:.3g} rad/s", rate, 0.0, FASTEST_TURN, "rad")
+    else:
+        yield Proportion("curve", "{:.3g} m/s", rate, 0.0, FASTEST_SLIDE, "m")
+
+
+def _vessel(around: _Around, vessel: _core.VesselHydrodynamics) -> Iterator[Proportion]:
+    body = around.scene.bodies[vessel.body]
+    added, restoring = np.diag(vessel.added_mass), np.diag(vessel.restoring)
+    heavy = np.array([body.mass] * 3 + list(np.diag(body.inertia)))
+    own = float(np.max(added[:3])) / body.mass
+    least = LEAST_ADDED_MASS if vessel.floats else 0.0
+    yield Proportion("added_mass", "{:.3g} times the body's mass", own, least, 50.0, "kg, kg m, kg m2")
+    spun = float(np.max(added[3:] / heavy[3:]))
+    yield Proportion("added_mass", "{:.3g} times its inertia", spun, 0.0, 100.0, "kg, kg m, kg m2")
+    for at, name in ((2, "heave"), (3, "roll"), (4, "pitch")):
+        period, makes = _period(heavy[at] + added[at], restoring[at]), f"a period of {name} of {{:.3g}} s"
+        yield Proportion("restoring", makes, period, 0.7, 150.0, "N/m, N, N m")
+    moored = np.diag([*vessel.mooring_stiffness])
+    for i, at in enumerate((0, 1, 5)):
+        period = _period(heavy[at] + added[at], moored[i, i])
+        yield Proportion("mooring_stiffness", "a period of {:.3g} s", period, 7.0, 3000.0, "N/m, N m/rad")
+        yield _damped("mooring_damping", vessel.mooring_damping[i], moored[i, i], heavy[at] + added[at],
+                      "N s/m, N m s/rad")  # fmt: skip
+    for at in (2, 3, 4):
+        yield _damped("linear_damping", vessel.linear_damping[at, at], restoring[at], heavy[at] + added[at],
+                      "N s/m, N s, N m s")  # fmt: skip
+
+
+def _period(inertia: float, stiffness: float) -> float:
+    return 2.0 * math.pi * math.sqrt(inertia / stiffness) if stiffness > 0.0 < inertia else 0.0
+
+
+_OF_LOADS: Mapping[type, tuple[str, Callable[..., Iterator[Proportion]]]] = {
+    _core.Line: ("line", _line),
+    _core.GasSpring: ("gas spring", _gas_spring),
+    _core.HydraulicCylinder: ("hydraulic cylinder", _hydraulic),
+    _core.FlowForce: ("flow force", _flow),
+    _core.SpanDrag: ("span drag", _span),
+    _core.PendulumDamping: ("pendulum damping", _pendulum),
+    _core.Spring: ("spring", _spring),
+    _core.Actuator: ("actuator", _actuator),
+    _core.PointForce: ("point force", _pushed),
+    _core.ForceTable: ("force table", _tabled),
+}

@@ -1,0 +1,97 @@
+"""Bodies with hydrodynamics that float, and those that weigh."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from seacrane import Scene, SceneError, balance, equilibrium, simulate
+
+MASS, DEPTH, EA = 100e3, 500.0, 4e8
+ADDED = np.diag([80e3] * 3 + [1e5] * 3)
+DRAG = np.diag([0, 0, 2e5, 0, 0, 0])
+AFLOAT = np.diag([0, 0, 2e6, 4e7, 4e7, 0])
+
+
+def submerged(buoyancy: float = 0.0, **hydrodynamics: object) -> Scene:
+    scene = Scene(name="submerged load")
+    scene.add_body(name="load", mass=MASS, inertia=(4e5, 4e5, 4e5), position=(0, 0, -DEPTH))
+    scene.add_vessel(body="load", **{"added_mass": ADDED, "linear_damping": DRAG} | hydrodynamics)
+    scene.add_line(
+        name="wire", bodies=["ground", "load"], points=np.zeros((2, 3)), stiffness=EA, length=DEPTH
+    )
+    if buoyancy:
+        scene.add_point_force(name="buoyancy", body="load", force=(0, 0, buoyancy))
+    return scene
+
+
+def at_rest(scene: Scene) -> float:
+    return float(simulate(scene, t_end=60.0).select("line_tension", line="wire")[-1])
+
+
+@pytest.mark.parametrize("buoyancy", [0.0, 3e5])
+def test_a_submerged_load_weighs_on_its_wire(buoyancy: float) -> None:
+    scene = submerged(buoyancy)
+    assert at_rest(scene) == pytest.approx(MASS * scene.gravity - buoyancy, rel=1e-3)
+
+
+def test_it_accelerates_with_its_added_mass() -> None:
+    scene = submerged()
+    scene.remove("wire")
+    fall = simulate(scene, t_end=0.1).select("velocity", body="load", axis="z")[-1]
+    assert fall == pytest.approx(-0.1 * MASS * scene.gravity / (MASS + ADDED[2, 2]), rel=0.1)
+
+
+def test_statics_and_balance_know_its_weight() -> None:
+    scene = submerged()
+    assert at_rest_of(scene) == pytest.approx(MASS * scene.gravity, rel=1e-6)
+    assert balance_at_rest() == pytest.approx(MASS * scene.gravity)
+
+
+def at_rest_of(scene: Scene) -> float:
+    rest = simulate(scene, t_end=0.01, start=equilibrium(scene))
+    return float(rest.select("line_tension", line="wire")[0])
+
+
+def balance_at_rest() -> float:
+    scene = submerged()
+    scene.remove("wire")
+    scene.add_joint(
+        kind="distance",
+        name="rod",
+        first="ground",
+        second="load",
+        point=(0, 0, 0),
+        second_point=(0, 0, -DEPTH),
+    )
+    return balance(scene).weight
+
+
+def test_it_is_no_vessel_to_be_ballasted() -> None:
+    with pytest.raises(SceneError, match="the vessels are none"):
+        submerged().add_ballast(body="load")
+
+
+def heaved(**hydrodynamics: object) -> np.ndarray:
+    scene = Scene(name="buoy")
+    scene.add_body(name="buoy", mass=MASS, inertia=(4e5, 4e5, 4e5), position=(0, 0, 0.5))
+    scene.add_vessel(body="buoy", **{"added_mass": ADDED, "restoring": AFLOAT} | hydrodynamics)
+    return np.asarray(simulate(scene, t_end=10.0).select("position", body="buoy", axis="z"))
+
+
+def test_what_heave_restores_floats_as_before() -> None:
+    np.testing.assert_array_equal(heaved(), heaved(floats=True))
+    assert abs(heaved()).max() <= 0.5 + 1e-6
+    assert heaved(floats=False).min() < -0.5  # its weight comes on top
+
+
+def test_files_without_the_word_float(tmp_path) -> None:
+    """Files of before, whatever their restoring; and a floating body's file is that of before."""
+    scene = submerged(floats=True)
+    scene.save(tmp_path / "old.json")
+    assert "floats" not in (tmp_path / "old.json").read_text()
+    assert Scene.load(tmp_path / "old.json").vessels["load"].floats
+    weighing = submerged()
+    weighing.save(tmp_path / "new.json")
+    assert Scene.load(tmp_path / "new.json") == weighing
+    assert not Scene.load(tmp_path / "new.json").vessels["load"].floats
