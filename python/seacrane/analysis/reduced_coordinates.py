@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import partial
+from functools import cached_property, partial
 from typing import Any
 
 import numpy as np
@@ -63,13 +63,13 @@ class Terms:
         rate = self.evaluator.derivative(self.time, values)
         return np.asarray(rate[self.load_states] / self.load_scales)
 
-    def exact_columns(self, values: Array, directions: Array) -> Array | None:
-        """d(accelerations, memory rates) along directions (states, k); None where no exact Jacobian is."""
+    def exact_rates(self, values: Array) -> Array | None:
+        """d(accelerations, memory rates) / d(states); None where no exact Jacobian is."""
         try:
             jacobian = np.asarray(self.evaluator.jacobian(self.time, values))
         except ValueError:
             return None
-        return np.asarray(np.vstack([jacobian[self.twists], jacobian[self.memory]]) @ directions)
+        return np.asarray(np.vstack([jacobian[self.twists], jacobian[self.memory]]))
 
     def pose_directions(self, values: Array, displacement: Array) -> Array:
         """Change of the state (states, k) with translations and rotation vectors (6 n, k), inertial axes."""
@@ -85,6 +85,20 @@ class Terms:
     def acceleration(self, values: Array) -> Array:
         """Accelerations (6 n), inertial axes, m/s2 and rad/s2."""
         return np.asarray(self.evaluator.derivative(self.time, values)[self.twists])
+
+
+def load_states(model: _core.Model) -> list[int]:
+    """Places of the states that loads have of their own."""
+    return [place for _, _, place, *_ in model.load_states]
+
+
+def at_rest(model: _core.Model, values: Array) -> Array:
+    """The same poses and states of loads, with all velocities, states of the fluid and work at zero."""
+    y = np.array(values)
+    y[model.twist_index(0) :] = 0.0
+    kept = load_states(model)
+    y[kept] = np.asarray(values)[kept]
+    return y
 
 
 def _turned(quaternion: Array, rotation: Array) -> Array:
@@ -119,13 +133,21 @@ class ReducedCoordinates:
         """Degrees of freedom."""
         return int(self.basis.shape[1])
 
+    @cached_property
+    def _exact(self) -> Array | None:
+        return self.terms.exact_rates(self.values)
+
+    def _along(self, directions: Array) -> Array | None:
+        """d(accelerations, memory rates) along directions (states, k); None where no exact Jacobian is."""
+        return None if self._exact is None else np.asarray(self._exact @ directions)
+
     def pose_columns(self) -> Array:
         """d(accelerations, memory rates) / d(coordinates).
 
         Exact; by central differences of fourth order for a model without an exact Jacobian.
         """
         terms = self.terms
-        exact = terms.exact_columns(self.values, terms.pose_directions(self.values, self.basis))
+        exact = self._along(terms.pose_directions(self.values, self.basis))
         if exact is not None:
             return exact
         columns = []
@@ -145,7 +167,7 @@ class ReducedCoordinates:
         """
         directions = np.zeros((self.values.size, self.size))
         directions[self.terms.twists] = self.basis
-        exact = self.terms.exact_columns(self.values, directions)
+        exact = self._along(directions)
         if exact is not None:
             return exact
         columns = []
@@ -160,7 +182,7 @@ class ReducedCoordinates:
     def memory_columns(self) -> Array:
         """d(accelerations, memory rates) / d(memory states), which is linear."""
         terms = self.terms
-        exact = terms.exact_columns(self.values, np.eye(self.values.size)[:, terms.memory])
+        exact = None if self._exact is None else self._exact[:, terms.memory]
         if exact is not None:
             return exact
         scale = np.array(terms.model.scale)
@@ -190,17 +212,23 @@ class ReducedCoordinates:
         ndarray, ndarray, shape (n, k)
             These combinations, of the drift and of the n states.
         """
-        terms, scales = self.terms, self.terms.load_scales
-        if not len(scales):
+        if not len(self.terms.load_scales):
             none = np.zeros((0, 0))
             return self.stiffness(), none, none
-        last = slice(-len(scales), None)
-        poses, states = self.pose_columns(), self.memory_columns()[:, last] * scales
-        u, size, vt = np.linalg.svd(states[last] / scales[:, None])
+        whole, dof = self.static_matrix(), self.size
+        u, size, vt = np.linalg.svd(whole[dof:, dof:])
         rows, columns = u[:, size > NEUTRAL], vt[size > NEUTRAL].T
-        both = np.hstack([poses, states @ columns])
-        accelerations = self.basis.T @ both[: 6 * terms.bodies]
-        return np.vstack([accelerations, rows.T @ (both[last] / scales[:, None])]), rows, columns
+        both = np.hstack([whole[:, :dof], whole[:, dof:] @ columns])
+        return np.vstack([both[:dof], rows.T @ both[dof:]]), rows, columns
+
+    def static_matrix(self) -> Array:
+        """d(accelerations, rates of the states of loads) / d(coordinates, these states over their scales)."""
+        scales = self.terms.load_scales
+        if not len(scales):
+            return self.stiffness()
+        last = slice(-len(scales), None)
+        both = np.hstack([self.pose_columns(), self.memory_columns()[:, last] * scales])
+        return np.vstack([self.basis.T @ both[: 6 * self.terms.bodies], both[last] / scales[:, None]])
 
     def _difference(self, *, displacement: Array | float = 0.0, twist: Array | float = 0.0) -> Array:
         terms, y, still = self.terms, self.values, np.zeros(6 * self.terms.bodies)
