@@ -10,13 +10,14 @@ from seacrane.analysis.reduced_coordinates import ReducedCoordinates, Terms, at_
 
 Array = NDArray[np.float64]
 LARGEST_MOVE = 0.5  # m and rad in one step
-MOST_STEPS = 400
+MOST_STEPS = 800
 SETTLED = 1e-3  # m/s2, rad/s2 and 1/s: from here on Newton's method converges
 FIRST_STEP = 0.1  # s
 LONGEST_STEP = 100.0
 GROWTH = (0.2, 4.0)  # of a step to the next
 AHEAD = 0.9  # cosine between forces: the motion goes on as before
 SHORTER, LONGER = 0.5, 1.5
+RETURN = 1.15  # of the longest step, at each step that is none
 BEYOND = 1.5  # 1/step^2 over the fastest growth
 
 
@@ -29,7 +30,7 @@ def relaxed(model: _core.Model, time: float, values: Array) -> Array | None:
     """
     terms = Terms(model, time=time)
     y = terms.evaluator.project(time, at_rest(model, values))
-    step, last = FIRST_STEP, np.zeros(0)
+    step, most, last = FIRST_STEP, LONGEST_STEP, np.zeros(0)
     for _ in range(MOST_STEPS):
         coordinates = ReducedCoordinates.at(terms, y)
         force = np.concatenate([coordinates.basis.T @ terms.acceleration(y), terms.drift(y)])
@@ -38,7 +39,10 @@ def relaxed(model: _core.Model, time: float, values: Array) -> Array | None:
             return None
         if size < SETTLED:
             return y
-        step = min(step * _growth(force, last), LONGEST_STEP)
+        growth = _growth(force, last)
+        # What swings to and fro at one step does so again: steps as long come back only slowly.
+        most = min(most * RETURN, LONGEST_STEP) if growth > SHORTER else max(SHORTER * step, FIRST_STEP)
+        step = min(step * growth, most)
         last = force
         moved = _moved(terms, coordinates, force, step)
         if moved is None:
@@ -56,7 +60,7 @@ def _growth(force: Array, last: Array) -> float:
     if cosine > AHEAD:
         return max(LONGER, min(sizes[0] / sizes[1], GROWTH[1]))
     if sizes[1] > SHORTER * sizes[0] and cosine < SHORTER:
-        return SHORTER
+        return min(SHORTER, sizes[0] / sizes[1])
     return float(np.clip(sizes[0] / sizes[1], *GROWTH))
 
 

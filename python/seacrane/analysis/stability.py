@@ -14,6 +14,7 @@ from seacrane.description.hydraulic_cylinders import hydraulic_cylinders
 from seacrane.description.scene import Description
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.frames import MOTIONS
+from seacrane.validity.stability import CreepingRestWarning, UnstableRestWarning
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -21,14 +22,6 @@ LEAST_GROWTH = 1e-3  # 1/s: what takes ten minutes to double is not told
 LEAST_CREEP = 1e-6  # m/s
 CHAMBERS = ("pressure", "pressure_rod")
 LEAST_SHARE = 1e-6  # of |eigenvalue|, of an oscillation that grows: less is rounding
-
-
-class UnstableRestWarning(UserWarning):
-    """A state of rest at which the scene does not stay: the least disturbance grows."""
-
-
-class CreepingRestWarning(UserWarning):
-    """A state of rest from which something creeps, as a hydraulic cylinder that leaks."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -49,13 +42,18 @@ class Growing:
     @property
     def words(self) -> str:
         """As "grows, doubling in 87 s"."""
-        doubling = f"grows, doubling in {np.log(2.0) / self.value.real:.3g} s"
-        if self.value.imag == 0.0:
-            return doubling
-        return f"swings with {2.0 * np.pi / abs(self.value.imag):.3g} s and {doubling}"
+        return growth_in_words(self.value)
 
 
-def grows(values: Complex) -> NDArray[np.bool_]:
+def growth_in_words(value: complex) -> str:
+    """Of an eigenvalue (1/s) that grows, as "grows, doubling in 87 s"."""
+    doubling = f"grows, doubling in {np.log(2.0) / value.real:.3g} s"
+    if value.imag == 0.0:
+        return doubling
+    return f"swings with {2.0 * np.pi / abs(value.imag):.3g} s and {doubling}"
+
+
+def grows(values: Array | Complex) -> NDArray[np.bool_]:
     """Which of these eigenvalues (1/s) grow; of a pair the one with the positive imaginary part."""
     least = np.maximum(LEAST_GROWTH, LEAST_SHARE * np.abs(values))
     return np.asarray((values.real > least) & (values.imag >= 0.0))

@@ -11,7 +11,6 @@ from seacrane.crane.add_crane import add_crane
 from seacrane.description import (
     bodies,
     clearances,
-    compilation,
     crane_parts,
     damping,
     drives,
@@ -27,6 +26,7 @@ from seacrane.description import (
 from seacrane.description.scene import Description
 from seacrane.scene import (
     bridles,
+    compiling,
     drift,
     given_vessel,
     heave,
@@ -121,7 +121,7 @@ class Scene(Description):
 
     place_of = places.place_of
 
-    compile = compilation.compile_scene
+    compile = compiling.compile_scene
     replace = edit.replace_element
     remove = edit.remove_element
 
