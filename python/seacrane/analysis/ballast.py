@@ -17,17 +17,25 @@ from seacrane.analysis.tanks import Tank, fills, tanks_of
 from seacrane.description.compilation import compile_scene
 from seacrane.description.forces import add_point_force
 from seacrane.description.given import given_vessels
+from seacrane.description.outline import ship_size
 from seacrane.description.scene import Description
 from seacrane.errors import SceneError
+from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.checked import name_of, number_of
 from seacrane.inputs.frames import rotation_matrix
 from seacrane.plotting.text import text_table
+from seacrane.validity.stability import warn_of_capsize
 
 Array = NDArray[np.float64]
 EXACT = 1e-9  # rad: heel and trim for which the moment that is left would account
 MOST_ROUNDS = 30
 LARGEST = np.radians(20.0)  # of a heel or trim that linear restoring tells
 ATTITUDE = ("roll", "pitch")
+MARGIN = 0.1  # of half the hull, by which ballast is outside
+
+
+class BallastOutsideHullWarning(UserWarning):
+    """Ballast was put where the ship has no room for it."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -107,6 +115,13 @@ def add_ballast(
     SceneError
         Where tanks do not suffice, naming the one that would overflow or run dry; where nothing is carried
         and there are no tanks; or where the scene does not come to rest.
+
+    Warns
+    -----
+    BallastOutsideHullWarning
+        For ballast that would be outside the ship.
+    UnstableRestWarning
+        Where the weights on the vessel outweigh its restoring.
     """
     vessel = _vessel(scene, body)
     target = np.radians([_angle("heel_deg", heel_deg), _angle("trim_deg", trim_deg)])
@@ -117,7 +132,26 @@ def add_ballast(
         add_point_force(
             scene, name=f"{name} {key}".rstrip(), body=vessel.body, point=point, force=(0.0, 0.0, force)
         )
-    return kind.told(found, target)
+    told = kind.told(found, target)
+    places = {"the force": told.center} if tanks is None else {f"tank {n!r}": t.point for n, t in tanks.items()}
+    _warn_of_places(scene.bodies[vessel.body], places)
+    warn_of_capsize(scene)
+    return told
+
+
+def _warn_of_places(hull: _core.Body, places: Mapping[str, Any]) -> None:
+    """Warn of ballast outside the hull that radii of gyration suggest."""
+    half = 0.5 * np.array(ship_size(hull))
+    for what, place in places.items():
+        beyond = np.abs(np.asarray(place, dtype=float)[:2]) - half
+        if np.any(beyond > MARGIN * half):
+            warn_caller(
+                f"ballast of {hull.name!r}: {what} is at {place[0]:.4g} m forward and {place[1]:.4g} m to port, "
+                f"{float(beyond.max()):.3g} m outside a hull of about {2 * half[0]:.0f} x {2 * half[1]:.0f} m: "
+                "no tank is there. Give tanks within the hull, or ask for less heel or trim",
+                BallastOutsideHullWarning,
+            )
+            return
 
 
 def _vessel(scene: Description, body: str | None) -> _core.VesselHydrodynamics:

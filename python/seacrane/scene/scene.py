@@ -37,6 +37,7 @@ from seacrane.scene import (
     luffing,
     position,
     sea,
+    slack_tank,
     table_text,
     vessel,
     wind_current,
@@ -106,6 +107,7 @@ class Scene(Description):
 
     add_vessel = vessel.add_vessel
     add_given_vessel = given_vessel.add_given_vessel
+    add_slack_tank = slack_tank.add_slack_tank
     add_sea = sea.add_sea
     add_ballast = add_ballast
     add_drift = drift.add_drift
