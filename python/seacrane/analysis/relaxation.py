@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -12,6 +14,7 @@ Array = NDArray[np.float64]
 LARGEST_MOVE = 0.5  # m and rad in one step
 MOST_STEPS = 800
 SETTLED = 1e-3  # m/s2, rad/s2 and 1/s: from here on Newton's method converges
+UPRIGHT = 1.4  # rad
 FIRST_STEP = 0.1  # s
 LONGEST_STEP = 100.0
 GROWTH = (0.2, 4.0)  # of a step to the next
@@ -21,8 +24,12 @@ RETURN = 1.15  # of the longest step, at each step that is none
 BEYOND = 1.5  # 1/step^2 over the fastest growth
 
 
-def relaxed(model: _core.Model, time: float, values: Array) -> Array | None:
+def relaxed(
+    model: _core.Model, time: float, values: Array, *, capsized: Callable[[Array], float]
+) -> Array | None:
     """A state near rest that a damped motion from `values` comes to; None where it does not settle.
+
+    `capsized` tells by how much (rad) a vessel is turned: beyond `UPRIGHT` there is no rest to be found.
 
     Implicit steps h of a motion without inertia from step to step, (1/h^2 - dF/dq) dq = F in minimal
     coordinates, and (1/h - dr/dx) dx = r of the states that loads have. A load that nothing holds yet falls
@@ -33,9 +40,10 @@ def relaxed(model: _core.Model, time: float, values: Array) -> Array | None:
     step, most, last = FIRST_STEP, LONGEST_STEP, np.zeros(0)
     for _ in range(MOST_STEPS):
         coordinates = ReducedCoordinates.at(terms, y)
-        force = np.concatenate([coordinates.basis.T @ terms.acceleration(y), terms.drift(y)])
+        acceleration, drift = terms.acceleration_and_drift(y)
+        force = np.concatenate([coordinates.basis.T @ acceleration, drift])
         size = float(np.max(np.abs(force), initial=0.0))
-        if not np.isfinite(size):
+        if not np.isfinite(size) or capsized(y) > UPRIGHT:
             return None
         if size < SETTLED:
             return y

@@ -3,17 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
+from functools import partial
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from seacrane import _core
-from seacrane.analysis.no_rest import why_none
+from seacrane.analysis.no_rest import most_turned, why_none
 from seacrane.analysis.reduced_coordinates import NEUTRAL, ReducedCoordinates, Terms, at_rest
 from seacrane.analysis.relaxation import relaxed
 from seacrane.analysis.rest_on_oil import rest_on_oil
-from seacrane.analysis.stability import warn_of_growth, warn_of_leaks
+from seacrane.analysis.stability import warn_of_rest
 from seacrane.analysis.taut_lines import kept_lengths, tautened, unbounded
 from seacrane.description.compilation import compile_scene
 from seacrane.description.hydraulic_cylinders import hydraulic_cylinders
@@ -23,6 +24,7 @@ from seacrane.errors import SceneError
 from seacrane.inputs.checked import number_of
 
 Array = NDArray[np.float64]
+Rest = tuple[_core.Model, _core.State]
 CONVERGED = 1e-9  # m/s2 and rad/s2
 ROUNDED = 1e-6  # likewise, where no step is left that the digits of positions can hold
 CREEP = 1e-8  # likewise, in which a minute is 0.02 mm; and 1/s, of the states of loads
@@ -105,34 +107,40 @@ def equilibrium(scene: Description, *, state: _core.State | None = None, time: f
     -----
     UnstableRestWarning
         If the scene rests there as a pencil on its tip: what grows, and how fast.
+    LargeHeelWarning
+        If a vessel heels or trims by more than 20 deg there, beyond which restoring is not linear.
     CreepingRestWarning
         If a hydraulic cylinder leaks, so that what it holds creeps from there.
     """
     if state is not None:
-        found = rest_from(scene, state)
+        found = _rest(scene, float(state.time), state_values(scene, state))
     else:
         end = number_of("equilibrium: time", time)
         if not (np.isfinite(end) and end >= 0.0):
             raise SceneError(f"equilibrium: time is {end} s; give a finite time, zero or later")
-        found = next(rest_states(scene, times=[end]))
-    still = held(scene, time=found.time)
-    warn_of_growth("equilibrium", still, found)
-    warn_of_leaks("equilibrium", still, found)
-    return found
+        found = next(_rests(scene, [end]))
+    warn_of_rest("equilibrium", scene, *found)
+    return found[1]
 
 
 def rest_from(scene: Description, state: _core.State) -> _core.State:
     """The state at rest near another one, whether the scene stays there or not."""
-    return _rest(scene, float(state.time), state_values(scene, state))
+    return _rest(scene, float(state.time), state_values(scene, state))[1]
 
 
 def rest_states(scene: Description, *, times: Iterable[float]) -> Iterator[_core.State]:
     """States at rest at times that increase, each found from the one before along the references."""
+    for _, state in _rests(scene, times):
+        yield state
+
+
+def _rests(scene: Description, times: Iterable[float]) -> Iterator[Rest]:
     found = _rest(scene, 0.0, None)
     for time in times:
-        stages = min(int(np.ceil((time - found.time) / STAGE)), MOST_STAGES)
-        for stage in np.linspace(found.time, time, stages + 1)[1:]:
-            found = _rest(scene, float(stage), _followed(scene, found, float(stage)))
+        start = found[1].time
+        stages = min(int(np.ceil((time - start) / STAGE)), MOST_STAGES)
+        for stage in np.linspace(start, time, stages + 1)[1:]:
+            found = _rest(scene, float(stage), _followed(scene, found[1], float(stage)))
         yield found
 
 
@@ -160,35 +168,37 @@ def state_values(scene: Description, state: Any) -> Array:
     return np.array(state.values)
 
 
-def _rest(scene: Description, time: float, values: Array | None) -> _core.State:
+def _rest(scene: Description, time: float, values: Array | None) -> Rest:
     still = held(scene, time=time)
     model = compile_scene(still)
     y = np.array(model.initial_state) if values is None else Terms(model, time=time).checked(values)
     if hydraulic_cylinders(scene):
-        return rest_on_oil(still, time, y, _rest)
-    lines = lines_of(scene.loads)
-    return _hung(still, time, y) if lines else _searched(still, model, time, y)
+        return model, rest_on_oil(still, time, y, lambda *given: _rest(*given)[1])
+    if lines_of(scene.loads):
+        return _hung(still, model, time, y)
+    return model, _searched(still, model, time, y)
 
 
-def _hung(still: Some, time: float, values: Array) -> _core.State:
+def _hung(still: Description, model: _core.Model, time: float, values: Array) -> Rest:
     """Likewise with elastic lines, those that are slack by little taken as taut at first."""
     free = unbounded(still)
+    model = model if free is still else compile_scene(free)
     taut, y = tautened(free, values), values
     if taut is not None:
         try:
             y = np.array(_searched(taut[0], compile_scene(taut[0]), time, taut[1]).values)
         except SceneError:
             y = values
-        stay = kept_lengths(free, compile_scene(free))
+        stay = kept_lengths(free, model)
         y[stay] = values[stay]
-    return _searched(free, compile_scene(free), time, y)
+    return model, _searched(free, model, time, y)
 
 
-def _searched(scene: Some, model: _core.Model, time: float, values: Array) -> _core.State:
+def _searched(scene: Description, model: _core.Model, time: float, values: Array) -> _core.State:
     """By Newton's method, and where it comes to nothing from where a damped motion ends."""
     found, stuck = _search(model, time, values)
     if found is None:
-        near = relaxed(model, time, values)
+        near = relaxed(model, time, values, capsized=partial(most_turned, scene, model))
         found, stuck = (None, stuck) if near is None else _search(model, time, near)
     if found is None:
         raise SceneError(f"scene {model.name!r}: no rest state found; {why_none(scene, model, time, stuck)}")
@@ -202,15 +212,14 @@ def _search(model: _core.Model, time: float, values: Array) -> tuple[_core.State
     y = terms.evaluator.project(time, y)
     before = np.inf
     for steps in range(MOST_STEPS):
-        coordinates = ReducedCoordinates.at(terms, y)
-        acceleration = terms.acceleration(y)
-        drift = terms.drift(y)
+        acceleration, drift = terms.acceleration_and_drift(y)
         moving = float(np.max(np.abs(acceleration)))
         drifting = float(np.max(np.abs(drift), initial=0.0))
         if moving < CONVERGED and drifting < CONVERGED:
             return _found(model, time, y), y
         if not np.isfinite(moving):
             break
+        coordinates = ReducedCoordinates.at(terms, y)
         matrix, rows, columns = coordinates.rest_matrix()
         u, size, vt = np.linalg.svd(matrix)
         fixed = size > NEUTRAL

@@ -8,12 +8,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane import _core
+from seacrane.analysis.no_rest import most_turned
 from seacrane.analysis.reduced_coordinates import NEUTRAL, ReducedCoordinates, Terms
-from seacrane.description.compilation import compile_scene
 from seacrane.description.hydraulic_cylinders import hydraulic_cylinders
 from seacrane.description.scene import Description
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.frames import MOTIONS
+from seacrane.validity.range import LARGEST_HEEL, LargeHeelWarning
 from seacrane.validity.stability import CreepingRestWarning, UnstableRestWarning
 
 Array = NDArray[np.float64]
@@ -66,12 +67,13 @@ def growing(scene: Description, model: _core.Model, state: _core.State) -> list[
     oscillation can too. Those that valves feed are left to `UnsteadyOilWarning`: a valve has two slopes.
     """
     terms = Terms(model, time=state.time)
-    coordinates = ReducedCoordinates.at(terms, np.asarray(state.values))
-    if not np.all(np.isfinite(coordinates.static_matrix())):
+    coordinates = ReducedCoordinates.quickly_at(terms, np.asarray(state.values))
+    matrix = coordinates.static_matrix()
+    if not np.all(np.isfinite(matrix)):
         return []
     if not len(terms.load_scales):
-        values, vectors = np.linalg.eig(coordinates.stiffness())
-        tips = (values.real > LEAST_GROWTH**2) & (np.abs(values.imag) <= NEUTRAL * np.abs(values))
+        squares = np.linalg.eigvals(matrix)
+        tips = (squares.real > LEAST_GROWTH**2) & (np.abs(squares.imag) <= NEUTRAL * np.abs(squares))
         if not np.any(tips):
             return []
     values, vectors = _modes(coordinates)
@@ -113,9 +115,9 @@ def label_of(coordinates: ReducedCoordinates, vector: Complex) -> str:
     return f"{terms.model.bodies[body]} {MOTIONS[way]}"
 
 
-def warn_of_growth(what: str, scene: Description, state: _core.State) -> None:
-    """Warn where a state of rest of a scene is not one at which it stays; `scene`: held."""
-    found = growing(scene, compile_scene(scene), state)
+def warn_of_rest(what: str, scene: Description, model: _core.Model, state: _core.State) -> None:
+    """Warn of a state of rest at which the scene does not stay, that leaks, or where a ship heels too far."""
+    found = growing(scene, model, state)
     if found:
         warn_caller(
             f"{what}: scene {scene.name!r} does not stay at this rest: {found[0].label} {found[0].words}. "
@@ -123,11 +125,20 @@ def warn_of_growth(what: str, scene: Description, state: _core.State) -> None:
             "search from a state on the side to which it falls",
             UnstableRestWarning,
         )
+    turned = most_turned(scene, model, np.asarray(state.values))
+    if turned > LARGEST_HEEL:
+        warn_caller(
+            f"{what}: scene {scene.name!r} rests with a vessel that leans by {np.degrees(turned):.3g} deg, "
+            f"beyond {np.degrees(LARGEST_HEEL):.0f} deg: restoring is linear, so that a ship may have no rest "
+            "there, or capsize. Add ballast (Scene.add_ballast), or lower the weights",
+            LargeHeelWarning,
+        )
+    _warn_of_leaks(what, scene, model, state)
 
 
-def warn_of_leaks(what: str, scene: Description, state: _core.State) -> None:
+def _warn_of_leaks(what: str, scene: Description, model: _core.Model, state: _core.State) -> None:
     """Warn of hydraulic cylinders that creep from where they rest, as they leak."""
-    places = {name: place for name, _, place, *_ in compile_scene(scene).load_states}
+    places = {name: place for name, _, place, *_ in model.load_states}
     for name, one in hydraulic_cylinders(scene).items():
         full, rod = (float(state.values[places[f"{name}.{chamber}"]]) for chamber in CHAMBERS)
         across = one.internal_leakage * (full - rod)
