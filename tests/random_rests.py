@@ -17,6 +17,7 @@ OIL: dict[str, Any] = {
     "viscous_friction": 2e6,
 }  # fmt: skip
 SHIP = "vessel"
+AHEAD = np.array([1.0, 0.0, 0.0])
 
 
 class Builder:
@@ -102,12 +103,12 @@ class Builder:
         mass = self.magnitude(2e3, 2e4)
         self.scene.add_body(
             name="arm", mass=mass, inertia=np.diag([0.01, 1.0, 1.0]) * mass * reach**2 / 12.0,
-            position=foot + [0.5 * reach, 0.0, 0.0],
+            position=foot + 0.5 * reach * AHEAD,
         )  # fmt: skip
         self.scene.add_joint(
             kind="revolute", name="hinge", first=self.base, second="arm", point=foot, axis=(0, 1, 0)
         )
-        low, high = foot + [1.0, 0.0, -4.0], foot + [0.4 * reach, 0.0, 0.0]
+        low, high = foot + np.array([1.0, 0.0, -4.0]), foot + 0.4 * reach * AHEAD
         apart = float(np.linalg.norm(high - low))
         self.ram = {
             "name": "ram", "first": self.base, "second": "arm", "first_point": low,
@@ -120,11 +121,11 @@ class Builder:
         return "arm", np.array([0.5 * reach, 0.0, 0.0])
 
     def hang(self) -> None:
-        """A load on a line of some falls, too long, too short or as it is; on a winch that may hold a tension."""
+        """A load on a line of some falls, too long, too short or as it is, perhaps on a winch."""
         mass, drop = self.magnitude(2e3, 2e5), self.between(5.0, 15.0)
         place = np.asarray(self.scene.place_of(body=self.tip, point=self.head)) - [0.0, 0.0, drop]
         if self.chance(0.3):
-            place = place + [self.between(-2.0, 2.0), self.between(-2.0, 2.0), 0.0]
+            place = place + np.array([self.between(-2.0, 2.0), self.between(-2.0, 2.0), 0.0])
         size = self.between(1.0, 4.0)
         self.scene.add_body(
             name="load", mass=mass, inertia=mass * size**2 * self.rng.uniform(0.15, 0.25, 3), position=place
@@ -134,7 +135,7 @@ class Builder:
         bodies = ([self.tip, "load"] * 2)[: falls + 1]
         top = np.array([0.0, 0.0, 0.5 * size * self.chance(0.7)])
         points = [self.head if body == self.tip else top for body in bodies]
-        points = [np.asarray(p) + [0.3 * (i > 1), 0.0, 0.0] for i, p in enumerate(points)]
+        points = [np.asarray(p) + 0.3 * (i > 1) * AHEAD for i, p in enumerate(points)]
         stiffness = mass * G / self.magnitude(5e-4, 5e-3)
         given: dict[str, Any] = {"tension_at_start": mass * G / falls}
         if self.chance(0.5):
@@ -142,7 +143,7 @@ class Builder:
         if self.chance(0.15) and falls == 1:
             self.scene.add_heavy_line(
                 name="hoist", bodies=bodies, points=points, stiffness=stiffness, segments=4,
-                length=(drop - top[2]) * self.between(0.99, 1.02), mass_per_length=self.between(5.0, 40.0),
+                length=(drop - top[2]) * self.between(0.99, 1.009), mass_per_length=self.between(5.0, 40.0),
             )  # fmt: skip
             return
         self.scene.add_line(
@@ -164,7 +165,7 @@ class Builder:
         self.scene.add_winch(line=line, maximum_rate=self.between(0.2, 2.0), **given)
 
     def tug(self) -> None:
-        """Taglines to the base or the ground: fixed or on tuggers that hold a tension, slack at first or not."""
+        """Taglines to the base: fixed, or on tuggers that hold a tension; slack at first or not."""
         load = self.loads[0]
         place = np.asarray(self.scene.bodies[load].position)
         weight = self.scene.bodies[load].mass * G
@@ -205,7 +206,8 @@ class Builder:
     def hang_below(self) -> None:
         """A second load below the first, on slings."""
         above = self.scene.bodies["load"]
-        mass, drop, half = above.mass * self.between(0.1, 1.0), self.between(4.0, 10.0), self.between(0.5, 2.0)
+        mass, drop = above.mass * self.between(0.1, 1.0), self.between(4.0, 10.0)
+        half = self.between(0.5, 2.0)
         place = np.asarray(above.position) - [0.0, 0.0, drop]
         self.scene.add_body(
             name="below", mass=mass, inertia=mass * half**2 * np.array([0.5, 0.5, 0.6]), position=place

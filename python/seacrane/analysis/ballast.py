@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from seacrane import _core
 from seacrane.analysis.crane_poses import path_through, places_of, posed
 from seacrane.analysis.inverse import drive_loads, hold_vessel, weight_of
-from seacrane.analysis.rest_state import held, rest_states
+from seacrane.analysis.rest_state import held, rest_from, rest_states
 from seacrane.analysis.tanks import Tank, fills, tanks_of
 from seacrane.description.compilation import compile_scene
 from seacrane.description.forces import add_point_force
@@ -133,7 +133,9 @@ def add_ballast(
             scene, name=f"{name} {key}".rstrip(), body=vessel.body, point=point, force=(0.0, 0.0, force)
         )
     told = kind.told(found, target)
-    places = {"the force": told.center} if tanks is None else {f"tank {n!r}": t.point for n, t in tanks.items()}
+    places: dict[str, Any] = {"the force": told.center}
+    if tanks is not None:
+        places = {f"tank {key!r}": tank.point for key, tank in tanks.items()}
     _warn_of_places(scene.bodies[vessel.body], places)
     warn_of_capsize(scene)
     return told
@@ -146,9 +148,10 @@ def _warn_of_places(hull: _core.Body, places: Mapping[str, Any]) -> None:
         beyond = np.abs(np.asarray(place, dtype=float)[:2]) - half
         if np.any(beyond > MARGIN * half):
             warn_caller(
-                f"ballast of {hull.name!r}: {what} is at {place[0]:.4g} m forward and {place[1]:.4g} m to port, "
-                f"{float(beyond.max()):.3g} m outside a hull of about {2 * half[0]:.0f} x {2 * half[1]:.0f} m: "
-                "no tank is there. Give tanks within the hull, or ask for less heel or trim",
+                f"ballast of {hull.name!r}: {what} is at {place[0]:.4g} m forward and {place[1]:.4g} m to "
+                f"port, {float(beyond.max()):.3g} m outside a hull of about {2 * half[0]:.0f} x "
+                f"{2 * half[1]:.0f} m: no tank is there. Give tanks within the hull, or ask for less heel or "
+                "trim",
                 BallastOutsideHullWarning,
             )
             return
@@ -253,11 +256,14 @@ class _Tanks:
 def _fitted(
     scene: Description, vessel: _core.VesselHydrodynamics, target: Array, kind: _Force | _Tanks
 ) -> Array:
-    """The unknowns with which no moment is left at the target, by a chord method from rest to rest."""
+    """The unknowns with which no moment is left at the target, by a chord method from rest to rest.
+
+    Each begins at the one before: a load that may rest in two ways stays in one.
+    """
     restoring = np.diag(vessel.restoring)[3:5]
-    found = kind.start()
+    found, rest = kind.start(), None
     for _ in range(MOST_ROUNDS):
-        left = _moments_left(scene, vessel, target, kind.forces(found))
+        left, rest = _moments_left(scene, vessel, target, kind.forces(found), rest)
         if np.all(np.abs(left) <= EXACT * restoring):
             return found
         found = kind.solve(kind.moments @ found + left)
@@ -272,8 +278,9 @@ def _moments_left(
     vessel: _core.VesselHydrodynamics,
     target: Array,
     forces: Mapping[str, tuple[Any, float]],
-) -> Array:
-    """What a drive in roll and one in pitch still carry at rest at the target, N m."""
+    near: _core.State | None,
+) -> tuple[Array, _core.State]:
+    """What a drive in roll and one in pitch still carry at rest at the target, N m; and that rest."""
     out = posed(scene.copy(orientation="quaternion"), _places(scene), {})
     for i, (point, force) in enumerate(forces.values()):
         add_point_force(
@@ -282,9 +289,9 @@ def _moments_left(
     angles = {motion: ("", "angle") for motion in ATTITUDE}
     path, times = path_through(angles, [dict(zip(ATTITUDE, target.tolist(), strict=True))])
     hold_vessel(out, vessel.body, path)
-    state = next(iter(rest_states(out, times=times.tolist())))
+    state = next(rest_states(out, times=times.tolist())) if near is None else rest_from(out, near)
     names = [f"{vessel.body}.motion.{motion}" for motion in ATTITUDE]
-    return drive_loads(compile_scene(held(out, time=state.time)), names, state)
+    return drive_loads(compile_scene(held(out, time=state.time)), names, state), state
 
 
 def _places(scene: Description) -> dict[str, tuple[str, str]]:

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from seacrane import _core
 from seacrane.analysis.linear_system import LinearModel, linear_model
-from seacrane.analysis.stability import growth_in_words, grows
+from seacrane.analysis.stability import grows, growth_in_words
 from seacrane.description.scene import Description
 from seacrane.inputs.frames import MOTIONS
 
@@ -144,7 +144,8 @@ class NaturalModes:
         if not len(share) or share.max() < LEAST_SHARE:
             return "does not oscillate"
         mode = int(share.argmax())
-        return f"in {self.label(mode)!r} of {self.natural_period[mode]:.3f} s, {share[mode]:.0%} of its energy"
+        period = self.natural_period[mode]
+        return f"in {self.label(mode)!r} of {period:.3f} s, {share[mode]:.0%} of its energy"
 
 
 def _label(bodies: tuple[str, ...], energy: Array) -> str:
@@ -257,15 +258,15 @@ def _modes(linear: LinearModel) -> NaturalModes:
 
 def _shapes(linear: LinearModel, free: Array, values: Complex, right: Complex) -> tuple[Complex, Complex]:
     """Eigenvectors in x and motions of the bodies, a row each, the largest entry of a motion being 1."""
-    vectors = (free @ right).T.astype(complex)
+    vectors: Complex = (free @ right).T.astype(np.complex128)
     dof = linear.degrees_of_freedom
     along = linear.neutral @ linear.neutral.T
     rate = np.where(values == 0.0, 1.0, values)
     vectors[:, :dof] += vectors[:, dof : 2 * dof] @ along / rate[:, None]
-    motion = vectors[:, :dof] @ linear.basis.T
+    motion: Complex = vectors[:, :dof] @ linear.basis.T
     largest = motion[np.arange(len(motion)), np.argmax(np.abs(motion), axis=1)]
     largest = np.where(largest == 0.0, 1.0, largest)
-    return vectors / largest[:, None], motion / largest[:, None]
+    return np.asarray(vectors / largest[:, None]), np.asarray(motion / largest[:, None])
 
 
 def _without_neutral_positions(linear: LinearModel) -> Array:

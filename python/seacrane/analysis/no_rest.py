@@ -23,9 +23,9 @@ def why_none(scene: Description, model: _core.Model, time: float, values: Array)
     turned = most_turned(scene, model, values)
     if turned > LARGEST_HEEL:
         return (
-            f"a vessel has turned by {np.degrees(turned):.0f} deg on the way, where restoring is not linear: it "
-            "capsizes, or lacks ballast. Look at seacrane.statics(scene), add ballast (Scene.add_ballast), or "
-            "lower the weights"
+            f"a vessel has turned by {np.degrees(turned):.0f} deg on the way, where restoring is not linear: "
+            "it capsizes, or lacks ballast. Look at seacrane.statics(scene), add ballast "
+            "(Scene.add_ballast), or lower the weights"
         )
     terms = Terms(model, time=time)
     acceleration, drift = terms.acceleration(values), np.abs(terms.drift(values))

@@ -129,8 +129,8 @@ def warn_of_rest(what: str, scene: Description, model: _core.Model, state: _core
     if turned > LARGEST_HEEL:
         warn_caller(
             f"{what}: scene {scene.name!r} rests with a vessel that leans by {np.degrees(turned):.3g} deg, "
-            f"beyond {np.degrees(LARGEST_HEEL):.0f} deg: restoring is linear, so that a ship may have no rest "
-            "there, or capsize. Add ballast (Scene.add_ballast), or lower the weights",
+            f"beyond {np.degrees(LARGEST_HEEL):.0f} deg: restoring is linear, so that a ship may have no "
+            "rest there, or capsize. Add ballast (Scene.add_ballast), or lower the weights",
             LargeHeelWarning,
         )
     _warn_of_leaks(what, scene, model, state)

@@ -1,4 +1,4 @@
-"""What is wrong with rest states that statics tells: those that do not last, and heel beyond linear restoring."""
+"""What is wrong with rest states that statics tells: those that do not last, and too much heel."""
 
 from __future__ import annotations
 
@@ -43,9 +43,9 @@ class RestJudge:
         if self._falling:
             worst, told = max(self._falling, key=lambda one: one[0].value.real)
             warn_caller(
-                f"statics: scene {self._name!r} does not stay at rest in {len(self._falling)} of {self._poses} "
-                f"poses; {told or 'as described'}: {worst.label} {worst.words}. Lower the weights, take less "
-                "on the hook, or hold what tips over",
+                f"statics: scene {self._name!r} does not stay at rest in {len(self._falling)} of "
+                f"{self._poses} poses; {told or 'as described'}: {worst.label} {worst.words}. Lower "
+                "the weights, take less on the hook, or hold what tips over",
                 UnstableRestWarning,
             )
         if self._heeled:

@@ -156,12 +156,12 @@ def statics(
     -------
     Statics
         heel (deg; positive lifts port), trim (deg; positive lowers the bow), draught change (m, of the
-        reference point from its place at rest in the database), GM (m), GM solid and GM spread (m, where tanks
-        are slack), tip radius (m), tip height (m, above
-        z = 0), hook load (t), link tension (kN), cylinder forces (kN, positive pushes), slew torque (kN m).
+        reference point from its place at rest in the database), GM (m), GM solid and GM spread (m, where
+        tanks are slack), tip radius (m), tip height (m, above z = 0), hook load (t), link tension (kN),
+        cylinder forces (kN, positive pushes), slew torque (kN m).
         GM is the heeling moment for each radian over the displaced weight, with loads free to swing: a load
-        that hangs counts at its tip, and so does the free surface of tanks. GM solid is without free surfaces;
-        GM spread is the largest less the smallest GM over the ways of fitting the database's tanks.
+        that hangs counts at its tip, and so does the free surface of tanks. GM solid is without free
+        surfaces; GM spread is the largest less the smallest GM over the fits of the database's tanks.
 
     Raises
     ------

@@ -48,7 +48,9 @@ def add_slack_tank(
     chosen = {name: one for name, one in floating.items() if body in (None, one.body)}
     if len(chosen) != 1:
         known = ", ".join(repr(one.body) for one in floating.values()) or "none"
-        raise SceneError(f"slack tank: body is {body!r}, and the vessels afloat are {known}; name one of them")
+        raise SceneError(
+            f"slack tank: body is {body!r}, and the vessels afloat are {known}; name one of them"
+        )
     name, vessel = next(iter(chosen.items()))
     restoring = np.array(vessel.restoring)
     taken = []
@@ -65,7 +67,7 @@ def add_slack_tank(
     scene.vessels[name] = changed
     if database is not None:
         remember(changed, database)
-    known = scene.provenance.get(name, VesselProvenance())
-    before = known.slack_tanks or (0.0, 0.0)
-    scene.provenance[name] = replace(known, slack_tanks=(before[0] + taken[0], before[1] + taken[1]))
+    source = scene.provenance.get(name, VesselProvenance())
+    before = source.slack_tanks or (0.0, 0.0)
+    scene.provenance[name] = replace(source, slack_tanks=(before[0] + taken[0], before[1] + taken[1]))
     return changed

@@ -45,8 +45,8 @@ def warn_of_capsize(scene: Description) -> None:
         left = restoring - lowered + raised
         if left < 0.0:
             warn_caller(
-                f"vessel {vessel.name!r}: has a GM of about {left / (hull.mass * scene.gravity):.3g} m with the "
-                "weights on it as described, and capsizes: its C44 holds its own weight alone. Lower the "
+                f"vessel {vessel.name!r}: has a GM of about {left / (hull.mass * scene.gravity):.3g} m with "
+                "the weights on it as described, and capsizes: its C44 holds its own weight alone. Lower the "
                 "weights, put less of them on it, or look at seacrane.statics",
                 UnstableRestWarning,
             )
