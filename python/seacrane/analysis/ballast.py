@@ -31,7 +31,8 @@ EXACT = 1e-9  # rad: heel and trim for which the moment that is left would accou
 MOST_ROUNDS = 30
 LARGEST = np.radians(20.0)  # of a heel or trim that linear restoring tells
 ATTITUDE = ("roll", "pitch")
-MARGIN = 0.1  # of half the hull, by which ballast is outside
+BESIDE = 0.1  # of half the hull, by which a tank is outside
+FAR = 1.0  # likewise of one force, which stands for weights on both sides
 
 
 class BallastOutsideHullWarning(UserWarning):
@@ -136,17 +137,17 @@ def add_ballast(
     places: dict[str, Any] = {"the force": told.center}
     if tanks is not None:
         places = {f"tank {key!r}": tank.point for key, tank in tanks.items()}
-    _warn_of_places(scene.bodies[vessel.body], places)
+    _warn_of_places(scene.bodies[vessel.body], places, FAR if tanks is None else BESIDE)
     warn_of_capsize(scene)
     return told
 
 
-def _warn_of_places(hull: _core.Body, places: Mapping[str, Any]) -> None:
+def _warn_of_places(hull: _core.Body, places: Mapping[str, Any], margin: float) -> None:
     """Warn of ballast outside the hull that radii of gyration suggest."""
     half = 0.5 * np.array(ship_size(hull))
     for what, place in places.items():
         beyond = np.abs(np.asarray(place, dtype=float)[:2]) - half
-        if np.any(beyond > MARGIN * half):
+        if np.any(beyond > margin * half):
             warn_caller(
                 f"ballast of {hull.name!r}: {what} is at {place[0]:.4g} m forward and {place[1]:.4g} m to "
                 f"port, {float(beyond.max()):.3g} m outside a hull of about {2 * half[0]:.0f} x "

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
 from functools import partial
 from typing import Any
 
@@ -14,7 +15,7 @@ from seacrane.analysis.no_rest import most_turned, why_none
 from seacrane.analysis.reduced_coordinates import NEUTRAL, ReducedCoordinates, Terms, at_rest
 from seacrane.analysis.relaxation import relaxed
 from seacrane.analysis.rest_on_oil import rest_on_oil
-from seacrane.analysis.stability import warn_of_rest
+from seacrane.analysis.stability import tips_over, warn_of_rest
 from seacrane.analysis.taut_lines import kept_lengths, tautened, unbounded
 from seacrane.description.compilation import compile_scene
 from seacrane.description.hydraulic_cylinders import hydraulic_cylinders
@@ -195,32 +196,48 @@ def _hung(still: Description, model: _core.Model, time: float, values: Array) ->
 
 
 def _searched(scene: Description, model: _core.Model, time: float, values: Array) -> _core.State:
-    """By Newton's method, and where it comes to nothing from where a damped motion ends."""
-    found, stuck = _search(model, time, values)
-    if found is None:
+    """By Newton's method, and where it comes to nothing, or to what tips over, from where a damped motion ends.
+
+    Newton's method goes to any rest: to a load that stands on its hook as well as to one that hangs.
+    """
+    found = _search(model, time, values)
+    if found.state is None or found.tips:
         near = relaxed(model, time, values, capsized=partial(most_turned, scene, model))
-        found, stuck = (None, stuck) if near is None else _search(model, time, near)
-    if found is None:
-        raise SceneError(f"scene {model.name!r}: no rest state found; {why_none(scene, model, time, stuck)}")
-    return found
+        other = found if near is None else _search(model, time, near)
+        if found.state is None or (other.state is not None and not other.tips):
+            found = other
+    if found.state is None:
+        why = why_none(scene, model, time, found.values)
+        raise SceneError(f"scene {model.name!r}: no rest state found; {why}")
+    return found.state
 
 
-def _search(model: _core.Model, time: float, values: Array) -> tuple[_core.State | None, Array]:
-    """A rest state, or None; and where the search ended."""
+@dataclass(frozen=True, kw_only=True)
+class _Search:
+    """Where a search ended: at a rest state, or none; and whether it is one that tips over."""
+
+    state: _core.State | None
+    values: Array
+    tips: bool = False
+
+
+def _search(model: _core.Model, time: float, values: Array) -> _Search:
+    """By Newton's method. Whether a rest tips over is told by the last stiffness on the way to it."""
     terms = Terms(model, time=time)
     y = at_rest(model, values)
     y = terms.evaluator.project(time, y)
-    before = np.inf
+    before, stiffness = np.inf, np.zeros((0, 0))
     for steps in range(MOST_STEPS):
         acceleration, drift = terms.acceleration_and_drift(y)
         moving = float(np.max(np.abs(acceleration)))
         drifting = float(np.max(np.abs(drift), initial=0.0))
         if moving < CONVERGED and drifting < CONVERGED:
-            return _found(model, time, y), y
+            return _found(model, time, y, stiffness)
         if not np.isfinite(moving):
             break
         coordinates = ReducedCoordinates.at(terms, y)
         matrix, rows, columns = coordinates.rest_matrix()
+        stiffness = matrix[: coordinates.size, : coordinates.size]
         u, size, vt = np.linalg.svd(matrix)
         fixed = size > NEUTRAL
         # Away from rest even a neutral direction shows some stiffness: damped (Levenberg-Marquardt) steps.
@@ -233,16 +250,17 @@ def _search(model: _core.Model, time: float, values: Array) -> tuple[_core.State
         stands = np.max(np.abs(move)) <= (finest if moving < 0.5 * before else ROUGHEST * finest)
         done, before = left < CONVERGED or (stands and moving < ROUNDED), moving
         if done and max(free, drifting) < CREEP:
-            return _found(model, time, y), y
+            return _found(model, time, y, stiffness)
         if done or (steps >= PATIENCE and free > max(FALLING * left, CREEP)):
             break  # what is left acts where nothing brings anything back
         share = min(1.0, LARGEST_MOVE / max(float(np.max(np.abs(move))), 1e-300))
         y = terms.moved(y, displacement=share * move)
         y[terms.load_states] += share * (columns @ step[coordinates.size :]) * terms.load_scales
         y = at_rest(model, terms.evaluator.project(time, y))
-    return None, y
+    return _Search(state=None, values=y)
 
 
-def _found(model: _core.Model, time: float, values: Array) -> _core.State:
+def _found(model: _core.Model, time: float, values: Array, stiffness: Array) -> _Search:
     parts = _core.initial_state(model).parts
-    return _core.State(time=time, values=values, inputs=np.zeros(model.slots), parts=parts)
+    state = _core.State(time=time, values=values, inputs=np.zeros(model.slots), parts=parts)
+    return _Search(state=state, values=values, tips=tips_over(stiffness))

@@ -60,6 +60,13 @@ def grows(values: Array | Complex) -> NDArray[np.bool_]:
     return np.asarray((values.real > least) & (values.imag >= 0.0))
 
 
+def tips_over(stiffness: Array) -> bool:
+    """Whether d(acceleration) / d(coordinates) pushes away from rest in some direction."""
+    squares = np.linalg.eigvals(stiffness)
+    pushes = (squares.real > LEAST_GROWTH**2) & (np.abs(squares.imag) <= NEUTRAL * np.abs(squares))
+    return bool(np.any(pushes))
+
+
 def growing(scene: Description, model: _core.Model, state: _core.State) -> list[Growing]:
     """What grows at a state of rest of a held scene, the fastest first.
 
@@ -71,11 +78,8 @@ def growing(scene: Description, model: _core.Model, state: _core.State) -> list[
     matrix = coordinates.static_matrix()
     if not np.all(np.isfinite(matrix)):
         return []
-    if not len(terms.load_scales):
-        squares = np.linalg.eigvals(matrix)
-        tips = (squares.real > LEAST_GROWTH**2) & (np.abs(squares.imag) <= NEUTRAL * np.abs(squares))
-        if not np.any(tips):
-            return []
+    if not len(terms.load_scales) and not tips_over(matrix):
+        return []
     values, vectors = _modes(coordinates)
     told = grows(values) & ((values.imag == 0.0) | (not hydraulic_cylinders(scene)))
     found = np.flatnonzero(told)
