@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from numpy.polynomial import Polynomial
 
-from seacrane import GrowingModeWarning, Scene, _core, simulate, spline_curve
+from seacrane import Curve, GrowingModeWarning, Scene, _core, simulate, spline_curve
 from seacrane.run import modes
 
 MODE, STEP = 2.2, 0.5  # rad/s, s
@@ -104,3 +104,19 @@ def test_a_wire_that_rings_at_a_loose_tolerance_is_told_of() -> None:
     assert told[1e-2][0] > 3.0 * told[1e-6][0]
     assert "tsit5 at rtol 0.01 keeps an oscillation of body 'load' ringing" in told[1e-2][1][0]
     assert not told[1e-6][1]
+
+
+def test_what_step_control_has_stopped_is_not_told_to_grow_on() -> None:
+    """By its mean step a mode would have grown beyond all bounds: step control held it at its tolerance."""
+    scene = Scene(name="two poses")
+    scene.add_body(name="load", mass=60e3, inertia=[1e5] * 3, position=(0, 0, -10))
+    scene.add_line(
+        name="wire", bodies=["ground", "load"], points=np.zeros((2, 3)), stiffness=1.5e8,
+        tension_at_start=60e3 * scene.gravity,
+    )  # fmt: skip
+    scene.add_winch(line="wire", rate=Curve.quintic(start_time=50, end_time=60, start=0.0, end=0.1))
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        result = simulate(scene, t_end=700.0, dt_out=0.5, rtol=1e-4, integrator="dopri5")
+    assert not [one for one in caught if issubclass(one.category, GrowingModeWarning)]
+    assert np.ptp(result["line_tension"][-200:]) < 1e-3 * 60e3 * scene.gravity

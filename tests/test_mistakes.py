@@ -153,6 +153,19 @@ def no_ballast() -> None:
     simulate(driven(lift(ballast=False)), t_end=1.0)
 
 
+def a_tower_too_heavy() -> None:
+    scene = Scene(name="top-heavy")
+    scene.add_vessel(shipped_database(), memory="none")
+    scene.add_body(name="tower", mass=1e6, inertia=[1e7] * 3, position=(0, 0, 60))
+    scene.add_joint(kind="weld", name="bolts", first="vessel", second="tower", point=(0, 0, 10))
+    scene.compile()
+
+
+def ballast_overboard() -> None:
+    scene = lift(ballast=False, mass=50e3)
+    scene.add_ballast(heel_deg=15.0)
+
+
 def soft_gains() -> None:
     simulate(controlled(0.5, feed_forward=False), t_end=20.0)
 
@@ -304,6 +317,8 @@ SCRIPTS: dict[str, list[Callable[[], None]]] = {
     "tonnes for kilograms": [payload_in_tonnes, body_in_tonnes],
     "depth with the wrong sign": [depth_above_water, negative_water_depth],
     "ballast left out": [no_ballast],
+    "a crane too heavy for its ship": [a_tower_too_heavy],
+    "ballast beside the ship": [ballast_overboard],
     "gains too soft": [soft_gains],
     "angles beyond half a turn": [a_constant_beyond_half_a_turn, more_than_half_a_turn_recorded],
     "strokes beyond the cylinder": [strokes_out_of_range, strokes_left_in_a_run],

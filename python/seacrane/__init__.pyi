@@ -34,6 +34,7 @@ from seacrane.accuracy.model_error import model_error as model_error
 from seacrane.accuracy.step_error import StepError as StepError
 from seacrane.accuracy.step_error import step_error as step_error
 from seacrane.analysis.ballast import Ballast as Ballast
+from seacrane.analysis.ballast import BallastOutsideHullWarning as BallastOutsideHullWarning
 from seacrane.analysis.frequency_domain import SummedResponse as SummedResponse
 from seacrane.analysis.frequency_domain import motion_rao as motion_rao
 from seacrane.analysis.frequency_domain import response_summed as response_summed
@@ -200,6 +201,8 @@ from seacrane.validity.range import LargeHeelWarning as LargeHeelWarning
 from seacrane.validity.range import NearSingularWarning as NearSingularWarning
 from seacrane.validity.range import OutsideDatabaseWarning as OutsideDatabaseWarning
 from seacrane.validity.range import PushingLinkWarning as PushingLinkWarning
+from seacrane.validity.stability import CreepingRestWarning as CreepingRestWarning
+from seacrane.validity.stability import UnstableRestWarning as UnstableRestWarning
 from seacrane.version import __version__ as __version__
 from seacrane.viewer.stills import still as still
 from seacrane.viewer.stills import video as video

@@ -12,22 +12,31 @@ from numpy.typing import NDArray
 from seacrane import _core
 from seacrane.analysis.crane_poses import path_through, places_of, posed
 from seacrane.analysis.inverse import drive_loads, hold_vessel, weight_of
-from seacrane.analysis.rest_state import held, rest_states
+from seacrane.analysis.rest_state import held, rest_from, rest_states
 from seacrane.analysis.tanks import Tank, fills, tanks_of
 from seacrane.description.compilation import compile_scene
 from seacrane.description.forces import add_point_force
 from seacrane.description.given import given_vessels
+from seacrane.description.outline import ship_size
 from seacrane.description.scene import Description
 from seacrane.errors import SceneError
+from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.checked import name_of, number_of
 from seacrane.inputs.frames import rotation_matrix
 from seacrane.plotting.text import text_table
+from seacrane.validity.stability import warn_of_capsize
 
 Array = NDArray[np.float64]
 EXACT = 1e-9  # rad: heel and trim for which the moment that is left would account
 MOST_ROUNDS = 30
 LARGEST = np.radians(20.0)  # of a heel or trim that linear restoring tells
 ATTITUDE = ("roll", "pitch")
+BESIDE = 0.1  # of half the hull, by which a tank is outside
+FAR = 1.0  # likewise of one force, which stands for weights on both sides
+
+
+class BallastOutsideHullWarning(UserWarning):
+    """Ballast was put where the ship has no room for it."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -107,6 +116,13 @@ def add_ballast(
     SceneError
         Where tanks do not suffice, naming the one that would overflow or run dry; where nothing is carried
         and there are no tanks; or where the scene does not come to rest.
+
+    Warns
+    -----
+    BallastOutsideHullWarning
+        For ballast that would be outside the ship.
+    UnstableRestWarning
+        Where the weights on the vessel outweigh its restoring.
     """
     vessel = _vessel(scene, body)
     target = np.radians([_angle("heel_deg", heel_deg), _angle("trim_deg", trim_deg)])
@@ -117,7 +133,29 @@ def add_ballast(
         add_point_force(
             scene, name=f"{name} {key}".rstrip(), body=vessel.body, point=point, force=(0.0, 0.0, force)
         )
-    return kind.told(found, target)
+    told = kind.told(found, target)
+    places: dict[str, Any] = {"the force": told.center}
+    if tanks is not None:
+        places = {f"tank {key!r}": tank.point for key, tank in tanks.items()}
+    _warn_of_places(scene.bodies[vessel.body], places, FAR if tanks is None else BESIDE)
+    warn_of_capsize(scene)
+    return told
+
+
+def _warn_of_places(hull: _core.Body, places: Mapping[str, Any], margin: float) -> None:
+    """Warn of ballast outside the hull that radii of gyration suggest."""
+    half = 0.5 * np.array(ship_size(hull))
+    for what, place in places.items():
+        beyond = np.abs(np.asarray(place, dtype=float)[:2]) - half
+        if np.any(beyond > margin * half):
+            warn_caller(
+                f"ballast of {hull.name!r}: {what} is at {place[0]:.4g} m forward and {place[1]:.4g} m to "
+                f"port, {float(beyond.max()):.3g} m outside a hull of about {2 * half[0]:.0f} x "
+                f"{2 * half[1]:.0f} m: no tank is there. Give tanks within the hull, or ask for less heel or "
+                "trim",
+                BallastOutsideHullWarning,
+            )
+            return
 
 
 def _vessel(scene: Description, body: str | None) -> _core.VesselHydrodynamics:
@@ -219,11 +257,14 @@ class _Tanks:
 def _fitted(
     scene: Description, vessel: _core.VesselHydrodynamics, target: Array, kind: _Force | _Tanks
 ) -> Array:
-    """The unknowns with which no moment is left at the target, by a chord method from rest to rest."""
+    """The unknowns with which no moment is left at the target, by a chord method from rest to rest.
+
+    Each begins at the one before: a load that may rest in two ways stays in one.
+    """
     restoring = np.diag(vessel.restoring)[3:5]
-    found = kind.start()
+    found, rest = kind.start(), None
     for _ in range(MOST_ROUNDS):
-        left = _moments_left(scene, vessel, target, kind.forces(found))
+        left, rest = _moments_left(scene, vessel, target, kind.forces(found), rest)
         if np.all(np.abs(left) <= EXACT * restoring):
             return found
         found = kind.solve(kind.moments @ found + left)
@@ -238,8 +279,9 @@ def _moments_left(
     vessel: _core.VesselHydrodynamics,
     target: Array,
     forces: Mapping[str, tuple[Any, float]],
-) -> Array:
-    """What a drive in roll and one in pitch still carry at rest at the target, N m."""
+    near: _core.State | None,
+) -> tuple[Array, _core.State]:
+    """What a drive in roll and one in pitch still carry at rest at the target, N m; and that rest."""
     out = posed(scene.copy(orientation="quaternion"), _places(scene), {})
     for i, (point, force) in enumerate(forces.values()):
         add_point_force(
@@ -248,9 +290,9 @@ def _moments_left(
     angles = {motion: ("", "angle") for motion in ATTITUDE}
     path, times = path_through(angles, [dict(zip(ATTITUDE, target.tolist(), strict=True))])
     hold_vessel(out, vessel.body, path)
-    state = next(iter(rest_states(out, times=times.tolist())))
+    state = next(rest_states(out, times=times.tolist())) if near is None else rest_from(out, near)
     names = [f"{vessel.body}.motion.{motion}" for motion in ATTITUDE]
-    return drive_loads(compile_scene(held(out, time=state.time)), names, state)
+    return drive_loads(compile_scene(held(out, time=state.time)), names, state), state
 
 
 def _places(scene: Description) -> dict[str, tuple[str, str]]:

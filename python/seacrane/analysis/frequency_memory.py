@@ -147,6 +147,9 @@ def _of_database(
     ]
     low, high = database.omega[[0, -1]]
     inertia, restoring = np.array(element.added_mass) - rest, np.array(element.restoring)
+    known = scene.provenance.get(name)
+    if known is not None and known.slack_tanks:  # which are no part of the database, and stay
+        restoring[[3, 4], [3, 4]] += known.slack_tanks
 
     def matrices(omega: Array) -> tuple[Array, Array, Array]:
         added_mass, damping, stiffness = (spline(np.clip(np.abs(omega), low, high)) for spline in splines)

@@ -15,8 +15,8 @@ from seacrane.analysis.frequency_memory import (
     state_without_memory,
     without_memory,
 )
-from seacrane.analysis.reduced_coordinates import NEUTRAL, ReducedCoordinates, Terms
-from seacrane.analysis.rest_state import at_rest, equilibrium, held, state_values
+from seacrane.analysis.reduced_coordinates import NEUTRAL, ReducedCoordinates, Terms, at_rest
+from seacrane.analysis.rest_state import equilibrium, held, state_values
 from seacrane.description.compilation import compile_scene
 from seacrane.description.scene import Description
 from seacrane.errors import SceneError

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from seacrane import _core
 from seacrane.analysis.linear_system import LinearModel, linear_model
+from seacrane.analysis.stability import grows, growth_in_words
 from seacrane.description.scene import Description
 from seacrane.inputs.frames import MOTIONS
 
@@ -22,6 +23,8 @@ MOST_ITERATIONS = 60
 SETTLED = 1e-10  # relative change of a frequency between iterations
 SAME = 1e-6  # relative distance of eigenvalues below which two iterations found one mode
 STARTS = np.geomspace(0.02, 10.0, 10)  # rad/s
+HALF = 0.5  # of a neutral direction
+LEAST_SHARE = 0.01  # of a mode's energy
 REACH = 2.0  # ratio of a mode's frequency to the start
 PER_MODE = ("eigenvalues", "shapes", "energy_share", "mechanical_share", "state_vectors")
 
@@ -42,8 +45,14 @@ class NaturalModes:
         Participation of coordinates and speeds; the rest to 1 is that of memory states.
     real_eigenvalues : ndarray
         Of what decays or grows without oscillation, 1/s.
+    real_labels : tuple of str
+        Of the real eigenvalues, as `label`.
     neutral : int
         Directions in which nothing brings the system back.
+    neutral_shapes : ndarray, shape (neutral, bodies, 6)
+        Of these, orthonormal.
+    vessels : tuple of str
+        Bodies that float.
     state_vectors : ndarray of complex, shape (k, n)
         Eigenvectors in x of the `LinearModel`, scaled as the shapes.
     bodies : tuple of str
@@ -57,6 +66,9 @@ class NaturalModes:
     neutral: int
     state_vectors: Complex
     bodies: tuple[str, ...]
+    real_labels: tuple[str, ...] = ()
+    neutral_shapes: Array = field(default_factory=lambda: np.zeros((0, 0, 6)))
+    vessels: tuple[str, ...] = ()
 
     @property
     def natural_period(self) -> Array:
@@ -75,8 +87,7 @@ class NaturalModes:
 
     def label(self, mode: int) -> str:
         """Body and motion with most of the kinetic energy, as "vessel roll"."""
-        body, motion = divmod(int(np.argmax(self.energy_share[mode])), 6)
-        return f"{self.bodies[body]} {MOTIONS[motion]}"
+        return _label(self.bodies, self.energy_share[mode])
 
     def find(self, label: str) -> int:
         """Index of the mode of that label with the largest mechanical share.
@@ -93,18 +104,53 @@ class NaturalModes:
         return max(found, key=lambda i: float(self.mechanical_share[i]))
 
     def table(self, *, least_mechanical_share: float = 0.5) -> str:
-        """Rows of label, natural period (s), damping ratio and mechanical share.
+        """Rows of label, natural period (s), damping ratio and mechanical share, and of what grows.
 
-        Modes below that share are those of the fluid memory, which no motion shows by itself.
+        Modes below that share are those of the fluid memory, which no motion shows by itself. The six motions
+        of each vessel are always there: by their own mode, whatever its share, or else with the reason.
         """
         rows = [f"{'mode':24}{'period [s]':>12}{'damping [%]':>13}{'mechanical':>12}"]
-        for i, share in enumerate(self.mechanical_share):
-            if share >= least_mechanical_share:
-                rows.append(
-                    f"{self.label(i):24}{self.natural_period[i]:12.3f}{100.0 * self.damping_ratio[i]:13.3f}"
-                    f"{share:12.3f}"
-                )
+        labels = [self.label(i) for i in range(len(self.eigenvalues))]
+        shown = {i for i, share in enumerate(self.mechanical_share) if share >= least_mechanical_share}
+        motions = [f"{body} {motion}" for body in self.vessels for motion in MOTIONS]
+        absent = {name: self._absent(name) for name in motions if not any(labels[i] == name for i in shown)}
+        shown |= {self.find(name) for name, why in absent.items() if not why}
+        rows += [self._row(labels[i], i) for i in sorted(shown)]
+        rows += [f"{name:24}{why}" for name, why in absent.items() if why]
+        rows += [
+            f"{self.real_labels[i]:24}{growth_in_words(complex(self.real_eigenvalues[i]))}"
+            for i in np.flatnonzero(grows(self.real_eigenvalues))
+        ]
         return "\n".join(rows)
+
+    def _row(self, label: str, mode: int) -> str:
+        row = (
+            f"{label:24}{self.natural_period[mode]:12.3f}{100.0 * self.damping_ratio[mode]:13.3f}"
+            f"{self.mechanical_share[mode]:12.3f}"
+        )
+        if not grows(self.eigenvalues)[mode]:
+            return row
+        return f"{row}  {growth_in_words(complex(self.eigenvalues[mode].real))}"
+
+    def _absent(self, motion: str) -> str:
+        """Why a vessel's motion has no mode of its own; empty if it has one."""
+        body, way = motion.rsplit(" ", 1)
+        at = self.bodies.index(body), MOTIONS.index(way)
+        if len(self.neutral_shapes) and np.linalg.norm(self.neutral_shapes[:, at[0], at[1]]) > HALF:
+            return "nothing brings it back"
+        if any(self.label(i) == motion for i in range(len(self.eigenvalues))):
+            return ""
+        share = self.energy_share[:, at[0], at[1]]
+        if not len(share) or share.max() < LEAST_SHARE:
+            return "does not oscillate"
+        mode = int(share.argmax())
+        period = self.natural_period[mode]
+        return f"in {self.label(mode)!r} of {period:.3f} s, {share[mode]:.0%} of its energy"
+
+
+def _label(bodies: tuple[str, ...], energy: Array) -> str:
+    body, motion = divmod(int(np.argmax(energy)), 6)
+    return f"{bodies[body]} {MOTIONS[motion]}"
 
 
 def natural_modes(
@@ -144,7 +190,7 @@ def _modes_by_frequency(linear: LinearModel) -> NaturalModes:
     modes near it, and those that arrive at the same mode count once.
     """
     found: list[tuple[NaturalModes, int]] = []
-    start = _modes(linear.at_frequency(1.0))
+    slow = _modes(linear.at_frequency(float(STARTS[0])))
     for frequency in STARTS:
         modes = _modes(linear.at_frequency(frequency))
         for mode, value in enumerate(modes.eigenvalues):
@@ -158,7 +204,7 @@ def _modes_by_frequency(linear: LinearModel) -> NaturalModes:
     kept: dict[str, Any] = {
         name: np.array([getattr(modes, name)[i] for modes, i in found]) for name in PER_MODE
     }
-    return replace(start, **kept) if found else start
+    return replace(slow, **kept) if found else slow
 
 
 def _settled(linear: LinearModel, modes: NaturalModes, mode: int) -> tuple[NaturalModes, int]:
@@ -186,26 +232,41 @@ def _modes(linear: LinearModel) -> NaturalModes:
     share = participation[:mechanical].sum(axis=0) / participation.sum(axis=0)
     # Rounding splits double real eigenvalues into pairs with tiny imaginary parts.
     oscillating = np.flatnonzero(values.imag > 1e-7 * np.maximum(np.abs(values), 1.0))
-    real = values.real[np.abs(values.imag) <= 1e-7 * np.maximum(np.abs(values), 1.0)]
+    real = np.flatnonzero(np.abs(values.imag) <= 1e-7 * np.maximum(np.abs(values), 1.0))
     order = oscillating[np.argsort(np.abs(values[oscillating]))]
-    vectors = (free @ right[:, order]).T.astype(complex)
-    dof = linear.degrees_of_freedom
-    along = linear.neutral @ linear.neutral.T
-    vectors[:, :dof] += vectors[:, dof : 2 * dof] @ along / values[order, None]
-    motion = vectors[:, :dof] @ linear.basis.T
-    largest = motion[np.arange(len(order)), np.argmax(np.abs(motion), axis=1)]
-    motion, vectors = motion / largest[:, None], vectors / largest[:, None]
-    energy = np.real(motion.conj() * (motion @ linear.mass.T))
+    real = real[np.argsort(values.real[real])]
+    bodies = len(linear.bodies)
+    vectors, motion = _shapes(linear, free, values[order], right[:, order])
+    energy, real_energy = (
+        np.real(each.conj() * (each @ linear.mass.T))
+        for each in (motion, _shapes(linear, free, values[real], right[:, real])[1])
+    )
     return NaturalModes(
-        eigenvalues=values[order],
-        shapes=motion.reshape(len(order), -1, 6),
-        energy_share=(energy / energy.sum(axis=1, keepdims=True)).reshape(len(order), -1, 6),
+        eigenvalues=np.asarray(values[order], dtype=complex),
+        shapes=motion.reshape(len(order), bodies, 6),
+        energy_share=(energy / energy.sum(axis=1, keepdims=True)).reshape(len(order), bodies, 6),
         mechanical_share=share[order],
-        real_eigenvalues=np.sort(real),
+        real_eigenvalues=values.real[real],
         neutral=int(linear.neutral.shape[1]),
         state_vectors=vectors,
         bodies=linear.bodies,
+        real_labels=tuple(_label(linear.bodies, row) for row in real_energy),
+        neutral_shapes=(linear.basis @ linear.neutral).T.reshape(-1, bodies, 6),
+        vessels=tuple(dict.fromkeys(vessel.body for vessel in linear.scene.vessels.values())),
     )
+
+
+def _shapes(linear: LinearModel, free: Array, values: Complex, right: Complex) -> tuple[Complex, Complex]:
+    """Eigenvectors in x and motions of the bodies, a row each, the largest entry of a motion being 1."""
+    vectors: Complex = (free @ right).T.astype(np.complex128)
+    dof = linear.degrees_of_freedom
+    along = linear.neutral @ linear.neutral.T
+    rate = np.where(values == 0.0, 1.0, values)
+    vectors[:, :dof] += vectors[:, dof : 2 * dof] @ along / rate[:, None]
+    motion: Complex = vectors[:, :dof] @ linear.basis.T
+    largest = motion[np.arange(len(motion)), np.argmax(np.abs(motion), axis=1)]
+    largest = np.where(largest == 0.0, 1.0, largest)
+    return np.asarray(vectors / largest[:, None]), np.asarray(motion / largest[:, None])
 
 
 def _without_neutral_positions(linear: LinearModel) -> Array:

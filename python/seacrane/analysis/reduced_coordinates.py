@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import partial
+from functools import cached_property, partial
 from typing import Any
 
 import numpy as np
@@ -14,6 +14,8 @@ from seacrane.errors import SceneError
 
 Array = NDArray[np.float64]
 NEUTRAL = 1e-6  # 1/s2: a weaker stiffness over mass (a period beyond 6283 s) counts as none
+INDEPENDENT = 1e-9  # ratio of pivots of constraints
+POSE = 7  # states of a body's pose: place and quaternion
 POSE_STEP = 1e-3  # m and rad
 TWIST_STEP = 1e-3  # m/s and rad/s
 
@@ -46,10 +48,9 @@ class Terms:
     def moved(self, values: Array, *, displacement: Array, twist: Array | float = 0.0) -> Array:
         """State with bodies moved: (6 n) translations (m) and rotation vectors (rad), inertial axes."""
         y = np.array(values)
-        for body, (shift, rotation) in enumerate(displacement.reshape(-1, 2, 3)):
-            at = self.model.pose_index(body)
-            y[at : at + 3] += shift
-            y[at + 3 : at + 7] = _turned(y[at + 3 : at + 7], rotation)
+        poses, moves = y[: POSE * self.bodies].reshape(-1, POSE), displacement.reshape(-1, 6)
+        poses[:, :3] += moves[:, :3]
+        poses[:, 3:] = _turned(poses[:, 3:], moves[:, 3:])
         y[self.twists] += twist
         return y
 
@@ -63,23 +64,29 @@ class Terms:
         rate = self.evaluator.derivative(self.time, values)
         return np.asarray(rate[self.load_states] / self.load_scales)
 
-    def exact_columns(self, values: Array, directions: Array) -> Array | None:
-        """d(accelerations, memory rates) along directions (states, k); None where no exact Jacobian is."""
+    def acceleration_and_drift(self, values: Array) -> tuple[Array, Array]:
+        """Both, of one evaluation."""
+        rate = self.evaluator.derivative(self.time, values)
+        return rate[self.twists], np.asarray(rate[self.load_states] / self.load_scales)
+
+    def exact_rates(self, values: Array) -> Array | None:
+        """d(accelerations, memory rates) / d(states); None where no exact Jacobian is."""
         try:
             jacobian = np.asarray(self.evaluator.jacobian(self.time, values))
         except ValueError:
             return None
-        return np.asarray(np.vstack([jacobian[self.twists], jacobian[self.memory]]) @ directions)
+        return np.asarray(np.vstack([jacobian[self.twists], jacobian[self.memory]]))
 
     def pose_directions(self, values: Array, displacement: Array) -> Array:
         """Change of the state (states, k) with translations and rotation vectors (6 n, k), inertial axes."""
         out = np.zeros((values.size, displacement.shape[1]))
-        for body, move in enumerate(displacement.reshape(self.bodies, 6, -1)):
-            at = self.model.pose_index(body)
-            w, v = values[at + 3], values[at + 4 : at + 7]
-            out[at : at + 3] = move[:3]
-            out[at + 3] = -0.5 * v @ move[3:]
-            out[at + 4 : at + 7] = 0.5 * (w * move[3:] + np.cross(move[3:].T, v).T)
+        rates = out[: POSE * self.bodies].reshape(self.bodies, POSE, -1)
+        moves = displacement.reshape(self.bodies, 6, -1)
+        turn, quaternion = moves[:, 3:], values[: POSE * self.bodies].reshape(-1, POSE)[:, 3:, None]
+        w, v = quaternion[:, :1], quaternion[:, 1:]
+        rates[:, :3] = moves[:, :3]
+        rates[:, 3] = -0.5 * (v * turn).sum(axis=1)
+        rates[:, 4:] = 0.5 * (w * turn + _cross(turn, v))
         return out
 
     def acceleration(self, values: Array) -> Array:
@@ -87,13 +94,41 @@ class Terms:
         return np.asarray(self.evaluator.derivative(self.time, values)[self.twists])
 
 
-def _turned(quaternion: Array, rotation: Array) -> Array:
-    """exp(rotation) applied after a quaternion (w, x, y, z)."""
-    half = 0.5 * rotation
-    angle = float(np.linalg.norm(half))
+def load_states(model: _core.Model) -> list[int]:
+    """Places of the states that loads have of their own."""
+    return [place for _, _, place, *_ in model.load_states]
+
+
+def at_rest(model: _core.Model, values: Array) -> Array:
+    """The same poses and states of loads, with all velocities, states of the fluid and work at zero."""
+    y = np.array(values)
+    y[model.twist_index(0) :] = 0.0
+    kept = load_states(model)
+    y[kept] = np.asarray(values)[kept]
+    return y
+
+
+def _turned(quaternions: Array, rotations: Array) -> Array:
+    """exp(rotation) (n, 3) applied after quaternions (n, 4), (w, x, y, z)."""
+    half = 0.5 * rotations
+    angle = np.linalg.norm(half, axis=1, keepdims=True)
     w, v = np.cos(angle), half * np.sinc(angle / np.pi)
-    scalar, vector = quaternion[0], quaternion[1:]
-    return np.append(w * scalar - v @ vector, w * vector + scalar * v + np.cross(v, vector))
+    scalar, vector = quaternions[:, :1], quaternions[:, 1:]
+    turned = w * vector + scalar * v + _cross(v, vector)
+    return np.hstack([w * scalar - (v * vector).sum(axis=1, keepdims=True), turned])
+
+
+def _cross(first: Array, second: Array) -> Array:
+    """Of vectors along the second axis; numpy.cross takes ten times longer for a few."""
+    a, b = first, second
+    return np.stack(
+        [
+            a[:, 1] * b[:, 2] - a[:, 2] * b[:, 1],
+            a[:, 2] * b[:, 0] - a[:, 0] * b[:, 2],
+            a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0],
+        ],
+        axis=1,
+    )
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -114,10 +149,31 @@ class ReducedCoordinates:
             basis = vt[vt.shape[0] - terms.model.degrees_of_freedom :].T
         return cls(terms=terms, values=values, basis=basis)
 
+    @classmethod
+    def quickly_at(cls, terms: Terms, values: Array) -> ReducedCoordinates:
+        """Likewise with another basis, by QR where no constraint depends on others: a third of the time."""
+        jacobian = terms.evaluator.terms(terms.time, values)["jacobian"]
+        rows = len(jacobian)
+        if not rows or rows != 6 * terms.bodies - terms.model.degrees_of_freedom:
+            return cls.at(terms, values)
+        q, r = np.linalg.qr(jacobian.T, mode="complete")
+        pivots = np.abs(np.diagonal(r))
+        if pivots.min() <= INDEPENDENT * pivots.max():
+            return cls.at(terms, values)
+        return cls(terms=terms, values=values, basis=q[:, rows:])
+
     @property
     def size(self) -> int:
         """Degrees of freedom."""
         return int(self.basis.shape[1])
+
+    @cached_property
+    def _exact(self) -> Array | None:
+        return self.terms.exact_rates(self.values)
+
+    def _along(self, directions: Array) -> Array | None:
+        """d(accelerations, memory rates) along directions (states, k); None where no exact Jacobian is."""
+        return None if self._exact is None else np.asarray(self._exact @ directions)
 
     def pose_columns(self) -> Array:
         """d(accelerations, memory rates) / d(coordinates).
@@ -125,7 +181,7 @@ class ReducedCoordinates:
         Exact; by central differences of fourth order for a model without an exact Jacobian.
         """
         terms = self.terms
-        exact = terms.exact_columns(self.values, terms.pose_directions(self.values, self.basis))
+        exact = self._along(terms.pose_directions(self.values, self.basis))
         if exact is not None:
             return exact
         columns = []
@@ -145,7 +201,7 @@ class ReducedCoordinates:
         """
         directions = np.zeros((self.values.size, self.size))
         directions[self.terms.twists] = self.basis
-        exact = self.terms.exact_columns(self.values, directions)
+        exact = self._along(directions)
         if exact is not None:
             return exact
         columns = []
@@ -160,7 +216,7 @@ class ReducedCoordinates:
     def memory_columns(self) -> Array:
         """d(accelerations, memory rates) / d(memory states), which is linear."""
         terms = self.terms
-        exact = terms.exact_columns(self.values, np.eye(self.values.size)[:, terms.memory])
+        exact = None if self._exact is None else self._exact[:, terms.memory]
         if exact is not None:
             return exact
         scale = np.array(terms.model.scale)
@@ -190,17 +246,23 @@ class ReducedCoordinates:
         ndarray, ndarray, shape (n, k)
             These combinations, of the drift and of the n states.
         """
-        terms, scales = self.terms, self.terms.load_scales
-        if not len(scales):
+        if not len(self.terms.load_scales):
             none = np.zeros((0, 0))
             return self.stiffness(), none, none
-        last = slice(-len(scales), None)
-        poses, states = self.pose_columns(), self.memory_columns()[:, last] * scales
-        u, size, vt = np.linalg.svd(states[last] / scales[:, None])
+        whole, dof = self.static_matrix(), self.size
+        u, size, vt = np.linalg.svd(whole[dof:, dof:])
         rows, columns = u[:, size > NEUTRAL], vt[size > NEUTRAL].T
-        both = np.hstack([poses, states @ columns])
-        accelerations = self.basis.T @ both[: 6 * terms.bodies]
-        return np.vstack([accelerations, rows.T @ (both[last] / scales[:, None])]), rows, columns
+        both = np.hstack([whole[:, :dof], whole[:, dof:] @ columns])
+        return np.vstack([both[:dof], rows.T @ both[dof:]]), rows, columns
+
+    def static_matrix(self) -> Array:
+        """d(accelerations, rates of the states of loads) / d(coordinates, these states over their scales)."""
+        scales = self.terms.load_scales
+        if not len(scales):
+            return self.stiffness()
+        last = slice(-len(scales), None)
+        both = np.hstack([self.pose_columns(), self.memory_columns()[:, last] * scales])
+        return np.vstack([self.basis.T @ both[: 6 * self.terms.bodies], both[last] / scales[:, None]])
 
     def _difference(self, *, displacement: Array | float = 0.0, twist: Array | float = 0.0) -> Array:
         terms, y, still = self.terms, self.values, np.zeros(6 * self.terms.bodies)

@@ -3,15 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from seacrane import _core
-from seacrane.analysis.reduced_coordinates import NEUTRAL, ReducedCoordinates, Terms
+from seacrane.analysis.no_rest import most_turned, why_none
+from seacrane.analysis.reduced_coordinates import NEUTRAL, ReducedCoordinates, Terms, at_rest
+from seacrane.analysis.relaxation import relaxed
 from seacrane.analysis.rest_on_oil import rest_on_oil
-from seacrane.analysis.taut_lines import tautened
+from seacrane.analysis.stability import tips_over, warn_of_rest
+from seacrane.analysis.taut_lines import kept_lengths, tautened, unbounded
 from seacrane.description.compilation import compile_scene
 from seacrane.description.hydraulic_cylinders import hydraulic_cylinders
 from seacrane.description.loads import lines_of
@@ -20,11 +25,16 @@ from seacrane.errors import SceneError
 from seacrane.inputs.checked import number_of
 
 Array = NDArray[np.float64]
+Rest = tuple[_core.Model, _core.State]
 CONVERGED = 1e-9  # m/s2 and rad/s2
 ROUNDED = 1e-6  # likewise, where no step is left that the digits of positions can hold
+CREEP = 1e-8  # likewise, in which a minute is 0.02 mm; and 1/s, of the states of loads
 DIGITS = 1e-15  # of the largest position
+ROUGHEST = 1e3  # times that, where a step has not brought the scene nearer to rest
 LARGEST_MOVE = 0.5  # m and rad in one step
 MOST_STEPS = 100
+PATIENCE = 5  # steps
+FALLING = 10.0  # ratio of what acts where nothing brings anything back to what acts elsewhere
 DAMPING = 0.03  # 1/m and 1/rad, of the accelerations that are left
 STAGE = 5.0  # s of the references between two rest states on the way to a later time
 MOST_STAGES = 200
@@ -91,23 +101,47 @@ def equilibrium(scene: Description, *, state: _core.State | None = None, time: f
     Raises
     ------
     SceneError
-        If there is no rest state near the start of the search: the body that accelerates most is named.
+        If there is no rest state near the start of the search: the body that accelerates most is named, and
+        the line that could hold it and is slack.
+
+    Warns
+    -----
+    UnstableRestWarning
+        If the scene rests there as a pencil on its tip: what grows, and how fast.
+    LargeHeelWarning
+        If a vessel heels or trims by more than 20 deg there, beyond which restoring is not linear.
+    CreepingRestWarning
+        If a hydraulic cylinder leaks, so that what it holds creeps from there.
     """
     if state is not None:
-        return _rest(scene, float(state.time), state_values(scene, state))
-    end = number_of("equilibrium: time", time)
-    if not (np.isfinite(end) and end >= 0.0):
-        raise SceneError(f"equilibrium: time is {end} s; give a finite time, zero or later")
-    return next(rest_states(scene, times=[end]))
+        found = _rest(scene, float(state.time), state_values(scene, state))
+    else:
+        end = number_of("equilibrium: time", time)
+        if not (np.isfinite(end) and end >= 0.0):
+            raise SceneError(f"equilibrium: time is {end} s; give a finite time, zero or later")
+        found = next(_rests(scene, [end]))
+    warn_of_rest("equilibrium", scene, *found)
+    return found[1]
+
+
+def rest_from(scene: Description, state: _core.State) -> _core.State:
+    """The state at rest near another one, whether the scene stays there or not."""
+    return _rest(scene, float(state.time), state_values(scene, state))[1]
 
 
 def rest_states(scene: Description, *, times: Iterable[float]) -> Iterator[_core.State]:
     """States at rest at times that increase, each found from the one before along the references."""
+    for _, state in _rests(scene, times):
+        yield state
+
+
+def _rests(scene: Description, times: Iterable[float]) -> Iterator[Rest]:
     found = _rest(scene, 0.0, None)
     for time in times:
-        stages = min(int(np.ceil((time - found.time) / STAGE)), MOST_STAGES)
-        for stage in np.linspace(found.time, time, stages + 1)[1:]:
-            found = _rest(scene, float(stage), _followed(scene, found, float(stage)))
+        start = found[1].time
+        stages = min(int(np.ceil((time - start) / STAGE)), MOST_STAGES)
+        for stage in np.linspace(start, time, stages + 1)[1:]:
+            found = _rest(scene, float(stage), _followed(scene, found[1], float(stage)))
         yield found
 
 
@@ -135,62 +169,98 @@ def state_values(scene: Description, state: Any) -> Array:
     return np.array(state.values)
 
 
-def _rest(scene: Description, time: float, values: Array | None) -> _core.State:
+def _rest(scene: Description, time: float, values: Array | None) -> Rest:
     still = held(scene, time=time)
     model = compile_scene(still)
     y = np.array(model.initial_state) if values is None else Terms(model, time=time).checked(values)
     if hydraulic_cylinders(scene):
-        return rest_on_oil(still, time, y, _rest)
-    taut = tautened(still, y) if lines_of(scene.loads) else None
+        return model, rest_on_oil(still, time, y, lambda *given: _rest(*given)[1])
+    if lines_of(scene.loads):
+        return _hung(still, model, time, y)
+    return model, _searched(still, model, time, y)
+
+
+def _hung(still: Description, model: _core.Model, time: float, values: Array) -> Rest:
+    """Likewise with elastic lines, those that are slack by little taken as taut at first."""
+    free = unbounded(still)
+    model = model if free is still else compile_scene(free)
+    taut, y = tautened(free, values), values
     if taut is not None:
-        lengths = y[_load_states(model)]
-        y = np.array(_search(compile_scene(taut[0]), time, taut[1]).values)
-        y[_load_states(model)] = lengths
-    return _search(model, time, y)
+        try:
+            y = np.array(_searched(taut[0], compile_scene(taut[0]), time, taut[1]).values)
+        except SceneError:
+            y = values
+        stay = kept_lengths(free, model)
+        y[stay] = values[stay]
+    return model, _searched(free, model, time, y)
 
 
-def _load_states(model: _core.Model) -> list[int]:
-    return [place for _, _, place, *_ in model.load_states]
+def _searched(scene: Description, model: _core.Model, time: float, values: Array) -> _core.State:
+    """By Newton's method, and where it comes to nothing, or to what tips over, from where a damped motion ends.
+
+    Newton's method goes to any rest: to a load that stands on its hook as well as to one that hangs.
+    """
+    found = _search(model, time, values)
+    if found.state is None or found.tips:
+        near = relaxed(model, time, values, capsized=partial(most_turned, scene, model))
+        other = found if near is None else _search(model, time, near)
+        if found.state is None or (other.state is not None and not other.tips):
+            found = other
+    if found.state is None:
+        why = why_none(scene, model, time, found.values)
+        raise SceneError(f"scene {model.name!r}: no rest state found; {why}")
+    return found.state
 
 
-def _search(model: _core.Model, time: float, values: Array) -> _core.State:
+@dataclass(frozen=True, kw_only=True)
+class _Search:
+    """Where a search ended: at a rest state, or none; and whether it is one that tips over."""
+
+    state: _core.State | None
+    values: Array
+    tips: bool = False
+
+
+def _search(model: _core.Model, time: float, values: Array) -> _Search:
+    """By Newton's method. Whether a rest tips over is told by the last stiffness on the way to it."""
     terms = Terms(model, time=time)
     y = at_rest(model, values)
     y = terms.evaluator.project(time, y)
-    for _ in range(MOST_STEPS):
+    before, stiffness = np.inf, np.zeros((0, 0))
+    for steps in range(MOST_STEPS):
+        acceleration, drift = terms.acceleration_and_drift(y)
+        moving = float(np.max(np.abs(acceleration)))
+        drifting = float(np.max(np.abs(drift), initial=0.0))
+        if moving < CONVERGED and drifting < CONVERGED:
+            return _found(model, time, y, stiffness)
+        if not np.isfinite(moving):
+            break
         coordinates = ReducedCoordinates.at(terms, y)
-        acceleration = terms.acceleration(y)
-        drift = terms.drift(y)
-        if np.max(np.abs(acceleration)) < CONVERGED and np.max(np.abs(drift), initial=0.0) < CONVERGED:
-            parts = _core.initial_state(model).parts
-            return _core.State(time=time, values=y, inputs=np.zeros(model.slots), parts=parts)
         matrix, rows, columns = coordinates.rest_matrix()
+        stiffness = matrix[: coordinates.size, : coordinates.size]
         u, size, vt = np.linalg.svd(matrix)
         fixed = size > NEUTRAL
         # Away from rest even a neutral direction shows some stiffness: damped (Levenberg-Marquardt) steps.
-        damped = size / (size**2 + (DAMPING * np.max(np.abs(acceleration))) ** 2)
-        reduced = np.concatenate([coordinates.basis.T @ acceleration, rows.T @ drift])
-        step = vt[fixed].T @ (-(u.T @ reduced) * damped)[fixed]
+        damped = size / (size**2 + (DAMPING * moving) ** 2)
+        along = u.T @ np.concatenate([coordinates.basis.T @ acceleration, rows.T @ drift])
+        step = vt[fixed].T @ (-along * damped)[fixed]
         move = coordinates.basis @ step[: coordinates.size]
         finest = DIGITS * float(np.max(np.abs(y[: model.twist_index(0)])))
-        if np.max(np.abs(move)) <= finest and np.max(np.abs(acceleration)) < ROUNDED:
-            return _core.State(time=time, values=y, inputs=np.zeros(model.slots))
+        left, free = (float(np.max(np.abs(along[part]), initial=0.0)) for part in (fixed, ~fixed))
+        stands = np.max(np.abs(move)) <= (finest if moving < 0.5 * before else ROUGHEST * finest)
+        done, before = left < CONVERGED or (stands and moving < ROUNDED), moving
+        if done and max(free, drifting) < CREEP:
+            return _found(model, time, y, stiffness)
+        if done or (steps >= PATIENCE and free > max(FALLING * left, CREEP)):
+            break  # what is left acts where nothing brings anything back
         share = min(1.0, LARGEST_MOVE / max(float(np.max(np.abs(move))), 1e-300))
         y = terms.moved(y, displacement=share * move)
         y[terms.load_states] += share * (columns @ step[coordinates.size :]) * terms.load_scales
         y = at_rest(model, terms.evaluator.project(time, y))
-    acceleration = terms.acceleration(y)
-    worst = int(np.argmax(np.abs(acceleration)))
-    raise SceneError(
-        f"scene {model.name!r}: no rest state found; body {model.bodies[worst // 6]!r} still accelerates by "
-        f"{acceleration[worst]:.3g} (m/s2 or rad/s2); start from a state nearer to rest, or hold what drifts"
-    )
+    return _Search(state=None, values=y)
 
 
-def at_rest(model: _core.Model, values: Array) -> Array:
-    """The same poses and states of loads, with all velocities, states of the fluid and work at zero."""
-    y = np.array(values)
-    y[model.twist_index(0) :] = 0.0
-    kept = _load_states(model)
-    y[kept] = np.asarray(values)[kept]
-    return y
+def _found(model: _core.Model, time: float, values: Array, stiffness: Array) -> _Search:
+    parts = _core.initial_state(model).parts
+    state = _core.State(time=time, values=values, inputs=np.zeros(model.slots), parts=parts)
+    return _Search(state=state, values=values, tips=tips_over(stiffness))

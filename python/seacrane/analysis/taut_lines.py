@@ -15,6 +15,7 @@ from seacrane.inputs.frames import rotation_matrix
 Array = NDArray[np.float64]
 LARGEST_SLACK = 0.01  # of the length: a line with more of it is meant to hang
 STRAIN = 1e-6  # that it is given
+NO_BOUND = 1e7  # m/s and m/s2: the engine takes it as none
 
 
 def tautened(scene: Some, values: Array) -> tuple[Some, Array] | None:
@@ -36,6 +37,34 @@ def tautened(scene: Some, values: Array) -> tuple[Some, Array] | None:
         else:
             out.loads[name] = _core.Line(**line.__getstate__() | {"length": path / (1.0 + STRAIN)})
     return (out, state) if found else None
+
+
+def unbounded(scene: Some) -> Some:
+    """The scene with winches that hold a tension at any rate: one at its bound shows no stiffness."""
+    wound = {
+        name: _core.Line(**line.__getstate__() | {"maximum_rate": NO_BOUND, "maximum_acceleration": NO_BOUND})
+        for name, line in lines_of(scene.loads).items()
+        if line.tension_gain > 0.0
+    }
+    return scene.copy(loads=dict(scene.loads) | wound) if wound else scene
+
+
+def kept_lengths(scene: Description, model: _core.Model) -> list[int]:
+    """Places of the states of loads, but for those of winches that hold a tension."""
+    holds = {name for name, line in lines_of(scene.loads).items() if line.tension_gain > 0.0}
+    return [place for name, _, place, *_ in model.load_states if name.rpartition(".")[0] not in holds]
+
+
+def slack_lines(scene: Description, model: _core.Model, values: Array) -> dict[str, float]:
+    """By how much (m) lines are slack in a state."""
+    found = {}
+    places = {name: place for name, _, place, *_ in model.load_states}
+    for name, line in lines_of(scene.loads).items():
+        length = values[places[f"{name}.length"]] if line.winch else line.length.evaluate([0.0])[0, 0]
+        slack = float(length - laid(line, lambda body: pose_of(scene, model, body, values)).length)
+        if slack > 0.0:
+            found[name] = slack
+    return found
 
 
 def pose_of(scene: Description, model: _core.Model, body: str, values: Array) -> Pose:

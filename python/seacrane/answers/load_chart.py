@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from seacrane import _core
 from seacrane.analysis.crane_poses import crane_of, values_of
-from seacrane.analysis.rest_state import equilibrium
+from seacrane.analysis.rest_state import rest_from
 from seacrane.answers.rest_columns import AtRest, columns_of
 from seacrane.answers.statics import resting
 from seacrane.description.capacity import allowed_at
@@ -277,5 +277,5 @@ class _Hook:
         entries = dict(old.__getstate__())
         entries |= {"mass": mass, "inertia": np.asarray(old.inertia) * (mass / old.mass)}
         scene.bodies[self._body] = _core.Body(**entries)
-        told = columns_of(AtRest.of(scene, equilibrium(scene, state=self._at_rest.state)))
+        told = columns_of(AtRest.of(scene, rest_from(scene, self._at_rest.state)))
         return {name: told[name][1] for name in self._bounds}

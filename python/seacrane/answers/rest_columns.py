@@ -96,7 +96,13 @@ def _vessels(at_rest: AtRest) -> dict[str, tuple[str, float]]:
         found[f"heel{which}"] = ("deg", float(np.degrees(motion[3])))
         found[f"trim{which}"] = ("deg", float(np.degrees(motion[4])))
         found[f"draught change{which}"] = ("m", float(-motion[2]))
-        found[f"GM{which}"] = ("m", stiffness / displaced_weight(scene, vessel, motion))
+        weight = displaced_weight(scene, vessel, motion)
+        found[f"GM{which}"] = ("m", stiffness / weight)
+        known = scene.provenance.get(vessel.name)
+        if known is not None and any(known.taken):
+            taken, least, most = known.taken
+            found[f"GM solid{which}"] = ("m", (stiffness + taken) / weight)
+            found[f"GM spread{which}"] = ("m", (most - least) / weight)
     return found
 
 

@@ -13,7 +13,8 @@ from numpy.typing import NDArray
 from seacrane.analysis.crane_poses import crane_of, path_through, places_of, posed, values_of
 from seacrane.analysis.rest_state import rest_states
 from seacrane.answers.reach import Reach, luffing
-from seacrane.answers.rest_columns import AtRest, columns_of
+from seacrane.answers.rest_columns import AtRest
+from seacrane.answers.rest_judge import RestJudge
 from seacrane.description.joint_coordinates import ANGLES
 from seacrane.description.roles import CraneRoles
 from seacrane.description.scene import Description
@@ -155,15 +156,24 @@ def statics(
     -------
     Statics
         heel (deg; positive lifts port), trim (deg; positive lowers the bow), draught change (m, of the
-        reference point from its place at rest in the database), GM (m), tip radius (m), tip height (m, above
-        z = 0), hook load (t), link tension (kN), cylinder forces (kN, positive pushes), slew torque (kN m).
+        reference point from its place at rest in the database), GM (m), GM solid and GM spread (m, where
+        tanks are slack), tip radius (m), tip height (m, above z = 0), hook load (t), link tension (kN),
+        cylinder forces (kN, positive pushes), slew torque (kN m).
         GM is the heeling moment for each radian over the displaced weight, with loads free to swing: a load
-        that hangs counts at its tip.
+        that hangs counts at its tip, and so does the free surface of tanks. GM solid is without free
+        surfaces; GM spread is the largest less the smallest GM over the fits of the database's tanks.
 
     Raises
     ------
     SceneError
         For a pose that the crane does not reach, or where there is no rest state.
+
+    Warns
+    -----
+    UnstableRestWarning
+        Where the scene does not stay at rest in a pose, as with a GM below zero.
+    LargeHeelWarning
+        Where a vessel heels or trims by more than 20 deg, beyond which restoring is not linear.
     """
     if not isinstance(scene, Description):
         raise SceneError(f"statics: scene is {shown(scene)}; give a Scene")
@@ -173,7 +183,9 @@ def statics(
     every = [np.atleast_1d(values) for values in axes.values()]
     grid = [dict(zip(axes, one, strict=True)) for one in itertools.product(*every)]
     shape = tuple(len(values) for values in axes.values() if np.ndim(values))
-    rows = [columns_of(one) for one in resting(scene, roles, grid, luff)]
+    judge = RestJudge(scene)
+    rows = [judge.seen(one, pose) for pose, one in zip(grid, resting(scene, roles, grid, luff), strict=True)]
+    judge.warn()
     return Statics(
         scene=scene.name,
         poses=axes,

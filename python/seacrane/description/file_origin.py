@@ -16,7 +16,8 @@ from seacrane.files.plain_data import notes_from_node, plain_data
 from seacrane.inputs.shown import shown
 
 # older files lack them
-_GIVEN: dict[str, Any] = dict.fromkeys(("motion", "ramp", "duration", "size", "memory_error"))
+_NEWER = ("memory_error", "free_surface", "slack_tanks")  # not in files of older versions
+_GIVEN: dict[str, Any] = dict.fromkeys(("motion", "ramp", "duration", "size", *_NEWER))
 _ROLES = ("prefix", "slew", "cylinders", "link", "payload", "tip")
 
 
@@ -114,11 +115,8 @@ def _rope_from_node(node: Node) -> tuple[str, LuffingRope]:
 
 
 def provenance_to_data(known: VesselProvenance) -> dict[str, Any]:
-    """Its entries; that of a memory's error only where it is known, as files of older versions have none."""
-    data = asdict(known)
-    if known.memory_error is None:
-        del data["memory_error"]
-    return data
+    """Its entries; newer ones only where they are known, as files of older versions have none."""
+    return {key: value for key, value in asdict(known).items() if value is not None or key not in _NEWER}
 
 
 def provenance_from_node(node: Node, scene: Description) -> None:
@@ -127,11 +125,10 @@ def provenance_from_node(node: Node, scene: Description) -> None:
         if isinstance(entry.value, dict):
             entry = Node({**_GIVEN, **entry.value}, entry.path)
         entry.expect(("name", "database", "omega", "memory", *_GIVEN))
-        omega, size = _optional(entry, "omega"), _optional(entry, "size")
-        known: dict[str, Any] = {
-            "omega": None if omega is None else tuple(omega.array((2,)).tolist()),
-            "size": None if size is None else tuple(size.array((3,)).tolist()),
-        }
+        known: dict[str, Any] = {}
+        for key, count in (("omega", 2), ("size", 3), ("free_surface", 3), ("slack_tanks", 2)):
+            row = _optional(entry, key)
+            known[key] = None if row is None else tuple(row.array((count,)).tolist())
         for key in ("database", "memory", "motion"):
             text = _optional(entry, key)
             known[key] = None if text is None else text.text()

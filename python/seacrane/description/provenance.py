@@ -27,6 +27,11 @@ class VesselProvenance:
         Of that motion: s over which it grows from rest, and s at which it ends.
     size : (float, float, float) or None
         Length, breadth and draught of the ship that a light body stands for, m.
+    free_surface : (float, float, float) or None
+        What the free surface of the database's roll tanks takes from C44, N m/rad: as the vessel has it, and
+        the least and the most of the fits to the data.
+    slack_tanks : (float, float) or None
+        What tanks of `Scene.add_slack_tank` take from C44 and C55, N m/rad.
     """
 
     database: str | None = None
@@ -37,6 +42,15 @@ class VesselProvenance:
     duration: float | None = None
     size: tuple[float, float, float] | None = None
     memory_error: float | None = None
+    free_surface: tuple[float, float, float] | None = None
+    slack_tanks: tuple[float, float] | None = None
+
+    @property
+    def taken(self) -> tuple[float, float, float]:
+        """From C44 by all free surfaces, N m/rad: as the vessel has it, the least and the most."""
+        more = self.slack_tanks[0] if self.slack_tanks else 0.0
+        used, least, most = self.free_surface or (0.0, 0.0, 0.0)
+        return used + more, least + more, most + more
 
 
 @dataclass(frozen=True, kw_only=True)

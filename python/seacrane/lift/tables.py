@@ -42,6 +42,7 @@ from seacrane.scene import (
     lines,
     luffing,
     sea,
+    slack_tank,
     vessel,
     wind_current,
 )
@@ -350,6 +351,10 @@ _ALL = (
             for key in fields_of(_core.VesselHydrodynamics, without=("memory",))
         ),
         add=vessel.add_vessel,
+    ),
+    _call(
+        "slack_tank", slack_tank.add_slack_tank,
+        moment={"unit": "kg m"}, trim_moment={"unit": "kg m"}, body={"type": "text"},
     ),
     Table(name="sea", text=_summary(sea.add_sea), keys=_sea_keys()),
     Table(name="crane", text=_summary(add_crane), keys=CRANE),

@@ -18,6 +18,7 @@ FEWEST_STEPS = 2000  # fewer are no matter
 LEAST_GROWTH = math.log(3.0)  # of the amplitude over the run
 LOOSE = 1e-3  # rtol from which on step control lets a mode ring as much as matters
 LEAST_SEEN = 0.1  # frequency times step: below, growth is rounding
+ROUNDING = 1e-16  # of a scale: the least amplitude from which a mode grows
 TINY = 1e-300  # in place of a factor of zero
 LONGER = 1.15  # steps that step control tries now and then, over their mean
 FIX = (
@@ -38,9 +39,9 @@ class _Growth:
     rates: list[float]
     rings: list[bool]
 
-    @property
-    def fastest(self) -> float:
-        return max(self.rates, default=-math.inf)
+    def fastest(self, most: float) -> float:
+        """Of the rates (1/s) that a run can have had."""
+        return max((rate for rate in self.rates if rate <= most), default=-math.inf)
 
     def words(self, one: int) -> str:
         value = complex(self.at.values[one])
@@ -55,7 +56,8 @@ def growing(
 
     A step h of y' = lambda y multiplies y by R(h lambda). Where log|R| exceeds the decay of the mode, its
     amplitude grows by that much in each step, though the solution's does not; step control ends that only
-    where the amplitude has come to its tolerance.
+    where the amplitude has come to its tolerance. What would have grown from rounding beyond the tolerance
+    has come there: it rings.
 
     Parameters
     ----------
@@ -78,10 +80,12 @@ def growing(
     judged = [_judged(at, polynomial, step, near, undamped) for at in modes.oscillations]
     adapts = _core.integrator(integrator).setting == "rtol"
     fix = FIX.format(setting="rtol" if adapts else "dt")
-    worst = max(judged, key=lambda one: one.fastest)
-    if worst.fastest * duration >= near * LEAST_GROWTH:
-        one = worst.rates.index(worst.fastest)
-        factor = math.exp(min(worst.fastest * HOUR, 99.0))
+    most = math.log(tolerance / ROUNDING) / duration if adapts else math.inf
+    worst = max(judged, key=lambda one: one.fastest(most))
+    fastest = worst.fastest(most)
+    if fastest * duration >= near * LEAST_GROWTH:
+        one = worst.rates.index(fastest)
+        factor = math.exp(min(fastest * HOUR, 99.0))
         text = (
             f"run: {integrator} makes an oscillation of body {worst.at.bodies[one]!r} grow by a factor of "
             f"{factor:.3g} an hour: {worst.words(one)}, which its steps of {step:.3g} s on average outweigh. "

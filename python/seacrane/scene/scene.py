@@ -11,7 +11,6 @@ from seacrane.crane.add_crane import add_crane
 from seacrane.description import (
     bodies,
     clearances,
-    compilation,
     crane_parts,
     damping,
     drives,
@@ -28,6 +27,7 @@ from seacrane.description.scene import Description
 from seacrane.inputs.caller import heard
 from seacrane.scene import (
     bridles,
+    compiling,
     drift,
     given_vessel,
     heave,
@@ -38,6 +38,7 @@ from seacrane.scene import (
     luffing,
     position,
     sea,
+    slack_tank,
     table_text,
     vessel,
     wind_current,
@@ -107,6 +108,7 @@ class Scene(Description):
 
     add_vessel = vessel.add_vessel
     add_given_vessel = given_vessel.add_given_vessel
+    add_slack_tank = slack_tank.add_slack_tank
     add_sea = sea.add_sea
     add_ballast = add_ballast
     add_drift = drift.add_drift
@@ -122,7 +124,7 @@ class Scene(Description):
 
     place_of = places.place_of
 
-    compile = compilation.compile_scene
+    compile = compiling.compile_scene
     replace = edit.replace_element
     remove = edit.remove_element
 

@@ -15,6 +15,7 @@ from seacrane.description.scene import Description
 from seacrane.errors import SceneError
 from seacrane.hydro import HydroDatabase, MemoryModel, vessel_parameters
 from seacrane.hydro.data.data_warnings import warn_of_water
+from seacrane.hydro.memory.free_surface import free_surface
 from seacrane.hydro.vessel.parameters import VesselParameters, following_yaw
 from seacrane.inputs.checked import shaped_of
 from seacrane.inputs.plausible import direction_of
@@ -198,8 +199,9 @@ def _from_database(
     remember(added, database)
     band = (float(database.omega[0]), float(database.omega[-1]))
     scene.provenance[name] = VesselProvenance(
-        database=database.name, omega=band, memory=memory, memory_error=_memory_error(parameters, memory)
-    )
+        database=database.name, omega=band, memory=memory, memory_error=_memory_error(parameters, memory),
+        free_surface=free_surface(database, parameters.memory.additional_stiffness),
+    )  # fmt: skip
     return added
 
 

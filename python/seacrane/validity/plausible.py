@@ -12,13 +12,14 @@ from numpy.typing import NDArray
 from seacrane import _core
 from seacrane.description.given import floating_bodies
 from seacrane.description.joint_coordinates import ANGLES
-from seacrane.description.loads import kind_of, named
+from seacrane.description.loads import kind_of
 from seacrane.description.references import references
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.frames import rotation_matrix
 from seacrane.inputs.plausible import CompassDirectionWarning, MassUnitWarning, angle_of
 from seacrane.validity.holding import warn_of_free_cranes
 from seacrane.validity.lifting import warn_of_loads_in_hulls
+from seacrane.validity.stability import carried_by, warn_of_capsize
 from seacrane.validity.units import warn_of_units
 
 if TYPE_CHECKING:
@@ -58,6 +59,7 @@ def warn_of_description(scene: Description, *, start: float, end: float, describ
     if described:
         warn_of_free_cranes(scene)
         _warn_of_ballast(scene)
+        warn_of_capsize(scene)
         warn_of_loads_in_hulls(scene)
 
 
@@ -128,7 +130,7 @@ def _warn_of_ballast(scene: Description) -> None:
         return
     for vessel in (one for one in scene.vessels.values() if one.floats):
         hull = scene.bodies[vessel.body]
-        carried = _carried(scene, vessel.body)
+        carried = carried_by(scene, vessel.body)
         weights = [scene.bodies[name] for name in carried - {vessel.body} if scene.bodies[name].gravity]
         restoring = np.asarray(vessel.restoring)[2:5, 2:5]
         if not weights or not np.all(np.diag(restoring) > 0.0):
@@ -157,22 +159,3 @@ def _warn_of_balance(vessel: _core.VesselHydrodynamics, rest: Array, start: floa
         "the start. Add ballast (Scene.add_ballast), or start from seacrane.equilibrium(scene)",
         BallastWarning,
     )
-
-
-def _carried(scene: Description, vessel: str) -> set[str]:
-    """Bodies whose weight comes to the vessel; none where another support shares it."""
-    stopped = {joint for load in scene.loads.values() for joint in named(load, "joint")}
-    driven = {driver.joint for driver in scene.drivers.values()}
-    neighbours: dict[str, list[str]] = {}
-    for name, joint in scene.joints.items():
-        if joint.kind != "free" or name in stopped | driven:
-            neighbours.setdefault(joint.first, []).append(joint.second)
-            neighbours.setdefault(joint.second, []).append(joint.first)
-    found, open_ = {vessel}, [vessel]
-    while open_:
-        new = set(neighbours.get(open_.pop(), ())) - found
-        found |= new
-        open_ += new
-    floating = floating_bodies(scene)
-    alone = found <= set(scene.bodies) and found & floating == {vessel}
-    return found if alone else set()

@@ -1,0 +1,158 @@
+"""Whether a scene stays at a state of rest: what grows from there, how fast, and what moves most."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from seacrane import _core
+from seacrane.analysis.no_rest import most_turned
+from seacrane.analysis.reduced_coordinates import NEUTRAL, ReducedCoordinates, Terms
+from seacrane.description.hydraulic_cylinders import hydraulic_cylinders
+from seacrane.description.scene import Description
+from seacrane.inputs.caller import warn_caller
+from seacrane.inputs.frames import MOTIONS
+from seacrane.validity.range import LARGEST_HEEL, LargeHeelWarning
+from seacrane.validity.stability import CreepingRestWarning, UnstableRestWarning
+
+Array = NDArray[np.float64]
+Complex = NDArray[np.complex128]
+LEAST_GROWTH = 1e-3  # 1/s: what takes ten minutes to double is not told
+LEAST_CREEP = 1e-6  # m/s
+CHAMBERS = ("pressure", "pressure_rod")
+LEAST_SHARE = 1e-6  # of |eigenvalue|, of an oscillation that grows: less is rounding
+
+
+@dataclass(frozen=True, kw_only=True)
+class Growing:
+    """A mode that grows.
+
+    Attributes
+    ----------
+    value : complex
+        Eigenvalue, 1/s.
+    label : str
+        Body and motion that it moves most, as "vessel roll".
+    """
+
+    value: complex
+    label: str
+
+    @property
+    def words(self) -> str:
+        """As "grows, doubling in 87 s"."""
+        return growth_in_words(self.value)
+
+
+def growth_in_words(value: complex) -> str:
+    """Of an eigenvalue (1/s) that grows, as "grows, doubling in 87 s"."""
+    doubling = f"grows, doubling in {np.log(2.0) / value.real:.3g} s"
+    if value.imag == 0.0:
+        return doubling
+    return f"swings with {2.0 * np.pi / abs(value.imag):.3g} s and {doubling}"
+
+
+def grows(values: Array | Complex) -> NDArray[np.bool_]:
+    """Which of these eigenvalues (1/s) grow; of a pair the one with the positive imaginary part."""
+    least = np.maximum(LEAST_GROWTH, LEAST_SHARE * np.abs(values))
+    return np.asarray((values.real > least) & (values.imag >= 0.0))
+
+
+def tips_over(stiffness: Array) -> bool:
+    """Whether d(acceleration) / d(coordinates) pushes away from rest in some direction."""
+    squares = np.linalg.eigvals(stiffness)
+    pushes = (squares.real > LEAST_GROWTH**2) & (np.abs(squares.imag) <= NEUTRAL * np.abs(squares))
+    return bool(np.any(pushes))
+
+
+def growing(scene: Description, model: _core.Model, state: _core.State) -> list[Growing]:
+    """What grows at a state of rest of a held scene, the fastest first.
+
+    Without winches and compensators only what tips over can grow, which the stiffness tells; with them an
+    oscillation can too. Those that valves feed are left to `UnsteadyOilWarning`: a valve has two slopes.
+    """
+    terms = Terms(model, time=state.time)
+    coordinates = ReducedCoordinates.quickly_at(terms, np.asarray(state.values))
+    matrix = coordinates.static_matrix()
+    if not np.all(np.isfinite(matrix)):
+        return []
+    if not len(terms.load_scales) and not tips_over(matrix):
+        return []
+    values, vectors = _modes(coordinates)
+    told = grows(values) & ((values.imag == 0.0) | (not hydraulic_cylinders(scene)))
+    found = np.flatnonzero(told)
+    order = found[np.argsort(-values.real[found])]
+    return [
+        Growing(value=complex(values[i]), label=label_of(coordinates, vectors[: coordinates.size, i]))
+        for i in order
+    ]
+
+
+def _modes(coordinates: ReducedCoordinates) -> tuple[Complex, Complex]:
+    """Eigenvalues and vectors of coordinates, speeds and states of loads, the fluid's memory among them."""
+    terms, basis, dof = coordinates.terms, coordinates.basis, coordinates.size
+    scale = np.array(terms.model.scale)[terms.memory]
+    scale = np.where(np.isfinite(scale), scale, 1.0)
+    bodies = 6 * terms.bodies
+
+    def reduced(columns: Array) -> Array:
+        return np.concatenate([basis.T @ columns[:bodies], columns[bodies:] / scale[:, None]])
+
+    matrix = np.zeros((2 * dof + len(scale),) * 2)
+    matrix[:dof, dof : 2 * dof] = np.eye(dof)
+    matrix[dof:, :dof] = reduced(coordinates.pose_columns())
+    matrix[dof:, dof : 2 * dof] = reduced(coordinates.twist_columns())
+    matrix[dof:, 2 * dof :] = reduced(coordinates.memory_columns()) * scale
+    values, vectors = np.linalg.eig(matrix)
+    return np.asarray(values, dtype=complex), np.asarray(vectors, dtype=complex)
+
+
+def label_of(coordinates: ReducedCoordinates, vector: Complex) -> str:
+    """Body and motion with most of the kinetic energy of a motion along the coordinates."""
+    terms = coordinates.terms
+    mass = np.asarray(terms.evaluator.terms(terms.time, coordinates.values)["mass"])
+    motion = coordinates.basis @ vector
+    energy = np.real(motion.conj() * (mass @ motion))
+    body, way = divmod(int(np.argmax(energy)), 6)
+    return f"{terms.model.bodies[body]} {MOTIONS[way]}"
+
+
+def warn_of_rest(what: str, scene: Description, model: _core.Model, state: _core.State) -> None:
+    """Warn of a state of rest at which the scene does not stay, that leaks, or where a ship heels too far."""
+    found = growing(scene, model, state)
+    if found:
+        warn_caller(
+            f"{what}: scene {scene.name!r} does not stay at this rest: {found[0].label} {found[0].words}. "
+            "Look at natural_modes(scene, state=...); lower the weights or hold what tips over, or start the "
+            "search from a state on the side to which it falls",
+            UnstableRestWarning,
+        )
+    turned = most_turned(scene, model, np.asarray(state.values))
+    if turned > LARGEST_HEEL:
+        warn_caller(
+            f"{what}: scene {scene.name!r} rests with a vessel that leans by {np.degrees(turned):.3g} deg, "
+            f"beyond {np.degrees(LARGEST_HEEL):.0f} deg: restoring is linear, so that a ship may have no "
+            "rest there, or capsize. Add ballast (Scene.add_ballast), or lower the weights",
+            LargeHeelWarning,
+        )
+    _warn_of_leaks(what, scene, model, state)
+
+
+def _warn_of_leaks(what: str, scene: Description, model: _core.Model, state: _core.State) -> None:
+    """Warn of hydraulic cylinders that creep from where they rest, as they leak."""
+    places = {name: place for name, _, place, *_ in model.load_states}
+    for name, one in hydraulic_cylinders(scene).items():
+        full, rod = (float(state.values[places[f"{name}.{chamber}"]]) for chamber in CHAMBERS)
+        across = one.internal_leakage * (full - rod)
+        full_side = across + one.external_leakage * (full - one.tank_pressure)
+        rod_side = one.external_leakage * (rod - one.tank_pressure) - across
+        speed = max(abs(full_side) / one.full_area, abs(rod_side) / one.rod_side_area)
+        if speed > LEAST_CREEP:
+            warn_caller(
+                f"{what}: hydraulic cylinder {name!r} leaks where it rests, by up to {60e3 * speed:.3g} mm a "
+                "minute: what it holds creeps, until its control makes up for it. Set its internal_leakage "
+                "and external_leakage to 0, or let a run settle first",
+                CreepingRestWarning,
+            )

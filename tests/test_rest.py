@@ -1,0 +1,163 @@
+"""Rest states: loads on wires are hung first, and what a search finds stays or is told not to."""
+
+from __future__ import annotations
+
+import warnings
+
+import numpy as np
+import pytest
+from random_rests import Builder
+
+from seacrane import (
+    CreepingRestWarning,
+    LargeHeelWarning,
+    Scene,
+    SceneError,
+    UnstableRestWarning,
+    UnsteadyOilWarning,
+    equilibrium,
+    simulate,
+)
+from seacrane.hydro import shipped_database
+
+STILL = 1e-3  # m, and m at 1 m from the centre of mass, in a minute
+REPORTED = (UnstableRestWarning, CreepingRestWarning, UnsteadyOilWarning)
+EVERY, USUAL = 200, 10  # scenes, and every how many of them on every commit
+G = 9.80665
+
+
+def seeds() -> list[object]:
+    return [pytest.param(n, marks=[] if n % USUAL == 0 else pytest.mark.nightly) for n in range(EVERY)]
+
+
+def hung(*, top: float = 0.0, slack: float = 0.0, driven: float = 0.0) -> Scene:
+    scene = Scene(name="hung")
+    scene.add_body(name="tip", mass=1e3, inertia=(1e3,) * 3, gravity=False)
+    scene.add_joint(kind="prismatic", name="up", first="ground", second="tip", axis=(0, 0, 1))
+    scene.add_driver(joint="up", curve=driven)
+    scene.add_body(name="load", mass=1e5, inertia=(1e5,) * 3, position=(0, 0, -100))
+    scene.add_line(
+        name="hoist", bodies=["tip", "load"], points=[(0, 0, top), (0, 0, 0)], stiffness=4e8,
+        length=99.9 + slack,
+    )  # fmt: skip
+    return scene
+
+
+def moved(scene: Scene, duration: float = 60.0) -> float:
+    """How far a body, or a point 1 m from it, comes in a run from rest, m."""
+    result = simulate(scene, duration, start=equilibrium(scene), dt_out=1.0)
+    place, turn = np.asarray(result["position"]), np.asarray(result["quaternion"])
+    turned = 2.0 * np.linalg.norm(turn - turn[0], axis=-1)
+    return float(max(np.abs(place - place[0]).max(), turned.max()))
+
+
+@pytest.mark.parametrize("seed", seeds())
+def test_a_rest_lasts_or_is_told_not_to(seed: int) -> None:
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        far = moved(Builder(seed).scene)
+    assert far < STILL or any(issubclass(one.category, REPORTED) for one in caught), far
+
+
+@pytest.mark.parametrize(("driven", "slack"), [(-1.0, 0.0), (0.0, 1.0), (0.0, 20.0), (-0.5, 0.3)])
+def test_a_load_on_a_slack_line_is_hung_first(driven: float, slack: float) -> None:
+    scene = hung(driven=driven, slack=slack)
+    state = equilibrium(scene)
+    below = (99.9 + slack) * (1.0 + 1e5 * G / 4e8) - driven
+    assert state.values[7 + 2] == pytest.approx(-below, abs=1e-6)
+
+
+@pytest.mark.parametrize("up", [-0.2, 0.2])
+def test_a_heavy_line_whose_top_starts_elsewhere_hangs(up: float) -> None:
+    scene = Scene(name="heavy")
+    scene.add_body(name="load", mass=1e4, inertia=(1e4,) * 3, position=(0, 0, -100))
+    lines = scene.add_heavy_line(
+        name="hoist", bodies=["ground", "load"], points=[(0, 0, 0), (0, 0, 0)], stiffness=4e8,
+        length=100.0, mass_per_length=20.0, segments=8,
+    )  # fmt: skip
+    first = lines[0]
+    points = np.asarray(first.points)
+    points[0, 2] = up
+    scene.replace(first.name, kind="load", points=points)
+    assert equilibrium(scene).values[2] == pytest.approx(up - 100.0, abs=0.1)
+    assert moved(scene) < STILL
+
+
+def test_the_line_that_could_hold_a_load_is_named() -> None:
+    scene = Scene(name="far")
+    scene.add_body(name="load", mass=1e4, inertia=(1e4,) * 3, position=(0, 0, -10))
+    scene.add_line(
+        name="hoist", bodies=["ground", "load"], points=np.zeros((2, 3)), stiffness=1e7, length=5000.0
+    )
+    with pytest.raises(SceneError, match=r"'load' .* line 'hoist', which could hold it, is slack by 4.99"):
+        equilibrium(scene)
+
+
+def test_ballast_heels_a_ship_with_a_load_on_a_line() -> None:
+    scene = Scene(name="heeled")
+    scene.add_vessel(shipped_database(), memory="none")
+    roles = scene.add_crane(theta=-np.pi / 2, s1=2.0, s2=2.0, held=True)
+    assert roles.tip is not None
+    body, head = roles.tip
+    x, y, z = scene.place_of(body=body, point=head)
+    scene.add_body(name="load", mass=50e3, inertia=(1e5,) * 3, position=(x, y, z - 15))
+    scene.add_line(
+        name="hoist", bodies=[body, "load"], points=[head, (0, 0, 0)], stiffness=1e9,
+        tension_at_start=50e3 * G,
+    )  # fmt: skip
+    scene.add_ballast(heel_deg=-6.0)
+    w, x, y, z = equilibrium(scene).values[3:7]
+    assert np.degrees(np.arctan2(2 * (w * x + y * z), 1 - 2 * (x * x + y * y))) == pytest.approx(-6, abs=1e-5)
+
+
+@pytest.mark.parametrize("slack", [-0.01, 0.01, 0.5])
+@pytest.mark.parametrize("lag", [0.0, 0.2])
+def test_a_tugger_holds_its_tension_at_rest(slack: float, lag: float) -> None:
+    scene = Scene(name="tugged")
+    scene.add_body(name="load", mass=1e4, inertia=(1e4,) * 3, position=(0, 0, -10))
+    scene.add_line(
+        name="hoist", bodies=["ground", "load"], points=np.zeros((2, 3)), stiffness=1e7,
+        tension_at_start=1e4 * G,
+    )  # fmt: skip
+    scene.add_line(
+        name="tug", bodies=["ground", "load"], points=[(8, 0, -10), (0, 0, 0)], stiffness=2e5,
+        length=8.0 + slack,
+    )  # fmt: skip
+    scene.add_winch(line="tug", tension=10e3, tension_gain=1e-5, maximum_rate=1.0, lag=lag)
+    result = simulate(scene, 5.0, start=equilibrium(scene))
+    assert result["line_tension"][:, 1] == pytest.approx(10e3, abs=1e-2)
+    assert np.ptp(result["position"], axis=0).max() < 1e-5
+
+
+def test_a_rest_that_grows_is_told_of_and_how_fast() -> None:
+    """Two parallel taglines of constant tension turn a load away: k = -2 T arm (1 + arm / length)."""
+    arm, tension, length, inertia = 1.0, 500.0, 20.0, 5e4
+    scene = Scene(name="taglines")
+    scene.add_body(name="load", mass=1e4, inertia=(inertia,) * 3, position=(0, 0, -10))
+    scene.add_line(
+        name="hoist", bodies=["ground", "load"], points=np.zeros((2, 3)), stiffness=1e7,
+        tension_at_start=1e4 * G,
+    )  # fmt: skip
+    for i, side in enumerate((-1.0, 1.0)):
+        name = f"tag {i}"
+        scene.add_line(
+            name=name, bodies=["ground", "load"], points=[(-side * length, 0, -10), (side * arm, 0, 0)],
+            stiffness=1e5, tension_at_start=tension,
+        )  # fmt: skip
+        scene.add_winch(line=name, tension=tension, tension_gain=1.0)
+    with pytest.warns(UnstableRestWarning, match=r"load yaw grows, doubling in (\S+) s") as caught:
+        equilibrium(scene)
+    across = length + arm
+    expected = np.log(2.0) / np.sqrt(2.0 * tension * arm * length / across / inertia)
+    told = float(str(caught[0].message).split("doubling in ")[1].split(" s")[0])
+    assert told == pytest.approx(expected, rel=0.05)
+
+
+def test_a_rest_beyond_linear_restoring_is_told_of() -> None:
+    scene = Scene(name="no ballast")
+    scene.add_vessel(shipped_database(), memory="none")
+    scene.add_crane(theta=-np.pi / 2, held=True)
+    scene.add_body(name="deck load", mass=2e6, inertia=(1e7,) * 3, position=(0, 9, 2))
+    scene.add_joint(kind="weld", name="lashing", first="vessel", second="deck load", point=(0, 9, 2))
+    with pytest.warns(LargeHeelWarning, match="rests with a vessel that leans by"):
+        equilibrium(scene)
