@@ -206,6 +206,7 @@ void Simulation::finish_step(double now, double stop) {
   state_.assign(integrator().state(), integrator().state() + stepper().stepped.size());
   stepper().stepped.project(now, state_.data(), false);
   integrator().reset(now, state_.data());
+  if (switches_) switches_->watch(stepper(), now, state_.data());
 }
 
 bool Simulation::advance(double t_end, const std::function<bool(double)>& keep_going) {
@@ -219,7 +220,8 @@ bool Simulation::advance(double t_end, const std::function<bool(double)>& keep_g
     if (retake_to_switch()) continue;
     if (!is_adaptive()) check_turning();
     if (!carry_out_event()) finish_step(now, stop);
-    if (Clock::now() - asked > kAskInterval) {
+    // Not on the way to a crossing, which no state holds.
+    if (switch_at_ == kNever && Clock::now() - asked > kAskInterval) {
       wall_seconds_ += seconds_since(asked);
       going = !keep_going || keep_going(time());
       asked = Clock::now();

@@ -41,6 +41,7 @@ from seacrane.run.line_rungs import (
     as_told,
     begun_anew,
     line_rungs,
+    warn_of_quasi_static,
 )
 from seacrane.run.method import Method
 from seacrane.run.modes import Modes
@@ -50,6 +51,7 @@ from seacrane.run.ruptures import ruptures
 from seacrane.run.shorthand import Shorthand, settled
 from seacrane.run.stats import lasting_stats, settings_in_sea, settings_of, stats_of
 from seacrane.scene.scene import Scene
+from seacrane.validity.lines import bound_findings
 from seacrane.validity.plausible import warn_of_description
 from seacrane.validity.range import Finding, as_text, findings
 
@@ -124,6 +126,8 @@ class Run:
         begin, end, described = self.start.time, self.t_end, start is None
         check_references(self.scene, self.model, start=begin, end=end, described=described)
         warn_of_description(self.scene, start=begin, end=end, described=described)
+        if begin == 0.0:
+            warn_of_quasi_static(self._given, self.model, end=end)
         self.settings = settings_of(self.scene, self.t_end, self.method, self.outputs)
         require_limited_channels(self.scene, self.model)
         require_names(self.scene, self.outputs.channels or ())
@@ -350,7 +354,9 @@ class Run:
             arrays = self.core.channels() if most is None else self.core.channels(most)
             channels, stats = self.wanted(arrays), self.stats()
             scene = self.scene
-            found = findings(scene, arrays["time"], channels, stats, self.steered) + self.slow + self.slack
+            found = findings(scene, arrays["time"], channels, stats, self.steered)
+            found += bound_findings(scene, [(time, name) for time, name, *_ in self.core.events()])
+            found += self.slow + self.slack
             if found:
                 stats["validity"] = as_text(found)
             result = Result.from_arrays(

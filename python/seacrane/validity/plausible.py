@@ -18,6 +18,7 @@ from seacrane.inputs.frames import rotation_matrix
 from seacrane.inputs.plausible import CompassDirectionWarning, MassUnitWarning, angle_of
 from seacrane.validity.holding import warn_of_free_cranes
 from seacrane.validity.lifting import warn_of_loads_in_hulls
+from seacrane.validity.line_starts import warn_of_line_starts
 
 if TYPE_CHECKING:
     from seacrane.description.scene import Description
@@ -56,6 +57,7 @@ def warn_of_description(scene: Description, *, start: float, end: float, describ
         warn_of_free_cranes(scene)
         _warn_of_ballast(scene)
         warn_of_loads_in_hulls(scene)
+        warn_of_line_starts(scene)
 
 
 def _warn_of_angles(scene: Description, start: float, end: float) -> None:
