@@ -15,10 +15,10 @@ namespace {
 constexpr std::size_t kMostCoupled = 64;  // lines; more of them are taken one by one
 constexpr double kStill = 1e-9;           // of the fastest mode's square: strains that move nothing
 constexpr double kAsMuch = 0.5;           // of a line's largest share in a mode
-constexpr double kRounding = 1e-9;        // of a mass
+constexpr double kMassRounding = 1e-9;    // of a mass
 
 /// What pulls along one direction: unit wrenches on the bodies, what they accelerate, and its stiffness.
-struct Spring {
+struct Pull {
   std::vector<Vec6d> unit, response;
   double stiffness = 0.0;
   const Line* line = nullptr;
@@ -30,9 +30,10 @@ double stiffness_of(const StiffSlopes& slopes) {
   return std::abs(slopes.block(0, 1, 1, n).row(0).dot(slopes.block(1, 0, n, 1).col(0)));
 }
 
-class Finder {
+class BounceFinder {
  public:
-  explicit Finder(const Model& model) : model_(model), lines_(std::get<std::vector<Line>>(*model.loads)) {}
+  explicit BounceFinder(const Model& model)
+      : model_(model), lines_(std::get<std::vector<Line>>(*model.loads)) {}
 
   std::vector<LineBounce> run() {
     if (lines_.empty() || model_.paper_kinematics) return {};
@@ -62,7 +63,7 @@ class Finder {
 
   template <class AddUnit>
   void add(AddUnit&& add_unit, double stiffness, const Line* line) {
-    Spring out;
+    Pull out;
     out.unit.assign(idx(model_.body_count()) + 1, Vec6d::Zero());
     out.response = out.unit;
     add_unit(out.unit.data());
@@ -84,7 +85,7 @@ class Finder {
     }
   }
 
-  static double yields(const Spring& one, const Spring& other) {
+  static double yields(const Pull& one, const Pull& other) {
     double sum = 0.0;
     for (std::size_t b = 0; b < one.unit.size(); ++b) sum += one.unit[b].dot(other.response[b]);
     return sum;
@@ -92,7 +93,7 @@ class Finder {
 
   std::vector<LineBounce> one_by_one() const {
     std::vector<LineBounce> out;
-    for (const Spring& one : springs_) {
+    for (const Pull& one : springs_) {
       const double mass = 1.0 / yields(one, one);
       out.push_back({one.line->name, mass, std::sqrt(one.stiffness / mass), one.line->damping_ratio});
     }
@@ -106,7 +107,7 @@ class Finder {
     MatXd rates(n, n);
     for (Eigen::Index i = 0; i < n; ++i) {
       for (Eigen::Index j = 0; j <= i; ++j) {
-        const Spring &a = springs_[idx(i)], &b = springs_[idx(j)];
+        const Pull &a = springs_[idx(i)], &b = springs_[idx(j)];
         rates(i, j) = rates(j, i) = std::sqrt(a.stiffness * b.stiffness) * yields(a, b);
       }
     }
@@ -127,7 +128,7 @@ class Finder {
       const double omega = std::sqrt(squares[mode[idx(i)]]);
       double ratio = 0.0;
       for (Eigen::Index j = 0; j < n; ++j) {
-        const Spring& other = springs_[idx(j)];
+        const Pull& other = springs_[idx(j)];
         if (other.line == nullptr) continue;
         const double moved = other.line->given_mass ? other.line->hung : mass[j];
         ratio +=
@@ -153,18 +154,18 @@ class Finder {
 
   /// That of the ends where it is the same but for rounding.
   static double snapped(const Line& line, double mass) {
-    return std::abs(mass - line.hung) <= kRounding * mass ? line.hung : mass;
+    return std::abs(mass - line.hung) <= kMassRounding * mass ? line.hung : mass;
   }
 
   const Model& model_;
   const std::vector<Line>& lines_;
   std::optional<MaximalSystem> system_;
-  std::vector<Spring> springs_;
+  std::vector<Pull> springs_;
 };
 
 }  // namespace
 
-std::vector<LineBounce> find_line_bounces(const Model& model) { return Finder(model).run(); }
+std::vector<LineBounce> find_line_bounces(const Model& model) { return BounceFinder(model).run(); }
 
 void hang_on_lines(Model& model, const std::vector<LineBounce>& bounces) {
   model.line_bounces = bounces;

@@ -84,8 +84,8 @@ def refuse_heavy_winch(line: _core.Line) -> None:
     whole = whole_of(line.name, line)
     if whole != line.name:
         raise SceneError(
-            f"line {line.name!r}: is a segment of heavy line {whole!r}, and what a winch pays out has no mass, so "
-            "that the weight on it would be too small. Let the winch haul a line without mass on which the "
+            f"line {line.name!r}: is a segment of heavy line {whole!r}, and what a winch pays out has no "
+            "mass, so that it would carry too little. Let the winch haul a line without mass on which the "
             "heavy one hangs, or run the heavy line at fixed lengths"
         )
 

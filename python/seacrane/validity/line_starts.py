@@ -72,8 +72,10 @@ def _warn_of_lift(
     tensions: dict[str, float],
 ) -> None:
     pulls = {name: tensions[name] * _upwards(line, paths[name], body) for name, line in lines.items()}
-    weight, lift = scene.bodies[body].mass * scene.gravity, sum(pulls.values())
-    if weight > 0.0 and lift > LARGEST_LIFT * weight:
+    one = scene.bodies[body]
+    weight, lift = one.mass * scene.gravity, sum(pulls.values())
+    turned = one.mass * float(np.square(one.velocity).sum()) / _longest(body, lines, paths)
+    if weight > 0.0 and lift > LARGEST_LIFT * (weight + turned):
         worst = max(pulls, key=lambda name: pulls[name])
         warn_caller(
             f"body {body!r}: its lines start by lifting it with {lift:.4g} N, {lift / weight:.3g} times its "
@@ -82,6 +84,16 @@ def _warn_of_lift(
             "Correct its length, or give tension_at_start",
             LiftedStartWarning,
         )
+
+
+def _longest(body: str, lines: dict[str, _core.Line], paths: dict[str, Laid]) -> float:
+    """Span (m) of the lines at a body, on which it swings."""
+    spans = [
+        np.linalg.norm(paths[name].ends - paths[name].starts, axis=1).max()
+        for name, line in lines.items()
+        if body in line.bodies
+    ]
+    return max(float(max(spans)), 1e-300)
 
 
 def _upwards(line: _core.Line, path: Laid, body: str) -> float:
