@@ -154,18 +154,6 @@ def test_a_deep_wire_below_a_crane_finds_its_rest_in_both_formulations(stretch: 
         assert np.abs(run["velocity"]).max() < 1e-5
 
 
-def test_a_winch_on_the_first_segment_lowers_what_hangs() -> None:
-    scene = hanging(5, stiffness=1e8)
-    slow = Curve.quintic(start_time=0.0, end_time=2.0, start=0.0, end=0.4)
-    stop = Curve.quintic(start_time=3.0, end_time=5.0, start=0.4, end=0.0)
-    scene.add_winch(line="wire.1", rate=slow.then(time=3.0, curve=stop), lag=0.1)
-    result = simulate(scene, t_end=8.0, integrator="cvode-bdf", rtol=1e-6)
-    place = result.select("position", body="load")[:, 2]
-    paid = result["line_unstretched_length"][-1, 0] - 20.0
-    assert paid == pytest.approx(0.4 * 3.0, rel=1e-3)
-    assert place[0] - place[-1] == pytest.approx(paid, abs=2e-3)
-
-
 def test_half_masses_are_carried_by_the_ends() -> None:
     """The load of a heavy line weighs what hangs below the first segment."""
     scene = hanging(4)

@@ -308,6 +308,49 @@ def forces_as_text() -> None:
     lift(ballast=False).add_point_force(name="pull", body="payload", force=["1e3", "0", "0"])
 
 
+def hoist(**line: object) -> Scene:
+    scene = Scene(name="hoist")
+    scene.add_body(name="load", mass=20e3, inertia=(1e4, 1e4, 1e4), position=(0, 0, -10))
+    given = {"stiffness": 3e7, "tension_at_start": 20e3 * scene.gravity} | line
+    scene.add_line(name="hoist", bodies=["ground", "load"], points=np.zeros((2, 3)), **given)
+    return scene
+
+
+def a_motor_in_kilonewtons() -> None:
+    scene = hoist()
+    scene.add_winch(line="hoist", lag=0.1, drum_inertia=500.0, drum_radius=0.5, maximum_tension=300)
+    simulate(scene, t_end=0.1)
+
+
+def a_hoist_ten_centimetres_short() -> None:
+    simulate(hoist(stiffness=5e7, length=9.9, tension_at_start=None), t_end=0.1)
+
+
+def a_tagline_connected_short() -> None:
+    scene = hoist()
+    scene.add_line(
+        name="tag", bodies=["ground", "load"], points=[(6.5, 0, -10), (0, 0, 0)], stiffness=1e6, length=5.0
+    )
+    stages = [
+        seacrane.Stage(name="wait", duration=0.1),
+        seacrane.Stage(name="hook on", duration=0.1, connect=["tag"]),
+    ]
+    seacrane.simulate_stages(scene, stages)
+
+
+def a_resonant_wire_as_quasi_static() -> None:
+    scene = Scene(name="deep")
+    scene.add_body(name="tip", mass=1e3, inertia=(1e3, 1e3, 1e3), gravity=False)
+    scene.add_joint(kind="prismatic", name="up", first="ground", second="tip", axis=(0, 0, 1))
+    scene.add_driver(joint="up", curve=Curve.harmonic(amplitude=0.2, omega=1.2, phase=np.pi / 2))
+    scene.add_body(name="load", mass=180e3, inertia=(4e5, 4e5, 4e5), position=(0, 0, -2000))
+    scene.add_line(
+        name="wire", bodies=["tip", "load"], points=np.zeros((2, 3)), stiffness=4e8,
+        tension_at_start=180e3 * scene.gravity, stretch="quasi-static",
+    )  # fmt: skip
+    simulate(scene, t_end=1.0)
+
+
 SCRIPTS: dict[str, list[Callable[[], None]]] = {
     "degrees where radians are meant": [degrees_for_radians, a_pose_in_degrees],
     "RAOs in degrees per metre": [raos_in_degrees, headings_in_degrees],
@@ -335,6 +378,10 @@ SCRIPTS: dict[str, list[Callable[[], None]]] = {
     "a roll amplitude in radians": [a_roll_amplitude_in_radians],
     "bilge keels in millimetres": [bilge_keels_in_millimetres],
     "a mooring counted twice": [a_mooring_beside_the_file_s, a_file_that_holds_its_mooring],
+    "kilonewtons for newtons at a winch": [a_motor_in_kilonewtons],
+    "a line too short for the pose": [a_hoist_ten_centimetres_short],
+    "a line connected too short": [a_tagline_connected_short],
+    "a wire that resonates, as quasi-static": [a_resonant_wire_as_quasi_static],
     "texts for numbers": [forces_as_text],
     **mistaken_units.SCRIPTS,
 }

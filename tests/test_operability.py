@@ -21,6 +21,7 @@ from seacrane import (
     AlphaFactor,
     Criterion,
     HydroDatabase,
+    Run,
     Scene,
     SceneError,
     allowable_hs,
@@ -34,12 +35,14 @@ from seacrane import (
 )
 from seacrane.analysis.rest_state import held
 from seacrane.hydro import shipped_database
+from seacrane.operability.alpha import alpha_of
+from seacrane.operability.cells import Cells
 from seacrane.operability.circle import over_circle
 from seacrane.operability.levels import gaussian_level, reached, record_numbers, seeds_level
 from seacrane.operability.linear_channels import linear_channels
 from seacrane.operability.linear_seas import LinearSeas
 from seacrane.operability.steady_start import SteadyStart, steady_start
-from seacrane.operability.time_domain import first_crossing
+from seacrane.operability.time_domain import ByTime, first_crossing
 from seacrane.sea import jonswap
 
 
@@ -348,12 +351,12 @@ def test_results_travel(tested: AllowableHs) -> None:
         ([1.0, 2.0, 4.0], 5.0, np.inf),
         ([1.0, 0.5, 4.0], 0.9, 0.9),  # the first crossing counts
         ([1.0, np.inf, 4.0], 3.0, 1.0),  # runs that failed allow no more than the Hs below
-        ([np.inf, 1.0, 4.0], 3.0, 0.0),
+        ([np.inf, 1.0, 4.0], 3.0, np.nan),  # not known, which is not zero
         ([1.0, 2.0, 4.0], 0.0, 0.0),
     ],
 )
 def test_the_first_crossing(levels: list[float], allowance: float, hs: float) -> None:
-    assert first_crossing([1.0, 2.0, 3.0], levels, allowance) == pytest.approx(hs)
+    assert first_crossing([1.0, 2.0, 3.0], levels, allowance) == pytest.approx(hs, nan_ok=True)
 
 
 def test_seeds_that_failed_are_no_evidence() -> None:
@@ -522,3 +525,63 @@ def test_nothing_is_warned_of(database: HydroDatabase) -> None:
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         by_frequency(vessel(), [HEAVE], database)
+
+
+def test_a_lift_on_a_quasi_static_line_is_allowed_what_its_elastic_twin_is(database: HydroDatabase) -> None:
+    """Runs begin in the linear steady state, which keeps the lengths of lines."""
+    found = {}
+    for stretch in ("elastic", "quasi-static"):
+        scene = Scene(name=stretch)
+        scene.add_vessel(database)
+        scene.add_sea(database, hs=1.0, tp=7.0, direction_deg=120.0, seed=1, count=60)
+        scene.add_body(name="load", mass=5e3, inertia=(5e3, 5e3, 5e3), position=(10, 25, -5))
+        scene.add_line(
+            name="hoist", bodies=["vessel", "load"], points=[(10, 25, 10), (0, 0, 0)], stiffness=1e8,
+            tension_at_start=5e3 * 9.80665, stretch=stretch, damping_ratio=0.05,
+        )  # fmt: skip
+        limit = Criterion(
+            channel="line_tension", where={"line": "hoist"}, maximum=1.75 * 5e3 * 9.80665, exposure=1800.0
+        )
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            table = allowable_hs(
+                scene, criteria=[limit], tp=[7.0], direction_deg=[120.0], database=database, domain="time",
+                seeds=range(1, 4), duration=150.0, start_up=50.0, hs=(1.0, 1.5, 2.0), rtol=1e-3,
+            )  # fmt: skip
+        assert not table.failures
+        found[stretch] = float(table.dataset["allowable_hs"].values[0, 0])
+    assert found["quasi-static"] == pytest.approx(found["elastic"], rel=0.05)
+    assert found["elastic"] > 1.0
+
+
+def test_a_steady_start_strains_no_line_by_the_squares_of_its_motions() -> None:
+    """Stretch and its rate are those of small motions, also where bodies move by half a metre."""
+    scene = soft_wire()
+    model = linear_model(scene, state=equilibrium(scene))
+    motion = np.random.default_rng(1).normal(0.0, 0.3, 2 * model.degrees_of_freedom)
+    found = []
+    for size in (0.0, 1e-4, 1.0):
+        x = np.zeros(len(model.a))
+        x[: motion.size] = size * motion
+        now = Run(scene, 1.0, start=model.full_state(x)).measure()
+        found.append(np.array([now["line_stretch"][0], now["line_tension"][0]]))
+    slope, whole = (found[1] - found[0]) / 1e-4, found[2] - found[0]
+    assert whole == pytest.approx(slope, rel=2e-2)
+
+
+def test_a_cell_whose_runs_fail_is_told_as_failed() -> None:
+    cells = Cells.of([HEAVE], [7.0], [120.0, 150.0, 180.0], largest=3.0)
+    cells.take_time((0, 0), [ByTime(allowable=np.nan, low=np.nan, high=np.nan, unknown=1.0, failed=6)])
+    cells.take_time((0, 1), [ByTime(allowable=1.0, low=1.0, high=1.0, unknown=2.0, failed=4)])
+    cells.take_time((0, 2), [ByTime(allowable=1.4, low=1.2, high=1.6, failed=1)])
+    table = AllowableHs.of(
+        "lift", cells, alpha_of(1.0), 12.0,
+        hs=[1.0, 2.0, 3.0], seeds=[1, 2, 3, 4, 5, 6], duration=900.0, linear_within=0.1, failures={0: "slack"},
+    )  # fmt: skip
+    assert np.isnan(table.dataset["allowable_hs"].values[0, 0])
+    assert table.dataset["reason"].values[0].tolist() == [
+        "6 runs failed: not known from Hs 1 m on", "4 runs failed: not known from Hs 2 m on",
+        "1 runs failed, and the others count",
+    ]  # fmt: skip
+    assert "failed t" in str(table)
+    plot_allowable_hs(table)

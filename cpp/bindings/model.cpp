@@ -1,5 +1,6 @@
 #include "seacrane/model/model.hpp"
 
+#include <map>
 #include <set>
 
 #include "bindings.hpp"
@@ -402,6 +403,16 @@ void bind_model(py::module_& m) {
             return Array(static_cast<py::ssize_t>(x.initial_state.size()), x.initial_state.data());
           },
           "Consistent start (copy): poses, twists, memory states, states of loads, work.")
+      .def_property_readonly(
+          "line_bounces",
+          [](const Model& x) {
+            std::map<std::string, std::tuple<double, double, double>> out;
+            for (const LineBounce& one : x.line_bounces) out[one.line] = {one.mass, one.omega, one.ratio};
+            return out;
+          },
+          "By line: the mass (kg) that bounces on it at the start, as on one fall, the frequency of that "
+          "(rad/s), and "
+          "the ratio of critical damping that the lines give it.")
       .def_property_readonly(
           "scale",
           [](const Model& x) { return Array(static_cast<py::ssize_t>(x.scale.size()), x.scale.data()); },

@@ -127,6 +127,7 @@ from seacrane.result.heavy_lines import heavy_line_tension as heavy_line_tension
 from seacrane.result.utilisation import Utilisation as Utilisation
 from seacrane.run.growth import GrowingModeWarning as GrowingModeWarning
 from seacrane.run.line_rungs import LineRungWarning as LineRungWarning
+from seacrane.run.line_rungs import QuasiStaticLineWarning as QuasiStaticLineWarning
 from seacrane.run.method import Method as Method
 from seacrane.run.output_times import OutputMemoryError as OutputMemoryError
 from seacrane.run.outputs import Outputs as Outputs
@@ -191,6 +192,7 @@ from seacrane.validity.hull_range import NoWaveLoadsWarning as NoWaveLoadsWarnin
 from seacrane.validity.lifting import LargeSwingWarning as LargeSwingWarning
 from seacrane.validity.lifting import LoadInHullWarning as LoadInHullWarning
 from seacrane.validity.lifting import OverloadWarning as OverloadWarning
+from seacrane.validity.line_starts import LiftedStartWarning as LiftedStartWarning
 from seacrane.validity.lines import FleetAngleWarning as FleetAngleWarning
 from seacrane.validity.lines import LineLengthWarning as LineLengthWarning
 from seacrane.validity.lines import LineTableWarning as LineTableWarning

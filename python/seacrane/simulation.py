@@ -89,7 +89,7 @@ def simulate(
     LineRungWarning
         After a run that began anew because a line with stretch="auto" went slack; in `stats` likewise.
     DriverImpulseWarning, AngleUnitWarning, CompassDirectionWarning, MassUnitWarning, BallastWarning,
-    LoadInHullWarning, FreeCraneWarning
+    LoadInHullWarning, FreeCraneWarning, LiftedStartWarning, QuasiStaticLineWarning
         Before it, when the description most likely does not say what was meant. See docs/mistakes.md.
     """
     called = checked_controllers(controllers)

@@ -10,6 +10,7 @@
 #include "seacrane/compile/assembly.hpp"
 #include "seacrane/compile/fast_motions.hpp"
 #include "seacrane/compile/find_kinks.hpp"
+#include "seacrane/compile/line_bounces.hpp"
 #include "seacrane/dynamics/merged_bodies.hpp"
 #include "seacrane/elements/joints/joint_kinds.hpp"
 #include "seacrane/elements/loads/registry.hpp"
@@ -438,14 +439,14 @@ std::shared_ptr<Model> described_model(const SceneDescription& scene, const std:
   return model;
 }
 
-/// Kinks with all limits open. A stop that holds takes what a load does: what its own force does then must be
-/// stopped at none the less, for it may let go.
-std::vector<Kink> kinks_when_open(const Model& model, ClosedSet closed) {
-  if (closed == 0) return find_kinks(model);
-  const SceneDescription scene = scene_of(model.description, model.limits, 0);
-  const std::shared_ptr<Model> open = described_model(model.description, model.limits, 0, scene);
-  open->initial_state = model.initial_state;
-  return find_kinks(*open);
+/// The model with all limits open. A stop that holds takes what a load does: what its own force does then
+/// must be stopped at none the less, for it may let go.
+std::shared_ptr<Model> when_open(const std::shared_ptr<Model>& model, ClosedSet closed) {
+  if (closed == 0) return model;
+  const SceneDescription scene = scene_of(model->description, model->limits, 0);
+  const std::shared_ptr<Model> open = described_model(model->description, model->limits, 0, scene);
+  open->initial_state = model->initial_state;
+  return open;
 }
 
 /// Refuses a start beyond a bound.
@@ -477,6 +478,9 @@ std::shared_ptr<const Model> compile(const SceneDescription& scene, bool merge) 
   assemble(*model);
   start_fast_motions(*model);
   check_start(*model);
+  const std::shared_ptr<Model> open = when_open(model, closed);
+  hang_on_lines(*model, find_line_bounces(*open));
+  hang_on_lines(*open, model->line_bounces);
   MergePlan plan = merge ? plan_merge(start) : no_merge(start);
   if (plan.merges()) {
     auto merged = std::make_shared<Model>(Compiler(start, std::move(plan)).run());
@@ -484,9 +488,10 @@ std::shared_ptr<const Model> compile(const SceneDescription& scene, bool merge) 
     MergedBodies(*model, *merged).merge(model->initial_state.data(), state.data());
     merged->initial_state = std::move(state);
     assemble(*merged);
+    hang_on_lines(*merged, model->line_bounces);
     model->merged = std::move(merged);
   }
-  model->kinks = kinks_when_open(*model, closed);
+  model->kinks = find_kinks(*open);
   return model;
 }
 
@@ -496,9 +501,12 @@ std::shared_ptr<const Model> compile_set(const Model& model, ClosedSet closed) {
   out->merges = model.merges;
   out->initial_state = model.initial_state;
   out->kinks = model.kinks;
+  hang_on_lines(*out, model.line_bounces);
   MergePlan plan = model.merges ? plan_merge(scene) : no_merge(scene);
   if (plan.merges()) {
-    out->merged = std::make_shared<Model>(Compiler(scene, std::move(plan)).run());
+    auto merged = std::make_shared<Model>(Compiler(scene, std::move(plan)).run());
+    hang_on_lines(*merged, model.line_bounces);
+    out->merged = std::move(merged);
   }
   return out;
 }

@@ -12,6 +12,7 @@
 #include "seacrane/model/description.hpp"
 #include "seacrane/model/kinks.hpp"
 #include "seacrane/model/limit.hpp"
+#include "seacrane/model/line_bounce.hpp"
 #include "seacrane/model/merge.hpp"
 
 namespace seacrane {
@@ -99,6 +100,7 @@ struct Model {
   std::vector<double> scale;  // typical magnitude per state component; infinity: not in the error norm
   std::vector<Kink> kinks;    // by time
   std::vector<double> initial_state;
+  std::vector<LineBounce> line_bounces;
   AssemblyReport assembly;
   bool redundant = false;  // rank of D below its rows
   bool paper_kinematics = false;

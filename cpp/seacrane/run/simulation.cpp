@@ -206,6 +206,7 @@ void Simulation::finish_step(double now, double stop) {
   state_.assign(integrator().state(), integrator().state() + stepper().stepped.size());
   stepper().stepped.project(now, state_.data(), false);
   integrator().reset(now, state_.data());
+  if (switches_) switches_->watch(stepper(), now, state_.data());
 }
 
 bool Simulation::advance(double t_end, const std::function<bool(double)>& keep_going) {

@@ -12,6 +12,9 @@ namespace seacrane {
 namespace {
 
 constexpr double kAtEnd = 1e-6;  // of a step: a crossing that near to its ends is at them
+/// Change of a rate at a step's start, over that of the whole step, beyond which it jumps there; and over the
+/// scale of its state, below which that is rounding.
+constexpr double kJump = 1e-3, kRounding = 1e-10;
 
 /// Calls f(load) for every load with sides, in the order of the model.
 template <class F>
@@ -95,7 +98,9 @@ void Switches::make_room(const Stepper& at) {
   std::size_t count = 0;
   for_each_switch(*at.model, [&](const auto&) { ++count; });
   for (std::vector<int>* sides : {&before_, &after_, &passed_}) sides->reserve(count);
-  state_.resize(at.stepped.size());
+  for (std::vector<double>* values : {&state_, &rate_, &late_rate_, &end_rate_}) {
+    values->resize(at.stepped.size());
+  }
 }
 
 void Switches::resume(Stepper& at, double t, const double* y) {
@@ -121,11 +126,28 @@ void Switches::shorten(double t) {
   before_.swap(after_);
 }
 
-/// Takes as passed what the step crossed as it began: a crossing that the last one ended on, a curve's jump.
-void Switches::pass_start(Stepper& at, double start, double margin) {
-  at.integrator->interpolate(start + margin, state_.data());
+/// Whether the step crossed something as it began, and its first stage, still on the old side, saw other
+/// rates than all the rest of it.
+bool Switches::began_behind(Stepper& at, double start, double margin) {
+  const Integrator& integrator = *at.integrator;
+  integrator.interpolate(start + margin, state_.data());
+  find_sides(at, start + margin, state_.data(), passed_);
+  if (passed_ == before_) return false;
+  at.stepped.derivative(start, integrator.previous_state(), rate_.data());
+  at.stepped.derivative(start + margin, state_.data(), late_rate_.data());
+  at.stepped.derivative(integrator.time(), integrator.state(), end_rate_.data());
+  const double length = integrator.time() - start;
+  const std::vector<double> scale = at.stepped.scale();
+  for (std::size_t i = 0; i < rate_.size(); ++i) {
+    const double jump = std::abs(late_rate_[i] - rate_[i]), change = std::abs(end_rate_[i] - rate_[i]);
+    if (jump > kJump * change && jump * length > kRounding * scale[i]) return true;
+  }
+  return false;
+}
+
+/// Takes as passed what the step crossed as it began: a crossing that the last one ended on.
+void Switches::pass_start(const Stepper& at, double start) {
   passed_.swap(after_);
-  find_sides(at, start + margin, state_.data(), after_);
   instants_.assign(after_.size(), start);
   note(at);
   before_.swap(after_);
@@ -139,7 +161,10 @@ std::optional<double> Switches::find(Stepper& at) {
                margin = std::max(kAtEnd * (end - start), 100.0 * smallest_step(end));
   refuse(at, end, after_);
   std::optional<double> first;
-  if (after_ != before_ && start + margin < end) pass_start(at, start, margin);
+  if (after_ != before_ && start + margin < end) {
+    if (began_behind(at, start, margin)) return start + margin;
+    pass_start(at, start);
+  }
   instants_.assign(after_.size(), end);
   for (std::size_t i = 0; i < after_.size(); ++i) {
     if (after_[i] == before_[i]) continue;

@@ -32,8 +32,9 @@ class Switches {
   void watch(Stepper& at, double t, const double* y);
   /// The same for a run that goes on: what is at a bound there has been noted before.
   void resume(Stepper& at, double t, const double* y);
-  /// Time of the first crossing inside the last step of `at`; nothing where there is none but at its ends:
-  /// then the next step starts from the sides at its end.
+  /// Where the last step of `at` is to end when it is taken again: at the first crossing inside it, or just
+  /// behind its start, where it began on the old side of a jump. Nothing where there is no crossing but at
+  /// its ends: then the next step starts from the sides at its end.
   std::optional<double> find(Stepper& at);
   /// Of the last step only the part until t counts.
   void shorten(double t);
@@ -45,7 +46,8 @@ class Switches {
   void refuse(const Stepper& at, double t, const std::vector<int>& sides) const;
   void make_room(const Stepper& at);
   void note(const Stepper& at);
-  void pass_start(Stepper& at, double start, double margin);
+  bool began_behind(Stepper& at, double start, double margin);
+  void pass_start(const Stepper& at, double start);
   LoadInput<double> read(Stepper& at, double t, const double* y);
   static double across(const Stepper& at, const LoadInput<double>& in, std::size_t load, int from, int to);
 
@@ -53,6 +55,7 @@ class Switches {
   std::vector<double> instants_;              // of their change, likewise
   std::vector<LimitReached> reached_;
   std::vector<double> bodies_, state_;
+  std::vector<double> rate_, late_rate_, end_rate_;  // of what is stepped
 };
 
 }  // namespace seacrane

@@ -34,8 +34,14 @@ class LineDynamics:
     omega : float
         rad/s: motion of a frequency far below it strains the line by (frequency / omega)^2 of what bends a
         rigid one. That of a single line: sqrt(stiffness / (length mass)).
-    longest_span : float
-        m, between two points of its path.
+    fastest : float
+        rad/s, of it alone: others only slow what it makes of a mode.
+    swing : float
+        rad/s, of what hangs on it, and of the lower of two loads that it joins.
+    loss : float
+        Of its damping at `omega`: c omega over the stiffness.
+    coupled : frozenset of str
+        Lines whose tension moves it, itself among them.
     direction : ndarray, shape (6 bodies,)
         Rate of the path's length for each speed of the bodies.
     """
@@ -44,7 +50,10 @@ class LineDynamics:
     ringing: float
     mass: float
     omega: float
-    longest_span: float
+    fastest: float
+    swing: float
+    loss: float
+    coupled: frozenset[str]
     direction: Array
 
     def shaken(self, accelerations: Array) -> float:
@@ -80,23 +89,88 @@ def line_dynamics(
         for line, path in zip(lines.values(), paths.values(), strict=True)
     ]
     omegas = _omegas(yielding, stiffness, np.array(pulls))
-    states = {state: float(values[place]) for state, _, place, *_ in model.load_states}
+    states = _load_states(model, values)
+    groups = _coupled(list(lines), yielding)
     out = {}
     for i, (name, line) in enumerate(lines.items()):
         path, mass = paths[name], 1.0 / max(float(yielding[i, i]), 1e-300)
+        bounced = model.line_bounces[name][0] if name in model.line_bounces else mass
         l0, rate, bend = _unstretched(line, time, states)
         strain_rate = (path.rate - rate * path.length / l0) / l0
-        damping = 2.0 * line.damping_ratio * np.sqrt(line.stiffness * (line.mass or mass) / l0)
+        damping = 2.0 * line.damping_ratio * np.sqrt(line.stiffness * (line.mass or bounced) / l0)
         straining = path.bend - path.length / l0 * bend - 2.0 * rate * strain_rate
         out[name] = LineDynamics(
             tension=float(line.stiffness * (path.length / l0 - 1.0) + damping * l0 * strain_rate),
             ringing=float(mass * np.hypot(straining, omegas[i] * strain_rate * l0)),
             mass=mass,
             omega=float(omegas[i]),
-            longest_span=path.longest,
+            fastest=float(np.sqrt(stiffness[i] / mass)),
+            swing=_swing(scene, line, path.longest),
+            loss=float(damping * omegas[i] / stiffness[i]),
+            coupled=groups[name],
             direction=path.direction,
         )
     return out
+
+
+def _coupled(names: list[str], yielding: Array) -> dict[str, frozenset[str]]:
+    """The lines that feel each other, through others too."""
+    own = np.maximum(np.diag(yielding), 1e-300)
+    near = yielding**2 > COUPLED * np.outer(own, own)
+    np.fill_diagonal(near, val=True)
+    for _ in range(max(len(names) - 1, 0).bit_length()):
+        near = near @ near
+    return {name: frozenset(np.array(names)[row].tolist()) for name, row in zip(names, near, strict=True)}
+
+
+def _swing(scene: Description, line: _core.Line, longest: float) -> float:
+    """A load on a line of that length, faster where what it hangs on is as free as itself."""
+    held = {end for joint in scene.joints.values() for end in (joint.first, joint.second)}
+    held |= {vessel.body for vessel in scene.vessels.values()}
+    ends = [body for body in dict.fromkeys(line.bodies) if body in scene.bodies and body not in held]
+    free = [scene.bodies[body].mass for body in ends]
+    ratio = min(free) / max(free) if len(free) > 1 else 0.0
+    return float(np.sqrt(scene.gravity * (1.0 + ratio) / max(longest, 1e-300)))
+
+
+def with_lengths_of(
+    scene: Description, model: _core.Model, rest: Array, values: Array, displacement: Array, twist: Array
+) -> tuple[Array, Array]:
+    """Corrections (6 n) of poses and twists with which taut lines are as long as small motion makes them.
+
+    Bodies that are moved along straight lines strain stiff lines by the squares of their displacements. Each
+    correction is the smallest one in the mass metric.
+
+    Parameters
+    ----------
+    scene, model
+        As of `line_dynamics`.
+    rest, values : ndarray
+        The state at rest, and the moved one.
+    displacement, twist : ndarray, shape (6 n,)
+        By which it was moved.
+    """
+    none = np.zeros((len(model.bodies), 6))
+    paths, wanted, rates = [], [], []
+    for line in lines_of(scene.loads).values():
+        still = _Path(scene, model, line, rest, none)
+        if still.length <= _unstretched(line, 0.0, _load_states(model, rest))[0]:
+            continue
+        paths.append(_Path(scene, model, line, values, none))
+        wanted.append(still.length + float(still.direction @ displacement))
+        rates.append(float(still.direction @ twist))
+    if not paths:
+        return np.zeros_like(displacement), np.zeros_like(twist)
+    directions = np.stack([path.direction for path in paths], axis=1)
+    response = _response(_core.Evaluator(model).terms(0.0, values), directions)
+    inverse = np.linalg.pinv(directions.T @ response, rcond=DEPENDENT, hermitian=True)
+    apart = np.array([wish - path.length for wish, path in zip(wanted, paths, strict=True)])
+    faster = np.array([wish - path.rate for wish, path in zip(rates, paths, strict=True)])
+    return np.asarray(response @ (inverse @ apart)), np.asarray(response @ (inverse @ faster))
+
+
+def _load_states(model: _core.Model, values: Array) -> dict[str, float]:
+    return {state: float(values[place]) for state, _, place, *_ in model.load_states}
 
 
 def _omegas(yielding: Array, stiffness: Array, pulls: Array) -> Array:

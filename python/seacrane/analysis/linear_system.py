@@ -15,9 +15,11 @@ from seacrane.analysis.frequency_memory import (
     state_without_memory,
     without_memory,
 )
+from seacrane.analysis.line_dynamics import with_lengths_of
 from seacrane.analysis.reduced_coordinates import NEUTRAL, ReducedCoordinates, Terms, at_rest
 from seacrane.analysis.rest_state import equilibrium, held, state_values
 from seacrane.description.compilation import compile_scene
+from seacrane.description.loads import lines_of
 from seacrane.description.scene import Description
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import shaped_of
@@ -29,6 +31,7 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 REST = 1e-6  # m/s2, m/s and the like: what may be left of motion at a state that is given
+CORRECTIONS = 4  # of the lengths of lines: each squares what is left
 RESONANCE = 1e-9  # relative distance of a frequency from an undamped mode
 
 
@@ -240,6 +243,9 @@ class LinearModel:
     def full_state(self, x: ArrayLike) -> _core.State:
         """State of the scene for small x (n,), on the constraints; a run may start from it.
 
+        Its lines that are taut at rest are as long as x makes them to first order: what bodies do beyond it
+        strains no line.
+
         Raises
         ------
         SceneError
@@ -254,13 +260,15 @@ class LinearModel:
         if values.shape != (len(self.a),):
             raise SceneError(f"x has shape {values.shape}; give ({len(self.a)},)")
         dof, terms = self.degrees_of_freedom, self._terms
-        y = terms.moved(
-            np.array(self.state.values),
-            displacement=self.basis @ values[:dof],
-            twist=self.basis @ values[dof : 2 * dof],
-        )
+        rest = np.array(self.state.values)
+        displacement, twist = self.basis @ values[:dof], self.basis @ values[dof : 2 * dof]
+        y = terms.moved(rest, displacement=displacement, twist=twist)
         y[terms.memory] += values[2 * dof :]
-        y = _core.Evaluator(terms.model).project(terms.time, y)  # of its own: threads may share the model
+        project = _core.Evaluator(terms.model).project  # of its own: threads may share the model
+        y = project(terms.time, y)
+        for _ in range(CORRECTIONS if lines_of(self.scene.loads) else 0):
+            nearer, faster = with_lengths_of(self.scene, terms.model, rest, y, displacement, twist)
+            y = project(terms.time, terms.moved(y, displacement=nearer, twist=faster))
         return _core.State(time=terms.time, values=y, inputs=np.zeros(terms.model.slots))
 
 

@@ -35,9 +35,10 @@ def scene_report(scene: Description) -> dict[str, Rows]:
     Returns
     -------
     dict of str to list of (str, value)
-        Sections "size", "elements", "merged", "assembly", "left out", "cost" and, for models small enough for
-        a dense eigenvalue problem, "modes". Values are numbers, texts or lists of texts. Costs are
-        nanoseconds per evaluation, measured while the report is made; all else is the same at every call.
+        Sections "size", "elements", "merged", "assembly", "left out", "cost", "lines" of scenes with elastic
+        lines and, for models small enough for a dense eigenvalue problem, "modes". Values are numbers, texts
+        or lists of texts. Costs are nanoseconds per evaluation, measured while the report is made; all else
+        is the same at every call.
 
     Raises
     ------
@@ -53,6 +54,8 @@ def scene_report(scene: Description) -> dict[str, Rows]:
         "left out": _left_out(scene, model),
         "cost": _cost(model),
     }
+    if model.line_bounces:
+        report["lines"] = _bounces(model)
     modes = _modes(model)
     if modes:
         report["modes"] = modes
@@ -193,6 +196,18 @@ def _cost(model: _core.Model) -> Rows:
     evaluator = _core.Evaluator(model)
     parts = evaluator.time_parts(0.0, np.array(model.initial_state), REPETITIONS)
     return [(f"{name} [ns]", round(value, 1)) for name, value in parts.items()]
+
+
+def _bounces(model: _core.Model) -> Rows:
+    """How each line lets bounce what hangs on it at the start, see docs/lines.md."""
+    return [
+        (
+            name,
+            f"bounces in {2.0 * np.pi / omega:.4g} s, damped by {100.0 * ratio:.3g} % of critical, as "
+            f"{mass:.4g} kg on it",
+        )
+        for name, (mass, omega, ratio) in model.line_bounces.items()
+    ]
 
 
 def _modes(model: _core.Model) -> Rows:

@@ -6,6 +6,7 @@ import warnings
 
 from seacrane import _core
 from seacrane.description.assembled import warn_of_moves
+from seacrane.description.loads import lines_of, refuse_heavy_winch
 from seacrane.description.scene import Description
 from seacrane.description.stretch import compiled_loads
 from seacrane.description.wave_loads import compiled_waves
@@ -31,6 +32,9 @@ def compile_scene(scene: Description, *, merge: bool = True) -> _core.Model:
     AssemblyWarning : names bodies that closing the joints moved, by more than 0.01 m or 0.01 rad.
     UserWarning : names joints that are redundant: their reactions are minimum-norm, not unique.
     """
+    for line in lines_of(scene.loads).values():
+        if line.winch:
+            refuse_heavy_winch(line)
     model = _core.compile(
         name=name_of("scene", scene.name),
         gravity=number_of(f"scene {scene.name!r}: gravity", scene.gravity),

@@ -79,6 +79,17 @@ def whole_of(name: str, line: _core.Line) -> str:
     return whole if number.isdigit() and whole and tied else name
 
 
+def refuse_heavy_winch(line: _core.Line) -> None:
+    """Raise SceneError for a winch on a segment of a line with mass."""
+    whole = whole_of(line.name, line)
+    if whole != line.name:
+        raise SceneError(
+            f"line {line.name!r}: is a segment of heavy line {whole!r}, and what a winch pays out has no "
+            "mass, so that it would carry too little. Let the winch haul a line without mass on which the "
+            "heavy one hangs, or run the heavy line at fixed lengths"
+        )
+
+
 def path_of(line: _core.Line) -> list[tuple[str, Any]]:
     """Body and point (m, its coordinates) of each point of a line, in their order."""
     return list(zip(line.bodies, line.points, strict=True))

@@ -123,3 +123,9 @@ class Cells:
         for i, one in enumerate(found):
             at = (i, *place)
             self.by_criterion[at], self.low[at], self.high[at] = one.allowable, one.low, one.high
+        failed = max((one.failed for one in found), default=0)
+        unknown = [one.unknown for one in found if not np.isnan(one.unknown)]
+        if unknown and (np.isnan(self.allowable[place]) or self.allowable[place] <= min(unknown)):
+            self.reason[place] = f"{failed} runs failed: not known from Hs {min(unknown):g} m on"
+        elif failed:
+            self.reason[place] = f"{failed} runs failed, and the others count"

@@ -75,7 +75,7 @@ def _map(figure: Figure, table: AllowableHs, values: Any) -> None:
     figure.colorbar(image, ax=axes, label="Hs [m]")
     data = table.dataset
     _ticks(axes, data)
-    top = max(float(np.nanmax(values)), 1e-9)
+    top = max(float(np.max(values, initial=0.0, where=np.isfinite(values))), 1e-9)
     names = [one.name for one in table.criteria]
     for i in range(data.sizes["tp"]):
         for j in range(data.sizes["direction_deg"]):
@@ -84,6 +84,7 @@ def _map(figure: Figure, table: AllowableHs, values: Any) -> None:
             text = (
                 f"{values[i, j]:.2f} {letters()[names.index(governs)]}" if governs else f">{values[i, j]:.2f}"
             )
+            text = "failed" if np.isnan(values[i, j]) else text
             colour = "black" if values[i, j] / top > DARK else "white"
             axes.text(j, i, text, ha="center", va="center", fontsize=8, color=colour)
             if cell["domain"].item() == "time":

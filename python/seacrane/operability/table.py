@@ -38,7 +38,8 @@ class AllowableHs:
     hours : float
         Planned period of the operation, h.
     dataset : xarray.Dataset
-        Over `tp` (s) and `direction_deg`: `allowable_hs` (m) with `low` and `high` of its 95 % interval, and
+        Over `tp` (s) and `direction_deg`: `allowable_hs` (m), NaN where runs failed at the lowest Hs, with
+        `low` and `high` of its 95 % interval, and
         `forecast_hs`, which is alpha times `allowable_hs`; `capped`, where no criterion is reached at the
         largest Hs that was examined and `allowable_hs` is that Hs; `governing`, the criterion that is reached
         first; `domain`, "frequency" or "time", and `reason`. `by_criterion` and `difference` (of run and
@@ -182,7 +183,7 @@ class AllowableHs:
         )
         lines.append(f"{self.alpha.told(hours=self.hours)}: not in the table, in forecast_hs")
         if self.failures:
-            lines.append(f"{len(self.failures)} runs failed, see failures")
+            lines.append(f"{len(self.failures)} runs failed, see failures and reason; failed: not known")
         return lines
 
     def _cells(self) -> tuple[list[str], list[list[str]]]:
@@ -197,6 +198,8 @@ class AllowableHs:
     def _cell(self, i: int, j: int) -> str:
         cell = self.dataset.isel(tp=i, direction_deg=j)
         value, mark = float(cell["allowable_hs"]), MARK[str(cell["domain"].item())]
+        if np.isnan(value):
+            return f"failed {mark}"
         if cell["capped"].item():
             return f">{value:.2f} {mark}"
         names = [one.name for one in self.criteria]

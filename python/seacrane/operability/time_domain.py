@@ -28,12 +28,16 @@ Cell = tuple[float, float]  # peak period, s, and direction, degrees
 class ByTime:
     """Allowable Hs of one criterion in one cell, m, by its estimate and the ends of its 95 % interval.
 
-    `allowable` is infinite where no Hs of the grid reaches the criterion.
+    `allowable` is infinite where no Hs of the grid reaches the criterion, and NaN where it is not known,
+    because runs failed at the lowest Hs. `unknown` is the Hs, m, at which runs failed before it was reached,
+    or NaN; `failed` counts the runs that failed up to the Hs that was reached.
     """
 
     allowable: float
     low: float
     high: float
+    unknown: float = float("nan")
+    failed: int = 0
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -118,21 +122,39 @@ class Storms:
             name: first_crossing(self.hs, [getattr(level, of) for level in levels], allowance)
             for name, of in (("allowable", "value"), ("low", "high"), ("high", "low"))
         }
-        return ByTime(**by)
+        until = int(np.searchsorted(self.hs, by["allowable"])) + 1
+        return ByTime(
+            **by,
+            unknown=first_unknown(self.hs, [level.value for level in levels], allowance),
+            failed=int(np.isnan(values[:until]).sum()),
+        )
 
 
 def first_crossing(hs: Sequence[float], levels: Sequence[float], allowance: float) -> float:
     """Lowest Hs (m) at which levels over Hs reach the allowance, linear in between, from zero at Hs 0.
 
-    Infinite where none does. Below a level that is not known the last one before it counts.
+    Infinite where none does. Below a level that is not known the last one before it counts, and NaN where
+    there is none.
     """
     if allowance <= 0.0:
         return 0.0
     below, before = 0.0, 0.0
     for height, level in zip(hs, levels, strict=True):
         if not np.isfinite(level):
-            return below
+            return below if below > 0.0 else float("nan")
         if level >= allowance:
             return below + (height - below) * (allowance - before) / (level - before)
         below, before = height, level
     return float("inf")
+
+
+def first_unknown(hs: Sequence[float], levels: Sequence[float], allowance: float) -> float:
+    """Lowest Hs (m) whose level is not known, where none below it reaches the allowance; else NaN."""
+    if allowance <= 0.0:
+        return float("nan")
+    for height, level in zip(hs, levels, strict=True):
+        if not np.isfinite(level):
+            return height
+        if level >= allowance:
+            break
+    return float("nan")

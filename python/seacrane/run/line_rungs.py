@@ -14,13 +14,16 @@ from seacrane.analysis.excitation import excitations
 from seacrane.analysis.line_dynamics import LineDynamics, line_dynamics
 from seacrane.analysis.linearise import LARGEST
 from seacrane.description.compilation import compiled
-from seacrane.description.stretch import ELASTIC, QUASI_STATIC, automatic, with_stretch
+from seacrane.description.loads import lines_of
+from seacrane.description.stretch import AUTO, ELASTIC, QUASI_STATIC, automatic, with_stretch
 from seacrane.errors import SceneError
+from seacrane.inputs.caller import warn_caller
 from seacrane.scene.scene import Scene
 
 Array = NDArray[np.float64]
 Jump = tuple[Array, Array]
 LARGEST_ERROR = 0.005  # of what a source makes of the tension
+LARGEST_TOLD = 0.05  # likewise, of a line that is given as quasi-static: beyond, a warning
 LARGEST_RINGING = 0.005  # of the tension at the start, from a kink
 LARGEST_AT_START = 0.02  # likewise, from the start: a sea begins at once, and that decays
 MOST_KINKS = 5000
@@ -32,6 +35,10 @@ OWN_PACE = (_core.SoftStop, _core.FunctionForce)  # loads that strike, or whose 
 
 class LineRungWarning(UserWarning):
     """A line with stretch="auto" went slack as quasi-static: the run began anew with elastic lines."""
+
+
+class QuasiStaticLineWarning(UserWarning):
+    """What moves a scene is too near the frequency of a line that is given as quasi-static."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -47,6 +54,9 @@ class LineRung:
 
     stretch: str
     reason: str
+
+
+NONE = LineRung(stretch=AUTO, reason="")  # of a line that is given otherwise
 
 
 def line_rungs(
@@ -142,7 +152,28 @@ def _by_their_own(
     out = {}
     for name, line in lines.items():
         reason = UNSMOOTH if line.winch and line.lag == 0.0 else _ringing(line, now[name], kinks, jumps)
-        out[name] = _bounded(scene, line, now[name], sources) if not reason else _elastic(reason)
+        out[name] = _bounded(line, now, sources) if not reason else _elastic(reason)
+    return _beside_elastic(scene, out, now)
+
+
+def _beside_elastic(
+    scene: Scene, rungs: dict[str, LineRung], now: Mapping[str, LineDynamics]
+) -> dict[str, LineRung]:
+    """Elastic too where the ringing of an elastic line that moves what a line moves errs by too much."""
+    out = dict(rungs)
+    lines = lines_of(scene.loads)
+    ringing = [name for name, line in lines.items() if ELASTIC in (line.stretch, out.get(name, NONE).stretch)]
+    while ringing:
+        other = ringing.pop()
+        for name in [name for name, rung in out.items() if rung.stretch == QUASI_STATIC]:
+            fast, own = np.array([now[other].fastest]), now[name]
+            error = _error(lines[name].settling, own, fast, np.ones(1))
+            if other in own.coupled and error > LARGEST_ERROR:
+                out[name] = _elastic(
+                    f"its tension would err by {100.0 * error:.2g} % of what line {other!r} makes of it, "
+                    f"which is elastic and may ring, with up to {now[other].fastest:.4g} rad/s"
+                )
+                ringing.append(name)
     return out
 
 
@@ -186,32 +217,44 @@ def _driven(line: _core.Line, time: float) -> Array:
 
 
 def _bounded(
-    scene: Scene, line: _core.Line, now: LineDynamics, sources: list[tuple[str, Array, Array]]
+    line: _core.Line, now: Mapping[str, LineDynamics], sources: list[tuple[str, Array, Array]]
 ) -> LineRung:
     """By the error that the sources make."""
-    swing = np.array([2.0 * np.sqrt(scene.gravity / now.longest_span)])  # of the tension of what swings
-    every = [*sources, ("the swing of its load", swing, np.ones(1))]
-    errors = {name: _error(line.settling, now.omega, omega, weight) for name, omega, weight in every}
-    worst = max(errors, key=lambda name: errors[name])
+    error, worst = _worst_error(line, now, sources)
     text = (
-        f"its tension would err by {100.0 * errors[worst]:.2g} % of what {worst} makes of it, its own "
-        f"frequency being {now.omega:.4g} rad/s"
+        f"its tension would err by {100.0 * error:.2g} % of what {worst} makes of it, its own "
+        f"frequency being {now[line.name].omega:.4g} rad/s"
     )
-    if errors[worst] > LARGEST_ERROR:
+    if error > LARGEST_ERROR:
         return _elastic(f"{text}: more than {100.0 * LARGEST_ERROR:g} %")
     return LineRung(stretch=QUASI_STATIC, reason=text)
 
 
-def _error(settling: float, own: float, omega: Array, weight: Array) -> float:
+def _worst_error(
+    line: _core.Line, now: Mapping[str, LineDynamics], sources: list[tuple[str, Array, Array]]
+) -> tuple[float, str]:
+    """Of a line's tension, of what the source makes of it that is named."""
+    own = now[line.name]
+    swing = np.array([2.0 * max(now[name].swing for name in own.coupled)])  # of the tension of what swings
+    every = [*sources, ("the swing of its load", swing, np.ones(1))]
+    errors = {name: _error(line.settling, own, omega, weight) for name, omega, weight in every}
+    worst = max(errors, key=lambda name: errors[name])
+    return errors[worst], worst
+
+
+def _error(settling: float, own: LineDynamics, omega: Array, weight: Array) -> float:
     """Root mean square of the tension's error over that of the tension that the frequencies make."""
-    errors = tension_error(omega, settling=settling, own=own)
-    return float(np.sqrt((weight * errors**2).sum() / weight.sum()))
+    x = omega / own.omega
+    stiff = 1.0 + 1j * own.loss * x
+    made = weight * np.abs(stiff / (stiff - x**2)) ** 2 if np.all(stiff != x**2) else weight
+    errors = tension_error(omega, settling=settling, own=own.omega, loss=own.loss)
+    return float(np.sqrt((made * errors**2).sum() / made.sum()))
 
 
-def tension_error(omega: Array, *, settling: float, own: float) -> Array:
+def tension_error(omega: Array, *, settling: float, own: float, loss: float = 0.0) -> Array:
     """Error of the tension of a quasi-static stretch, of what motion of a frequency makes of it.
 
-    (omega / own)^2 times the error of the strain. See docs/lines.md.
+    (omega / own)^2 times the error of the strain, and more near the line's own frequency. See docs/lines.md.
 
     Parameters
     ----------
@@ -221,7 +264,30 @@ def tension_error(omega: Array, *, settling: float, own: float) -> Array:
         s.
     own : float
         Frequency of the elastic line, rad/s.
+    loss : float
+        Of its damping at that frequency: c own over the stiffness.
     """
-    p = 1j * settling * np.asarray(omega, dtype=float)
-    follows = 1.0 + p**2 * (2.0 + p) / (1.0 + p)  # T / (EA e)
-    return np.asarray(np.abs(1.0 / follows - 1.0) * (np.asarray(omega) / own) ** 2)
+    p, x = 1j * settling * np.asarray(omega, dtype=float), np.asarray(omega, dtype=float) / own
+    settled = p**2 * (2.0 + p) / (1.0 + p)  # T / (EA e) - 1
+    elastic = 1.0 + 1j * loss * x
+    follows = elastic + settled
+    return np.asarray(np.abs(settled * x**2 / (elastic * (follows - x**2))))
+
+
+def warn_of_quasi_static(scene: Scene, model: _core.Model, *, end: float) -> None:
+    """Warn of lines that are given as quasi-static where what moves the scene is too near their frequency."""
+    lines = {name: line for name, line in lines_of(scene.loads).items() if line.stretch == QUASI_STATIC}
+    if not lines or scene.orientation != "quaternion" or model.states > LARGEST:
+        return
+    elastic = compiled(with_stretch(scene, dict.fromkeys(lines, ELASTIC)), merge=False)
+    now = line_dynamics(scene, elastic, np.array(elastic.initial_state), 0.0)
+    sources = list(excitations(scene, start=0.0, end=end))
+    for name, line in lines.items():
+        error, worst = _worst_error(line, now, sources)
+        if error > LARGEST_TOLD:
+            warn_caller(
+                f"line {name!r}: its stretch is quasi-static, and its tension errs by about "
+                f"{100.0 * error:.2g} % of what {worst} makes of it, its own frequency being "
+                f"{now[name].omega:.4g} rad/s. Give it stretch 'elastic', or 'auto', or a smaller settling",
+                QuasiStaticLineWarning,
+            )

@@ -42,6 +42,7 @@ from seacrane.run.line_rungs import (
     as_told,
     begun_anew,
     line_rungs,
+    warn_of_quasi_static,
 )
 from seacrane.run.method import Method
 from seacrane.run.modes import Modes
@@ -52,6 +53,7 @@ from seacrane.run.shorthand import Shorthand, settled
 from seacrane.run.stats import lasting_stats, settings_in_sea, settings_of, stats_of
 from seacrane.run.through_seats import fallen_through
 from seacrane.scene.scene import Scene
+from seacrane.validity.lines import bound_findings
 from seacrane.validity.plausible import warn_of_description
 from seacrane.validity.range import Finding, as_text, findings
 
@@ -128,6 +130,8 @@ class Run:
         with keeping(self._warned):
             check_references(self.scene, self.model, start=begin, end=end, described=described)
             warn_of_description(self.scene, start=begin, end=end, described=described)
+            if begin == 0.0:
+                warn_of_quasi_static(self._given, self.model, end=end)
         self.settings = settings_of(self.scene, self.t_end, self.method, self.outputs)
         require_limited_channels(self.scene, self.model)
         require_names(self.scene, self.outputs.channels or ())
@@ -358,6 +362,7 @@ class Run:
             met = self.events()
             found = findings(scene, arrays["time"], channels, stats, self.steered) + self.slow + self.slack
             found += fallen_through(scene, met)
+            found += bound_findings(scene, [(time, name) for time, name, *_ in self.core.events()])
             if found:
                 stats["validity"] = as_text(found)
             result = Result.from_arrays(

@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike
 
 from seacrane import _core
 from seacrane.description.forces import add_load
-from seacrane.description.loads import lines_of
+from seacrane.description.loads import lines_of, refuse_heavy_winch
 from seacrane.description.scene import Description
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import text_of, vector_of
@@ -65,8 +65,9 @@ def add_line(
         Of critical damping, for `mass` on the line: c = 2 damping_ratio sqrt(EA mass / l0), with a table EA
         being the secant to its last row.
     mass : float
-        kg; default (0): that of the path's last body, the ground left aside. Of a load on n falls, its mass
-        over n^2.
+        kg; default (0): that with which the line bounces at the start, as bodies are joined and whichever way
+        its path is written: of a load on n falls its mass over n^2. `Scene.report` tells it, and the ratio
+        that the bounce reaches.
     stretch : {"elastic", "quasi-static", "auto"}
         Quasi-static: the stretch follows the tension within `settling`, so that a stiff line costs no more
         than a soft one. It must stay taut. Auto: a run takes it where its bound holds, else the elastic line;
@@ -201,7 +202,8 @@ def add_winch(
     Raises
     ------
     SceneError
-        For a line that is not there or has a winch; what else does not fit is said by `Scene.compile`.
+        For a line that is not there, has a winch or is a segment of one with mass; what else does not fit is
+        said by `Scene.compile`.
     """
     name = text_of("winch: line", line)
     known = lines_of(scene.loads)
@@ -211,6 +213,7 @@ def add_winch(
         raise SceneError(f"winch: there is no line {name!r}; the scene has {has}: add it first")
     if old.winch:
         raise SceneError(f"line {name!r}: has a winch already; give one to another line, or replace it")
+    refuse_heavy_winch(old)
     winch = {
         "winch": True, "rate": rate, "maximum_rate": maximum_rate, "lag": lag,
         "maximum_acceleration": maximum_acceleration, "minimum_length": minimum_length,

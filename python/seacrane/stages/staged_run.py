@@ -34,6 +34,7 @@ from seacrane.stages.plan import checked_stages, planned_scene, waiting
 from seacrane.stages.reach import check_lengths, check_limits
 from seacrane.stages.stage import Stage
 from seacrane.stages.until import Level, names_along
+from seacrane.validity.lines import warn_of_connected
 from seacrane.validity.range import Finding, warn_of
 
 if TYPE_CHECKING:
@@ -228,6 +229,8 @@ class StagedRun:
         run = self._still(scene, model, start)
         met = run.events()
         state = run.state
+        if kind == "connection" and name in lines_of(scene.loads):
+            warn_of_connected(stage.title, scene, name, run.measure(), start.time)
         lost = (
             before - _core.Evaluator(model).energy(start.time, state.values) - sum(e.energy_lost for e in met)
         )

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
-from typing import TYPE_CHECKING
+from collections.abc import Iterable, Iterator, Mapping
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,6 +12,7 @@ from seacrane import _core
 from seacrane.description.line_weights import line_weights
 from seacrane.description.loads import lines_of, whole_of
 from seacrane.description.stretch import QUASI_STATIC
+from seacrane.inputs.caller import warn_caller
 
 if TYPE_CHECKING:
     from seacrane.description.scene import Description
@@ -20,6 +21,7 @@ Array = NDArray[np.float64]
 Finding = tuple[type[Warning], str]
 LARGEST_CONTRADICTION = 0.01  # of the line's length, at the start
 AT_END = 1e-6  # m
+STRONGEST = 1e12  # N or W: a bound here or beyond is none
 LARGEST_FLEET_ANGLE = 4.0  # degrees, the usual bound for ropes of cranes
 
 
@@ -41,6 +43,57 @@ class WinchLimitWarning(UserWarning):
 
 class PushingLineWarning(UserWarning):
     """A quasi-static line pushed for a moment while it was stretched; an elastic one would be slack."""
+
+
+class _Bound(NamedTuple):
+    """What a winch does at a bound, and what to give."""
+
+    unit: str
+    then: str
+    fix: str
+
+
+BOUNDS = {
+    "maximum_acceleration": _Bound("m/s2", "so that its rate lags behind", "Command smoother rates"),
+    "maximum_tension": _Bound("N", "so that its motor holds no more, and the load may fall", "Lift less"),
+    "maximum_power": _Bound("W", "so that its motor gives no more", "Lift slower"),
+    "brake_capacity": _Bound("N", "so that its brake slips", "Close it on less"),
+}
+
+
+def bound_findings(scene: Description, reached: Iterable[tuple[float, str]]) -> list[Finding]:
+    """Bounds of winches that were reached, by the times (s) and names of events; rates and ends apart."""
+    lines, first = lines_of(scene.loads), {name: time for time, name in sorted(reached, reverse=True)}
+    return [
+        (
+            WinchLimitWarning,
+            f"line {name!r}: its winch reached its {bound}, {getattr(line, bound):.4g} {of.unit}, at t = "
+            f"{first[f'{name}.{bound}']:.6g} s, {of.then}. {of.fix}, or give it more",
+        )
+        for name, line in lines.items()
+        for bound, of in BOUNDS.items()
+        if f"{name}.{bound}" in first
+    ]
+
+
+def warn_of_connected(
+    title: str, scene: Description, name: str, measured: Mapping[str, Array], time: float
+) -> None:
+    """Warn of a line that a stage connects at `time` (s) and that is too short for where its ends are."""
+    lines = lines_of(scene.loads)
+    at = list(lines).index(name)
+    length, stretch, tension = (
+        float(np.ravel(measured[channel])[at])
+        for channel in ("line_unstretched_length", "line_stretch", "line_tension")
+    )
+    usual = max([LARGEST_CONTRADICTION, *lines[name].strains]) + strains_at_rest(scene).get(name, 0.0)
+    if stretch > usual * length:
+        warn_caller(
+            f"{title}: line {name!r} connects stretched by {stretch:.4g} m, {stretch / length:.3g} of its "
+            f"unstretched {length:.6g} m, at t = {time:.6g} s: it pulls with {tension:.4g} N at once. Give "
+            f"it {length + stretch:.6g} m, pay out before, or connect it nearer",
+            LineLengthWarning,
+        )
 
 
 def line_findings(scene: Description, time: Array, channels: Mapping[str, Array]) -> list[Finding]:

@@ -19,6 +19,7 @@ from seacrane.inputs.frames import rotation_matrix
 from seacrane.inputs.plausible import CompassDirectionWarning, MassUnitWarning, angle_of
 from seacrane.validity.holding import warn_of_free_cranes
 from seacrane.validity.lifting import warn_of_loads_in_hulls
+from seacrane.validity.line_starts import warn_of_line_starts
 from seacrane.validity.stability import carried_by, warn_of_capsize
 from seacrane.validity.units import warn_of_units
 
@@ -61,6 +62,7 @@ def warn_of_description(scene: Description, *, start: float, end: float, describ
         _warn_of_ballast(scene)
         warn_of_capsize(scene)
         warn_of_loads_in_hulls(scene)
+        warn_of_line_starts(scene)
 
 
 def _warn_of_angles(scene: Description, start: float, end: float) -> None:

@@ -46,7 +46,7 @@ struct LineDescription : WinchDescription {
         required("length", &D::length, "m", "unstretched; with a winch, at the start"),
         optional("damping_ratio", &D::damping_ratio, "", "of critical damping of `mass` on the line")
             .usually(1e-4, 1.0),
-        optional("mass", &D::mass, "kg", "that moves with the line's end; 0: that of the path's last body"),
+        optional("mass", &D::mass, "kg", "that bounces on the line; 0: what its start tells, see LineBounce"),
         optional("stretch", &D::stretch, "", "'elastic', or 'quasi-static': then it follows the tension"),
         optional("settling", &D::settling, "s", "in which a quasi-static stretch follows")
             .usually(1e-3, 10.0));
@@ -112,11 +112,12 @@ struct Line {
   double slip_speed = 0.0;
   bool has_sheaves = false, has_friction = false;
   Curve length;
-  double viscous = 0.0;   // c sqrt(l0)
-  double settling = 0.0;  // s, of a quasi-static stretch; else zero
-  int settled = 0;        // w among the states
-  int place = 0;          // among the inertial tensions
-  double hung = 0.0;      // mass, kg
+  double damping_ratio = 0.0, viscous = 0.0;  // the latter c sqrt(l0)
+  double settling = 0.0;                      // s, of a quasi-static stretch; else zero
+  int settled = 0;                            // w among the states
+  int place = 0;                              // among the inertial tensions
+  double hung = 0.0;                          // mass, kg
+  bool given_mass = false;
   std::optional<Winch> winch;
   StateRange states;  // those of the winch; of a quasi-static stretch w
 
@@ -202,11 +203,18 @@ struct Line {
     line.stiffness = d.stiffness;
     line.elasticity = {d.stiffness, d.strains, d.tensions};
     line.length = d.length;
-    line.hung = hung_mass(d, context);
-    line.viscous = 2.0 * d.damping_ratio * std::sqrt(d.stiffness * line.hung);
+    line.damping_ratio = d.damping_ratio;
+    line.given_mass = d.mass > 0.0;
+    line.hang(line.given_mass ? d.mass : mass_of_ends(d, context));
     if (d.winch) line.wind(d, context);
     if (d.stretch == kQuasiStatic) line.settle(d, context);
     return line;
+  }
+
+  /// Takes another mass for its damping, kg.
+  void hang(double mass) {
+    hung = mass;
+    viscous = 2.0 * damping_ratio * std::sqrt(stiffness * hung);
   }
 
   const std::vector<int>& bodies() const { return on; }
@@ -473,11 +481,15 @@ struct Line {
   }
   double strain_inertia() const { return stiffness * settling * settling; }  // N s2
 
+  /// The reduced mass of two bodies that the path joins, whichever way it is written.
   template <class Context>
-  static double hung_mass(const Description& d, const Context& context) {
-    const auto last = std::find_if(d.bodies.rbegin(), d.bodies.rend(),
-                                   [](const std::string& name) { return name != kGround; });
-    return d.mass > 0.0 || last == d.bodies.rend() ? d.mass : context.mass(*last);
+  static double mass_of_ends(const Description& d, const Context& context) {
+    const auto other = std::find_if(d.bodies.rbegin(), d.bodies.rend(),
+                                    [&](const std::string& name) { return name != d.bodies.front(); });
+    if (d.bodies.front() == kGround) return context.mass(*other);
+    if (*other == kGround) return context.mass(d.bodies.front());
+    const double first = context.mass(d.bodies.front()), second = context.mass(*other);
+    return first * second / (first + second);
   }
 
   template <class T>
