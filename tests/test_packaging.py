@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import re
+import shutil
 import subprocess
 import sys
 from importlib import metadata, resources
@@ -81,3 +82,29 @@ def test_make_builds_on_every_core(repository: Path) -> None:
     limited = quota.is_file() and not quota.read_text().startswith("max")
     assert len(set(found)) == 1
     assert limited or int(found[0]) == len(os.sched_getaffinity(0))
+
+
+def test_what_is_edited_during_a_build_is_built_next_time(repository: Path, tmp_path: Path) -> None:
+    """A build of nothing, by the project's own rules: a "pip" that edits a source file, and one that does not."""
+    for name in ("Makefile", "pyproject.toml", "CMakeLists.txt", "README.md", "LICENSE"):
+        shutil.copy(repository / name, tmp_path)
+    shutil.copytree(repository / ".ci", tmp_path / ".ci")
+    for name in ("cpp/seacrane", "cpp/bindings", "cpp/lanes", "cmake", "licenses", "python/seacrane"):
+        (tmp_path / name).mkdir(parents=True)
+    source = tmp_path / "cpp" / "lanes" / "lanes.cpp"
+    for path in (source, tmp_path / "cpp" / "CMakeLists.txt"):
+        path.touch()
+    (tmp_path / ".venv" / "bin").mkdir(parents=True)
+    (tmp_path / ".venv" / "bin" / "python").symlink_to(sys.executable)
+    (tmp_path / ".venv" / ".installed-run").touch()
+
+    def builds(edit: str) -> int:
+        """How often it was built so far, once make was called with a "pip" that does this first."""
+        pip = f"PIP={edit} && echo >> builds &&:"
+        command = ["make", "-s", f"PYTHON={sys.executable}", pip, ".venv/.installed-seacrane"]
+        subprocess.run(command, cwd=tmp_path, capture_output=True, check=True)
+        return (tmp_path / "builds").read_text().count("\n")
+
+    assert builds(f"sleep 0.1 && touch {source}") == 1
+    assert builds("true") == 2
+    assert builds("true") == 2
