@@ -33,12 +33,14 @@ def test_an_addition_takes_at_most_three_files(name: str, diff: str) -> None:
 
 @pytest.mark.skipif(shutil.which("g++") is None, reason="g++ is not there to compile a joint")
 def test_words_of_a_joint_may_be_one_letter(tmp_path: Path) -> None:
-    """Compiled as the package is: optimised, with warnings as errors, some of which only short texts raise."""
+    """Compiled as the package is, optimised and with warnings as errors: some, only short texts raise."""
     folder = "seacrane/elements/joints"
     joints, added = ROOT / "cpp" / folder, tmp_path / folder
     added.mkdir(parents=True)
     text = (joints / "planar.hpp").read_text(encoding="utf-8").replace("Planar", "Added")
-    words = "".join(f'  static constexpr const char* {name} = "x";\n' for name in ("kind", "coordinates", "usual"))
+    words = "".join(
+        f'  static constexpr const char* {name} = "x";\n' for name in ("kind", "coordinates", "usual")
+    )
     text, found = re.subn(r'  static constexpr const char\* kind = "planar";\n', words, text)
     assert found == 1
     (added / "added.hpp").write_text(text, encoding="utf-8")

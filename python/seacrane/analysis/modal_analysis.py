@@ -12,6 +12,7 @@ from seacrane import _core
 from seacrane.analysis.linear_system import LinearModel, linear_model
 from seacrane.description.scene import Description
 from seacrane.inputs.frames import MOTIONS
+from seacrane.one_thread import one_thread
 
 if TYPE_CHECKING:
     from seacrane.hydro import HydroDatabase
@@ -107,6 +108,7 @@ class NaturalModes:
         return "\n".join(rows)
 
 
+@one_thread
 def natural_modes(
     scene: Description | LinearModel,
     *,

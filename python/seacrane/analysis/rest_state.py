@@ -18,6 +18,7 @@ from seacrane.description.loads import lines_of
 from seacrane.description.scene import Description, Some
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import number_of
+from seacrane.one_thread import one_thread
 
 Array = NDArray[np.float64]
 CONVERGED = 1e-9  # m/s2 and rad/s2
@@ -135,6 +136,7 @@ def state_values(scene: Description, state: Any) -> Array:
     return np.array(state.values)
 
 
+@one_thread
 def _rest(scene: Description, time: float, values: Array | None) -> _core.State:
     still = held(scene, time=time)
     model = compile_scene(still)
