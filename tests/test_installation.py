@@ -169,7 +169,7 @@ def test_the_doctor_says_which_lanes_are_used_and_why_others_are_not(monkeypatch
     facts = pace.lane_facts()
     assert facts["lanes of ensembles"].startswith(f"{usual} by default; ")
     here = [lanes for lanes in INSTRUCTIONS if module_of(lanes) is not None]
-    assert list(facts)[1:] == [f"{lanes} seeds of it in lanes" for lanes in here]
+    assert list(facts)[1:] == [f"{lanes} seeds of it in lanes, 100 s" for lanes in here]
     assert all("one after another" in facts[name] for name in list(facts)[1:])
     monkeypatch.setattr(pace, "module_of", lambda lanes: None)
     monkeypatch.setattr(pace, "lanes_of", lambda given: 1)
@@ -182,7 +182,7 @@ def test_the_doctor_says_which_lanes_are_used_and_why_others_are_not(monkeypatch
 def test_the_doctor_says_why_seeds_do_not_go_side_by_side(monkeypatch: pytest.MonkeyPatch) -> None:
     apart = partial(pace.ensemble, integrator="rk4", dt=0.1)
     monkeypatch.setattr(pace, "ensemble", apart)
-    told = pace.lane_facts()["4 seeds of it in lanes"]
+    told = pace.lane_facts()["4 seeds of it in lanes, 100 s"]
     assert told.startswith("not side by side: ") and "no explicit pair" in told
 
 

@@ -15,10 +15,12 @@ from seacrane.ensembles.kept import Kept
 from seacrane.hydro import shipped_database
 from seacrane.reporting.measures import speed
 from seacrane.run.lanes import INSTRUCTIONS, lanes_of, module_of
+from seacrane.scene.scene import Scene
 from seacrane.simulation import simulate
 
 THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
 SPAN = 20.0  # s of case 2
+SPAN_OF_LANES = 100.0  # s
 REPEATS = 3
 
 
@@ -54,7 +56,11 @@ def lane_facts() -> dict[str, str]:
     usual = lanes_of(None)
     told = {"lanes of ensembles": f"{usual} by default; " + ", ".join(map(_lanes_told, INSTRUCTIONS))}
     usable = [lanes for lanes in INSTRUCTIONS if module_of(lanes) is not None]
-    return told | {f"{lanes} seeds of it in lanes": _pace_of_lanes(lanes) for lanes in usable}
+    return told | {_seeds_of(lanes): _pace_of_lanes(lanes) for lanes in usable}
+
+
+def _seeds_of(lanes: int) -> str:
+    return f"{lanes} seeds of it in lanes, {SPAN_OF_LANES:g} s"
 
 
 def _lanes_told(lanes: int) -> str:
@@ -67,22 +73,22 @@ def _lanes_told(lanes: int) -> str:
 
 def _pace_of_lanes(lanes: int) -> str:
     """Beside each other and one after another; or why they do not go side by side."""
-    beside, made = _quickest(lambda: seeds_of_case2(lanes, lanes))
-    alone, _ = _quickest(lambda: seeds_of_case2(lanes, 1))
+    scene = cases.case2()
+    beside, made = _quickest(lambda: _seeds(scene, lanes, lanes))
+    alone, _ = _quickest(lambda: _seeds(scene, lanes, 1))
     failed = [*made.failures.values(), *filter(None, made.dataset.kept_apart.to_numpy().tolist())]
     if failed:
         return f"not side by side: {failed[0]}"
     return f"{1e3 * beside:.3g} ms, one after another {1e3 * alone:.3g} ms"
 
 
-def seeds_of_case2(count: int, lanes: int) -> Ensemble:
-    """An ensemble of case 2, SPAN long, with the track of its payload."""
+def _seeds(scene: Scene, count: int, lanes: int) -> Ensemble:
     return ensemble(
-        cases.case2(),
+        scene,
         over={"seed": range(1, count + 1)},
         keep={"track": Kept(channel="position", at={"body": "payload"})},
         database=shipped_database(),
-        t_end=SPAN,
+        t_end=SPAN_OF_LANES,
         lanes=lanes,
     )
 
