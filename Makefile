@@ -1,5 +1,5 @@
 # make demo     the paper's figures and report in out/demo
-# make test     everything that CI checks: lint, types, formatting, sanitized C++ tests, Python tests
+# make test     what CI checks before it makes the wheel: lint, types, formatting, C++ tests, sanitized too, Python tests
 # make build    the package in .venv, rebuilt only where something changed
 # make nightly  longer tests, C++ tests optimised and with every check of the sanitizers, ThreadSanitizer
 #                  (make cpp-tsan), the site (make docs), the wheel (make wheel), the stability atlas
@@ -53,18 +53,21 @@ $(BIN)/python: | system-packages
 	$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11) and "seacrane needs Python 3.11 or newer, this is " + sys.version.split()[0])'
 	$(PYTHON) -m venv .venv
 
-# The stamps of what is inside .venv live inside it, so that they vanish with it.
+# The stamps of what is inside .venv live inside it, so that they vanish with it. They have the time at which their
+# work began: what is edited meanwhile is newer.
 .venv/.installed-run: pyproject.toml .ci/requirements.py $(BIN)/python
+	touch $@.began
 	$(BIN)/python .ci/requirements.py build run > .venv/requirements-run.txt
 	$(PIP) install -q -r .venv/requirements-run.txt
-	touch $@
+	mv $@.began $@
 .venv/.installed-dev: .venv/.installed-run
+	touch $@.began
 	$(BIN)/python .ci/requirements.py build run dev bench docs > .venv/requirements-dev.txt
 	$(PIP) install -q -r .venv/requirements-dev.txt
-	touch $@
+	mv $@.began $@
 
 # The list changes when a file appears or goes; its members' dates tell of edits.
-SOURCES = $(shell find cpp/seacrane cpp/bindings cpp/CMakeLists.txt cmake licenses python/seacrane CMakeLists.txt \
+SOURCES = $(shell find cpp/seacrane cpp/bindings cpp/lanes cpp/CMakeLists.txt cmake licenses python/seacrane CMakeLists.txt \
                   pyproject.toml README.md LICENSE -type f -not -path '*/__pycache__/*' | LC_ALL=C sort)
 $(STAMPS)/sources.txt: FORCE
 	@mkdir -p $(@D)
@@ -72,10 +75,11 @@ $(STAMPS)/sources.txt: FORCE
 	@cmp -s $@.new $@ && rm $@.new || mv $@.new $@
 
 .venv/.installed-seacrane: .venv/.installed-run $(STAMPS)/sources.txt $(SOURCES) | system-packages
+	touch $@.began
 	@echo "building seacrane: a few minutes the first time, seconds afterwards"
 	SKBUILD_BUILD_DIR=$(PACKAGE_BUILD) SKBUILD_CMAKE_DEFINE='SEACRANE_WERROR=ON;SEACRANE_TESTS=ON' \
 	  $(PIP) install -q --no-deps --no-build-isolation .
-	touch $@
+	mv $@.began $@
 
 build: .venv/.installed-seacrane
 
@@ -168,9 +172,10 @@ bench-peers: build .venv/.installed-dev
 
 # Notebooks are kept as text; what opens in JupyterLab are copies, made again where the text has changed.
 .venv/.installed-notebooks: .venv/.installed-run
+	touch $@.began
 	$(BIN)/python .ci/requirements.py notebooks > .venv/requirements-notebooks.txt
 	$(PIP) install -q -r .venv/requirements-notebooks.txt
-	touch $@
+	mv $@.began $@
 
 out/notebooks/%.ipynb: notebooks/%.md .venv/.installed-notebooks
 	@mkdir -p $(@D)
@@ -190,9 +195,10 @@ viewer:
 	tools/viewer/build.sh python/seacrane/viewer/assets
 
 .venv/.installed-wheel: .venv/.installed-run
+	touch $@.began
 	$(BIN)/python .ci/requirements.py wheel > .venv/requirements-wheel.txt
 	$(PIP) install -q -r .venv/requirements-wheel.txt
-	touch $@
+	mv $@.began $@
 
 # What cibuildwheel would build elsewhere is printed, so that a mistake in its configuration is found here.
 wheel: build .venv/.installed-wheel

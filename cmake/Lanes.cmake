@@ -27,8 +27,10 @@ function(seacrane_lanes instructions lanes)
   check_cxx_compiler_flag("-mmove-max=${bits}" seacrane_moves_${bits})
   target_compile_definitions(${module} PRIVATE "EIGEN_STRONG_INLINE=__attribute__((always_inline)) inline")
   target_compile_options(${module} PRIVATE ${ARGN}
-    $<$<BOOL:${seacrane_moves_${bits}}>:-mmove-max=${bits};-mstore-max=${bits}>
-    $<$<CXX_COMPILER_ID:Clang,AppleClang>:-ffp-contract=fast>)
+    $<$<BOOL:${seacrane_moves_${bits}}>:-mmove-max=${bits};-mstore-max=${bits}>)
+  # Of the file: what a target takes over from seacrane_options stands after its own, and would win.
+  set_source_files_properties("${CMAKE_CURRENT_SOURCE_DIR}/lanes/lanes.cpp" PROPERTIES COMPILE_OPTIONS
+    "$<$<CXX_COMPILER_ID:Clang,AppleClang>:-ffp-contract=fast>")
   target_link_libraries(${module} PRIVATE seacrane seacrane_warnings)
   seacrane_hide_names(${module})
   add_dependencies(seacrane_modules ${module})

@@ -5,15 +5,17 @@ from __future__ import annotations
 import os
 import subprocess
 import sys
+from functools import partial
 from pathlib import Path
 
 import pytest
 
 from seacrane.cli.command_line import main
 from seacrane.files import sole_writer
-from seacrane.installation import build, packages
+from seacrane.installation import build, pace, packages
 from seacrane.installation.packages import chosen_packages
 from seacrane.result.partial_file import PartialFile
+from seacrane.run.lanes import INSTRUCTIONS, lanes_of, module_of
 
 LINES = [
     "numpy>=2.0",
@@ -159,6 +161,29 @@ def test_the_doctor_finds_all_that_is_needed_or_names_it(
     assert main(["doctor"]) == 0
     told = capsys.readouterr().out
     assert "times real time" in told and "absent [view]" in told and "all that is needed is there" in told
+    assert "lanes of ensembles" in told
+
+
+def test_the_doctor_says_which_lanes_are_used_and_why_others_are_not(monkeypatch: pytest.MonkeyPatch) -> None:
+    usual = lanes_of(None)
+    facts = pace.lane_facts()
+    assert facts["lanes of ensembles"].startswith(f"{usual} by default; ")
+    here = [lanes for lanes in INSTRUCTIONS if module_of(lanes) is not None]
+    assert list(facts)[1:] == [f"{lanes} seeds of it in lanes, 100 s" for lanes in here]
+    assert all("one after another" in facts[name] for name in list(facts)[1:])
+    monkeypatch.setattr(pace, "module_of", lambda lanes: None)
+    monkeypatch.setattr(pace, "lanes_of", lambda given: 1)
+    monkeypatch.setattr("seacrane._core.has_instructions", lambda name: name == "avx2")
+    told = "1 by default; not 4 (avx2): this build has none, not 8 (avx512): this processor has none"
+    assert pace.lane_facts() == {"lanes of ensembles": told}
+
+
+@pytest.mark.skipif(module_of(4) is None, reason="no lanes on this processor, or in this build")
+def test_the_doctor_says_why_seeds_do_not_go_side_by_side(monkeypatch: pytest.MonkeyPatch) -> None:
+    apart = partial(pace.ensemble, integrator="rk4", dt=0.1)
+    monkeypatch.setattr(pace, "ensemble", apart)
+    told = pace.lane_facts()["4 seeds of it in lanes, 100 s"]
+    assert told.startswith("not side by side: ") and "no explicit pair" in told
 
 
 def test_the_shell_is_answered_where_argcomplete_is_installed(tmp_path: Path) -> None:

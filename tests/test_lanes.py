@@ -375,6 +375,17 @@ def test_bad_input_is_named(given: dict[str, Any], told: str) -> None:
         ensemble(pendulum, over={"start": [1.0]}, keep={"z": Kept(channel="position")}, **given)
 
 
+@pytest.mark.skipif(not Path("/proc/cpuinfo").is_file(), reason="Linux tells what its processor can do")
+def test_instructions_are_those_that_linux_tells_of(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Whichever compiler made the core; Linux leaves out what it keeps no registers of."""
+    monkeypatch.syspath_prepend(str(Path(__file__).resolve().parents[1] / "tools" / "wheel"))
+    from processor import lanes_of_this_processor
+
+    assert [lanes for lanes in INSTRUCTIONS if _core.has_instructions(INSTRUCTIONS[lanes])] == (
+        lanes_of_this_processor()
+    )
+
+
 @needs_lanes
 def test_lanes_are_the_default_where_a_sea_varies() -> None:
     keep = {"lanes": why}

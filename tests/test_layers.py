@@ -14,7 +14,7 @@ from import_graph import Import, circles, imports, modules, room
 
 # Rooms from the ground up: each may import from those on lines above its own.
 FLOORS = """
-    errors version lazy
+    errors version lazy one_thread
     inputs
     files
     plotting

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import re
+import shutil
 import subprocess
 import sys
 from importlib import metadata, resources
@@ -26,7 +27,7 @@ def test_import_leaves_the_heavy_libraries_alone() -> None:
     loaded = run_python("import seacrane, sys; print(*sys.modules)").split()
     assert "seacrane" in loaded
     heavy = {"scipy", "xarray", "matplotlib", "pandas", "h5netcdf", "h5py", "netCDF4", "tqdm"}
-    assert not heavy & set(loaded)
+    assert not (heavy | {"threadpoolctl"}) & set(loaded)
 
 
 def test_type_information_ships() -> None:
@@ -64,7 +65,9 @@ def test_command_line_entry_point() -> None:
 def test_run_time_requirements_exclude_solvers_and_development_tools() -> None:
     always = [line for line in metadata.requires("seacrane") or [] if "extra ==" not in line]
     names = {re.split(r"[^A-Za-z0-9_-]", line)[0] for line in always}
-    assert names == {"numpy", "scipy", "pandas", "xarray", "netCDF4", "h5py", "matplotlib", "tqdm"}
+    assert names == {
+        "numpy", "scipy", "pandas", "xarray", "netCDF4", "h5py", "matplotlib", "threadpoolctl", "tqdm",
+    }  # fmt: skip
 
 
 def test_make_builds_on_every_core(repository: Path) -> None:
@@ -81,3 +84,29 @@ def test_make_builds_on_every_core(repository: Path) -> None:
     limited = quota.is_file() and not quota.read_text().startswith("max")
     assert len(set(found)) == 1
     assert limited or int(found[0]) == len(os.sched_getaffinity(0))
+
+
+def test_what_is_edited_during_a_build_is_built_next_time(repository: Path, tmp_path: Path) -> None:
+    """A build of nothing by the project's own rules, with a "pip" that edits a source file."""
+    for name in ("Makefile", "pyproject.toml", "CMakeLists.txt", "README.md", "LICENSE"):
+        shutil.copy(repository / name, tmp_path)
+    shutil.copytree(repository / ".ci", tmp_path / ".ci")
+    for name in ("cpp/seacrane", "cpp/bindings", "cpp/lanes", "cmake", "licenses", "python/seacrane"):
+        (tmp_path / name).mkdir(parents=True)
+    source = tmp_path / "cpp" / "lanes" / "lanes.cpp"
+    for path in (source, tmp_path / "cpp" / "CMakeLists.txt"):
+        path.touch()
+    (tmp_path / ".venv" / "bin").mkdir(parents=True)
+    (tmp_path / ".venv" / "bin" / "python").symlink_to(sys.executable)
+    (tmp_path / ".venv" / ".installed-run").touch()
+
+    def builds(edit: str) -> int:
+        """How often it was built so far, once make was called with a "pip" that does this first."""
+        pip = f"PIP={edit} && echo >> builds &&:"
+        command = ["make", "-s", f"PYTHON={sys.executable}", pip, ".venv/.installed-seacrane"]
+        subprocess.run(command, cwd=tmp_path, capture_output=True, check=True)
+        return (tmp_path / "builds").read_text().count("\n")
+
+    assert builds(f"sleep 0.1 && touch {source}") == 1
+    assert builds("true") == 2
+    assert builds("true") == 2

@@ -2,6 +2,7 @@
 #include <vector>
 
 #include "bindings.hpp"
+#include "processor.hpp"
 #include "seacrane/dynamics/recursive/recursive.hpp"
 #include "seacrane/model/difference.hpp"
 #include "seacrane/run/side_by_side.hpp"
@@ -13,13 +14,8 @@ namespace {
 
 /// Of this processor; what nobody compiled for is not known.
 bool has_instructions(const std::string& name) {
-#if defined(__x86_64__) && defined(__GNUC__)
-  if (name == "avx2") return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
-  if (name == "avx512") {
-    return has_instructions("avx2") && __builtin_cpu_supports("avx512f") &&
-           __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl");
-  }
-#endif
+  if (name == "avx2") return Processor::here().avx2;
+  if (name == "avx512") return Processor::here().avx512;
   return name.empty();
 }
 

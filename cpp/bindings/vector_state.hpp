@@ -1,5 +1,7 @@
 #pragma once
 
+#include "processor.hpp"
+
 #if defined(__x86_64__) && defined(__GNUC__)
 
 __attribute__((target("avx"))) inline void zero_upper_halves() { __builtin_ia32_vzeroupper(); }
@@ -7,7 +9,7 @@ __attribute__((target("avx"))) inline void zero_upper_halves() { __builtin_ia32_
 /// Clears the upper halves of the vector registers. OpenBLAS's complex matrix product leaves them in use,
 /// and every call of the mathematical library then takes some twenty times as long, until someone does this.
 inline void clear_vector_state() {
-  if (__builtin_cpu_supports("avx")) zero_upper_halves();
+  if (Processor::here().avx) zero_upper_halves();
 }
 
 #else

@@ -3,7 +3,7 @@
 #include "seacrane/lanes/packed_system.hpp"
 
 // One module for each kind of processor: SEACRANE_LANES numbers to a register, SEACRANE_INSTRUCTIONS as
-// __builtin_cpu_supports() calls them, SEACRANE_LANE_MODULE its name.
+// has_instructions() of the bindings calls them, SEACRANE_LANE_MODULE its name.
 
 namespace {
 

@@ -11,7 +11,8 @@ LineDescription quasi_static_line(const std::string& name) {
   LineDescription out = Line::example();
   out.name = name;
   out.stretch = kQuasiStatic;
-  static_cast<DrumDescription&>(out) = {};
+  const DrumDescription no_drum;
+  static_cast<DrumDescription&>(out) = no_drum;
   out.strains = out.tensions = {};
   return out;
 }
@@ -21,7 +22,8 @@ LineDescription commanded_line() {
   out.points = {{1.0, 0.2, 1.0}, {0.5, 0.1, -0.3}, {0.2, -0.3, 1.0}};
   out.stiffness = 200.0;
   out.settling = 0.3;
-  static_cast<WinchDescription&>(out) = {};
+  const WinchDescription no_winch;
+  static_cast<WinchDescription&>(out) = no_winch;
   out.length =
       Curve::harmonic(0.0, 1.4, 0.3, 2.0, 0.4);  // shorter than the path in every scene: slack is a kink
   return out;

@@ -41,16 +41,18 @@ def compilers() -> dict[str, str]:
 
 def libraries() -> Path:
     """Folder with SUNDIALS and Eigen; built once for each version of the scripts that build them."""
-    prefix, done = BUILD / "libraries", BUILD / "libraries.done"
+    prefix, done, began = (BUILD / name for name in ("libraries", "libraries.done", "libraries.began"))
     scripts = [HERE / "libraries.py", HERE / "debian_sources.sh", Path(__file__)]
     if done.exists() and all(done.stat().st_mtime > script.stat().st_mtime for script in scripts):
         return prefix
+    BUILD.mkdir(parents=True, exist_ok=True)
+    began.touch()
     sources = BUILD / "sources"
     subprocess.run([HERE / "debian_sources.sh", sources], check=True)
     archives = [f"--{name}={_archive(sources, package)}" for name, package in PACKAGES.items()]
     command = [sys.executable, HERE / "libraries.py", prefix, *archives]
     subprocess.run(command, check=True, env=compilers())
-    done.touch()
+    began.replace(done)
     return prefix
 
 

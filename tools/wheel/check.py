@@ -1,7 +1,8 @@
 """Tries a wheel as one who installs it would, and keeps its facts: ``python tools/wheel/check.py WHEEL``.
 
 It is installed where no compiler is found. `seacrane doctor`, `seacrane --version` and the first notebook run
-from it. A run of case 2 is compared with one of the package that the system's own compiler made. Facts go to
+from it. A run of case 2 is compared with one of the package that the system's own compiler made. Seeds of it
+in lanes, as many as this processor has instructions for, are compared with seeds one by one. Facts go to
 wheel-facts.csv beside the wheel, with --publish also into benchmarks/results and the documents.
 """
 
@@ -9,6 +10,7 @@ from __future__ import annotations
 
 import argparse
 import csv
+import json
 import statistics
 import subprocess
 import sys
@@ -20,6 +22,7 @@ import jupytext
 import numpy as np
 from clean import Clean
 from inside import inside, oldest_system
+from processor import lanes_of_this_processor
 
 ROOT = Path(__file__).resolve().parents[2]
 HERE = Path(__file__).resolve().parent
@@ -28,8 +31,11 @@ PUBLISHED = ROOT / "benchmarks" / "results" / "wheel.csv"
 OLDEST = (2, 28)  # the newest glibc that the wheel may ask for
 SYSTEM = {"libc.so.6", "libm.so.6", "libpthread.so.0", "libdl.so.2", "librt.so.1"}  # and the loader
 LOADER = "ld-linux"
+MODULES = ("_core", "_lanes_avx2", "_lanes_avx512")
 SPAN = 20.0  # s of case 2
 APART = 1e-9  # m: compilers round differently; a wrong wheel is further away
+SPAN_OF_LANES = 5.0  # s
+LANES_APART = 1e-6  # m, at a tolerance of 1e-9: lanes share their steps
 REPEATS = 5
 IMPORT = "import time; start = time.perf_counter(); import seacrane; print(time.perf_counter() - start)"
 NO_COMPILER = (
@@ -48,11 +54,11 @@ def checked_inside(wheel: Path) -> dict[str, str]:
     facts = inside(wheel)
     oldest = oldest_system(wheel)
     require(oldest <= OLDEST, f"{wheel.name} needs glibc {oldest}; {OLDEST} was asked for")
-    needed = facts["libraries that the module needs"].split()
+    needed = facts["libraries that they need"].split()
     others = [name for name in needed if name not in SYSTEM and not name.startswith(LOADER)]
     require(not others, f"{wheel.name} needs {', '.join(others)}, which not every system has")
-    shown = facts["names that it shows to others"]
-    require(shown == "PyInit__core", f"{wheel.name} shows {shown[:200]}")
+    shown = facts["names that they show to others"]
+    require(shown == " ".join(f"PyInit_{name}" for name in MODULES), f"{wheel.name} shows {shown[:200]}")
     return facts | {"auditwheel show": "manylinux_{}_{}".format(*oldest)}
 
 
@@ -99,6 +105,27 @@ def compared(clean: Clean, against: Path) -> dict[str, str]:
     }
 
 
+def stepped_in_lanes(clean: Clean) -> dict[str, str]:
+    """Every number of lanes that this processor can have: how far they are from runs one by one."""
+    rows = json.loads(clean.run("python", str(HERE / "same_lanes.py"), str(SPAN_OF_LANES)))
+    found, wanted = [row["lanes"] for row in rows], lanes_of_this_processor()
+    require(
+        found == wanted, f"the wheel has lanes {found} here, and the processor has instructions for {wanted}"
+    )
+    for row in rows:
+        lanes, beside, apart = row["lanes"], row["beside"], row["apart"]
+        require(beside == lanes, f"of {lanes} seeds in {lanes} lanes, {beside} went side by side")
+        require(apart < LANES_APART, f"seeds in {lanes} lanes are {apart:.1e} m from those one by one")
+    if not rows:
+        return {}
+    ratios = ", ".join(f"{row['time']:.2f} ({row['lanes']})" for row in rows)
+    return {
+        "largest distance of a payload in lanes from its run alone, case 2, "
+        f"{SPAN_OF_LANES:g} s, tolerance 1e-9, m": f"{max(row['apart'] for row in rows):.1e}",
+        "time of seeds in lanes over that one by one (lanes)": ratios,
+    }
+
+
 def write(facts: dict[str, str], file: Path) -> None:
     """A table of two columns."""
     file.parent.mkdir(parents=True, exist_ok=True)
@@ -118,7 +145,7 @@ def main() -> None:
     asked = parser.parse_args()
     facts = checked_inside(asked.wheel)
     clean = Clean.with_wheel(asked.wheel.resolve(), TRIAL)
-    facts |= tried(clean) | compared(clean, asked.against)
+    facts |= tried(clean) | stepped_in_lanes(clean) | compared(clean, asked.against)
     write(facts, asked.wheel.with_name("wheel-facts.csv"))
     print("\n".join(f"{name}: {value}" for name, value in facts.items()))
     if asked.publish:

@@ -1,4 +1,4 @@
-"""What a wheel holds and asks for: its tag, its sizes, and what its compiled module wants of the system."""
+"""What a wheel holds and asks for: its tag, its sizes, and what its compiled modules want of the system."""
 
 from __future__ import annotations
 
@@ -15,20 +15,23 @@ MANYLINUX = re.compile(r"manylinux_(\d+)_(\d+)_")
 
 
 def inside(wheel: Path) -> dict[str, str]:
-    """Facts by name; sizes in MB of 1e6 bytes."""
+    """Facts by name, of all its modules together; sizes in MB of 1e6 bytes."""
     with zipfile.ZipFile(wheel) as archive:
         unpacked = sum(entry.file_size for entry in archive.infolist())
-        (name,) = (entry for entry in archive.namelist() if Path(entry).name.startswith("_core.cpython"))
-        module = archive.read(name)
-    elf = ELFFile(io.BytesIO(module))
+        names = sorted(entry for entry in archive.namelist() if entry.endswith(".so"))
+        modules = [archive.read(name) for name in names]
+    elves = [ELFFile(io.BytesIO(module)) for module in modules]
+    stems = (Path(name).name.split(".")[0] for name in names)
+    sizes = (f"{stem} {len(module) / 1e6:.1f}" for stem, module in zip(stems, modules, strict=True))
+    needed = {name for elf in elves for name in needed_libraries(elf)}
     return {
         "wheel": wheel.name,
         "size, MB": f"{wheel.stat().st_size / 1e6:.1f}",
         "unpacked, MB": f"{unpacked / 1e6:.1f}",
-        "compiled module, MB": f"{len(module) / 1e6:.1f}",
-        "libraries that the module needs": " ".join(needed_libraries(elf)),
-        "newest version of a symbol that it needs": newest_symbol(elf),
-        "names that it shows to others": " ".join(shown_names(elf)),
+        "compiled modules, MB": ", ".join(sizes),
+        "libraries that they need": " ".join(sorted(needed)),
+        "newest version of a symbol that they need": max(map(newest_symbol, elves), key=_numbers),
+        "names that they show to others": " ".join(name for elf in elves for name in shown_names(elf)),
     }
 
 
@@ -42,10 +45,11 @@ def newest_symbol(elf: ELFFile) -> str:
     """Of the C library: the least version that has all that the module calls."""
     section = elf.get_section_by_name(".gnu.version_r")
     versions = [entry.name for _, entries in section.iter_versions() for entry in entries]
-    return max(
-        (name for name in versions if name.startswith("GLIBC_")),
-        key=lambda name: [int(number) for number in name.removeprefix("GLIBC_").split(".")],
-    )
+    return max((name for name in versions if name.startswith("GLIBC_")), key=_numbers)
+
+
+def _numbers(version: str) -> list[int]:
+    return [int(number) for number in version.removeprefix("GLIBC_").split(".")]
 
 
 def shown_names(elf: ELFFile) -> list[str]:

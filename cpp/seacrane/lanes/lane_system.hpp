@@ -29,7 +29,7 @@ using LaneModels = std::vector<std::shared_ptr<const Model>>;
 /// What a module that is compiled for one kind of processor offers to the core. Models go there as they are:
 /// both must agree on their layout.
 struct LaneModule {
-  const char* instructions;  // as __builtin_cpu_supports() calls them
+  const char* instructions;  // as has_instructions() of the bindings calls them
   std::size_t lanes;
   std::array<std::size_t, 6> layout;
   std::unique_ptr<LaneSystem> (*make)(const LaneModels& models);

@@ -152,6 +152,17 @@ Pack<L> valid_where(const Mask<L>& holds, const Pack<L>& value, Fail&& /*fail*/)
 
 namespace Eigen {
 
+namespace internal {
+
+/// Arrays of packs are aligned as a pack is. Eigen would ask for its own alignment, which is that of the
+/// core's numbers and may be less: some compilers refuse that.
+template <int L, int Size>
+struct compute_default_alignment<seacrane::Pack<L>, Size> {
+  enum { value = 0 };
+};
+
+}  // namespace internal
+
 template <int L>
 struct NumTraits<seacrane::Pack<L>> : NumTraits<double> {
   using Real = seacrane::Pack<L>;

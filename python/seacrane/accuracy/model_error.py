@@ -23,6 +23,7 @@ from seacrane.errors import SceneError
 from seacrane.hydro.memory.retardation import RetardationModel, retardation_functions
 from seacrane.hydro.vessel.parameters import following_yaw, rigid_part
 from seacrane.inputs.caller import warn_caller
+from seacrane.one_thread import one_thread
 from seacrane.scene.vessel_memory import database_of
 
 if TYPE_CHECKING:
@@ -135,6 +136,7 @@ class _Carried:
     motion: Array
 
 
+@one_thread
 def _carried(scene: Scene, times: Array, database: HydroDatabase | None) -> _Carried:
     if times.ndim != 1 or len(times) < 2 or not np.all(np.diff(times) > 0.0):
         raise SceneError("model error: times do not increase; give two or more times in s")
@@ -176,7 +178,8 @@ def _from_rest(linear: LinearModel, summed: SummedResponse, times: Array) -> Arr
 
     phases = np.exp(1j * times[:, None] * summed.omega)
     out = np.asarray((phases @ summed.state_amplitude).real)
-    ahead, free = expm(linear.a * (times[1] - times[0])), -out[0]
+    with one_thread:
+        ahead, free = expm(linear.a * (times[1] - times[0])), -out[0]
     for row in out:
         row += free
         free = ahead @ free
@@ -217,7 +220,8 @@ def _impulse_response(element: _core.VesselHydrodynamics, step: float, count: in
     blocks = element.memory
     assert not isinstance(blocks, _core.RetardationFunctions)
     for block in blocks:
-        ahead, states = expm(np.asarray(block.a) * step), np.array(block.b)
+        with one_thread:
+            ahead, states = expm(np.asarray(block.a) * step), np.array(block.b)
         at = np.ix_(list(block.outputs), list(block.inputs))
         for sample in out:
             sample[at] += np.asarray(block.c) @ states
@@ -233,7 +237,8 @@ def _driven(linear: LinearModel, load: Array, step: float) -> Array:
     whole = np.zeros((size + 2 * inputs, size + 2 * inputs))
     whole[:size, :size], whole[:size, size : size + inputs] = linear.a * step, linear.b * step
     whole[size : size + inputs, size + inputs :] = np.eye(inputs)
-    ahead = expm(whole)[:size]
+    with one_thread:
+        ahead = expm(whole)[:size]
     free, constant, slope = ahead[:, :size], ahead[:, size : size + inputs], ahead[:, size + inputs :]
     pushes = load[:-1] @ constant.T + np.diff(load, axis=0) @ slope.T
     out = np.zeros((len(load), size))

@@ -16,6 +16,7 @@ from seacrane.description.waves import Waves
 from seacrane.errors import SceneError
 from seacrane.hydro.data.encounter import encounter_frequency_at
 from seacrane.inputs.checked import number_of
+from seacrane.one_thread import one_thread
 
 if TYPE_CHECKING:
     from seacrane.hydro import HydroDatabase
@@ -24,6 +25,7 @@ Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 
 
+@one_thread
 def motion_rao(
     scene: Description | LinearModel,
     *,
@@ -143,6 +145,7 @@ class SummedResponse:
         return np.asarray((np.exp(1j * number_of("time", time) * self.omega) @ self.state_amplitude).real)
 
 
+@one_thread
 def response_summed(
     scene: Description | LinearModel,
     *,

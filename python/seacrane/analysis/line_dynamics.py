@@ -13,6 +13,7 @@ from seacrane import _core
 from seacrane.description.loads import lines_of, path_of
 from seacrane.description.scene import Description
 from seacrane.inputs.frames import rotation_matrix
+from seacrane.one_thread import one_thread
 
 Array = NDArray[np.float64]
 DEPENDENT = 1e-10  # of the largest singular value: rows, or lines, that depend on each other
@@ -61,6 +62,7 @@ class LineDynamics:
         return self.mass * abs(float(self.direction @ accelerations.ravel()))
 
 
+@one_thread
 def line_dynamics(
     scene: Description, model: _core.Model, values: Array, time: float
 ) -> dict[str, LineDynamics]:

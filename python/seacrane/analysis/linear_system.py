@@ -24,6 +24,7 @@ from seacrane.description.scene import Description
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import shaped_of
 from seacrane.inputs.frames import rotation_about_z, rotation_matrix
+from seacrane.one_thread import one_thread
 
 if TYPE_CHECKING:
     from seacrane.hydro import HydroDatabase
@@ -132,6 +133,7 @@ class LinearModel:
         at = self._terms.model.pose_index(body)
         return rotation_matrix(np.array(self.state.values)[at + 3 : at + 7])
 
+    @one_thread
     def response(self, *, omega: ArrayLike, force: ArrayLike) -> Complex:
         """Complex amplitudes of x under wave loads Re force exp(i omega t), in the steady state.
 
@@ -204,6 +206,7 @@ class LinearModel:
         out[:, : self.degrees_of_freedom] = at
         return out
 
+    @one_thread
     def at_frequency(self, omega: float) -> LinearModel:
         """The same model with the matrices that `memories` have at one frequency (rad/s), for all of them."""
         if not self.memories:
@@ -279,10 +282,12 @@ class Resolvent:
         from scipy.linalg import matrix_balance, schur
 
         # Memory states may be 1e6 times larger than motions: unbalanced, the triangular form loses motions.
-        balanced, (self.scale, _) = matrix_balance(linear.a, permute=False, separate=True)
-        self.triangle, self.unitary = schur(balanced, output="complex")
+        with one_thread:
+            balanced, (self.scale, _) = matrix_balance(linear.a, permute=False, separate=True)
+            self.triangle, self.unitary = schur(balanced, output="complex")
         self.name = linear.scene.name
 
+    @one_thread
     def response(self, omega: Array, rates: Array | Complex) -> Complex:
         """x (k, n) at frequencies (k,) under rates of x (k, n).
 
@@ -303,6 +308,7 @@ class Resolvent:
         return np.asarray(x @ self.unitary.T * self.scale)
 
 
+@one_thread
 def linear_model(
     scene: Description,
     *,

@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane import _core
+from seacrane.one_thread import one_thread
 
 Array = NDArray[np.float64]
 LARGEST = 1500  # states; beyond, the dense eigenvalue problem takes longer than most runs
@@ -36,6 +37,7 @@ def jacobian(model: _core.Model, *, state: Array | None = None, time: float = 0.
     return out
 
 
+@one_thread
 def fastest_mode(model: _core.Model) -> float | None:
     """Largest |eigenvalue| (1/s) at the start; None where the model is too large for a dense problem, or its
     rates are not finite there (of which the run itself tells)."""

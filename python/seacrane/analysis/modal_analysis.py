@@ -13,6 +13,7 @@ from seacrane.analysis.linear_system import LinearModel, linear_model
 from seacrane.analysis.stability import grows, growth_in_words
 from seacrane.description.scene import Description
 from seacrane.inputs.frames import MOTIONS
+from seacrane.one_thread import one_thread
 
 if TYPE_CHECKING:
     from seacrane.hydro import HydroDatabase
@@ -153,6 +154,7 @@ def _label(bodies: tuple[str, ...], energy: Array) -> str:
     return f"{bodies[body]} {MOTIONS[motion]}"
 
 
+@one_thread
 def natural_modes(
     scene: Description | LinearModel,
     *,

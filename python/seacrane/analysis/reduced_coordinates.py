@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from seacrane import _core
 from seacrane.errors import SceneError
+from seacrane.one_thread import one_thread
 
 Array = NDArray[np.float64]
 NEUTRAL = 1e-6  # 1/s2: a weaker stiffness over mass (a period beyond 6283 s) counts as none
@@ -140,6 +141,7 @@ class ReducedCoordinates:
     basis: Array
 
     @classmethod
+    @one_thread
     def at(cls, terms: Terms, values: Array) -> ReducedCoordinates:
         """Of the null space of the constraint Jacobian D (paper eq. 4) at a state."""
         jacobian = terms.evaluator.terms(terms.time, values)["jacobian"]
@@ -233,6 +235,7 @@ class ReducedCoordinates:
         """d(acceleration) / d(coordinates) in the coordinates, (dof, dof), 1/s2."""
         return np.asarray(self.basis.T @ self.pose_columns()[: 6 * self.terms.bodies])
 
+    @one_thread
     def rest_matrix(self) -> tuple[Array, Array, Array]:
         """What a rest state is solved by: `stiffness` with the states of loads as further unknowns.
 

@@ -21,6 +21,7 @@ from seacrane.hydro.data.excitation import force_on_grid
 from seacrane.hydro.readers.reader_warnings import EncounterFrequencyWarning
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.checked import number_of
+from seacrane.one_thread import one_thread
 from seacrane.sea.spreading import Spreading
 
 if TYPE_CHECKING:
@@ -103,6 +104,7 @@ class ResponseStatistics:
         return np.asarray(self.std * np.sqrt(2.0 * np.log(cycles)))
 
 
+@one_thread
 def response_statistics(
     scene: Description | LinearModel,
     *,

@@ -23,6 +23,7 @@ from seacrane.description.loads import lines_of
 from seacrane.description.scene import Description, Some
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import number_of
+from seacrane.one_thread import one_thread
 
 Array = NDArray[np.float64]
 Rest = tuple[_core.Model, _core.State]
@@ -169,6 +170,7 @@ def state_values(scene: Description, state: Any) -> Array:
     return np.array(state.values)
 
 
+@one_thread
 def _rest(scene: Description, time: float, values: Array | None) -> Rest:
     still = held(scene, time=time)
     model = compile_scene(still)
@@ -196,7 +198,7 @@ def _hung(still: Description, model: _core.Model, time: float, values: Array) ->
 
 
 def _searched(scene: Description, model: _core.Model, time: float, values: Array) -> _core.State:
-    """By Newton's method, and where it comes to nothing, or to what tips over, from where a damped motion ends.
+    """By Newton's method; where that comes to nothing, or to what tips over, from where a damped motion ends.
 
     Newton's method goes to any rest: to a load that stands on its hook as well as to one that hangs.
     """

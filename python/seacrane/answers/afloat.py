@@ -9,6 +9,7 @@ from seacrane import _core
 from seacrane.analysis.reduced_coordinates import NEUTRAL, ReducedCoordinates, Terms
 from seacrane.description.scene import Description
 from seacrane.inputs.frames import heading_of, rotation_matrix
+from seacrane.one_thread import one_thread
 
 Array = NDArray[np.float64]
 
@@ -19,6 +20,7 @@ def displaced_weight(scene: Description, vessel: _core.VesselHydrodynamics, moti
     return float(own - np.asarray(vessel.restoring)[2, 2:5] @ motion[2:5])
 
 
+@one_thread
 def heeling_stiffness(model: _core.Model, values: Array, time: float, body: str) -> float:
     """Heeling moment for each radian of heel, N m/rad, at rest: all else follows, hanging loads swing.
 

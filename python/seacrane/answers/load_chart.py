@@ -23,6 +23,7 @@ from seacrane.errors import SceneError
 from seacrane.inputs.checked import number_of
 from seacrane.inputs.plausible import angle_of
 from seacrane.inputs.shown import shown
+from seacrane.one_thread import one_thread
 from seacrane.plotting.html import notebook_table
 from seacrane.plotting.text import text_table
 
@@ -116,6 +117,7 @@ class LoadChart:
         return f"{value:.4g} {limit}".rstrip() if np.isfinite(value) else "unlimited"
 
 
+@one_thread
 def load_chart(
     scene: Description,
     *,

@@ -21,6 +21,7 @@ from seacrane.description.scene import Description
 from seacrane.errors import SceneError
 from seacrane.inputs.plausible import angle_of
 from seacrane.inputs.shown import shown
+from seacrane.one_thread import one_thread
 from seacrane.plotting.html import notebook_table
 from seacrane.plotting.text import text_table
 
@@ -123,6 +124,7 @@ def _unit(roles: CraneRoles | None, name: str) -> str:
     return "rad" if place is not None and place[1] in ANGLES else "m"
 
 
+@one_thread
 def statics(
     scene: Description,
     *,

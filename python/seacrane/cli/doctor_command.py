@@ -35,13 +35,14 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def _speed() -> Facts:
-    from seacrane.installation.pace import SPAN, blas, pace_of_case2, thread_facts
+    from seacrane.installation.pace import SPAN, blas, lane_facts, pace_of_case2, thread_facts
 
     wall, fast = pace_of_case2()
     return [
         *thread_facts().items(),
         ("linear algebra of NumPy", blas()),
         (f"case 2, {SPAN:g} s", f"{1e3 * wall:.3g} ms in the loop, {fast:.0f} times real time"),
+        *lane_facts().items(),
     ]
 
 

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from seacrane.crane.jointed_data import FREEDOMS, JointData, JointedData
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import number_of
+from seacrane.one_thread import one_thread
 
 Array = NDArray[np.float64]
 CLOSED = 1e-8  # of the crane's extent: gap of a loop that counts as closed
@@ -65,10 +66,11 @@ def pose_of(data: JointedData, coordinates: Mapping[str, float]) -> dict[str, Mo
         return np.concatenate([_gap(joint, moved) for joint in data.closing_joints])
 
     count = sum(FREEDOMS[joint.kind] for joint in free)
-    found = least_squares(gaps, np.zeros(count), xtol=1e-15, ftol=1e-15, gtol=1e-15)
-    values = found.x
-    for _ in range(POLISHED):  # the search ends where its steps are small, Newton's where the gaps are
-        values = values - np.linalg.lstsq(found.jac, gaps(values), rcond=None)[0]
+    with one_thread:
+        found = least_squares(gaps, np.zeros(count), xtol=1e-15, ftol=1e-15, gtol=1e-15)
+        values = found.x
+        for _ in range(POLISHED):  # the search ends where its steps are small, Newton's where the gaps are
+            values = values - np.linalg.lstsq(found.jac, gaps(values), rcond=None)[0]
     worst, extent = float(np.abs(gaps(values)).max()), extent_of(data)
     if worst > CLOSED * extent:
         asked = ", ".join(f"{label} {value:g}" for label, value in coordinates.items()) or "its home pose"

@@ -17,6 +17,7 @@ from seacrane.ensembles.other_sea import WORDS, Databases, require_same_sea, wit
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import number_of
 from seacrane.inputs.shown import shown
+from seacrane.one_thread import one_thread
 from seacrane.scene.scene import Scene
 
 Array = NDArray[np.float64]
@@ -133,8 +134,12 @@ def _decays(a: Array, rows: Array, orders: Sequence[int], times: Array) -> Array
     """What is left at each time of motions per state at the start, shape (motions, times, states)."""
     from scipy.linalg import expm
 
-    first, step = expm(a * times[0]), expm(a * (times[1] - times[0]))
-    now = np.array([row @ np.linalg.matrix_power(a, n) for row, n in zip(rows, orders, strict=True)]) @ first
+    with one_thread:
+        first, step = expm(a * times[0]), expm(a * (times[1] - times[0]))
+        now = (
+            np.array([row @ np.linalg.matrix_power(a, n) for row, n in zip(rows, orders, strict=True)])
+            @ first
+        )
     out = np.empty((len(rows), times.size, len(a)))
     for place in range(times.size):
         out[:, place] = now

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from seacrane import _core
 from seacrane.analysis.linearise import jacobian
+from seacrane.one_thread import one_thread
 
 MOST_DAMPING = 0.05  # ratio: what is damped more, waves and drives keep in bounds
 
@@ -68,6 +69,7 @@ class Modes:
         scale = np.array(self.model.scale)
         return np.asarray((np.abs(vectors) / scale[np.isfinite(scale), None])[self._speeds])
 
+    @one_thread
     def _fastest(self, state: _core.State) -> Fastest:
         matrix = jacobian(self.model, state=np.array(state.values), time=state.time)
         if not np.all(np.isfinite(matrix)):
@@ -78,6 +80,7 @@ class Modes:
         body = self._bodies[int(twists.argmax()) // 6] if self._bodies else ""
         return Fastest(mode=float(np.abs(eigenvalues[worst])), body=body, time=state.time)
 
+    @one_thread
     def _oscillations(self, state: _core.State) -> Oscillations:
         values = np.array(state.values)
         values[self._speeds] = 0.0

@@ -11,6 +11,7 @@ from seacrane import _core
 from seacrane.analysis.linearise import LARGEST, jacobian
 from seacrane.description.hydraulic_cylinders import hydraulic_cylinders
 from seacrane.description.scene import Description
+from seacrane.one_thread import one_thread
 from seacrane.validity.range import Finding
 
 Array = NDArray[np.float64]
@@ -25,6 +26,7 @@ class UnsteadyOilWarning(UserWarning):
     """The gain of a hydraulic cylinder is so high that its load swings with a growing amplitude."""
 
 
+@one_thread
 def unsteady_oil(scene: Description, model: _core.Model, start: _core.State) -> list[Finding]:
     """Cylinders whose valve feeds a mode, at rest in the pose of a state.
 

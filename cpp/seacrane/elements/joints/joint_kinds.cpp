@@ -11,23 +11,24 @@ template <class Type>
 JointKind kind_of(std::size_t index) {
   using Parameters = typename Type::Parameters;
   static_assert(std::tuple_size_v<decltype(Parameters::fields())> <= kMostParameters);
-  JointKind out;
-  out.name = Type::kind;
-  out.index = index;
-  out.rows = Type::rows;
-  out.coordinates = Type::coordinates;
-  out.usual = Type::usual;
-  out.slides = Type::slides;
-  out.own_axis = Type::own_axis;
-  out.own_point = Type::own_point;
-  out.branch = requires { typename Type::Branch; };
-  out.example = &Type::example;
-  const Parameters usual;
-  for_each_field<Parameters>([&](const auto& f) {
-    out.parameters.push_back({f.name, f.unit, f.text, f.role, f.bound, f.required, f.of(usual)});
-  });
-  return out;
+  JointKind out{.name = Type::kind,
+                .index = index,
+                .rows = Type::rows,
+                .coordinates = Type::coordinates,
+                .usual = Type::usual,
+                .slides = Type::slides,
+                .own_axis = Type::own_axis,
+                .own_point = Type::own_point,
+                .branch = requires {typename Type::Branch;
 }
+, .parameters = {}, .example = &Type::example
+};  // namespace
+const Parameters usual;
+for_each_field<Parameters>([&](const auto& f) {
+  out.parameters.push_back({f.name, f.unit, f.text, f.role, f.bound, f.required, f.of(usual)});
+});
+return out;
+}  // namespace seacrane
 
 }  // namespace
 

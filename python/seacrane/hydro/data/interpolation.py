@@ -7,6 +7,8 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
+from seacrane.one_thread import one_thread
+
 FloatArray = NDArray[np.float64]
 
 
@@ -48,6 +50,7 @@ def _evaluate(x: FloatArray, query: FloatArray, value: FloatArray, curvature: Fl
 
 
 @lru_cache(maxsize=16)
+@one_thread
 def _curvature(knots: bytes, period: float | None) -> FloatArray:
     """Matrix (n, n) from values to second derivatives; one sea after another asks for those of a database."""
     x = np.frombuffer(knots)

@@ -8,6 +8,8 @@ from dataclasses import dataclass, fields
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from seacrane.one_thread import one_thread
+
 FloatArray = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
 
@@ -226,7 +228,8 @@ class MemoryModel:
         total = np.zeros((len(t), 6, 6))
         for block in self.blocks:
             if block.cause == cause and len(block.A):
-                states = expm(block.A * t[:, None, None]) @ block.B
+                with one_thread:
+                    states = expm(block.A * t[:, None, None]) @ block.B
                 total[:, block.outputs[:, None], block.inputs] += block.C @ states
         return total
 

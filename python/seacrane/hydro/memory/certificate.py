@@ -20,6 +20,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane.hydro.data.memory_model import RADIATION, MemoryBlock, MemoryModel
+from seacrane.one_thread import one_thread
 
 FloatArray = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
@@ -60,6 +61,7 @@ class PassivityCertificate:
     reason: str
 
 
+@one_thread
 def passivity_certificate(model: MemoryModel, *, cause: str = RADIATION) -> PassivityCertificate:
     """Prove, or refute, that all blocks of one ``cause`` together are passive.
 
@@ -85,6 +87,7 @@ def require_passive(model: MemoryModel) -> PassivityCertificate:
     return certificate
 
 
+@one_thread
 def certify(blocks: Sequence[MemoryBlock]) -> PassivityCertificate:
     """`passivity_certificate` of a sequence of blocks whose loads add up."""
     a, b, c, d = _side_by_side(blocks)

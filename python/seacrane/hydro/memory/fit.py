@@ -20,6 +20,7 @@ from seacrane.hydro.memory.joint_passivity import joint_passivity
 from seacrane.hydro.memory.passive import fit_passive
 from seacrane.hydro.memory.realisation import realise
 from seacrane.inputs.caller import warn_caller
+from seacrane.one_thread import one_thread
 
 FloatArray = NDArray[np.float64]
 
@@ -34,6 +35,7 @@ class InfiniteFrequencyWarning(UserWarning):
     """No infinite-frequency added mass to compare with: an error of its estimate is a wrong mass always."""
 
 
+@one_thread
 def fit_memory(
     *,
     database: HydroData,

@@ -20,6 +20,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from seacrane.one_thread import one_thread
+
 FloatArray = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
 
@@ -106,9 +108,10 @@ def fit_order(
     best: tuple[float, FloatArray] | None = None
     for guess in problem.starting_points(starts):
         inside = np.clip(guess, low + 1e-6, high - 1e-6)
-        found = least_squares(
-            problem.residual, inside, bounds=(low, high), method="trf", xtol=1e-10, max_nfev=60
-        )
+        with one_thread:
+            found = least_squares(
+                problem.residual, inside, bounds=(low, high), method="trf", xtol=1e-10, max_nfev=60
+            )
         if best is None or found.cost < best[0]:
             best = (float(found.cost), found.x)
     assert best is not None

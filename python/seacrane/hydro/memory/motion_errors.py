@@ -10,10 +10,12 @@ from seacrane.hydro.data.memory_model import MemoryModel
 from seacrane.hydro.data.motion import motion_errors, motion_response
 from seacrane.hydro.data.trusted_band import in_trusted_band
 from seacrane.hydro.memory.retardation import RetardationModel
+from seacrane.one_thread import one_thread
 
 FloatArray = NDArray[np.float64]
 
 
+@one_thread
 def memory_motion_errors(database: HydroData, model: MemoryModel | RetardationModel) -> FloatArray:
     """Motions (6,) with the memory's matrices against those with the data, within the trusted band.
 

@@ -18,6 +18,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from seacrane.one_thread import one_thread
+
 FloatArray = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
 
@@ -174,9 +176,16 @@ class Problem:
         """Parameters and cost after a Levenberg-Marquardt search."""
         from scipy.optimize import least_squares
 
-        found = least_squares(
-            self.residual, start, jac=self.jacobian, method="lm", max_nfev=evaluations, xtol=1e-7, ftol=1e-6
-        )
+        with one_thread:
+            found = least_squares(
+                self.residual,
+                start,
+                jac=self.jacobian,
+                method="lm",
+                max_nfev=evaluations,
+                xtol=1e-7,
+                ftol=1e-6,
+            )
         return np.asarray(found.x), float(found.cost)
 
     def _eliminate(self, rows: FloatArray) -> FloatArray:

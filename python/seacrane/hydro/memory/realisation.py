@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane.hydro.data.memory_model import MemoryBlock
+from seacrane.one_thread import one_thread
 
 FloatArray = NDArray[np.float64]
 
@@ -38,8 +39,9 @@ def realise(
     a[1:, :-1] = np.eye(order - 1)
     b = np.eye(order, 1)
     c = numerator[None, :] / denominator[0] / gain
-    reach = solve_continuous_lyapunov(a, -b @ b.T)
-    observe = solve_continuous_lyapunov(a.T, -c.T @ c)
+    with one_thread:
+        reach = solve_continuous_lyapunov(a, -b @ b.T)
+        observe = solve_continuous_lyapunov(a.T, -c.T @ c)
     left = _square_root(reach)
     rotation, hankel, _ = np.linalg.svd(left.T @ observe @ left)
     transform = left @ rotation / np.sqrt(np.sqrt(hankel))

@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from seacrane.hydro.data.hydro_data import AdditionalMatrices, HydroData
 from seacrane.hydro.memory.entries import FEWEST_FREQUENCIES, memory_entries
+from seacrane.one_thread import one_thread
 
 FloatArray = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
@@ -77,6 +78,7 @@ class RetardationModel:
         return mass - self.additional_stiffness / by_frequency**2, transfer.real
 
 
+@one_thread
 def retardation_functions(
     *, database: HydroData, step: float | None = None, duration: float | None = None
 ) -> RetardationModel:

@@ -17,6 +17,7 @@ from seacrane.hydro.memory.joint_passivity import scaled_damping
 from seacrane.hydro.memory.motion_errors import memory_motion_errors
 from seacrane.hydro.memory.retardation import RetardationModel, retardation_functions
 from seacrane.inputs.frames import MOTIONS
+from seacrane.one_thread import one_thread
 
 FloatArray = NDArray[np.float64]
 
@@ -111,6 +112,7 @@ def _fits(
         yield fit_memory(database=database, kind=kind, r2=r2)
 
 
+@one_thread
 def trade_row(database: HydroData, model: MemoryModel, *, kind: str) -> MemoryTradeRow:
     """Errors and size of one model."""
     radiation = [row for row in model.rows if row.cause == RADIATION]

@@ -17,6 +17,7 @@ from seacrane.hydro.vessel.lost_passivity import warn_of_lost_passivity
 from seacrane.hydro.vessel.parameters import RigidPart, VesselParameters, time_domain_vessel
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.frames import MOTIONS
+from seacrane.one_thread import one_thread
 
 LOST_DAMPING = 0.02  # of its standard deviation
 
@@ -29,6 +30,7 @@ class MemoryFitWarning(UserWarning):
     """A memory model does not follow the data as closely as was asked."""
 
 
+@one_thread
 def vessel_parameters(
     database: HydroData,
     *,

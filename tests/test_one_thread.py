@@ -1,0 +1,175 @@
+"""Linear algebra of small matrices has one thread in the package, and as many as before after it."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from collections.abc import Callable, Iterator
+from concurrent.futures import ThreadPoolExecutor
+from threading import Barrier, Event
+from typing import Any
+
+import numpy as np
+import pytest
+import scipy.linalg
+from numpy.typing import NDArray
+from threadpoolctl import threadpool_info, threadpool_limits
+
+from seacrane import (
+    Scene,
+    cases,
+    equilibrium,
+    load_chart,
+    motion_rao,
+    natural_modes,
+    response_statistics,
+    simulate,
+    statics,
+)
+from seacrane.crane import Payload
+from seacrane.hydro import passivity_certificate, shipped_database
+from seacrane.hydro.memory.fit import fit_memory
+from seacrane.one_thread import one_thread
+from seacrane.sea import jonswap
+
+BEFORE = 2
+ROUTINES = ["solve", "svd", "eig", "eigvals", "eigh", "eigvalsh", "lstsq", "pinv", "inv", "qr", "cholesky"]
+SHARED_FROM = 8  # rows: smaller matrices have one thread in any case
+
+
+def threads() -> set[int]:
+    return {library["num_threads"] for library in threadpool_info() if library["user_api"] == "blas"}
+
+
+@pytest.fixture(autouse=True)
+def several_threads() -> Iterator[None]:
+    """As on a machine of several processors, whatever this one has; in SciPy's library too."""
+    assert scipy.linalg
+    with threadpool_limits(BEFORE, user_api="blas"):
+        if threads() != {BEFORE}:
+            pytest.skip("this linear algebra takes no number of threads")
+        yield
+        assert threads() == {BEFORE}
+
+
+def test_a_block_limits_and_gives_back() -> None:
+    with one_thread:
+        assert threads() == {1}
+        with one_thread:
+            assert threads() == {1}
+        assert threads() == {1}
+    assert threads() == {BEFORE}
+    with pytest.raises(ZeroDivisionError), one_thread:
+        _ = 1 / 0
+    assert threads() == {BEFORE}
+
+
+def test_a_function_keeps_its_name_and_its_answer() -> None:
+    @one_thread
+    def threads_inside(*, more: int) -> tuple[set[int], int]:
+        return threads(), more
+
+    assert threads_inside(more=3) == ({1}, 3)
+    assert threads_inside.__name__ == "threads_inside"
+
+
+def test_the_last_of_several_threads_gives_back() -> None:
+    entered, left = Barrier(2, timeout=60.0), Event()
+
+    def first() -> set[int]:
+        with one_thread:
+            entered.wait()
+            return threads()
+
+    def last() -> set[int]:
+        with one_thread:
+            entered.wait()
+            assert left.wait(60.0)
+            return threads()
+
+    with ThreadPoolExecutor(2) as pool:
+        one, other = pool.submit(first), pool.submit(last)
+        try:
+            assert one.result() == {1}
+            assert threads() == {1}
+        finally:
+            left.set()
+        assert other.result() == {1}
+        assert threads() == {BEFORE}, "while the threads that set it are still there"
+
+
+def test_a_library_that_comes_later_is_limited_too() -> None:
+    code = (
+        "import sys, numpy\n"
+        "from threadpoolctl import threadpool_info\n"
+        "from seacrane.one_thread import one_thread\n"
+        "with one_thread:\n"
+        "    assert 'scipy.linalg' not in sys.modules\n"
+        "    import scipy.linalg\n"
+        "    with one_thread:\n"
+        "        print(*(one['num_threads'] for one in threadpool_info() if one['user_api'] == 'blas'))\n"
+    )
+    several = os.environ | {"OPENBLAS_NUM_THREADS": str(BEFORE)}
+    done = subprocess.run(
+        [sys.executable, "-c", code], env=several, capture_output=True, text=True, check=True
+    )
+    assert set(done.stdout.split()) == {"1"}
+
+
+@pytest.fixture
+def seen(monkeypatch: pytest.MonkeyPatch) -> list[tuple[str, int]]:
+    """Routine and threads of each call of NumPy's linear algebra with matrices that it would share out."""
+    out: list[tuple[str, int]] = []
+
+    def watched(name: str) -> Callable[..., Any]:
+        routine = getattr(np.linalg, name)
+
+        def watch(matrix: NDArray[Any], *args: Any, **kwargs: Any) -> Any:
+            if min(np.shape(matrix)[-2:]) >= SHARED_FROM:
+                out.extend((name, number) for number in threads())
+            return routine(matrix, *args, **kwargs)
+
+        return watch
+
+    for name in ROUTINES:
+        monkeypatch.setattr(np.linalg, name, watched(name))
+    return out
+
+
+def ship() -> Scene:
+    scene = Scene(name="ship")
+    scene.add_vessel(shipped_database(), memory="by-motion")
+    scene.add_crane(s1=2.0, s2=2.0, payload=Payload(mass=5e4))
+    scene.add_ballast()
+    return scene
+
+
+def fit() -> object:
+    return fit_memory(database=shipped_database(), limit=0.3)
+
+
+CALLS: dict[str, Callable[[], object]] = {
+    "case 2": cases.case2,
+    "ballast": ship,
+    "equilibrium": lambda: equilibrium(ship()),
+    "statics": lambda: statics(ship()),
+    "load chart": lambda: load_chart(ship(), radii=[20.0], limits={"heel": 6.0}),
+    "natural modes": lambda: natural_modes(ship()),
+    "motion RAO": lambda: motion_rao(
+        ship(), database=shipped_database(), omega=[0.5, 1.0], heading=2.0, body="vessel"
+    ),
+    "statistics": lambda: response_statistics(
+        ship(), database=shipped_database(), spectrum=jonswap(hs=2.0, tp=8.0), heading=2.0, body="vessel"
+    ),
+    "run": lambda: simulate(cases.case2(), 1.0),
+    "fit of a memory": fit,
+    "certificate": lambda: passivity_certificate(shipped_database().memory),
+}
+
+
+@pytest.mark.parametrize("name", CALLS)
+def test_what_the_package_computes_has_one_thread(seen: list[tuple[str, int]], name: str) -> None:
+    CALLS[name]()
+    assert seen, "no matrix that would be shared out: this tests nothing"
+    assert {number for _, number in seen} == {1}, seen
