@@ -20,6 +20,7 @@ from seacrane.analysis.rest_state import at_rest, equilibrium, held, state_value
 from seacrane.description.compilation import compile_scene
 from seacrane.description.scene import Description
 from seacrane.errors import SceneError
+from seacrane.inputs.brief import brief
 from seacrane.inputs.checked import shaped_of
 from seacrane.inputs.frames import rotation_about_z, rotation_matrix
 
@@ -74,6 +75,8 @@ class LinearModel:
     neutral: Array
     memories: tuple[FrequencyMemory, ...]
     _terms: Terms
+
+    __repr__ = brief
 
     @property
     def degrees_of_freedom(self) -> int:

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from seacrane import _core
 from seacrane.analysis.linear_system import LinearModel, linear_model
 from seacrane.description.scene import Description
+from seacrane.inputs.brief import brief
 from seacrane.inputs.frames import MOTIONS
 
 if TYPE_CHECKING:
@@ -57,6 +58,8 @@ class NaturalModes:
     neutral: int
     state_vectors: Complex
     bodies: tuple[str, ...]
+
+    __repr__ = brief
 
     @property
     def natural_period(self) -> Array:

@@ -8,6 +8,8 @@ from dataclasses import dataclass, fields
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from seacrane.inputs.brief import brief
+
 FloatArray = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
 
@@ -33,6 +35,8 @@ class MemoryBlock:
     C: FloatArray
     D: FloatArray
     state_scale: FloatArray
+
+    __repr__ = brief
 
     def __post_init__(self) -> None:
         k, p, m = len(self.A), len(self.outputs), len(self.inputs)
@@ -191,6 +195,8 @@ class MemoryModel:
     rows: tuple[FitRow, ...]
     passivity: Passivity
     motion: MotionFit | None = None
+
+    __repr__ = brief
 
     def __post_init__(self) -> None:
         for entry in fields(self):
