@@ -65,6 +65,7 @@ autodoc_type_aliases = {
     "Array": "NDArray[float64]",
     "FloatArray": "NDArray[float64]",
     "ComplexArray": "NDArray[complex128]",
+    "Flags": "NDArray[bool]",
 }
 python_use_unqualified_type_names = True
 python_maximum_signature_line_length = 90

@@ -38,6 +38,7 @@ def a_ship_at_two_speeds(folder: Path) -> None:
     VeresRun(speeds=(0.0, 5.0), omega=np.linspace(0.2, 2.4, 23)).write(ship)
 
 
+TOLD_OF_THE_GIVEN = {"docs/frequency-domain.md": {"InfiniteFrequencyWarning"}}
 GIVEN: dict[str, Callable[[Path], None]] = {"docs/frequency-domain.md": a_ship_at_two_speeds}
 
 
@@ -58,7 +59,8 @@ def test_blocks_of_a_document_run_in_order_without_a_warning(
     GIVEN.get(name, lambda folder: None)(tmp_path)
     done = run(name, TEXTS[name], tmp_path)
     assert done.returncode == 0, done.stderr
-    assert "Warning:" not in done.stderr
+    told = set(re.findall(r"(\w+Warning):", done.stderr))
+    assert told <= TOLD_OF_THE_GIVEN.get(name, set()), done.stderr
 
 
 def test_a_block_that_needs_what_no_block_before_made_is_named_by_its_line(tmp_path: Path) -> None:

@@ -6,7 +6,9 @@ import re
 from typing import Any
 
 LITERAL = re.compile(r"(``.*?``)")
-ARRAY = re.compile(r"[~.\w]*ndarray\[tuple\[[~.\w]*Any, \.\.\.\], [~.\w]*dtype\[[~.\w]*?(\w+)(?:\[[~.\w]*\])?\]\]")
+ARRAY = re.compile(
+    r"[~.\w]*ndarray\[tuple\[[~.\w]*Any, \.\.\.\], [~.\w]*dtype\[[~.\w]*?(\w+)(?:\[[~.\w]*\])?\]\]"
+)
 
 
 def keep_bars(app: Any, kind: str, name: str, value: Any, options: Any, lines: list[str]) -> None:
