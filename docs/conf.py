@@ -77,6 +77,7 @@ def setup(app: Any) -> None:
     """Connects what is ours."""
     api_pages.write(HERE / "api")
     mathml.setup(app)
+    docstrings.name_aliases()
     app.connect("doctree-read", navigation.add_toctrees, priority=400)  # before Sphinx collects them
     app.connect("autodoc-process-docstring", docstrings.keep_bars)
     app.connect("autodoc-process-signature", docstrings.shorten)

@@ -121,15 +121,19 @@ def test_formulas_are_drawn_by_the_browser_itself(small_site: Path, offline: Any
 
 def test_signatures_say_what_the_code_says(small_site: Path) -> None:
     (small_site / "docs" / "index.md").write_text(INDEX + "- [Entry](entry.md)\n", encoding="utf-8")
-    entries = ("seacrane.hydro.HydroDatabase.force_at", "seacrane.hydro.HydroDatabase.select")
-    lines = [f"```{{eval-rst}}\n.. automethod:: {name}\n```" for name in entries]
+    entries = {
+        "seacrane.hydro.HydroDatabase.force_at": "method", "seacrane.hydro.HydroDatabase.select": "method",
+        "seacrane.Balance": "class", "seacrane.Balance.vessel_wrench": "property",
+    }  # fmt: skip
+    lines = [f"```{{eval-rst}}\n.. auto{kind}:: {name}\n```" for name, kind in entries.items()]
     (small_site / "docs" / "entry.md").write_text("# Entry\n\n" + "\n\n".join(lines), encoding="utf-8")
     done = build(small_site)
     assert done.returncode == 0, done.stderr
     page = (small_site / "out" / "docs" / "entry.html").read_text(encoding="utf-8").split("<article")[1]
     words = re.sub(r"<[^>]+>", "", page)
     assert "ArrayLike" in words and "NDArray[complex128]" in words and "NDArray[integer]" in words
-    assert not re.search("SupportsArray|NestedSequence|ndarray", words)
+    assert "Mapping[str, NDArray[float64]]" in words and "NDArray[float64] | None" in words
+    assert not re.search("SupportsArray|NestedSequence|TypeAlias|dtype", words)
 
 
 def test_a_site_holds_the_three_dimensional_page_and_runs_a_notebook_once(

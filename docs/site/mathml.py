@@ -10,6 +10,7 @@ from docutils.utils.math.latex2mathml import tex2mathml
 from sphinx.util import logging
 
 NAME = "mathml"
+STYLE = "margin: 0; padding: 0.8em 0"  # roots and exponents stay within the box that the theme puts around
 
 log = logging.getLogger(__name__)
 
@@ -27,7 +28,7 @@ def inline(translator: Any, node: nodes.math) -> None:
 
 def block(translator: Any, node: nodes.math_block) -> None:
     """A formula by itself, in the middle."""
-    translator.body.append(f'<div class="math">{mathml(node, as_block=True)}</div>\n')
+    translator.body.append(f'<div class="math" style="{STYLE}">{mathml(node, as_block=True)}</div>\n')
     raise nodes.SkipNode
 
 
