@@ -17,6 +17,7 @@ import api_pages  # noqa: E402
 import docstrings  # noqa: E402
 import links  # noqa: E402
 import live_page  # noqa: E402
+import mathml  # noqa: E402
 import navigation  # noqa: E402
 import notebook_cache  # noqa: E402
 
@@ -46,6 +47,8 @@ html_additional_pages = {"index": "redirect.html"}
 html_copy_source = False
 
 myst_heading_anchors = 6  # as GitHub makes them
+myst_enable_extensions = ["dollarmath"]  # as notebooks write formulas
+html_math_renderer = mathml.NAME
 
 nb_execution_mode = "cache"
 nb_execution_cache_path = str(notebook_cache.folder(HERE.parent / "build" / "notebooks"))
@@ -57,6 +60,13 @@ default_role = "py:obj"
 autosummary_generate = False
 autodoc_member_order = "bysource"
 autodoc_typehints_format = "short"
+autodoc_type_aliases = {
+    "ArrayLike": "ArrayLike",
+    "Array": "NDArray[float64]",
+    "FloatArray": "NDArray[float64]",
+    "ComplexArray": "NDArray[complex128]",
+    "Flags": "NDArray[bool]",
+}
 python_use_unqualified_type_names = True
 python_maximum_signature_line_length = 90
 napoleon_google_docstring = False
@@ -66,6 +76,8 @@ napoleon_custom_sections = [("Attributes", "params_style")]  # several names sha
 def setup(app: Any) -> None:
     """Connects what is ours."""
     api_pages.write(HERE / "api")
+    mathml.setup(app)
+    docstrings.name_aliases()
     app.connect("doctree-read", navigation.add_toctrees, priority=400)  # before Sphinx collects them
     app.connect("autodoc-process-docstring", docstrings.keep_bars)
     app.connect("autodoc-process-signature", docstrings.shorten)

@@ -449,8 +449,11 @@ def test_earlier_plots_are_kept(tmp_path: Path, capsys: pytest.CaptureFixture[st
 def test_hydro_prints_a_table(shared: Path) -> None:
     done = command_line("hydro", shared / "veres" / "supply" / "input")
     assert done.returncode == 0, done.stderr
-    head, first, *_ = done.stdout.splitlines()
-    assert head.split() == ["check", "value", "limit", "verdict"] and "motion_rao_surge" in first
+    head, *rows = (line.split() for line in done.stdout.splitlines())
+    assert head == ["check", "value", "limit", "verdict"]
+    told = {row[0]: row[1] for row in rows}
+    assert float(told["mass_t"]) == pytest.approx(6362.2, abs=0.1) and "motion_rao_surge" in told
+    assert float(told["GM_of_C44_and_mass_m"]) == pytest.approx(2.14, abs=0.005)
 
 
 def test_a_real_ships_files_run(shared: Path, tmp_path: Path) -> None:

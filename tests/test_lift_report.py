@@ -195,10 +195,13 @@ def test_a_section_is_a_small_value() -> None:
     assert len({section.title for section in SECTIONS}) == len(SECTIONS)
 
 
-def test_a_report_is_saved_once(page: Report, tmp_path: Path) -> None:
+def test_a_report_replaces_an_earlier_one_alone(page: Report, tmp_path: Path) -> None:
     path = page.save(tmp_path / "lift.html")
-    assert path.read_text(encoding="utf-8") == page.html
+    assert page.save(path).read_text(encoding="utf-8") == page.html
     with pytest.raises(FileExistsError, match=r"lift\.html is there already"):
+        page.save(path, overwrite=False)
+    path.write_text("<p>my own</p>", encoding="utf-8")
+    with pytest.raises(FileExistsError, match=r"lift\.html is there and not of seacrane; give another name"):
         page.save(path)
     assert page.save(path, overwrite=True) == path
     assert repr(page).startswith("<Report 'case2': ")

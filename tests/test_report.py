@@ -146,10 +146,8 @@ def test_the_file_is_written_whole_or_not_at_all(
     before = path.read_bytes()
     with pytest.raises(OSError, match=r"absent\.png"):
         made(title="new", runs=runs, pictures=[gone])
-    with pytest.raises(FileExistsError, match=r"report\.html is there already; pass overwrite=True"):
-        made(title="new", runs=runs).save(path)
     assert path.read_bytes() == before and list(tmp_path.iterdir()) == [path]
-    made(title="new", runs=runs).save(path, overwrite=True)
+    made(title="new", runs=runs).save(path)
     assert b"<h1>new</h1>" in path.read_bytes()
 
 

@@ -11,8 +11,21 @@ import pytest
 from test_scene_file import every_kind
 
 import seacrane
-from seacrane import Curve, Run, Scene, _core, cases
-from seacrane.hydro import shipped_database
+from seacrane import (
+    Curve,
+    Run,
+    Scene,
+    _core,
+    cases,
+    linear_model,
+    model_error,
+    natural_modes,
+    response_statistics,
+)
+from seacrane.crane import KnuckleBoomCrane
+from seacrane.hydro import DriftCoefficients, retardation_functions, shipped_database
+from seacrane.hydro.hull.shipped_hull import shipped_hull
+from seacrane.sea import MeasuredWaves, jonswap
 
 
 def held() -> dict[str, Any]:
@@ -67,6 +80,42 @@ def test_notebooks_show_tables_of_what_is_held(result: seacrane.Result) -> None:
         assert html.startswith('<div class="seacrane">') and html.endswith("</table></div>")
     assert "outputs to 0.2 s" in shown[result] and "<td>link_tension</td>" in shown[result]
     assert "115, 25" in shown[database] and "<td>mass [t]</td>" in shown[database]
+
+
+def with_arrays() -> dict[str, Any]:
+    """What holds arrays, by the name of its class."""
+    scene, database, hull = cases.case2(), shipped_database(), shipped_hull()
+    memory = database.memory
+    assert memory is not None
+    statistics = response_statistics(
+        scene, database=database, spectrum=jonswap(hs=2.0, tp=8.0), heading=2.0, body="vessel"
+    )
+    things: list[Any] = [
+        database, memory, memory.blocks[0], hull, linear_model(scene), natural_modes(scene), statistics,
+        KnuckleBoomCrane.load(), retardation_functions(database=database),
+        model_error(scene, body="payload", times=np.linspace(0.0, 1.0, 11)),
+        DriftCoefficients(heading=np.arange(7), omega=np.arange(1.0, 9.0), coefficient=np.zeros((7, 8, 6))),
+        MeasuredWaves(time=np.arange(99.0), elevation=np.sin(np.arange(99.0)), direction_deg=180.0),
+    ]  # fmt: skip
+    return {type(thing).__name__: thing for thing in things}
+
+
+WITH_ARRAYS = with_arrays()
+
+
+@pytest.mark.parametrize("kind", WITH_ARRAYS)
+def test_what_holds_arrays_is_one_line_without_their_numbers(kind: str) -> None:
+    text = repr(WITH_ARRAYS[kind])
+    assert text.startswith(f"<{kind}") and text.endswith(">")
+    assert "array(" not in text and "\n" not in text and " object at 0x" not in text
+    assert len(text) < 400
+
+
+def test_a_database_prints_its_mass_and_gm_on_a_page() -> None:
+    lines = str(shipped_database()).splitlines()
+    assert len(lines) < 20 and max(map(len, lines)) < 140
+    assert any(line.split() == ["mass", "[t]", "14000"] for line in lines)
+    assert any(line.split() == ["GM", "of", "its", "C44", "and", "mass", "[m]", "3"] for line in lines)
 
 
 def test_names_in_tables_are_escaped() -> None:

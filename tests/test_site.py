@@ -106,6 +106,36 @@ def test_a_small_site_builds_without_a_warning(small_site: Path, offline: Any) -
     assert offline.outside(small_site / "out") == [], "the site opens without a network"
 
 
+def test_formulas_are_drawn_by_the_browser_itself(small_site: Path, offline: Any) -> None:
+    text = "# Page\n\nA root $\\sqrt{m g}$ in a line.\n\n$$ H = \\frac{\\omega^2}{C_{44}} $$\n"
+    (small_site / "docs" / "page.md").write_text(text, encoding="utf-8")
+    done = build(small_site)
+    assert done.returncode == 0, done.stderr
+    page = (small_site / "out" / "docs" / "page.html").read_text(encoding="utf-8").split("<article")[1]
+    assert page.count("<math ") == 2 and "<msqrt>" in page and "<mfrac>" in page and "$" not in page
+    assert offline.outside(small_site / "out") == []
+    (small_site / "docs" / "page.md").write_text("# Page\n\n$\\nonsense{x}$\n", encoding="utf-8")
+    failed = build(small_site)
+    assert failed.returncode != 0 and "nonsense" in failed.stderr
+
+
+def test_signatures_say_what_the_code_says(small_site: Path) -> None:
+    (small_site / "docs" / "index.md").write_text(INDEX + "- [Entry](entry.md)\n", encoding="utf-8")
+    entries = {
+        "seacrane.hydro.HydroDatabase.force_at": "method", "seacrane.hydro.HydroDatabase.select": "method",
+        "seacrane.Balance": "class", "seacrane.Balance.vessel_wrench": "property",
+    }  # fmt: skip
+    lines = [f"```{{eval-rst}}\n.. auto{kind}:: {name}\n```" for name, kind in entries.items()]
+    (small_site / "docs" / "entry.md").write_text("# Entry\n\n" + "\n\n".join(lines), encoding="utf-8")
+    done = build(small_site)
+    assert done.returncode == 0, done.stderr
+    page = (small_site / "out" / "docs" / "entry.html").read_text(encoding="utf-8").split("<article")[1]
+    words = re.sub(r"<[^>]+>", "", page)
+    assert "ArrayLike" in words and "NDArray[complex128]" in words and "NDArray[integer]" in words
+    assert "Mapping[str, NDArray[float64]]" in words and "NDArray[float64] | None" in words
+    assert not re.search("SupportsArray|NestedSequence|TypeAlias|dtype", words)
+
+
 def test_a_site_holds_the_three_dimensional_page_and_runs_a_notebook_once(
     small_site: Path, offline: Any
 ) -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 from dataclasses import replace
+from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
@@ -85,9 +86,35 @@ def test_a_diagram_is_drawn_over_wall_or_cpu_time(measured: Trade) -> None:
         assert min(drawn) > 0.0
     rk4 = next(r for r in measured.rows if r.method.integrator == "rk4" and r.formulation == "recursive")
     lines = {line.get_label(): line for line in measured.plot(over="cpu_s").axes[0].lines}
-    assert rk4.cpu_s / rk4.simulated_s in lines["rk4"].get_xdata()
+    assert 1e3 * rk4.cpu_s / rk4.simulated_s in lines["rk4"].get_xdata()
     with pytest.raises(SceneError, match="over is 'cpu'; give wall_s or cpu_s"):
         measured.plot(over="cpu")
+
+
+def test_a_diagram_has_a_line_for_each_integrator_and_names_that_do_not_meet(measured: Trade) -> None:
+    figure = measured.plot()
+    figure.draw_without_rendering()
+    left, right = figure.axes[:2]
+    drawn = {str(line.get_label()): len(line.get_xdata()) for line in left.lines}
+    integrators = {
+        row.method.integrator for row in measured.rows if row.case == measured.full_case and row.stable
+    }
+    assert drawn.keys() == integrators | {"Pareto front"}
+    names = [text for text in right.get_yticklabels() if text.get_text()]
+    less = [row for row in measured.rows if row.stable and row.case != measured.full_case]
+    assert len(names) == len(less)
+    boxes = sorted((text.get_window_extent() for text in names), key=lambda box: box.y0)
+    assert all(below.y1 <= above.y0 + 1.0 for below, above in pairwise(boxes))
+    (legend,) = figure.legends
+    known = [text.get_text() for text in legend.get_texts()]
+    assert "Pareto front" in known and len(known) == len(set(known)) <= len(integrators) + 1
+
+
+def test_a_trade_prints_its_front_in_few_lines(measured: Trade) -> None:
+    assert len(repr(measured)) < 200 and repr(measured).startswith("<Trade of 'case2', 6 s: ")
+    known, counted, head, *rows = str(measured).splitlines()
+    assert "payload_position" in known and f"{len(measured.rows)} rows" in counted
+    assert head.startswith("formulation") and len(rows) == len(measured.pareto)
 
 
 def test_notebooks_show_the_front(measured: Trade) -> None:

@@ -366,12 +366,15 @@ def test_a_scene_without_water_has_no_sea() -> None:
     assert data["bodies"][0]["role"] == "body"
 
 
-def test_a_saved_page_is_not_overwritten_unless_asked(tmp_path: Path) -> None:
+def test_a_page_is_saved_anew_and_replaces_no_other_file(tmp_path: Path) -> None:
     shown = view(alone())
-    path = shown.save(tmp_path / "lift.html")
-    assert path.read_text(encoding="utf-8") == shown.html
-    path.write_text("mine")
+    path = tmp_path / "lift.html"
+    path.write_text(shown.html.replace("lift", "earlier"), encoding="utf-8")
+    assert shown.save(path) == path and path.read_text(encoding="utf-8") == shown.html
     with pytest.raises(FileExistsError, match="overwrite=True"):
+        shown.save(path, overwrite=False)
+    path.write_text("mine")
+    with pytest.raises(FileExistsError, match="not of seacrane; give another name, or overwrite=True"):
         shown.save(path)
     assert path.read_text() == "mine"
     shown.save(path, overwrite=True)

@@ -162,10 +162,13 @@ def test_names_are_kept_and_the_container_is_whole(tmp_path: Path) -> None:
     assert HTML_NAME in {node["name"] for node in document["nodes"]}
 
 
-def test_a_model_replaces_nothing_unasked(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_model_replaces_an_earlier_one_alone(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     shown = view(cases.vessel())
     path = shown.save_gltf(tmp_path / "vessel.glb")
-    with pytest.raises(FileExistsError, match="overwrite=True"):
+    first = path.read_bytes()
+    assert shown.save_gltf(path).read_bytes() == first
+    path.write_bytes(b"glTF of another program")
+    with pytest.raises(FileExistsError, match="not of seacrane; give another name, or overwrite=True"):
         shown.save_gltf(path)
     shown.save_gltf(path, overwrite=True)
     with pytest.raises(SceneError, match=r"writes \.glb; path ends in 'vessel.gltf'"):

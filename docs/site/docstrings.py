@@ -5,8 +5,17 @@ from __future__ import annotations
 import re
 from typing import Any
 
+from sphinx.util.inspect import TypeAliasForwardRef
+
 LITERAL = re.compile(r"(``.*?``)")
-ARRAY = re.compile(r"[~.\w]*ndarray\[tuple\[[~.\w]*Any, \.\.\.\], [~.\w]*dtype\[[~.\w]*?(\w+)\]\]")
+ARRAY = re.compile(
+    r"[~.\w]*ndarray\[tuple\[[~.\w]*Any, \.\.\.\], [~.\w]*dtype\[[~.\w]*?(\w+)(?:\[[~.\w]*\])?\]\]"
+)
+
+
+def name_aliases() -> None:
+    """Aliases of types by their names within other types too, where Sphinx takes what they print."""
+    TypeAliasForwardRef.__repr__ = lambda self: str(self.name)  # type: ignore[method-assign]
 
 
 def keep_bars(app: Any, kind: str, name: str, value: Any, options: Any, lines: list[str]) -> None:

@@ -15,4 +15,5 @@ SHOWN = 60.0  # s
 def write(app: Any, failed: Exception | None) -> None:
     """Save the page into the site, where the site holds the document."""
     if failed is None and DOCUMENT in app.env.found_docs:
-        view(simulate(cases.case2(), t_end=SHOWN)).save(Path(app.outdir) / PAGE, overwrite=True)
+        scene = cases.case2(hs=1.5, wave_direction_deg=180.0)
+        view(simulate(scene, t_end=SHOWN)).save(Path(app.outdir) / PAGE)

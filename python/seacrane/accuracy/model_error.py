@@ -22,6 +22,7 @@ from seacrane.description.given import given_vessels
 from seacrane.errors import SceneError
 from seacrane.hydro.memory.retardation import RetardationModel, retardation_functions
 from seacrane.hydro.vessel.parameters import following_yaw, rigid_part
+from seacrane.inputs.brief import brief
 from seacrane.inputs.caller import warn_caller
 from seacrane.one_thread import one_thread
 from seacrane.scene.vessel_memory import database_of
@@ -58,6 +59,8 @@ class ModelError:
     time: Array
     error: Array
     motion: Array
+
+    __repr__ = brief
 
     @property
     def largest(self) -> Array:

@@ -22,6 +22,7 @@ from seacrane.description.compilation import compile_scene
 from seacrane.description.loads import lines_of
 from seacrane.description.scene import Description
 from seacrane.errors import SceneError
+from seacrane.inputs.brief import brief
 from seacrane.inputs.checked import shaped_of
 from seacrane.inputs.frames import rotation_about_z, rotation_matrix
 from seacrane.one_thread import one_thread
@@ -78,6 +79,8 @@ class LinearModel:
     neutral: Array
     memories: tuple[FrequencyMemory, ...]
     _terms: Terms
+
+    __repr__ = brief
 
     @property
     def degrees_of_freedom(self) -> int:

@@ -12,6 +12,7 @@ from seacrane import _core
 from seacrane.analysis.linear_system import LinearModel, linear_model
 from seacrane.analysis.stability import grows, growth_in_words
 from seacrane.description.scene import Description
+from seacrane.inputs.brief import brief
 from seacrane.inputs.frames import MOTIONS
 from seacrane.one_thread import one_thread
 
@@ -70,6 +71,8 @@ class NaturalModes:
     real_labels: tuple[str, ...] = ()
     neutral_shapes: Array = field(default_factory=lambda: np.zeros((0, 0, 6)))
     vessels: tuple[str, ...] = ()
+
+    __repr__ = brief
 
     @property
     def natural_period(self) -> Array:

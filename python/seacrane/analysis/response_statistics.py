@@ -19,6 +19,7 @@ from seacrane.hydro.data.below_band import warn_of_waves_below_band
 from seacrane.hydro.data.encounter import encounter_frequency_at, inside_table
 from seacrane.hydro.data.excitation import force_on_grid
 from seacrane.hydro.readers.reader_warnings import EncounterFrequencyWarning
+from seacrane.inputs.brief import brief
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.checked import number_of
 from seacrane.one_thread import one_thread
@@ -76,6 +77,8 @@ class ResponseStatistics:
     moments: Array
     headings: Array
     heading_share: Array
+
+    __repr__ = brief
 
     @property
     def significant_amplitude(self) -> Array:

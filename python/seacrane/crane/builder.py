@@ -19,6 +19,7 @@ from seacrane.crane.parts import CraneParts
 from seacrane.crane.payload import Payload
 from seacrane.crane.records import BodyRecord, JointRecord
 from seacrane.errors import SceneError
+from seacrane.inputs.brief import brief
 from seacrane.inputs.checked import number_of, numbers_of
 from seacrane.inputs.plausible import angle_of
 
@@ -60,6 +61,8 @@ class KnuckleBoomCrane:
     data: data_file.CraneData
     geometry: CraneGeometry = field(init=False)
     mass_properties: Mapping[str, MassProperties] = field(init=False)
+
+    __repr__ = brief
 
     def __post_init__(self) -> None:
         members = self.data.members()

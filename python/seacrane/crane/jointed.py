@@ -15,6 +15,7 @@ from seacrane.crane.mass_properties import MassProperties, Member
 from seacrane.crane.parts import CraneParts
 from seacrane.crane.records import BodyRecord, JointRecord
 from seacrane.errors import SceneError
+from seacrane.inputs.brief import brief
 from seacrane.inputs.checked import numbers_of
 from seacrane.inputs.frames import quaternion_of
 
@@ -40,6 +41,8 @@ class JointedCrane:
 
     data: JointedData
     mass_properties: Mapping[str, MassProperties] = dataclasses.field(init=False)
+
+    __repr__ = brief
 
     def __post_init__(self) -> None:
         found = {}

@@ -13,6 +13,7 @@ from seacrane import _core
 from seacrane.description.provenance import SeaProvenance
 from seacrane.description.wave_grid import grid_of
 from seacrane.errors import SceneError
+from seacrane.inputs.brief import brief
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.checked import number_of
 from seacrane.inputs.shown import shown
@@ -39,6 +40,8 @@ class ByHeading:
 
     heading: Array
     values: NDArray[Any]
+
+    __repr__ = brief
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -73,6 +76,8 @@ class HullLoads:
     drift: Array | None = None
     drift_by_heading: ByHeading | None = None
     cutoff: float = 0.0
+
+    __repr__ = brief
 
     def __post_init__(self) -> None:
         if not np.isfinite(number_of("waves: heading", self.heading)):

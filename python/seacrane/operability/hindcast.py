@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     import xarray
 
 Array = NDArray[np.float64]
+Flags = NDArray[np.bool_]
 Times = NDArray[np.datetime64]
 # Of wavespectra, ERA5 and Copernicus Marine, in this order.
 NAMES = {
@@ -93,7 +94,7 @@ class WaveHindcast:
         return float((self.time[1] - self.time[0]) / HOUR)
 
     @property
-    def known(self) -> NDArray[np.bool_]:
+    def known(self) -> Flags:
         """Whether height and period are known, by time."""
         return np.asarray(np.isfinite(self.hs) & np.isfinite(self.tp))
 

@@ -12,7 +12,7 @@ from seacrane.errors import SceneError
 from seacrane.inputs.checked import number_of
 from seacrane.inputs.shown import shown
 from seacrane.operability.alpha import AlphaFactor, alpha_of
-from seacrane.operability.hindcast import WaveHindcast
+from seacrane.operability.hindcast import Flags, WaveHindcast
 from seacrane.operability.table import AllowableHs
 from seacrane.plotting.html import notebook_table
 from seacrane.plotting.text import text_table
@@ -21,7 +21,6 @@ if TYPE_CHECKING:
     import xarray
 
 Array = NDArray[np.float64]
-Flags = NDArray[np.bool_]
 MONTHS = ("Jan", "Feb", "Mar", "Apr", "May", "Jun", "Jul", "Aug", "Sep", "Oct", "Nov", "Dec")
 HEAD = ("", "workable [%]", "may start [%]", "wait mean [h]", "P50 [h]", "P90 [h]")
 LONGEST = 8760.0  # h, of an operation

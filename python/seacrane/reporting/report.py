@@ -9,6 +9,7 @@ from pathlib import Path
 
 from seacrane.errors import SceneError
 from seacrane.files.atomic import atomic_write
+from seacrane.files.earlier import GENERATOR, check_replaceable
 from seacrane.inputs.frames import AXES_NOTE
 from seacrane.reporting.registry import SECTIONS
 from seacrane.reporting.section import compose
@@ -41,15 +42,16 @@ class Report:
             f'style="width:100%;height:{HEIGHT}px;border:1px solid #bbb"></iframe>'
         )
 
-    def save(self, path: str | os.PathLike[str], *, overwrite: bool = False) -> Path:
+    def save(self, path: str | os.PathLike[str], *, overwrite: bool | None = None) -> Path:
         """Write the page: complete under its name, or not at all.
 
         Parameters
         ----------
         path : path
             Target file; its folder must exist.
-        overwrite : bool
-            Whether an older file of that name is replaced.
+        overwrite : bool, optional
+            By default an earlier page of seacrane is replaced, and no other file. True: any file of that
+            name. False: none.
 
         Returns
         -------
@@ -59,13 +61,12 @@ class Report:
         Raises
         ------
         FileExistsError
-            If there is a file of that name already.
+            If there is a file of that name that is to stay.
         OSError
             If it cannot be written; an older file stays.
         """
         path = Path(path)
-        if path.exists() and not overwrite:
-            raise FileExistsError(f"{path} is there already; pass overwrite=True, or give another name")
+        check_replaceable(path, overwrite, mark=GENERATOR)
         with atomic_write(path) as draft:
             draft.write_text(self.html, encoding="utf-8")
         return path

@@ -8,6 +8,7 @@ from html import escape
 from typing import Generic, TypeVar
 
 from seacrane.errors import FileFormatError
+from seacrane.files.earlier import GENERATOR
 from seacrane.reporting.style import STYLE
 
 Subject = TypeVar("Subject")
@@ -65,7 +66,7 @@ def compose(*, title: str, lead: str, sections: Iterable[Section[Subject]], subj
     """
     body = [f"<h1>{escape(title)}</h1>", lead, *(_block(section, subject) for section in sections)]
     head = (
-        '<meta charset="utf-8"><meta name="viewport" content="width=device-width">'
+        f'<meta charset="utf-8">{GENERATOR}<meta name="viewport" content="width=device-width">'
         f"<title>{escape(title)}</title><style>{STYLE}</style>"
     )
     content = "\n".join(part for part in body if part)

@@ -13,6 +13,7 @@ from seacrane.description.damping import AIR
 from seacrane.description.forces import add_load
 from seacrane.description.scene import Description
 from seacrane.errors import SceneError
+from seacrane.inputs.brief import brief
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.checked import curve_of, name_of, number_of, shaped_of, text_of, vector_of
 from seacrane.inputs.plausible import direction_of
@@ -51,6 +52,8 @@ class FlowCoefficients:
     x: Array
     y: Array
     yaw: Array
+
+    __repr__ = brief
 
     def __post_init__(self) -> None:
         size = len(vector_of("flow coefficients: angle", self.angle))

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from seacrane import _core
 from seacrane.errors import SceneError
+from seacrane.inputs.brief import brief
 from seacrane.inputs.checked import name_of, number_of, shaped_of, vector_of
 from seacrane.inputs.plausible import direction_of
 from seacrane.sea.spectra import tabulated_spectrum
@@ -63,6 +64,8 @@ class MeasuredWaves:
     omega_max: float | None = None
     taper: float = 0.0
     name: str = "measured"
+
+    __repr__ = brief
 
     def __post_init__(self) -> None:
         name_of("measured waves", self.name)

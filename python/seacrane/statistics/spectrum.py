@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane.errors import SceneError
+from seacrane.inputs.brief import brief
 from seacrane.statistics.estimate import CONFIDENCE
 from seacrane.statistics.record import FEWEST_VALUES, positive, record_of
 
@@ -36,6 +37,8 @@ class SpectrumEstimate:
     density: Array
     degrees_of_freedom: float
     duration: float
+
+    __repr__ = brief
 
     def moment(self, order: int) -> float:
         """Integral of omega^order times density."""

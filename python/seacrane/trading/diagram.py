@@ -4,148 +4,164 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
-
-import numpy as np
+from typing import TYPE_CHECKING
 
 from seacrane.experiment.row import Row
 from seacrane.plotting.figure import new_figure
 from seacrane.plotting.panel import plain
+from seacrane.trading.table import front
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-COLUMNS = 2
-MARKERS = "ovs^Dp*hXP<>d8H"
-SHAPES = {"recursive": "-", "redundant": ":"}
+MARKERS = "ovs^Dp*hXP"
+OTHER = "0.72"  # the grey of methods that some other beats everywhere
+HEIGHT, WIDTHS = 4.0, (7.5, 6.0)  # inches: of a row; of methods, of less physics
+ROOM = 3.0  # times the largest cost: room for names on the right
 COSTS = {
-    "wall_s": "wall time per simulated second [s]",
-    "cpu_s": "CPU time per simulated second [s]",
+    "wall_s": "wall time per simulated second [ms]",
+    "cpu_s": "CPU time per simulated second [ms]",
 }
+Label = Mapping[str, str]
 
 
 @dataclass(frozen=True, kw_only=True)
 class Measured:
-    """What one panel shows.
+    """What one row of panels shows.
 
     Attributes
     ----------
     quantity, unit : str
         Of the errors.
-    front : sequence of Row
-        Rows that no other beats in both cost and error.
     uncertainty : float
         Of the reference.
     """
 
     quantity: str
     unit: str
-    front: Sequence[Row]
     uncertainty: float
 
 
 def work_precision(
-    rows: Sequence[Row], measured: Sequence[Measured], full_case: Mapping[str, str], title: str, over: str
+    rows: Sequence[Row], measured: Sequence[Measured], full_case: Label, title: str, over: str
 ) -> Figure:
-    """One panel per quantity: largest error over cost per simulated second, both logarithmic.
+    """A row of panels for each quantity: largest error over cost of each method, and of less physics.
 
-    Lines join the tolerances or steps of one integrator, solid in the recursive and dotted in the redundant
-    formulation; crosses with a label change the physics, dashed lines the rung of elastic lines; the grey
-    band is the reference's uncertainty.
+    On the left one line for each integrator on the full scene, through those of its settings, in either
+    formulation, that none of its own beats in both cost and error. Integrators on the Pareto front of some
+    quantity have a colour, all others are grey with their name beside them. Dashed lines are rungs of elastic
+    lines, the grey band is the reference's uncertainty. On the right are the errors of a scene with other
+    physics, each with its cost.
     """
-    down = -(-len(measured) // COLUMNS)
-    figure = new_figure(figsize=(15.0, 5.2 * down), layout="constrained")
-    panels = figure.subplots(down, COLUMNS, squeeze=False).ravel()
-    for panel in panels[len(measured) :]:
-        panel.set_axis_off()
-    for panel, one in zip(panels, measured, strict=False):
-        _draw(panel, rows, one, full_case, over)
+    full, joined, alone = _sorted_out(rows, full_case)
+    fronts = {one.quantity: _own_front(full, one.quantity, over) for one in measured}
+    best = dict.fromkeys(row.method.integrator for rows in fronts.values() for row in rows)
+    looks = {name: (f"C{n % 10}", MARKERS[n % len(MARKERS)]) for n, name in enumerate(best)}
+    columns = 2 if alone else 1
+    figure = new_figure(figsize=(sum(WIDTHS[:columns]), HEIGHT * len(measured) + 1.0), layout="constrained")
+    panels = figure.subplots(len(measured), columns, squeeze=False, width_ratios=WIDTHS[:columns])
+    for axes, one in zip(panels, measured, strict=True):
+        _draw_methods(axes[0], full, one, looks, over)
+        _draw_rungs(axes[0], joined, one.quantity, over)
+        _draw_front(axes[0], fronts[one.quantity], one, over)
+        if alone:
+            _draw_physics(axes[1], alone, one, over)
     handles = {
         label: handle
-        for panel in panels
-        for handle, label in zip(*panel.get_legend_handles_labels(), strict=True)
+        for axes in panels[:, 0]
+        for handle, label in zip(*axes.get_legend_handles_labels(), strict=True)
+        if handle.get_color() != OTHER
     }
-    figure.legend(handles.values(), handles.keys(), loc="outside right upper", fontsize=8)
-    figure.suptitle(f"{title}; solid recursive, dotted redundant")
+    figure.legend(handles.values(), handles.keys(), loc="outside lower center", ncols=6, fontsize=8)
+    figure.suptitle(title)
     return figure
 
 
-def _draw(
-    axes: Axes, every: Sequence[Row], measured: Measured, full_case: Mapping[str, str], over: str
-) -> None:
-    from matplotlib.ticker import LogLocator, NullFormatter
+def _sorted_out(
+    rows: Sequence[Row], full_case: Label
+) -> tuple[list[Row], dict[str, list[Row]], dict[str, Row]]:
+    """Rows of the full scene; those of other physics by what they change: several settings, or one."""
+    changed: dict[str, list[Row]] = {}
+    for row in rows:
+        if row.stable:
+            changed.setdefault(_changed(row, full_case), []).append(row)
+    full = changed.pop("", [])
+    joined = {label: rows for label, rows in changed.items() if len(rows) > 1}
+    return full, joined, {label: rows[0] for label, rows in changed.items() if len(rows) == 1}
 
-    quantity = measured.quantity
-    colours: dict[str, Any] = {}
-    groups: dict[tuple[str, str], list[Row]] = {}
-    fewer: dict[tuple[str, ...], list[Row]] = {}
-    for row in every:
-        if not row.stable or not np.isfinite(row.error(quantity)):
-            continue
-        if row.case == full_case:
-            groups.setdefault((row.method.integrator, row.formulation), []).append(row)
-        else:
-            fewer.setdefault(tuple(map(str, row.case.values())), []).append(row)
-    for (integrator, formulation), rows in groups.items():
-        number = colours.setdefault(integrator, len(colours))
-        axes.loglog(
-            [_cost(row, over) for row in rows], [row.error(quantity) for row in rows], SHAPES[formulation],
-            color=f"C{number % 10}", marker=MARKERS[number % len(MARKERS)], markersize=4, linewidth=1,
-            label=integrator if formulation == "recursive" else None,
-            markerfacecolor=None if number < 10 else "white",
-        )  # fmt: skip
-        if formulation != "recursive" and (integrator, "recursive") not in groups:
-            axes.lines[-1].set_label(integrator)
-    best = sorted(measured.front, key=lambda row: _cost(row, over))
-    axes.step(
-        [_cost(row, over) for row in best], [row.error(quantity) for row in best], where="post",
-        color="black", linewidth=2.5, alpha=0.35, label="Pareto front",
-    )  # fmt: skip
-    alone = [rows[0] for rows in fewer.values() if len(rows) == 1]
-    _join(axes, [rows for rows in fewer.values() if len(rows) > 1], quantity, full_case, over)
-    _mark(axes, alone, quantity, full_case, over)
-    axes.axhspan(0.0, measured.uncertainty, color="0.85")
-    axes.xaxis.set_major_locator(LogLocator(subs=(1.0, 3.0)))
-    axes.xaxis.set_major_formatter("{x:g}")
-    axes.xaxis.set_minor_formatter(NullFormatter())
-    axes.set_xlabel(COSTS[over])
-    axes.set_ylabel(f"largest error [{measured.unit}]")
-    axes.set_title(plain(quantity.replace("_", " ")))
-    axes.grid(alpha=0.3)
+
+def _changed(row: Row, full: Label) -> str:
+    """What a row has that the full scene has not."""
+    changed = [name for name in full if row.case[name] != full[name]]
+    return ", ".join(f"{n} {row.case[n]}" if n in ("memory", "waves") else str(row.case[n]) for n in changed)
+
+
+def _own_front(rows: Sequence[Row], quantity: str, over: str) -> list[Row]:
+    """Those that none of them beats, the cheapest first."""
+    on = front(rows, quantity, cost=over)
+    return sorted((row for row, kept in zip(rows, on, strict=True) if kept), key=lambda row: _cost(row, over))
+
+
+def _points(rows: Sequence[Row], quantity: str, over: str) -> tuple[list[float], list[float]]:
+    return [_cost(row, over) for row in rows], [row.error(quantity) for row in rows]
 
 
 def _cost(row: Row, over: str) -> float:
-    return float(getattr(row, over)) / row.simulated_s
+    return 1e3 * float(getattr(row, over)) / row.simulated_s
 
 
-def _join(
-    axes: Axes, rungs: Sequence[Sequence[Row]], quantity: str, full: Mapping[str, str], over: str
+def _draw_methods(
+    axes: Axes, rows: Sequence[Row], measured: Measured, looks: Mapping[str, tuple[str, str]], over: str
 ) -> None:
+    names = dict.fromkeys(row.method.integrator for row in rows)
+    for name in sorted(names, key=lambda name: name in looks):
+        own = [row for row in rows if row.method.integrator == name]
+        points = _points(_own_front(own, measured.quantity, over), measured.quantity, over)
+        if not points[0]:
+            continue
+        colour, marker = looks.get(name, (OTHER, "."))
+        axes.loglog(*points, "-", color=colour, marker=marker, markersize=4, linewidth=1.2, label=name)
+        if name not in looks:
+            axes.annotate(
+                name, (points[0][-1], points[1][-1]), xytext=(4, 0), textcoords="offset points",
+                fontsize=7, color="0.35", va="center",
+            )  # fmt: skip
+    axes.set_xlabel(COSTS[over])
+    axes.set_ylabel(f"largest error [{measured.unit}]")
+    axes.set_title(plain(measured.quantity.replace("_", " ")) + ": methods", fontsize=10)
+    axes.xaxis.set_major_formatter("{x:g}")
+    axes.set_xlim(right=ROOM * axes.get_xlim()[1])
+    axes.grid(alpha=0.3)
+
+
+def _draw_rungs(axes: Axes, rungs: Mapping[str, Sequence[Row]], quantity: str, over: str) -> None:
     """Rungs at several tolerances, each a dashed line."""
-    for number, rows in enumerate(rungs):
+    for number, (label, rows) in enumerate(rungs.items()):
         axes.loglog(
-            [_cost(row, over) for row in rows], [row.error(quantity) for row in rows], "--", color="black",
-            marker=MARKERS[number % len(MARKERS)], markersize=5, linewidth=1.5, label=_changed(rows[0], full),
+            *_points(rows, quantity, over), "--", color="black", marker=MARKERS[number % len(MARKERS)],
+            markersize=5, linewidth=1.5, label=label,
         )  # fmt: skip
 
 
-def _changed(row: Row, full: Mapping[str, str]) -> str:
-    """What a row has that the full scene has not."""
-    changed = [name for name in full if row.case[name] != full[name]]
-    return ", ".join(f"memory {row.case[n]}" if n == "memory" else str(row.case[n]) for n in changed)
+def _draw_front(axes: Axes, best: Sequence[Row], measured: Measured, over: str) -> None:
+    axes.step(
+        *_points(best, measured.quantity, over), where="post", color="black", linewidth=5.0, alpha=0.15,
+        label="Pareto front", solid_capstyle="butt",
+    )  # fmt: skip
+    axes.axhspan(0.0, measured.uncertainty, color="0.9")
 
 
-def _mark(axes: Axes, rows: list[Row], quantity: str, full: Mapping[str, str], over: str) -> None:
-    """Rungs, each labelled by what differs from the full scene; labels keep a distance from each other."""
-    height = -np.inf
-    low, high = np.log10(axes.get_ylim())
-    for row in sorted(rows, key=lambda row: row.error(quantity)):
-        label = _changed(row, full)
-        axes.loglog(_cost(row, over), row.error(quantity), "kx", markersize=6)
-        height = max(height + 0.028 * (high - low), np.log10(row.error(quantity)))
-        place = (1.03 * axes.get_xlim()[1], 10.0**height)
-        axes.annotate(
-            label, (_cost(row, over), row.error(quantity)), xytext=place, textcoords="data", fontsize=7,
-            annotation_clip=False, arrowprops={"arrowstyle": "-", "linewidth": 0.4, "color": "0.6"},
-        )  # fmt: skip
+def _draw_physics(axes: Axes, rows: Mapping[str, Row], measured: Measured, over: str) -> None:
+    """Less physics, one line of text for each, the largest error on top."""
+    known = {label: row for label, row in rows.items() if row.error(measured.quantity) > 0.0}
+    order = sorted(known, key=lambda label: known[label].error(measured.quantity))
+    axes.semilogx([known[label].error(measured.quantity) for label in order], range(len(order)), "kx")
+    axes.set_yticks(range(len(order)), [_with_cost(label, known[label], over) for label in order], fontsize=7)
+    axes.set_xlabel(f"largest error [{measured.unit}]")
+    axes.set_title("less physics; in brackets the cost [ms]", fontsize=10)
+    axes.grid(alpha=0.3)
+
+
+def _with_cost(label: str, row: Row, over: str) -> str:
+    return plain(f"{label} ({_cost(row, over):.2g})")

@@ -30,7 +30,7 @@ from seacrane.trading.diagram import COSTS, Measured, work_precision
 from seacrane.trading.line_rungs import LINE_RUNGS
 from seacrane.trading.measure import Bench, frequency_domain, measure, measure_variant, tight_reference
 from seacrane.trading.methods import LINES, PHYSICS, measured_methods
-from seacrane.trading.table import as_html, front, write_csv
+from seacrane.trading.table import as_html, as_text, front, write_csv
 from seacrane.version import __version__
 
 if TYPE_CHECKING:
@@ -44,7 +44,7 @@ LINEAR = Method(integrator="none")  # the frequency domain has no integrator
 REPEATS = 3  # runs of each setting; the quickest counts
 
 
-@dataclass(frozen=True, kw_only=True, eq=False)
+@dataclass(frozen=True, kw_only=True, eq=False, repr=False)
 class Trade:
     """Measured cost and error of the settings of one scene. Made by `trade`.
 
@@ -169,11 +169,24 @@ class Trade:
         """What rows of the full scene have as their `case`: memory, waves, rung."""
         return {"memory": self.metadata["memory"], "waves": self.metadata["waves"], "rung": rungs.FULL}
 
+    def __repr__(self) -> str:
+        stable = sum(row.stable for row in self.rows)
+        return (
+            f"<Trade of {self.metadata['scene']!r}, {self.metadata['t_end']:g} s: {len(self.rows)} rows, "
+            f"{stable} of them stable, errors in {', '.join(self.quantities)}>"
+        )
+
+    def __str__(self) -> str:
+        return as_text(self.rows, self.quantities, self.reference.uncertainty, self.pareto)
+
     def _repr_html_(self) -> str:
         return as_html(self.metadata, list(self.quantities), self.pareto, len(self.rows))
 
     def plot(self, *, over: str = "wall_s") -> Figure:
-        """Work-precision diagrams: error of each quantity over cost.
+        """Work-precision diagrams: error of each quantity over cost, and what less physics loses.
+
+        A line for each integrator, through those of its settings that none of its own beats; in colour where
+        it is on the Pareto front of some quantity.
 
         Parameters
         ----------
@@ -197,7 +210,6 @@ class Trade:
             Measured(
                 quantity=name,
                 unit=quantity.unit,
-                front=[row for row, on in zip(rows, front(rows, name, cost=over), strict=True) if on],
                 uncertainty=self.reference.uncertainty[name],
             )
             for name, quantity in self.quantities.items()

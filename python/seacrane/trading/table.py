@@ -9,9 +9,11 @@ from typing import Any
 
 import numpy as np
 
+from seacrane.accuracy.quantities import Quantity
 from seacrane.experiment.row import UNKNOWN, Row
 from seacrane.experiment.row_file import write_table
 from seacrane.plotting.html import notebook_table
+from seacrane.plotting.text import text_table
 
 
 def front(rows: Sequence[Row], quantity: str, *, cost: str = "wall_s") -> list[bool]:
@@ -41,6 +43,30 @@ def write_csv(path: Path, rows: Sequence[Row], quantities: Sequence[str], on_fro
     ]  # fmt: skip
     cells = [_cells(row, quantities, pareto) for row, pareto in zip(rows, on_front, strict=True)]
     write_table(path, columns, cells, digits=6)
+
+
+def as_text(
+    rows: Sequence[Row],
+    quantities: Mapping[str, Quantity],
+    uncertainty: Mapping[str, float],
+    best: Sequence[Row],
+) -> str:
+    """How well the reference is known, and the Pareto front of the first quantity, for terminals."""
+    known = ", ".join(f"{name} {uncertainty[name]:.1g} {one.unit}" for name, one in quantities.items())
+    head = ["formulation", "integrator", "setting", "memory", "waves", "rung", "wall [ms]"]
+    cells = [
+        [row.formulation, row.method.integrator, row.method.setting, *map(str, row.case.values()),
+         f"{row.wall_s * 1e3:.3g}", *(f"{row.error(name):.2g}" for name in quantities)]
+        for row in best
+    ]  # fmt: skip
+    unstable = sum(not row.stable for row in rows)
+    return "\n".join(
+        [
+            f"reference known within {known}",
+            f"{len(rows)} rows, {unstable} of them not stable; Pareto front in {next(iter(quantities))}:",
+            text_table([*head, *(f"{name} [{one.unit}]" for name, one in quantities.items())], cells),
+        ]
+    )
 
 
 def as_html(about: Mapping[str, Any], quantities: Sequence[str], best: Sequence[Row], measured: int) -> str:

@@ -19,6 +19,7 @@ from seacrane.viewer.wheels import turns
 
 Array = NDArray[np.float64]
 
+GENERATOR = '"generator":"seacrane '  # what the head of every model says
 UPRIGHT = [-(0.5**0.5), 0.0, 0.0, 0.5**0.5]  # z up becomes glTF's y up; quaternion x, y, z, w
 SMALLEST = 1e-6  # m: shorter wires have no direction
 

@@ -12,6 +12,7 @@ from typing import Any
 from seacrane.crane import Crane
 from seacrane.errors import SceneError
 from seacrane.files.atomic import atomic_write
+from seacrane.files.earlier import GENERATOR, check_replaceable
 from seacrane.hydro import Hull
 from seacrane.inputs.checked import flag_of, number_of
 from seacrane.inputs.shown import shown
@@ -21,6 +22,7 @@ from seacrane.viewer.arrows import arrows_of
 from seacrane.viewer.bodies import Look
 from seacrane.viewer.caption import caption
 from seacrane.viewer.drawing import Drawing, drawing_of
+from seacrane.viewer.gltf import GENERATOR as GLTF_GENERATOR
 from seacrane.viewer.gltf import gltf_of
 from seacrane.viewer.motion import STEPS, Motion
 from seacrane.viewer.packing import Blob
@@ -72,15 +74,16 @@ class View:
             'allow="fullscreen"></iframe>'
         )
 
-    def save(self, path: str | os.PathLike[str], *, overwrite: bool = False) -> Path:
+    def save(self, path: str | os.PathLike[str], *, overwrite: bool | None = None) -> Path:
         """Write the page: complete under its name, or not at all.
 
         Parameters
         ----------
         path : path
             Target, such as "lift.html"; its folder must exist.
-        overwrite : bool
-            Whether a file of that name may be replaced.
+        overwrite : bool, optional
+            By default an earlier page of seacrane is replaced, and no other file. True: any file of that
+            name. False: none.
 
         Returns
         -------
@@ -90,13 +93,13 @@ class View:
         Raises
         ------
         FileExistsError
-            If there is a file of that name, unless `overwrite`.
+            If there is a file of that name that is to stay.
         OSError
             If it cannot be written.
         """
-        return _written(path, self.html.encode("utf-8"), overwrite)
+        return _written(path, self.html.encode("utf-8"), overwrite, mark=GENERATOR)
 
-    def save_gltf(self, path: str | os.PathLike[str], *, overwrite: bool = False) -> Path:
+    def save_gltf(self, path: str | os.PathLike[str], *, overwrite: bool | None = None) -> Path:
         """Write bodies, sheaves, drums and wires as an animated glTF model, which modellers and viewers open.
 
         A node for each body, by its name, at its centre of mass; its animation is exact to what the page
@@ -106,8 +109,9 @@ class View:
         ----------
         path : path
             Target, such as "lift.glb"; its folder must exist.
-        overwrite : bool
-            Whether a file of that name may be replaced.
+        overwrite : bool, optional
+            By default an earlier model of seacrane is replaced, and no other file. True: any file of that
+            name. False: none.
 
         Returns
         -------
@@ -119,20 +123,20 @@ class View:
         SceneError
             For another ending than .glb, and for a run too long for one file.
         FileExistsError
-            If there is a file of that name, unless `overwrite`.
+            If there is a file of that name that is to stay.
         OSError
             If it cannot be written.
         """
         if Path(path).suffix.lower() != ".glb":
             raise SceneError(f"view: save_gltf writes .glb; path ends in {shown(Path(path).name)}")
-        return _written(path, gltf_of(self.drawing), overwrite)
+        return _written(path, gltf_of(self.drawing), overwrite, mark=GLTF_GENERATOR)
 
 
-def _written(path: str | os.PathLike[str], data: bytes, overwrite: bool) -> Path:
+def _written(path: str | os.PathLike[str], data: bytes, overwrite: bool | None, *, mark: str) -> Path:
     """Complete under its name, or not at all."""
     path = Path(path)
-    if path.exists() and not flag_of("overwrite", overwrite):
-        raise FileExistsError(f"{path} exists; give another name, or overwrite=True")
+    asked = None if overwrite is None else flag_of("overwrite", overwrite)
+    check_replaceable(path, asked, mark=mark)
     with atomic_write(path) as draft:
         draft.write_bytes(data)
     return path

@@ -7,6 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from seacrane.inputs.brief import brief
+
 FloatArray = NDArray[np.float64]
 
 
@@ -31,6 +33,8 @@ class DriftCoefficients:
     heading: FloatArray
     omega: FloatArray
     coefficient: FloatArray
+
+    __repr__ = brief
 
     def __post_init__(self) -> None:
         m, n = np.size(self.heading), np.size(self.omega)

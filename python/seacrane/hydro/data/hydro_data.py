@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from seacrane.hydro.data.arrays import check_increasing, freeze
 from seacrane.hydro.data.drift import DriftCoefficients
 from seacrane.hydro.data.memory_model import MemoryModel
+from seacrane.inputs.brief import brief
 
 FloatArray = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
@@ -29,6 +30,8 @@ class AdditionalMatrices:
     damping: FloatArray
     restoring: FloatArray
 
+    __repr__ = brief
+
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class RollDamping:
@@ -42,6 +45,8 @@ class RollDamping:
     quadratic: FloatArray
     linearised: FloatArray
     linearised_amplitude: float | None = None
+
+    __repr__ = brief
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

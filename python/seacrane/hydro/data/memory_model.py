@@ -8,6 +8,7 @@ from dataclasses import dataclass, fields
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from seacrane.inputs.brief import brief
 from seacrane.one_thread import one_thread
 
 FloatArray = NDArray[np.float64]
@@ -35,6 +36,8 @@ class MemoryBlock:
     C: FloatArray
     D: FloatArray
     state_scale: FloatArray
+
+    __repr__ = brief
 
     def __post_init__(self) -> None:
         k, p, m = len(self.A), len(self.outputs), len(self.inputs)
@@ -193,6 +196,8 @@ class MemoryModel:
     rows: tuple[FitRow, ...]
     passivity: Passivity
     motion: MotionFit | None = None
+
+    __repr__ = brief
 
     def __post_init__(self) -> None:
         for entry in fields(self):

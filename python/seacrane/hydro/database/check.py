@@ -17,6 +17,7 @@ from seacrane.hydro.data.relations import (
     resolved_by_headings,
 )
 from seacrane.hydro.data.trusted_band import in_trusted_band
+from seacrane.hydro.database.table import metacentric_height
 from seacrane.hydro.memory.fit import enough_frequencies, fit_memory
 from seacrane.hydro.memory.motion_errors import memory_motion_errors
 from seacrane.hydro.memory.retardation import RetardationModel
@@ -57,6 +58,8 @@ def check_database(database: HydroData) -> list[CheckRow]:
     is zero.
     """
     rows = [
+        _info("mass_t", database.mass_matrix[0, 0] / 1e3),
+        _info("GM_of_C44_and_mass_m", metacentric_height(database)),
         *_closure_rows(database),
         *_matrix_rows(database),
         *_natural_period_rows(database),

@@ -17,7 +17,7 @@ from seacrane.hydro.database.figures import hydro_figures
 from seacrane.hydro.database.netcdf import load_database_file, save_database, to_xarray
 from seacrane.hydro.database.roll_damping import with_roll_damping
 from seacrane.hydro.database.selection import Choice, selected_database
-from seacrane.hydro.database.table import as_html
+from seacrane.hydro.database.table import as_html, as_line, as_text
 from seacrane.hydro.database.transform import mirrored_database, moved_database
 
 if TYPE_CHECKING:
@@ -166,6 +166,12 @@ class HydroDatabase(HydroData):
         ValueError : a name that is not among the figures.
         """
         return hydro_figures(database=self, what=what)
+
+    def __repr__(self) -> str:
+        return as_line(self)
+
+    def __str__(self) -> str:
+        return as_text(self)
 
     def _repr_html_(self) -> str:
         return as_html(self)

@@ -1,22 +1,58 @@
-"""A database as a table for notebooks."""
+"""What a database is in a few facts: as a line, as text for terminals, as a table for notebooks."""
 
 from __future__ import annotations
+
+from textwrap import shorten
+from typing import Any
 
 import numpy as np
 
 from seacrane.hydro.data.hydro_data import HydroData
-from seacrane.plotting.html import notebook_table
+from seacrane.plotting.html import format_value, notebook_table
+from seacrane.plotting.text import text_table
+
+LETTERS = 100  # of a fact in a terminal
+
+
+def metacentric_height(database: HydroData) -> float:
+    """GM (m) of the database's own C44 and mass; what tanks take from it is apart, in `additional`."""
+    return float(database.restoring[3, 3] / (_mass(database) * database.g))
+
+
+def as_line(database: HydroData) -> str:
+    """For prompts."""
+    omega = database.omega
+    return (
+        f"<HydroDatabase {database.name!r}: {_mass(database) / 1e3:.6g} t, {omega.size} frequencies "
+        f"{omega[0]:.4g} to {omega[-1]:.4g} rad/s, {database.heading.size} headings>"
+    )
+
+
+def as_text(database: HydroData) -> str:
+    """The facts for terminals."""
+    rows = [(name, shorten(format_value(value), LETTERS)) for name, value in _facts(database)]
+    return text_table((f"HydroDatabase {database.name!r}", ""), rows)
 
 
 def as_html(database: HydroData) -> str:
+    """The facts for notebooks."""
+    return notebook_table((), _facts(database), caption=f"HydroDatabase {database.name!r}")
+
+
+def _mass(database: HydroData) -> float:
+    return float(database.mass_matrix[0, 0])
+
+
+def _facts(database: HydroData) -> list[tuple[str, Any]]:
     """Main figures, what it holds, and where it comes from."""
     omega, heading = database.omega, np.rad2deg(database.heading)
-    mass = float(database.mass_matrix[0, 0])
     band = database.trusted_band
     memory = database.memory
-    rows = [
+    causes = ", ".join(one.cause for one in database.additional)
+    return [
         ("length, breadth, draught [m]", f"{database.length:g}, {database.breadth:g}, {database.draught:g}"),
-        ("mass [t]", float(f"{mass / 1e3:.6g}")),
+        ("mass [t]", float(f"{_mass(database) / 1e3:.6g}")),
+        ("GM of its C44 and mass [m]", float(f"{metacentric_height(database):.4g}")),
         ("frequencies [rad/s]", f"{omega.size}, {omega[0]:.4g} to {omega[-1]:.4g}"),
         ("headings [deg]", f"{heading.size}, {heading[0]:.4g} to {heading[-1]:.4g}"),
         ("trusted band [rad/s]", "not stated" if band is None else f"{band[0]:.4g} to {band[1]:.4g}"),
@@ -26,8 +62,8 @@ def as_html(database: HydroData) -> str:
             "fitted fluid memory",
             "none" if memory is None else f"{sum(len(b.A) for b in memory.blocks)} states",
         ),
+        ("additional matrices", causes or "none"),
         ("slow drift", "none" if database.drift is None else "coefficients"),
         ("reference point", database.origin),
         ("source", database.source),
     ]
-    return notebook_table((), rows, caption=f"HydroDatabase {database.name!r}")

@@ -18,6 +18,7 @@ from seacrane.hydro.hull.offsets import OffsetTable, read_offset_table
 from seacrane.hydro.hull.panels import cut_panels, end_cap, lofted, without_slivers
 from seacrane.hydro.hull.parametric_hull import ParametricHull
 from seacrane.hydro.hull.sections import Slice, slices
+from seacrane.inputs.brief import brief
 
 FloatArray = NDArray[np.float64]
 
@@ -51,6 +52,8 @@ class Hull:
     name: str
     panels: FloatArray
     source: str
+
+    __repr__ = brief
 
     def __post_init__(self) -> None:
         panels = np.array(self.panels, dtype=float)

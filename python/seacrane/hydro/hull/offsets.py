@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from seacrane.errors import FileFormatError
 from seacrane.files.whole_file import read_whole
 from seacrane.hydro.hull.panels import end_cap, lofted
+from seacrane.inputs.brief import brief
 from seacrane.inputs.shown import shown
 
 FloatArray = NDArray[np.float64]
@@ -41,6 +42,8 @@ class OffsetTable:
     x: FloatArray
     sections: tuple[FloatArray, ...]
     name: str = "offsets"
+
+    __repr__ = brief
 
     def __post_init__(self) -> None:
         x = np.array(self.x, dtype=float)

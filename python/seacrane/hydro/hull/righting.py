@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 from seacrane.hydro.hull.hydrostatics import Hydrostatics, panel_hydrostatics
 from seacrane.hydro.hull.mesh import mesh_triangles, require_closed
 from seacrane.hydro.hull.panels import cut_panels
+from seacrane.inputs.brief import brief
 from seacrane.plotting.text import text_table
 
 FloatArray = NDArray[np.float64]
@@ -44,6 +45,8 @@ class RightingArms:
     trim: FloatArray
     volume: float
     GM: float
+
+    __repr__ = brief
 
     def __str__(self) -> str:
         columns = (np.degrees(self.heel), self.GZ, self.sinkage, np.degrees(self.trim))

@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from seacrane.hydro.data.hydro_data import AdditionalMatrices, HydroData
 from seacrane.hydro.memory.entries import FEWEST_FREQUENCIES, memory_entries
+from seacrane.inputs.brief import brief
 from seacrane.one_thread import one_thread
 
 FloatArray = NDArray[np.float64]
@@ -52,6 +53,8 @@ class RetardationModel:
     error_damping: FloatArray
     error_added_mass: FloatArray
     tail_share: FloatArray
+
+    __repr__ = brief
 
     @property
     def duration(self) -> float:

@@ -1,0 +1,39 @@
+"""Whether a file may be replaced by what can be made again at any time: a page, a model."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+GENERATOR = '<meta name="generator" content="seacrane">'  # in the head of every page
+HEAD = 1024  # bytes within which a file says who made it
+
+
+def check_replaceable(path: Path, overwrite: bool | None, *, mark: str) -> None:
+    """Refuse to replace what is not ours, or anything where `overwrite` says so.
+
+    Parameters
+    ----------
+    path : Path
+        Target; nothing need be there.
+    overwrite : bool or None
+        None: only a file in whose first kB the mark stands is replaced. True: any. False: none.
+    mark : str
+        What files of this kind begin with.
+
+    Raises
+    ------
+    FileExistsError
+        If there is a file that is to stay.
+    """
+    if overwrite or not path.exists():
+        return
+    if overwrite is None:
+        if path.is_file() and mark.encode() in _head(path):
+            return
+        raise FileExistsError(f"{path} is there and not of seacrane; give another name, or overwrite=True")
+    raise FileExistsError(f"{path} is there already; give another name, or overwrite=True")
+
+
+def _head(path: Path) -> bytes:
+    with path.open("rb") as file:
+        return file.read(HEAD)
