@@ -196,7 +196,7 @@ def _hung(still: Description, model: _core.Model, time: float, values: Array) ->
 
 
 def _searched(scene: Description, model: _core.Model, time: float, values: Array) -> _core.State:
-    """By Newton's method, and where it comes to nothing, or to what tips over, from where a damped motion ends.
+    """By Newton's method; where that comes to nothing, or to what tips over, from where a damped motion ends.
 
     Newton's method goes to any rest: to a load that stands on its hook as well as to one that hangs.
     """
