@@ -7,11 +7,13 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from lift_examples import HEAD
 from test_statics import C44, LOAD, MASS, G, barge, hanging, on_deck
 
 from seacrane import (
     BallastOutsideHullWarning,
     LargeHeelWarning,
+    Lift,
     Scene,
     SceneError,
     Tank,
@@ -21,7 +23,13 @@ from seacrane import (
     simulate,
     statics,
 )
-from seacrane.hydro import HydroDatabase, InfiniteFrequencyWarning, MemoryFitWarning, load_database
+from seacrane.hydro import (
+    HydroDatabase,
+    InfiniteFrequencyWarning,
+    MemoryFitWarning,
+    load_database,
+    shipped_database,
+)
 
 KINDS = ("per-pair", "by-motion", "convolution")
 
@@ -78,6 +86,17 @@ def test_a_slack_tank_takes_its_moment_over_the_displacement(tmp_path: Path) -> 
     again = Scene.load(tmp_path / "slack.json")
     assert again.provenance == loaded.provenance
     assert statics(again)["GM solid"] == statics(loaded)["GM solid"]
+
+
+def test_a_slack_tank_of_a_lift_file(tmp_path: Path) -> None:
+    text = HEAD + '[vessel]\ndatabase = "hull_115"\nmemory = "none"\n[slack_tank]\nmoment_kg_m = 1e6\n'
+    (tmp_path / "slack.toml").write_text(text, encoding="utf-8")
+    scene = Lift.load(tmp_path / "slack.toml").scene()
+    by_call = Scene(name=scene.name)
+    by_call.add_vessel(shipped_database(), memory="none")
+    by_call.add_slack_tank(moment=1e6)
+    assert scene.vessels == by_call.vessels
+    assert scene.provenance["vessel"].slack_tanks == (1e6 * scene.gravity, 0.0)
 
 
 def test_a_slack_tank_stays_beside_the_matrices_of_a_database(supply: HydroDatabase) -> None:
