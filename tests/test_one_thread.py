@@ -177,7 +177,7 @@ def test_what_the_package_computes_has_one_thread(seen: list[tuple[str, int]], n
 
 
 def test_members_have_one_thread_whatever_runs_beside_them() -> None:
-    """Numbers of threads change bits: a member in a pool would else depend on what the others do just then."""
+    """Their number changes bits: a member in a pool would else depend on what the others do just then."""
     keep = {"threads": lambda result: float(max(threads()))}
     over = {"seed": [1, 2, 3, 4]}
     study: dict[str, Any] = {
