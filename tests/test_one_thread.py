@@ -19,6 +19,7 @@ from threadpoolctl import threadpool_info, threadpool_limits
 from seacrane import (
     Scene,
     cases,
+    ensemble,
     equilibrium,
     load_chart,
     motion_rao,
@@ -173,3 +174,20 @@ def test_what_the_package_computes_has_one_thread(seen: list[tuple[str, int]], n
     CALLS[name]()
     assert seen, "no matrix that would be shared out: this tests nothing"
     assert {number for _, number in seen} == {1}, seen
+
+
+def test_members_have_one_thread_whatever_runs_beside_them() -> None:
+    """Their number changes bits: a member in a pool would else depend on what the others do just then."""
+    keep = {"threads": lambda result: float(max(threads()))}
+    over = {"seed": [1, 2, 3, 4]}
+    study: dict[str, Any] = {
+        "database": shipped_database(),
+        "keep": keep,
+        "t_end": 0.5,
+        "pack": 1,
+        "lanes": 1,
+    }
+    scene = cases.vessel(memory="none")
+    with ThreadPoolExecutor(2) as pool:
+        for executor in (None, pool):
+            assert (ensemble(scene, over=over, executor=executor, **study).dataset.threads == 1.0).all()

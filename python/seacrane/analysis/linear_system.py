@@ -237,6 +237,7 @@ class LinearModel:
         b[dof : 2 * dof] = np.linalg.solve(heavier, b[dof : 2 * dof])
         return replace(self, a=a, b=b, mass=mass, memories=())
 
+    @one_thread
     def excited(self, vessel: str) -> LinearModel:
         """The same model with waves on another vessel, by its body; raises SceneError if there is none."""
         name = _wave_body(self.scene, vessel)

@@ -15,6 +15,7 @@ from seacrane.accuracy.expected import expected_error
 from seacrane.ensembles.members import Members, Value
 from seacrane.ensembles.study import Study
 from seacrane.inputs.caller import warn_caller
+from seacrane.one_thread import one_thread
 from seacrane.run.method import Method
 
 A_PROBE_FOR, MOST_PROBES = 25, 3  # members; each probe takes about two runs
@@ -161,6 +162,7 @@ def _each(
     return {place: future.result() for place, future in sent.items()}
 
 
+@one_thread
 def _probe(study: Study, accuracy: Mapping[str, float], values: Mapping[str, Value]) -> Probe:
     result = run_to_accuracy(
         study.scene(values), study.t_end, accuracy, method=study.method, outputs=study.outputs, shorthand={},
@@ -179,6 +181,7 @@ def _probe(study: Study, accuracy: Mapping[str, float], values: Mapping[str, Val
     )
 
 
+@one_thread
 def _check(study: Study, accuracy: Mapping[str, float], values: Mapping[str, Value]) -> Probe:
     errors, run, other = error_of(
         study.scene(values), study.t_end, accuracy, method=study.method, outputs=study.outputs

@@ -12,6 +12,7 @@ from seacrane.ensembles.outcome import Outcome
 from seacrane.ensembles.prepared import Prepared
 from seacrane.ensembles.study import Study
 from seacrane.errors import SeacraneError
+from seacrane.one_thread import one_thread
 from seacrane.run.advance import drive
 from seacrane.run.controller_calls import Calls
 from seacrane.run.interrupts import Interrupts
@@ -42,6 +43,7 @@ class Job:
     def __reduce__(self) -> tuple[Any, ...]:
         return _read, (self._data,)
 
+    @one_thread
     def run(self, pack: Pack, version: str) -> list[Outcome]:
         """The outcomes of a pack, in its order.
 

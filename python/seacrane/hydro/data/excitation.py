@@ -12,12 +12,14 @@ from seacrane.errors import SceneError
 from seacrane.hydro.data.heading_circle import LARGEST_HEADING_GAP, PORT_STARBOARD, both_sides, largest_gap
 from seacrane.hydro.data.hydro_data import HydroData
 from seacrane.hydro.data.interpolation import spline_weights
+from seacrane.one_thread import one_thread
 from seacrane.sea.dispersion import wavenumber
 
 FloatArray = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
 
 
+@one_thread
 def force_at(
     database: HydroData, omega: ArrayLike, heading: ArrayLike, *, outside: str = "error"
 ) -> ComplexArray:
@@ -42,6 +44,7 @@ def force_at(
     return with_limits(database, w, force).reshape(*shape, 6)
 
 
+@one_thread
 def force_on_grid(database: HydroData, omega: FloatArray, heading: FloatArray) -> ComplexArray:
     """Forces (q, k, 6) at headings (q,) times frequencies (k,) within the table, as `force_at` has them."""
     circle, table = full_circle(database)

@@ -56,10 +56,12 @@ class MemoryBlock:
             raise ValueError(f"memory block {self.cause!r}: outputs and inputs count motions from 0 to 5")
 
     @property
+    @one_thread
     def poles(self) -> ComplexArray:
         """Eigenvalues of A, rad/s."""
         return np.asarray(np.linalg.eigvals(self.A), dtype=complex)
 
+    @one_thread
     def transfer(self, omega: FloatArray) -> ComplexArray:
         """``C (i omega - A)^-1 B + D`` at ``omega`` (n,), as (n, outputs, inputs)."""
         resolvent = 1j * omega[:, None, None] * np.eye(len(self.A)) - self.A
@@ -213,6 +215,7 @@ class MemoryModel:
         """Number of states of all blocks."""
         return sum(len(block.A) for block in self.blocks)
 
+    @one_thread
     def transfer(self, omega: ArrayLike, *, cause: str = RADIATION) -> ComplexArray:
         """Retardation function ``K(i omega)`` of one cause at ``omega`` (n,), as (n, 6, 6) complex."""
         w = np.atleast_1d(np.asarray(omega, dtype=float))

@@ -109,6 +109,7 @@ def certify(blocks: Sequence[MemoryBlock]) -> PassivityCertificate:
     return _examine(a, shaped, c, feed, energy, zeros)
 
 
+@one_thread
 def is_energy_form(block: MemoryBlock) -> bool:
     """Whether P = I certifies a block: B = C^T exactly, A + A^T <= 0 to rounding, D + D^T >= 0."""
     same = np.array_equal(block.inputs, block.outputs) and np.array_equal(block.B, block.C.T)

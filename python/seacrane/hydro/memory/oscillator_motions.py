@@ -15,6 +15,7 @@ from seacrane.hydro.memory.oscillators import (
     Problem,
     first_guess,
 )
+from seacrane.one_thread import one_thread
 
 FloatArray = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
@@ -41,6 +42,7 @@ class MotionData:
     lever: ComplexArray
 
 
+@one_thread
 def fit_to_motions(data: MotionData, lower: Oscillators | None) -> Oscillators:
     """Best fit with one mass more than ``lower``, or with one per motion where there is no lower one."""
     guesses = [first_guess(data.group)] if lower is None else _one_more(data.group, lower)

@@ -67,6 +67,7 @@ def _square_root(gramian: FloatArray) -> FloatArray:
     return np.asarray(vectors * np.sqrt(np.maximum(values, 0.0)))
 
 
+@one_thread
 def largest_states(a: FloatArray, b: FloatArray) -> FloatArray:
     """Largest amplitude of every state under a unit harmonic input of any frequency."""
     omega = np.geomspace(1e-2, 1e2, 400)

@@ -15,12 +15,14 @@ from seacrane.hydro.memory.joint_passivity import joint_passivity
 from seacrane.hydro.memory.motion_judge import motion_judge
 from seacrane.hydro.memory.realisation import TYPICAL_VELOCITY, largest_states
 from seacrane.hydro.memory.retardation import retardation_functions
+from seacrane.one_thread import one_thread
 
 FloatArray = NDArray[np.float64]
 
 MATRICES = ("added_mass", "additional_added_mass", "additional_stiffness")
 
 
+@one_thread
 def moved_memory(model: MemoryModel, transform: FloatArray, moved: HydroData) -> MemoryModel:
     """``T^T K T``: every block drives, and is driven by, all motions that its own are made of.
 

@@ -9,6 +9,7 @@ from seacrane.hydro.data.hydro_data import HydroData
 from seacrane.hydro.data.memory_model import MemoryModel
 from seacrane.hydro.data.rigid_mass import rigid_mass_matrix
 from seacrane.hydro.vessel.parameters import VesselParameters, time_domain_vessel
+from seacrane.one_thread import one_thread
 
 FloatArray = NDArray[np.float64]
 
@@ -22,6 +23,7 @@ def largest_growth_rate(database: HydroData, model: MemoryModel) -> float:
     return growth_rate(time_domain_vessel(database, memory=model))
 
 
+@one_thread
 def growth_rate(vessel: VesselParameters) -> float:
     """The same of a vessel of the time domain, whose memory it holds."""
     return float(np.linalg.eigvals(free_vessel_system(vessel)).real.max())
