@@ -25,8 +25,10 @@ def run(arguments: argparse.Namespace) -> int:
     from seacrane.trading import trade
 
     result = trade(source.scene, quick=arguments.quick, out=folder)
-    print(summary(result))
-    print(f"saved {folder / 'trade.csv'} and {folder / 'trade.png'}")
+    try:
+        print(summary(result))
+    finally:
+        print(f"saved {folder / 'trade.csv'} and {folder / 'trade.png'}")
     return 0
 
 

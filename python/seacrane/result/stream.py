@@ -332,7 +332,7 @@ class ResultFile:
         lines = [*self._before.get("validity", "").splitlines(), *stats.get("validity", "").splitlines()]
         if lines:
             out["validity"] = "\n".join(dict.fromkeys(lines))
-        if "events" in stats:
+        if "events" in stats or "events" in self._before:
             out["events"] = events
         return out
 
