@@ -29,7 +29,7 @@ def write_pack(path: Path, outcomes: list[Outcome]) -> None:
     """
     import netCDF4
 
-    with atomic_write(path) as draft:
+    with atomic_write(path, tidy=False) as draft:
         try:
             with netCDF4.Dataset(draft, "w") as file:
                 file.createDimension("member", len(outcomes))
