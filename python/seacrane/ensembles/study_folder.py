@@ -13,6 +13,7 @@ from typing import Any
 from seacrane.errors import FileFormatError, SceneError
 from seacrane.files.atomic import atomic_write
 from seacrane.files.drafts import is_draft, remove_all
+from seacrane.files.json_text import json_of
 from seacrane.files.sole_writer import claim, opened
 from seacrane.files.whole_file import read_whole
 
@@ -67,7 +68,8 @@ def claimed(path: str | os.PathLike[str], study: Mapping[str, Any]) -> Iterator[
             raise FileExistsError(
                 f"store {str(folder)!r}: another process is writing it; wait, or give another"
             )
-        remove_all(records, OURS)
+        for place in {folder, records}:
+            remove_all(place, OURS)
         _require_same(folder, study)
         yield folder
     finally:
@@ -79,10 +81,7 @@ def study_in(folder: Path) -> dict[str, Any]:
     path = records_of(folder) / STUDY
     if not path.is_file():
         raise FileFormatError(f"{folder}: is no ensemble, it has no {STUDY}")
-    try:
-        data = json.loads(read_whole(path, LARGEST_STUDY, "it is no study of ours"))
-    except ValueError as error:
-        raise FileFormatError(f"{path}: is no JSON: {error}") from error
+    data = json_of(read_whole(path, LARGEST_STUDY, "it is no study of ours"), str(path))
     if not isinstance(data, dict) or data.get("format") != FORMAT:
         raise FileFormatError(f'{path}: is no study, it has no "format": "{FORMAT}"')
     return data

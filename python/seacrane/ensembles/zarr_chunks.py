@@ -22,6 +22,8 @@ from seacrane.files.whole_file import read_whole
 
 LARGEST_MARK = 2**26  # bytes
 LARGEST_CHUNK = 2**31  # bytes
+LARGEST_DESCRIPTION = 2**24  # bytes of a zarr.json
+MISSING = "is missing"
 UNFINISHED = re.compile(r".+\.[0-9a-f]{32}\.partial")  # what Zarr's own writing leaves where it is killed
 
 Noted = list[int] | None
@@ -29,13 +31,13 @@ Noted = list[int] | None
 
 
 def chunks_of(
-    path: Path, dims: Mapping[str, int], indices: Sequence[int], shape: Sequence[int]
-) -> Iterator[tuple[str, list[Path]]]:
+    folder: Path, dims: Mapping[str, int], indices: Sequence[int], shape: Sequence[int]
+) -> Iterator[tuple[str, list[str]]]:
     """By variable, the files of members.
 
     Parameters
     ----------
-    path : Path
+    folder : Path
         Of the group.
     dims : mapping of str to int
         Number of own dimensions of each variable, each of one chunk.
@@ -44,15 +46,30 @@ def chunks_of(
     """
     places = np.stack(np.unravel_index(indices, tuple(shape)), axis=1).tolist()
     for name, own in dims.items():
-        yield name, [path.joinpath(name, "c", *map(str, (*place, *[0] * own))) for place in places]
+        yield name, ["/".join(map(str, (folder, name, "c", *place, *[0] * own))) for place in places]
 
 
-def noted(file: Path) -> Noted:
+def noted(file: str) -> Noted:
     """What a mark tells of a file."""
-    if not file.exists():
+    if not os.path.exists(file):
         return None
-    data = read_whole(file, LARGEST_CHUNK, "no chunk is")
+    data = read_whole(Path(file), LARGEST_CHUNK, "no chunk is")
     return [len(data), zlib.crc32(data)]
+
+
+def wrong(file: str, there: Noted, *, read: bool) -> str:
+    """What is wrong with a file, by its size, and where it is to be read by its contents too; or nothing."""
+    try:
+        found = os.stat(file, follow_symlinks=False)
+    except FileNotFoundError:
+        return "" if there is None else MISSING
+    if not stat.S_ISREG(found.st_mode):
+        return "is no file"
+    if there is None:
+        return "was not written by its pack"
+    if found.st_size != there[0]:
+        return f"has {found.st_size} bytes for {there[0]}"
+    return "has other contents than were written" if read and noted(file) != there else ""
 
 
 def mark_text(indices: Sequence[int], chunks: Mapping[str, Sequence[Noted]]) -> dict[str, Any]:
@@ -81,35 +98,20 @@ def _are_noted(chunks: Any, count: int) -> bool:
     return isinstance(chunks, dict) and all(
         isinstance(each, list)
         and len(each) == count
-        and all(one is None or isinstance(one, list) and [type(n) for n in one] == [int, int] for one in each)
+        and all(
+            one is None or (isinstance(one, list) and [type(n) for n in one] == [int, int]) for one in each
+        )
         for each in chunks.values()
     )
 
 
-def missing(file: Path, there: Noted) -> bool:
-    """Whether a file is not there that a mark tells of."""
-    return there is not None and not file.exists()
-
-
-def damaged(file: Path, there: Noted, *, read: bool) -> str:
-    """What is wrong with a file that is there, by its size, and where it is to be read by its contents too."""
-    try:
-        found = os.stat(file, follow_symlinks=False)
-    except OSError:
-        return ""
-    if not stat.S_ISREG(found.st_mode):
-        return "is no file"
-    if there is None:
-        return "was not written by its pack"
-    if found.st_size != there[0]:
-        return f"has {found.st_size} bytes for {there[0]}"
-    if read and noted(file) != there:
-        return "has other contents than were written"
-    return ""
-
-
 def require_files(folder: Path) -> None:
-    """Raise FileFormatError for a device, a pipe or a link within a group, which Zarr would read."""
+    """Refuse a device, a pipe or a link within a group, and too large a description: Zarr would read them.
+
+    Raises
+    ------
+    FileFormatError
+    """
     left = [folder]
     while left:
         with os.scandir(left.pop()) as entries:
@@ -118,6 +120,10 @@ def require_files(folder: Path) -> None:
                     left.append(Path(entry.path))
                 elif not entry.is_file(follow_symlinks=False):
                     raise FileFormatError(f"{entry.path}: is a device, a pipe or a link, no file; remove it")
+                elif entry.name == "zarr.json" and entry.stat().st_size > LARGEST_DESCRIPTION:
+                    raise FileFormatError(
+                        f"{entry.path}: is larger than {LARGEST_DESCRIPTION} bytes; no array of ours is"
+                    )
 
 
 def remove_unfinished(folder: Path) -> None:

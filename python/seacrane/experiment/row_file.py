@@ -40,7 +40,12 @@ class RowFile:
                 try:
                     kept = json.loads(line)
                     self.rows[kept["key"]] = Row.from_data(kept["row"])
-                except (ValueError, TypeError, KeyError, RecursionError):  # the line that an interrupted call was writing
+                except (
+                    ValueError,
+                    TypeError,
+                    KeyError,
+                    RecursionError,
+                ):  # the line that an interrupted call was writing
                     continue
         with atomic_write(path) as draft:
             lines = [head, *(_line(key, row) for key, row in self.rows.items())]

@@ -1,4 +1,4 @@
-"""Files that are being written, beside those whose names they will take, and what killed processes left of them."""
+"""Drafts of files, beside those whose names they will take, and what killed processes left of them."""
 
 from __future__ import annotations
 

@@ -3,18 +3,17 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable
 from typing import Any
 
 from seacrane.errors import FileFormatError
 
 # Bytes that Python takes for an empty list, an empty object and a text, beside what is in them.
-LIST, OBJECT, TEXT = 88, 288, 64
-LOOSEST = 12  # times its bytes, which lists, objects and texts of a document may take
+LIST, OBJECT, TEXT = 88, 288, 88
+LOOSEST = 16  # times its bytes, which lists, objects and texts of a document may take
 SMALL = 2**20  # bytes that they may take in any document
 
 
-def json_of(data: bytes, place: str, **hooks: Callable[..., Any]) -> Any:
+def json_of(data: bytes, place: str, **hooks: Any) -> Any:
     """The document in some bytes.
 
     Parameters
