@@ -86,6 +86,7 @@ from seacrane.ensembles.linear_control import HookLoadControl as HookLoadControl
 from seacrane.ensembles.linear_control import LinearControl as LinearControl
 from seacrane.ensembles.sensitivity import Sensitivity as Sensitivity
 from seacrane.ensembles.sensitivity import sensitivity as sensitivity
+from seacrane.ensembles.store import LostMembersWarning as LostMembersWarning
 from seacrane.errors import ChatteringError as ChatteringError
 from seacrane.errors import FileFormatError as FileFormatError
 from seacrane.errors import SceneError as SceneError

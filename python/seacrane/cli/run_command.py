@@ -13,6 +13,7 @@ from seacrane.errors import SceneError
 from seacrane.plotting.text import text_table
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
     from pathlib import Path
 
     from seacrane.result import Result
@@ -32,34 +33,36 @@ def run(arguments: argparse.Namespace) -> int:
     folder = output_folder(arguments.out)
     path = folder / f"{source.name}.nc"
     result, saved = _staged(arguments, source, path) if source.stages else _whole(arguments, source, path)
-    from seacrane.answers.summary import summary
-
-    print(costs(result))
-    print(f"\n{summary(result)}\n")
-    if result.stages:
-        print(f"{stage_table(result)}\n")
-    print(f"saved {saved}")
-    return INTERRUPTED if result.interrupted else 0
+    try:
+        found = result()
+        print(told(found))
+    finally:  # whatever happens to its summary, the run is there
+        print(f"saved {saved}")
+    return INTERRUPTED if found.interrupted else 0
 
 
-def _whole(arguments: argparse.Namespace, source: Source, path: Path) -> tuple[Result, Path]:
-    """One run, written as it is stepped; what the summary needs of it, and where it is."""
+def _whole(arguments: argparse.Namespace, source: Source, path: Path) -> tuple[Callable[[], Result], Path]:
+    """One run, written as it is stepped; what reads of it what the summary needs, and where it is."""
     from seacrane.answers.curves import CHANNELS
     from seacrane.run.to_file import simulate_to_file
 
     method, outputs = _settings(arguments, source)
     t_end = source.t_end if arguments.t_end is None else arguments.t_end
     span: dict[str, Any] = {} if t_end is None else {"t_end": t_end}
-    told = simulate_to_file(
+    done = simulate_to_file(
         source.scene, path, **span, method=method, outputs=outputs,
         checkpoint_every=arguments.checkpoint_every, resume=arguments.resume, overwrite=arguments.overwrite,
         progress=arguments.progress,
     )  # fmt: skip
-    limited = [state["channel"] for state in json.loads(str(told.stats.get("limit_states", "[]")))]
-    return told.load((*KEPT, *CHANNELS, *limited)), told.path
+
+    def read() -> Result:
+        limited = [state["channel"] for state in json.loads(str(done.stats.get("limit_states", "[]")))]
+        return done.load((*KEPT, *CHANNELS, *limited))
+
+    return read, done.path
 
 
-def _staged(arguments: argparse.Namespace, source: Source, path: Path) -> tuple[Result, Path]:
+def _staged(arguments: argparse.Namespace, source: Source, path: Path) -> tuple[Callable[[], Result], Path]:
     """The stages of a lift, written after each of them."""
     from seacrane.stages.to_file import simulate_stages_to_file
 
@@ -67,7 +70,7 @@ def _staged(arguments: argparse.Namespace, source: Source, path: Path) -> tuple[
     result = simulate_stages_to_file(
         source.scene, source.stages, path, method=method, outputs=outputs, overwrite=arguments.overwrite
     )
-    return result, path
+    return lambda: result, path
 
 
 def _settings(arguments: argparse.Namespace, source: Source) -> tuple[Method, Outputs]:
@@ -84,6 +87,14 @@ def _require_no_span(arguments: argparse.Namespace) -> None:
         options = ", ".join(f"--{name.replace('_', '-')}" for name in given)
         raise SceneError(f"{options} does not go with a lift in stages, which is written stage by stage and "
                          "ends with its last; leave it out")  # fmt: skip
+
+
+def told(result: Result) -> str:
+    """All that is printed of a run."""
+    from seacrane.answers.summary import summary
+
+    stages = f"{stage_table(result)}\n" if result.stages else ""
+    return f"{costs(result)}\n\n{summary(result)}\n{stages and chr(10)}{stages}"
 
 
 def stage_table(result: Result) -> str:
@@ -115,8 +126,9 @@ def costs(result: Result) -> str:
     if balance is not None and closure is not None:
         lines.append(f"worst energy balance {balance:.3g} J, {closure:.2g} of the absolute work")
     if "events" in stats:
-        lost = float(stats["impact_energy_lost_J"])
-        lines.append(f"events of limits {stats['events']}, energy lost in impacts {lost:.3g} J")
+        lost = stats.get("impact_energy_lost_J")
+        impacts = "" if lost is None else f", energy lost in impacts {float(lost):.3g} J"
+        lines.append(f"events of limits {stats['events']}{impacts}")
     if result.interrupted:
         lines.append(f"interrupted: outputs end at {result.time[-1]:g} s; --resume goes on from there")
     return "\n".join(lines)

@@ -20,6 +20,8 @@ def run(arguments: argparse.Namespace) -> int:
     from seacrane.trading import trade
 
     result = trade(source.scene, quick=arguments.quick, out=folder)
-    print(result)
-    print(f"saved {folder / 'trade.csv'} and {folder / 'trade.png'}")
+    try:
+        print(result)
+    finally:
+        print(f"saved {folder / 'trade.csv'} and {folder / 'trade.png'}")
     return 0

@@ -2,18 +2,18 @@
 
 from __future__ import annotations
 
-import json
 import re
 from collections import Counter
 from pathlib import Path
 from typing import Any
 
 from seacrane.errors import FileFormatError
+from seacrane.files.json_text import json_of
 from seacrane.files.looks_like import looks_like
 from seacrane.files.whole_file import read_whole
 from seacrane.inputs.shown import shown
 
-LARGEST_FILE = 32 * 2**20  # bytes; JSON takes up to 40 times its size in memory when it is parsed
+LARGEST_FILE = 32 * 2**20  # bytes
 
 
 def read_scene_file(path: Path) -> bytes:
@@ -30,19 +30,7 @@ def parsed(data: bytes, place: str) -> Any:
     """The document in the bytes of a scene file; raises FileFormatError with the line."""
     if len(data) > LARGEST_FILE:
         raise FileFormatError(f"{place}: has {len(data)} bytes, above {LARGEST_FILE}; no scene has")
-    try:
-        return json.loads(data.decode("utf-8"), object_pairs_hook=_unique, parse_constant=_no_constant)
-    except json.JSONDecodeError as error:
-        raise FileFormatError(
-            f"{place} line {error.lineno}, column {error.colno}: {error.msg}; truncated or malformed JSON"
-        ) from error
-    except UnicodeDecodeError as error:
-        line = data.count(b"\n", 0, error.start) + 1
-        raise FileFormatError(f"{place} line {line}: byte {error.start} is not UTF-8 text") from error
-    except RecursionError as error:
-        raise FileFormatError(f"{place}: is nested too deeply to be a scene file") from error
-    except ValueError as error:
-        raise FileFormatError(f"{place}: {error}") from error
+    return json_of(data, place, object_pairs_hook=_unique, parse_constant=_no_constant)
 
 
 def _unique(pairs: list[tuple[str, Any]]) -> dict[str, Any]:

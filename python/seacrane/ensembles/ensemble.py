@@ -19,11 +19,12 @@ from seacrane.ensembles.dataset import table_of
 from seacrane.ensembles.filling import any_outcome, fill, progress_bar, require_success
 from seacrane.ensembles.growing import BATCH, Growth, grow, growth_of
 from seacrane.ensembles.identity import identity_of
-from seacrane.ensembles.job import Job, Pack
+from seacrane.ensembles.job import Job
 from seacrane.ensembles.kept import Kept
 from seacrane.ensembles.members import Members, Over, members_of
 from seacrane.ensembles.other_sea import WORDS, Databases
-from seacrane.ensembles.store import Folder, Memory, Store
+from seacrane.ensembles.store import Folder, Memory, Store, kept_packs
+from seacrane.ensembles.stored_members import growth_in, members_in
 from seacrane.ensembles.study import Asked, Keep, Source, Start, Study, checked_keep, outputs_for
 from seacrane.ensembles.study_folder import claimed, is_zarr, study_in
 from seacrane.ensembles.targets import targets_of, with_static_parts
@@ -82,11 +83,10 @@ class Ensemble:
         """What a store holds so far. Raises FileFormatError for a folder that is none, or damaged."""
         path = Path(folder)
         data = study_in(path)
-        axes = {name: tuple(values) for name, values in data["axes"].items()}
-        members = Members(axes=axes, grid=bool(data["grid"]))
         if not data.get("seeds_in_pack"):
+            members = members_in(path, data)
             return _ensemble(members, _store_at(path, lambda _: members).dataset(members))
-        growth = _growth_in(axes, int(data["seeds_in_pack"]))
+        growth = growth_in(path, data)
         store = _store_at(path, growth.holding)
         members = growth.members(max(growth.batches_in(store.done()), 1))
         return _ensemble(members, store.dataset(members))
@@ -187,6 +187,8 @@ def ensemble(
     -----
     FewSeedsWarning
         Where `over` allows fewer seeds than `until` takes.
+    LostMembersWarning
+        Where members of the store are lost or damaged; they are run again.
     AccuracyNotHeldWarning
         Where a member that was checked has a larger error than `accuracy` allows.
     """
@@ -226,11 +228,13 @@ def ensemble(
         beside = study.lanes if study.lanes > 1 else None
         growth = growth_of(members, beside if pack is None else size)
         with _growing_store(store, study, growth) as kept:
+            kept.mend()
             grown = grow(growth, Job(study), kept, executor, targets, raises=raises, progress=progress)
         dataset = table_of(grown.members, grown.outcomes).dataset()
         done = replace(_ensemble(grown.members, dataset), certainty=grown.certainty)
     else:
         with _store(store, study, members, size) as kept:
+            kept.mend()
             _run(study, members, size, kept, executor, raises=raises, progress=progress)
             done = _ensemble(members, kept.dataset(members))
     if accuracy is None:
@@ -303,12 +307,6 @@ def _store_at(folder: Path, holding: Callable[[int], Members]) -> Store:
     return ZarrStore(folder, holding) if is_zarr(folder) else Folder(folder)
 
 
-def _growth_in(axes: Mapping[str, tuple[Any, ...]], size: int) -> Growth:
-    """Of a store with `until`, by the members of its first batch."""
-    others = {name: values for name, values in axes.items() if name != "seed"}
-    return Growth(first=int(axes["seed"][0]), batches=1, others=others, size=size)
-
-
 def _run(
     study: Study,
     members: Members,
@@ -321,18 +319,20 @@ def _run(
 ) -> None:
     """Run the packs that are not in the store."""
     check = require_success(members) if raises else any_outcome
+    every = {number: _places(members, number, size) for number in range(ceil(len(members) / size))}
+    there = kept_packs(store, every)
     if raises:
-        for outcome in store.outcomes():
-            check(outcome)
-    there = store.done()
-    wanted = [number for number in range(ceil(len(members) / size)) if number not in there]
-    packs = ((number, _pack(members, number, size)) for number in wanted)
+        for number in sorted(there):
+            for outcome in store.of(number):
+                check(outcome)
+    wanted = [number for number in every if number not in there]
+    packs = ((number, tuple((index, members.values(index)) for index in every[number])) for number in wanted)
     count = len(members)
-    left = sum(min(size, count - number * size) for number in wanted)
+    left = sum(len(every[number]) for number in wanted)
     with progress_bar(count, count - left, progress) as bar:
         fill(store, Job(study), packs, executor, done=bar.add, check=check)
 
 
-def _pack(members: Members, number: int, size: int) -> Pack:
-    first = number * size
-    return tuple((index, members.values(index)) for index in range(first, min(first + size, len(members))))
+def _places(members: Members, number: int, size: int) -> range:
+    """Numbers of the members of a pack."""
+    return range(number * size, min((number + 1) * size, len(members)))

@@ -16,7 +16,7 @@ from seacrane.ensembles.filling import any_outcome, fill, progress_bar, require_
 from seacrane.ensembles.job import Job, Pack
 from seacrane.ensembles.members import Members, Value
 from seacrane.ensembles.outcome import Outcome
-from seacrane.ensembles.store import Store
+from seacrane.ensembles.store import Store, kept_packs
 from seacrane.ensembles.targets import Target
 from seacrane.errors import SceneError
 from seacrane.inputs.caller import warn_caller
@@ -74,14 +74,18 @@ class Growth:
         first = (batch * self.cells + cell) * self._chunks
         return list(range(first, first + self._chunks))
 
-    def pack(self, number: int) -> Pack:
-        """The members of a pack."""
+    def indices(self, number: int) -> list[int]:
+        """Numbers of the members of a pack."""
         whole, chunk = divmod(number, self._chunks)
         batch, cell = divmod(whole, self.cells)
         begin = batch * BATCH + chunk * self.size
         places = range(begin, min(begin + self.size, (batch + 1) * BATCH))
-        members = self.members(batch + 1)
-        indices = [place * self.cells + cell for place in places]
+        return [place * self.cells + cell for place in places]
+
+    def pack(self, number: int) -> Pack:
+        """The members of a pack."""
+        indices = self.indices(number)
+        members = self.holding(indices[0])
         return tuple((index, members.values(index)) for index in indices)
 
     def parameters(self, cell: int) -> dict[str, Value]:
@@ -172,21 +176,18 @@ def _run_batch(
     advance: Callable[[int], None],
     check: Callable[[Outcome], None],
 ) -> None:
-    there = store.done()
+    numbers = [number for cell in cells for number in growth.packs(batch, cell)]
+    there = kept_packs(store, {number: growth.indices(number) for number in numbers})
 
     def wanted() -> Iterator[tuple[int, Pack]]:
-        for cell in cells:
-            for number in growth.packs(batch, cell):
-                if number not in there:
-                    yield number, growth.pack(number)
+        return ((number, growth.pack(number)) for number in numbers if number not in there)
 
-    for cell in cells:
-        for number in growth.packs(batch, cell):
-            if number in there:
-                outcomes = store.of(number)
-                advance(len(outcomes))
-                for outcome in outcomes:
-                    check(outcome)
+    for number in numbers:
+        if number in there:
+            outcomes = store.of(number)
+            advance(len(outcomes))
+            for outcome in outcomes:
+                check(outcome)
     fill(store, job, wanted(), executor, done=advance, check=check)
 
 

@@ -14,7 +14,10 @@ from seacrane.ensembles.outcome import Outcome
 from seacrane.ensembles.variables import TEXTS
 from seacrane.errors import FileFormatError
 from seacrane.files.atomic import atomic_write
-from seacrane.files.netcdf_limits import NETCDF_ERRORS
+from seacrane.files.json_text import json_of
+from seacrane.files.netcdf_limits import NETCDF_ERRORS, open_netcdf
+
+LARGEST_FILE = 2**32  # bytes of arrays
 
 
 def write_pack(path: Path, outcomes: list[Outcome]) -> None:
@@ -29,7 +32,7 @@ def write_pack(path: Path, outcomes: list[Outcome]) -> None:
     """
     import netCDF4
 
-    with atomic_write(path) as draft:
+    with atomic_write(path, tidy=False) as draft:
         try:
             with netCDF4.Dataset(draft, "w") as file:
                 file.createDimension("member", len(outcomes))
@@ -45,23 +48,23 @@ def write_pack(path: Path, outcomes: list[Outcome]) -> None:
 
 def read_pack(path: Path) -> list[Outcome]:
     """The outcomes of a pack. Raises FileFormatError where the file is damaged."""
-    import netCDF4
-
     try:
-        with netCDF4.Dataset(path) as file:
-            file.set_auto_mask(False)
+        with open_netcdf(path, LARGEST_FILE, "give a smaller pack") as file:
             kept: dict[int, dict[str, Labelled]] = {}
             for group in file.groups.values():
                 kept.update(_read_group(group))
             rows = zip(*(file[name][:].tolist() for name in ("member", *TEXTS)), strict=True)
-            return [
+            outcomes = [
                 Outcome(index=index, kept=kept.get(index, {}), **dict(zip(TEXTS, texts, strict=True)))
                 for index, *texts in rows
             ]
+            if any(not one.kept and not one.failure for one in outcomes):
+                raise ValueError("it lacks what a member kept")
+            return outcomes
     except NETCDF_ERRORS as error:
         raise FileFormatError(
-            f"{path}: is no pack of an ensemble, or damaged: {str(error)[:200]}; remove it and run the "
-            "ensemble again to make it anew"
+            f"{path}: is no pack of an ensemble, or damaged: {str(error)[:200]}; run the ensemble again, "
+            "which makes it anew"
         ) from error
 
 
@@ -112,7 +115,7 @@ def _read_group(group: Any) -> dict[int, dict[str, Labelled]]:
             for dim in dims
             if f"along_{dim}" in inside.variables
         }
-        told = json.loads(variable.told)
+        told = json_of(str(variable.told).encode(), name)
         for index, values in zip(indices, np.asarray(variable[:], dtype=float), strict=True):
             kept[index][name] = Labelled(values=values, dims=dims, coords=coords, attributes=told)
     return kept

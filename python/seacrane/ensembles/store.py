@@ -2,24 +2,38 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Protocol
 
 from seacrane.ensembles.dataset import table_of
-from seacrane.ensembles.members import Members
+from seacrane.ensembles.members import MOST_MEMBERS, Members
 from seacrane.ensembles.outcome import Outcome
 from seacrane.ensembles.pack_file import read_pack, write_pack
+from seacrane.errors import FileFormatError
+from seacrane.inputs.caller import warn_caller
 
 if TYPE_CHECKING:
     import xarray
+
+DIGITS = 7  # of a pack's number in the name of its file
+
+
+class LostMembersWarning(UserWarning):
+    """Members that were in a store are lost or damaged, and are run again."""
 
 
 class Store(Protocol):
     """Keeps the outcomes of packs by their number."""
 
+    def mend(self) -> None:
+        """Remove what a process that was killed left; for who is to write."""
+
     def done(self) -> set[int]:
         """Numbers of the packs that are there."""
+
+    def lost(self, pack: int, indices: Sequence[int]) -> str:
+        """Why a pack of these members, which is there, cannot be read; nothing where it can."""
 
     def keep(self, pack: int, outcomes: list[Outcome]) -> None:
         """Take a pack."""
@@ -40,8 +54,14 @@ class Memory:
     def __init__(self) -> None:
         self._packs: dict[int, list[Outcome]] = {}
 
+    def mend(self) -> None:
+        """Nothing outlives the process."""
+
     def done(self) -> set[int]:
         return set(self._packs)
+
+    def lost(self, pack: int, indices: Sequence[int]) -> str:
+        return ""
 
     def keep(self, pack: int, outcomes: list[Outcome]) -> None:
         self._packs[pack] = outcomes
@@ -63,8 +83,18 @@ class Folder:
     def __init__(self, path: Path) -> None:
         self.path = path
 
+    def mend(self) -> None:
+        """Drafts are gone: whoever has the folder for itself removes them."""
+
     def done(self) -> set[int]:
-        return {int(path.stem.removeprefix("pack_")) for path in self.path.glob("pack_*.nc")}
+        return numbers_of(self.path, ".nc")
+
+    def lost(self, pack: int, indices: Sequence[int]) -> str:
+        try:
+            found = [one.index for one in self.of(pack)]
+        except (FileFormatError, OSError) as error:
+            return str(error)
+        return "" if found == list(indices) else f"{self._file(pack)}: holds other members"
 
     def keep(self, pack: int, outcomes: list[Outcome]) -> None:
         write_pack(self._file(pack), outcomes)
@@ -80,4 +110,34 @@ class Folder:
         return table_of(members, self.outcomes()).dataset()
 
     def _file(self, pack: int) -> Path:
-        return self.path / f"pack_{pack:07d}.nc"
+        return self.path / f"pack_{pack:0{DIGITS}d}.nc"
+
+
+def numbers_of(folder: Path, suffix: str) -> set[int]:
+    """Numbers of the packs whose files have a suffix."""
+    names = (path.stem.removeprefix("pack_") for path in folder.glob(f"pack_*{suffix}"))
+    found = {int(name) for name in names if name.isdecimal() and len(name) == DIGITS}
+    if found and max(found) >= MOST_MEMBERS:
+        raise FileFormatError(f"{folder}: has a pack {max(found)}, more than there may be members; remove it")
+    return found
+
+
+def kept_packs(store: Store, packs: Mapping[int, Sequence[int]]) -> set[int]:
+    """Packs that need not be run, by their members.
+
+    Warns
+    -----
+    LostMembersWarning
+        For those that are there and cannot be read.
+    """
+    there = store.done() & packs.keys()
+    lost = {number: why for number in sorted(there) if (why := store.lost(number, packs[number]))}
+    if lost:
+        first = next(iter(lost))
+        others = f"; so are those of {len(lost) - 1} other packs" if len(lost) > 1 else ""
+        warn_caller(
+            f"store: members {packs[first][0]} to {packs[first][-1]} are lost or damaged, and are run again: "
+            f"{lost[first]}{others}",
+            LostMembersWarning,
+        )
+    return there - lost.keys()

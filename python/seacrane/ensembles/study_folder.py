@@ -5,12 +5,15 @@ from __future__ import annotations
 import contextlib
 import json
 import os
+import re
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
 from seacrane.errors import FileFormatError, SceneError
 from seacrane.files.atomic import atomic_write
+from seacrane.files.drafts import is_draft, remove_all
+from seacrane.files.json_text import json_of
 from seacrane.files.sole_writer import claim, opened
 from seacrane.files.whole_file import read_whole
 
@@ -18,6 +21,7 @@ STUDY, LOCK = "study.json", "writer.lock"
 ZARR = ".zarr"
 IN_ZARR = "seacrane-study"  # a group of its own: a root holds arrays and groups alone
 FORMAT = "seacrane-ensemble"
+OURS = re.compile(r"study\.json|pack_\d+\.(nc|json)")
 LARGEST_STUDY = 256 * 2**20  # bytes; a million members of a few parameters
 
 
@@ -64,6 +68,8 @@ def claimed(path: str | os.PathLike[str], study: Mapping[str, Any]) -> Iterator[
             raise FileExistsError(
                 f"store {str(folder)!r}: another process is writing it; wait, or give another"
             )
+        for place in {folder, records}:
+            remove_all(place, OURS)
         _require_same(folder, study)
         yield folder
     finally:
@@ -75,17 +81,14 @@ def study_in(folder: Path) -> dict[str, Any]:
     path = records_of(folder) / STUDY
     if not path.is_file():
         raise FileFormatError(f"{folder}: is no ensemble, it has no {STUDY}")
-    try:
-        data = json.loads(read_whole(path, LARGEST_STUDY, "it is no study of ours"))
-    except ValueError as error:
-        raise FileFormatError(f"{path}: is no JSON: {error}") from error
+    data = json_of(read_whole(path, LARGEST_STUDY, "it is no study of ours"), str(path))
     if not isinstance(data, dict) or data.get("format") != FORMAT:
         raise FileFormatError(f'{path}: is no study, it has no "format": "{FORMAT}"')
     return data
 
 
 def _holds_files(folder: Path) -> bool:
-    return any(one.is_file() and one.name != LOCK for one in folder.rglob("*"))
+    return any(not one.is_dir() and one.name != LOCK and not is_draft(one) for one in folder.rglob("*"))
 
 
 def _require_same(folder: Path, study: Mapping[str, Any]) -> None:
@@ -93,7 +96,7 @@ def _require_same(folder: Path, study: Mapping[str, Any]) -> None:
     whole = {"format": FORMAT, **study}
     path = records_of(folder) / STUDY
     if not path.exists():
-        with atomic_write(path) as draft:
+        with atomic_write(path, tidy=False) as draft:
             draft.write_text(json.dumps(whole), encoding="utf-8")
         return
     there = study_in(folder).get("identity", {})

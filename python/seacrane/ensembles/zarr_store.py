@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import json
+import shutil
 import warnings
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from importlib import import_module
@@ -15,19 +16,40 @@ import numpy as np
 
 from seacrane.ensembles.dataset import failure_of, table_of
 from seacrane.ensembles.labelled import Labelled
-from seacrane.ensembles.members import Members
+from seacrane.ensembles.members import MOST_MEMBERS, Members
 from seacrane.ensembles.outcome import Outcome
+from seacrane.ensembles.store import LostMembersWarning, numbers_of
 from seacrane.ensembles.study_folder import IN_ZARR, records_of
 from seacrane.ensembles.variables import NOT_RUN, TEXTS, axes_of, own_dims
+from seacrane.ensembles.zarr_arrays import require_arrays, require_bounded
+from seacrane.ensembles.zarr_chunks import (
+    MISSING,
+    Noted,
+    chunks_of,
+    mark_text,
+    noted,
+    read_mark,
+    remove_unfinished,
+    require_files,
+    wrong,
+)
 from seacrane.errors import FileFormatError, SceneError
 from seacrane.files.atomic import atomic_write, space_left
-from seacrane.files.whole_file import read_whole
+from seacrane.inputs.caller import warn_caller
 
 if TYPE_CHECKING:
     import xarray
 
-LARGEST_MARK = 2**24  # bytes
-DAMAGED = (KeyError, OSError, RuntimeError, TypeError, ValueError)  # what reading a damaged group raises
+ANEW = "run the ensemble again, which makes it anew"
+DAMAGED = (
+    ArithmeticError,
+    AttributeError,
+    LookupError,
+    OSError,
+    RuntimeError,
+    TypeError,
+    ValueError,
+)  # what reading a damaged group raises
 
 Block = tuple[tuple[int | slice, ...], slice]
 
@@ -63,23 +85,31 @@ class ZarrStore:
         self._arrays: dict[str, Any] = {}
 
     def done(self) -> set[int]:
-        marks = records_of(self.path).glob("pack_*.json")
-        return {int(path.stem.removeprefix("pack_")) for path in marks}
+        return numbers_of(records_of(self.path), ".json")
+
+    def lost(self, pack: int, indices: Sequence[int]) -> str:
+        try:
+            members, chunks = read_mark(self._mark(pack))
+            if members != list(indices) or chunks is None:
+                return f"{self._mark(pack)}: is of other members, or tells no chunks"
+            return next((f"{file} {what}" for _, file, what in self._wrong(members, chunks, read=True)), "")
+        except DAMAGED as error:
+            return str(error)[:200]
 
     def keep(self, pack: int, outcomes: list[Outcome]) -> None:
         indices = [one.index for one in outcomes]
         try:
             with _without_remarks():
                 self._write(indices, outcomes)
+            chunks = {name: [noted(file) for file in files] for name, files in self._files(indices)}
         except OSError as error:
             raise OSError(f"could not write {self.path}: {error}{space_left(self.path)}") from error
-        with atomic_write(self._mark(pack)) as draft:
-            draft.write_text(json.dumps(indices), encoding="utf-8")
+        with atomic_write(self._mark(pack), tidy=False) as draft:
+            draft.write_text(json.dumps(mark_text(indices, chunks)), encoding="utf-8")
 
     def of(self, pack: int) -> list[Outcome]:
         try:
-            indices = json.loads(read_whole(self._mark(pack), LARGEST_MARK, "no pack is"))
-            return self._read(indices)
+            return self._read(read_mark(self._mark(pack))[0])
         except DAMAGED as error:
             raise FileFormatError(f"{self.path}: pack {pack} is damaged: {str(error)[:200]}") from error
 
@@ -88,16 +118,103 @@ class ZarrStore:
             yield from self.of(pack)
 
     def dataset(self, members: Members) -> xarray.Dataset:
-        """What is there, read as it is asked for."""
-        if not self._room_there():
-            return table_of(members, ()).dataset()
+        """What is there, read as it is asked for; members of which a chunk is missing are failures.
+
+        Raises
+        ------
+        FileFormatError
+            For what is damaged or none of ours.
+        """
         import xarray
 
-        with _without_remarks():
-            found: xarray.Dataset = xarray.open_zarr(self.path, chunks=None, decode_cf=False)
-        dim, length = next(iter(members.shape.items()))
-        found = found.set_coords([name for name in members.axes if name in found])
-        return found.isel({dim: slice(length)})
+        try:
+            require_files(self.path)
+            with _without_remarks():
+                if not self._room_there():
+                    return table_of(members, ()).dataset()
+                self._require_ours()
+                found: xarray.Dataset = xarray.open_zarr(
+                    self.path, chunks=None, decode_cf=False, consolidated=False
+                )
+            dim, length = next(iter(members.shape.items()))
+            found = found.set_coords([name for name in members.axes if name in found])
+            return _told(found.isel({dim: slice(length)}), self._missing(len(members)))
+        except FileFormatError:
+            raise
+        except DAMAGED as error:
+            raise FileFormatError(f"{self.path}: is damaged: {str(error)[:200]}; {ANEW}") from error
+
+    def mend(self) -> None:
+        """Remove what a killed process left, and begin anew where the arrays cannot be read.
+
+        Warns
+        -----
+        LostMembersWarning
+            Where they cannot.
+        """
+        remove_unfinished(self.path)
+        try:
+            require_files(self.path)
+            with _without_remarks():
+                if self._room_there():
+                    self._require_ours()
+        except DAMAGED as error:
+            self._forget(str(error)[:200])
+
+    def _forget(self, why: str) -> None:
+        count = len(self.done())
+        records = records_of(self.path)
+        for path in (*records.glob("pack_*.json"), *records.glob("zarr.json"), *self.path.glob("zarr.json")):
+            path.unlink()
+        for path in self.path.iterdir():
+            if path != records and ((path / "zarr.json").exists() or (path / "c").is_dir()):
+                shutil.rmtree(path)
+        self._room, self._first = 0, {}
+        self._arrays.clear()
+        if count:
+            warn_caller(
+                f"store {str(self.path)!r}: its arrays are damaged: {why}; the members of all {count} packs "
+                "are run again",
+                LostMembersWarning,
+            )
+
+    def _missing(self, count: int) -> dict[int, str]:
+        """By member: the chunk that it lacks."""
+        found: dict[int, str] = {}
+        for pack in self.done():
+            members, chunks = read_mark(self._mark(pack))
+            if max(members) >= self._room:
+                raise ValueError(f"pack {pack} is of members that are not there")
+            for index, file, what in self._wrong(members, chunks or {}, read=False):
+                if what != MISSING:
+                    raise ValueError(f"{file} {what}")
+                if index < count:
+                    found.setdefault(index, f"lost: {file} {what}; {ANEW}")
+        return found
+
+    def _files(self, indices: Sequence[int]) -> Iterator[tuple[str, list[str]]]:
+        """By variable, the chunks of members."""
+        dims = {name: first.values.ndim for name, first in self._first.items()}
+        return chunks_of(self.path, {**dims, **dict.fromkeys(TEXTS, 0)}, indices, self._shape)
+
+    def _wrong(
+        self, indices: Sequence[int], chunks: Mapping[str, Sequence[Noted]], *, read: bool
+    ) -> Iterator[tuple[int, str, str]]:
+        """Members, their chunks that are not as a mark tells, and why."""
+        for name, files in self._files(indices) if chunks else ():
+            told = chunks.get(name, [None] * len(indices))
+            for index, file, there in zip(indices, files, told, strict=True):
+                if what := wrong(file, there, read=read):
+                    yield index, file, what
+
+    def _require_ours(self) -> None:
+        """Know the arrays, or raise one of `DAMAGED` where they are not as this writes them."""
+        group = self._opened()
+        self._room = self._room_there()
+        members = self._holding(self._room - 1)
+        require_bounded(group, len(members.shape))
+        self._first = _first_in(group)
+        require_arrays(group, members, self._first)
 
     def _mark(self, pack: int) -> Path:
         return records_of(self.path) / f"pack_{pack:07d}.json"
@@ -159,7 +276,10 @@ class ZarrStore:
         """Members that every variable has room for."""
         if not (records_of(self.path) / "zarr.json").is_file():
             return 0
-        return int(self._opened()[IN_ZARR].attrs.get("members", 0))
+        found = self._opened()[IN_ZARR].attrs.get("members", 0)
+        if type(found) is not int or not 0 <= found <= 2 * MOST_MEMBERS:
+            raise ValueError(f"it tells of {str(found)[:60]} members")
+        return found
 
     def _make_room(self, index: int) -> None:
         """For members up to this one at least; what has room for some is made longer."""
@@ -220,6 +340,17 @@ def _without_remarks() -> Iterator[None]:
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         yield
+
+
+def _told(found: xarray.Dataset, missing: Mapping[int, str]) -> xarray.Dataset:
+    """With what is missing among the failures."""
+    if not missing:
+        return found
+    failure = found["failure"]
+    texts = np.array(failure.to_numpy(), dtype=object)
+    for index, why in missing.items():
+        texts[np.unravel_index(index, texts.shape)] = why
+    return found.assign(failure=(failure.dims, texts, failure.attrs))
 
 
 def _require_plain_names(members: Members) -> None:

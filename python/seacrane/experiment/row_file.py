@@ -12,6 +12,9 @@ from typing import Any
 
 from seacrane.experiment.row import Row
 from seacrane.files.atomic import atomic_write
+from seacrane.files.whole_file import read_whole
+
+LARGEST_FILE = 2**28  # bytes; a row takes some hundred
 
 
 class RowFile:
@@ -31,13 +34,18 @@ class RowFile:
         if path is None:
             return
         head = json.dumps({**experiment, "columns": [part.name for part in fields(Row)]}, sort_keys=True)
-        lines = path.read_text(encoding="utf-8").splitlines() if path.is_file() else []
+        lines = _lines(path) if path.is_file() else []
         if lines and lines[0] == head:
             for line in lines[1:]:
                 try:
                     kept = json.loads(line)
                     self.rows[kept["key"]] = Row.from_data(kept["row"])
-                except (ValueError, TypeError, KeyError):  # the line that an interrupted call was writing
+                except (
+                    ValueError,
+                    TypeError,
+                    KeyError,
+                    RecursionError,
+                ):  # the line that an interrupted call was writing
                     continue
         with atomic_write(path) as draft:
             lines = [head, *(_line(key, row) for key, row in self.rows.items())]
@@ -49,6 +57,10 @@ class RowFile:
         if self.path is not None:
             with self.path.open("a", encoding="utf-8") as file:
                 file.write(_line(key, row) + "\n")
+
+
+def _lines(path: Path) -> list[str]:
+    return read_whole(path, LARGEST_FILE, "remove it").decode("utf-8", "replace").splitlines()
 
 
 def _line(key: str, row: Row) -> str:

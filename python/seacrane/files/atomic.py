@@ -4,18 +4,20 @@ from __future__ import annotations
 
 import contextlib
 import os
-import secrets
 import shutil
 import stat
 from collections.abc import Iterator
 from pathlib import Path
 
+from seacrane.files.drafts import draft_of, remove_left
+
 
 @contextlib.contextmanager
-def atomic_write(path: Path) -> Iterator[Path]:
+def atomic_write(path: Path, *, tidy: bool = True) -> Iterator[Path]:
     """A draft beside `path` that takes its name if the block succeeds, and is removed if it fails.
 
-    Where `path` is a link, the file that it names is replaced, not the link.
+    Where `path` is a link, the file that it names is replaced, not the link. What processes that were killed
+    left of the same file is removed, but where `tidy` is False.
 
     Raises
     ------
@@ -24,16 +26,19 @@ def atomic_write(path: Path) -> Iterator[Path]:
         name is a folder, a device or write-protected.
     """
     target = path.resolve()
-    draft = target.with_name(f".{target.name}.{secrets.token_hex(4)}.tmp")
+    draft = draft_of(target)
     try:
         require_replaceable(path)
+        if tidy:
+            remove_left(target)
         yield draft
         with draft.open("rb+") as file:
             os.fsync(file.fileno())
         draft.replace(target)
         sync_folder(target.parent)
     except OSError as error:
-        raise OSError(f"could not write {path}: {error}{space_left(target.parent)}") from error
+        kind = FileNotFoundError if isinstance(error, FileNotFoundError) else OSError
+        raise kind(f"could not write {path}: {error}{space_left(target.parent)}") from error
     finally:
         _discard(draft)
 
@@ -41,7 +46,7 @@ def atomic_write(path: Path) -> Iterator[Path]:
 def require_replaceable(path: Path) -> None:
     """Raise OSError unless a file may get this name."""
     if not path.resolve().parent.is_dir():
-        raise OSError(f"there is no folder {path.parent}; create it first")
+        raise FileNotFoundError(f"there is no folder {path.parent}; create it first")
     if not path.exists():
         return
     mode = path.stat().st_mode

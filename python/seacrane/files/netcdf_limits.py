@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from seacrane.errors import FileFormatError
+from seacrane.files.whole_file import size_of
 
 LARGEST_DATABASE = 512 * 2**20  # bytes; 1,000 frequencies x 72 headings take 20 MiB
 CDF5 = b"CDF\x05"  # classic, with counts of 64 bits
@@ -35,13 +36,14 @@ def open_netcdf(path: Path, largest: int = LARGEST_DATABASE, fix: str = TOO_LARG
     FileFormatError
         Before any array is read: for larger arrays, and for what `hdf5_structure` refuses.
     OSError, RuntimeError, ...
-        What the libraries raise for a damaged file, one of `NETCDF_ERRORS`.
+        What the libraries raise for a damaged file, one of `NETCDF_ERRORS`; for a device or a pipe.
     """
     import h5py
     import netCDF4
 
     from seacrane.files.hdf5_structure import Structure
 
+    size_of(path)
     if h5py.is_hdf5(path):
         Structure(path, largest, fix).check()
     elif (kind := _first_bytes(path)) == CDF5:
@@ -60,6 +62,7 @@ def open_hdf5(path: Path, largest: int = LARGEST_DATABASE, fix: str = TOO_LARGE)
 
     from seacrane.files.hdf5_structure import Structure
 
+    size_of(path)
     Structure(path, largest, fix).check()
     with h5py.File(path, "r") as file:
         yield file

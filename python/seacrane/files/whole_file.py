@@ -29,10 +29,16 @@ def read_whole(path: Path, largest: int = LARGEST_TABLE, fix: str = "export less
     OSError
         If it cannot be read, or is a device or a pipe, which may have no end.
     """
+    size = size_of(path)
+    if size > largest:
+        raise FileFormatError(f"{path}: is larger than {largest} bytes; {fix}")
+    with path.open("rb") as file:
+        return file.read(size)
+
+
+def size_of(path: Path) -> int:
+    """Bytes of a file. Raises OSError where it is a device or a pipe: to open one could wait for ever."""
     found = path.stat()
     if not (stat.S_ISREG(found.st_mode) or stat.S_ISDIR(found.st_mode)):
         raise OSError(errno.EINVAL, "is a device or a pipe, no file", str(path))
-    if found.st_size > largest:
-        raise FileFormatError(f"{path}: is larger than {largest} bytes; {fix}")
-    with path.open("rb") as file:
-        return file.read(found.st_size)
+    return found.st_size

@@ -333,7 +333,7 @@ class ResultFile:
             lines = [*self._before.get(key, "").splitlines(), *stats.get(key, "").splitlines()]
             if lines:
                 out[key] = "\n".join(dict.fromkeys(lines))
-        if "events" in stats:
+        if "events" in stats or "events" in self._before:
             out["events"] = events
         return out
 

@@ -24,6 +24,7 @@ SUMS = (
     "simulated_s", "wall_s", "steps", "rejected_steps", "evaluations", "jacobians", "newton_iterations",
     "projections", "restarts", "dense_solves", "events",
 )  # fmt: skip
+LOST = "impact_energy_lost_J"
 WEIGHTS = ("hanging_weight", "line_weight")  # of what hangs in any stage
 NOTHING = ("N", "N m", "N or N m", "W", "Pa")  # units of what is zero where its element is not there
 
@@ -180,6 +181,13 @@ def _squeezed(channel: str, array: Array) -> Array:
     )
 
 
+def _lost_in_impacts(piece: Piece) -> float:
+    """J, in this piece and in what met as it was connected; a run that goes on counts on."""
+    before = float(np.sum(piece.start.get("impact_loss", 0.0)))
+    met = sum(event.energy_lost for event in piece.before if event.kind == "contact")
+    return float(piece.result.stats.get(LOST, before)) - before + float(met)
+
+
 def _stats(pieces: Sequence[Piece], spans: Sequence[StageSpan]) -> dict[str, Any]:
     every = [piece.result.stats for piece in pieces]
     out: dict[str, Any] = dict(every[-1])
@@ -187,6 +195,8 @@ def _stats(pieces: Sequence[Piece], spans: Sequence[StageSpan]) -> dict[str, Any
         key: sum(float(one.get(key, 0)) for one in every) for key in SUMS if any(key in one for one in every)
     }
     out |= {key: int(out[key]) for key in SUMS if key in out and key not in ("simulated_s", "wall_s")}
+    if any(LOST in one for one in every):
+        out[LOST] = sum(_lost_in_impacts(piece) for piece in pieces)
     for key in ("described", "validity"):
         told = dict.fromkeys(line for one in every for line in str(one.get(key, "")).splitlines())
         if told:

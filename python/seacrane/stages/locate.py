@@ -72,6 +72,12 @@ class Course:
         self.done(run)
         return run
 
+    def stand(self, start: _core.State) -> None:
+        """The state itself as part of the result."""
+        run = self.run(start, start.time)
+        self.began(run)
+        self.done(run)
+
     def tried(self, start: _core.State, t_end: float) -> Run:
         """A run advanced to its end, and no part of the result; KeyboardInterrupt by Ctrl-C."""
         run = self.run(start, t_end)

@@ -148,7 +148,10 @@ class StagedRun:
                 self._changes.append(Event(time=begin, name=stage.name, kind="stage"))
                 self._connect(stage)
                 self._command(stage)
-                ended = to_its_end(self._course(stage, interrupts), stage, self._checked_start(stage))
+                course, start = self._course(stage, interrupts), self._checked_start(stage)
+                ended = to_its_end(course, stage, start)
+                if not self._pieces:  # met at once, or stopped before anything was stepped
+                    course.stand(self._state)
             except BaseException as error:
                 self._spans.append(StageSpan(name=stage.name, start=begin, end=self._now(), ended_by=""))
                 self.interrupted = True

@@ -12,6 +12,7 @@ from seacrane.ensembles.paths import require_paths
 from seacrane.ensembles.study import Source
 from seacrane.errors import FileFormatError, SceneError
 from seacrane.files.atomic import atomic_write
+from seacrane.files.drafts import is_draft
 from seacrane.files.whole_file import read_whole
 from seacrane.lift.document import LARGEST_FILE
 from seacrane.lift.lift import Lift
@@ -100,13 +101,13 @@ def _claim(folder: Path, text: bytes) -> None:
     folder.mkdir(parents=True, exist_ok=True)
     if (folder / FILE).exists():
         return
-    if any(folder.iterdir()):
+    if any(not is_draft(one) for one in folder.iterdir()):
         raise SceneError(f"{folder} holds something else than a study; give another folder")
     _write(folder / FILE, text)
 
 
 def _write(path: Path, text: bytes) -> None:
-    if path.exists() and path.read_bytes() == text:
+    if path.exists() and read_whole(path, LARGEST_FILE, "no study file is") == text:
         return
     with atomic_write(path) as draft:
         draft.write_bytes(text)

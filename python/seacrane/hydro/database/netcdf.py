@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import os
-import tempfile
 from dataclasses import asdict, astuple, fields
 from os import PathLike
 from pathlib import Path
@@ -12,6 +10,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 import numpy as np
 
 from seacrane.errors import FileFormatError
+from seacrane.files.atomic import atomic_write
 from seacrane.files.netcdf_limits import NETCDF_ERRORS, open_netcdf
 from seacrane.hydro.data.drift import DriftCoefficients
 from seacrane.hydro.data.hydro_data import AdditionalMatrices, HydroData, RollDamping
@@ -66,20 +65,15 @@ _MODEL_MATRICES = ("added_mass", "additional_added_mass", "additional_stiffness"
 
 
 def save_database(database: HydroData, path: str | PathLike[str]) -> None:
-    """Write ``database`` to ``path``: a temporary file beside it, then a rename."""
+    """Write ``database`` to ``path``: complete under its name, or not at all."""
     import netCDF4
 
-    target = Path(path)
-    handle, temporary = tempfile.mkstemp(dir=target.parent, prefix=f".{target.name}.", suffix=".part")
-    os.close(handle)
-    try:
-        with netCDF4.Dataset(temporary, "w", format="NETCDF4") as file:
-            _write(file, database)
-        os.chmod(temporary, 0o644)
-        os.replace(temporary, target)
-    except BaseException:
-        Path(temporary).unlink(missing_ok=True)
-        raise
+    with atomic_write(Path(path)) as draft:
+        try:
+            with netCDF4.Dataset(draft, "w", format="NETCDF4") as file:
+                _write(file, database)
+        except RuntimeError as error:  # the HDF5 library's failures to write arrive as RuntimeError
+            raise OSError(f"the NetCDF library reports: {error}") from error
 
 
 def load_database_file(kind: type[Data], path: str | PathLike[str]) -> Data:

@@ -1,0 +1,310 @@
+"""Stores of which something is lost, damaged, foreign or left by killed processes: told and made good."""
+
+from __future__ import annotations
+
+import contextlib
+import json
+import os
+import shutil
+import subprocess
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from ensemble_studies import KEEP, SWING, lowest, pendulum
+from killed_stores import KINDS, STORMS
+from test_study_files import LIFT, STUDY
+
+from seacrane import Ensemble, FileFormatError, LostMembersWarning, SceneError, ensemble
+from seacrane.files.atomic import atomic_write
+from seacrane.files.drafts import draft_of
+from seacrane.study_files.study_run import run_study
+
+zarr: Any = pytest.importorskip("zarr", reason="Zarr is not installed: pip install 'seacrane[zarr]'")
+
+GIVEN: dict[str, Any] = {
+    "source": pendulum,
+    "over": {"start": [1.0, 2.0, 3.0]},
+    "keep": {"lowest": lowest, "track": KEEP["track"]},
+    **SWING,
+}
+
+
+@pytest.fixture(scope="module")
+def whole() -> Ensemble:
+    return ensemble(**GIVEN)
+
+
+@pytest.fixture(scope="module")
+def stores(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("stores")
+    for name in ("a", "a.zarr"):
+        ensemble(**GIVEN, store=folder / name)
+    return folder
+
+
+@pytest.fixture
+def store(stores: Path, tmp_path: Path, request: pytest.FixtureRequest) -> Path:
+    return Path(shutil.copytree(stores / request.param, tmp_path / request.param))
+
+
+def torn(path: Path) -> None:
+    path.write_bytes(path.read_bytes()[:-3])
+
+
+def changed(path: Path) -> None:
+    data = bytearray(path.read_bytes())
+    data[-1] ^= 255
+    path.write_bytes(data)
+
+
+def piped(path: Path) -> None:
+    path.unlink()
+    os.mkfifo(path)
+
+
+def linked(path: Path) -> None:
+    path.rename(path.with_suffix(".away"))
+    path.symlink_to(path.with_suffix(".away"))
+
+
+def brackets(path: Path) -> None:
+    path.write_bytes(b"[" * 100_000)
+
+
+def another_codec(path: Path) -> None:
+    data = json.loads(path.read_text())
+    data["codecs"][-1] = {"name": "gzip", "configuration": {"level": 5}}
+    path.write_text(json.dumps(data))
+
+
+def no_codec(path: Path) -> None:
+    path.write_text(path.read_text().replace('"vlen-utf8"', '"foreign"'))
+
+
+def giant(path: Path) -> None:
+    data = json.loads(path.read_text())
+    data["shape"] = [10**12, *data["shape"][1:]]
+    path.write_text(json.dumps(data))
+
+
+PACK, CHUNK = "pack_0000001.nc", "lowest/c/1"
+MARK = "seacrane-study/pack_0000001.json"
+LOST: dict[str, tuple[str, str, Callable[[Path], None], str]] = {
+    "a missing chunk": ("a.zarr", CHUNK, Path.unlink, "members 1 to 1 .*lowest/c/1 is missing"),
+    "a missing chunk of a series": ("a.zarr", "track/c/1/0/0", Path.unlink, "track/c/1/0/0 is missing"),
+    "a missing word of no failure": ("a.zarr", "failure/c/1", Path.unlink, "failure/c/1 is missing"),
+    "a torn chunk": ("a.zarr", CHUNK, torn, "lowest/c/1 has \\d+ bytes for"),
+    "a changed chunk": ("a.zarr", CHUNK, changed, "lowest/c/1 has other contents than were written"),
+    "an empty chunk": ("a.zarr", CHUNK, lambda path: path.write_bytes(b""), "has 0 bytes for"),
+    "a torn mark": ("a.zarr", MARK, torn, "truncated or malformed JSON"),
+    "a mark of brackets": ("a.zarr", MARK, brackets, "nested too deeply|of memory, far above"),
+    "a mark of other members": (
+        "a.zarr", MARK, lambda path: path.write_text('{"members": [2], "chunks": {}}'), "is of other members",
+    ),
+    "a missing description": ("a.zarr", "lowest/zarr.json", Path.unlink, "all 3 packs are run again"),
+    "a torn description": ("a.zarr", "track/zarr.json", torn, "all 3 packs are run again"),
+    "the root's": ("a.zarr", "zarr.json", torn, "all 3 packs are run again"),
+    "the study's": ("a.zarr", "seacrane-study/zarr.json", brackets, "all 3 packs are run again"),
+    "a foreign codec": ("a.zarr", "lowest/zarr.json", another_codec, "is packed by gzip"),
+    "a codec that nobody has": ("a.zarr", "failure/zarr.json", no_codec, "all 3 packs are run again"),
+    "a giant array": ("a.zarr", "lowest/zarr.json", giant, "has shape"),
+    "a torn pack": ("a", PACK, torn, r"members 1 to 1 .*pack_0000001\.nc: is no pack"),
+    "a pack of nothing": ("a", PACK, lambda path: path.write_bytes(b""), "is no pack"),
+    "a pack of other members": (
+        "a", PACK, lambda path: path.write_bytes(path.with_name("pack_0000002.nc").read_bytes()),
+        "holds other members",
+    ),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize(("store", "place", "harm", "told"), LOST.values(), ids=[*LOST], indirect=["store"])
+def test_what_is_lost_is_told_and_run_again(
+    store: Path, place: str, harm: Callable[[Path], None], told: str, whole: Ensemble
+) -> None:
+    harm(store / place)
+    with contextlib.suppress(FileFormatError):
+        found = Ensemble.load(store)
+        assert list(found.failures) in ([1], []), "a changed chunk of the same size is found as it is resumed"
+        if found.failures:
+            assert place in found.failures[1] or found.failures[1] == "not run"
+    with pytest.warns(LostMembersWarning, match=told):
+        again = ensemble(**GIVEN, store=store)
+    assert again.dataset.identical(whole.dataset)
+    assert again.failures == {}
+    assert Ensemble.load(store).dataset.identical(whole.dataset)
+
+
+@pytest.mark.parametrize("store", ["a.zarr"], indirect=True)
+def test_a_lost_chunk_is_a_failure_of_its_member(store: Path) -> None:
+    (store / CHUNK).unlink()
+    found = Ensemble.load(store)
+    assert list(found.failures) == [1]
+    assert found.failures[1].startswith("lost: ") and "run the ensemble again" in found.failures[1]
+    assert np.isnan(found.dataset.lowest.to_numpy()).tolist() == [False, True, False]
+
+
+@pytest.mark.parametrize("store", ["a.zarr"], indirect=True)
+@pytest.mark.parametrize(
+    ("place", "harm"),
+    [
+        (CHUNK, torn),
+        ("failure/c/1", torn),
+        ("lowest/zarr.json", another_codec),
+        ("failure/zarr.json", no_codec),
+        ("lowest/zarr.json", giant),
+        ("track/zarr.json", brackets),
+        ("zarr.json", torn),
+        (MARK, brackets),
+        (CHUNK, piped),
+        (CHUNK, linked),
+        ("lowest/zarr.json", piped),
+        (MARK, piped),
+    ],
+)  # fmt: skip
+def test_a_damaged_group_is_refused_by_name(store: Path, place: str, harm: Callable[[Path], None]) -> None:
+    harm(store / place)
+    with pytest.raises(FileFormatError, match=r"a\.zarr"):
+        Ensemble.load(store)
+
+
+@pytest.mark.parametrize("store", ["a"], indirect=True)
+@pytest.mark.parametrize("harm", [torn, piped, brackets])
+def test_a_damaged_pack_is_refused_by_name(store: Path, harm: Callable[[Path], None]) -> None:
+    """A pipe in its place, which to open would take for ever."""
+    harm(store / PACK)
+    with pytest.raises(FileFormatError, match=r"pack_0000001\.nc: is no pack"):
+        Ensemble.load(store)
+
+
+STUDIES = {
+    "brackets": b"[" * 100_000,
+    "pairs of brackets": b"[" + b"[]," * 2_000_000 + b"[]]",
+    "no text": b"\xff\xfe",
+    "a list": b"[]",
+    "another format": b'{"format": "x"}',
+    "no parameters": b'{"format": "seacrane-ensemble"}',
+    "parameters that are none": b'{"format": "seacrane-ensemble", "grid": true, "axes": {"a": 3}}',
+    "values that are none": b'{"format": "seacrane-ensemble", "grid": true, "axes": {"a": [[1]]}}',
+    "unlike lists": b'{"format": "seacrane-ensemble", "axes": {"a": [1], "b": [1, 2]}}',
+    "a reserved name": b'{"format": "seacrane-ensemble", "axes": {"failure": [1]}}',
+    "few seeds": b'{"format": "seacrane-ensemble", "axes": {"seed": [1]}, "seeds_in_pack": 2}',
+    "no pack": json.dumps(
+        {"format": "seacrane-ensemble", "axes": {"seed": [*range(20)]}, "seeds_in_pack": "many"}
+    ).encode(),
+    "too many members": json.dumps(
+        {"format": "seacrane-ensemble", "grid": True, "axes": {a: [*range(2000)] for a in "abcd"}}
+    ).encode(),
+}
+
+
+@pytest.mark.parametrize("text", STUDIES.values(), ids=[*STUDIES])
+@pytest.mark.parametrize("store", ["a", "a.zarr"], indirect=True)
+def test_a_study_that_is_none_is_refused(store: Path, text: bytes) -> None:
+    (next(store.rglob("study.json"))).write_bytes(text)
+    with pytest.raises(FileFormatError, match="study"):
+        Ensemble.load(store)
+    with pytest.raises((FileFormatError, SceneError), match="study"):
+        ensemble(**GIVEN, store=store)
+
+
+@pytest.mark.parametrize("store", ["a", "a.zarr"], indirect=True)
+def test_a_study_that_is_a_pipe_is_refused(store: Path) -> None:
+    piped(next(store.rglob("study.json")))
+    with pytest.raises(FileFormatError, match=r"has no study\.json"):
+        Ensemble.load(store)
+    with pytest.raises(FileFormatError, match=r"has no study\.json"):
+        ensemble(**GIVEN, store=store)
+
+
+@pytest.mark.parametrize("store", ["a", "a.zarr"], indirect=True)
+def test_a_pack_of_a_giant_number_is_refused(store: Path) -> None:
+    pack = next(store.rglob("pack_0000001.*"))
+    pack.rename(pack.with_name(f"pack_9999999{pack.suffix}"))
+    with pytest.raises(FileFormatError, match="9999999, more than there may be members"):
+        Ensemble.load(store)
+
+
+@pytest.mark.parametrize("draft", [".study.json.9d166c1e.tmp", "ours"])
+@pytest.mark.parametrize("name", ["a", "a.zarr", "a.zarr/seacrane-study"])
+def test_a_store_that_was_killed_as_it_was_made_goes_on(
+    name: str, draft: str, tmp_path: Path, whole: Ensemble
+) -> None:
+    folder = tmp_path / name
+    folder.mkdir(parents=True)
+    left = draft_of(folder / "study.json") if draft == "ours" else folder / draft
+    left.write_text('{"ver')
+    store = tmp_path / name.partition("/")[0]
+    assert ensemble(**GIVEN, store=store).dataset.identical(whole.dataset)
+    assert not left.exists()
+
+
+def test_a_study_that_was_killed_as_it_was_made_goes_on(tmp_path: Path) -> None:
+    (tmp_path / "ship.toml").write_text(LIFT)
+    (tmp_path / "study.toml").write_text(
+        STUDY.partition("[until]")[0].replace("40", "1") + "[run]\nt_end_s = 3\n"
+    )
+    left = draft_of(tmp_path / "out" / "study.toml")
+    left.parent.mkdir()
+    left.write_text("format")
+    assert len(run_study(tmp_path / "study.toml", tmp_path / "out").members) == 2
+    assert (tmp_path / "out" / "study.toml").exists()
+
+
+def test_drafts_are_removed_once_their_process_is_gone(tmp_path: Path) -> None:
+    script = "import os, sys; from seacrane.files.drafts import draft_of; from pathlib import Path\n"
+    script += "draft_of(Path(sys.argv[1])).write_text('half'); os._exit(9)"
+    target = tmp_path / "run.nc"
+    for _ in range(2):
+        subprocess.run([sys.executable, "-c", script, str(target)], check=False)
+    mine = draft_of(target)
+    mine.write_text("half")
+    others = [
+        tmp_path / name for name in (".run.nc.9d166c1e.tmp", ".run.nc.tmp", "run.nc.tmp", ".other.nc.tmp")
+    ]
+    elsewhere = tmp_path / ".run.nc.000000-7fffffff-9d166c1e.tmp"  # of another machine
+    for path in (*others, elsewhere):
+        path.write_text("half")
+    assert len(list(tmp_path.iterdir())) == 8
+    with atomic_write(target) as draft:
+        draft.write_text("whole")
+    assert {*tmp_path.iterdir()} == {target, mine, *others, elsewhere}
+
+
+def attempts(count: int, *kinds: str) -> None:
+    done = subprocess.run(
+        [sys.executable, "killed_stores.py", *kinds, "--attempts", str(count)],
+        cwd=Path(__file__).parent, capture_output=True, text=True, check=False,
+    )  # fmt: skip
+    assert done.returncode == 0, f"{done.stdout}\n{done.stderr[-3000:]}"
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_a_kill_at_any_file_operation_is_made_good(kind: str) -> None:
+    attempts(6, kind)
+
+
+@pytest.mark.nightly
+@pytest.mark.parametrize("kind", KINDS)
+def test_kills_at_hundreds_of_file_operations_are_made_good(kind: str) -> None:
+    attempts(150, kind)
+
+
+@pytest.mark.parametrize("name", ["s", "s.zarr"])
+@pytest.mark.filterwarnings("ignore::seacrane.FewSeedsWarning")
+def test_lost_members_of_a_store_that_grows_are_run_again(name: str, tmp_path: Path) -> None:
+    store = tmp_path / name
+    plain = ensemble(**STORMS)
+    ensemble(**STORMS, store=store)
+    harmed = store / "pack_0000002.nc" if name == "s" else store / "far_mean/c/5/1"
+    if name == "s":
+        torn(harmed)
+    else:
+        harmed.unlink()
+    with pytest.warns(LostMembersWarning, match="are lost or damaged, and are run again"):
+        again = ensemble(**STORMS, store=store)
+    assert again.dataset.identical(plain.dataset)
+    assert again.certainty == plain.certainty

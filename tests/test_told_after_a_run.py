@@ -1,0 +1,114 @@
+"""What is told of a run once it is over: no missing number may take the run with it."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import pytest
+from line_scenes import MASS, G, hung, swinging
+from stage_scenes import on_deck
+from test_stages import falling
+
+from seacrane import Result, Scene, Stage, StagedRun, State, Until, simulate, simulate_stages
+from seacrane.cli import main
+from seacrane.cli.run_command import told
+from seacrane.run.outputs import Outputs
+from seacrane.run.to_file import simulate_to_file
+from seacrane.stages import locate
+from seacrane.stages.to_file import simulate_stages_to_file
+
+pytestmark = pytest.mark.filterwarnings("ignore")
+AT_ONCE = Stage(name="look", until=Until.length("hoist", above=1.0), longest=5.0)
+
+
+def weak() -> Scene:
+    """A winch whose motor cannot hold its load: it reaches a bound, and the scene knows no impact."""
+    scene = hung(damping=0.1)
+    scene.add_winch(line="hoist", drum_inertia=1e3, drum_radius=0.5, lag=0.2, maximum_tension=0.9 * MASS * G)
+    return scene
+
+
+def test_bounds_of_a_winch_are_events_without_impacts(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    weak().save(tmp_path / "weak.json")
+    assert main(["run", str(tmp_path / "weak.json"), "--out", str(tmp_path), "--t-end", "1"]) == 0
+    printed = capsys.readouterr().out
+    (line,) = (line for line in printed.splitlines() if line.startswith("events of limits"))
+    assert "saved" in printed.splitlines()[-1]
+    result = Result.load(next(tmp_path.glob("*.nc")))
+    assert line == f"events of limits {len(result.events)}"
+    assert result.events[0].kind == "limit"
+
+
+def test_bounds_that_were_reached_before_a_resumption_are_counted(tmp_path: Path) -> None:
+    for end in (1.0, 1.5):
+        done = simulate_to_file(weak(), tmp_path / "weak.nc", end, resume=end > 1.0)
+        assert done.stats["events"] == len(done.load().events) > 0
+
+
+def test_a_summary_that_fails_does_not_lose_the_run(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def broken(*_: Any) -> str:
+        raise KeyError("a number that nobody has")
+
+    monkeypatch.setattr("seacrane.cli.run_command.told", broken)
+    swinging().save(tmp_path / "swing.json")
+    assert main(["run", str(tmp_path / "swing.json"), "--out", str(tmp_path), "--t-end", "1"]) == 1
+    printed = capsys.readouterr()
+    (file,) = tmp_path.glob("*.nc")
+    assert printed.out.splitlines()[-1] == f"saved {file}"
+    assert "unexpected KeyError: a number that nobody has" in printed.err
+    assert Result.load(file).time[-1] == 1.0
+
+
+@pytest.mark.parametrize("end", [0.0, 0.3])
+@pytest.mark.parametrize("channels", [None, [], ["energy_balance"]])
+@pytest.mark.parametrize("make", [weak, falling, on_deck, swinging])
+def test_every_run_is_told(make: Any, channels: list[str] | None, end: float) -> None:
+    result = simulate(make(), end, outputs=Outputs(dt=0.1, channels=channels))
+    assert told(result).startswith(f"{result.stats['scene']}: {end:g} s in")
+
+
+def test_stages_that_are_met_at_once_have_one_output(tmp_path: Path) -> None:
+    whole = simulate_stages(on_deck(), [AT_ONCE], dt_out=0.1)
+    assert whole.time.tolist() == [0.0]
+    assert [(span.start, span.end, span.ended_by[:5]) for span in whole.stages] == [(0.0, 0.0, "line_")]
+    assert whole["position"][0, 0, 2] == 1.0
+    assert "look" in told(whole)
+    path = tmp_path / "lift.nc"
+    gone_on = simulate_stages_to_file(
+        on_deck(), [AT_ONCE, Stage(name="hold", duration=0.5)], path, dt_out=0.1
+    )
+    plain = simulate_stages(on_deck(), [Stage(name="hold", duration=0.5)], dt_out=0.1)
+    assert gone_on.time.tolist() == plain.time.tolist()
+    assert (gone_on["position"] == plain["position"]).all()
+    assert [event.kind for event in gone_on.events] == ["stage", "stage"]
+    assert Result.load(path).time.tolist() == plain.time.tolist()
+
+
+def test_ctrl_c_before_anything_was_stepped_leaves_the_start(monkeypatch: pytest.MonkeyPatch) -> None:
+    def pressed(self: Any, start: State, t_end: float) -> Any:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(locate.Course, "tried", pressed)
+    raising = Until.length("hoist", below=20.05)
+    stage = Stage(name="raise", until=raising, longest=5.0, commands={"hoist.rate": -0.4})
+    run = StagedRun(on_deck(), [stage])
+    assert not run.advance()
+    assert run.result().interrupted
+    assert run.result().time.tolist() == [0.0]
+
+
+@pytest.mark.parametrize("lies", [1.0, 0.3])
+def test_impacts_of_all_stages_are_counted(lies: float) -> None:
+    """m g h of the fall, also where the last stage has another model and no impact."""
+    scene = falling(2.0)
+    scene.add_body(name="other", mass=1.0, inertia=(1.0, 1.0, 1.0), position=(9.0, 0.0, 0.0))
+    scene.add_joint(kind="weld", name="lashing", first="ground", second="other", point=(9.0, 0.0, 0.0))
+    stages = [Stage(name="fall", duration=1.0), Stage(name="let go", duration=lies, release=["lashing"])]
+    result = simulate_stages(scene, stages, dt_out=0.1)
+    fallen = 3.0 * G * 2.0
+    assert result.stats["impact_energy_lost_J"] == pytest.approx(fallen, rel=1e-6)
