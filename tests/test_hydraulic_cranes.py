@@ -14,6 +14,7 @@ from seacrane import Curve, Scene, SceneError, natural_modes, simulate, statics
 from seacrane.crane import KnuckleBoomCrane, Payload, data_file
 from seacrane.description.hydraulic_cylinders import with_ideal_cylinders
 from seacrane.errors import FileFormatError
+from seacrane.hydro import shipped_database
 
 OIL: dict[str, Any] = {
     "pump_pressure": 32e6, "rated_flow": 0.05, "rated_drop": 1e6, "spool_lag": 0.03, "gain": 0.8,
@@ -57,6 +58,29 @@ def test_statics_tell_what_hydraulic_cylinders_hold() -> None:
     for name, value in statics(ideal).columns.items():
         assert drawn.columns[name] == pytest.approx(value, rel=1e-9), name
     assert abs(drawn.columns["cylinder force main"]) > 1e3
+
+
+@pytest.mark.parametrize("ramp", [20.0, 0.0])
+def test_pressures_hold_a_crane_on_a_given_ship_in_a_sea(ramp: float) -> None:
+    """The ship's motion is at its start no rest, and with ramp=0 not the described pose."""
+    found = []
+    for in_a_sea in (False, True):
+        database, scene = shipped_database(), Scene(name="given")
+        scene.add_given_vessel(database, ramp=ramp)
+        crane = scene.add_crane(held=True, s1=2.0, s2=2.5, hydraulics={"main": OIL, "knuckle": OIL})
+        body, head = crane.tip
+        scene.add_body(
+            name="load", mass=20e3, inertia=(2e4, 2e4, 2e4),
+            position=scene.place_of(body=body, point=head) - np.array([0.0, 0.0, 15.0]),
+        )  # fmt: skip
+        scene.add_line(
+            name="hoist", bodies=[body, "load"], points=[head, (0, 0, 0)], stiffness=1e8,
+            tension_at_start=20e3 * scene.gravity,
+        )  # fmt: skip
+        if in_a_sea:
+            scene.add_sea(database, hs=3.0, tp=7.0, seed=5)
+        found.append([(one.pressure, one.pressure_rod) for one in scene.hold_pressures().values()])
+    assert found[1] == found[0]
 
 
 def test_both_formulations_move_a_hydraulic_crane_alike() -> None:

@@ -172,6 +172,10 @@ def test_a_run_goes_on_bit_for_bit(integrator: str) -> None:
         ({"rupture_area": 1e-4}, "rupture_time is 1e\\+07 s and rupture_area 0.0001 m2; give both"),
         ({"relief_pressure": 1e7}, "has relief_pressure without relief_flow"),
         ({"accumulator_volume": 0.1}, "accumulator_pressure is 0 and accumulator_volume is 0.1"),
+        (
+            {"accumulator_volume": 1e-3, "accumulator_pressure": 15.0, "accumulator_flow": 1e-4},
+            "accumulator_pressure is 15 Pa: the holding pressure of .* squeeze its gas to .* 1 bar is 1e5",
+        ),
         ({"air": 0.5}, "air is 0.5; give a share of the volume"),
         ({"spool_lag": -0.1}, "spool_lag is -0.1"),
         ({"tank_pressure": 8e6}, "pump_pressure is 7.6e\\+06 Pa, not above the tank's"),

@@ -179,6 +179,9 @@ from seacrane.statistics.spectrum import spectrum_estimate as spectrum_estimate
 from seacrane.statistics.tail import Tail as Tail
 from seacrane.trading import Trade as Trade
 from seacrane.trading import trade as trade
+from seacrane.validity.after_run import NotFiniteWarning as NotFiniteWarning
+from seacrane.validity.after_run import UnjudgedWarning as UnjudgedWarning
+from seacrane.validity.boiling import BoilingOilWarning as BoilingOilWarning
 from seacrane.validity.current_in_waves import CurrentInWavesWarning as CurrentInWavesWarning
 from seacrane.validity.energy import EnergyErrorWarning as EnergyErrorWarning
 from seacrane.validity.following import FullTurnWarning as FullTurnWarning

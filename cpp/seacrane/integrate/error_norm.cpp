@@ -21,7 +21,10 @@ std::vector<double> spread(const std::vector<double>& absolute, std::size_t size
 }  // namespace
 
 ErrorNorm::ErrorNorm(const Tolerances& tolerances, std::size_t size)
-    : relative_(tolerances.relative), absolute_(spread(tolerances.absolute, size)), lanes_(tolerances.lanes) {
+    : relative_(tolerances.relative),
+      absolute_(spread(tolerances.absolute, size)),
+      growth_(size, tolerances.relative),
+      lanes_(tolerances.lanes) {
   if (!(lanes_ == 1 || lanes_ == 4 || lanes_ == 8) || size % lanes_ != 0) {
     throw std::invalid_argument("lanes is " + std::to_string(lanes_) + "; give 1, 4 or 8");
   }
@@ -29,6 +32,12 @@ ErrorNorm::ErrorNorm(const Tolerances& tolerances, std::size_t size)
     throw std::invalid_argument("relative_tolerance is " + std::to_string(relative_) +
                                 "; give a value from 0 to below 1");
   }
+  if (!tolerances.growth.empty() && tolerances.growth.size() != size) {
+    throw std::invalid_argument("growth holds " + std::to_string(tolerances.growth.size()) +
+                                " values; give none, or one for each of the " + std::to_string(size) +
+                                " state components");
+  }
+  for (std::size_t i = 0; i < tolerances.growth.size(); ++i) growth_[i] += tolerances.growth[i];
   std::size_t included = 0;
   for (std::size_t i = 0; i < size; ++i) {
     if (!(absolute_[i] > 0.0)) {
@@ -83,7 +92,7 @@ ErrorNorm::Lanes ErrorNorm::norms(const double* vector, const double* y) const {
 }
 
 double ErrorNorm::over_tolerances(const double* y) const {
-  return root_mean_square([&](std::size_t i) { return y[i] / (absolute_[i] + relative_ * std::abs(y[i])); });
+  return root_mean_square([&](std::size_t i) { return y[i] / (absolute_[i] + growth_[i] * std::abs(y[i])); });
 }
 
 double ErrorNorm::distance(const double* a, const double* b) const {

@@ -9,8 +9,8 @@
 
 namespace seacrane {
 
-/// Error tolerances: |error_i| is measured against absolute[i] + relative * |y_i|, but never against less
-/// than the rounding of y_i, which no method can tell.
+/// Error tolerances: |error_i| is measured against absolute[i] + (relative + growth[i]) * |y_i|, but never
+/// against less than the rounding of y_i, which no method can tell.
 struct Tolerances {
   double relative;
   /// One value per component, or a single one for all. Infinity takes a component (a quadrature of
@@ -18,6 +18,8 @@ struct Tolerances {
   std::vector<double> absolute;
   /// Systems side by side, component i of lane j number i x lanes + j: 1, 4 or 8.
   std::size_t lanes = 1;
+  /// One value per component; empty: none grows.
+  std::vector<double> growth = {};
 };
 
 /// Root mean square of an error over the included components, each divided by its tolerance; of lanes that of
@@ -36,7 +38,7 @@ class ErrorNorm {
   const double* absolute() const { return absolute_.data(); }
   /// What an error of component i is measured against, where its magnitude is `size`.
   double tolerance(std::size_t i, double size) const {
-    const double asked = absolute_[i] + relative_ * size;
+    const double asked = absolute_[i] + growth_[i] * size;
     return std::max(asked, std::min(rounding * size, most_eased * asked));
   }
   /// 1 / (number of components in the norm), those of one lane.
@@ -93,7 +95,7 @@ class ErrorNorm {
   Lanes root_mean_squares(const Ratio& ratio) const;
 
   double relative_;
-  std::vector<double> absolute_;
+  std::vector<double> absolute_, growth_;  // the relative tolerance is part of each growth
   std::size_t lanes_;
   double inverse_count_;
   double weight_scale_;

@@ -20,7 +20,8 @@ constexpr double kNoSmaller = 1.0, kGrows = 2.0, kNeverGrows = 1e3;
 /// per state component of the System is given to the differential unknowns in their order; the algebraic
 /// ones get infinity here, and a size of their own at each restart.
 std::vector<double> for_unknowns(const std::vector<double>& absolute, const ResidualSystem& residual,
-                                 std::size_t state_size) {
+                                 std::size_t state_size,
+                                 double of_algebraic = std::numeric_limits<double>::infinity()) {
   const std::span<const double> differential = residual.differential();
   if (absolute.size() == residual.size()) return absolute;
   if (absolute.size() != 1 && absolute.size() != state_size) {
@@ -28,7 +29,7 @@ std::vector<double> for_unknowns(const std::vector<double>& absolute, const Resi
                                 " values; give one, or one for each of the " + std::to_string(state_size) +
                                 " state components");
   }
-  std::vector<double> spread(residual.size(), std::numeric_limits<double>::infinity());
+  std::vector<double> spread(residual.size(), of_algebraic);
   std::size_t next = 0;
   for (std::size_t i = 0; i < spread.size(); ++i) {
     if (differential[i] == 0.0) continue;
@@ -44,6 +45,11 @@ std::vector<double> for_unknowns(const std::vector<double>& absolute, const Resi
         "differential unknowns; give one value");
   }
   return spread;
+}
+
+std::vector<double> growth_of(const IntegratorOptions& options, const Problem& problem) {
+  if (options.tolerance_growth.empty()) return {};
+  return for_unknowns(options.tolerance_growth, *problem.residual, problem.system.size(), 0.0);
 }
 
 /// IDA: variable-order BDF on the residual form F(t, y, y') = 0, dense Jacobian F_y + c F_y', exact where the
@@ -76,7 +82,8 @@ class Ida final : public SundialsIntegrator {
       : SundialsIntegrator(
             properties, problem, options, sundials::ida,
             {options.relative_tolerance,
-             for_unknowns(options.absolute_tolerance, *problem.residual, problem.system.size())},
+             for_unknowns(options.absolute_tolerance, *problem.residual, problem.system.size()), 1,
+             growth_of(options, problem)},
             problem.residual->size()),
         residual_(*problem.residual),
         n_(residual_.size()),

@@ -54,6 +54,8 @@ struct IntegratorOptions {
   double relative_tolerance = 1e-6;
   /// One value, or one per state component; infinity leaves a component out of the error norm.
   std::vector<double> absolute_tolerance = {1e-8};
+  /// What a tolerance grows by with the magnitude of its component, see Tolerances; empty: none.
+  std::vector<double> tolerance_growth = {};
   /// Step of the fixed-step methods (s); 0 is the method's own default.
   double fixed_step = 0.0;
   /// Longest step (s); 0 is no limit.
@@ -67,7 +69,7 @@ struct IntegratorOptions {
   /// Systems side by side, see Tolerances; of methods that have `lanes`.
   std::size_t lanes = 1;
 
-  Tolerances tolerances() const { return {relative_tolerance, absolute_tolerance, lanes}; }
+  Tolerances tolerances() const { return {relative_tolerance, absolute_tolerance, lanes, tolerance_growth}; }
 };
 
 /// A quantity whose change of sign is an event.

@@ -24,9 +24,11 @@ LaneModels lane_models(const std::vector<Simulation*>& runs, std::size_t lanes) 
 
 IntegratorOptions lane_options(const Simulation& run, std::size_t lanes) {
   IntegratorOptions out = run.step_options();
-  std::vector<double> tolerance;
-  for (const double one : out.absolute_tolerance) tolerance.insert(tolerance.end(), lanes, one);
-  out.absolute_tolerance = std::move(tolerance);
+  for (std::vector<double>* given : {&out.absolute_tolerance, &out.tolerance_growth}) {
+    std::vector<double> tolerance;
+    for (const double one : *given) tolerance.insert(tolerance.end(), lanes, one);
+    *given = std::move(tolerance);
+  }
   out.lanes = lanes;
   return out;
 }

@@ -64,7 +64,7 @@ class Simulation {
   const std::shared_ptr<const Model>& model() const { return model_; }
   const RunOptions& options() const { return options_; }
   const std::vector<double>& inputs() const { return inputs_.slots(); }
-  IntegratorOptions step_options() const { return integrator_options(stepper().stepped, options_); }
+  IntegratorOptions step_options() const { return integrator_options(stepper().stepped, *model_, options_); }
   /// Whether loads have kinks in the state, where its own steps would end.
   bool has_switches() const { return switches_ != nullptr; }
   /// At time(), as it is stepped.

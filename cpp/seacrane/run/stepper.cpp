@@ -1,5 +1,6 @@
 #include "seacrane/run/stepper.hpp"
 
+#include <algorithm>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -20,9 +21,20 @@ std::string formulation_of(const Model& model, const RunOptions& run) {
   return rigid ? "redundant" : run.formulation;
 }
 
+/// Of the tolerances of load states, which are the last before both integrals of work.
+void add_growth(const Model& model, const RunOptions& run, IntegratorOptions& out) {
+  const std::vector<LoadState>& states = model.load_states;
+  if (std::ranges::none_of(states, [](const LoadState& one) { return one.growth > 0.0; })) return;
+  out.tolerance_growth.assign(out.absolute_tolerance.size(), 0.0);
+  const std::size_t first = out.absolute_tolerance.size() - 2 - states.size();
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    out.tolerance_growth[first + i] = run.scaled_tolerance * states[i].growth;
+  }
+}
+
 }  // namespace
 
-IntegratorOptions integrator_options(const Formulation& stepped, const RunOptions& run) {
+IntegratorOptions integrator_options(const Formulation& stepped, const Model& model, const RunOptions& run) {
   if (!(run.scaled_tolerance > 0.0) || !(run.scaled_tolerance <= kLargestTolerance)) {
     throw std::invalid_argument("rtol is " + to_text(run.scaled_tolerance) +
                                 "; give a positive number up to 0.1, e.g. 1e-6");
@@ -32,6 +44,7 @@ IntegratorOptions integrator_options(const Formulation& stepped, const RunOption
   out.relative_tolerance = 0.0;
   out.absolute_tolerance = stepped.scale();
   for (double& value : out.absolute_tolerance) value *= run.scaled_tolerance;
+  add_growth(model, run, out);
   out.fixed_step = run.fixed_step.value_or(0.0);
   out.max_step = run.max_step.value_or(0.0);
   out.spectral_radius = run.spectral_radius;
@@ -53,7 +66,7 @@ Stepper::Stepper(std::shared_ptr<const Model> of, const RunOptions& options)
                                 "another one, or stretch 'elastic'");
   }
   integrator = make_integrator({stepped, &stepped.positions(), residual ? &*residual : nullptr, &stiff},
-                               integrator_options(stepped, options));
+                               integrator_options(stepped, *model, options));
 }
 
 }  // namespace seacrane

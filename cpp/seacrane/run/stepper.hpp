@@ -39,6 +39,6 @@ struct Stepper {
 };
 
 /// What the integrator of a run is made with.
-IntegratorOptions integrator_options(const Formulation& stepped, const RunOptions& run);
+IntegratorOptions integrator_options(const Formulation& stepped, const Model& model, const RunOptions& run);
 
 }  // namespace seacrane

@@ -3,6 +3,9 @@
 Errors of two runs of one scene obey the same linearised equations of motion and differ in their local errors
 only, so that their ratio hardly depends on the scene (docs/trade.md). The difference of a cheap and a tight
 run is the error of the cheap one; times that ratio, it is the error of the tight one, which is returned.
+
+Where loads have stiff states, both would share what the method makes of these. There the error is told by
+another method that is as good, and nothing is made of a ratio.
 """
 
 from __future__ import annotations
@@ -22,6 +25,7 @@ from seacrane.accuracy.expected import (
 )
 from seacrane.accuracy.model_error import model_errors
 from seacrane.accuracy.quantities import Quantity, compare, limits_of, quantities_of
+from seacrane.analysis.linearise import fastest_mode
 from seacrane.description.loads import any_stiff
 from seacrane.errors import SceneError
 from seacrane.run.advance import finished
@@ -29,6 +33,8 @@ from seacrane.run.method import Method
 from seacrane.run.outputs import Outputs
 from seacrane.run.run import Run
 from seacrane.run.shorthand import settled
+from seacrane.validity.after_run import Finding, require_finite, tried
+from seacrane.validity.range import warn_of
 
 if TYPE_CHECKING:
     from seacrane import _core
@@ -36,13 +42,16 @@ if TYPE_CHECKING:
     from seacrane.run.sampled_controller import SampledController
     from seacrane.scene.scene import Scene
 
+BESIDE = 1.5  # the error of one of two methods that are as good as each other, over their difference
+MOST_STEPS = 1e6  # that the fastest mode may ask of an explicit one of them
+STABLE = 3.0  # its step times that mode
 SAFETY = 5.0  # on the ratio of two errors, which differs between scenes: the estimate held on 198 of 200
 CHOSEN = {"integrator": "integrator", "rtol": "tolerance", "dt": "step", "spectral_radius": "spectral_radius"}
 PESSIMISM = 1.5  # further, on the error expected before any run
 STEP = 10.0  # to a tighter tolerance, or a looser one to compare with, where errors do not tell how far
 COARSE = 0.1  # of the motion: a difference above it is no error that linearised equations describe
 ROUNDING = 1e-10  # tolerance below which rounding may set the error, and only runs of like tolerance tell
-CUT_SHORT = 0.1  # restarts over steps from which on the tolerance does not set the error of a loose run
+CUT_SHORT = 0.1  # restarts over steps from which on the tolerance does not set the error of a run
 SINGULAR = "a singular position of the mechanism, where constraints depend on each other: keep away from it"
 AMPLIFIED = 1e4  # error over the expected one from which the motion itself, not rounding, sets the limit
 
@@ -55,6 +64,7 @@ class _Case:
     quantities: Mapping[str, Quantity]
     limits: Mapping[str, float]
     run: Callable[[Scene, Method], Result]
+    explicit_steps: float
 
     def differences(self, one: Result, other: Result) -> dict[str, float]:
         return {name: compare(q.values(one), q.values(other)).largest for name, q in self.quantities.items()}
@@ -151,16 +161,18 @@ def error_of(
         Where Ctrl-C stopped a run.
     """
     case = _case_of(scene, t_end, accuracy, outputs=outputs, start=None, progress=False)
-    done = [_run(case, _cheap(method)), _run(case, method)]
+    done = [_run(case, _cheap(case, method)), _run(case, method)]
     if any(one.result.interrupted for one in done):
         raise KeyboardInterrupt
     other, run = (int(one.result.stats["evaluations"]) for one in done)
     return _errors(case, done)[0], run, other
 
 
-def _cheap(method: Method) -> Method:
+def _cheap(case: _Case, method: Method) -> Method:
     """What tells the error of a method."""
-    return probe_of(method) if method.used_tolerance > ROUNDING else _looser(method)
+    if method.used_tolerance <= ROUNDING:
+        return _looser(method)
+    return probe_of(method, stiffest=method.integrator == STIFF and case.explicit_steps > MOST_STEPS)
 
 
 def _case_of(
@@ -184,9 +196,10 @@ def _case_of(
     def run(changed: Scene, chosen: Method) -> Result:
         compiled = model if changed is scene else None
         one = Run(changed, t_end, method=chosen, outputs=recorded, start=start, model=compiled)
-        return finished(one, progress=progress)
+        return require_finite(finished(one, progress=progress))
 
-    return _Case(scene=scene, quantities=measured, limits=limits, run=run)
+    steps = (fastest_mode(model) or 0.0) * t_end / STABLE if any_stiff(scene.loads) else 0.0
+    return _Case(scene=scene, quantities=measured, limits=limits, run=run, explicit_steps=steps)
 
 
 def refuse_what_is_chosen(
@@ -219,7 +232,7 @@ def _converged(case: _Case, kept: Method) -> Result:
     """Runs until the estimate of the last one meets the limits; `kept` holds what is not chosen here."""
     first = first_method(case.scene, case.quantities, case.limits)
     method = _with_setting(kept, first)
-    done = [_run(case, _cheap(method))]
+    done = [_run(case, _cheap(case, method))]
     while not done[-1].result.interrupted:
         done.append(_run(case, method))
         if done[-1].result.interrupted:
@@ -230,7 +243,9 @@ def _converged(case: _Case, kept: Method) -> Result:
         if method.used_tolerance <= TIGHTEST:
             raise SceneError(_unreachable(case, errors))
         method = _tighter(method, case.excess(errors) if known else STEP)
-        if method.used_tolerance < ROUNDING and done[-1].tolerance > STEP * 1.1 * method.used_tolerance:
+        if method.integrator == STIFF:
+            done.append(_run(case, _cheap(case, method)))
+        elif method.used_tolerance < ROUNDING and done[-1].tolerance > STEP * 1.1 * method.used_tolerance:
             done.append(_run(case, _looser(method)))
     return done[-1].result
 
@@ -269,6 +284,10 @@ def _errors(case: _Case, done: Sequence[_Done]) -> tuple[dict[str, float], bool]
     """
     tight = done[-1]
     motions = case.motions(tight.result)
+    if tight.method.integrator == STIFF:
+        apart = case.differences(tight.result, done[-2].result)
+        near = all(d <= COARSE * motions[name] for name, d in apart.items())
+        return {name: BESIDE * d for name, d in apart.items()}, near and tight.tolerance > ROUNDING
     looser = [one for one in done[:-1] if one.expected > tight.expected]
     differences = [case.differences(tight.result, one.result) for one in looser]
     ratios = [tight.expected / one.expected for one in looser]
@@ -276,7 +295,7 @@ def _errors(case: _Case, done: Sequence[_Done]) -> tuple[dict[str, float], bool]
     last = differences[-1]
     errors = {name: max(f * d[name] for f, d in zip(factors, differences, strict=True)) for name in last}
     linear = {name: d <= COARSE * motions[name] for name, d in last.items()}
-    by_tolerance = not _cut_short(looser[-1].result)
+    by_tolerance = not (_cut_short(looser[-1].result) or _cut_short(tight.result))
     errors |= {name: max(errors[name], d) for name, d in last.items() if not (linear[name] and by_tolerance)}
     return errors, all(linear.values()) and by_tolerance and tight.tolerance > ROUNDING
 
@@ -313,7 +332,12 @@ def _with_estimate(case: _Case, done: Sequence[_Done], errors: Mapping[str, floa
     stats["accuracy_evaluations"] = sum(int(result.stats["evaluations"]) for result in runs)
     for name, limit in case.limits.items():
         stats |= {f"accuracy_{name}": limit, f"error_estimate_{name}": errors[name]}
-    by_model = model_errors(case.scene, last.result.time, case.limits)
+    failed: list[Finding] = []
+    by_model = tried(
+        "estimating the error of the model",
+        lambda: model_errors(case.scene, last.result.time, case.limits), {}, failed,
+    )  # fmt: skip
+    warn_of(failed)
     stats |= {f"model_error_{name}": error for name, error in by_model.items()}
     return replace(last.result, stats=stats)
 

@@ -18,11 +18,18 @@ if TYPE_CHECKING:
     from seacrane.accuracy.quantities import Quantity
     from seacrane.scene.scene import Scene
 
-# Factor and power; of `dopri5-stiff` on hydraulic cranes.
-ERROR = {"bs32": (14.0, 0.89), "tsit5": (8.0, 1.1), "verner76": (0.8, 1.065), "dopri5-stiff": (4.0, 0.75)}
+# Factor and power; of `dopri5-stiff` and `cvode-bdf` on hydraulic cranes.
+ERROR = {
+    "bs32": (14.0, 0.89),
+    "tsit5": (8.0, 1.1),
+    "verner76": (0.8, 1.065),
+    "dopri5-stiff": (4.0, 0.75),
+    "cvode-bdf": (40.0, 0.8),
+}
 LOWER = {"tsit5": "bs32", "verner76": "tsit5"}  # what a probe of each method is run with
 STIFF = "dopri5-stiff"
-PROBED = 10.0  # tolerance of its probe over its own
+BESIDE, BESIDE_STIFFEST = "tsit5", "cvode-bdf"  # what is run beside it
+TIGHTER = 0.1  # tolerance of the latter over its own
 LOOSEST, TIGHTEST = 1e-2, 1e-12  # from 1e-2 on stability sets the steps: a looser tolerance saves nothing
 HIGH = 1e-5  # expected error, over the scale, below which the method of order 7 is the cheaper one
 SCALE = {"m": 0.05, "m/s": 0.15, "rad": 2e-4, "rad/s": 2e-4}
@@ -46,11 +53,16 @@ def method_for(error: float, *, stiff: bool = False) -> Method:
     return Method(integrator=name, tolerance=min(max(tolerance, TIGHTEST), LOOSEST))
 
 
-def probe_of(method: Method) -> Method:
-    """A cheap run that tells the error of a method: one of lower order, at the loosest tolerance; of a method
-    whose steps stiff loads do not bind, itself at a looser one."""
+def probe_of(method: Method, *, stiffest: bool = False) -> Method:
+    """A run by another method that tells the error of one: of lower order, at the loosest tolerance.
+
+    Of the method whose steps stiff loads do not bind it is as good as the method itself, explicit or, where
+    the scene is so stiff that this would take far too many steps, implicit.
+    """
+    if method.integrator == STIFF and stiffest:
+        return replace(method, integrator=BESIDE_STIFFEST, tolerance=TIGHTER * method.used_tolerance)
     if method.integrator == STIFF:
-        return replace(method, tolerance=PROBED * method.used_tolerance)
+        return replace(method, integrator=BESIDE)
     return replace(method, integrator=LOWER[method.integrator], tolerance=LOOSEST)
 
 

@@ -7,15 +7,13 @@ from typing import Any
 import numpy as np
 
 from seacrane import _core
-from seacrane.analysis.inverse import locked
+from seacrane.analysis.inverse import at_rest, locked_at_rest
 from seacrane.analysis.rods import add_rod, ends_of, rod_forces, without_cylinders
 from seacrane.description.compilation import compile_scene
 from seacrane.description.drives import add_driver
 from seacrane.description.hydraulic_cylinders import hydraulic_cylinders, what_of
 from seacrane.description.scene import Description
 from seacrane.errors import SceneError
-
-AT_REST = 1e-6  # m/s2 or rad/s2
 
 
 def holding_force(scene: Description, given: dict[str, Any]) -> float:
@@ -46,7 +44,7 @@ def holding_forces(scene: Description) -> dict[str, float]:
 
 def _forces(scene: Description, what: str, more: list[dict[str, Any]]) -> dict[str, float]:
     cylinders = [*more, *map(ends_of, hydraulic_cylinders(scene).values())]
-    held = locked(without_cylinders(scene))
+    held = locked_at_rest(without_cylinders(scene))
     for one in cylinders:
         add_rod(held, one)
     _hold_cranes(held, {frozenset((one["first"], one["second"])) for one in cylinders})
@@ -54,7 +52,7 @@ def _forces(scene: Description, what: str, more: list[dict[str, Any]]) -> dict[s
     evaluator = _core.Evaluator(model)
     state = np.array(model.initial_state)
     acceleration = np.abs(evaluator.terms(0.0, state)["acceleration"])
-    if np.max(acceleration, initial=0.0) > AT_REST:
+    if np.max(acceleration, initial=0.0) > at_rest(scene):
         worst = int(np.argmax(acceleration))
         raise SceneError(
             f"{what}: its holding force is not known, as body {model.bodies[worst // 6]!r} "

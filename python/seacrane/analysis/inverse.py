@@ -27,6 +27,8 @@ from seacrane.inputs.frames import heading_of, rotation_about_z, rotation_matrix
 Array = NDArray[np.float64]
 Motion = Mapping[tuple[str, str], _core.Curve]
 SIX = ("x", "y", "z", "roll", "pitch", "yaw")
+RESTING = 1e-4  # of gravity: an acceleration below it is rest
+SMALLEST = 1e-6  # m/s2 or rad/s2: likewise without gravity
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -70,6 +72,24 @@ def locked(scene: Some, *, hold_vessels: bool = True) -> Some:
         for vessel in _afloat(scene):
             _hold(out, vessel.body, {motion: _core.Curve.constant(value=0.0) for motion in SIX})
     return out
+
+
+def locked_at_rest(scene: Some) -> Some:
+    """As `locked`, with given ships where they are described: what moves them begins at rest."""
+    out = locked(scene)
+    given = given_vessels(scene)
+    standing = {f"{body}.motion.{motion}" for body in given for motion in SIX}
+    for name in standing & out.drivers.keys():
+        old = out.drivers[name]
+        out.drivers[name] = _core.Driver(
+            name=name, joint=old.joint, coordinate=old.coordinate, curve=_core.Curve.constant(value=0.0)
+        )
+    return out
+
+
+def at_rest(scene: Description) -> float:
+    """Acceleration, m/s2 or rad/s2, below which a described scene is at rest."""
+    return max(RESTING * scene.gravity, SMALLEST)
 
 
 def _afloat(scene: Description) -> list[_core.VesselHydrodynamics]:
@@ -128,12 +148,12 @@ def balance(scene: Description) -> Balance:
     SceneError
         If a body would accelerate although everything driven is held (it is described off its rest pose).
     """
-    held = locked(scene)
+    held = locked_at_rest(scene)
     model = compile_scene(held)
     state = np.array(model.initial_state)
     terms = _core.Evaluator(model).terms(0.0, state)
     worst = int(np.argmax(np.abs(terms["acceleration"])))
-    if abs(terms["acceleration"][worst]) > 1e-6:
+    if abs(terms["acceleration"][worst]) > at_rest(scene):
         body = model.bodies[worst // 6]
         raise SceneError(
             f"body {body!r}: accelerates by {terms['acceleration'][worst]:.3g} (m/s2 or rad/s2) with all "

@@ -18,6 +18,7 @@ from seacrane.run.controller_calls import Calls
 from seacrane.run.interrupts import Interrupts
 from seacrane.run.lanes import advance_side_by_side, note_apart
 from seacrane.run.run import Run
+from seacrane.validity.after_run import require_finite
 from seacrane.version import __version__
 
 TOGETHER = 4  # members of a pack whose runs are in memory at a time
@@ -102,7 +103,7 @@ class Job:
         return Outcome(index=index, failure=made) if isinstance(made, str) else made
 
     def _ended(self, index: int, run: Run) -> Outcome:
-        result = run.result()
+        result = require_finite(run.result())
         told = {name: str(result.stats.get(name, "")) for name in ("validity", "kept_apart")}
         return Outcome(index=index, kept=self.study.kept_of(result), **told)
 

@@ -17,6 +17,7 @@ from seacrane.operability.criterion import Criterion
 from seacrane.run.outputs import Outputs
 from seacrane.run.run import Run
 from seacrane.scene.scene import Scene
+from seacrane.validity.after_run import require_finite
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -121,5 +122,5 @@ class _Look:
             warnings.simplefilter("ignore")  # of the scene as it would be in a run
             run = Run(self._scene, state.time, start=state, outputs=self._channels, model=self._model)
             run.advance(state.time)
-            result = run.result()
+            result = require_finite(run.result())
         return np.array([result.curve(one.channel, **one.where)[0] for one in self._criteria])

@@ -23,6 +23,7 @@ from seacrane.run.method import Method
 from seacrane.run.outputs import Outputs
 from seacrane.run.run import Run
 from seacrane.scene.scene import Scene
+from seacrane.validity.after_run import require_finite
 
 Array = NDArray[np.float64]
 
@@ -68,7 +69,7 @@ class Probe:
             interrupts.take()
             if run.interrupted:
                 raise KeyboardInterrupt
-            result = run.result()
+            result = require_finite(run.result())
             return np.array([record_numbers(result.curve(one.channel, **one.where)) for one in self.criteria])
         except (SeacraneError, ArithmeticError, ValueError) as error:
             return f"{type(error).__name__}: {error}"

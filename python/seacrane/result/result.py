@@ -152,8 +152,8 @@ class Result(Mapping[str, Array]):
             Attributes, at least `ALWAYS_STATED`; values that are None are left out, `settings` may be a
             mapping.
         interrupted : bool
-            True if the run did not reach its end. Only then, and in a run of stages, may channels hold values
-            that are not finite.
+            True if the run did not reach its end. Only then, in a run of stages, and where the stat
+            `not_finite` names them, may channels hold values that are not finite.
         state : State, optional
             Where the run stopped.
         scene : Scene or KeptScene, optional
@@ -167,6 +167,7 @@ class Result(Mapping[str, Array]):
         """
         times = checked_time(time)
         gaps = interrupted or "stages" in stats  # where elements come and go
+        gappy = str(stats.get("not_finite", "")).split(", ")
         for name in arrays:
             if name not in CHANNELS:
                 raise ValueError(f"channel {name!r} is unknown; choose from {', '.join(CHANNELS)}")
@@ -178,7 +179,7 @@ class Result(Mapping[str, Array]):
         for name, values in arrays.items():
             dims = all_dims[name]
             shape = (times.size, *(len(names.get(dim, ())) for dim in dims[1:]))
-            channels[name] = checked_array(name, values, shape, gaps)
+            channels[name] = checked_array(name, values, shape, gaps or name in gappy)
         return cls(
             time=times,
             channels=channels,

@@ -15,6 +15,7 @@ from seacrane.run.run import Run
 from seacrane.run.sampled_controller import SampledController
 from seacrane.run.slow import slow_findings
 from seacrane.run.step_advice import step_advice
+from seacrane.validity.after_run import tried
 from seacrane.validity.range import warn_of
 
 Look = Callable[[float], None]
@@ -67,7 +68,7 @@ def drive(
         _advise(run, error)
         raise
     if not run.interrupted:
-        run.slow = slow_findings(run)
+        run.slow += tried("looking for modes", lambda: slow_findings(run), [], run.slow)
 
 
 @contextlib.contextmanager

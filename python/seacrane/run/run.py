@@ -21,7 +21,7 @@ from seacrane.errors import SceneError, SeacraneError, SimulationError
 from seacrane.files.state_parts import with_present_inputs
 from seacrane.inputs.caller import keeping
 from seacrane.inputs.checked import number_of
-from seacrane.result.channels import DERIVED
+from seacrane.result.channels import CHANNELS, DERIVED
 from seacrane.result.checked_parts import checked_stats
 from seacrane.result.events import Event
 from seacrane.result.result import Result
@@ -53,6 +53,8 @@ from seacrane.run.shorthand import Shorthand, settled
 from seacrane.run.stats import lasting_stats, settings_in_sea, settings_of, stats_of
 from seacrane.run.through_seats import fallen_through
 from seacrane.scene.scene import Scene
+from seacrane.validity.after_run import NOT_FINITE, not_finite, tried
+from seacrane.validity.boiling import boiled
 from seacrane.validity.lines import bound_findings
 from seacrane.validity.plausible import warn_of_description
 from seacrane.validity.range import Finding, as_text, findings
@@ -357,12 +359,23 @@ class Run:
         """
         with self.core:
             arrays = self.core.channels() if most is None else self.core.channels(most)
-            channels, stats = self.wanted(arrays), self.stats()
-            scene = self.scene
-            met = self.events()
-            found = findings(scene, arrays["time"], channels, stats, self.steered) + self.slow + self.slack
-            found += fallen_through(scene, met)
-            found += bound_findings(scene, [(time, name) for time, name, *_ in self.core.events()])
+            scene, met, stats = self.scene, self.events(), self.stats()
+            found: list[Finding] = []
+            channels = tried(
+                "making derived channels", lambda: self.wanted(arrays), self._recorded(arrays), found
+            )
+            found += findings(scene, arrays["time"], channels, stats, self.steered)
+            reached = [(time, name) for time, name, *_ in self.core.events()]
+            for what, look in (
+                ("looking at oil", lambda: list(boiled(scene, met, channels))),
+                ("looking at seats", lambda: list(fallen_through(scene, met))),
+                ("looking at bounds", lambda: list(bound_findings(scene, reached))),
+            ):
+                found += tried(what, look, [], found)
+            found += self.slow + self.slack
+            if not self.interrupted and (wrong := not_finite(channels)):
+                stats[NOT_FINITE] = ", ".join(wrong)
+                found += wrong.values()
             if found:
                 stats["validity"] = as_text(found)
             result = Result.from_arrays(
@@ -376,6 +389,10 @@ class Run:
                 scene=scene.copy(notes={}),
             )
         return result, found
+
+    def _recorded(self, arrays: Mapping[str, Array]) -> dict[str, Array]:
+        """Channels as the core recorded them, those that a result knows."""
+        return {name: values for name, values in arrays.items() if name in CHANNELS}
 
     def _require_plain_stats(self) -> None:
         """What a result could not hold is refused now, not when the run is over."""

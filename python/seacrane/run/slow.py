@@ -27,7 +27,7 @@ def slow_findings(run: Run) -> list[Finding]:
     last = run.last_state()
     states = [run.start] if last is None else [run.start, last]
     found = _found(run, Modes(run.model, list(run.scene.bodies), states))
-    return found + unsteady_oil(run.scene, run.model, run.start)
+    return found + unsteady_oil(run.scene, run.model, states)
 
 
 def _found(run: Run, modes: Modes, near: float = 1.0) -> list[Finding]:

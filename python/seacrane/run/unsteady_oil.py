@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,6 +20,7 @@ UNDAMPED = 1e-3  # of critical damping, negative: less is not told
 SLOWEST = 0.1  # rad/s: slower modes are those of drifting vessels
 HALVINGS = 8  # of the gain, until it is steady
 MARGIN = 0.5  # of that gain, which is told
+RESTLESS = 0.5  # m/s2: what would set out faster is not at rest
 
 
 class UnsteadyOilWarning(UserWarning):
@@ -27,11 +28,13 @@ class UnsteadyOilWarning(UserWarning):
 
 
 @one_thread
-def unsteady_oil(scene: Description, model: _core.Model, start: _core.State) -> list[Finding]:
-    """Cylinders whose valve feeds a mode, at rest in the pose of a state.
+def unsteady_oil(scene: Description, model: _core.Model, states: Sequence[_core.State]) -> list[Finding]:
+    """Cylinders whose valve feeds a mode, at rest in the pose of the first state whose loads are in balance.
 
-    A valve has two slopes, one on each side of its middle; their mean counts, at the edge of the overlap. A
-    spool without lag is left out, as are modes that grow by less than `UNDAMPED`.
+    Away from rest a linear model tells of the motion that is under way, and not of what it comes to; where no
+    state is at rest nothing is told. A valve has two slopes, one on each side of its middle; their mean
+    counts, at the edge of the overlap. A spool without lag is left out, as are modes that grow by less
+    than `UNDAMPED`.
     """
     cylinders = {
         name: one
@@ -43,6 +46,9 @@ def unsteady_oil(scene: Description, model: _core.Model, start: _core.State) -> 
     spools = {
         name: place for name, _, place, *_ in model.load_states if name.removesuffix(".spool") in cylinders
     }
+    start = next((one for one in states if _unrest(scene, model, one) < RESTLESS), None)
+    if start is None:
+        return []
     matrix = _mean_jacobian(model, start, [spools[f"{name}.spool"] for name in cylinders], cylinders)
     if not np.all(np.isfinite(matrix)):
         return []
@@ -54,14 +60,28 @@ def unsteady_oil(scene: Description, model: _core.Model, start: _core.State) -> 
     ]
 
 
+def _stopped(model: _core.Model, state: _core.State) -> Array:
+    """Its values without speeds and what follows from them."""
+    values = np.array(state.values)
+    values[model.twist_index(0) : min(place for _, _, place, *_ in model.load_states)] = 0.0
+    return values
+
+
+def _unrest(scene: Description, model: _core.Model, state: _core.State) -> float:
+    """The largest acceleration, m/s2, with which what cylinders join would set out from its pose."""
+    joined = {end for one in hydraulic_cylinders(scene).values() for end in (one.first, one.second)}
+    terms = _core.Evaluator(model).terms(state.time, _stopped(model, state))
+    accelerations = np.abs(terms["acceleration"]).reshape(-1, 6)[:, :3].max(axis=1)
+    return max(a for body, a in zip(model.bodies, accelerations.tolist(), strict=True) if body in joined)
+
+
 def _mean_jacobian(
     model: _core.Model, start: _core.State, places: list[int], cylinders: dict[str, _core.HydraulicCylinder]
 ) -> Array:
     """Of both sides of the valves' middle."""
     found = []
     for side in (-1.0, 1.0):
-        values = np.array(start.values)
-        values[model.twist_index(0) : min(place for _, _, place, *_ in model.load_states)] = 0.0
+        values = _stopped(model, start)
         for place, one in zip(places, cylinders.values(), strict=True):
             values[place] = side * (one.overlap + OPEN)
         found.append(jacobian(model, state=values, time=start.time))

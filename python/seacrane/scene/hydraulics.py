@@ -74,6 +74,7 @@ def add_hydraulic_cylinder(
     rod_side_ruptures: bool = False,
     discharge_coefficient: float = 0.6,
     oil_density: float = 870.0,
+    refuse_void: bool = False,
 ) -> _core.HydraulicCylinder:
     """Join two points by a hydraulic cylinder: pressures of both chambers, valves, pump, leakage, friction.
 
@@ -104,7 +105,7 @@ def add_hydraulic_cylinder(
     air : float
         Share of the volume that is free air at 1e5 Pa.
     vapour_pressure : float
-        Pa, below which the oil boils: an event.
+        Pa, at which the oil boils and a void opens: an event, and a `BoilingOilWarning`.
     pump_pressure, tank_pressure : float
         Pa; a pump pressure of 0: no pump.
     rated_flow, rated_flow_rod : float
@@ -151,6 +152,8 @@ def add_hydraulic_cylinder(
         In place of the full side.
     discharge_coefficient, oil_density : float
         Of the hole, and of the oil that leaves through it, kg/m3.
+    refuse_void : bool
+        Whether a run ends with an error where oil boils.
 
     Returns
     -------

@@ -26,6 +26,7 @@ from seacrane.run.method import Method
 from seacrane.scene.scene import Scene
 from seacrane.trading import rungs
 from seacrane.trading.methods import TIGHT
+from seacrane.validity.after_run import require_finite
 
 Array = NDArray[np.float64]
 LONG = 0.3  # s of wall time from which on one run tells the cost
@@ -65,7 +66,10 @@ def tight_reference(case: Case, quantities: Mapping[str, Quantity]) -> Reference
             done = timed(case, method, channels_of(quantities))
             if done.stopped is not None:
                 return str(done.stopped)
-            return {name: quantity.values(done.run.result()) for name, quantity in quantities.items()}
+            return {
+                name: quantity.values(require_finite(done.run.result()))
+                for name, quantity in quantities.items()
+            }
         except SeacraneError as error:
             return str(error)
 
@@ -114,7 +118,7 @@ def _prescribed(bench: Bench, case: Case, method: Method) -> tuple[Case, tuple[f
     done = timed(alone, method, ["vessel_motion"], repeats=bench.repeats, long_s=LONG)
     if done.stopped is not None:
         raise SceneError(str(done.stopped))
-    result = done.run.result()
+    result = require_finite(done.run.result())
     driven = rungs.with_prescribed_vessel(case.scene, result.time, result["vessel_motion"])
     return replace(case, scene=driven), (done.wall_s, done.cpu_s)
 

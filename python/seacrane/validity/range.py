@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Mapping
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -10,6 +11,7 @@ from numpy.typing import NDArray
 
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.frames import MOTIONS
+from seacrane.validity.after_run import tried
 from seacrane.validity.current_in_waves import current_findings
 from seacrane.validity.energy import energy_findings
 from seacrane.validity.following import FullTurnWarning, following
@@ -63,8 +65,10 @@ def findings(
         energy_findings,
     )  # fmt: skip
     for look in looks:
-        found += look(scene, time, channels)
-    return found + following(scene, time, channels, steered) + _singular(scene, stats)
+        what = f"looking at {look.__name__.strip('_')}"
+        found += tried(what, partial(look, scene, time, channels), [], found)
+    found += tried("following", partial(following, scene, time, channels, steered), [], found)
+    return found + _singular(scene, stats)
 
 
 def as_text(found: Iterable[Finding]) -> str:

@@ -35,7 +35,7 @@ struct HydraulicCylinderDescription : HydraulicOilDescription,
   double accumulator_volume = 0.0, accumulator_pressure = 0.0, accumulator_flow = 0.0,
          accumulator_exponent = 1.4;
   double rupture_time = kFarthest, rupture_area = 0.0, discharge_coefficient = 0.6, oil_density = 870.0;
-  bool rod_side_ruptures = false;
+  bool rod_side_ruptures = false, refuse_void = false;
 
   static constexpr const char* type = "HydraulicCylinder";
   static constexpr const char* text =
@@ -87,7 +87,8 @@ struct HydraulicCylinderDescription : HydraulicOilDescription,
             optional("discharge_coefficient", &D::discharge_coefficient, "", "of the hole")
                 .usually(0.05, 1.5),
             optional("oil_density", &D::oil_density, "kg/m3", "that leaves through the hole")
-                .usually(300.0, 3000.0)));
+                .usually(300.0, 3000.0),
+            optional("refuse_void", &D::refuse_void, "", "whether a run ends where oil boils")));
   }
 };
 
@@ -98,6 +99,10 @@ struct HydraulicCylinderDescription : HydraulicOilDescription,
 /// side 0 being the full and 1 the rod side, whose swept volumes are A0 s and A1 (stroke - s). States: p0,
 /// p1, the spool u with u' = (asked - u) / lag unless it has no lag, and the gas volume of an accumulator.
 /// All pressures are absolute.
+///
+/// At its vapour pressure pv oil boils, and a void of volume V opens: V' = A s' - Q at pv. Below pv the state
+/// p tells that volume, V = c (pv - p), c being the compliance at mid-stroke, and the pressure is pv. Oil
+/// that has become void has given its enthalpy: the chamber's energy is that at pv less h(pv) V.
 ///
 /// A hole of area a passes discharge a sqrt(2 / density) times the orifice's flow, out of the side. Behind a
 /// load-holding valve the hose is at the atmosphere then, and the hole in series with that valve.
@@ -118,6 +123,8 @@ struct HydraulicCylinder {
   HydraulicValve valve;
   HydraulicControl control;
   double spool_lag = 1.0, vapour = 0.0;
+  std::array<double, 2> void_compliance{};  // m3/Pa, c
+  bool refuse_void = false;
   double internal_leakage = 0.0, external_leakage = 0.0;
   double viscous = 0.0, friction = 0.0, friction_speed = 1.0, stop_stiffness = 0.0;
   double gas_volume = 0.0, gas_pressure = 0.0, gas_exponent = 1.0, gas_conductance = 0.0;
@@ -153,6 +160,12 @@ struct HydraulicCylinder {
       c.not_negative(what, value);
     }
     HydraulicOil::check(d, c);
+    for (const auto& [what, value] :
+         {std::pair{"pressure", d.pressure}, std::pair{"pressure_rod", d.pressure_rod}}) {
+      if (value >= d.vapour_pressure) continue;
+      c.fail(std::string(what) + " is " + to_text(value) + " Pa, below the vapour_pressure of " +
+             to_text(d.vapour_pressure) + " Pa, where oil boils; pressures are absolute: give more");
+    }
     HydraulicValve::check(d, c);
     HydraulicControl::check(d, d.rated_flow, c);
     check_volumes(d, c);
@@ -231,6 +244,11 @@ struct HydraulicCylinder {
     out.control.follows = context.followed(kind, d.name);
     out.spool_lag = d.spool_lag;
     out.vapour = d.vapour_pressure;
+    for (std::size_t side = 0; side < 2; ++side) {
+      out.void_compliance[side] =
+          out.oil.compliance(out.vapour, 0.5 * out.longest * out.area[side], out.hose_volume[side]);
+    }
+    out.refuse_void = d.refuse_void;
     out.internal_leakage = d.internal_leakage;
     out.external_leakage = d.external_leakage;
     out.viscous = d.viscous_friction;
@@ -280,7 +298,7 @@ struct HydraulicCylinder {
   struct Motion {
     Vec3<T> along, lever_first, lever_second;
     T stroke, rate, force, spool, asked;
-    std::array<T, 2> pressure, pressure_rate, swept;
+    std::array<T, 2> pressure, pressure_rate, swept, voids;
     std::array<T, 2> port, net;  // into the sides through their ports, and in all
     T pumped, returned, spilled, from_gas;
     std::array<T, kPowers.size()> power;
@@ -318,7 +336,10 @@ struct HydraulicCylinder {
     m.rate = S::variable(here.rate, 0);
     for (std::size_t side = 0; side < 2; ++side) {
       m.swept[side] = here.swept[side];
-      m.pressure[side] = S::variable(here.pressure[side], 1 + static_cast<int>(side));
+      m.voids[side] = here.voids[side];
+      m.pressure[side] = here.voids[side] > 0.0
+                             ? S(here.pressure[side])
+                             : S::variable(here.pressure[side], 1 + static_cast<int>(side));
     }
     m.spool = spool_lag > 0.0 ? S::variable(here.spool, 3) : S(here.spool);
     const int last = states.count;
@@ -339,14 +360,16 @@ struct HydraulicCylinder {
     const double depth = beyond(m.stroke);
     double sum = 0.5 * stop_stiffness * depth * depth;
     for (std::size_t side = 0; side < 2; ++side) {
-      sum += oil.energy(m.pressure[side], m.swept[side], hose_volume[side]);
+      sum += oil.energy(m.pressure[side], m.swept[side], hose_volume[side]) -
+             m.voids[side] * oil.enthalpy(m.pressure[side]);
     }
     if (gas_volume == 0.0) return sum;
-    const double ratio = gas_volume / in.states[gas];
+    const double bounded = std::max(in.states[gas], kLeastGas * gas_volume), ratio = gas_volume / bounded;
     const double work = gas_exponent == 1.0
                             ? std::log(ratio)
                             : std::expm1((gas_exponent - 1.0) * std::log(ratio)) / (gas_exponent - 1.0);
-    return sum + gas_pressure * gas_volume * work;
+    const double further = std::pow(ratio, gas_exponent) * (bounded - in.states[gas]);
+    return sum + gas_pressure * (gas_volume * work + further);
   }
 
   static bool has_sides() { return true; }
@@ -375,13 +398,27 @@ struct HydraulicCylinder {
     return out;
   }
 
+  /// Why a run cannot go on at a side; empty: it can.
+  std::string refused(int at) const {
+    for (int side = 0; refuse_void && side < 2; ++side) {
+      if ((at >> (2 + side) & 1) != 0) continue;
+      return "hydraulic cylinder '" + name + "': its oil boils on the " + (side == 0 ? "full" : "rod") +
+             " side, and refuse_void is set; give makeup_flow, a higher tank_pressure or a slower motion, "
+             "or leave refuse_void out, and a void opens";
+    }
+    return "";
+  }
+
  private:
   /// Named margins, each of a bound that is reached where it turns negative; the others follow.
   static constexpr std::array<const char*, 7> kBounds = {
       "relief", "relief_rod", "vapour", "vapour_rod", "retracted", "extended", "accumulator"};
   static constexpr std::size_t kKinks = kBounds.size() + 8;
   using Margins = std::array<double, kKinks>;
-  static constexpr double kPressureScale = 10.0;  // 1/m: of the highest pressure, over the scale of lengths
+  /// 1/m: over the scale of lengths, of the highest pressure; with air of the pressure itself, as the volume
+  /// of a gas is told by no less.
+  static constexpr double kPressureScale = 10.0;
+  static constexpr double kLeastResolved = 1e3;  // Pa: of a lower pressure errors count over this one
 
   using Values = std::initializer_list<std::pair<const char*, double>>;
   static void positive(const Check& c, Values values) {
@@ -436,6 +473,12 @@ struct HydraulicCylinder {
              " Pa, above the holding pressure of " + to_text(d.pressure) +
              " Pa: it would be empty; give a lower one");
     }
+    if (d.accumulator_volume == 0.0) return;
+    const double left = std::pow(d.accumulator_pressure / d.pressure, 1.0 / d.accumulator_exponent);
+    if (left >= kLeastCharge) return;
+    c.fail("accumulator_pressure is " + to_text(d.accumulator_pressure) + " Pa: the holding pressure of " +
+           to_text(d.pressure) + " Pa would squeeze its gas to " + to_text(left) +
+           " of its volume; give more, in Pa: 1 bar is 1e5");
   }
   static void check_rupture(const Description& d, const Check& c) {
     c.finite("rupture_time", d.rupture_time);
@@ -445,13 +488,22 @@ struct HydraulicCylinder {
            " m2; give both, or neither");
   }
   static constexpr double kLeastVolume = 1e-4;  // of the swept volume
+  static constexpr double kLeastCharge = 0.01;  // of the gas volume, at the start
 
   template <class Context>
   void add_states(const Description& d, Context& context) {
     const double most = std::max({d.pump_pressure, d.pressure, d.pressure_rod});
     const double scale = kPressureScale * context.length_scale();
-    states = {context.state({name + ".pressure", "Pa", d.pressure, scale * most}), 2};
-    context.state({name + ".pressure_rod", "Pa", d.pressure_rod, scale * most});
+    LoadState full{name + ".pressure", "Pa", d.pressure, scale * most};
+    LoadState rod{name + ".pressure_rod", "Pa", d.pressure_rod, scale * most};
+    if (oil.air > 0.0) {
+      for (LoadState* one : {&full, &rod}) {
+        one->scale = scale * std::max(vapour, kLeastResolved);
+        one->growth = scale;
+      }
+    }
+    states = {context.state(std::move(full)), 2};
+    context.state(std::move(rod));
     if (spool_lag > 0.0) {
       context.state({name + ".spool", "", clamped(d.command.at(0.0).value, -1.0, 1.0), scale});
       ++states.count;
@@ -491,7 +543,11 @@ struct HydraulicCylinder {
     m.spool = spool_lag > 0.0 ? in.states[states.first + 2] : clamped(m.asked, T(-1), T(1));
     m.swept = {T(area[0]) * m.stroke, T(area[1]) * (T(longest) - m.stroke)};
     for (std::size_t side = 0; side < 2; ++side) {
-      m.pressure[side] = in.states[states.first + static_cast<int>(side)];
+      const T& state = in.states[states.first + static_cast<int>(side)];
+      const T below = T(vapour) - state;
+      const bool boils = below > T(0);
+      m.pressure[side] = select(boils, T(vapour), state);
+      m.voids[side] = select(boils, T(T(void_compliance[side]) * below), T(0));
     }
     return m;
   }
@@ -516,8 +572,9 @@ struct HydraulicCylinder {
     m.power[seals] = -drag * m.rate;
     for (std::size_t side = 0; side < 2; ++side) {
       const T swept_rate = T(side == 0 ? area[0] : -area[1]) * m.rate;
+      const T gives = oil.compliance(m.pressure[side], m.swept[side], hose_volume[side]);
       m.pressure_rate[side] =
-          (m.net[side] - swept_rate) / oil.compliance(m.pressure[side], m.swept[side], hose_volume[side]);
+          (m.net[side] - swept_rate) / select(m.voids[side] > T(0), T(void_compliance[side]), gives);
     }
     m.force =
         T(area[0]) * m.pressure[0] - T(area[1]) * m.pressure[1] - drag - T(stop_stiffness) * beyond(m.stroke);
@@ -596,7 +653,7 @@ struct HydraulicCylinder {
     for (std::size_t side = 0; side < 2; ++side) {
       const double p = m.pressure[side], opening = valve.relief_pressure[side];
       if (opening > 0.0) out[side] = opening - p;
-      out[2 + side] = p - vapour;
+      out[2 + side] = in.states[states.first + static_cast<int>(side)] - vapour;
       if (valve.makeup > 0.0) out[kBounds.size() + side] = p - valve.tank;
     }
     out[4] = m.stroke;

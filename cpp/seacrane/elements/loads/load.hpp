@@ -26,7 +26,8 @@ struct LoadInput {
 struct LoadState {
   std::string name, unit;  // the name is one in the scene, such as "hoist.length"
   double initial = 0.0;
-  double scale = 1.0;  // typical magnitude: errors count over it
+  double scale = 1.0;   // typical magnitude: errors count over it
+  double growth = 0.0;  // and over this times the magnitude that the state has
 };
 
 /// The states of a load: a load that has some has a member `states` of this type.

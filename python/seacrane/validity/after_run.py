@@ -1,0 +1,64 @@
+"""What is worked out after a run does not lose the run: a failure there is a warning."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import TYPE_CHECKING, Any, TypeVar
+
+import numpy as np
+
+from seacrane.errors import SimulationError
+
+if TYPE_CHECKING:
+    from seacrane.result.result import Result
+
+Finding = tuple[type[Warning], str]
+Some = TypeVar("Some")
+NOT_FINITE = "not_finite"  # stat of a result: such channels
+
+
+class UnjudgedWarning(UserWarning):
+    """Something that is worked out after a run failed, and is missing; what was recorded is whole."""
+
+
+class NotFiniteWarning(UserWarning):
+    """A channel of a finished run holds values that are no numbers."""
+
+
+def tried(what: str, work: Callable[[], Some], otherwise: Some, found: list[Finding]) -> Some:
+    """What `work` returns; where it fails `otherwise`, and a finding that says so."""
+    try:
+        return work()
+    except Warning:  # one that the user has made an error
+        raise
+    except Exception as error:
+        text = f"run: {what} failed after the run, which is kept: {type(error).__name__}: {error}"
+        found.append((UnjudgedWarning, text))
+        return otherwise
+
+
+def not_finite(arrays: Mapping[str, Any]) -> dict[str, Finding]:
+    """Channels that hold values that are not finite, and what is said of each."""
+    out: dict[str, Finding] = {}
+    for name, values in arrays.items():
+        array = np.asarray(values)
+        with np.errstate(over="ignore", invalid="ignore"):
+            if np.isfinite(array.sum()) or np.isfinite(array).all():  # a finite sum has finite terms
+                continue
+        first = int(np.argwhere(~np.isfinite(array.reshape(len(array), -1)).all(axis=1))[0, 0])
+        out[name] = (
+            NotFiniteWarning,
+            f"channel {name!r}: is not finite from output {first} on, of a run that reached its end. Leave "
+            "out a channel that is not defined for the scene, and do not trust what is made of this one",
+        )
+    return out
+
+
+def require_finite(result: Result) -> Result:
+    """The result; SimulationError where a channel of it is not finite, for what makes numbers of it."""
+    if NOT_FINITE in result.stats:
+        raise SimulationError(
+            f"run: {result.stats[NOT_FINITE]} of its channels hold values that are not finite; leave out a "
+            "channel that is not defined for the scene"
+        )
+    return result
