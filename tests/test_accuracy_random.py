@@ -40,7 +40,7 @@ def test_accuracies_hold_on_400_random_lifts(capsys: pytest.CaptureFixture[str])
 def test_a_burst_that_ends_at_the_pistons_end_is_as_accurate_as_told(
     time: float, area: float, friction: float
 ) -> None:
-    """Air at a few kPa, where a tolerance of the highest pressure let the piston bounce by centimetres."""
+    """Air has a few kPa here: at a tolerance of the highest pressure the piston bounced by centimetres."""
     bore, mass = 0.02, 18e3
     scene = Scene(name="burst")
     scene.add_body(name="load", mass=mass, inertia=(mass, mass, mass), position=(0, 0, 1.5))

@@ -279,6 +279,11 @@ def a_gain_beyond_what_oil_bears() -> None:
     simulate(raised(gain=80.0, viscous_friction=2e3, spool_lag=1e-3), 0.1)
 
 
+def a_hose_that_bursts_and_no_makeup() -> None:
+    shut = {"pump_pressure": 0.0, "rated_flow": 0.0, "pressure_rod": 1e6}
+    simulate(raised(rupture_time=0.1, rupture_area=2e-5, **shut), 0.5)
+
+
 def a_roll_amplitude_in_radians() -> None:
     ikeda_roll_damping(shipped_hull(), amplitude_deg=np.radians(8.0), omega=0.5, axis_height=2.0)
 
@@ -375,6 +380,7 @@ SCRIPTS: dict[str, list[Callable[[], None]]] = {
     "a crane that nothing holds": [a_crane_without_drives],
     "a loose tolerance for hours": [hours_at_a_loose_tolerance],
     "a hydraulic cylinder that swings by itself": [a_gain_beyond_what_oil_bears],
+    "a hose that bursts, and nothing that lets oil in": [a_hose_that_bursts_and_no_makeup],
     "a roll amplitude in radians": [a_roll_amplitude_in_radians],
     "bilge keels in millimetres": [bilge_keels_in_millimetres],
     "a mooring counted twice": [a_mooring_beside_the_file_s, a_file_that_holds_its_mooring],

@@ -333,9 +333,10 @@ def _with_estimate(case: _Case, done: Sequence[_Done], errors: Mapping[str, floa
     for name, limit in case.limits.items():
         stats |= {f"accuracy_{name}": limit, f"error_estimate_{name}": errors[name]}
     failed: list[Finding] = []
+    nothing: dict[str, float] = {}
     by_model = tried(
         "estimating the error of the model",
-        lambda: model_errors(case.scene, last.result.time, case.limits), {}, failed,
+        lambda: model_errors(case.scene, last.result.time, case.limits), nothing, failed,
     )  # fmt: skip
     warn_of(failed)
     stats |= {f"model_error_{name}": error for name, error in by_model.items()}

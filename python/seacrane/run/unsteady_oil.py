@@ -72,7 +72,7 @@ def _unrest(scene: Description, model: _core.Model, state: _core.State) -> float
     joined = {end for one in hydraulic_cylinders(scene).values() for end in (one.first, one.second)}
     terms = _core.Evaluator(model).terms(state.time, _stopped(model, state))
     accelerations = np.abs(terms["acceleration"]).reshape(-1, 6)[:, :3].max(axis=1)
-    return max(a for body, a in zip(model.bodies, accelerations.tolist(), strict=True) if body in joined)
+    return float(max(a for body, a in zip(model.bodies, accelerations, strict=True) if body in joined))
 
 
 def _mean_jacobian(
