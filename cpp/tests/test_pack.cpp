@@ -65,8 +65,8 @@ TEST_CASE("angles of rotations on packs are those of each lane") {
     const Mat3d one = random.rotation(), other = random.rotation();
     Mat3<P> both;
     for (int k = 0; k < 9; ++k) {
-      both(k).set(0, one(k));
-      both(k).set(1, other(k));
+      const double lanes[] = {one(k), other(k)};
+      both(k) = P::load(lanes);
     }
     const Vec3<P> angles = roll_pitch_yaw<P>(both);
     for (int k = 0; k < 3; ++k) {
