@@ -213,7 +213,7 @@ def test_what_is_something_else_is_refused(tmp_path: Path) -> None:
         Ensemble.load(tmp_path / "b.zarr")
     mark = tmp_path / "a.zarr" / "seacrane-study" / "pack_0000001.json"
     mark.write_text("nothing")
-    with pytest.raises(FileFormatError, match="pack_0000001.json line 1.* malformed JSON"):
+    with pytest.raises(FileFormatError, match=r"pack_0000001\.json line 1.* malformed JSON"):
         Ensemble.load(tmp_path / "a.zarr")
     slashed = pendulum()
     slashed.add_body(name="a/b", mass=1.0, inertia=(1.0, 1.0, 1.0))
