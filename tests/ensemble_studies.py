@@ -85,6 +85,13 @@ def bad_storm(*, seed: int, height: float) -> Scene:
     return storm(seed=seed, height=height)
 
 
+def storm_that_parts(*, seed: int) -> Scene:
+    """The largest 45 % of the seeds fail."""
+    if np.random.default_rng(seed).gumbel() > 0.5:
+        raise ValueError("the line parted")
+    return storm(seed=seed)
+
+
 def storm_that_kills(*, seed: int, mark: str) -> Scene:
     """The process that describes seed 8 ends at once, as long as the mark is not there."""
     if seed == 8 and not Path(mark).exists():

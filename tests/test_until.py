@@ -9,10 +9,11 @@ from typing import Any
 
 import numpy as np
 import pytest
-from ensemble_studies import bad_storm, lowest, storm, storm_that_kills
+from ensemble_studies import bad_storm, lowest, storm, storm_that_kills, storm_that_parts
 
 from seacrane import (
     Ensemble,
+    FailedSeedsWarning,
     FewSeedsWarning,
     Kept,
     SceneError,
@@ -106,14 +107,75 @@ def test_a_lost_worker_loses_members_in_flight_alone(tmp_path: Path) -> None:
     assert resumed.certainty == ensemble(storm_that_kills, **given).certainty
 
 
-def test_failures_do_not_count(tmp_path: Path) -> None:
+def test_failures_are_told_and_allowed_for(tmp_path: Path) -> None:
     over = {"seed": range(1, 101), "height": [1.0, 2.0]}
-    there = ensemble(bad_storm, over=over, keep=KEEP, until={"reach.mean": 0.2}, **RUN)
-    (one,) = there.certainty  # of the other, every member of the first batch failed
-    assert one.seeds == BATCH - 1
-    assert there.dataset.sizes["seed"] == BATCH
+    given: dict[str, Any] = {"over": over, "keep": KEEP, "until": {"reach.mean": 0.2}, **RUN}
+    with pytest.warns(
+        FailedSeedsWarning, match="reach.mean .height=2.0.: all 20 seeds failed .member 1: Val"
+    ):
+        there = ensemble(bad_storm, **given, store=tmp_path / "store")
+    few, none = there.certainty
+    assert (few.seeds, few.failed, few.futile) == (BATCH - 1, 1, False)
+    assert (none.seeds, none.failed, none.futile, none.reached) == (0, BATCH, True, False)
+    values = there.dataset.reach.sel(height=1.0).to_numpy()
+    plain = Target(variable="reach", number="mean", half_width=0.2, gumbel=True).estimate(
+        values[np.isfinite(values)]
+    )
+    assert few.reached
+    assert few.estimate.value == plain.value
+    assert few.estimate.low < plain.low < plain.high < few.estimate.high
+    assert "19 seeds, 1 failed" in str(few)
+    with pytest.warns(FailedSeedsWarning):
+        again = ensemble(bad_storm, **given, store=tmp_path / "store")
+    assert str(again.certainty) == str(there.certainty)
     with pytest.raises(SimulationError, match=r"member 4 \(seed=3, height=1.0\) failed"):
-        ensemble(bad_storm, over=over, keep=KEEP, until={"reach.mean": 0.2}, on_error="raise", **RUN)
+        ensemble(bad_storm, on_error="raise", **given)
+
+
+def test_the_worst_seeds_that_fail_leave_no_interval() -> None:
+    """What an ensemble of the mild seeds alone would claim lies below the truth."""
+    with pytest.warns(FailedSeedsWarning, match=r"failed: no interval.*the line parted.*1 stopped"):
+        there = ensemble(
+            storm_that_parts, over={"seed": range(1, 401)}, keep=KEEP, until={"reach.mpm": 0.1}, **RUN
+        )
+    (one,) = there.certainty
+    assert one.failed > 0.2 * (one.seeds + one.failed)
+    assert not one.reached
+    assert one.futile
+    assert one.seeds + one.failed < 400
+    assert one.estimate.low == -np.inf
+    assert f"{one.failed} failed: no interval" in str(one)
+
+
+@pytest.mark.parametrize("share", [0.02, 0.1, 0.3])
+@pytest.mark.parametrize("which", ["largest", "smallest", "any"])
+@pytest.mark.parametrize(
+    ("number", "gumbel"), [("mpm", True), ("mean", True), ("p90", True), ("mean", False)]
+)
+def test_intervals_hold_whatever_failed_seeds_would_have_given(
+    number: str, gumbel: bool, which: str, share: float
+) -> None:
+    target = Target(variable="x", number=number, half_width=0.1, gumbel=gumbel)
+    random, inside = np.random.default_rng(3), 0
+    truth = {"mpm": 0.0, "mean": np.euler_gamma, "p90": -np.log(-np.log(0.9))}[number] if gumbel else 0.0
+    for _ in range(200):
+        values = random.gumbel(size=100) if gumbel else random.normal(size=100)
+        lost = round(100 * share)
+        order = (
+            np.sort(values) if which == "largest" else -np.sort(-values) if which == "smallest" else values
+        )
+        found = target.estimate(order[:-lost], lost)
+        inside += found.low <= truth <= found.high
+    assert inside >= 185
+
+
+def test_smallest_values_with_failures_are_mirrored() -> None:
+    values = np.random.default_rng(3).gumbel(5.0, 1.0, 40)
+    given: dict[str, Any] = {"variable": "x", "half_width": 0.1, "gumbel": True}
+    for number in ("mpm", "mean", "p90"):
+        up = Target(number=number, **given).estimate(values, 3)
+        down = Target(number=number, sign=-1.0, **given).estimate(-values, 3)
+        assert (down.value, down.low, down.high) == (-up.value, -up.high, -up.low)
 
 
 def test_smallest_values_are_those_of_the_channel_with_its_sign_changed() -> None:

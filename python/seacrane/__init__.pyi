@@ -166,6 +166,7 @@ from seacrane.statistics.estimate import Estimate as Estimate
 from seacrane.statistics.estimate import Maximum as Maximum
 from seacrane.statistics.figure import plot_extremes as plot_extremes
 from seacrane.statistics.gaussian import gaussian_maximum as gaussian_maximum
+from seacrane.statistics.judged import FailedSeedsWarning as FailedSeedsWarning
 from seacrane.statistics.judged import FewSeedsWarning as FewSeedsWarning
 from seacrane.statistics.judged import PoorFitWarning as PoorFitWarning
 from seacrane.statistics.judged import StartTransientWarning as StartTransientWarning

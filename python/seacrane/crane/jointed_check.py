@@ -9,7 +9,7 @@ import numpy as np
 from seacrane.crane.jointed_data import CLOSING, FREEDOMS, JointData, JointedData
 from seacrane.crane.jointed_pose import CLOSED, extent_of, pose_of
 from seacrane.errors import FileFormatError, SceneError
-from seacrane.inputs.shown import shown
+from seacrane.inputs.shown import listed, shown
 
 ALIGNED = 1e-6  # cosine between the axes of a universal joint
 
@@ -56,11 +56,11 @@ def _check_joint(source: str, joint: JointData) -> None:
 
 
 def _check_tree(source: str, data: JointedData) -> None:
-    there = {data.root}
+    there, names = {data.root}, {data.root, *(one.name for one in data.bodies)}
     for joint in data.joints:
         for role, body in (("first", joint.first), ("second", joint.second)):
-            if body not in {data.root, *(one.name for one in data.bodies)}:
-                known = ", ".join(one.name for one in data.bodies)
+            if body not in names:
+                known = listed([one.name for one in data.bodies])
                 raise FileFormatError(
                     f"{source}: joint {joint.name!r}: its {role} body is {shown(body)}; there are {known}."
                 )
@@ -101,7 +101,7 @@ def _check_roles(source: str, data: JointedData) -> None:
     for role, (joints, kind) in {"slew drive": (slew, "revolute"), **wanted}.items():
         for label, joint in joints.items():
             if kinds.get(joint) != kind:
-                fitting = ", ".join(name for name, one in kinds.items() if one == kind) or "none"
+                fitting = listed([name for name, one in kinds.items() if one == kind]) or "none"
                 raise FileFormatError(
                     f"{source}: {role} {label!r} is joint {shown(joint)}, which is no {kind} joint of the "
                     f"tree; there are {fitting}."
@@ -119,7 +119,7 @@ def _check_ropes(source: str, data: JointedData) -> None:
         if rope.luff not in data.luffs:
             raise FileFormatError(
                 f"{what}: holds luff {shown(rope.luff)}; the luffs are "
-                f"{', '.join(map(repr, data.luffs)) or 'none'}."
+                f"{listed([repr(name) for name in data.luffs]) or 'none'}."
             )
         beyond = _carried(data, data.luffs[rope.luff])
         if rope.first[0] in beyond or rope.second[0] not in beyond:

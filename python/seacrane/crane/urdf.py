@@ -22,7 +22,7 @@ from seacrane.crane.urdf_visuals import meshes_of
 from seacrane.crane.urdf_warning import warn_of_urdf
 from seacrane.errors import FileFormatError
 from seacrane.files.whole_file import read_whole
-from seacrane.inputs.shown import shown
+from seacrane.inputs.shown import listed, shown
 
 Array = NDArray[np.float64]
 LARGEST_FILE = 2**24  # bytes
@@ -82,14 +82,16 @@ def read_urdf(path: Path) -> UrdfTree:
         parent, child = _ends(joint)
         placed[child] = placed[parent].inner(*origin_of(source, joint))
     owner = _owners(source, root, ordered, links)
+    parts: dict[str, list[str]] = {}
+    for name, holder in owner.items():
+        parts.setdefault(holder, []).append(name)
     bodies = tuple(
         BodyData(
             name=name,
             properties=_properties(source, link, placed[name]),
             meshes=tuple(
                 mesh
-                for other, holder in owner.items()
-                if holder == name
+                for other in parts[name]
                 for mesh in meshes_of(source, path.parent, links[other], placed[other])
             ),
         )
@@ -142,7 +144,7 @@ def _carried(source: str, joints: list[Element], links: Mapping[str, Element]) -
         for link in _ends(joint):
             if link not in links:
                 raise FileFormatError(
-                    f"{source}: joint {name!r} names link {shown(link)}; there are {', '.join(links)}."
+                    f"{source}: joint {name!r} names link {shown(link)}; there are {listed([*links])}."
                 )
         child = _ends(joint)[1]
         if child in found:
@@ -157,24 +159,28 @@ def _carried(source: str, joints: list[Element], links: Mapping[str, Element]) -
 def _root(source: str, links: Mapping[str, Element], carried: Mapping[str, str]) -> str:
     roots = [name for name in links if name not in carried]
     if len(roots) != 1:
-        which = f"links {', '.join(roots)} have no parent" if roots else "every link has a parent: a loop"
+        which = f"links {listed(roots)} have no parent" if roots else "every link has a parent: a loop"
         raise FileFormatError(f"{source}: {which}; one link must stand on the base, and no other.")
     return roots[0]
 
 
 def _outwards(source: str, root: str, joints: list[Element]) -> list[Element]:
-    there, left, found = {root}, list(joints), []
-    while left:
-        ready = [joint for joint in left if _ends(joint)[0] in there]
-        if not ready:
-            name = name_of(source, left[0])
-            raise FileFormatError(
-                f"{source}: joint {name!r} is in a ring of links that nothing carries; join it to the root."
-            )
+    """As far from the root one after another; those as far as each other as the file has them."""
+    carries: dict[str, list[int]] = {}
+    for place, joint in enumerate(joints):
+        carries.setdefault(_ends(joint)[0], []).append(place)
+    found: list[int] = []
+    ready = carries.get(root, [])
+    while ready:
         found += ready
-        there |= {_ends(joint)[1] for joint in ready}
-        left = [joint for joint in left if joint not in ready]
-    return found
+        reached = [_ends(joints[place])[1] for place in ready]
+        ready = sorted(place for link in reached for place in carries.get(link, ()))
+    if len(found) < len(joints):
+        name = name_of(source, joints[min({*range(len(joints))} - {*found})])
+        raise FileFormatError(
+            f"{source}: joint {name!r} is in a ring of links that nothing carries; join it to the root."
+        )
+    return [joints[place] for place in found]
 
 
 def _massive(link: Element) -> bool:

@@ -6,12 +6,15 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
+from numpy.typing import NDArray
 
 from seacrane.ensembles.members import Value
 from seacrane.ensembles.outcome import Outcome
 from seacrane.ensembles.targets import Target
 from seacrane.errors import SceneError
-from seacrane.statistics.estimate import Estimate
+from seacrane.statistics.estimate import CONFIDENCE, Estimate
+
+Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -25,13 +28,18 @@ class Certainty:
     parameters : mapping
         What the seeds share.
     estimate : Estimate
-        With its 95 % interval, which allows for stopping at a narrow one.
+        With its 95 % interval, which allows for stopping at a narrow one, and for whatever seeds that failed
+        would have given.
     static : float
         Of which half widths do not count.
     seeds : int
         That did not fail.
     asked : float
         Half width that was asked for, as a share of the dynamic part.
+    failed : int
+        Seeds that failed.
+    futile : bool
+        Whether so many failed that more seeds would not make it as narrow as was asked for.
     """
 
     name: str
@@ -40,6 +48,8 @@ class Certainty:
     seeds: int
     asked: float
     parameters: Mapping[str, Value] = field(default_factory=dict)
+    failed: int = 0
+    futile: bool = False
 
     @property
     def half_width(self) -> float:
@@ -56,9 +66,17 @@ class Certainty:
 
     def __str__(self) -> str:
         at = ", ".join(f"{name}={value}" for name, value in self.parameters.items())
+        named = f"{self.name}{f' ({at})' if at else ''}"
+        if not self.seeds:
+            return f"{named}: all {self.failed} seeds failed"
+        if self.failed and not np.isfinite(self.half_width):
+            return (
+                f"{named}: {self.estimate.value:.4g} of {self.seeds} seeds, {self.failed} failed: no interval"
+            )
+        failed = f", {self.failed} failed and may have given anything" if self.failed else ""
         return (
-            f"{self.name}{f' ({at})' if at else ''}: {self.estimate}, +-{100.0 * self.half_width:.2g} % of "
-            f"the dynamic part, {self.seeds} seeds"
+            f"{named}: {self.estimate}, +-{100.0 * self.half_width:.2g} % of the dynamic part, "
+            f"{self.seeds} seeds{failed}"
         )
 
 
@@ -75,10 +93,27 @@ def certainty_of(target: Target, outcomes: Sequence[Outcome], parameters: Mappin
     static = 0.0
     if target.static is not None and good:
         static = float(np.mean([_single(target.static, one) for one in good]))
+    return known(target, values, len(outcomes) - len(good), static=static, parameters=parameters)
+
+
+def known(
+    target: Target, values: Array, failed: int, *, static: float, parameters: Mapping[str, Value]
+) -> Certainty:
+    """What the values of seeds tell, of which so many more failed."""
+    estimate = target.estimate(values, failed)
     return Certainty(
-        name=target.name, estimate=target.estimate(values), static=static, seeds=len(good),
-        asked=target.half_width, parameters=parameters,
+        name=target.name, estimate=estimate, static=static, seeds=values.size, asked=target.half_width,
+        parameters=parameters, failed=failed,
+        futile=bool(failed) and _futile(target, values, failed, abs(estimate.value - static)),
     )  # fmt: skip
+
+
+def _futile(target: Target, values: Array, failed: int, dynamic: float) -> bool:
+    """Whether the least share that fails, by those that did, leaves too wide an interval by itself."""
+    from scipy.stats import beta
+
+    least = float(beta.ppf((1.0 - CONFIDENCE) / 2.0, failed, values.size + 1))
+    return not 0.5 * target.length(values, least) <= target.half_width * dynamic
 
 
 def _single(name: str, outcome: Outcome) -> float:

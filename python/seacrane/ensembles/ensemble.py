@@ -185,6 +185,8 @@ def ensemble(
 
     Warns
     -----
+    FailedSeedsWarning
+        Where seeds of an ensemble with `until` failed.
     FewSeedsWarning
         Where `over` allows fewer seeds than `until` takes.
     LostMembersWarning

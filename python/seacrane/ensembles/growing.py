@@ -20,7 +20,7 @@ from seacrane.ensembles.store import Store, kept_packs
 from seacrane.ensembles.targets import Target
 from seacrane.errors import SceneError
 from seacrane.inputs.caller import warn_caller
-from seacrane.statistics.judged import FewSeedsWarning
+from seacrane.statistics.judged import FailedSeedsWarning, FewSeedsWarning
 
 BATCH = 20  # seeds: fewer would be judged too often, by intervals that scatter too much
 IN_A_PACK = 2  # as a rule, so that one combination of parameters still fills several cores
@@ -142,6 +142,8 @@ def grow(
 
     Warns
     -----
+    FailedSeedsWarning
+        Where seeds failed.
     FewSeedsWarning
         Where the most seeds did not do.
     """
@@ -155,12 +157,14 @@ def grow(
             for cell in going:
                 fresh = [one for number in growth.packs(batch, cell) for one in store.of(number)]
                 cells[cell] += fresh
-                told = [certainty_of(target, cells[cell], growth.parameters(cell)) for target in targets]
-                known[cell] = [one for one in told if one.seeds]  # none: all failed, and more would too
+                known[cell] = [
+                    certainty_of(target, cells[cell], growth.parameters(cell)) for target in targets
+                ]
             batch += 1
-            going = [cell for cell in going if not all(one.reached for one in known[cell])]
+            going = [cell for cell in going if not all(one.reached or one.futile for one in known[cell])]
             bar.left(_expected(growth, batch, [known[cell] for cell in going]))
     certainty = tuple(one for cell in sorted(known) for one in known[cell])
+    _warn_of_failed(certainty, [cells[cell] for cell in sorted(known) for _ in targets])
     _warn_of_few(certainty, growth.batches * BATCH)
     outcomes = sorted((one for several in cells.values() for one in several), key=lambda one: one.index)
     return Grown(members=growth.members(batch), outcomes=tuple(outcomes), certainty=certainty)
@@ -201,8 +205,23 @@ def _expected(growth: Growth, batch: int, going: list[list[Certainty]]) -> int:
     return more
 
 
+def _warn_of_failed(certainty: tuple[Certainty, ...], outcomes: list[list[Outcome]]) -> None:
+    """Name the statistic of which the largest share failed, and why the first did."""
+    told = [(one, several) for one, several in zip(certainty, outcomes, strict=True) if one.failed]
+    if not told:
+        return
+    worst, several = max(told, key=lambda pair: pair[0].failed / (pair[0].failed + pair[0].seeds))
+    first = next(outcome for outcome in several if outcome.failure)
+    warn_caller(
+        f"seeds failed, and what they would have given is not known: {worst} (member {first.index}: "
+        f"{first.failure[:200]}); {len(told)} of {len(certainty)} statistics have such seeds, and "
+        f"{sum(one.futile for one, _ in told)} stopped because of them: mend what fails",
+        FailedSeedsWarning,
+    )
+
+
 def _warn_of_few(certainty: tuple[Certainty, ...], most: int) -> None:
-    short = [one for one in certainty if not one.reached]
+    short = [one for one in certainty if not one.reached and not one.futile]
     if short:
         warn_caller(
             f"{most} seeds are the most that over allows, and {len(short)} of {len(certainty)} statistics "

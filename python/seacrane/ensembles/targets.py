@@ -16,7 +16,7 @@ from seacrane.errors import SceneError
 from seacrane.inputs.checked import number_of
 from seacrane.inputs.shown import shown
 from seacrane.statistics.estimate import CONFIDENCE, Estimate
-from seacrane.statistics.seeds import ASKED, FEWEST, gumbel_maximum_of
+from seacrane.statistics.seeds import ASKED, FEWEST, REDUCED, gumbel_maximum_of
 
 Array = NDArray[np.float64]
 EXTREMES = ("maximum", "minimum")
@@ -56,22 +56,54 @@ class Target:
         """As `until` has it."""
         return f"{self.variable}.{self.number}"
 
-    def estimate(self, values: Array) -> Estimate:
-        """The statistic of the values of some seeds, with its interval; infinite for fewer than 3."""
+    def estimate(self, values: Array, failed: int = 0) -> Estimate:
+        """The statistic of the values of some seeds, with its interval; infinite for fewer than 3.
+
+        Where seeds failed, the interval holds whatever they would have given: that of the ordered values of
+        all seeds, whose places those that did not fail have where all others are smaller, or all are larger.
+        """
         if values.size < FEWEST:
             middle = float(values.mean()) if values.size else float("nan")
             return Estimate(value=middle, low=-np.inf, high=np.inf)
         if np.ptp(values) <= 1e-12 * np.abs(values).max():
             same = float(values[0])
-            return Estimate(value=same, low=same, high=same)
-        found = self._extreme(values) if self.gumbel else _mean(values)
-        return _widened(found)
+            found = Estimate(value=same, low=same, high=same)
+        else:
+            found = _widened(self._extreme(values) if self.gumbel else _mean(values))
+        if not failed:
+            return found
+        low, high = self._ranked(values, failed)
+        return Estimate(value=found.value, low=min(found.low, low), high=max(found.high, high))
+
+    def _ranked(self, values: Array, failed: int) -> tuple[float, float]:
+        """Ends of the interval of the ordered values of all seeds."""
+        from scipy.stats import binom
+
+        count, end = values.size + failed, (1.0 - CONFIDENCE) / (2.0 * WIDENED)
+        below, above = (int(binom.ppf(share, count, self._share)) for share in (end, 1.0 - end))
+        edged = np.concatenate([[-np.inf], np.sort(self.sign * values), [np.inf]])
+        ends = float(edged[max(below - failed, 0)]), float(edged[min(above + 1, values.size + 1)])
+        return ends if self.sign > 0.0 else (-ends[1], -ends[0])
+
+    @property
+    def _share(self) -> float:
+        """Of values that are smaller than the statistic: by Gumbel's distribution, or a symmetric one."""
+        return float(np.exp(-np.exp(-REDUCED[self.number]))) if self.gumbel else 0.5
+
+    def length(self, values: Array, share: float) -> float:
+        """What an interval is left with, however many seeds there are, where this share of them fails."""
+        low, high = ((self._share - less) / (1.0 - share) for less in (share, 0.0))
+        if values.size < FEWEST or low <= 0.0 or high >= 1.0:
+            return float("inf")
+        return float(np.ptp(np.quantile(self.sign * values, [low, high])))
 
     def _extreme(self, values: Array) -> Estimate:
         found: Estimate = getattr(gumbel_maximum_of(self.sign * values), self.number)
-        if self.sign > 0.0:
-            return found
-        return Estimate(value=-found.value, low=-found.high, high=-found.low)
+        return found if self.sign > 0.0 else _mirrored(found)
+
+
+def _mirrored(found: Estimate) -> Estimate:
+    return Estimate(value=-found.value, low=-found.high, high=-found.low)
 
 
 def _mean(values: Array) -> Estimate:

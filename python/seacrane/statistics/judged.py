@@ -19,6 +19,10 @@ class FewSeedsWarning(UserWarning):
     """Too few seeds for the number asked: its interval is wider than asked, or nobody can tell."""
 
 
+class FailedSeedsWarning(UserWarning):
+    """Seeds failed: what they would have given is not known, and an interval must allow for it."""
+
+
 class StartTransientWarning(UserWarning):
     """The first fifth of a record differs from the rest: the start is part of the statistics."""
 

@@ -14,12 +14,13 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from seacrane.ensembles.certainty import Certainty
+from seacrane.ensembles.certainty import Certainty, known
 from seacrane.ensembles.ensemble import Ensemble
 from seacrane.ensembles.kept import Kept
 from seacrane.ensembles.members import Value
 from seacrane.ensembles.study_folder import study_in
 from seacrane.ensembles.targets import EXTREMES, targets_of
+from seacrane.ensembles.variables import NOT_RUN
 from seacrane.errors import SceneError
 from seacrane.plotting.text import text_table
 from seacrane.statistics.estimate import Estimate
@@ -43,6 +44,8 @@ class Cell:
     ----------
     parameters : mapping
         All but the seed.
+    failed : int
+        Seeds that failed: intervals would not hold for them.
     values : ndarray, shape (k,)
         Of the seeds, or of the one member; without those that failed or were not run.
     sign : float
@@ -53,6 +56,7 @@ class Cell:
 
     parameters: Mapping[str, Value]
     values: Array
+    failed: int = 0
     sign: float = 1.0
     extremes: SeedExtremes | None = None
 
@@ -71,7 +75,7 @@ class Cell:
         if self.extremes is None:
             return [math.nan] * 3
         found: Estimate = getattr(self.extremes.maximum, name)
-        ends = sorted([self.sign * found.low, self.sign * found.high])
+        ends = [math.nan] * 2 if self.failed else sorted([self.sign * found.low, self.sign * found.high])
         return [self.sign * found.value, *ends]
 
 
@@ -123,6 +127,8 @@ class Told:
         lines = [f"{self.name}: {self.what}", text_table(head, rows[:MOST_ROWS], right=range(len(head)))]
         if self.extremes:
             lines.append(f"Maximum in {self.exposure:g} s by Gumbel's distribution, 95 % intervals.")
+        if self.over_seeds and any(cell.failed for cell in self.cells):
+            lines.append("Of seeds that did not fail; where some did, no interval holds for all.")
         return "\n".join([*lines, *([f"and {more} rows more"] if more > 0 else [])])
 
 
@@ -200,14 +206,24 @@ def _certainty(file: StudyFile, done: Ensemble) -> Iterator[Certainty]:
     for target in targets_of(file.until, file.keep) if file.until else ():
         if target.variable not in done.dataset:
             continue
+        lost = _cells(_failed(done), done)
         statics = iter(()) if target.static is None else _cells(done.dataset[target.static], done)
         for parameters, values in _cells(done.dataset[target.variable], done):
             static = next(statics, ({}, np.zeros(1)))[1]
-            if values.size:
-                yield Certainty(
-                    name=target.name, estimate=target.estimate(values), static=float(static.mean()),
-                    seeds=values.size, asked=target.half_width, parameters=parameters,
-                )  # fmt: skip
+            failed = next(lost)[1].size
+            if values.size or failed:
+                yield known(target, values, failed, static=_mean(static), parameters=parameters)
+
+
+def _failed(done: Ensemble) -> xarray.DataArray:
+    """One where a member failed, not a number elsewhere."""
+    failure: xarray.DataArray = done.dataset.failure
+    told = failure.to_numpy()
+    return failure.copy(data=np.where((told == "") | (told == NOT_RUN), np.nan, 1.0))
+
+
+def _mean(values: Array) -> float:
+    return float(values.mean()) if values.size else 0.0
 
 
 def _single(variable: xarray.DataArray, done: Ensemble) -> bool:
@@ -225,10 +241,13 @@ def _told(name: str, file: StudyFile, done: Ensemble, length: float) -> Told:
         Cell(
             parameters=parameters,
             values=values,
+            failed=lost.size,
             sign=-1.0 if what.what == "minimum" else 1.0,
             extremes=_extremes(what, values, span, exposure) if several else None,
         )
-        for parameters, values in _cells(variable, done)
+        for (parameters, values), (_, lost) in zip(
+            _cells(variable, done), _cells(_failed(done), done), strict=True
+        )
     )
     about = str(variable.attrs.get("long_name", what.channel))
     at = ", ".join(what.at.values())
