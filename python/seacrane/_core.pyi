@@ -1489,7 +1489,7 @@ class Line:
     @property
     def mass(self) -> float:
         """
-        kg, that moves with the line's end; 0: that of the path's last body
+        kg, that bounces on the line; 0: what its start tells, see LineBounce
         """
     @property
     def maximum_acceleration(self) -> float:
@@ -2430,6 +2430,11 @@ class Model:
     def limits(self) -> list[tuple[str, bool]]:
         """
         (name, whether it holds at the described start) of wires, bounds and seats, in the order of the channel limit_force.
+        """
+    @property
+    def line_bounces(self) -> dict[str, tuple[float, float, float]]:
+        """
+        By line: the mass (kg) that bounces on it at the start, as on one fall, the frequency of that (rad/s), and the ratio of critical damping that the lines give it.
         """
     @property
     def load_states(self) -> list[tuple[str, str, int, float, float]]:
