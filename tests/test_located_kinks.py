@@ -14,8 +14,10 @@ from seacrane import Curve, Run, Scene, State, integrator_names, simulate
 
 Array = NDArray[np.float64]
 G = 9.80665
-STEPPING = {"semi-implicit-euler": 1e-3, "rk4": 0.02, "rk-low-storage": 0.02, "generalized-alpha": 0.01}
-ACROSS = ("cvode-adams", "cvode-bdf", "ida", "ark-dirk")  # lose much by a restart: step control goes across
+STEPPING = {"semi-implicit-euler": 1e-3, "rk4": 0.02, "rk-low-storage": 0.02}
+# Those that lose much by a restart go across by their step control; Newton of generalized-alpha finds no step
+# across a jump.
+ACROSS = ("cvode-adams", "cvode-bdf", "ida", "ark-dirk", "generalized-alpha")
 
 
 def hoisted(*, rate: Curve | float = -0.5, minimum: float = 9.5, lag: float = 0.0) -> Scene:
@@ -72,9 +74,11 @@ def test_accuracy_holds_where_a_winch_comes_to_its_end() -> None:
 
 
 @pytest.mark.parametrize("name", ["dopri5", "tsit5", "dop853", "rosenbrock"])
-@pytest.mark.parametrize("until", [0.3, 0.99999, 1.0, 1.0000001, 1.2])
+@pytest.mark.parametrize("until", [-0.5, -1e-5, 0.0, 1e-7, 0.2])
 def test_a_run_goes_on_bit_for_bit_about_a_located_bound(name: str, until: float, tmp_path: Path) -> None:
-    """The bound is met at 1 s."""
+    """At times about that at which the bound is met."""
+    when = (10.0 / (1.0 + 1e4 * G / 1e7) - 9.5) / 0.5
+    until += when
     settings: dict[str, Any] = {"dt_out": 0.1, "integrator": name, "rtol": 1e-4}
     whole = Run(hoisted(), t_end=3.0, **settings)
     whole.advance(until)
@@ -84,7 +88,7 @@ def test_a_run_goes_on_bit_for_bit_about_a_located_bound(name: str, until: float
     rest.advance(3.0)
     assert np.array_equal(rest.core.state.values, whole.core.state.values)
     met = [event.time for event in whole.events()]
-    assert met == pytest.approx([1.0])
+    assert met == pytest.approx([when], rel=1e-6)
     assert sorted({*met} - {event.time for event in rest.events()}) == [t for t in met if t <= until]
 
 

@@ -576,7 +576,8 @@ def test_a_cell_whose_runs_fail_is_told_as_failed() -> None:
     cells.take_time((0, 2), [ByTime(allowable=1.4, low=1.2, high=1.6, failed=1)])
     table = AllowableHs.of(
         "lift", cells, alpha_of(1.0), 12.0,
-        hs=[1.0, 2.0, 3.0], seeds=[1, 2, 3, 4, 5, 6], duration=900.0, linear_within=0.1, failures={0: "slack"},
+        hs=[1.0, 2.0, 3.0], seeds=[1, 2, 3, 4, 5, 6], duration=900.0, linear_within=0.1,
+        failures={0: "slack"},
     )  # fmt: skip
     assert np.isnan(table.dataset["allowable_hs"].values[0, 0])
     assert table.dataset["reason"].values[0].tolist() == [

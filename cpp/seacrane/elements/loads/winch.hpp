@@ -207,7 +207,7 @@ struct Winch {
   }
   template <class T>
   bool at_end(const LoadInput<T>& in) const {
-    return length(in) < T(minimum_length);
+    return !(length(in) > T(minimum_length));  // at it, as where it was located
   }
 };
 
