@@ -202,7 +202,7 @@ def apart(seed: int) -> tuple[float, bool]:
 
 
 def test_several_lines_are_near_the_elastic_ones() -> None:
-    """Ringing of 2 % from the start is let through; beyond it an estimate holds within 1 % of the weight."""
+    """Ringing of 2 % from the start is let through, and 1 % of the weight beside it."""
     found = [apart(seed) for seed in range(20)]
     assert max(error for error, _ in found) < 0.03
     assert sum(quasi for _, quasi in found) >= 3
