@@ -359,7 +359,7 @@ def test_memory_of_a_scene_file(entry: str, tmp_path: Path) -> None:
             assert len(Scene.load(tmp_path / "scene.json").notes["x"]) == 100_000
         except FileFormatError as error:
             assert "would take" in str(error)
-            assert entry not in ("0", "[0]")
+            assert entry != "0"
 
 
 def test_memory_of_a_table_in_a_scene_file(tmp_path: Path) -> None:

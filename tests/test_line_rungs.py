@@ -318,7 +318,7 @@ def test_a_scene_warns_once_and_a_large_one_is_left_elastic() -> None:
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
         assert rung_of(scene)[0] == "quasi-static"
-    assert [str(one.message).count("are redundant") for one in caught] == [1]
+    assert sum(str(one.message).count("are redundant") for one in caught) == 1
     for i in range(120):
         scene.add_body(name=f"chip {i}", mass=1.0, inertia=(1, 1, 1), position=(5.0 + i, 0, 0))
     with warnings.catch_warnings():

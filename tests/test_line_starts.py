@@ -73,7 +73,6 @@ def test_a_winch_that_holds_what_hangs_on_it_is_not() -> None:
 @pytest.mark.parametrize(
     ("winch", "bound"),
     [
-        ({"rate": -2.0, "maximum_acceleration": 0.1}, "maximum_acceleration, 0.1 m/s2"),
         ({"rate": -0.5, "maximum_power": 1e3}, "maximum_power, 1000 W"),
         ({"rate": -0.5, "maximum_tension": 2e5}, r"maximum_tension, 2e\+05 N"),
         (

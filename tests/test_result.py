@@ -203,7 +203,7 @@ GENERAL = {
     "point_velocity", "point_acceleration", "load_force", "load_moment", "load_state", "tip_velocity",
     "heave_stroke", "heave_stroke_rate", "heave_reference", "gas_spring_tension", "gas_spring_length",
     "gas_spring_pressure", "hydraulic_stroke", "hydraulic_force", "hydraulic_pressure", "hydraulic_spool",
-    "hydraulic_flow", "hydraulic_pump_flow", "hydraulic_tank_flow", "hydraulic_spill",
+    "hydraulic_flow", "hydraulic_void", "hydraulic_pump_flow", "hydraulic_tank_flow", "hydraulic_spill",
     "hydraulic_accumulator_flow", "hydraulic_power",
     "offlead", "sidelead", "line_tension", "line_length", "line_unstretched_length", "line_stretch",
     "line_pay_out_rate", "line_winch_power", "drum_motor_torque", "drum_motor_power",

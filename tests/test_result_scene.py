@@ -154,7 +154,7 @@ def test_a_scene_too_large_for_a_file_is_left_out_with_its_reason(
 HOSTILE = {
     "no JSON": (b"\x00\xff\xfe" * 20, r"run\.nc: its scene"),
     "no scene": (b"{}", "is not a scene file"),
-    "nested": (b"[" * 100_000, r"run\.nc: its scene: is nested too deeply"),
+    "nested": (b"[" * 100_000, r"run\.nc: its scene: (is nested too deeply|its lists)"),
     "repeated": (b'{"format": "seacrane scene", "format": 1}', "occurs twice"),
     "no number": (b'{"mass": NaN}', "NaN is not a number"),
 }

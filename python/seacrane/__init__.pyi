@@ -126,6 +126,7 @@ from seacrane.result import Event as Event
 from seacrane.result import Result as Result
 from seacrane.result.heavy_lines import heavy_line_tension as heavy_line_tension
 from seacrane.result.utilisation import Utilisation as Utilisation
+from seacrane.run.boiling import BoilingOilWarning as BoilingOilWarning
 from seacrane.run.growth import GrowingModeWarning as GrowingModeWarning
 from seacrane.run.line_rungs import LineRungWarning as LineRungWarning
 from seacrane.run.line_rungs import QuasiStaticLineWarning as QuasiStaticLineWarning
@@ -182,7 +183,6 @@ from seacrane.trading import Trade as Trade
 from seacrane.trading import trade as trade
 from seacrane.validity.after_run import NotFiniteWarning as NotFiniteWarning
 from seacrane.validity.after_run import UnjudgedWarning as UnjudgedWarning
-from seacrane.validity.boiling import BoilingOilWarning as BoilingOilWarning
 from seacrane.validity.current_in_waves import CurrentInWavesWarning as CurrentInWavesWarning
 from seacrane.validity.energy import EnergyErrorWarning as EnergyErrorWarning
 from seacrane.validity.following import FullTurnWarning as FullTurnWarning

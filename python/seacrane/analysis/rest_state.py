@@ -77,6 +77,7 @@ def _frozen(curve: _core.Curve, time: float) -> _core.Curve:
     return _core.Curve.constant(value=float(curve.evaluate([time])[0, 0]))
 
 
+@one_thread
 def equilibrium(scene: Description, *, state: _core.State | None = None, time: float = 0.0) -> _core.State:
     """State at rest of the scene with its references held at one time, without waves.
 

@@ -25,6 +25,7 @@ from seacrane.result.channels import CHANNELS, DERIVED
 from seacrane.result.checked_parts import checked_stats
 from seacrane.result.events import Event
 from seacrane.result.result import Result
+from seacrane.run.boiling import boiled
 from seacrane.run.carried_state import carried
 from seacrane.run.channel_names import (
     core_channels,
@@ -54,7 +55,6 @@ from seacrane.run.stats import lasting_stats, settings_in_sea, settings_of, stat
 from seacrane.run.through_seats import fallen_through
 from seacrane.scene.scene import Scene
 from seacrane.validity.after_run import NOT_FINITE, not_finite, tried
-from seacrane.validity.boiling import boiled
 from seacrane.validity.lines import bound_findings
 from seacrane.validity.plausible import warn_of_description
 from seacrane.validity.range import Finding, as_text, findings

@@ -3,17 +3,25 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import Any, Protocol, TypeVar
 
 import numpy as np
 
 from seacrane.errors import SimulationError
 
-if TYPE_CHECKING:
-    from seacrane.result.result import Result
-
 Finding = tuple[type[Warning], str]
 Some = TypeVar("Some")
+
+
+class Counted(Protocol):
+    """A result, as far as this module knows it."""
+
+    @property
+    def stats(self) -> Mapping[str, Any]:
+        """Its counters."""
+
+
+Judged = TypeVar("Judged", bound=Counted)
 NOT_FINITE = "not_finite"  # stat of a result: such channels
 
 
@@ -54,7 +62,7 @@ def not_finite(arrays: Mapping[str, Any]) -> dict[str, Finding]:
     return out
 
 
-def require_finite(result: Result) -> Result:
+def require_finite(result: Judged) -> Judged:
     """The result; SimulationError where a channel of it is not finite, for what makes numbers of it."""
     if NOT_FINITE in result.stats:
         raise SimulationError(

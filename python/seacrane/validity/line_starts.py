@@ -58,7 +58,8 @@ def _hung(scene: Description, lines: dict[str, _core.Line]) -> list[str]:
     joints = [one for name, one in scene.joints.items() if name not in seats and one.kind != "free"]
     carried = {body for one in joints for body in (one.first, one.second)}
     carried |= {vessel.body for vessel in scene.vessels.values()}
-    carried |= {body for spring in scene.springs.values() for body in (spring.first, spring.second)}
+    for load in (one for one in scene.all_loads() if not isinstance(one, _core.Line)):
+        carried |= {getattr(load, "first", ""), getattr(load, "second", "")}
     on_lines = dict.fromkeys(body for line in lines.values() for body in line.bodies)
     known = [body for body in on_lines if body in scene.bodies and body not in carried]
     return [body for body in known if scene.bodies[body].gravity]

@@ -54,7 +54,6 @@ class _Bound(NamedTuple):
 
 
 BOUNDS = {
-    "maximum_acceleration": _Bound("m/s2", "so that its rate lags behind", "Command smoother rates"),
     "maximum_tension": _Bound("N", "so that its motor holds no more, and the load may fall", "Lift less"),
     "maximum_power": _Bound("W", "so that its motor gives no more", "Lift slower"),
     "brake_capacity": _Bound("N", "so that its brake slips", "Close it on less"),

@@ -56,8 +56,8 @@ def warn_of_description(scene: Description, *, start: float, end: float, describ
     _warn_of_angles(scene, start, end)
     _warn_of_winds(scene)
     _warn_of_masses(scene)
-    warn_of_units(scene, start, end)
     if described:
+        warn_of_units(scene, start, end)
         warn_of_free_cranes(scene)
         _warn_of_ballast(scene)
         warn_of_capsize(scene)

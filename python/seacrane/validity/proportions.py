@@ -134,7 +134,7 @@ def _line(around: _Around, line: _core.Line) -> Iterator[Proportion]:
 
 def _gas_spring(around: _Around, gas: _core.GasSpring) -> Iterator[Proportion]:
     distance, weight = around.distance(gas), around.weight(gas.first, gas.second)
-    yield Proportion("volume", "{:.3g} m of stroke", _over(gas.volume, gas.area), 0.02, 200.0, "m3")
+    yield Proportion("volume", "{:.3g} m of stroke", _over(gas.volume, gas.area), 0.02, 1000.0, "m3")
     yield Proportion("length", "{:.3g} times the distance", _over(gas.length, distance), 0.05, 20.0, "m")
     for key in ("minimum", "maximum"):
         bound = getattr(gas, key)
