@@ -101,6 +101,7 @@ void Switches::make_room(const Stepper& at) {
   for (std::vector<double>* values : {&state_, &rate_, &late_rate_, &end_rate_}) {
     values->resize(at.stepped.size());
   }
+  scale_ = at.stepped.scale();
 }
 
 void Switches::resume(Stepper& at, double t, const double* y) {
@@ -137,10 +138,9 @@ bool Switches::began_behind(Stepper& at, double start, double margin) {
   at.stepped.derivative(start + margin, state_.data(), late_rate_.data());
   at.stepped.derivative(integrator.time(), integrator.state(), end_rate_.data());
   const double length = integrator.time() - start;
-  const std::vector<double> scale = at.stepped.scale();
   for (std::size_t i = 0; i < rate_.size(); ++i) {
     const double jump = std::abs(late_rate_[i] - rate_[i]), change = std::abs(end_rate_[i] - rate_[i]);
-    if (jump > kJump * change && jump * length > kRounding * scale[i]) return true;
+    if (jump > kJump * change && jump * length > kRounding * scale_[i]) return true;
   }
   return false;
 }

@@ -55,7 +55,7 @@ class Switches {
   std::vector<double> instants_;              // of their change, likewise
   std::vector<LimitReached> reached_;
   std::vector<double> bodies_, state_;
-  std::vector<double> rate_, late_rate_, end_rate_;  // of what is stepped
+  std::vector<double> rate_, late_rate_, end_rate_, scale_;  // of what is stepped
 };
 
 }  // namespace seacrane
