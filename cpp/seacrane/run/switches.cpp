@@ -101,7 +101,7 @@ void Switches::make_room(const Stepper& at) {
   for (std::vector<double>* values : {&state_, &rate_, &late_rate_, &end_rate_}) {
     values->resize(at.stepped.size());
   }
-  scale_ = at.stepped.scale();
+  if (scale_.size() != at.stepped.size()) scale_ = at.stepped.scale();  // the same of every set of limits
 }
 
 void Switches::resume(Stepper& at, double t, const double* y) {
