@@ -4,9 +4,9 @@
 #include <cpuid.h>
 #endif
 
-/// Instructions that the processor has and whose registers the system keeps. Asked of the processor itself:
-/// what
-/// __builtin_cpu_supports() knows is filled in by the compiler's run time, and not every compiler's has it.
+/// Instructions that the processor has and whose registers the system keeps, asked of the processor itself.
+/// What __builtin_cpu_supports() knows is filled in by the compiler's run time, and not every compiler's has
+/// it.
 struct Processor {
   bool avx = false, avx2 = false, avx512 = false;  // avx2: with fma; avx512: f, dq and vl
 

@@ -15,23 +15,7 @@ from seacrane.inputs.checked import name_of, number_of, text_of
 
 
 def compile_scene(scene: Description, *, merge: bool = True) -> _core.Model:
-    """Check everything, close the joints and compile.
-
-    Parameters
-    ----------
-    merge : bool
-        Step bodies that never move relative to each other as one and leave out what adds nothing.
-
-    Raises
-    ------
-    SceneError
-        Names the element, the value and the fix; for loops that do not close, the loop and its gap.
-
-    Warns
-    -----
-    AssemblyWarning : names bodies that closing the joints moved, by more than 0.01 m or 0.01 rad.
-    UserWarning : names joints that are redundant: their reactions are minimum-norm, not unique.
-    """
+    """What `Scene.compile` does, without its look at what capsizes; its docstring says what is raised."""
     for line in lines_of(scene.loads).values():
         if line.winch:
             refuse_heavy_winch(line)
