@@ -15,7 +15,7 @@ import numpy as np
 from kink_scenes import random_kinked
 from numpy.typing import NDArray
 
-from seacrane import Curve, Scene, SceneError, SeacraneError, simulate
+from seacrane import Curve, Scene, SeacraneError, simulate
 from seacrane.accuracy.quantities import compare
 
 Array = NDArray[np.float64]
@@ -226,7 +226,7 @@ KINDS: tuple[Callable[[np.random.Generator], Scene], ...] = (
 class Word:
     """What was asked of a scene, promised and found.
 
-    `end` is "held", "beyond", "refused" (by name), or "not judgeable" where both judges differ.
+    `end` is "held", "beyond", "refused" (by name, before a run or in it), or "not judgeable" where both judges differ.
     """
 
     number: int
@@ -256,7 +256,7 @@ def word(number: int, *, seed: int) -> Word:
         limit = part * max(float(np.abs(rough - rough[0]).max()), 0.01)
         try:
             result = simulate(scene, accuracy={"position": limit}, **span)
-        except SceneError as refused:
+        except SeacraneError as refused:
             return Word(number=number, scene=scene.name, end="refused", limit=limit, why=str(refused))
         method, told = str(result.stats["integrator"]), float(result.stats["error_estimate_position"])
         found = np.asarray(result["position"])

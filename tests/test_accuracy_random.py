@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from accuracy_scenes import KINDS, told, word
+from accuracy_scenes import KINDS, scene_of, told, word
 
 from seacrane import Scene, simulate
 from seacrane.accuracy.expected import STIFF, method_for, probe_of
@@ -31,6 +31,19 @@ def test_accuracies_hold_on_400_random_lifts(capsys: pytest.CaptureFixture[str])
     assert sum(one.end == "beyond" for one in words) <= 1, told(words)
     assert sum(one.end == "not judgeable" for one in words) <= 0.05 * ALL, told(words)
     assert sum(one.end == "refused" for one in words) <= 0.05 * ALL, told(words)
+
+
+@pytest.mark.parametrize("number", [165, 337, 345])
+def test_a_rough_run_goes_on_where_a_void_opens(number: int) -> None:
+    """A step up to the kink turned back before it: its last stages saw the rate of the other side."""
+    scene, _ = scene_of(number, seed=SEED)
+    span: dict[str, Any] = {"t_end": 8.0, "dt_out": 0.1, "channels": ["position"]}
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        rough = simulate(scene, integrator="tsit5", rtol=1e-3, **span)
+        truth = simulate(scene, integrator="dop853", rtol=1e-8, **span)
+    apart = np.abs(rough["position"] - truth["position"]).max()
+    assert apart < 0.01 * np.ptp(truth["position"])
 
 
 @pytest.mark.parametrize(

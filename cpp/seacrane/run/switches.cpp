@@ -5,6 +5,7 @@
 #include <functional>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "seacrane/elements/loads/registry.hpp"
 
@@ -15,6 +16,10 @@ constexpr double kAtEnd = 1e-6;  // of a step: a crossing that near to its ends 
 /// Change of a rate at a step's start, over that of the whole step, beyond which it jumps there; and over the
 /// scale of its state, below which that is rounding.
 constexpr double kJump = 1e-3, kRounding = 1e-10;
+/// Part of the way to a crossing that is left behind a step up to it, beyond which the step missed it.
+constexpr double kShort = 0.5;
+/// Of a step: so near its start a crossing may be led across.
+constexpr double kNear = 1e-3;
 
 /// Calls f(load) for every load with sides, in the order of the model.
 template <class F>
@@ -154,18 +159,41 @@ void Switches::pass_start(const Stepper& at, double start) {
   passed_.swap(after_);
 }
 
+/// Whether the step was taken up to a crossing and came no nearer to it. An explicit method weighs its last
+/// stages by more than one: where these fall on the new side of a jump, the step turns back, however short.
+bool Switches::fell_short(Stepper& at) {
+  const Aim aim = std::exchange(aim_, {});
+  const Integrator& integrator = *at.integrator;
+  if (integrator.time() != aim.time || after_[aim.load] != before_[aim.load]) return false;
+  if (aim.time - integrator.previous_time() > kNear * aim.length) return false;
+  const LoadInput<double> in = read(at, integrator.time(), integrator.state());
+  const double left = across(at, in, aim.load, before_[aim.load], aim.to);
+  return std::abs(left) > kShort * std::abs(aim.from_start);
+}
+
 std::optional<double> Switches::find(Stepper& at) {
   Integrator& integrator = *at.integrator;
   find_sides(at, integrator.time(), integrator.state(), after_);
   const double start = integrator.previous_time(), end = integrator.time(),
                margin = std::max(kAtEnd * (end - start), 100.0 * smallest_step(end));
   refuse(at, end, after_);
+  instants_.assign(after_.size(), end);
+  if (std::exchange(leads_across_, false)) {
+    note(at);
+    before_.swap(after_);
+    return std::nullopt;
+  }
+  if (fell_short(at)) {
+    leads_across_ = true;
+    return start + 2.0 * (end - start);
+  }
   std::optional<double> first;
   if (after_ != before_ && start + margin < end) {
-    if (began_behind(at, start, margin)) return start + margin;
+    leads_across_ = began_behind(at, start, margin);
+    if (leads_across_) return start + margin;
     pass_start(at, start);
+    instants_.assign(after_.size(), end);
   }
-  instants_.assign(after_.size(), end);
   for (std::size_t i = 0; i < after_.size(); ++i) {
     if (after_[i] == before_[i]) continue;
     const auto margin_at = [&](double t, const double* y) {
@@ -175,7 +203,13 @@ std::optional<double> Switches::find(Stepper& at) {
     if (!found) continue;
     instants_[i] = *found;
     if (*found - start <= margin || end - *found <= margin) continue;
-    if (!first || *found < *first) first = found;
+    if (first && *first <= *found) continue;
+    first = found;
+    aim_ = {.time = *found,
+            .length = end - start,
+            .load = i,
+            .to = after_[i],
+            .from_start = margin_at(start, integrator.previous_state())};
   }
   if (first) return first;
   note(at);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -42,10 +43,21 @@ class Switches {
   const std::vector<LimitReached>& reached() const { return reached_; }
 
  private:
+  /// A crossing that a step is to end on, the length of that which found it, and the load's margin to it
+  /// where both start.
+  struct Aim {
+    double time = std::numeric_limits<double>::quiet_NaN();
+    double length = 0.0;
+    std::size_t load = 0;
+    int to = 0;
+    double from_start = 0.0;
+  };
+
   void find_sides(Stepper& at, double t, const double* y, std::vector<int>& sides);
   void refuse(const Stepper& at, double t, const std::vector<int>& sides) const;
   void make_room(const Stepper& at);
   void note(const Stepper& at);
+  bool fell_short(Stepper& at);
   bool began_behind(Stepper& at, double start, double margin);
   void pass_start(const Stepper& at, double start);
   LoadInput<double> read(Stepper& at, double t, const double* y);
@@ -53,6 +65,8 @@ class Switches {
 
   std::vector<int> before_, after_, passed_;  // by load with sides
   std::vector<double> instants_;              // of their change, likewise
+  Aim aim_;                                   // of the step that is taken again
+  bool leads_across_ = false;                 // the step under way, a jump: it is not taken again
   std::vector<LimitReached> reached_;
   std::vector<double> bodies_, state_;
   std::vector<double> rate_, late_rate_, end_rate_, scale_;  // of what is stepped
