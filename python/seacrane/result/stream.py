@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from seacrane import renamed
 from seacrane.errors import FileFormatError
 from seacrane.files.atomic import atomic_write, require_replaceable, space_left
 from seacrane.files.netcdf_limits import NETCDF_ERRORS, open_netcdf
@@ -30,8 +31,7 @@ COUNTERS = ("wall_s", "evaluations", "steps", "rejected_steps", "jacobians",
             "newton_iterations", "projections", "restarts", "dense_solves")  # fmt: skip
 DIGEST = "scene_digest"  # of a scene's description, among the stats of a result
 METHOD = (DIGEST, "formulation", "integrator")
-NONE_WAS_ZERO = ("dt", "max_step")
-SETTINGS = ("dt_out", "rtol", "dt", "max_step", "spectral_radius", "energy_limit", "baumgarte")
+SETTINGS = ("dt_out", "rtol", "dt", "maximum_step", "spectral_radius", "energy_limit", "baumgarte")
 
 
 def rows_of_piece(width: int) -> int:
@@ -356,6 +356,7 @@ def difference(
         return f"is of another scene{written}"
     settings = [json.loads(some["settings"]) for some in (old, new)]
     pairs = {name: (old.get(name), new.get(name)) for name in METHOD}
+    settings[0] = {renamed.SETTINGS.get(name, name): value for name, value in settings[0].items()}
     # Version 0.1 wrote 0 for what was left to its default.
     pairs |= {name: (settings[0].get(name) or None, settings[1].get(name) or None) for name in SETTINGS}
     pairs["channels"] = (", ".join(sorted(old_channels)), ", ".join(sorted(channels)))
