@@ -13,7 +13,7 @@ ROOT = Path(__file__).resolve().parents[1]
 JOBS = sorted((ROOT / "examples" / "jobs").glob("*.py"))
 DOCUMENT = ROOT / "docs" / "jobs.md"
 SECTION = re.compile(
-    r"^## [^\n]+\n\n[^\n]+\(\.\./examples/jobs/(?P<script>\w+\.py)\)\.\n\n```text\n(?P<printed>[^`]+)```\n",
+    r"^## [^\n]+\n\n[^`]+\(\.\./examples/jobs/(?P<script>\w+\.py)\)\.\n\n```text\n(?P<printed>[^`]+)```\n",
     re.MULTILINE,
 )
 NUMBER = re.compile(r"-?\d+(?:\.\d+)?(?:e[-+]\d+)?")
