@@ -32,15 +32,20 @@ scene.add_winch(line="hoist", maximum_acceleration=0.5, lag=0.2)
 scene.add_joint(kind="free", name="above platform", first="ground", second="load")
 scene.add_end_stop(joint="above platform", coordinate="z", minimum=PLATFORM - DECK, name="platform")
 
-high = Until.channel("position", body="load", axis="z", above=PLATFORM + 4.0)
+high = Until.channel("position", body="load", axis="z", minimum=PLATFORM + 4.0)
 stages = [
     Stage(name="hold", duration=8.0),
-    Stage(name="lift off", until=Until.release("on barge"), longest=60.0, commands={"hoist.rate": -0.1}),
-    Stage(name="raise", until=high, longest=60.0, commands={"hoist.rate": -0.6}),
+    Stage(
+        name="lift off",
+        until=Until.release("on barge"),
+        maximum_duration=60.0,
+        commands={"hoist.rate": -0.1},
+    ),
+    Stage(name="raise", until=high, maximum_duration=60.0, commands={"hoist.rate": -0.6}),
     Stage(name="slew", duration=50.0, commands={"hoist.rate": 0.0, "slew": Move(to=np.pi / 2.0, over=45.0)}),
-    Stage(name="lower", until=Until.contact("platform"), longest=60.0, connect=["above platform"],
+    Stage(name="lower", until=Until.contact("platform"), maximum_duration=60.0, connect=["above platform"],
           commands={"hoist.rate": 0.3}),
-    Stage(name="slacken", until=Until.tension("hoist", below=0.0), longest=20.0),
+    Stage(name="slacken", until=Until.tension("hoist", maximum=0.0), maximum_duration=20.0),
     Stage(name="let go", duration=3.0, release=["hoist"]),
 ]  # fmt: skip
 result = simulate_stages(scene, stages, rtol=1e-5)

@@ -33,9 +33,9 @@ table = allowable_hs(
     scene,
     criteria=[
         Criterion(channel="hook_load", maximum=1.15 * WEIGHT),
-        Criterion(channel="tip_velocity", where={"axis": "z"}, maximum=0.8),
+        Criterion(channel="tip_velocity", names={"axis": "z"}, maximum=0.8),
         Criterion(
-            channel="position", where={"body": "payload", "axis": "y"}, maximum=3.0, motion=True,
+            channel="position", names={"body": "payload", "axis": "y"}, maximum=3.0, motion=True,
             statistic="significant", name="swing athwart",
         ),
     ],

@@ -44,10 +44,10 @@ def lift(hs: float) -> Result:
     high = lengths["aft"] - HOIST
     stages = [
         Stage(name="hold", duration=20.0),
-        Stage(name="both", until=Until.length("aft", below=high), longest=60.0,
+        Stage(name="both", until=Until.length("aft", maximum=high), maximum_duration=60.0,
               commands={"fore.rate": -RATE, "aft.rate": -RATE}),
         Stage(name="level", duration=60.0, commands={"fore.rate": 0.0, "aft.rate": 0.0}),
-        Stage(name="aft", until=Until.length("aft", below=high - MORE), longest=60.0,
+        Stage(name="aft", until=Until.length("aft", maximum=high - MORE), maximum_duration=60.0,
               commands={"aft.rate": -RATE}),
         Stage(name="tilted", duration=60.0, commands={"aft.rate": 0.0}),
     ]  # fmt: skip

@@ -369,19 +369,19 @@ size_m = [3, 4, 5]
 
 [[limit_state]]
 channel = "link_tension"
-max_N = 8e4
-min_N = 1e3
+maximum_N = 8e4
+minimum_N = 1e3
 
 [[limit_state]]
 name = "luffing"
 channel = "stroke"
-max_m = 2.5
-where = { cylinder = "aft luff" }
+maximum_m = 2.5
+names = { cylinder = "aft luff" }
 
 [[limit_state]]
 channel = "vessel_motion"
-max_deg = 90
-where = { motion = "roll" }
+maximum_deg = 90
+names = { motion = "roll" }
 
 [[record]]
 joint = "pin"
@@ -505,9 +505,9 @@ def every_table() -> Scene:
         lag_order=2, actuator_frequency=1.5, maximum_rate=2, maximum_stroke=3,
     )  # fmt: skip
     scene.add_range(joint="sleeve", minimum=-1, maximum=3)
-    scene.add_limit_state(channel="link_tension", max=8e4, min=1e3)
-    scene.add_limit_state(name="luffing", channel="stroke", max=2.5, where={"cylinder": "aft luff"})
-    scene.add_limit_state(channel="vessel_motion", max=np.radians(90), where={"motion": "roll"})
+    scene.add_limit_state(channel="link_tension", maximum=8e4, minimum=1e3)
+    scene.add_limit_state(name="luffing", channel="stroke", maximum=2.5, names={"cylinder": "aft luff"})
+    scene.add_limit_state(channel="vessel_motion", maximum=np.radians(90), names={"motion": "roll"})
     scene.record_coordinate(joint="pin", name="angle of the arm")
     scene.add_point(name="corner", body="box", point=(0.1, 0.2, 0.3))
     scene.add_clearance(name="hull", points="corner", body="hull", center=(1, 0, 2), size=(3, 4, 5))
@@ -572,13 +572,13 @@ duration_s = 1.05
 [[stage]]
 name = "lift off"
 until = [{ release = "on deck" }]
-longest_s = 60
+maximum_duration_s = 60
 commands = [{ name = "hoist.rate", value_m_per_s = -0.05 }]
 
 [[stage]]
 name = "raise"
-until = [{ length = "hoist", below_m = 19.6 }]
-longest_s = 60
+until = [{ length = "hoist", maximum_m = 19.6 }]
+maximum_duration_s = 60
 commands = [{ name = "hoist.rate", to_m_per_s = -0.4, over_s = 1 }]
 
 [[stage]]

@@ -81,7 +81,9 @@ def lift_off_too_slowly() -> None:
     scene.add_line(name="hoist", bodies=["ground", "load"], points=[(0, 0, 40.0), (0, 0, 0)], stiffness=1e8,
                    length=38.5)  # fmt: skip
     scene.add_winch(line="hoist", lag=0.2)
-    lift = Stage(name="lift", until=Until.release("on deck"), longest=60.0, commands={"hoist.rate": -0.05})
+    lift = Stage(
+        name="lift", until=Until.release("on deck"), maximum_duration=60.0, commands={"hoist.rate": -0.05}
+    )
     simulate_stages(scene, [lift, Stage(name="raised", duration=10.0)], dt_out=0.1)
 
 

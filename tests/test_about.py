@@ -21,7 +21,7 @@ def limited() -> Scene:
         kind="revolute", name="pin", first="ground", second="load", point=(0, 0, 0), axis=(0, 1, 0)
     )
     scene.add_range(joint="pin", minimum=-1.0, maximum=1.0)
-    scene.add_limit_state(name="swing", channel="position", where={"body": "load", "axis": "x"}, max=2.0)
+    scene.add_limit_state(name="swing", channel="position", names={"body": "load", "axis": "x"}, maximum=2.0)
     return scene
 
 

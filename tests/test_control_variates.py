@@ -106,7 +106,7 @@ def test_a_swing_of_a_crane_load_is_known_better(database: HydroDatabase) -> Non
     """With 20 seeds and the control as well as with three times as many."""
     scene = lifted()
     at: dict[str, Any] = {"body": "payload", "axis": "y"}
-    swing = Kept(channel="position", what="maximum", at=at, after=10.0)
+    swing = Kept(channel="position", what="maximum", names=at, after=10.0)
     runs = ensemble(
         scene, over={"seed": range(1, 21)}, keep={"swing": swing}, database=database, t_end=60.0,
         rtol=1e-2, dt_out=0.5,

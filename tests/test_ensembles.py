@@ -101,7 +101,7 @@ def test_dask_gives_the_same(afloat: Scene, database: HydroDatabase) -> None:
         "distributed", reason="needs the extra ensemble: pip install 'seacrane[ensemble]'"
     )
     given: dict[str, Any] = {"over": {"seed": [1, 2, 3]}, "database": database, "t_end": 2.0, "rtol": 1e-3}
-    keep = {"heave": Kept(channel="position", at={"body": "vessel", "axis": "z"})}
+    keep = {"heave": Kept(channel="position", names={"body": "vessel", "axis": "z"})}
     with (
         distributed.LocalCluster(
             n_workers=2, threads_per_worker=1, processes=False, dashboard_address=None
@@ -150,7 +150,7 @@ def test_what_a_sea_does_to_a_vessel_stays(phase: str) -> None:
 def test_paths_change_elements_of_a_copy() -> None:
     scene = pendulum()
     scene.add_actuator(name="motor", joint="pin", stiffness=500.0, damping=50.0)
-    keep = {"x": Kept(channel="position", at={"body": "bob", "axis": "x"})}
+    keep = {"x": Kept(channel="position", names={"body": "bob", "axis": "x"})}
     there = ensemble(
         scene, over={"actuators.motor.stiffness": [500.0, 900.0], "gravity": [9.81, 1.62]}, keep=keep, **SWING
     )
@@ -375,7 +375,7 @@ def test_a_job_is_read_once_in_a_process() -> None:
         ({"keep": {}}, "keep is {}"),
         ({"keep": {"failure": lowest}}, "'failure' is taken"),
         ({"keep": {"x": 3}}, "keep: x is 3"),
-        ({"keep": {"x": Kept(channel="position", step=0.15)}}, "no multiple of the output interval"),
+        ({"keep": {"x": Kept(channel="position", interval=0.15)}}, "no multiple of the output interval"),
         ({"keep": {"x": Kept(channel="position", after=5.0)}}, "after is 5 s, the run ends at 2 s"),
         ({"on_error": "ignore"}, "on_error is 'ignore'"),
         ({"executor": 4}, "executor is 4"),
@@ -391,7 +391,7 @@ def test_bad_input_is_named(given: dict[str, Any], message: str) -> None:
 
 
 def test_another_database_is_refused(afloat: Scene, database: HydroDatabase) -> None:
-    keep = {"heave": Kept(channel="position", at={"body": "vessel", "axis": "z"})}
+    keep = {"heave": Kept(channel="position", names={"body": "vessel", "axis": "z"})}
     with pytest.raises(SceneError, match="give the HydroDatabase of vessel 'vessel'"):
         ensemble(afloat, over={"seed": [1]}, keep=keep)
     other = replace(database, force=1.1 * database.force)

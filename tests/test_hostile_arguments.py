@@ -296,7 +296,7 @@ def test_loads_on_a_hull(key: str, value: Any) -> None:
 
 RECORD: dict[str, Any] = {
     "time": np.arange(16) * 0.5, "elevation": np.sin(np.arange(16)), "direction_deg": 0.0,
-    "position": (0.0, 0.0), "omega_min": None, "omega_max": None, "taper": 0.1, "name": "record",
+    "position": (0.0, 0.0), "minimum_omega": None, "maximum_omega": None, "taper": 0.1, "name": "record",
 }  # fmt: skip
 
 

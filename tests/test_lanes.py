@@ -26,7 +26,7 @@ from seacrane.run.lanes import INSTRUCTIONS, advance_side_by_side, lanes_of, mod
 Array = NDArray[np.float64]
 LANES = [lanes for lanes in INSTRUCTIONS if module_of(lanes) is not None]
 needs_lanes = pytest.mark.skipif(4 not in LANES, reason="no lanes on this processor, or in this build")
-TRACK = Kept(channel="position", at={"body": "payload"}, step=2.0)
+TRACK = Kept(channel="position", names={"body": "payload"}, interval=2.0)
 MORE = "the lifts differ in more than their seas: in"
 STORM: dict[str, Any] = {"t_end": 20.0, "rtol": 1e-2, "dt_out": 1.0}
 
@@ -218,7 +218,7 @@ def test_slow_drift_is_that_of_each_member(drift: list[bool]) -> None:
     """In lanes where all have it; else kept apart, whichever is first."""
     study: dict[str, Any] = {
         "over": {"seed": [1, 2], "drift": drift}, "t_end": 20.0, "rtol": 1e-8,
-        "keep": {"sway": Kept(channel="vessel_motion", what="mean", at={"motion": "sway"})},
+        "keep": {"sway": Kept(channel="vessel_motion", what="mean", names={"motion": "sway"})},
     }  # fmt: skip
     alone, beside = (ensemble(drifting, lanes=lanes, **study).dataset for lanes in (1, 4))
     assert np.abs(alone.sway - beside.sway).max() < 1e-5
@@ -234,7 +234,7 @@ def test_slow_drift_is_that_of_each_member(drift: list[bool]) -> None:
 def test_groups_are_made_by_number_and_right_whatever_varies_fastest(seed: str) -> None:
     axes = {"seed": [1, 2, 3, 4], "bodies.vessel.mass": [1.0e7, 1.3e7]}
     over = dict(reversed(axes.items())) if seed == "last" else axes
-    source, heave = case("vessel"), {"heave": Kept(channel="position", at={"axis": "z"}, step=1.0)}
+    source, heave = case("vessel"), {"heave": Kept(channel="position", names={"axis": "z"}, interval=1.0)}
     study: dict[str, Any] = {
         "over": over, "keep": heave, "t_end": 4.0, "rtol": 1e-8, "database": shipped_database(),
     }  # fmt: skip

@@ -135,7 +135,7 @@ def of_0_2(make: Callable[[], Any]) -> Any:
 def test_a_lift_of_0_2_is_the_scene_that_it_was() -> None:
     """Of the same lift with the scene that 0.2 saved from it, but for what was added by hand there."""
     scene = of_0_2(lambda: Lift.load(OF_0_2 / "lift.toml").scene())
-    scene.add_limit_state(channel="line_tension", max=5e4, name="any line")
+    scene.add_limit_state(channel="line_tension", maximum=5e4, name="any line")
     assert scene == Scene.load(OF_0_2 / "words.json")
 
 

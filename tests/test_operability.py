@@ -96,11 +96,11 @@ def test_every_channel_of_the_linear_model_is_that_of_a_run(database: HydroDatab
     """From the same state in small waves: forces, velocities, angles. What differs is of second order."""
     criteria = (
         Criterion(channel="hook_load", maximum=2e5),
-        Criterion(channel="position", where={"body": "payload", "axis": "y"}, maximum=1.0),
-        Criterion(channel="tip_velocity", where={"axis": "z"}, maximum=1.0),
-        Criterion(channel="cylinder_force", where={"cylinder": "main"}, maximum=1e7),
+        Criterion(channel="position", names={"body": "payload", "axis": "y"}, maximum=1.0),
+        Criterion(channel="tip_velocity", names={"axis": "z"}, maximum=1.0),
+        Criterion(channel="cylinder_force", names={"cylinder": "main"}, maximum=1e7),
         Criterion(channel="sidelead", maximum=0.1),
-        Criterion(channel="point_acceleration", where={"point": "deck", "axis": "z"}, maximum=1.0),
+        Criterion(channel="point_acceleration", names={"point": "deck", "axis": "z"}, maximum=1.0),
     )
     apart = np.array([_difference_of_run_and_model(hs, criteria, database) for hs in (0.005, 0.001)])
     assert np.all(apart[1] < 0.01)
@@ -121,14 +121,14 @@ def _difference_of_run_and_model(
     run = simulate(
         still, t_end=100.0, start=start, dt_out=0.5, rtol=1e-9, channels=[one.channel for one in criteria]
     )
-    found = np.stack([run.curve(one.channel, **one.where) for one in criteria], axis=1)
+    found = np.stack([run.curve(one.channel, **one.names) for one in criteria], axis=1)
     return list(np.std(found - told, axis=0) / np.std(told, axis=0))
 
 
 def test_loads_on_the_vessel_go_straight_into_accelerations() -> None:
     """y = ... + D f: what a push does at once, against the mass of the vessel with its added mass."""
     model = linear_model(vessel())
-    place = Criterion(channel="point_acceleration", where={"point": "bow", "axis": "z"}, maximum=1.0)
+    place = Criterion(channel="point_acceleration", names={"point": "bow", "axis": "z"}, maximum=1.0)
     scene = vessel()
     scene.add_point(name="bow", body="vessel", point=(50.0, 0.0, 0.0))
     d = linear_channels(linear_model(scene), [place]).d[0]
@@ -153,7 +153,7 @@ def test_both_domains_agree_where_the_scene_is_linear(tested: AllowableHs, datab
 
 def test_runs_begin_without_the_transient_of_a_soft_mooring(database: HydroDatabase) -> None:
     """From rest a beam sea sets off a sway of minutes, and first waves count as motion."""
-    sway = Criterion(channel="vessel_motion", where={"motion": "sway"}, maximum=0.5, motion=True,
+    sway = Criterion(channel="vessel_motion", names={"motion": "sway"}, maximum=0.5, motion=True,
                      statistic="significant", name="sway")  # fmt: skip
     asked: dict[str, Any] = {"tp": 9.0, "direction_deg": 90.0, "database": database, "criteria": [sway]}
     runs = allowable_hs(vessel(), **asked, hs=[1.0, 2.0, 3.0], domain="time", **SHORT | {"start_up": 0.0})
@@ -240,7 +240,7 @@ def test_short_crested_seas_move_a_vessel_less_from_ahead_and_more_from_the_side
     database: HydroDatabase,
 ) -> None:
     roll = Criterion(
-        channel="vessel_motion", where={"motion": "roll"}, maximum=0.05, statistic="significant", name="roll"
+        channel="vessel_motion", names={"motion": "roll"}, maximum=0.05, statistic="significant", name="roll"
     )
     long = by_frequency(vessel(), [roll], database, direction_deg=[90.0, 150.0])
     short = by_frequency(vessel(spreading=2.0), [roll], database, direction_deg=[90.0, 150.0])
@@ -540,7 +540,7 @@ def test_a_lift_on_a_quasi_static_line_is_allowed_what_its_elastic_twin_is(datab
             tension_at_start=5e3 * 9.80665, stretch=stretch, damping_ratio=0.05,
         )  # fmt: skip
         limit = Criterion(
-            channel="line_tension", where={"line": "hoist"}, maximum=1.75 * 5e3 * 9.80665, exposure=1800.0
+            channel="line_tension", names={"line": "hoist"}, maximum=1.75 * 5e3 * 9.80665, exposure=1800.0
         )
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")

@@ -20,7 +20,7 @@ from seacrane.hydro import DriftCoefficients, HydroDatabase, shipped_database
 from seacrane.hydro.data import excitation
 from seacrane.sea import MeasuredWaves, SeaState, WaveSystem, cos_2s, jonswap, torsethaugen
 
-PATH = {"track": Kept(channel="position", at={"body": "vessel"})}
+PATH = {"track": Kept(channel="position", names={"body": "vessel"})}
 
 
 @pytest.fixture(scope="module")
@@ -166,7 +166,7 @@ def test_the_seed_of_a_wind_sea_and_swell_varies(database: HydroDatabase) -> Non
             "'measured' of the sea is a record",
         ),
         (
-            WaveSystem(spectrum=jonswap(hs=2.0, tp=9.0), direction_deg=0.0, omega_max=1.5, count=20),
+            WaveSystem(spectrum=jonswap(hs=2.0, tp=9.0), direction_deg=0.0, maximum_omega=1.5, count=20),
             "is not the one that its record describes",
         ),
     ],

@@ -127,8 +127,8 @@ def test_a_constant_looks_constant() -> None:
 
 def test_a_spectrum_keeps_the_variance_and_finds_the_frequency() -> None:
     result = vessel_result(t_end=400.0)
-    (panel,) = spectrum_sheet(result, "wave_elevation", start=10.0).panels
-    omega = spectrum_sheet(result, "wave_elevation", start=10.0).abscissa
+    (panel,) = spectrum_sheet(result, "wave_elevation", after=10.0).panels
+    omega = spectrum_sheet(result, "wave_elevation", after=10.0).abscissa
     (line,) = panel.lines
     late = result["wave_elevation"][result.time >= 10.0]
     assert np.trapezoid(line.values, omega) == pytest.approx(late.var(), rel=0.05)
@@ -190,7 +190,7 @@ REFUSED = {
     "a dimension of none": (lambda r: plot_history(r, "stroke", body="king"), "has this dimension"),
     "an unknown body": (lambda r: plot_track(r, "pay"), "body 'pay' is not in this result; it holds vessel"),
     "an unknown joint": (lambda r: plot_reactions(r, "Z"), "joint 'Z' is not in this result; it holds deck"),
-    "a late start": (lambda r: plot_spectrum(r, "stroke", start=19.0), "start is 19 s: a spectrum takes 64"),
+    "a late start": (lambda r: plot_spectrum(r, "stroke", after=19.0), "after is 19 s: a spectrum takes 64"),
 }
 
 

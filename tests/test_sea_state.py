@@ -78,7 +78,10 @@ def test_uniform_placement_is_a_grid_that_repeats() -> None:
     waves = realise_waves(spectrum, seed=1, direction=0.0, count=200, placement="uniform")
     step = 2.2 / 200
     np.testing.assert_allclose(np.array(waves.omega) / step, np.arange(28, 228), rtol=1e-13)
-    bands = [spectrum.energy(omega_min=(i - 0.5) * step, omega_max=(i + 0.5) * step) for i in range(28, 228)]
+    bands = [
+        spectrum.energy(minimum_omega=(i - 0.5) * step, maximum_omega=(i + 0.5) * step)
+        for i in range(28, 228)
+    ]
     np.testing.assert_allclose(0.5 * np.array(waves.amplitude) ** 2, bands, rtol=1e-9)
     t, period = np.linspace(0.0, 100.0, 77), 2.0 * np.pi / step
     np.testing.assert_allclose(waves.elevation(t + period), waves.elevation(t), atol=1e-9)
@@ -112,7 +115,7 @@ def test_a_record_is_reproduced_where_it_was_measured(n: int, spreading: object)
 def test_cuts_and_taper_of_a_record() -> None:
     t, eta = record()
     measured = MeasuredWaves(
-        time=t, elevation=eta, direction_deg=0.0, omega_min=0.4, omega_max=1.3, taper=0.2
+        time=t, elevation=eta, direction_deg=0.0, minimum_omega=0.4, maximum_omega=1.3, taper=0.2
     )
     waves = SeaState(systems=[measured]).realise().waves
     assert np.min(waves.omega) >= 0.4 and np.max(waves.omega) <= 1.3
@@ -135,7 +138,11 @@ def test_the_components_of_a_periodic_record_come_back() -> None:
     n = 2048
     t = np.arange(n) * 2.0 * np.pi / step / n
     measured = MeasuredWaves(
-        time=t, elevation=truth.elevation(t), direction_deg=np.degrees(0.5), omega_min=0.295, omega_max=2.5
+        time=t,
+        elevation=truth.elevation(t),
+        direction_deg=np.degrees(0.5),
+        minimum_omega=0.295,
+        maximum_omega=2.5,
     )
     waves = SeaState(systems=[measured]).realise().waves
     np.testing.assert_allclose(waves.omega, truth.omega, rtol=1e-12)
@@ -165,7 +172,8 @@ T, ETA = record(200)
         (lambda: MeasuredWaves(time=T[::-1], elevation=ETA, direction_deg=0.0), "let them rise"),
         (lambda: MeasuredWaves(time=T, elevation=ETA[:-1], direction_deg=0.0), "199 elevations"),
         (lambda: MeasuredWaves(time=T, elevation=0.0 * ETA, direction_deg=0.0), "leave the sea out"),
-        (lambda: MeasuredWaves(time=T, elevation=ETA, direction_deg=0.0, omega_min=2.0, omega_max=1.0),
+        (lambda: MeasuredWaves(time=T, elevation=ETA, direction_deg=0.0,
+                               minimum_omega=2.0, maximum_omega=1.0),
          "no harmonic"),
         (lambda: MeasuredWaves(time=T, elevation=ETA, direction_deg=0.0, taper=1.5), "taper is 1.5"),
         (lambda: MeasuredWaves(time=T, elevation=ETA, direction_deg=np.inf), "direction_deg is inf"),

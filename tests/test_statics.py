@@ -269,7 +269,7 @@ def test_pressures_are_forces_over_the_loaded_side(tmp_path: Path) -> None:
 
 def _limited(scene: Scene, piston: str) -> Scene:
     out = scene.copy()
-    out.add_limit_state(channel="cylinder_pressure", max=1e6, where={"piston": piston})
+    out.add_limit_state(channel="cylinder_pressure", maximum=1e6, names={"piston": piston})
     return out
 
 
@@ -282,7 +282,7 @@ def test_areas_come_from_the_crane_s_file_and_have_limit_states(tmp_path: Path) 
     assert scene.roles[""].areas == {"main": (0.5, 0.25)}
     for joint in ("A", "main_cylinder", "knuckle_cylinder"):
         scene.add_driver(joint=joint, curve=Curve.constant(value=0.0))
-    scene.add_limit_state(channel="cylinder_pressure", max=20e6, where={"piston": "main"})
+    scene.add_limit_state(channel="cylinder_pressure", maximum=20e6, names={"piston": "main"})
     result = simulate(scene, 0.1, dt_out=0.1)
     force, found = result["cylinder_force"], result["cylinder_pressure"]
     np.testing.assert_allclose(found, force[:, :1] / 0.5)

@@ -266,7 +266,7 @@ def test_a_start_that_differs_is_named_and_can_be_left_out() -> None:
         sc.extremes(result_of(values), channel="link_tension")
     with warnings.catch_warnings():
         warnings.simplefilter("error", sc.StartTransientWarning)
-        sc.extremes(result_of(values), channel="link_tension", start=2500.0)
+        sc.extremes(result_of(values), channel="link_tension", after=2500.0)
 
 
 def test_steady_records_are_seldom_taken_for_a_start() -> None:
@@ -318,7 +318,7 @@ def test_papers_hold_the_numbers_they_show() -> None:
         (lambda: sc.extremes(3, channel="time"), "Result"),  # type: ignore[arg-type]
         (lambda: sc.extremes([], channel="time"), "none is given"),
         (lambda: sc.extremes(result_of(records(400)[0]), channel="hook"), "link_tension"),
-        (lambda: sc.extremes(result_of(records(400)[0]), channel="link_tension", start=1e5), "64"),
+        (lambda: sc.extremes(result_of(records(400)[0]), channel="link_tension", after=1e5), "64"),
     ],
 )
 def test_bad_input_is_named(call: Any, words: str) -> None:

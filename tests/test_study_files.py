@@ -54,14 +54,14 @@ hs = [1, 2.0]
 name = "heave"
 channel = "position"
 what = "maximum"
-at = { body = "vessel", axis = "z" }
+names = { body = "vessel", axis = "z" }
 after_s = 2
 
 [[keep]]
 name = "deepest"
 channel = "position"
 what = "minimum"
-at = { body = "vessel", axis = "z" }
+names = { body = "vessel", axis = "z" }
 after_s = 2
 
 [until]

@@ -51,7 +51,7 @@ seed = [7, 8]
 [[keep]]
 name = "heave"
 channel = "position"
-at = { body = "vessel", axis = "z" }
+names = { body = "vessel", axis = "z" }
 what = "mean"
 
 [run]
@@ -87,7 +87,7 @@ position = 1e-3
 [[keep]]
 name = "lowest"
 channel = "position"
-at = { body = "bob", axis = "z" }
+names = { body = "bob", axis = "z" }
 what = "minimum"
 
 [run]

@@ -66,7 +66,10 @@ def test_a_swinging_load_in_closed_form(swinging: Result) -> None:
 
 def test_numbers_are_those_of_the_part_asked_for(swinging: Result) -> None:
     part = (swinging.time >= 3.0) & (swinging.time <= 11.0)
-    values, row = swinging["link_tension"][part] / 1e3, summary(swinging, start=3.0, end=11.0)["link tension"]
+    values, row = (
+        swinging["link_tension"][part] / 1e3,
+        summary(swinging, after=3.0, before=11.0)["link tension"],
+    )
     assert (row.mean, row.std) == pytest.approx((values.mean(), values.std()), rel=1e-12)
     assert (row.minimum, row.maximum) == (values.min(), values.max())
     assert row.maximum_at == swinging.time[part][values.argmax()]
@@ -94,7 +97,7 @@ def test_no_static_load_is_made_up() -> None:
 
 def test_a_starred_value_is_that_at_the_start_asked_for(swinging: Result) -> None:
     """Not of the run: what happened before does not matter to the part."""
-    row = summary(swinging, start=3.05)["load offset x"]
+    row = summary(swinging, after=3.05)["load offset x"]
     first = int(np.argmax(swinging.time >= 3.05))
     assert not row.static_known
     assert row.static == pytest.approx(swinging["position"][first, 0, 0], rel=1e-9)
@@ -122,7 +125,7 @@ def test_a_record_too_short_and_a_transient_are_told() -> None:
     run["arrays"] = {"link_tension": steady + 4e4 * np.exp(-run["time"] / 5.0)}
     result = Result.from_arrays(**run)
     assert any("transient or a move is inside: link tension" in text for text in summary(result).remarks)
-    assert not any("transient" in text for text in summary(result, start=25.0).remarks)
+    assert not any("transient" in text for text in summary(result, after=25.0).remarks)
 
 
 def test_static_values_come_from_statics() -> None:
@@ -131,7 +134,7 @@ def test_static_values_come_from_statics() -> None:
     result = simulate(scene, t_end=55.0)
     pose = {"slew": -np.pi / 2, "coordinates": {"main": 2.0, "knuckle": 2.0}}
     known = statics(scene, **pose)
-    told = summary(result, start=50.0, static=known)
+    told = summary(result, after=50.0, static=known)
     main = told["cylinder force main"]
     assert main.static_known and main.static == pytest.approx(known["cylinder force main"].item())
     assert main.factor == pytest.approx(main.maximum / main.static) and 1.0 < main.factor < 1.3
@@ -159,7 +162,7 @@ def test_notes_that_no_run_writes_are_refused_by_name(notes: dict[str, Any], swi
 
 def test_what_makes_no_summary_is_refused() -> None:
     result = vessel_result(t_end=5.0)
-    for wrong in ({"start": 6.0}, {"start": 3.0, "end": 2.0}):
+    for wrong in ({"after": 6.0}, {"after": 3.0, "before": 2.0}):
         with pytest.raises(SceneError, match=r"no output is between .* the result has 0 to 5 s"):
             summary(result, **wrong)
     with pytest.raises(SceneError, match="result is a Scene"):

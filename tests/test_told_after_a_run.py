@@ -19,7 +19,7 @@ from seacrane.stages import locate
 from seacrane.stages.to_file import simulate_stages_to_file
 
 pytestmark = pytest.mark.filterwarnings("ignore")
-AT_ONCE = Stage(name="look", until=Until.length("hoist", above=1.0), longest=5.0)
+AT_ONCE = Stage(name="look", until=Until.length("hoist", minimum=1.0), maximum_duration=5.0)
 
 
 def weak() -> Scene:
@@ -94,8 +94,8 @@ def test_ctrl_c_before_anything_was_stepped_leaves_the_start(monkeypatch: pytest
         raise KeyboardInterrupt
 
     monkeypatch.setattr(locate.Course, "tried", pressed)
-    raising = Until.length("hoist", below=20.05)
-    stage = Stage(name="raise", until=raising, longest=5.0, commands={"hoist.rate": -0.4})
+    raising = Until.length("hoist", maximum=20.05)
+    stage = Stage(name="raise", until=raising, maximum_duration=5.0, commands={"hoist.rate": -0.4})
     run = StagedRun(on_deck(), [stage])
     assert not run.advance()
     assert run.result().interrupted

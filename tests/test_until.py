@@ -25,7 +25,7 @@ from seacrane.ensembles.growing import BATCH
 from seacrane.ensembles.targets import WIDENED, Target
 
 RUN: dict[str, Any] = {"t_end": 1.0, "rtol": 1e-3, "dt_out": 0.5}
-REACH = Kept(channel="position", what="maximum", at={"body": "bob", "axis": "x"})
+REACH = Kept(channel="position", what="maximum", names={"body": "bob", "axis": "x"})
 KEEP = {"reach": REACH}
 OVER = {"height": [0.4, 1.0], "seed": range(1, 401)}
 UNTIL = {"reach.mpm": 0.06}
@@ -230,8 +230,8 @@ def test_intervals_cover_after_stopping(number: str) -> None:
 def test_bad_input_is_named(given: dict[str, Any], message: str) -> None:
     keep = {
         "reach": REACH,
-        "drift": Kept(channel="position", what="mean", at={"body": "bob", "axis": "x"}),
-        "track": Kept(channel="position", at={"body": "bob", "axis": "x"}),
+        "drift": Kept(channel="position", what="mean", names={"body": "bob", "axis": "x"}),
+        "track": Kept(channel="position", names={"body": "bob", "axis": "x"}),
         "all": Kept(channel="position", what="maximum"),
     }
     usual: dict[str, Any] = {"over": {"seed": range(1, 41)}, "keep": keep, "until": UNTIL, **RUN}

@@ -36,7 +36,7 @@ GRID = {"start": [1.0, 2.0, 3.0], "mass": [2.0, 5.0]}
 PUSHED: dict[str, Any] = {
     "source": storm,
     "over": {"seed": range(1, 61), "height": [1.0, 2.0]},
-    "keep": {"far": Kept(channel="position", what="maximum", at={"body": "bob", "axis": "x"})},
+    "keep": {"far": Kept(channel="position", what="maximum", names={"body": "bob", "axis": "x"})},
     "t_end": 1.0,
     "dt_out": 0.5,
 }
@@ -74,7 +74,7 @@ def test_rows_and_texts_vary_too(tmp_path: Path) -> None:
     given: dict[str, Any] = {
         "source": pendulum,
         "over": [{"start": 1.0}, {"start": 2.5}],
-        "keep": {"lowest": lowest, "short": Kept(channel="position", step=1.0), "track": KEEP["track"]},
+        "keep": {"lowest": lowest, "short": Kept(channel="position", interval=1.0), "track": KEEP["track"]},
         **SWING,
     }
     plain = ensemble(**given)
@@ -129,7 +129,7 @@ def test_a_killed_ensemble_goes_on_to_the_same_bits(tmp_path: Path) -> None:
     counted.__wrapped__ = pendulum  # type: ignore[attr-defined]
     given: dict[str, Any] = {
         "over": {"start": [1.0 + 0.01 * k for k in range(100)]},
-        "keep": {"lowest": lowest, "track": Kept(channel="position", step=0.5)},
+        "keep": {"lowest": lowest, "track": Kept(channel="position", interval=0.5)},
         "t_end": 30.0,
         "rtol": 1e-9,
     }

@@ -78,7 +78,7 @@ def control_variates() -> Iterator[tuple[str, ...]]:
     """Means of largest values of runs, plain and with the linear response to the same waves."""
     scene, database = lift(), shipped_database()
     keep = {
-        name: Kept(channel=channel, what="maximum", at=at, after=START)
+        name: Kept(channel=channel, what="maximum", names=at, after=START)
         for name, channel, at, *_ in CONTROLLED
     }
     seeds = range(1, SEEDS + 1)

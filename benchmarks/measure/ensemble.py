@@ -16,7 +16,7 @@ from seacrane.hydro import shipped_database
 from .section import Section
 from .timing import best_seconds
 
-TRACK = {"track": Kept(channel="position", at={"body": "payload"}, step=1.0)}
+TRACK = {"track": Kept(channel="position", names={"body": "payload"}, interval=1.0)}
 HOW: dict[str, Any] = {"rtol": 1e-2, "dt_out": 1.0}
 
 

@@ -19,7 +19,7 @@ from seacrane.hydro import shipped_database
 from .section import Section
 
 HOW: dict[str, Any] = {"rtol": 1e-2, "dt_out": 1.0, "channels": ["position"]}
-TRACK = Kept(channel="position", at={"body": "payload"}, step=1.0)
+TRACK = Kept(channel="position", names={"body": "payload"}, interval=1.0)
 WORKERS = 2
 PACK = 4  # as of a thousand members
 _here = threading.local()  # loop: CPU time of loops since `before`, s

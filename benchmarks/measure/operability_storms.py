@@ -47,13 +47,13 @@ TOLERANCE = 1e-4
 START_UP = 300.0  # s
 CRITERIA = (
     Criterion(channel="hook_load", maximum=1.15 * MASS * G, name="hook load"),
-    Criterion(channel="tip_velocity", where={"axis": "z"}, maximum=0.8, name="tip velocity"),
+    Criterion(channel="tip_velocity", names={"axis": "z"}, maximum=0.8, name="tip velocity"),
     Criterion(
-        channel="position", where={"body": "payload", "axis": "x"}, maximum=3.0, motion=True,
+        channel="position", names={"body": "payload", "axis": "x"}, maximum=3.0, motion=True,
         statistic="significant", name="swing fore and aft",
     ),
     Criterion(
-        channel="position", where={"body": "payload", "axis": "y"}, maximum=3.0, motion=True,
+        channel="position", names={"body": "payload", "axis": "y"}, maximum=3.0, motion=True,
         statistic="significant", name="swing athwart",
     ),
 )  # fmt: skip

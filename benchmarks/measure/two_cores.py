@@ -19,7 +19,7 @@ from seacrane.hydro import shipped_database
 
 from .section import Section
 
-TRACK = Kept(channel="position", at={"body": "payload"}, step=1.0)
+TRACK = Kept(channel="position", names={"body": "payload"}, interval=1.0)
 HOW: dict[str, Any] = {"rtol": 1e-2, "dt_out": 1.0, "channels": ["position"], "keep": {"track": TRACK}}
 PACK = 4
 KINDS: dict[str, Callable[[], Any]] = {

@@ -37,7 +37,7 @@ HERE = Path(__file__).resolve().parent
 LEVEL = 0.01  # m
 SHARE = 0.5  # of the members that have to be within it: errors of others grow too far
 BAUMGARTE = 10.0  # 1/s, of Pinocchio's loops
-TRACK = Kept(channel="position", at={"body": "payload"}, step=DT_OUT)
+TRACK = Kept(channel="position", names={"body": "payload"}, interval=DT_OUT)
 SEACRANE = [
     (method, rtol) for method in ("tsit5", "verner65", "dop853") for rtol in (1e-2, 3e-3, 1e-3, 3e-4, 1e-4)
 ]

@@ -20,7 +20,9 @@ scene.add_seat(joint="grillage")
 path = {"bodies": [crane.tip[0], "load"], "points": [crane.tip[1], (0.0, 0.0, 0.0)]}
 scene.add_line(name="hoist", **path, stiffness=EA, length=tip - DECK + SLACK)
 scene.add_winch(line="hoist", lag=0.2)
-lift = Stage(name="lift", until=Until.release("grillage"), longest=60.0, commands={"hoist.rate": -RATE})
+lift = Stage(
+    name="lift", until=Until.release("grillage"), maximum_duration=60.0, commands={"hoist.rate": -RATE}
+)
 stages = [Stage(name="wait", duration=30.0), lift, Stage(name="raised", duration=30.0)]
 result = simulate_stages(scene, stages, dt_out=0.02)
 

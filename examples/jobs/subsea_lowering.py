@@ -20,7 +20,9 @@ first, deep = (tip - START) / (1.0 + strain), (tip + DEPTH) / (1.0 + strain)
 path = {"bodies": [jib, "load"], "points": [head, (0.0, 0.0, 0.0)]}
 scene.add_line(name="wire", **path, stiffness=EA, length=first)
 scene.add_winch(line="wire", lag=0.2)
-lower = Stage(name="lower", until=Until.length("wire", above=deep), longest=300, commands={"wire.rate": RATE})
+lower = Stage(
+    name="lower", until=Until.length("wire", minimum=deep), maximum_duration=300, commands={"wire.rate": RATE}
+)
 stop = Stage(name="stop", duration=30.0, commands={"wire.rate": 0.0})
 result = simulate_stages(scene, [lower, stop, Stage(name="hold", duration=200.0)], dt_out=0.1)
 

@@ -16,7 +16,7 @@ crane = scene.add_crane(theta=-np.pi / 2, s1=1.0, s2=2.0, payload=load, held=Tru
 scene.add_ballast()
 scene.add_sea(ship, hs=HS, tp=TP, direction_deg=180.0, count=300)
 result = simulate(scene, t_end=END, dt_out=0.5)  # a loose tolerance would feed the load's rocking
-print(summary(result, start=START))
+print(summary(result, after=START))
 
 sea = {"database": ship, "spectrum": jonswap(hs=HS, tp=TP), "heading": np.pi}  # by hand: the linear model
 heave = response_statistics(scene, **sea, body=crane.tip[0], point=crane.tip[1])

@@ -77,7 +77,7 @@ class Spectrum:
         """
         S(omega) in m2 s/rad for frequencies in rad/s, any shape; zero for omega <= 0.
         """
-    def energy(self, *, omega_min: typing.SupportsFloat | typing.SupportsIndex = 0.0, omega_max: typing.SupportsFloat | typing.SupportsIndex = ...) -> float:
+    def energy(self, *, minimum_omega: typing.SupportsFloat | typing.SupportsIndex = 0.0, maximum_omega: typing.SupportsFloat | typing.SupportsIndex = ...) -> float:
         """
         Integral of S between two frequencies, m2.
         """
@@ -3051,7 +3051,7 @@ def pierson_moskowitz(*, hs: typing.SupportsFloat | typing.SupportsIndex, tp: ty
     -----
     W. J. Pierson and L. Moskowitz, J. Geophys. Res. 69 (24), 1964.
     """
-def realise_waves(spectrum: Spectrum, *, seed: typing.Any, direction: typing.SupportsFloat | typing.SupportsIndex, count: typing.Any = 200, omega_min: typing.SupportsFloat | typing.SupportsIndex | None = None, omega_max: typing.SupportsFloat | typing.SupportsIndex | None = None, depth: typing.SupportsFloat | typing.SupportsIndex = ..., gravity: typing.SupportsFloat | typing.SupportsIndex = 9.80665, placement: str = 'jittered', system: typing.Any = 0) -> WaveComponents:
+def realise_waves(spectrum: Spectrum, *, seed: typing.Any, direction: typing.SupportsFloat | typing.SupportsIndex, count: typing.Any = 200, minimum_omega: typing.SupportsFloat | typing.SupportsIndex | None = None, maximum_omega: typing.SupportsFloat | typing.SupportsIndex | None = None, depth: typing.SupportsFloat | typing.SupportsIndex = ..., gravity: typing.SupportsFloat | typing.SupportsIndex = 9.80665, placement: str = 'jittered', system: typing.Any = 0) -> WaveComponents:
     """
     Long-crested sea with deterministic amplitudes and jittered frequencies.
     
@@ -3070,7 +3070,7 @@ def realise_waves(spectrum: Spectrum, *, seed: typing.Any, direction: typing.Sup
         Where the waves travel to, rad, from +x (forward) towards +y (port).
     count : int
         Number of components.
-    omega_min, omega_max : float, optional
+    minimum_omega, maximum_omega : float, optional
         Range, rad/s; by default `Spectrum.default_range`. For JONSWAP and Pierson-Moskowitz the realised hs is
         then within 1 %.
     depth : float

@@ -13,9 +13,24 @@ from typing import Any, TypeVar
 # A new name with spaces is a sentence: what to write instead.
 # Keywords, by the function or class that takes them; of a method that is defined in a class, "Class.method".
 SETTINGS = {"max_step": "maximum_step"}  # of a run, by `simulate` and all that take its words
+BOUNDS = {"max": "maximum", "min": "minimum"}
+PASSED = {"above": "minimum", "below": "maximum"}
+BAND = {"omega_min": "minimum_omega", "omega_max": "maximum_omega"}
 KEYWORDS: dict[str, dict[str, str]] = {
     "Method": {"tolerance": "rtol", "step": "dt", **SETTINGS},
     "Outputs": {"dt": "dt_out"},
+    "Kept": {"at": "names", "step": "interval"},
+    "Criterion": {"where": "names"},
+    "add_limit_state": {"where": "names", **BOUNDS},
+    "Until.channel": PASSED,
+    "Until.tension": PASSED,
+    "Until.length": PASSED,
+    "extremes": {"start": "after"},
+    "plot_spectrum": {"start": "after"},
+    "summary": {"start": "after", "end": "before"},
+    "Stage": {"longest": "maximum_duration"},
+    "WaveSystem": BAND,
+    "MeasuredWaves": BAND,
 }
 # Public names of the package, by their new address from `seacrane` on, such as "analysis.jacobian".
 NAMES: dict[str, str] = {}
@@ -26,8 +41,12 @@ LIFT_TABLES: dict[str, tuple[str, dict[str, Any]]] = {}
 LIFT_KEYS: dict[str, dict[str, str]] = {
     "method": {"tolerance": "rtol", "step": "dt", **SETTINGS},
     "outputs": {"dt": "dt_out"},
+    "limit_state": {"where": "names", **BOUNDS},
+    "stage": {"longest": "maximum_duration"},
+    "stage.until": {"where": "names", **PASSED},
+    "sea.systems": BAND,
 }
-STUDY_KEYS: dict[str, dict[str, str]] = {}
+STUDY_KEYS: dict[str, dict[str, str]] = {"keep": {"at": "names", "step": "interval"}}
 # What leaving a key out meant in files of version 1, by table, where it means something else now.
 LIFT_DEFAULTS: dict[str, dict[str, Any]] = {}
 

@@ -27,7 +27,7 @@ def lanes_used(result):
 
 def seeds(count, lanes, span, rtol):
     """The ensemble, and the seconds that it took."""
-    keep = {"track": Kept(channel="position", at={"body": "payload"}), "lanes": lanes_used}
+    keep = {"track": Kept(channel="position", names={"body": "payload"}), "lanes": lanes_used}
     over = {"seed": range(1, count + 1)}
     begin = time.perf_counter()
     made = ensemble(

@@ -9,12 +9,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from seacrane.description.channels import CHANNELS, DERIVED
 from seacrane.description.crane_parts import cylinders, hooks, payloads
 from seacrane.description.given import given_vessels
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import number_of
 from seacrane.inputs.frames import rotation_matrix
-from seacrane.result.channels import CHANNELS, DERIVED
 
 if TYPE_CHECKING:
     from seacrane import _core

@@ -162,7 +162,9 @@ def response_statistics(
     require_same_speed(linear, database)
     low, high = float(database.omega[0]), float(database.omega[-1])
     if database.trusted_band is not None and database.trusted_band[0] > low:
-        below = spectrum.energy(omega_min=low, omega_max=database.trusted_band[0]) / spectrum.moment(0)
+        below = spectrum.energy(minimum_omega=low, maximum_omega=database.trusted_band[0]) / spectrum.moment(
+            0
+        )
         warn_of_waves_below_band(database, below, "waves of a spectrum")
     main, output = float(heading), linear.output(body=body, point=point)
     headings, shares = np.array([main]), np.ones(1)
@@ -183,7 +185,7 @@ def response_statistics(
         spectrum=density,
         std=np.sqrt(moments[:, 0]),
         duration=span,
-        wave_energy_share=spectrum.energy(omega_min=low, omega_max=high) / spectrum.moment(0),
+        wave_energy_share=spectrum.energy(minimum_omega=low, maximum_omega=high) / spectrum.moment(0),
         moments=moments,
         headings=headings,
         heading_share=shares,

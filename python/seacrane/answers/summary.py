@@ -16,6 +16,7 @@ from seacrane.errors import SceneError
 from seacrane.inputs.checked import number_of
 from seacrane.plotting.html import notebook_table, table
 from seacrane.plotting.text import text_table
+from seacrane.renamed import refusing
 from seacrane.result import Result
 from seacrane.result.utilisation import Utilisation
 
@@ -166,11 +167,12 @@ def _shown(value: float) -> str:
     return f"{0.0 if abs(value) < 1e-9 else value:.4g}"
 
 
+@refusing
 def summary(
     result: Result,
     *,
-    start: float | None = None,
-    end: float | None = None,
+    after: float | None = None,
+    before: float | None = None,
     static: Statics | None = None,
 ) -> Summary:
     """Static value, mean, standard deviation, extremes and dynamic factor of what matters in a run.
@@ -178,13 +180,13 @@ def summary(
     Rows: tension of links and wires, hook load, cylinder forces, slew torque, offset and swing of what hangs,
     heave, roll and pitch of vessels; as far as the run recorded them, without what is zero up to rounding.
     The static tension of a link is the weight that hangs on it. Of all else the value at the first output
-    from `start` on takes its place, marked by a star.
+    from `after` on takes its place, marked by a star.
 
     Parameters
     ----------
     result : Result
         Of any run.
-    start, end : float, optional
+    after, before : float, optional
         Part of it that mean, standard deviation, extremes and starred values are taken from, s; default: all.
     static : Statics, optional
         In one pose, as `statics` tells it: the static values of its tensions, cylinder forces, slew torque,
@@ -204,7 +206,7 @@ def summary(
             f"result is a {type(result).__name__}; give what simulate() or Result.load() returns"
         )
     known = _static(static)
-    part = _part(result, start, end)
+    part = _part(result, after, before)
     time = result.time[part]
     every = [
         replace(one, static=known.get(one.name, one.static))
@@ -236,16 +238,16 @@ def _static(given: Statics | None) -> dict[str, float]:
     return found
 
 
-def _part(result: Result, start: float | None, end: float | None) -> slice:
-    """Outputs from `start` to `end`, both included."""
-    first = result.time[0] if start is None else number_of("summary: start", start)
-    last = result.time[-1] if end is None else number_of("summary: end", end)
+def _part(result: Result, after: float | None, before: float | None) -> slice:
+    """Outputs from `after` to `before`, both included."""
+    first = result.time[0] if after is None else number_of("summary: after", after)
+    last = result.time[-1] if before is None else number_of("summary: before", before)
     part = slice(
         int(np.searchsorted(result.time, first)), int(np.searchsorted(result.time, last, side="right"))
     )
     if part.start >= part.stop:
         raise SceneError(
-            f"summary: no output is between start = {first:g} and end = {last:g} s; the result has "
+            f"summary: no output is between after = {first:g} and before = {last:g} s; the result has "
             f"{result.time[0]:g} to {result.time[-1]:g} s"
         )
     return part

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane import _core
-from seacrane.result.channels import DERIVED
+from seacrane.description.channels import DERIVED
 from seacrane.run.outputs import Outputs
 from seacrane.scene.scene import Scene
 

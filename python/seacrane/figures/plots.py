@@ -9,14 +9,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane.analysis.frequency_domain import motion_rao
+from seacrane.description.pick import pick_of
 from seacrane.errors import SceneError
 from seacrane.figures.overview import axes_note, marks_of, panels_of, payload_bodies, resultants
 from seacrane.figures.traces import Trace, traces
 from seacrane.inputs.frames import AXES_NOTE, MOTIONS
 from seacrane.plotting.figure import new_figure
 from seacrane.plotting.panel import COLOURS, MOST_NAMED, Line, Panel, Sheet, draw, plain, write_note
+from seacrane.renamed import refusing
 from seacrane.result import Result
-from seacrane.result.pick import pick_of
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -99,7 +100,8 @@ def history_sheet(result: Result, *channels: str, **names: str) -> Sheet:
     )  # fmt: skip
 
 
-def plot_spectrum(result: Result, *channels: str, start: float = 0.0, **names: str) -> Figure:
+@refusing
+def plot_spectrum(result: Result, *channels: str, after: float = 0.0, **names: str) -> Figure:
     """Draw the variance of channels over frequency, by averaged periodograms (Welch).
 
     Parameters
@@ -107,7 +109,7 @@ def plot_spectrum(result: Result, *channels: str, start: float = 0.0, **names: s
     result : Result
         At least 64 outputs, evenly spaced.
     *channels : str
-    start : float
+    after : float
         Leave out what comes before, s.
     **names : str
         As of `plot_history`.
@@ -122,15 +124,15 @@ def plot_spectrum(result: Result, *channels: str, start: float = 0.0, **names: s
     SceneError
         For a channel or name that the result does not hold, or a record that is too short or uneven.
     """
-    return draw(spectrum_sheet(result, *channels, start=start, **names))
+    return draw(spectrum_sheet(result, *channels, after=after, **names))
 
 
-def spectrum_sheet(result: Result, *channels: str, start: float = 0.0, **names: str) -> Sheet:
+def spectrum_sheet(result: Result, *channels: str, after: float = 0.0, **names: str) -> Sheet:
     """The panels of `plot_spectrum` with their numbers."""
     from scipy.signal import welch
 
     found = _wanted(result, channels, names)
-    kept = _even_part(result, start)
+    kept = _even_part(result, after)
     step = float(result.time[kept][1] - result.time[kept][0])
     count = kept.stop - kept.start
     length = min(count, max(2 * count // (SEGMENTS + 1), round(RESOLVED / step), FEWEST_OUTPUTS))
@@ -176,15 +178,15 @@ def _squared(unit: str) -> str:
     return f"{unit}2 s/rad" if unit.isalpha() else f"({unit})2 s/rad"
 
 
-def _even_part(result: Result, start: float) -> slice:
+def _even_part(result: Result, after: float) -> slice:
     """Outputs from a time on; without the last where it is early."""
-    first = int(np.searchsorted(result.time, start))
+    first = int(np.searchsorted(result.time, after))
     step = np.diff(result.time[first:])
     last = result.time.size - int(step.size > 1 and abs(step[-1] - step[0]) > 1e-6 * step[0])
     even = step[: last - first - 1]
     if last - first < FEWEST_OUTPUTS or np.ptp(even) > 1e-6 * even[0]:
         raise SceneError(
-            f"start is {start:g} s: a spectrum takes {FEWEST_OUTPUTS} evenly spaced outputs or more, and "
+            f"after is {after:g} s: a spectrum takes {FEWEST_OUTPUTS} evenly spaced outputs or more, and "
             f"{max(last - first, 0)} follow; run longer, record more often, or start earlier"
         )
     return slice(first, last)

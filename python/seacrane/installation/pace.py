@@ -86,7 +86,7 @@ def _seeds(scene: Scene, count: int, lanes: int) -> Ensemble:
     return ensemble(
         scene,
         over={"seed": range(1, count + 1)},
-        keep={"track": Kept(channel="position", at={"body": "payload"})},
+        keep={"track": Kept(channel="position", names={"body": "payload"})},
         database=shipped_database(),
         t_end=SPAN_OF_LANES,
         lanes=lanes,

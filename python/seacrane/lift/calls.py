@@ -10,6 +10,7 @@ import numpy as np
 from seacrane import _core
 from seacrane.analysis.tanks import Tank
 from seacrane.crane import Crane, JointedCrane, Payload, load_crane
+from seacrane.description.channels import CHANNELS
 from seacrane.description.scene import coordinate_of
 from seacrane.errors import SceneError
 from seacrane.hydro import HydroDatabase, load_database, shipped_database
@@ -17,7 +18,6 @@ from seacrane.lift.check import SHIPPED
 from seacrane.lift.curves import curve_from
 from seacrane.lift.keys import DEGREES, EITHER, Key, into_si
 from seacrane.lift.tables import Table
-from seacrane.result.channels import CHANNELS
 from seacrane.result.units import unit_of
 from seacrane.scene.mooring import MooringSpring
 from seacrane.scene.motion_history import MotionHistory
@@ -106,17 +106,17 @@ def _require_unit(scene: Scene, key: Key, spelling: str, values: Mapping[str, An
 
 
 def require_unit_of_channel(
-    keys: Iterable[Key], values: Mapping[str, Any], channel: str, where: Mapping[str, str]
+    keys: Iterable[Key], values: Mapping[str, Any], channel: str, names: Mapping[str, str]
 ) -> None:
     """Refuse a limit in another unit than that of the channel, as far as that is known here."""
     if channel not in CHANNELS:
         return  # the run says so
-    own = unit_of(channel, list(where.values())).split(EITHER)
+    own = unit_of(channel, list(names.values())).split(EITHER)
     for key in keys:
         for spelling, unit in key.spellings.items():
             if spelling in values and unit and not {unit, RADIANS.get(unit)} & set(own):
                 right = [one for one, u in key.spellings.items() if {u, RADIANS.get(u)} & set(own)]
-                fix = f"give {' or '.join(right)}" if right else "name one of its curves by where"
+                fix = f"give {' or '.join(right)}" if right else "name one of its curves in channel"
                 raise SceneError(f"{spelling}: channel {channel!r} is in {EITHER.join(own)}; {fix}")
 
 
@@ -131,7 +131,7 @@ class Caller:
         """Add to a scene what a table describes; at rest, without what only moves it."""
         given = keywords(table.keys, values, scene)
         if table.name == "limit_state":
-            require_unit_of_channel(table.keys, values, values["channel"], values.get("where", {}))
+            require_unit_of_channel(table.keys, values, values["channel"], values.get("names", {}))
         match table.name:
             case "vessel":
                 self._vessel(scene, given, at_rest=at_rest)

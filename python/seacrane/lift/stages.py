@@ -97,18 +97,18 @@ def _condition(keys: tuple[Key, ...], table: Mapping[str, Any]) -> Condition:
     if len(kinds) != 1:
         raise SceneError(f"until: has {' and '.join(kinds) or 'nothing to wait for'}; give one of "
                          f"{', '.join(WAITS)}")  # fmt: skip
-    kind, where = kinds[0], values.get("where", {})
-    if kind != "channel" and "where" in values:
-        raise SceneError(f"until: where goes with channel; leave it out beside {kind}")
-    bounds = {key: values[key] for key in ("above", "below") if key in values}
+    kind, names = kinds[0], values.get("names", {})
+    if kind != "channel" and "names" in values:
+        raise SceneError(f"until: names goes with channel; leave it out beside {kind}")
+    bounds = {key: values[key] for key in ("minimum", "maximum") if key in values}
     if kind in ("contact", "release"):
         if bounds:
             raise SceneError(f"until: {' and '.join(bounds)} stands beside {kind}; leave it out")
         return Until.contact(values[kind]) if kind == "contact" else Until.release(values[kind])
     channel = LIMITED.get(kind, values[kind])
-    require_unit_of_channel(keys, table, channel, where)
+    require_unit_of_channel(keys, table, channel, names)
     if kind == "channel":
-        return Until.channel(values[kind], **bounds, **where)
+        return Until.channel(values[kind], **bounds, **names)
     return (
         Until.tension(values[kind], **bounds) if kind == "tension" else Until.length(values[kind], **bounds)
     )

@@ -217,7 +217,7 @@ def _system_keys() -> tuple[Key, ...]:
     frequency = {"unit": "rad/s"}
     own = keys_of(
         WaveSystem,
-        more=CHOSEN | {"spreading": NUMBER, "omega_min": frequency, "omega_max": frequency},
+        more=CHOSEN | {"spreading": NUMBER, "minimum_omega": frequency, "maximum_omega": frequency},
     )
     shape = keys_of(sea.add_sea, more={"hs": LENGTH, "tp": TIME}, only=("hs", "tp", "gamma"))
     return (*own, *(replace(key, required=key.name != "gamma") for key in shape))
@@ -409,7 +409,7 @@ _ALL = (
     ),
     _call(
         "limit_state", limit_states.add_limit_state,
-        max=NUMBER | LIMITED, min=NUMBER | LIMITED, where={"type": "names"},
+        maximum=NUMBER | LIMITED, minimum=NUMBER | LIMITED, names={"type": "names"},
     ),
     Table(
         name="roles", text=_summary(crane_parts.add_roles),

@@ -225,7 +225,7 @@ class _Still:
         state = equilibrium(scene, time=time)
         calm = held(scene, time=time)
         result = finished(Run(calm, state.time, start=state, method=method, outputs=outputs))
-        rest = np.array([result.curve(one.channel, **one.where)[0] for one in criteria])
+        rest = np.array([result.curve(one.channel, **one.names)[0] for one in criteria])
         return cls(scene=calm.copy(waves=scene.waves), state=state, rest=rest)
 
 

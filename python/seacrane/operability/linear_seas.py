@@ -90,7 +90,7 @@ class LinearSeas:
         """Share of the energy of the waves within the database; the rest is left out."""
         spectrum = self._spectrum(tp)
         return float(
-            spectrum.energy(omega_min=self._omega[0], omega_max=self._omega[-1]) / spectrum.moment(0)
+            spectrum.energy(minimum_omega=self._omega[0], maximum_omega=self._omega[-1]) / spectrum.moment(0)
         )
 
     def allowable(self, gains: Array, tp: float) -> Array:

@@ -70,7 +70,7 @@ class Probe:
             if run.interrupted:
                 raise KeyboardInterrupt
             result = require_finite(run.result())
-            return np.array([record_numbers(result.curve(one.channel, **one.where)) for one in self.criteria])
+            return np.array([record_numbers(result.curve(one.channel, **one.names)) for one in self.criteria])
         except (SeacraneError, ArithmeticError, ValueError) as error:
             return f"{type(error).__name__}: {error}"
 

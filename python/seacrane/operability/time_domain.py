@@ -95,7 +95,7 @@ class Storms:
         ]
         after = self.begin + self.start_up
         keep = {
-            f"criterion_{i}": RecordNumbers(channel=one.channel, where=one.where, after=after)
+            f"criterion_{i}": RecordNumbers(channel=one.channel, names=one.names, after=after)
             for i, one in enumerate(self.criteria)
         }
         return ensemble(

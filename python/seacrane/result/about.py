@@ -97,5 +97,10 @@ def _made(data: Mapping[str, Any]) -> About:
     settings = given.pop(SETTINGS, {})
     given[SETTINGS] = {renamed.SETTINGS.get(name, name): value for name, value in settings.items()}
     stages = tuple(StageSpan(**one) for one in given.pop("stages", ()))
-    limit_states = tuple(LimitState(**one) for one in given.pop("limit_states", ()))
+    limit_states = tuple(_limit_state(**one) for one in given.pop("limit_states", ()))
     return About(**given, stages=stages, limit_states=limit_states)
+
+
+def _limit_state(*, where: Mapping[str, str] | None = None, **known: Any) -> LimitState:
+    """Results of before 0.3 say `where` for its names."""
+    return LimitState(**known) if where is None else LimitState(names=where, **known)

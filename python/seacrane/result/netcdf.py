@@ -10,12 +10,12 @@ from typing import Any
 
 import numpy as np
 
+from seacrane.description.channels import NAMED, attributes
 from seacrane.description.file_text import LARGEST_FILE
 from seacrane.errors import FileFormatError
 from seacrane.files.netcdf_limits import open_netcdf
 from seacrane.files.state import state_from_bytes
 from seacrane.result.about import About, parted
-from seacrane.result.channels import NAMED, attributes
 from seacrane.result.events import NUMBERS, PREFIX, Event, event_arrays, events_from_arrays
 from seacrane.result.kept_scene import KeptScene
 

@@ -22,11 +22,11 @@ from typing import Any, BinaryIO
 import numpy as np
 from numpy.typing import NDArray
 
+from seacrane.description.channels import CHANNELS, NAMED
 from seacrane.errors import FileFormatError
 from seacrane.files import sole_writer
 from seacrane.files.state import state_from_bytes
 from seacrane.result.about import About, parted
-from seacrane.result.channels import CHANNELS, NAMED
 from seacrane.result.events import Event
 from seacrane.result.kept_scene import KeptScene
 

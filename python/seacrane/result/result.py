@@ -12,12 +12,13 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from seacrane.description.channels import CHANNELS, FIXED, MOTIONS, attributes
+from seacrane.description.pick import Pick, pick_of
 from seacrane.errors import FileFormatError, SceneError, SeacraneError
 from seacrane.files.atomic import atomic_write
 from seacrane.files.netcdf_limits import NETCDF_ERRORS
 from seacrane.files.state import state_to_bytes
 from seacrane.result.about import About, StageSpan
-from seacrane.result.channels import CHANNELS, FIXED, MOTIONS, attributes
 from seacrane.result.checked_parts import (
     Stat,
     Stats,
@@ -32,7 +33,6 @@ from seacrane.result.events import Event, checked_events, event_arrays
 from seacrane.result.kept_scene import NOT_KEPT, KeptScene
 from seacrane.result.netcdf import Contents, read_arrays, write_netcdf
 from seacrane.result.partial_file import is_partial, partial_path, read_partial
-from seacrane.result.pick import Pick, pick_of
 from seacrane.result.table import as_html
 from seacrane.result.utilisation import Utilisation, utilisation_of
 

@@ -11,12 +11,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from seacrane.description.channels import CHANNELS
 from seacrane.errors import FileFormatError
 from seacrane.files.atomic import atomic_write, require_replaceable, space_left
 from seacrane.files.netcdf_limits import NETCDF_ERRORS, open_netcdf
 from seacrane.files.state import state_to_bytes
 from seacrane.result.about import About, parted
-from seacrane.result.channels import CHANNELS
 from seacrane.result.events import Event
 from seacrane.result.netcdf import Contents, write_netcdf
 from seacrane.result.partial_file import PartialFile, Piece, partial_path

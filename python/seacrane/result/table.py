@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
+from seacrane.description.channels import CHANNELS
 from seacrane.plotting.html import notebook_table
-from seacrane.result.channels import CHANNELS
 
 
 def as_html(caption: str, dims: Mapping[str, Sequence[str]], coords: Mapping[str, Sequence[str]]) -> str:

@@ -131,7 +131,7 @@ def _utilised(
     dims: Mapping[str, Sequence[str]],
     coords: Mapping[str, Sequence[str]],
 ) -> Utilised:
-    channel, where = state.channel, state.where
+    channel, where = state.channel, state.names
     known = (("maximum", state.maximum), ("minimum", state.minimum))
     bounds = [(key, float(value)) for key, value in known if value is not None]
     if channel not in channels:

@@ -9,11 +9,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from seacrane.description.channels import CHANNELS, DERIVED, FIXED
 from seacrane.description.crane_parts import cylinders, hooks, piston_areas, slews, tips
 from seacrane.description.cylinder_areas import pressure
 from seacrane.description.hydraulic_cylinders import hydraulic_cylinders, slide_of
 from seacrane.errors import SceneError
-from seacrane.result.channels import CHANNELS, DERIVED, FIXED
 from seacrane.run.clearances import clearances
 from seacrane.run.hanging import lead_angles, tip_velocities
 from seacrane.run.hook_loads import hook_loads, suspensions
@@ -79,13 +79,7 @@ def require_limited_channels(scene: Description, model: _core.Model) -> None:
             require_names(scene, [state.channel])
         except SceneError as error:
             raise SceneError(f"limit state {name!r}: {error}") from error
-        dims = {*CHANNELS[state.channel].dims[1:], *CHANNELS[state.channel].dims_of_several[1:]}
-        for dim, chosen in state.where.items():
-            if dim not in dims:
-                raise SceneError(
-                    f"limit state {name!r}: channel {state.channel!r} has no dimension {dim!r}; it has "
-                    f"{', '.join(sorted(dims)) or 'none'}"
-                )
+        for dim, chosen in state.names.items():
             if chosen not in axes.get(dim, ()):
                 raise SceneError(
                     f"limit state {name!r}: there is no {dim} {chosen!r}; choose from "

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from seacrane import _core
 from seacrane._core import integrator
+from seacrane.description.channels import CHANNELS, DERIVED
 from seacrane.description.compilation import compiled, compiled_in_sea
 from seacrane.description.loads import lines_of
 from seacrane.description.references import check_references
@@ -22,7 +23,6 @@ from seacrane.files.state_parts import with_present_inputs
 from seacrane.inputs.caller import keeping
 from seacrane.inputs.checked import number_of
 from seacrane.result.about import About
-from seacrane.result.channels import CHANNELS, DERIVED
 from seacrane.result.checked_parts import checked_stats
 from seacrane.result.events import Event
 from seacrane.result.result import Result

@@ -10,8 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from seacrane import _core
+from seacrane.description.channels import CHANNELS, NAMED
 from seacrane.result.about import About, StageSpan
-from seacrane.result.channels import CHANNELS, NAMED
 from seacrane.result.events import Event
 from seacrane.result.result import Result
 from seacrane.run.run import Run

@@ -134,8 +134,8 @@ class StagedRun:
         SceneError
             For a connection, command or condition that does not fit; the message names the stage.
         SimulationError
-            As `simulate`, and for a stage that is not over within its `longest`. Either has as its `result`
-            what was recorded until then.
+            As `simulate`, and for a stage that is not over within its `maximum_duration`. Either has
+            as its `result` what was recorded until then.
         """
         if self.interrupted or len(self._spans) == len(self.stages):
             return False
@@ -362,8 +362,8 @@ def simulate_stages(
     SceneError
         For stages that do not fit the scene or one another, by their names.
     SimulationError
-        As `simulate`, and for a stage that is not over within its `longest`. Its `result` holds the outputs
-        until then.
+        As `simulate`, and for a stage that is not over within its `maximum_duration`. Its `result`
+        holds the outputs until then.
 
     Warns
     -----

@@ -26,7 +26,8 @@ from seacrane.lift.document import LIFT, VERSION, Document, read_document
 from seacrane.lift.keys import Key
 from seacrane.lift.lift import LIFTS, Lift, lift_of
 from seacrane.lift.lines import Place
-from seacrane.renamed import STUDY_KEYS
+from seacrane.lift.tables import TABLES
+from seacrane.renamed import LIFT_KEYS, STUDY_KEYS
 from seacrane.run.method import Method
 from seacrane.run.outputs import Outputs
 from seacrane.scene.scene import Scene
@@ -74,6 +75,9 @@ class StudyFile:
         reader = _Reader(document, Checker(document, folder, STUDY_KEYS))
         over = reader.over()
         members, keep = reader.members(over), reader.keep()
+        beside = Checker(document, folder, LIFT_KEYS, older=reader.checker.older)
+        for name in (name for name in FROM_LIFTS if name in document.data):
+            beside.table((name,), TABLES[name].keys, document.data[name])
         reader.checker.tell()
         return cls(
             members=members, keep=keep, until=reader.until(keep, members), exposure=reader.exposure(),
@@ -100,7 +104,7 @@ class StudyFile:
         data = self._document.data
         tables = {name: data[name] for name in FROM_LIFTS if name in data}
         head = {"format": LIFT.format, "version": data["version"]}
-        document = replace(self._document, data={**head, **tables})
+        document = replace(self._document, data={**head, **tables}, told=True)
         own = lift_of(document, self._folder)
         return (
             own.t_end if "run" in tables else lift.t_end,

@@ -16,10 +16,10 @@ from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field
 from difflib import get_close_matches
 
+from seacrane.description.channels import CHANNELS, FIXED, MOTIONS
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import text_of
 from seacrane.inputs.shown import shown
-from seacrane.result.channels import CHANNELS, FIXED, MOTIONS
 
 WHOLE = re.compile(r"\s*([^\[\]]*?)\s*(?:\[(.*)\])?\s*", re.DOTALL)
 ITEM = re.compile(r"""\s*(?:(\w+)\s*=\s*)?("[^"]*"|'[^']*'|[^,"']*?)\s*(?:,|$)""")
