@@ -261,7 +261,7 @@ def a_link_down_to_the_keel() -> None:
 
 def a_crane_without_drives() -> None:
     scene = Scene(name="quay")
-    scene.add_crane(base="ground", payload=Payload(mass=20e3))
+    scene.add_crane(base="ground", payload=Payload(mass=20e3), held=False)
     simulate(scene, t_end=0.1)
 
 

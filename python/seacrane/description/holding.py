@@ -57,16 +57,20 @@ def held_drives(scene: Description) -> dict[str, list[Drive]]:
 
 
 def with_holds(scene: Some) -> Some:
-    """The scene as it is compiled: with a driver for each drive that is held; itself where there is none.
+    """The scene as it is compiled: with a driver for each drive that is held; itself where there is none."""
+    return decided(scene) if held_drives(scene) else scene
 
-    From there on nothing more is held: what takes a drive out of it finds its joint free.
-    """
-    found = held_drives(scene)
-    if not found:
-        return scene
-    out = scene.copy()
-    for drives in found.values():
+
+def decided(scene: Some) -> Some:
+    """As `with_holds`, and nothing more is held: what takes a drive out of it finds its joint free."""
+    out = let_go(scene)
+    for drives in held_drives(scene).values():
         for _, joint, coordinate in drives:
             add_driver(out, joint=joint, coordinate=coordinate, curve=0.0)
-    out.roles.update({prefix: replace(roles, held=False) for prefix, roles in out.roles.items()})
     return out
+
+
+def let_go(scene: Some) -> Some:
+    """The scene with nothing held but by what is described."""
+    roles = {prefix: replace(one, held=False) for prefix, one in scene.roles.items()}
+    return scene.copy(roles=roles)
