@@ -106,7 +106,7 @@ def pushed(t: np.ndarray) -> np.ndarray:
 
 @pytest.mark.parametrize("integrator", ["dopri5", "tsit5", "verner65", "rk4"])
 def test_a_force_by_a_linear_table_is_integrated_as_exactly_as_one_without_kinks(integrator: str) -> None:
-    """The motion is a cubic between kinks, which every one of these methods steps exactly if it meets them."""
+    """The motion is a cubic between kinks, which each of these methods steps exactly if it meets them."""
     scene = slider()
     scene.add_actuator("rail", feed_forward=Curve.table(*FORCE))
     step = {"dt": 0.1} if integrator == "rk4" else {"rtol": 1e-9}

@@ -9,8 +9,8 @@ from numpy.typing import NDArray
 
 from seacrane.answers.hanging import POSES, hanging_vectors, swing
 from seacrane.errors import FileFormatError
-from seacrane.figures.traces import NO_MOTION, Trace, beyond_rounding, traces
 from seacrane.result import Result
+from seacrane.result.traces import NO_MOTION, Trace, beyond_rounding, traces
 
 Array = NDArray[np.float64]
 STANDARD_GRAVITY = 9.80665

@@ -267,6 +267,7 @@ CRANE = keys_of(
         "crane": {"type": "file"},
         "foot": POINT,
         "payload": {"type": "table", "keys": PAYLOAD},
+        "payload_mass": {"unit": "kg"},
         "hydraulics": {"type": "table", "keys": HYDRAULICS},
     },
 )
