@@ -11,6 +11,7 @@ from seacrane import _core
 from seacrane.description.scene import Description, insert
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import name_of, number_of, numbers_of, shaped_of
+from seacrane.inputs.plausible import warn_of_density
 
 Array = NDArray[np.float64]
 
@@ -55,6 +56,11 @@ def add_body(
     SceneError
         For a duplicate name, a value that is not of that shape, or neither inertia nor size; other values are
         checked at compile().
+
+    Warns
+    -----
+    MassUnitWarning
+        A box lighter than foam, or heavier than any metal.
     """
     what = f"body {name_of('body', name)!r}"
     edges = np.zeros(3) if size is None else shaped_of(f"{what}: size", size, (3,))
@@ -71,6 +77,8 @@ def add_body(
         gravity=gravity,
     )
     inserted: _core.Body = insert("body", scene.bodies, body)
+    if edges.any():
+        warn_of_density(what, body.mass, float(np.prod(edges)))
     return inserted
 
 
