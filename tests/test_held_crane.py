@@ -7,8 +7,9 @@ import warnings
 import numpy as np
 import pytest
 
-from seacrane import FreeCraneWarning, Scene, equilibrium, simulate
+from seacrane import Scene, equilibrium, simulate
 from seacrane.crane import Payload
+from seacrane.warnings import FreeCraneWarning
 
 
 def crane(*, prefix: str = "", **given: object) -> Scene:

@@ -15,7 +15,6 @@ from test_summary import LENGTH, MASS, G, pendulum
 from seacrane import (
     FileFormatError,
     Lift,
-    LimitState,
     Result,
     Scene,
     SceneError,
@@ -24,6 +23,7 @@ from seacrane import (
     simulate_to_file,
     summary,
 )
+from seacrane.scene import LimitState
 
 TOP = MASS * G * (3.0 - 2.0 * np.cos(0.3))  # N, of a pendulum let go at 0.3 rad
 

@@ -15,7 +15,7 @@ from seacrane import Result, Run, Scene, State, cases
 from seacrane.files.state import state_to_bytes
 
 # Assembly makes consistent what some scenes describe roughly, on purpose.
-pytestmark = pytest.mark.filterwarnings("ignore::seacrane.AssemblyWarning")
+pytestmark = pytest.mark.filterwarnings("ignore::seacrane.warnings.AssemblyWarning")
 
 FILES = Path(__file__).with_name("files_0_1")
 STOP, END = 0.73, 1.5

@@ -7,15 +7,12 @@ from typing import TYPE_CHECKING
 from seacrane.description.hydraulic_cylinders import hydraulic_cylinders
 from seacrane.description.loads import LOAD_KINDS, named, springs_of
 from seacrane.inputs.caller import warn_caller
+from seacrane.warnings import FreeCraneWarning
 
 if TYPE_CHECKING:
     from seacrane.description.scene import Description
 
 PASSIVE = ("limit", "friction", "soft stop")  # loads that name a joint and do not hold it where it is
-
-
-class FreeCraneWarning(UserWarning):
-    """A crane's slew drive, cylinder or luff has no driver and no actuator: its jibs fall."""
 
 
 def warn_of_free_cranes(scene: Description) -> None:
