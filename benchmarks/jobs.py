@@ -18,9 +18,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from measure.machine import machine
+import documents
 from measure.section import significant
-from measure.table import markdown, write
+from measure.table import write
 
 from seacrane.files.atomic import atomic_write
 
@@ -63,10 +63,10 @@ class Job:
         return self.title, str(lines), significant(self.wall, 2), significant(self.cpu, 2)
 
     def section(self) -> str:
-        """Its idea, what it printed, and itself."""
+        """Its idea, where it is, and what it printed."""
         idea = (ast.get_docstring(ast.parse(self.source)) or "").strip()
-        script = f"<details><summary>Script</summary>\n\n```python\n{self.source.rstrip()}\n```\n\n</details>"
-        return f"## {self.title}\n\n{idea}\n\n```text\n{self.printed.rstrip()}\n```\n\n{script}\n"
+        script = f"[{self.path.name}](../examples/jobs/{self.path.name})"
+        return f"## {self.title}\n\n{idea} Script: {script}.\n\n```text\n{self.printed.rstrip()}\n```\n"
 
 
 def run(path: Path) -> Job:
@@ -85,8 +85,7 @@ def run(path: Path) -> Job:
 
 def document(jobs: Sequence[Job]) -> str:
     """All jobs as one Markdown text."""
-    table = markdown(HEAD, [job.cells for job in jobs])
-    head = f"{INTRODUCTION}Machine: {machine()}\n\n<!-- table {TABLE} -->\n{table}\n<!-- end of table -->\n"
+    head = f"{INTRODUCTION}<!-- table {TABLE} -->\n<!-- end of table -->\n"
     return "\n".join([head, *(job.section() for job in jobs)])
 
 
@@ -106,6 +105,8 @@ def main() -> None:
     write(results, HEAD, [job.cells for job in jobs])
     with atomic_write(folder / "jobs.md") as draft:
         draft.write_text(document(jobs), encoding="utf-8")
+    if publish:
+        documents.fill()
 
 
 if __name__ == "__main__":

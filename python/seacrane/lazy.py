@@ -16,6 +16,8 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any
 
+from seacrane.renamed import NAMES
+
 TOP = __name__.partition(".")[0]
 
 
@@ -47,11 +49,11 @@ class Face(ModuleType):
         within = any((Path(path) / f"{name}.py").exists() for path in self.__path__)
         if within or name.startswith("_"):
             return AttributeError(text)
-        place, near = _place(name), get_close_matches(name, self.homes, 1)
-        if place:
+        now, near = _address(name), get_close_matches(name, self.homes, 1)
+        if now:
             asked_by = sys._getframe(2).f_code.co_name
             kind = ImportError if asked_by == "_handle_fromlist" else AttributeError
-            return kind(f"{text}; it is {place}.{name}")
+            return kind(f"{text}; it is {now}")
         return AttributeError(text + (f"; did you mean {near[0]!r}?" if near else ""))
 
 
@@ -70,14 +72,14 @@ def _homes(stub: str) -> dict[str, str]:
     return {name: home for _, home, _, _, _, name in lines}
 
 
-def _place(name: str) -> str | None:
-    """The public module that offers a name, the top before others."""
+def _address(name: str) -> str | None:
+    """Where a name is public now, or what it is called: at the top before other modules."""
     folder = Path(__file__).parent
     top = _homes(str(folder / "__init__.pyi"))
-    if name in top:
-        return TOP
+    if name in NAMES or name in top:
+        return f"{TOP}.{NAMES.get(name, name)}"
     modules = [module for module, home in top.items() if home == TOP]
-    return next((f"{TOP}.{one}" for one in modules if name in _offered(folder / one)), None)
+    return next((f"{TOP}.{one}.{name}" for one in modules if name in _offered(folder / one)), None)
 
 
 def _offered(place: Path) -> Collection[str]:

@@ -129,6 +129,10 @@ class DriverImpulseWarning(SceneWarning):
     """A driver's rate jumps: what it drives takes an impulse, whose work is in no energy."""
 
 
+class RenamedKeysWarning(SceneWarning):
+    """A lift or study file has keys that are called otherwise since 0.3."""
+
+
 class AngleUnitWarning(SceneWarning):
     """An angle looks like degrees where radians are due, or the other way round."""
 
