@@ -57,13 +57,14 @@ from seacrane.files.atomic import atomic_write
 HERE = Path(__file__).resolve().parent
 INTRODUCTION = """# Benchmarks
 
-Written by `benchmarks/run.py --publish`; `make bench` measures again and writes to `out/bench`. Each table is a file of
-[`results`](results). A line below it names the engine and the machine that measured it: a digest of the C++ sources
-without their comments. `make release-check` lists the tables of another engine than that of the sources.
+Written by `benchmarks/run.py --publish`; `make bench` measures again and writes to `out/bench`. Each table is
+a file of [`results`](results). The line with its link names the machine and the engine that measured it, this
+by a digest of the C++ sources without comments. `make release-check` lists the tables of another engine.
 
-Times depend on the machine and on what else runs on it, so read the ratios first. One thread throughout; times are CPU
-times of that thread unless they say wall. C++ tests, not these tables, count that the loop allocates nothing on the heap
-after its start: `cpp/tests/test_allocations_core.cpp`, and `cpp/tests/test_integrate_allocations.cpp` for each integrator.
+Times depend on the machine and on what else runs on it, so read the ratios first. One thread throughout;
+times are CPU times of that thread unless they say wall. C++ tests, not these tables, count that the loop
+allocates nothing on the heap after its start: `cpp/tests/test_allocations_core.cpp`, and
+`cpp/tests/test_integrate_allocations.cpp` for each integrator.
 
 """
 PICTURE = "work_precision.png"
