@@ -7,16 +7,18 @@ import importlib
 import re
 import subprocess
 import sys
+from operator import attrgetter
 from pathlib import Path
 from types import ModuleType
 
 import pytest
 
 import seacrane
+from seacrane.renamed import NAMES
 
 MODULES = [name for name in seacrane.__all__ if isinstance(getattr(seacrane, name), ModuleType)]
 NAMES_0_2 = (Path(__file__).parent / "names_0_2.txt").read_text(encoding="utf-8").split()
-MOVED = [name for name in NAMES_0_2 if name not in seacrane.__all__]
+MOVED = [name for name in NAMES_0_2 if name not in seacrane.__all__ and name not in NAMES]
 STUBS = [stub.parent.relative_to(Path(seacrane.__file__).parent) for stub in
          Path(seacrane.__file__).parent.rglob("__init__.pyi")]  # fmt: skip
 
@@ -93,6 +95,16 @@ def test_a_name_of_0_2_is_refused_with_its_new_place(name: str) -> None:
     _, place, _ = str(refused.value).rsplit(" ", 1)[1].split(".")
     assert name in names_of(place)
     assert not hasattr(seacrane, name)
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_a_name_that_is_called_otherwise_is_refused_with_what_it_is(name: str) -> None:
+    now = NAMES[name]
+    assert attrgetter(now)(seacrane) is not None
+    with pytest.raises(AttributeError, match=rf"'{name}'; it is seacrane\.{now}$"):
+        getattr(seacrane, name)
+    with pytest.raises(ImportError, match=rf"it is seacrane\.{now}$"):
+        exec(f"from seacrane import {name}")
 
 
 def test_a_name_is_refused_with_the_nearest() -> None:

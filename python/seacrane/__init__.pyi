@@ -48,7 +48,6 @@ from seacrane.result.result import Result as Result
 from seacrane.answers.summary import summary as summary
 from seacrane.reporting.report import report as report
 from seacrane.figures.overview import plot_overview as plot_overview
-from seacrane.figures.plots import plot_history as plot_history
 from seacrane.viewer.view import view as view
 from seacrane import result as result
 from seacrane import figures as figures

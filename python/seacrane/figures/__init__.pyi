@@ -1,7 +1,6 @@
 """Pictures of runs: the paper's figures 3 to 10, a quick overview, and the paper's findings as numbers."""
 
 from seacrane.figures.overview import plot_overview as plot_overview
-from seacrane.figures.plots import plot_history as plot_history
 from seacrane.answers.summary_figure import plot_summary as plot_summary
 from seacrane.figures.plots import plot_reactions as plot_reactions
 from seacrane.figures.plots import plot_spectrum as plot_spectrum
