@@ -45,7 +45,9 @@ def test_the_first_page_lists_every_document() -> None:
     docs = ROOT / "docs"
     listed = {(docs / link).resolve() for link in LISTED.findall((docs / "index.md").read_text("utf-8"))}
     there = {*docs.glob("*.md"), *ROOT.glob("*.md"), *(ROOT / "benchmarks").glob("**/*.md")}
-    there |= {*(ROOT / "studies").glob("*/*.md")}
+    there |= {
+        path for folder in ("examples", "studies", "tests") for path in (ROOT / folder).glob("*/README.md")
+    }
     assert listed == there - {docs / "index.md"}
 
 
@@ -124,7 +126,7 @@ def test_signatures_say_what_the_code_says(small_site: Path) -> None:
     (small_site / "docs" / "index.md").write_text(INDEX + "- [Entry](entry.md)\n", encoding="utf-8")
     entries = {
         "seacrane.hydro.HydroDatabase.force_at": "method", "seacrane.hydro.HydroDatabase.select": "method",
-        "seacrane.Balance": "class", "seacrane.Balance.vessel_wrench": "property",
+        "seacrane.analysis.Balance": "class", "seacrane.analysis.Balance.vessel_wrench": "property",
     }  # fmt: skip
     lines = [f"```{{eval-rst}}\n.. auto{kind}:: {name}\n```" for name, kind in entries.items()]
     (small_site / "docs" / "entry.md").write_text("# Entry\n\n" + "\n\n".join(lines), encoding="utf-8")

@@ -33,7 +33,7 @@ KEYWORDS: dict[str, dict[str, str]] = {
     "MeasuredWaves": BAND,
 }
 # Public names of the package, by their new address from `seacrane` on, such as "analysis.jacobian".
-NAMES: dict[str, str] = {}
+NAMES: dict[str, str] = {"plot_history": "Result.plot"}
 
 # Tables of lift files: the new table, and keys that say there what the old name said.
 LIFT_TABLES: dict[str, tuple[str, dict[str, Any]]] = {}
@@ -48,13 +48,9 @@ LIFT_KEYS: dict[str, dict[str, str]] = {
 }
 STUDY_KEYS: dict[str, dict[str, str]] = {"keep": {"at": "names", "step": "interval"}}
 # What leaving a key out meant in files of version 1, by table, where it means something else now.
-LIFT_DEFAULTS: dict[str, dict[str, Any]] = {}
+LIFT_DEFAULTS: dict[str, dict[str, Any]] = {"crane": {"held": False}}
 
 Call = TypeVar("Call", bound=Callable[..., Any])
-
-
-class RenamedKeysWarning(UserWarning):
-    """A lift or study file has keys that are called otherwise since 0.3."""
 
 
 def refusing(call: Call) -> Call:

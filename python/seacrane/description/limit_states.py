@@ -22,8 +22,8 @@ KEYS = ("name", "channel", "maximum", "minimum")
 @refusing
 def add_limit_state(
     scene: Description,
-    *,
     channel: str,
+    *,
     maximum: float | None = None,
     minimum: float | None = None,
     names: Mapping[str, str] | None = None,

@@ -14,6 +14,7 @@ from seacrane import _core
 from seacrane._core import integrator
 from seacrane.description.channels import CHANNELS, DERIVED
 from seacrane.description.compilation import compiled, compiled_in_sea
+from seacrane.description.holding import with_holds
 from seacrane.description.loads import lines_of
 from seacrane.description.references import check_references
 from seacrane.description.stretch import QUASI_STATIC, automatic, with_stretch
@@ -39,7 +40,6 @@ from seacrane.run.formulation import stepped
 from seacrane.run.input_slots import changed_inputs, steered
 from seacrane.run.line_rungs import (
     LineRung,
-    LineRungWarning,
     as_compiled,
     as_told,
     begun_anew,
@@ -59,6 +59,7 @@ from seacrane.validity.after_run import NOT_FINITE, not_finite, tried
 from seacrane.validity.lines import bound_findings
 from seacrane.validity.plausible import warn_of_description
 from seacrane.validity.range import Finding, as_text, findings
+from seacrane.warnings import LineRungWarning
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
@@ -123,6 +124,7 @@ class Run:
     ) -> None:
         self.method, self.outputs = settled(method, outputs, shorthand)
         self.t_end = number_of("t_end", t_end)
+        scene = with_holds(scene)
         self._given = scene.copy() if automatic(scene) else scene  # to begin anew with it
         self._given_start, self._capacity = _checked_state(start), capacity
         self.rungs = self._chosen_rungs(model)
