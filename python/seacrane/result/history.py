@@ -7,10 +7,10 @@ from collections.abc import Iterable, Mapping, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from seacrane.description.pick import Pick, pick_of
 from seacrane.errors import SceneError
 from seacrane.inputs.frames import AXES_NOTE
 from seacrane.plotting.panel import COLOURS, Line, Panel, Sheet
-from seacrane.description.pick import Pick, pick_of
 from seacrane.result.traces import Record, Trace, traces
 
 Array = NDArray[np.float64]
