@@ -45,7 +45,8 @@ def add_actuator(
 
     Load along q on both bodies: feed_forward + stiffness (reference - q) + damping (reference' - q'), N
     with N/m and N s/m, or N m with N m/rad and N m s/rad. `feed_forward` and `reference` are numbers or
-    curves of time. `joint` may be what a crane calls its drive, such as "slew" or "main". Inputs "<name>.force" and "<name>.reference" add to them during a run.
+    curves of time. Inputs "<name>.force" and "<name>.reference" add to them during a run. `joint` may be what
+    a crane calls its drive, such as "slew" or "main".
     """
     name = name_of("actuator", name, joint)
     joint, coordinate = _place(scene, "actuator", joint, coordinate)
