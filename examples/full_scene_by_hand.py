@@ -11,7 +11,8 @@ from pathlib import Path
 
 import numpy as np
 
-from seacrane import Curve, Scene, balance, reflected_inertia, simulate
+from seacrane import Curve, Scene, balance, simulate
+from seacrane.analysis import reflected_inertia
 from seacrane.hydro import shipped_database
 
 y = 10.0  # m, of the crane's plane
