@@ -25,7 +25,6 @@ from seacrane._core import SoftStop as SoftStop
 from seacrane._core import State as State
 from seacrane._core import StateSpaceBlock as StateSpaceBlock
 from seacrane._core import TwistHistory as TwistHistory
-from seacrane._core import VesselHydrodynamics as VesselHydrodynamics
 from seacrane._core import integrator_names as integrator_names
 from seacrane._core import joint_kinds as joint_kinds
 from seacrane.accuracy.model_error import ModelError as ModelError
@@ -70,6 +69,7 @@ from seacrane.description.provenance import SeaProvenance as SeaProvenance
 from seacrane.description.provenance import VesselProvenance as VesselProvenance
 from seacrane.description.references import DriverImpulseWarning as DriverImpulseWarning
 from seacrane.description.roles import CraneRoles as CraneRoles
+from seacrane.description.vessel_hydrodynamics import VesselHydrodynamics as VesselHydrodynamics
 from seacrane.description.waves import ByHeading as ByHeading
 from seacrane.description.waves import HullLoads as HullLoads
 from seacrane.description.waves import RepeatingSeaWarning as RepeatingSeaWarning
@@ -101,7 +101,9 @@ from seacrane.figures.plots import plot_track as plot_track
 from seacrane.figures.pose import plot_scene as plot_scene
 from seacrane.hydro import HydroDatabase as HydroDatabase
 from seacrane.hydro import load_database as load_database
+from seacrane.hydro import shipped_database as shipped_database
 from seacrane.hydro.data.long_waves import RaoPhaseWarning as RaoPhaseWarning
+from seacrane.hydro.data.motion_raos import MotionRaos as MotionRaos
 from seacrane.inputs.plausible import AngleUnitWarning as AngleUnitWarning
 from seacrane.inputs.plausible import CompassDirectionWarning as CompassDirectionWarning
 from seacrane.inputs.plausible import DepthSignWarning as DepthSignWarning
@@ -147,7 +149,6 @@ from seacrane.scene.mooring import OwnMooringWarning as OwnMooringWarning
 from seacrane.scene.mooring import mooring_matrix as mooring_matrix
 from seacrane.scene.motion_history import MotionHistory as MotionHistory
 from seacrane.scene.motion_history import NoisyMotionWarning as NoisyMotionWarning
-from seacrane.scene.motion_raos import MotionRaos as MotionRaos
 from seacrane.scene.scene import Scene as Scene
 from seacrane.scene.sea import WavesWithoutLoadWarning as WavesWithoutLoadWarning
 from seacrane.scene.wind_current import DoubleCountedDampingWarning as DoubleCountedDampingWarning

@@ -9,13 +9,14 @@ import numpy as np
 
 from seacrane import _core
 from seacrane.description.loads import LOAD_KINDS, kind_of
+from seacrane.description.vessel_hydrodynamics import VesselHydrodynamics
 from seacrane.errors import FileFormatError
 from seacrane.files.node import Node
 
 # Entries that came after files with elements of their kind: written where they are not as usual, so that
 # older scenes keep their digests.
 _ADDED_LATER: Mapping[type, frozenset[str]] = {
-    _core.VesselHydrodynamics: frozenset(("floats",)),
+    VesselHydrodynamics: frozenset(("floats",)),
     _core.Line: frozenset(
         ("tension", "tension_gain", "dead_band", "drum_inertia", "drum_radius", "maximum_tension",
          "maximum_power", "brake", "brake_capacity", "brake_give", "radii", "axes", "turns", "efficiencies",

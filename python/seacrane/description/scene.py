@@ -13,6 +13,7 @@ from seacrane.description.provenance import VesselProvenance
 from seacrane.description.range import Range
 from seacrane.description.roles import CraneRoles
 from seacrane.description.table import Table
+from seacrane.description.vessel_hydrodynamics import VesselHydrodynamics
 from seacrane.description.waves import Waves
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import text_of
@@ -100,7 +101,7 @@ class Description:
     force_tables: dict[str, _core.ForceTable] = field(default_factory=dict)
     function_forces: dict[str, _core.FunctionForce] = field(default_factory=dict)
     loads: dict[str, Any] = field(default_factory=dict)
-    vessels: dict[str, _core.VesselHydrodynamics] = field(default_factory=dict)
+    vessels: dict[str, VesselHydrodynamics] = field(default_factory=dict)
     points: dict[str, _core.Point] = field(default_factory=dict)
     waves: Waves | None = None
     recorded: dict[str, tuple[str, str]] = field(default_factory=dict)
