@@ -29,7 +29,7 @@ print(statics(scene, coordinates={"telescope": [0.0, 1.5, 3.0]}))
 del scene.drivers["telescope.displacement"]
 out = Curve.quintic(start_time=10.0, end_time=30.0, start=0.0, end=2.5)
 scene.add_driver(joint="telescope", curve=out)
-scene.add_sea(database, hs=1.5, tp=8.0, direction_deg=90.0, seed=1)
+scene.add_sea(hs=1.5, tp=8.0, direction_deg=90.0, seed=1)
 result = simulate(scene, t_end=60.0, dt_out=0.1)
 force = result["cylinder_force"] / 1e3
 tension = result["link_tension"] / 1e3

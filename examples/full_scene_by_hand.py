@@ -22,7 +22,7 @@ tip, load = (14.6, y, 22.4), (14.6, y, 14.4)
 scene = Scene(name="by hand")
 database = shipped_database()
 scene.add_vessel(database)
-scene.add_sea(database, hs=2.0, tp=8.0, direction_deg=135.0, seed=1)
+scene.add_sea(hs=2.0, tp=8.0, direction_deg=135.0, seed=1)
 
 
 def beam(name: str, mass: float, start, end, width: float) -> None:

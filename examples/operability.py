@@ -20,7 +20,6 @@ from seacrane import (
     weather_windows,
 )  # fmt: skip
 from seacrane.crane import Payload
-from seacrane.hydro import shipped_database
 
 WEIGHT = 10e3 * 9.80665  # N
 
@@ -47,7 +46,6 @@ table = allowable_hs(
     start_up=100.0,
     rtol=1e-4,
     time=50.0,
-    database=shipped_database(),
     alpha=AlphaFactor(values=0.8, source="made up for this example; take that of your standard"),
     hours=12.0,
 )  # fmt: skip

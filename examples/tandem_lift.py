@@ -40,7 +40,7 @@ def lift(hs: float) -> Result:
         scene.add_winch(line=name, lag=0.5)
     scene.add_ballast()
     rest = equilibrium(scene)
-    scene.add_sea(SHIP, hs=hs, tp=7.0, direction_deg=160.0, seed=2)
+    scene.add_sea(hs=hs, tp=7.0, direction_deg=160.0, seed=2)
     high = lengths["aft"] - HOIST
     stages = [
         Stage(name="hold", duration=20.0),

@@ -149,14 +149,14 @@ def test_its_spectrum_is_pinksters() -> None:
 def moored(**sea_options: Any) -> Scene:
     scene = Scene(name="moored")
     scene.add_vessel(database(), mooring_period=100.0)
-    scene.add_sea(database(), **{"hs": 4.0, "tp": 9.0, "count": 40, **sea_options})
+    scene.add_sea(**{"hs": 4.0, "tp": 9.0, "count": 40, **sea_options})
     return scene
 
 
 def test_coefficients_are_interpolated_in_frequency_and_heading_and_mirrored() -> None:
     for direction_deg in (135.0, 225.0, -10.0):
         scene = moored(direction_deg=direction_deg)
-        scene.add_drift(drifting(ship))
+        scene.add_drift()
         assert scene.waves is not None
         assert scene.waves.hull().drift is not None
         expected = np.array([ship(w, np.radians(direction_deg)) for w in scene.waves.omega])
@@ -165,7 +165,7 @@ def test_coefficients_are_interpolated_in_frequency_and_heading_and_mirrored() -
         assert np.all(np.abs(scene.waves.hull().drift - expected) < 2e-3 * scale)
     port, starboard = moored(direction_deg=50.0), moored(direction_deg=-50.0)
     for scene in (port, starboard):
-        scene.add_drift(drifting(ship))
+        scene.add_drift()
     assert port.waves is not None
     assert starboard.waves is not None
     mirror = np.array([1.0, -1.0, 1.0, -1.0, 1.0, -1.0])
@@ -176,7 +176,7 @@ def test_coefficients_are_interpolated_in_frequency_and_heading_and_mirrored() -
 
 def test_a_moored_vessel_is_pushed_by_the_mean_drift_and_its_energy_balances(tmp_path: Path) -> None:
     scene = moored()
-    scene.add_drift(drifting(ship))
+    scene.add_drift()
     assert scene.waves is not None
     assert scene.waves.hull().drift is not None
     result = simulate(scene, t_end=100.0, dt_out=0.5, rtol=1e-8)
@@ -212,7 +212,7 @@ def test_drift_at_the_actual_position(drift_first: bool) -> None:
     )
     yaw = 0.35
     turned = moored(direction_deg=135.0 - np.degrees(yaw))
-    turned.add_drift(drifting(ship))
+    turned.add_drift()
     assert turned.waves is not None
     assert turned.waves.hull().drift is not None
     scale = np.array(waves.amplitude) @ np.abs(turned.waves.hull().drift) * np.sum(waves.amplitude) + 1e-6
@@ -228,19 +228,19 @@ def test_drift_at_the_actual_position(drift_first: bool) -> None:
 def test_what_is_missing_is_named() -> None:
     scene = moored()
     with pytest.raises(SceneError, match="has no drift coefficients"):
-        scene.add_drift(SimpleNamespace(name="plain", drift=None))  # type: ignore[arg-type]
+        scene.add_drift()  # type: ignore[arg-type]
     with pytest.raises(SceneError, match="needs a sea"):
-        Scene().add_drift(drifting(ship))
+        Scene().add_drift()
     narrow = drifting(ship)
     narrow.drift.omega = np.linspace(0.6, 2.0, 25)
     with pytest.raises(ValueError, match=r"omega = 0\.\d+ rad/s is outside .* 0\.6 to 2 rad/s"):
-        scene.add_drift(narrow)
-    scene.add_drift(narrow, outside="hold")
+        scene.add_drift()
+    scene.add_drift(outside="hold")
     with pytest.raises(SceneError, match="choose 'error' or 'hold'"):
-        scene.add_drift(narrow, outside="zero")  # type: ignore[arg-type]
+        scene.add_drift(outside="zero")  # type: ignore[arg-type]
     with pytest.raises(ValueError, match="gaps above 45 deg are not interpolated"):
-        moored(direction_deg=100.0).add_drift(drifting(ship, headings=3))
-    moored(direction_deg=90.0).add_drift(drifting(ship, headings=3))  # a stored heading needs none
+        moored(direction_deg=100.0).add_drift()
+    moored(direction_deg=90.0).add_drift()  # a stored heading needs none
     waves, coefficient = sea()
     coefficient[3, 1] = np.inf
     with pytest.raises(ValueError, match=r"drift load: coefficient\(3, 1\) is inf"):

@@ -134,7 +134,7 @@ def test_what_a_sea_does_to_a_vessel_stays(phase: str) -> None:
     scenes = [vessel(hs=0.0) for _ in range(2)]
     for seed, scene in enumerate(scenes):
         scene.add_sea(
-            database, seed=seed, hs=1.0, tp=7.0, spreading=6.0, phase=phase, drift=True, position=(3.0, -2.0),
+            seed=seed, hs=1.0, tp=7.0, spreading=6.0, phase=phase, drift=True, position=(3.0, -2.0),
             heading_deg=20.0,
         )  # fmt: skip
     made, asked = with_sea(scenes[0], database, {"seed": 1}).waves, scenes[1].waves
@@ -396,7 +396,7 @@ def test_another_database_is_refused(afloat: Scene, database: HydroDatabase) -> 
         ensemble(afloat, over={"seed": [1]}, keep=keep)
     other = replace(database, force=1.1 * database.force)
     with pytest.raises(SceneError, match="the waves load vessel 'vessel' otherwise"):
-        ensemble(afloat, over={"seed": [1]}, keep=keep, database=other)
+        ensemble(afloat, over={"seed": [1]}, keep=keep)
 
 
 def test_members_begin_where_they_are_told(tmp_path: Path) -> None:

@@ -106,7 +106,7 @@ def test_a_run_by_convolution_is_the_linear_model_by_convolution() -> None:
 
 def roll_at_resonance(scene: Scene, database: HydroDatabase, **options: object) -> complex:
     omega = np.linspace(0.45, 0.62, 86)
-    rao = motion_rao(scene, database=database, omega=omega, heading=BEAM, body="vessel", **options)
+    rao = motion_rao(scene, omega=omega, heading=BEAM, body="vessel", **options)
     return complex(rao[int(np.abs(rao[:, 3]).argmax()), 3])
 
 

@@ -152,9 +152,7 @@ def test_outputs_of_every_kind_are_those_of_a_single_run() -> None:
         "wave_elevation",
     )
     keep = {name: Kept(channel=name) for name in names if name in scene.compile().channel_names()}
-    made = ensemble(
-        scene, over={"seed": [1, 2]}, database=shipped_database(), keep=keep, t_end=5.0, rtol=1e-9, lanes=4
-    ).dataset
+    made = ensemble(scene, over={"seed": [1, 2]}, keep=keep, t_end=5.0, rtol=1e-9, lanes=4).dataset
     for seed in (1, 2):
         result = simulate(with_sea(scene, shipped_database(), {"seed": seed}), t_end=5.0, rtol=1e-9)
         for name in keep:

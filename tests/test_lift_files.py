@@ -141,7 +141,7 @@ systems = [
     lift = lift_of(text, tmp_path)
     spectrum = cases._core.pierson_moskowitz(hs=2, tp=9)
     wind = WaveSystem(spectrum=spectrum, direction_deg=90, spreading=cos_2s(10), count=30)
-    scene.add_sea(database, vessel="barge", sea=SeaState(systems=[swell, wind], seed=4, depth=database.depth))
+    scene.add_sea(vessel="barge", sea=SeaState(systems=[swell, wind], seed=4, depth=database.depth))
     assert lift.scene() == scene
 
 

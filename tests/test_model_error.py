@@ -9,7 +9,6 @@ import numpy as np
 import pytest
 
 from seacrane import ModelErrorWarning, Scene, SceneError, cases, model_error, simulate
-from seacrane.hydro import shipped_database
 
 SEA = {"hs": 0.2, "tp": 9.0, "count": 40}
 
@@ -85,7 +84,7 @@ def test_a_vessel_of_its_matrices_needs_its_database() -> None:
     scene.vessels["vessel"] = type(scene.vessels["vessel"])(**fields)
     with pytest.raises(SceneError, match="give the database that it was added from"):
         model_error(scene, body="vessel", times=times)
-    given = model_error(scene, body="vessel", times=times, database=shipped_database())
+    given = model_error(scene, body="vessel", times=times)
     np.testing.assert_allclose(given.largest, expected.largest, rtol=1e-4)
 
 

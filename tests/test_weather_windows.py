@@ -35,7 +35,7 @@ def table() -> AllowableHs:
     database: HydroDatabase = shipped_database()
     return allowable_hs(
         vessel(), criteria=[HEAVE, PITCH], tp=[6.0, 9.0, 14.0], direction_deg=np.arange(0.0, 360.0, 45.0),
-        hs=[4.0], database=database, domain="frequency",
+        hs=[4.0], domain="frequency",
         alpha=AlphaFactor(values=0.8, source="made up"), hours=6.0,
     )  # fmt: skip
 

@@ -65,7 +65,7 @@ def workers(*, repeats: int, members: int = 16, t_end: float = 1000.0) -> Sectio
     def wall(executor: Executor | None) -> float:
         start = time.perf_counter()
         ensemble(
-            scene, over={"seed": range(members)}, keep=TRACK, t_end=t_end, database=database,
+            scene, over={"seed": range(members)}, keep=TRACK, t_end=t_end,
             executor=executor, **HOW,
         )  # fmt: skip
         return time.perf_counter() - start

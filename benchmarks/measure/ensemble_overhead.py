@@ -113,7 +113,7 @@ def _row(kind: _Kind, members: int, t_end: float) -> list[Any]:
             start = kind.caller() if kind.caller else 0.0
             there = ensemble(
                 scene, over={"seed": range(count)}, keep={"track": TRACK, "lap": kind.clock}, t_end=t_end,
-                database=database, executor=executor, pack=PACK, **HOW,
+                executor=executor, pack=PACK, **HOW,
             )  # fmt: skip
             taken.append(kind.caller() - start if kind.caller else 0.0)
     packs = there.dataset.lap.to_numpy().reshape(-1, PACK, 2).mean(axis=1)

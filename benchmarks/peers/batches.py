@@ -67,7 +67,7 @@ def seacrane_batches(
             with ThreadPoolExecutor(threads) as pool:
                 begun, spent = time.perf_counter(), time.process_time()
                 made = ensemble(
-                    scene, over={"seed": seeds}, keep={"track": TRACK}, database=database, t_end=T_END,
+                    scene, over={"seed": seeds}, keep={"track": TRACK}, t_end=T_END,
                     executor=pool, lanes=lanes, pack=max(lanes, 4), integrator=method, rtol=rtol,
                     formulation="recursive", dt_out=DT_OUT, channels=("position",),
                 )  # fmt: skip

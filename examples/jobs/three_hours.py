@@ -14,7 +14,7 @@ scene.add_vessel(ship)
 load = Payload(mass=MASS, link_length=25.0)
 crane = scene.add_crane(theta=-np.pi / 2, s1=1.0, s2=2.0, payload=load, held=True)
 scene.add_ballast()
-scene.add_sea(ship, hs=HS, tp=TP, direction_deg=180.0, count=300)
+scene.add_sea(hs=HS, tp=TP, direction_deg=180.0, count=300)
 result = simulate(scene, t_end=END, dt_out=0.5)  # a loose tolerance would feed the load's rocking
 print(summary(result, start=START))
 

@@ -26,6 +26,7 @@ from seacrane.hydro.vessel.parameters import following_yaw, rigid_part
 from seacrane.inputs.brief import brief
 from seacrane.inputs.caller import warn_caller
 from seacrane.one_thread import one_thread
+from seacrane.renamed import refusing
 
 if TYPE_CHECKING:
     from seacrane.hydro import HydroDatabase
@@ -68,6 +69,7 @@ class ModelError:
         return np.asarray(np.abs(self.error).max(axis=0))
 
 
+@refusing
 def model_error(
     scene: Scene,
     *,

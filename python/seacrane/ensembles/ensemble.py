@@ -33,6 +33,7 @@ from seacrane.ensembles.zarr_store import ZarrStore
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import number_of
 from seacrane.inputs.shown import shown
+from seacrane.renamed import refusing
 from seacrane.run.lanes import lanes_of
 from seacrane.run.method import Method
 from seacrane.run.outputs import Outputs
@@ -92,6 +93,7 @@ class Ensemble:
         return _ensemble(members, store.dataset(members))
 
 
+@refusing
 def ensemble(
     source: Source,
     *,

@@ -15,6 +15,7 @@ from seacrane.figures.traces import Trace, traces
 from seacrane.inputs.frames import AXES_NOTE, MOTIONS
 from seacrane.plotting.figure import new_figure
 from seacrane.plotting.panel import COLOURS, MOST_NAMED, Line, Panel, Sheet, draw, plain, write_note
+from seacrane.renamed import refusing
 from seacrane.result import Result
 from seacrane.result.pick import pick_of
 
@@ -288,6 +289,7 @@ def reaction_sheet(result: Result, *joints: str) -> Sheet:
     )  # fmt: skip
 
 
+@refusing
 def plot_rao(
     scene: Scene | LinearModel,
     *,

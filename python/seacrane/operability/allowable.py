@@ -26,6 +26,7 @@ from seacrane.operability.probe import Prober, Sea
 from seacrane.operability.steady_start import steady_start
 from seacrane.operability.table import AllowableHs
 from seacrane.operability.time_domain import Cell, Storms
+from seacrane.renamed import refusing
 from seacrane.run.advance import finished
 from seacrane.run.method import Method
 from seacrane.run.outputs import Outputs
@@ -45,6 +46,7 @@ FEWEST_PERIODS = 10.0  # that a record holds
 DELAY = 2.0  # s before a progress bar shows
 
 
+@refusing
 def allowable_hs(
     scene: Scene,
     *,

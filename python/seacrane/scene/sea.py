@@ -22,6 +22,7 @@ from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.checked import flag_of, shaped_of
 from seacrane.inputs.frames import heading_of
 from seacrane.inputs.plausible import direction_of
+from seacrane.renamed import refusing
 from seacrane.scene.depth import require_depth
 from seacrane.scene.drift import add_drift
 from seacrane.scene.given_vessel import put_into_sea
@@ -38,6 +39,7 @@ class WavesWithoutLoadWarning(UserWarning):
     """Waves above the frequencies of a database carry no load that matters: motions come out too small."""
 
 
+@refusing
 def add_sea(
     scene: Description,
     *,
