@@ -90,6 +90,6 @@ def test_waves_below_the_band_are_named(tp: float, named: bool) -> None:
 
 
 def test_other_sources_are_not_sent_to_another_method() -> None:
-    scene, other = vessel(strip()), replace(strip(), source="a table")
+    scene = vessel(replace(strip(), source="a table"))
     with pytest.warns(BelowBandWarning, match="covers these frequencies"):
         scene.add_sea(hs=2.0, tp=14.0, direction_deg=90.0)

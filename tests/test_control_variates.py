@@ -77,7 +77,7 @@ def test_the_control_is_the_run_in_small_waves(axis: str, derivative: int, datab
     scene = vessel(hs=0.02, memory="passive", mooring_period=None)
     control = LinearControl(scene, body="vessel", axis=axis, t_end=40.0, after=3.0, derivative=derivative)
     channel = ("position", "velocity", "acceleration")[derivative]
-    run = simulate(with_sea(scene, database, {"seed": 5}), 40.0, rtol=1e-7, dt_out=0.1, channels=[channel])
+    run = simulate(with_sea(scene, {"seed": 5}), 40.0, rtol=1e-7, dt_out=0.1, channels=[channel])
     late = run.time >= 3.0
     motion = run.select(channel, body="vessel", axis=axis)
     moved = motion[late] - (motion[0] if derivative == 0 else 0.0)
@@ -125,10 +125,10 @@ def test_a_swing_of_a_crane_load_is_known_better(database: HydroDatabase) -> Non
 def test_a_hook_load_follows_the_square_of_the_swing(database: HydroDatabase) -> None:
     """Which the linear motions tell to second order: in small waves the run itself, in others nearly."""
     scene = lifted()
-    given: dict[str, Any] = {"database": database, "t_end": 40.0, "after": 5.0, "dt": 0.25}
+    given: dict[str, Any] = {"t_end": 40.0, "after": 5.0, "dt": 0.25}
     for hs, known in ((0.05, 0.02), (1.0, 0.3)):
         control = HookLoadControl(scene, words={"hs": hs}, **given)
-        sea = with_sea(scene, database, {"seed": 2, "hs": hs})
+        sea = with_sea(scene, {"seed": 2, "hs": hs})
         run = simulate(sea, 40.0, rtol=1e-5, dt_out=0.25, channels=["hook_load"])
         load = run["hook_load"][run.time >= 5.0 - 1e-9, 0]
         assert np.allclose(control.times, run.time[run.time >= 5.0 - 1e-9])

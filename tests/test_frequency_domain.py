@@ -61,7 +61,7 @@ def test_vessel_alone_moves_as_its_matrices_say(heading_deg: float) -> None:
 
 def test_heading_is_seen_from_a_turned_vessel() -> None:
     """A vessel at a yaw of 40 deg moves, in its own axes, as one without yaw."""
-    database, yaw = shipped_database(), np.radians(40.0)
+    yaw = np.radians(40.0)
     straight = cases.vessel(hs=0.0)
     turned = straight.copy()
     body = turned.bodies.pop("vessel")
@@ -144,7 +144,7 @@ def test_phase_and_place_of_the_waves() -> None:
 
 def test_statistics_are_those_of_the_components() -> None:
     """Quadrature against the sum over many fine components, heave and roll of the vessel's deck."""
-    database, heading = shipped_database(), np.radians(135.0)
+    heading = np.radians(135.0)
     scene = cases.vessel(hs=0.0)
     linear = linear_model(scene)
     scene.add_sea(hs=2.0, tp=8.0, direction_deg=135.0, count=4000)
@@ -160,7 +160,6 @@ def test_statistics_are_those_of_the_components() -> None:
 
 def test_most_probable_largest_value_in_simulated_storms() -> None:
     """The largest heave of 400 Gaussian records of half an hour with the response spectrum."""
-    database = shipped_database()
     statistics = response_statistics(
         cases.vessel(hs=0.0), spectrum=jonswap(hs=2.0, tp=8.0), heading=np.pi,
         body="vessel", duration=1800.0,
@@ -205,7 +204,6 @@ def test_what_cannot_be_linearised_says_why(lift: LinearModel) -> None:
         linear_model(swinging, state=state)
     with pytest.raises(SceneError, match=r"values, scene .* finite ones"):
         linear_model(lift.scene, state=state)
-    database = shipped_database()
     with pytest.raises(SceneError, match="body 'hook' does not exist"):
         motion_rao(lift, omega=0.5, heading=0.0, body="hook")
     with pytest.raises(SceneError, match="has no vessel"):

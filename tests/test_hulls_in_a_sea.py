@@ -323,7 +323,7 @@ def test_the_linear_model_sums_the_loads_of_all_hulls() -> None:
     runs = simulate(both, t_end=0.5)
     roll = quantities_of(both, both.compile(), None)["roll"].values(runs)
     assert roll.shape == (runs.time.size, 2, 1)
-    names = {variant.rung for variant in rungs.variants(both, database(), quick=True)}
+    names = {variant.rung for variant in rungs.variants(both, quick=True)}
     assert rungs.PRESCRIBED not in names and rungs.LINEAR in names
 
 

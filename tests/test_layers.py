@@ -18,9 +18,7 @@ FLOORS = """
     lazy
     inputs
     files
-    plotting
-    description
-    validity sea
+    plotting sea
     hydro.data
     hydro.memory
     hydro.vessel
@@ -28,6 +26,8 @@ FLOORS = """
     hydro.readers
     hydro.hull
     hydro
+    description
+    validity
     crane
     analysis
     scene

@@ -311,7 +311,7 @@ BUILT = {
     ),
     "a value that the API refuses": (HEAD + VESSEL + "[sea]\nhs_m = 2\ntp_s = -1\n", "tp_s", "tp is -1"),
     "a joint that is not there": (HEAD + '[wire]\njoint = "rope"\n', "[wire]", "there is no joint 'rope'"),
-    "a vessel that is not there": (HEAD + '[sea]\nvessel = "barge"\n', "[sea]", "no [vessel] named 'barge'"),
+    "a vessel that is not there": (HEAD + '[sea]\nvessel = "barge"\n', "[sea]", "there is no vessel 'barge'"),
     "depth without systems": (HEAD + VESSEL + "[sea]\ndepth_m = 60\n", "depth_m", "without systems"),
     "a file that is not there": (HEAD + '[vessel]\ndatabase = "no.nc"\n', "[vessel]", "no.nc: no such file"),
     "a command without control": (ARM.replace("[control]", "[notes]"), "[command]", "has no [control]"),

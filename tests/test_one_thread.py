@@ -179,7 +179,6 @@ def test_members_have_one_thread_whatever_runs_beside_them() -> None:
     keep = {"threads": lambda result: float(max(threads()))}
     over = {"seed": [1, 2, 3, 4]}
     study: dict[str, Any] = {
-        "database": shipped_database(),
         "keep": keep,
         "t_end": 0.5,
         "pack": 1,

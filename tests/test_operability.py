@@ -115,7 +115,7 @@ def _difference_of_run_and_model(
     scene.add_point(name="deck", body="vessel", point=(20.0, 5.0, 8.0))
     rest = equilibrium(scene, time=50.0)
     still = held(scene, time=50.0).copy(waves=scene.waves)
-    linear = LinearSeas(still, rest, database, criteria)
+    linear = LinearSeas(still, rest, criteria)
     assert still.waves is not None
     start, told = linear.in_waves(still.waves, 50.0, 50.0 + 0.5 * np.arange(101))
     run = simulate(
@@ -155,7 +155,7 @@ def test_runs_begin_without_the_transient_of_a_soft_mooring(database: HydroDatab
     """From rest a beam sea sets off a sway of minutes, and first waves count as motion."""
     sway = Criterion(channel="vessel_motion", where={"motion": "sway"}, maximum=0.5, motion=True,
                      statistic="significant", name="sway")  # fmt: skip
-    asked: dict[str, Any] = {"tp": 9.0, "direction_deg": 90.0, "database": database, "criteria": [sway]}
+    asked: dict[str, Any] = {"tp": 9.0, "direction_deg": 90.0, "criteria": [sway]}
     runs = allowable_hs(vessel(), **asked, hs=[1.0, 2.0, 3.0], domain="time", **SHORT | {"start_up": 0.0})
     linear = allowable_hs(vessel(), **asked, hs=[3.0], domain="frequency")
     found = runs.dataset.isel(tp=0, direction_deg=0)
@@ -263,7 +263,7 @@ def test_a_spectrum_that_changes_its_shape_is_left_to_runs(database: HydroDataba
 
 def test_threads_and_a_store_change_nothing(database: HydroDatabase, tmp_path: Path) -> None:
     asked: dict[str, Any] = {
-        "criteria": [HEAVE], "tp": 9.0, "direction_deg": 135.0, "hs": [1.0, 2.0], "database": database,
+        "criteria": [HEAVE], "tp": 9.0, "direction_deg": 135.0, "hs": [1.0, 2.0],
         "domain": "time", "duration": 200.0, "start_up": 50.0, "seeds": [1, 2, 3],
     }  # fmt: skip
     alone = allowable_hs(vessel(), **asked)
@@ -279,7 +279,7 @@ def test_threads_and_a_store_change_nothing(database: HydroDatabase, tmp_path: P
 
 def test_ctrl_c_ends_it_and_the_store_goes_on(database: HydroDatabase, tmp_path: Path) -> None:
     asked: dict[str, Any] = {
-        "criteria": [HEAVE], "tp": 9.0, "direction_deg": 135.0, "hs": [1.0, 2.0], "database": database,
+        "criteria": [HEAVE], "tp": 9.0, "direction_deg": 135.0, "hs": [1.0, 2.0],
         "domain": "time", "duration": 2000.0, "seeds": [1, 2, 3], "store": tmp_path / "storms",
     }  # fmt: skip
 
@@ -445,12 +445,11 @@ ASKED: dict[str, Any] = {"criteria": [HEAVE], "tp": 9.0, "direction_deg": 135.0,
         ({"domain": "both"}, "domain is 'both'; choose"),
         ({"alpha": 0.8}, "alpha is 0.8; give AlphaFactor"),
         ({"hours": 0.0}, "hours is 0.0"),
-        ({"database": None}, "database is None and the sea varies"),
     ],
 )
 def test_what_makes_no_sense_is_refused(given: dict[str, Any], message: str, database: HydroDatabase) -> None:
     with pytest.raises(SceneError, match=message):
-        allowable_hs(vessel(), **{"database": database, **ASKED, **given})
+        allowable_hs(vessel(), **{**ASKED, **given})
 
 
 def test_a_scene_without_a_sea_is_refused(database: HydroDatabase) -> None:
@@ -506,7 +505,6 @@ def test_progress_is_shown_of_every_step(
         "duration": 100.0,
         "start_up": 0.0,
         "seeds": [1, 2, 3],
-        "database": database,
     }
     allowable_hs(vessel(), **asked, domain="time")
     assert not capsys.readouterr().err

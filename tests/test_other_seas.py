@@ -138,7 +138,7 @@ def test_members_are_what_simulate_gives_in_their_sea(word: str, database: Hydro
     given: dict[str, Any] = {"t_end": 3.0, "rtol": 1e-3, "channels": ["position"]}
     there = ensemble(scene, over={word: WORDS[word]}, lanes=1, keep=PATH, **given)
     for value in WORDS[word]:
-        alone = simulate(with_sea(scene, database, {word: value}), **given)
+        alone = simulate(with_sea(scene, {word: value}), **given)
         assert np.array_equal(there.dataset.track.sel({word: value}), alone.select("position", body="vessel"))
 
 
@@ -207,7 +207,7 @@ def test_a_scene_is_compiled_once_for_all_its_seas(
     assert len(compiled) == len(masses) + 8  # none is held for as long as the next sea
     assert there.failures == turned.failures == {}
     assert np.array_equal(there.dataset.track, turned.dataset.track.transpose(*there.dataset.track.dims))
-    heavier = with_sea(with_values(scene, {path: masses[1]}), database, {"seed": 2})
+    heavier = with_sea(with_values(scene, {path: masses[1]}), {"seed": 2})
     alone = simulate(heavier, **given, channels=["position"]).select("position", body="vessel")
     assert np.array_equal(there.dataset.track.sel({path: masses[1], "seed": 2}), alone)
 
@@ -220,7 +220,6 @@ def test_seas_are_the_same_whoever_runs_them(pool: type[Executor], database: Hyd
     given: dict[str, Any] = {
         "over": over,
         "keep": PATH,
-        "database": database,
         "lanes": 1,
         "t_end": 1.0,
         "rtol": 1e-3,
@@ -282,7 +281,7 @@ def test_a_growing_mode_is_told_of_in_every_sea(database: HydroDatabase) -> None
     there = ensemble(scene, over={"seed": [5]}, keep=PATH, **given)
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
-        alone = simulate(with_sea(scene, database, {"seed": 5}), **given)
+        alone = simulate(with_sea(scene, {"seed": 5}), **given)
     assert "makes an oscillation of body 'box' grow" in str(alone.stats["validity"])
     assert there.dataset.validity.sel(seed=5).item() == alone.stats["validity"]
 

@@ -237,10 +237,10 @@ def test_speeds_that_do_not_belong_together_are_refused(tmp_path: Path) -> None:
     still, moving = ship_at(5.0, tmp_path)
     options: dict[str, Any] = {"spectrum": SEA, "heading": 0.0, "body": "vessel"}
     with pytest.raises(SceneError, match=r"is of 5 m/s, the memory of the linear model of 0 m/s; "):
-        response_statistics(free(still, 60.0), **options)
+        response_statistics(free(still, 60.0), database=moving, **options)
     under_way = linear_model(free(still, 60.0), memory="database", database=moving)
     with pytest.raises(SceneError, match="is of 0 m/s, the memory of the linear model of 5 m/s"):
-        motion_rao(under_way, omega=0.6, heading=0.0, body="vessel")
+        motion_rao(under_way, database=still, omega=0.6, heading=0.0, body="vessel")
     scene = free(still, 60.0)
     scene.add_sea(hs=1.0)
     with pytest.raises(SceneError, match="meets the waves of the scene at zero speed"):

@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import replace
 from functools import cache
 from pathlib import Path
-from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -219,11 +218,11 @@ def test_what_makes_no_sense_is_refused_by_name() -> None:
 
 
 def test_headings_must_cover_the_circle() -> None:
-    few: Any = SimpleNamespace(
-        name="beam only", full_circle=lambda: (np.array([0.0, 1.0, 2.0]), np.zeros((3, 1, 6)))
-    )
+    scene = Scene()
+    scene.add_vessel(replace(database(), name="beam only").select(heading=(1.0, 2.0)))
+    scene.add_sea(hs=3.0, tp=8.0, direction_deg=90.0, count=40)
     with pytest.raises(SceneError, match=r"database 'beam only': headings .* leave gaps above 45 deg"):
-        actual_scene(force_by_heading=None).use_actual_position()
+        scene.use_actual_position()
 
 
 def positioned_values() -> ByHeading:

@@ -15,7 +15,6 @@ from seacrane import (
     AllowableHs,
     AlphaFactor,
     FileFormatError,
-    HydroDatabase,
     ScatterDiagram,
     SceneError,
     WaveHindcast,
@@ -24,7 +23,6 @@ from seacrane import (
     plot_weather_windows,
     weather_windows,
 )
-from seacrane.hydro import shipped_database
 
 HOUR = np.timedelta64(1, "h")
 START = np.datetime64("2019-01-01T00:00")
@@ -32,7 +30,6 @@ START = np.datetime64("2019-01-01T00:00")
 
 @pytest.fixture(scope="module")
 def table() -> AllowableHs:
-    database: HydroDatabase = shipped_database()
     return allowable_hs(
         vessel(), criteria=[HEAVE, PITCH], tp=[6.0, 9.0, 14.0], direction_deg=np.arange(0.0, 360.0, 45.0),
         hs=[4.0], domain="frequency",

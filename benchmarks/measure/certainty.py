@@ -76,7 +76,7 @@ def lift() -> Scene:
 
 def control_variates() -> Iterator[tuple[str, ...]]:
     """Means of largest values of runs, plain and with the linear response to the same waves."""
-    scene, database = lift(), shipped_database()
+    scene = lift()
     keep = {
         name: Kept(channel=channel, what="maximum", at=at, after=START)
         for name, channel, at, *_ in CONTROLLED
@@ -89,7 +89,7 @@ def control_variates() -> Iterator[tuple[str, ...]]:
         ).dataset.sel(hs=hs)
         for hs in HEIGHTS
     }  # fmt: skip
-    given: dict[str, Any] = {"database": database, "t_end": T_END, "after": START, "dt": 0.5}
+    given: dict[str, Any] = {"t_end": T_END, "after": START, "dt": 0.5}
     for name, _, _, words, motion in CONTROLLED:
         for hs in HEIGHTS:
             control: LinearControl | HookLoadControl

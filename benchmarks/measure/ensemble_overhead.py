@@ -14,7 +14,6 @@ from typing import Any
 import numpy as np
 
 from seacrane import Kept, Result, Run, _core, cases, ensemble
-from seacrane.hydro import shipped_database
 
 from .section import Section
 
@@ -105,7 +104,7 @@ def overhead(*, members: int = 16, t_end: float = 10_800.0) -> Section:
 
 
 def _row(kind: _Kind, members: int, t_end: float) -> list[Any]:
-    scene, database = cases.case2(), shipped_database()
+    scene = cases.case2()
     taken: list[float] = []
     counts = (2 * WORKERS * PACK, 2 * WORKERS * PACK + members)
     with kind.opened() as executor:

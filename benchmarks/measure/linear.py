@@ -18,7 +18,6 @@ from seacrane import (
     simulate,
 )
 from seacrane.analysis.rest_state import held
-from seacrane.hydro import shipped_database
 
 from .section import Section
 from .timing import best_seconds, timed_run
@@ -134,7 +133,7 @@ def _relative(found: Array, expected: Array) -> Array:
 
 def cost(*, repeats: int) -> Section:
     """CPU time of a linear model and of what is read from it, beside that of a run."""
-    database, omega = shipped_database(), np.linspace(0.3, 2.5, 1000)
+    omega = np.linspace(0.3, 2.5, 1000)
     rows = []
     for name, scene, body in (("vessel", cases.vessel(), "vessel"), ("case2", cases.case2(), "payload")):
         linear = linear_model(scene)
