@@ -9,17 +9,15 @@ from pathlib import Path
 
 import numpy as np
 
-from seacrane import Curve, Scene, simulate, statics
+from seacrane import Curve, Scene, shipped_database, simulate, statics
 from seacrane.crane import Payload, load_crane
-from seacrane.hydro import shipped_database
 from seacrane.plotting.figure import new_figure
 
 crane = load_crane("service_arm_5t")
 print(f"{crane.data.name}: {crane.mass:.0f} kg, bodies {', '.join(crane.mass_properties)}")
 
 scene = Scene(name="service crane")
-database = shipped_database()
-scene.add_vessel(database)
+scene.add_vessel(shipped_database())
 load = Payload(mass=1.5e3, size=(1.2, 1.2, 1.0), link_length=1.5)
 foot, pose = (-20.0, -8.0, 6.0), {"slew": -1.2, "jib": 0.3}
 scene.add_crane(crane, foot=foot, coordinates=pose, payload=load, held=True)

@@ -9,10 +9,8 @@ from pathlib import Path
 import numpy as np
 
 from seacrane import cases, linear_model, natural_modes, response_statistics
-from seacrane.hydro import shipped_database
 from seacrane.sea import jonswap
 
-database = shipped_database()
 scene = cases.case2(hs=0.0)
 linear = linear_model(scene)
 print(natural_modes(linear).table())

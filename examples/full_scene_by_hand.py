@@ -11,8 +11,7 @@ from pathlib import Path
 
 import numpy as np
 
-from seacrane import Curve, Scene, balance, reflected_inertia, simulate
-from seacrane.hydro import shipped_database
+from seacrane import Curve, Scene, balance, reflected_inertia, shipped_database, simulate
 
 y = 10.0  # m, of the crane's plane
 foot, A, B, C = (33.0, y, 10.0), (33.0, y, 16.5), (28.8, y, 21.1), (32.0, y, 27.8)
@@ -20,8 +19,7 @@ D, E, F, G = (24.3, y, 28.3), (17.9, y, 31.8), (10.0, y, 36.8), (11.5, y, 34.1)
 tip, load = (14.6, y, 22.4), (14.6, y, 14.4)
 
 scene = Scene(name="by hand")
-database = shipped_database()
-scene.add_vessel(database)
+scene.add_vessel(shipped_database())
 scene.add_sea(hs=2.0, tp=8.0, direction_deg=135.0, seed=1)
 
 

@@ -8,8 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
-from seacrane import Result, Scene, Stage, Until, equilibrium, simulate_stages
-from seacrane.hydro import shipped_database
+from seacrane import Result, Scene, Stage, Until, equilibrium, shipped_database, simulate_stages
 
 MASS, LENGTH, HEIGHT, START = 60e3, 30.0, 3.0, 6.0  # kg, m, m of the load; m of its centre above the water
 FEET = {"fore": 40.0, "aft": 16.0}  # m, along the ship

@@ -8,8 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
-from seacrane import Scene, SeaState, WaveSystem, linear_model, response_summed
-from seacrane.hydro import shipped_database
+from seacrane import Scene, SeaState, WaveSystem, linear_model, response_summed, shipped_database
 from seacrane.sea import cos_2s, jonswap
 
 wind = WaveSystem(
@@ -20,9 +19,8 @@ swell = WaveSystem(
 )
 head_on = WaveSystem(spectrum=wind.spectrum, direction_deg=180.0, name="wind sea, long-crested")
 
-database = shipped_database()
 scene = Scene(name="vessel")
-scene.add_vessel(database)
+scene.add_vessel(shipped_database())
 linear = linear_model(scene)
 print("standard deviation over infinite time         heave [m]  roll [deg]  pitch [deg]")
 for systems in ([head_on], [wind], [swell], [wind, swell]):

@@ -2,8 +2,7 @@
 
 import numpy as np
 
-from seacrane import Scene, Stage, Until, simulate_stages
-from seacrane.hydro import shipped_database
+from seacrane import Scene, Stage, Until, shipped_database, simulate_stages
 
 MASS, EA, START, DEPTH, RATE = 20e3, 40e9 * 0.035**2, 5.0, 50.0, 0.5  # kg, N (35 mm), m, m, m/s
 

@@ -2,15 +2,14 @@
 
 import numpy as np
 
-from seacrane import Scene, response_statistics, simulate, summary
+from seacrane import Scene, response_statistics, shipped_database, simulate, summary
 from seacrane.crane import Payload
-from seacrane.hydro import shipped_database
 from seacrane.sea import jonswap
 
 MASS, HS, TP, START, END = 50e3, 1.5, 7.0, 600.0, 600.0 + 3.0 * 3600.0  # kg, m, s, s, s
 
-scene, ship = Scene(name="three hours"), shipped_database()
-scene.add_vessel(ship)
+scene = Scene(name="three hours")
+scene.add_vessel(shipped_database())
 load = Payload(mass=MASS, link_length=25.0)
 crane = scene.add_crane(theta=-np.pi / 2, s1=1.0, s2=2.0, payload=load, held=True)
 scene.add_ballast()
