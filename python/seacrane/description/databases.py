@@ -16,7 +16,7 @@ from seacrane.errors import FileFormatError, SceneError
 from seacrane.files.node import Node
 from seacrane.hydro import HydroDatabase
 from seacrane.hydro.data.motion_raos import MotionRaos
-from seacrane.hydro.data.packed import digest_of, packed, unpacked
+from seacrane.hydro.data.packed import NOT_PACKED, digest_of, packed, unpacked
 from seacrane.inputs.shown import shown
 
 LARGEST = 256 * 2**20  # bytes; 1,000 frequencies x 72 headings take 20 MiB
@@ -126,6 +126,6 @@ def _source(entry: Node) -> Source:
         raise FileFormatError(f"{path}: is damaged, or not of its digest; save the scene again")
     try:
         made: Source = unpacked(data, (HydroDatabase, MotionRaos))
-    except (ValueError, TypeError, LookupError, AttributeError, RecursionError, SceneError) as error:
+    except NOT_PACKED as error:
         raise FileFormatError(f"{path}: is no database that this seacrane reads ({error})") from error
     return made

@@ -13,6 +13,7 @@ from typing import Any, get_args, get_origin, get_type_hints
 
 import numpy as np
 
+from seacrane.errors import SceneError
 from seacrane.hydro.data.drift import DriftCoefficients
 from seacrane.hydro.data.hydro_data import AdditionalMatrices, RollDamping
 from seacrane.hydro.data.memory_model import (
@@ -26,6 +27,7 @@ from seacrane.hydro.data.memory_model import (
 
 KIND, ARRAY = "$kind", "$array"
 STORED = {"f": "<f8", "c": "<c16", "i": "<i8"}  # types of arrays, by the kind that NumPy calls them
+NOT_PACKED = (ValueError, TypeError, LookupError, AttributeError, RecursionError, SceneError)
 PARTS: tuple[type, ...] = (
     AdditionalMatrices, RollDamping, DriftCoefficients, MemoryModel, MemoryBlock, FitRow, Passivity,
     MotionFit, MotionError,
@@ -72,7 +74,7 @@ def unpacked(data: bytes, roots: tuple[type, ...]) -> Any:
 
     Raises
     ------
-    ValueError, TypeError, LookupError, SceneError
+    One of NOT_PACKED
         For anything else.
     """
     told, _, rest = data.partition(b"\n")
@@ -125,7 +127,8 @@ def _fits(value: Any, hint: Any) -> bool:
         return isinstance(value, np.ndarray) and value.dtype == get_args(arguments[1])[0]
     if origin is tuple:
         return isinstance(value, tuple) and all(_fits(*pair) for pair in _pairs(value, arguments))
-    return isinstance(value, hint) and (hint is bool or not isinstance(value, bool))
+    whole = hint is float and isinstance(value, int)
+    return (isinstance(value, hint) or whole) and (hint is bool or not isinstance(value, bool))
 
 
 def _pairs(values: tuple[Any, ...], hints: tuple[Any, ...]) -> Iterator[tuple[Any, Any]]:
