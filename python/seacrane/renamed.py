@@ -15,7 +15,10 @@ from typing import Any, TypeVar
 # What was given by its place has the name BY_PLACE.
 BY_PLACE = "by place"
 KEPT = "the scene keeps the database of each vessel since it was added; leave it out"
+SETTINGS = {"max_step": "maximum_step"}  # of a run, by `simulate` and all that take its words
 KEYWORDS: dict[str, dict[str, str]] = {
+    "Method": {"tolerance": "rtol", "step": "dt", **SETTINGS},
+    "Outputs": {"dt": "dt_out"},
     **{name: {"database": KEPT, BY_PLACE: KEPT} for name in (
         "add_sea", "add_drift", "use_actual_position", "use_slow_position",
     )},
@@ -29,7 +32,10 @@ NAMES: dict[str, str] = {}
 # Tables of lift files: the new table, and keys that say there what the old name said.
 LIFT_TABLES: dict[str, tuple[str, dict[str, Any]]] = {}
 # Keys of lift and study files without their units, by table, such as "limit_state" or "stage.until".
-LIFT_KEYS: dict[str, dict[str, str]] = {}
+LIFT_KEYS: dict[str, dict[str, str]] = {
+    "method": {"tolerance": "rtol", "step": "dt", **SETTINGS},
+    "outputs": {"dt": "dt_out"},
+}
 STUDY_KEYS: dict[str, dict[str, str]] = {}
 # What leaving a key out meant in files of version 1, by table, where it means something else now.
 LIFT_DEFAULTS: dict[str, dict[str, Any]] = {}
