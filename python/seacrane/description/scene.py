@@ -70,6 +70,7 @@ class Description:
     bodies, joints, drivers, actuators, point_forces, springs, force_tables, function_forces, loads, vessels,
     points
         Elements by name, immutable; `loads` are those of `add_load`: wind, current, limits, friction.
+        `vessels[name].database` is what that vessel was added from.
     waves : Waves or None
     recorded : dict of str to (str, str)
         Joint and coordinate that are recorded under a name.

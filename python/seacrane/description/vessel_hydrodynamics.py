@@ -47,7 +47,8 @@ class VesselHydrodynamics(_core.VesselHydrodynamics):
         return self
 
     def __eq__(self, other: object) -> bool:
-        return super().__eq__(other) and alike(self.database, getattr(other, "database", None))
+        same = super().__eq__(other)
+        return same if same is not True else alike(self.database, getattr(other, "database", None))
 
     __hash__ = _core.VesselHydrodynamics.__hash__
 

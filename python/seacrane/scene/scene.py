@@ -67,6 +67,7 @@ class Scene(Description):
     bodies, joints, drivers, actuators, point_forces, springs, force_tables, function_forces, loads, vessels,
     points
         Elements by name, immutable; `loads` are wind, current, lines, limits and friction.
+        `vessels[name].database` is what that vessel was added from.
     waves : Waves or None
     recorded, ranges, limit_states, clearances, roles, provenance, meshes, notes
         As of `Description`: what is recorded, where coordinates are meant to stay, what channels may reach,
