@@ -12,19 +12,12 @@ from pathlib import Path
 
 import numpy as np
 
-from seacrane import (
-    Curve,
-    LargeSwingWarning,
-    Scene,
-    balance,
-    cases,
-    feed_forward,
-    reflected_inertia,
-    simulate,
-)
+from seacrane import Curve, Scene, balance, cases, simulate
+from seacrane.analysis import feed_forward, reflected_inertia
 from seacrane.crane import KnuckleBoomCrane, Payload
 from seacrane.hydro import shipped_database
 from seacrane.inputs.frames import rotation_matrix
+from seacrane.warnings import LargeSwingWarning
 
 CRANE = KnuckleBoomCrane.load()  # the numbers of the crane data file, with centres of mass and inertias
 PAYLOAD = Payload(mass=10e3, size=(6.0, 6.0, 4.0), link_length=8.0)

@@ -11,7 +11,9 @@ from pathlib import Path
 
 import numpy as np
 
-from seacrane import Curve, Scene, balance, reflected_inertia, shipped_database, simulate
+from seacrane import Curve, Scene, balance, simulate
+from seacrane.analysis import reflected_inertia
+from seacrane.hydro import shipped_database
 
 y = 10.0  # m, of the crane's plane
 foot, A, B, C = (33.0, y, 10.0), (33.0, y, 16.5), (28.8, y, 21.1), (32.0, y, 27.8)

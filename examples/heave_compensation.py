@@ -8,7 +8,8 @@ from pathlib import Path
 
 import numpy as np
 
-from seacrane import Curve, MotionRaos, Scene, reflected_inertia, simulate
+from seacrane import Curve, MotionRaos, Scene, simulate
+from seacrane.analysis import reflected_inertia
 from seacrane.crane import FOOT, KnuckleBoomCrane
 
 LENGTH, DRAUGHT, BREADTH = 115.0, 6.0, 22.0  # m, a box

@@ -10,8 +10,9 @@ from pathlib import Path
 import numpy as np
 
 from seacrane import Scene, response_statistics
-from seacrane.hydro import BelowBandWarning, Hull, OffsetTable, hydro_from_hull, natural_frequency
+from seacrane.hydro import Hull, OffsetTable, hydro_from_hull, natural_frequency
 from seacrane.sea import jonswap
+from seacrane.warnings import BelowBandWarning
 
 # Half sections, deck to keel (y, z in m above the keel), of a 90 x 24 m barge with raked ends.
 box = [(12.0, 6.0), (12.0, 1.5), (10.5, 0.0), (0.0, 0.0)]

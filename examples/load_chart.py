@@ -8,8 +8,10 @@ from pathlib import Path
 
 import numpy as np
 
-from seacrane import Scene, load_chart, plot_load_chart, shipped_database, statics
+from seacrane import Scene, load_chart, statics
 from seacrane.crane import KnuckleBoomCrane, Payload
+from seacrane.figures import plot_load_chart
+from seacrane.hydro import shipped_database
 
 PAYLOAD = 50e3  # kg, with which the ship is upright in the pose described
 LIMITS = {"cylinder force main": 12e3, "cylinder force knuckle": 6e3, "heel": 6.0}  # kN, kN, deg

@@ -8,18 +8,10 @@ from pathlib import Path
 
 import numpy as np
 
-from seacrane import (
-    AlphaFactor,
-    Criterion,
-    ScatterDiagram,
-    WaveHindcast,
-    allowable_hs,
-    availability,
-    cases,
-    plot_allowable_hs,
-    weather_windows,
-)  # fmt: skip
+from seacrane import Criterion, allowable_hs, availability, cases, weather_windows  # fmt: skip
 from seacrane.crane import Payload
+from seacrane.figures import plot_allowable_hs  # fmt: skip
+from seacrane.operability import AlphaFactor, ScatterDiagram, WaveHindcast  # fmt: skip
 
 WEIGHT = 10e3 * 9.80665  # N
 

@@ -8,7 +8,9 @@ from pathlib import Path
 
 import numpy as np
 
-from seacrane import Scene, SeaState, WaveSystem, linear_model, response_summed, shipped_database
+from seacrane import Scene, SeaState, WaveSystem, linear_model
+from seacrane.analysis import response_summed
+from seacrane.hydro import shipped_database
 from seacrane.sea import cos_2s, jonswap
 
 wind = WaveSystem(

@@ -10,15 +10,10 @@ import numpy as np
 import pytest
 
 from seacrane import Scene, response_statistics
-from seacrane.hydro import (
-    BelowBandWarning,
-    HydroDatabase,
-    hydro_from_hull,
-    natural_frequency,
-    shipped_database,
-)
+from seacrane.hydro import HydroDatabase, hydro_from_hull, natural_frequency, shipped_database
 from seacrane.hydro.hull.shipped_hull import shipped_hull
 from seacrane.sea import jonswap
+from seacrane.warnings import BelowBandWarning
 
 
 @cache

@@ -8,21 +8,13 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from seacrane import (
-    HookLoadControl,
-    HydroDatabase,
-    Kept,
-    LinearControl,
-    Scene,
-    SceneError,
-    controlled_mean,
-    ensemble,
-    simulate,
-)
+from seacrane import HydroDatabase, Kept, Scene, SceneError, ensemble, simulate
 from seacrane.cases import vessel
 from seacrane.crane import Payload
+from seacrane.ensembles import HookLoadControl, LinearControl
 from seacrane.ensembles.other_sea import with_sea
 from seacrane.hydro import shipped_database
+from seacrane.statistics import controlled_mean
 
 Array = NDArray[np.float64]
 

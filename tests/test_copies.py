@@ -17,7 +17,8 @@ import numpy as np
 import pytest
 from test_scene_file import every_kind
 
-from seacrane import Curve, FlowForce, Result, Run, Scene, SceneError, _core, cases, simulate
+from seacrane import Curve, Result, Run, Scene, SceneError, _core, cases, simulate
+from seacrane.scene import FlowForce
 
 
 def all_kinds() -> Scene:

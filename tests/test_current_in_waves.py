@@ -7,8 +7,9 @@ import warnings
 import numpy as np
 import pytest
 
-from seacrane import CurrentInWavesWarning, FlowCoefficients, Scene, simulate
+from seacrane import FlowCoefficients, Scene, simulate
 from seacrane.hydro import shipped_database
+from seacrane.warnings import CurrentInWavesWarning
 
 ALONG = FlowCoefficients(angle=[0.0, np.pi / 2, np.pi], x=[0.6, 0.0, -0.6], y=[0, 0.8, 0], yaw=[0, 0, 0])
 PEAK_SPEED = 9.80665 * 8.0 / (2.0 * np.pi)  # m/s, of waves of 8 s: k U / w is U by it

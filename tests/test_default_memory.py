@@ -17,7 +17,7 @@ from seacrane.hydro.memory import cache as kept
 from seacrane.hydro.memory import fit as fitting
 from seacrane.hydro.memory.by_motion import fit_by_motion
 from seacrane.hydro.memory.fit import LIMIT
-from seacrane.hydro.vessel.time_domain import MemoryFitWarning
+from seacrane.warnings import MemoryFitWarning
 
 SHORT_LIFT = """
 format = "seacrane lift"

@@ -11,8 +11,10 @@ import numpy as np
 import pytest
 from ensemble_studies import pendulum
 
-from seacrane import AccuracyNotHeldWarning, Ensemble, Kept, SceneError, ensemble, simulate
+from seacrane import Kept, SceneError, ensemble, simulate
 from seacrane.cases import vessel
+from seacrane.ensembles import Ensemble
+from seacrane.warnings import AccuracyNotHeldWarning
 
 LIMIT = 1e-4
 TRACK = {"track": Kept(channel="position", at={"body": "bob"})}

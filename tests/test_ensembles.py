@@ -29,27 +29,26 @@ from ensemble_studies import (
 )
 
 from seacrane import (
-    Ensemble,
     FileFormatError,
     HydroDatabase,
     Kept,
-    LatinHypercube,
     Method,
     Outputs,
     Result,
     Scene,
     SceneError,
     SimulationError,
-    WorkerVersionError,
     ensemble,
     simulate,
 )
 from seacrane.cases import vessel
 from seacrane.description.databases import without_databases
 from seacrane.description.file import described
+from seacrane.ensembles import Ensemble, LatinHypercube
 from seacrane.ensembles.job import Job
 from seacrane.ensembles.other_sea import with_sea
 from seacrane.ensembles.study import Study
+from seacrane.errors import WorkerVersionError
 from seacrane.hydro import DriftCoefficients, shipped_database
 
 GRID = {"start": [1.0, 2.0, 3.0], "mass": [2.0, 5.0]}

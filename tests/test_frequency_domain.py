@@ -12,7 +12,6 @@ from linear_scenes import crane_with_payload, reference_vessel, rod
 from numpy.typing import NDArray
 
 from seacrane import (
-    LinearModel,
     Scene,
     SceneError,
     State,
@@ -22,9 +21,9 @@ from seacrane import (
     motion_rao,
     natural_modes,
     response_statistics,
-    response_summed,
     simulate,
 )
+from seacrane.analysis import LinearModel, response_summed
 from seacrane.analysis.rest_state import held
 from seacrane.hydro import shipped_database
 from seacrane.sea import jonswap

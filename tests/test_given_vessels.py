@@ -12,7 +12,6 @@ import pytest
 
 import seacrane
 from seacrane import (
-    AngleUnitWarning,
     Curve,
     HydroDatabase,
     Lift,
@@ -23,17 +22,17 @@ from seacrane import (
     SceneError,
     balance,
     motion_rao,
-    response_summed,
     simulate,
 )
+from seacrane.analysis import response_summed
 from seacrane.analysis.ballast import add_ballast
 from seacrane.crane import Payload
 from seacrane.description.databases import without_databases
 from seacrane.description.sum_of_cosines import curves_of_sum, ramp_of, summed
 from seacrane.figures.pose import outlined_skeleton
 from seacrane.hydro import shipped_database
-from seacrane.validity.hull_range import NoWaveLoadsWarning
 from seacrane.viewer.bodies import looks
+from seacrane.warnings import AngleUnitWarning, NoWaveLoadsWarning
 
 JOINTS = {"slew": "A", "main": "main_cylinder", "knuckle": "knuckle_cylinder"}
 PLACE: dict[str, Any] = {"position": (12.0, -7.0, 0.0), "heading_deg": 30.0}
@@ -98,7 +97,7 @@ def test_raos_move_the_ship_as_its_linear_response(database: HydroDatabase) -> N
 def test_without_a_ramp_the_motion_is_full_from_the_start(database: HydroDatabase) -> None:
     scene = given(database, ramp=0.0)
     scene.add_sea(**WAVES)
-    with pytest.warns(seacrane.AssemblyWarning):
+    with pytest.warns(seacrane.warnings.AssemblyWarning):
         result = simulate(scene, 20.0, dt_out=0.5)
     expected, size = linear_ship(database, result.time)
     assert np.all(np.abs(result["vessel_motion"] - expected) < 2e-6 * size)
@@ -182,7 +181,7 @@ def of_floating(database: HydroDatabase, mass: float | None) -> Result:
     return simulate(scene, 30.0, dt_out=0.1, rtol=1e-10)
 
 
-@pytest.mark.filterwarnings("ignore::seacrane.MassUnitWarning")
+@pytest.mark.filterwarnings("ignore::seacrane.warnings.MassUnitWarning")
 def test_a_light_load_moves_as_on_the_floating_ship(database: HydroDatabase) -> None:
     """What is left is the load's own effect on the floating ship: in proportion to its mass."""
     alone = of_floating(database, None)
@@ -201,7 +200,7 @@ def test_a_light_load_moves_as_on_the_floating_ship(database: HydroDatabase) -> 
     assert apart[2] == pytest.approx(apart[0], rel=1e-2)
 
 
-@pytest.mark.filterwarnings("ignore::seacrane.MassUnitWarning")
+@pytest.mark.filterwarnings("ignore::seacrane.warnings.MassUnitWarning")
 def test_a_light_load_moves_as_in_the_linear_response_of_the_floating_ship(database: HydroDatabase) -> None:
     """On a rod too short to swing in these waves; what is left is of second order in the wave height."""
     apart = []
@@ -332,7 +331,7 @@ t_end_s = 5
 """
 
 
-@pytest.mark.filterwarnings("ignore::seacrane.OutsideRaosWarning")
+@pytest.mark.filterwarnings("ignore::seacrane.warnings.OutsideRaosWarning")
 def test_lift_files_hold_given_ships(database: HydroDatabase, tmp_path: Path) -> None:
     (tmp_path / "lift.toml").write_text(LIFT)
     lift = Lift.load(tmp_path / "lift.toml")
@@ -485,7 +484,7 @@ def test_a_history_in_degrees_is_told() -> None:
 
 def test_a_sea_outside_the_table_is_told(database: HydroDatabase) -> None:
     scene = given(raos())
-    with pytest.warns(seacrane.OutsideRaosWarning, match="of the energy of the waves is outside"):
+    with pytest.warns(seacrane.warnings.OutsideRaosWarning, match="of the energy of the waves is outside"):
         scene.add_sea(hs=1.0, tp=4.0, count=20)
 
 

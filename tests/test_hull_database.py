@@ -11,19 +11,19 @@ import numpy as np
 import pytest
 from hull_shapes import box, joined, moved, sphere, wigley_offsets
 
-from seacrane import Scene, linear_model, response_summed, simulate
+from seacrane import Scene, linear_model, simulate
+from seacrane.analysis import response_summed
 from seacrane.hydro import (
-    FloatingPositionWarning,
     Hull,
     HydroDatabase,
     MemoryModel,
     OffsetTable,
     ParametricHull,
-    SubmergedPartWarning,
     fit_memory,
     hydro_from_hull,
     natural_frequency,
 )
+from seacrane.warnings import FloatingPositionWarning, SubmergedPartWarning
 
 SHIP = (100.0, 16.0, 6.0)
 RHO, G = 1025.0, 9.81

@@ -8,20 +8,18 @@ from typing import Any
 import numpy as np
 import pytest
 
-from seacrane import (
+from seacrane import Result, Scene, simulate
+from seacrane.hydro import shipped_database
+from seacrane.validity.hull_range import LARGEST_PHASE, peak_frequency, slowly
+from seacrane.validity.range import findings
+from seacrane.warnings import (
     ForwardSpeedWarning,
     LargeHeelWarning,
     MeanHeadingWarning,
     MeanPositionWarning,
     MooringTurnWarning,
     NoWaveLoadsWarning,
-    Result,
-    Scene,
-    simulate,
 )
-from seacrane.hydro import shipped_database
-from seacrane.validity.hull_range import LARGEST_PHASE, peak_frequency, slowly
-from seacrane.validity.range import findings
 
 G = 9.80665
 

@@ -13,21 +13,20 @@ from numpy.typing import NDArray
 
 from seacrane import (
     FlowCoefficients,
-    HullLoads,
     Result,
     Scene,
     SceneError,
-    Waves,
     balance,
     linear_model,
-    response_summed,
     simulate,
     simulate_to_file,
 )
 from seacrane.accuracy.quantities import quantities_of
+from seacrane.analysis import response_summed
 from seacrane.crane import Payload
 from seacrane.hydro import DriftCoefficients, HydroDatabase, shipped_database
 from seacrane.inputs.frames import rotation_about_z
+from seacrane.scene import HullLoads, Waves
 from seacrane.trading import rungs
 
 Array = NDArray[np.float64]

@@ -14,17 +14,11 @@ import xarray
 from seacrane import Scene
 from seacrane.cli import main
 from seacrane.errors import FileFormatError, SceneError
-from seacrane.hydro import (
-    HydroDatabase,
-    MissingMotionsWarning,
-    load_database,
-    read_capytaine,
-    read_wamit,
-    shipped_database,
-)
+from seacrane.hydro import HydroDatabase, load_database, read_capytaine, read_wamit, shipped_database
 from seacrane.hydro.data.relations import damping_from_forces
 from seacrane.sea import SeaState, WaveSystem, jonswap
 from seacrane.sea.dispersion import wavenumber
+from seacrane.warnings import MissingMotionsWarning
 
 ORDER = [4, 1, 5, 0, 3, 2]  # Capytaine's users may name their degrees of freedom in any order
 NAMES = np.array(["Surge", "Sway", "Heave", "Roll", "Pitch", "Yaw"])

@@ -18,7 +18,8 @@ from ensemble_studies import pendulum
 from numpy.typing import NDArray
 from random_scenes import KINDS, Shape, build
 
-from seacrane import Ensemble, Kept, Result, Run, Scene, SceneError, _core, cases, ensemble, simulate
+from seacrane import Kept, Result, Run, Scene, SceneError, _core, cases, ensemble, simulate
+from seacrane.ensembles import Ensemble
 from seacrane.ensembles.other_sea import with_sea
 from seacrane.hydro import DriftCoefficients, shipped_database
 from seacrane.run.lanes import INSTRUCTIONS, advance_side_by_side, lanes_of, module_of

@@ -16,7 +16,6 @@ import pytest
 from lift_examples import EVERY_TABLE, HEAD, PENDULUM, every_table
 
 from seacrane import (
-    AngleUnitWarning,
     FileFormatError,
     Lift,
     Method,
@@ -38,7 +37,7 @@ from seacrane.lift.lines import lines_of
 from seacrane.lift.schema import schema, schema_path, schema_text
 from seacrane.lift.tables import CURVES, TABLES
 from seacrane.sea import cos_2s, jonswap
-from seacrane.sea.spectra import SteepSeaWarning
+from seacrane.warnings import AngleUnitWarning, SteepSeaWarning
 
 ROOT = Path(__file__).resolve().parents[1]
 PAGE = ROOT / "docs" / "lift-files.md"

@@ -7,8 +7,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from seacrane import ModelErrorWarning, Scene, SceneError, cases, model_error, shipped_database, simulate
+from seacrane import Scene, SceneError, cases, simulate
+from seacrane.accuracy import model_error
 from seacrane.description.databases import without_databases
+from seacrane.hydro import shipped_database
+from seacrane.warnings import ModelErrorWarning
 
 SEA = {"hs": 0.2, "tp": 9.0, "count": 40}
 

@@ -17,8 +17,6 @@ import pytest
 from operability_scenes import HEAVE, PITCH, SHORT, WEIGHT, soft_wire, vessel
 
 from seacrane import (
-    AllowableHs,
-    AlphaFactor,
     Criterion,
     HydroDatabase,
     Run,
@@ -28,13 +26,14 @@ from seacrane import (
     cases,
     equilibrium,
     linear_model,
-    plot_allowable_hs,
     response_statistics,
-    response_summed,
     simulate,
 )
+from seacrane.analysis import response_summed
 from seacrane.analysis.rest_state import held
+from seacrane.figures import plot_allowable_hs
 from seacrane.hydro import shipped_database
+from seacrane.operability import AllowableHs, AlphaFactor
 from seacrane.operability.alpha import alpha_of
 from seacrane.operability.cells import Cells
 from seacrane.operability.circle import over_circle

@@ -11,17 +11,8 @@ import pytest
 from test_scene_file import every_kind
 
 import seacrane
-from seacrane import (
-    Curve,
-    Run,
-    Scene,
-    _core,
-    cases,
-    linear_model,
-    model_error,
-    natural_modes,
-    response_statistics,
-)
+from seacrane import Curve, Run, Scene, _core, cases, linear_model, natural_modes, response_statistics
+from seacrane.accuracy import model_error
 from seacrane.crane import KnuckleBoomCrane
 from seacrane.hydro import DriftCoefficients, retardation_functions, shipped_database
 from seacrane.hydro.hull.shipped_hull import shipped_hull

@@ -19,31 +19,29 @@ import pytest
 
 from seacrane import (
     FileFormatError,
-    HookLoadControl,
     Lift,
-    LinearControl,
     MotionRaos,
     Scene,
     SceneError,
-    VesselHydrodynamics,
     allowable_hs,
     cases,
     ensemble,
     linear_model,
-    model_error,
     motion_rao,
     natural_modes,
-    plot_rao,
     response_statistics,
     shipped_database,
     simulate,
     trade,
 )
+from seacrane.accuracy import model_error
 from seacrane.description.databases import without_databases
 from seacrane.description.file import scene_digest
+from seacrane.ensembles import HookLoadControl, LinearControl
 from seacrane.ensembles.job import Job
 from seacrane.ensembles.study import Study, checked_keep
-from seacrane.hydro import DriftCoefficients, HydroDatabase, MemoryModel, fit_memory
+from seacrane.figures import plot_rao
+from seacrane.hydro import DriftCoefficients, HydroDatabase, MemoryModel, VesselHydrodynamics, fit_memory
 from seacrane.hydro.data.packed import packed
 from seacrane.operability.criterion import Criterion
 from seacrane.run.method import Method

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from seacrane import Scene, WavesWithoutLoadWarning, _core, cases, simulate
+from seacrane import Scene, _core, cases, simulate
 from seacrane.description.origin import origin_settings
 from seacrane.errors import SceneError
 from seacrane.hydro import shipped_database
@@ -25,6 +25,7 @@ from seacrane.sea import (
     torsethaugen,
 )
 from seacrane.sea.dispersion import wavenumber
+from seacrane.warnings import WavesWithoutLoadWarning
 
 WIND = WaveSystem(
     spectrum=jonswap(hs=1.5, tp=6.5, gamma="dnv"), direction_deg=150.0, spreading=cos_2s(8.0), name="wind sea"

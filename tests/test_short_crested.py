@@ -14,27 +14,12 @@ import pytest
 from numpy.typing import NDArray
 from veres_writer import VeresRun
 
-from seacrane import (
-    LinearModel,
-    ResponseStatistics,
-    Scene,
-    SceneError,
-    cases,
-    linear_model,
-    motion_rao,
-    response_statistics,
-    response_summed,
-    simulate,
-)
-from seacrane.hydro import (
-    EncounterFrequencyWarning,
-    HydroDatabase,
-    motion_response,
-    read_veres,
-    shipped_database,
-)
+from seacrane import Scene, SceneError, cases, linear_model, motion_rao, response_statistics, simulate
+from seacrane.analysis import LinearModel, ResponseStatistics, response_summed
+from seacrane.hydro import HydroDatabase, motion_response, read_veres, shipped_database
 from seacrane.hydro.data.encounter import encounter_frequency
 from seacrane.sea import Spreading, cos_2s, cos_n, jonswap
+from seacrane.warnings import EncounterFrequencyWarning
 
 Array = NDArray[np.float64]
 SEA = jonswap(hs=2.0, tp=9.0)

@@ -18,7 +18,7 @@ from seacrane.scene.position import force_by_heading
 from seacrane.validity.hull_range import peak_frequency
 
 # Assembly makes consistent what some scenes describe roughly, on purpose.
-pytestmark = pytest.mark.filterwarnings("ignore::seacrane.AssemblyWarning")
+pytestmark = pytest.mark.filterwarnings("ignore::seacrane.warnings.AssemblyWarning")
 
 Array = NDArray[np.float64]
 CUTOFF = 0.5  # rad/s, of hulls that are driven: high, so that transients are short

@@ -20,8 +20,10 @@ from typing import Any
 import numpy as np
 import pytest
 
-from seacrane import Ensemble, FileFormatError, Kept, Lift, SceneError, WorkerVersionError, ensemble
+from seacrane import FileFormatError, Kept, Lift, SceneError, ensemble
 from seacrane.cli.command_line import main
+from seacrane.ensembles import Ensemble
+from seacrane.errors import WorkerVersionError
 from seacrane.lift.schema import schema_path
 from seacrane.study_files.schema import study_schema, study_schema_text
 from seacrane.study_files.shown_study import shown_study

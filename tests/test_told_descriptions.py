@@ -13,20 +13,10 @@ import pytest
 from mistaken_units import raos, record
 
 import seacrane
-from seacrane import (
-    NoisyMotionWarning,
-    RaoPhaseWarning,
-    Scene,
-    SceneError,
-    SeaState,
-    Stage,
-    UnitWarning,
-    WaveSystem,
-    simulate,
-    simulate_stages,
-)
+from seacrane import Scene, SceneError, SeaState, Stage, WaveSystem, simulate, simulate_stages
 from seacrane.hydro import load_database, shipped_database
 from seacrane.sea import jonswap
+from seacrane.warnings import NoisyMotionWarning, RaoPhaseWarning, UnitWarning
 
 
 def told_twice() -> Scene:

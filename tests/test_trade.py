@@ -11,8 +11,9 @@ import numpy as np
 import pytest
 from trade_scenes import pendulum
 
-from seacrane import Method, Run, Scene, SceneError, Trade, cases, integrator_names, simulate, trade
+from seacrane import Method, Run, Scene, SceneError, cases, integrator_names, simulate, trade
 from seacrane._core import Integrator, integrators
+from seacrane.accuracy import Trade
 from seacrane.accuracy.quantities import compare, quantities_of
 from seacrane.experiment.case import Case
 from seacrane.experiment.measure import measured as measured_row

@@ -11,11 +11,12 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from seacrane import ByHeading, Curve, HullLoads, Scene, SceneError, Waves, _core, simulate
+from seacrane import Curve, Scene, SceneError, _core, simulate
 from seacrane.hydro import HydroDatabase, shipped_database
+from seacrane.scene import ByHeading, HullLoads, Waves
 
 # Assembly makes consistent what some scenes describe roughly, on purpose.
-pytestmark = pytest.mark.filterwarnings("ignore::seacrane.AssemblyWarning")
+pytestmark = pytest.mark.filterwarnings("ignore::seacrane.warnings.AssemblyWarning")
 
 Array = NDArray[np.float64]
 G = 9.80665

@@ -11,18 +11,9 @@ import pytest
 import xarray
 from operability_scenes import HEAVE, PITCH, vessel
 
-from seacrane import (
-    AllowableHs,
-    AlphaFactor,
-    FileFormatError,
-    ScatterDiagram,
-    SceneError,
-    WaveHindcast,
-    allowable_hs,
-    availability,
-    plot_weather_windows,
-    weather_windows,
-)
+from seacrane import FileFormatError, SceneError, allowable_hs, availability, weather_windows
+from seacrane.figures import plot_weather_windows
+from seacrane.operability import AllowableHs, AlphaFactor, ScatterDiagram, WaveHindcast
 
 HOUR = np.timedelta64(1, "h")
 START = np.datetime64("2019-01-01T00:00")

@@ -7,10 +7,11 @@ from functools import cache
 
 import numpy as np
 
-from seacrane import BallastWarning, Curve, OutsideRangeWarning, Result, Scene, cases, simulate
+from seacrane import Curve, Result, Scene, cases, simulate
 from seacrane._core import Body
 from seacrane.crane import Payload
 from seacrane.hydro import shipped_database
+from seacrane.warnings import BallastWarning, OutsideRangeWarning
 
 HTML_NAME = "</script><b onclick=alert(1)>&amp; barge"
 

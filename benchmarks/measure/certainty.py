@@ -19,11 +19,13 @@ ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "benchmarks"))
 
 from measure.table import write  # noqa: E402
-from seacrane import HookLoadControl, Kept, LinearControl, Scene, controlled_mean, ensemble  # noqa: E402
+from seacrane import Kept, Scene, ensemble  # noqa: E402
 from seacrane.crane import Payload  # noqa: E402
+from seacrane.ensembles import HookLoadControl, LinearControl  # noqa: E402
 from seacrane.ensembles.growing import BATCH  # noqa: E402
 from seacrane.ensembles.targets import WIDENED, Target  # noqa: E402
 from seacrane.hydro import shipped_database  # noqa: E402
+from seacrane.statistics import controlled_mean  # noqa: E402
 from seacrane.statistics.estimate import P90_REDUCED  # noqa: E402
 
 ENSEMBLES, MOST = 2000, 2000

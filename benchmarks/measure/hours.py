@@ -8,9 +8,10 @@ from typing import Any
 
 import numpy as np
 
-from seacrane import GrowingModeWarning, Scene, simulate
+from seacrane import Scene, simulate
 from seacrane.crane import Payload
 from seacrane.hydro import shipped_database
+from seacrane.warnings import GrowingModeWarning
 
 from .section import Section
 

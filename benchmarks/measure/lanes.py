@@ -7,7 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from seacrane import Evaluator, Method, Outputs, Run, Scene, _core, cases
+from seacrane import Method, Outputs, Run, Scene, _core, cases
+from seacrane.analysis import Evaluator
 from seacrane.ensembles.other_sea import with_sea
 from seacrane.run.lanes import INSTRUCTIONS, advance_side_by_side, module_of
 

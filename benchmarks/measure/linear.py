@@ -7,16 +7,8 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import NDArray
 
-from seacrane import (
-    NaturalModes,
-    cases,
-    equilibrium,
-    linear_model,
-    motion_rao,
-    natural_modes,
-    response_summed,
-    simulate,
-)
+from seacrane import cases, equilibrium, linear_model, motion_rao, natural_modes, simulate
+from seacrane.analysis import NaturalModes, response_summed
 from seacrane.analysis.rest_state import held
 
 from .section import Section

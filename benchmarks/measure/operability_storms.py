@@ -31,8 +31,9 @@ sys.path.insert(0, str(ROOT / "benchmarks"))
 
 from measure.section import significant  # noqa: E402
 from measure.table import write  # noqa: E402
-from seacrane import Criterion, Ensemble, Scene, allowable_hs, cases  # noqa: E402
+from seacrane import Criterion, Scene, allowable_hs, cases  # noqa: E402
 from seacrane.crane import Payload  # noqa: E402
+from seacrane.ensembles import Ensemble  # noqa: E402
 
 LINK, MASS, G = 25.0, 10e3, 9.80665  # m, kg, m/s2
 GUIDED = 0.03  # of critical damping, of the swing on guide lines

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import lu_factor, lu_solve
 
-from seacrane import Evaluator
+from seacrane.analysis import Evaluator
 
 from .section import Section
 from .stiff_lines import DT_OUT, TIGHT, lifted, path_of, power_of_ten

@@ -27,7 +27,7 @@ KEYWORDS: dict[str, dict[str, str]] = {
     )},
 }  # fmt: skip
 # Public names of the package, by their new address from `seacrane` on, such as "analysis.jacobian".
-NAMES: dict[str, str] = {}
+NAMES: dict[str, str] = {"plot_history": "Result.plot"}
 
 # Tables of lift files: the new table, and keys that say there what the old name said.
 LIFT_TABLES: dict[str, tuple[str, dict[str, Any]]] = {}
@@ -41,10 +41,6 @@ STUDY_KEYS: dict[str, dict[str, str]] = {}
 LIFT_DEFAULTS: dict[str, dict[str, Any]] = {"crane": {"held": False}}
 
 Call = TypeVar("Call", bound=Callable[..., Any])
-
-
-class RenamedKeysWarning(UserWarning):
-    """A lift or study file has keys that are called otherwise since 0.3."""
 
 
 def refusing(call: Call) -> Call:

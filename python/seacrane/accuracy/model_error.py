@@ -27,6 +27,7 @@ from seacrane.inputs.brief import brief
 from seacrane.inputs.caller import warn_caller
 from seacrane.one_thread import one_thread
 from seacrane.renamed import refusing
+from seacrane.warnings import ModelErrorWarning
 
 if TYPE_CHECKING:
     from seacrane.hydro import HydroDatabase
@@ -36,10 +37,6 @@ Array = NDArray[np.float64]
 QUANTITIES = ("payload_position", "roll")
 GREGORY = np.array([3.0 / 8.0, 7.0 / 6.0, 23.0 / 24.0])  # weights of the first samples, of order 4
 LONGEST = 3600.0  # s of a run whose error is carried step by step
-
-
-class ModelErrorWarning(UserWarning):
-    """The fit of the fluid memory leaves a larger error than the accuracy asked of the integration."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

@@ -18,12 +18,12 @@ from seacrane.errors import SceneError
 from seacrane.hydro.data.below_band import warn_of_waves_below_band
 from seacrane.hydro.data.encounter import encounter_frequency_at, inside_table
 from seacrane.hydro.data.excitation import force_on_grid
-from seacrane.hydro.readers.reader_warnings import EncounterFrequencyWarning
 from seacrane.inputs.brief import brief
 from seacrane.inputs.caller import warn_caller
 from seacrane.inputs.checked import number_of
 from seacrane.one_thread import one_thread
 from seacrane.sea.spreading import Spreading
+from seacrane.warnings import EncounterFrequencyWarning
 
 if TYPE_CHECKING:
     from seacrane.hydro import HydroDatabase

@@ -30,13 +30,10 @@ from seacrane.scene.position import use_actual_position, use_slow_position
 from seacrane.scene.realised_sea import realised_sea
 from seacrane.scene.wave_force import force_of_components
 from seacrane.sea import SeaState, Spreading
+from seacrane.warnings import WavesWithoutLoadWarning
 
 MOST_WITHOUT_LOAD = 0.02  # of the variance of a load
 MOST_COMPONENTS = 50_000  # whose loads take some seconds to make; 30 hours do not repeat with as many
-
-
-class WavesWithoutLoadWarning(UserWarning):
-    """Waves above the frequencies of a database carry no load that matters: motions come out too small."""
 
 
 @refusing
@@ -92,7 +89,7 @@ def add_sea(
     relative_bound : float
         Error bound of the load table over the sum of component magnitudes (1e-9).
     evaluation : str
-        "table" (default), "fft" (needs components of uniform placement) or "exact"; see `seacrane.Waves`.
+        "table" (default), "fft" (needs components of uniform placement) or "exact"; see `Waves`.
     phase : str
         "mean": loads at that position and heading. "slow": at the slow part of those of the moment, see
         `use_slow_position`. "actual": at those of the moment, see `use_actual_position`.

@@ -101,7 +101,7 @@ def add_vessel(
     mooring_damping : float
         Its damping as a fraction of critical; default 0.1. Without a database: (3,), N s/m and N m s/rad.
     added_mass, linear_damping, quadratic_damping, restoring, mooring_stiffness
-        Without a database: see `seacrane.VesselHydrodynamics`.
+        Without a database: see `seacrane.hydro.VesselHydrodynamics`.
     floats : bool
         Without a database: whether the restoring carries the body's weight, as that of a ship does; else it
         weighs as any body, and its buoyancy is a point force of yours. Default: whether heave is restored.

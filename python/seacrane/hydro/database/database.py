@@ -80,7 +80,7 @@ class HydroDatabase(HydroData):
 
         Warns
         -----
-        seacrane.hydro.QuadraticDampingWarning : quadratic damping of a translation cannot be moved.
+        seacrane.warnings.QuadraticDampingWarning : quadratic damping of a translation cannot be moved.
 
         Raises
         ------
