@@ -162,7 +162,7 @@ def batches(drivers: Path, python: str, *, members: int = 64, threads: int = 2, 
         text=(
             f"{members} members of the system above that differ in the phases of their waves, {T_END:g} s, "
             f"payload every second, on {threads} threads. For each engine the quickest of its settings with "
-            f"half the members within {LEVEL:g} m of seacrane's verner76 at rtol 1e-9; in some of the "
+            f"half the members within {LEVEL:g} m of seacrane's verner76 at rtol 1e-9. In some of the "
             "others any error grows to metres within this time, in every engine, as the worst ones tell. CPU "
             "time of all threads, for a member; simulated seconds a second by the wall.\n\n"
             "- seacrane: the whole call of `ensemble` from Python: seas, starts, steps, results. Its waves "
