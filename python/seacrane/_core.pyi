@@ -837,6 +837,7 @@ class HeaveCompensator:
     Active heave compensation: a stroke that follows the motion of a point, and that a winch or an actuator follows; see Scene.add_heave_compensation. Immutable.
     """
     FIELDS: typing.ClassVar[tuple]
+    STIFF: typing.ClassVar[bool] = False
     @staticmethod
     def example() -> HeaveCompensator:
         """
@@ -941,6 +942,7 @@ class Actuator:
     State feedback on a joint coordinate q: feed_forward + stiffness (reference - q) + damping (reference rate - q rate), N (N/m, N s/m) or N m (N m/rad, N m s/rad). Immutable.
     """
     FIELDS: typing.ClassVar[tuple]
+    STIFF: typing.ClassVar[bool] = False
     @staticmethod
     def example() -> Actuator:
         """
@@ -1000,6 +1002,7 @@ class PointForce:
     A constant force at a body-fixed point, in inertial or body axes. Immutable.
     """
     FIELDS: typing.ClassVar[tuple]
+    STIFF: typing.ClassVar[bool] = False
     @staticmethod
     def example() -> PointForce:
         """
@@ -1049,6 +1052,7 @@ class Spring:
     Tension between two body-fixed points: stiffness times elongation, or a table of tension over length, plus damping times the rate of length. Immutable.
     """
     FIELDS: typing.ClassVar[tuple]
+    STIFF: typing.ClassVar[bool] = False
     @staticmethod
     def example() -> Spring:
         """
@@ -1123,6 +1127,7 @@ class ForceTable:
     Force and moment (n, 6), N and N m, inertial axes, about a body-fixed point, over times (n,) in s; linear in between, held outside. Immutable.
     """
     FIELDS: typing.ClassVar[tuple]
+    STIFF: typing.ClassVar[bool] = False
     @staticmethod
     def example() -> ForceTable:
         """
@@ -1172,6 +1177,7 @@ class FunctionForce:
     A C function called in every evaluation, by its address (numba.cfunc(...).address): void f(double t, const double* state13, const double* parameters, double* wrench6); state: position, quaternion, velocity, angular velocity of the body origin; inertial axes. Immutable.
     """
     FIELDS: typing.ClassVar[tuple]
+    STIFF: typing.ClassVar[bool] = False
     @staticmethod
     def example() -> FunctionForce:
         """
@@ -1213,6 +1219,7 @@ class FlowForce:
     where the relative flow goes, from the bow towards port, by periodic cubic splines. Immutable.
     """
     FIELDS: typing.ClassVar[tuple]
+    STIFF: typing.ClassVar[bool] = False
     @staticmethod
     def example() -> FlowForce:
         """
@@ -1292,6 +1299,7 @@ class Friction:
     Dry friction on a joint coordinate: -load tanh(rate / speed); see Scene.add_friction. Immutable.
     """
     FIELDS: typing.ClassVar[tuple]
+    STIFF: typing.ClassVar[bool] = False
     @staticmethod
     def example() -> Friction:
         """
@@ -1341,6 +1349,7 @@ class SoftStop:
     Compliant bounds of a joint coordinate: stiffness p (1 + damping p') back where it is beyond one by p, never a pull; see Scene.add_soft_stop. Immutable.
     """
     FIELDS: typing.ClassVar[tuple]
+    STIFF: typing.ClassVar[bool] = False
     @staticmethod
     def example() -> SoftStop:
         """
@@ -1400,6 +1409,7 @@ class Line:
     An elastic line without mass over points of bodies, with a winch or without; see Scene.add_line. Immutable.
     """
     FIELDS: typing.ClassVar[tuple]
+    STIFF: typing.ClassVar[bool] = False
     @staticmethod
     def example() -> Line:
         """
@@ -1589,6 +1599,7 @@ class GasSpring:
     A cylinder with a gas accumulator between two body-fixed points, with oil damping and end stops; see Scene.add_gas_spring. Immutable.
     """
     FIELDS: typing.ClassVar[tuple]
+    STIFF: typing.ClassVar[bool] = False
     @staticmethod
     def example() -> GasSpring:
         """
@@ -1693,6 +1704,7 @@ class PendulumDamping:
     Damping of a load that swings below a point, as a ratio of critical; see Scene.add_pendulum_damping. Immutable.
     """
     FIELDS: typing.ClassVar[tuple]
+    STIFF: typing.ClassVar[bool] = False
     @staticmethod
     def example() -> PendulumDamping:
         """
@@ -1752,6 +1764,7 @@ class SpanDrag:
     Drag across a straight span of wire between two points, in air or water that flows steadily. Immutable.
     """
     FIELDS: typing.ClassVar[tuple]
+    STIFF: typing.ClassVar[bool] = False
     @staticmethod
     def example() -> SpanDrag:
         """
@@ -1826,6 +1839,7 @@ class HydraulicCylinder:
     A hydraulic cylinder between two body-fixed points, with the pressures of its chambers and its valves; see Scene.add_hydraulic_cylinder. Immutable.
     """
     FIELDS: typing.ClassVar[tuple]
+    STIFF: typing.ClassVar[bool] = True
     @staticmethod
     def example() -> HydraulicCylinder:
         """
@@ -2135,6 +2149,7 @@ class Limit:
     What a joint does one way only; see Scene.add_wire, add_end_stop and add_seat. Immutable.
     """
     FIELDS: typing.ClassVar[tuple]
+    STIFF: typing.ClassVar[bool] = False
     def __copy__(self) -> Limit:
         ...
     def __deepcopy__(self, memo: dict) -> Limit:
