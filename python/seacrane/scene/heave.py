@@ -13,7 +13,7 @@ from seacrane.description.hydraulic_cylinders import hydraulic_cylinders, with_i
 from seacrane.description.loads import lines_of
 from seacrane.description.scene import Description
 from seacrane.errors import SceneError
-from seacrane.inputs.checked import number_of, text_of
+from seacrane.inputs.checked import number_of, positive_of, text_of
 from seacrane.inputs.frames import rotation_matrix
 
 NO_BOUND = 1e7  # m, m/s: a bound here or beyond is none
@@ -230,10 +230,7 @@ def _gas(
         raise SceneError(
             f"{what}: give pressure and volume, or force and stiffness, both of one pair; it has {has}"
         )
-    values = {key: number_of(f"{what}: {key}", value) for pair in given for key, value in pair.items()}
-    for key, value in values.items():
-        if not (value > 0.0 and np.isfinite(value)):
-            raise SceneError(f"{what}: {key} is {value}; make it positive and finite")
+    values = {key: positive_of(f"{what}: {key}", value) for pair in given for key, value in pair.items()}
     if "pressure" in values:
         return values["pressure"], values["volume"]
     piston, kappa = number_of(f"{what}: area", area), number_of(f"{what}: exponent", exponent)

@@ -10,7 +10,7 @@ import numpy as np
 from seacrane.errors import SceneError
 from seacrane.hydro.data.hydro_data import HydroData
 from seacrane.hydro.data.motion import natural_frequency
-from seacrane.inputs.checked import number_of
+from seacrane.inputs.checked import not_negative_of
 
 Database = TypeVar("Database", bound=HydroData)
 
@@ -18,11 +18,7 @@ Database = TypeVar("Database", bound=HydroData)
 def with_roll_damping(database: Database, linear: float, quadratic: float, fraction: float) -> Database:
     """See `HydroDatabase.with_roll_damping`."""
     for what, value in (("linear", linear), ("quadratic", quadratic), ("fraction", fraction)):
-        number = number_of(f"database {database.name!r}: roll damping, {what}", value)
-        if not (np.isfinite(number) and number >= 0.0):
-            raise SceneError(
-                f"database {database.name!r}: roll damping, {what} is {number:g}; give zero or more"
-            )
+        not_negative_of(f"database {database.name!r}: roll damping, {what}", value)
     whole, squares = database.linear_damping.copy(), database.quadratic_damping.copy()
     whole[3, 3] = linear + (fraction and roll_damping_of(database, fraction))
     squares[3] = quadratic

@@ -19,6 +19,7 @@ from seacrane.hydro.hull.panels import cut_panels, end_cap, lofted, without_sliv
 from seacrane.hydro.hull.parametric_hull import ParametricHull
 from seacrane.hydro.hull.sections import Slice, slices
 from seacrane.inputs.brief import brief
+from seacrane.inputs.checked import positive_of
 
 FloatArray = NDArray[np.float64]
 
@@ -188,9 +189,8 @@ class Hull:
         triangles = mesh_triangles(name, vertices, faces)
         _require_metres(name, triangles)
         if draught is not None:
-            if not (np.isfinite(draught) and draught > 0.0):
-                raise ValueError(f"hull {name!r}: draught is {draught} m; give a positive number")
-            triangles = triangles - np.array([0.0, 0.0, triangles[..., 2].min() + draught])
+            depth = positive_of(f"hull {name!r}: draught", draught, "m")
+            triangles = triangles - np.array([0.0, 0.0, triangles[..., 2].min() + depth])
         triangles = require_closed(name, triangles)
         return Hull(name=name, panels=_wetted(name, triangles[:, [0, 1, 2, 2]]), source=source)
 
@@ -202,9 +202,7 @@ class Hull:
         ------
         ValueError, seacrane.errors.FileFormatError : as `from_mesh` and `seacrane.hydro.read_stl`.
         """
-        if not (np.isfinite(scale) and scale > 0.0):
-            raise ValueError(f"hull {str(path)!r}: scale is {scale}; give a positive number")
-        triangles = scale * read_stl(path)
+        triangles = positive_of(f"hull {str(path)!r}: scale", scale) * read_stl(path)
         return Hull.from_mesh(
             vertices=triangles.reshape(-1, 3),
             faces=np.arange(3 * len(triangles)).reshape(-1, 3),

@@ -17,7 +17,7 @@ from seacrane.hydro.hull.ikeda_components import (
     lift,
     lift_slope,
 )
-from seacrane.inputs.checked import number_of
+from seacrane.inputs.checked import number_of, positive_of
 from seacrane.inputs.plausible import swing_of
 
 STATIONS = 41
@@ -47,9 +47,7 @@ class MainParticulars:
 
     def __post_init__(self) -> None:
         for name in self.__dataclass_fields__:
-            value = number_of(f"main particulars: {name}", getattr(self, name))
-            if not (np.isfinite(value) and value > 0.0):
-                raise SceneError(f"main particulars: {name} is {value:g}; give a positive number")
+            positive_of(f"main particulars: {name}", getattr(self, name))
 
     @staticmethod
     def of(hull: Hull) -> MainParticulars:
