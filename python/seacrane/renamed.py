@@ -12,14 +12,21 @@ from typing import Any, TypeVar
 
 # A new name with spaces is a sentence: what to write instead.
 # Keywords, by the function or class that takes them; of a method that is defined in a class, "Class.method".
-KEYWORDS: dict[str, dict[str, str]] = {}
+SETTINGS = {"max_step": "maximum_step"}  # of a run, by `simulate` and all that take its words
+KEYWORDS: dict[str, dict[str, str]] = {
+    "Method": {"tolerance": "rtol", "step": "dt", **SETTINGS},
+    "Outputs": {"dt": "dt_out"},
+}
 # Public names of the package, by their new address from `seacrane` on, such as "analysis.jacobian".
 NAMES: dict[str, str] = {}
 
 # Tables of lift files: the new table, and keys that say there what the old name said.
 LIFT_TABLES: dict[str, tuple[str, dict[str, Any]]] = {}
 # Keys of lift and study files without their units, by table, such as "limit_state" or "stage.until".
-LIFT_KEYS: dict[str, dict[str, str]] = {}
+LIFT_KEYS: dict[str, dict[str, str]] = {
+    "method": {"tolerance": "rtol", "step": "dt", **SETTINGS},
+    "outputs": {"dt": "dt_out"},
+}
 STUDY_KEYS: dict[str, dict[str, str]] = {}
 # What leaving a key out meant in files of version 1, by table, where it means something else now.
 LIFT_DEFAULTS: dict[str, dict[str, Any]] = {}
