@@ -11,10 +11,10 @@ from seacrane.analysis.tip_motion import falls_of, tip_rate
 from seacrane.description.forces import add_load
 from seacrane.description.hydraulic_cylinders import hydraulic_cylinders, with_ideal_cylinders
 from seacrane.description.loads import lines_of
+from seacrane.description.places import placed
 from seacrane.description.scene import Description
 from seacrane.errors import SceneError
 from seacrane.inputs.checked import number_of, positive_of, text_of
-from seacrane.inputs.frames import rotation_matrix
 
 NO_BOUND = 1e7  # m, m/s: a bound here or beyond is none
 UP = (0.0, 0.0, 1.0)
@@ -244,9 +244,5 @@ def _distance(scene: Description, what: str, *ends: tuple[str, Any]) -> float:
     for name, point in ends:
         if name != "ground" and name not in scene.bodies:
             raise SceneError(f"{what}: there is no body {name!r}; add it first")
-        at = np.asarray(point, dtype=float)
-        if name != "ground":
-            body = scene.bodies[name]
-            at = np.asarray(body.position) + rotation_matrix(np.asarray(body.quaternion)) @ at
-        places.append(at)
+        places.append(placed(scene, name, point))
     return float(np.linalg.norm(places[1] - places[0]))
