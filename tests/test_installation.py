@@ -11,9 +11,9 @@ from pathlib import Path
 import pytest
 
 from seacrane.cli.command_line import main
+from seacrane.cli.doctor_command import chosen_packages
 from seacrane.files import sole_writer
 from seacrane.installation import build, pace, packages
-from seacrane.installation.packages import chosen_packages
 from seacrane.result.partial_file import PartialFile
 from seacrane.run.lanes import INSTRUCTIONS, lanes_of, module_of
 

@@ -203,7 +203,7 @@ def test_table_does_not_depend_on_the_order_of_times() -> None:
     [
         ({"hs": np.nan, "tp": 8.0}, "hs is nan; give a significant wave height"),
         ({"hs": -1.0, "tp": 8.0}, "hs is -1; give"),
-        ({"hs": 2.0, "tp": -8.0}, "tp is -8.0 s; give a finite number above zero"),
+        ({"hs": 2.0, "tp": -8.0}, "tp is -8; give a finite value above zero in s"),
         ({"hs": 2.0, "tp": np.inf}, "tp is inf"),
         ({"hs": 2.0, "tp": 8.0, "gamma": 0.9}, r"gamma is 0\.9; give a peak enhancement of 1"),
     ],

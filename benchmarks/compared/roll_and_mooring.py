@@ -12,7 +12,7 @@ import test_ikeda_roll_damping as ikeda
 import test_mooring as mooring
 
 from seacrane import MooringSpring, load_database, mooring_matrix
-from seacrane.hydro.hull.ikeda_components import friction, lift
+from seacrane.hydro.hull.ikeda import friction, lift
 
 from .row import Row
 
