@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from seacrane.figures.overview import PANELS, overview_sheet, payload_bodies
-from seacrane.figures.plots import draw_track, history_sheet
+from seacrane.figures.plots import draw_track
 from seacrane.figures.pose import outlined_skeleton, plot_scene
 from seacrane.plotting.panel import draw
 from seacrane.reporting.blocks import drawn
 from seacrane.reporting.section import Section
 from seacrane.result import Result
+from seacrane.result.history import history_sheet
 from seacrane.viewer.motion import POSES
 from seacrane.viewer.view import view
 

@@ -6,12 +6,12 @@ from html import escape
 
 from seacrane.answers.curves import reported_curves
 from seacrane.answers.summary import summary
-from seacrane.figures.traces import NO_MOTION
 from seacrane.plotting.html import table
 from seacrane.reporting.blocks import note, verdict
 from seacrane.reporting.measures import stated_traces, statistics_of
 from seacrane.reporting.section import Section
 from seacrane.result import Result
+from seacrane.result.traces import NO_MOTION
 from seacrane.result.utilisation import HEAD
 
 COLUMNS = ("quantity", "unit", "max", "at [s]", "min", "at [s]", "mean", "std")

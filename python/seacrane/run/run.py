@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from seacrane import _core
 from seacrane._core import integrator
 from seacrane.description.compilation import compiled, compiled_in_sea
+from seacrane.description.holding import with_holds
 from seacrane.description.loads import lines_of
 from seacrane.description.references import check_references
 from seacrane.description.stretch import QUASI_STATIC, automatic, with_stretch
@@ -123,6 +124,7 @@ class Run:
     ) -> None:
         self.method, self.outputs = settled(method, outputs, shorthand)
         self.t_end = number_of("t_end", t_end)
+        scene = with_holds(scene)
         self._given = scene.copy() if automatic(scene) else scene  # to begin anew with it
         self._given_start, self._capacity = _checked_state(start), capacity
         self.rungs = self._chosen_rungs(model)

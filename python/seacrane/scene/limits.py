@@ -30,8 +30,8 @@ def _limit(
 
 def add_wire(
     scene: Description,
-    *,
     joint: str,
+    *,
     restitution: float = 0.0,
     sticking_speed: float = STICKING_SPEED,
     name: str | None = None,
@@ -68,8 +68,8 @@ def add_wire(
 
 def add_end_stop(
     scene: Description,
-    *,
     joint: str,
+    *,
     coordinate: str | None = None,
     minimum: float = -NO_STOP,
     maximum: float = NO_STOP,
@@ -110,7 +110,7 @@ def add_end_stop(
     )  # fmt: skip
 
 
-def add_seat(scene: Description, *, joint: str, name: str | None = None) -> _core.Limit:
+def add_seat(scene: Description, joint: str, *, name: str | None = None) -> _core.Limit:
     """Let a weld hold only while its second body is pressed onto the first: a payload that is lifted off.
 
     The force that the joint exerts on its second body, along z of the joint frame on the first, must not be
@@ -139,8 +139,8 @@ def add_seat(scene: Description, *, joint: str, name: str | None = None) -> _cor
 
 def add_soft_stop(
     scene: Description,
-    *,
     joint: str,
+    *,
     stiffness: float,
     coordinate: str | None = None,
     minimum: float = -NO_STOP,
@@ -193,8 +193,8 @@ def add_soft_stop(
 
 def add_friction(
     scene: Description,
-    *,
     joint: str,
+    *,
     load: float,
     speed: float,
     coordinate: str | None = None,
