@@ -25,8 +25,8 @@ from seacrane.inputs.shown import shown
 from seacrane.one_thread import one_thread
 from seacrane.plotting.html import notebook_table
 from seacrane.plotting.text import text_table
-from seacrane.validity.range import LARGEST_HEEL, LargeHeelWarning
-from seacrane.validity.stability import UnstableRestWarning
+from seacrane.validity.range import LARGEST_HEEL
+from seacrane.warnings import LargeHeelWarning, UnstableRestWarning
 
 if TYPE_CHECKING:
     import xarray
